@@ -1,0 +1,18 @@
+// Numbers as text and back, always in the C locale.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace chainreel {
+
+std::string format_shortest(double value);             // fewest digits that read back as the same double
+std::string format_exact(double value);                // 17 significant digits
+std::string format_fixed(double value, int decimals);  // never "-0.00"
+std::string format_significant(double value, int digits);
+
+// The whole text must be one finite number; leading '+' allowed, nothing else around it.
+std::optional<double> parse_number(std::string_view text);
+
+}  // namespace chainreel

@@ -1,0 +1,52 @@
+#include "core/hash.hpp"
+
+#include <openssl/evp.h>
+
+#include <array>
+#include <bit>
+
+#include "core/error.hpp"
+
+namespace chainreel {
+
+struct Sha256::State {
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context{EVP_MD_CTX_new(), &EVP_MD_CTX_free};
+};
+
+namespace {
+
+void require(int openssl_result) {
+  if (openssl_result != 1) throw Error(ExitCode::limit, "SHA-256 is not available in this OpenSSL build");
+}
+
+}  // namespace
+
+Sha256::Sha256() : state_(std::make_unique<State>()) {
+  require(EVP_DigestInit_ex(state_->context.get(), EVP_sha256(), nullptr));
+}
+
+Sha256::~Sha256() = default;
+
+void Sha256::add(std::span<const std::byte> bytes) {
+  require(EVP_DigestUpdate(state_->context.get(), bytes.data(), bytes.size()));
+}
+
+void Sha256::add(std::span<const double> values) {
+  static_assert(std::endian::native == std::endian::little);
+  add(std::as_bytes(values));
+}
+
+std::string Sha256::finish() {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
+  unsigned int size = 0;
+  require(EVP_DigestFinal_ex(state_->context.get(), digest.data(), &size));
+  constexpr char kHex[] = "0123456789abcdef";
+  std::string text;
+  for (unsigned int i = 0; i < size; ++i) {
+    text += kHex[digest[i] >> 4];
+    text += kHex[digest[i] & 15];
+  }
+  return text;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,14 @@
+// qdd of a chain under given torques, by the cheapest algorithm that fits it.
+#pragma once
+
+#include "dynamics/workspace.hpp"
+
+namespace chainreel {
+
+// ws.qdd = M(q)^-1 (tau - nle(q, qd) - tau_f(qd)).
+void compute_forward_dynamics(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau);
+
+// Its name for `check`: e.g. "planar ABA".
+std::string forward_dynamics_algorithm(const Chain& chain);
+
+}  // namespace chainreel

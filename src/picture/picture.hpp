@@ -1,0 +1,123 @@
+// What a picture is: a flat list of shapes in painter's order. Physics fills it, render turns it into pixels or
+// vector pages; neither knows the other.
+//
+// Page coordinates: unit = frame height H, origin at the lower left, x right, y up. A page is `aspect` wide and 1 high.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace chainreel {
+
+struct Color {
+  std::uint8_t r = 0, g = 0, b = 0;
+  double a = 0;  // opacity 0 to 1; 0 draws nothing
+
+  Color faded(double opacity) const { return {r, g, b, a * opacity}; }
+  friend bool operator==(const Color&, const Color&) = default;
+};
+
+// From 0xRRGGBB, opaque unless said.
+constexpr Color color_of(std::uint32_t rgb, double a = 1) {
+  return {std::uint8_t(rgb >> 16), std::uint8_t(rgb >> 8), std::uint8_t(rgb), a};
+}
+
+struct Point {
+  double x = 0, y = 0;
+  friend Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
+  friend Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
+  friend Point operator*(double s, Point a) { return {s * a.x, s * a.y}; }
+};
+
+struct Rect {
+  double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  double width() const { return x1 - x0; }
+  double height() const { return y1 - y0; }
+};
+
+// Fill the inside, then a stroke centred on the edge.
+struct Paint {
+  Color fill;
+  Color stroke;
+  double stroke_width = 0;
+};
+
+// All points within `radius` of the segment a-b. A line is a capsule without stroke.
+struct Capsule {
+  Point a, b;
+  double radius = 0;
+  Paint paint;
+  double alpha_a = 1, alpha_b = 1;  // opacity at the two ends, linear between them
+};
+
+// Semi-axes as vectors; `u` and `v` are perpendicular. A disc has |u| = |v|.
+struct Ellipse {
+  Point center;
+  Point u, v;
+  Paint paint;
+};
+
+// Part of a circle's edge with round ends; angles in radians, counter-clockwise.
+struct Arc {
+  Point center;
+  double radius = 0;
+  double start = 0, sweep = 0;
+  double width = 0;
+  Color color;
+};
+
+// Convex, three to eight corners, either way round.
+struct Polygon {
+  std::array<Point, 8> corners;
+  int count = 0;
+  Paint paint;
+};
+
+// A path whose pieces may overlap without beading: coverage is the maximum, not the sum, of its pieces.
+struct TrailPoint {
+  Point p;
+  double width = 0;
+  double alpha = 0;
+};
+struct Trail {
+  std::vector<TrailPoint> points;
+  Color color;
+};
+
+// The faces that the program opens, each by its file.
+enum class Face { label, label_bold, math };
+
+struct Glyph {
+  std::uint32_t index = 0;  // in the face, not a character
+  double x = 0, y = 0;      // pen position relative to the run's origin, in units of H
+};
+
+struct GlyphRun {
+  Face face = Face::label;
+  double size = 0;  // em, in units of H
+  Point origin;     // on the baseline
+  std::vector<Glyph> glyphs;
+  Color color;
+  std::string text;  // what it says, for outputs with selectable text
+};
+
+using Shape = std::variant<Capsule, Ellipse, Arc, Polygon, Trail, GlyphRun>;
+
+struct Item {
+  Shape shape;
+  int clip = -1;  // index into Picture::clips, -1: the whole page
+};
+
+struct Picture {
+  double aspect = 16.0 / 9.0;
+  Color background = color_of(0xFFFFFF);
+  std::vector<Rect> clips;
+  std::vector<Item> items;
+
+  void add(Shape shape, int clip = -1) { items.push_back({std::move(shape), clip}); }
+};
+
+}  // namespace chainreel

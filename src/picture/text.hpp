@@ -1,0 +1,60 @@
+// Text as glyph runs: faces opened by file (never through a font matcher), shaped by HarfBuzz at font units without
+// hinting, so that a layout is the same at every output size and on every machine.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "picture/picture.hpp"
+
+struct FT_FaceRec_;
+
+namespace chainreel {
+
+// The opened faces. Throws Error (exit 4) naming file and Debian package where one is missing.
+class Fonts {
+ public:
+  Fonts();
+  ~Fonts();
+  Fonts(const Fonts&) = delete;
+  Fonts& operator=(const Fonts&) = delete;
+
+  FT_FaceRec_* ft_face(Face face) const;            // for the rasteriser; its size may be changed by anyone
+  const std::string& file(Face face) const;
+  const std::string& sha256(Face face) const;       // of the font file
+
+  struct State;
+  State& state() const { return *state_; }
+
+ private:
+  std::unique_ptr<State> state_;
+};
+
+enum class Align { left, center, right };
+
+struct TextStyle {
+  Face face = Face::label;
+  double size = 0.028;  // em, units of H
+  Color color = color_of(0x1A1A1A);
+  Align align = Align::left;
+};
+
+// A laid-out line; its runs' origins are relative to the anchor: (0, 0) is on the baseline at the aligned side.
+struct TextLine {
+  std::vector<GlyphRun> runs;
+  Rect box;  // ink box relative to the anchor
+  double advance = 0;
+};
+
+// Plain running text in one face. Throws Error (exit 4) where the face has no glyph for a character.
+TextLine lay_out_text(const Fonts& fonts, const std::string& utf8, const TextStyle& style);
+
+// A small subset of math notation: Greek names (tau, lambda, Lambda, theta, ...), `_x`, `_{..}`, `^x`, `^{..}`, dots by
+// the names qd, qdd; variables italic, numbers, units ("N m") and function names upright. E.g. "tau = (10, 10, 10)^T".
+TextLine lay_out_math(const Fonts& fonts, const std::string& notation, const TextStyle& style);
+
+// Moves a laid-out line to the anchor and appends it to the picture.
+void draw_text(Picture& picture, const TextLine& line, Point anchor, int clip = -1);
+
+}  // namespace chainreel

@@ -1,0 +1,40 @@
+// Shapes to pixels: one off-screen OpenGL context and the shader pairs of shaders/. Not shared between threads.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/image.hpp"
+#include "picture/picture.hpp"
+#include "picture/text.hpp"
+
+namespace chainreel {
+
+struct RendererInfo {
+  std::string backend;   // "OSMesa"
+  std::string renderer;  // GL_RENDERER
+  std::string version;   // GL_VERSION
+};
+
+class Canvas {
+ public:
+  // Throws Error (exit 4) where there is no OpenGL 3.3 core context, exit 7 where the size is beyond its limits.
+  Canvas(int width, int height, const Fonts& fonts);
+  ~Canvas();
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+
+  RendererInfo info() const;
+
+  // What does not change between frames: drawn once, copied under every later draw(). The picture's background fills
+  // the page. Without a call the page is the drawn picture's own background.
+  void set_static_layer(const Picture& picture);
+  // Draws over the static layer and reads the pixels back into `image` (resized to fit, reused between calls).
+  void draw(const Picture& picture, Image& image);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace chainreel
