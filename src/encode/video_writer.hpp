@@ -5,15 +5,10 @@
 #include <memory>
 #include <string>
 
+#include "core/frame_rate.hpp"
 #include "core/image.hpp"
 
 namespace chainreel {
-
-struct FrameRate {
-  int num = 60;
-  int den = 1;
-  friend bool operator==(const FrameRate&, const FrameRate&) = default;
-};
 
 struct VideoSettings {
   int width = 1920;

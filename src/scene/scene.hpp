@@ -1,0 +1,48 @@
+// A scene is a struct written in YAML: key = member name, in this order, defaults here and nowhere else.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/frame_rate.hpp"
+#include "sim/torque.hpp"
+
+namespace chainreel {
+
+struct StartState {
+  std::vector<double> q;   // empty: every joint at zero
+  std::vector<double> qd;  // empty: at rest
+  Place place;
+};
+
+struct Video {
+  int width = 1920;
+  int height = 1080;
+  FrameRate fps;
+};
+
+struct Scene {
+  std::string title;
+  std::string model;                       // path, as found from the working folder
+  std::optional<Eigen::Vector3d> gravity;  // m/s^2; absent: by the plane of the chain
+  StartState start;
+  std::vector<TorqueEntry> torque;  // one a degree of freedom; empty: none acts
+  Place torque_place;
+  Parameters parameters;
+  std::string end_effector;  // "": link `gripper`, else the only leaf
+  double duration = 10;      // s
+  std::string method = "semi_implicit_euler";
+  double step = 0.001;  // s
+  std::vector<std::string> draw{"chain", "trail", "time", "title", "torque_label"};
+  Video video;
+
+  std::string file;  // where it was read; not a key
+  std::string name;  // the file's name without its ending; not a key
+};
+
+// The layers that `draw:` may name.
+const std::vector<std::string>& layer_names();
+
+}  // namespace chainreel

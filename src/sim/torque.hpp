@@ -1,0 +1,30 @@
+// Torque laws: what acts at the joints at each instant, N m for revolute and N for prismatic joints.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/error.hpp"
+#include "sim/probe.hpp"
+
+namespace chainreel {
+
+class TorqueLaw {
+ public:
+  virtual ~TorqueLaw() = default;
+  // Writes nv numbers. Allocates nothing; a value that cannot be had is written as NaN, which stops the run.
+  virtual void evaluate(Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) = 0;
+  virtual bool is_constant() const { return false; }  // then the work done is tau . (q - q(0)) exactly
+};
+
+// One joint's entry as the scene wrote it: a number or an expression.
+struct TorqueEntry {
+  std::string text = "0";
+  Place place;
+};
+
+// One entry per degree of freedom. Throws Error with every problem of the entries.
+std::unique_ptr<TorqueLaw> make_torque_law(const Chain& chain, const std::vector<TorqueEntry>& entries,
+                                           const Parameters& parameters);
+
+}  // namespace chainreel

@@ -1,0 +1,40 @@
+// A run as data: the state at the sampled instants and what became of it.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace chainreel {
+
+enum class RunStatus {
+  finished,
+  diverged,           // a coordinate left the finite numbers or grew beyond all bounds
+  torque_not_finite,  // a torque expression gave no finite number
+  interrupted,        // the user stopped it
+};
+
+std::string to_string(RunStatus status);
+
+struct Trajectory {
+  int nq = 0;
+  int nv = 0;
+  std::vector<double> t;     // sampled instants, s
+  std::vector<double> q;     // nq numbers a sample
+  std::vector<double> qd;    // nv numbers a sample
+  std::vector<double> work;  // a number a sample: integral of qd^T (tau - tau_f) dt since the start, J
+
+  RunStatus status = RunStatus::finished;
+  double end_time = 0;     // reached, s
+  long steps = 0;          // taken
+  long evaluations = 0;    // of the forward dynamics
+  std::string trouble;     // one sentence where the status is not `finished`: time, step and joint
+
+  int size() const { return int(t.size()); }
+  std::span<const double> q_at(int k) const { return {q.data() + std::size_t(k) * std::size_t(nq), std::size_t(nq)}; }
+  std::span<const double> qd_at(int k) const {
+    return {qd.data() + std::size_t(k) * std::size_t(nv), std::size_t(nv)};
+  }
+};
+
+}  // namespace chainreel
