@@ -36,6 +36,7 @@ struct Scene {
   std::string method = "semi_implicit_euler";
   double step = 0.001;  // s
   std::vector<std::string> draw{"chain", "trail", "time", "title", "torque_label"};
+  double text_scale = 1;  // for clips used smaller than drawn
   Video video;
 
   std::string file;  // where it was read; not a key
