@@ -12,7 +12,8 @@ class SecondOrder {
   virtual int nq() const = 0;
   virtual int nv() const = 0;
   // Writes nv numbers. Must not allocate.
-  virtual void acceleration(double t, std::span<const double> q, std::span<const double> v, std::span<double> vd) = 0;
+  virtual void acceleration(double t, std::span<const double> q, std::span<const double> v,
+                            std::span<double> vd) = 0;
   // q' from v. Only systems with nq != nv (quaternions) need their own.
   virtual void q_rate(std::span<const double> q, std::span<const double> v, std::span<double> q_dot) const;
   // q <- q (+) h v: the motion along a constant v.

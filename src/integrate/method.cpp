@@ -1,0 +1,42 @@
+#include "integrate/method.hpp"
+
+#include "core/error.hpp"
+#include "integrate/steppers.hpp"
+
+namespace chainreel {
+
+const std::vector<Method>& methods() {
+  static const std::vector<Method> rows{
+      {.name = "explicit_euler",
+       .order = 1,
+       .evaluations_per_step = 1,
+       .source = "L. Euler, Institutionum calculi integralis I (1768), ch. 7",
+       .make = make_explicit_euler},
+      {.name = "semi_implicit_euler",
+       .order = 1,
+       .evaluations_per_step = 1,
+       .source =
+           "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), I.1.2; here in (q, qd)",
+       .make = make_semi_implicit_euler},
+      {.name = "rk4",
+       .order = 4,
+       .evaluations_per_step = 4,
+       .source = "W. Kutta, Zeitschrift fuer Mathematik und Physik 46 (1901) 435-453",
+       .make = make_rk4},
+  };
+  return rows;
+}
+
+const Method& find_method(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Method& method : methods()) {
+    if (method.name == name) return method;
+    names.push_back(method.name);
+  }
+  std::string known;
+  for (const std::string& one : names) known += (known.empty() ? "" : ", ") + one;
+  throw Error(ExitCode::bad_input, "unknown method '" + name + "':" + did_you_mean(name, names) +
+                                       " The methods are " + known + ".");
+}
+
+}  // namespace chainreel

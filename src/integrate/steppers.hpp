@@ -1,0 +1,14 @@
+// The makers behind the registry's rows; one method, one file.
+#pragma once
+
+#include <memory>
+
+#include "integrate/method.hpp"
+
+namespace chainreel {
+
+std::unique_ptr<Stepper> make_explicit_euler(int nq, int nv);
+std::unique_ptr<Stepper> make_semi_implicit_euler(int nq, int nv);
+std::unique_ptr<Stepper> make_rk4(int nq, int nv);
+
+}  // namespace chainreel
