@@ -1,4 +1,6 @@
-// PNG by libpng: 8-bit RGBA, or RGB where every pixel is opaque; text chunks for what the picture should remember.
+// PNG by libpng: 8-bit RGBA, or RGB where every pixel is opaque; text chunks for what the picture should
+// remember (tEXt, or iTXt in UTF-8 where a text is not ASCII). Nothing in the file depends on the time of
+// writing.
 #pragma once
 
 #include <map>
@@ -8,7 +10,13 @@
 
 namespace chainreel {
 
-void write_png(const std::string& path, const Image& image, const std::map<std::string, std::string>& text = {});
+// Throws Error (exit 6) where the file cannot be written whole.
+void write_png(const std::string& path, const Image& image,
+               const std::map<std::string, std::string>& text = {});
+
 Image read_png(const std::string& path);  // throws Error (exit 3)
+
+// The texts that stand before the pixels, keyword to value. Throws Error (exit 3).
+std::map<std::string, std::string> read_png_text(const std::string& path);
 
 }  // namespace chainreel

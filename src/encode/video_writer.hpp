@@ -1,5 +1,5 @@
-// Frames to MP4: H.264 High, yuv420p, BT.709 limited range and tagged, x264 veryfast CRF 18, closed GOPs of 2 s,
-// constant frame rate, index first. The stream does not depend on the processor or its number of cores.
+// Frames to MP4: H.264 High, yuv420p, BT.709 limited range and tagged, x264 veryfast CRF 18, closed GOPs of 2
+// s, constant frame rate, index first. The stream does not depend on the processor or its number of cores.
 #pragma once
 
 #include <memory>
@@ -22,8 +22,8 @@ void require_even_sides(int width, int height);
 
 class VideoWriter {
  public:
-  // Writes to `path` as given; the caller renames it when finish() has returned. Throws Error (exit 4: no encoder,
-  // 6: cannot be written).
+  // Writes to `path` as given; the caller renames it when finish() has returned. Throws Error (exit 4: no
+  // encoder, 6: cannot be written).
   VideoWriter(const std::string& path, const VideoSettings& settings);
   ~VideoWriter();
   VideoWriter(const VideoWriter&) = delete;

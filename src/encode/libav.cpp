@@ -1,0 +1,62 @@
+#include "encode/libav.hpp"
+
+#include <array>
+#include <cstdarg>
+#include <mutex>
+#include <utility>
+
+namespace chainreel {
+namespace {
+
+// FFmpeg has one log for the whole process, so what it said is kept once for the whole process as well.
+struct Log {
+  std::mutex mutex;
+  std::string lines;
+};
+
+Log& log() {
+  static Log instance;
+  return instance;
+}
+
+constexpr std::size_t kLongestLog = 4096;  // a flood of messages must not grow without end
+
+void keep_error_lines(void* context, int level, const char* format, va_list arguments) {
+  if (level > AV_LOG_ERROR) return;
+  std::array<char, 1024> line{};
+  int print_prefix = 1;
+  av_log_format_line2(context, level, format, arguments, line.data(), static_cast<int>(line.size()),
+                      &print_prefix);
+  const std::lock_guard lock(log().mutex);
+  if (log().lines.size() < kLongestLog) log().lines += line.data();
+}
+
+std::string take_log() {
+  const std::lock_guard lock(log().mutex);
+  std::string lines = std::exchange(log().lines, {});
+  while (!lines.empty() && lines.back() == '\n') lines.pop_back();
+  for (char& c : lines)
+    if (c == '\n') c = ' ';
+  return lines;
+}
+
+}  // namespace
+
+void capture_libav_log() {
+  static const bool installed = [] {
+    av_log_set_callback(keep_error_lines);
+    return true;
+  }();
+  static_cast<void>(installed);
+  take_log();
+}
+
+int check_libav(int code, ExitCode exit_code, const std::string& what, const std::string& path) {
+  if (code >= 0) return code;
+  std::array<char, AV_ERROR_MAX_STRING_SIZE> reason{};
+  av_strerror(code, reason.data(), reason.size());
+  const std::string said = take_log();
+  throw Error(exit_code, what + ": " + reason.data() + (said.empty() ? "" : " (" + said + ")"), {path});
+}
+
+}  // namespace chainreel
