@@ -118,6 +118,13 @@ struct Picture {
   std::vector<Item> items;
 
   void add(Shape shape, int clip = -1) { items.push_back({std::move(shape), clip}); }
+
+  // Everything of `over` on top of what is here; its page and background are left out.
+  void append(const Picture& over) {
+    const int shift = int(clips.size());
+    clips.insert(clips.end(), over.clips.begin(), over.clips.end());
+    for (const Item& item : over.items) items.push_back({item.shape, item.clip < 0 ? -1 : item.clip + shift});
+  }
 };
 
 }  // namespace chainreel
