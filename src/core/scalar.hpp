@@ -59,9 +59,6 @@ struct ReducedAngle {
   std::uint64_t quadrant;
 };
 
-// Any finite x from 0.7 up, exactly, at ten times the cost.
-ReducedAngle reduce_with_many_digits(double x);
-
 // Each result is the sum of its two parts, |tail| below an ulp or so.
 struct SinCosParts {
   double s, s_tail, c, c_tail;
@@ -90,29 +87,34 @@ inline SinCos<double> turned(double s, double c, std::uint64_t quadrant) {
           flip_sign_if(swapped ? s : c, ((quadrant + 1) >> 1) & 1)};
 }
 
-// Zero, angles beyond kReductionLimit, angles that almost cancel against k pi/2, infinities and NaN.
-SinCos<double> sin_cos_of_rare_angle(double x);
-
-}  // namespace detail
-
-inline SinCos<double> sin_cos(double x) {
-  using namespace detail;
-  if (!(std::fabs(x) <= kReductionLimit)) [[unlikely]]
-    return sin_cos_of_rare_angle(x);
+// False for the rare angles, which the other two take: zero, angles beyond kReductionLimit or so near k pi/2
+// that too few digits remain, infinities and NaN.
+inline bool reduce(double x, ReducedAngle& angle) {
+  if (!(std::fabs(x) <= kReductionLimit)) return false;
   const double shifted = x * kTwoOverPi + kRoundToInteger;
   const double k = shifted - kRoundToInteger;
-
   const double r1 = x - k * kHalfPi1;  // exact
   const double p2 = k * kHalfPi2;      // exact
   const double p3 = k * kHalfPi3;
   const double r2 = r1 - p2;
   const double r = r2 - p3;
-  const double r_tail = ((r1 - r2) - p2) + ((r2 - r) - p3);
-  if (std::fabs(r) <= std::fabs(k) * kCancellation) [[unlikely]]
-    return sin_cos_of_rare_angle(x);
+  angle = {r, ((r1 - r2) - p2) + ((r2 - r) - p3), std::bit_cast<std::uint64_t>(shifted)};
+  return std::fabs(r) > std::fabs(k) * kCancellation;
+}
 
-  const SinCosParts parts = sin_cos_parts(r, r_tail);
-  return turned(parts.s + parts.s_tail, parts.c + parts.c_tail, std::bit_cast<std::uint64_t>(shifted));
+// Any finite x from 0.7 up, exactly, at many times the cost.
+ReducedAngle reduce_with_many_digits(double x);
+
+SinCos<double> sin_cos_of_rare_angle(double x);
+
+}  // namespace detail
+
+inline SinCos<double> sin_cos(double x) {
+  detail::ReducedAngle angle;
+  if (!detail::reduce(x, angle)) [[unlikely]]
+    return detail::sin_cos_of_rare_angle(x);
+  const detail::SinCosParts parts = detail::sin_cos_parts(angle.r, angle.r_tail);
+  return detail::turned(parts.s + parts.s_tail, parts.c + parts.c_tail, angle.quadrant);
 }
 
 inline double sine(double x) {
