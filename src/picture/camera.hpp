@@ -1,4 +1,5 @@
-// World to page. Orthographic: a point's page position is its components along `right` and `up`, scaled and shifted.
+// World to page. Orthographic: a point's page position is its components along `right` and `up`, scaled and
+// shifted.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,8 +22,8 @@ struct Camera {
   double depth(const Eigen::Vector3d& x) const { return toward_viewer.dot(x); }
 };
 
-// Sets scale and origin so that the page-plane box (in metres along right and up) fills `area` with `margin` (a
-// fraction of the box's sides) around it. A box without extent gets one metre.
+// Sets scale and origin so that the page-plane box (in metres along right and up) fills `area` with `margin`
+// (a fraction of the box's sides) around it. A box without extent gets one metre.
 void fit(Camera& camera, const Rect& box_m, const Rect& area, double margin);
 
 }  // namespace chainreel

@@ -1,7 +1,8 @@
-// What a picture is: a flat list of shapes in painter's order. Physics fills it, render turns it into pixels or
-// vector pages; neither knows the other.
+// What a picture is: a flat list of shapes in painter's order. Physics fills it, render turns it into pixels
+// or vector pages; neither knows the other.
 //
-// Page coordinates: unit = frame height H, origin at the lower left, x right, y up. A page is `aspect` wide and 1 high.
+// Page coordinates: unit = frame height H, origin at the lower left, x right, y up. A page is `aspect` wide
+// and 1 high.
 #pragma once
 
 #include <array>

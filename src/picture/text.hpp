@@ -1,5 +1,5 @@
-// Text as glyph runs: faces opened by file (never through a font matcher), shaped by HarfBuzz at font units without
-// hinting, so that a layout is the same at every output size and on every machine.
+// Text as glyph runs: faces opened by file (never through a font matcher), shaped by HarfBuzz at font units
+// without hinting, so that a layout is the same at every output size and on every machine.
 #pragma once
 
 #include <memory>
@@ -16,13 +16,14 @@ namespace chainreel {
 class Fonts {
  public:
   Fonts();
+  explicit Fonts(const std::vector<std::string>& folders);  // searched in this order instead of Debian's
   ~Fonts();
   Fonts(const Fonts&) = delete;
   Fonts& operator=(const Fonts&) = delete;
 
-  FT_FaceRec_* ft_face(Face face) const;            // for the rasteriser; its size may be changed by anyone
+  FT_FaceRec_* ft_face(Face face) const;  // for the rasteriser; its size may be changed by anyone
   const std::string& file(Face face) const;
-  const std::string& sha256(Face face) const;       // of the font file
+  const std::string& sha256(Face face) const;  // of the font file
 
   struct State;
   State& state() const { return *state_; }
@@ -40,18 +41,25 @@ struct TextStyle {
   Align align = Align::left;
 };
 
-// A laid-out line; its runs' origins are relative to the anchor: (0, 0) is on the baseline at the aligned side.
+// A laid-out line; its runs and marks are relative to the anchor: (0, 0) is on the baseline at the aligned
+// side.
 struct TextLine {
   std::vector<GlyphRun> runs;
-  Rect box;  // ink box relative to the anchor
+  std::vector<Shape> marks;  // what no glyph says: the dots of derivatives
+  Rect box;                  // ink box relative to the anchor
   double advance = 0;
 };
 
-// Plain running text in one face. Throws Error (exit 4) where the face has no glyph for a character.
+// Plain running text in one face. Throws Error (exit 4) where the face has no glyph for a character, exit 3
+// where the text is not UTF-8.
 TextLine lay_out_text(const Fonts& fonts, const std::string& utf8, const TextStyle& style);
 
-// A small subset of math notation: Greek names (tau, lambda, Lambda, theta, ...), `_x`, `_{..}`, `^x`, `^{..}`, dots by
-// the names qd, qdd; variables italic, numbers, units ("N m") and function names upright. E.g. "tau = (10, 10, 10)^T".
+// A small subset of math notation, in the math face whatever the style says: Greek names (tau, lambda,
+// Lambda, ...),
+// `_x`, `_{..}`, `^x`, `^{..}`, an index by trailing digits (q1), dots by a trailing d or dd (qd, thetadd),
+// `^T`. Variables are italic; the matrices M, J, Lambda bold; numbers, units behind a number or bracket ("N
+// m"), function names and other words upright. E.g. "tau = (0, -100 y_G) N m". Throws Error (exit 3) at an
+// unfinished script or brace.
 TextLine lay_out_math(const Fonts& fonts, const std::string& notation, const TextStyle& style);
 
 // Moves a laid-out line to the anchor and appends it to the picture.

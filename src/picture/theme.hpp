@@ -13,6 +13,7 @@ struct Theme {
   Color ellipse, torque, velocity, force, constraint;
   std::array<Color, 3> curve;  // plot lines of joints 1, 2, 3
   Color side_a, side_b;        // the two sides of a comparison
+  std::array<Color, 3> axis;   // x, y, z of a frame; each axis also bears its letter
 };
 
 const Theme& light_theme();
@@ -24,8 +25,10 @@ inline constexpr double kMargin = 0.045, kGutter = 0.030, kTitleBand = 0.085, kF
 inline constexpr double kTitle = 0.044, kEquation = 0.042, kSymbol = 0.034, kAxis = 0.028, kTick = 0.022;
 inline constexpr double kLinkWidth = 0.042, kLinkOutline = 0.0030;
 inline constexpr double kJointDisc = 0.030, kJointOutline = 0.0040, kJointDot = 0.007;
-inline constexpr double kRailLine = 0.0030, kRailGap = 0.048, kCarriageLength = 0.060, kCarriageHeight = 0.048;
-inline constexpr double kGroundLine = 0.0045, kGroundHatch = 0.0022, kGroundSpacing = 0.014, kGroundLength = 0.12;
+inline constexpr double kRailLine = 0.0030, kRailGap = 0.048, kCarriageLength = 0.060,
+                        kCarriageHeight = 0.048;
+inline constexpr double kGroundLine = 0.0045, kGroundHatch = 0.0022, kGroundSpacing = 0.014,
+                        kGroundLength = 0.12;
 inline constexpr double kEndEffector = 0.014;
 inline constexpr double kScaleBar = 0.0035, kEllipseLine = 0.0042, kEllipseAxis = 0.0022, kEllipseFade = 0.10;
 inline constexpr double kTrailHead = 0.0050, kTrailTail = 0.0015, kTrailDot = 0.006;

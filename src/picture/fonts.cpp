@@ -1,0 +1,213 @@
+// Opening of font files, shaping and outlines. All measures are taken at font units, before any output size
+// is known.
+#include <ft2build.h>
+#include <hb-ot.h>
+#include <hb.h>
+#include FT_FREETYPE_H
+#include FT_BBOX_H
+#include FT_OUTLINE_H
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "picture/shaping.hpp"
+#include "picture/utf8.hpp"
+
+namespace chainreel {
+namespace {
+
+struct FaceFile {
+  const char* name;
+  const char* file;
+  const char* package;
+};
+
+constexpr std::array<FaceFile, 3> kFaceFiles = {{
+    {"DejaVu Sans", "DejaVuSans.ttf", "fonts-dejavu-core"},
+    {"DejaVu Sans Bold", "DejaVuSans-Bold.ttf", "fonts-dejavu-core"},
+    {"Latin Modern Math", "latinmodern-math.otf", "fonts-lmodern"},
+}};
+
+// Where Debian's packages put these files, and where an administrator would.
+const std::vector<std::string> kFontFolders = {"/usr/share/fonts/truetype/dejavu",
+                                               "/usr/share/texmf/fonts/opentype/public/lm-math",
+                                               "/usr/local/share/fonts"};
+
+std::string find_font_file(const FaceFile& wanted, const std::vector<std::string>& folders) {
+  std::string searched;
+  for (const std::string& folder : folders) {
+    const auto path = std::filesystem::path(folder) / wanted.file;
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(path, ignored)) return path.string();
+    searched += (searched.empty() ? "" : ", ") + folder;
+  }
+  throw Error(ExitCode::no_renderer, std::string("font file ") + wanted.file + " not found in " + searched +
+                                         "; install the Debian package " + wanted.package);
+}
+
+std::string code_point_name(char32_t c) {
+  char name[16];
+  std::snprintf(name, sizeof name, "U+%04X", unsigned(c));
+  return name;
+}
+
+}  // namespace
+
+struct Fonts::State {
+  struct Entry {
+    std::string file;
+    hb_blob_t* blob = nullptr;
+    hb_font_t* hb_font = nullptr;
+    FT_Face ft_face = nullptr;
+    double units_per_em = 1;
+    std::once_flag hashed;
+    std::string sha256;
+  };
+
+  FT_Library library = nullptr;
+  std::array<Entry, kFaceFiles.size()> faces;
+  std::mutex outlines;  // loading a glyph writes into the FreeType face
+
+  State() {
+    if (FT_Init_FreeType(&library) != 0) throw Error(ExitCode::no_renderer, "FreeType does not start");
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() {
+    for (Entry& entry : faces) {
+      hb_font_destroy(entry.hb_font);
+      if (entry.ft_face != nullptr) FT_Done_Face(entry.ft_face);
+      hb_blob_destroy(entry.blob);
+    }
+    FT_Done_FreeType(library);
+  }
+
+  Entry& entry(Face face) { return faces[std::size_t(face)]; }
+
+  void open(std::size_t which, const std::vector<std::string>& folders) {
+    Entry& e = faces[which];
+    e.file = find_font_file(kFaceFiles[which], folders);
+    e.blob = hb_blob_create_from_file(e.file.c_str());
+    unsigned length = 0;
+    const char* data = hb_blob_get_data(e.blob, &length);
+    if (length == 0 || FT_New_Memory_Face(library, reinterpret_cast<const FT_Byte*>(data), FT_Long(length), 0,
+                                          &e.ft_face) != 0)
+      throw Error(ExitCode::no_renderer, "font file " + e.file +
+                                             " cannot be read; reinstall the Debian package " +
+                                             kFaceFiles[which].package);
+
+    hb_face_t* hb_face = hb_face_create(e.blob, 0);
+    e.hb_font = hb_font_create(hb_face);
+    const int units = int(hb_face_get_upem(hb_face));
+    hb_font_set_scale(e.hb_font, units, units);
+    hb_font_make_immutable(e.hb_font);
+    hb_face_destroy(hb_face);
+    e.units_per_em = units;
+  }
+};
+
+Fonts::Fonts() : Fonts(kFontFolders) {}
+
+Fonts::Fonts(const std::vector<std::string>& folders) : state_(std::make_unique<State>()) {
+  for (std::size_t i = 0; i < kFaceFiles.size(); ++i) state_->open(i, folders);
+}
+
+Fonts::~Fonts() = default;
+
+FT_FaceRec_* Fonts::ft_face(Face face) const {
+  return state_->entry(face).ft_face;
+}
+
+const std::string& Fonts::file(Face face) const {
+  return state_->entry(face).file;
+}
+
+const std::string& Fonts::sha256(Face face) const {
+  State::Entry& entry = state_->entry(face);
+  std::call_once(entry.hashed, [&entry] {
+    unsigned length = 0;
+    const char* data = hb_blob_get_data(entry.blob, &length);
+    Sha256 hash;
+    hash.add(std::as_bytes(std::span(data, length)));
+    entry.sha256 = hash.finish();
+  });
+  return entry.sha256;
+}
+
+namespace {
+
+void unite(ShapedText& shaped, const Rect& ink) {
+  if (!shaped.has_ink) {
+    shaped.ink = ink;
+    shaped.has_ink = true;
+    return;
+  }
+  shaped.ink = {std::min(shaped.ink.x0, ink.x0), std::min(shaped.ink.y0, ink.y0),
+                std::max(shaped.ink.x1, ink.x1), std::max(shaped.ink.y1, ink.y1)};
+}
+
+void add_ink(ShapedText& shaped, FT_Face face, const Glyph& glyph, double units_per_em) {
+  if (FT_Load_Glyph(face, glyph.index, FT_LOAD_NO_SCALE | FT_LOAD_NO_HINTING) != 0 ||
+      face->glyph->format != FT_GLYPH_FORMAT_OUTLINE)
+    throw Error(ExitCode::no_renderer, "a glyph of " + std::string(face->family_name) + " has no outline");
+  FT_BBox box;
+  FT_Outline_Get_BBox(&face->glyph->outline, &box);
+  if (box.xMin >= box.xMax || box.yMin >= box.yMax) return;  // a space
+  unite(shaped, {glyph.x + double(box.xMin) / units_per_em, glyph.y + double(box.yMin) / units_per_em,
+                 glyph.x + double(box.xMax) / units_per_em, glyph.y + double(box.yMax) / units_per_em});
+}
+
+struct BufferDeleter {
+  void operator()(hb_buffer_t* buffer) const { hb_buffer_destroy(buffer); }
+};
+
+}  // namespace
+
+ShapedText shape(const Fonts& fonts, Face face, std::u32string_view text) {
+  Fonts::State::Entry& entry = fonts.state().entry(face);
+  const std::unique_ptr<hb_buffer_t, BufferDeleter> buffer(hb_buffer_create());
+  hb_buffer_add_codepoints(buffer.get(), reinterpret_cast<const hb_codepoint_t*>(text.data()),
+                           int(text.size()), 0, int(text.size()));
+  // Never the language of the environment: it may choose other glyphs.
+  hb_buffer_set_language(buffer.get(), hb_language_from_string("en", -1));
+  hb_buffer_guess_segment_properties(buffer.get());
+  hb_shape(entry.hb_font, buffer.get(), nullptr, 0);
+
+  unsigned count = 0;
+  const hb_glyph_info_t* infos = hb_buffer_get_glyph_infos(buffer.get(), &count);
+  const hb_glyph_position_t* positions = hb_buffer_get_glyph_positions(buffer.get(), &count);
+  ShapedText shaped;
+  long pen_x = 0, pen_y = 0;  // font units
+  const std::lock_guard lock(fonts.state().outlines);
+  for (unsigned i = 0; i < count; ++i) {
+    if (infos[i].codepoint == 0) {
+      const FaceFile& source = kFaceFiles[std::size_t(face)];
+      const char32_t missing = text[infos[i].cluster];
+      throw Error(ExitCode::no_renderer, std::string(source.name) + " (" + source.package +
+                                             ") has no glyph for " + code_point_name(missing) + " in '" +
+                                             encode_utf8(text) + "'");
+    }
+    const Glyph glyph = {infos[i].codepoint, double(pen_x + positions[i].x_offset) / entry.units_per_em,
+                         double(pen_y + positions[i].y_offset) / entry.units_per_em};
+    add_ink(shaped, entry.ft_face, glyph, entry.units_per_em);
+    shaped.glyphs.push_back(glyph);
+    pen_x += positions[i].x_advance;
+    pen_y += positions[i].y_advance;
+  }
+  shaped.advance = double(pen_x) / entry.units_per_em;
+  return shaped;
+}
+
+double italic_correction(const Fonts& fonts, Face face, std::uint32_t glyph) {
+  const Fonts::State::Entry& entry = fonts.state().entry(face);
+  return double(hb_ot_math_get_glyph_italics_correction(entry.hb_font, glyph)) / entry.units_per_em;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,269 @@
+#include "picture/math_notation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "core/error.hpp"
+#include "picture/utf8.hpp"
+
+namespace chainreel {
+namespace {
+
+// In the order of their code points from U+03B1; the final sigma stands between rho and sigma.
+constexpr std::array<std::u32string_view, 25> kGreek = {
+    U"alpha", U"beta",   U"gamma",   U"delta", U"epsilon", U"zeta",    U"eta",  U"theta", U"iota",
+    U"kappa", U"lambda", U"mu",      U"nu",    U"xi",      U"omicron", U"pi",   U"rho",   U"varsigma",
+    U"sigma", U"tau",    U"upsilon", U"phi",   U"chi",     U"psi",     U"omega"};
+constexpr std::array<std::u32string_view, 14> kFunctions = {U"sin", U"cos",  U"tan",  U"sqrt", U"exp",
+                                                            U"log", U"abs",  U"min",  U"max",  U"atan2",
+                                                            U"det", U"rank", U"diag", U"ln"};
+constexpr std::array<std::u32string_view, 17> kUnits = {U"N",  U"m",   U"s",  U"kg", U"rad", U"J",
+                                                        U"W",  U"Hz",  U"mm", U"cm", U"ms",  U"g",
+                                                        U"Nm", U"deg", U"px", U"us", U"mJ"};
+constexpr int kDeepestScript = 8;
+
+template <std::size_t n>
+bool contains(const std::array<std::u32string_view, n>& names, std::u32string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool is_letter(char32_t c) {
+  return (c >= U'a' && c <= U'z') || (c >= U'A' && c <= U'Z');
+}
+bool is_digit(char32_t c) {
+  return c >= U'0' && c <= U'9';
+}
+bool is_capital_greek(char32_t c) {
+  return c >= 0x391 && c <= 0x3A9;
+}
+bool is_small_greek(char32_t c) {
+  return c >= 0x3B1 && c <= 0x3C9;
+}
+
+// The letter that a name stands for: itself, or the Greek letter of that name.
+std::optional<char32_t> letter_of(std::u32string_view name) {
+  if (name.size() == 1) return name[0];
+  std::u32string small(name);
+  const bool capital = small[0] >= U'A' && small[0] <= U'Z';
+  if (capital) small[0] += U'a' - U'A';
+  const auto at = std::find(kGreek.begin(), kGreek.end(), small);
+  if (at == kGreek.end()) return std::nullopt;
+  return char32_t((capital ? 0x391 : 0x3B1) + (at - kGreek.begin()));
+}
+
+// Italic letters have code points of their own; the italic h was encoded long before the others.
+char32_t italic(char32_t c) {
+  if (c == U'h') return 0x210E;
+  if (c >= U'a' && c <= U'z') return 0x1D44E + (c - U'a');
+  if (c >= U'A' && c <= U'Z') return 0x1D434 + (c - U'A');
+  if (is_small_greek(c)) return 0x1D6FC + (c - 0x3B1);
+  if (is_capital_greek(c)) return 0x1D6E2 + (c - 0x391);
+  return c;
+}
+
+constexpr char32_t kCapitalLambda = 0x39B;
+
+// Bold upright for the matrices of the dynamics, italic for every other letter.
+char32_t variable(char32_t c, bool in_script) {
+  if (!in_script && (c == U'M' || c == U'J')) return 0x1D400 + (c - U'A');
+  if (!in_script && c == kCapitalLambda) return 0x1D6A8 + (c - 0x391);
+  return italic(c);
+}
+
+struct Sign {
+  char32_t character, drawn;
+  AtomKind kind;
+};
+constexpr char32_t kMinus = 0x2212, kTimes = 0xD7, kDot = 0x22C5;
+constexpr std::array<Sign, 25> kSigns = {{
+    {U'+', U'+', AtomKind::binary},       {U'-', kMinus, AtomKind::binary},
+    {kMinus, kMinus, AtomKind::binary},   {0xB1, 0xB1, AtomKind::binary},
+    {kTimes, kTimes, AtomKind::binary},   {kDot, kDot, AtomKind::product},
+    {0xB7, kDot, AtomKind::product},      {U'*', kDot, AtomKind::product},
+    {U'/', U'/', AtomKind::slash},        {U'=', U'=', AtomKind::relation},
+    {U'<', U'<', AtomKind::relation},     {U'>', U'>', AtomKind::relation},
+    {0x2264, 0x2264, AtomKind::relation}, {0x2265, 0x2265, AtomKind::relation},
+    {0x2248, 0x2248, AtomKind::relation}, {0x2260, 0x2260, AtomKind::relation},
+    {0x2192, 0x2192, AtomKind::relation}, {U':', U':', AtomKind::relation},
+    {U'(', U'(', AtomKind::open},         {U'[', U'[', AtomKind::open},
+    {U')', U')', AtomKind::close},        {U']', U']', AtomKind::close},
+    {U',', U',', AtomKind::comma},        {U';', U';', AtomKind::comma},
+    {U'\'', 0x2032, AtomKind::operand},
+}};
+
+bool ends_operand(const std::vector<MathAtom>& atoms) {
+  if (atoms.empty()) return false;
+  switch (atoms.back().kind) {
+    case AtomKind::operand:
+    case AtomKind::number:
+    case AtomKind::word:
+    case AtomKind::unit:
+    case AtomKind::close:
+      return true;
+    default:
+      return false;
+  }
+}
+
+class Reader {
+ public:
+  explicit Reader(std::u32string_view text) : text_(text) {}
+
+  // Up to the end of the text, or to the brace that closes a script.
+  std::vector<MathAtom> read_list(int depth) {
+    std::vector<MathAtom> atoms;
+    for (;;) {
+      const bool blank = skip_blanks();
+      if (at_ >= text_.size() || (depth > 0 && peek() == U'}')) return atoms;
+      const std::size_t first = atoms.size();
+      read_token(atoms, depth);
+      if (first < atoms.size()) atoms[first].blank_before = blank;
+    }
+  }
+
+ private:
+  char32_t peek(std::size_t ahead = 0) const {
+    return at_ + ahead < text_.size() ? text_[at_ + ahead] : U'\0';
+  }
+
+  bool skip_blanks() {
+    const std::size_t start = at_;
+    while (peek() == U' ') ++at_;
+    return at_ > start;
+  }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw Error(ExitCode::bad_input,
+                what + " at character " + std::to_string(at_ + 1) + " of '" + encode_utf8(text_) + "'");
+  }
+
+  void read_token(std::vector<MathAtom>& atoms, int depth) {
+    const char32_t c = peek();
+    if (is_digit(c) || (c == U'.' && is_digit(peek(1)))) return read_number(atoms);
+    if (is_letter(c)) return read_word(atoms, depth);
+    if (c == U'_' || c == U'^') return read_script(atoms, depth);
+    if (c == U'{' || c == U'}') fail("a brace without _ or ^ before it");
+    if (is_small_greek(c) || is_capital_greek(c))
+      atoms.push_back({AtomKind::operand, {variable(c, depth > 0)}, 0, {}, {}, false});
+    else
+      return read_sign(atoms);
+    ++at_;
+  }
+
+  void read_sign(std::vector<MathAtom>& atoms) {
+    const char32_t c = text_[at_++];
+    const auto sign =
+        std::find_if(kSigns.begin(), kSigns.end(), [c](const Sign& s) { return s.character == c; });
+    MathAtom atom{AtomKind::operand, {c}, 0, {}, {}, false};
+    if (sign != kSigns.end()) {
+      atom.kind = sign->kind;
+      atom.text = {sign->drawn};
+    }
+    if ((c == U'<' || c == U'>') && peek() == U'=') {
+      ++at_;
+      atom.text = {c == U'<' ? char32_t(0x2264) : char32_t(0x2265)};
+    }
+    if (atom.kind == AtomKind::binary && !ends_operand(atoms)) atom.kind = AtomKind::sign;
+    atoms.push_back(std::move(atom));
+  }
+
+  // 12, 0.5, and 1e-3 as 1 x 10 to the power -3.
+  void read_number(std::vector<MathAtom>& atoms) {
+    std::u32string digits;
+    while (is_digit(peek()) || (peek() == U'.' && is_digit(peek(1)))) digits += text_[at_++];
+    atoms.push_back({AtomKind::number, digits, 0, {}, {}, false});
+    if (peek() != U'e' && peek() != U'E') return;
+    const bool has_sign = peek(1) == U'+' || peek(1) == U'-';
+    if (!is_digit(peek(has_sign ? 2 : 1))) return;
+
+    ++at_;
+    MathAtom ten{AtomKind::number, U"10", 0, {}, {}, false};
+    if (has_sign) {
+      if (peek() == U'-') ten.sup.push_back({AtomKind::sign, {kMinus}, 0, {}, {}, false});
+      ++at_;
+    }
+    std::u32string exponent;
+    while (is_digit(peek())) exponent += text_[at_++];
+    ten.sup.push_back({AtomKind::number, exponent, 0, {}, {}, false});
+    atoms.push_back({AtomKind::binary, {kTimes}, 0, {}, {}, false});
+    atoms.push_back(std::move(ten));
+  }
+
+  bool is_unit_here(const std::vector<MathAtom>& atoms, bool blank, std::u32string_view word) const {
+    if (!contains(kUnits, word) || atoms.empty() || peek() == U'_' || peek() == U'(') return false;
+    const AtomKind before = atoms.back().kind;
+    if (before == AtomKind::slash) return atoms.size() > 1 && atoms[atoms.size() - 2].kind == AtomKind::unit;
+    return blank && (before == AtomKind::number || before == AtomKind::close || before == AtomKind::unit);
+  }
+
+  void read_word(std::vector<MathAtom>& atoms, int depth) {
+    const bool blank = at_ > 0 && text_[at_ - 1] == U' ';
+    std::u32string word;
+    while (is_letter(peek()) || is_digit(peek())) word += text_[at_++];
+    if (is_unit_here(atoms, blank, word)) {
+      atoms.push_back({AtomKind::unit, word, 0, {}, {}, false});
+    } else if (contains(kFunctions, word)) {
+      atoms.push_back({AtomKind::function, word, 0, {}, {}, false});
+    } else {
+      atoms.push_back(read_name(word, depth));
+    }
+  }
+
+  // A letter or Greek name, with dots for a trailing d or dd and an index for trailing digits; else a word.
+  static MathAtom read_name(std::u32string word, int depth) {
+    MathAtom atom;
+    const std::size_t last_letter = word.find_last_not_of(U"0123456789");
+    if (last_letter + 1 < word.size())
+      atom.sub.push_back({AtomKind::number, word.substr(last_letter + 1), 0, {}, {}, false});
+    word.resize(last_letter + 1);
+
+    for (int dots = 0; dots <= 2 && std::size_t(dots) < word.size(); ++dots) {
+      const auto letter = letter_of(word.substr(0, word.size() - std::size_t(dots)));
+      if (!letter) {
+        if (word[word.size() - 1 - std::size_t(dots)] != U'd') break;
+        continue;
+      }
+      atom.text = {variable(*letter, depth > 0)};
+      atom.dots = dots;
+      return atom;
+    }
+    atom.kind = AtomKind::word;
+    atom.text = word;
+    return atom;
+  }
+
+  void read_script(std::vector<MathAtom>& atoms, int depth) {
+    const bool below = text_[at_++] == U'_';
+    if (atoms.empty()) fail("a script without anything before it");
+    if (depth >= kDeepestScript) fail("scripts nested too deeply");
+    std::vector<MathAtom> script;
+    if (peek() == U'{') {
+      ++at_;
+      script = read_list(depth + 1);
+      if (peek() != U'}') fail("a brace is not closed");
+      ++at_;
+    } else {
+      if (at_ >= text_.size() || peek() == U' ' || peek() == U'}') fail("a script is missing");
+      read_token(script, depth + 1);
+      if (script.size() == 1 && script[0].kind == AtomKind::sign && at_ < text_.size() && peek() != U' ')
+        read_token(script, depth + 1);  // ^-1
+    }
+    // The transpose is an operator, not a variable.
+    if (!below && script.size() == 1 && script[0].text == std::u32string{italic(U'T')}) script[0].text = U"T";
+    std::vector<MathAtom>& place = below ? atoms.back().sub : atoms.back().sup;
+    place.insert(place.end(), script.begin(), script.end());
+  }
+
+  std::u32string_view text_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+std::vector<MathAtom> parse_math(std::string_view notation) {
+  const std::u32string text = decode_utf8(notation);
+  return Reader(text).read_list(0);
+}
+
+}  // namespace chainreel

@@ -1,0 +1,37 @@
+// Reads the notation of lay_out_math into atoms; where they go on the page is math_text.cpp's business.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace chainreel {
+
+enum class AtomKind {
+  operand,   // a variable or any other sign without gaps of its own
+  number,    //
+  word,      // upright, set off by word spaces
+  function,  // upright: sin, cos, ...
+  unit,      // upright, behind a number or bracket
+  sign,      // + or - in front of an operand
+  binary,    // + or - between two
+  product,   // *, drawn as a thin space behind a number and as a dot elsewhere
+  slash,
+  relation,
+  open,
+  close,
+  comma,
+};
+
+struct MathAtom {
+  AtomKind kind = AtomKind::operand;
+  std::u32string text;  // characters of the math face: its alphabets are code points of their own
+  int dots = 0;         // above, for derivatives
+  std::vector<MathAtom> sub, sup;
+  bool blank_before = false;
+};
+
+// Throws Error (exit 3) at an unfinished script or brace, or where the text is not UTF-8.
+std::vector<MathAtom> parse_math(std::string_view notation);
+
+}  // namespace chainreel
