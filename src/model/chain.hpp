@@ -1,8 +1,10 @@
-// What a mechanism is: a tree of moving bodies, fixed joints already lumped into their parents. Constant after
-// loading. Body 0 is the world, moving bodies start at 1 and parents come before children, so that loops read like
-// R. Featherstone, Rigid Body Dynamics Algorithms, table 4.3. SI units and radians throughout.
+// What a mechanism is: a tree of moving bodies, fixed joints already lumped into their parents. Constant
+// after loading. Body 0 is the world, moving bodies start at 1 and parents come before children, so that
+// loops read like R. Featherstone, Rigid Body Dynamics Algorithms, table 4.3. SI units and radians
+// throughout.
 //
-// Frames: W world, P parent body, B body. A body's frame is its joint's frame: the URDF link frame behind the joint.
+// Frames: W world, P parent body, B body. A body's frame is its joint's frame: the URDF link frame behind the
+// joint.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,13 +33,14 @@ struct JointLimit {
 struct Joint {
   std::string name;
   JointKind kind = JointKind::revolute;
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();             // unit length, in B (same numbers in P's joint frame)
-  Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();      // joint frame in P: p_P = X_PJ * p_J; X_PB = X_PJ at zero
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  // unit length, in B (same numbers in P's joint frame)
+  Eigen::Isometry3d X_PJ =
+      Eigen::Isometry3d::Identity();  // joint frame in P: p_P = X_PJ * p_J; X_PB = X_PJ at zero
   JointLimit limit;
   double damping = 0;   // N m s/rad or N s/m
   double friction = 0;  // N m or N
-  // Where the joint reads the coordinates: value = ratio * q[q_index] + offset. A mimic joint shares the coordinate of
-  // the joint that it follows; all others have ratio 1 and offset 0.
+  // Where the joint reads the coordinates: value = ratio * q[q_index] + offset. A mimic joint shares the
+  // coordinate of the joint that it follows; all others have ratio 1 and offset 0.
   int q_index = 0;
   int v_index = 0;
   double ratio = 1;
@@ -45,9 +48,9 @@ struct Joint {
 };
 
 struct Inertia {
-  double mass = 0;                                         // kg
-  Eigen::Vector3d com = Eigen::Vector3d::Zero();           // centre of mass in B, m
-  Eigen::Matrix3d about_com = Eigen::Matrix3d::Zero();     // about the centre of mass, axes of B, kg m^2
+  double mass = 0;                                      // kg
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();        // centre of mass in B, m
+  Eigen::Matrix3d about_com = Eigen::Matrix3d::Zero();  // about the centre of mass, axes of B, kg m^2
 };
 
 struct Body {
@@ -71,17 +74,17 @@ struct Plane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // ex x ey
 };
 
-// One body of the planar form. Its frame has its origin at the joint's (projected on the plane) and is parallel to
-// ex, ey when all joint values are 0, so that no placement carries an angle.
+// One body of the planar form. Its frame has its origin at the joint's (projected on the plane) and is
+// parallel to ex, ey when all joint values are 0, so that no placement carries an angle.
 struct PlanarBody {
   int parent = 0;
-  JointKind kind = JointKind::revolute;                   // revolute or prismatic
-  double sign = 1;                                        // revolute: +1 about normal, -1 about -normal
-  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();   // prismatic: unit, in the parent's planar frame
-  Eigen::Vector2d p_PJ = Eigen::Vector2d::Zero();         // joint origin in the parent's planar frame
+  JointKind kind = JointKind::revolute;                  // revolute or prismatic
+  double sign = 1;                                       // revolute: +1 about normal, -1 about -normal
+  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();  // prismatic: unit, in the parent's planar frame
+  Eigen::Vector2d p_PJ = Eigen::Vector2d::Zero();        // joint origin in the parent's planar frame
   double mass = 0;
-  Eigen::Vector2d com = Eigen::Vector2d::Zero();          // in the planar body frame
-  double inertia = 0;                                     // about the centre of mass, about the normal
+  Eigen::Vector2d com = Eigen::Vector2d::Zero();  // in the planar body frame
+  double inertia = 0;                             // about the centre of mass, about the normal
   int q_index = 0;
   double ratio = 1;
   double offset = 0;
@@ -89,8 +92,8 @@ struct PlanarBody {
 
 struct PlanarChain {
   Plane plane;
-  std::vector<PlanarBody> bodies;              // same indices as Chain::bodies
-  std::vector<Eigen::Isometry3d> X_WB_zero;    // pose of each body when all joint values are 0
+  std::vector<PlanarBody> bodies;            // same indices as Chain::bodies
+  std::vector<Eigen::Isometry3d> X_WB_zero;  // pose of each body when all joint values are 0
 };
 
 struct Chain {
@@ -99,13 +102,16 @@ struct Chain {
   std::vector<Frame> frames;                        // [0] is the root link
   int nq = 0;                                       // numbers in q
   int nv = 0;                                       // numbers in qd, qdd, tau: the degrees of freedom
-  std::vector<std::string> coordinate_names;        // nv names: the joint that owns each freedom
-  bool serial = true;                               // every body has at most one child
+  // nv names: the joint that owns each freedom; NAME.vx vy vz wx wy wz for a floating joint, NAME.x NAME.y
+  // NAME.angle for a planar one.
+  std::vector<std::string> coordinate_names;
+  bool serial = true;  // every body has at most one child
   bool has_mimic = false;
   bool has_floating = false;
-  bool has_dissipation = false;                     // some joint has damping or friction
-  Eigen::Vector3d gravity{0, 0, -9.81};             // m/s^2, in W
-  int end_effector = 0;                             // index into frames
+  bool has_dissipation = false;          // some joint has damping or friction
+  Eigen::Vector3d gravity{0, 0, -9.81};  // m/s^2, in W
+  int end_effector = -1;  // index into frames; -1 where none was asked for and several leaves could be it
+  std::vector<int> leaf_frames;  // frames of the links that carry no joint, in the order of `frames`
 
   std::optional<PlanarChain> planar;  // set when all motion stays in one plane
   std::string why_algebra;            // one sentence: why planar, or what made it spatial
@@ -113,6 +119,12 @@ struct Chain {
 
 // Index into chain.frames, or -1.
 int find_frame(const Chain& chain, const std::string& name);
+
+// Index into chain.frames of the end effector. Throws Error listing the leaves where there is none.
+int require_end_effector(const Chain& chain);
+
+// nq names: as coordinate_names, but NAME.x y z qx qy qz qw for a floating joint.
+std::vector<std::string> position_names(const Chain& chain);
 
 // q with every joint at zero: zeros, and the unit quaternion for floating joints.
 std::vector<double> zero_configuration(const Chain& chain);

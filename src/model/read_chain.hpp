@@ -1,5 +1,5 @@
-// A URDF file as a Chain: checked with tinyxml2 first (lines, tags, numbers, limits on depth and size), then read by
-// urdfdom, then reduced (fixed joints lumped, planar form found).
+// A URDF file as a Chain: checked with tinyxml2 first (lines, tags, numbers, limits on depth and size), then
+// read by urdfdom, then reduced (fixed joints lumped, planar form found).
 #pragma once
 
 #include <map>
@@ -13,12 +13,13 @@
 namespace chainreel {
 
 struct ModelOptions {
-  bool floating_base = false;              // the root link hangs on a floating joint instead of the world
-  bool friction = true;                    // honour <dynamics damping friction>
-  std::optional<double> massless;          // kg given to moving links without inertia; absent: they are an error
-  std::optional<Eigen::Vector3d> gravity;  // absent: [0, -9.81, 0] for chains that move in the xy plane, else -z
-  std::string end_effector;                // "": link `gripper`, else the only leaf, else an error
-  bool meshes = true;                      // mesh files must be found
+  bool floating_base = false;      // the root link hangs on a floating joint instead of the world
+  bool friction = true;            // honour <dynamics damping friction>
+  std::optional<double> massless;  // kg given to moving links without inertia; absent: they are an error
+  std::optional<Eigen::Vector3d>
+      gravity;               // absent: [0, -9.81, 0] for chains that move in the xy plane, else -z
+  std::string end_effector;  // "": link `gripper`, else the only leaf, else an error
+  bool meshes = true;        // mesh files must be found
   std::map<std::string, std::string> packages;  // package:// name -> folder
 };
 

@@ -1,0 +1,49 @@
+#include "model/chain.hpp"
+
+#include "core/error.hpp"
+
+namespace chainreel {
+
+int find_frame(const Chain& chain, const std::string& name) {
+  for (std::size_t i = 0; i < chain.frames.size(); ++i)
+    if (chain.frames[i].name == name) return int(i);
+  return -1;
+}
+
+int require_end_effector(const Chain& chain) {
+  if (chain.end_effector >= 0) return chain.end_effector;
+  std::string leaves;
+  for (const int frame : chain.leaf_frames)
+    leaves += (leaves.empty() ? "" : ", ") + chain.frames[std::size_t(frame)].name;
+  throw Error(ExitCode::bad_input,
+              "the model '" + chain.name +
+                  "' has no link 'gripper' and several ends: choose the end effector with "
+                  "--end-effector NAME; the ends are " +
+                  leaves);
+}
+
+std::vector<std::string> position_names(const Chain& chain) {
+  std::vector<std::string> names(std::size_t(chain.nq));
+  for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
+    const Joint& joint = chain.bodies[i].joint;
+    const auto at = std::size_t(joint.q_index);
+    if (joint.kind != JointKind::floating) {
+      names[at] = chain.coordinate_names[std::size_t(joint.v_index)];
+      continue;
+    }
+    const char* parts[] = {"x", "y", "z", "qx", "qy", "qz", "qw"};
+    for (std::size_t k = 0; k < 7; ++k) names[at + k] = joint.name + "." + parts[k];
+  }
+  return names;
+}
+
+std::vector<double> zero_configuration(const Chain& chain) {
+  std::vector<double> q(std::size_t(chain.nq), 0.0);
+  for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
+    const Joint& joint = chain.bodies[i].joint;
+    if (joint.kind == JointKind::floating) q[std::size_t(joint.q_index) + 6] = 1;
+  }
+  return q;
+}
+
+}  // namespace chainreel

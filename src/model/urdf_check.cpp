@@ -1,0 +1,336 @@
+#include "model/urdf_check.hpp"
+
+#include <tinyxml2.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <span>
+
+#include "model/urdf_numbers.hpp"
+
+namespace chainreel {
+namespace {
+
+using tinyxml2::XMLElement;
+using Need = UrdfNumbers::Need;
+using Range = UrdfNumbers::Range;
+
+const std::vector<std::string> kRobotTags{"link", "joint", "material"};
+const std::vector<std::string> kLinkTags{"inertial", "visual", "collision"};
+const std::vector<std::string> kShapeTags{"origin", "geometry", "material"};
+const std::vector<std::string> kGeometryTags{"box", "cylinder", "sphere", "mesh"};
+const std::vector<std::string> kJointTags{"origin", "parent", "child", "axis", "limit", "dynamics", "mimic"};
+
+bool is_one_of(const std::string& name, std::span<const std::string> names) {
+  for (const std::string& candidate : names)
+    if (name == candidate) return true;
+  return false;
+}
+
+// Room for every mechanism, and a number that urdfdom's reader takes.
+constexpr const char* kUnlimited = "1e300";
+
+class Checker {
+ public:
+  Checker(tinyxml2::XMLDocument& document, const std::string& path, UrdfProblems& problems)
+      : document_(document), problems_(problems), numbers_(problems) {
+    result_.file.path = path;
+  }
+
+  CheckedUrdf run() {
+    XMLElement& robot = robot_element();
+    for (XMLElement* child = robot.FirstChildElement(); child != nullptr;) {
+      XMLElement* next = child->NextSiblingElement();  // the child may be removed
+      const std::string tag = child->Name();
+      if (tag == "link") check_link(*child);
+      if (tag == "joint") check_joint(*child);
+      if (tag.starts_with("xacro:")) {
+        problems_.add(child->GetLineNum(),
+                      "<" + tag + "> is a xacro macro: expand the file first with `xacro FILE > model.urdf`");
+      }
+      if (!is_one_of(tag, kRobotTags)) ignore(*child);
+      if (tag != "link" && tag != "joint") robot.DeleteChild(child);
+      child = next;
+    }
+    if (result_.file.links.empty()) {
+      problems_.add(robot.GetLineNum(),
+                    "the model has no link: write at least a base and one <link> on a <joint>");
+    }
+    tinyxml2::XMLPrinter printer(nullptr, true);
+    document_.Print(&printer);
+    result_.plain = printer.CStr();
+    return std::move(result_);
+  }
+
+ private:
+  XMLElement& robot_element() {
+    XMLElement* root = document_.RootElement();
+    const std::string tag = root == nullptr ? "" : root->Name();
+    if (tag != "robot") {
+      throw Error(
+          ExitCode::bad_input,
+          "is no URDF: its outermost tag must be <robot>" + (tag.empty() ? "" : ", not <" + tag + ">"),
+          result_.file.at(root == nullptr ? 0 : root->GetLineNum()));
+    }
+    result_.file.name = name_of(*root, "robot");
+    return *root;
+  }
+
+  std::string name_of(const XMLElement& element, const std::string& kind) {
+    const char* name = element.Attribute("name");
+    if (name != nullptr && *name != '\0') return name;
+    problems_.add(element.GetLineNum(), "<" + kind + "> has no name: write <" + kind + " name=\"...\">");
+    return "";
+  }
+
+  // A name is given once; the place of the first is told with the second.
+  void remember(std::map<std::string, int>& lines, const std::string& kind, const std::string& name,
+                int line) {
+    const auto [found, is_new] = lines.emplace(name, line);
+    if (is_new || name.empty()) return;
+    problems_.add(line, kind + " '" + name + "' exists already (line " + std::to_string(found->second) +
+                            "): give each its own name");
+  }
+
+  // The child of that tag; a second one would be ignored in silence by urdfdom.
+  XMLElement* only_child(XMLElement& element, const char* tag, const std::string& owner) {
+    XMLElement* first = element.FirstChildElement(tag);
+    const XMLElement* second = first == nullptr ? nullptr : first->NextSiblingElement(tag);
+    if (second != nullptr)
+      problems_.add(second->GetLineNum(), owner + " has more than one <" + tag + ">: keep one");
+    return first;
+  }
+
+  void ignore(const XMLElement& element) {
+    const std::string parent = element.Parent()->ToElement()->Name();
+    auto& known = ignored_[parent + "/" + element.Name()];
+    if (known == 0) {
+      result_.file.ignored.push_back({element.Name(), parent, 0, element.GetLineNum()});
+      known = int(result_.file.ignored.size());
+    }
+    ++result_.file.ignored[std::size_t(known - 1)].count;
+  }
+
+  // Takes out every child that is not one of `tags`, so that urdfdom cannot stumble over it.
+  void strip(XMLElement& element, std::span<const std::string> tags) {
+    for (XMLElement* child = element.FirstChildElement(); child != nullptr;) {
+      XMLElement* next = child->NextSiblingElement();
+      if (!is_one_of(child->Name(), tags)) {
+        ignore(*child);
+        element.DeleteChild(child);
+      }
+      child = next;
+    }
+  }
+
+  void check_link(XMLElement& element) {
+    UrdfLink link;
+    link.name = name_of(element, "link");
+    link.line = element.GetLineNum();
+    remember(link_lines_, "link", link.name, link.line);
+    const std::string owner = "link '" + link.name + "'";
+    strip(element, kLinkTags);
+
+    if (XMLElement* inertial = only_child(element, "inertial", owner))
+      link.inertial = check_inertial(*inertial, owner);
+    link.visuals = check_shapes(element, "visual", owner);
+    link.collisions = check_shapes(element, "collision", owner);
+    result_.file.links.push_back(std::move(link));
+  }
+
+  UrdfInertial check_inertial(XMLElement& element, const std::string& owner) {
+    UrdfInertial inertial;
+    inertial.line = element.GetLineNum();
+    inertial.origin = numbers_.origin(element, owner);
+
+    if (XMLElement* mass = only_child(element, "mass", owner)) {
+      const auto value = numbers_.one(*mass, "value", owner, Need::required);
+      if (value && *value < 0)
+        problems_.add(mass->GetLineNum(), owner + " has a negative mass: no body has one");
+    } else {
+      problems_.add(inertial.line, owner + ": <inertial> has no <mass>: write <mass value=\"...\"/> in kg");
+    }
+    if (XMLElement* inertia = only_child(element, "inertia", owner)) {
+      for (const char* entry : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"})
+        numbers_.one(*inertia, entry, owner, Need::required);
+    } else {
+      problems_.add(
+          inertial.line,
+          owner +
+              ": <inertial> has no <inertia>: write all six of ixx ixy ixz iyy iyz izz in kg m^2 (zeros "
+              "for a point mass)");
+    }
+    return inertial;
+  }
+
+  std::vector<UrdfShape> check_shapes(XMLElement& link, const char* tag, const std::string& owner) {
+    std::vector<UrdfShape> shapes;
+    for (XMLElement* element = link.FirstChildElement(tag); element != nullptr;) {
+      XMLElement* next = element->NextSiblingElement(tag);
+      strip(*element, kShapeTags);
+      // Colours and textures are not read, and urdfdom refuses incomplete ones.
+      while (XMLElement* material = element->FirstChildElement("material")) element->DeleteChild(material);
+      XMLElement* geometry = only_child(*element, "geometry", owner);
+      if (geometry == nullptr) {
+        problems_.add(element->GetLineNum(),
+                      owner + ": <" + tag + "> has no <geometry>: add one or remove the tag");
+      } else {
+        strip(*geometry, kGeometryTags);
+        if (const XMLElement* shape = geometry->FirstChildElement()) {
+          check_geometry(*shape, owner);
+          shapes.emplace_back();
+          shapes.back().origin = numbers_.origin(*element, owner);
+          shapes.back().line = element->GetLineNum();
+        } else {
+          link.DeleteChild(element);  // a capsule or the like, which was counted as ignored
+        }
+      }
+      element = next;
+    }
+    return shapes;
+  }
+
+  void check_geometry(const XMLElement& shape, const std::string& owner) {
+    const std::string tag = shape.Name();
+    if (tag == "box") numbers_.three(shape, "size", owner, Need::required);
+    if (tag == "sphere" || tag == "cylinder") numbers_.one(shape, "radius", owner, Need::required);
+    if (tag == "cylinder") numbers_.one(shape, "length", owner, Need::required);
+    if (tag == "mesh") {
+      numbers_.three(shape, "scale", owner, Need::optional);
+      const char* file = shape.Attribute("filename");
+      if (file == nullptr || *file == '\0')
+        problems_.add(shape.GetLineNum(), owner + ": <mesh> names no file: write <mesh filename=\"...\"/>");
+    }
+  }
+
+  void check_joint(XMLElement& element) {
+    UrdfJoint joint;
+    joint.name = name_of(element, "joint");
+    joint.line = element.GetLineNum();
+    remember(joint_lines_, "joint", joint.name, joint.line);
+    const std::string owner = "joint '" + joint.name + "'";
+    strip(element, kJointTags);
+
+    const bool has_type = check_type(element, joint, owner);
+    joint.origin = numbers_.origin(element, owner);
+    result_.parent_names.push_back(end_of(element, "parent", owner));
+    result_.child_names.push_back(end_of(element, "child", owner));
+    if (has_type) check_axis(element, joint, owner);
+    check_limit(element, joint, owner);
+    check_dynamics(element, owner);
+    if (const XMLElement* mimic = only_child(element, "mimic", owner)) {
+      joint.mimic.emplace();
+      joint.mimic->line = mimic->GetLineNum();
+      const char* target = mimic->Attribute("joint");
+      joint.mimic->joint = target == nullptr ? "" : target;
+      if (joint.mimic->joint.empty()) {
+        problems_.add(mimic->GetLineNum(), owner + ": <mimic> names no joint: write <mimic joint=\"...\"/>");
+      }
+      numbers_.one(*mimic, "multiplier", owner, Need::optional);
+      numbers_.one(*mimic, "offset", owner, Need::optional);
+    }
+    result_.file.joints.push_back(std::move(joint));
+  }
+
+  bool check_type(const XMLElement& element, UrdfJoint& joint, const std::string& owner) {
+    static const std::vector<std::string> names{"revolute", "continuous", "prismatic",
+                                                "fixed",    "floating",   "planar"};
+    const char* text = element.Attribute("type");
+    if (text == nullptr) {
+      problems_.add(
+          joint.line,
+          owner + " has no type: write type=\"revolute\", continuous, prismatic, fixed, floating or planar");
+      return false;
+    }
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (names[i] != text) continue;
+      joint.type = UrdfJointType(int(i));
+      return true;
+    }
+    problems_.add(joint.line, owner + " has the unknown type '" + text + "':" + did_you_mean(text, names) +
+                                  " there are revolute, continuous, prismatic, fixed, floating and planar");
+    return false;
+  }
+
+  // The link that <parent> or <child> names.
+  std::string end_of(XMLElement& element, const char* tag, const std::string& owner) {
+    const XMLElement* end = only_child(element, tag, owner);
+    const char* name = end == nullptr ? nullptr : end->Attribute("link");
+    if (name != nullptr && *name != '\0') return name;
+    problems_.add(end == nullptr ? element.GetLineNum() : end->GetLineNum(),
+                  owner + " names no " + tag + " link: write <" + tag + " link=\"...\"/>");
+    return "";
+  }
+
+  void check_axis(XMLElement& element, const UrdfJoint& joint, const std::string& owner) {
+    XMLElement* axis = only_child(element, "axis", owner);
+    if (axis == nullptr || joint.type == UrdfJointType::fixed || joint.type == UrdfJointType::floating)
+      return;
+    const auto xyz = numbers_.three(*axis, "xyz", owner, Need::required);
+    // Below this the squared length of the axis has no digits left.
+    if (xyz && !(xyz->cwiseAbs().maxCoeff() > 1e-100))
+      problems_.add(axis->GetLineNum(),
+                    owner + " has a zero axis: give it a direction, such as xyz=\"0 0 1\"");
+  }
+
+  void check_limit(XMLElement& element, UrdfJoint& joint, const std::string& owner) {
+    XMLElement* limit = only_child(element, "limit", owner);
+    joint.limit.given = limit != nullptr;
+    if (limit == nullptr) {
+      limit = element.InsertNewChildElement("limit");
+      // A joint without <limit> turns as far as it likes.
+      limit->SetAttribute("lower", "-1e300");
+      limit->SetAttribute("upper", kUnlimited);
+    } else {
+      joint.limit.line = limit->GetLineNum();
+    }
+    if (joint.limit.given) {
+      joint.limit.has_lower = numbers_.one(*limit, "lower", owner, Need::optional, Range::any).has_value();
+      joint.limit.has_upper = numbers_.one(*limit, "upper", owner, Need::optional, Range::any).has_value();
+      joint.limit.has_effort = numbers_.one(*limit, "effort", owner, Need::optional, Range::any).has_value();
+      joint.limit.has_velocity =
+          numbers_.one(*limit, "velocity", owner, Need::optional, Range::any).has_value();
+    }
+    // urdfdom insists on both.
+    if (!joint.limit.has_effort) limit->SetAttribute("effort", kUnlimited);
+    if (!joint.limit.has_velocity) limit->SetAttribute("velocity", kUnlimited);
+  }
+
+  void check_dynamics(XMLElement& element, const std::string& owner) {
+    XMLElement* dynamics = only_child(element, "dynamics", owner);
+    if (dynamics == nullptr) return;
+    for (const char* attribute : {"damping", "friction"}) {
+      const auto value = numbers_.one(*dynamics, attribute, owner, Need::optional);
+      if (value && *value < 0) {
+        problems_.add(dynamics->GetLineNum(),
+                      owner + " has negative " + attribute + ", which would feed energy in: write 0 or more");
+      }
+    }
+    // urdfdom refuses an empty <dynamics>.
+    if (dynamics->Attribute("damping") == nullptr && dynamics->Attribute("friction") == nullptr)
+      dynamics->SetAttribute("damping", "0");
+  }
+
+  tinyxml2::XMLDocument& document_;
+  UrdfProblems& problems_;
+  UrdfNumbers numbers_;
+  CheckedUrdf result_;
+  std::map<std::string, int> link_lines_, joint_lines_;
+  std::map<std::string, int> ignored_;  // "parent/tag" -> 1 + index into UrdfFile::ignored
+};
+
+}  // namespace
+
+CheckedUrdf check_urdf(const std::string& text, const std::string& path, UrdfProblems& problems) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    throw Error(ExitCode::bad_input,
+                std::string("is not well-formed XML (") + document.ErrorName() +
+                    "): close every tag and quote every attribute",
+                {path, document.ErrorLineNum()});
+  }
+  return Checker(document, path, problems).run();
+}
+
+}  // namespace chainreel

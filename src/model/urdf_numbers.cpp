@@ -1,0 +1,116 @@
+#include "model/urdf_numbers.hpp"
+
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "core/format.hpp"
+
+namespace chainreel {
+namespace {
+
+using tinyxml2::XMLElement;
+
+constexpr std::string_view kSpace = " \t\r\n";
+
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> words;
+  for (std::size_t at = text.find_first_not_of(kSpace); at != std::string_view::npos;
+       at = text.find_first_not_of(kSpace, at)) {
+    const std::size_t end = std::min(text.find_first_of(kSpace, at), text.size());
+    words.push_back(text.substr(at, end - at));
+    at = end;
+  }
+  return words;
+}
+
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kMost = 40;
+  return text.size() <= kMost ? "'" + std::string(text) + "'"
+                              : "'" + std::string(text.substr(0, kMost)) + "...'";
+}
+
+// Why the text is no number, and what to write instead.
+std::string remedy_for(std::string_view text) {
+  if (text.find(',') != std::string_view::npos) return "write it with a decimal point";
+  if (text.find("${") != std::string_view::npos || text.find("$(") != std::string_view::npos)
+    return "this looks like a xacro file: expand it first with `xacro FILE > model.urdf`";
+  const bool has_digit = text.find_first_of("0123456789") != std::string_view::npos;
+  const bool only_number_signs = text.find_first_not_of("+-.0123456789eE") == std::string_view::npos;
+  if (has_digit && only_number_signs && text.find_first_of("eE") != std::string_view::npos)
+    return "it is beyond the range of a double";
+  return "write a finite number such as 0.25 or 1e-3";
+}
+
+std::string name_of(const XMLElement& element, const char* attribute, const std::string& owner) {
+  return owner + ": <" + element.Name() + " " + attribute + ">";
+}
+
+}  // namespace
+
+std::optional<double> UrdfNumbers::parse(std::string_view text, const XMLElement& element,
+                                         const char* attribute, const std::string& owner, Range range) {
+  const std::optional<double> value = parse_number(text);
+  if (!value) {
+    problems_.add(element.GetLineNum(), name_of(element, attribute, owner) + " " + quoted(text) +
+                                            " is not a number: " + remedy_for(text));
+  } else if (range == Range::physical && std::fabs(*value) > kLargestUrdfNumber) {
+    problems_.add(element.GetLineNum(), name_of(element, attribute, owner) + " " + quoted(text) +
+                                            " is larger than " + format_shortest(kLargestUrdfNumber) +
+                                            ": URDF is in metres, kilograms and radians");
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<double> UrdfNumbers::one(const XMLElement& element, const char* attribute,
+                                       const std::string& owner, Need need, Range range) {
+  const char* text = element.Attribute(attribute);
+  if (text == nullptr) {
+    if (need == Need::required) {
+      problems_.add(element.GetLineNum(), name_of(element, attribute, owner) + " is missing: write " +
+                                              attribute + "=\"...\" with a number");
+    }
+    return std::nullopt;
+  }
+  const std::vector<std::string_view> words = words_of(text);
+  return parse(words.size() == 1 ? words[0] : std::string_view(text), element, attribute, owner, range);
+}
+
+std::optional<Eigen::Vector3d> UrdfNumbers::three(const XMLElement& element, const char* attribute,
+                                                  const std::string& owner, Need need) {
+  const char* text = element.Attribute(attribute);
+  if (text == nullptr) {
+    if (need == Need::required) {
+      problems_.add(element.GetLineNum(), name_of(element, attribute, owner) + " is missing: write " +
+                                              attribute + "=\"...\" with three numbers");
+    }
+    return std::nullopt;
+  }
+  const std::vector<std::string_view> words = words_of(text);
+  if (words.size() != 3) {
+    const bool has_comma = std::string_view(text).find(',') != std::string_view::npos;
+    problems_.add(element.GetLineNum(), name_of(element, attribute, owner) + " " + quoted(text) +
+                                            " must be three numbers with spaces between" +
+                                            (has_comma ? ", no commas" : ""));
+    return std::nullopt;
+  }
+  Eigen::Vector3d vector;
+  for (int i = 0; i < 3; ++i) {
+    const auto value = parse(words[std::size_t(i)], element, attribute, owner, Range::physical);
+    if (!value) return std::nullopt;
+    vector[i] = *value;
+  }
+  return vector;
+}
+
+UrdfOrigin UrdfNumbers::origin(const XMLElement& element, const std::string& owner) {
+  UrdfOrigin origin;
+  const XMLElement* found = element.FirstChildElement("origin");
+  if (found == nullptr) return origin;
+  origin.xyz = three(*found, "xyz", owner, Need::optional).value_or(origin.xyz);
+  origin.rpy = three(*found, "rpy", owner, Need::optional).value_or(origin.rpy);
+  return origin;
+}
+
+}  // namespace chainreel

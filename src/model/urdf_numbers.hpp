@@ -1,0 +1,44 @@
+// Numbers in the attributes of a URDF file, always in the C locale, each complaint with its line and its
+// remedy.
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+#include "model/urdf_file.hpp"
+#include "model/urdf_problems.hpp"
+
+namespace chainreel {
+
+// Beyond this no mechanism in SI units goes, and squares still have room in a double.
+inline constexpr double kLargestUrdfNumber = 1e12;
+
+class UrdfNumbers {
+ public:
+  explicit UrdfNumbers(UrdfProblems& problems) : problems_(problems) {}
+
+  enum class Need { required, optional };
+  // Of mass, length and inertia; a limit may be any finite number ("as strong as you like").
+  enum class Range { physical, any };
+
+  // The number in `attribute`; nothing where it is absent or wrong (then a problem is noted). `owner` opens
+  // the message: "link 'arm'".
+  std::optional<double> one(const tinyxml2::XMLElement& element, const char* attribute,
+                            const std::string& owner, Need need, Range range = Range::physical);
+  // Three numbers with white space between them.
+  std::optional<Eigen::Vector3d> three(const tinyxml2::XMLElement& element, const char* attribute,
+                                       const std::string& owner, Need need);
+  // <origin> inside `element`, zero where it is absent.
+  UrdfOrigin origin(const tinyxml2::XMLElement& element, const std::string& owner);
+
+ private:
+  std::optional<double> parse(std::string_view text, const tinyxml2::XMLElement& element,
+                              const char* attribute, const std::string& owner, Range range);
+
+  UrdfProblems& problems_;
+};
+
+}  // namespace chainreel

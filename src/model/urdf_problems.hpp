@@ -1,0 +1,41 @@
+// The problems of one URDF file, gathered while it is read. A file that is broken everywhere is reported by
+// its first problems and their number: nobody reads ten thousand lines, and looking for near names costs
+// time.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace chainreel {
+
+class UrdfProblems {
+ public:
+  explicit UrdfProblems(std::string path) : path_(std::move(path)) {}
+
+  void add(int line, std::string message) {
+    if (++count_ <= kMostShown) shown_.push_back({std::move(message), {path_, line, 0}});
+  }
+  bool is_full() const { return count_ >= kMostShown; }  // what follows is only counted
+
+  void throw_if_any() {
+    if (shown_.empty()) return;
+    // Later passes look at earlier lines again: the user reads the file from the top.
+    std::stable_sort(shown_.begin(), shown_.end(),
+                     [](const Problem& a, const Problem& b) { return a.place.line < b.place.line; });
+    if (count_ > kMostShown)
+      shown_.push_back({"and " + std::to_string(count_ - kMostShown) + " more problems", {path_}});
+    throw Error(ExitCode::bad_input, shown_);
+  }
+
+ private:
+  static constexpr int kMostShown = 30;
+
+  std::string path_;
+  std::vector<Problem> shown_;
+  int count_ = 0;
+};
+
+}  // namespace chainreel

@@ -1,0 +1,129 @@
+#include "model/xml_text.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+#include "core/error.hpp"
+
+namespace chainreel {
+namespace fs = std::filesystem;
+namespace {
+
+// Walks over markup without building anything; comments, CDATA and quoted attributes are stepped over whole.
+class XmlScanner {
+ public:
+  explicit XmlScanner(std::string_view text) : text_(text) {}
+
+  enum class Markup { open, close, empty, end };
+
+  // Moves behind the next element tag. Unclosed markup ends the scan: the parser will say what is wrong with
+  // it.
+  Markup next() {
+    for (;;) {
+      at_ = text_.find('<', at_);
+      if (at_ == std::string_view::npos) return Markup::end;
+      tag_begin_ = at_;
+      const std::string_view rest = text_.substr(at_);
+      if (rest.starts_with("<!--")) {
+        if (!skip_behind("-->", 4)) return Markup::end;
+      } else if (rest.starts_with("<![CDATA[")) {
+        if (!skip_behind("]]>", 9)) return Markup::end;
+      } else if (rest.starts_with("<?")) {
+        if (!skip_behind("?>", 2)) return Markup::end;
+      } else if (rest.starts_with("<!")) {
+        if (!skip_behind(">", 2)) return Markup::end;
+      } else {
+        return element();
+      }
+    }
+  }
+
+  int line() const {
+    return 1 + int(std::count(text_.begin(), text_.begin() + std::ptrdiff_t(tag_begin_), '\n'));
+  }
+
+ private:
+  bool skip_behind(std::string_view mark, std::size_t from) {
+    const std::size_t found = text_.find(mark, at_ + from);
+    if (found == std::string_view::npos) return false;
+    at_ = found + mark.size();
+    return true;
+  }
+
+  Markup element() {
+    const bool closes = text_.substr(at_).starts_with("</");
+    char quote = 0;
+    for (++at_; at_ < text_.size(); ++at_) {
+      const char c = text_[at_];
+      if (quote != 0) {
+        if (c == quote) quote = 0;
+      } else if (c == '"' || c == '\'') {
+        quote = c;
+      } else if (c == '>') {
+        const bool is_empty = text_[at_ - 1] == '/';
+        ++at_;
+        return closes ? Markup::close : is_empty ? Markup::empty : Markup::open;
+      }
+    }
+    return Markup::end;
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  std::size_t tag_begin_ = 0;
+};
+
+}  // namespace
+
+void check_xml_limits(const std::string& text, const std::string& path) {
+  XmlScanner scanner(text);
+  int depth = 0;
+  int elements = 0;
+  for (auto markup = scanner.next(); markup != XmlScanner::Markup::end; markup = scanner.next()) {
+    if (markup == XmlScanner::Markup::close) {
+      --depth;
+      continue;
+    }
+    if (++elements > kMostXmlElements) {
+      throw Error(
+          ExitCode::limit,
+          "has more than " + std::to_string(kMostXmlElements) + " elements: split or simplify the model",
+          {path, scanner.line()});
+    }
+    if (markup == XmlScanner::Markup::open) ++depth;
+    if (depth > kDeepestXml) {
+      throw Error(ExitCode::limit,
+                  "elements are nested deeper than " + std::to_string(kDeepestXml) +
+                      " levels; a URDF needs 5: is a closing tag missing?",
+                  {path, scanner.line()});
+    }
+  }
+}
+
+std::string read_xml_text(const std::string& path) {
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  if (!fs::exists(status)) throw Error(ExitCode::bad_input, "no such file", {path});
+  if (!fs::is_regular_file(status)) throw Error(ExitCode::bad_input, "is not a file with text", {path});
+  const auto size = fs::file_size(path, code);
+  if (code) throw Error(ExitCode::bad_input, "cannot be read: " + code.message(), {path});
+  if (size > kLargestXmlFile) {
+    throw Error(
+        ExitCode::limit,
+        "is larger than " + std::to_string(kLargestXmlFile >> 20) + " MiB: put shapes into mesh files",
+        {path});
+  }
+
+  std::ifstream stream(path, std::ios::binary);
+  std::string text(size, '\0');
+  stream.read(text.data(), std::streamsize(size));
+  if (!stream) throw Error(ExitCode::bad_input, "cannot be read: is it yours to read?", {path});
+  if (text.find('\0') != std::string::npos)
+    throw Error(ExitCode::bad_input, "holds zero bytes: it is no XML text in UTF-8", {path});
+  check_xml_limits(text, path);
+  return text;
+}
+
+}  // namespace chainreel
