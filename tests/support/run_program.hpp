@@ -1,0 +1,32 @@
+// Runs a program to its end, or to its time limit, and keeps all it said.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace chainreel {
+
+struct ProgramResult {
+  int status = -1;         // exit status; 128 + number where a signal ended it
+  bool timed_out = false;  // it was ended by us
+  std::string out;
+  std::string err;
+};
+
+struct RunOptions {
+  std::string folder;                              // "": where the test runs, the root of the source tree
+  std::map<std::string, std::string> environment;  // set or replaced on top of the test's own
+  double timeout_s = 120;
+};
+
+// The path of the built program, whether it has been built or not.
+std::string program_path();
+
+// `chainreel ARGUMENTS...`. Throws std::runtime_error where the program cannot be started.
+ProgramResult run_program(const std::vector<std::string>& arguments, const RunOptions& options = {});
+
+// Any command; command[0] is looked up in PATH.
+ProgramResult run_command(const std::vector<std::string>& command, const RunOptions& options = {});
+
+}  // namespace chainreel
