@@ -1,5 +1,5 @@
-// Forward dynamics by the articulated-body algorithm: O(n). Not for chains with mimic joints (their coordinates are
-// shared between bodies); compute_forward_dynamics takes the mass matrix there.
+// Forward dynamics by the articulated-body algorithm: O(n). Not for chains with mimic joints (their
+// coordinates are shared between bodies); compute_forward_dynamics takes the mass matrix there.
 #pragma once
 
 #include "dynamics/workspace.hpp"

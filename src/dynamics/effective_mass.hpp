@@ -1,6 +1,7 @@
-// The effective mass of a frame: Lambda_inv = J M^-1 J^T, finite at every pose, and Lambda = J^-T M J^-1 where J is
-// square and regular (else the inverse of Lambda_inv where that exists). Ellipse drawn: forces for unit accelerations,
-// f = Lambda u, |u| = 1, semi-axes the eigenvalues of Lambda in kg (K. Lynch, F. Park, Modern Robotics, ch. 8.1.1).
+// The effective mass of a frame: Lambda_inv = J M^-1 J^T, finite at every pose, and Lambda = J^-T M J^-1
+// where J is square and regular (else the inverse of Lambda_inv where that exists). Ellipse drawn: forces for
+// unit accelerations, f = Lambda u, |u| = 1, semi-axes the eigenvalues of Lambda in kg (K. Lynch, F. Park,
+// Modern Robotics, ch. 8.1.1).
 #pragma once
 
 #include <optional>
@@ -10,15 +11,16 @@
 
 namespace chainreel {
 
-// An eigenvalue of Lambda_inv below this fraction of the largest counts as zero: infinite mass in that direction.
+// An eigenvalue of Lambda_inv below this fraction of the largest counts as zero: infinite mass in that
+// direction.
 inline constexpr double kSingularFraction = 1e-6;
 
 struct EffectiveMass {
   TaskBasis basis;
-  Eigen::MatrixXd Lambda_inv;              // 1/kg, symmetric
-  std::optional<Eigen::MatrixXd> Lambda;   // kg; absent at singular poses
-  Eigen::VectorXd mobility;                // eigenvalues of Lambda_inv, rising: 1/kg; never negative
-  Eigen::MatrixXd directions;              // their unit eigenvectors, columns, in the basis
+  Eigen::MatrixXd Lambda_inv;             // 1/kg, symmetric
+  std::optional<Eigen::MatrixXd> Lambda;  // kg; absent at singular poses
+  Eigen::VectorXd mobility;               // eigenvalues of Lambda_inv, rising: 1/kg; never negative
+  Eigen::MatrixXd directions;             // their unit eigenvectors, columns, in the basis
   std::vector<Eigen::VectorXd> singular_directions;  // unit vectors of infinite mass, in the basis
 };
 

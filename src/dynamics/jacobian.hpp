@@ -15,8 +15,8 @@ enum class Task {
 
 // The unit vectors, in W, along which the rows are measured; angular rows named "w_...".
 struct TaskBasis {
-  std::vector<std::string> names;             // e.g. {"x", "y"}
-  std::vector<Eigen::Vector3d> directions;    // one a row
+  std::vector<std::string> names;           // e.g. {"x", "y"}
+  std::vector<Eigen::Vector3d> directions;  // one a row
 };
 TaskBasis task_basis(const Chain& chain, Task task);
 

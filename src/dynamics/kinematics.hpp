@@ -13,7 +13,8 @@ Eigen::Isometry3d frame_pose(const Chain& chain, const Workspace& ws, int frame)
 Eigen::Vector3d frame_position(const Chain& chain, const Workspace& ws, int frame);  // m
 Eigen::Vector3d frame_velocity(const Chain& chain, const Workspace& ws, int frame);  // m/s
 
-// q' = N(q) qd: the rate of the coordinates (quaternions of floating joints; qd itself elsewhere). nq numbers.
+// q' = N(q) qd: the rate of the coordinates (quaternions of floating joints; qd itself elsewhere). nq
+// numbers.
 void q_rate(const Chain& chain, ConstVec q, ConstVec qd, Vec q_dot);
 // q <- q (+) h qd along a constant qd.
 void advance(const Chain& chain, Vec q, ConstVec qd, double h);

@@ -1,5 +1,5 @@
-// Everything that an algorithm writes. Sized for one chain when made; no algorithm allocates afterwards, except where
-// a dense matrix is asked for the first time.
+// Everything that an algorithm writes. Sized for one chain when made; no algorithm allocates afterwards,
+// except where a dense matrix is asked for the first time.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,15 +22,15 @@ struct Workspace {
   Workspace& operator=(Workspace&&) noexcept;
 
   // Results, by the algorithm that writes them.
-  std::vector<double> qdd;    // nv; compute_forward_dynamics, compute_aba
-  std::vector<double> tau;    // nv; compute_inverse_dynamics
-  std::vector<double> nle;    // nv; compute_nle: C qd + tau_g
-  std::vector<double> tau_g;  // nv; compute_gravity_torque
-  std::vector<double> tau_f;  // nv; compute_friction
-  Eigen::MatrixXd M;          // nv x nv, symmetric, both halves; compute_mass_matrix
-  Eigen::MatrixXd J;          // rows x nv; compute_jacobian
-  Eigen::VectorXd Jd_qd;      // rows; compute_jacobian_rate
-  std::vector<Eigen::Isometry3d> X_WB;  // per body; compute_kinematics
+  std::vector<double> qdd;                  // nv; compute_forward_dynamics, compute_aba
+  std::vector<double> tau;                  // nv; compute_inverse_dynamics
+  std::vector<double> nle;                  // nv; compute_nle: C qd + tau_g
+  std::vector<double> tau_g;                // nv; compute_gravity_torque
+  std::vector<double> tau_f;                // nv; compute_friction
+  Eigen::MatrixXd M;                        // nv x nv, symmetric, both halves; compute_mass_matrix
+  Eigen::MatrixXd J;                        // rows x nv; compute_jacobian
+  Eigen::VectorXd Jd_qd;                    // rows; compute_jacobian_rate
+  std::vector<Eigen::Isometry3d> X_WB;      // per body; compute_kinematics
   std::vector<Eigen::Vector3d> v_WB, w_WB;  // per body: velocity of its origin and angular velocity, in W
 
   struct Scratch;  // planar or spatial arrays of the recursions

@@ -1,0 +1,87 @@
+// Lambda_inv = J M^-1 J^T: the acceleration of the frame for a unit force on it, all else at rest. Each row
+// of J is taken as a torque and M^-1 of it by forward dynamics without velocity or gravity, so that long
+// chains need no M. K. Lynch, F. Park, Modern Robotics (2017), ch. 8.6; O. Khatib, IEEE J. Robotics and
+// Automation 3 (1987), eq. 51.
+#include "dynamics/effective_mass.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "dynamics/crba.hpp"
+#include "dynamics/ldlt.hpp"
+#include "dynamics/recursions.hpp"
+#include "dynamics/scratch.hpp"
+
+namespace chainreel {
+
+namespace {
+
+// ws.qdd = M^-1 ws.tau, in the pose of the last `place`.
+void solve_for_acceleration(const Chain& chain, Workspace& ws) {
+  with_links(ws, [&](auto& links) {
+    using A = typename std::decay_t<decltype(links)>::Algebra;
+    auto& scratch = *ws.scratch;
+    if (!chain.has_mimic)
+      return aba(links, typename A::Motion{}, ConstVec(scratch.zeros), ConstVec(ws.tau), Vec(ws.qdd));
+    crba(links, std::size_t(chain.nv), scratch.M.data());
+    ldlt_factor(chain.nv, scratch.M.data());
+    std::copy(ws.tau.begin(), ws.tau.end(), ws.qdd.begin());
+    ldlt_solve(chain.nv, scratch.M.data(), ws.qdd.data());
+  });
+}
+
+Eigen::MatrixXd inverse_of_effective_mass(const Chain& chain, Workspace& ws) {
+  const Eigen::Index rows = ws.J.rows();
+  Eigen::MatrixXd Lambda_inv(rows, rows);
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    Eigen::Map<Eigen::VectorXd>(ws.tau.data(), chain.nv) = ws.J.row(r);
+    solve_for_acceleration(chain, ws);
+    Lambda_inv.col(r) = ws.J * Eigen::Map<const Eigen::VectorXd>(ws.qdd.data(), chain.nv);
+  }
+  return 0.5 * (Lambda_inv + Lambda_inv.transpose());
+}
+
+// An eigenvector's sign is free: its largest number is made positive, the first of those that tie.
+void fix_signs(Eigen::MatrixXd& directions) {
+  for (Eigen::Index k = 0; k < directions.cols(); ++k) {
+    Eigen::Index at = 0;
+    directions.col(k).cwiseAbs().maxCoeff(&at);
+    if (directions(at, k) < 0) directions.col(k) = -directions.col(k);
+  }
+}
+
+}  // namespace
+
+EffectiveMass effective_mass_of(const Chain& chain, Workspace& ws, ConstVec q, int frame, Task task) {
+  EffectiveMass result;
+  result.basis = task_basis(chain, task);
+  compute_jacobian(chain, ws, q, frame, task);
+  result.Lambda_inv = inverse_of_effective_mass(chain, ws);
+
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(result.Lambda_inv);
+  result.mobility = eigen.eigenvalues().cwiseMax(0.0);  // round-off may leave a zero below zero
+  result.directions = eigen.eigenvectors();
+  fix_signs(result.directions);
+
+  const double largest = result.mobility.maxCoeff();
+  for (Eigen::Index k = 0; k < result.mobility.size(); ++k) {
+    const bool singular = !(result.mobility(k) > kSingularFraction * largest);
+    if (singular) result.singular_directions.emplace_back(result.directions.col(k));
+  }
+  if (!result.singular_directions.empty()) return result;
+
+  if (ws.J.rows() == ws.J.cols()) {
+    // Without the detour over the inverse, which squares the condition of J.
+    compute_mass_matrix(chain, ws, q);
+    const Eigen::MatrixXd J_inv = ws.J.inverse();
+    const Eigen::MatrixXd Lambda = J_inv.transpose() * ws.M * J_inv;
+    result.Lambda = 0.5 * (Lambda + Lambda.transpose());
+  } else {
+    result.Lambda =
+        result.directions * result.mobility.cwiseInverse().asDiagonal() * result.directions.transpose();
+  }
+  return result;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,102 @@
+// Poses and velocities, out from the base: X_WB = X_WP X_PB, v_i = X v_p + S qd (R. Featherstone, Rigid Body
+// Dynamics Algorithms, 2008, ch. 4.4).
+#include "dynamics/kinematics.hpp"
+
+#include "dynamics/recursions.hpp"
+#include "dynamics/scratch.hpp"
+
+namespace chainreel {
+
+template <class A>
+void place(Links<A>& links, ConstScalarSpan<A> q) {
+  for (std::size_t i = 1; i < links.size(); ++i) {
+    const auto& joint = links.joint[i];
+    A::place(links.body[i], links.X[joint.parent], &q[joint.q], links.X[i], links.S[i], links.I[i]);
+  }
+}
+
+template <class A>
+void locate(Links<A>& links) {
+  for (std::size_t i = 1; i < links.size(); ++i) {
+    links.pose[i] = A::pose_of(links.pose[links.joint[i].parent], links.X[i]);
+  }
+}
+
+template <class A>
+void move(Links<A>& links, ConstScalarSpan<A> qd) {
+  for (std::size_t i = 1; i < links.size(); ++i) {
+    const auto& joint = links.joint[i];
+    links.v[i] = A::to_child(links.X[i], links.v[joint.parent]) +
+                 A::joint_motion(links.body[i], links.S[i], &qd[joint.v]);
+  }
+}
+
+#define INSTANTIATE(A)                                   \
+  template void place<A>(Links<A>&, ConstScalarSpan<A>); \
+  template void locate<A>(Links<A>&);                    \
+  template void move<A>(Links<A>&, ConstScalarSpan<A>);
+CHAINREEL_FOR_EACH_ALGEBRA(INSTANTIATE)
+
+namespace {
+
+Eigen::Vector3d eigen_of(const Vec3<double>& v) {
+  return {v.x, v.y, v.z};
+}
+
+// Into world numbers. A planar body keeps its distance from the plane and turns about the normal only.
+void write_body(const Chain& chain, Workspace& ws, std::size_t i, const Planar<double>::Pose& pose,
+                const Planar<double>::Motion& v) {
+  const Plane& plane = chain.planar->plane;
+  const Eigen::Isometry3d& X_zero = chain.planar->X_WB_zero[i];
+  const auto turned = [&](const Eigen::Vector3d& u) -> Eigen::Vector3d {
+    const double x = plane.ex.dot(u);
+    const double y = plane.ey.dot(u);
+    return plane.ex * (pose.c * x - pose.s * y) + plane.ey * (pose.s * x + pose.c * y) +
+           plane.normal * plane.normal.dot(u);
+  };
+  for (int k = 0; k < 3; ++k) ws.X_WB[i].linear().col(k) = turned(X_zero.linear().col(k));
+  ws.X_WB[i].translation() =
+      plane.ex * pose.x + plane.ey * pose.y + plane.normal * plane.normal.dot(X_zero.translation());
+  ws.v_WB[i] = plane.ex * v.x + plane.ey * v.y;
+  ws.w_WB[i] = plane.normal * v.w;
+}
+
+void write_body(const Chain&, Workspace& ws, std::size_t i, const Spatial<double>::Pose& pose,
+                const Spatial<double>::Motion& v) {
+  ws.X_WB[i].linear().row(0) = eigen_of(pose.R.r0).transpose();
+  ws.X_WB[i].linear().row(1) = eigen_of(pose.R.r1).transpose();
+  ws.X_WB[i].linear().row(2) = eigen_of(pose.R.r2).transpose();
+  ws.X_WB[i].translation() = eigen_of(pose.p);
+  ws.v_WB[i] = eigen_of(pose.R * v.v);
+  ws.w_WB[i] = eigen_of(pose.R * v.w);
+}
+
+}  // namespace
+
+void compute_kinematics(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd) {
+  with_links(ws, [&](auto& links) {
+    place(links, q);
+    locate(links);
+    move(links, qd);
+    for (std::size_t i = 1; i < links.size(); ++i) write_body(chain, ws, i, links.pose[i], links.v[i]);
+  });
+}
+
+Eigen::Isometry3d frame_pose(const Chain& chain, const Workspace& ws, int frame) {
+  const Frame& f = chain.frames[std::size_t(frame)];
+  return ws.X_WB[std::size_t(f.body)] * f.X_BF;
+}
+
+Eigen::Vector3d frame_position(const Chain& chain, const Workspace& ws, int frame) {
+  const Frame& f = chain.frames[std::size_t(frame)];
+  return ws.X_WB[std::size_t(f.body)] * f.X_BF.translation();
+}
+
+Eigen::Vector3d frame_velocity(const Chain& chain, const Workspace& ws, int frame) {
+  const Frame& f = chain.frames[std::size_t(frame)];
+  const auto body = std::size_t(f.body);
+  const Eigen::Vector3d r = ws.X_WB[body].linear() * f.X_BF.translation();
+  return ws.v_WB[body] + ws.w_WB[body].cross(r);
+}
+
+}  // namespace chainreel

@@ -1,0 +1,36 @@
+// What stands behind Workspace: the arrays of the recursions in the algebra that the chain takes.
+#pragma once
+
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "dynamics/links.hpp"
+#include "dynamics/workspace.hpp"
+
+namespace chainreel {
+
+// Ways to forward dynamics.
+enum class Algorithm {
+  articulated_body,  // O(n)
+  mass_matrix,       // CRBA, RNEA and L D L^T: chains whose bodies share coordinates
+};
+Algorithm algorithm_of(const Chain& chain);
+
+struct Workspace::Scratch {
+  explicit Scratch(const Chain& chain);
+
+  std::variant<Links<Planar<double>>, Links<Spatial<double>>> links;
+  Algorithm algorithm;
+  std::vector<double> zeros;    // nv: the velocity or acceleration of what rests
+  std::vector<double> tau_net;  // nv: tau - tau_f, for chains with friction
+  std::vector<double> M;        // nv x nv, then its factor, for Algorithm::mass_matrix
+};
+
+// Calls `run` with the arrays of the chain's algebra.
+template <class Run>
+decltype(auto) with_links(Workspace& ws, Run&& run) {
+  return std::visit(std::forward<Run>(run), ws.scratch->links);
+}
+
+}  // namespace chainreel

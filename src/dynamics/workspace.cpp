@@ -1,0 +1,35 @@
+#include "dynamics/workspace.hpp"
+
+#include "dynamics/scratch.hpp"
+
+namespace chainreel {
+
+namespace {
+
+std::variant<Links<Planar<double>>, Links<Spatial<double>>> links_of(const Chain& chain) {
+  if (chain.planar) return Links<Planar<double>>(chain);
+  return Links<Spatial<double>>(chain);
+}
+
+}  // namespace
+
+Workspace::Scratch::Scratch(const Chain& chain) : links(links_of(chain)), algorithm(algorithm_of(chain)) {
+  const auto nv = std::size_t(chain.nv);
+  zeros.resize(nv);
+  if (chain.has_dissipation) tau_net.resize(nv);
+  if (algorithm == Algorithm::mass_matrix) M.resize(nv * nv);
+}
+
+Workspace::Workspace(const Chain& chain) : scratch(std::make_unique<Scratch>(chain)) {
+  const auto nv = std::size_t(chain.nv);
+  for (auto* vector : {&qdd, &tau, &nle, &tau_g, &tau_f}) vector->resize(nv);
+  X_WB.resize(chain.bodies.size(), Eigen::Isometry3d::Identity());
+  v_WB.resize(chain.bodies.size(), Eigen::Vector3d::Zero());
+  w_WB.resize(chain.bodies.size(), Eigen::Vector3d::Zero());
+}
+
+Workspace::~Workspace() = default;
+Workspace::Workspace(Workspace&&) noexcept = default;
+Workspace& Workspace::operator=(Workspace&&) noexcept = default;
+
+}  // namespace chainreel
