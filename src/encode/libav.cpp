@@ -24,7 +24,7 @@ constexpr std::size_t kLongestLog = 4096;  // a flood of messages must not grow 
 void keep_error_lines(void* context, int level, const char* format, va_list arguments) {
   if (level > AV_LOG_ERROR) return;
   std::array<char, 1024> line{};
-  int print_prefix = 1;
+  int print_prefix = 0;  // it holds an address, which differs from run to run
   av_log_format_line2(context, level, format, arguments, line.data(), static_cast<int>(line.size()),
                       &print_prefix);
   const std::lock_guard lock(log().mutex);

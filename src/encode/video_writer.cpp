@@ -138,8 +138,9 @@ struct VideoWriter::State {
 
 // MP4 with its index first. Times are exact: movie and track both count in the track's ticks.
 void VideoWriter::State::open_file() {
+  const std::string url = "file:" + path;  // or "a:b.mp4" would be taken for a protocol
   AVFormatContext* raw = nullptr;
-  check_libav(avformat_alloc_output_context2(&raw, nullptr, "mp4", path.c_str()), ExitCode::no_renderer,
+  check_libav(avformat_alloc_output_context2(&raw, nullptr, "mp4", url.c_str()), ExitCode::no_renderer,
               "FFmpeg's libavformat cannot write MP4");
   format.reset(raw);
   format->flags |= AVFMT_FLAG_BITEXACT;  // no creation time, no version of the library
@@ -148,7 +149,7 @@ void VideoWriter::State::open_file() {
   stream->avg_frame_rate = encoder->framerate;
   check_libav(avcodec_parameters_from_context(stream->codecpar, encoder.get()), ExitCode::limit,
               "no memory left for the film's track");
-  check_libav(avio_open(&format->pb, ("file:" + path).c_str(), AVIO_FLAG_WRITE), ExitCode::file,
+  check_libav(avio_open(&format->pb, url.c_str(), AVIO_FLAG_WRITE), ExitCode::file,
               "the film cannot be written here; choose another place with -o", path);
 
   std::int64_t ticks = settings.fps.num;

@@ -13,7 +13,7 @@ namespace chainreel {
 struct VideoSettings {
   int width = 1920;
   int height = 1080;
-  FrameRate fps;
+  FrameRate fps{};
   double crf = 18;
 };
 

@@ -15,8 +15,8 @@ struct ProgramResult {
 };
 
 struct RunOptions {
-  std::string folder;                              // "": where the test runs, the root of the source tree
-  std::map<std::string, std::string> environment;  // set or replaced on top of the test's own
+  std::string folder{};                              // "": where the test runs, the root of the source tree
+  std::map<std::string, std::string> environment{};  // set or replaced on top of the test's own
   double timeout_s = 120;
 };
 

@@ -38,26 +38,6 @@ std::uint64_t big_endian(const std::array<unsigned char, 16>& bytes, std::size_t
   return value;
 }
 
-// Walks the top-level boxes of an MP4 (ISO/IEC 14496-12, 4.2): size, four letters, for size 1 a 64-bit size.
-bool has_index_first(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::array<unsigned char, 16> head{};
-  while (stream.read(reinterpret_cast<char*>(head.data()), 8)) {
-    const std::string kind(reinterpret_cast<const char*>(head.data()) + 4, 4);
-    if (kind == "moov") return true;
-    if (kind == "mdat") return false;
-    std::uint64_t size = big_endian(head, 0, 4);
-    std::uint64_t read = 8;
-    if (size == 1 && stream.read(reinterpret_cast<char*>(head.data()) + 8, 8)) {
-      size = big_endian(head, 8, 8);
-      read = 16;
-    }
-    if (size < read) return false;
-    stream.seekg(static_cast<std::streamoff>(size - read), std::ios::cur);
-  }
-  return false;
-}
-
 Image to_image(const AVFrame& frame) {
   Image image(frame.width, frame.height);
   const std::unique_ptr<SwsContext, FreeScaler> scaler(check_allocated(
@@ -77,7 +57,7 @@ Image to_image(const AVFrame& frame) {
 
 InputPtr open_input(const std::string& path) {
   AVFormatContext* raw = nullptr;
-  check_libav(avformat_open_input(&raw, path.c_str(), nullptr, nullptr), ExitCode::bad_input,
+  check_libav(avformat_open_input(&raw, ("file:" + path).c_str(), nullptr, nullptr), ExitCode::bad_input,
               "cannot be opened", path);
   InputPtr input(raw);
   check_libav(avformat_find_stream_info(raw, nullptr), ExitCode::bad_input, "holds no readable stream", path);
@@ -132,6 +112,26 @@ void take_frames(VideoFacts& facts, AVCodecContext& decoder, const AVStream& str
 }
 
 }  // namespace
+
+// Walks the top-level boxes of an MP4 (ISO/IEC 14496-12, 4.2): size, four letters, for size 1 a 64-bit size.
+bool has_index_first(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::array<unsigned char, 16> head{};
+  while (stream.read(reinterpret_cast<char*>(head.data()), 8)) {
+    const std::string kind(reinterpret_cast<const char*>(head.data()) + 4, 4);
+    if (kind == "moov") return true;
+    if (kind == "mdat") return false;
+    std::uint64_t size = big_endian(head, 0, 4);
+    std::uint64_t read = 8;
+    if (size == 1 && stream.read(reinterpret_cast<char*>(head.data()) + 8, 8)) {
+      size = big_endian(head, 8, 8);
+      read = 16;
+    }
+    if (size < read) return false;
+    stream.seekg(static_cast<std::streamoff>(size - read), std::ios::cur);
+  }
+  return false;
+}
 
 VideoFacts probe_video(const std::string& path) {
   capture_libav_log();

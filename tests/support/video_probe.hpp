@@ -37,4 +37,7 @@ struct VideoFacts {
 // Throws Error (exit 3) where the file cannot be opened or any part of it cannot be decoded.
 VideoFacts probe_video(const std::string& path);
 
+// Whether an MP4 can play before it is loaded whole: its box moov stands before mdat.
+bool has_index_first(const std::string& path);
+
 }  // namespace chainreel

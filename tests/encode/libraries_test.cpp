@@ -1,0 +1,25 @@
+#include "encode/libraries.hpp"
+
+#include <gmock/gmock.h>
+
+namespace chainreel {
+namespace {
+
+TEST(Libraries, NameTheirVersionsOnce) {
+  const std::vector<LibraryVersion> versions = encode_library_versions();
+  std::vector<std::string> names;
+  for (const LibraryVersion& library : versions) {
+    names.push_back(library.name);
+    EXPECT_THAT(library.version, testing::ContainsRegex("^[0-9]+\\.[0-9]+")) << library.name;
+  }
+  EXPECT_THAT(names,
+              testing::UnorderedElementsAre("FFmpeg", "libavcodec", "libavformat", "libavutil", "libpng"));
+}
+
+TEST(Libraries, DebiansFfmpegHasEveryEncoderTheProgramCaresFor) {
+  EXPECT_THAT(available_encoders(),
+              testing::ElementsAre("libx264", "libvpx-vp9", "prores_ks", "gif", "apng", "png"));
+}
+
+}  // namespace
+}  // namespace chainreel

@@ -1,0 +1,291 @@
+#include "encode/video_writer.hpp"
+
+#include <gmock/gmock.h>
+#include <sched.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/error.hpp"
+#include "encode/test_pictures.hpp"
+#include "support/picture_compare.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/video_probe.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 192, kHeight = 108;
+
+void write_discs(const std::string& path, int frames, FrameRate fps = {60, 1}) {
+  VideoWriter writer(path, {.width = kWidth, .height = kHeight, .fps = fps});
+  for (int k = 0; k < frames; ++k) writer.write(disc_picture(kWidth, kHeight, k));
+  writer.finish();
+}
+
+template <class Action>
+Error error_of(Action action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error;
+  }
+  return Error(ExitCode::good, "nothing was thrown");
+}
+
+// Everything that the decoded film must be, told as one text of what does not hold; empty for a good film.
+std::string film_faults(const std::string& path, int frames, FrameRate fps) {
+  VideoFacts film;
+  try {
+    film = probe_video(path);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  std::string faults;
+  const auto require = [&](bool holds, const char* what) {
+    if (!holds) faults += std::string(what) + "; ";
+  };
+  require(film.codec == "h264" && film.profile == "High" && film.pixel_format == "yuv420p", "codec");
+  require(film.width == kWidth && film.height == kHeight && film.pixel_aspect == Ratio{1, 1}, "size");
+  require(film.fps == Ratio{fps.num, fps.den}, "fps");
+  require(film.frames == frames && film.declared_frames == frames, "frames");
+  require(film.duration == Ratio{std::int64_t(frames) * fps.den, fps.num}, "duration");
+  require(
+      film.primaries == "bt709" && film.transfer == "bt709" && film.matrix == "bt709" && film.range == "tv",
+      "colour");
+  require(film.index_first, "index");
+  require(film.regular, "times");
+  return faults;
+}
+
+class VideoWriterAtRate : public testing::TestWithParam<FrameRate> {};
+
+TEST_P(VideoWriterAtRate, DecodesToWhatWasAskedFor) {
+  const TemporaryFolder folder;
+  const FrameRate fps = GetParam();
+  for (const int frames : {1, 2, 3, 47}) {
+    const std::string path = folder.file(std::to_string(frames) + ".mp4");
+    write_discs(path, frames, fps);
+    EXPECT_EQ(film_faults(path, frames, fps), "") << frames;
+    // The file's own duration is told in microseconds: half of one, rounded.
+    const VideoFacts film = probe_video(path);
+    EXPECT_NEAR(double(film.movie_duration.num) / double(film.movie_duration.den),
+                double(frames) * fps.den / fps.num, 1e-6);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Rates, VideoWriterAtRate,
+                         testing::Values(FrameRate{60, 1}, FrameRate{25, 1}, FrameRate{30000, 1001},
+                                         FrameRate{1, 1}, FrameRate{24000, 1001}, FrameRate{240, 1}));
+
+TEST(VideoWriter, EveryTwoSecondsThereIsAKeyFrameAndNoneBetween) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("keys.mp4");
+  VideoWriter writer(path, {.width = kWidth, .height = kHeight, .fps = {25, 1}});
+  // A cut in the middle of a group must not start a new one.
+  for (int k = 0; k < 170; ++k)
+    writer.write(k < 70 ? disc_picture(kWidth, kHeight, k)
+                        : random_picture(kWidth, kHeight, unsigned(k / 90)));
+  writer.finish();
+  EXPECT_THAT(probe_video(path).key_frames, testing::ElementsAre(0, 50, 100, 150));
+}
+
+TEST(VideoWriter, FlatColoursComeBackWithinThreeCodes) {
+  const TemporaryFolder folder;
+  // Link fills, ellipse, vectors, ink, page and the corners of the cube.
+  for (const unsigned rgb : {0x5159FDu, 0x56B4E9u, 0xE69F00u, 0x009E73u, 0xCC79A7u, 0x873C56u, 0x193C09u,
+                             0x1A1A1Au, 0xFFFFFFu, 0x000000u, 0xFF0000u, 0x00FF00u, 0x0000FFu}) {
+    const std::string path = folder.file("flat.mp4");
+    const Image image = flat_picture(64, 64, pixel_of(rgb));
+    VideoWriter writer(path, {.width = 64, .height = 64});
+    for (int k = 0; k < 5; ++k) writer.write(image);
+    writer.finish();
+    // A code of Cb is 1.8556 * 255/224 = 2.1 of blue; with Y rounded too and the quantiser at CRF 18, 3
+    // codes.
+    EXPECT_TRUE(pictures_agree(probe_video(path).middle, image, {.max = 3, .mean = 2}, "flat_colour"))
+        << std::hex << rgb;
+  }
+}
+
+TEST(VideoWriter, FramesStandWhereTheyWereWritten) {
+  const TemporaryFolder folder;
+  write_discs(folder.file("discs.mp4"), 41);
+  const VideoFacts film = probe_video(folder.file("discs.mp4"));
+  // Flat areas are exact to 3 codes (above); along the disc's edge 2x2 pixels share their colour and the
+  // quantiser rings: up to 82 in one pixel and 0.24 on average. One frame off is four times that, as the last
+  // line shows.
+  const PictureTolerance tolerance{.max = 100, .mean = 0.5};
+  EXPECT_TRUE(pictures_agree(film.first, disc_picture(kWidth, kHeight, 0), tolerance, "disc_first"));
+  EXPECT_TRUE(pictures_agree(film.middle, disc_picture(kWidth, kHeight, 20), tolerance, "disc_middle"));
+  EXPECT_TRUE(pictures_agree(film.last, disc_picture(kWidth, kHeight, 40), tolerance, "disc_last"));
+  EXPECT_FALSE(pictures_agree(film.middle, disc_picture(kWidth, kHeight, 21), tolerance, "disc_control"));
+}
+
+TEST(VideoWriter, TwoRunsGiveTheSameBytes) {
+  const TemporaryFolder folder;
+  write_discs(folder.file("a.mp4"), 130);
+  write_discs(folder.file("b.mp4"), 130);
+  EXPECT_EQ(read_whole_file(folder.file("a.mp4")), read_whole_file(folder.file("b.mp4")));
+  // ... which would also hold if the file did not depend on the frames.
+  write_discs(folder.file("c.mp4"), 129);
+  EXPECT_NE(read_whole_file(folder.file("a.mp4")), read_whole_file(folder.file("c.mp4")));
+}
+
+TEST(VideoWriter, TheNumberOfCoresDoesNotChangeTheBytes) {
+  const TemporaryFolder folder;
+  write_discs(folder.file("all.mp4"), 130);
+  cpu_set_t all, one;
+  ASSERT_EQ(sched_getaffinity(0, sizeof all, &all), 0);
+  CPU_ZERO(&one);
+  for (int cpu = 0; cpu < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++cpu)
+    if (CPU_ISSET(cpu, &all)) CPU_SET(cpu, &one);
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+  write_discs(folder.file("one.mp4"), 130);
+  ASSERT_EQ(sched_setaffinity(0, sizeof all, &all), 0);
+  EXPECT_EQ(read_whole_file(folder.file("all.mp4")), read_whole_file(folder.file("one.mp4")));
+}
+
+TEST(VideoWriter, SaysNothingAboutTheTimeOfWriting) {
+  const TemporaryFolder folder;
+  write_discs(folder.file("a.mp4"), 3);
+  const std::string bytes = read_whole_file(folder.file("a.mp4"));
+  EXPECT_THAT(bytes, testing::Not(HasSubstr("Lavf")));
+  // Box mvhd: four letters, version and flags, then creation and modification time.
+  const std::size_t mvhd = bytes.find("mvhd");
+  ASSERT_NE(mvhd, std::string::npos);
+  EXPECT_EQ(bytes.substr(mvhd + 8, 8), std::string(8, '\0'));
+}
+
+TEST(VideoWriter, OddSidesNameTheNearestLegalSizes) {
+  const Error error = error_of([] { require_even_sides(641, 360); });
+  EXPECT_EQ(error.code(), ExitCode::usage);
+  EXPECT_THAT(error.what(), HasSubstr("640x360 and 642x360"));
+  EXPECT_THAT(error_of([] { require_even_sides(641, 361); }).what(), HasSubstr("640x360 and 642x362"));
+  EXPECT_THAT(error_of([] { require_even_sides(1, 0); }).what(), HasSubstr("nearest legal size is 2x2"));
+  EXPECT_THAT(error_of([] { require_even_sides(100000, 360); }).what(),
+              HasSubstr("nearest legal size is 16384x360"));
+  EXPECT_EQ(error_of([] { require_even_sides(640, 360); }).code(), ExitCode::good);
+
+  const TemporaryFolder folder;
+  EXPECT_EQ(error_of([&] { VideoWriter(folder.file("odd.mp4"), {.width = 641, .height = 360}); }).code(),
+            ExitCode::usage);
+  EXPECT_FALSE(fs::exists(folder.file("odd.mp4")));
+}
+
+TEST(VideoWriter, TheSmallestLegalFilmIsWritten) {
+  const TemporaryFolder folder;
+  VideoWriter writer(folder.file("small.mp4"), {.width = 2, .height = 2});
+  writer.write(flat_picture(2, 2, pixel_of(0x808080)));
+  writer.finish();
+  EXPECT_EQ(probe_video(folder.file("small.mp4")).frames, 1);
+}
+
+TEST(VideoWriter, SettingsThatMakeNoFilmAreUsageErrors) {
+  const TemporaryFolder folder;
+  for (const FrameRate fps : {FrameRate{0, 1}, FrameRate{60, 0}, FrameRate{-60, 1}})
+    EXPECT_EQ(error_of([&] { VideoWriter(folder.file("a.mp4"), {.fps = fps}); }).code(), ExitCode::usage);
+  for (const double crf : {-1.0, 52.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_EQ(error_of([&] { VideoWriter(folder.file("a.mp4"), {.crf = crf}); }).code(), ExitCode::usage);
+  VideoWriter writer(folder.file("a.mp4"), {.width = 64, .height = 64});
+  EXPECT_EQ(error_of([&] { writer.write(flat_picture(64, 62, {})); }).code(), ExitCode::usage);
+}
+
+TEST(VideoWriter, AFullDiskIsAFileError) {
+  const auto write_to_full_disk = [](int frames) {
+    VideoWriter writer("/dev/full", {.width = kWidth, .height = kHeight});
+    for (int k = 0; k < frames; ++k) writer.write(random_picture(kWidth, kHeight, unsigned(k)));
+    writer.finish();
+  };
+  EXPECT_EQ(error_of([&] { write_to_full_disk(100); }).code(), ExitCode::file);  // while frames are written
+  EXPECT_EQ(error_of([&] { write_to_full_disk(1); }).code(),
+            ExitCode::file);  // when the buffer is handed over
+  EXPECT_THAT(error_of([&] { write_to_full_disk(1); }).what(), HasSubstr("No space left on device"));
+}
+
+TEST(VideoWriter, APlaceThatCannotBeWrittenIsAFileErrorAtOnce) {
+  for (const char* path : {"/nonexistent/folder/a.mp4", "/proc/a.mp4", "/"}) {
+    const Error error = error_of([&] { VideoWriter(path, {.width = 64, .height = 64}); });
+    EXPECT_EQ(error.code(), ExitCode::file) << path;
+    EXPECT_THAT(error.what(), HasSubstr(path));
+  }
+}
+
+TEST(VideoWriter, PathsThatLookLikeProtocolsAreFiles) {
+  const TemporaryFolder folder;
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path());
+  const std::string path = "a:b c%d.mp4";
+  write_discs(path, 2);
+  fs::current_path(before);
+  EXPECT_TRUE(fs::exists(folder.path() / path));
+}
+
+TEST(VideoWriter, WithoutAFrameThereIsAnErrorAndNoFile) {
+  const TemporaryFolder folder;
+  {
+    VideoWriter writer(folder.file("none.mp4"), {.width = 64, .height = 64});
+    const Error error = error_of([&] { writer.finish(); });
+    EXPECT_EQ(error.code(), ExitCode::bad_input);
+    EXPECT_THAT(error.what(), HasSubstr("no frame"));
+  }
+  EXPECT_FALSE(fs::exists(folder.file("none.mp4")));
+}
+
+TEST(VideoWriter, AnUnfinishedFilmIsTakenAway) {
+  const TemporaryFolder folder;
+  {
+    VideoWriter writer(folder.file("part.mp4"), {.width = 64, .height = 64});
+    writer.write(flat_picture(64, 64, {}));
+  }
+  EXPECT_FALSE(fs::exists(folder.file("part.mp4")));
+}
+
+// Negative controls of the probe.
+
+TEST(VideoProbe, AnotherLengthRateOrSizeIsSeen) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.mp4");
+  write_discs(path, 12, {25, 1});
+  EXPECT_EQ(film_faults(path, 12, {25, 1}), "");
+  EXPECT_THAT(film_faults(path, 13, {25, 1}), HasSubstr("frames"));
+  EXPECT_THAT(film_faults(path, 12, {24, 1}), HasSubstr("fps"));
+  EXPECT_THAT(film_faults(path, 12, {24, 1}), HasSubstr("duration"));
+}
+
+TEST(VideoProbe, ATamperedFilmFails) {
+  const TemporaryFolder folder;
+  write_discs(folder.file("good.mp4"), 60);
+  const std::string good = read_whole_file(folder.file("good.mp4"));
+
+  EXPECT_EQ(film_faults(folder.write("copy.mp4", good), 60, {60, 1}), "");
+
+  EXPECT_NE(film_faults(folder.write("cut.mp4", good.substr(0, good.size() * 2 / 3)), 60, {60, 1}), "");
+
+  // Noise in the middle of the pictures.
+  std::string noisy = good;
+  for (std::size_t i = good.size() / 2; i < good.size() / 2 + 400; ++i)
+    noisy[i] = static_cast<char>(noisy[i] ^ 0x5A);
+  EXPECT_NE(film_faults(folder.write("noisy.mp4", noisy), 60, {60, 1}), "");
+
+  // One time step in the index made longer: box stts, version, count, then (samples, ticks) pairs.
+  std::string stretched = good;
+  const std::size_t stts = stretched.find("stts");
+  ASSERT_NE(stts, std::string::npos);
+  ++stretched[stts + 4 + 4 + 4 + 4 + 3];
+  EXPECT_NE(film_faults(folder.write("stretched.mp4", stretched), 60, {60, 1}), "");
+}
+
+TEST(VideoProbe, AnIndexAtTheEndIsSeen) {
+  const TemporaryFolder folder;
+  write_discs(folder.file("good.mp4"), 10);
+  EXPECT_TRUE(has_index_first(folder.file("good.mp4")));
+  // A box of data put before everything else.
+  const std::string bytes = std::string("\0\0\0\x08mdat", 8) + read_whole_file(folder.file("good.mp4"));
+  EXPECT_FALSE(has_index_first(folder.write("late.mp4", bytes)));
+}
+
+}  // namespace
+}  // namespace chainreel
