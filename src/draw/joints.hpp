@@ -1,0 +1,46 @@
+// The marks of joints, rails, ground and end effector: each at a place of the page, in the sizes of the
+// theme.
+#pragma once
+
+#include "draw/look.hpp"
+#include "picture/picture.hpp"
+
+namespace chainreel {
+
+// Sizes that belong to the marks alone, in units of H.
+inline constexpr double kPinHeight = 0.038;  // from a joint on the ground down to the ground line
+inline constexpr double kPinWidth = 0.052;
+inline constexpr double kRailOverhang = 0.048;  // of a rail beyond the outermost middle of its carriage
+inline constexpr double kCarrierLength =
+    0.118;  // of a carriage that carries a rail itself: seen on both its sides
+
+// A straight part of a rail or body on the page, from `a` to `b`.
+struct PageLine {
+  Point a, b;
+};
+
+Point unit(Point v);           // (1, 0) where v has no length
+Point normal_to(Point along);  // a quarter turn to the left
+
+void draw_line(Picture& picture, PageLine line, double width, Color color, int clip);
+void draw_revolute(Picture& picture, Point center, const ChainLook& look, int clip);
+void draw_end_effector(Picture& picture, Point center, const ChainLook& look, int clip);
+
+// Two lines with end stops between the outermost middles of the carriage.
+void draw_rail(Picture& picture, PageLine way, Color fill, const ChainLook& look, int clip);
+// The block that slides along `along`; `carrier`: it has a rail of its own.
+void draw_carriage(Picture& picture, Point center, Point along, bool carrier, Color fill,
+                   const ChainLook& look, int clip);
+
+// The line of the ground through `line`, hatched on the side of `inside` (a unit vector).
+void draw_ground(Picture& picture, PageLine line, Point inside, const ChainLook& look, int clip);
+// A joint that is pinned to the ground below it; `center` is the joint.
+void draw_pin(Picture& picture, Point center, const ChainLook& look, int clip);
+// The ground under a rail that is fixed to it, along the whole rail.
+void draw_rail_ground(Picture& picture, PageLine way, const ChainLook& look, int clip);
+
+// How far the ground reaches from a pinned joint, from a rail's middle line.
+double pin_depth();
+double rail_ground_depth();
+
+}  // namespace chainreel

@@ -1,0 +1,53 @@
+// Colours and sizes of one chain's drawing, decided once per clip from the theme and the camera.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/skeleton.hpp"
+#include "picture/camera.hpp"
+#include "picture/theme.hpp"
+
+namespace chainreel {
+
+// A link is this much of the shortest link wide where that is less than size::kLinkWidth.
+inline constexpr double kLinkWidthOfShortest = 0.09;
+// Chains of very short links keep links that can be seen.
+inline constexpr double kThinnestLink = 0.010;
+
+struct ChainLook {
+  const Theme* theme = nullptr;
+  double strength = 1;  // of all colours, mixed with the background: 1 full, 0.25 an onion skin
+  double link_width = size::kLinkWidth;
+  double joint_disc = size::kJointDisc;
+};
+
+inline double link_width_on_page(const Skeleton& skeleton, double scale) {
+  const double bound = kLinkWidthOfShortest * skeleton.shortest_link * scale;
+  return skeleton.links.empty() ? size::kLinkWidth : std::clamp(bound, kThinnestLink, size::kLinkWidth);
+}
+
+inline ChainLook look_of(const Skeleton& skeleton, const Camera& camera, const Theme& theme,
+                         double strength = 1) {
+  const double width = link_width_on_page(skeleton, camera.scale);
+  return {&theme, strength, width, std::min(size::kJointDisc, 1.1 * width)};
+}
+
+// An opaque colour between the background (0) and `color` (1): onion skins hide what lies behind them, so
+// that their inner outlines do not shine through.
+inline Color toned(Color color, const ChainLook& look) {
+  const Color back = look.theme->background;
+  const auto mix = [&](std::uint8_t from, std::uint8_t to) {
+    return std::uint8_t(std::lround(from + look.strength * (double(to) - from)));
+  };
+  return {mix(back.r, color.r), mix(back.g, color.g), mix(back.b, color.b), color.a};
+}
+
+// `tint` of the way from the background to the colour.
+inline Color tinted(Color color, double tint, const ChainLook& look) {
+  ChainLook paler = look;
+  paler.strength *= tint;
+  return toned(color, paler);
+}
+
+}  // namespace chainreel

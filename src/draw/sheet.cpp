@@ -1,0 +1,216 @@
+#include "draw/sheet.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kCapHeight =
+    0.73;  // of the em: base lines are set so that capitals stand in the middle of a row
+constexpr double kTextGap = 0.05;   // between texts that share a row
+constexpr double kRowPitch = 1.5;   // of the em, for further rows
+constexpr double kBarTick = 0.012;  // height of the ticks at the ends of a scale bar
+constexpr double kBarToText = 0.014;
+constexpr double kRoundOff = 1e-12;  // a text that just fills its row fits
+
+using LayOut = TextLine (*)(const Fonts&, const std::string&, const TextStyle&);
+
+// Advances are proportional to the size, so one correction is enough.
+TextLine fit_line(LayOut lay_out, const Fonts& fonts, const std::string& text, TextStyle style, double width,
+                  double text_scale) {
+  TextLine line = lay_out(fonts, text, style);
+  if (line.advance <= width) return line;
+  style.size =
+      std::max(style.size * width / line.advance, std::min(style.size, scaled(kSmallestText, text_scale)));
+  return lay_out(fonts, text, style);
+}
+
+double baseline(double bottom, double top, double text_size) {
+  return (bottom + top - kCapHeight * text_size) / 2;
+}
+
+struct Builder {
+  Sheet sheet;
+  const Fonts& fonts;
+  double left, right, top, bottom;  // what is still free inside the margins
+
+  double width() const { return right - left; }
+  TextStyle style(Face face, double size, Color color, Align align = Align::left) const {
+    return {face, scaled(size, sheet.text_scale), color, align};
+  }
+  void place(TextLine line, Point anchor) { sheet.texts.push_back({std::move(line), anchor}); }
+};
+
+void build_title_band(Builder& b, const SheetText& text) {
+  if (text.title.empty() && text.torque.empty()) return;
+  const Theme& theme = *b.sheet.theme;
+  const double title_size = scaled(size::kTitle, b.sheet.text_scale);
+  const double torque_size = scaled(size::kEquation, b.sheet.text_scale);
+  double row_bottom = b.top - size::kTitleBand * b.sheet.text_scale;
+  double title_end = b.left;
+  if (!text.title.empty()) {
+    TextLine line = fit_text(b.fonts, text.title, b.style(Face::label_bold, size::kTitle, theme.ink),
+                             b.width(), b.sheet.text_scale);
+    if (line.advance > b.width() + kRoundOff) {
+      throw Error(ExitCode::bad_input,
+                  "the title does not fit on the page: shorten it (at most seven words read well)",
+                  text.title_place);
+    }
+    title_end += line.advance + kTextGap;
+    b.place(std::move(line), {b.left, baseline(row_bottom, b.top, title_size)});
+  }
+  if (!text.torque.empty()) {
+    const TextStyle style = b.style(Face::math, size::kEquation, theme.ink);
+    TextLine line = fit_math(b.fonts, text.torque, style, b.width(), b.sheet.text_scale);
+    const bool beside = title_end + line.advance <= b.right;
+    double row_top = b.top;
+    if (!beside) {
+      row_top = row_bottom + 0.2 * torque_size;  // the title's row has air below it
+      row_bottom = row_top - kRowPitch * torque_size;
+    }
+    const double x = beside && !text.title.empty() ? b.right - line.advance : b.left;
+    b.place(std::move(line), {x, baseline(row_bottom, row_top, torque_size)});
+  }
+  b.top = row_bottom;
+}
+
+// The legend in one line, or broken behind its colon, so that each line fits.
+std::vector<TextLine> legend_lines(const Builder& b, const std::string& legend) {
+  if (legend.empty()) return {};
+  const TextStyle style = b.style(Face::label, size::kAxis, b.sheet.theme->muted);
+  TextLine whole = lay_out_text(b.fonts, legend, style);
+  const std::size_t colon = legend.find(": ");
+  std::vector<TextLine> lines;
+  if (whole.advance <= b.width() || colon == std::string::npos) {
+    lines.push_back(fit_text(b.fonts, legend, style, b.width(), b.sheet.text_scale));
+  } else {
+    for (const std::string& part : {legend.substr(0, colon + 1), legend.substr(colon + 2)}) {
+      lines.push_back(fit_text(b.fonts, part, style, b.width(), b.sheet.text_scale));
+    }
+  }
+  return lines;
+}
+
+void place_bar(Builder& b, TextLine label, double row_bottom, double row_top) {
+  const double middle = (row_bottom + row_top) / 2;
+  b.sheet.bar = Point{b.left, middle};
+  b.place(std::move(label), {b.left + b.sheet.bar_length + kBarToText,
+                             baseline(row_bottom, row_top, scaled(size::kTick, b.sheet.text_scale))});
+}
+
+void build_footer_band(Builder& b, const SheetText& text) {
+  if (text.longest_time.empty() && text.bar.empty() && text.legend.empty()) return;
+  const Theme& theme = *b.sheet.theme;
+  const double row = size::kFooterBand * b.sheet.text_scale, axis = scaled(size::kAxis, b.sheet.text_scale);
+  const TextLine time =
+      lay_out_text(b.fonts, text.longest_time, b.style(Face::label, size::kAxis, theme.ink));
+  TextLine bar = lay_out_text(b.fonts, text.bar, b.style(Face::label, size::kTick, theme.ink));
+  std::vector<TextLine> legend = legend_lines(b, text.legend);
+
+  const double time_width = text.longest_time.empty() ? 0 : time.advance + kTextGap;
+  const double bar_width = text.bar.empty() ? 0 : text.bar_length + kBarToText + bar.advance;
+  const double bar_to_legend = text.bar.empty() ? 0 : kTextGap / 2;
+  const bool one_row =
+      legend.size() <= 1 &&
+      bar_width + bar_to_legend + time_width + (legend.empty() ? 0 : legend[0].advance) <= b.width();
+  const bool bar_beside_time = bar_width + time_width <= b.width();
+
+  // Rows from the bottom up: time, scale bar, legend.
+  double row_bottom = b.bottom, row_top = b.bottom + row;
+  b.sheet.time_anchor = {b.right, baseline(row_bottom, row_top, axis)};
+  if (!text.bar.empty()) {
+    if (!bar_beside_time) {
+      row_bottom = row_top;
+      row_top += kRowPitch * axis;
+    }
+    b.sheet.bar_length = text.bar_length;
+    place_bar(b, std::move(bar), row_bottom, row_top);
+  }
+  const bool row_taken = !text.bar.empty() || !text.longest_time.empty();
+  for (std::size_t i = legend.size(); i-- > 0;) {
+    if (!one_row && (row_taken || i + 1 < legend.size())) {
+      row_bottom = row_top;
+      row_top += kRowPitch * axis;
+    }
+    const double x = b.left + (one_row ? bar_width + bar_to_legend : 0);
+    b.place(std::move(legend[i]), {x, baseline(row_bottom, row_top, axis)});
+  }
+  b.bottom = row_top;
+}
+
+}  // namespace
+
+double round_length(double most) {
+  const double decade = std::pow(10.0, std::floor(std::log10(most)));
+  for (const double step : {5.0, 2.0}) {
+    if (step * decade <= most) return step * decade;
+  }
+  return decade;
+}
+
+double scaled(double size, double text_scale) {
+  return std::max(size * text_scale, kSmallestText);
+}
+
+TextLine fit_text(const Fonts& fonts, const std::string& text, TextStyle style, double width,
+                  double text_scale) {
+  return fit_line(&lay_out_text, fonts, text, style, width, text_scale);
+}
+
+TextLine fit_math(const Fonts& fonts, const std::vector<std::string>& forms, TextStyle style, double width,
+                  double text_scale) {
+  TextLine line;
+  for (const std::string& form : forms) {
+    line = fit_line(&lay_out_math, fonts, form, style, width, text_scale);
+    if (line.advance <= width + kRoundOff) break;
+  }
+  return line;
+}
+
+std::string time_text(double t) {
+  return "t = " + format_fixed(t, 2) + " s";
+}
+
+Sheet lay_out_sheet(const SheetText& text, double aspect, double text_scale, const Theme& theme,
+                    const Fonts& fonts) {
+  Builder b{{}, fonts, size::kMargin, aspect - size::kMargin, 1 - size::kMargin, size::kMargin};
+  b.sheet.aspect = aspect;
+  b.sheet.text_scale = text_scale;
+  b.sheet.theme = &theme;
+  build_title_band(b, text);
+  build_footer_band(b, text);
+  if (!(b.top - b.bottom > 0.1)) {
+    throw Error(ExitCode::bad_input,
+                "title, torques and legend leave no room for the scene: draw fewer of them or "
+                "lower text_scale",
+                text.title_place);
+  }
+  b.sheet.scene = {b.left, b.bottom, b.right, b.top};
+  return b.sheet;
+}
+
+void draw_sheet(Picture& picture, const Sheet& sheet) {
+  for (const PlacedText& text : sheet.texts) draw_text(picture, text.line, text.anchor);
+  if (sheet.bar) draw_scale_bar(picture, *sheet.bar, sheet.bar_length, sheet.theme->ellipse);
+}
+
+void draw_time(Picture& picture, const Sheet& sheet, double t, const Fonts& fonts) {
+  // Figures of the label face are equally wide, so right alignment keeps every digit in its place.
+  const TextStyle style{Face::label, scaled(size::kAxis, sheet.text_scale), sheet.theme->ink, Align::right};
+  draw_text(picture, lay_out_text(fonts, time_text(t), style), sheet.time_anchor);
+}
+
+void draw_scale_bar(Picture& picture, Point at, double length, Color color, int clip) {
+  const double r = size::kScaleBar / 2;
+  const Point end{at.x + length, at.y};
+  picture.add(Capsule{at, end, r, {color, {}, 0}}, clip);
+  for (const Point p : {at, end}) {
+    picture.add(Capsule{{p.x, p.y - kBarTick / 2}, {p.x, p.y + kBarTick / 2}, r, {color, {}, 0}}, clip);
+  }
+}
+
+}  // namespace chainreel

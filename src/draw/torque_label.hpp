@@ -1,0 +1,18 @@
+// What acts at the joints, as the lecture's slides write it: "tau = (10, 10, 10) N m".
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/chain.hpp"
+#include "sim/torque.hpp"
+
+namespace chainreel {
+
+// In the notation of lay_out_math: first every entry as the scene wrote it, then ever shorter forms for pages
+// where that does not fit, the last one naming no entry at all. Unit N m where all joints are revolute, N
+// where all are prismatic, none where they differ. No entries mean that no torque acts. Empty for a chain
+// that cannot move.
+std::vector<std::string> torque_notations(const Chain& chain, const std::vector<TorqueEntry>& torque);
+
+}  // namespace chainreel

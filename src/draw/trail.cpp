@@ -1,0 +1,76 @@
+#include "draw/trail.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "picture/theme.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kOffPage = 100;              // in units of H: a run that diverged
+constexpr double kSmoothSeconds = 1 / 120.0;  // pieces of the trail are no longer than this
+
+// 1 at the head, 0 at the end of the trail.
+double freshness(double age) {
+  return std::clamp(1 - age / kTrailSeconds, 0.0, 1.0);
+}
+
+TrailPoint trail_point(const TipPath& path, double t, double now) {
+  const double fresh = freshness(now - t);
+  return {path.at(t), size::kTrailTail + fresh * (size::kTrailHead - size::kTrailTail),
+          kTrailOpacity * fresh};
+}
+
+}  // namespace
+
+void TipPath::add(double t, Point place, Point speed) {
+  const bool gap = !(std::abs(place.x) < kOffPage && std::abs(place.y) < kOffPage && std::isfinite(speed.x) &&
+                     std::isfinite(speed.y));
+  t_.push_back(t);
+  place_.push_back(gap ? Point{} : place);
+  speed_.push_back(gap ? Point{} : speed);
+  gap_.push_back(gap);
+}
+
+Point TipPath::at(double t) const {
+  const auto after = std::upper_bound(t_.begin(), t_.end(), t);
+  if (after == t_.begin()) return place_.front();
+  if (after == t_.end()) return place_.back();
+  const std::size_t i = std::size_t(after - t_.begin()) - 1;
+  const double h = t_[i + 1] - t_[i], s = (t - t_[i]) / h;
+  const double s2 = s * s, s3 = s2 * s;
+  return (2 * s3 - 3 * s2 + 1) * place_[i] + ((s3 - 2 * s2 + s) * h) * speed_[i] +
+         (3 * s2 - 2 * s3) * place_[i + 1] + ((s3 - s2) * h) * speed_[i + 1];
+}
+
+double TipPath::gapless_since(int k, double t) const {
+  for (int i = k; i >= 0; --i) {
+    if (gap_[std::size_t(i)]) return i == k ? t_[std::size_t(k)] : t_[std::size_t(i) + 1];
+    if (t_[std::size_t(i)] <= t) return t;
+  }
+  return t_.front();
+}
+
+void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip) {
+  const double now = path.time(k);
+  const double since = path.gapless_since(k, now - kTrailSeconds);
+  if (!(since < now)) return;
+  Trail trail;
+  trail.color = color;
+  const int pieces = int(std::ceil((now - since) / kSmoothSeconds));
+  for (int i = 0; i <= pieces; ++i) {
+    const double t = i == pieces ? now : since + i * ((now - since) / pieces);
+    trail.points.push_back(trail_point(path, t, now));
+  }
+  picture.add(std::move(trail), clip);
+
+  // The dots stand still while the trail moves on: they belong to whole tenths of a second of the film.
+  const double r = size::kTrailDot / 2;
+  for (int i = int(std::ceil(since / kTrailDotSeconds)); i * kTrailDotSeconds <= now; ++i) {
+    const TrailPoint at = trail_point(path, i * kTrailDotSeconds, now);
+    if (at.alpha > 0) picture.add(Ellipse{at.p, {r, 0}, {0, r}, {color.faded(at.alpha), {}, 0}}, clip);
+  }
+}
+
+}  // namespace chainreel

@@ -1,0 +1,39 @@
+// The way of the end effector behind it: the last second, thinner and fainter with age, with dots every 0.1
+// s.
+#pragma once
+
+#include <vector>
+
+#include "picture/picture.hpp"
+
+namespace chainreel {
+
+inline constexpr double kTrailSeconds = 1.0;
+inline constexpr double kTrailDotSeconds = 0.1;
+inline constexpr double kTrailOpacity = 0.7;
+
+// Where the end effector was on the page and how fast it moved there, at the frames.
+class TipPath {
+ public:
+  // `speed` in page units a second. A place off the page by far, or not finite, is a gap: no trail crosses
+  // it.
+  void add(double t, Point place, Point speed);
+
+  int size() const { return int(t_.size()); }
+  double time(int k) const { return t_[std::size_t(k)]; }
+  Point place(int k) const { return place_[std::size_t(k)]; }
+  // Between the frames: the cubic that has their places and speeds. `t` within the path.
+  Point at(double t) const;
+  // The frame after which no gap lies before frame k, not earlier than `t`.
+  double gapless_since(int k, double t) const;
+
+ private:
+  std::vector<double> t_;
+  std::vector<Point> place_, speed_;
+  std::vector<bool> gap_;
+};
+
+// The trail as it stands at frame k.
+void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip);
+
+}  // namespace chainreel
