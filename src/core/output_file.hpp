@@ -1,5 +1,5 @@
-// Nothing half-written ever bears the final name: an output is written to a temporary file in the same folder and
-// renamed when it is complete.
+// Nothing half-written ever bears the final name: an output is written to a temporary file in the same folder
+// and renamed when it is complete.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@ namespace chainreel {
 
 class OutputFile {
  public:
-  // Makes the folders that are missing. Throws Error (exit 6) where the folder cannot be written, or where `path`
-  // exists, `overwrite` is false and the file does not lie below a folder named `out`.
+  // Makes the folders that are missing. Throws Error (exit 6) where the folder cannot be written, or where
+  // `path` exists, `overwrite` is false and the file does not lie below a folder named `out`.
   explicit OutputFile(std::string path, bool overwrite);
   ~OutputFile();  // removes the temporary file unless committed
   OutputFile(const OutputFile&) = delete;
@@ -29,6 +29,10 @@ class OutputFile {
   bool done_ = false;
 };
 
+// Writes the whole text, then commits or keeps it as partial. Throws Error (exit 6) where the disk does not
+// take it all.
+void write_whole(OutputFile& output, std::string_view text);
+void write_partial(OutputFile& output, std::string_view text);
 // Writes a whole text in one go through an OutputFile.
 void write_text_file(const std::string& path, std::string_view text, bool overwrite);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,7 +15,6 @@ namespace chainreel {
 struct StartState {
   std::vector<double> q;   // empty: every joint at zero
   std::vector<double> qd;  // empty: at rest
-  Place place;
 };
 
 struct Video {
@@ -29,7 +29,6 @@ struct Scene {
   std::optional<Eigen::Vector3d> gravity;  // m/s^2; absent: by the plane of the chain
   StartState start;
   std::vector<TorqueEntry> torque;  // one a degree of freedom; empty: none acts
-  Place torque_place;
   Parameters parameters;
   std::string end_effector;  // "": link `gripper`, else the only leaf
   double duration = 10;      // s
@@ -39,8 +38,12 @@ struct Scene {
   double text_scale = 1;  // for clips used smaller than drawn
   Video video;
 
-  std::string file;  // where it was read; not a key
-  std::string name;  // the file's name without its ending; not a key
+  std::string file;                     // where it was read; not a key
+  std::string name;                     // the file's name without its ending; not a key
+  std::map<std::string, Place> places;  // where each key stood, by its dotted path; not a key
+
+  // For errors found later: the key's place, or the file where the scene left it out.
+  Place place_of(const std::string& key) const;
 };
 
 // The layers that `draw:` may name.

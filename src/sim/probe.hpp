@@ -1,5 +1,6 @@
-// What torques, events and plots may read at one instant: t, q1.., qd1.., the end effector's position x_G y_G z_G and
-// velocity xd_G yd_G zd_G, and the scene's parameters. Filled lazily: kinematics only where a reader needs them.
+// What torques, events and plots may read at one instant: t, q1.., qd1.., the end effector's position x_G y_G
+// z_G and velocity xd_G yd_G zd_G, and the scene's parameters. Filled lazily: kinematics only where a reader
+// needs them.
 #pragma once
 
 #include <span>

@@ -25,13 +25,15 @@ struct Trajectory {
   std::vector<double> work;  // a number a sample: integral of qd^T (tau - tau_f) dt since the start, J
 
   RunStatus status = RunStatus::finished;
-  double end_time = 0;     // reached, s
-  long steps = 0;          // taken
-  long evaluations = 0;    // of the forward dynamics
-  std::string trouble;     // one sentence where the status is not `finished`: time, step and joint
+  double end_time = 0;   // reached, s
+  long steps = 0;        // taken
+  long evaluations = 0;  // of the forward dynamics
+  std::string trouble;   // one sentence where the status is not `finished`: time, step and joint
 
   int size() const { return int(t.size()); }
-  std::span<const double> q_at(int k) const { return {q.data() + std::size_t(k) * std::size_t(nq), std::size_t(nq)}; }
+  std::span<const double> q_at(int k) const {
+    return {q.data() + std::size_t(k) * std::size_t(nq), std::size_t(nq)};
+  }
   std::span<const double> qd_at(int k) const {
     return {qd.data() + std::size_t(k) * std::size_t(nv), std::size_t(nv)};
   }

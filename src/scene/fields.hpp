@@ -1,0 +1,54 @@
+// Readers of single values: each adds to the list of problems what is wrong with its node and goes on.
+// Internal.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/frame_rate.hpp"
+#include "scene/yaml_document.hpp"
+
+namespace chainreel {
+
+// The keys of one mapping: every key must be asked for once before finish().
+class Fields {
+ public:
+  // `prefix` is the dotted path of the mapping, "" for the root.
+  Fields(const YamlDocument& document, const YAML::Node& map, std::string prefix, ProblemList& problems);
+
+  // The node of a key, or an undefined one. Remembers that the key is known.
+  YAML::Node find(const std::string& key);
+  Place place_of(const YAML::Node& node, const std::string& key) const;
+  std::string path(const std::string& key) const { return prefix_.empty() ? key : prefix_ + "." + key; }
+
+  // Each leaves `value` alone where the key is absent.
+  void read(const std::string& key, std::string& value);
+  void read(const std::string& key, double& value);
+  void read(const std::string& key, int& value);
+  void read(const std::string& key, FrameRate& value);
+  void read(const std::string& key, std::vector<double>& value);  // numbers, `90deg`, `pi/2`
+  void read(const std::string& key, std::optional<Eigen::Vector3d>& value);
+  void read(const std::string& key, std::vector<std::string>& value);
+
+  // Unknown keys are problems that name the nearest known one.
+  void finish();
+
+  ProblemList& problems() { return *problems_; }
+  const YamlDocument& document() const { return *document_; }
+
+ private:
+  std::optional<std::string> scalar(const YAML::Node& node, const std::string& key,
+                                    const std::string& wanted);
+  std::optional<double> number(const YAML::Node& node, const std::string& key);
+
+  const YamlDocument* document_;
+  YAML::Node map_;
+  std::string prefix_;
+  ProblemList* problems_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace chainreel

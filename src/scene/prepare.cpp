@@ -1,0 +1,89 @@
+#include "scene/prepare.hpp"
+
+#include <algorithm>
+
+#include "expr/expression.hpp"
+#include "model/read_chain.hpp"
+
+namespace chainreel {
+namespace {
+
+// Fills what is absent and refuses what has the wrong length.
+void check_length(std::vector<double>& values, const std::vector<double>& absent, const std::string& key,
+                  const Scene& scene, ProblemList& problems) {
+  if (values.empty()) {
+    values = absent;
+  } else if (values.size() != absent.size()) {
+    problems.add("'" + key + "' has " + std::to_string(values.size()) + " numbers, but the model " +
+                     scene.model + " needs " + std::to_string(absent.size()),
+                 scene.place_of(key));
+  }
+}
+
+void check_torque(Scene& scene, const Chain& chain, ProblemList& problems) {
+  if (scene.torque.empty()) scene.torque.resize(std::size_t(chain.nv));
+  if (scene.torque.size() == std::size_t(chain.nv)) return;
+  std::string joints;
+  for (const std::string& name : chain.coordinate_names) joints += (joints.empty() ? "" : ", ") + name;
+  problems.add("'torque' has " + std::to_string(scene.torque.size()) + " entries, but the model " +
+                   scene.model + " has " + std::to_string(chain.nv) + " freedoms (" + joints +
+                   "); an entry that holds a comma must be quoted, and decimals take a point",
+               scene.place_of("torque"));
+}
+
+// A parameter must be a name that expressions can read and that means nothing else there.
+void check_parameters(const Scene& scene, const Chain& chain, ProblemList& problems) {
+  const std::vector<std::string> taken = Probe(chain, {}).names();
+  for (const auto& [name, value] : scene.parameters) {
+    if (!is_variable_name(name) || std::find(taken.begin(), taken.end(), name) != taken.end())
+      problems.add(
+          "'" + name +
+              "' cannot name a parameter: take letters, digits and _, and no name that expressions know",
+          scene.place_of("parameters." + name));
+  }
+}
+
+void choose_end_effector(const Scene& scene, Chain& chain) {
+  if (!scene.end_effector.empty()) {
+    chain.end_effector = find_frame(chain, scene.end_effector);
+    std::vector<std::string> links;
+    for (const Frame& frame : chain.frames) links.push_back(frame.name);
+    if (chain.end_effector < 0)
+      throw Error(ExitCode::bad_input,
+                  "'end_effector' names no link of " + scene.model + ": '" + scene.end_effector + "';" +
+                      did_you_mean(scene.end_effector, links),
+                  scene.place_of("end_effector"));
+  }
+  require_end_effector(chain);
+}
+
+}  // namespace
+
+Simulation prepare(Scene& scene, bool meshes) {
+  ModelOptions options;
+  options.gravity = scene.gravity;
+  options.meshes = meshes;
+  Simulation simulation;
+  simulation.chain = read_chain(scene.model, options);
+  choose_end_effector(scene, simulation.chain);
+  const Chain& chain = simulation.chain;
+  scene.gravity = chain.gravity;
+  scene.end_effector = chain.frames[std::size_t(chain.end_effector)].name;
+
+  ProblemList problems;
+  check_length(scene.start.q, zero_configuration(chain), "start.q", scene, problems);
+  check_length(scene.start.qd, std::vector<double>(std::size_t(chain.nv)), "start.qd", scene, problems);
+  check_torque(scene, chain, problems);
+  check_parameters(scene, chain, problems);
+  problems.throw_if_any();
+
+  simulation.q0 = scene.start.q;
+  simulation.qd0 = scene.start.qd;
+  simulation.torque = make_torque_law(chain, scene.torque, scene.parameters);
+  simulation.method = &find_method(scene.method);
+  simulation.step = scene.step;
+  simulation.duration = scene.duration;
+  return simulation;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,201 @@
+#include "scene/read_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/format.hpp"
+#include "integrate/method.hpp"
+#include "scene/fields.hpp"
+#include "scene/quantity.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kLongestFrameCount = 1e7;
+constexpr int kLargestSide = 16384;  // pixels
+
+// A problem at a key's value unless `good`.
+void require(Fields& fields, const std::string& key, bool good, const std::string& message) {
+  if (good) return;
+  const YAML::Node node = fields.find(key);
+  fields.problems().add(message,
+                        node.IsDefined() ? fields.place_of(node, key) : Place{fields.document().file, 0, 0});
+}
+
+void read_model(Fields& fields, Scene& scene) {
+  fields.read("model", scene.model);
+  if (scene.model.empty()) {
+    require(fields, "model", false, "the scene names no model: write `model: ../../models/rr.urdf`");
+    return;
+  }
+  const std::filesystem::path named(scene.model);
+  const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
+  const std::filesystem::path found = named.is_absolute() ? named : folder / named;
+  scene.model = found.lexically_normal().string();
+  require(fields, "model", std::filesystem::is_regular_file(found),
+          "there is no model file " + scene.model + ": paths are relative to the scene file");
+}
+
+void read_start(Fields& fields, Scene& scene) {
+  const YAML::Node node = fields.find("start");
+  if (!node.IsDefined()) return;
+  if (!node.IsMap()) {
+    fields.problems().add("'start' must hold q and qd: start: {q: [0, 90deg], qd: [0, 0]}",
+                          fields.place_of(node, "start"));
+    return;
+  }
+  Fields start(fields.document(), node, fields.path("start"), fields.problems());
+  start.read("q", scene.start.q);
+  start.read("qd", scene.start.qd);
+  start.finish();
+}
+
+void read_torque(Fields& fields, Scene& scene) {
+  const YAML::Node node = fields.find("torque");
+  if (!node.IsDefined()) return;
+  if (!node.IsSequence()) {
+    fields.problems().add("'torque' must be a list with a number or an expression a joint: [0, -100 * y_G]",
+                          fields.place_of(node, "torque"));
+    return;
+  }
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const Place place = fields.place_of(node[i], "torque." + std::to_string(i + 1));
+    if (node[i].IsScalar())
+      scene.torque.push_back({node[i].Scalar(), place});
+    else
+      fields.problems().add("'torque' entry " + std::to_string(i + 1) + " must be a number or an expression",
+                            place);
+  }
+}
+
+void read_parameters(Fields& fields, Scene& scene) {
+  const YAML::Node node = fields.find("parameters");
+  if (!node.IsDefined()) return;
+  if (!node.IsMap()) {
+    fields.problems().add("'parameters' must hold names and numbers: parameters: {k: 100}",
+                          fields.place_of(node, "parameters"));
+    return;
+  }
+  for (const auto& pair : node) {
+    const std::string& name = pair.first.Scalar();
+    const Place place = fields.place_of(pair.second, "parameters." + name);
+    try {
+      if (!pair.second.IsScalar()) throw Error(ExitCode::bad_input, "must be a number", place);
+      scene.parameters.emplace_back(name, parse_quantity(pair.second.Scalar(), place));
+    } catch (const Error& error) {
+      fields.problems().add("parameter '" + name + "': " + error.problems().front().message, place);
+    }
+  }
+}
+
+// A plain list replaces the default layers; entries `+name` and `-name` edit them.
+void read_draw(Fields& fields, Scene& scene) {
+  std::vector<std::string> entries;
+  fields.read("draw", entries);
+  if (entries.empty()) {
+    if (fields.find("draw").IsDefined()) scene.draw.clear();
+    return;
+  }
+  const auto edits = std::count_if(entries.begin(), entries.end(), [](const std::string& entry) {
+    return entry.starts_with('+') || entry.starts_with('-');
+  });
+  require(fields, "draw", edits == 0 || edits == long(entries.size()),
+          "'draw' either lists layers or edits the default ones with +name and -name; do not mix the two");
+  if (edits == 0) scene.draw.clear();
+  for (const std::string& entry : entries) {
+    const bool remove = entry.starts_with('-');
+    const std::string name = remove || entry.starts_with('+') ? entry.substr(1) : entry;
+    const auto& known = layer_names();
+    require(fields, "draw", std::find(known.begin(), known.end(), name) != known.end(),
+            "unknown layer '" + name + "' in 'draw':" + did_you_mean(name, known));
+    std::erase(scene.draw, name);
+    if (!remove) scene.draw.push_back(name);
+  }
+}
+
+void read_video(Fields& fields, Scene& scene) {
+  const YAML::Node node = fields.find("video");
+  if (!node.IsDefined()) return;
+  if (!node.IsMap()) {
+    fields.problems().add("'video' must hold width, height, fps: video: {width: 1280, height: 720, fps: 60}",
+                          fields.place_of(node, "video"));
+    return;
+  }
+  Fields video(fields.document(), node, fields.path("video"), fields.problems());
+  video.read("width", scene.video.width);
+  video.read("height", scene.video.height);
+  video.read("fps", scene.video.fps);
+  for (const auto& [key, side] :
+       {std::pair{"width", scene.video.width}, std::pair{"height", scene.video.height}}) {
+    require(video, key, side >= 16 && side <= kLargestSide,
+            "'video." + std::string(key) + "' must lie between 16 and " + std::to_string(kLargestSide) +
+                " pixels");
+    require(video, key, side % 2 == 0 || side < 16,
+            "'video." + std::string(key) + "' is odd: H.264 with 4:2:0 colour needs even sides, take " +
+                std::to_string(side - 1) + " or " + std::to_string(side + 1));
+  }
+  video.finish();
+}
+
+// Keys of mappings, two levels deep: as far as later errors point.
+void remember_places(const YamlDocument& document, const YAML::Node& map, const std::string& prefix,
+                     Scene& scene) {
+  for (const auto& pair : map) {
+    const std::string key = prefix + pair.first.Scalar();
+    scene.places[key] = document.place_of(pair.first, key);
+    if (pair.second.IsMap()) remember_places(document, pair.second, key + ".", scene);
+  }
+}
+
+void check_numbers(Fields& fields, const Scene& scene) {
+  require(fields, "duration", scene.duration > 0, "'duration' must be above 0 s");
+  require(fields, "step", scene.step > 0, "'step' must be above 0 s");
+  require(fields, "step", !(scene.step > scene.duration) || scene.duration <= 0,
+          "'step' is longer than the duration");
+  require(fields, "text_scale", scene.text_scale >= 0.5 && scene.text_scale <= 3,
+          "'text_scale' must lie between 0.5 and 3");
+  const double frames = scene.duration * scene.video.fps.value();
+  require(fields, "duration", frames <= kLongestFrameCount, "'duration' is longer than ten million frames");
+  require(fields, "duration", frames >= 0.5 || scene.duration <= 0,
+          "'duration' is shorter than half a frame: the film would be empty");
+  try {
+    find_method(scene.method);
+  } catch (const Error& error) {
+    require(fields, "method", false, error.what());
+  }
+}
+
+}  // namespace
+
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  std::vector<Override> parsed;
+  for (const std::string& text : overrides) parsed.push_back(parse_override(text));
+  const YamlDocument document = load_yaml(path, parsed);
+
+  Scene scene;
+  scene.file = path;
+  scene.name = std::filesystem::path(path).stem().string();
+  ProblemList problems;
+  Fields fields(document, document.root, "", problems);
+  fields.read("title", scene.title);
+  read_model(fields, scene);
+  fields.read("gravity", scene.gravity);
+  read_start(fields, scene);
+  read_torque(fields, scene);
+  read_parameters(fields, scene);
+  fields.read("end_effector", scene.end_effector);
+  fields.read("duration", scene.duration);
+  fields.read("method", scene.method);
+  fields.read("step", scene.step);
+  read_draw(fields, scene);
+  fields.read("text_scale", scene.text_scale);
+  read_video(fields, scene);
+  check_numbers(fields, scene);
+  fields.finish();
+  problems.throw_if_any();
+  remember_places(document, document.root, "", scene);
+  return scene;
+}
+
+}  // namespace chainreel

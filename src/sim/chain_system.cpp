@@ -1,0 +1,55 @@
+#include "sim/chain_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/forward_dynamics.hpp"
+#include "dynamics/friction.hpp"
+#include "dynamics/kinematics.hpp"
+
+namespace chainreel {
+
+ChainSystem::ChainSystem(const Chain& chain, TorqueLaw& torque)
+    : chain_(&chain), torque_(&torque), ws_(chain), tau_(std::size_t(chain.nv)) {}
+
+void ChainSystem::evaluate_torque(double t, ConstVec q, ConstVec qd) {
+  torque_->evaluate(ws_, t, q, qd, tau_);
+  if (bad_torque_ >= 0) return;
+  for (std::size_t i = 0; i < tau_.size(); ++i) {
+    if (!std::isfinite(tau_[i])) {
+      bad_torque_ = int(i);
+      return;
+    }
+  }
+}
+
+void ChainSystem::acceleration(double t, std::span<const double> q, std::span<const double> v,
+                               std::span<double> vd) {
+  ++evaluations_;
+  evaluate_torque(t, q, v);
+  compute_forward_dynamics(*chain_, ws_, q, v, tau_);
+  std::copy(ws_.qdd.begin(), ws_.qdd.end(), vd.begin());
+}
+
+double ChainSystem::power(double t, ConstVec q, ConstVec qd) {
+  evaluate_torque(t, q, qd);
+  compute_friction(*chain_, ws_, qd);
+  double sum = 0;
+  for (std::size_t i = 0; i < tau_.size(); ++i) sum += qd[i] * (tau_[i] - ws_.tau_f[i]);
+  return sum;
+}
+
+void ChainSystem::q_rate(std::span<const double> q, std::span<const double> v,
+                         std::span<double> q_dot) const {
+  chainreel::q_rate(*chain_, q, v, q_dot);
+}
+
+void ChainSystem::advance(std::span<double> q, std::span<const double> v, double h) const {
+  chainreel::advance(*chain_, q, v, h);
+}
+
+void ChainSystem::normalize(std::span<double> q) const {
+  chainreel::normalize(*chain_, q);
+}
+
+}  // namespace chainreel

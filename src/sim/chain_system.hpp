@@ -1,0 +1,39 @@
+// A chain under a torque law, as the methods see it.
+#pragma once
+
+#include "dynamics/workspace.hpp"
+#include "integrate/system.hpp"
+#include "sim/torque.hpp"
+
+namespace chainreel {
+
+class ChainSystem final : public SecondOrder {
+ public:
+  ChainSystem(const Chain& chain, TorqueLaw& torque);
+
+  int nq() const override { return chain_->nq; }
+  int nv() const override { return chain_->nv; }
+  void acceleration(double t, std::span<const double> q, std::span<const double> v,
+                    std::span<double> vd) override;
+  void q_rate(std::span<const double> q, std::span<const double> v, std::span<double> q_dot) const override;
+  void advance(std::span<double> q, std::span<const double> v, double h) const override;
+  void normalize(std::span<double> q) const override;
+
+  // Power of the joint torques less friction, qd^T (tau - tau_f), W.
+  double power(double t, ConstVec q, ConstVec qd);
+
+  long evaluations() const { return evaluations_; }
+  int bad_torque() const { return bad_torque_; }  // the first freedom whose torque was not finite, or -1
+
+ private:
+  void evaluate_torque(double t, ConstVec q, ConstVec qd);
+
+  const Chain* chain_;
+  TorqueLaw* torque_;
+  Workspace ws_;
+  std::vector<double> tau_;
+  long evaluations_ = 0;
+  int bad_torque_ = -1;
+};
+
+}  // namespace chainreel

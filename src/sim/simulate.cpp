@@ -1,0 +1,183 @@
+#include "sim/simulate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "sim/chain_system.hpp"
+#include "sim/step_span.hpp"
+#include "sim/work.hpp"
+
+namespace chainreel {
+namespace {
+
+// A coordinate or rate beyond this has left every machine that could be drawn.
+constexpr double kDivergenceBound = 1e9;  // rad, m, rad/s, m/s
+constexpr double kMostNumbers = 2.5e8;    // stored in one trajectory: 2 GB
+constexpr double kSameInstant = 1e-9;     // of a step: two instants closer than this are one
+constexpr long kStepsBetweenStopRequests = 4096;
+
+// One run in progress.
+class Run {
+ public:
+  Run(const Simulation& simulation, std::size_t samples)
+      : simulation_(simulation),
+        system_(simulation.chain, *simulation.torque),
+        stepper_(simulation.method->make(simulation.chain.nq, simulation.chain.nv)),
+        q_(simulation.q0),
+        qd_(simulation.qd0),
+        span_(simulation.chain.nq, simulation.chain.nv),
+        work_(simulation) {
+    // Whole steps, and a shorter last one where the duration is no multiple of the step.
+    const double h = simulation.step;
+    whole_steps_ = long(std::floor(simulation.duration / h + kSameInstant));
+    remainder_ = simulation.duration - double(whole_steps_) * h;
+    if (remainder_ <= kSameInstant * h) remainder_ = 0;
+    trajectory_.nq = simulation.chain.nq;
+    trajectory_.nv = simulation.chain.nv;
+    reserve(samples);
+  }
+
+  long steps() const { return whole_steps_ + (remainder_ > 0 ? 1 : 0); }
+  double time_after(long steps) const {
+    return steps > whole_steps_ ? simulation_.duration : double(steps) * simulation_.step;
+  }
+
+  // False where the run ended in this step; its state is then not fit to be sampled.
+  bool take_step(long k) {
+    const double t = double(k) * simulation_.step;
+    const double end = time_after(k + 1);
+    span_.begin(t, q_, qd_);
+    stepper_->step(system_, t, k < whole_steps_ ? simulation_.step : remainder_, q_, qd_);
+    if (!check_state(k, t, end)) return false;
+    span_.end(system_, end, q_, qd_);
+    work_.add_step(system_, span_, q_, qd_);
+    trajectory_.steps = k + 1;
+    trajectory_.end_time = end;
+    return true;
+  }
+
+  void sample_start() { append(0, q_, qd_, 0); }
+  void sample_end() { append(span_.end_time(), q_, qd_, work_.at_end()); }
+  // t lies in the last step.
+  void sample(double t) {
+    if (std::abs(t - span_.end_time()) <= kSameInstant * simulation_.step)
+      return append(t, q_, qd_, work_.at_end());
+    span_.move_to(system_, t);
+    const double work = work_.at(system_, span_, t);
+    append(t, span_.q(), span_.v(), work);
+  }
+
+  bool stop_requested(const StopRequest& stop, long k) {
+    if (!stop || k % kStepsBetweenStopRequests != 0 || !stop(double(k) * simulation_.step)) return false;
+    trajectory_.status = RunStatus::interrupted;
+    trajectory_.trouble = "interrupted at t = " + format_shortest(double(k) * simulation_.step) + " s";
+    return true;
+  }
+
+  Trajectory finish() {
+    trajectory_.evaluations = system_.evaluations();
+    return std::move(trajectory_);
+  }
+
+ private:
+  void reserve(std::size_t samples) {
+    const std::size_t row = std::size_t(trajectory_.nq + trajectory_.nv + 2);
+    if (double(samples) * double(row) > kMostNumbers)
+      throw Error(ExitCode::limit, "this run would store more than " + format_shortest(kMostNumbers) +
+                                       " numbers: take a shorter duration or fewer samples");
+    trajectory_.t.reserve(samples);
+    trajectory_.q.reserve(samples * std::size_t(trajectory_.nq));
+    trajectory_.qd.reserve(samples * std::size_t(trajectory_.nv));
+    trajectory_.work.reserve(samples);
+  }
+
+  void append(double t, ConstVec q, ConstVec qd, double work) {
+    trajectory_.t.push_back(t);
+    trajectory_.q.insert(trajectory_.q.end(), q.begin(), q.end());
+    trajectory_.qd.insert(trajectory_.qd.end(), qd.begin(), qd.end());
+    trajectory_.work.push_back(work);
+  }
+
+  bool check_state(long k, double begin, double end) {
+    const int torque = system_.bad_torque();
+    if (torque >= 0) {
+      set_trouble(RunStatus::torque_not_finite,
+                  "the torque at joint '" + name(torque) + "' is not a finite number", k, begin);
+      return false;
+    }
+    const auto sane = [](double x) { return std::abs(x) < kDivergenceBound; };  // false for NaN
+    for (std::size_t i = 0; i < q_.size(); ++i)
+      if (!sane(q_[i])) return diverge(int(std::min(i, qd_.size() - 1)), k, end);
+    for (std::size_t i = 0; i < qd_.size(); ++i)
+      if (!sane(qd_[i])) return diverge(int(i), k, end);
+    return true;
+  }
+
+  bool diverge(int freedom, long k, double t) {
+    set_trouble(RunStatus::diverged, "diverged at joint '" + name(freedom) + "'", k, t);
+    return false;
+  }
+
+  void set_trouble(RunStatus status, const std::string& what, long k, double t) {
+    trajectory_.status = status;
+    trajectory_.trouble = what + " at t = " + format_shortest(t) + " s (step " + std::to_string(k + 1) + ")";
+  }
+
+  std::string name(int freedom) const { return simulation_.chain.coordinate_names[std::size_t(freedom)]; }
+
+  const Simulation& simulation_;
+  ChainSystem system_;
+  std::unique_ptr<Stepper> stepper_;
+  std::vector<double> q_, qd_;
+  StepSpan span_;
+  WorkIntegral work_;
+  long whole_steps_ = 0;
+  double remainder_ = 0;
+  Trajectory trajectory_;
+};
+
+}  // namespace
+
+std::string to_string(RunStatus status) {
+  switch (status) {
+    case RunStatus::finished:
+      return "finished";
+    case RunStatus::diverged:
+      return "diverged";
+    case RunStatus::torque_not_finite:
+      return "torque_not_finite";
+    case RunStatus::interrupted:
+      return "interrupted";
+  }
+  return "unknown";
+}
+
+Trajectory simulate(const Simulation& simulation, std::span<const double> times, const StopRequest& stop) {
+  Run run(simulation, times.size());
+  std::size_t next = 0;
+  while (next < times.size() && times[next] <= 0) {
+    run.sample_start();
+    ++next;
+  }
+  for (long k = 0; k < run.steps(); ++k) {
+    if (run.stop_requested(stop, k) || !run.take_step(k)) break;
+    const double end = run.time_after(k + 1);
+    while (next < times.size() && times[next] <= end + kSameInstant * simulation.step)
+      run.sample(times[next++]);
+  }
+  return run.finish();
+}
+
+Trajectory simulate_every_step(const Simulation& simulation, const StopRequest& stop) {
+  Run run(simulation, std::size_t(simulation.duration / simulation.step) + 2);
+  run.sample_start();
+  for (long k = 0; k < run.steps(); ++k) {
+    if (run.stop_requested(stop, k) || !run.take_step(k)) break;
+    run.sample_end();
+  }
+  return run.finish();
+}
+
+}  // namespace chainreel

@@ -1,0 +1,147 @@
+#include "scene/read_scene.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "scene/quantity.hpp"
+#include "scene/write_scene.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class ReadScene : public testing::Test {
+ protected:
+  ReadScene() { folder_.write("rr.urdf", "<robot/>"); }
+
+  Scene read(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    return read_scene(folder_.write("one.yaml", "model: rr.urdf\n" + text), overrides);
+  }
+
+  // The text of the error, or "" where the scene was read.
+  std::string error(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    try {
+      read(text, overrides);
+      return "";
+    } catch (const Error& error) {
+      return error.what();
+    }
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ReadScene, LeavesTheDefaultsOfTheStructWhereKeysAreAbsent) {
+  const Scene scene = read("");
+  const Scene defaults;
+  EXPECT_EQ(scene.method, defaults.method);
+  EXPECT_EQ(scene.step, 0.001);
+  EXPECT_EQ(scene.method, "semi_implicit_euler");
+  EXPECT_EQ(scene.duration, defaults.duration);
+  EXPECT_EQ(scene.draw, defaults.draw);
+  EXPECT_EQ(scene.video.width, 1920);
+  EXPECT_EQ(scene.video.height, 1080);
+  EXPECT_EQ(scene.video.fps, (FrameRate{60, 1}));
+  EXPECT_FALSE(scene.gravity.has_value());
+}
+
+TEST_F(ReadScene, FindsTheModelRelativeToTheSceneFile) {
+  EXPECT_EQ(read("").model, folder_.file("rr.urdf"));
+}
+
+TEST_F(ReadScene, ReadsEveryKey) {
+  const Scene scene = read(
+      "title: \"A title\"\ngravity: [1, -2, 3.5]\nstart: {q: [90deg, pi/2], qd: [-1e-3, +2]}\n"
+      "torque: [1, \"max(q1, 2)\"]\nparameters: {k: 100, angle: 30deg}\nend_effector: tip\nduration: 2.5\n"
+      "method: rk4\nstep: 0.01\ndraw: [chain, time]\ntext_scale: 1.5\nvideo: {width: 640, height: 360, fps: "
+      "30000/1001}\n");
+  EXPECT_EQ(scene.title, "A title");
+  EXPECT_EQ(*scene.gravity, Eigen::Vector3d(1, -2, 3.5));
+  EXPECT_THAT(scene.start.q, ElementsAre(std::numbers::pi / 2, std::numbers::pi / 2));
+  EXPECT_THAT(scene.start.qd, ElementsAre(-1e-3, 2));
+  ASSERT_EQ(scene.torque.size(), 2u);
+  EXPECT_EQ(scene.torque[1].text, "max(q1, 2)");
+  EXPECT_EQ(scene.torque[1].place.line, 5);
+  EXPECT_EQ(scene.torque[1].place.column, 13);  // of the text, behind its quote
+  EXPECT_EQ(scene.parameters[0], (std::pair<std::string, double>("k", 100)));
+  EXPECT_EQ(scene.parameters[1].second, 30 * std::numbers::pi / 180);
+  EXPECT_EQ(scene.end_effector, "tip");
+  EXPECT_EQ(scene.duration, 2.5);
+  EXPECT_EQ(scene.method, "rk4");
+  EXPECT_EQ(scene.step, 0.01);
+  EXPECT_THAT(scene.draw, ElementsAre("chain", "time"));
+  EXPECT_EQ(scene.text_scale, 1.5);
+  EXPECT_EQ(scene.video.fps, (FrameRate{30000, 1001}));
+}
+
+TEST_F(ReadScene, EditsTheDefaultLayersByPlusAndMinus) {
+  EXPECT_THAT(read("draw: [+ellipse, -trail]").draw,
+              ElementsAre("chain", "time", "title", "torque_label", "ellipse"));
+  EXPECT_THAT(error("draw: [+ellipse, trail]"), HasSubstr("do not mix"));
+}
+
+TEST_F(ReadScene, TakesOverridesByDottedKeyAndIndex) {
+  const Scene scene =
+      read("torque: [1, 2]\nvideo: {width: 640}\n",
+           {"video.width=320", "video.fps=25", "torque.2=-3 * q1", "duration=0.5", "start.q=[1, 90deg]"});
+  EXPECT_EQ(scene.video.width, 320);
+  EXPECT_EQ(scene.video.fps.num, 25);
+  EXPECT_EQ(scene.torque[1].text, "-3 * q1");
+  EXPECT_EQ(scene.duration, 0.5);
+  EXPECT_THAT(scene.start.q, ElementsAre(1, std::numbers::pi / 2));
+}
+
+TEST_F(ReadScene, BlamesTheCommandLineForAnOverride) {
+  EXPECT_THAT(error("duration: 2\n", {"duration=-1"}),
+              HasSubstr("--set duration=-1: 'duration' must be above 0 s"));
+  EXPECT_THAT(error("", {"video.wdth=3"}), HasSubstr("--set video.wdth=3: unknown key 'video.wdth'"));
+  EXPECT_THAT(error("torque: [1]", {"torque.3=1"}), HasSubstr("no index from 1 to 1"));
+  EXPECT_THAT(error("", {"duration"}), HasSubstr("--set takes key=value"));
+}
+
+TEST_F(ReadScene, CollectsEveryProblemOfAFile) {
+  const std::string text = error("step: 0\nduration: -1\ncolour: blue\nmethod: rk5\n");
+  for (const char* part : {":2:", ":3:", ":4:", ":5:", "unknown key 'colour'", "did you mean 'rk4'"})
+    EXPECT_THAT(text, HasSubstr(part));
+}
+
+TEST_F(ReadScene, ReadsWhatItWrites) {
+  Scene scene = read(
+      "title: \"Says: \\\"x\\\"\"\ngravity: [0, 0, 0]\nstart: {q: [0.1, 0.2], qd: [1, 2]}\ntorque: [1, "
+      "\"max(q1, 2)\"]\n"
+      "parameters: {k: 0.1}\nmethod: rk4\nstep: 0.002\nvideo: {fps: 30000/1001}\n");
+  scene.model = "rr.urdf";
+  const std::string text = scene_text(scene);
+  const Scene again = read_scene(folder_.write("again.yaml", text));
+  EXPECT_EQ(again.title, scene.title);
+  EXPECT_EQ(again.start.q, scene.start.q);
+  EXPECT_EQ(again.start.qd, scene.start.qd);
+  EXPECT_EQ(again.torque[1].text, scene.torque[1].text);
+  EXPECT_EQ(again.parameters, scene.parameters);
+  EXPECT_EQ(again.method, scene.method);
+  EXPECT_EQ(again.step, scene.step);
+  EXPECT_EQ(again.draw, scene.draw);
+  EXPECT_EQ(again.video.fps, scene.video.fps);
+  EXPECT_EQ(*again.gravity, *scene.gravity);
+}
+
+TEST_F(ReadScene, RefusesLargeFilesBeforeParsingThem) {
+  EXPECT_THAT(error("# " + std::string(2 << 20, 'x') + "\n"), HasSubstr("larger than 1 MiB"));
+  EXPECT_EQ(error("# a comment\n"), "");  // negative control: a small one is read
+}
+
+TEST(Quantity, ReadsDegreesAndConstants) {
+  EXPECT_EQ(parse_quantity("180deg", {}), std::numbers::pi);
+  EXPECT_EQ(parse_quantity("-2 * pi", {}), -2 * std::numbers::pi);
+  EXPECT_EQ(parse_quantity(" 1e3 ", {}), 1000);
+  for (const char* bad : {"", "deg", "1,5", "nan", ".inf", "1/0", "90 degrees", "t"})
+    EXPECT_THROW(parse_quantity(bad, {}), Error) << bad;
+}
+
+}  // namespace
+}  // namespace chainreel

@@ -1,0 +1,78 @@
+// The loop allocates nothing after the first step: every operator new of this program is counted.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "sim/runs.hpp"
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  ++allocations;
+  const auto align = static_cast<std::size_t>(alignment);
+  if (void* memory = std::aligned_alloc(align, (size + align - 1) / align * align)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+
+namespace chainreel {
+namespace {
+
+// Allocations from the second request on; requests come every few thousand steps.
+long allocations_in_loop(const Simulation& run, std::span<const double> times) {
+  long at_first = -1, at_last = 0;
+  simulate(run, times, [&](double t) {
+    if (t > 0 && at_first < 0) at_first = allocations;
+    at_last = allocations;
+    return false;
+  });
+  return at_last - at_first;
+}
+
+class Loop : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Registry, Loop, testing::Values("explicit_euler", "semi_implicit_euler", "rk4"),
+                         [](const auto& p) { return p.param; });
+
+TEST_P(Loop, AllocatesNothingAfterTheFirstStep) {
+  const std::vector<double> times = instants(20, 1.0 / 60);
+  EXPECT_EQ(allocations_in_loop(run_of("rr", {"1", "1"}, 20, GetParam(), 0.0005), times), 0);
+  EXPECT_EQ(allocations_in_loop(run_of("rrr", {"1", "-y_G", "-0.1 * qd3"}, 20, GetParam(), 0.0005), times),
+            0);
+  EXPECT_EQ(allocations_in_loop(run_of("pp", {"0", "-100 * y_G"}, 20, GetParam(), 0.0005), times), 0);
+}
+
+TEST(Counter, SeesALawThatAllocates) {
+  struct Wasteful final : TorqueLaw {
+    void evaluate(Workspace&, double, ConstVec, ConstVec, Vec tau) override {
+      const std::vector<double> fresh(tau.size(), 0.0);
+      std::copy(fresh.begin(), fresh.end(), tau.begin());
+    }
+  };
+  Simulation run = run_of("rr", {"0", "0"}, 20, "semi_implicit_euler");
+  run.torque = std::make_unique<Wasteful>();
+  EXPECT_GT(allocations_in_loop(run, {}), 1000);
+}
+
+}  // namespace
+}  // namespace chainreel

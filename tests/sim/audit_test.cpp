@@ -1,0 +1,79 @@
+#include "sim/audit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/hash.hpp"
+#include "sim/runs.hpp"
+
+namespace chainreel {
+namespace {
+
+Audit audit(const Simulation& run, double dt = 0.05) {
+  return audit_of(run, simulate(run, instants(run.duration, dt)));
+}
+
+TEST(Audit, OfRk4StaysAtItsErrorOverTenSeconds) {
+  // RK4 at 1 ms keeps RR's energy to some 1e-8 J over 10 s; the motion's scale is 29 J.
+  EXPECT_LT(audit(run_of("rr", {"0", "0"}, 10)).largest_error, 1e-7);
+}
+
+TEST(Audit, CountsTheWorkOfConstantTorques) {
+  const Audit one = audit(run_of("rr", {"1", "1"}, 10));
+  EXPECT_LT(one.largest_error, 1e-7);
+  EXPECT_GT(one.largest_kinetic, 10);
+}
+
+TEST(Audit, CountsTheWorkOfTorquesThatDependOnTheState) {
+  // Simpson on each step adds h^4 of the power's fourth derivative: below the method's own error.
+  EXPECT_LT(audit(run_of("rr", {"-0.5 * qd1", "3 * sin(5 * t) - y_G"}, 5)).largest_error, 1e-7);
+}
+
+TEST(Audit, ShowsTheDriftOfTheLecturesMethodAndItsOrder) {
+  // Semi-implicit Euler is of order 1: half the step, half the energy error.
+  const double coarse = audit(run_of("rr", {"0", "0"}, 2, "semi_implicit_euler", 0.001)).largest_error;
+  const double fine = audit(run_of("rr", {"0", "0"}, 2, "semi_implicit_euler", 0.0005)).largest_error;
+  EXPECT_GT(coarse, 1e-3);
+  EXPECT_NEAR(coarse / fine, 2, 0.1);  // the next term is some h x 20/s
+}
+
+TEST(Audit, RanksTheMethodsOnRr) {
+  const double explicit_euler = audit(run_of("rr", {"0", "0"}, 5, "explicit_euler")).largest_error;
+  const double semi_implicit = audit(run_of("rr", {"0", "0"}, 5, "semi_implicit_euler")).largest_error;
+  const double rk4 = audit(run_of("rr", {"0", "0"}, 5, "rk4")).largest_error;
+  EXPECT_GT(explicit_euler, 2 * semi_implicit);
+  EXPECT_GT(semi_implicit, 1e5 * rk4);
+}
+
+// Negative control: a trajectory of another chain does not pass.
+TEST(Audit, FailsForAForeignTrajectory) {
+  Simulation run = run_of("rr", {"0", "0"}, 1);
+  const Trajectory trajectory = simulate(run, instants(1, 0.1));
+  run.chain.gravity *= 1.01;
+  EXPECT_GT(audit_of(run, trajectory).largest_error, 0.01);
+}
+
+TEST(Audit, HashesTimeAndStateOfEachSample) {
+  const Simulation run = run_of("pp", {"0", "0"}, 0.1);
+  const Trajectory trajectory = simulate(run, instants(0.1, 0.05));
+  Sha256 hash;
+  for (int k = 0; k < trajectory.size(); ++k) {
+    const std::vector<double> row{trajectory.t[std::size_t(k)], trajectory.q_at(k)[0], trajectory.q_at(k)[1],
+                                  trajectory.qd_at(k)[0], trajectory.qd_at(k)[1]};
+    hash.add(std::span<const double>(row));
+  }
+  EXPECT_EQ(audit_of(run, trajectory).sha256, hash.finish());
+}
+
+TEST(Audit, HashChangesWithTheLastBitOfAState) {
+  const Simulation run = run_of("rr", {"0", "0"}, 0.2);
+  Trajectory trajectory = simulate(run, instants(0.2, 0.1));
+  const std::string before = audit_of(run, trajectory).sha256;
+  EXPECT_EQ(before, audit_of(run, trajectory).sha256);
+  trajectory.q.back() = std::nextafter(trajectory.q.back(), 10.0);
+  EXPECT_NE(before, audit_of(run, trajectory).sha256);
+}
+
+}  // namespace
+}  // namespace chainreel

@@ -1,0 +1,145 @@
+#include "sim/simulate.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/runs.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::HasSubstr;
+
+// Largest distance between the last states of two runs.
+double distance(const Trajectory& a, const Trajectory& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < std::size_t(a.nq); ++i)
+    largest = std::max(largest, std::abs(a.q_at(a.size() - 1)[i] - b.q_at(b.size() - 1)[i]));
+  return largest;
+}
+
+TEST(Simulate, ThrowsPpOnItsParabola) {
+  // q1 = v t, q2 = v t - g t^2 / 2: RK4 is exact on polynomials of degree 4, so only round-off of 2000
+  // additions stays.
+  Simulation run = run_of("pp", {"0", "0"}, 2);
+  run.qd0 = {1.5, 9.81};
+  const Trajectory trajectory = simulate(run, instants(2, 0.1));
+  ASSERT_EQ(trajectory.status, RunStatus::finished);
+  for (int k = 0; k < trajectory.size(); ++k) {
+    const double t = trajectory.t[std::size_t(k)];
+    EXPECT_NEAR(trajectory.q_at(k)[0], 1.5 * t, 2000 * 3 * 2.3e-16);
+    EXPECT_NEAR(trajectory.q_at(k)[1], 9.81 * t - 9.81 / 2 * t * t, 2000 * 20 * 2.3e-16);
+    EXPECT_NEAR(trajectory.qd_at(k)[1], 9.81 - 9.81 * t, 2000 * 20 * 2.3e-16);
+  }
+}
+
+TEST(Simulate, MovesPpAsTheLecturesMethodSaysExactly) {
+  // Semi-implicit Euler on constant acceleration: q2(k h) = v k h + a h^2 k (k + 1) / 2.
+  Simulation run = run_of("pp", {"0", "0"}, 2, "semi_implicit_euler");
+  run.qd0 = {0, 9.81};
+  const Trajectory trajectory = simulate_every_step(run);
+  ASSERT_EQ(trajectory.size(), 2001);
+  for (int k = 0; k <= 2000; k += 100) {
+    const double expected = 9.81 * k * 1e-3 - 9.81 * 1e-6 * k * (k + 1) / 2;
+    EXPECT_NEAR(trajectory.q_at(k)[1], expected, 2000 * 20 * 2.3e-16);
+  }
+}
+
+TEST(Simulate, SwingsPpOnItsSpring) {
+  // q2 = q2(0) cos(omega t), omega = sqrt(100 / m), m the mass that moves in y (1 kg). RK4's error after 10 s
+  // at omega h = 0.01: (omega h)^4 omega t / 120 = 8e-9.
+  Simulation run = run_of("pp", {"0", "-100 * q2"}, 10);
+  run.chain.gravity.setZero();
+  run.q0 = {0, 1};
+  const Trajectory trajectory = simulate(run, instants(10, 0.5));
+  for (int k = 0; k < trajectory.size(); ++k)
+    EXPECT_NEAR(trajectory.q_at(k)[1], std::cos(10 * trajectory.t[std::size_t(k)]), 1e-8);
+}
+
+class Order : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Registry, Order, testing::Values("explicit_euler", "semi_implicit_euler", "rk4"),
+                         [](const auto& p) { return p.param; });
+
+TEST_P(Order, OfTheMethodShowsInTheErrorOnRr) {
+  const std::vector<double> end{1};
+  const double h = GetParam() == "rk4" ? 0.02 : 0.0005;
+  const Trajectory reference = simulate(run_of("rr", {"1", "1"}, 1, "rk4", 1e-4), end);
+  const double coarse = distance(simulate(run_of("rr", {"1", "1"}, 1, GetParam(), h), end), reference);
+  const double fine = distance(simulate(run_of("rr", {"1", "1"}, 1, GetParam(), h / 2), end), reference);
+  // The slope's own error is the next term of the series: some h / 1 s for the Euler methods, 0.02 x 5 for
+  // RK4.
+  EXPECT_NEAR(std::log2(coarse / fine), find_method(GetParam()).order, GetParam() == "rk4" ? 0.15 : 0.05);
+  EXPECT_GT(coarse, 0);
+}
+
+TEST(Simulate, EndsAtTheDurationThoughItIsNoMultipleOfTheStep) {
+  Simulation run = run_of("pp", {"0", "0"}, 1.00035);
+  run.qd0 = {1, 0};
+  const std::vector<double> times{1.00035};
+  const Trajectory trajectory = simulate(run, times);
+  ASSERT_EQ(trajectory.size(), 1);
+  EXPECT_EQ(trajectory.steps, 1001);
+  EXPECT_EQ(trajectory.end_time, 1.00035);
+  EXPECT_NEAR(trajectory.q_at(0)[0], 1.00035, 1001 * 2.3e-16);
+}
+
+TEST(Simulate, SamplesBetweenStepsToFourthOrder) {
+  // The same run sampled off its steps: the Hermite cubic is off by h^4/384 of the fourth derivative (some
+  // 1e3 here).
+  const std::vector<double> times{0.33333, 0.77777};
+  const Trajectory coarse = simulate(run_of("rr", {"0", "0"}, 1, "rk4", 0.001), times);
+  const Trajectory fine = simulate(run_of("rr", {"0", "0"}, 1, "rk4", 0.00001), times);
+  for (int k = 0; k < 2; ++k)
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_NEAR(coarse.q_at(k)[i], fine.q_at(k)[i], 1e-10);
+      EXPECT_NEAR(coarse.qd_at(k)[i], fine.qd_at(k)[i], 1e-7);  // one order less
+    }
+}
+
+TEST(Simulate, GivesTheStepsOwnValuesAtTheirEnds) {
+  const Simulation run = run_of("rrr", {"10", "10", "10"}, 0.5, "semi_implicit_euler");
+  const Trajectory all = simulate_every_step(run);
+  const Trajectory some = simulate(run, instants(0.5, 0.05));
+  for (int k = 0; k < some.size(); ++k)
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(some.q_at(k)[i], all.q_at(50 * k)[i]) << k;
+}
+
+TEST(Simulate, IsTheSameRunWhateverIsSampled) {
+  const std::vector<double> end{0.5};
+  const Simulation run = run_of("rrr", {"10", "10", "10"}, 0.5);
+  std::vector<double> many = instants(0.499, 1.0 / 420);
+  many.push_back(0.5);
+  EXPECT_EQ(distance(simulate(run, end), simulate(run, many)), 0);
+  many.back() = 0.4999;  // negative control: another instant is another state
+  EXPECT_GT(distance(simulate(run, end), simulate(run, many)), 0);
+}
+
+TEST(Simulate, StopsWithTimeStepAndJointWhereItDiverges) {
+  Simulation run = run_of("pp", {"0", "-1e8 * q2"}, 10, "semi_implicit_euler");  // omega h = 10: far beyond 2
+  run.q0 = {0, 1};
+  const Trajectory trajectory = simulate(run, instants(10, 0.1));
+  EXPECT_EQ(trajectory.status, RunStatus::diverged);
+  EXPECT_LT(trajectory.end_time, 0.1);
+  EXPECT_THAT(trajectory.trouble,
+              HasSubstr("diverged at joint '" + run.chain.coordinate_names[1] + "' at t = "));
+  EXPECT_EQ(trajectory.size(), 1);  // the start alone: nothing wild is sampled
+}
+
+TEST(Simulate, StopsWhereATorqueIsNotFinite) {
+  const Simulation run = run_of("rr", {"0", "1 / (t - 0.5)"}, 1);
+  const Trajectory trajectory = simulate(run, instants(1, 0.1));
+  EXPECT_EQ(trajectory.status, RunStatus::torque_not_finite);
+  EXPECT_THAT(trajectory.trouble, HasSubstr("torque at joint '" + run.chain.coordinate_names[1] + "'"));
+  EXPECT_NEAR(trajectory.end_time, 0.5, 0.0011);
+}
+
+TEST(Simulate, StopsWhenAsked) {
+  const Trajectory trajectory = simulate(run_of("rr", {"0", "0"}, 100), {}, [](double t) { return t > 5; });
+  EXPECT_EQ(trajectory.status, RunStatus::interrupted);
+  EXPECT_LT(trajectory.end_time, 20);
+}
+
+}  // namespace
+}  // namespace chainreel
