@@ -1,0 +1,149 @@
+// chainreel check SCENE|MODEL: the effective scene with all defaults, and what of the mechanism is modelled.
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/pipeline.hpp"
+#include "app/report.hpp"
+#include "core/error.hpp"
+#include "dynamics/forward_dynamics.hpp"
+#include "integrate/method.hpp"
+#include "model/doctor.hpp"
+#include "model/read_chain.hpp"
+#include "scene/write_scene.hpp"
+
+namespace chainreel {
+namespace {
+
+struct CheckOptions {
+  std::string file;
+  CommonOptions common;
+};
+
+std::string kind_name(const Joint& joint) {
+  switch (joint.kind) {
+    case JointKind::revolute:
+      return "revolute";
+    case JointKind::prismatic:
+      return "prismatic";
+    case JointKind::floating:
+      return "floating";
+  }
+  return "";
+}
+
+Json model_report(const Chain& chain) {
+  Json json;
+  json["name"] = chain.name;
+  json["freedoms"] = chain.nv;
+  json["joints"] = Json::array();
+  for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
+    const Body& body = chain.bodies[i];
+    Json joint{{"name", body.joint.name},
+               {"kind", kind_name(body.joint)},
+               {"body", body.name},
+               {"parent", chain.bodies[std::size_t(body.parent)].name},
+               {"mass", body.inertia.mass}};
+    if (body.joint.ratio != 1 || body.joint.offset != 0)
+      joint["follows"] = chain.coordinate_names[std::size_t(body.joint.v_index)];
+    json["joints"].push_back(joint);
+  }
+  json["lumped_links"] = int(chain.frames.size()) - int(chain.bodies.size());
+  json["algebra"] = chain.planar ? "planar" : "spatial";
+  json["why"] = chain.why_algebra;
+  json["forward_dynamics"] = forward_dynamics_algorithm(chain);
+  json["gravity"] = to_json(chain.gravity);
+  if (chain.end_effector >= 0) json["end_effector"] = chain.frames[std::size_t(chain.end_effector)].name;
+  return json;
+}
+
+Json cost_report(const Scene& scene, const Simulation& simulation) {
+  const double steps = std::ceil(scene.duration / scene.step - 1e-9);
+  const int frames = frame_count(scene.duration, scene.video.fps);
+  return {{"method", scene.method},
+          {"order", simulation.method->order},
+          {"steps", steps},
+          {"evaluations", steps * simulation.method->evaluations_per_step},
+          {"frames", frames},
+          {"pixels_a_frame", scene.video.width * scene.video.height},
+          {"layers", scene.draw},
+          {"energies_computed", frames},
+          {"Lambda_computed",
+           std::find(scene.draw.begin(), scene.draw.end(), "ellipse") != scene.draw.end() ? frames : 0}};
+}
+
+void print_model(const Json& model) {
+  std::printf("model %s: %d freedoms, %s (%s), forward dynamics by %s\n",
+              model["name"].get<std::string>().c_str(), model["freedoms"].get<int>(),
+              model["algebra"].get<std::string>().c_str(), model["why"].get<std::string>().c_str(),
+              model["forward_dynamics"].get<std::string>().c_str());
+  std::vector<std::vector<std::string>> table{{"joint", "kind", "moves", "on", "kg"}};
+  for (const Json& joint : model["joints"])
+    table.push_back({joint["name"].get<std::string>(), joint["kind"].get<std::string>(),
+                     joint["body"].get<std::string>(), joint["parent"].get<std::string>(),
+                     joint["mass"].dump()});
+  std::fputs(table_text(table).c_str(), stdout);
+  if (model.contains("end_effector"))
+    std::printf("end effector: %s\n", model["end_effector"].get<std::string>().c_str());
+}
+
+void check_scene(const CheckOptions& options) {
+  const PreparedScene prepared = load_scene(options.file, options.common.set);
+  const Json model = model_report(prepared.simulation.chain);
+  const Json cost = cost_report(prepared.scene, prepared.simulation);
+  const std::string text = scene_text(prepared.scene);
+  if (options.common.json) {
+    std::puts(Json{{"scene", text}, {"model", model}, {"cost", cost}}.dump(2).c_str());
+    return;
+  }
+  std::printf("# %s with all defaults; paths from this folder\n%s\n", options.file.c_str(), text.c_str());
+  print_model(model);
+  std::printf("%s (order %d), %.0f steps, %.0f evaluations of the dynamics, %d frames\n",
+              prepared.scene.method.c_str(), prepared.simulation.method->order, cost["steps"].get<double>(),
+              cost["evaluations"].get<double>(), cost["frames"].get<int>());
+  std::printf("computed for the picture only: %d energies, %d Lambda\n", cost["energies_computed"].get<int>(),
+              cost["Lambda_computed"].get<int>());
+}
+
+void check_model(const CheckOptions& options) {
+  const std::vector<Finding> findings = examine_model(options.file);
+  Json list = Json::array();
+  std::vector<Problem> errors;
+  for (const Finding& finding : findings) {
+    const char* severity = finding.severity == Finding::Severity::error     ? "error"
+                           : finding.severity == Finding::Severity::warning ? "warning"
+                                                                            : "note";
+    list.push_back({{"severity", severity},
+                    {"message", finding.message},
+                    {"file", finding.place.file},
+                    {"line", finding.place.line}});
+    if (finding.severity == Finding::Severity::error)
+      errors.push_back({finding.message, finding.place});
+    else if (!options.common.json)
+      std::printf("%s: %s\n", severity, to_string(Problem{finding.message, finding.place}).c_str());
+  }
+  Json report{{"findings", list}};
+  if (errors.empty()) report["model"] = model_report(read_chain(options.file));
+  if (options.common.json)
+    std::puts(report.dump(2).c_str());
+  else if (errors.empty())
+    print_model(report["model"]);
+  if (!errors.empty()) throw Error(ExitCode::bad_input, errors);
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app) {
+  auto options = std::make_shared<CheckOptions>();
+  CLI::App* command =
+      app.add_subcommand("check", "the effective scene with all defaults, or what a model holds");
+  command->add_option("file", options->file, "a scene (.yaml) or a model (.urdf)")->required();
+  add_common_options(*command, options->common);
+  command->footer("Example: chainreel check assets/scenes/rr_free.yaml --set method=rk4");
+  command->callback(
+      [options] { is_model_file(options->file) ? check_model(*options) : check_scene(*options); });
+}
+
+}  // namespace chainreel

@@ -1,0 +1,47 @@
+// The command line: one file per subcommand, each with an options struct, a function that registers it and
+// one that runs it. What a command throws is caught once, in main.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "model/chain.hpp"
+
+namespace chainreel {
+
+// What every subcommand takes.
+struct CommonOptions {
+  std::vector<std::string> set;  // key=value over the scene's keys
+  bool json = false;
+  bool quiet = false;
+  bool force = false;
+};
+
+void add_common_options(CLI::App& command, CommonOptions& options);
+
+// An option that takes one argument each time it stands there, and never swallows what follows.
+CLI::Option* add_repeatable(CLI::App& command, const std::string& name, std::vector<std::string>& values,
+                            const std::string& help);
+
+// "0,90deg" as numbers; `what` names the option in the error.
+std::vector<double> parse_list(const std::string& text, const std::string& what);
+
+// A pose of the chain from "0,90deg": as many numbers as it has coordinates.
+std::vector<double> parse_pose(const Chain& chain, const std::string& text, const std::string& what);
+// One number a freedom; empty text gives zeros.
+std::vector<double> parse_freedoms(const Chain& chain, const std::string& text, const std::string& what);
+
+// A file that names a mechanism, not a scene: .urdf or .xml.
+bool is_model_file(const std::string& path);
+
+void add_render_command(CLI::App& app);
+void add_snapshot_command(CLI::App& app);
+void add_ellipse_command(CLI::App& app);
+void add_simulate_command(CLI::App& app);
+void add_dynamics_command(CLI::App& app);
+void add_init_command(CLI::App& app);
+void add_check_command(CLI::App& app);
+void add_doctor_command(CLI::App& app);
+
+}  // namespace chainreel

@@ -1,0 +1,54 @@
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "app/command.hpp"
+#include "app/signals.hpp"
+#include "core/error.hpp"
+
+namespace {
+
+int run(int argc, char** argv) {
+  using namespace chainreel;
+  CLI::App app("chainreel: from a scene file to a film of a robot chain moving under given torques.");
+  app.name("chainreel");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", CHAINREEL_VERSION);
+  add_render_command(app);
+  add_snapshot_command(app);
+  add_ellipse_command(app);
+  add_simulate_command(app);
+  add_dynamics_command(app);
+  add_init_command(app);
+  add_check_command(app);
+  add_doctor_command(app);
+  app.footer(
+      "Exit codes: 0 good, 1 a comparison failed, 2 usage, 3 bad input, 4 no renderer or codec, 5 numerical "
+      "failure,\n"
+      "6 file or disk, 7 a limit exceeded, 130 and 143 signals.\n"
+      "Example: chainreel render assets/scenes/rr_free.yaml");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? int(ExitCode::good) : int(ExitCode::usage);
+  }
+  return int(ExitCode::good);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  chainreel::install_signal_handlers();
+  try {
+    return run(argc, argv);
+  } catch (const chainreel::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return int(error.code());
+  } catch (const std::bad_alloc&) {
+    std::fputs("chainreel: out of memory: take a shorter duration or a smaller picture\n", stderr);
+    return int(chainreel::ExitCode::limit);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "chainreel: %s\n", error.what());
+    return int(chainreel::ExitCode::file);
+  }
+}

@@ -1,0 +1,56 @@
+// Where the stages are joined: scene -> simulation -> trajectory -> film -> pixels -> file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/image.hpp"
+#include "core/json.hpp"
+#include "picture/picture.hpp"
+#include "picture/text.hpp"
+#include "scene/scene.hpp"
+#include "sim/audit.hpp"
+#include "sim/simulate.hpp"
+
+namespace chainreel {
+
+// A scene with everything resolved that a run needs.
+struct PreparedScene {
+  Scene scene;  // the effective one
+  Simulation simulation;
+};
+
+PreparedScene load_scene(const std::string& path, const std::vector<std::string>& overrides,
+                         bool meshes = true);
+
+// 0, 1/fps, 2/fps, ...: one a frame of the film.
+std::vector<double> frame_times(const Scene& scene);
+
+// Throws Error (exit 5, or the signal's) unless the run finished.
+void require_finished(const Trajectory& trajectory, const Scene& scene);
+
+struct StageSeconds {
+  double simulate = 0, draw = 0, render = 0, encode = 0, total = 0;
+};
+
+struct RenderResult {
+  std::string video;
+  std::string sidecar;
+  int frames = 0;
+  double film_seconds = 0;
+  StageSeconds seconds;
+  Json audit;
+};
+
+// Renders one film to an MP4 and writes the audit beside it. A run that failed leaves what was drawn under a
+// .partial name and throws.
+RenderResult render_film(const PreparedScene& prepared, const std::string& video_path, bool overwrite,
+                         bool quiet);
+
+// One picture as pixels.
+Image rasterise(const Picture& picture, int width, int height, const Fonts& fonts);
+// ... and as a PNG file that appears whole or not at all.
+void write_picture(const Picture& picture, int width, int height, const Fonts& fonts, const std::string& path,
+                   bool overwrite);
+
+}  // namespace chainreel

@@ -1,0 +1,43 @@
+// Progress on standard error: one line that rewrites itself on a terminal, a plain line every few seconds
+// elsewhere.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace chainreel {
+
+class Progress {
+ public:
+  Progress(std::string label, int total, bool quiet);
+  ~Progress();
+
+  void update(int done);  // percent, frames/s, time left
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void print(int done, Clock::time_point now);
+
+  std::string label_;
+  int total_;
+  bool quiet_;
+  bool terminal_;
+  bool printed_ = false;
+  Clock::time_point start_, last_;
+};
+
+// Seconds since it was made or last asked.
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace chainreel

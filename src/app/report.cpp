@@ -1,0 +1,118 @@
+#include "app/report.hpp"
+
+#include <algorithm>
+
+#include "core/format.hpp"
+#include "encode/libraries.hpp"
+#include "render/canvas.hpp"
+
+namespace chainreel {
+
+std::string format_quantity(double value, const std::string& unit) {
+  return format_shortest(value) + " " + unit;
+}
+
+Json to_json(std::span<const double> values) {
+  Json list = Json::array();
+  for (double value : values) list.push_back(value);
+  return list;
+}
+
+Json to_json(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json to_json(const Eigen::Vector3d& vector) {
+  return {vector.x(), vector.y(), vector.z()};
+}
+
+void add_effective_mass(Json& json, const EffectiveMass& mass) {
+  json["basis"] = mass.basis.names;
+  json["Lambda_inv"] = to_json(mass.Lambda_inv);
+  json["Lambda"] = mass.Lambda ? to_json(*mass.Lambda) : Json(nullptr);
+  json["mobility"] =
+      to_json(std::span<const double>(mass.mobility.data(), std::size_t(mass.mobility.size())));
+  json["directions"] = to_json(mass.directions);
+  Json singular = Json::array();
+  for (const Eigen::VectorXd& direction : mass.singular_directions)
+    singular.push_back(to_json(std::span<const double>(direction.data(), std::size_t(direction.size()))));
+  json["singular_directions"] = singular;
+}
+
+std::string matrix_text(const Eigen::MatrixXd& matrix, int digits) {
+  std::string text = "[";
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    if (i > 0) text += "; ";
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+      text += (j > 0 ? " " : "") + format_significant(matrix(i, j), digits);
+  }
+  return text + "]";
+}
+
+std::vector<LibraryLine> library_versions() {
+  std::vector<LibraryLine> lines{{"chainreel", CHAINREEL_VERSION}};
+  for (const LibraryVersion& library : encode_library_versions())
+    lines.push_back({library.name, library.version});
+  return lines;
+}
+
+Json audit_report(const PreparedScene& prepared, const Trajectory& trajectory, const Audit& audit,
+                  const StageSeconds& seconds) {
+  const Scene& scene = prepared.scene;
+  Json json;
+  json["scene"] = scene.file;
+  json["title"] = scene.title;
+  json["model"] = scene.model;
+  json["status"] = to_string(trajectory.status);
+  if (!trajectory.trouble.empty()) json["trouble"] = trajectory.trouble;
+  json["method"] = scene.method;
+  json["step"] = scene.step;
+  json["steps"] = trajectory.steps;
+  json["evaluations"] = trajectory.evaluations;
+  json["frames"] = trajectory.size();
+  const FrameRate fps = scene.video.fps;
+  json["fps"] = fps.den == 1 ? Json(fps.num) : Json(std::to_string(fps.num) + "/" + std::to_string(fps.den));
+  json["width"] = scene.video.width;
+  json["height"] = scene.video.height;
+  json["duration"] = scene.duration;
+  json["film_seconds"] = frame_time(trajectory.size(), fps);
+  json["energy_start"] = audit.energy_start;
+  json["largest_kinetic_energy"] = audit.largest_kinetic;
+  json["audit_error"] = audit.largest_error;
+  json["audit_error_time"] = audit.largest_error_time;
+  json["trajectory_sha256"] = audit.sha256;
+  json["seconds"] = {{"simulate", seconds.simulate},
+                     {"draw", seconds.draw},
+                     {"render", seconds.render},
+                     {"encode", seconds.encode},
+                     {"total", seconds.total}};
+  for (const LibraryLine& line : library_versions()) json["versions"][line.name] = line.version;
+  return json;
+}
+
+std::string table_text(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string pad(widths[i] - row[i].size(), ' ');
+      const bool number = &row != &rows.front() && parse_number(row[i]).has_value();
+      const bool last = i + 1 == row.size();
+      text += number ? pad + row[i] : row[i] + (last ? "" : pad);
+      text += last ? "\n" : "  ";
+    }
+  }
+  return text;
+}
+
+}  // namespace chainreel

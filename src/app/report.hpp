@@ -1,0 +1,40 @@
+// What the program found, as JSON and as lines for people.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/pipeline.hpp"
+#include "core/json.hpp"
+#include "dynamics/effective_mass.hpp"
+
+namespace chainreel {
+
+std::string format_quantity(double value, const std::string& unit);  // "0.001 s"
+
+Json to_json(std::span<const double> values);
+Json to_json(const Eigen::MatrixXd& matrix);  // rows of numbers
+Json to_json(const Eigen::Vector3d& vector);
+
+// Lambda_inv, Lambda (null at singular poses), mobility, directions, singular_directions, basis.
+void add_effective_mass(Json& json, const EffectiveMass& mass);
+
+// "[3 1; 1 1]" with some significant digits.
+std::string matrix_text(const Eigen::MatrixXd& matrix, int digits);
+
+struct LibraryLine {
+  std::string name;
+  std::string version;
+};
+std::vector<LibraryLine> library_versions();
+
+// The sidecar of a film: what was run, whether it can be trusted, what it cost.
+Json audit_report(const PreparedScene& prepared, const Trajectory& trajectory, const Audit& audit,
+                  const StageSeconds& seconds);
+
+// A table with left-aligned words and right-aligned numbers; the first row is its head.
+std::string table_text(const std::vector<std::vector<std::string>>& rows);
+
+}  // namespace chainreel

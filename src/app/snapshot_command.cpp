@@ -1,0 +1,112 @@
+// chainreel snapshot SCENE --at T -o FILE.png, chainreel snapshot MODEL --pose Q -o FILE.png
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/pipeline.hpp"
+#include "app/report.hpp"
+#include "app/signals.hpp"
+#include "core/error.hpp"
+#include "draw/film.hpp"
+#include "draw/poses.hpp"
+#include "model/read_chain.hpp"
+#include "scene/quantity.hpp"
+
+namespace chainreel {
+namespace {
+
+struct SnapshotOptions {
+  std::string file;
+  std::string at = "0";
+  std::vector<std::string> poses;
+  std::string output;
+  int width = 0, height = 0;
+  CommonOptions common;
+};
+
+std::string default_output(const SnapshotOptions& options) {
+  if (options.output.empty()) return "out/" + std::filesystem::path(options.file).stem().string() + ".png";
+  if (!options.output.ends_with(".png"))
+    throw Error(ExitCode::usage, "-o " + options.output + ": snapshots are written as .png");
+  return options.output;
+}
+
+// The picture of the film at an instant: same camera, same scales, whatever the instant.
+Picture picture_at(const PreparedScene& prepared, double at, const Fonts& fonts) {
+  std::vector<double> times = frame_times(prepared.scene);
+  auto place = std::lower_bound(times.begin(), times.end(), at - 1e-9 * prepared.scene.step);
+  if (place == times.end() || std::abs(*place - at) > 1e-9 * prepared.scene.step)
+    place = times.insert(place, at);
+  const auto frame = std::size_t(place - times.begin());
+  const Trajectory trajectory = simulate(prepared.simulation, times, [](double) { return interrupted(); });
+  throw_if_interrupted();
+  if (frame >= std::size_t(trajectory.size())) require_finished(trajectory, prepared.scene);
+  const Film film(prepared.scene, prepared.simulation.chain, trajectory, trajectory.size(), fonts);
+  Picture picture = film.static_layer();
+  picture.append(film.frame(int(frame)));
+  return picture;
+}
+
+void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
+  PreparedScene prepared = load_scene(options.file, options.common.set);
+  if (options.width > 0) prepared.scene.video.width = options.width;
+  if (options.height > 0) prepared.scene.video.height = options.height;
+  const double at = parse_quantity(options.at, {});
+  if (at < 0 || at > prepared.scene.duration)
+    throw Error(ExitCode::usage, "--at " + options.at + " lies outside the scene's duration of " +
+                                     format_quantity(prepared.scene.duration, "s"));
+  const Fonts fonts;
+  const Video& video = prepared.scene.video;
+  write_picture(picture_at(prepared, at, fonts), video.width, video.height, fonts, output,
+                options.common.force);
+}
+
+void snapshot_model(const SnapshotOptions& options, const std::string& output) {
+  const Chain chain = read_chain(options.file);
+  require_end_effector(chain);
+  std::vector<std::vector<double>> poses;
+  for (const std::string& pose : options.poses) poses.push_back(parse_pose(chain, pose, "--pose"));
+  if (poses.empty()) poses.push_back(zero_configuration(chain));
+  const Fonts fonts;
+  PoseFigureOptions figure;
+  figure.width = options.width > 0 ? options.width : 1920;
+  figure.height = options.height > 0 ? options.height : 1080;
+  write_picture(draw_pose_figure(chain, poses, figure, fonts), figure.width, figure.height, fonts, output,
+                options.common.force);
+}
+
+void run_snapshot(const SnapshotOptions& options) {
+  const std::string output = default_output(options);
+  if (is_model_file(options.file))
+    snapshot_model(options, output);
+  else if (!options.poses.empty())
+    throw Error(ExitCode::usage, "--pose goes with a model; a scene takes --at");
+  else
+    snapshot_scene(options, output);
+  if (options.common.json)
+    std::puts(Json{{"file", output}}.dump(2).c_str());
+  else if (!options.common.quiet)
+    std::printf("%s\n", output.c_str());
+}
+
+}  // namespace
+
+void add_snapshot_command(CLI::App& app) {
+  auto options = std::make_shared<SnapshotOptions>();
+  CLI::App* command =
+      app.add_subcommand("snapshot", "one picture: a scene at an instant, or a model at poses");
+  command->add_option("file", options->file, "a scene (.yaml) or a model (.urdf)")->required();
+  command->add_option("--at", options->at, "instant of the scene in seconds (default 0)");
+  add_repeatable(*command, "--pose", options->poses, "q of a model: --pose 0,90deg (repeatable)");
+  command->add_option("-o,--output", options->output, "a .png file (default out/NAME.png)");
+  command->add_option("--width", options->width, "pixels")->check(CLI::Range(16, 16384));
+  command->add_option("--height", options->height, "pixels")->check(CLI::Range(16, 16384));
+  add_common_options(*command, options->common);
+  command->footer("Example: chainreel snapshot assets/scenes/rrr_torque.yaml --at 1.2 -o out/rrr.png");
+  command->callback([options] { run_snapshot(*options); });
+}
+
+}  // namespace chainreel

@@ -1,0 +1,105 @@
+// `simulate` and `dynamics`: numbers that other programs read.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "core/json.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(SimulateCommand, WritesARowAFrameAndOneAtTheEnd) {
+  const ProgramResult result = run_program({"simulate", "assets/scenes/pp_free.yaml", "-o", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::vector<std::string> lines = lines_of(result.out);
+  ASSERT_EQ(lines.size(), 1u + 120 + 1);
+  EXPECT_EQ(lines[0], "t,q1,q2,qd1,qd2");
+  EXPECT_THAT(lines[1], testing::StartsWith("0,0,0,1.5,"));
+  EXPECT_THAT(lines.back(), testing::StartsWith("2,"));
+  // 17 significant digits: the frame at 1/60 s.
+  EXPECT_THAT(lines[2], testing::StartsWith("0.016666666666666666,"));
+}
+
+TEST(SimulateCommand, WritesARowAStepWhereAsked) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("steps.csv");
+  ASSERT_EQ(run_program({"simulate", "assets/scenes/rrr_torque.yaml", "--every-step", "-o", file, "--set",
+                         "duration=0.25"})
+                .status,
+            0);
+  const std::vector<std::string> lines = lines_of(read_whole_file(file));
+  EXPECT_EQ(lines.size(), 1u + 251);
+  EXPECT_EQ(lines[0], "t,q1,q2,q3,qd1,qd2,qd3");
+}
+
+Json dynamics(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "dynamics");
+  arguments.push_back("--json");
+  const ProgramResult result = run_program(arguments);
+  EXPECT_EQ(result.status, 0) << result.err;
+  return Json::parse(result.out);
+}
+
+TEST(DynamicsCommand, GivesTheClosedFormOfRr) {
+  // Modern Robotics 8.9 at q = (0.3, 0.7), qd = (0.5, -1), tau = (1, 2), unit links and masses.
+  const double q1 = 0.3, q2 = 0.7, w1 = 0.5, w2 = -1, g = 9.81;
+  const Json json = dynamics({"models/rr.urdf", "--q", "0.3,0.7", "--qd", "0.5,-1", "--tau", "1,2"});
+  const double m11 = 3 + 2 * std::cos(q2), m12 = 1 + std::cos(q2), m22 = 1;
+  const double c1 = -std::sin(q2) * (2 * w1 * w2 + w2 * w2), c2 = std::sin(q2) * w1 * w1;
+  const double g1 = 2 * g * std::cos(q1) + g * std::cos(q1 + q2), g2 = g * std::cos(q1 + q2);
+  const double det = m11 * m22 - m12 * m12, r1 = 1 - c1 - g1, r2 = 2 - c2 - g2;
+  const double kTolerance = 1e-13;  // some ten roundings of numbers up to 40
+  EXPECT_NEAR(json["M"][0][0].get<double>(), m11, kTolerance);
+  EXPECT_NEAR(json["M"][0][1].get<double>(), m12, kTolerance);
+  EXPECT_NEAR(json["M"][1][1].get<double>(), m22, kTolerance);
+  EXPECT_NEAR(json["nle"][0].get<double>(), c1 + g1, kTolerance);
+  EXPECT_NEAR(json["nle"][1].get<double>(), c2 + g2, kTolerance);
+  EXPECT_NEAR(json["tau_g"][0].get<double>(), g1, kTolerance);
+  EXPECT_NEAR(json["qdd"][0].get<double>(), (m22 * r1 - m12 * r2) / det, kTolerance);
+  EXPECT_NEAR(json["qdd"][1].get<double>(), (m11 * r2 - m12 * r1) / det, kTolerance);
+  EXPECT_NEAR(json["x"][0].get<double>(), std::cos(q1) + std::cos(q1 + q2), kTolerance);
+  EXPECT_NEAR(json["J"][1][1].get<double>(), std::cos(q1 + q2), kTolerance);
+  EXPECT_NEAR(json["potential"].get<double>(), g * (2 * std::sin(q1) + std::sin(q1 + q2)), kTolerance);
+  EXPECT_NEAR(json["kinetic"].get<double>(), (m11 * w1 * w1 + 2 * m12 * w1 * w2 + m22 * w2 * w2) / 2,
+              kTolerance);
+  EXPECT_GT(std::abs(json["qdd"][0].get<double>() - (m22 * r1 + m12 * r2) / det),
+            0.1);  // negative control: a sign
+}
+
+TEST(DynamicsCommand, HasNoLambdaAtASingularPoseButItsDirection) {
+  const Json json = dynamics({"models/rr.urdf"});
+  EXPECT_TRUE(json["Lambda"].is_null());
+  ASSERT_EQ(json["singular_directions"].size(), 1u);
+  EXPECT_NEAR(std::abs(json["singular_directions"][0][0].get<double>()), 1, 1e-12);
+  EXPECT_NEAR(json["singular_directions"][0][1].get<double>(), 0, 1e-12);
+  EXPECT_FALSE(dynamics({"models/rr.urdf", "--q", "0,1"})["Lambda"].is_null());
+}
+
+TEST(DynamicsCommand, TakesGravity) {
+  const Json json = dynamics({"models/rr.urdf", "--gravity", "0,0,0"});
+  EXPECT_EQ(json["tau_g"][0], 0);
+  EXPECT_EQ(dynamics({"models/rr.urdf"})["gravity"][1], -9.81);
+}
+
+TEST(DynamicsCommand, SaysWhichNumberIsWrong) {
+  const ProgramResult result = run_program({"dynamics", "models/rr.urdf", "--q", "0,ninety"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("--q 0,ninety"));
+}
+
+}  // namespace
+}  // namespace chainreel
