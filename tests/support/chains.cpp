@@ -79,16 +79,16 @@ void add_extras(Chain& chain, Random& random, const TreeOptions& options, std::v
     joint.ratio = random.between(0.3, 2) * (random.below(2) == 0 ? 1 : -1);
     joint.offset = random.between(-1, 1);
   }
-  // Only single freedoms of different axes may hang on a body without inertia, or they could not be told
-  // apart.
+  // A body without inertia is moved by what it carries: never two of them in a row, or too little is left to
+  // move.
   for (int i = 1; i < n; ++i) {
-    const bool carries = std::any_of(chain.bodies.begin() + i + 1, chain.bodies.end(), [i](const Body& body) {
-      return body.parent == i && body.joint.kind != JointKind::floating;
-    });
-    const JointKind kind = chain.bodies[std::size_t(i)].joint.kind;
-    if (carries && kind != JointKind::floating && random.between(0, 1) < options.massless) {
-      chain.bodies[std::size_t(i)].inertia = {};
-    }
+    Body& body = chain.bodies[std::size_t(i)];
+    const bool carries = std::any_of(
+        chain.bodies.begin() + i + 1, chain.bodies.end(),
+        [i](const Body& other) { return other.parent == i && other.joint.kind != JointKind::floating; });
+    const bool on_massless = body.parent > 0 && chain.bodies[std::size_t(body.parent)].inertia.mass == 0;
+    if (!carries || on_massless || body.joint.kind == JointKind::floating) continue;
+    if (random.between(0, 1) < options.massless) body.inertia = {};
   }
 }
 

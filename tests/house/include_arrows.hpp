@@ -1,0 +1,33 @@
+// The arrows of the house, read from the `#include` lines of src: which folder may include which, and which
+// folder alone may include a library of others.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace chainreel {
+
+struct House {
+  std::map<std::string, std::set<std::string>> uses;  // folder -> folders directly below it
+  std::map<std::string, std::set<std::string>>
+      libraries;  // start of an include -> the folders that may have it
+};
+
+// The house as src/README.md draws it.
+const House& house();
+
+// `folder` itself and all below it, directly or through another.
+std::set<std::string> reachable(const House& house, const std::string& folder);
+
+struct IncludeReport {
+  int files = 0;
+  int includes = 0;
+  std::vector<std::string> faults;  // "sim/probe.cpp:7: ..."
+};
+
+IncludeReport check_includes(const House& house, const std::filesystem::path& src);
+
+}  // namespace chainreel
