@@ -1,4 +1,5 @@
-// Shapes to pixels: one off-screen OpenGL context and the shader pairs of shaders/. Not shared between threads.
+// Shapes to pixels: one off-screen OpenGL context and the shader pairs of shaders/. Not shared between
+// threads.
 #pragma once
 
 #include <memory>
@@ -16,9 +17,13 @@ struct RendererInfo {
   std::string version;   // GL_VERSION
 };
 
+// Makes a context for a moment. Throws Error (exit 4) where there is none.
+RendererInfo probe_renderer();
+
 class Canvas {
  public:
-  // Throws Error (exit 4) where there is no OpenGL 3.3 core context, exit 7 where the size is beyond its limits.
+  // Throws Error (exit 4) where there is no OpenGL 3.3 core context, exit 7 where the size is beyond its
+  // limits.
   Canvas(int width, int height, const Fonts& fonts);
   ~Canvas();
   Canvas(const Canvas&) = delete;
@@ -26,10 +31,11 @@ class Canvas {
 
   RendererInfo info() const;
 
-  // What does not change between frames: drawn once, copied under every later draw(). The picture's background fills
-  // the page. Without a call the page is the drawn picture's own background.
+  // What does not change between frames: drawn once, copied under every later draw(). The picture's
+  // background fills the page. Without a call the page is the drawn picture's own background.
   void set_static_layer(const Picture& picture);
-  // Draws over the static layer and reads the pixels back into `image` (resized to fit, reused between calls).
+  // Draws over the static layer and reads the pixels back into `image` (resized to fit, reused between
+  // calls).
   void draw(const Picture& picture, Image& image);
 
  private:

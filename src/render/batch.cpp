@@ -1,0 +1,267 @@
+#include "render/batch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/scalar.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kFringe = 1;             // px around an edge that may be touched
+constexpr double kThinnest = 0.5;         // px: no line is thinner than twice this
+constexpr double kSmallestAxis = 0.01;    // px: a flatter ellipse is a line
+constexpr double kFarthest = 1 << 14;     // px: single precision still resolves 1/1000 px here
+constexpr double kLargestAxis = 1e6;      // px: and 1/16 px here
+constexpr double kLargestText = 1 << 13;  // px per em
+constexpr int kCorners = 8;
+
+}  // namespace
+
+struct Batch::Vector {
+  float x = 0, y = 0, z = 0, w = 0;
+
+  Vector() = default;
+  Vector(double a, double b = 0, double c = 0, double d = 0)
+      : x(float(a)), y(float(b)), z(float(c)), w(float(d)) {}
+  static Vector premultiplied(const Color& c) {
+    const double scale = c.a / 255;
+    return {scale * c.r, scale * c.g, scale * c.b, c.a};
+  }
+};
+
+struct Batch::Pixels {
+  double x = 0, y = 0;
+};
+
+Batch::Batch(int width, int height, GlyphAtlas& atlas) : width_(width), height_(height), atlas_(atlas) {}
+
+Batch::Pixels Batch::to_pixels(Point p) const {
+  return {height_ * p.x, height_ * (1 - p.y)};
+}
+
+PixelBox Batch::to_pixels(const Rect& rect) const {
+  const auto pixel = [](double edge, int largest) {
+    return int(std::lround(std::clamp(edge, 0.0, double(largest))));
+  };
+  const Pixels low = to_pixels(Point{rect.x0, rect.y1}), high = to_pixels(Point{rect.x1, rect.y0});
+  return {pixel(low.x, width_), pixel(low.y, height_), pixel(high.x, width_), pixel(high.y, height_)};
+}
+
+// False for boxes that are not numbers, too.
+bool Batch::is_visible(double left, double top, double right, double bottom) const {
+  return right > clip_.left && left < clip_.right && bottom > clip_.top && top < clip_.bottom &&
+         std::isfinite(left + top + right + bottom);
+}
+
+// False where nothing would be seen.
+bool Batch::set_paint(const Paint& paint, double& half_stroke, Vector& fill, Vector& stroke) const {
+  const bool has_stroke = paint.stroke.a > 0 && paint.stroke_width > 0;
+  half_stroke = has_stroke ? std::max(kThinnest, height_ * paint.stroke_width / 2) : 0;
+  fill = Vector::premultiplied(paint.fill);
+  stroke = has_stroke ? Vector::premultiplied(paint.stroke) : Vector();
+  return has_stroke || paint.fill.a > 0;
+}
+
+void Batch::append(Primitive primitive, std::initializer_list<Vector> vectors) {
+  const PrimitiveRow& row = kPrimitives[std::size_t(primitive)];
+  std::vector<float>& stream = streams_[std::size_t(primitive)];
+  if (runs_.empty() || runs_.back().primitive != primitive || runs_.back().clip != clip_)
+    runs_.push_back({primitive, int(stream.size()) / (4 * row.vectors), 0, clip_});
+  for (const Vector& v : vectors) stream.insert(stream.end(), {v.x, v.y, v.z, v.w});
+  ++runs_.back().count;
+}
+
+void Batch::set(const Picture& picture) {
+  runs_.clear();
+  for (std::vector<float>& stream : streams_) stream.clear();
+  for (const Item& item : picture.items) {
+    clip_ =
+        item.clip < 0 ? PixelBox{0, 0, width_, height_} : to_pixels(picture.clips.at(std::size_t(item.clip)));
+    if (!clip_.empty()) std::visit([this](const auto& shape) { add(shape); }, item.shape);
+  }
+}
+
+namespace {
+
+// The part of a long segment that can be seen in [low, high]^2, as parameters; false where there is none.
+bool clip_segment(double ax, double ay, double bx, double by, double low, double high, double& t0,
+                  double& t1) {
+  t0 = 0;
+  t1 = 1;
+  for (const auto& [from, to] : {std::pair(ax, bx), std::pair(ay, by)}) {
+    if (std::max(from, to) < low || std::min(from, to) > high) return false;
+    if (from == to) continue;
+    const double at_low = (low - from) / (to - from), at_high = (high - from) / (to - from);
+    t0 = std::max(t0, std::min(at_low, at_high));
+    t1 = std::min(t1, std::max(at_low, at_high));
+  }
+  return t0 <= t1;
+}
+
+}  // namespace
+
+void Batch::add(const Capsule& capsule) {
+  Vector fill, stroke;
+  double half_stroke = 0;
+  if (!set_paint(capsule.paint, half_stroke, fill, stroke) || capsule.radius < 0) return;
+  const double radius =
+      half_stroke > 0 ? height_ * capsule.radius : std::max(kThinnest, height_ * capsule.radius);
+  const double reach = radius + half_stroke + kFringe;
+  Pixels a = to_pixels(capsule.a), b = to_pixels(capsule.b);
+  if (!is_visible(std::min(a.x, b.x) - reach, std::min(a.y, b.y) - reach, std::max(a.x, b.x) + reach,
+                  std::max(a.y, b.y) + reach))
+    return;
+
+  double alpha_a = capsule.alpha_a, alpha_b = capsule.alpha_b;
+  const double farthest = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
+  if (farthest > kFarthest) {
+    double t0, t1;
+    const double beyond = std::max(width_, height_) + 2 * reach;
+    if (!clip_segment(a.x, a.y, b.x, b.y, -beyond, 2 * beyond, t0, t1)) return;
+    const Pixels whole = {b.x - a.x, b.y - a.y};
+    const double fade = alpha_b - alpha_a;
+    b = {a.x + t1 * whole.x, a.y + t1 * whole.y};
+    a = {a.x + t0 * whole.x, a.y + t0 * whole.y};
+    alpha_b = alpha_a + t1 * fade;
+    alpha_a = alpha_a + t0 * fade;
+  }
+  const Pixels along = {b.x - a.x, b.y - a.y};
+  const double length = std::sqrt(along.x * along.x + along.y * along.y);
+  const Pixels axis = length > 0 ? Pixels{along.x / length, along.y / length} : Pixels{1, 0};
+  append(Primitive::capsule,
+         {{a.x, a.y, axis.x, axis.y}, {length, radius, half_stroke}, {alpha_a, alpha_b}, fill, stroke});
+}
+
+void Batch::add(const Ellipse& ellipse) {
+  const auto length_of = [](Point p) { return std::sqrt(p.x * p.x + p.y * p.y); };
+  const bool u_is_major = length_of(ellipse.u) >= length_of(ellipse.v);
+  const Point major = u_is_major ? ellipse.u : ellipse.v, minor = u_is_major ? ellipse.v : ellipse.u;
+  const double length = length_of(major);
+  if (length_of(minor) >= length * (1 - 1e-9)) {
+    add(Capsule{ellipse.center, ellipse.center, length, ellipse.paint});  // a disc
+    return;
+  }
+  Vector fill, stroke;
+  double half_stroke = 0;
+  if (!set_paint(ellipse.paint, half_stroke, fill, stroke)) return;
+  const double smallest = half_stroke > 0 ? kSmallestAxis : kThinnest;
+  const double a = std::clamp(height_ * length, smallest, kLargestAxis);
+  const double b = std::clamp(height_ * length_of(minor), smallest, a);
+  const Pixels center = to_pixels(ellipse.center), axis = {major.x / length, -major.y / length};
+  const double reach = half_stroke + kFringe;
+  const double half_width = std::sqrt(a * a * axis.x * axis.x + b * b * axis.y * axis.y) + reach;
+  const double half_height = std::sqrt(a * a * axis.y * axis.y + b * b * axis.x * axis.x) + reach;
+  if (!is_visible(center.x - half_width, center.y - half_height, center.x + half_width,
+                  center.y + half_height))
+    return;
+  append(Primitive::ellipse, {{center.x, center.y, axis.x, axis.y}, {a, b, half_stroke}, fill, stroke});
+}
+
+void Batch::add(const Arc& arc) {
+  if (!(arc.color.a > 0) || !(arc.radius >= 0) || !std::isfinite(arc.start) || !std::isfinite(arc.sweep))
+    return;
+  const double radius = height_ * arc.radius, half_width = std::max(kThinnest, height_ * arc.width / 2);
+  const double reach = radius + half_width + kFringe;
+  const Pixels center = to_pixels(arc.center);
+  if (!is_visible(center.x - reach, center.y - reach, center.x + reach, center.y + reach)) return;
+  const auto middle = sin_cos(arc.start + arc.sweep / 2);
+  const auto half = sin_cos(std::min(std::abs(arc.sweep) / 2, std::numbers::pi));
+  append(Primitive::arc, {{center.x, center.y, middle.c, -middle.s},
+                          {radius, half_width, half.s, half.c},
+                          Vector::premultiplied(arc.color)});
+}
+
+void Batch::add(const Polygon& polygon) {
+  Vector fill, stroke;
+  double half_stroke = 0;
+  if (polygon.count < 3 || polygon.count > kCorners || !set_paint(polygon.paint, half_stroke, fill, stroke))
+    return;
+  std::vector<Pixels> corners;
+  double left = HUGE_VAL, top = HUGE_VAL, right = -HUGE_VAL, bottom = -HUGE_VAL, twice_area = 0;
+  for (int i = 0; i < polygon.count; ++i) {
+    const Pixels p = to_pixels(polygon.corners[std::size_t(i)]);
+    const Pixels next = to_pixels(polygon.corners[std::size_t((i + 1) % polygon.count)]);
+    twice_area += p.x * next.y - p.y * next.x;
+    left = std::min(left, p.x), right = std::max(right, p.x);
+    top = std::min(top, p.y), bottom = std::max(bottom, p.y);
+    corners.push_back(p);
+  }
+  const double reach = half_stroke + kFringe;
+  if (!is_visible(left - reach, top - reach, right + reach, bottom + reach) || !std::isfinite(twice_area))
+    return;
+
+  // The shader takes eight corners in one sense; the missing ones divide the longest edges.
+  if (twice_area < 0) std::reverse(corners.begin(), corners.end());
+  while (corners.size() < kCorners) {
+    std::size_t longest = 0;
+    double longest_square = -1;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Pixels& next = corners[(i + 1) % corners.size()];
+      const double square = std::pow(next.x - corners[i].x, 2) + std::pow(next.y - corners[i].y, 2);
+      if (square > longest_square) longest_square = square, longest = i;
+    }
+    const Pixels& next = corners[(longest + 1) % corners.size()];
+    const Pixels middle = {(corners[longest].x + next.x) / 2, (corners[longest].y + next.y) / 2};
+    corners.insert(corners.begin() + std::ptrdiff_t(longest) + 1, middle);
+  }
+  const auto pair = [&corners](std::size_t i) {
+    return Vector(corners[i].x, corners[i].y, corners[i + 1].x, corners[i + 1].y);
+  };
+  append(Primitive::polygon, {pair(0), pair(2), pair(4), pair(6), {half_stroke}, fill, stroke});
+}
+
+void Batch::add(const Trail& trail) {
+  if (!(trail.color.a > 0)) return;
+  const PixelBox clip = clip_;
+  double left = HUGE_VAL, top = HUGE_VAL, right = -HUGE_VAL, bottom = -HUGE_VAL;
+  const std::size_t pieces = trail.points.size() > 1 ? trail.points.size() - 1 : trail.points.size();
+  for (std::size_t i = 0; i < pieces; ++i) {
+    const TrailPoint& from = trail.points[i];
+    const TrailPoint& to = trail.points[std::min(i + 1, trail.points.size() - 1)];
+    const Pixels a = to_pixels(from.p), b = to_pixels(to.p);
+    const double radius_a = std::max(kThinnest, height_ * from.width / 2);
+    const double radius_b = std::max(kThinnest, height_ * to.width / 2);
+    const double reach = std::max(radius_a, radius_b) + kFringe;
+    const double x0 = std::min(a.x, b.x) - reach, x1 = std::max(a.x, b.x) + reach;
+    const double y0 = std::min(a.y, b.y) - reach, y1 = std::max(a.y, b.y) + reach;
+    if (!is_visible(x0, y0, x1, y1) || (from.alpha <= 0 && to.alpha <= 0)) continue;
+    append(Primitive::trail, {{a.x, a.y, b.x, b.y}, {radius_a, radius_b, from.alpha, to.alpha}});
+    left = std::min(left, x0), right = std::max(right, x1);
+    top = std::min(top, y0), bottom = std::max(bottom, y1);
+  }
+  if (left > right) return;
+
+  clip_ = {int(std::max(left, double(clip.left))), int(std::max(top, double(clip.top))),
+           int(std::min(std::ceil(right), double(clip.right))),
+           int(std::min(std::ceil(bottom), double(clip.bottom)))};
+  runs_.back().clip = clip_;
+  append(Primitive::layer,
+         {{double(clip_.left), double(clip_.top), double(clip_.right), double(clip_.bottom)},
+          Vector::premultiplied(trail.color)});
+}
+
+void Batch::add(const GlyphRun& run) {
+  if (!(run.color.a > 0) || !(run.size > 0)) return;
+  const double size = height_ * run.size;
+  if (size > kLargestText)
+    throw Error(ExitCode::limit, "text of " + std::to_string(long(size)) + " px; the largest is " +
+                                     std::to_string(long(kLargestText)));
+  for (const Glyph& glyph : run.glyphs) {
+    const Pixels pen = to_pixels(run.origin + Point{glyph.x, glyph.y});
+    if (!is_visible(pen.x - 2 * size, pen.y - 2 * size, pen.x + 2 * size, pen.y + 2 * size)) continue;
+    const long quarters = std::lround(GlyphAtlas::kSteps * pen.x);
+    const long step = ((quarters % GlyphAtlas::kSteps) + GlyphAtlas::kSteps) % GlyphAtlas::kSteps;
+    const AtlasGlyph& bitmap = atlas_.glyph(run.face, glyph.index, int(std::lround(64 * size)), int(step));
+    if (bitmap.width == 0) continue;
+    const double left = double((quarters - step) / GlyphAtlas::kSteps) + bitmap.offset_x;
+    const double top = double(std::lround(pen.y)) + bitmap.offset_y;
+    append(Primitive::glyph, {{left, top, double(bitmap.width), double(bitmap.height)},
+                              {double(bitmap.left), double(bitmap.top)},
+                              Vector::premultiplied(run.color)});
+  }
+}
+
+}  // namespace chainreel

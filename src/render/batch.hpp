@@ -1,0 +1,72 @@
+// A picture's shapes as numbers for the shaders: each primitive has one stream of instances, and runs of
+// equal primitives keep the painter's order. Needs no OpenGL.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "picture/picture.hpp"
+#include "render/glyph_atlas.hpp"
+
+namespace chainreel {
+
+enum class Primitive { capsule, ellipse, arc, polygon, glyph, trail, layer };
+
+struct PrimitiveRow {
+  std::string_view name;  // of the shader pair
+  int vectors;            // vec4 per instance; their meaning stands at the head of the vertex shader
+};
+
+inline constexpr std::array<PrimitiveRow, 7> kPrimitives = {
+    {{"capsule", 5}, {"ellipse", 4}, {"arc", 3}, {"polygon", 7}, {"glyph", 3}, {"trail", 2}, {"layer", 2}}};
+
+// Whole pixels, y down from the page's top; the right and lower sides are outside.
+struct PixelBox {
+  int left = 0, top = 0, right = 0, bottom = 0;
+  bool empty() const { return left >= right || top >= bottom; }
+  friend bool operator==(const PixelBox&, const PixelBox&) = default;
+};
+
+// Where a trail's pieces are drawn into the layer, `clip` is the box that the next run colours.
+struct Run {
+  Primitive primitive;
+  int first = 0, count = 0;  // instances
+  PixelBox clip;
+};
+
+class Batch {
+ public:
+  Batch(int width, int height, GlyphAtlas& atlas);
+
+  // Replaces what was there. Shapes that are not finite or not on the page are left out.
+  void set(const Picture& picture);
+
+  const std::vector<Run>& runs() const { return runs_; }
+  const std::vector<float>& instances(Primitive primitive) const { return streams_[std::size_t(primitive)]; }
+
+ private:
+  struct Vector;
+  struct Pixels;  // a point in page pixels, y down
+
+  Pixels to_pixels(Point p) const;
+  PixelBox to_pixels(const Rect& rect) const;
+  bool is_visible(double left, double top, double right, double bottom) const;
+  bool set_paint(const Paint& paint, double& half_stroke, Vector& fill, Vector& stroke) const;
+  void append(Primitive primitive, std::initializer_list<Vector> vectors);
+
+  void add(const Capsule& capsule);
+  void add(const Ellipse& ellipse);
+  void add(const Arc& arc);
+  void add(const Polygon& polygon);
+  void add(const Trail& trail);
+  void add(const GlyphRun& run);
+
+  int width_, height_;
+  GlyphAtlas& atlas_;
+  PixelBox clip_;  // of the shape being added
+  std::vector<Run> runs_;
+  std::array<std::vector<float>, kPrimitives.size()> streams_;
+};
+
+}  // namespace chainreel

@@ -1,0 +1,211 @@
+#include "render/canvas.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "core/error.hpp"
+#include "render/batch.hpp"
+#include "render/gl_context.hpp"
+#include "render/gl_objects.hpp"
+#include "render/glyph_atlas.hpp"
+
+namespace chainreel {
+namespace {
+
+std::string gl_string(const GlFunctions& gl, GLenum name) {
+  const GLubyte* text = gl.GetString(name);
+  return text == nullptr ? "unknown" : reinterpret_cast<const char*>(text);
+}
+
+RendererInfo info_of(const GlContext& context) {
+  return {context.backend(), gl_string(context.gl(), GL_RENDERER), gl_string(context.gl(), GL_VERSION)};
+}
+
+// The longest side of a picture that the context can draw.
+int largest_side(const GlFunctions& gl) {
+  GLint texture = 0;
+  std::array<GLint, 2> viewport{};
+  gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
+  gl.GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
+  return std::min({texture, viewport[0], viewport[1]});
+}
+
+void require_size(int width, int height, int largest) {
+  if (width >= 1 && height >= 1 && width <= largest && height <= largest) return;
+  throw Error(ExitCode::limit, "a picture of " + std::to_string(width) + "x" + std::to_string(height) +
+                                   " px cannot be drawn; each side must be 1 to " + std::to_string(largest) +
+                                   " px");
+}
+
+// Blending needs colours multiplied by their opacity; outside, opacity is straight.
+void divide_by_alpha(Image& image) {
+  for (std::size_t i = 0; i < image.bgra.size(); i += 4) {
+    const int alpha = image.bgra[i + 3];
+    if (alpha == 0 || alpha == 255) continue;
+    for (std::size_t k = i; k < i + 3; ++k)
+      image.bgra[k] = std::uint8_t(std::min(255, (255 * image.bgra[k] + alpha / 2) / alpha));
+  }
+}
+
+}  // namespace
+
+struct Canvas::State {
+  int width, height;
+  std::unique_ptr<GlContext> context = create_gl_context();
+  const GlFunctions& gl = context->gl();
+  const int largest = largest_side(gl);
+  Target page;
+  std::optional<Target> static_layer, trail_layer;  // made when first used
+  double static_alpha = 1;                          // of the static layer's background
+  std::array<std::optional<PrimitiveProgram>, kPrimitives.size()> programs;
+  GlyphAtlas atlas;
+  GLuint atlas_texture = 0;
+  int atlas_version = 0;
+  Batch batch;
+
+  State(int w, int h, const Fonts& fonts)
+      : width(w),
+        height(h),
+        page(checked(gl, w, h, largest), Target::Kind::color, w, h),
+        atlas(fonts, largest),
+        batch(w, h, atlas) {
+    gl.GenTextures(1, &atlas_texture);
+    gl.BindTexture(GL_TEXTURE_2D, atlas_texture);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl.Viewport(0, 0, w, h);
+    gl.Enable(GL_SCISSOR_TEST);
+    gl.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  }
+  ~State() {
+    context->make_current();
+    gl.DeleteTextures(1, &atlas_texture);
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  static const GlFunctions& checked(const GlFunctions& gl, int w, int h, int largest) {
+    require_size(w, h, largest);
+    return gl;
+  }
+
+  void scissor(const PixelBox& box) const {
+    gl.Scissor(box.left, box.top, box.right - box.left, box.bottom - box.top);
+  }
+
+  const PrimitiveProgram& program(Primitive primitive) {
+    auto& program = programs[std::size_t(primitive)];
+    const PrimitiveRow& row = kPrimitives[std::size_t(primitive)];
+    if (!program) program.emplace(gl, row.name, row.vectors, width, height);
+    return *program;
+  }
+
+  void clear(const Color& background) const {
+    const auto level = [&background](int c) { return float(background.a * c / 255); };
+    scissor({0, 0, width, height});
+    gl.ClearColor(level(background.r), level(background.g), level(background.b), float(background.a));
+    gl.Clear(GL_COLOR_BUFFER_BIT);
+  }
+
+  void upload() {
+    for (std::size_t i = 0; i < kPrimitives.size(); ++i) {
+      const std::vector<float>& instances = batch.instances(Primitive(i));
+      if (!instances.empty()) program(Primitive(i)).upload(instances.data(), instances.size());
+    }
+    if (batch.instances(Primitive::glyph).empty() || atlas_version == atlas.version()) return;
+    gl.BindTexture(GL_TEXTURE_2D, atlas_texture);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, atlas.width(), atlas.height(), 0, GL_RED, GL_UNSIGNED_BYTE,
+                  atlas.sheet().data());
+    atlas_version = atlas.version();
+  }
+
+  void draw_trail(const Run& run, const Target& target) {
+    if (!trail_layer) trail_layer.emplace(gl, Target::Kind::coverage, width, height);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, trail_layer->framebuffer());
+    gl.ClearColor(0, 0, 0, 0);
+    gl.Clear(GL_COLOR_BUFFER_BIT);
+    gl.BlendEquation(GL_MAX);
+    program(run.primitive).draw(run.first, run.count);
+    gl.BlendEquation(GL_FUNC_ADD);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
+  }
+
+  void draw_runs(const Target& target) {
+    gl.Enable(GL_BLEND);
+    for (const Run& run : batch.runs()) {
+      scissor(run.clip);
+      if (run.primitive == Primitive::trail) {
+        draw_trail(run, target);
+        continue;
+      }
+      if (run.primitive == Primitive::glyph) gl.BindTexture(GL_TEXTURE_2D, atlas_texture);
+      if (run.primitive == Primitive::layer) gl.BindTexture(GL_TEXTURE_2D, trail_layer->texture());
+      program(run.primitive).draw(run.first, run.count);
+    }
+    gl.Disable(GL_BLEND);
+  }
+
+  void copy(const Target& from, const Target& to) const {
+    scissor({0, 0, width, height});
+    gl.BindFramebuffer(GL_READ_FRAMEBUFFER, from.framebuffer());
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, to.framebuffer());
+    gl.BlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  }
+
+  void read(Image& image, bool is_translucent) const {
+    if (image.width != width || image.height != height) image = Image(width, height);
+    gl.BindFramebuffer(GL_READ_FRAMEBUFFER, page.framebuffer());
+    gl.ReadPixels(0, 0, width, height, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, image.bgra.data());
+    check_gl(gl, "drawing a picture");
+    if (is_translucent) divide_by_alpha(image);
+  }
+};
+
+Canvas::Canvas(int width, int height, const Fonts& fonts)
+    : state_(std::make_unique<State>(width, height, fonts)) {}
+
+Canvas::~Canvas() = default;
+
+RendererInfo Canvas::info() const {
+  state_->context->make_current();
+  return info_of(*state_->context);
+}
+
+void Canvas::set_static_layer(const Picture& picture) {
+  State& s = *state_;
+  s.context->make_current();
+  if (!s.static_layer) s.static_layer.emplace(s.gl, Target::Kind::color, s.width, s.height);
+  s.static_alpha = picture.background.a;
+  s.atlas.trim();
+  s.batch.set(picture);
+  s.upload();
+  s.gl.BindFramebuffer(GL_FRAMEBUFFER, s.static_layer->framebuffer());
+  s.clear(picture.background);
+  s.draw_runs(*s.static_layer);
+  check_gl(s.gl, "drawing the static layer");
+}
+
+void Canvas::draw(const Picture& picture, Image& image) {
+  State& s = *state_;
+  s.context->make_current();
+  s.atlas.trim();
+  s.batch.set(picture);
+  s.upload();
+  if (s.static_layer) {
+    s.copy(*s.static_layer, s.page);
+    s.gl.BindFramebuffer(GL_FRAMEBUFFER, s.page.framebuffer());
+  } else {
+    s.gl.BindFramebuffer(GL_FRAMEBUFFER, s.page.framebuffer());
+    s.clear(picture.background);
+  }
+  s.draw_runs(s.page);
+  s.read(image, (s.static_layer ? s.static_alpha : picture.background.a) < 1);
+}
+
+RendererInfo probe_renderer() {
+  return info_of(*create_gl_context());
+}
+
+}  // namespace chainreel

@@ -1,0 +1,146 @@
+#include "render/gl_objects.hpp"
+
+#include <array>
+#include <cstdint>
+
+#include "core/error.hpp"
+#include "render/shader_source.hpp"
+
+namespace chainreel {
+
+std::string gl_error_text(GLenum error) {
+  switch (error) {
+    case GL_NO_ERROR:
+      return "no error";
+    case GL_INVALID_ENUM:
+      return "GL_INVALID_ENUM";
+    case GL_INVALID_VALUE:
+      return "GL_INVALID_VALUE";
+    case GL_INVALID_OPERATION:
+      return "GL_INVALID_OPERATION";
+    case GL_INVALID_FRAMEBUFFER_OPERATION:
+      return "GL_INVALID_FRAMEBUFFER_OPERATION";
+    case GL_OUT_OF_MEMORY:
+      return "GL_OUT_OF_MEMORY: choose a smaller picture";
+    default:
+      return "error " + std::to_string(error);
+  }
+}
+
+void check_gl(const GlFunctions& gl, const char* doing) {
+  const GLenum error = gl.GetError();
+  if (error == GL_NO_ERROR) return;
+  const ExitCode code = error == GL_OUT_OF_MEMORY ? ExitCode::limit : ExitCode::no_renderer;
+  throw Error(code, std::string("OpenGL failed while ") + doing + ": " + gl_error_text(error));
+}
+
+Target::Target(const GlFunctions& gl, Kind kind, int width, int height) : gl_(gl) {
+  gl_.GenTextures(1, &texture_);
+  gl_.GenFramebuffers(1, &framebuffer_);
+  gl_.BindTexture(GL_TEXTURE_2D, texture_);
+  if (kind == Kind::color) {
+    // Stored as it will be read: any other order costs a conversion per frame and the renderer's fast paths.
+    gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV,
+                   nullptr);
+  } else {
+    gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, width, height, 0, GL_RED, GL_UNSIGNED_BYTE, nullptr);
+  }
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
+  check_gl(gl_, "making room for the picture");
+  if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    throw Error(ExitCode::no_renderer, "OpenGL cannot draw into a picture of " + std::to_string(width) + "x" +
+                                           std::to_string(height));
+}
+
+Target::~Target() {
+  gl_.DeleteFramebuffers(1, &framebuffer_);
+  gl_.DeleteTextures(1, &texture_);
+}
+
+namespace {
+
+GLuint compile(const GlFunctions& gl, GLenum stage, const std::string& name) {
+  const GLuint shader = gl.CreateShader(stage);
+  const std::string_view head = shader_source(stage == GL_VERTEX_SHADER ? "page.glsl" : "paint.glsl");
+  const std::string_view body = shader_source(name);
+  const std::array<const GLchar*, 2> texts = {head.data(), body.data()};
+  const std::array<GLint, 2> lengths = {GLint(head.size()), GLint(body.size())};
+  gl.ShaderSource(shader, GLsizei(texts.size()), texts.data(), lengths.data());
+  gl.CompileShader(shader);
+  GLint compiled = GL_FALSE;
+  gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+  if (compiled == GL_TRUE) return shader;
+
+  std::array<GLchar, 1024> log{};
+  gl.GetShaderInfoLog(shader, GLsizei(log.size()), nullptr, log.data());
+  gl.DeleteShader(shader);
+  throw Error(ExitCode::no_renderer, "shader " + name + " does not compile: " + log.data());
+}
+
+void link(const GlFunctions& gl, GLuint program, const std::string& name) {
+  gl.LinkProgram(program);
+  GLint linked = GL_FALSE;
+  gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
+  if (linked == GL_TRUE) return;
+
+  std::array<GLchar, 1024> log{};
+  gl.GetProgramInfoLog(program, GLsizei(log.size()), nullptr, log.data());
+  throw Error(ExitCode::no_renderer, "shader pair " + name + " does not link: " + log.data());
+}
+
+}  // namespace
+
+PrimitiveProgram::PrimitiveProgram(const GlFunctions& gl, std::string_view name, int vectors, int page_width,
+                                   int page_height)
+    : gl_(gl), vectors_(vectors) {
+  program_ = gl_.CreateProgram();
+  for (const auto& [stage, ending] :
+       {std::pair(GL_VERTEX_SHADER, ".vert"), std::pair(GL_FRAGMENT_SHADER, ".frag")}) {
+    const GLuint shader = compile(gl_, GLenum(stage), std::string(name) + ending);
+    gl_.AttachShader(program_, shader);
+    gl_.DeleteShader(shader);  // lives on while attached
+  }
+  link(gl_, program_, std::string(name));
+  gl_.UseProgram(program_);
+  gl_.Uniform2f(gl_.GetUniformLocation(program_, "page_px"), float(page_width), float(page_height));
+
+  gl_.GenVertexArrays(1, &vertex_array_);
+  gl_.GenBuffers(1, &buffer_);
+  gl_.BindVertexArray(vertex_array_);
+  for (int i = 0; i < vectors_; ++i) {
+    gl_.EnableVertexAttribArray(GLuint(i));
+    gl_.VertexAttribDivisor(GLuint(i), 1);
+  }
+  check_gl(gl_, "preparing the shaders");
+}
+
+PrimitiveProgram::~PrimitiveProgram() {
+  gl_.DeleteBuffers(1, &buffer_);
+  gl_.DeleteVertexArrays(1, &vertex_array_);
+  gl_.DeleteProgram(program_);
+}
+
+void PrimitiveProgram::upload(const float* instances, std::size_t floats) const {
+  gl_.BindBuffer(GL_ARRAY_BUFFER, buffer_);
+  gl_.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(floats * sizeof(float)), instances, GL_STREAM_DRAW);
+}
+
+void PrimitiveProgram::draw(int first_instance, int count) const {
+  constexpr std::size_t kVectorBytes = 4 * sizeof(float);
+  const std::size_t stride = std::size_t(vectors_) * kVectorBytes;
+  gl_.UseProgram(program_);
+  gl_.BindVertexArray(vertex_array_);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, buffer_);
+  // OpenGL 3.3 has no first instance: the attributes' pointers move instead.
+  for (int i = 0; i < vectors_; ++i) {
+    const std::size_t offset = std::size_t(first_instance) * stride + std::size_t(i) * kVectorBytes;
+    gl_.VertexAttribPointer(GLuint(i), 4, GL_FLOAT, GL_FALSE, GLsizei(stride),
+                            reinterpret_cast<const void*>(std::uintptr_t(offset)));
+  }
+  gl_.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(count));
+}
+
+}  // namespace chainreel
