@@ -1,8 +1,11 @@
 #include "model/read_chain.hpp"
 
+#include "model/package_path.hpp"
 #include "model/planar.hpp"
 #include "model/reduce.hpp"
+#include "model/regularity.hpp"
 #include "model/urdf_file.hpp"
+#include "model/urdf_problems.hpp"
 
 namespace chainreel {
 namespace {
@@ -24,17 +27,49 @@ int end_effector_of(const Chain& chain, const ModelOptions& options, const std::
               {path});
 }
 
+// Every mesh that can be drawn must be there.
+void require_meshes(const UrdfFile& file, const ModelOptions& options) {
+  FileFinder finder(file.path, options.packages);
+  UrdfProblems problems(file.path);
+  for (const UrdfLink& link : file.links) {
+    for (const UrdfShape& shape : link.visuals) {
+      if (shape.kind != UrdfShapeKind::mesh) continue;
+      const FoundFile& found = finder.find(shape.mesh_file);
+      if (found.path.empty())
+        problems.add(shape.line, missing_mesh_message(link.name, shape.mesh_file, found));
+    }
+  }
+  problems.throw_if_any();
+}
+
+void require_regular(const Chain& chain, const ReducedModel& model, const UrdfFile& file) {
+  const int body = unresisted_body(chain);
+  if (body < 0) return;
+  const std::string joint = chain.bodies[std::size_t(body)].joint.name;
+  const int link = model.link_of_body[std::size_t(body)];
+  throw Error(ExitCode::bad_input,
+              "joint '" + joint +
+                  "' moves no mass at any pose (a point mass on its own axis?), so no torque has an "
+                  "acceleration: give "
+                  "link '" +
+                  chain.bodies[std::size_t(body)].name + "' an inertia, or make the joint fixed",
+              file.at(link < 0 ? 0 : file.links[std::size_t(link)].line));
+}
+
 }  // namespace
 
 Chain read_chain(const std::string& path, const ModelOptions& options) {
   const UrdfFile file = read_urdf_file(path);
-  Chain chain = reduce(file, options).chain;
+  if (options.meshes) require_meshes(file, options);
+  ReducedModel model = reduce(file, options);
+  Chain& chain = model.chain;
+  require_regular(chain, model, file);
   chain.end_effector = end_effector_of(chain, options, path);
   const Eigen::Vector3d down =
       moves_in_xy_plane(chain) ? Eigen::Vector3d(0, -9.81, 0) : Eigen::Vector3d(0, 0, -9.81);
   chain.gravity = options.gravity.value_or(down);
   chain.planar = planar_form_of(chain, chain.why_algebra);
-  return chain;
+  return std::move(chain);
 }
 
 }  // namespace chainreel

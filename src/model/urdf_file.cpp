@@ -40,9 +40,8 @@ std::string to_string(UrdfJointType type) {
 }
 
 UrdfFile read_urdf_file(const std::string& path) {
-  const std::string text = read_xml_text(path);
   UrdfProblems problems(path);
-  CheckedUrdf urdf = check_urdf(text, path, problems);
+  CheckedUrdf urdf = check_urdf(read_xml_text(path), path, problems);
   connect_links(urdf, problems);
   check_mimics(urdf.file, problems);
   problems.throw_if_any();

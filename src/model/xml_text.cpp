@@ -40,6 +40,7 @@ class XmlScanner {
     }
   }
 
+  int attributes() const { return attributes_; }  // of the last tag, counted by their quotes
   int line() const {
     return 1 + int(std::count(text_.begin(), text_.begin() + std::ptrdiff_t(tag_begin_), '\n'));
   }
@@ -55,12 +56,14 @@ class XmlScanner {
   Markup element() {
     const bool closes = text_.substr(at_).starts_with("</");
     char quote = 0;
+    attributes_ = 0;
     for (++at_; at_ < text_.size(); ++at_) {
       const char c = text_[at_];
       if (quote != 0) {
         if (c == quote) quote = 0;
       } else if (c == '"' || c == '\'') {
         quote = c;
+        ++attributes_;
       } else if (c == '>') {
         const bool is_empty = text_[at_ - 1] == '/';
         ++at_;
@@ -73,12 +76,16 @@ class XmlScanner {
   std::string_view text_;
   std::size_t at_ = 0;
   std::size_t tag_begin_ = 0;
+  int attributes_ = 0;
 };
 
 }  // namespace
 
 void check_xml_limits(const std::string& text, const std::string& path) {
   XmlScanner scanner(text);
+  const auto refuse = [&](const std::string& message) {
+    throw Error(ExitCode::limit, message, {path, scanner.line()});
+  };
   int depth = 0;
   int elements = 0;
   for (auto markup = scanner.next(); markup != XmlScanner::Markup::end; markup = scanner.next()) {
@@ -86,18 +93,14 @@ void check_xml_limits(const std::string& text, const std::string& path) {
       --depth;
       continue;
     }
-    if (++elements > kMostXmlElements) {
-      throw Error(
-          ExitCode::limit,
-          "has more than " + std::to_string(kMostXmlElements) + " elements: split or simplify the model",
-          {path, scanner.line()});
-    }
     if (markup == XmlScanner::Markup::open) ++depth;
+    if (++elements > kMostXmlElements)
+      refuse("has more than " + std::to_string(kMostXmlElements) + " elements: split or simplify the model");
+    if (scanner.attributes() > kMostXmlAttributes)
+      refuse("a tag has more than " + std::to_string(kMostXmlAttributes) + " attributes: a URDF needs 6");
     if (depth > kDeepestXml) {
-      throw Error(ExitCode::limit,
-                  "elements are nested deeper than " + std::to_string(kDeepestXml) +
-                      " levels; a URDF needs 5: is a closing tag missing?",
-                  {path, scanner.line()});
+      refuse("elements are nested deeper than " + std::to_string(kDeepestXml) +
+             " levels; a URDF needs 5: is a closing tag missing?");
     }
   }
 }
