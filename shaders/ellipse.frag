@@ -18,14 +18,16 @@ float distance_to_edge(vec2 p, vec2 ab, float reach) {
   float level = sqrt(dot(z, z));
   // The ellipse scaled by `level` passes through p; the two are at least this far apart.
   float least = (level - 1.0) * ab.y;
-  if (abs(least) > reach) return least;
+  bool is_far = abs(least) > reach;
+  // Not an early return: a loop that nobody enters costs nothing, one behind a mask costs all its passes.
+  int passes = is_far ? 0 : kMostPasses;
 
   float ratio = ab.x / ab.y;
   float r_less_1 = (ratio - 1.0) * (ratio + 1.0);
   float numerator = ratio * ratio * z.x;
   float w = max(z.y, numerator - r_less_1);
   vec2 foot = vec2(0.0);
-  for (int pass = 0; pass <= kMostPasses; ++pass) {
+  for (int pass = 0; pass <= passes; ++pass) {
     vec2 over = vec2(w + r_less_1, w);
     foot = vec2(numerator, z.y) / over;
     float square = dot(foot, foot);
@@ -35,7 +37,7 @@ float distance_to_edge(vec2 p, vec2 ab, float reach) {
   }
   foot /= sqrt(dot(foot, foot));
   vec2 to_foot = foot * ab - p;
-  return sign(least) * sqrt(dot(to_foot, to_foot));
+  return is_far ? least : sign(least) * sqrt(dot(to_foot, to_foot));
 }
 
 void main() {

@@ -36,7 +36,8 @@ struct Batch::Pixels {
   double x = 0, y = 0;
 };
 
-Batch::Batch(int width, int height, GlyphAtlas& atlas) : width_(width), height_(height), atlas_(atlas) {}
+Batch::Batch(int width, int height, GlyphAtlas& atlas)
+    : width_(width), height_(height), atlas_(atlas), touched_(width, height) {}
 
 Batch::Pixels Batch::to_pixels(Point p) const {
   return {height_ * p.x, height_ * (1 - p.y)};
@@ -213,34 +214,45 @@ void Batch::add(const Polygon& polygon) {
   append(Primitive::polygon, {pair(0), pair(2), pair(4), pair(6), {half_stroke}, fill, stroke});
 }
 
+namespace {
+
+PixelBox enclosing(const std::vector<PixelBox>& boxes) {
+  if (boxes.empty()) return {};
+  PixelBox all = boxes.front();
+  for (const PixelBox& box : boxes)
+    all = {std::min(all.left, box.left), std::min(all.top, box.top), std::max(all.right, box.right),
+           std::max(all.bottom, box.bottom)};
+  return all;
+}
+
+}  // namespace
+
 void Batch::add(const Trail& trail) {
-  if (!(trail.color.a > 0)) return;
-  const PixelBox clip = clip_;
-  double left = HUGE_VAL, top = HUGE_VAL, right = -HUGE_VAL, bottom = -HUGE_VAL;
-  const std::size_t pieces = trail.points.size() > 1 ? trail.points.size() - 1 : trail.points.size();
-  for (std::size_t i = 0; i < pieces; ++i) {
+  if (!(trail.color.a > 0) || trail.points.empty()) return;
+  touched_.clear();
+  bool is_seen = false;
+  const std::size_t last = trail.points.size() - 1;
+  for (std::size_t i = 0; i < std::max<std::size_t>(last, 1); ++i) {
     const TrailPoint& from = trail.points[i];
-    const TrailPoint& to = trail.points[std::min(i + 1, trail.points.size() - 1)];
+    const TrailPoint& to = trail.points[std::min(i + 1, last)];
     const Pixels a = to_pixels(from.p), b = to_pixels(to.p);
     const double radius_a = std::max(kThinnest, height_ * from.width / 2);
     const double radius_b = std::max(kThinnest, height_ * to.width / 2);
     const double reach = std::max(radius_a, radius_b) + kFringe;
-    const double x0 = std::min(a.x, b.x) - reach, x1 = std::max(a.x, b.x) + reach;
-    const double y0 = std::min(a.y, b.y) - reach, y1 = std::max(a.y, b.y) + reach;
-    if (!is_visible(x0, y0, x1, y1) || (from.alpha <= 0 && to.alpha <= 0)) continue;
+    if ((from.alpha <= 0 && to.alpha <= 0) ||
+        !is_visible(std::min(a.x, b.x) - reach, std::min(a.y, b.y) - reach, std::max(a.x, b.x) + reach,
+                    std::max(a.y, b.y) + reach))
+      continue;
     append(Primitive::trail, {{a.x, a.y, b.x, b.y}, {radius_a, radius_b, from.alpha, to.alpha}});
-    left = std::min(left, x0), right = std::max(right, x1);
-    top = std::min(top, y0), bottom = std::max(bottom, y1);
+    touched_.mark_segment(a.x, a.y, b.x, b.y, reach);
+    is_seen = true;
   }
-  if (left > right) return;
-
-  clip_ = {int(std::max(left, double(clip.left))), int(std::max(top, double(clip.top))),
-           int(std::min(std::ceil(right), double(clip.right))),
-           int(std::min(std::ceil(bottom), double(clip.bottom)))};
-  runs_.back().clip = clip_;
-  append(Primitive::layer,
-         {{double(clip_.left), double(clip_.top), double(clip_.right), double(clip_.bottom)},
-          Vector::premultiplied(trail.color)});
+  if (!is_seen) return;
+  touched_.boxes(clip_, trail_boxes_);
+  runs_.back().clip = enclosing(trail_boxes_);
+  for (const PixelBox& box : trail_boxes_)
+    append(Primitive::layer, {{double(box.left), double(box.top), double(box.right), double(box.bottom)},
+                              Vector::premultiplied(trail.color)});
 }
 
 void Batch::add(const GlyphRun& run) {

@@ -8,6 +8,7 @@
 
 #include "picture/picture.hpp"
 #include "render/glyph_atlas.hpp"
+#include "render/tile_mask.hpp"
 
 namespace chainreel {
 
@@ -21,14 +22,7 @@ struct PrimitiveRow {
 inline constexpr std::array<PrimitiveRow, 7> kPrimitives = {
     {{"capsule", 5}, {"ellipse", 4}, {"arc", 3}, {"polygon", 7}, {"glyph", 3}, {"trail", 2}, {"layer", 2}}};
 
-// Whole pixels, y down from the page's top; the right and lower sides are outside.
-struct PixelBox {
-  int left = 0, top = 0, right = 0, bottom = 0;
-  bool empty() const { return left >= right || top >= bottom; }
-  friend bool operator==(const PixelBox&, const PixelBox&) = default;
-};
-
-// Where a trail's pieces are drawn into the layer, `clip` is the box that the next run colours.
+// `clip` of a trail's pieces is also the part of the layer to be cleared before; the next run colours it.
 struct Run {
   Primitive primitive;
   int first = 0, count = 0;  // instances
@@ -64,6 +58,8 @@ class Batch {
 
   int width_, height_;
   GlyphAtlas& atlas_;
+  TileMask touched_;  // by the trail being added
+  std::vector<PixelBox> trail_boxes_;
   PixelBox clip_;  // of the shape being added
   std::vector<Run> runs_;
   std::array<std::vector<float>, kPrimitives.size()> streams_;
