@@ -24,6 +24,7 @@ struct EffectiveMass {
   std::vector<Eigen::VectorXd> singular_directions;  // unit vectors of infinite mass, in the basis
 };
 
+// Uses ws.J, ws.M, ws.tau and ws.qdd on the way.
 EffectiveMass effective_mass_of(const Chain& chain, Workspace& ws, ConstVec q, int frame, Task task);
 
 }  // namespace chainreel

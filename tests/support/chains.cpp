@@ -271,7 +271,7 @@ Chain random_planar_tree(std::uint64_t seed, const TreeOptions& options, bool tu
     const Matrix3d R_WJ = random.rotation();
     Isometry3d X_PJ = random.pose(0.5);
     X_PJ.linear() = R_W[std::size_t(parent)].transpose() * R_WJ;
-    R_W.push_back(R_W[std::size_t(parent)] * X_PJ.linear());
+    R_W.push_back(R_WJ);
     Body body = body_of(parent, kind, (R_W.back().transpose() * axis_W).normalized(), X_PJ);
     body.inertia = random_inertia(random);
     chain.bodies.push_back(body);

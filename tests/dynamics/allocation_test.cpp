@@ -1,0 +1,90 @@
+// The loop of a run allocates nothing. Every allocation, of operator new and of Eigen alike, ends in malloc,
+// which is counted here; a sanitized build has its own malloc and skips the tests.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+
+#include "dynamics/aba.hpp"
+#include "dynamics/crba.hpp"
+#include "dynamics/energy.hpp"
+#include "dynamics/forward_dynamics.hpp"
+#include "dynamics/friction.hpp"
+#include "dynamics/jacobian.hpp"
+#include "dynamics/kinematics.hpp"
+#include "dynamics/rnea.hpp"
+#include "support/chains.hpp"
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool kCounts = false;
+#else
+constexpr bool kCounts = true;
+extern "C" void* __libc_malloc(std::size_t size);
+extern "C" void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+#endif
+
+namespace chainreel::testing {
+namespace {
+
+void use_everything(const Chain& chain, Workspace& ws, const State& s, std::vector<double>& q) {
+  compute_forward_dynamics(chain, ws, s.q, s.qd, s.tau);
+  if (!chain.has_mimic) compute_aba(chain, ws, s.q, s.qd, s.tau);
+  compute_inverse_dynamics(chain, ws, s.q, s.qd, s.qdd);
+  compute_nle(chain, ws, s.q, s.qd);
+  compute_gravity_torque(chain, ws, s.q);
+  compute_friction(chain, ws, s.qd);
+  compute_mass_matrix(chain, ws, s.q);
+  compute_kinematics(chain, ws, s.q, s.qd);
+  compute_jacobian(chain, ws, s.q, chain.end_effector, Task::linear);
+  compute_jacobian_rate(chain, ws, s.q, s.qd, chain.end_effector, Task::linear);
+  energy_of(chain, ws, s.q, s.qd);
+  q_rate(chain, s.q, s.qd, q);
+  advance(chain, q, s.qd, 1e-3);
+  normalize(chain, q);
+}
+
+TEST(AllocationTest, NothingIsAllocatedAfterTheFirstCall) {
+  if (!kCounts) GTEST_SKIP() << "a sanitizer counts on its own malloc";
+  Random random(81);
+  for (const Chain& chain :
+       {rr_chain(), rrr_chain(), pp_chain(), arm_chain(1), random_tree(82, {.bodies = 12, .mimic = 0.4}),
+        random_tree(83, {.bodies = 12, .floating_base = true}), random_planar_tree(84, {.bodies = 12})}) {
+    Workspace ws(chain);
+    const State s = random_state(chain, random);
+    std::vector<double> q = s.q;
+    use_everything(chain, ws, s, q);  // dense matrices are sized where they are first asked for
+    const long before = allocations;
+    use_everything(chain, ws, s, q);
+    EXPECT_EQ(allocations - before, 0) << chain.name;
+  }
+}
+
+TEST(AllocationTest, ForwardDynamicsAllocatesNotEvenTheFirstTime) {
+  if (!kCounts) GTEST_SKIP() << "a sanitizer counts on its own malloc";
+  Random random(85);
+  for (const Chain& chain : {rr_chain(), arm_chain(1), random_tree(82, {.bodies = 12, .mimic = 0.4})}) {
+    Workspace ws(chain);
+    const State s = random_state(chain, random);
+    const long before = allocations;
+    compute_forward_dynamics(chain, ws, s.q, s.qd, s.tau);
+    EXPECT_EQ(allocations - before, 0) << chain.name;
+  }
+}
+
+TEST(AllocationTest, MakingAWorkspaceIsCounted) {
+  if (!kCounts) GTEST_SKIP() << "a sanitizer counts on its own malloc";
+  const Chain chain = rr_chain();
+  const long before = allocations;
+  const Workspace ws(chain);
+  EXPECT_GT(allocations - before, 0);
+}
+
+}  // namespace
+}  // namespace chainreel::testing
