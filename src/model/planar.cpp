@@ -14,10 +14,6 @@ bool are_parallel(const Vector3d& a, const Vector3d& b) {
   return a.cross(b).norm() <= kParallelTolerance;
 }
 
-bool are_normal(const Vector3d& a, const Vector3d& b) {
-  return std::fabs(a.dot(b)) <= kParallelTolerance;
-}
-
 // A unit vector, freed of the round-off that would keep it off a coordinate axis.
 Vector3d cleaned(Vector3d v) {
   v.normalize();
@@ -99,68 +95,73 @@ Plane plane_of(const Vector3d& normal, const Chain& chain, const std::vector<Eig
   return plane;
 }
 
-std::string joint_name(const Chain& chain, int body) {
-  return chain.bodies[std::size_t(body)].joint.name;
+// How far a joint's axis is from its place in the plane, rad.
+double misalignment(const Joint& joint, const Vector3d& axis, const Vector3d& normal) {
+  return joint.kind == JointKind::revolute ? axis.cross(normal).norm() : std::fabs(axis.dot(normal));
 }
 
-// A normal of the plane, or nothing and the reason.
-std::optional<Vector3d> normal_of(const Chain& chain, const Axes& axes, std::string& why) {
-  if (chain.has_floating) {
-    why = "spatial: a floating joint moves in space";
-    return std::nullopt;
+std::string why_planar(const Axes& axes, const Vector3d& normal) {
+  const std::string n = direction_text(normal);
+  if (axes.prismatics == 0 && axes.revolutes == 1) return "planar: the only joint turns about " + n;
+  if (axes.prismatics == 0)
+    return "planar: all " + std::to_string(axes.revolutes) + " revolute axes are parallel to " + n;
+  if (axes.revolutes == 0)
+    return "planar: all " + std::to_string(axes.prismatics) + " prismatic axes are normal to " + n;
+  return "planar: revolute axes are parallel and prismatic axes normal to " + n;
+}
+
+std::string why_spatial(const Chain& chain, const Axes& axes, int body) {
+  const auto name = [&](int i) { return chain.bodies[std::size_t(i)].joint.name; };
+  if (axes.revolutes == 0) {
+    return "spatial: the axes of " + name(axes.first_prismatic) + ", " + name(axes.second_direction) +
+           " and " + name(body) + " do not lie in one plane";
   }
+  if (chain.bodies[std::size_t(body)].joint.kind == JointKind::revolute)
+    return "spatial: the axes of " + name(axes.first_revolute) + " and " + name(body) + " are not parallel";
+  return "spatial: the axis of " + name(body) + " is not normal to the axis of " + name(axes.first_revolute);
+}
+
+// What is off by less was meant to be in the plane.
+constexpr double kNearlyPlanar = 1e-3;  // rad
+
+struct PlaneSearch {
+  std::optional<Vector3d> normal;
+  std::string why;
+  bool is_near = false;  // no plane, but it is missed by less than kNearlyPlanar only
+};
+
+PlaneSearch search_plane(const Chain& chain, const Axes& axes) {
+  if (chain.has_floating) return {std::nullopt, "spatial: a floating joint moves in space"};
   const auto axis = [&](int body) -> const Vector3d& { return axes.of_body[std::size_t(body)]; };
   if (axes.revolutes == 0 && axes.second_direction == 0) {
     const Vector3d d = cleaned(axis(axes.first_prismatic));
-    why = axes.prismatics == 1 ? "planar: the only joint slides along " + direction_text(d)
-                               : "planar: all " + std::to_string(axes.prismatics) +
-                                     " prismatic axes are parallel to " + direction_text(d);
-    return cleaned(normal_of_slide(d, chain.gravity));
+    const std::string all = axes.prismatics == 1 ? "planar: the only joint slides along "
+                                                 : "planar: all " + std::to_string(axes.prismatics) +
+                                                       " prismatic axes are parallel to ";
+    return {cleaned(normal_of_slide(d, chain.gravity)), all + direction_text(d)};
   }
-  const bool turns = axes.revolutes > 0;
-  const Vector3d normal = turns ? cleaned(axis(axes.first_revolute))
-                                : cleaned(axis(axes.first_prismatic).cross(axis(axes.second_direction)));
+  const Vector3d normal = axes.revolutes > 0
+                              ? cleaned(axis(axes.first_revolute))
+                              : cleaned(axis(axes.first_prismatic).cross(axis(axes.second_direction)));
+  double worst = 0;
+  int offender = 0;  // the first joint outside the plane
   for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
-    const bool revolute = chain.bodies[i].joint.kind == JointKind::revolute;
-    if (revolute ? are_parallel(axes.of_body[i], normal) : are_normal(axes.of_body[i], normal)) continue;
-    const std::string name = joint_name(chain, int(i));
-    if (revolute) {
-      why = "spatial: the axes of " + joint_name(chain, axes.first_revolute) + " and " + name +
-            " are not parallel";
-    } else if (turns) {
-      why = "spatial: the axis of " + name + " is not normal to the axis of " +
-            joint_name(chain, axes.first_revolute);
-    } else {
-      why = "spatial: the axes of " + joint_name(chain, axes.first_prismatic) + ", " +
-            joint_name(chain, axes.second_direction) + " and " + name + " do not lie in one plane";
-    }
-    const double off =
-        revolute ? axes.of_body[i].cross(normal).norm() : std::fabs(axes.of_body[i].dot(normal));
-    if (off < 1e-3) {
-      why += " (by " + format_significant(off, 2) +
-             " rad only: if they should be, write angles with all digits, pi/2 as 1.5707963267948966)";
-    }
-    return std::nullopt;
+    const double off = misalignment(chain.bodies[i].joint, axes.of_body[i], normal);
+    worst = std::max(worst, off);
+    if (off > kParallelTolerance && offender == 0) offender = int(i);
   }
-  if (axes.prismatics == 0) {
-    why = axes.revolutes == 1 ? "planar: the only joint turns about " + direction_text(normal)
-                              : "planar: all " + std::to_string(axes.revolutes) +
-                                    " revolute axes are parallel to " + direction_text(normal);
-  } else if (axes.revolutes == 0) {
-    why = "planar: all " + std::to_string(axes.prismatics) + " prismatic axes are normal to " +
-          direction_text(normal);
-  } else {
-    why = "planar: revolute axes are parallel and prismatic axes normal to " + direction_text(normal);
-  }
-  return normal;
+  if (offender == 0) return {normal, why_planar(axes, normal)};
+  PlaneSearch search{std::nullopt, why_spatial(chain, axes, offender), worst < kNearlyPlanar};
+  if (search.is_near)
+    search.why += ", by " + format_significant(worst, 2) + " rad only: pi/2 in full is 1.5707963267948966";
+  return search;
 }
 
 PlanarBody planar_body(const Chain& chain, const PlanarChain& form, const Axes& axes, std::size_t i) {
   const Body& body = chain.bodies[i];
   const Plane& plane = form.plane;
   const auto projected = [&](const Vector3d& v) { return Eigen::Vector2d(v.dot(plane.ex), v.dot(plane.ey)); };
-  const Eigen::Isometry3d& X_WB = form.X_WB_zero[i];
-  const Eigen::Matrix3d& R_WB = X_WB.linear();
+  const Eigen::Matrix3d R_WB = form.X_WB_zero[i].linear();
 
   PlanarBody planar;
   planar.parent = body.parent;
@@ -170,7 +171,7 @@ PlanarBody planar_body(const Chain& chain, const PlanarChain& form, const Axes& 
   } else {
     planar.direction = projected(axes.of_body[i]);
   }
-  planar.p_PJ = projected(X_WB.translation() - form.X_WB_zero[std::size_t(body.parent)].translation());
+  planar.p_PJ = projected(form.X_WB_zero[std::size_t(body.parent)].linear() * body.joint.X_PJ.translation());
   planar.mass = body.inertia.mass;
   planar.com = projected(R_WB * body.inertia.com);
   const Vector3d normal_B = R_WB.transpose() * plane.normal;
@@ -193,22 +194,24 @@ std::vector<Eigen::Isometry3d> poses_at_zero(const Chain& chain) {
 bool moves_in_xy_plane(const Chain& chain) {
   if (chain.has_floating) return false;
   const Axes axes = axes_of(chain, poses_at_zero(chain));
-  for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
-    const bool revolute = chain.bodies[i].joint.kind == JointKind::revolute;
-    const Vector3d& axis = axes.of_body[i];
-    if (!(revolute ? are_parallel(axis, Vector3d::UnitZ()) : are_normal(axis, Vector3d::UnitZ())))
+  for (std::size_t i = 1; i < chain.bodies.size(); ++i)
+    if (misalignment(chain.bodies[i].joint, axes.of_body[i], Vector3d::UnitZ()) > kParallelTolerance)
       return false;
-  }
   return true;
+}
+
+bool is_nearly_planar(const Chain& chain) {
+  return search_plane(chain, axes_of(chain, poses_at_zero(chain))).is_near;
 }
 
 std::optional<PlanarChain> planar_form_of(const Chain& chain, std::string& why) {
   PlanarChain form;
   form.X_WB_zero = poses_at_zero(chain);
   const Axes axes = axes_of(chain, form.X_WB_zero);
-  const auto normal = normal_of(chain, axes, why);
-  if (!normal) return std::nullopt;
-  form.plane = plane_of(*normal, chain, form.X_WB_zero);
+  const PlaneSearch search = search_plane(chain, axes);
+  why = search.why;
+  if (!search.normal) return std::nullopt;
+  form.plane = plane_of(*search.normal, chain, form.X_WB_zero);
   form.bodies.resize(chain.bodies.size());
   for (std::size_t i = 1; i < chain.bodies.size(); ++i) form.bodies[i] = planar_body(chain, form, axes, i);
   return form;

@@ -21,6 +21,9 @@ inline constexpr double kParallelTolerance = 1e-12;
 // True where z is a normal: then gravity points along -y by default.
 bool moves_in_xy_plane(const Chain& chain);
 
+// True where a chain is not planar, but misses it by no more than angles written with few digits do.
+bool is_nearly_planar(const Chain& chain);
+
 // The planar form for chain.gravity, or nothing; `why` gets the sentence for Chain::why_algebra.
 std::optional<PlanarChain> planar_form_of(const Chain& chain, std::string& why);
 

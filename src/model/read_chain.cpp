@@ -42,7 +42,8 @@ void require_meshes(const UrdfFile& file, const ModelOptions& options) {
   problems.throw_if_any();
 }
 
-void require_regular(const Chain& chain, const ReducedModel& model, const UrdfFile& file) {
+void require_regular(const ReducedModel& model, const UrdfFile& file) {
+  const Chain& chain = model.chain;
   const int body = unresisted_body(chain);
   if (body < 0) return;
   const std::string joint = chain.bodies[std::size_t(body)].joint.name;
@@ -58,18 +59,22 @@ void require_regular(const Chain& chain, const ReducedModel& model, const UrdfFi
 
 }  // namespace
 
-Chain read_chain(const std::string& path, const ModelOptions& options) {
-  const UrdfFile file = read_urdf_file(path);
-  if (options.meshes) require_meshes(file, options);
+Chain chain_of(const UrdfFile& file, const ModelOptions& options) {
   ReducedModel model = reduce(file, options);
-  Chain& chain = model.chain;
-  require_regular(chain, model, file);
-  chain.end_effector = end_effector_of(chain, options, path);
+  require_regular(model, file);
+  Chain chain = std::move(model.chain);
+  chain.end_effector = end_effector_of(chain, options, file.path);
   const Eigen::Vector3d down =
       moves_in_xy_plane(chain) ? Eigen::Vector3d(0, -9.81, 0) : Eigen::Vector3d(0, 0, -9.81);
   chain.gravity = options.gravity.value_or(down);
   chain.planar = planar_form_of(chain, chain.why_algebra);
-  return std::move(chain);
+  return chain;
+}
+
+Chain read_chain(const std::string& path, const ModelOptions& options) {
+  const UrdfFile file = read_urdf_file(path);
+  if (options.meshes) require_meshes(file, options);
+  return chain_of(file, options);
 }
 
 }  // namespace chainreel

@@ -12,6 +12,8 @@
 
 namespace chainreel {
 
+struct UrdfFile;
+
 struct ModelOptions {
   bool floating_base = false;      // the root link hangs on a floating joint instead of the world
   bool friction = true;            // honour <dynamics damping friction>
@@ -25,5 +27,8 @@ struct ModelOptions {
 
 // Throws Error with every problem of the file.
 Chain read_chain(const std::string& path, const ModelOptions& options = {});
+
+// The same from a file that has been read already; its meshes are not looked at.
+Chain chain_of(const UrdfFile& file, const ModelOptions& options);
 
 }  // namespace chainreel

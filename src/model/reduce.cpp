@@ -3,7 +3,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "core/format.hpp"
+#include "model/principal_moments.hpp"
 #include "model/urdf_problems.hpp"
 
 namespace chainreel {
@@ -71,6 +71,12 @@ class Reducer {
     if (link.child_joints.empty()) chain_.leaf_frames.push_back(int(chain_.frames.size()));
     chain_.frames.push_back({link.name, place.body, place.X_BL});
     if (!link.inertial) return;
+    if (place.body > 0 && !is_positive(principal_moments(link.inertial->inertia))) {
+      problems_.add(link.inertial->line, "link '" + link.name +
+                                             "' has an inertia that is not positive (principal moments " +
+                                             moments_text(principal_moments(link.inertial->inertia)) +
+                                             "): no body has one, so correct it");
+    }
     parts_[std::size_t(place.body)].push_back(inertia_of(*link.inertial, place.X_BL));
   }
 

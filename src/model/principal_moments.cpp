@@ -1,0 +1,26 @@
+#include "model/principal_moments.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include "core/format.hpp"
+
+namespace chainreel {
+
+Eigen::Vector3d principal_moments(const Eigen::Matrix3d& inertia) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+std::string moments_text(const Eigen::Vector3d& moments) {
+  return format_significant(moments[0], 4) + ", " + format_significant(moments[1], 4) + ", " +
+         format_significant(moments[2], 4) + " kg m^2";
+}
+
+bool is_positive(const Eigen::Vector3d& moments) {
+  return moments[0] >= -kMomentTolerance * moments.cwiseAbs().maxCoeff();
+}
+
+bool keeps_triangle_inequality(const Eigen::Vector3d& moments) {
+  return moments[2] <= moments[0] + moments[1] + kMomentTolerance * moments[2];
+}
+
+}  // namespace chainreel
