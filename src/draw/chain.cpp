@@ -184,6 +184,7 @@ ChainFit::ChainFit(const Chain& chain, const Skeleton& skeleton, const Camera& c
   const double outline = size::kLinkOutline / 2;
   Room link = room_around(size::kLinkWidth / 2 + outline);
   link.metres = kLinkWidthOfShortest * skeleton.shortest_link / 2;
+  link.beyond = outline;
   link_ = box_.add_kind(link);
   joint_ = box_.add_kind(room_around((size::kJointDisc + size::kJointOutline) / 2));
   // A rail may run any way: its end's farthest corner.
@@ -202,13 +203,13 @@ void ChainFit::add(const Vector3d& place, const Room& room) {
 }
 
 void ChainFit::add_base() {
-  const double half = size::kGroundLength / 2;
+  const double half = (size::kGroundLength + size::kGroundLine) / 2;  // its ends are round
   for (std::size_t b = 1; b < chain_.bodies.size(); ++b) {
     const Joint& joint = chain_.bodies[b].joint;
     if (chain_.bodies[b].parent != 0 || joint.kind == JointKind::floating) continue;
     const bool on_root = (joint.X_PJ.translation() - root_place(chain_)).norm() <= 1e-3 * skeleton_.reach;
     if (!on_root || joint.kind == JointKind::revolute) {
-      add(on_root ? joint.X_PJ.translation() : root_place(chain_), {half, half, pin_depth(), 0, -1});
+      add(on_root ? joint.X_PJ.translation() : root_place(chain_), {half, half, pin_depth(), 0});
     }
   }
   const Workspace at_rest(chain_);

@@ -135,26 +135,29 @@ void draw_fading_fill(Picture& picture, Point center, Point d, Point half_width,
   }
 }
 
+// The sign with its middle as near to `at` as the scene allows.
 void draw_infinity(Picture& picture, Point at, const EllipseStyle& style, int clip) {
-  const TextStyle text{Face::label, size::kSymbol * style.text_scale, style.theme->ellipse, Align::center};
+  const TextStyle text{Face::label, size::kSymbol * style.text_scale, style.theme->ellipse, Align::left};
   const TextLine sign = lay_out_text(*style.fonts, "\u221E", text);
-  draw_text(picture, sign, {at.x, at.y - (sign.box.y0 + sign.box.y1) / 2}, clip);
+  const Point half{sign.box.width() / 2, sign.box.height() / 2};
+  const Rect& scene = style.scene;
+  const Point middle{
+      std::clamp(at.x, std::min(scene.x0 + half.x, scene.x1), std::max(scene.x1 - half.x, scene.x0)),
+      std::clamp(at.y, std::min(scene.y0 + half.y, scene.y1), std::max(scene.y1 - half.y, scene.y0))};
+  draw_text(picture, sign, {middle.x - half.x - sign.box.x0, middle.y - half.y - sign.box.y0}, clip);
 }
 
-// An infinity sign on the way from the centre along d, inside the scene, off the end effector's disc.
+// An infinity sign on the way from the centre along d, off the end effector's disc.
 void draw_infinity_along(Picture& picture, Point center, Point d, double half_width,
                          const EllipseStyle& style, int clip) {
-  const double sign_half = 0.45 * size::kSymbol * style.text_scale;
-  const double clear = sign_half + 0.008;
+  const double clear = 0.45 * size::kSymbol * style.text_scale + 0.008;  // half a sign and some air
   const double along = way_out(style.scene, center, d) - clear;
-  const Point on_line = center + along * d;
   if (along > clear + size::kEndEffector) {
-    draw_infinity(picture, on_line, style, clip);
+    draw_infinity(picture, center + along * d, style, clip);
     return;
   }
   // Too near to the edge: beside the band, on the side that has more room.
-  const Point side = normal_to(d);
-  const Point foot = center + std::max(along, 0.0) * d;
+  const Point side = normal_to(d), foot = center + std::max(along, 0.0) * d;
   const bool left = way_out(style.scene, foot, side) > way_out(style.scene, foot, -1 * side);
   draw_infinity(picture, foot + ((left ? 1 : -1) * (half_width + clear)) * side, style, clip);
 }

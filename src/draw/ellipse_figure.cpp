@@ -98,7 +98,7 @@ Room room_of(const std::vector<MassAxis>& axes, const Camera& camera, double per
     xx += std::pow(length * camera.right.dot(axis.direction), 2);
     yy += std::pow(length * camera.up.dot(axis.direction), 2);
   }
-  return {std::sqrt(xx), std::sqrt(xx), std::sqrt(yy), std::sqrt(yy), -1};
+  return {std::sqrt(xx), std::sqrt(xx), std::sqrt(yy), std::sqrt(yy)};
 }
 
 }  // namespace

@@ -14,9 +14,9 @@ constexpr int kPasses = 60;  // to the last bit also where the room takes half o
 
 Room room_at(const Room& room, double scale) {
   if (room.metres < 0) return room;
-  const double bound = room.metres * scale;
+  const double bound = room.metres * scale + room.beyond;
   return {std::min(room.left, bound), std::min(room.right, bound), std::min(room.down, bound),
-          std::min(room.up, bound), -1};
+          std::min(room.up, bound)};
 }
 
 }  // namespace

@@ -8,14 +8,16 @@
 
 namespace chainreel {
 
-// Half sizes of what is drawn around a place: `page` in units of H, or `metres` x scale where that is less.
+// Half sizes of what is drawn around a place: those on the page, or `metres` x scale + `beyond` where that is
+// less.
 struct Room {
   double left = 0, right = 0, down = 0, up = 0;  // units of H
   double metres = -1;                            // negative: no such bound
+  double beyond = 0;                             // units of H
 };
 
 inline Room room_around(double radius) {
-  return {radius, radius, radius, radius, -1};
+  return {radius, radius, radius, radius};
 }
 
 // Grows over all frames of a clip; one box per kind of thing, so that its size never depends on the clip's

@@ -103,11 +103,11 @@ void draw_rail_ground(Picture& picture, PageLine way, const ChainLook& look, int
 }
 
 double pin_depth() {
-  return kPinHeight + kHatchDepth + size::kGroundHatch;
+  return kPinHeight + kHatchDepth + size::kGroundHatch / 2;
 }
 
 double rail_ground_depth() {
-  return size::kRailGap / 2 + size::kGroundLine + kHatchDepth + size::kGroundHatch;
+  return size::kRailGap / 2 + size::kGroundLine + kHatchDepth + size::kGroundHatch / 2;
 }
 
 }  // namespace chainreel

@@ -67,8 +67,8 @@ void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int c
 
   // The dots stand still while the trail moves on: they belong to whole tenths of a second of the film.
   const double r = size::kTrailDot / 2;
-  for (int i = int(std::ceil(since / kTrailDotSeconds)); i * kTrailDotSeconds <= now; ++i) {
-    const TrailPoint at = trail_point(path, i * kTrailDotSeconds, now);
+  for (int i = int(std::ceil(since * kTrailDotsPerSecond)); double(i) / kTrailDotsPerSecond <= now; ++i) {
+    const TrailPoint at = trail_point(path, double(i) / kTrailDotsPerSecond, now);
     if (at.alpha > 0) picture.add(Ellipse{at.p, {r, 0}, {0, r}, {color.faded(at.alpha), {}, 0}}, clip);
   }
 }

@@ -9,7 +9,7 @@
 namespace chainreel {
 
 inline constexpr double kTrailSeconds = 1.0;
-inline constexpr double kTrailDotSeconds = 0.1;
+inline constexpr int kTrailDotsPerSecond = 10;
 inline constexpr double kTrailOpacity = 0.7;
 
 // Where the end effector was on the page and how fast it moved there, at the frames.
