@@ -1,0 +1,193 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/error.hpp"
+#include "picture/math_notation.hpp"
+#include "picture/text.hpp"
+#include "picture/utf8.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const Fonts& fonts() {
+  static const Fonts opened;
+  return opened;
+}
+
+TextLine lay_out(const std::string& notation, Align align = Align::left) {
+  return lay_out_math(fonts(), notation, {Face::math, 1, color_of(0x1A1A1A), align});
+}
+
+// What a line says, run by run.
+std::vector<std::string> words(const std::string& notation) {
+  std::vector<std::string> result;
+  for (const GlyphRun& run : lay_out(notation).runs) result.push_back(run.text);
+  return result;
+}
+
+constexpr double kRoundOff = 1e-14;  // sums of a few numbers of size 1 to 10
+
+TEST(Math, VariablesAreItalicNumbersAndUnitsUpright) {
+  EXPECT_THAT(words("tau = (10, 10, 10) N m"), ElementsAre("\U0001D70F=(10,10,10)Nm"));
+  EXPECT_THAT(words("N m"), ElementsAre("\U0001D441\U0001D45A"));  // no number before: two variables
+  EXPECT_THAT(words("(N)"), ElementsAre("(\U0001D441)"));
+  EXPECT_THAT(words("3 m/s"), ElementsAre("3m/s"));
+  EXPECT_THAT(words("theta, phi"), ElementsAre("\U0001D703,\U0001D711"));
+}
+
+TEST(Math, ItalicHIsTheOneThatUnicodeEncodedBefore) {
+  EXPECT_THAT(words("ghi"), ElementsAre("ghi"));  // a word of more letters is upright
+  EXPECT_THAT(words("g h i"), ElementsAre("\U0001D454\u210E\U0001D456"));
+}
+
+TEST(Math, MatricesAreBoldUprightExceptInScripts) {
+  EXPECT_THAT(words("M J Lambda"), ElementsAre("\U0001D40C\U0001D409\U0001D6B2"));
+  EXPECT_THAT(words("x_M"), ElementsAre("\U0001D465", "\U0001D440"));
+  EXPECT_THAT(words("Omega"), ElementsAre("\U0001D6FA"));
+}
+
+TEST(Math, MinusIsASignOfItsOwnAndCloserInFrontThanBetween) {
+  EXPECT_THAT(words("0, -100 y_G"), ElementsAre("0,\u2212100\U0001D466", "\U0001D43A"));
+  const double in_front = lay_out("-1").advance - lay_out("1").advance;
+  const double between = lay_out("2 - 1").advance - lay_out("2").advance - lay_out("1").advance;
+  EXPECT_NEAR(between - in_front, 2 * 4.0 / 18, kRoundOff);  // a medium space on either side
+}
+
+TEST(Math, ScriptsAreSmallerAndShifted) {
+  const TextLine line = lay_out("lambda_{n_c}^2");
+  ASSERT_EQ(line.runs.size(), 4u);
+  EXPECT_EQ(line.runs[0].size, 1);
+  EXPECT_NEAR(line.runs[1].size, 0.7, kRoundOff);
+  EXPECT_NEAR(line.runs[1].origin.y, -0.18, kRoundOff);
+  EXPECT_NEAR(line.runs[2].size, 0.5, kRoundOff);
+  EXPECT_NEAR(line.runs[2].origin.y, -0.18 - 0.7 * 0.18, kRoundOff);
+  EXPECT_NEAR(line.runs[3].size, 0.7, kRoundOff);
+  EXPECT_NEAR(line.runs[3].origin.y, 0.38, kRoundOff);
+}
+
+TEST(Math, TrailingDigitsAreAnIndex) {
+  EXPECT_EQ(words("q1"), words("q_1"));
+  EXPECT_EQ(words("lambda12"), words("lambda_{12}"));
+  EXPECT_NEAR(lay_out("q1").advance, lay_out("q_1").advance, kRoundOff);
+  // Control: a superscript says the same at another place.
+  EXPECT_EQ(words("q^1"), words("q1"));
+  EXPECT_GT(lay_out("q^1").runs.at(1).origin.y, 0);
+  EXPECT_LT(lay_out("q1").runs.at(1).origin.y, 0);
+}
+
+TEST(Math, DerivativesBearDotsAboveTheInk) {
+  EXPECT_TRUE(lay_out("q").marks.empty());
+  const TextLine once = lay_out("qd"), twice = lay_out("qdd_2");
+  ASSERT_EQ(once.marks.size(), 1u);
+  ASSERT_EQ(twice.marks.size(), 2u);
+  EXPECT_EQ(once.runs[0].text, twice.runs[0].text);
+
+  const Rect ink = lay_out("q").box;
+  const auto& dot = std::get<Ellipse>(once.marks[0]);
+  EXPECT_NEAR(dot.center.y, ink.y1 + 0.10, kRoundOff);
+  EXPECT_NEAR(dot.u.x, 0.11 / 2, kRoundOff);
+  EXPECT_NEAR(dot.center.x, (ink.x0 + ink.x1) / 2, kRoundOff);
+  const auto& left = std::get<Ellipse>(twice.marks[0]);
+  const auto& right = std::get<Ellipse>(twice.marks[1]);
+  EXPECT_NEAR(right.center.x - left.center.x, 0.18, kRoundOff);
+  EXPECT_NEAR((right.center.x + left.center.x) / 2, dot.center.x, kRoundOff);
+  EXPECT_NEAR(once.box.y1, ink.y1 + 0.10 + 0.11 / 2, kRoundOff);  // the dot is part of the box
+}
+
+TEST(Math, DotsMoveWithTheLine) {
+  const TextLine right = lay_out("thetad", Align::right), left = lay_out("thetad", Align::left);
+  const double shift =
+      std::get<Ellipse>(right.marks.at(0)).center.x - std::get<Ellipse>(left.marks.at(0)).center.x;
+  EXPECT_NEAR(shift, -left.advance, kRoundOff);
+  Picture picture;
+  draw_text(picture, left, {0.5, 0.25});
+  ASSERT_EQ(picture.items.size(), 2u);
+  EXPECT_NEAR(std::get<Ellipse>(picture.items[1].shape).center.x,
+              0.5 + std::get<Ellipse>(left.marks.at(0)).center.x, kRoundOff);
+}
+
+TEST(Math, TransposeIsUprightAndInverseHasAMinus) {
+  EXPECT_THAT(words("J^T"), ElementsAre("\U0001D409", "T"));
+  EXPECT_THAT(words("J_T"), ElementsAre("\U0001D409", "\U0001D447"));
+  EXPECT_THAT(words("M^-1"), ElementsAre("\U0001D40C", "\u22121"));
+  EXPECT_THAT(words("M^{-1}"), ElementsAre("\U0001D40C", "\u22121"));
+}
+
+TEST(Math, SuperscriptsOfSlantedLettersStandClearOfThem) {
+  // f leans to the right: its superscript starts farther right than its subscript.
+  const TextLine line = lay_out("f_1^1");
+  EXPECT_GT(line.runs.at(2).origin.x, line.runs.at(1).origin.x + 0.02);
+}
+
+TEST(Math, ProductsOfNumbersNeedNoDot) {
+  EXPECT_EQ(words("-100*y_G"), words("-100 y_G"));
+  EXPECT_THAT(words("k*q"), ElementsAre("\U0001D458\u22C5\U0001D45E"));
+  EXPECT_THAT(words("1.5e-3"), ElementsAre("1.5\u00D710", "\u22123"));
+  EXPECT_THAT(words("2*sin(q)"), ElementsAre("2sin(\U0001D45E)"));
+  EXPECT_THAT(words("atan2(y, x)"), ElementsAre("atan2(\U0001D466,\U0001D465)"));
+}
+
+TEST(Math, UnicodeMayBeGivenDirectly) {
+  EXPECT_EQ(words("\u03c4 = \u22121"), words("tau = -1"));
+  EXPECT_EQ(words("x <= 1"), words("x \u2264 1"));
+}
+
+TEST(Math, UnfinishedNotationIsAnErrorThatSaysWhere) {
+  for (const char* bad : {"q_", "q_{1", "^2", "{x}", "x}", "q_ 1", "x_{a}}", "_", "q_{}}", "x_{_}"}) {
+    try {
+      lay_out(bad);
+      ADD_FAILURE() << bad;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::bad_input) << bad;
+      EXPECT_THAT(error.what(), HasSubstr(bad));
+    }
+  }
+  EXPECT_NO_THROW(lay_out("q_{1}"));
+}
+
+TEST(Math, NestingHasAnEnd) {
+  std::string deep = "x";
+  for (int i = 0; i < 1000; ++i) deep += "_{x";
+  EXPECT_THROW(lay_out(deep + std::string(1000, '}')), Error);
+}
+
+TEST(Math, MissingGlyphIsAnError) {
+  try {
+    lay_out("x = \u5b57");
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::no_renderer);
+    EXPECT_THAT(error.what(), HasSubstr("Latin Modern Math"));
+  }
+}
+
+// Anything is either laid out with finite measures or refused with an Error.
+TEST(Math, EveryStringIsLaidOutOrRefused) {
+  const std::vector<std::string> pieces = {"tau", "q", "dd", "_",      "^", "{",   "}",     "(", ")",
+                                           " ",   "1", "-",  "*",      "e", "N",   ".",     ",", "=",
+                                           "/",   "<", "'",  "\u03c4", "M", "sin", "\u22C5"};
+  std::mt19937 random(20240817);
+  int laid_out = 0, refused = 0;
+  for (int i = 0; i < 3000; ++i) {
+    std::string notation;
+    for (unsigned k = random() % 12; k > 0; --k) notation += pieces[random() % pieces.size()];
+    try {
+      const TextLine line = lay_out(notation);
+      EXPECT_TRUE(std::isfinite(line.advance)) << notation;
+      EXPECT_GE(line.advance, 0) << notation;
+      ++laid_out;
+    } catch (const Error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(laid_out, 100);
+  EXPECT_GT(refused, 100);
+}
+
+}  // namespace
+}  // namespace chainreel
