@@ -177,7 +177,7 @@ class Checker {
                       owner + ": <" + tag + "> has no <geometry>: add one or remove the tag");
       } else {
         strip(*geometry, kGeometryTags);
-        if (const XMLElement* shape = geometry->FirstChildElement()) {
+        if (XMLElement* shape = geometry->FirstChildElement()) {
           check_geometry(*shape, owner);
           shapes.emplace_back();
           shapes.back().origin = numbers_.origin(*element, owner);
@@ -191,7 +191,7 @@ class Checker {
     return shapes;
   }
 
-  void check_geometry(const XMLElement& shape, const std::string& owner) {
+  void check_geometry(XMLElement& shape, const std::string& owner) {
     const std::string tag = shape.Name();
     if (tag == "box") numbers_.three(shape, "size", owner, Need::required);
     if (tag == "sphere" || tag == "cylinder") numbers_.one(shape, "radius", owner, Need::required);
@@ -219,7 +219,7 @@ class Checker {
     if (has_type) check_axis(element, joint, owner);
     check_limit(element, joint, owner);
     check_dynamics(element, owner);
-    if (const XMLElement* mimic = only_child(element, "mimic", owner)) {
+    if (XMLElement* mimic = only_child(element, "mimic", owner)) {
       joint.mimic.emplace();
       joint.mimic->line = mimic->GetLineNum();
       const char* target = mimic->Attribute("joint");

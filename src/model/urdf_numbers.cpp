@@ -63,8 +63,8 @@ std::optional<double> UrdfNumbers::parse(std::string_view text, const XMLElement
   return value;
 }
 
-std::optional<double> UrdfNumbers::one(const XMLElement& element, const char* attribute,
-                                       const std::string& owner, Need need, Range range) {
+std::optional<double> UrdfNumbers::one(XMLElement& element, const char* attribute, const std::string& owner,
+                                       Need need, Range range) {
   const char* text = element.Attribute(attribute);
   if (text == nullptr) {
     if (need == Need::required) {
@@ -74,10 +74,13 @@ std::optional<double> UrdfNumbers::one(const XMLElement& element, const char* at
     return std::nullopt;
   }
   const std::vector<std::string_view> words = words_of(text);
-  return parse(words.size() == 1 ? words[0] : std::string_view(text), element, attribute, owner, range);
+  const auto value =
+      parse(words.size() == 1 ? words[0] : std::string_view(text), element, attribute, owner, range);
+  if (value) element.SetAttribute(attribute, format_shortest(*value).c_str());
+  return value;
 }
 
-std::optional<Eigen::Vector3d> UrdfNumbers::three(const XMLElement& element, const char* attribute,
+std::optional<Eigen::Vector3d> UrdfNumbers::three(XMLElement& element, const char* attribute,
                                                   const std::string& owner, Need need) {
   const char* text = element.Attribute(attribute);
   if (text == nullptr) {
@@ -101,12 +104,15 @@ std::optional<Eigen::Vector3d> UrdfNumbers::three(const XMLElement& element, con
     if (!value) return std::nullopt;
     vector[i] = *value;
   }
+  const std::string plain =
+      format_shortest(vector[0]) + " " + format_shortest(vector[1]) + " " + format_shortest(vector[2]);
+  element.SetAttribute(attribute, plain.c_str());
   return vector;
 }
 
-UrdfOrigin UrdfNumbers::origin(const XMLElement& element, const std::string& owner) {
+UrdfOrigin UrdfNumbers::origin(XMLElement& element, const std::string& owner) {
   UrdfOrigin origin;
-  const XMLElement* found = element.FirstChildElement("origin");
+  XMLElement* found = element.FirstChildElement("origin");
   if (found == nullptr) return origin;
   origin.xyz = three(*found, "xyz", owner, Need::optional).value_or(origin.xyz);
   origin.rpy = three(*found, "rpy", owner, Need::optional).value_or(origin.rpy);

@@ -1,5 +1,6 @@
 // Numbers in the attributes of a URDF file, always in the C locale, each complaint with its line and its
-// remedy.
+// remedy. A good number is written back in plain form (no sign +, no white space around it), since urdfdom
+// drops in silence what it cannot read.
 #pragma once
 
 #include <tinyxml2.h>
@@ -26,13 +27,13 @@ class UrdfNumbers {
 
   // The number in `attribute`; nothing where it is absent or wrong (then a problem is noted). `owner` opens
   // the message: "link 'arm'".
-  std::optional<double> one(const tinyxml2::XMLElement& element, const char* attribute,
-                            const std::string& owner, Need need, Range range = Range::physical);
+  std::optional<double> one(tinyxml2::XMLElement& element, const char* attribute, const std::string& owner,
+                            Need need, Range range = Range::physical);
   // Three numbers with white space between them.
-  std::optional<Eigen::Vector3d> three(const tinyxml2::XMLElement& element, const char* attribute,
+  std::optional<Eigen::Vector3d> three(tinyxml2::XMLElement& element, const char* attribute,
                                        const std::string& owner, Need need);
   // <origin> inside `element`, zero where it is absent.
-  UrdfOrigin origin(const tinyxml2::XMLElement& element, const std::string& owner);
+  UrdfOrigin origin(tinyxml2::XMLElement& element, const std::string& owner);
 
  private:
   std::optional<double> parse(std::string_view text, const tinyxml2::XMLElement& element,

@@ -14,11 +14,15 @@ NameIndex index_of_names(const std::vector<Named>& items) {
   return index;
 }
 
+// The name that was likely meant, or else what to do.
 template <class Named>
-std::string near_name(const std::string& name, const std::vector<Named>& items) {
+std::string remedy_for(const std::string& name, const std::vector<Named>& items, const UrdfProblems& problems,
+                       const std::string& otherwise) {
+  if (problems.is_full()) return "";  // the message will not be shown
   std::vector<std::string> names;
   for (const Named& item : items) names.push_back(item.name);
-  return did_you_mean(name, names);
+  const std::string near = did_you_mean(name, names);
+  return near.empty() ? otherwise : near;
 }
 
 std::string quoted(const std::string& name) {
@@ -40,10 +44,9 @@ int find_link(const UrdfFile& file, const NameIndex& index, const UrdfJoint& joi
   if (name.empty()) return -1;  // noted before
   const auto found = index.find(name);
   if (found != index.end()) return found->second;
-  problems.add(joint.line,
-               "joint " + quoted(joint.name) + " names the " + role + " link " + quoted(name) +
-                   ", which does not exist:" + (problems.is_full() ? "" : near_name(name, file.links)) +
-                   " add a <link> of that name");
+  problems.add(joint.line, "joint " + quoted(joint.name) + " names the " + role + " link " + quoted(name) +
+                               ", which does not exist:" +
+                               remedy_for(name, file.links, problems, " add a <link> of that name"));
   return -1;
 }
 
@@ -108,8 +111,7 @@ int followed_joint(const UrdfFile& file, const NameIndex& index, const UrdfJoint
   const auto found = index.find(joint.mimic->joint);
   if (found == index.end()) {
     return fail(" mimics " + quoted(joint.mimic->joint) + ", which does not exist:" +
-                (problems.is_full() ? "" : near_name(joint.mimic->joint, file.joints)) +
-                " name a joint of this file");
+                remedy_for(joint.mimic->joint, file.joints, problems, " name a joint of this file"));
   }
   const UrdfJoint& followed = file.joints[std::size_t(found->second)];
   if (&followed == &joint) return fail(" mimics itself: name the joint that it follows");
@@ -125,12 +127,20 @@ int followed_joint(const UrdfFile& file, const NameIndex& index, const UrdfJoint
 void connect_links(CheckedUrdf& urdf, UrdfProblems& problems) {
   UrdfFile& file = urdf.file;
   const NameIndex index = index_of_names(file.links);
-  bool all_known = !file.links.empty();
+  // Of links without a name or with the same one only the first can be found: the others would seem to be
+  // lost.
+  bool all_known = !file.links.empty() && index.size() == file.links.size() && !index.contains("");
   for (std::size_t j = 0; j < file.joints.size(); ++j) {
     UrdfJoint& joint = file.joints[j];
     joint.parent = find_link(file, index, joint, urdf.parent_names[j], "parent", problems);
     joint.child = find_link(file, index, joint, urdf.child_names[j], "child", problems);
     if (joint.parent < 0 || joint.child < 0) {
+      all_known = false;
+      continue;
+    }
+    if (joint.parent == joint.child) {
+      problems.add(joint.line, "joint " + quoted(joint.name) + " joins link " + quoted(urdf.child_names[j]) +
+                                   " to itself: name another parent");
       all_known = false;
       continue;
     }

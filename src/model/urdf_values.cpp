@@ -64,9 +64,15 @@ void read_geometry(const urdf::Geometry& from, UrdfShape& to) {
 template <class Shapes>
 void read_shapes(const Shapes& from, std::vector<UrdfShape>& to) {
   for (std::size_t i = 0; i < to.size(); ++i) {
-    to[i].origin.xyz = vector_of(from.at(i)->origin.position);
+    to[i].origin.xyz = vector_of(from[i]->origin.position);
     read_geometry(*from[i]->geometry, to[i]);
   }
+}
+
+// urdfdom only logs what it cannot read and goes on without it.
+bool is_complete(const urdf::Link& from, const UrdfLink& to) {
+  return bool(from.inertial) == to.inertial.has_value() && from.visual_array.size() == to.visuals.size() &&
+         from.collision_array.size() == to.collisions.size();
 }
 
 void read_link(const urdf::Link& from, UrdfLink& to) {
@@ -106,8 +112,20 @@ void read_urdf_values(const std::string& plain, UrdfFile& file) {
   LogCapture log;
   const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(plain);
   if (!model) throw Error(ExitCode::bad_input, "is refused by urdfdom: " + log.text(), {file.path});
-  for (UrdfLink& link : file.links) read_link(*model->links_.at(link.name), link);
-  for (UrdfJoint& joint : file.joints) read_joint(*model->joints_.at(joint.name), joint);
+  const auto refuse = [&](const std::string& what, int line) {
+    throw Error(ExitCode::bad_input, "urdfdom cannot read " + what + ": " + log.text(), file.at(line));
+  };
+  for (UrdfLink& link : file.links) {
+    const auto found = model->links_.find(link.name);
+    if (found == model->links_.end() || !is_complete(*found->second, link))
+      refuse("link '" + link.name + "'", link.line);
+    read_link(*found->second, link);
+  }
+  for (UrdfJoint& joint : file.joints) {
+    const auto found = model->joints_.find(joint.name);
+    if (found == model->joints_.end()) refuse("joint '" + joint.name + "'", joint.line);
+    read_joint(*found->second, joint);
+  }
   take_apart(*model);
 }
 
