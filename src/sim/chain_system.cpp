@@ -13,7 +13,7 @@ ChainSystem::ChainSystem(const Chain& chain, TorqueLaw& torque)
     : chain_(&chain), torque_(&torque), ws_(chain), tau_(std::size_t(chain.nv)) {}
 
 void ChainSystem::evaluate_torque(double t, ConstVec q, ConstVec qd) {
-  torque_->evaluate(ws_, t, q, qd, tau_);
+  torque_->evaluate(*chain_, ws_, t, q, qd, tau_);
   if (bad_torque_ >= 0) return;
   for (std::size_t i = 0; i < tau_.size(); ++i) {
     if (!std::isfinite(tau_[i])) {

@@ -6,7 +6,7 @@
 
 namespace chainreel {
 
-Probe::Probe(const Chain& chain, const Parameters& parameters) : chain_(&chain) {
+Probe::Probe(const Chain& chain, const Parameters& parameters) {
   names_.push_back("t");
   for (int i = 1; i <= chain.nq; ++i) names_.push_back("q" + std::to_string(i));
   for (int i = 1; i <= chain.nv; ++i) names_.push_back("qd" + std::to_string(i));
@@ -19,14 +19,14 @@ Probe::Probe(const Chain& chain, const Parameters& parameters) : chain_(&chain) 
   }
 }
 
-void Probe::set(Workspace& ws, double t, ConstVec q, ConstVec qd, bool with_kinematics) {
+void Probe::set(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, bool with_kinematics) {
   values_[0] = t;
   auto next = std::copy(q.begin(), q.end(), values_.begin() + 1);
   next = std::copy(qd.begin(), qd.end(), next);
   if (!with_kinematics) return;
-  compute_kinematics(*chain_, ws, q, qd);
-  const Eigen::Vector3d x = frame_position(*chain_, ws, chain_->end_effector);
-  const Eigen::Vector3d xd = frame_velocity(*chain_, ws, chain_->end_effector);
+  compute_kinematics(chain, ws, q, qd);
+  const Eigen::Vector3d x = frame_position(chain, ws, chain.end_effector);
+  const Eigen::Vector3d xd = frame_velocity(chain, ws, chain.end_effector);
   next = std::copy(x.begin(), x.end(), next);
   std::copy(xd.begin(), xd.end(), next);
 }

@@ -23,12 +23,11 @@ class Probe {
   const std::vector<std::string>& names() const { return names_; }
   bool is_kinematic(int slot) const { return slot >= kinematic_begin_ && slot < kinematic_begin_ + 6; }
 
-  // Moves to an instant. Allocates nothing.
-  void set(Workspace& ws, double t, ConstVec q, ConstVec qd, bool with_kinematics);
+  // Moves to an instant of the chain that it was made for. Allocates nothing.
+  void set(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, bool with_kinematics);
   std::span<const double> values() const { return values_; }
 
  private:
-  const Chain* chain_;
   std::vector<std::string> names_;
   std::vector<double> values_;
   int kinematic_begin_ = 0;

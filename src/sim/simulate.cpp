@@ -34,26 +34,28 @@ class Run {
     whole_steps_ = long(std::floor(simulation.duration / h + kSameInstant));
     remainder_ = simulation.duration - double(whole_steps_) * h;
     if (remainder_ <= kSameInstant * h) remainder_ = 0;
+    breaks_ = simulation.torque->breaks();
+    std::sort(breaks_.begin(), breaks_.end());
     trajectory_.nq = simulation.chain.nq;
     trajectory_.nv = simulation.chain.nv;
     reserve(samples);
   }
 
-  long steps() const { return whole_steps_ + (remainder_ > 0 ? 1 : 0); }
-  double time_after(long steps) const {
-    return steps > whole_steps_ ? simulation_.duration : double(steps) * simulation_.step;
-  }
+  bool at_end() const { return whole_ == whole_steps_ && (remainder_ == 0 || now_ == simulation_.duration); }
+  long steps() const { return trajectory_.steps; }
+  double now() const { return now_; }
 
   // False where the run ended in this step; its state is then not fit to be sampled.
-  bool take_step(long k) {
-    const double t = double(k) * simulation_.step;
-    const double end = time_after(k + 1);
-    span_.begin(t, q_, qd_);
-    stepper_->step(system_, t, k < whole_steps_ ? simulation_.step : remainder_, q_, qd_);
-    if (!check_state(k, t, end)) return false;
+  bool take_step() {
+    const auto [end, h] = next_step();
+    const double begin = now_;
+    span_.begin(begin, q_, qd_);
+    stepper_->step(system_, begin, h, q_, qd_);
+    if (!check_state(begin, end)) return false;
+    now_ = end;
     span_.end(system_, end, q_, qd_);
     work_.add_step(system_, span_, q_, qd_);
-    trajectory_.steps = k + 1;
+    ++trajectory_.steps;
     trajectory_.end_time = end;
     return true;
   }
@@ -69,10 +71,10 @@ class Run {
     append(t, span_.q(), span_.v(), work);
   }
 
-  bool stop_requested(const StopRequest& stop, long k) {
-    if (!stop || k % kStepsBetweenStopRequests != 0 || !stop(double(k) * simulation_.step)) return false;
+  bool stop_requested(const StopRequest& stop) {
+    if (!stop || steps() % kStepsBetweenStopRequests != 0 || !stop(now_)) return false;
     trajectory_.status = RunStatus::interrupted;
-    trajectory_.trouble = "interrupted at t = " + format_shortest(double(k) * simulation_.step) + " s";
+    trajectory_.trouble = "interrupted at t = " + format_shortest(now_) + " s";
     return true;
   }
 
@@ -82,6 +84,27 @@ class Run {
   }
 
  private:
+  struct NextStep {
+    double end, h;
+  };
+
+  // The next multiple of the step, the duration, or a break of the torque law that comes first. A step from
+  // multiple to multiple has the step's own length, so that it does not depend on where it stands.
+  NextStep next_step() {
+    const double step = simulation_.step, same = kSameInstant * step;
+    while (next_break_ < breaks_.size() && breaks_[next_break_] <= now_ + same) ++next_break_;
+    const bool last = whole_ == whole_steps_;
+    const double grid = last ? simulation_.duration : double(whole_ + 1) * step;
+    if (next_break_ < breaks_.size() && breaks_[next_break_] < grid - same) {
+      on_grid_ = false;
+      return {breaks_[next_break_], breaks_[next_break_] - now_};
+    }
+    const double h = on_grid_ ? (last ? remainder_ : step) : grid - now_;
+    if (!last) ++whole_;
+    on_grid_ = true;
+    return {grid, h};
+  }
+
   void reserve(std::size_t samples) {
     const std::size_t row = std::size_t(trajectory_.nq + trajectory_.nv + 2);
     if (double(samples) * double(row) > kMostNumbers)
@@ -100,29 +123,30 @@ class Run {
     trajectory_.work.push_back(work);
   }
 
-  bool check_state(long k, double begin, double end) {
+  bool check_state(double begin, double end) {
     const int torque = system_.bad_torque();
     if (torque >= 0) {
       set_trouble(RunStatus::torque_not_finite,
-                  "the torque at joint '" + name(torque) + "' is not a finite number", k, begin);
+                  "the torque at joint '" + name(torque) + "' is not a finite number", begin);
       return false;
     }
     const auto sane = [](double x) { return std::abs(x) < kDivergenceBound; };  // false for NaN
     for (std::size_t i = 0; i < q_.size(); ++i)
-      if (!sane(q_[i])) return diverge(int(std::min(i, qd_.size() - 1)), k, end);
+      if (!sane(q_[i])) return diverge(int(std::min(i, qd_.size() - 1)), end);
     for (std::size_t i = 0; i < qd_.size(); ++i)
-      if (!sane(qd_[i])) return diverge(int(i), k, end);
+      if (!sane(qd_[i])) return diverge(int(i), end);
     return true;
   }
 
-  bool diverge(int freedom, long k, double t) {
-    set_trouble(RunStatus::diverged, "diverged at joint '" + name(freedom) + "'", k, t);
+  bool diverge(int freedom, double t) {
+    set_trouble(RunStatus::diverged, "diverged at joint '" + name(freedom) + "'", t);
     return false;
   }
 
-  void set_trouble(RunStatus status, const std::string& what, long k, double t) {
+  void set_trouble(RunStatus status, const std::string& what, double t) {
     trajectory_.status = status;
-    trajectory_.trouble = what + " at t = " + format_shortest(t) + " s (step " + std::to_string(k + 1) + ")";
+    trajectory_.trouble =
+        what + " at t = " + format_shortest(t) + " s (step " + std::to_string(steps() + 1) + ")";
   }
 
   std::string name(int freedom) const { return simulation_.chain.coordinate_names[std::size_t(freedom)]; }
@@ -133,8 +157,13 @@ class Run {
   std::vector<double> q_, qd_;
   StepSpan span_;
   WorkIntegral work_;
-  long whole_steps_ = 0;
-  double remainder_ = 0;
+  long whole_steps_ = 0;  // in the run
+  double remainder_ = 0;  // s, after the whole steps
+  long whole_ = 0;        // multiples of the step passed
+  bool on_grid_ = true;   // now_ is such a multiple
+  double now_ = 0;
+  std::vector<double> breaks_;
+  std::size_t next_break_ = 0;
   Trajectory trajectory_;
 };
 
@@ -161,11 +190,9 @@ Trajectory simulate(const Simulation& simulation, std::span<const double> times,
     run.sample_start();
     ++next;
   }
-  for (long k = 0; k < run.steps(); ++k) {
-    if (run.stop_requested(stop, k) || !run.take_step(k)) break;
-    const double end = run.time_after(k + 1);
-    while (next < times.size() && times[next] <= end + kSameInstant * simulation.step)
-      run.sample(times[next++]);
+  while (!run.at_end() && !run.stop_requested(stop) && run.take_step()) {
+    const double end = run.now() + kSameInstant * simulation.step;
+    while (next < times.size() && times[next] <= end) run.sample(times[next++]);
   }
   return run.finish();
 }
@@ -173,10 +200,7 @@ Trajectory simulate(const Simulation& simulation, std::span<const double> times,
 Trajectory simulate_every_step(const Simulation& simulation, const StopRequest& stop) {
   Run run(simulation, std::size_t(simulation.duration / simulation.step) + 2);
   run.sample_start();
-  for (long k = 0; k < run.steps(); ++k) {
-    if (run.stop_requested(stop, k) || !run.take_step(k)) break;
-    run.sample_end();
-  }
+  while (!run.at_end() && !run.stop_requested(stop) && run.take_step()) run.sample_end();
   return run.finish();
 }
 

@@ -14,7 +14,7 @@ class ConstantTorque final : public TorqueLaw {
  public:
   explicit ConstantTorque(std::vector<double> tau) : tau_(std::move(tau)) {}
 
-  void evaluate(Workspace&, double, ConstVec, ConstVec, Vec tau) override {
+  void evaluate(const Chain&, Workspace&, double, ConstVec, ConstVec, Vec tau) override {
     std::copy(tau_.begin(), tau_.end(), tau.begin());
   }
   bool is_constant() const override { return true; }
@@ -31,8 +31,8 @@ class ExpressionTorque final : public TorqueLaw {
       for (int slot : entry.used_variables()) needs_kinematics_ |= probe_.is_kinematic(slot);
   }
 
-  void evaluate(Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) override {
-    probe_.set(ws, t, q, qd, needs_kinematics_);
+  void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) override {
+    probe_.set(chain, ws, t, q, qd, needs_kinematics_);
     for (std::size_t i = 0; i < entries_.size(); ++i) tau[i] = entries_[i].evaluate(probe_.values());
   }
 

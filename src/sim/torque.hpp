@@ -12,9 +12,12 @@ namespace chainreel {
 class TorqueLaw {
  public:
   virtual ~TorqueLaw() = default;
-  // Writes nv numbers. Allocates nothing; a value that cannot be had is written as NaN, which stops the run.
-  virtual void evaluate(Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) = 0;
+  // Writes nv numbers for the chain that the law was made for. Allocates nothing; a value that cannot be had
+  // is written as NaN, which stops the run.
+  virtual void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) = 0;
   virtual bool is_constant() const { return false; }  // then the work done is tau . (q - q(0)) exactly
+  // Instants at which the torque has a kink or a jump: steps end there, so that methods keep their order.
+  virtual std::vector<double> breaks() const { return {}; }
 };
 
 // One joint's entry as the scene wrote it: a number or an expression.

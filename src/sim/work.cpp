@@ -9,7 +9,7 @@ WorkIntegral::WorkIntegral(const Simulation& simulation)
   const Chain& chain = simulation.chain;
   if (!simulation.torque->is_constant() || chain.has_dissipation) return;
   Workspace ws(chain);
-  simulation.torque->evaluate(ws, 0, simulation.q0, simulation.qd0, tau_);
+  simulation.torque->evaluate(chain, ws, 0, simulation.q0, simulation.qd0, tau_);
   // With a floating base qd is no derivative of q: the short form holds there only where nothing pushes.
   constant_ = chain.nq == chain.nv || std::all_of(tau_.begin(), tau_.end(), [](double x) { return x == 0; });
 }

@@ -31,10 +31,10 @@ TEST(Prepare, GivesExpressionsTheGripperAndTheParameters) {
   EXPECT_FALSE(simulation.torque->is_constant());
   Workspace ws(simulation.chain);
   std::vector<double> tau(2), q{0, 1.5}, qd{3, 4};
-  simulation.torque->evaluate(ws, 0.25, q, qd, tau);
+  simulation.torque->evaluate(simulation.chain, ws, 0.25, q, qd, tau);
   // PP: the gripper moves with q one to one; its offset at q = 0 is what the model says.
   std::vector<double> tau_zero(2), zero(2);
-  simulation.torque->evaluate(ws, 0, zero, zero, tau_zero);
+  simulation.torque->evaluate(simulation.chain, ws, 0, zero, zero, tau_zero);
   EXPECT_DOUBLE_EQ(tau[0] - tau_zero[0], 30);
   EXPECT_DOUBLE_EQ(tau[1] - tau_zero[1], -150 + 4 + 0.25);
 }

@@ -64,7 +64,7 @@ TEST_P(Loop, AllocatesNothingAfterTheFirstStep) {
 
 TEST(Counter, SeesALawThatAllocates) {
   struct Wasteful final : TorqueLaw {
-    void evaluate(Workspace&, double, ConstVec, ConstVec, Vec tau) override {
+    void evaluate(const Chain&, Workspace&, double, ConstVec, ConstVec, Vec tau) override {
       const std::vector<double> fresh(tau.size(), 0.0);
       std::copy(fresh.begin(), fresh.end(), tau.begin());
     }

@@ -1,0 +1,100 @@
+#include "core/csv.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr std::uintmax_t kLargestFile = std::uintmax_t(256) << 20;  // bytes
+
+std::string trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r");
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+}
+
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields;
+  for (std::size_t begin = 0;;) {
+    const std::size_t comma = line.find(',', begin);
+    fields.push_back(trimmed(line.substr(begin, comma - begin)));
+    if (comma == std::string::npos) return fields;
+    begin = comma + 1;
+  }
+}
+
+}  // namespace
+
+int Table::find(const std::string& name) const {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? -1 : int(found - names.begin());
+}
+
+Table read_csv(const std::string& path) {
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(path, code))
+    throw Error(ExitCode::bad_input, "there is no such file", {path});
+  if (std::filesystem::file_size(path, code) > kLargestFile)
+    throw Error(ExitCode::limit, "is larger than 256 MiB", {path});
+  std::ifstream stream(path, std::ios::binary);
+  Table table{path, {}, {}};
+  int number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++number;
+    if (trimmed(line).empty() || trimmed(line).starts_with('#')) continue;
+    const std::vector<std::string> fields = fields_of(line);
+    if (table.names.empty()) {
+      table.names = fields;
+      table.columns.resize(fields.size());
+      continue;
+    }
+    if (fields.size() != table.names.size())
+      throw Error(ExitCode::bad_input,
+                  "has " + std::to_string(fields.size()) + " values under " +
+                      std::to_string(table.names.size()) +
+                      " names: values are separated by commas, decimals take a point",
+                  {path, number});
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      const std::optional<double> value = parse_number(fields[i]);
+      if (!value)
+        throw Error(ExitCode::bad_input,
+                    "'" + fields[i] + "' under '" + table.names[i] + "' is not a finite number",
+                    {path, number});
+      table.columns[i].push_back(*value);
+    }
+  }
+  if (table.rows() == 0)
+    throw Error(ExitCode::bad_input, "holds no row of numbers below a line of names", {path});
+  return table;
+}
+
+TimeTable read_time_table(const std::string& path, const std::vector<std::string>& wanted, int n) {
+  const Table table = read_csv(path);
+  TimeTable result;
+  const int time = table.find("t");
+  if (time < 0) throw Error(ExitCode::bad_input, "has no column 't'", {path});
+  result.t = table.columns[std::size_t(time)];
+  for (std::size_t k = 1; k < result.t.size(); ++k)
+    if (result.t[k] <= result.t[k - 1])
+      throw Error(ExitCode::bad_input, "'t' does not rise at row " + std::to_string(k + 1), {path});
+  for (const std::string& name : wanted) {
+    std::vector<std::vector<double>> group;
+    for (int i = 1; i <= n; ++i) {
+      const int column = table.find(name + std::to_string(i));
+      if (column >= 0) group.push_back(table.columns[std::size_t(column)]);
+    }
+    if (!group.empty() && group.size() != std::size_t(n))
+      throw Error(ExitCode::bad_input,
+                  "needs the columns " + name + "1 to " + name + std::to_string(n) + ", one a freedom",
+                  {path});
+    result.groups.push_back(std::move(group));
+  }
+  return result;
+}
+
+}  // namespace chainreel

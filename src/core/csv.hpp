@@ -1,0 +1,29 @@
+// Tables of numbers with a line of names on top, as `simulate` writes them. Comma separated, C locale.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace chainreel {
+
+struct Table {
+  std::string file;
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;  // one a name, all of the same length
+
+  std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
+  int find(const std::string& name) const;  // index of a column, or -1
+};
+
+// Throws Error with file and line for what is no table of finite numbers.
+Table read_csv(const std::string& path);
+
+// The same with columns `t` (rising) and `NAME1..NAMEn` for each wanted name that the file has.
+struct TimeTable {
+  std::vector<double> t;
+  std::vector<std::vector<std::vector<double>>>
+      groups;  // [wanted][1..n]; empty where the file has none of that name
+};
+TimeTable read_time_table(const std::string& path, const std::vector<std::string>& wanted, int n);
+
+}  // namespace chainreel

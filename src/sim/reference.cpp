@@ -1,0 +1,107 @@
+#include "sim/reference.hpp"
+
+#include "core/csv.hpp"
+#include "core/scalar.hpp"
+#include "expr/expression.hpp"
+#include "sim/spline.hpp"
+
+namespace chainreel {
+namespace {
+
+using SecondDual = Dual<Dual<double>>;
+
+class ExpressionReference final : public Reference {
+ public:
+  ExpressionReference(std::vector<Expression> q, std::vector<Expression> qd, std::vector<Expression> qdd,
+                      const Parameters& parameters)
+      : q_(std::move(q)),
+        qd_(std::move(qd)),
+        qdd_(std::move(qdd)),
+        values_(1 + parameters.size()),
+        duals_(values_.size()) {
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      values_[i + 1] = parameters[i].second;
+      duals_[i + 1] = SecondDual(Dual<double>(parameters[i].second, 0), Dual<double>(0, 0));
+    }
+  }
+
+  void evaluate(double t, Vec q, Vec qd, Vec qdd) const override {
+    values_[0] = t;
+    duals_[0] = SecondDual(Dual<double>(t, 1), Dual<double>(1, 0));
+    for (std::size_t i = 0; i < q_.size(); ++i) {
+      const SecondDual y = q_[i].evaluate<SecondDual>(duals_);
+      q[i] = y.re.re;
+      qd[i] = qd_.empty() ? y.re.du : qd_[i].evaluate<double>(values_);
+      qdd[i] = qdd_.empty() ? y.du.du : qdd_[i].evaluate<double>(values_);
+    }
+  }
+
+ private:
+  std::vector<Expression> q_, qd_, qdd_;
+  mutable std::vector<double> values_;
+  mutable std::vector<SecondDual> duals_;
+};
+
+class TableReference final : public Reference {
+ public:
+  TableReference(std::vector<Spline> q, std::vector<Spline> qd, std::vector<Spline> qdd)
+      : q_(std::move(q)), qd_(std::move(qd)), qdd_(std::move(qdd)) {}
+
+  void evaluate(double t, Vec q, Vec qd, Vec qdd) const override {
+    for (std::size_t i = 0; i < q_.size(); ++i) {
+      const Spline::Value position = q_[i].at(t);
+      const Spline::Value rate = qd_.empty() ? Spline::Value{position.yd, position.ydd, 0} : qd_[i].at(t);
+      q[i] = position.y;
+      qd[i] = rate.y;
+      qdd[i] = qdd_.empty() ? rate.yd : qdd_[i].at(t).y;
+    }
+  }
+
+ private:
+  std::vector<Spline> q_, qd_, qdd_;
+};
+
+std::vector<Expression> parse_all(const std::vector<Entry>& entries, const std::vector<std::string>& names,
+                                  ProblemList& problems) {
+  std::vector<Expression> parsed;
+  for (const Entry& entry : entries) {
+    try {
+      parsed.push_back(Expression::parse(entry.text, names, entry.place));
+    } catch (const Error& error) {
+      for (const Problem& problem : error.problems()) problems.add(problem.message, problem.place);
+    }
+  }
+  return parsed;
+}
+
+std::vector<Spline> splines(const TimeTable& table, std::size_t group) {
+  std::vector<Spline> all;
+  for (const std::vector<double>& column : table.groups[group]) all.emplace_back(table.t, column);
+  return all;
+}
+
+}  // namespace
+
+std::unique_ptr<Reference> make_expression_reference(const std::vector<Entry>& q,
+                                                     const std::vector<Entry>& qd,
+                                                     const std::vector<Entry>& qdd,
+                                                     const Parameters& parameters) {
+  std::vector<std::string> names{"t"};
+  for (const auto& [name, value] : parameters) names.push_back(name);
+  ProblemList problems;
+  auto reference =
+      std::make_unique<ExpressionReference>(parse_all(q, names, problems), parse_all(qd, names, problems),
+                                            parse_all(qdd, names, problems), parameters);
+  problems.throw_if_any();
+  return reference;
+}
+
+std::unique_ptr<Reference> make_table_reference(const std::string& path, int n) {
+  const TimeTable table = read_time_table(path, {"q", "qd", "qdd"}, n);
+  if (table.groups[0].empty())
+    throw Error(ExitCode::bad_input, "has no columns q1 to q" + std::to_string(n) + ", one a freedom",
+                {path});
+  return std::make_unique<TableReference>(splines(table, 0), splines(table, 1), splines(table, 2));
+}
+
+}  // namespace chainreel
