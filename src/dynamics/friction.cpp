@@ -17,23 +17,32 @@ double smooth_sign(double x) {
   return x < 0 ? -t : t;
 }
 
-}  // namespace
-
-void compute_friction(const Chain& chain, Workspace& ws, ConstVec qd) {
-  std::fill(ws.tau_f.begin(), ws.tau_f.end(), 0.0);
+void write_friction(const Chain& chain, ConstVec qd, Vec tau_f) {
+  std::fill(tau_f.begin(), tau_f.end(), 0.0);
   if (!chain.has_dissipation) return;
   for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
     const Joint& joint = chain.bodies[i].joint;
     const std::size_t freedoms = joint.kind == JointKind::floating ? 6 : 1;
     for (std::size_t k = 0; k < freedoms; ++k) {
-      // A mimic joint moves `ratio` times as fast as its coordinate, and its torque reaches the coordinate
-      // `ratio` fold.
+      // A mimic joint moves `ratio` times as fast as its coordinate, and its torque reaches it `ratio` fold.
       const std::size_t v = std::size_t(joint.v_index) + k;
       const double rate = joint.ratio * qd[v];
       const double torque = joint.damping * rate + joint.friction * smooth_sign(rate / kFrictionSmoothing);
-      ws.tau_f[v] += joint.ratio * torque;
+      tau_f[v] += joint.ratio * torque;
     }
   }
+}
+
+}  // namespace
+
+void compute_friction(const Chain& chain, Workspace& ws, ConstVec qd) {
+  write_friction(chain, qd, ws.tau_f);
+}
+
+std::vector<double> friction_of(const Chain& chain, ConstVec qd) {
+  std::vector<double> tau_f(qd.size());
+  write_friction(chain, qd, tau_f);
+  return tau_f;
 }
 
 }  // namespace chainreel

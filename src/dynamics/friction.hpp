@@ -2,6 +2,8 @@
 // law.
 #pragma once
 
+#include <vector>
+
 #include "dynamics/workspace.hpp"
 
 namespace chainreel {
@@ -11,5 +13,8 @@ inline constexpr double kFrictionSmoothing =
 
 // ws.tau_f, nv numbers; zero where the chain has no dissipation.
 void compute_friction(const Chain& chain, Workspace& ws, ConstVec qd);
+
+// The same, as a value.
+std::vector<double> friction_of(const Chain& chain, ConstVec qd);
 
 }  // namespace chainreel
