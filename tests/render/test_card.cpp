@@ -29,7 +29,8 @@ void draw_chain(Picture& page, const Theme& theme, Point base) {
   }
   page.add(Ellipse{joint, {0.007, 0}, {0, 0.007}, {theme.ink, {}, 0}});
   // The ground mark.
-  page.add(Capsule{base - Point{0.06, 0.03}, base + Point{0.06, -0.03}, size::kGroundLine / 2, {theme.base, {}, 0}});
+  page.add(Capsule{
+      base - Point{0.06, 0.03}, base + Point{0.06, -0.03}, size::kGroundLine / 2, {theme.base, {}, 0}});
   for (int i = 0; i < 8; ++i) {
     const Point top = base + Point{-0.05 + i * size::kGroundSpacing, -0.03};
     page.add(Capsule{top, top - Point{0.012, 0.012}, size::kGroundHatch / 2, {theme.base, {}, 0}});
@@ -67,7 +68,8 @@ void draw_polygons(Picture& page, const Theme& theme, Point at) {
     polygon.count = corners;
     for (int i = 0; i < corners; ++i)
       polygon.corners[std::size_t(i)] = on_circle(at + Point{x, 0}, 0.045, 0.3 + 2 * pi * i / corners);
-    polygon.paint = {theme.link[std::size_t(corners) % 4], theme.ink, corners % 2 == 0 ? size::kLinkOutline : 0};
+    polygon.paint = {theme.link[std::size_t(corners) % 4], theme.ink,
+                     corners % 2 == 0 ? size::kLinkOutline : 0};
     page.add(polygon);
     x += 0.11;
   }
@@ -97,11 +99,16 @@ void draw_trails(Picture& page, const Theme& theme, Point at) {
 void draw_lines(Picture& page, const Theme& theme, Point at) {
   for (int i = 0; i < 12; ++i) {
     const double angle = pi / 2 * i / 11;
-    page.add(Capsule{on_circle(at, 0.03, angle), on_circle(at, 0.15, angle), (0.0005 + 0.0003 * i), {theme.ink, {}, 0}});
+    page.add(Capsule{
+        on_circle(at, 0.03, angle), on_circle(at, 0.15, angle), (0.0005 + 0.0003 * i), {theme.ink, {}, 0}});
   }
   page.add(Capsule{at + Point{0.2, 0.1}, at + Point{0.45, 0.1}, 0.004, {theme.curve[0], {}, 0}, 1, 0});
-  page.add(Capsule{at + Point{0.2, 0.06}, at + Point{0.45, 0.02}, 0.02,
-                   {theme.link[0].faded(0.5), theme.ink.faded(0.5), 0.008}, 1, 0.2});
+  page.add(Capsule{at + Point{0.2, 0.06},
+                   at + Point{0.45, 0.02},
+                   0.02,
+                   {theme.link[0].faded(0.5), theme.ink.faded(0.5), 0.008},
+                   1,
+                   0.2});
 }
 
 void draw_texts(Picture& page, const Fonts& fonts, const Theme& theme) {
@@ -113,11 +120,13 @@ void draw_texts(Picture& page, const Fonts& fonts, const Theme& theme) {
   };
   text(Face::label_bold, size::kTitle, theme.ink, Align::left, "Every primitive, once", {0.05, 0.925});
   text(Face::label, size::kAxis, theme.ink, Align::right, "t = 1.24 s", {1.72, 0.05});
-  text(Face::label, size::kTick, theme.muted, Align::center, "energy [J]   0.25\u00d7   \u22122.5", {1.4, 0.05});
+  text(Face::label, size::kTick, theme.muted, Align::center, "energy [J]   0.25\u00d7   \u22122.5",
+       {1.4, 0.05});
   math(size::kEquation, "tau = (10, 10, 10)^T N m", {0.05, 0.86});
   math(size::kEquation, "tau = (0, -100 y_G) N", {0.62, 0.86});
   math(size::kEquation, "Lambda^-1 = J M^{-1} J^T", {1.10, 0.86});
-  math(size::kSymbol, "q_1, qd_2, qdd_3, thetad, lambda_{n_c}, x_ee^2, h sin(2*q1), 1.5e-3 m/s^2", {0.62, 0.79});
+  math(size::kSymbol, "q_1, qd_2, qdd_3, thetad, lambda_{n_c}, x_ee^2, h sin(2*q1), 1.5e-3 m/s^2",
+       {0.62, 0.79});
 }
 
 }  // namespace
