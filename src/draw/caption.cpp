@@ -13,7 +13,7 @@ namespace {
 constexpr double kRowPitch = 1.30;      // of the em, between rows of the matrix
 constexpr double kLinePitch = 1.75;     // of the em, between pose and matrix
 constexpr double kColumnGap = 0.9;      // of the em
-constexpr double kBracketGap = 0.18;    // of the em, between bracket and numbers
+constexpr double kBracketGap = 0.38;    // of the em, between bracket and numbers
 constexpr double kBracketSerif = 0.16;  // of the em
 constexpr double kBracketLine = 0.0022;
 constexpr double kMathAxis = 0.25;  // of the em above the base line: where a matrix is centred
@@ -59,7 +59,7 @@ MatrixLine lay_out_matrix(const Fonts& fonts, const std::vector<std::vector<std:
       2 * kBracketGap * matrix.em + kColumnGap * matrix.em * double(matrix.column_width.size() - 1);
   for (const double width : matrix.column_width) matrix.bracket_width += width;
   matrix.width =
-      matrix.name.advance + 0.3 * matrix.em + matrix.bracket_width + 0.2 * matrix.em + matrix.unit.advance;
+      matrix.name.advance + 0.4 * matrix.em + matrix.bracket_width + 0.25 * matrix.em + matrix.unit.advance;
   return matrix;
 }
 
@@ -76,7 +76,7 @@ void draw_matrix(Picture& picture, const MatrixLine& matrix, Point middle, Color
   double x = middle.x - matrix.width / 2;
   const double base = middle.y - kMathAxis * em;
   draw_text(picture, matrix.name, {x, base});
-  x += matrix.name.advance + 0.3 * em;
+  x += matrix.name.advance + 0.4 * em;
   const double half_height = rows * kRowPitch * em / 2, serif = kBracketSerif * em;
   draw_bracket(picture, x, middle.y - half_height, middle.y + half_height, serif, color);
   draw_bracket(picture, x + matrix.bracket_width, middle.y - half_height, middle.y + half_height, -serif,
@@ -89,7 +89,7 @@ void draw_matrix(Picture& picture, const MatrixLine& matrix, Point middle, Color
       left += matrix.column_width[j] + kColumnGap * em;
     }
   }
-  draw_text(picture, matrix.unit, {x + matrix.bracket_width + 0.2 * em, base});
+  draw_text(picture, matrix.unit, {x + matrix.bracket_width + 0.25 * em, base});
 }
 
 }  // namespace

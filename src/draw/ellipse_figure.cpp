@@ -8,6 +8,7 @@
 #include "core/format.hpp"
 #include "draw/caption.hpp"
 #include "draw/chain.hpp"
+#include "draw/chain_fit.hpp"
 #include "draw/ellipse.hpp"
 #include "draw/joints.hpp"
 #include "draw/poses.hpp"
@@ -25,6 +26,8 @@ constexpr double kFrameLine = 0.0018;
 // singular pose they have no bound.
 constexpr double kSmallerAxis = 0.14, kLongestAxis = 0.34, kLongest = 8;
 constexpr double kLongestBar = 0.12;  // units of H
+// Marks have their full size in a panel of this height and shrink with it, down to a limit.
+constexpr double kFullPanel = 0.6, kSmallestMarks = 0.45;
 
 struct Pose {
   std::vector<double> q;
@@ -101,62 +104,88 @@ Room room_of(const std::vector<MassAxis>& axes, const Camera& camera, double per
   return {std::sqrt(xx), std::sqrt(xx), std::sqrt(yy), std::sqrt(yy)};
 }
 
+// What all panels share.
+struct Panels {
+  const Chain& chain;
+  const PoseFigureOptions& options;
+  const Fonts& fonts;
+  std::vector<Rect> places;
+  double caption = 0;  // height of the words below each scene
+  double marks = 1;
+  MassScale scale;
+  Skeleton skeleton;
+  Camera camera;  // of the first panel
+
+  Rect scene(std::size_t i) const { return above_caption(places[i], caption); }
+  double side() const { return std::min(scene(0).width(), scene(0).height()); }
+};
+
+void fit_panels(Panels& panels, const std::vector<Pose>& poses, Workspace& ws) {
+  constexpr double kNoLimit = std::numeric_limits<double>::max();
+  panels.skeleton = skeleton_of(panels.chain);
+  for (const Pose& pose : poses) widen_rails(panels.skeleton, panels.chain, pose.q, kNoLimit);
+  panels.camera = view_of(panels.chain);
+  ChainFit fit(panels.chain, panels.skeleton, panels.camera, panels.marks);
+  const std::vector<double> at_rest(std::size_t(panels.chain.nv), 0.0);
+  for (const Pose& pose : poses) {
+    compute_kinematics(panels.chain, ws, pose.q, at_rest);
+    fit.add_pose(ws, kNoLimit);
+    fit.add(tip_position(panels.chain, ws),
+            room_of(pose.axes, panels.camera, panels.scale.per_kg(), kLongestAxis * panels.side()));
+  }
+  fit_to(panels.camera, fit.box(), panels.scene(0), size::kFitMargin);
+}
+
+void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose& pose, Workspace& ws) {
+  const Theme& theme = *panels.options.theme;
+  const Rect scene = panels.scene(i), first = panels.scene(0);
+  const int clip = int(picture.clips.size());
+  picture.clips.push_back(scene);
+  picture.add(
+      Polygon{{Point{scene.x0, scene.y0}, {scene.x1, scene.y0}, {scene.x1, scene.y1}, {scene.x0, scene.y1}},
+              4,
+              {{}, theme.rule, kFrameLine}});
+  Camera camera = panels.camera;
+  camera.origin = camera.origin + Point{scene.x0 - first.x0, scene.y0 - first.y0};
+  const std::vector<double> at_rest(std::size_t(panels.chain.nv), 0.0);
+  compute_kinematics(panels.chain, ws, pose.q, at_rest);
+  const ChainDrawing drawing{panels.chain, panels.skeleton, camera,
+                             look_of(panels.skeleton, camera, theme, 1, panels.marks)};
+  const Point tip = camera.project(tip_position(panels.chain, ws));
+  draw_base(picture, drawing, clip);
+  draw_rails(picture, drawing, ws, clip);
+  draw_links(picture, drawing, ws, clip);
+  draw_mass_ellipse(picture, pose.axes, tip, camera,
+                    {&theme, &panels.fonts, panels.options.text_scale, panels.scale.per_kg(), scene}, clip);
+  draw_end_effector(picture, tip, drawing.look, clip);
+  draw_caption(picture, panels.chain, pose.q, pose.effective,
+               {scene.x0, panels.places[i].y0, scene.x1, scene.y0}, panels.options.text_scale, theme,
+               panels.fonts);
+}
+
 }  // namespace
 
 Picture draw_ellipse_figure(const Chain& chain, const std::vector<std::vector<double>>& configurations,
                             const PoseFigureOptions& options, const Fonts& fonts) {
   if (configurations.empty()) throw Error(ExitCode::usage, "a figure needs at least one pose");
-  const std::vector<double> at_rest(std::size_t(chain.nv), 0.0);
   Workspace ws(chain);
   const std::vector<Pose> poses = poses_of(chain, configurations, ws);
-  const double caption = caption_height(int(poses[0].effective.basis.directions.size()), options.text_scale);
-
-  // The bar's length does not change where the panels lie.
-  const Rect area = sheet_of(options, {}, fonts).scene;
-  const std::vector<Rect> panels = panels_of(area, int(poses.size()));
-  const Rect first = above_caption(panels[0], caption);
-  const double side = std::min(first.width(), first.height());
-  if (!(side > 0.08)) throw Error(ExitCode::usage, "too many poses for one page: draw several figures");
-  const MassScale scale = scale_for(poses, side);
-
-  constexpr double kNoLimit = std::numeric_limits<double>::max();
-  Skeleton skeleton = skeleton_of(chain);
-  for (const Pose& pose : poses) widen_rails(skeleton, chain, pose.q, kNoLimit);
-  Camera camera = view_of(chain);
-  ChainFit fit(chain, skeleton, camera);
-  for (const Pose& pose : poses) {
-    compute_kinematics(chain, ws, pose.q, at_rest);
-    fit.add_pose(ws, kNoLimit);
-    fit.add(tip_position(chain, ws), room_of(pose.axes, camera, scale.per_kg(), kLongestAxis * side));
-  }
-  fit_to(camera, fit.box(), first, size::kFitMargin);
+  Panels panels{chain, options, fonts, {}, 0, 1, {}, {}, {}};
+  panels.caption = caption_height(int(poses[0].effective.basis.directions.size()), options.text_scale);
+  // The scale follows from the size of the panels: they are laid out with the longest bar and label that may
+  // come.
+  panels.places = panels_of(sheet_of(options, {0.005, kLongestBar}, fonts).scene, int(poses.size()));
+  if (!(panels.side() > 0.08))
+    throw Error(ExitCode::usage, "too many poses for one page: draw several figures");
+  panels.marks = std::clamp(panels.side() / kFullPanel, kSmallestMarks, 1.0);
+  panels.scale = scale_for(poses, panels.side());
+  fit_panels(panels, poses, ws);
 
   Picture picture;
   picture.aspect = double(options.width) / options.height;
   picture.background = options.theme->background;
-  const Point origin = camera.origin;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Rect scene = above_caption(panels[i], caption);
-    const int clip = int(i);
-    picture.clips.push_back(scene);
-    camera.origin = origin + Point{scene.x0 - first.x0, scene.y0 - first.y0};
-    const ChainLook look = look_of(skeleton, camera, *options.theme);
-    picture.add(
-        Polygon{{Point{scene.x0, scene.y0}, {scene.x1, scene.y0}, {scene.x1, scene.y1}, {scene.x0, scene.y1}},
-                4,
-                {{}, options.theme->rule, kFrameLine}});
-    compute_kinematics(chain, ws, poses[i].q, at_rest);
-    const Point tip = camera.project(tip_position(chain, ws));
-    draw_base(picture, {chain, skeleton, camera, look}, clip);
-    draw_links(picture, {chain, skeleton, camera, look}, ws, clip);
-    const EllipseStyle style{options.theme, &fonts, options.text_scale, scale.per_kg(), scene};
-    draw_mass_ellipse(picture, poses[i].axes, tip, camera, style, clip);
-    draw_end_effector(picture, tip, look, clip);
-    draw_caption(picture, chain, poses[i].q, poses[i].effective,
-                 {panels[i].x0, panels[i].y0, panels[i].x1, scene.y0}, options.text_scale, *options.theme,
-                 fonts);
-  }
-  draw_sheet(picture, sheet_of(options, scale, fonts));
+  for (std::size_t i = 0; i < poses.size(); ++i) draw_panel(picture, panels, i, poses[i], ws);
+  draw_sheet(picture, sheet_of(options, panels.scale, fonts));
   return picture;
 }
 

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/chain.hpp"
+#include "draw/chain_fit.hpp"
 #include "draw/joints.hpp"
 #include "draw/metre_bar.hpp"
 #include "draw/torque_label.hpp"
@@ -125,8 +126,10 @@ Picture Film::frame(int k) const {
   compute_kinematics(chain_, *ws_, trajectory_.q_at(k), trajectory_.qd_at(k));
   Picture picture = page();
   const Color trail = theme_.curve[std::size_t(std::max(chain_.nv, 1) - 1) % theme_.curve.size()];
+  const ChainDrawing drawing{chain_, skeleton_, camera_, look_};
+  if (layers_.chain) draw_rails(picture, drawing, *ws_, kSceneClip);
   if (layers_.trail) draw_trail(picture, tip_, k, trail, kSceneClip);
-  if (layers_.chain) draw_links(picture, {chain_, skeleton_, camera_, look_}, *ws_, kSceneClip);
+  if (layers_.chain) draw_links(picture, drawing, *ws_, kSceneClip);
   const Point tip = tip_.place(k);
   if (layers_.ellipse) {
     const EllipseStyle style{&theme_, &fonts_, scene_.text_scale, mass_scale_.per_kg(), sheet_.scene};

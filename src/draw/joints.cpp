@@ -8,10 +8,6 @@ namespace {
 // The hatch goes down to the left at 45 degrees when the ground is below.
 constexpr double kHatchDepth = size::kGroundSpacing;
 
-Point along_by(Point p, Point direction, double length) {
-  return p + length * direction;
-}
-
 }  // namespace
 
 Point unit(Point v) {
@@ -36,27 +32,32 @@ void draw_revolute(Picture& picture, Point center, const ChainLook& look, int cl
 }
 
 void draw_end_effector(Picture& picture, Point center, const ChainLook& look, int clip) {
-  const double r = size::kEndEffector / 2;
+  const double r = look.marks * size::kEndEffector / 2;
   picture.add(Ellipse{center, {r, 0}, {0, r}, {toned(look.theme->ink, look), {}, 0}}, clip);
 }
 
-void draw_rail(Picture& picture, PageLine way, Color fill, const ChainLook& look, int clip) {
-  const Point along = unit(way.b - way.a), across = normal_to(along);
-  const Point a = along_by(way.a, along, -kRailOverhang), b = along_by(way.b, along, kRailOverhang);
-  const Point half = (size::kRailGap / 2) * across;
+PageLine with_overhang(PageLine way, bool carrier, const ChainLook& look) {
+  const Point along = unit(way.b - way.a);
+  const double overhang = look.marks * rail_overhang(carrier);
+  return {way.a - overhang * along, way.b + overhang * along};
+}
+
+void draw_rail(Picture& picture, PageLine rail, Color fill, const ChainLook& look, int clip) {
+  const Point half = (look.marks * size::kRailGap / 2) * normal_to(unit(rail.b - rail.a));
   const Color ink = toned(look.theme->ink, look);
-  picture.add(Polygon{{a + half, b + half, b - half, a - half}, 4, {fill, {}, 0}}, clip);
+  picture.add(Polygon{{rail.a + half, rail.b + half, rail.b - half, rail.a - half}, 4, {fill, {}, 0}}, clip);
   for (const double side : {-1.0, 1.0}) {
-    draw_line(picture, {a + side * half, b + side * half}, size::kRailLine, ink, clip);
+    draw_line(picture, {rail.a + side * half, rail.b + side * half}, size::kRailLine, ink, clip);
   }
-  for (const Point end : {a, b}) draw_line(picture, {end + half, end - half}, size::kRailLine, ink, clip);
+  for (const Point end : {rail.a, rail.b})
+    draw_line(picture, {end + half, end - half}, size::kRailLine, ink, clip);
 }
 
 void draw_carriage(Picture& picture, Point center, Point along, bool carrier, Color fill,
                    const ChainLook& look, int clip) {
   const Point u = unit(along);
-  const Point l = ((carrier ? kCarrierLength : size::kCarriageLength) / 2) * u;
-  const Point h = (size::kCarriageHeight / 2) * normal_to(u);
+  const Point l = (look.marks * carriage_length(carrier) / 2) * u;
+  const Point h = (look.marks * size::kCarriageHeight / 2) * normal_to(u);
   picture.add(Polygon{{center + l + h, center - l + h, center - l - h, center + l - h},
                       4,
                       {fill, toned(look.theme->ink, look), size::kLinkOutline}},
@@ -68,22 +69,20 @@ void draw_ground(Picture& picture, PageLine line, Point inside, const ChainLook&
   const Point along = unit(line.b - line.a);
   const double length = std::hypot(line.b.x - line.a.x, line.b.y - line.a.y);
   // Whole spacings, centred, so that the hatch is the same at both ends.
-  const int strokes = std::max(1, int(std::floor(length / size::kGroundSpacing)));
-  const double first = (length - (strokes - 1) * size::kGroundSpacing) / 2 + kHatchDepth / 2;
+  const double spacing = look.marks * size::kGroundSpacing, depth = look.marks * kHatchDepth;
+  const int strokes = std::max(1, int(std::floor(length / spacing)));
+  const double first = (length - (strokes - 1) * spacing) / 2 + depth / 2;
   for (int i = 0; i < strokes; ++i) {
-    const Point top = along_by(line.a, along, first + i * size::kGroundSpacing);
-    const Point end = along_by(along_by(top, along, -kHatchDepth), inside, kHatchDepth);
-    draw_line(picture, {top, end}, size::kGroundHatch, base, clip);
+    const Point top = line.a + (first + i * spacing) * along;
+    draw_line(picture, {top, top - depth * along + depth * inside}, size::kGroundHatch, base, clip);
   }
   draw_line(picture, line, size::kGroundLine, base, clip);
 }
 
 void draw_pin(Picture& picture, Point center, const ChainLook& look, int clip) {
-  const Point foot{center.x, center.y - kPinHeight};
-  const Point half{kPinWidth / 2, 0};
-  draw_ground(picture,
-              {{foot.x - size::kGroundLength / 2, foot.y}, {foot.x + size::kGroundLength / 2, foot.y}},
-              {0, -1}, look, clip);
+  const Point foot = center - Point{0, look.marks * kPinHeight};
+  const Point half{look.marks * kPinWidth / 2, 0}, half_line{look.marks * size::kGroundLength / 2, 0};
+  draw_ground(picture, {foot - half_line, foot + half_line}, {0, -1}, look, clip);
   picture.add(
       Polygon{{center, foot - half, foot + half},
               3,
@@ -91,15 +90,12 @@ void draw_pin(Picture& picture, Point center, const ChainLook& look, int clip) {
       clip);
 }
 
-void draw_rail_ground(Picture& picture, PageLine way, const ChainLook& look, int clip) {
-  const Point along = unit(way.b - way.a);
-  Point inside = normal_to(along);
+void draw_rail_ground(Picture& picture, PageLine rail, const ChainLook& look, int clip) {
+  Point inside = normal_to(unit(rail.b - rail.a));
   // Below the rail; left of it where it stands upright.
   if (inside.y > 1e-9 || (std::abs(inside.y) <= 1e-9 && inside.x > 0)) inside = -1 * inside;
-  const Point shift = (size::kRailGap / 2 + size::kGroundLine / 2) * inside;
-  draw_ground(picture,
-              {along_by(way.a, along, -kRailOverhang) + shift, along_by(way.b, along, kRailOverhang) + shift},
-              inside, look, clip);
+  const Point shift = (look.marks * size::kRailGap / 2 + size::kGroundLine / 2) * inside;
+  draw_ground(picture, {rail.a + shift, rail.b + shift}, inside, look, clip);
 }
 
 double pin_depth() {

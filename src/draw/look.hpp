@@ -18,19 +18,17 @@ inline constexpr double kThinnestLink = 0.010;
 struct ChainLook {
   const Theme* theme = nullptr;
   double strength = 1;  // of all colours, mixed with the background: 1 full, 0.25 an onion skin
+  double marks = 1;  // size of the marks of joints, rails, ground and end effector; below 1 in small panels
   double link_width = size::kLinkWidth;
   double joint_disc = size::kJointDisc;
 };
 
-inline double link_width_on_page(const Skeleton& skeleton, double scale) {
-  const double bound = kLinkWidthOfShortest * skeleton.shortest_link * scale;
-  return skeleton.links.empty() ? size::kLinkWidth : std::clamp(bound, kThinnestLink, size::kLinkWidth);
-}
-
 inline ChainLook look_of(const Skeleton& skeleton, const Camera& camera, const Theme& theme,
-                         double strength = 1) {
-  const double width = link_width_on_page(skeleton, camera.scale);
-  return {&theme, strength, width, std::min(size::kJointDisc, 1.1 * width)};
+                         double strength = 1, double marks = 1) {
+  const double bound = kLinkWidthOfShortest * skeleton.shortest_link * camera.scale;
+  const double width =
+      skeleton.links.empty() ? size::kLinkWidth : std::clamp(bound, kThinnestLink, size::kLinkWidth);
+  return {&theme, strength, marks, width, std::min(marks * size::kJointDisc, 1.1 * width)};
 }
 
 // An opaque colour between the background (0) and `color` (1): onion skins hide what lies behind them, so

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "draw/chain.hpp"
+#include "draw/chain_fit.hpp"
 #include "draw/joints.hpp"
 #include "draw/sheet.hpp"
 #include "draw/view.hpp"
@@ -47,6 +48,7 @@ Picture draw_pose_figure(const Chain& chain, const std::vector<std::vector<doubl
     const double strength = i + 1 < poses.size() ? kOnionSkin : 1;
     const ChainLook look = look_of(skeleton, camera, *options.theme, strength);
     compute_kinematics(chain, ws, poses[i], at_rest);
+    draw_rails(picture, {chain, skeleton, camera, look}, ws, kSceneClip);
     draw_links(picture, {chain, skeleton, camera, look}, ws, kSceneClip);
     draw_end_effector(picture, camera.project(tip_position(chain, ws)), look, kSceneClip);
   }

@@ -53,6 +53,19 @@ std::vector<LinkSegment> segments_of(const Chain& chain) {
   return links;
 }
 
+std::vector<Rail> rails_of(const Chain& chain) {
+  const auto slides = [&](const Body& body) { return body.joint.kind == JointKind::prismatic; };
+  std::vector<bool> carrier(chain.bodies.size(), false);
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
+    if (slides(chain.bodies[b])) carrier[std::size_t(chain.bodies[b].parent)] = true;
+  }
+  std::vector<Rail> rails;
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
+    if (slides(chain.bodies[b])) rails.push_back({int(b), carrier[b]});
+  }
+  return rails;
+}
+
 double length_of(const LinkSegment& link) {
   return (link.to - link.from).norm();
 }
@@ -85,9 +98,7 @@ Skeleton skeleton_of(const Chain& chain) {
       skeleton.shortest_link = std::min(skeleton.shortest_link, length_of(link));
   }
   if (total > 0) skeleton.reach = total;
-  for (int b = 1; b < int(chain.bodies.size()); ++b) {
-    if (chain.bodies[std::size_t(b)].joint.kind == JointKind::prismatic) skeleton.rails.push_back({b});
-  }
+  skeleton.rails = rails_of(chain);
   color_bodies(skeleton, chain);
   return skeleton;
 }

@@ -19,7 +19,8 @@ struct LinkSegment {
 
 // The way that a sliding joint covers, in values of the joint (m along its axis).
 struct Rail {
-  int body = 0;  // the body that slides on it; the rail itself belongs to the body's parent
+  int body = 0;          // the body that slides on it; the rail itself belongs to the body's parent
+  bool carrier = false;  // that body carries a rail itself
   bool used = false;
   double lower = 0;
   double upper = 0;

@@ -8,8 +8,10 @@
 namespace chainreel {
 namespace {
 
-constexpr double kOffPage = 100;              // in units of H: a run that diverged
-constexpr double kSmoothSeconds = 1 / 120.0;  // pieces of the trail are no longer than this
+constexpr double kOffPage = 100;  // in units of H: a run that diverged
+constexpr double kPiece =
+    0.006;  // H: a piece this long of a turn of radius 0.03 H misses it by a sixth of a pixel
+constexpr int kMostPieces = 24;  // between two frames
 
 // 1 at the head, 0 at the end of the trail.
 double freshness(double age) {
@@ -34,14 +36,25 @@ void TipPath::add(double t, Point place, Point speed) {
 }
 
 Point TipPath::at(double t) const {
-  const auto after = std::upper_bound(t_.begin(), t_.end(), t);
-  if (after == t_.begin()) return place_.front();
-  if (after == t_.end()) return place_.back();
-  const std::size_t i = std::size_t(after - t_.begin()) - 1;
+  if (t >= t_.back()) return place_.back();
+  const std::size_t i = std::size_t(frame_at(t));
   const double h = t_[i + 1] - t_[i], s = (t - t_[i]) / h;
   const double s2 = s * s, s3 = s2 * s;
   return (2 * s3 - 3 * s2 + 1) * place_[i] + ((s3 - 2 * s2 + s) * h) * speed_[i] +
          (3 * s2 - 2 * s3) * place_[i + 1] + ((s3 - s2) * h) * speed_[i + 1];
+}
+
+int TipPath::frame_at(double t) const {
+  return std::max(0, int(std::upper_bound(t_.begin(), t_.end(), t) - t_.begin()) - 1);
+}
+
+int TipPath::pieces(int k, double length, int most) const {
+  const std::size_t i = std::size_t(k);
+  const auto size_of = [](Point v) { return std::hypot(v.x, v.y); };
+  // A turn between two frames shows in the speeds, not in the distance.
+  const double way = std::max(size_of(place_[i + 1] - place_[i]),
+                              std::max(size_of(speed_[i]), size_of(speed_[i + 1])) * (t_[i + 1] - t_[i]));
+  return int(std::clamp(std::ceil(way / length), 1.0, double(most)));
 }
 
 double TipPath::gapless_since(int k, double t) const {
@@ -58,11 +71,13 @@ void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int c
   if (!(since < now)) return;
   Trail trail;
   trail.color = color;
-  const int pieces = int(std::ceil((now - since) / kSmoothSeconds));
-  for (int i = 0; i <= pieces; ++i) {
-    const double t = i == pieces ? now : since + i * ((now - since) / pieces);
-    trail.points.push_back(trail_point(path, t, now));
+  for (int i = path.frame_at(since); i < k; ++i) {
+    const double from = std::max(since, path.time(i)), to = path.time(i + 1);
+    const int pieces = path.pieces(i, kPiece, kMostPieces);
+    for (int j = 0; j < pieces; ++j)
+      trail.points.push_back(trail_point(path, from + j * ((to - from) / pieces), now));
   }
+  trail.points.push_back(trail_point(path, now, now));
   picture.add(std::move(trail), clip);
 
   // The dots stand still while the trail moves on: they belong to whole tenths of a second of the film.

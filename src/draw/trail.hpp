@@ -24,6 +24,10 @@ class TipPath {
   Point place(int k) const { return place_[std::size_t(k)]; }
   // Between the frames: the cubic that has their places and speeds. `t` within the path.
   Point at(double t) const;
+  int frame_at(double t) const;  // the last one not after t
+  // Into how many straight pieces the way from frame k to the next one is to be cut for none to be longer
+  // than `length`.
+  int pieces(int k, double length, int most) const;
   // The frame after which no gap lies before frame k, not earlier than `t`.
   double gapless_since(int k, double t) const;
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "draw/chain_fit.hpp"
 #include "draw/chains.hpp"
 #include "draw/joints.hpp"
 #include "draw/shapes.hpp"
@@ -38,6 +39,7 @@ struct Drawn {
     compute_kinematics(chain, ws, q, qd);
     const ChainDrawing drawing{chain, skeleton, camera, look};
     draw_base(base, drawing, -1);
+    draw_rails(links, drawing, ws, -1);
     draw_links(links, drawing, ws, -1);
   }
 
@@ -123,8 +125,8 @@ TEST(Chain, OfTwoSlidersHasAFixedRailAcrossAndACarriedRailUpright) {
   const auto fixed = test::all_of<Polygon>(pp.base);
   ASSERT_EQ(fixed.size(), 1u);
   const Rect rail = test::box_of(fixed[0]);
-  EXPECT_NEAR(rail.x0, pp.camera.project({0, 0, 0}).x - kRailOverhang, kRoundOff);
-  EXPECT_NEAR(rail.x1, pp.camera.project({2, 0, 0}).x + kRailOverhang, kRoundOff);
+  EXPECT_NEAR(rail.x0, pp.camera.project({0, 0, 0}).x - rail_overhang(true), kRoundOff);
+  EXPECT_NEAR(rail.x1, pp.camera.project({2, 0, 0}).x + rail_overhang(true), kRoundOff);
   EXPECT_NEAR(rail.height(), size::kRailGap, kRoundOff);
   EXPECT_NEAR(test::middle_of(rail).y, pp.camera.project({0, 0, 0}).y, kRoundOff);
 
@@ -134,8 +136,8 @@ TEST(Chain, OfTwoSlidersHasAFixedRailAcrossAndACarriedRailUpright) {
              slider = test::box_of(moving[2]);
   EXPECT_LT(test::distance(test::middle_of(carriage), pp.camera.project({0.5, 0, 0})), kRoundOff);
   EXPECT_NEAR(test::middle_of(upright).x, pp.camera.project({0.5, 0, 0}).x, kRoundOff);
-  EXPECT_NEAR(upright.y0, pp.camera.project({0, -1, 0}).y - kRailOverhang, kRoundOff);
-  EXPECT_NEAR(upright.y1, pp.camera.project({0, 1, 0}).y + kRailOverhang, kRoundOff);
+  EXPECT_NEAR(upright.y0, pp.camera.project({0, -1, 0}).y - rail_overhang(false), kRoundOff);
+  EXPECT_NEAR(upright.y1, pp.camera.project({0, 1, 0}).y + rail_overhang(false), kRoundOff);
   EXPECT_LT(test::distance(test::middle_of(slider), pp.camera.project({0.5, 0.2, 0})), kRoundOff);
 }
 

@@ -1,0 +1,72 @@
+#include "draw/chain_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/chain.hpp"
+#include "draw/joints.hpp"
+
+namespace chainreel {
+
+using Eigen::Vector3d;
+
+ChainFit::ChainFit(const Chain& chain, const Skeleton& skeleton, const Camera& camera, double marks)
+    : chain_(chain), skeleton_(skeleton), camera_(camera), marks_(marks) {
+  const double outline = size::kLinkOutline / 2;
+  Room link = room_around(size::kLinkWidth / 2 + outline);
+  link.metres = kLinkWidthOfShortest * skeleton.shortest_link / 2;
+  link.beyond = outline;
+  link_ = box_.add_kind(link);
+  joint_ = box_.add_kind(room_around((marks * size::kJointDisc + size::kJointOutline) / 2));
+  tip_ = box_.add_kind(room_around(marks * size::kEndEffector / 2));
+  for (const Rail& rail : skeleton.rails) {
+    // It may run any way: its end's farthest corner, below which there may be ground.
+    const bool fixed = chain.bodies[std::size_t(rail.body)].parent == 0;
+    const double across = fixed ? rail_ground_depth() : (size::kRailGap + size::kRailLine) / 2;
+    rail_.push_back(box_.add_kind(room_around(marks * std::hypot(rail_overhang(rail.carrier), across))));
+  }
+  add_base();
+}
+
+void ChainFit::add_to(int kind, const Vector3d& place) {
+  box_.add(kind, {camera_.right.dot(place), camera_.up.dot(place)});
+}
+
+void ChainFit::add(const Vector3d& place, const Room& room) {
+  add_to(box_.add_kind(room), place);
+}
+
+void ChainFit::add_base() {
+  const double half = (marks_ * size::kGroundLength + size::kGroundLine) / 2;  // its ends are round
+  const Room ground{half, half, marks_ * pin_depth(), 0};
+  for (std::size_t b = 1; b < chain_.bodies.size(); ++b) {
+    const Body& body = chain_.bodies[b];
+    if (body.parent != 0 || body.joint.kind == JointKind::floating) continue;
+    const bool on_root = hangs_on_root(chain_, skeleton_, body);
+    if (on_root && body.joint.kind == JointKind::prismatic) continue;
+    add(on_root ? Vector3d(body.joint.X_PJ.translation()) : root_place(chain_), ground);
+  }
+}
+
+void ChainFit::add_pose(const Workspace& ws, double limit) {
+  const int bodies = int(chain_.bodies.size());
+  for (int b = 1; b < bodies; ++b) {
+    if (!(pose_of(ws, b).translation().norm() <= limit)) return;  // NaN, too
+  }
+  for (const LinkSegment& link : skeleton_.links) {
+    add_to(link_, pose_of(ws, link.body) * link.from);
+    add_to(link_, pose_of(ws, link.body) * link.to);
+  }
+  for (int b = 1; b < bodies; ++b) {
+    if (chain_.bodies[std::size_t(b)].joint.kind == JointKind::revolute)
+      add_to(joint_, pose_of(ws, b).translation());
+  }
+  for (std::size_t i = 0; i < skeleton_.rails.size(); ++i) {
+    const Rail& rail = skeleton_.rails[i];
+    add_to(rail_[i], rail_point(chain_, ws, rail.body, rail.lower));
+    add_to(rail_[i], rail_point(chain_, ws, rail.body, rail.upper));
+  }
+  add_to(tip_, tip_position(chain_, ws));
+}
+
+}  // namespace chainreel

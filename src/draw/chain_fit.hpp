@@ -1,0 +1,35 @@
+// Which part of the world a clip of a chain shows.
+#pragma once
+
+#include <vector>
+
+#include "draw/fit.hpp"
+#include "draw/skeleton.hpp"
+
+namespace chainreel {
+
+// Gathers the places of a chain for the fit of a camera whose axes are set.
+class ChainFit {
+ public:
+  // `marks`: as in ChainLook.
+  ChainFit(const Chain& chain, const Skeleton& skeleton, const Camera& camera, double marks = 1);
+  // Poses with a place farther than `limit` from the base are passed over (runs that diverged).
+  void add_pose(const Workspace& ws, double limit);
+  // Further places with room of their own.
+  void add(const Eigen::Vector3d& place, const Room& room);
+  const FitBox& box() const { return box_; }
+
+ private:
+  void add_base();
+  void add_to(int kind, const Eigen::Vector3d& place);
+
+  const Chain& chain_;
+  const Skeleton& skeleton_;
+  const Camera& camera_;
+  double marks_;
+  FitBox box_;
+  int link_, joint_, tip_;
+  std::vector<int> rail_;  // one a rail
+};
+
+}  // namespace chainreel
