@@ -7,16 +7,12 @@
 #include <iterator>
 
 #include "core/error.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace chainreel {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 void write(const fs::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
@@ -24,17 +20,10 @@ void write(const fs::path& path, const std::string& text) {
 
 class OutputFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "chainreel_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  std::size_t files() const { return std::size_t(std::distance(fs::directory_iterator(folder_.path()), {})); }
+  std::string path(const std::string& name) const { return folder_.file(name); }
 
-  std::size_t files() const { return std::size_t(std::distance(fs::directory_iterator(folder_), {})); }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 // The exit code that opening `path` ends in; good if it can be opened.
@@ -52,10 +41,10 @@ TEST_F(OutputFiles, BearTheirNameOnlyOnceCommitted) {
   OutputFile file(path("film.mp4"), false);
   write(file.temporary_path(), "frames");
   EXPECT_FALSE(fs::exists(path("film.mp4")));
-  EXPECT_EQ(fs::path(file.temporary_path()).parent_path(), folder_);
+  EXPECT_EQ(fs::path(file.temporary_path()).parent_path(), folder_.path());
   EXPECT_EQ(fs::path(file.temporary_path()).extension(), ".mp4");
   file.commit();
-  EXPECT_EQ(text_of(path("film.mp4")), "frames");
+  EXPECT_EQ(read_whole_file(path("film.mp4")), "frames");
   EXPECT_EQ(files(), 1u);
 }
 
@@ -75,25 +64,25 @@ TEST_F(OutputFiles, OfAFailedRunAreKeptAsPartial) {
     file.keep_as_partial();
   }
   EXPECT_FALSE(fs::exists(path("film.mp4")));
-  EXPECT_EQ(text_of(path("film.partial.mp4")), "half");
+  EXPECT_EQ(read_whole_file(path("film.partial.mp4")), "half");
 }
 
 TEST_F(OutputFiles, MakeTheFoldersThatAreMissing) {
   write_text_file(path("a/b/c.csv"), "t\n", false);
-  EXPECT_EQ(text_of(path("a/b/c.csv")), "t\n");
+  EXPECT_EQ(read_whole_file(path("a/b/c.csv")), "t\n");
 }
 
 TEST_F(OutputFiles, ReplaceAFileOnlyWhenToldToOrBelowOut) {
   write(path("kept.csv"), "old");
   EXPECT_EQ(code_of(path("kept.csv"), false), ExitCode::file);
-  EXPECT_EQ(text_of(path("kept.csv")), "old");
+  EXPECT_EQ(read_whole_file(path("kept.csv")), "old");
   write_text_file(path("kept.csv"), "new", true);
-  EXPECT_EQ(text_of(path("kept.csv")), "new");
+  EXPECT_EQ(read_whole_file(path("kept.csv")), "new");
 
-  fs::create_directories(folder_ / "out" / "deep");
+  fs::create_directories(path("out/deep"));
   write(path("out/deep/film.csv"), "old");
   write_text_file(path("out/deep/film.csv"), "new", false);
-  EXPECT_EQ(text_of(path("out/deep/film.csv")), "new");
+  EXPECT_EQ(read_whole_file(path("out/deep/film.csv")), "new");
 
   write(path("out.csv"), "old");  // a file called out is no folder called out
   EXPECT_EQ(code_of(path("out.csv"), false), ExitCode::file);
@@ -105,30 +94,27 @@ TEST_F(OutputFiles, AnExistingFileKeepsItsContentWhileTheNewOneIsWritten) {
     OutputFile file(path("kept.csv"), true);
     write(file.temporary_path(), "half of the new");
   }
-  EXPECT_EQ(text_of(path("kept.csv")), "old");
+  EXPECT_EQ(read_whole_file(path("kept.csv")), "old");
 }
 
 TEST_F(OutputFiles, EndInExitCodeSixWhereNothingCanBeWritten) {
   write(path("file"), "");
   EXPECT_EQ(code_of(path("file/film.mp4"), false), ExitCode::file);    // its folder is a file
   EXPECT_EQ(code_of(path("file/a/film.mp4"), false), ExitCode::file);  // so is a folder above
-  EXPECT_EQ(code_of(folder_.string(), true), ExitCode::file);          // itself a folder
+  EXPECT_EQ(code_of(folder_.path().string(), true), ExitCode::file);   // itself a folder
   EXPECT_EQ(code_of("/proc/chainreel.mp4", false), ExitCode::file);    // not even for root
   EXPECT_EQ(code_of(path("film.mp4"), false), ExitCode::good);
 }
 
-TEST(WriteTextFile, ReportsADiskThatIsFull) {
+TEST_F(OutputFiles, ThatTheDiskDoesNotTakeAreReportedAndRemoved) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  const fs::path folder = fs::temp_directory_path() / ("chainreel_full_" + std::to_string(getpid()));
-  fs::create_directories(folder);
   {
-    OutputFile file((folder / "film.csv").string(), false);
+    OutputFile file(path("film.csv"), false);
     fs::remove(file.temporary_path());
     fs::create_symlink("/dev/full", file.temporary_path());
     EXPECT_THROW(write_whole(file, std::string(100000, 'x')), Error);
-    EXPECT_FALSE(fs::exists(folder / "film.csv"));
   }
-  fs::remove_all(folder);
+  EXPECT_EQ(files(), 0u);
 }
 
 }  // namespace
