@@ -35,7 +35,8 @@ void check_torque(Scene& scene, const Chain& chain, ProblemList& problems) {
 void check_parameters(const Scene& scene, const Chain& chain, ProblemList& problems) {
   const std::vector<std::string> taken = Probe(chain, {}).names();
   for (const auto& [name, value] : scene.parameters) {
-    if (!is_variable_name(name) || std::find(taken.begin(), taken.end(), name) != taken.end())
+    if (!is_variable_name(name) || is_reserved_name(name) ||
+        std::find(taken.begin(), taken.end(), name) != taken.end())
       problems.add(
           "'" + name +
               "' cannot name a parameter: take letters, digits and _, and no name that expressions know",

@@ -112,25 +112,28 @@ YAML::Node parse(const std::string& text, const std::string& where) {
   }
 }
 
-void apply(YAML::Node root, const Override& one) {
-  YAML::Node node = root;
-  std::stringstream path(one.key);
-  for (std::string part; std::getline(path, part, '.');) {
-    YAML::Node child;
-    if (node.IsSequence()) {
-      const std::optional<double> index = parse_number(part);
-      if (!index || *index < 1 || *index > double(node.size()) || *index != double(std::size_t(*index)))
-        throw Error(ExitCode::usage, "'" + part + "' is no index from 1 to " + std::to_string(node.size()),
-                    {name_of(one)});
-      child.reset(node[std::size_t(*index) - 1]);
-    } else if (node.IsMap() || node.IsNull()) {
-      child.reset(node[part]);
-    } else {
-      throw Error(ExitCode::usage, "'" + part + "' is sought in a value that has no parts", {name_of(one)});
-    }
-    node.reset(child);
+// The element that a part of a key names: an index from 1 in lists, a key elsewhere.
+YAML::Node child_of(YAML::Node node, const std::string& part, const Override& one) {
+  if (node.IsMap()) return node[part];
+  if (!node.IsSequence())
+    throw Error(ExitCode::usage, "'" + part + "' is sought in a value that has no parts", {name_of(one)});
+  const std::optional<double> index = parse_number(part);
+  if (!index || *index < 1 || *index > double(node.size()) || *index != double(std::size_t(*index)))
+    throw Error(ExitCode::usage, "'" + part + "' is no index from 1 to " + std::to_string(node.size()),
+                {name_of(one)});
+  return node[std::size_t(*index) - 1];
+}
+
+// Puts the value where the rest of the dotted key leads; mappings that are not there yet are made.
+void apply(YAML::Node node, const std::string& key, const Override& one) {
+  const std::size_t dot = key.find('.');
+  YAML::Node child = child_of(node, key.substr(0, dot), one);
+  if (dot == std::string::npos) {
+    child = parse(one.value, name_of(one));
+    return;
   }
-  node = parse(one.value, name_of(one));
+  if (!child.IsDefined() || child.IsNull()) child = YAML::Node(YAML::NodeType::Map);
+  apply(child, key.substr(dot + 1), one);
 }
 
 }  // namespace
@@ -157,7 +160,7 @@ YamlDocument load_yaml(const std::string& path, const std::vector<Override>& ove
   if (!document.root.IsMap())
     throw Error(ExitCode::bad_input,
                 "holds no scene: write `model: ...` and what else it needs, or see `chainreel init`", {path});
-  for (const Override& one : overrides) apply(document.root, one);
+  for (const Override& one : overrides) apply(document.root, one.key, one);
   return document;
 }
 

@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, Order, testing::Values("explicit_euler", "sem
 
 TEST_P(Order, OfTheMethodShowsInTheErrorOnRr) {
   const std::vector<double> end{1};
-  const double h = GetParam() == "rk4" ? 0.02 : 0.0005;
+  const double h = GetParam() == "rk4" ? 0.0025 : 0.0005;
   const Trajectory reference = simulate(run_of("rr", {"1", "1"}, 1, "rk4", 1e-4), end);
   const double coarse = distance(simulate(run_of("rr", {"1", "1"}, 1, GetParam(), h), end), reference);
   const double fine = distance(simulate(run_of("rr", {"1", "1"}, 1, GetParam(), h / 2), end), reference);
