@@ -98,13 +98,14 @@ void draw_foot(Picture& picture, const ChainDrawing& drawing, const Body& body, 
     if (body.joint.kind == JointKind::revolute) draw_pin(picture, joint, look, clip);
     return;
   }
-  const double half = look.marks * size::kGroundLength / 2;
-  draw_ground(picture, {{foot.x - half, foot.y}, {foot.x + half, foot.y}}, {0, -1}, look, clip);
-  picture.add(Capsule{foot,
-                      joint,
-                      look.link_width / 2,
-                      {toned(look.theme->base, look), toned(look.theme->ink, look), size::kLinkOutline}},
-              clip);
+  const Point side = (look.link_width / 2) * normal_to(unit(joint - foot));
+  picture.add(
+      Polygon{{foot + side, joint + side, joint - side, foot - side},
+              4,
+              {tinted(look.theme->base, 0.35, look), toned(look.theme->base, look), size::kLinkOutline}},
+      clip);
+  const Point half{look.marks * size::kGroundLength / 2, 0};
+  draw_ground(picture, {foot - half, foot + half}, {0, -1}, look, clip);
 }
 
 }  // namespace

@@ -108,30 +108,62 @@ double way_out(const Rect& scene, Point p, Point d) {
                   std::min(to_edge(p.x, d.x, scene.x0, scene.x1), to_edge(p.y, d.y, scene.y0, scene.y1)));
 }
 
-// From p along d to the edge of the scene, fading over the last stretch.
+// The whole line through p along the unit vector d, from edge to edge of the scene, fading over its last
+// stretches.
 void draw_fading_line(Picture& picture, Point p, Point d, const EllipseStyle& style, int clip) {
-  if (!contains(style.scene, p)) return;
-  const double end = way_out(style.scene, p, d);
-  const double start = std::max(0.0, end - size::kEllipseFade);
-  const double r = size::kEllipseLine / 2;
-  const double start_alpha = std::min(1.0, end / size::kEllipseFade);
-  if (start > 0) picture.add(Capsule{p, p + start * d, r, {style.theme->ellipse, {}, 0}}, clip);
-  Capsule fading{p + start * d, p + end * d, r, {style.theme->ellipse, {}, 0}};
-  fading.alpha_a = start_alpha;
-  fading.alpha_b = 0;
-  picture.add(fading, clip);
+  // Into the scene and out of it, where the line meets it at all.
+  double in = -std::numeric_limits<double>::infinity(), out = -in;
+  const auto narrow = [&](double x, double dx, double low, double high) {
+    if (std::abs(dx) < kNoLength) {
+      if (x < low || x > high) out = in;
+      return;
+    }
+    in = std::max(in, std::min((low - x) / dx, (high - x) / dx));
+    out = std::min(out, std::max((low - x) / dx, (high - x) / dx));
+  };
+  narrow(p.x, d.x, style.scene.x0, style.scene.x1);
+  narrow(p.y, d.y, style.scene.y0, style.scene.y1);
+  if (!(in < out)) return;
+  const double fade = std::min(size::kEllipseFade, (out - in) / 2);
+  const Point a = p + in * d, b = p + out * d;
+  Capsule line{a + fade * d, b - fade * d, size::kEllipseLine / 2, {style.theme->ellipse, {}, 0}};
+  picture.add(line, clip);
+  line.alpha_b = 0;
+  for (const auto& [inner, edge] : {std::pair{a + fade * d, a}, {b - fade * d, b}}) {
+    line.a = inner;
+    line.b = edge;
+    picture.add(line, clip);
+  }
 }
 
-// The fill between the lines: rectangles one on the other, each a little shorter, so that no seam shows.
-void draw_fading_fill(Picture& picture, Point center, Point d, Point half_width, const EllipseStyle& style,
-                      int clip) {
-  const double ahead = way_out(style.scene, center, d), behind = way_out(style.scene, center, -1 * d);
+// The part of a convex polygon where dot(p - through, inward) >= 0; one corner more at most.
+Polygon cut(const Polygon& polygon, Point through, Point inward) {
+  Polygon kept;
+  kept.paint = polygon.paint;
+  for (int i = 0; i < polygon.count; ++i) {
+    const Point p = polygon.corners[std::size_t(i)],
+                q = polygon.corners[std::size_t((i + 1) % polygon.count)];
+    const double at_p = dot(p - through, inward), at_q = dot(q - through, inward);
+    if (at_p >= 0) kept.corners[std::size_t(kept.count++)] = p;
+    if ((at_p >= 0) != (at_q >= 0)) {
+      kept.corners[std::size_t(kept.count++)] = p + (at_p / (at_p - at_q)) * (q - p);
+    }
+  }
+  return kept;
+}
+
+// The fill between the lines: scenes one in the other, ever smaller, each cut to the band, so that no seam
+// shows.
+void draw_fading_fill(Picture& picture, Point center, Point half_width, const EllipseStyle& style, int clip) {
   const Color fill = style.theme->ellipse.faded(1 - std::pow(1 - kFill, 1.0 / kFadeSteps));
   for (int i = 0; i < kFadeSteps; ++i) {
-    const double cut = size::kEllipseFade * (i + 0.5) / kFadeSteps;
-    const Point a = center + std::max(0.0, ahead - cut) * d, b = center - std::max(0.0, behind - cut) * d;
-    picture.add(Polygon{{a + half_width, b + half_width, b - half_width, a - half_width}, 4, {fill, {}, 0}},
-                clip);
+    const double inset = size::kEllipseFade * (i + 0.5) / kFadeSteps;
+    const Rect r{style.scene.x0 + inset, style.scene.y0 + inset, style.scene.x1 - inset,
+                 style.scene.y1 - inset};
+    if (!(r.x0 < r.x1 && r.y0 < r.y1)) return;
+    Polygon band{{Point{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}, 4, {fill, {}, 0}};
+    band = cut(cut(band, center + half_width, -1 * half_width), center - half_width, half_width);
+    if (band.count >= 3) picture.add(band, clip);
   }
 }
 
@@ -170,11 +202,9 @@ void draw_open(Picture& picture, const std::vector<PageAxis>& axes, Point center
     if (!axis.open) squared += dot(axis.v, n) * dot(axis.v, n);
   }
   const double half_width = std::sqrt(squared);
-  draw_fading_fill(picture, center, d, half_width * n, style, clip);
+  draw_fading_fill(picture, center, half_width * n, style, clip);
   for (const double side : {-1.0, 1.0}) {
-    const Point p = center + (side * half_width) * n;
-    draw_fading_line(picture, p, d, style, clip);
-    draw_fading_line(picture, p, -1 * d, style, clip);
+    draw_fading_line(picture, center + (side * half_width) * n, d, style, clip);
   }
   draw_dashed(picture, {center - half_width * n, center + half_width * n}, size::kEllipseAxis,
               style.theme->ellipse, clip);

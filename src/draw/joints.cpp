@@ -38,12 +38,12 @@ void draw_end_effector(Picture& picture, Point center, const ChainLook& look, in
 
 PageLine with_overhang(PageLine way, bool carrier, const ChainLook& look) {
   const Point along = unit(way.b - way.a);
-  const double overhang = look.marks * rail_overhang(carrier);
+  const double overhang = look.rails * rail_overhang(carrier);
   return {way.a - overhang * along, way.b + overhang * along};
 }
 
 void draw_rail(Picture& picture, PageLine rail, Color fill, const ChainLook& look, int clip) {
-  const Point half = (look.marks * size::kRailGap / 2) * normal_to(unit(rail.b - rail.a));
+  const Point half = (look.rails * size::kRailGap / 2) * normal_to(unit(rail.b - rail.a));
   const Color ink = toned(look.theme->ink, look);
   picture.add(Polygon{{rail.a + half, rail.b + half, rail.b - half, rail.a - half}, 4, {fill, {}, 0}}, clip);
   for (const double side : {-1.0, 1.0}) {
@@ -56,8 +56,8 @@ void draw_rail(Picture& picture, PageLine rail, Color fill, const ChainLook& loo
 void draw_carriage(Picture& picture, Point center, Point along, bool carrier, Color fill,
                    const ChainLook& look, int clip) {
   const Point u = unit(along);
-  const Point l = (look.marks * carriage_length(carrier) / 2) * u;
-  const Point h = (look.marks * size::kCarriageHeight / 2) * normal_to(u);
+  const Point l = (look.rails * carriage_length(carrier) / 2) * u;
+  const Point h = (look.rails * size::kCarriageHeight / 2) * normal_to(u);
   picture.add(Polygon{{center + l + h, center - l + h, center - l - h, center + l - h},
                       4,
                       {fill, toned(look.theme->ink, look), size::kLinkOutline}},
@@ -94,7 +94,7 @@ void draw_rail_ground(Picture& picture, PageLine rail, const ChainLook& look, in
   Point inside = normal_to(unit(rail.b - rail.a));
   // Below the rail; left of it where it stands upright.
   if (inside.y > 1e-9 || (std::abs(inside.y) <= 1e-9 && inside.x > 0)) inside = -1 * inside;
-  const Point shift = (look.marks * size::kRailGap / 2 + size::kGroundLine / 2) * inside;
+  const Point shift = (look.rails * size::kRailGap / 2 + size::kGroundLine / 2) * inside;
   draw_ground(picture, {rail.a + shift, rail.b + shift}, inside, look, clip);
 }
 

@@ -12,6 +12,8 @@ namespace chainreel {
 
 // A link is this much of the shortest link wide where that is less than size::kLinkWidth.
 inline constexpr double kLinkWidthOfShortest = 0.09;
+// Links of this width go with rails of full size.
+inline constexpr double kWidthOfFullRails = 0.030;
 // Chains of very short links keep links that can be seen.
 inline constexpr double kThinnestLink = 0.010;
 
@@ -21,6 +23,7 @@ struct ChainLook {
   double marks = 1;  // size of the marks of joints, rails, ground and end effector; below 1 in small panels
   double link_width = size::kLinkWidth;
   double joint_disc = size::kJointDisc;
+  double rails = 1;  // size of rails and carriages: that of the marks, less where links are thin
 };
 
 inline ChainLook look_of(const Skeleton& skeleton, const Camera& camera, const Theme& theme,
@@ -28,7 +31,12 @@ inline ChainLook look_of(const Skeleton& skeleton, const Camera& camera, const T
   const double bound = kLinkWidthOfShortest * skeleton.shortest_link * camera.scale;
   const double width =
       skeleton.links.empty() ? size::kLinkWidth : std::clamp(bound, kThinnestLink, size::kLinkWidth);
-  return {&theme, strength, marks, width, std::min(marks * size::kJointDisc, 1.1 * width)};
+  return {&theme,
+          strength,
+          marks,
+          width,
+          std::min(marks * size::kJointDisc, 1.1 * width),
+          marks * std::min(1.0, width / kWidthOfFullRails)};
 }
 
 // An opaque colour between the background (0) and `color` (1): onion skins hide what lies behind them, so

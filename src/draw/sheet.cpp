@@ -165,7 +165,11 @@ TextLine fit_math(const Fonts& fonts, const std::vector<std::string>& forms, Tex
                   double text_scale) {
   TextLine line;
   for (const std::string& form : forms) {
-    line = fit_line(&lay_out_math, fonts, form, style, width, text_scale);
+    try {
+      line = fit_line(&lay_out_math, fonts, form, style, width, text_scale);
+    } catch (const Error&) {
+      continue;  // a name that is not notation, such as k_: a shorter form does without it
+    }
     if (line.advance <= width + kRoundOff) break;
   }
   return line;

@@ -66,7 +66,7 @@ double scaled(double size, double text_scale);
 // text_scale. The caller looks whether it fits now.
 TextLine fit_text(const Fonts& fonts, const std::string& text, TextStyle style, double width,
                   double text_scale);
-// The same for the first of several math notations that fits.
+// The same for the first of several math notations that can be read and fits.
 TextLine fit_math(const Fonts& fonts, const std::vector<std::string>& forms, TextStyle style, double width,
                   double text_scale);
 

@@ -41,11 +41,10 @@ std::vector<LinkSegment> segments_of(const Chain& chain) {
   std::vector<LinkSegment> links;
   for (int b = 1; b < bodies; ++b) {
     std::vector<Vector3d>& to = ends[std::size_t(b)];
-    if (tip.body == b) {
-      to.push_back(tip.X_BF.translation());
-    } else if (to.empty()) {
-      to.push_back(farthest_place(chain, b));
-    }
+    const bool leaf = to.empty(), holds_tip = tip.body == b;
+    if (holds_tip) to.push_back(tip.X_BF.translation());
+    // A leaf whose end effector sits in its joint has an extent all the same.
+    if (leaf && (!holds_tip || to.back().norm() == 0)) to.push_back(farthest_place(chain, b));
     for (const Vector3d& end : to) {
       if (is_new(links, b, end)) links.push_back({b, Vector3d::Zero(), end});
     }

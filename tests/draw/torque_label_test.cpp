@@ -22,6 +22,12 @@ TEST(TorqueLabel, ShowsExpressionsAsWritten) {
   EXPECT_EQ(label("pp", {"0", "-100 * y_G"}), "tau = (0, -100 * y_G) N");
 }
 
+TEST(TorqueLabel, RaisesExponentsAsAWhole) {
+  EXPECT_EQ(label("pp", {"t ^ 2", "2 ^ (t - (1 + q1))"}), "tau = (t^{2}, 2^{t - (1 + q1)}) N");
+  EXPECT_EQ(label("pp", {"2 ^ -1 * t", "2^cos(t) + 1"}), "tau = (2^{-1} * t, 2^{cos(t)} + 1) N");
+  EXPECT_NO_THROW(lay_out_math(test::fonts(), label("pp", {"min(t, 2) ^ 2", "3 ^ (-t) * x_G"}), {}));
+}
+
 TEST(TorqueLabel, WithoutEntriesSaysThatNothingActs) {
   EXPECT_EQ(label("rrr", {}), "tau = (0, 0, 0) N m");
 }
