@@ -1,0 +1,95 @@
+// Prints the SHA-256 of some trajectories, a line each: the same on every machine, or the program is at
+// fault. trajectory_hashes STEP runs them with that step, in seconds.
+//
+// RRR under torque and the arm are chaotic: a last bit that differs anywhere grows by a factor of 1e7 and
+// more within the run. Together the runs read files with angles (rpy), take both algebras and every way to
+// forward dynamics, all methods and all functions that torques may use.
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/format.hpp"
+#include "model/read_chain.hpp"
+#include "sim/audit.hpp"
+#include "sim/simulate.hpp"
+
+namespace chainreel {
+namespace {
+
+// The last joint of a chain follows the one before it.
+Chain with_last_joint_coupled(Chain chain) {
+  Joint& last = chain.bodies.back().joint;
+  --last.q_index;
+  --last.v_index;
+  last.ratio = 0.5;
+  last.offset = 0.1;
+  --chain.nq;
+  --chain.nv;
+  chain.coordinate_names.pop_back();
+  chain.has_mimic = true;
+  return chain;
+}
+
+struct Case {
+  std::string name;
+  Chain chain;
+  std::vector<std::string> torque;  // filled up with the last entry
+  double duration = 1;              // s
+};
+
+std::vector<Case> cases() {
+  const Chain arm = read_chain("tests/bench/models/arm7.urdf");
+  ModelOptions floating;
+  floating.floating_base = true;
+  return {
+      {"rr", read_chain("models/rr.urdf"), {"1"}, 5},
+      {"rrr", read_chain("models/rrr.urdf"), {"10"}, 3},
+      {"pp", read_chain("models/pp.urdf"), {"0", "-100 * y_G"}, 2},
+      {"rr_functions",
+       read_chain("models/rr.urdf"),
+       {"sin(3*t) + exp(-q1^2) - 0.3*tan(0.2*q2) + log(2 + qd1^2)^0.3",
+        "cos(q1*t) + atan2(qd1, 1 + q2^2) + min(xd_G, sqrt(1 + abs(y_G)))"},
+       2},
+      {"arm7", arm, {"0"}, 1},
+      {"arm7_coupled", with_last_joint_coupled(arm), {"0"}, 1},
+      {"arm7_floating", read_chain("tests/bench/models/arm7.urdf", floating), {"sin(5*t)"}, 1},
+  };
+}
+
+std::string hash_of(const Case& c, const Method& method, double step) {
+  Simulation run;
+  run.q0 = zero_configuration(c.chain);
+  run.qd0.assign(std::size_t(c.chain.nv), 0.1);
+  std::vector<TorqueEntry> entries(std::size_t(c.chain.nv), TorqueEntry{c.torque.back(), {}});
+  for (std::size_t i = 0; i < c.torque.size(); ++i) entries[i].text = c.torque[i];
+  run.torque = make_torque_law(c.chain, entries, {});
+  run.chain = c.chain;
+  run.method = &method;
+  run.step = step;
+  run.duration = c.duration;
+  const Trajectory trajectory = simulate_every_step(run);
+  return audit_of(run, trajectory).sha256 + " " + to_string(trajectory.status);
+}
+
+void print_hashes(double step) {
+  for (const Case& c : cases())
+    for (const Method& method : methods())
+      std::printf("%s %s %s\n", c.name.c_str(), method.name.c_str(), hash_of(c, method, step).c_str());
+}
+
+}  // namespace
+}  // namespace chainreel
+
+int main(int argc, char** argv) {
+  try {
+    const std::optional<double> step = argc > 1 ? chainreel::parse_number(argv[1]) : 0.002;
+    if (!step) return 2;
+    chainreel::print_hashes(*step);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
