@@ -1,9 +1,10 @@
-// Signed distance to an ellipse with semi-axes a >= b, exact for every eccentricity. The foot of the perpendicular from
-// (x, y) >= 0 is (a u, b v) with
+// Signed distance to an ellipse with semi-axes a >= b, exact for every eccentricity. The foot of the
+// perpendicular from (x, y) >= 0 is (a u, b v) with
 //   u = r (x/a) / (w + r - 1),  v = (y/b) / w,  r = (a/b)^2,  u^2 + v^2 = 1
-// (D. Eberly, "Distance from a point to an ellipse", 2013, with his s + 1 = w, which does not cancel near the major axis).
-// 1/sqrt(u^2 + v^2) is a concave, almost straight function of w, so Newton's method on it climbs to the root from any
-// start below: two or three passes for common shapes, up to 16 at the tips of a needle.
+// (D. Eberly, "Distance from a point to an ellipse", 2013, with his s + 1 = w, which does not cancel near
+// the major axis). 1/sqrt(u^2 + v^2) is a concave, almost straight function of w, so Newton's method on it
+// climbs to the root from any start below: two or three passes for common shapes, up to 16 at the tips of
+// a needle.
 flat in vec4 frame;  // centre, unit direction of the major axis
 flat in vec3 size;   // major and minor semi-axis, half stroke
 flat in vec4 fill;

@@ -1,6 +1,7 @@
 #version 330 core
-// Put before every vertex shader. Page pixels: origin at the upper left, y down. Row 0 of the framebuffer is the page's
-// top row, so pixels need no flipping when they are read, and gl_FragCoord.xy is a page position.
+// Put before every vertex shader. Page pixels: origin at the upper left, y down. Row 0 of the framebuffer
+// is the page's top row, so pixels need no flipping when they are read, and gl_FragCoord.xy is a page
+// position.
 uniform vec2 page_px;
 
 vec4 clip_position(vec2 px) { return vec4(2.0 * px / page_px - 1.0, 0.0, 1.0); }

@@ -1,4 +1,5 @@
-// A convex polygon of eight corners in the sense of growing angle (y down); fewer are filled up with points on an edge.
+// A convex polygon of eight corners in the sense of growing angle (y down); fewer are filled up with
+// points on an edge.
 layout(location = 0) in vec4 corners_01;
 layout(location = 1) in vec4 corners_23;
 layout(location = 2) in vec4 corners_45;
