@@ -28,9 +28,6 @@ bool is_one_of(const std::string& name, std::span<const std::string> names) {
   return false;
 }
 
-// Room for every mechanism, and a number that urdfdom's reader takes.
-constexpr const char* kUnlimited = "1e300";
-
 class Checker {
  public:
   Checker(tinyxml2::XMLDocument& document, const std::string& path, UrdfProblems& problems)
@@ -277,24 +274,23 @@ class Checker {
   void check_limit(XMLElement& element, UrdfJoint& joint, const std::string& owner) {
     XMLElement* limit = only_child(element, "limit", owner);
     joint.limit.given = limit != nullptr;
-    if (limit == nullptr) {
-      limit = element.InsertNewChildElement("limit");
-      // A joint without <limit> turns as far as it likes.
-      limit->SetAttribute("lower", "-1e300");
-      limit->SetAttribute("upper", kUnlimited);
-    } else {
+    if (limit != nullptr) {
       joint.limit.line = limit->GetLineNum();
+      const auto has = [&](const char* attribute) {
+        return numbers_.one(*limit, attribute, owner, Need::optional, Range::any).has_value();
+      };
+      joint.limit.has_lower = has("lower");
+      joint.limit.has_upper = has("upper");
+      joint.limit.has_effort = has("effort");
+      joint.limit.has_velocity = has("velocity");
+    } else if (joint.type == UrdfJointType::revolute || joint.type == UrdfJointType::prismatic) {
+      limit = element.InsertNewChildElement("limit");
+    } else {
+      return;
     }
-    if (joint.limit.given) {
-      joint.limit.has_lower = numbers_.one(*limit, "lower", owner, Need::optional, Range::any).has_value();
-      joint.limit.has_upper = numbers_.one(*limit, "upper", owner, Need::optional, Range::any).has_value();
-      joint.limit.has_effort = numbers_.one(*limit, "effort", owner, Need::optional, Range::any).has_value();
-      joint.limit.has_velocity =
-          numbers_.one(*limit, "velocity", owner, Need::optional, Range::any).has_value();
-    }
-    // urdfdom insists on both.
-    if (!joint.limit.has_effort) limit->SetAttribute("effort", kUnlimited);
-    if (!joint.limit.has_velocity) limit->SetAttribute("velocity", kUnlimited);
+    // urdfdom insists on both; what was not written is not looked at later.
+    if (!joint.limit.has_effort) limit->SetAttribute("effort", "0");
+    if (!joint.limit.has_velocity) limit->SetAttribute("velocity", "0");
   }
 
   void check_dynamics(XMLElement& element, const std::string& owner) {

@@ -84,10 +84,12 @@ void read_link(const urdf::Link& from, UrdfLink& to) {
 void read_joint(const urdf::Joint& from, UrdfJoint& to) {
   to.origin.xyz = vector_of(from.parent_to_joint_origin_transform.position);
   to.axis = vector_of(from.axis);
-  to.limit.lower = from.limits->lower;
-  to.limit.upper = from.limits->upper;
-  to.limit.effort = from.limits->effort;
-  to.limit.velocity = from.limits->velocity;
+  if (from.limits) {
+    to.limit.lower = from.limits->lower;
+    to.limit.upper = from.limits->upper;
+    to.limit.effort = from.limits->effort;
+    to.limit.velocity = from.limits->velocity;
+  }
   if (from.dynamics) {
     to.damping = from.dynamics->damping;
     to.friction = from.dynamics->friction;

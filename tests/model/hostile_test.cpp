@@ -19,7 +19,7 @@ using testing::HasSubstr;
 #ifdef __SANITIZE_ADDRESS__
 constexpr int kSeconds = 20;  // sanitizers slow everything down
 #else
-constexpr int kSeconds = 1;
+constexpr int kSeconds = 2;
 #endif
 
 std::string repeated(const std::string& text, int times) {
@@ -136,7 +136,7 @@ TEST(HostileXml, RandomCutsAndChangesEndInAnErrorOrAModel) {
     return std::size_t(state >> 8) % n;
   };
   int refused = 0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 500; ++i) {
     std::string text = good;
     for (std::size_t k = 0, changes = 1 + below(4); k < changes; ++k) {
       const std::size_t at = below(text.size());
@@ -156,8 +156,8 @@ TEST(HostileXml, RandomCutsAndChangesEndInAnErrorOrAModel) {
     if (!refusal_of(path).empty()) ++refused;
     for (const Finding& finding : examine_model(path)) EXPECT_FALSE(finding.message.empty());
   }
-  EXPECT_GT(refused, 500);
-  EXPECT_LT(refused, 2000);
+  EXPECT_GT(refused, 100);
+  EXPECT_LT(refused, 500);
 }
 
 // Decimal commas, as a German locale has them.
