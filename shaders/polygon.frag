@@ -1,4 +1,4 @@
-flat in vec4 corners[4];  // two each
+flat in vec4 c01, c23, c45, c67;  // two corners each
 flat in float half_stroke;
 flat in vec4 fill;
 flat in vec4 stroke;
@@ -20,10 +20,14 @@ void main() {
   vec2 p = gl_FragCoord.xy;
   least_square = 1e30;
   least_side = 1e30;
-  for (int i = 0; i < 4; ++i) {
-    see_edge(p, corners[i].xy, corners[i].zw);
-    see_edge(p, corners[i].zw, corners[(i + 1) % 4].xy);
-  }
+  see_edge(p, c01.xy, c01.zw);
+  see_edge(p, c01.zw, c23.xy);
+  see_edge(p, c23.xy, c23.zw);
+  see_edge(p, c23.zw, c45.xy);
+  see_edge(p, c45.xy, c45.zw);
+  see_edge(p, c45.zw, c67.xy);
+  see_edge(p, c67.xy, c67.zw);
+  see_edge(p, c67.zw, c01.xy);
   float d = sqrt(least_square) * (least_side > 0.0 ? -1.0 : 1.0);
   color = paint(d, half_stroke, fill, stroke);
 }

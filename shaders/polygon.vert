@@ -8,16 +8,16 @@ layout(location = 4) in vec4 body;  // half stroke
 layout(location = 5) in vec4 fill_color;
 layout(location = 6) in vec4 stroke_color;
 
-flat out vec4 corners[4];
+flat out vec4 c01, c23, c45, c67;
 flat out float half_stroke;
 flat out vec4 fill;
 flat out vec4 stroke;
 
 void main() {
-  corners[0] = corners_01;
-  corners[1] = corners_23;
-  corners[2] = corners_45;
-  corners[3] = corners_67;
+  c01 = corners_01;
+  c23 = corners_23;
+  c45 = corners_45;
+  c67 = corners_67;
   half_stroke = body.x;
   fill = fill_color;
   stroke = stroke_color;

@@ -1,0 +1,27 @@
+# Runs CARD_HASH under several settings of Mesa's software renderer and, where QEMU is given, on emulated processors
+# without FMA and AVX and with them; fails unless all print the same hash.
+# cmake -D CARD_HASH=.. [-D QEMU=..] -P same_bytes.cmake
+set(expected "")
+
+function(require_same name)
+  execute_process(COMMAND ${ARGN} ${CARD_HASH}
+    OUTPUT_VARIABLE hash OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_VARIABLE complaint RESULT_VARIABLE status)
+  message(STATUS "${name}: ${hash}")
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "with ${name} the card is not drawn (${status}): ${complaint}")
+  endif()
+  if(NOT hash MATCHES "^[0-9a-f]+$" OR (expected AND NOT hash STREQUAL expected))
+    message(FATAL_ERROR "with ${name} the card has other pixels: ${hash}, not ${expected}")
+  endif()
+  set(expected ${hash} PARENT_SCOPE)
+endfunction()
+
+foreach(setting LP_NUM_THREADS=0 LP_NUM_THREADS=2 LP_NATIVE_VECTOR_WIDTH=256 GALLIUM_OVERRIDE_CPU_CAPS=sse4.1
+        MESA_SHADER_CACHE_DISABLE=true)
+  require_same(${setting} ${CMAKE_COMMAND} -E env ${setting})
+endforeach()
+if(QEMU)
+  foreach(processor Nehalem-v1 Haswell-v1)
+    require_same(${processor} ${QEMU} -cpu ${processor})
+  endforeach()
+endif()
