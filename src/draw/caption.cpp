@@ -111,9 +111,13 @@ std::vector<std::string> pose_notations(const Chain& chain, const std::vector<do
 
 std::string number_notation(double value, double largest) {
   if (std::abs(value) <= kRoundOff * largest) return "0";
-  // Significant digits without an exponent as long as that is shorter.
-  if (std::abs(value) >= 1000 && std::abs(value) < 1e6) return format_fixed(value, 0);
-  return format_significant(value, 3);
+  // Without an exponent as long as that is short.
+  const double size = std::abs(value);
+  if (size >= 1e-3 && size < 1e3) return format_significant(value, 3);
+  if (size >= 1e3 && size < 1e4) return format_fixed(value, 0);
+  const double exponent = std::floor(std::log10(size));
+  const std::string mantissa = format_significant(value / std::pow(10, exponent), 3);
+  return mantissa + "e" + format_fixed(exponent, 0);
 }
 
 std::vector<std::vector<std::string>> matrix_notations(const Eigen::MatrixXd& Lambda) {

@@ -1,5 +1,6 @@
 #include "draw/joints.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace chainreel {
@@ -80,8 +81,10 @@ void draw_ground(Picture& picture, PageLine line, Point inside, const ChainLook&
 }
 
 void draw_pin(Picture& picture, Point center, const ChainLook& look, int clip) {
-  const Point foot = center - Point{0, look.marks * kPinHeight};
-  const Point half{look.marks * kPinWidth / 2, 0}, half_line{look.marks * size::kGroundLength / 2, 0};
+  // The pin goes with its joint, which is small where links are thin.
+  const double pin = look.marks * std::clamp(look.joint_disc / (look.marks * size::kJointDisc), 0.65, 1.0);
+  const Point foot = center - Point{0, pin * kPinHeight};
+  const Point half{pin * kPinWidth / 2, 0}, half_line{look.marks * size::kGroundLength / 2, 0};
   draw_ground(picture, {foot - half_line, foot + half_line}, {0, -1}, look, clip);
   picture.add(
       Polygon{{center, foot - half, foot + half},

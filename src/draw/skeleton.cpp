@@ -60,7 +60,8 @@ std::vector<Rail> rails_of(const Chain& chain) {
   }
   std::vector<Rail> rails;
   for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
-    if (slides(chain.bodies[b])) rails.push_back({int(b), carrier[b]});
+    // A rail that is carried is fixed to its body where the joint's value is 0: it always reaches from there.
+    if (slides(chain.bodies[b])) rails.push_back({int(b), carrier[b], chain.bodies[b].parent != 0});
   }
   return rails;
 }

@@ -21,7 +21,7 @@ struct LinkSegment {
 struct Rail {
   int body = 0;          // the body that slides on it; the rail itself belongs to the body's parent
   bool carrier = false;  // that body carries a rail itself
-  bool used = false;
+  bool used = false;     // lower and upper are set
   double lower = 0;
   double upper = 0;
 };

@@ -154,6 +154,22 @@ TEST(Chain, OfTwoSlidersShowsBothBlocksAlsoWhereTheyMeet) {
   EXPECT_LT(slider.y0, carriage.y0);
 }
 
+TEST(Chain, CarriedRailsReachTheirCarriageAlsoWhereTheMotionDoesNot) {
+  const Drawn pp(test::model("pp"), {0.1, 0.5}, {{0.4, 0.2}});
+  const auto shapes = test::all_of<Polygon>(pp.links);
+  const Rect carriage = test::box_of(shapes.at(0)), rail = test::box_of(shapes.at(1));
+  EXPECT_LT(rail.y0, carriage.y0);
+  EXPECT_GT(rail.y1, pp.camera.project({0, 0.5, 0}).y);
+}
+
+TEST(Chain, ALeafThatHoldsTheEndEffectorInItsJointReachesToItsCentreOfMass) {
+  Chain chain = test::model("rr");
+  chain.frames.at(std::size_t(chain.end_effector)).X_BF = Eigen::Isometry3d::Identity();
+  const Drawn rr(chain, {0, 0});
+  ASSERT_EQ(rr.capsules().size(), 2u);
+  EXPECT_LT(test::distance(rr.capsules()[1].b, rr.camera.project({2, 0, 0})), kRoundOff);
+}
+
 TEST(Chain, RailsPassOverValuesOfARunThatDiverged) {
   const Chain chain = test::model("pp");
   Skeleton skeleton = skeleton_of(chain);

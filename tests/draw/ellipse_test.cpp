@@ -97,6 +97,23 @@ TEST(Ellipse, IsAnOpenBandAtASingularPose) {
   }
 }
 
+TEST(Ellipse, FillsTheBandBetweenItsLinesAndFadesItBeforeTheEdge) {
+  const Drawn stretched({0.6, 0});
+  const Point along{std::cos(0.6), std::sin(0.6)}, across{-along.y, along.x};
+  const auto layers = test::all_of<Polygon>(stretched.picture);
+  double opacity = 1;
+  for (const Polygon& layer : layers) {
+    opacity *= 1 - layer.paint.fill.a;
+    for (int i = 0; i < layer.count; ++i) {
+      const Point p = layer.corners[std::size_t(i)], r = p - stretched.center;
+      EXPECT_LE(std::abs(r.x * across.x + r.y * across.y), 0.05 + kRoundOff);
+      EXPECT_TRUE(test::is_inside(stretched.style.scene, p));
+    }
+  }
+  EXPECT_NEAR(1 - opacity, 0.16, kRoundOff);
+  EXPECT_GT(layers.size(), 10u);
+}
+
 TEST(Ellipse, NearlySingularIsStillNeverANumberThatWasCut) {
   // lambda_max is 4e6 kg here and would end far outside: the band is open, and its width is the minor axis.
   const Drawn nearly({0, 1e-3});

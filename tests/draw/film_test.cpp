@@ -132,6 +132,20 @@ TEST_F(RrFilm, TrailOfAFrameIsItsLastSecond) {
   EXPECT_LT(test::distance(points.back().p, closed_form_tip(film, 200 / 60.0)), 1e-9);
 }
 
+TEST_F(RrFilm, DrawsTheTrailAboveCarriedRailsAndBelowSliders) {
+  const Chain pp = test::model("pp");
+  const Trajectory slide = test::run_of([](double t) { return std::vector<double>{t, std::sin(t)}; }, 120);
+  const Film film(scene, pp, slide, slide.size(), test::fonts());
+  std::vector<char> order;
+  const Picture picture = film.frame(100);
+  for (const Item& item : picture.items) {
+    if (std::holds_alternative<Trail>(item.shape)) order.push_back('t');
+    if (const auto* p = std::get_if<Polygon>(&item.shape))
+      order.push_back(p->paint.stroke_width > 0 ? 'b' : 'r');
+  }
+  EXPECT_EQ(order, (std::vector<char>{'b', 'r', 't', 'b'}));  // carriage, its rail, trail, slider
+}
+
 TEST_F(RrFilm, NamesItsEllipseAndItsScale) {
   scene.draw.insert(scene.draw.end(), {"ellipse", "legend"});
   const Film film(scene, chain, run, run.size(), test::fonts());

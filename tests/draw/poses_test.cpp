@@ -126,6 +126,8 @@ TEST(Caption, WritesNumbersWithoutAnExponentWhereThatIsShort) {
   EXPECT_EQ(number_notation(1234.5, 1234.5), "1234");
   EXPECT_EQ(number_notation(0.00123456, 1), "0.00123");
   EXPECT_EQ(number_notation(1e-13, 1), "0");
+  EXPECT_EQ(number_notation(328281.4, 328281.4), "3.28e5");
+  EXPECT_EQ(number_notation(-4.567e-7, 1e-6), "-4.57e-7");
   EXPECT_EQ(number_notation(-2.0 / 3, 1), "-0.667");
 }
 
