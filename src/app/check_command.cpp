@@ -1,5 +1,6 @@
 // chainreel check SCENE|MODEL: the effective scene with all defaults, and what of the mechanism is modelled.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -90,7 +91,7 @@ void print_model(const Json& model) {
 }
 
 void check_scene(const CheckOptions& options) {
-  const PreparedScene prepared = load_scene(options.file, options.common.set);
+  const PreparedScene prepared = load_scene(options.file, overrides_of(options.common));
   const Json model = model_report(prepared.simulation.chain);
   const Json cost = cost_report(prepared.scene, prepared.simulation);
   const std::string text = scene_text(prepared.scene);
@@ -108,13 +109,11 @@ void check_scene(const CheckOptions& options) {
 }
 
 void check_model(const CheckOptions& options) {
-  const std::vector<Finding> findings = examine_model(options.file);
+  const std::vector<Finding> findings = examine_model(options.file, model_options_of(options.common));
   Json list = Json::array();
   std::vector<Problem> errors;
   for (const Finding& finding : findings) {
-    const char* severity = finding.severity == Finding::Severity::error     ? "error"
-                           : finding.severity == Finding::Severity::warning ? "warning"
-                                                                            : "note";
+    const std::string severity = to_string(finding.severity);
     list.push_back({{"severity", severity},
                     {"message", finding.message},
                     {"file", finding.place.file},
@@ -122,10 +121,11 @@ void check_model(const CheckOptions& options) {
     if (finding.severity == Finding::Severity::error)
       errors.push_back({finding.message, finding.place});
     else if (!options.common.json)
-      std::printf("%s: %s\n", severity, to_string(Problem{finding.message, finding.place}).c_str());
+      std::printf("%s: %s\n", severity.c_str(), to_string(Problem{finding.message, finding.place}).c_str());
   }
   Json report{{"findings", list}};
-  if (errors.empty()) report["model"] = model_report(read_chain(options.file));
+  if (errors.empty())
+    report["model"] = model_report(read_chain(options.file, model_options_of(options.common)));
   if (options.common.json)
     std::puts(report.dump(2).c_str());
   else if (errors.empty())

@@ -4,15 +4,49 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "scene/quantity.hpp"
 
 namespace chainreel {
 
 void add_common_options(CLI::App& command, CommonOptions& options) {
   add_repeatable(command, "--set", options.set, "override a scene key: --set video.width=640 (repeatable)");
+  add_repeatable(command, "--package", options.package,
+                 "where package://NAME lies: --package NAME=folder (repeatable)");
+  command.add_option("--base", options.base, "how the root link is held")
+      ->check(CLI::IsMember({"fixed", "floating"}));
   command.add_flag("--json", options.json, "print the result as JSON on standard output");
   command.add_flag("--quiet", options.quiet, "no progress, no closing words");
   command.add_flag("--force", options.force, "overwrite files outside a folder named out");
+}
+
+namespace {
+
+// name=folder; folders are relative to where the program runs.
+std::pair<std::string, std::string> parse_package(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw Error(ExitCode::usage, "--package takes name=folder, not '" + text + "'");
+  return {text.substr(0, equals), std::filesystem::absolute(text.substr(equals + 1)).string()};
+}
+
+}  // namespace
+
+std::vector<std::string> overrides_of(const CommonOptions& options) {
+  std::vector<std::string> overrides = options.set;
+  if (!options.base.empty()) overrides.push_back("base=" + options.base);
+  for (const std::string& text : options.package) {
+    const auto [name, folder] = parse_package(text);
+    overrides.push_back("packages." + name + "=" + Json(folder).dump());  // a JSON text is YAML too
+  }
+  return overrides;
+}
+
+ModelOptions model_options_of(const CommonOptions& options) {
+  ModelOptions model;
+  model.floating_base = options.base == "floating";
+  for (const std::string& text : options.package) model.packages.insert(parse_package(text));
+  return model;
 }
 
 CLI::Option* add_repeatable(CLI::App& command, const std::string& name, std::vector<std::string>& values,
@@ -58,6 +92,13 @@ std::vector<double> parse_pose(const Chain& chain, const std::string& text, cons
 std::vector<double> parse_freedoms(const Chain& chain, const std::string& text, const std::string& what) {
   if (text.empty()) return std::vector<double>(std::size_t(chain.nv));
   return parse_counted(std::size_t(chain.nv), chain, text, what);
+}
+
+Eigen::Vector3d parse_gravity(const std::string& text) {
+  const std::vector<double> g = parse_list(text, "--gravity");
+  if (g.size() != 3)
+    throw Error(ExitCode::usage, "--gravity takes three numbers, world x,y,z: --gravity 0,-9.81,0");
+  return {g[0], g[1], g[2]};
 }
 
 bool is_model_file(const std::string& path) {

@@ -6,19 +6,26 @@
 #include <string>
 #include <vector>
 
-#include "model/chain.hpp"
+#include "model/read_chain.hpp"
 
 namespace chainreel {
 
 // What every subcommand takes.
 struct CommonOptions {
-  std::vector<std::string> set;  // key=value over the scene's keys
+  std::vector<std::string> set;      // key=value over the scene's keys
+  std::vector<std::string> package;  // name=folder for package:// in a model
+  std::string base;                  // fixed or floating; "": as the scene says
   bool json = false;
   bool quiet = false;
   bool force = false;
 };
 
 void add_common_options(CLI::App& command, CommonOptions& options);
+
+// `set` with what the other options say in the words of a scene.
+std::vector<std::string> overrides_of(const CommonOptions& options);
+// The same for a model without a scene.
+ModelOptions model_options_of(const CommonOptions& options);
 
 // An option that takes one argument each time it stands there, and never swallows what follows.
 CLI::Option* add_repeatable(CLI::App& command, const std::string& name, std::vector<std::string>& values,
@@ -32,6 +39,9 @@ std::vector<double> parse_pose(const Chain& chain, const std::string& text, cons
 // One number a freedom; empty text gives zeros.
 std::vector<double> parse_freedoms(const Chain& chain, const std::string& text, const std::string& what);
 
+// Three world numbers from "0,-9.81,0".
+Eigen::Vector3d parse_gravity(const std::string& text);
+
 // A file that names a mechanism, not a scene: .urdf or .xml.
 bool is_model_file(const std::string& path);
 
@@ -40,6 +50,7 @@ void add_snapshot_command(CLI::App& app);
 void add_ellipse_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
 void add_dynamics_command(CLI::App& app);
+void add_inverse_command(CLI::App& app);
 void add_init_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_doctor_command(CLI::App& app);

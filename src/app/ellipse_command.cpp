@@ -42,7 +42,7 @@ void run_ellipse(const EllipseOptions& options) {
   if (output.empty()) output = "out/" + std::filesystem::path(options.model).stem().string() + "_ellipse.png";
   if (!output.ends_with(".png"))
     throw Error(ExitCode::usage, "-o " + output + ": figures are written as .png");
-  ModelOptions model;
+  ModelOptions model = model_options_of(options.common);
   model.end_effector = options.end_effector;
   const Chain chain = read_chain(options.model, model);
   require_end_effector(chain);

@@ -19,6 +19,7 @@ int run(int argc, char** argv) {
   add_ellipse_command(app);
   add_simulate_command(app);
   add_dynamics_command(app);
+  add_inverse_command(app);
   add_init_command(app);
   add_check_command(app);
   add_doctor_command(app);

@@ -1,5 +1,6 @@
 #include "app/pipeline.hpp"
 
+#include <cstdio>
 #include <filesystem>
 
 #include "app/progress.hpp"
@@ -30,7 +31,7 @@ std::vector<double> frame_times(const Scene& scene) {
 
 void require_finished(const Trajectory& trajectory, const Scene& scene) {
   throw_if_interrupted();
-  if (trajectory.status == RunStatus::finished) return;
+  if (is_complete(trajectory.status)) return;
   throw Error(ExitCode::numerical,
               trajectory.trouble + " with " + scene.method + " and step " + format_quantity(scene.step, "s") +
                   ": try a smaller step or another method",
@@ -99,10 +100,12 @@ RenderResult render_film(const PreparedScene& prepared, const std::string& video
       audit_report(prepared, trajectory, audit_of(prepared.simulation, trajectory), result.seconds);
 
   const std::string text = result.audit.dump(2) + "\n";
-  if (trajectory.status != RunStatus::finished) {
+  if (!is_complete(trajectory.status)) {
     video.keep_as_partial();
     require_finished(trajectory, scene);
   }
+  if (!trajectory.trouble.empty() && !quiet)
+    std::fprintf(stderr, "%s: stopped: %s\n", scene.name.c_str(), trajectory.trouble.c_str());
   video.commit();
   write_whole(sidecar, text);
   return result;

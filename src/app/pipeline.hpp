@@ -26,7 +26,7 @@ PreparedScene load_scene(const std::string& path, const std::vector<std::string>
 // 0, 1/fps, 2/fps, ...: one a frame of the film.
 std::vector<double> frame_times(const Scene& scene);
 
-// Throws Error (exit 5, or the signal's) unless the run finished.
+// Throws Error (exit 5, or the signal's) unless the run finished, or stopped as the scene wanted.
 void require_finished(const Trajectory& trajectory, const Scene& scene);
 
 struct StageSeconds {

@@ -54,7 +54,7 @@ std::vector<PreparedScene> load_all(const RenderOptions& options) {
   ExitCode code = ExitCode::bad_input;
   for (const std::string& scene : options.scenes) {
     try {
-      prepared.push_back(load_scene(scene, options.common.set));
+      prepared.push_back(load_scene(scene, overrides_of(options.common)));
     } catch (const Error& error) {
       code = error.code();
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());

@@ -86,6 +86,14 @@ Json audit_report(const PreparedScene& prepared, const Trajectory& trajectory, c
   json["largest_kinetic_energy"] = audit.largest_kinetic;
   json["audit_error"] = audit.largest_error;
   json["audit_error_time"] = audit.largest_error_time;
+  json["limits_passed"] = Json::array();
+  for (const LimitEvent& event : trajectory.limits) {
+    json["limits_passed"].push_back({{"joint", event.joint},
+                                     {"quantity", event.quantity},
+                                     {"t", event.t},
+                                     {"value", event.value},
+                                     {"limit", event.limit}});
+  }
   json["trajectory_sha256"] = audit.sha256;
   json["seconds"] = {{"simulate", seconds.simulate},
                      {"draw", seconds.draw},

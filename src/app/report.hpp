@@ -1,7 +1,6 @@
 // What the program found, as JSON and as lines for people.
 #pragma once
 
-#include <Eigen/Core>
 #include <span>
 #include <string>
 #include <vector>

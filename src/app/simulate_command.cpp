@@ -57,7 +57,7 @@ Trajectory run_scene(const PreparedScene& prepared, bool every_step) {
 }
 
 void run_simulate(const SimulateOptions& options) {
-  const PreparedScene prepared = load_scene(options.scene, options.common.set, false);
+  const PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false);
   std::string output = options.output;
   if (output.empty()) output = "out/" + prepared.scene.name + ".csv";
   const bool to_stdout = output == "-";
@@ -71,7 +71,7 @@ void run_simulate(const SimulateOptions& options) {
   const std::string text = csv_text(prepared.simulation.chain, trajectory);
   if (to_stdout) {
     std::fwrite(text.data(), 1, text.size(), stdout);
-  } else if (trajectory.status == RunStatus::finished) {
+  } else if (is_complete(trajectory.status)) {
     write_whole(*file, text);
   } else {
     write_partial(*file, text);

@@ -51,7 +51,7 @@ Picture picture_at(const PreparedScene& prepared, double at, const Fonts& fonts)
 }
 
 void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
-  PreparedScene prepared = load_scene(options.file, options.common.set);
+  PreparedScene prepared = load_scene(options.file, overrides_of(options.common));
   if (options.width > 0) prepared.scene.video.width = options.width;
   if (options.height > 0) prepared.scene.video.height = options.height;
   const double at = parse_quantity(options.at, {});
@@ -65,7 +65,7 @@ void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
 }
 
 void snapshot_model(const SnapshotOptions& options, const std::string& output) {
-  const Chain chain = read_chain(options.file);
+  const Chain chain = read_chain(options.file, model_options_of(options.common));
   require_end_effector(chain);
   std::vector<std::vector<double>> poses;
   for (const std::string& pose : options.poses) poses.push_back(parse_pose(chain, pose, "--pose"));

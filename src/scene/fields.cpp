@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "core/format.hpp"
 #include "scene/quantity.hpp"
 
 namespace chainreel {
+
+std::string beside(const std::string& scene, const std::string& named) {
+  const std::filesystem::path target(named);
+  if (target.is_absolute()) return named;
+  return (std::filesystem::path(scene).parent_path() / target).lexically_normal().string();
+}
 
 Fields::Fields(const YamlDocument& document, const YAML::Node& map, std::string prefix, ProblemList& problems)
     : document_(&document), map_(map), prefix_(std::move(prefix)), problems_(&problems) {}
@@ -62,6 +69,22 @@ void Fields::read(const std::string& key, int& value) {
     problems_->add("'" + path(key) + "' must be a whole number", place_of(node, key));
   else
     value = int(*one);
+}
+
+void Fields::read(const std::string& key, bool& value) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return;
+  const auto text = scalar(node, key, "true or false");
+  if (!text) return;
+  if (*text != "true" && *text != "false")
+    problems_->add("'" + path(key) + "' must be true or false", place_of(node, key));
+  else
+    value = *text == "true";
+}
+
+void Fields::read_path(const std::string& key, std::string& value) {
+  read(key, value);
+  if (!value.empty()) value = beside(document_->file, value);
 }
 
 void Fields::read(const std::string& key, FrameRate& value) {

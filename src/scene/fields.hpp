@@ -2,16 +2,19 @@
 // Internal.
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "core/frame_rate.hpp"
+#include "scene/scene.hpp"
 #include "scene/yaml_document.hpp"
 
 namespace chainreel {
+
+// A path that the scene names, as found from the working folder: relative to the scene file unless absolute.
+std::string beside(const std::string& scene, const std::string& named);
 
 // The keys of one mapping: every key must be asked for once before finish().
 class Fields {
@@ -28,10 +31,12 @@ class Fields {
   void read(const std::string& key, std::string& value);
   void read(const std::string& key, double& value);
   void read(const std::string& key, int& value);
+  void read(const std::string& key, bool& value);
   void read(const std::string& key, FrameRate& value);
   void read(const std::string& key, std::vector<double>& value);  // numbers, `90deg`, `pi/2`
   void read(const std::string& key, std::optional<Eigen::Vector3d>& value);
   void read(const std::string& key, std::vector<std::string>& value);
+  void read_path(const std::string& key, std::string& value);  // relative to the scene file
 
   // Unknown keys are problems that name the nearest known one.
   void finish();

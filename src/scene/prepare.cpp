@@ -21,6 +21,7 @@ void check_length(std::vector<double>& values, const std::vector<double>& absent
 }
 
 void check_torque(Scene& scene, const Chain& chain, ProblemList& problems) {
+  if (scene.control) return;
   if (scene.torque.empty()) scene.torque.resize(std::size_t(chain.nv));
   if (scene.torque.size() == std::size_t(chain.nv)) return;
   std::string joints;
@@ -63,6 +64,10 @@ void choose_end_effector(const Scene& scene, Chain& chain) {
 Simulation prepare(Scene& scene, bool meshes) {
   ModelOptions options;
   options.gravity = scene.gravity;
+  options.floating_base = scene.base == "floating";
+  options.friction = scene.friction;
+  options.massless = scene.massless;
+  options.packages = scene.packages;
   options.meshes = meshes;
   Simulation simulation;
   simulation.chain = read_chain(scene.model, options);
@@ -80,9 +85,11 @@ Simulation prepare(Scene& scene, bool meshes) {
 
   simulation.q0 = scene.start.q;
   simulation.qd0 = scene.start.qd;
-  simulation.torque = make_torque_law(chain, scene.torque, scene.parameters);
+  simulation.torque = scene.control ? make_control(chain, *scene.control, scene.parameters)
+                                    : make_torque_law(chain, scene.torque, scene.parameters);
   simulation.method = &find_method(scene.method);
   simulation.step = scene.step;
+  simulation.limit = limit_policy_of(scene.limit);
   simulation.duration = scene.duration;
   return simulation;
 }

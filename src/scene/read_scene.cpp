@@ -8,6 +8,8 @@
 #include "integrate/method.hpp"
 #include "scene/fields.hpp"
 #include "scene/quantity.hpp"
+#include "scene/read_control.hpp"
+#include "sim/limits.hpp"
 
 namespace chainreel {
 namespace {
@@ -29,11 +31,8 @@ void read_model(Fields& fields, Scene& scene) {
     require(fields, "model", false, "the scene names no model: write `model: ../../models/rr.urdf`");
     return;
   }
-  const std::filesystem::path named(scene.model);
-  const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
-  const std::filesystem::path found = named.is_absolute() ? named : folder / named;
-  scene.model = found.lexically_normal().string();
-  require(fields, "model", std::filesystem::is_regular_file(found),
+  scene.model = beside(scene.file, scene.model);
+  require(fields, "model", std::filesystem::is_regular_file(scene.model),
           "there is no model file " + scene.model + ": paths are relative to the scene file");
 }
 
@@ -54,19 +53,55 @@ void read_start(Fields& fields, Scene& scene) {
 void read_torque(Fields& fields, Scene& scene) {
   const YAML::Node node = fields.find("torque");
   if (!node.IsDefined()) return;
+  if (node.IsMap()) {
+    scene.control = read_control(fields, node, "torque");
+    return;
+  }
   if (!node.IsSequence()) {
-    fields.problems().add("'torque' must be a list with a number or an expression a joint: [0, -100 * y_G]",
-                          fields.place_of(node, "torque"));
+    fields.problems().add(
+        "'torque' must be a list with a number or an expression a joint: [0, -100 * y_G], or a control like "
+        "{pd: {kp: 100, kd: 10, q: [0, 1]}}",
+        fields.place_of(node, "torque"));
     return;
   }
   for (std::size_t i = 0; i < node.size(); ++i) {
-    const Place place = fields.place_of(node[i], "torque." + std::to_string(i + 1));
+    const std::string key = "torque." + std::to_string(i + 1);
+    const Place place = fields.place_of(node[i], key);
     if (node[i].IsScalar())
-      scene.torque.push_back({node[i].Scalar(), place});
+      scene.torque.push_back({node[i].Scalar(), place, {}});
+    else if (node[i].IsMap())
+      scene.torque.push_back({"control", place, read_control(fields, node[i], key)});
     else
-      fields.problems().add("'torque' entry " + std::to_string(i + 1) + " must be a number or an expression",
-                            place);
+      fields.problems().add(
+          "'torque' entry " + std::to_string(i + 1) + " must be a number, an expression or a control", place);
   }
+}
+
+void read_mechanism(Fields& fields, Scene& scene) {
+  fields.read("base", scene.base);
+  require(fields, "base", scene.base == "fixed" || scene.base == "floating",
+          "'base' must be fixed or floating");
+  fields.read("friction", scene.friction);
+  double massless = 0;
+  fields.read("massless", massless);
+  if (fields.find("massless").IsDefined()) {
+    require(fields, "massless", massless > 0, "'massless' must be a mass above 0 kg, like 1e-6");
+    scene.massless = massless;
+  }
+  fields.read("limit", scene.limit);
+  try {
+    limit_policy_of(scene.limit);
+  } catch (const Error& error) {
+    require(fields, "limit", false, error.what());
+  }
+  const YAML::Node packages = fields.find("packages");
+  if (!packages.IsDefined()) return;
+  require(fields, "packages", packages.IsMap(),
+          "'packages' must hold names and folders: packages: {my_robot: ../robot}");
+  if (packages.IsMap())
+    for (const auto& pair : packages)
+      scene.packages[pair.first.Scalar()] =
+          beside(scene.file, pair.second.IsScalar() ? pair.second.Scalar() : "");
 }
 
 void read_parameters(Fields& fields, Scene& scene) {
@@ -181,6 +216,7 @@ Scene read_scene(const std::string& path, const std::vector<std::string>& overri
   fields.read("title", scene.title);
   read_model(fields, scene);
   fields.read("gravity", scene.gravity);
+  read_mechanism(fields, scene);
   read_start(fields, scene);
   read_torque(fields, scene);
   read_parameters(fields, scene);

@@ -1,7 +1,6 @@
 // A scene is a struct written in YAML: key = member name, in this order, defaults here and nowhere else.
 #pragma once
 
-#include <Eigen/Core>
 #include <map>
 #include <optional>
 #include <string>
@@ -27,8 +26,14 @@ struct Scene {
   std::string title;
   std::string model;                       // path, as found from the working folder
   std::optional<Eigen::Vector3d> gravity;  // m/s^2; absent: by the plane of the chain
+  std::string base = "fixed";              // or floating: the root link hangs on a floating joint
+  bool friction = true;                    // the model's joint damping and friction act
+  std::optional<double> massless;  // kg given to moving links without inertia; absent: they are an error
+  std::string limit = "report";    // of joints: or clamp (effort), stop (the run)
+  std::map<std::string, std::string> packages;  // package:// name -> folder
   StartState start;
-  std::vector<TorqueEntry> torque;  // one a degree of freedom; empty: none acts
+  std::vector<TorqueEntry> torque;  // one a degree of freedom; empty: none acts, or `control` does
+  std::optional<Control> control;   // `torque:` as a mapping: for the whole chain
   Parameters parameters;
   std::string end_effector;  // "": link `gripper`, else the only leaf
   double duration = 10;      // s

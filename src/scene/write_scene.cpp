@@ -22,19 +22,70 @@ std::string rate_text(FrameRate fps) {
   return fps.den == 1 ? std::to_string(fps.num) : std::to_string(fps.num) + "/" + std::to_string(fps.den);
 }
 
-void emit_motion(YAML::Emitter& out, const Scene& scene) {
+void emit_feedback(YAML::Emitter& out, const std::string& key, const std::optional<Feedback>& feedback) {
+  if (!feedback) return;
+  out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginMap;
+  out << YAML::Key << "kp" << YAML::Value;
+  emit_numbers(out, feedback->kp);
+  out << YAML::Key << "kd" << YAML::Value;
+  emit_numbers(out, feedback->kd);
+  const auto entries = [&](const char* name, const std::vector<Entry>& list) {
+    if (list.empty()) return;
+    out << YAML::Key << name << YAML::Value;
+    emit_list(out, list, [](const Entry& entry) { return entry.text; });
+  };
+  entries("q", feedback->q);
+  entries("qd", feedback->qd);
+  entries("qdd", feedback->qdd);
+  if (!feedback->trajectory.empty()) out << YAML::Key << "trajectory" << YAML::Value << feedback->trajectory;
+  out << YAML::EndMap;
+}
+
+void emit_control(YAML::Emitter& out, const Control& control) {
+  out << YAML::Flow << YAML::BeginMap;
+  if (!control.csv.empty()) out << YAML::Key << "csv" << YAML::Value << control.csv;
+  if (!control.inverse_of.empty()) out << YAML::Key << "inverse_of" << YAML::Value << control.inverse_of;
+  emit_feedback(out, "pd", control.pd);
+  emit_feedback(out, "computed_torque", control.computed_torque);
+  if (control.gravity_compensation) out << YAML::Key << "gravity_compensation" << YAML::Value << true;
+  out << YAML::EndMap;
+}
+
+void emit_torque(YAML::Emitter& out, const Scene& scene) {
+  out << YAML::Key << "torque" << YAML::Value;
+  if (scene.control) return emit_control(out, *scene.control);
+  out << YAML::Flow << YAML::BeginSeq;
+  for (const TorqueEntry& entry : scene.torque) {
+    if (entry.control)
+      emit_control(out, *entry.control);
+    else
+      out << entry.text;
+  }
+  out << YAML::EndSeq;
+}
+
+void emit_mechanism(YAML::Emitter& out, const Scene& scene) {
   if (scene.gravity) {
     out << YAML::Key << "gravity" << YAML::Value;
     emit_numbers(out, {scene.gravity->x(), scene.gravity->y(), scene.gravity->z()});
   }
+  out << YAML::Key << "base" << YAML::Value << scene.base;
+  out << YAML::Key << "friction" << YAML::Value << scene.friction;
+  if (scene.massless) out << YAML::Key << "massless" << YAML::Value << format_shortest(*scene.massless);
+  out << YAML::Key << "limit" << YAML::Value << scene.limit;
+  out << YAML::Key << "packages" << YAML::Value << YAML::Flow << YAML::BeginMap;
+  for (const auto& [name, folder] : scene.packages) out << YAML::Key << name << YAML::Value << folder;
+  out << YAML::EndMap;
+}
+
+void emit_motion(YAML::Emitter& out, const Scene& scene) {
   out << YAML::Key << "start" << YAML::Value << YAML::BeginMap;
   out << YAML::Key << "q" << YAML::Value;
   emit_numbers(out, scene.start.q);
   out << YAML::Key << "qd" << YAML::Value;
   emit_numbers(out, scene.start.qd);
   out << YAML::EndMap;
-  out << YAML::Key << "torque" << YAML::Value;
-  emit_list(out, scene.torque, [](const TorqueEntry& entry) { return entry.text; });
+  emit_torque(out, scene);
   out << YAML::Key << "parameters" << YAML::Value << YAML::Flow << YAML::BeginMap;
   for (const auto& [name, value] : scene.parameters)
     out << YAML::Key << name << YAML::Value << format_shortest(value);
@@ -48,6 +99,7 @@ std::string scene_text(const Scene& scene) {
   out << YAML::BeginMap;
   out << YAML::Key << "title" << YAML::Value << YAML::DoubleQuoted << scene.title;
   out << YAML::Key << "model" << YAML::Value << scene.model;
+  emit_mechanism(out, scene);
   emit_motion(out, scene);
   if (!scene.end_effector.empty()) out << YAML::Key << "end_effector" << YAML::Value << scene.end_effector;
   out << YAML::Key << "duration" << YAML::Value << format_shortest(scene.duration);

@@ -9,11 +9,17 @@
 
 namespace chainreel {
 
-ChainSystem::ChainSystem(const Chain& chain, TorqueLaw& torque)
-    : chain_(&chain), torque_(&torque), ws_(chain), tau_(std::size_t(chain.nv)) {}
+ChainSystem::ChainSystem(const Chain& chain, TorqueLaw& torque, LimitPolicy limit)
+    : chain_(&chain),
+      torque_(&torque),
+      limit_(limit),
+      limits_(chain),
+      ws_(chain),
+      tau_(std::size_t(chain.nv)) {}
 
 void ChainSystem::evaluate_torque(double t, ConstVec q, ConstVec qd) {
   torque_->evaluate(*chain_, ws_, t, q, qd, tau_);
+  limits_.check_effort(t, tau_, limit_ == LimitPolicy::clamp);
   if (bad_torque_ >= 0) return;
   for (std::size_t i = 0; i < tau_.size(); ++i) {
     if (!std::isfinite(tau_[i])) {
@@ -21,6 +27,11 @@ void ChainSystem::evaluate_torque(double t, ConstVec q, ConstVec qd) {
       return;
     }
   }
+}
+
+ConstVec ChainSystem::torque(double t, ConstVec q, ConstVec qd) {
+  evaluate_torque(t, q, qd);
+  return tau_;
 }
 
 void ChainSystem::acceleration(double t, std::span<const double> q, std::span<const double> v,

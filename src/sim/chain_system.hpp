@@ -3,13 +3,14 @@
 
 #include "dynamics/workspace.hpp"
 #include "integrate/system.hpp"
+#include "sim/limits.hpp"
 #include "sim/torque.hpp"
 
 namespace chainreel {
 
 class ChainSystem final : public SecondOrder {
  public:
-  ChainSystem(const Chain& chain, TorqueLaw& torque);
+  ChainSystem(const Chain& chain, TorqueLaw& torque, LimitPolicy limit);
 
   int nq() const override { return chain_->nq; }
   int nv() const override { return chain_->nv; }
@@ -22,6 +23,10 @@ class ChainSystem final : public SecondOrder {
   // Power of the joint torques less friction, qd^T (tau - tau_f), W.
   double power(double t, ConstVec q, ConstVec qd);
 
+  // The torques at this state, cut where the limit policy says so; valid until the next call.
+  ConstVec torque(double t, ConstVec q, ConstVec qd);
+  LimitWatch& limits() { return limits_; }
+
   long evaluations() const { return evaluations_; }
   int bad_torque() const { return bad_torque_; }  // the first freedom whose torque was not finite, or -1
 
@@ -30,6 +35,8 @@ class ChainSystem final : public SecondOrder {
 
   const Chain* chain_;
   TorqueLaw* torque_;
+  LimitPolicy limit_;
+  LimitWatch limits_;
   Workspace ws_;
   std::vector<double> tau_;
   long evaluations_ = 0;

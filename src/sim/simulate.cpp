@@ -23,12 +23,12 @@ class Run {
  public:
   Run(const Simulation& simulation, std::size_t samples)
       : simulation_(simulation),
-        system_(simulation.chain, *simulation.torque),
+        system_(simulation.chain, *simulation.torque, simulation.limit),
         stepper_(simulation.method->make(simulation.chain.nq, simulation.chain.nv)),
         q_(simulation.q0),
         qd_(simulation.qd0),
         span_(simulation.chain.nq, simulation.chain.nv),
-        work_(simulation) {
+        work_(simulation, system_) {
     // Whole steps, and a shorter last one where the duration is no multiple of the step.
     const double h = simulation.step;
     whole_steps_ = long(std::floor(simulation.duration / h + kSameInstant));
@@ -57,6 +57,7 @@ class Run {
     work_.add_step(system_, span_, q_, qd_);
     ++trajectory_.steps;
     trajectory_.end_time = end;
+    passed_limit_ = system_.limits().check_state(end, q_, qd_);
     return true;
   }
 
@@ -71,6 +72,14 @@ class Run {
     append(t, span_.q(), span_.v(), work);
   }
 
+  // Where the scene stops at limits: the step that passed one is the last.
+  bool stopped_by_limit() {
+    if (!passed_limit_ || simulation_.limit != LimitPolicy::stop) return false;
+    trajectory_.status = RunStatus::stopped;
+    trajectory_.trouble = to_string(system_.limits().events().back());
+    return true;
+  }
+
   bool stop_requested(const StopRequest& stop) {
     if (!stop || steps() % kStepsBetweenStopRequests != 0 || !stop(now_)) return false;
     trajectory_.status = RunStatus::interrupted;
@@ -80,6 +89,7 @@ class Run {
 
   Trajectory finish() {
     trajectory_.evaluations = system_.evaluations();
+    trajectory_.limits = system_.limits().events();
     return std::move(trajectory_);
   }
 
@@ -160,7 +170,8 @@ class Run {
   long whole_steps_ = 0;  // in the run
   double remainder_ = 0;  // s, after the whole steps
   long whole_ = 0;        // multiples of the step passed
-  bool on_grid_ = true;   // now_ is such a multiple
+  bool passed_limit_ = false;
+  bool on_grid_ = true;  // now_ is such a multiple
   double now_ = 0;
   std::vector<double> breaks_;
   std::size_t next_break_ = 0;
@@ -177,6 +188,8 @@ std::string to_string(RunStatus status) {
       return "diverged";
     case RunStatus::torque_not_finite:
       return "torque_not_finite";
+    case RunStatus::stopped:
+      return "stopped";
     case RunStatus::interrupted:
       return "interrupted";
   }
@@ -190,7 +203,7 @@ Trajectory simulate(const Simulation& simulation, std::span<const double> times,
     run.sample_start();
     ++next;
   }
-  while (!run.at_end() && !run.stop_requested(stop) && run.take_step()) {
+  while (!run.at_end() && !run.stopped_by_limit() && !run.stop_requested(stop) && run.take_step()) {
     const double end = run.now() + kSameInstant * simulation.step;
     while (next < times.size() && times[next] <= end) run.sample(times[next++]);
   }
@@ -200,7 +213,8 @@ Trajectory simulate(const Simulation& simulation, std::span<const double> times,
 Trajectory simulate_every_step(const Simulation& simulation, const StopRequest& stop) {
   Run run(simulation, std::size_t(simulation.duration / simulation.step) + 2);
   run.sample_start();
-  while (!run.at_end() && !run.stop_requested(stop) && run.take_step()) run.sample_end();
+  while (!run.at_end() && !run.stopped_by_limit() && !run.stop_requested(stop) && run.take_step())
+    run.sample_end();
   return run.finish();
 }
 

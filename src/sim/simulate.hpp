@@ -8,6 +8,7 @@
 
 #include "integrate/method.hpp"
 #include "model/chain.hpp"
+#include "sim/limits.hpp"
 #include "sim/torque.hpp"
 #include "sim/trajectory.hpp"
 
@@ -22,6 +23,7 @@ struct Simulation {
   const Method* method = nullptr;
   double step = 0.001;   // s
   double duration = 10;  // s
+  LimitPolicy limit = LimitPolicy::report;
 };
 
 // Asked now and then during a run; true stops it with RunStatus::interrupted.

@@ -42,26 +42,76 @@ class ExpressionTorque final : public TorqueLaw {
   bool needs_kinematics_ = false;
 };
 
-}  // namespace
+// Expressions and constants for all joints, with single joints driven by controls instead.
+class MixedTorque final : public TorqueLaw {
+ public:
+  explicit MixedTorque(std::size_t n) : one_(n) {}
+  void set_rest(std::unique_ptr<TorqueLaw> rest) { rest_ = std::move(rest); }
+  void add(std::size_t joint, std::unique_ptr<TorqueLaw> law) {
+    controls_.push_back({joint, std::move(law)});
+  }
 
-std::unique_ptr<TorqueLaw> make_torque_law(const Chain& chain, const std::vector<TorqueEntry>& entries,
-                                           const Parameters& parameters) {
+  void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) override {
+    rest_->evaluate(chain, ws, t, q, qd, tau);
+    for (const auto& [joint, law] : controls_) {
+      law->evaluate(chain, ws, t, q, qd, one_);
+      tau[joint] = one_[joint];
+    }
+  }
+  std::vector<double> breaks() const override {
+    std::vector<double> all;
+    for (const auto& [joint, law] : controls_) {
+      const std::vector<double> some = law->breaks();
+      all.insert(all.end(), some.begin(), some.end());
+    }
+    return all;
+  }
+
+ private:
+  std::unique_ptr<TorqueLaw> rest_;
+  std::vector<std::pair<std::size_t, std::unique_ptr<TorqueLaw>>> controls_;
+  std::vector<double> one_;
+};
+
+std::unique_ptr<TorqueLaw> make_plain_law(const Chain& chain, const std::vector<TorqueEntry>& entries,
+                                          const Parameters& parameters, ProblemList& problems) {
   Probe probe(chain, parameters);
-  ProblemList problems;
   std::vector<Expression> parsed;
   std::vector<double> constants;
   for (const TorqueEntry& entry : entries) {
     try {
-      parsed.push_back(Expression::parse(entry.text, probe.names(), entry.place));
+      parsed.push_back(Expression::parse(entry.control ? "0" : entry.text, probe.names(), entry.place));
       const std::optional<double> constant = parsed.back().constant();
       if (constant) constants.push_back(*constant);
     } catch (const Error& error) {
       for (const Problem& problem : error.problems()) problems.add(problem.message, problem.place);
     }
   }
-  problems.throw_if_any();
   if (constants.size() == entries.size()) return std::make_unique<ConstantTorque>(std::move(constants));
   return std::make_unique<ExpressionTorque>(std::move(probe), std::move(parsed));
+}
+
+}  // namespace
+
+std::unique_ptr<TorqueLaw> make_torque_law(const Chain& chain, const std::vector<TorqueEntry>& entries,
+                                           const Parameters& parameters) {
+  ProblemList problems;
+  std::unique_ptr<TorqueLaw> plain = make_plain_law(chain, entries, parameters, problems);
+  auto mixed = std::make_unique<MixedTorque>(entries.size());
+  bool has_controls = false;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (!entries[i].control) continue;
+    has_controls = true;
+    try {
+      mixed->add(i, make_control(chain, *entries[i].control, parameters));
+    } catch (const Error& error) {
+      for (const Problem& problem : error.problems()) problems.add(problem.message, problem.place);
+    }
+  }
+  problems.throw_if_any();
+  if (!has_controls) return plain;
+  mixed->set_rest(std::move(plain));
+  return mixed;
 }
 
 }  // namespace chainreel

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/error.hpp"
+#include "sim/control.hpp"
 #include "sim/probe.hpp"
 
 namespace chainreel {
@@ -20,10 +22,11 @@ class TorqueLaw {
   virtual std::vector<double> breaks() const { return {}; }
 };
 
-// One joint's entry as the scene wrote it: a number or an expression.
+// One joint's entry as the scene wrote it: a number, an expression, or a control of this joint alone.
 struct TorqueEntry {
   std::string text = "0";
   Place place;
+  std::optional<Control> control;  // then `text` says nothing
 };
 
 // One entry per degree of freedom. Throws Error with every problem of the entries.

@@ -5,16 +5,24 @@
 #include <string>
 #include <vector>
 
+#include "sim/limits.hpp"
+
 namespace chainreel {
 
 enum class RunStatus {
   finished,
   diverged,           // a coordinate left the finite numbers or grew beyond all bounds
   torque_not_finite,  // a torque expression gave no finite number
+  stopped,            // a joint passed its limit and the scene stops there
   interrupted,        // the user stopped it
 };
 
 std::string to_string(RunStatus status);
+
+// The run came to an end that the scene asked for.
+inline bool is_complete(RunStatus status) {
+  return status == RunStatus::finished || status == RunStatus::stopped;
+}
 
 struct Trajectory {
   int nq = 0;
@@ -29,6 +37,8 @@ struct Trajectory {
   long steps = 0;        // taken
   long evaluations = 0;  // of the forward dynamics
   std::string trouble;   // one sentence where the status is not `finished`: time, step and joint
+
+  std::vector<LimitEvent> limits;  // passed, each joint and quantity once
 
   int size() const { return int(t.size()); }
   std::span<const double> q_at(int k) const {

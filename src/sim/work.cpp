@@ -4,12 +4,12 @@
 
 namespace chainreel {
 
-WorkIntegral::WorkIntegral(const Simulation& simulation)
+WorkIntegral::WorkIntegral(const Simulation& simulation, ChainSystem& system)
     : q0_(simulation.q0), tau_(std::size_t(simulation.chain.nv)) {
   const Chain& chain = simulation.chain;
   if (!simulation.torque->is_constant() || chain.has_dissipation) return;
-  Workspace ws(chain);
-  simulation.torque->evaluate(chain, ws, 0, simulation.q0, simulation.qd0, tau_);
+  const ConstVec tau = system.torque(0, simulation.q0, simulation.qd0);
+  std::copy(tau.begin(), tau.end(), tau_.begin());
   // With a floating base qd is no derivative of q: the short form holds there only where nothing pushes.
   constant_ = chain.nq == chain.nv || std::all_of(tau_.begin(), tau_.end(), [](double x) { return x == 0; });
 }

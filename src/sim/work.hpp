@@ -11,7 +11,7 @@ namespace chainreel {
 
 class WorkIntegral {
  public:
-  explicit WorkIntegral(const Simulation& simulation);
+  WorkIntegral(const Simulation& simulation, ChainSystem& system);
 
   // After each step: work up to its end.
   void add_step(ChainSystem& system, StepSpan& span, ConstVec q, ConstVec qd);

@@ -1,0 +1,54 @@
+// The limits of the model's joints during a run: what was passed first, where and when.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dynamics/workspace.hpp"
+#include "model/chain.hpp"
+
+namespace chainreel {
+
+enum class LimitPolicy {
+  report,  // say so in the audit
+  clamp,   // and cut torques at the joint's effort
+  stop,    // and end the run where a position or velocity limit is passed
+};
+
+// The policies by name; throws Error naming the nearest one.
+LimitPolicy limit_policy_of(const std::string& name);
+
+// The first time that a joint passed one of its limits.
+struct LimitEvent {
+  std::string joint;
+  std::string quantity;  // "position", "velocity" or "effort"
+  double t = 0;          // s
+  double value = 0;      // rad, m, rad/s, m/s, N m or N
+  double limit = 0;
+};
+
+// "joint 'elbow' passed its position limit 1.5 with 1.52 at t = 0.31 s"
+std::string to_string(const LimitEvent& event);
+
+class LimitWatch {
+ public:
+  explicit LimitWatch(const Chain& chain);
+
+  // Adds what is passed for the first time; allocates only then. True if something was added.
+  bool check_state(double t, ConstVec q, ConstVec qd);
+  bool check_effort(double t, Vec tau, bool clamp);  // cuts tau where `clamp`
+
+  const std::vector<LimitEvent>& events() const { return events_; }
+
+ private:
+  struct Watched {
+    const Joint* joint = nullptr;
+    bool position_passed = false, velocity_passed = false, effort_passed = false;
+  };
+  bool add(const Joint& joint, const char* quantity, double t, double value, double limit);
+
+  std::vector<Watched> watched_;  // joints that have a limit
+  std::vector<LimitEvent> events_;
+};
+
+}  // namespace chainreel
