@@ -75,6 +75,18 @@ std::string list_of(const std::vector<std::string>& entries, std::size_t shown) 
 
 }  // namespace
 
+std::string control_notation(const Control& control) {
+  std::string sum;
+  const auto add = [&](bool given, const char* term) {
+    if (given) sum += (sum.empty() ? "" : " + ") + std::string(term);
+  };
+  add(control.gravity_compensation, "tau_g(q)");
+  add(!control.csv.empty() || !control.inverse_of.empty(), "tau(t)");
+  add(control.pd.has_value(), "PD");
+  add(control.computed_torque.has_value(), "computed torque");
+  return sum.empty() ? "0" : sum;
+}
+
 std::vector<std::string> torque_notations(const Chain& chain, const std::vector<TorqueEntry>& torque) {
   std::vector<std::string> entries;
   for (const TorqueEntry& entry : torque) entries.push_back(entry_notation(entry.text));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/chain.hpp"
+#include "sim/control.hpp"
 #include "sim/torque.hpp"
 
 namespace chainreel {
@@ -14,5 +15,8 @@ namespace chainreel {
 // where all are prismatic, none where they differ. No entries mean that no torque acts. Empty for a chain
 // that cannot move.
 std::vector<std::string> torque_notations(const Chain& chain, const std::vector<TorqueEntry>& torque);
+
+// What a control does, in a word or two: "tau_g(q) + PD".
+std::string control_notation(const Control& control);
 
 }  // namespace chainreel

@@ -9,7 +9,7 @@ namespace {
 
 std::string label(const std::string& model, const std::vector<std::string>& entries) {
   std::vector<TorqueEntry> torque;
-  for (const std::string& text : entries) torque.push_back({text, {}});
+  for (const std::string& text : entries) torque.emplace_back().text = text;
   return torque_notations(test::model(model), torque).front();
 }
 
@@ -43,10 +43,25 @@ TEST(TorqueLabel, HasNoUnitWhereForcesAndTorquesMix) {
   EXPECT_EQ(torque_notations(chain, {}).front(), "tau = (0, 0)");
 }
 
+TEST(TorqueLabel, NamesWhatAControlDoes) {
+  Control control;
+  control.gravity_compensation = true;
+  control.pd.emplace();
+  EXPECT_EQ(control_notation(control), "tau_g(q) + PD");
+  EXPECT_NO_THROW(lay_out_math(test::fonts(), "tau = " + control_notation(control), {}));
+  Control from_file;
+  from_file.csv = "tau.csv";
+  EXPECT_EQ(control_notation(from_file), "tau(t)");
+  Control computed;
+  computed.computed_torque.emplace();
+  EXPECT_EQ(control_notation(computed), "computed torque");
+  EXPECT_EQ(control_notation({}), "0");
+}
+
 TEST(TorqueLabel, OffersEverShorterForms) {
   Chain chain = test::model("rrr");
   std::vector<TorqueEntry> torque;
-  for (int i = 1; i <= 12; ++i) torque.push_back({std::to_string(i), {}});
+  for (int i = 1; i <= 12; ++i) torque.emplace_back().text = std::to_string(i);
   const std::vector<std::string> forms = torque_notations(chain, torque);
   EXPECT_THAT(forms.front(), testing::HasSubstr("1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12)"));
   EXPECT_THAT(forms, testing::Contains("tau = (1, 2, \u2026, 12) N m"));
