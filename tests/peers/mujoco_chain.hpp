@@ -40,6 +40,7 @@ class MujocoChain {
   const mjModel* model() const { return model_.get(); }
   mjData* data() { return data_.get(); }
   void set_position(std::span<const double> q);
+  void set_step(double h) { model_->opt.timestep = h; }
 
  private:
   Eigen::Matrix3d turn(std::size_t joint) const;  // of a floating joint, as set

@@ -4,6 +4,7 @@
 // RRR under torque and the arm are chaotic: a last bit that differs anywhere grows by a factor of 1e7 and
 // more within the run. Together the runs read files with angles (rpy), take both algebras and every way to
 // forward dynamics, all methods and all functions that torques may use.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -62,8 +63,9 @@ std::string hash_of(const Case& c, const Method& method, double step) {
   Simulation run;
   run.q0 = zero_configuration(c.chain);
   run.qd0.assign(std::size_t(c.chain.nv), 0.1);
-  std::vector<TorqueEntry> entries(std::size_t(c.chain.nv), TorqueEntry{c.torque.back(), {}});
-  for (std::size_t i = 0; i < c.torque.size(); ++i) entries[i].text = c.torque[i];
+  std::vector<TorqueEntry> entries(std::size_t(c.chain.nv));
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    entries[i].text = c.torque[std::min(i, c.torque.size() - 1)];
   run.torque = make_torque_law(c.chain, entries, {});
   run.chain = c.chain;
   run.method = &method;

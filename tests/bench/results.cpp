@@ -1,0 +1,103 @@
+#include "bench/results.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+
+#include "core/format.hpp"
+#include "support/run_program.hpp"
+
+namespace chainreel::bench {
+namespace {
+
+// What follows the separator in the first line of a file that starts with `key`.
+std::string value_in(const char* path, const std::string& key, char separator) {
+  std::ifstream stream(path);
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.starts_with(key)) continue;
+    const std::size_t at = line.find_first_not_of(" \t\"", line.find(separator) + 1);
+    return at == std::string::npos ? "" : line.substr(at, line.find_last_not_of('"') + 1 - at);
+  }
+  return "unknown";
+}
+
+std::string vector_units() {
+  const std::string flags = " " + value_in("/proc/cpuinfo", "flags", ':') + " ";
+  std::string units;
+  for (const char* flag : {"sse4_2", "avx", "fma", "avx2", "avx512f"})
+    if (flags.find(std::string(" ") + flag + " ") != std::string::npos)
+      units += (units.empty() ? "" : " ") + std::string(flag);
+  return units;
+}
+
+std::string load() {
+  double minutes[1] = {};
+  return getloadavg(minutes, 1) == 1 ? format_fixed(minutes[0], 1) : "unknown";
+}
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d", std::gmtime(&now));
+  return text;
+}
+
+// Of the source tree; with uncommitted changes it ends in -dirty.
+std::string revision() {
+  const ProgramResult git =
+      run_command({"git", "-C", CHAINREEL_SOURCE_FOLDER, "describe", "--always", "--dirty", "--exclude=*"});
+  return git.status == 0 ? git.out.substr(0, git.out.find('\n')) : "unknown";
+}
+
+std::string joined(const std::vector<std::string>& cells) {
+  std::string line;
+  for (const std::string& cell : cells) line += (line.empty() ? "" : ",") + cell;
+  return line;
+}
+
+}  // namespace
+
+Facts machine_facts() {
+  return {{"date", today()},
+          {"revision", revision()},
+          {"processor", value_in("/proc/cpuinfo", "model name", ':')},
+          {"vector units", vector_units()},
+          {"cores", std::to_string(std::thread::hardware_concurrency())},
+          {"load at the start", load()},
+          {"system", value_in("/etc/os-release", "PRETTY_NAME", '=')},
+          {"compiler", "g++ " __VERSION__},
+          {"flags", CHAINREEL_BENCH_FLAGS}};
+}
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) throw std::invalid_argument("no values");
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Results::Results(std::string name, std::vector<std::string> columns)
+    : name_(std::move(name)), facts_(machine_facts()), rows_{std::move(columns)} {}
+
+void Results::add(std::vector<std::string> row) {
+  if (row.size() != rows_.front().size()) throw std::invalid_argument("a row of another length");
+  rows_.push_back(std::move(row));
+}
+
+void Results::write() const {
+  const std::filesystem::path folder = CHAINREEL_SOURCE_FOLDER "/tests/bench/results";
+  std::filesystem::create_directories(folder);
+  const std::filesystem::path path = folder / (name_ + ".csv");
+  std::ofstream stream(path);
+  for (const auto& [what, value] : facts_) stream << "# " << what << ": " << value << "\n";
+  for (const std::vector<std::string>& row : rows_) stream << joined(row) << "\n";
+  if (!stream.flush()) throw std::runtime_error("cannot write " + path.string());
+  std::printf("written: %s\n", path.c_str());
+}
+
+}  // namespace chainreel::bench
