@@ -27,15 +27,24 @@ void solve_mass_matrix(Links<A>& links, Workspace& ws, ConstVec qd, ConstVec tau
 }  // namespace
 
 Algorithm algorithm_of(const Chain& chain) {
+  if (planar_kernel_of(chain).run) return Algorithm::planar_kernel;
   return chain.has_mimic ? Algorithm::mass_matrix : Algorithm::articulated_body;
 }
 
-void compute_forward_dynamics(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau) {
+namespace {
+
+// Apart from the short way, so that it stays free of what a longer one saves and restores.
+[[gnu::noinline]] void take_the_long_way(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd,
+                                         ConstVec tau) {
   Workspace::Scratch& scratch = *ws.scratch;
   if (chain.has_dissipation) {
     compute_friction(chain, ws, qd);
     for (std::size_t i = 0; i < tau.size(); ++i) scratch.tau_net[i] = tau[i] - ws.tau_f[i];
     tau = scratch.tau_net;
+  }
+  if (scratch.algorithm == Algorithm::planar_kernel) {
+    scratch.planar_kernel.run(scratch.planar_kernel, q.data(), qd.data(), tau.data(), ws.qdd.data());
+    return;
   }
   with_links(ws, [&](auto& links) {
     place(links, q);
@@ -44,9 +53,25 @@ void compute_forward_dynamics(const Chain& chain, Workspace& ws, ConstVec q, Con
   });
 }
 
+}  // namespace
+
+void compute_forward_dynamics(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau) {
+  const Workspace::Scratch& scratch = *ws.scratch;
+  if (!scratch.kernel_alone) return take_the_long_way(chain, ws, q, qd, tau);
+  scratch.kernel_alone(scratch.planar_kernel, q.data(), qd.data(), tau.data(), ws.qdd.data());
+}
+
 std::string forward_dynamics_algorithm(const Chain& chain) {
   const std::string algebra = chain.planar ? "planar " : "spatial ";
-  return algebra + (algorithm_of(chain) == Algorithm::mass_matrix ? "CRBA and LDL^T" : "ABA");
+  switch (algorithm_of(chain)) {
+    case Algorithm::planar_kernel:
+      return "planar, unrolled for " + std::to_string(chain.nv) + " joints";
+    case Algorithm::articulated_body:
+      return algebra + "ABA";
+    case Algorithm::mass_matrix:
+      return algebra + "CRBA and LDL^T";
+  }
+  return {};
 }
 
 }  // namespace chainreel

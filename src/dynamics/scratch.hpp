@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "dynamics/kernel_planar.hpp"
 #include "dynamics/links.hpp"
 #include "dynamics/workspace.hpp"
 
@@ -12,6 +13,7 @@ namespace chainreel {
 
 // Ways to forward dynamics.
 enum class Algorithm {
+  planar_kernel,     // kernel_planar.hpp: up to four joints that turn in one plane
   articulated_body,  // O(n)
   mass_matrix,       // CRBA, RNEA and L D L^T: chains whose bodies share coordinates
 };
@@ -21,6 +23,8 @@ struct Workspace::Scratch {
   explicit Scratch(const Chain& chain);
 
   std::variant<Links<Planar<double>>, Links<Spatial<double>>> links;
+  PlanarKernel planar_kernel;
+  PlanarKernel::Run kernel_alone = nullptr;  // planar_kernel.run where nothing else is to be done
   Algorithm algorithm;
   std::vector<double> zeros;    // nv: the velocity or acceleration of what rests
   std::vector<double> tau_net;  // nv: tau - tau_f, for chains with friction
