@@ -6,6 +6,7 @@
 #include "core/format.hpp"
 #include "model/doctor_report.hpp"
 #include "model/planar.hpp"
+#include "model/urdf_problems.hpp"
 
 namespace chainreel {
 namespace {
@@ -125,7 +126,7 @@ void examine_tags(const UrdfFile& file, DoctorReport& report) {
   for (const UrdfIgnoredTag& tag : file.ignored) {
     std::string message = "<" + tag.name + "> inside <" + tag.parent + "> is not read";
     if (tag.count > 1) message += " (" + std::to_string(tag.count) + " times, the first is here)";
-    const std::string near = did_you_mean(tag.name, kReadTags);
+    const std::string near = near_name(tag.name, kReadTags);
     const Severity severity = near.empty() ? Severity::note : Severity::warning;
     report.add(severity, "tags that are not read", tag.first_line,
                message + (near.empty() ? "" : ":" + near));

@@ -20,7 +20,7 @@ int end_effector_of(const Chain& chain, const ModelOptions& options, const std::
   if (frame >= 0) return frame;
   std::vector<std::string> names;
   for (const Frame& known : chain.frames) names.push_back(known.name);
-  const std::string near = did_you_mean(options.end_effector, names);
+  const std::string near = near_name(options.end_effector, names);
   throw Error(ExitCode::bad_input,
               "has no link '" + options.end_effector + "' that could be the end effector:" +
                   (near.empty() ? " its last link is '" + names.back() + "'" : near),

@@ -19,9 +19,10 @@ struct ModelOptions {
   bool friction = true;            // honour <dynamics damping friction>
   std::optional<double> massless;  // kg given to moving links without inertia; absent: they are an error
   std::optional<Eigen::Vector3d>
-      gravity;               // absent: [0, -9.81, 0] for chains that move in the xy plane, else -z
-  std::string end_effector;  // "": link `gripper`, else the only leaf, else an error
-  bool meshes = true;        // mesh files must be found
+      gravity;  // absent: [0, -9.81, 0] for chains that move in the xy plane, else -z
+  // "": link `gripper`, else the only leaf, else none (Chain::end_effector is -1; see require_end_effector).
+  std::string end_effector;
+  bool meshes = true;                           // mesh files must be found
   std::map<std::string, std::string> packages;  // package:// name -> folder
 };
 

@@ -245,7 +245,7 @@ class Checker {
       joint.type = UrdfJointType(int(i));
       return true;
     }
-    problems_.add(joint.line, owner + " has the unknown type '" + text + "':" + did_you_mean(text, names) +
+    problems_.add(joint.line, owner + " has the unknown type '" + text + "':" + near_name(text, names) +
                                   " there are revolute, continuous, prismatic, fixed, floating and planar");
     return false;
   }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,5 +38,11 @@ class UrdfProblems {
   std::vector<Problem> shown_;
   int count_ = 0;
 };
+
+// "did you mean 'x'?" behind a space, or "": comparing costs the product of all lengths, so it is not done
+// for files and names beyond what people write.
+inline std::string near_name(const std::string& name, std::span<const std::string> candidates) {
+  return name.size() > 64 || candidates.size() > 1000 ? "" : did_you_mean(name, candidates);
+}
 
 }  // namespace chainreel

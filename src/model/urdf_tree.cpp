@@ -21,7 +21,7 @@ std::string remedy_for(const std::string& name, const std::vector<Named>& items,
   if (problems.is_full()) return "";  // the message will not be shown
   std::vector<std::string> names;
   for (const Named& item : items) names.push_back(item.name);
-  const std::string near = did_you_mean(name, names);
+  const std::string near = near_name(name, names);
   return near.empty() ? otherwise : near;
 }
 

@@ -40,7 +40,9 @@ class XmlScanner {
     }
   }
 
-  int attributes() const { return attributes_; }  // of the last tag, counted by their quotes
+  // Of the last tag: attributes, counted by their quotes, and characters.
+  int attributes() const { return attributes_; }
+  std::size_t length() const { return at_ - tag_begin_; }
   int line() const {
     return 1 + int(std::count(text_.begin(), text_.begin() + std::ptrdiff_t(tag_begin_), '\n'));
   }
@@ -98,6 +100,9 @@ void check_xml_limits(const std::string& text, const std::string& path) {
       refuse("has more than " + std::to_string(kMostXmlElements) + " elements: split or simplify the model");
     if (scanner.attributes() > kMostXmlAttributes)
       refuse("a tag has more than " + std::to_string(kMostXmlAttributes) + " attributes: a URDF needs 6");
+    if (scanner.length() > kLongestXmlTag)
+      refuse("a tag is longer than " + std::to_string(kLongestXmlTag) +
+             " characters: shorten its names or paths");
     if (depth > kDeepestXml) {
       refuse("elements are nested deeper than " + std::to_string(kDeepestXml) +
              " levels; a URDF needs 5: is a closing tag missing?");
