@@ -1,11 +1,11 @@
 // Four engines behind one face, so that one text times them all. No virtual functions: they would cost a
 // tenth of the smallest call.
 //
-//   set(state), forward_dynamics()   accelerations at a state; what an engine needs to take the state over is
-//   part of
-//                                    its call, as it is for whoever asks it. Ours reads the state where it
-//                                    lies.
+//   set(state), forward_dynamics()   accelerations at a state
 //   start(state), step(h)            semi-implicit Euler under constant torques: qd += qdd h, q += qd h
+//
+// What an engine needs to take a state over is part of its call, as it is for whoever asks it. Ours reads the
+// state where it lies.
 //
 // Nothing but free motion is asked for: MuJoCo has contacts, constraints, passive forces, actuators and
 // sensors switched off, Bullet and DART are asked for one body's dynamics without a world around it. One

@@ -3,10 +3,10 @@
 // Rule: two seconds of motion without torque, damping and friction, by rk4 at 1 ms; the audit's largest error
 // must stay below 1e-6 of the largest kinetic energy. Robots on a fixed base start at rest with every turning
 // joint at 1.5 rad and fall. From nearly upright poses the light ends of the double pendulums and of the
-// panda whip round at 75 rad/s, and rk4's own error at 1 ms reaches 1e-6 to 3e-5; there the error must be the
-// method's, which halving the step shows. Robots that hang on nothing drift without gravity, where falling
-// together would hide how they move: every joint starts with 1 rad/s or m/s, the base with a turn of 1 rad/s
-// about its z.
+// panda whip round at 75 rad/s, and rk4's own error at 1 ms reaches 1e-6 and more; there the error must be
+// the method's, which halving the step shows. Robots that hang on nothing drift without gravity, where
+// falling together would hide how they move: every joint starts with 1 rad/s or m/s, the base with a turn of
+// 1 rad/s about its z.
 #include <gtest/gtest.h>
 
 #include <cstdio>

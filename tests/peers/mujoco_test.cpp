@@ -6,6 +6,7 @@
 // part in a million stands far above it: see the negative controls.
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -23,6 +24,7 @@ namespace chainreel::peers {
 namespace {
 
 using chainreel::testing::arm_chain;
+using chainreel::testing::as_vector;
 using chainreel::testing::Random;
 using chainreel::testing::random_state;
 using chainreel::testing::random_tree;
@@ -97,6 +99,90 @@ TEST(Mujoco, AgreesOnRandomTreesOfAllJointKinds) {
         random_tree(std::uint64_t(seed),
                     {.bodies = 2 + seed % 20, .serial = seed % 3 == 0, .floating_base = seed % 2 == 0});
     expect_agreement(chain.name, chain);
+  }
+}
+
+TEST(Mujoco, AgreesOnTreesWhereSomeBodiesHaveNoMass) {
+  for (int seed = 1; seed <= 20; ++seed) {
+    const Chain chain = random_tree(std::uint64_t(seed), {.bodies = 12, .massless = 0.4});
+    expect_agreement(chain.name, chain);
+  }
+}
+
+// A chain whose joints share coordinates, and the same chain with a coordinate a joint. Rates go by the
+// constant matrix G, qd_free = G qd, so that M = G^T M_free G and nle = G^T nle_free.
+struct Coupling {
+  explicit Coupling(const Chain& chain);
+  std::vector<double> free_position(const std::vector<double>& q) const;
+  std::vector<double> accelerations(MujocoChain& theirs, const State& state) const;
+
+  Chain coupled, free;
+  Eigen::MatrixXd G;
+};
+
+Coupling::Coupling(const Chain& chain) : coupled(chain), free(with_independent_joints(chain)) {
+  G.setZero(free.nv, coupled.nv);
+  for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
+    const Joint& joint = coupled.bodies[i].joint;
+    const int row = free.bodies[i].joint.v_index;
+    for (int k = 0; k < (joint.kind == JointKind::floating ? 6 : 1); ++k)
+      G(row + k, joint.v_index + k) = joint.ratio;
+  }
+}
+
+std::vector<double> Coupling::free_position(const std::vector<double>& q) const {
+  std::vector<double> all(std::size_t(free.nq));
+  for (std::size_t i = 1; i < coupled.bodies.size(); ++i) {
+    const Joint& joint = coupled.bodies[i].joint;
+    const auto from = std::size_t(joint.q_index), to = std::size_t(free.bodies[i].joint.q_index);
+    if (joint.kind == JointKind::floating) {
+      std::copy_n(&q[from], 7, &all[to]);
+    } else {
+      all[to] = joint.ratio * q[from] + joint.offset;
+    }
+  }
+  return all;
+}
+
+std::vector<double> Coupling::accelerations(MujocoChain& theirs, const State& state) const {
+  const std::vector<double> q = free_position(state.q);
+  const Eigen::VectorXd qd = G * as_vector(state.qd);
+  const std::vector<double> rest(std::size_t(free.nv));
+  const std::vector<double> drift = theirs.qdd_of(q, {qd.data(), rest.size()}, rest);
+  const Eigen::MatrixXd M_free = theirs.mass_matrix_of(q);
+  const Eigen::VectorXd nle_free = -(M_free * as_vector(drift));
+  const Eigen::VectorXd qdd =
+      (G.transpose() * M_free * G).ldlt().solve(as_vector(state.tau) - G.transpose() * nle_free);
+  return {qdd.data(), qdd.data() + qdd.size()};
+}
+
+void expect_coupled_agreement(const std::string& name, const Chain& chain) {
+  const Coupling coupling(chain);
+  MujocoChain theirs(coupling.free);
+  Workspace ws(chain);
+  Random random(20241);
+  double largest = 0;
+  for (int k = 0; k < kStates; ++k) {
+    const State state = random_state(chain, random);
+    compute_forward_dynamics(chain, ws, state.q, state.qd, state.tau);
+    largest = std::max(largest, distance(ws.qdd, coupling.accelerations(theirs, state)));
+  }
+  std::printf("%-60s %2d freedoms: qdd %.1e\n", name.c_str(), chain.nv, largest);
+  EXPECT_LT(largest, kAgreement) << name;
+}
+
+TEST(Mujoco, AgreesOnJointsThatFollowOthers) {
+  int coupled = 0;
+  for (int seed = 1; seed <= 20; ++seed) {
+    const Chain chain =
+        random_tree(std::uint64_t(seed), {.bodies = 10, .floating_base = seed % 2 == 0, .mimic = 0.5});
+    coupled += chain.has_mimic ? 1 : 0;
+    expect_coupled_agreement(chain.name, chain);
+  }
+  EXPECT_GT(coupled, 10);
+  for (const std::string& path : public_robots()) {
+    const Chain chain = read_frictionless(path);
+    if (chain.has_mimic) expect_coupled_agreement(path + ", coupled", chain);
   }
 }
 
