@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-const std::vector<std::string> kCommands{"render",   "snapshot", "ellipse", "simulate",
-                                         "dynamics", "init",     "check",   "doctor"};
+const std::vector<std::string> kCommands{"render",  "snapshot", "ellipse", "simulate", "dynamics",
+                                         "inverse", "init",     "check",   "doctor"};
 
 TEST(Help, HasAnExampleForEveryCommand) {
   for (const std::string& command : kCommands) {

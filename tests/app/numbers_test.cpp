@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 
 #include "core/json.hpp"
@@ -78,6 +79,47 @@ TEST(DynamicsCommand, GivesTheClosedFormOfRr) {
               kTolerance);
   EXPECT_GT(std::abs(json["qdd"][0].get<double>() - (m22 * r1 + m12 * r2) / det),
             0.1);  // negative control: a sign
+}
+
+TEST(DynamicsCommand, GivesTheSameByLagrangeAndByNewtonAndEuler) {
+  const std::vector<std::string> state{"models/rrr.urdf", "--q",   "0.3,0.7,-1", "--qd",
+                                       "0.5,-1,2",        "--tau", "1,2,3"};
+  std::vector<std::string> by_lagrange = state;
+  by_lagrange.insert(by_lagrange.end(), {"--formulation", "lagrange"});
+  const Json one = dynamics(state), other = dynamics(by_lagrange);
+  EXPECT_EQ(other["formulation"], "lagrange");
+  for (const char* key : {"nle", "tau_g", "qdd"})
+    for (std::size_t i = 0; i < 3; ++i) {
+      // Two algorithms on numbers up to 50, some thirty roundings each.
+      EXPECT_NEAR(one[key][i].get<double>(), other[key][i].get<double>(), 1e-11) << key;
+      EXPECT_NEAR(one["C_qd"][i].get<double>() + one["tau_g"][i].get<double>(), one["nle"][i].get<double>(),
+                  1e-11);
+    }
+  ASSERT_EQ(one["bodies"].size(), 3u);
+  double kinetic = 0;
+  for (const Json& body : one["bodies"]) kinetic += body["kinetic"].get<double>();
+  EXPECT_NEAR(kinetic, one["kinetic"].get<double>(), 1e-12);
+}
+
+TEST(InverseCommand, UndoesForwardDynamics) {
+  const TemporaryFolder folder;
+  const std::string motion = folder.file("q.csv"), torques = folder.file("tau.csv");
+  ASSERT_EQ(run_program({"simulate", "assets/scenes/rr_torque.yaml", "-o", motion, "--set", "duration=1",
+                         "--set", "method=rk4", "--set", "video.fps=200"})
+                .status,
+            0);
+  const ProgramResult result =
+      run_program({"inverse", "models/rr.urdf", "--trajectory", motion, "-o", torques});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::vector<std::string> lines = lines_of(read_whole_file(torques));
+  ASSERT_EQ(lines.size(), 1u + 201);
+  EXPECT_EQ(lines[0], "t,tau1,tau2");
+  double t, tau1, tau2;
+  ASSERT_EQ(std::sscanf(lines[100].c_str(), "%lf,%lf,%lf", &t, &tau1, &tau2), 3);
+  // qd is in the file and its spline at 5 ms gives qdd to h^3 of its fourth derivative (some 1e5 x 1e-7 /
+  // 24).
+  EXPECT_NEAR(tau1, 1, 1e-3);
+  EXPECT_NEAR(tau2, 1, 1e-3);
 }
 
 TEST(DynamicsCommand, HasNoLambdaAtASingularPoseButItsDirection) {

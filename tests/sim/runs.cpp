@@ -10,8 +10,8 @@ Simulation run_of(const std::string& model, const std::vector<std::string>& torq
   run.chain = read_chain("models/" + model + ".urdf");
   run.q0 = zero_configuration(run.chain);
   run.qd0.resize(std::size_t(run.chain.nv));
-  std::vector<TorqueEntry> entries;
-  for (const std::string& text : torque) entries.push_back({text, {}});
+  std::vector<TorqueEntry> entries(std::size_t(run.chain.nv));
+  for (std::size_t i = 0; i < torque.size(); ++i) entries[i].text = torque[i];
   run.torque = make_torque_law(run.chain, entries, {});
   run.method = &find_method(method);
   run.step = step;
