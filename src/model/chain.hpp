@@ -54,7 +54,8 @@ struct Inertia {
 };
 
 struct Body {
-  std::string name;  // the URDF link behind the joint
+  std::string
+      name;  // the URDF link behind the joint; the joint's name where a planar joint has no link between
   int parent = 0;
   Joint joint;
   Inertia inertia;  // with everything fixed to it lumped in

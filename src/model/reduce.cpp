@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "model/principal_moments.hpp"
 #include "model/urdf_problems.hpp"
@@ -27,7 +28,9 @@ Inertia inertia_of(const UrdfInertial& inertial, const Eigen::Isometry3d& X_BL) 
 class Reducer {
  public:
   Reducer(const UrdfFile& file, const ModelOptions& options)
-      : file_(file), options_(options), problems_(file.path) {}
+      : file_(file), options_(options), problems_(file.path) {
+    for (const UrdfJoint& joint : file_.joints) joint_names_.insert(joint.name);
+  }
 
   ReducedModel run() {
     chain_.name = file_.name;
@@ -35,7 +38,7 @@ class Reducer {
     parts_.resize(1);
     place_.resize(file_.links.size());
     for (const int link : depth_first_links(file_)) place_link(link);
-    resolve_mimics();
+    number_coordinates();
     lump();
     finish();
     problems_.throw_if_any();
@@ -80,11 +83,10 @@ class Reducer {
     parts_[std::size_t(place.body)].push_back(inertia_of(*link.inertial, place.X_BL));
   }
 
-  // Joint names are unique in the file, and its own joints come first.
   std::string base_joint_name() const {
-    for (const UrdfJoint& joint : file_.joints)
-      if (joint.name == "base") return "floating_base";
-    return "base";
+    std::string name = "base";
+    while (joint_names_.contains(name)) name = "floating_" + name;
+    return name;
   }
 
   int add_body(Joint joint, int link, int parent) {
@@ -126,6 +128,12 @@ class Reducer {
   int add_planar_joint(Joint joint, const Eigen::Vector3d& normal, int link, int parent) {
     const auto [x, y] = in_plane_axes(normal);
     const std::string name = joint.name;
+    for (const char* part : {".x", ".y", ".angle"}) {
+      if (!joint_names_.contains(name + part)) continue;
+      problems_.add(file_.links[std::size_t(link)].line,
+                    "joint '" + name + part + "' has the name of a part of the planar joint '" + name +
+                        "': give it another");
+    }
     joint.name = name + ".x";
     joint.kind = JointKind::prismatic;
     joint.axis = x;
@@ -152,25 +160,25 @@ class Reducer {
     return limit;
   }
 
-  // A joint that follows a follower: value = r1 (r2 q + o2) + o1. Coordinates are numbered first.
-  void resolve_mimics() {
-    std::unordered_map<std::string, int> owner;
+  // Joints with a coordinate of their own are numbered first, whatever their place among the followers.
+  void number_coordinates() {
+    std::unordered_map<std::string, int> known;
     for (std::size_t i = 1; i < chain_.bodies.size(); ++i) {
       Joint& joint = chain_.bodies[i].joint;
       if (mimics_.contains(joint.name)) continue;
       joint.q_index = chain_.nq;
       joint.v_index = chain_.nv;
-      owner.emplace(joint.name, int(i));
+      known.emplace(joint.name, int(i));
       const bool is_floating = joint.kind == JointKind::floating;
       chain_.nq += is_floating ? 7 : 1;
       chain_.nv += is_floating ? 6 : 1;
       name_coordinates(joint);
     }
-    for (const auto& [name, body] : mimics_) resolve_mimic(name, owner);
+    for (const auto& [name, body] : mimics_) resolve_mimic(name, known);
   }
 
-  // Goes up to the first joint with a known coordinate and comes back down, so that long rows of followers
-  // stay cheap.
+  // value = r1 (r2 q + o2) + o1 where a follower is followed. Goes up to the first joint with a known
+  // coordinate and comes back down, so that long rows of followers stay cheap.
   void resolve_mimic(const std::string& name, std::unordered_map<std::string, int>& known) {
     std::vector<std::string> row;
     for (std::string at = name; !known.contains(at); at = joints_.at(at)->mimic->joint) row.push_back(at);
@@ -244,6 +252,7 @@ class Reducer {
   UrdfProblems problems_;
   ReducedModel result_;
   Chain& chain_ = result_.chain;
+  std::unordered_set<std::string> joint_names_;               // of the file
   std::vector<LinkPlace> place_;                              // per link
   std::vector<std::vector<Inertia>> parts_;                   // per body
   std::unordered_map<std::string, int> mimics_;               // joint name -> its body

@@ -152,6 +152,10 @@ TEST(ReadChain, AFloatingBaseHangsTheRootOnAFloatingJoint) {
   EXPECT_EQ(chain.why_algebra, "spatial: a floating joint moves in space");
   EXPECT_EQ(chain.gravity, Eigen::Vector3d(0, 0, -9.81));
   EXPECT_EQ(chain_from(text).nv, 1);
+  // A joint of the file may be called base already.
+  const std::string taken = link_text("trunk", inertial_text()) + link_text("leg", inertial_text()) +
+                            joint_text("base", "continuous", "trunk", "leg");
+  EXPECT_EQ(chain_from(robot_text(taken), options).bodies[1].joint.name, "floating_base");
 }
 
 TEST(ReadChain, FrictionCanBeSwitchedOff) {
