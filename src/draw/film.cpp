@@ -44,7 +44,8 @@ Film::Film(const Scene& scene, const Chain& chain, const Trajectory& trajectory,
       samples_(std::min(frames, trajectory.size())),
       skeleton_(skeleton_of(chain)),
       ws_(std::make_unique<Workspace>(chain)) {
-  if (samples_ < 1) throw Error(ExitCode::bad_input, "a film needs at least one frame", Place{scene.file});
+  if (samples_ < 1)
+    throw Error(ExitCode::bad_input, "a film needs at least one frame", scene.place_of("duration"));
   // A run that finished is drawn wherever it went: a free fall may be long.
   limit_ =
       trajectory.status == RunStatus::finished ? std::numeric_limits<double>::max() : kWild * skeleton_.reach;
@@ -74,9 +75,9 @@ void Film::find_mass_scale() {
 
 void Film::lay_out() {
   SheetText text;
-  text.title_place.file = scene_.file;
+  text.title_place = scene_.place_of("title");
   if (layers_.title) text.title = scene_.title;
-  if (layers_.torque_label) text.torque = torque_notations(chain_, scene_.torque);
+  if (layers_.torque_label) text.torque = torque_notations(chain_, scene_.torque, scene_.control);
   if (layers_.time) text.longest_time = time_text(trajectory_.t[std::size_t(samples_) - 1]);
   if (layers_.ellipse) {
     text.bar = format_shortest(mass_scale_.bar_kg) + " kg";

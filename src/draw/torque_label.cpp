@@ -87,9 +87,13 @@ std::string control_notation(const Control& control) {
   return sum.empty() ? "0" : sum;
 }
 
-std::vector<std::string> torque_notations(const Chain& chain, const std::vector<TorqueEntry>& torque) {
+std::vector<std::string> torque_notations(const Chain& chain, const std::vector<TorqueEntry>& torque,
+                                          const std::optional<Control>& control) {
+  if (control) return {"tau = " + control_notation(*control), "tau = tau(t, q, qd)"};
   std::vector<std::string> entries;
-  for (const TorqueEntry& entry : torque) entries.push_back(entry_notation(entry.text));
+  for (const TorqueEntry& entry : torque) {
+    entries.push_back(entry.control ? control_notation(*entry.control) : entry_notation(entry.text));
+  }
   if (entries.empty()) entries.assign(std::size_t(chain.nv), "0");
   if (entries.empty()) return {};
   if (entries.size() == 1 && parse_number(entries[0])) return {"tau = " + entries[0] + unit_of(chain)};

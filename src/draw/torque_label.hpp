@@ -1,6 +1,7 @@
 // What acts at the joints, as the lecture's slides write it: "tau = (10, 10, 10) N m".
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,9 @@ namespace chainreel {
 // where that does not fit, the last one naming no entry at all. Unit N m where all joints are revolute, N
 // where all are prismatic, none where they differ. No entries mean that no torque acts. Empty for a chain
 // that cannot move.
-std::vector<std::string> torque_notations(const Chain& chain, const std::vector<TorqueEntry>& torque);
+// `control` drives the whole chain instead.
+std::vector<std::string> torque_notations(const Chain& chain, const std::vector<TorqueEntry>& torque,
+                                          const std::optional<Control>& control = {});
 
 // What a control does, in a word or two: "tau_g(q) + PD".
 std::string control_notation(const Control& control);

@@ -56,6 +56,11 @@ TEST(TorqueLabel, NamesWhatAControlDoes) {
   computed.computed_torque.emplace();
   EXPECT_EQ(control_notation(computed), "computed torque");
   EXPECT_EQ(control_notation({}), "0");
+  // For the whole chain, and for one joint beside a number.
+  EXPECT_EQ(torque_notations(test::model("rr"), {}, control).front(), "tau = tau_g(q) + PD");
+  std::vector<TorqueEntry> torque(2);
+  torque[0].control = computed;
+  EXPECT_EQ(torque_notations(test::model("rr"), torque).front(), "tau = (computed torque, 0) N m");
 }
 
 TEST(TorqueLabel, OffersEverShorterForms) {
