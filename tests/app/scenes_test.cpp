@@ -95,7 +95,7 @@ TEST_P(EveryScene, ShowsNoGripperElsewhere) {
 TEST_P(EveryScene, KeepsItsMarginsInTheBackgroundColour) {
   const Image picture = image(kFrame);
   const Color background = light_theme().background;
-  for (const auto [x, y] : {std::pair{1, 1}, {kWidth - 2, 1}, {1, kHeight - 2}, {kWidth - 2, kHeight - 2}})
+  for (const auto& [x, y] : {std::pair{1, 1}, {kWidth - 2, 1}, {1, kHeight - 2}, {kWidth - 2, kHeight - 2}})
     EXPECT_EQ(picture.at(x, y), (Pixel{background.r, background.g, background.b, 255}));
 }
 

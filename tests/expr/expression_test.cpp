@@ -8,7 +8,7 @@
 #include <functional>
 #include <random>
 
-#include "expr/allocation_count.hpp"
+#include "support/allocation_count.hpp"
 
 namespace chainreel {
 namespace {
@@ -195,15 +195,15 @@ TEST(Values, EvaluationAllocatesNothing) {
   const std::vector<double> values(kNames.size(), 0.5);
   for (const std::string& text : {std::string("k*(1-q1)-2*sqrt(k)*qd1"), deep}) {
     const Expression expression = parsed(text);
-    const int before = testing::allocation_count();
+    const long before = allocation_count();
     double sum = 0;
     for (int i = 0; i < 100; ++i) sum += expression.evaluate(std::span<const double>(values));
-    EXPECT_EQ(testing::allocation_count(), before) << text;
+    EXPECT_EQ(allocation_count(), before) << text;
     EXPECT_TRUE(std::isfinite(sum));
   }
-  const int before = testing::allocation_count();
+  const long before = allocation_count();
   parsed(deep);
-  EXPECT_GT(testing::allocation_count(), before) << "parsing does allocate: the counter counts";
+  EXPECT_GT(allocation_count(), before) << "parsing does allocate: the counter counts";
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ TEST(Prepare, GivesExpressionsTheGripperAndTheParameters) {
   scene.start.q = {0.5, 2};
   scene.start.qd = {3, 4};
   scene.parameters = {{"k", 100}};
-  scene.torque = {{"x_G + 10 * xd_G", {}}, {"-k * y_G + yd_G + t", {}}};
+  scene.torque = {{"x_G + 10 * xd_G", {}, {}}, {"-k * y_G + yd_G + t", {}, {}}};
   const Simulation simulation = prepare(scene);
   EXPECT_FALSE(simulation.torque->is_constant());
   Workspace ws(simulation.chain);
@@ -42,7 +42,7 @@ TEST(Prepare, GivesExpressionsTheGripperAndTheParameters) {
 TEST(Prepare, NamesEveryFreedomWhereTheTorqueHasTheWrongLength) {
   Scene scene;
   scene.model = "models/rrr.urdf";
-  scene.torque = {{"1", {}}};
+  scene.torque = {{"1", {}, {}}};
   try {
     prepare(scene);
     FAIL() << "one torque for three joints was accepted";

@@ -1,40 +1,9 @@
-// The loop allocates nothing after the first step: every operator new of this program is counted.
+// The loop allocates nothing after the first step.
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include "sim/runs.hpp"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++allocations;
-  const auto align = static_cast<std::size_t>(alignment);
-  if (void* memory = std::aligned_alloc(align, (size + align - 1) / align * align)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
-}
+#include "support/allocation_count.hpp"
 
 namespace chainreel {
 namespace {
@@ -43,8 +12,8 @@ namespace {
 long allocations_in_loop(const Simulation& run, std::span<const double> times) {
   long at_first = -1, at_last = 0;
   simulate(run, times, [&](double t) {
-    if (t > 0 && at_first < 0) at_first = allocations;
-    at_last = allocations;
+    if (t > 0 && at_first < 0) at_first = allocation_count();
+    at_last = allocation_count();
     return false;
   });
   return at_last - at_first;

@@ -137,8 +137,8 @@ TEST(Control, SaysWhatIsWrongWithItsTable) {
     try {
       make_control(run.chain, control, {});
       return "";
-    } catch (const Error& error) {
-      return error.what();
+    } catch (const Error& caught) {
+      return caught.what();
     }
   };
   EXPECT_THAT(error("t,tau1,tau2\n0,1,2\n0,1,2\n"), testing::HasSubstr("'t' does not rise"));
