@@ -5,6 +5,7 @@
 #include "dynamics/forward_dynamics.hpp"
 
 #include "dynamics/friction.hpp"
+#include "dynamics/kernels.hpp"
 #include "dynamics/ldlt.hpp"
 #include "dynamics/recursions.hpp"
 #include "dynamics/scratch.hpp"
@@ -13,52 +14,59 @@ namespace chainreel {
 
 namespace {
 
-template <class A>
-void solve_mass_matrix(Links<A>& links, Workspace& ws, ConstVec qd, ConstVec tau) {
+void by_articulated_bodies(const Chain&, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau) {
+  with_links(ws, [&](auto& links) {
+    place(links, q);
+    aba(links, links.base_acceleration, qd, tau, Vec(ws.qdd));
+  });
+}
+
+void by_mass_matrix(const Chain&, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau) {
   Workspace::Scratch& scratch = *ws.scratch;
   const std::size_t n = tau.size();
-  crba(links, n, scratch.M.data());
-  rnea(links, links.base_acceleration, qd, ConstVec(scratch.zeros), Vec(ws.nle));
+  with_links(ws, [&](auto& links) {
+    place(links, q);
+    crba(links, n, scratch.M.data());
+    rnea(links, links.base_acceleration, qd, ConstVec(scratch.zeros), Vec(ws.nle));
+  });
   for (std::size_t i = 0; i < n; ++i) ws.qdd[i] = tau[i] - ws.nle[i];
   ldlt_factor(int(n), scratch.M.data());
   ldlt_solve(int(n), scratch.M.data(), ws.qdd.data());
 }
 
+void with_friction(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau) {
+  Workspace::Scratch& scratch = *ws.scratch;
+  compute_friction(chain, ws, qd);
+  for (std::size_t i = 0; i < tau.size(); ++i) scratch.tau_net[i] = tau[i] - ws.tau_f[i];
+  scratch.smooth_dynamics(chain, ws, q, qd, scratch.tau_net);
+}
+
+ForwardDynamics smooth_dynamics_of(const Chain& chain, const Workspace::Scratch& scratch) {
+  const bool wide = __builtin_cpu_supports("avx2");
+  switch (algorithm_of(chain)) {
+    case Algorithm::planar_kernel:
+      return (wide ? planar_kernel_for_avx2 : planar_kernel_for_any_processor)(scratch.planar_kernel);
+    case Algorithm::mass_matrix:
+      return by_mass_matrix;
+    default:
+      return by_articulated_bodies;
+  }
+}
+
 }  // namespace
 
 Algorithm algorithm_of(const Chain& chain) {
-  if (planar_kernel_of(chain).run) return Algorithm::planar_kernel;
+  if (planar_kernel_of(chain).joints > 0) return Algorithm::planar_kernel;
   return chain.has_mimic ? Algorithm::mass_matrix : Algorithm::articulated_body;
 }
 
-namespace {
-
-// Apart from the short way, so that it stays free of what a longer one saves and restores.
-[[gnu::noinline]] void take_the_long_way(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd,
-                                         ConstVec tau) {
-  Workspace::Scratch& scratch = *ws.scratch;
-  if (chain.has_dissipation) {
-    compute_friction(chain, ws, qd);
-    for (std::size_t i = 0; i < tau.size(); ++i) scratch.tau_net[i] = tau[i] - ws.tau_f[i];
-    tau = scratch.tau_net;
-  }
-  if (scratch.algorithm == Algorithm::planar_kernel) {
-    scratch.planar_kernel.run(scratch.planar_kernel, q.data(), qd.data(), tau.data(), ws.qdd.data());
-    return;
-  }
-  with_links(ws, [&](auto& links) {
-    place(links, q);
-    if (scratch.algorithm == Algorithm::mass_matrix) return solve_mass_matrix(links, ws, qd, tau);
-    aba(links, links.base_acceleration, qd, tau, Vec(ws.qdd));
-  });
+void choose_forward_dynamics(const Chain& chain, Workspace::Scratch& scratch) {
+  scratch.smooth_dynamics = smooth_dynamics_of(chain, scratch);
+  scratch.forward_dynamics = chain.has_dissipation ? with_friction : scratch.smooth_dynamics;
 }
 
-}  // namespace
-
 void compute_forward_dynamics(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau) {
-  const Workspace::Scratch& scratch = *ws.scratch;
-  if (!scratch.kernel_alone) return take_the_long_way(chain, ws, q, qd, tau);
-  scratch.kernel_alone(scratch.planar_kernel, q.data(), qd.data(), tau.data(), ws.qdd.data());
+  ws.scratch->forward_dynamics(chain, ws, q, qd, tau);
 }
 
 std::string forward_dynamics_algorithm(const Chain& chain) {

@@ -1,147 +1,47 @@
-// The text of dynamics/kernel_planar.hpp, compiled once for every processor and once for those with 256-bit
-// vectors. Included by those two files alone, behind their choice of processor; everything here is private to
-// the file.
-//
-// No lambdas here: g++ 12 compiles them for the common processor. Nor does it define __AVX2__ behind the
-// choice.
-//
-// Bits: each lane of a vector does what a scalar would, and no operation is fused or re-ordered, so that the
-// width of the vectors does not show.
+// The text of dynamics/kernel_planar.hpp. Included as kernel_packs.hpp is, and private to the same two files.
 #pragma once
 
-#include "core/scalar.hpp"
+#include "dynamics/kernel_packs.hpp"
 #include "dynamics/kernel_planar.hpp"
+#include "dynamics/scratch.hpp"
 
 namespace chainreel {
 namespace {
 
-using Pack2 = double __attribute__((vector_size(16)));
-using Pack4 = double __attribute__((vector_size(32)));
-using Bits2 = std::uint64_t __attribute__((vector_size(16)));
-using Bits4 = std::uint64_t __attribute__((vector_size(32)));
-
-template <int n>
-using PackOf = std::conditional_t<n <= 2, Pack2, Pack4>;
-template <class Pack>
-using BitsOf = std::conditional_t<sizeof(Pack) == 16, Bits2, Bits4>;
-
-// These few are all that is not arithmetic. For common processors the compiler splits Pack4 in two by itself.
-#ifdef CHAINREEL_WIDE_VECTORS
-inline bool all_signs(const Pack2& x) {
-  return __builtin_ia32_movmskpd(x) == 3;
-}
-inline bool all_signs(const Pack4& x) {
-  return __builtin_ia32_movmskpd256(x) == 15;
-}
-// a where the highest bit of the mask is set, else b.
-inline void choose(const Bits2& mask, const Pack2& a, const Pack2& b, Pack2& result) {
-  result = __builtin_ia32_blendvpd(b, a, Pack2(mask));
-}
-inline void choose(const Bits4& mask, const Pack4& a, const Pack4& b, Pack4& result) {
-  result = __builtin_ia32_blendvpd256(b, a, Pack4(mask));
-}
-#else
-inline bool all_signs(const Pack2& x) {
-  return __builtin_ia32_movmskpd(x) == 3;
-}
-inline bool all_signs(const Pack4& x) {
-  return all_signs(__builtin_shufflevector(x, x, 0, 1)) && all_signs(__builtin_shufflevector(x, x, 2, 3));
-}
-template <class Pack>
-inline void choose(const BitsOf<Pack>& mask, const Pack& a, const Pack& b, Pack& result) {
-  const BitsOf<Pack> all = -(mask >> 63);
-  result = Pack((BitsOf<Pack>(a) & all) | (BitsOf<Pack>(b) & ~all));
-}
-#endif
-
-template <class Pack>
-inline const Pack& load(const double* lanes) {
-  return *reinterpret_cast<const Pack*>(lanes);
-}
-
-// sin_cos of core/scalar.hpp in each lane, operation by operation, and so with its bits; but the sine of -0
-// is +0. One comparison finds every lane that might be rare, at the price of some that are not: |r| >= |k| /
-// 2^19 fails for all |k| > 2^19, where the reduction ends, and for NaN.
-template <class Pack>
-inline void sin_cos_of(const Pack& x, Pack& s, Pack& c) {
-  const SinCosTable& t = kSinCosTable;
-  const Pack shifted = x * load<Pack>(t.two_over_pi) + load<Pack>(t.round_to_integer);
-  const Pack k = shifted - load<Pack>(t.round_to_integer);
-  const Pack r1 = x - k * load<Pack>(t.half_pi[0]);
-  const Pack p2 = k * load<Pack>(t.half_pi[1]);
-  const Pack p3 = k * load<Pack>(t.half_pi[2]);
-  const Pack r2 = r1 - p2;
-  const Pack r = r2 - p3;
-  const Pack r_tail = ((r1 - r2) - p2) + ((r2 - r) - p3);
-  const Pack size_r = Pack(BitsOf<Pack>(r) & BitsOf<Pack>(load<Pack>(t.no_sign)));
-  const Pack size_k = Pack(BitsOf<Pack>(k) & BitsOf<Pack>(load<Pack>(t.no_sign)));
-  if (!all_signs(Pack(size_r >= size_k * load<Pack>(t.rare)))) [[unlikely]] {
-    sin_cos_of_each(reinterpret_cast<const double*>(&x), sizeof(Pack) / sizeof(double),
-                    reinterpret_cast<double*>(&s), reinterpret_cast<double*>(&c));
-    return;
-  }
-
-  const Pack z = r * r;
-  const Pack z2 = z * z;
-  const Pack P = (load<Pack>(t.sin[0]) + z * load<Pack>(t.sin[1])) +
-                 z2 * ((load<Pack>(t.sin[2]) + z * load<Pack>(t.sin[3])) +
-                       z2 * (load<Pack>(t.sin[4]) + z * load<Pack>(t.sin[5])));
-  const Pack Q = (load<Pack>(t.cos[0]) + z * load<Pack>(t.cos[1])) +
-                 z2 * ((load<Pack>(t.cos[2]) + z * load<Pack>(t.cos[3])) +
-                       z2 * (load<Pack>(t.cos[4]) + z * load<Pack>(t.cos[5])));
-  const Pack one = load<Pack>(t.one);
-  const Pack half_z = z * load<Pack>(t.half);
-  const Pack w = one - half_z;
-  const Pack sine = r + (r * z * P + r_tail * w);
-  const Pack cosine = w + (((one - w) - half_z) + (z2 * Q - r * r_tail));
-
-  using Bits = BitsOf<Pack>;
-  const Bits quadrant = Bits(shifted);
-  const Bits two = Bits(load<Pack>(t.bit_two));
-  const Bits sign_s = (quadrant & two) << 62;
-  const Bits sign_c = ((quadrant + Bits(load<Pack>(t.bit_one))) & two) << 62;
-  choose(quadrant << 63, cosine, sine, s);
-  choose(quadrant << 63, sine, cosine, c);
-  s = Pack(Bits(s) ^ sign_s);
-  c = Pack(Bits(c) ^ sign_c);
-}
-
-// x <- A^-1 x of a symmetric positive definite matrix, lower half: L D L^T without its loops being loops.
+// x <- A^-1 x of a symmetric positive definite matrix, lower half. The joints from the first on are
+// eliminated until two are left; these take Cramer's rule: one division instead of two in a row.
 template <int n>
 inline void solve(const PlanarKernel& kernel, double (&A)[n][n], double (&x)[n]) {
   double D_inv[n];
+  D_inv[0] = kernel.A_11_inv;
 #pragma GCC unroll 4
-  for (int j = 0; j < n; ++j) {
-    // L D of row j, then L
+  for (int k = 0; k < n - 2; ++k) {
+    if (k > 0) D_inv[k] = kSinCosTable.one[0] / A[k][k];
 #pragma GCC unroll 4
-    for (int k = 0; k < j; ++k) {
+    for (int i = k + 1; i < n; ++i) {
+      const double factor = A[i][k] * D_inv[k];
 #pragma GCC unroll 4
-      for (int i = 0; i < k; ++i) A[j][k] -= A[j][i] * A[k][i];
+      for (int j = k + 1; j <= i; ++j) A[i][j] -= factor * A[j][k];
+      x[i] -= factor * x[k];
     }
-#pragma GCC unroll 4
-    for (int k = 0; k < j; ++k) {
-      const double LD = A[j][k];
-      A[j][k] = LD * D_inv[k];
-      A[j][j] -= A[j][k] * LD;
-      x[j] -= A[j][k] * x[k];
-    }
-    D_inv[j] = j == 0 ? kernel.A_11_inv : 1 / A[j][j];
+  }
+  if constexpr (n == 1) {
+    x[0] *= D_inv[0];
+  } else {
+    constexpr int a = n - 2, b = n - 1;
+    const double squares = n == 2 ? kernel.A_11_A_22 : A[a][a] * A[b][b];
+    const double det_inv = kSinCosTable.one[0] / (squares - A[b][a] * A[b][a]);
+    const double x_a = A[b][b] * x[a] - A[b][a] * x[b];
+    const double x_b = A[a][a] * x[b] - A[b][a] * x[a];
+    x[a] = x_a * det_inv;
+    x[b] = x_b * det_inv;
   }
 #pragma GCC unroll 4
-  for (int i = n - 1; i >= 0; --i) {
-    x[i] *= D_inv[i];
+  for (int k = n - 3; k >= 0; --k) {
 #pragma GCC unroll 4
-    for (int k = i + 1; k < n; ++k) x[i] -= A[k][i] * x[k];
+    for (int i = k + 1; i < n; ++i) x[k] -= A[i][k] * x[i];
+    x[k] *= D_inv[k];
   }
-}
-
-// The same for two unknowns, by Cramer's rule: one division instead of two in a row.
-inline void solve(const PlanarKernel& kernel, double (&A)[2][2], double (&x)[2]) {
-  const double det_inv = 1 / (kernel.A_11_A_22 - A[1][0] * A[1][0]);
-  const double x0 = A[1][1] * x[0] - A[1][0] * x[1];
-  const double x1 = A[0][0] * x[1] - A[1][0] * x[0];
-  x[0] = x0 * det_inv;
-  x[1] = x1 * det_inv;
 }
 
 // Of a number along the joint's own axis.
@@ -160,28 +60,68 @@ inline void fill_lanes(const double (&x)[n], PackOf<n>& lanes) {
   }
 }
 
-template <int n, bool kAlongX, bool kTurned>
-void run_planar_kernel(const PlanarKernel& kernel, const double* q, const double* qd, const double* tau,
-                       double* qdd) {
-  using Pack = PackOf<n>;
-  double angle[n], rate[n];  // absolute
-  for (int i = 0; i < n; ++i) {
-    angle[i] = along_normal<kTurned>(kernel, i, q[i]) + (i > 0 ? angle[i - 1] : 0);
-    rate[i] = along_normal<kTurned>(kernel, i, qd[i]) + (i > 0 ? rate[i - 1] : 0);
-  }
+// The coupling of links i < j: A_ij, and its slope U_i x H_j.
+template <int n>
+struct Couplings {
+  double A[n][n], slope[n][n];
+};
 
-  Pack phi, s, c;
-  fill_lanes<n>(angle, phi);
-  sin_cos_of(phi, s, c);
+template <int n, bool kAlongX>
+inline void couple(const PlanarKernel& kernel, const PackOf<n>& s, const PackOf<n>& c,
+                   Couplings<n>& couplings) {
+  using Pack = PackOf<n>;
   Pack U_x = load<Pack>(kernel.l_x.data()) * c, U_y = load<Pack>(kernel.l_x.data()) * s;
   Pack H_x = load<Pack>(kernel.h_x.data()) * c, H_y = load<Pack>(kernel.h_x.data()) * s;
   if (!kAlongX) {
     U_x -= load<Pack>(kernel.l_y.data()) * s, U_y += load<Pack>(kernel.l_y.data()) * c;
     H_x -= load<Pack>(kernel.h_y.data()) * s, H_y += load<Pack>(kernel.h_y.data()) * c;
   }
-  const Pack pull = load<Pack>(kernel.g_y.data()) * H_x - load<Pack>(kernel.g_x.data()) * H_y;
+  for (int i = 0; i < n; ++i) {
+    for (int j = i + 1; j < n; ++j) {
+      couplings.A[j][i] = U_x[i] * H_x[j] + U_y[i] * H_y[j];
+      couplings.slope[j][i] = U_x[i] * H_y[j] - U_y[i] * H_x[j];
+    }
+  }
+}
 
-  double A[n][n], x[n];
+// Two links along ex need only their product.
+template <>
+inline void couple<2, true>(const PlanarKernel& kernel, const Pack2& s, const Pack2& c,
+                            Couplings<2>& couplings) {
+  couplings.A[1][0] = kernel.l_1_h_2 * (c[0] * c[1] + s[0] * s[1]);
+  couplings.slope[1][0] = kernel.l_1_h_2 * (c[0] * s[1] - s[0] * c[1]);
+}
+
+enum class Angles { common, any };
+
+// kAlongX: all links lie along ex and gravity along ey. Rare angles start anew with the careful way, as a
+// last call: what is common then needs no stack.
+template <int n, bool kAlongX, bool kTurned, Angles kAngles = Angles::common>
+[[gnu::noinline]] void run_planar_kernel(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd,
+                                         ConstVec tau) {
+  using Pack = PackOf<n>;
+  const PlanarKernel& kernel = ws.scratch->planar_kernel;
+  double angle[n], rate[n];  // absolute
+  for (int i = 0; i < n; ++i) {
+    angle[i] = along_normal<kTurned>(kernel, i, q[i]);
+    rate[i] = along_normal<kTurned>(kernel, i, qd[i]);
+    if (i > 0) angle[i] += angle[i - 1], rate[i] += rate[i - 1];
+  }
+
+  Pack phi, s, c;
+  fill_lanes<n>(angle, phi);
+  if constexpr (kAngles == Angles::any) {
+    sin_cos_of_any(phi, s, c);
+  } else if (!sin_cos_of_common(phi, s, c)) [[unlikely]] {
+    return run_planar_kernel<n, kAlongX, kTurned, Angles::any>(chain, ws, q, qd, tau);
+  }
+  Pack pull = load<Pack>(kernel.pull_c.data()) * c;
+  if (!kAlongX) pull -= load<Pack>(kernel.pull_s.data()) * s;
+  Couplings<n> couplings;
+  couple<n, kAlongX>(kernel, s, c, couplings);
+
+  auto& A = couplings.A;
+  double x[n];
   for (int i = 0; i < n; ++i) {
     A[i][i] = kernel.A_ii[std::size_t(i)];
     const double handed_on = i + 1 < n ? along_normal<kTurned>(kernel, i + 1, tau[i + 1]) : 0;
@@ -189,34 +129,32 @@ void run_planar_kernel(const PlanarKernel& kernel, const double* q, const double
   }
   for (int i = 0; i < n; ++i) {
     for (int j = i + 1; j < n; ++j) {
-      A[j][i] = U_x[i] * H_x[j] + U_y[i] * H_y[j];
-      const double slope = U_x[i] * H_y[j] - U_y[i] * H_x[j];
-      x[i] += slope * (rate[j] * rate[j]);
-      x[j] -= slope * (rate[i] * rate[i]);
+      x[i] += couplings.slope[j][i] * (rate[j] * rate[j]);
+      x[j] -= couplings.slope[j][i] * (rate[i] * rate[i]);
     }
   }
   solve(kernel, A, x);
-  for (int i = n - 1; i >= 0; --i) qdd[i] = along_normal<kTurned>(kernel, i, i == 0 ? x[0] : x[i] - x[i - 1]);
+  for (int i = n - 1; i >= 0; --i) {
+    ws.qdd[i] = along_normal<kTurned>(kernel, i, i == 0 ? x[0] : x[i] - x[i - 1]);
+  }
 }
 
 template <int n>
-PlanarKernel::Run planar_kernel_for(bool along_x, bool turned) {
+ForwardDynamics planar_kernel_for(bool along_x, bool turned) {
   if (along_x) return turned ? run_planar_kernel<n, true, true> : run_planar_kernel<n, true, false>;
   return turned ? run_planar_kernel<n, false, true> : run_planar_kernel<n, false, false>;
 }
 
-PlanarKernel::Run planar_kernel_for(int joints, bool along_x, bool turned) {
-  switch (joints) {
+ForwardDynamics planar_kernel_for(const PlanarKernel& kernel) {
+  switch (kernel.joints) {
     case 1:
-      return planar_kernel_for<1>(along_x, turned);
+      return planar_kernel_for<1>(kernel.along_x, kernel.turned);
     case 2:
-      return planar_kernel_for<2>(along_x, turned);
+      return planar_kernel_for<2>(kernel.along_x, kernel.turned);
     case 3:
-      return planar_kernel_for<3>(along_x, turned);
-    case 4:
-      return planar_kernel_for<4>(along_x, turned);
+      return planar_kernel_for<3>(kernel.along_x, kernel.turned);
     default:
-      return nullptr;
+      return planar_kernel_for<4>(kernel.along_x, kernel.turned);
   }
 }
 

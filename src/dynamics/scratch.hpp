@@ -19,17 +19,22 @@ enum class Algorithm {
 };
 Algorithm algorithm_of(const Chain& chain);
 
+// Writes ws.qdd. Chosen once, when the workspace is made: a run then costs one indirect call.
+using ForwardDynamics = void (*)(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau);
+
 struct Workspace::Scratch {
   explicit Scratch(const Chain& chain);
 
   std::variant<Links<Planar<double>>, Links<Spatial<double>>> links;
   PlanarKernel planar_kernel;
-  PlanarKernel::Run kernel_alone = nullptr;  // planar_kernel.run where nothing else is to be done
-  Algorithm algorithm;
-  std::vector<double> zeros;    // nv: the velocity or acceleration of what rests
-  std::vector<double> tau_net;  // nv: tau - tau_f, for chains with friction
-  std::vector<double> M;        // nv x nv, then its factor, for Algorithm::mass_matrix
+  ForwardDynamics forward_dynamics = nullptr;  // all of it
+  ForwardDynamics smooth_dynamics = nullptr;   // without friction
+  std::vector<double> zeros;                   // nv: the velocity or acceleration of what rests
+  std::vector<double> tau_net;                 // nv: tau - tau_f, for chains with friction
+  std::vector<double> M;                       // nv x nv, then its factor, for Algorithm::mass_matrix
 };
+
+void choose_forward_dynamics(const Chain& chain, Workspace::Scratch& scratch);
 
 // Calls `run` with the arrays of the chain's algebra.
 template <class Run>

@@ -14,12 +14,12 @@ std::variant<Links<Planar<double>>, Links<Spatial<double>>> links_of(const Chain
 }  // namespace
 
 Workspace::Scratch::Scratch(const Chain& chain)
-    : links(links_of(chain)), planar_kernel(planar_kernel_of(chain)), algorithm(algorithm_of(chain)) {
+    : links(links_of(chain)), planar_kernel(planar_kernel_of(chain)) {
   const auto nv = std::size_t(chain.nv);
   zeros.resize(nv);
   if (chain.has_dissipation) tau_net.resize(nv);
-  if (!chain.has_dissipation) kernel_alone = planar_kernel.run;
-  if (algorithm == Algorithm::mass_matrix) M.resize(nv * nv);
+  if (algorithm_of(chain) == Algorithm::mass_matrix) M.resize(nv * nv);
+  choose_forward_dynamics(chain, *this);
 }
 
 Workspace::Workspace(const Chain& chain) : scratch(std::make_unique<Scratch>(chain)) {

@@ -1,10 +1,10 @@
 // What these headers define stays for every processor: it is read before the choice.
-#include <array>
 #include <bit>
 #include <cmath>
 
 #include "core/scalar.hpp"
-#include "dynamics/kernel_planar.hpp"
+#include "dynamics/kernel_sin_cos.hpp"
+#include "dynamics/kernels.hpp"
 
 #pragma GCC target("avx2")
 #define CHAINREEL_WIDE_VECTORS
@@ -13,8 +13,8 @@
 
 namespace chainreel {
 
-PlanarKernel::Run planar_kernel_for_avx2(int joints, bool along_x, bool turned) {
-  return planar_kernel_for(joints, along_x, turned);
+ForwardDynamics planar_kernel_for_avx2(const PlanarKernel& kernel) {
+  return planar_kernel_for(kernel);
 }
 
 }  // namespace chainreel

@@ -1,0 +1,10 @@
+#include "dynamics/kernel_planar_text.hpp"
+#include "dynamics/kernels.hpp"
+
+namespace chainreel {
+
+ForwardDynamics planar_kernel_for_any_processor(const PlanarKernel& kernel) {
+  return planar_kernel_for(kernel);
+}
+
+}  // namespace chainreel
