@@ -18,6 +18,8 @@ ChainSystem::ChainSystem(const Chain& chain, TorqueLaw& torque, LimitPolicy limi
       tau_(std::size_t(chain.nv)) {}
 
 void ChainSystem::evaluate_torque(double t, ConstVec q, ConstVec qd) {
+  if (torque_is_known_) return;
+  torque_is_known_ = torque_->is_constant();
   torque_->evaluate(*chain_, ws_, t, q, qd, tau_);
   limits_.check_effort(t, tau_, limit_ == LimitPolicy::clamp);
   if (bad_torque_ >= 0) return;
@@ -56,6 +58,7 @@ void ChainSystem::q_rate(std::span<const double> q, std::span<const double> v,
 }
 
 void ChainSystem::advance(std::span<double> q, std::span<const double> v, double h) const {
+  if (!chain_->has_floating) return SecondOrder::advance(q, v, h);
   chainreel::advance(*chain_, q, v, h);
 }
 

@@ -39,6 +39,7 @@ class ChainSystem final : public SecondOrder {
   LimitWatch limits_;
   Workspace ws_;
   std::vector<double> tau_;
+  bool torque_is_known_ = false;  // constant and evaluated: the same tau_ at every instant
   long evaluations_ = 0;
   int bad_torque_ = -1;
 };
