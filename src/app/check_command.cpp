@@ -45,7 +45,7 @@ Json model_report(const Chain& chain) {
     Json joint{{"name", body.joint.name},
                {"kind", kind_name(body.joint)},
                {"body", body.name},
-               {"parent", chain.bodies[std::size_t(body.parent)].name},
+               {"parent", body.parent == 0 ? "world" : chain.bodies[std::size_t(body.parent)].name},
                {"mass", body.inertia.mass}};
     if (body.joint.ratio != 1 || body.joint.offset != 0)
       joint["follows"] = chain.coordinate_names[std::size_t(body.joint.v_index)];
@@ -76,9 +76,8 @@ Json cost_report(const Scene& scene, const Simulation& simulation) {
 }
 
 void print_model(const Json& model) {
-  std::printf("model %s: %d freedoms, %s (%s), forward dynamics by %s\n",
-              model["name"].get<std::string>().c_str(), model["freedoms"].get<int>(),
-              model["algebra"].get<std::string>().c_str(), model["why"].get<std::string>().c_str(),
+  std::printf("model %s: %d freedoms; %s; forward dynamics: %s\n", model["name"].get<std::string>().c_str(),
+              model["freedoms"].get<int>(), model["why"].get<std::string>().c_str(),
               model["forward_dynamics"].get<std::string>().c_str());
   std::vector<std::vector<std::string>> table{{"joint", "kind", "moves", "on", "kg"}};
   for (const Json& joint : model["joints"])

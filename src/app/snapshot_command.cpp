@@ -23,6 +23,7 @@ struct SnapshotOptions {
   std::string at = "0";
   std::vector<std::string> poses;
   std::string output;
+  std::string end_effector;
   int width = 0, height = 0;
   CommonOptions common;
 };
@@ -65,7 +66,9 @@ void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
 }
 
 void snapshot_model(const SnapshotOptions& options, const std::string& output) {
-  const Chain chain = read_chain(options.file, model_options_of(options.common));
+  ModelOptions model = model_options_of(options.common);
+  model.end_effector = options.end_effector;
+  const Chain chain = read_chain(options.file, model);
   require_end_effector(chain);
   std::vector<std::vector<double>> poses;
   for (const std::string& pose : options.poses) poses.push_back(parse_pose(chain, pose, "--pose"));
@@ -102,6 +105,8 @@ void add_snapshot_command(CLI::App& app) {
   command->add_option("--at", options->at, "instant of the scene in seconds (default 0)");
   add_repeatable(*command, "--pose", options->poses, "q of a model: --pose 0,90deg (repeatable)");
   command->add_option("-o,--output", options->output, "a .png file (default out/NAME.png)");
+  command->add_option("--end-effector", options->end_effector,
+                      "the link that is marked, of a model with several ends");
   command->add_option("--width", options->width, "pixels")->check(CLI::Range(16, 16384));
   command->add_option("--height", options->height, "pixels")->check(CLI::Range(16, 16384));
   add_common_options(*command, options->common);

@@ -130,6 +130,51 @@ TEST_F(ReadScene, ReadsWhatItWrites) {
   EXPECT_EQ(*again.gravity, *scene.gravity);
 }
 
+TEST_F(ReadScene, ReadsControlsForTheWholeChainAndForOneJoint) {
+  const Scene whole = read(
+      "torque: {gravity_compensation: true, pd: {kp: 80, kd: [8, 9], q: [\"sin(t)\", 0.5]}, csv: push.csv}\n"
+      "base: floating\nfriction: false\nmassless: 1e-6\nlimit: clamp\npackages: {robot: parts}\n");
+  ASSERT_TRUE(whole.control.has_value());
+  EXPECT_TRUE(whole.control->gravity_compensation);
+  EXPECT_THAT(whole.control->pd->kp, ElementsAre(80));
+  EXPECT_THAT(whole.control->pd->kd, ElementsAre(8, 9));
+  EXPECT_EQ(whole.control->pd->q[0].text, "sin(t)");
+  EXPECT_EQ(whole.control->csv, folder_.file("push.csv"));
+  EXPECT_EQ(whole.base, "floating");
+  EXPECT_FALSE(whole.friction);
+  EXPECT_EQ(whole.massless, 1e-6);
+  EXPECT_EQ(whole.limit, "clamp");
+  EXPECT_EQ(whole.packages.at("robot"), folder_.file("parts"));
+
+  const Scene one = read("torque: [1, {computed_torque: {kp: 1, kd: 2, trajectory: q.csv}}]\n");
+  EXPECT_FALSE(one.torque[0].control.has_value());
+  ASSERT_TRUE(one.torque[1].control.has_value());
+  EXPECT_EQ(one.torque[1].control->computed_torque->trajectory, folder_.file("q.csv"));
+}
+
+TEST_F(ReadScene, SaysWhatIsWrongWithAControl) {
+  EXPECT_THAT(error("torque: {pdd: {}}\n"), HasSubstr("unknown key 'torque.pdd': did you mean 'pd'?"));
+  EXPECT_THAT(error("torque: {pd: {kp: 1, kq: 2}}\n"), HasSubstr("unknown key 'torque.pd.kq'"));
+  EXPECT_THAT(error("torque: {pd: {q: [0, 0], trajectory: a.csv}}\n"), HasSubstr("not from both"));
+  EXPECT_THAT(error("base: flying\n"), HasSubstr("'base' must be fixed or floating"));
+  EXPECT_THAT(error("limit: halt\n"), HasSubstr("unknown limit policy 'halt'"));
+  EXPECT_THAT(error("massless: -1\n"), HasSubstr("above 0 kg"));
+  EXPECT_THAT(error("friction: maybe\n"), HasSubstr("true or false"));
+}
+
+TEST_F(ReadScene, WritesControlsThatReadBackTheSame) {
+  Scene scene = read(
+      "torque: {pd: {kp: 80, kd: 8, q: [\"sin(t)\", 0.5], qd: [0, 0]}, gravity_compensation: true}\nlimit: "
+      "stop\n");
+  scene.model = "rr.urdf";
+  const Scene again = read_scene(folder_.write("again.yaml", scene_text(scene)));
+  ASSERT_TRUE(again.control.has_value());
+  EXPECT_EQ(again.control->pd->q[0].text, "sin(t)");
+  EXPECT_EQ(again.control->pd->qd.size(), 2u);
+  EXPECT_TRUE(again.control->gravity_compensation);
+  EXPECT_EQ(again.limit, "stop");
+}
+
 TEST_F(ReadScene, RefusesLargeFilesBeforeParsingThem) {
   EXPECT_THAT(error("# " + std::string(2 << 20, 'x') + "\n"), HasSubstr("larger than 1 MiB"));
   EXPECT_EQ(error("# a comment\n"), "");  // negative control: a small one is read
