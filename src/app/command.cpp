@@ -89,6 +89,13 @@ std::vector<double> parse_pose(const Chain& chain, const std::string& text, cons
   return parse_counted(std::size_t(chain.nq), chain, text, what);
 }
 
+std::vector<std::vector<double>> parse_poses(const Chain& chain, const std::vector<std::string>& texts,
+                                             const std::string& what) {
+  std::vector<std::vector<double>> poses;
+  for (const std::string& text : texts) poses.push_back(parse_pose(chain, text, what));
+  return poses;
+}
+
 std::vector<double> parse_freedoms(const Chain& chain, const std::string& text, const std::string& what) {
   if (text.empty()) return std::vector<double>(std::size_t(chain.nv));
   return parse_counted(std::size_t(chain.nv), chain, text, what);

@@ -36,6 +36,9 @@ std::vector<double> parse_list(const std::string& text, const std::string& what)
 
 // A pose of the chain from "0,90deg": as many numbers as it has coordinates.
 std::vector<double> parse_pose(const Chain& chain, const std::string& text, const std::string& what);
+// The same for each text of a repeatable option.
+std::vector<std::vector<double>> parse_poses(const Chain& chain, const std::vector<std::string>& texts,
+                                             const std::string& what);
 // One number a freedom; empty text gives zeros.
 std::vector<double> parse_freedoms(const Chain& chain, const std::string& text, const std::string& what);
 

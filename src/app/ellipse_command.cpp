@@ -46,8 +46,7 @@ void run_ellipse(const EllipseOptions& options) {
   model.end_effector = options.end_effector;
   const Chain chain = read_chain(options.model, model);
   require_end_effector(chain);
-  std::vector<std::vector<double>> poses;
-  for (const std::string& pose : options.poses) poses.push_back(parse_pose(chain, pose, "--pose"));
+  std::vector<std::vector<double>> poses = parse_poses(chain, options.poses, "--pose");
 
   const Fonts fonts;
   PoseFigureOptions figure;

@@ -70,8 +70,7 @@ void snapshot_model(const SnapshotOptions& options, const std::string& output) {
   model.end_effector = options.end_effector;
   const Chain chain = read_chain(options.file, model);
   require_end_effector(chain);
-  std::vector<std::vector<double>> poses;
-  for (const std::string& pose : options.poses) poses.push_back(parse_pose(chain, pose, "--pose"));
+  std::vector<std::vector<double>> poses = parse_poses(chain, options.poses, "--pose");
   if (poses.empty()) poses.push_back(zero_configuration(chain));
   const Fonts fonts;
   PoseFigureOptions figure;
