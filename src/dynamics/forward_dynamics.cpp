@@ -46,6 +46,8 @@ ForwardDynamics smooth_dynamics_of(const Chain& chain, const Workspace::Scratch&
   switch (algorithm_of(chain)) {
     case Algorithm::planar_kernel:
       return (wide ? planar_kernel_for_avx2 : planar_kernel_for_any_processor)(scratch.planar_kernel);
+    case Algorithm::spatial_kernel:
+      return (wide ? spatial_kernel_for_avx2 : spatial_kernel_for_any_processor)(scratch.spatial_kernel);
     case Algorithm::mass_matrix:
       return by_mass_matrix;
     default:
@@ -57,6 +59,7 @@ ForwardDynamics smooth_dynamics_of(const Chain& chain, const Workspace::Scratch&
 
 Algorithm algorithm_of(const Chain& chain) {
   if (planar_kernel_of(chain).joints > 0) return Algorithm::planar_kernel;
+  if (!chain.planar && spatial_kernel_of(chain).joints > 0) return Algorithm::spatial_kernel;
   return chain.has_mimic ? Algorithm::mass_matrix : Algorithm::articulated_body;
 }
 
@@ -74,6 +77,8 @@ std::string forward_dynamics_algorithm(const Chain& chain) {
   switch (algorithm_of(chain)) {
     case Algorithm::planar_kernel:
       return "planar, unrolled for " + std::to_string(chain.nv) + " joints";
+    case Algorithm::spatial_kernel:
+      return "spatial, CRBA and LDL^T about one point";
     case Algorithm::articulated_body:
       return algebra + "ABA";
     case Algorithm::mass_matrix:

@@ -14,43 +14,110 @@ namespace chainreel {
 namespace {
 
 using Pack2 = double __attribute__((vector_size(16)));
-using Pack4 = double __attribute__((vector_size(32)));
 using Bits2 = std::uint64_t __attribute__((vector_size(16)));
+
+#ifdef CHAINREEL_WIDE_VECTORS
+
+using Pack4 = double __attribute__((vector_size(32)));
 using Bits4 = std::uint64_t __attribute__((vector_size(32)));
 
-template <int n>
-using PackOf = std::conditional_t<n <= 2, Pack2, Pack4>;
 template <class Pack>
 using BitsOf = std::conditional_t<sizeof(Pack) == 16, Bits2, Bits4>;
 
-// These few are all that is not arithmetic. For common processors the compiler splits Pack4 in two by itself.
-#ifdef CHAINREEL_WIDE_VECTORS
 inline bool all_signs(const Pack2& x) {
   return __builtin_ia32_movmskpd(x) == 3;
 }
 inline bool all_signs(const Pack4& x) {
   return __builtin_ia32_movmskpd256(x) == 15;
 }
+
 // a where the highest bit of the mask is set, else b.
-inline void choose(const Bits2& mask, const Pack2& a, const Pack2& b, Pack2& result) {
-  result = __builtin_ia32_blendvpd(b, a, Pack2(mask));
+inline Pack2 choose(const Bits2& mask, const Pack2& a, const Pack2& b) {
+  return __builtin_ia32_blendvpd(b, a, Pack2(mask));
 }
-inline void choose(const Bits4& mask, const Pack4& a, const Pack4& b, Pack4& result) {
-  result = __builtin_ia32_blendvpd256(b, a, Pack4(mask));
+inline Pack4 choose(const Bits4& mask, const Pack4& a, const Pack4& b) {
+  return __builtin_ia32_blendvpd256(b, a, Pack4(mask));
 }
+
+// One lane in all.
+template <int k>
+inline Pack4 lane(const Pack4& x) {
+  return __builtin_shufflevector(x, x, k, k, k, k);
+}
+
+// (y, z, x, w)
+inline Pack4 turned_lanes(const Pack4& x) {
+  return __builtin_shufflevector(x, x, 1, 2, 0, 3);
+}
+
+// Of each of four vectors the sum of its lanes, (x + y) + (z + w).
+inline Pack4 sums_of(const Pack4& a, const Pack4& b, const Pack4& c, const Pack4& d) {
+  const Pack4 ab = __builtin_ia32_haddpd256(a, b);
+  const Pack4 cd = __builtin_ia32_haddpd256(c, d);
+  return __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+}
+
+inline Pack4 masked(const Pack4& x, const std::uint64_t* lanes) {
+  return Pack4(Bits4(x) & *reinterpret_cast<const Bits4*>(lanes));
+}
+
 #else
+
+// Two halves; left to itself the compiler would take every lane one by one.
+struct Pack4 {
+  Pack2 lo{}, hi{};
+  Pack4() = default;
+  Pack4(const Pack2& lower, const Pack2& higher) : lo(lower), hi(higher) {}
+  Pack4(double x, double y, double z, double w) : lo{x, y}, hi{z, w} {}
+  double operator[](int i) const { return i < 2 ? lo[i] : hi[i - 2]; }
+  Pack4& operator+=(const Pack4& b) { return *this = *this + b; }
+  Pack4& operator-=(const Pack4& b) { return *this = *this - b; }
+  friend Pack4 operator+(const Pack4& a, const Pack4& b) { return {a.lo + b.lo, a.hi + b.hi}; }
+  friend Pack4 operator-(const Pack4& a, const Pack4& b) { return {a.lo - b.lo, a.hi - b.hi}; }
+  friend Pack4 operator*(const Pack4& a, const Pack4& b) { return {a.lo * b.lo, a.hi * b.hi}; }
+  friend Pack4 operator*(const Pack4& a, double k) { return {a.lo * k, a.hi * k}; }
+};
+
+template <class Pack>
+using BitsOf = Bits2;
+
 inline bool all_signs(const Pack2& x) {
   return __builtin_ia32_movmskpd(x) == 3;
 }
-inline bool all_signs(const Pack4& x) {
-  return all_signs(__builtin_shufflevector(x, x, 0, 1)) && all_signs(__builtin_shufflevector(x, x, 2, 3));
+
+inline Pack2 choose(const Bits2& mask, const Pack2& a, const Pack2& b) {
+  const Bits2 all = -(mask >> 63);
+  return Pack2((Bits2(a) & all) | (Bits2(b) & ~all));
 }
-template <class Pack>
-inline void choose(const BitsOf<Pack>& mask, const Pack& a, const Pack& b, Pack& result) {
-  const BitsOf<Pack> all = -(mask >> 63);
-  result = Pack((BitsOf<Pack>(a) & all) | (BitsOf<Pack>(b) & ~all));
+
+template <int k>
+inline Pack4 lane(const Pack4& x) {
+  const Pack2& half = k < 2 ? x.lo : x.hi;
+  const Pack2 both = __builtin_shufflevector(half, half, k % 2, k % 2);
+  return {both, both};
 }
+
+inline Pack4 turned_lanes(const Pack4& x) {
+  return {__builtin_shufflevector(x.lo, x.hi, 1, 2), __builtin_shufflevector(x.lo, x.hi, 0, 3)};
+}
+
+inline Pack2 sums_of(const Pack4& a, const Pack4& b) {
+  const Pack2 lower = __builtin_shufflevector(a.lo, b.lo, 0, 2) + __builtin_shufflevector(a.lo, b.lo, 1, 3);
+  const Pack2 higher = __builtin_shufflevector(a.hi, b.hi, 0, 2) + __builtin_shufflevector(a.hi, b.hi, 1, 3);
+  return lower + higher;
+}
+inline Pack4 sums_of(const Pack4& a, const Pack4& b, const Pack4& c, const Pack4& d) {
+  return {sums_of(a, b), sums_of(c, d)};
+}
+
+inline Pack4 masked(const Pack4& x, const std::uint64_t* lanes) {
+  const auto* const mask = reinterpret_cast<const Bits2*>(lanes);
+  return {Pack2(Bits2(x.lo) & mask[0]), Pack2(Bits2(x.hi) & mask[1])};
+}
+
 #endif
+
+enum class Angles { common, any };  // whether rare ones are looked for
 
 template <class Pack>
 inline const Pack& load(const double* lanes) {
@@ -66,7 +133,7 @@ inline const Pack& load(const double* lanes) {
 // 2^-66 of r; it fails for all |k| > 2^19, where the first would end to be exact, and for NaN. Then nothing
 // is computed, and the answer is false.
 template <class Pack>
-inline bool sin_cos_of_common(const Pack& x, Pack& s, Pack& c) {
+[[gnu::always_inline]] inline bool sin_cos_of_common(const Pack& x, Pack& s, Pack& c) {
   using Bits = BitsOf<Pack>;
   const SinCosTable& t = kSinCosTable;
   const Pack shifted = x * load<Pack>(t.two_over_pi) + load<Pack>(t.round_to_integer);
@@ -92,21 +159,28 @@ inline bool sin_cos_of_common(const Pack& x, Pack& s, Pack& c) {
   // After k quarter turns: odd k exchanges the two, bit 1 of k turns the sine's sign, of k + 1 the cosine's.
   const Bits swapped = Bits(shifted) << 63;
   const Bits sign_s = (Bits(shifted) & Bits(load<Pack>(t.bit_two))) << 62;
-  choose(swapped, cosine, sine, s);
-  choose(swapped, sine, cosine, c);
-  s = Pack(Bits(s) ^ sign_s);
-  c = Pack(Bits(c) ^ (sign_s ^ swapped));
+  s = Pack(Bits(choose(swapped, cosine, sine)) ^ sign_s);
+  c = Pack(Bits(choose(swapped, sine, cosine)) ^ (sign_s ^ swapped));
   return true;
 }
+#ifndef CHAINREEL_WIDE_VECTORS
+[[gnu::always_inline]] inline bool sin_cos_of_common(const Pack4& x, Pack4& s, Pack4& c) {
+  return sin_cos_of_common(x.lo, s.lo, c.lo) && sin_cos_of_common(x.hi, s.hi, c.hi);
+}
+#endif
 
 // Of any angles, by the scalar function.
-template <class Pack>
-inline void sin_cos_of_any(const Pack& x, Pack& s, Pack& c) {
-  constexpr int kLanes = sizeof(Pack) / sizeof(double);
-  double angles[kLanes], sines[kLanes], cosines[kLanes];
-  for (int i = 0; i < kLanes; ++i) angles[i] = x[i];
-  sin_cos_of_each(angles, kLanes, sines, cosines);
-  for (int i = 0; i < kLanes; ++i) s[i] = sines[i], c[i] = cosines[i];
+inline void sin_cos_of_any(const Pack2& x, Pack2& s, Pack2& c) {
+  double angles[2] = {x[0], x[1]}, sines[2], cosines[2];
+  sin_cos_of_each(angles, 2, sines, cosines);
+  s = Pack2{sines[0], sines[1]};
+  c = Pack2{cosines[0], cosines[1]};
+}
+inline void sin_cos_of_any(const Pack4& x, Pack4& s, Pack4& c) {
+  double angles[4] = {x[0], x[1], x[2], x[3]}, sines[4], cosines[4];
+  sin_cos_of_each(angles, 4, sines, cosines);
+  s = Pack4{sines[0], sines[1], sines[2], sines[3]};
+  c = Pack4{cosines[0], cosines[1], cosines[2], cosines[3]};
 }
 
 }  // namespace

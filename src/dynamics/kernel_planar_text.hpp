@@ -8,6 +8,9 @@
 namespace chainreel {
 namespace {
 
+template <int n>
+using PackOf = std::conditional_t<n <= 2, Pack2, Pack4>;
+
 // x <- A^-1 x of a symmetric positive definite matrix, lower half. The joints from the first on are
 // eliminated until two are left; these take Cramer's rule: one division instead of two in a row.
 template <int n>
@@ -91,8 +94,6 @@ inline void couple<2, true>(const PlanarKernel& kernel, const Pack2& s, const Pa
   couplings.A[1][0] = kernel.l_1_h_2 * (c[0] * c[1] + s[0] * s[1]);
   couplings.slope[1][0] = kernel.l_1_h_2 * (c[0] * s[1] - s[0] * c[1]);
 }
-
-enum class Angles { common, any };
 
 // kAlongX: all links lie along ex and gravity along ey. Rare angles start anew with the careful way, as a
 // last call: what is common then needs no stack.

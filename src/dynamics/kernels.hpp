@@ -9,5 +9,7 @@ namespace chainreel {
 
 ForwardDynamics planar_kernel_for_any_processor(const PlanarKernel& kernel);
 ForwardDynamics planar_kernel_for_avx2(const PlanarKernel& kernel);
+ForwardDynamics spatial_kernel_for_any_processor(const SpatialKernel& kernel);
+ForwardDynamics spatial_kernel_for_avx2(const SpatialKernel& kernel);
 
 }  // namespace chainreel

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamics/kernel_planar.hpp"
+#include "dynamics/kernel_spatial.hpp"
 #include "dynamics/links.hpp"
 #include "dynamics/workspace.hpp"
 
@@ -14,6 +15,7 @@ namespace chainreel {
 // Ways to forward dynamics.
 enum class Algorithm {
   planar_kernel,     // kernel_planar.hpp: up to four joints that turn in one plane
+  spatial_kernel,    // kernel_spatial.hpp: up to 15 joints, turning or sliding
   articulated_body,  // O(n)
   mass_matrix,       // CRBA, RNEA and L D L^T: chains whose bodies share coordinates
 };
@@ -27,6 +29,7 @@ struct Workspace::Scratch {
 
   std::variant<Links<Planar<double>>, Links<Spatial<double>>> links;
   PlanarKernel planar_kernel;
+  SpatialKernel spatial_kernel;
   ForwardDynamics forward_dynamics = nullptr;  // all of it
   ForwardDynamics smooth_dynamics = nullptr;   // without friction
   std::vector<double> zeros;                   // nv: the velocity or acceleration of what rests

@@ -14,7 +14,9 @@ std::variant<Links<Planar<double>>, Links<Spatial<double>>> links_of(const Chain
 }  // namespace
 
 Workspace::Scratch::Scratch(const Chain& chain)
-    : links(links_of(chain)), planar_kernel(planar_kernel_of(chain)) {
+    : links(links_of(chain)),
+      planar_kernel(planar_kernel_of(chain)),
+      spatial_kernel(spatial_kernel_of(chain)) {
   const auto nv = std::size_t(chain.nv);
   zeros.resize(nv);
   if (chain.has_dissipation) tau_net.resize(nv);

@@ -1,9 +1,5 @@
-// The loop of a run allocates nothing. Every allocation, of operator new and of Eigen alike, ends in malloc,
-// which is counted here; a sanitized build has its own malloc and skips the tests.
+// The loop of a run allocates nothing.
 #include <gtest/gtest.h>
-
-#include <atomic>
-#include <cstdlib>
 
 #include "dynamics/aba.hpp"
 #include "dynamics/crba.hpp"
@@ -13,22 +9,8 @@
 #include "dynamics/jacobian.hpp"
 #include "dynamics/kinematics.hpp"
 #include "dynamics/rnea.hpp"
+#include "support/allocation_count.hpp"
 #include "support/chains.hpp"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-#ifdef __SANITIZE_ADDRESS__
-constexpr bool kCounts = false;
-#else
-constexpr bool kCounts = true;
-extern "C" void* __libc_malloc(std::size_t size);
-extern "C" void* malloc(std::size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
-#endif
 
 namespace chainreel::testing {
 namespace {
@@ -51,7 +33,6 @@ void use_everything(const Chain& chain, Workspace& ws, const State& s, std::vect
 }
 
 TEST(AllocationTest, NothingIsAllocatedAfterTheFirstCall) {
-  if (!kCounts) GTEST_SKIP() << "a sanitizer counts on its own malloc";
   Random random(81);
   for (const Chain& chain :
        {rr_chain(), rrr_chain(), pp_chain(), arm_chain(1), random_tree(82, {.bodies = 12, .mimic = 0.4}),
@@ -60,30 +41,28 @@ TEST(AllocationTest, NothingIsAllocatedAfterTheFirstCall) {
     const State s = random_state(chain, random);
     std::vector<double> q = s.q;
     use_everything(chain, ws, s, q);  // dense matrices are sized where they are first asked for
-    const long before = allocations;
+    const long before = allocation_count();
     use_everything(chain, ws, s, q);
-    EXPECT_EQ(allocations - before, 0) << chain.name;
+    EXPECT_EQ(allocation_count() - before, 0) << chain.name;
   }
 }
 
 TEST(AllocationTest, ForwardDynamicsAllocatesNotEvenTheFirstTime) {
-  if (!kCounts) GTEST_SKIP() << "a sanitizer counts on its own malloc";
   Random random(85);
   for (const Chain& chain : {rr_chain(), arm_chain(1), random_tree(82, {.bodies = 12, .mimic = 0.4})}) {
     Workspace ws(chain);
     const State s = random_state(chain, random);
-    const long before = allocations;
+    const long before = allocation_count();
     compute_forward_dynamics(chain, ws, s.q, s.qd, s.tau);
-    EXPECT_EQ(allocations - before, 0) << chain.name;
+    EXPECT_EQ(allocation_count() - before, 0) << chain.name;
   }
 }
 
 TEST(AllocationTest, MakingAWorkspaceIsCounted) {
-  if (!kCounts) GTEST_SKIP() << "a sanitizer counts on its own malloc";
   const Chain chain = rr_chain();
-  const long before = allocations;
+  const long before = allocation_count();
   const Workspace ws(chain);
-  EXPECT_GT(allocations - before, 0);
+  EXPECT_GT(allocation_count() - before, 0);
 }
 
 }  // namespace
