@@ -2,8 +2,9 @@
 //
 //   p' = R v,  quat' = 1/2 quat (w, 0)
 //   q (+) h v = q exp(h v),  exp(v, w) = (V v, exp w),
-//   V = 1 + (1 - cos |w|)/|w|^2 [w]x + (|w| - sin |w|)/|w|^3 [w]x^2     (K. Lynch, F. Park, Modern Robotics,
-//   2017, eq. 3.88)
+//   V = 1 + (1 - cos |w|)/|w|^2 [w]x + (|w| - sin |w|)/|w|^3 [w]x^2
+//
+// (K. Lynch, F. Park, Modern Robotics, 2017, eq. 3.88).
 //
 // Coordinates and freedoms are numbered in the same order, so that behind k floating joints the coordinate of
 // freedom v is v + k.

@@ -2,8 +2,8 @@
 //
 //   C_ij = sum_k Gamma_ijk qd_k,   Gamma_ijk = 1/2 (dM_ij/dq_k + dM_ik/dq_j - dM_jk/dq_i)
 //
-// The derivatives are those of CRBA over dual numbers, one coordinate at a time: with D = dM/dq_k and w = D
-// qd, C += 1/2 D qd_k, and w / 2 is added to column k and taken from row k.
+// The derivatives are those of CRBA over dual numbers, one coordinate at a time. With D = dM/dq_k and
+// w = D qd: C += 1/2 D qd_k, and w / 2 is added to column k and taken from row k.
 //
 // Floating joints. The symbols are formed in the local chart q = q0 exp(xi) at xi = 0, where the body's twist
 // is v = J(xi) xi', J = 1 - 1/2 ad_xi + .., and the mass matrix is J^T M J. Hence D = dM + J_k^T M + M J_k

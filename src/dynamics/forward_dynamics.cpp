@@ -1,7 +1,9 @@
 // Forward dynamics: qdd = M^-1 (tau - nle - tau_f).
 //
-// Chains whose bodies share a coordinate (mimic) take M from CRBA and nle from RNEA and solve with L D L^T;
-// the articulated-body algorithm knows no shared coordinates. All others take the articulated-body algorithm.
+// Small chains have kernels of their own: up to four joints that turn in one plane, and up to 15 turning or
+// sliding joints in space. Chains whose bodies share a coordinate (mimic) take M from CRBA and nle from RNEA
+// and solve with L D L^T; the articulated-body algorithm knows no shared coordinates. All others take the
+// articulated-body algorithm. Which one it is depends on the chain alone, never on the processor.
 #include "dynamics/forward_dynamics.hpp"
 
 #include "dynamics/friction.hpp"

@@ -8,7 +8,7 @@ namespace chainreel {
 // ws.qdd = M(q)^-1 (tau - nle(q, qd) - tau_f(qd)).
 void compute_forward_dynamics(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau);
 
-// Its name for `check`: e.g. "planar ABA".
+// Its name for `check`: e.g. "planar, unrolled for 2 joints", "spatial ABA".
 std::string forward_dynamics_algorithm(const Chain& chain);
 
 }  // namespace chainreel

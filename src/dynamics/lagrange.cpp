@@ -8,8 +8,8 @@
 // X = X_WB(x) is multiplied up joint by joint; X' is its derivative in time, and comes, like every other
 // derivative, from dual numbers: x + x' e. The second derivatives of K nest two further layers.
 //
-// In the local chart of a floating joint X = X_0 exp(xi), and exp(xi) = 1 + xi^ + xi^^2 / 2 is exact: at xi =
-// 0 only the layer of time and one layer of x enter xi, so that every third power vanishes.
+// In the local chart of a floating joint X = X_0 exp(xi), and exp(xi) = 1 + xi^ + xi^^2 / 2 is exact where
+// xi = 0: only the layer of time and one layer of x enter xi, so that every third power vanishes.
 #include "dynamics/lagrange.hpp"
 
 #include <Eigen/Cholesky>

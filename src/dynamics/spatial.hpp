@@ -3,11 +3,10 @@
 //
 //   Motion  (w; v)   angular velocity; velocity of the origin
 //   Force   (n; f)   moment about the origin; force
-//   S       motion of the body against its parent for a unit rate of its coordinate; for floating joints the
-//   six unit
-//           twists, in the order of the velocity: linear, then angular
-//   X       pose of the body in its parent: R turns the body's axes into the parent's, p is the body's origin
-//   there
+//   S       motion of the body against its parent for a unit rate of its coordinate; for floating joints
+//           the six unit twists, in the order of the velocity: linear, then angular
+//   X       pose of the body in its parent: R turns the body's axes into the parent's, p is the body's
+//           origin there
 #pragma once
 
 #include <array>

@@ -7,13 +7,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/format.hpp"
+#include "core/hash.hpp"
+#include "dynamics/kinematics.hpp"
 #include "model/read_chain.hpp"
 #include "sim/audit.hpp"
+#include "sim/batch.hpp"
 #include "sim/simulate.hpp"
 
 namespace chainreel {
@@ -75,10 +78,35 @@ std::string hash_of(const Case& c, const Method& method, double step) {
   return audit_of(run, trajectory).sha256 + " " + to_string(trajectory.status);
 }
 
+// Of instances that differ in state, torque and step, stepped together by two threads with the widest vectors
+// of the processor.
+std::string hash_of_batch(const Chain& chain, double step) {
+  constexpr int kInstances = 37;  // no multiple of any width
+  const auto nv = std::size_t(chain.nv);
+  std::vector<double> q = zero_configuration(chain), qd(nv);
+  BatchSimulator batch(chain, kInstances);
+  for (int i = 0; i < kInstances; ++i) {
+    batch.set_state(i, q, std::vector<double>(nv, 0.3 - 0.01 * i));
+    advance(chain, q, std::vector<double>(nv, 1.0), 0.05);
+    batch.set_torque(i, std::vector<double>(nv, 0.2 * i));
+    batch.set_step(i, step * (1 + 0.01 * i));
+  }
+  batch.run(500, 2);
+  Sha256 sha;
+  for (int i = 0; i < kInstances; ++i) {
+    batch.read_state(i, q, qd);
+    sha.add(std::span<const double>(q));
+    sha.add(std::span<const double>(qd));
+  }
+  return sha.finish();
+}
+
 void print_hashes(double step) {
-  for (const Case& c : cases())
+  for (const Case& c : cases()) {
     for (const Method& method : methods())
       std::printf("%s %s %s\n", c.name.c_str(), method.name.c_str(), hash_of(c, method, step).c_str());
+    std::printf("%s batch %s\n", c.name.c_str(), hash_of_batch(c.chain, step / 4).c_str());
+  }
 }
 
 }  // namespace
