@@ -16,14 +16,14 @@ namespace chainreel {
 
 namespace {
 
-void by_articulated_bodies(const Chain&, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau) {
+void by_articulated_bodies(const Chain&, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau, double* qdd) {
   with_links(ws, [&](auto& links) {
     place(links, q);
-    aba(links, links.base_acceleration, qd, tau, Vec(ws.qdd));
+    aba(links, links.base_acceleration, qd, tau, Vec(qdd, tau.size()));
   });
 }
 
-void by_mass_matrix(const Chain&, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau) {
+void by_mass_matrix(const Chain&, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau, double* qdd) {
   Workspace::Scratch& scratch = *ws.scratch;
   const std::size_t n = tau.size();
   with_links(ws, [&](auto& links) {
@@ -31,16 +31,16 @@ void by_mass_matrix(const Chain&, Workspace& ws, ConstVec q, ConstVec qd, ConstV
     crba(links, n, scratch.M.data());
     rnea(links, links.base_acceleration, qd, ConstVec(scratch.zeros), Vec(ws.nle));
   });
-  for (std::size_t i = 0; i < n; ++i) ws.qdd[i] = tau[i] - ws.nle[i];
+  for (std::size_t i = 0; i < n; ++i) qdd[i] = tau[i] - ws.nle[i];
   ldlt_factor(int(n), scratch.M.data());
-  ldlt_solve(int(n), scratch.M.data(), ws.qdd.data());
+  ldlt_solve(int(n), scratch.M.data(), qdd);
 }
 
-void with_friction(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau) {
+void with_friction(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau, double* qdd) {
   Workspace::Scratch& scratch = *ws.scratch;
   compute_friction(chain, ws, qd);
   for (std::size_t i = 0; i < tau.size(); ++i) scratch.tau_net[i] = tau[i] - ws.tau_f[i];
-  scratch.smooth_dynamics(chain, ws, q, qd, scratch.tau_net);
+  scratch.smooth_dynamics(chain, ws, q, qd, scratch.tau_net, qdd);
 }
 
 ForwardDynamics smooth_dynamics_of(const Chain& chain, const Workspace::Scratch& scratch) {
@@ -71,7 +71,12 @@ void choose_forward_dynamics(const Chain& chain, Workspace::Scratch& scratch) {
 }
 
 void compute_forward_dynamics(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau) {
-  ws.scratch->forward_dynamics(chain, ws, q, qd, tau);
+  ws.scratch->forward_dynamics(chain, ws, q, qd, tau, ws.qdd.data());
+}
+
+void compute_forward_dynamics(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau,
+                              Vec qdd) {
+  ws.scratch->forward_dynamics(chain, ws, q, qd, tau, qdd.data());
 }
 
 std::string forward_dynamics_algorithm(const Chain& chain) {

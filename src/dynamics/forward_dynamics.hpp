@@ -8,6 +8,10 @@ namespace chainreel {
 // ws.qdd = M(q)^-1 (tau - nle(q, qd) - tau_f(qd)).
 void compute_forward_dynamics(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau);
 
+// The same into qdd (nv) instead of ws.qdd: a step that depends on the last one waits for every copy.
+void compute_forward_dynamics(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau,
+                              Vec qdd);
+
 // Its name for `check`: e.g. "planar, unrolled for 2 joints", "spatial ABA".
 std::string forward_dynamics_algorithm(const Chain& chain);
 

@@ -99,7 +99,7 @@ inline void couple<2, true>(const PlanarKernel& kernel, const Pack2& s, const Pa
 // last call: what is common then needs no stack.
 template <int n, bool kAlongX, bool kTurned, Angles kAngles = Angles::common>
 [[gnu::noinline]] void run_planar_kernel(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd,
-                                         ConstVec tau) {
+                                         ConstVec tau, double* qdd) {
   using Pack = PackOf<n>;
   const PlanarKernel& kernel = ws.scratch->planar_kernel;
   double angle[n], rate[n];  // absolute
@@ -114,7 +114,7 @@ template <int n, bool kAlongX, bool kTurned, Angles kAngles = Angles::common>
   if constexpr (kAngles == Angles::any) {
     sin_cos_of_any(phi, s, c);
   } else if (!sin_cos_of_common(phi, s, c)) [[unlikely]] {
-    return run_planar_kernel<n, kAlongX, kTurned, Angles::any>(chain, ws, q, qd, tau);
+    return run_planar_kernel<n, kAlongX, kTurned, Angles::any>(chain, ws, q, qd, tau, qdd);
   }
   Pack pull = load<Pack>(kernel.pull_c.data()) * c;
   if (!kAlongX) pull -= load<Pack>(kernel.pull_s.data()) * s;
@@ -136,7 +136,7 @@ template <int n, bool kAlongX, bool kTurned, Angles kAngles = Angles::common>
   }
   solve(kernel, A, x);
   for (int i = n - 1; i >= 0; --i) {
-    ws.qdd[i] = along_normal<kTurned>(kernel, i, i == 0 ? x[0] : x[i] - x[i - 1]);
+    qdd[i] = along_normal<kTurned>(kernel, i, i == 0 ? x[0] : x[i] - x[i - 1]);
   }
 }
 

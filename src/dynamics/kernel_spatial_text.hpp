@@ -162,7 +162,7 @@ inline void solve(int n, Pack4 (&row)[4 * kPacks][kPacks], double* qdd) {
 
 template <int kPacks, bool kSerial, Angles kAngles = Angles::common>
 [[gnu::noinline]] void run_spatial_kernel(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd,
-                                          ConstVec tau) {
+                                          ConstVec tau, double* qdd) {
   const SpatialKernel& kernel = ws.scratch->spatial_kernel;
   const int n = kernel.joints;
 
@@ -176,7 +176,7 @@ template <int kPacks, bool kSerial, Angles kAngles = Angles::common>
     if constexpr (kAngles == Angles::any) {
       sin_cos_of_any(x, sines, cosines);
     } else if (!sin_cos_of_common(x, sines, cosines)) [[unlikely]] {
-      return run_spatial_kernel<kPacks, kSerial, Angles::any>(chain, ws, q, qd, tau);
+      return run_spatial_kernel<kPacks, kSerial, Angles::any>(chain, ws, q, qd, tau, qdd);
     }
   }
 
@@ -210,7 +210,7 @@ template <int kPacks, bool kSerial, Angles kAngles = Angles::common>
       for (int g = 0; g < kPacks; ++g) row[i][g] = masked(row[i][g], kernel.masks[at].lanes + 4 * g);
     }
   }
-  solve<kPacks>(n, row, ws.qdd.data());
+  solve<kPacks>(n, row, qdd);
 }
 
 template <int kPacks>

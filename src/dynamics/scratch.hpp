@@ -21,8 +21,9 @@ enum class Algorithm {
 };
 Algorithm algorithm_of(const Chain& chain);
 
-// Writes ws.qdd. Chosen once, when the workspace is made: a run then costs one indirect call.
-using ForwardDynamics = void (*)(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau);
+// Writes nv numbers at qdd. Chosen once, when the workspace is made: a run then costs one indirect call.
+using ForwardDynamics = void (*)(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau,
+                                 double* qdd);
 
 struct Workspace::Scratch {
   explicit Scratch(const Chain& chain);

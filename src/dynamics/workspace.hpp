@@ -1,6 +1,6 @@
-// Everything that an algorithm writes. Sized for one chain when made; no algorithm allocates afterwards, except
-// where a dense matrix is asked for the first time. Masses, lengths and gravity are folded into it: a chain that
-// changes needs a new one.
+// Everything that an algorithm writes. Sized for one chain when made; no algorithm allocates afterwards,
+// except where a dense matrix is asked for the first time. Masses, lengths and gravity are folded into it: a
+// chain that changes needs a new one.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,5 @@
 #include "sim/chain_system.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "dynamics/forward_dynamics.hpp"
@@ -40,8 +39,7 @@ void ChainSystem::acceleration(double t, std::span<const double> q, std::span<co
                                std::span<double> vd) {
   ++evaluations_;
   evaluate_torque(t, q, v);
-  compute_forward_dynamics(*chain_, ws_, q, v, tau_);
-  std::copy(ws_.qdd.begin(), ws_.qdd.end(), vd.begin());
+  compute_forward_dynamics(*chain_, ws_, q, v, tau_, vd);
 }
 
 double ChainSystem::power(double t, ConstVec q, ConstVec qd) {

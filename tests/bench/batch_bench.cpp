@@ -1,15 +1,17 @@
 // What a semi-implicit Euler step costs when many chains are stepped together, for each instruction set of
-// this processor.
+// this processor, beside MuJoCo's step of one chain.
 //
-// Rule: 4096 chains with other states, torques, masses and steps each, one thread; the instruction sets are
-// timed in turn, round after round; reported is the median of the rounds' processor time per step of one
-// chain. The last column counts the instances whose state differs, in any bit, from the narrowest width's.
+// Rule: 4096 chains with other states, torques, masses and steps each, one thread; the instruction sets and
+// MuJoCo are timed in turn, round after round; reported is the median of the rounds' processor time per step
+// of one chain, and the median of each round's ratio. The last column counts the instances whose state
+// differs, in any bit, from the narrowest width's.
 #include <cstdio>
 #include <cstring>
 #include <ctime>
 #include <exception>
 #include <vector>
 
+#include "bench/engines.hpp"
 #include "bench/results.hpp"
 #include "core/format.hpp"
 #include "sim/batch.hpp"
@@ -27,6 +29,32 @@ double processor_seconds() {
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
+
+// The step of one chain by MuJoCo, from rest at zero and every kSteps steps anew.
+class Mujoco {
+ public:
+  explicit Mujoco(const Chain& chain) : engine_(chain) {
+    start_.q = zero_configuration(chain);
+    start_.qd.resize(std::size_t(chain.nv));
+    start_.tau.resize(std::size_t(chain.nv));
+  }
+
+  double once() {
+    constexpr int kRepeats = 50;
+    const double begin = processor_seconds();
+    for (int k = 0; k < kRepeats; ++k) {
+      engine_.start(start_);
+      for (long step = 0; step < kSteps; ++step) engine_.step(0.001);
+    }
+    return (processor_seconds() - begin) * 1e9 / (double(kSteps) * kRepeats);
+  }
+
+  std::vector<double> ns;
+
+ private:
+  MujocoEngine engine_;
+  testing::State start_;
+};
 
 struct Timed {
   Timed(const Chain& chain, InstructionSet given) : set(given), batch(chain, kInstances, given) {
@@ -52,7 +80,7 @@ struct Timed {
 
   InstructionSet set;
   BatchSimulator batch;
-  std::vector<double> ns;
+  std::vector<double> ns, ratio;  // of each round; MuJoCo's time over ours
 };
 
 int different(const BatchSimulator& a, const BatchSimulator& b, std::size_t n) {
@@ -68,25 +96,37 @@ int different(const BatchSimulator& a, const BatchSimulator& b, std::size_t n) {
   return count;
 }
 
-void measure(const char* name, const Chain& chain, Results& results) {
+void measure(const char* name, const Chain& chain, double goal, Results& results) {
   std::vector<Timed> all;
   for (const InstructionSet set : kInstructionSets)
     if (is_supported(set)) all.emplace_back(chain, set);
+  Mujoco mujoco(chain);
   for (Timed& timed : all) timed.once();  // warm
-  for (int round = 0; round < kRounds; ++round)
-    for (Timed& timed : all) timed.ns.push_back(timed.once());
+  for (int round = 0; round < kRounds; ++round) {
+    mujoco.ns.push_back(mujoco.once());
+    for (Timed& timed : all) {
+      timed.ns.push_back(timed.once());
+      timed.ratio.push_back(mujoco.ns.back() / timed.ns.back());
+    }
+  }
+  std::printf("%5s   MuJoCo %10.2f ns per step of one chain\n", name, median_of(mujoco.ns));
+  results.add({name, "MuJoCo", format_fixed(median_of(mujoco.ns), 2), "", "", ""});
   for (const Timed& timed : all) {
-    const double ns = median_of(timed.ns);
+    const double ns = median_of(timed.ns), ratio = median_of(timed.ratio);
     const int differing = different(timed.batch, all.front().batch, std::size_t(chain.nv));
-    std::printf("%5s %8s %10.2f ns per step, %d differ\n", name, to_string(timed.set).c_str(), ns, differing);
-    results.add({name, to_string(timed.set), format_fixed(ns, 2), std::to_string(differing)});
+    const std::string of_goal = timed.set == InstructionSet::avx512 ? format_shortest(goal) : "";
+    std::printf("%5s %8s %10.2f ns per step, ratio %.1f, goal %s, %d differ\n", name,
+                to_string(timed.set).c_str(), ns, ratio, of_goal.c_str(), differing);
+    results.add({name, to_string(timed.set), format_fixed(ns, 2), format_fixed(ratio, 1), of_goal,
+                 std::to_string(differing)});
   }
 }
 
 void run() {
-  Results results("batch", {"chain", "instruction_set", "median_ns_per_step", "instances_that_differ"});
-  measure("RR", testing::rr_chain(), results);
-  measure("RRR", testing::rrr_chain(), results);
+  Results results("batch", {"chain", "instruction_set", "median_ns_per_step", "ratio_to_mujoco", "goal",
+                            "instances_that_differ"});
+  measure("RR", testing::rr_chain(), 200, results);
+  measure("RRR", testing::rrr_chain(), 130, results);
   results.write();
 }
 

@@ -65,7 +65,7 @@ TEST(SpatialKernelTest, ABaseFarFromTheOriginCostsNoDigits) {
 }
 
 std::vector<double> run(ForwardDynamics kernel, const Chain& chain, Workspace& ws, const State& s) {
-  kernel(chain, ws, s.q, s.qd, s.tau);
+  kernel(chain, ws, s.q, s.qd, s.tau, ws.qdd.data());
   return ws.qdd;
 }
 
