@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "integrate/steppers.hpp"
+#include "integrate/makers.hpp"
 
 namespace chainreel {
 namespace {

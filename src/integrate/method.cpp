@@ -1,7 +1,8 @@
 #include "integrate/method.hpp"
 
 #include "core/error.hpp"
-#include "integrate/steppers.hpp"
+#include "integrate/makers.hpp"
+#include "integrate/stepped.hpp"
 
 namespace chainreel {
 
@@ -9,20 +10,23 @@ const std::vector<Method>& methods() {
   static const std::vector<Method> rows{
       {.name = "explicit_euler",
        .order = 1,
+       .kind = "explicit",
        .evaluations_per_step = 1,
        .source = "L. Euler, Institutionum calculi integralis I (1768), ch. 7",
-       .make = make_explicit_euler},
+       .make_stepper = make_explicit_euler},
       {.name = "semi_implicit_euler",
        .order = 1,
+       .kind = "semi-implicit in (q, qd)",
        .evaluations_per_step = 1,
        .source =
            "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), I.1.2; here in (q, qd)",
-       .make = make_semi_implicit_euler},
+       .make_stepper = make_semi_implicit_euler},
       {.name = "rk4",
        .order = 4,
+       .kind = "explicit",
        .evaluations_per_step = 4,
        .source = "W. Kutta, Zeitschrift fuer Mathematik und Physik 46 (1901) 435-453",
-       .make = make_rk4},
+       .make_stepper = make_rk4},
   };
   return rows;
 }
@@ -37,6 +41,13 @@ const Method& find_method(const std::string& name) {
   for (const std::string& one : names) known += (known.empty() ? "" : ", ") + one;
   throw Error(ExitCode::bad_input, "unknown method '" + name + "':" + did_you_mean(name, names) +
                                        " The methods are " + known + ".");
+}
+
+std::unique_ptr<Integrator> make_integrator(const Method& method, const Forms& forms,
+                                            const MethodOptions& options) {
+  if (method.make) return method.make(forms, options);
+  return make_stepped(*forms.second_order,
+                      method.make_stepper(forms.second_order->nq(), forms.second_order->nv()));
 }
 
 }  // namespace chainreel

@@ -1,4 +1,4 @@
-// The registry of methods: one row each, walked by the command line, the tests and the documents.
+// The registry of methods: one row each, walked by the command line, the chart, the tests and the documents.
 #pragma once
 
 #include <memory>
@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "integrate/integrator.hpp"
 #include "integrate/system.hpp"
 
 namespace chainreel {
 
-// One method with the memory it needs; allocates nothing after it is made.
+// The bare step of a method of fixed step in (q, v); allocates nothing after it is made.
 class Stepper {
  public:
   virtual ~Stepper() = default;
@@ -18,19 +19,36 @@ class Stepper {
   virtual void step(SecondOrder& system, double t, double h, std::span<double> q, std::span<double> v) = 0;
 };
 
+struct MethodOptions {
+  double tolerance = 0;  // of an adaptive method; 0: every step goes where it is told
+  int order = 0;         // of a method that offers several; 0: its row's
+};
+
 struct Method {
   std::string name;
   int order = 1;
-  bool symplectic = false;  // for constant mass; see the source's note where M depends on q
-  bool adaptive = false;
-  int evaluations_per_step = 1;
+  std::string kind;  // a word or two for `chainreel methods`
+  Form form = Form::second_order;
+  bool symplectic = false;                  // for constant mass; see the source's note where M depends on q
+  bool reversible = false;                  // a step back undoes a step
+  bool adaptive = false;                    // takes a tolerance
+  int lowest_order = 0, highest_order = 0;  // that MethodOptions::order may ask for; 0, 0: none
+  int dense_order = 5;                      // of the dense output where q' = v
+  int evaluations_per_step = 1;             // 0: not always the same
   std::string source;
-  std::unique_ptr<Stepper> (*make)(int nq, int nv) = nullptr;
+
+  // Fixed-step methods in (q, v) have the first, all others the second.
+  std::unique_ptr<Stepper> (*make_stepper)(int nq, int nv) = nullptr;
+  std::unique_ptr<Integrator> (*make)(const Forms& forms, const MethodOptions& options) = nullptr;
 };
 
 const std::vector<Method>& methods();
 
-// Throws Error (usage) naming the nearest known method.
+// Throws Error (bad input) naming the nearest known method.
 const Method& find_method(const std::string& name);
+
+// The forms must hold the one that the method's row names, and outlive the integrator.
+std::unique_ptr<Integrator> make_integrator(const Method& method, const Forms& forms,
+                                            const MethodOptions& options = {});
 
 }  // namespace chainreel

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "integrate/steppers.hpp"
+#include "integrate/makers.hpp"
 
 namespace chainreel {
 namespace {

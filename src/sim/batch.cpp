@@ -30,7 +30,7 @@ struct BatchSimulator::Alone {
       : chain(given),
         torque(chain.nv),
         system(chain, torque, LimitPolicy::report),
-        stepper(find_method("semi_implicit_euler").make(chain.nq, chain.nv)) {}
+        stepper(find_method("semi_implicit_euler").make_stepper(chain.nq, chain.nv)) {}
 
   Chain chain;
   GivenTorque torque;

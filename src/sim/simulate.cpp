@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "sim/chain_system.hpp"
-#include "sim/step_span.hpp"
+#include "sim/forms.hpp"
 #include "sim/work.hpp"
 
 namespace chainreel {
@@ -18,58 +18,114 @@ constexpr double kMostNumbers = 2.5e8;    // stored in one trajectory: 2 GB
 constexpr double kSameInstant = 1e-9;     // of a step: two instants closer than this are one
 constexpr long kStepsBetweenStopRequests = 4096;
 
+// The instants at which steps end: whole steps, and a shorter last one where the duration is no multiple of
+// the step; breaks of the torque law; where the method chooses its steps, the breaks and the duration alone.
+class Grid {
+ public:
+  Grid(const Simulation& simulation)
+      : step_(simulation.step), duration_(simulation.duration), breaks_(simulation.torque->breaks()) {
+    std::sort(breaks_.begin(), breaks_.end());
+    if (step_ <= 0) return;
+    whole_steps_ = long(std::floor(duration_ / step_ + kSameInstant));
+    remainder_ = duration_ - double(whole_steps_) * step_;
+    if (remainder_ <= kSameInstant * step_) remainder_ = 0;
+  }
+
+  // Instants closer than this are one.
+  double same() const { return kSameInstant * (step_ > 0 ? step_ : duration_); }
+
+  bool at_end(double now) const {
+    return step_ > 0 ? whole_ == whole_steps_ && (remainder_ == 0 || now == duration_) : now == duration_;
+  }
+
+  struct Next {
+    double end, h;
+    bool is_break;  // of the torque law: methods start anew there
+  };
+
+  // The next multiple of the step, the duration, or a break that comes first. A step from multiple to
+  // multiple has the step's own length, so that it does not depend on where it stands.
+  Next next(double now) {
+    while (next_break_ < breaks_.size() && breaks_[next_break_] <= now + same()) ++next_break_;
+    const bool last = step_ <= 0 || whole_ == whole_steps_;
+    const double grid = last ? duration_ : double(whole_ + 1) * step_;
+    if (next_break_ < breaks_.size() && breaks_[next_break_] < grid - same()) {
+      on_grid_ = false;
+      return {breaks_[next_break_], breaks_[next_break_] - now, true};
+    }
+    if (step_ <= 0) return {duration_, duration_ - now, false};
+    const double h = on_grid_ ? (last ? remainder_ : step_) : grid - now;
+    if (!last) ++whole_;
+    on_grid_ = true;
+    return {grid, h, next_break_ < breaks_.size() && breaks_[next_break_] <= grid + same()};
+  }
+
+ private:
+  double step_, duration_;
+  long whole_steps_ = 0;  // in the run
+  double remainder_ = 0;  // s, after the whole steps
+  long whole_ = 0;        // multiples of the step passed
+  bool on_grid_ = true;   // now is such a multiple
+  std::vector<double> breaks_;
+  std::size_t next_break_ = 0;
+};
+
 // One run in progress.
 class Run {
  public:
   Run(const Simulation& simulation, std::size_t samples)
       : simulation_(simulation),
         system_(simulation.chain, *simulation.torque, simulation.limit),
-        stepper_(simulation.method->make(simulation.chain.nq, simulation.chain.nv)),
+        forms_(system_, *simulation.method),
+        integrator_(make_integrator(*simulation.method, forms_.forms(), simulation.options)),
+        grid_(simulation),
         q_(simulation.q0),
         qd_(simulation.qd0),
-        span_(simulation.chain.nq, simulation.chain.nv),
-        work_(simulation, system_) {
-    // Whole steps, and a shorter last one where the duration is no multiple of the step.
-    const double h = simulation.step;
-    whole_steps_ = long(std::floor(simulation.duration / h + kSameInstant));
-    remainder_ = simulation.duration - double(whole_steps_) * h;
-    if (remainder_ <= kSameInstant * h) remainder_ = 0;
-    breaks_ = simulation.torque->breaks();
-    std::sort(breaks_.begin(), breaks_.end());
+        work_(simulation, system_, integrator_->dense_order()) {
+    integrator_->start(0, q_, qd_);
     trajectory_.nq = simulation.chain.nq;
     trajectory_.nv = simulation.chain.nv;
     reserve(samples);
   }
 
-  bool at_end() const { return whole_ == whole_steps_ && (remainder_ == 0 || now_ == simulation_.duration); }
+  bool at_end() const { return grid_.at_end(now()); }
   long steps() const { return trajectory_.steps; }
-  double now() const { return now_; }
+  double now() const { return integrator_->time(); }
+  double same_instant() const { return grid_.same(); }
 
   // False where the run ended in this step; its state is then not fit to be sampled.
   bool take_step() {
-    const auto [end, h] = next_step();
-    const double begin = now_;
-    span_.begin(begin, q_, qd_);
-    stepper_->step(system_, begin, h, q_, qd_);
-    if (!check_state(begin, end)) return false;
-    now_ = end;
-    span_.end(system_, end, q_, qd_);
-    work_.add_step(system_, span_, q_, qd_);
+    const double begin = now();
+    const Grid::Next next = grid_.next(begin);
+    if (!check_result(integrator_->step(next.end, next.h), begin)) return false;
+    if (!check_state(begin, now())) return false;
+    work_.add_step(system_, *integrator_);
     ++trajectory_.steps;
-    trajectory_.end_time = end;
-    passed_limit_ = system_.limits().check_state(end, q_, qd_);
+    trajectory_.end_time = now();
+    passed_limit_ = system_.limits().check_state(now(), integrator_->q(), integrator_->v());
+    start_anew_ = next.is_break && now() == next.end;
     return true;
   }
 
-  void sample_start() { append(0, q_, qd_, 0); }
-  void sample_end() { append(span_.end_time(), q_, qd_, work_.at_end()); }
+  // Behind a break of the torques: what the method remembers of them is old. Called when the samples of the
+  // last step have been taken.
+  void pass_break() {
+    if (!start_anew_) return;
+    const ConstVec q = integrator_->q(), qd = integrator_->v();
+    std::copy(q.begin(), q.end(), q_.begin());
+    std::copy(qd.begin(), qd.end(), qd_.begin());
+    integrator_->start(now(), q_, qd_);
+    start_anew_ = false;
+  }
+
+  void sample_start() { append(0, simulation_.q0, simulation_.qd0, 0); }
+  void sample_end() { append(now(), integrator_->q(), integrator_->v(), work_.at_end()); }
   // t lies in the last step.
   void sample(double t) {
-    if (std::abs(t - span_.end_time()) <= kSameInstant * simulation_.step)
-      return append(t, q_, qd_, work_.at_end());
-    span_.move_to(system_, t);
-    const double work = work_.at(system_, span_, t);
-    append(t, span_.q(), span_.v(), work);
+    if (std::abs(t - now()) <= same_instant())
+      return append(t, integrator_->q(), integrator_->v(), work_.at_end());
+    integrator_->interpolate(t, q_, qd_);
+    append(t, q_, qd_, work_.at(system_, *integrator_, t, q_));
   }
 
   // Where the scene stops at limits: the step that passed one is the last.
@@ -81,9 +137,9 @@ class Run {
   }
 
   bool stop_requested(const StopRequest& stop) {
-    if (!stop || steps() % kStepsBetweenStopRequests != 0 || !stop(now_)) return false;
+    if (!stop || steps() % kStepsBetweenStopRequests != 0 || !stop(now())) return false;
     trajectory_.status = RunStatus::interrupted;
-    trajectory_.trouble = "interrupted at t = " + format_shortest(now_) + " s";
+    trajectory_.trouble = "interrupted at t = " + format_shortest(now()) + " s";
     return true;
   }
 
@@ -94,27 +150,6 @@ class Run {
   }
 
  private:
-  struct NextStep {
-    double end, h;
-  };
-
-  // The next multiple of the step, the duration, or a break of the torque law that comes first. A step from
-  // multiple to multiple has the step's own length, so that it does not depend on where it stands.
-  NextStep next_step() {
-    const double step = simulation_.step, same = kSameInstant * step;
-    while (next_break_ < breaks_.size() && breaks_[next_break_] <= now_ + same) ++next_break_;
-    const bool last = whole_ == whole_steps_;
-    const double grid = last ? simulation_.duration : double(whole_ + 1) * step;
-    if (next_break_ < breaks_.size() && breaks_[next_break_] < grid - same) {
-      on_grid_ = false;
-      return {breaks_[next_break_], breaks_[next_break_] - now_};
-    }
-    const double h = on_grid_ ? (last ? remainder_ : step) : grid - now_;
-    if (!last) ++whole_;
-    on_grid_ = true;
-    return {grid, h};
-  }
-
   void reserve(std::size_t samples) {
     const std::size_t row = std::size_t(trajectory_.nq + trajectory_.nv + 2);
     if (double(samples) * double(row) > kMostNumbers)
@@ -141,11 +176,22 @@ class Run {
       return false;
     }
     const auto sane = [](double x) { return std::abs(x) < kDivergenceBound; };  // false for NaN
-    for (std::size_t i = 0; i < q_.size(); ++i)
-      if (!sane(q_[i])) return diverge(int(std::min(i, qd_.size() - 1)), end);
-    for (std::size_t i = 0; i < qd_.size(); ++i)
-      if (!sane(qd_[i])) return diverge(int(i), end);
+    const ConstVec q = integrator_->q(), qd = integrator_->v();
+    for (std::size_t i = 0; i < q.size(); ++i)
+      if (!sane(q[i])) return diverge(int(std::min(i, qd.size() - 1)), end);
+    for (std::size_t i = 0; i < qd.size(); ++i)
+      if (!sane(qd[i])) return diverge(int(i), end);
     return true;
+  }
+
+  bool check_result(StepResult result, double begin) {
+    if (result == StepResult::ok) return true;
+    if (const int torque = system_.bad_torque(); torque >= 0) return check_state(begin, begin);
+    if (result == StepResult::not_converged)
+      set_trouble(RunStatus::not_converged, "the implicit equations of a step found no solution", begin);
+    else
+      set_trouble(RunStatus::step_too_small, "no step was small enough for the tolerance", begin);
+    return false;
   }
 
   bool diverge(int freedom, double t) {
@@ -163,18 +209,13 @@ class Run {
 
   const Simulation& simulation_;
   ChainSystem system_;
-  std::unique_ptr<Stepper> stepper_;
-  std::vector<double> q_, qd_;
-  StepSpan span_;
+  ChainForms forms_;
+  std::unique_ptr<Integrator> integrator_;
+  Grid grid_;
+  std::vector<double> q_, qd_;  // of a sample
   WorkIntegral work_;
-  long whole_steps_ = 0;  // in the run
-  double remainder_ = 0;  // s, after the whole steps
-  long whole_ = 0;        // multiples of the step passed
   bool passed_limit_ = false;
-  bool on_grid_ = true;  // now_ is such a multiple
-  double now_ = 0;
-  std::vector<double> breaks_;
-  std::size_t next_break_ = 0;
+  bool start_anew_ = false;
   Trajectory trajectory_;
 };
 
@@ -190,6 +231,10 @@ std::string to_string(RunStatus status) {
       return "torque_not_finite";
     case RunStatus::stopped:
       return "stopped";
+    case RunStatus::not_converged:
+      return "not_converged";
+    case RunStatus::step_too_small:
+      return "step_too_small";
     case RunStatus::interrupted:
       return "interrupted";
   }
@@ -204,17 +249,20 @@ Trajectory simulate(const Simulation& simulation, std::span<const double> times,
     ++next;
   }
   while (!run.at_end() && !run.stopped_by_limit() && !run.stop_requested(stop) && run.take_step()) {
-    const double end = run.now() + kSameInstant * simulation.step;
+    const double end = run.now() + run.same_instant();
     while (next < times.size() && times[next] <= end) run.sample(times[next++]);
+    run.pass_break();
   }
   return run.finish();
 }
 
 Trajectory simulate_every_step(const Simulation& simulation, const StopRequest& stop) {
-  Run run(simulation, std::size_t(simulation.duration / simulation.step) + 2);
+  Run run(simulation, simulation.step > 0 ? std::size_t(simulation.duration / simulation.step) + 2 : 0);
   run.sample_start();
-  while (!run.at_end() && !run.stopped_by_limit() && !run.stop_requested(stop) && run.take_step())
+  while (!run.at_end() && !run.stopped_by_limit() && !run.stop_requested(stop) && run.take_step()) {
     run.sample_end();
+    run.pass_break();
+  }
   return run.finish();
 }
 

@@ -21,7 +21,8 @@ struct Simulation {
   std::vector<double> qd0;  // nv
   std::unique_ptr<TorqueLaw> torque;
   const Method* method = nullptr;
-  double step = 0.001;   // s
+  MethodOptions options;
+  double step = 0.001;   // s; 0: the method chooses, see MethodOptions::tolerance
   double duration = 10;  // s
   LimitPolicy limit = LimitPolicy::report;
 };
@@ -29,8 +30,8 @@ struct Simulation {
 // Asked now and then during a run; true stops it with RunStatus::interrupted.
 using StopRequest = std::function<bool(double t)>;
 
-// Samples at `times` (rising, within [0, duration]) on the cubic Hermite between the steps; t = 0 and the
-// ends of steps give the steps' own values. Never throws for what happens during the run: see
+// Samples at `times` (rising, within [0, duration]) on the method's dense output; t = 0 and the ends of steps
+// give the steps' own values. Never throws for what happens during the run: see
 // Trajectory::status. Samples end where the run ended.
 Trajectory simulate(const Simulation& simulation, std::span<const double> times,
                     const StopRequest& stop = {});

@@ -14,6 +14,8 @@ enum class RunStatus {
   diverged,           // a coordinate left the finite numbers or grew beyond all bounds
   torque_not_finite,  // a torque expression gave no finite number
   stopped,            // a joint passed its limit and the scene stops there
+  not_converged,      // the equations of an implicit step found no solution
+  step_too_small,     // an adaptive method found no step that meets its tolerance
   interrupted,        // the user stopped it
 };
 

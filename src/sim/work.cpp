@@ -2,10 +2,39 @@
 
 #include <algorithm>
 
-namespace chainreel {
+#include "core/scalar.hpp"
 
-WorkIntegral::WorkIntegral(const Simulation& simulation, ChainSystem& system)
-    : q0_(simulation.q0), tau_(std::size_t(simulation.chain.nv)) {
+namespace chainreel {
+namespace {
+
+constexpr int kFewestNodes = 3, kMostNodes = 16;
+constexpr double kPi = 3.14159265358979323846;
+
+// Gauss's rule with n points, exact for polynomials of degree 2 n - 1: the roots of the Legendre polynomial
+// P_n by Newton's iteration (M. Abramowitz, I. Stegun, Handbook of Mathematical Functions, 25.4.30).
+void gauss_rule(int n, std::vector<double>& nodes, std::vector<double>& weights) {
+  for (int i = 0; i < n; ++i) {
+    double x = cosine(kPi * (i + 0.75) / (n + 0.5)), slope = 1;
+    for (int pass = 0; pass < 8; ++pass) {
+      double P = 1, P_before = 0;
+      for (int k = 1; k <= n; ++k) {
+        const double P_next = ((2 * k - 1) * x * P - (k - 1) * P_before) / k;
+        P_before = P;
+        P = P_next;
+      }
+      slope = n * (x * P - P_before) / (x * x - 1);
+      x -= P / slope;
+    }
+    nodes.push_back(0.5 * (1 - x));
+    weights.push_back(1 / ((1 - x * x) * slope * slope));
+  }
+}
+
+}  // namespace
+
+WorkIntegral::WorkIntegral(const Simulation& simulation, ChainSystem& system, int dense_order)
+    : q0_(simulation.q0), tau_(std::size_t(simulation.chain.nv)), q_(simulation.q0), qd_(simulation.qd0) {
+  gauss_rule(std::clamp((dense_order + 2) / 2, kFewestNodes, kMostNodes), nodes_, weights_);
   const Chain& chain = simulation.chain;
   if (!simulation.torque->is_constant() || chain.has_dissipation) return;
   const ConstVec tau = system.torque(0, simulation.q0, simulation.qd0);
@@ -20,36 +49,25 @@ double WorkIntegral::work_of_constant(ConstVec q) const {
   return sum;
 }
 
-double WorkIntegral::simpson(ChainSystem& system, StepSpan& span, double t, double end_power) {
-  const double t0 = span.start_time();
-  const double middle = t0 + 0.5 * (t - t0);
-  span.move_to(system, middle);
-  const double middle_power = system.power(middle, span.q(), span.v());
-  return (t - t0) / 6 * (begin_power_ + 4 * middle_power + end_power);
+double WorkIntegral::integral(ChainSystem& system, Integrator& integrator, double end) {
+  const double begin = integrator.begin_time();
+  double sum = 0;
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    const double t = begin + nodes_[k] * (end - begin);
+    integrator.interpolate(t, q_, qd_);
+    sum += weights_[k] * system.power(t, q_, qd_);
+  }
+  return sum * (end - begin);
 }
 
-void WorkIntegral::add_step(ChainSystem& system, StepSpan& span, ConstVec q, ConstVec qd) {
-  if (constant_) {
-    total_ = work_of_constant(q);
-    return;
-  }
-  if (!has_power_) {
-    span.move_to(system, span.start_time());
-    end_power_ = system.power(span.start_time(), span.q(), span.v());
-    has_power_ = true;
-  }
+void WorkIntegral::add_step(ChainSystem& system, Integrator& integrator) {
   before_ = total_;
-  begin_power_ = end_power_;
-  end_power_ = system.power(span.end_time(), q, qd);
-  total_ = before_ + simpson(system, span, span.end_time(), end_power_);
+  total_ = constant_ ? work_of_constant(integrator.q())
+                     : before_ + integral(system, integrator, integrator.time());
 }
 
-double WorkIntegral::at(ChainSystem& system, StepSpan& span, double t) {
-  if (constant_) return work_of_constant(span.q());
-  const double power = system.power(t, span.q(), span.v());
-  const double work = before_ + simpson(system, span, t, power);
-  span.move_to(system, t);
-  return work;
+double WorkIntegral::at(ChainSystem& system, Integrator& integrator, double t, ConstVec q) {
+  return constant_ ? work_of_constant(q) : before_ + integral(system, integrator, t);
 }
 
 }  // namespace chainreel

@@ -1,35 +1,33 @@
 // The work of the joint torques less friction, W = integral of qd^T (tau - tau_f) dt, accumulated step by
-// step. Constant torques on joints without friction: tau . (q - q(0)), exact and free. Else Simpson's rule on
-// each step's Hermite interpolant (error h^5/2880 of the power's fourth derivative a step).
+// step. Constant torques on joints without friction: tau . (q - q(0)), exact and free. Else Gauss's rule on
+// the dense output of each step, with as many points as the order of that output deserves.
 #pragma once
 
 #include "sim/chain_system.hpp"
 #include "sim/simulate.hpp"
-#include "sim/step_span.hpp"
 
 namespace chainreel {
 
 class WorkIntegral {
  public:
-  WorkIntegral(const Simulation& simulation, ChainSystem& system);
+  WorkIntegral(const Simulation& simulation, ChainSystem& system, int dense_order);
 
   // After each step: work up to its end.
-  void add_step(ChainSystem& system, StepSpan& span, ConstVec q, ConstVec qd);
-  // Work up to the step's end, and up to the state that the span has been moved to (time t).
+  void add_step(ChainSystem& system, Integrator& integrator);
+  // Work up to the last step's end, and up to an instant within it, where q is the chain's position.
   double at_end() const { return total_; }
-  double at(ChainSystem& system, StepSpan& span, double t);
+  double at(ChainSystem& system, Integrator& integrator, double t, ConstVec q);
 
  private:
   double work_of_constant(ConstVec q) const;
-  double simpson(ChainSystem& system, StepSpan& span, double t, double end_power);
+  double integral(ChainSystem& system, Integrator& integrator, double end);
 
   bool constant_ = false;
   std::vector<double> q0_, tau_;
-  double total_ = 0;        // up to the end of the last step
-  double before_ = 0;       // up to its beginning
-  double begin_power_ = 0;  // W, at the beginning of the last step
-  double end_power_ = 0;    // W, at its end
-  bool has_power_ = false;
+  std::vector<double> q_, qd_;           // at a node
+  std::vector<double> nodes_, weights_;  // on [0, 1]
+  double total_ = 0;                     // up to the end of the last step
+  double before_ = 0;                    // up to its beginning
 };
 
 }  // namespace chainreel

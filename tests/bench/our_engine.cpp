@@ -8,7 +8,7 @@ EngineInfo OurEngine::info() {
 }
 
 OurEngine::OurEngine(const Chain& chain) : chain_(chain), ws_(chain) {
-  stepper_ = find_method("semi_implicit_euler").make(chain.nq, chain.nv);
+  stepper_ = find_method("semi_implicit_euler").make_stepper(chain.nq, chain.nv);
 }
 
 void OurEngine::start(const testing::State& state) {

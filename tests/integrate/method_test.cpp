@@ -18,11 +18,12 @@ struct State {
 };
 
 State run(const Method& method, SecondOrder& system, State start, double end, int steps) {
-  const std::unique_ptr<Stepper> stepper = method.make(1, 1);
-  std::array<double, 1> q{start.q}, v{start.v};
+  const AllForms forms(system);
+  const std::unique_ptr<Integrator> integrator = make_integrator(method, forms.forms());
+  integrator->start(0, std::array{start.q}, std::array{start.v});
   const double h = end / steps;
-  for (int k = 0; k < steps; ++k) stepper->step(system, k * h, h, q, v);
-  return {q[0], v[0]};
+  for (int k = 0; k < steps; ++k) EXPECT_EQ(integrator->step((k + 1) * h, h), StepResult::ok);
+  return {integrator->q()[0], integrator->v()[0]};
 }
 
 // log2 of the ratio of errors when the step halves.
@@ -41,7 +42,8 @@ class EveryMethod : public testing::TestWithParam<std::string> {
 
 std::vector<std::string> names() {
   std::vector<std::string> all;
-  for (const Method& method : methods()) all.push_back(method.name);
+  for (const Method& method : methods())
+    if (AllForms::has(method.form)) all.push_back(method.name);
   return all;
 }
 
@@ -72,6 +74,7 @@ TEST_P(EveryMethod, CountsItsEvaluationsRight) {
       vd[0] = 0;
     }
   } system;
+  if (method_.evaluations_per_step == 0) return;  // not always the same
   run(method_, system, {0, 0}, 1, 10);
   EXPECT_EQ(system.evaluations, 10 * method_.evaluations_per_step);
 }

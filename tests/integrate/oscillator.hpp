@@ -1,6 +1,7 @@
 // Test problems with closed forms, each a few lines.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "integrate/system.hpp"
@@ -37,6 +38,37 @@ struct Cubic final : SecondOrder {
                     std::span<double> vd) override {
     vd[0] = 6 * t;
   }
+};
+
+// A system with unit masses in every form that it has: momenta are rates.
+class AllForms {
+ public:
+  explicit AllForms(SecondOrder& system) : momenta_(system) {
+    forms_.second_order = &system;
+    forms_.momenta = &momenta_;
+  }
+  const Forms& forms() const { return forms_; }
+  static bool has(Form form) { return form == Form::second_order || form == Form::momenta; }
+
+ private:
+  struct UnitMasses final : Momenta {
+    explicit UnitMasses(SecondOrder& given) : system(given) {}
+    int n() const override { return system.nq(); }
+    void momentum(std::span<const double>, std::span<const double> v, std::span<double> p) override {
+      std::copy(v.begin(), v.end(), p.begin());
+    }
+    void velocity(std::span<const double>, std::span<const double> p, std::span<double> v) override {
+      std::copy(p.begin(), p.end(), v.begin());
+    }
+    void force(double t, std::span<const double> q, std::span<const double> v,
+               std::span<double> p_dot) override {
+      system.acceleration(t, q, v, p_dot);
+    }
+    SecondOrder& system;
+  };
+
+  UnitMasses momenta_;
+  Forms forms_;
 };
 
 }  // namespace chainreel
