@@ -8,6 +8,7 @@
 #include "app/command.hpp"
 #include "app/pipeline.hpp"
 #include "app/report.hpp"
+#include "app/signals.hpp"
 #include "core/error.hpp"
 #include "dynamics/forward_dynamics.hpp"
 #include "integrate/method.hpp"
@@ -61,12 +62,15 @@ Json model_report(const Chain& chain) {
 }
 
 Json cost_report(const Scene& scene, const Simulation& simulation) {
-  const double steps = std::ceil(scene.duration / scene.step - 1e-9);
   const int frames = frame_count(scene.duration, scene.video.fps);
-  return {{"method", scene.method},
-          {"order", simulation.method->order},
-          {"steps", steps},
-          {"evaluations", steps * simulation.method->evaluations_per_step},
+  // Counted, not guessed: adaptive methods have no other way. Nothing is sampled.
+  const Trajectory run = simulate(simulation, {}, [](double) { return interrupted(); });
+  throw_if_interrupted();
+  return {{"method", simulation.method->name},
+          {"order", simulation.options.order > 0 ? simulation.options.order : simulation.method->order},
+          {"status", to_string(run.status)},
+          {"steps", run.steps},
+          {"evaluations", run.evaluations},
           {"frames", frames},
           {"pixels_a_frame", scene.video.width * scene.video.height},
           {"layers", scene.draw},
@@ -100,9 +104,9 @@ void check_scene(const CheckOptions& options) {
   }
   std::printf("# %s with all defaults; paths from this folder\n%s\n", options.file.c_str(), text.c_str());
   print_model(model);
-  std::printf("%s (order %d), %.0f steps, %.0f evaluations of the dynamics, %d frames\n",
-              prepared.scene.method.c_str(), prepared.simulation.method->order, cost["steps"].get<double>(),
-              cost["evaluations"].get<double>(), cost["frames"].get<int>());
+  std::printf("%s: order %d, %ld steps, %ld evaluations of the dynamics, %d frames\n",
+              method_text(prepared.scene).c_str(), cost["order"].get<int>(), cost["steps"].get<long>(),
+              cost["evaluations"].get<long>(), cost["frames"].get<int>());
   std::printf("computed for the picture only: %d energies, %d Lambda\n", cost["energies_computed"].get<int>(),
               cost["Lambda_computed"].get<int>());
 }

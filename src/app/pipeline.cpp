@@ -33,8 +33,7 @@ void require_finished(const Trajectory& trajectory, const Scene& scene) {
   throw_if_interrupted();
   if (is_complete(trajectory.status)) return;
   throw Error(ExitCode::numerical,
-              trajectory.trouble + " with " + scene.method + " and step " + format_quantity(scene.step, "s") +
-                  ": try a smaller step or another method",
+              trajectory.trouble + " with " + method_text(scene) + ": try a smaller step or another method",
               {scene.file});
 }
 

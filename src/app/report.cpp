@@ -71,8 +71,11 @@ Json audit_report(const PreparedScene& prepared, const Trajectory& trajectory, c
   json["model"] = scene.model;
   json["status"] = to_string(trajectory.status);
   if (!trajectory.trouble.empty()) json["trouble"] = trajectory.trouble;
-  json["method"] = scene.method;
-  json["step"] = scene.step;
+  const Simulation& simulation = prepared.simulation;
+  json["method"] = simulation.method->name;
+  json["step"] = simulation.step > 0 ? Json(simulation.step) : Json(nullptr);
+  if (simulation.options.tolerance > 0) json["tolerance"] = simulation.options.tolerance;
+  if (simulation.options.order > 0) json["order"] = simulation.options.order;
   json["steps"] = trajectory.steps;
   json["evaluations"] = trajectory.evaluations;
   json["frames"] = trajectory.size();

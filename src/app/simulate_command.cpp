@@ -51,7 +51,7 @@ Trajectory run_scene(const PreparedScene& prepared, bool every_step) {
   std::vector<double> times = frame_times(prepared.scene);
   const double duration = prepared.scene.duration;
   // One row at the end exactly, and no frame within round-off before it.
-  while (!times.empty() && times.back() > duration - 1e-9 * prepared.scene.step) times.pop_back();
+  while (!times.empty() && times.back() > duration - same_instant(prepared.simulation)) times.pop_back();
   times.push_back(duration);
   return simulate(prepared.simulation, times, stop);
 }

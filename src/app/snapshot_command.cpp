@@ -38,8 +38,8 @@ std::string default_output(const SnapshotOptions& options) {
 // The picture of the film at an instant: same camera, same scales, whatever the instant.
 Picture picture_at(const PreparedScene& prepared, double at, const Fonts& fonts) {
   std::vector<double> times = frame_times(prepared.scene);
-  auto place = std::lower_bound(times.begin(), times.end(), at - 1e-9 * prepared.scene.step);
-  if (place == times.end() || std::abs(*place - at) > 1e-9 * prepared.scene.step)
+  auto place = std::lower_bound(times.begin(), times.end(), at - same_instant(prepared.simulation));
+  if (place == times.end() || std::abs(*place - at) > same_instant(prepared.simulation))
     place = times.insert(place, at);
   const auto frame = std::size_t(place - times.begin());
   const Trajectory trajectory = simulate(prepared.simulation, times, [](double) { return interrupted(); });

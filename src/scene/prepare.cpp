@@ -8,6 +8,9 @@
 namespace chainreel {
 namespace {
 
+constexpr double kDefaultStep = 0.001;  // s
+constexpr double kDefaultTolerance = 1e-9;
+
 // Fills what is absent and refuses what has the wrong length.
 void check_length(std::vector<double>& values, const std::vector<double>& absent, const std::string& key,
                   const Scene& scene, ProblemList& problems) {
@@ -59,6 +62,22 @@ void choose_end_effector(const Scene& scene, Chain& chain) {
   require_end_effector(chain);
 }
 
+// Fills in what the scene left to the method.
+void set_method(Scene& scene, Simulation& simulation) {
+  const Method& method = find_method(scene.method);
+  if (!scene.step && !method.adaptive) scene.step = kDefaultStep;
+  if (!scene.step && !scene.tolerance) scene.tolerance = kDefaultTolerance;
+  if (!scene.order && method.highest_order > 0) scene.order = method.order;
+  simulation.method = &method;
+  simulation.step = scene.step.value_or(0);
+  simulation.options = {scene.tolerance.value_or(0), scene.order.value_or(0)};
+  try {
+    check_method(simulation);
+  } catch (const Error& error) {
+    throw Error(error.code(), error.problems().front().message, scene.place_of("method"));
+  }
+}
+
 }  // namespace
 
 Simulation prepare(Scene& scene, bool meshes) {
@@ -87,8 +106,7 @@ Simulation prepare(Scene& scene, bool meshes) {
   simulation.qd0 = scene.start.qd;
   simulation.torque = scene.control ? make_control(chain, *scene.control, scene.parameters)
                                     : make_torque_law(chain, scene.torque, scene.parameters);
-  simulation.method = &find_method(scene.method);
-  simulation.step = scene.step;
+  if (scene.method != "auto") set_method(scene, simulation);
   simulation.limit = limit_policy_of(scene.limit);
   simulation.duration = scene.duration;
   return simulation;

@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include "core/format.hpp"
-#include "integrate/method.hpp"
 #include "scene/fields.hpp"
 #include "scene/quantity.hpp"
 #include "scene/read_control.hpp"
+#include "scene/read_method.hpp"
 #include "sim/limits.hpp"
 
 namespace chainreel {
@@ -185,20 +185,12 @@ void remember_places(const YamlDocument& document, const YAML::Node& map, const 
 
 void check_numbers(Fields& fields, const Scene& scene) {
   require(fields, "duration", scene.duration > 0, "'duration' must be above 0 s");
-  require(fields, "step", scene.step > 0, "'step' must be above 0 s");
-  require(fields, "step", !(scene.step > scene.duration) || scene.duration <= 0,
-          "'step' is longer than the duration");
   require(fields, "text_scale", scene.text_scale >= 0.5 && scene.text_scale <= 3,
           "'text_scale' must lie between 0.5 and 3");
   const double frames = scene.duration * scene.video.fps.value();
   require(fields, "duration", frames <= kLongestFrameCount, "'duration' is longer than ten million frames");
   require(fields, "duration", frames >= 0.5 || scene.duration <= 0,
           "'duration' is shorter than half a frame: the film would be empty");
-  try {
-    find_method(scene.method);
-  } catch (const Error& error) {
-    require(fields, "method", false, error.what());
-  }
 }
 
 }  // namespace
@@ -222,8 +214,7 @@ Scene read_scene(const std::string& path, const std::vector<std::string>& overri
   read_parameters(fields, scene);
   fields.read("end_effector", scene.end_effector);
   fields.read("duration", scene.duration);
-  fields.read("method", scene.method);
-  fields.read("step", scene.step);
+  read_method(fields, scene);
   read_draw(fields, scene);
   fields.read("text_scale", scene.text_scale);
   read_video(fields, scene);

@@ -1,5 +1,7 @@
 #include "scene/scene.hpp"
 
+#include "core/format.hpp"
+
 namespace chainreel {
 
 const std::vector<std::string>& layer_names() {
@@ -11,6 +13,15 @@ const std::vector<std::string>& layer_names() {
 Place Scene::place_of(const std::string& key) const {
   const auto place = places.find(key);
   return place == places.end() ? Place{file, 0, 0} : place->second;
+}
+
+std::string method_text(const Scene& scene) {
+  std::string text = scene.method;
+  if (scene.order) text += ", order " + std::to_string(*scene.order);
+  if (scene.step) text += ", step " + format_shortest(*scene.step) + " s";
+  if (scene.tolerance) text += ", tolerance " + format_shortest(*scene.tolerance);
+  if (scene.method == "auto") text += ", accuracy " + to_string(scene.accuracy);
+  return text;
 }
 
 }  // namespace chainreel

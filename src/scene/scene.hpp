@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/frame_rate.hpp"
+#include "sim/accuracy.hpp"
 #include "sim/torque.hpp"
 
 namespace chainreel {
@@ -35,10 +36,13 @@ struct Scene {
   std::vector<TorqueEntry> torque;  // one a degree of freedom; empty: none acts, or `control` does
   std::optional<Control> control;   // `torque:` as a mapping: for the whole chain
   Parameters parameters;
-  std::string end_effector;  // "": link `gripper`, else the only leaf
-  double duration = 10;      // s
-  std::string method = "semi_implicit_euler";
-  double step = 0.001;  // s
+  std::string end_effector;                    // "": link `gripper`, else the only leaf
+  double duration = 10;                        // s
+  std::string method = "semi_implicit_euler";  // or auto
+  std::optional<double> step;                  // s; absent: 1 ms, or what the tolerance allows
+  std::optional<double> tolerance;             // of adaptive methods; absent: 1e-9, unless they have a step
+  std::optional<int> order;                    // of methods with several
+  Accuracy accuracy;                           // of `method: auto`
   std::vector<std::string> draw{"chain", "trail", "time", "title", "torque_label"};
   double text_scale = 1;  // for clips used smaller than drawn
   Video video;
@@ -50,6 +54,9 @@ struct Scene {
   // For errors found later: the key's place, or the file where the scene left it out.
   Place place_of(const std::string& key) const;
 };
+
+// "rk4, step 0.001 s", "dop853, tolerance 1e-9".
+std::string method_text(const Scene& scene);
 
 // The layers that `draw:` may name.
 const std::vector<std::string>& layer_names();

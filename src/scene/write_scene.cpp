@@ -104,7 +104,10 @@ std::string scene_text(const Scene& scene) {
   if (!scene.end_effector.empty()) out << YAML::Key << "end_effector" << YAML::Value << scene.end_effector;
   out << YAML::Key << "duration" << YAML::Value << format_shortest(scene.duration);
   out << YAML::Key << "method" << YAML::Value << scene.method;
-  out << YAML::Key << "step" << YAML::Value << format_shortest(scene.step);
+  if (scene.step) out << YAML::Key << "step" << YAML::Value << format_shortest(*scene.step);
+  if (scene.tolerance) out << YAML::Key << "tolerance" << YAML::Value << format_shortest(*scene.tolerance);
+  if (scene.order) out << YAML::Key << "order" << YAML::Value << *scene.order;
+  if (scene.method == "auto") out << YAML::Key << "accuracy" << YAML::Value << to_string(scene.accuracy);
   out << YAML::Key << "draw" << YAML::Value;
   emit_list(out, scene.draw, [](const std::string& name) { return name; });
   out << YAML::Key << "text_scale" << YAML::Value << format_shortest(scene.text_scale);

@@ -25,14 +25,12 @@ class Grid {
   Grid(const Simulation& simulation)
       : step_(simulation.step), duration_(simulation.duration), breaks_(simulation.torque->breaks()) {
     std::sort(breaks_.begin(), breaks_.end());
+    same_ = same_instant(simulation);
     if (step_ <= 0) return;
     whole_steps_ = long(std::floor(duration_ / step_ + kSameInstant));
     remainder_ = duration_ - double(whole_steps_) * step_;
     if (remainder_ <= kSameInstant * step_) remainder_ = 0;
   }
-
-  // Instants closer than this are one.
-  double same() const { return kSameInstant * (step_ > 0 ? step_ : duration_); }
 
   bool at_end(double now) const {
     return step_ > 0 ? whole_ == whole_steps_ && (remainder_ == 0 || now == duration_) : now == duration_;
@@ -46,10 +44,10 @@ class Grid {
   // The next multiple of the step, the duration, or a break that comes first. A step from multiple to
   // multiple has the step's own length, so that it does not depend on where it stands.
   Next next(double now) {
-    while (next_break_ < breaks_.size() && breaks_[next_break_] <= now + same()) ++next_break_;
+    while (next_break_ < breaks_.size() && breaks_[next_break_] <= now + same_) ++next_break_;
     const bool last = step_ <= 0 || whole_ == whole_steps_;
     const double grid = last ? duration_ : double(whole_ + 1) * step_;
-    if (next_break_ < breaks_.size() && breaks_[next_break_] < grid - same()) {
+    if (next_break_ < breaks_.size() && breaks_[next_break_] < grid - same_) {
       on_grid_ = false;
       return {breaks_[next_break_], breaks_[next_break_] - now, true};
     }
@@ -57,11 +55,11 @@ class Grid {
     const double h = on_grid_ ? (last ? remainder_ : step_) : grid - now;
     if (!last) ++whole_;
     on_grid_ = true;
-    return {grid, h, next_break_ < breaks_.size() && breaks_[next_break_] <= grid + same()};
+    return {grid, h, next_break_ < breaks_.size() && breaks_[next_break_] <= grid + same_};
   }
 
  private:
-  double step_, duration_;
+  double step_, duration_, same_;
   long whole_steps_ = 0;  // in the run
   double remainder_ = 0;  // s, after the whole steps
   long whole_ = 0;        // multiples of the step passed
@@ -91,7 +89,6 @@ class Run {
   bool at_end() const { return grid_.at_end(now()); }
   long steps() const { return trajectory_.steps; }
   double now() const { return integrator_->time(); }
-  double same_instant() const { return grid_.same(); }
 
   // False where the run ended in this step; its state is then not fit to be sampled.
   bool take_step() {
@@ -122,7 +119,7 @@ class Run {
   void sample_end() { append(now(), integrator_->q(), integrator_->v(), work_.at_end()); }
   // t lies in the last step.
   void sample(double t) {
-    if (std::abs(t - now()) <= same_instant())
+    if (std::abs(t - now()) <= same_instant(simulation_))
       return append(t, integrator_->q(), integrator_->v(), work_.at_end());
     integrator_->interpolate(t, q_, qd_);
     append(t, q_, qd_, work_.at(system_, *integrator_, t, q_));
@@ -241,6 +238,15 @@ std::string to_string(RunStatus status) {
   return "unknown";
 }
 
+double same_instant(const Simulation& simulation) {
+  return kSameInstant * (simulation.step > 0 ? simulation.step : simulation.duration);
+}
+
+void check_method(const Simulation& simulation) {
+  ChainSystem system(simulation.chain, *simulation.torque, simulation.limit);
+  const ChainForms forms(system, *simulation.method);
+}
+
 Trajectory simulate(const Simulation& simulation, std::span<const double> times, const StopRequest& stop) {
   Run run(simulation, times.size());
   std::size_t next = 0;
@@ -249,7 +255,7 @@ Trajectory simulate(const Simulation& simulation, std::span<const double> times,
     ++next;
   }
   while (!run.at_end() && !run.stopped_by_limit() && !run.stop_requested(stop) && run.take_step()) {
-    const double end = run.now() + run.same_instant();
+    const double end = run.now() + same_instant(simulation);
     while (next < times.size() && times[next] <= end) run.sample(times[next++]);
     run.pass_break();
   }

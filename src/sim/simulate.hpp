@@ -20,12 +20,18 @@ struct Simulation {
   std::vector<double> q0;   // nq
   std::vector<double> qd0;  // nv
   std::unique_ptr<TorqueLaw> torque;
-  const Method* method = nullptr;
+  const Method* method = nullptr;  // null: still to be chosen
   MethodOptions options;
   double step = 0.001;   // s; 0: the method chooses, see MethodOptions::tolerance
   double duration = 10;  // s
   LimitPolicy limit = LimitPolicy::report;
 };
+
+// Two instants closer than this are one, s.
+double same_instant(const Simulation& simulation);
+
+// Throws Error (bad input) where the method does not take this chain or torque; says which to take instead.
+void check_method(const Simulation& simulation);
 
 // Asked now and then during a run; true stops it with RunStatus::interrupted.
 using StopRequest = std::function<bool(double t)>;

@@ -40,7 +40,8 @@ TEST_F(ReadScene, LeavesTheDefaultsOfTheStructWhereKeysAreAbsent) {
   const Scene scene = read("");
   const Scene defaults;
   EXPECT_EQ(scene.method, defaults.method);
-  EXPECT_EQ(scene.step, 0.001);
+  EXPECT_FALSE(scene.step);
+  EXPECT_EQ(to_string(scene.accuracy), "0.1 px");
   EXPECT_EQ(scene.method, "semi_implicit_euler");
   EXPECT_EQ(scene.duration, defaults.duration);
   EXPECT_EQ(scene.draw, defaults.draw);

@@ -1,0 +1,81 @@
+#include "scene/read_method.hpp"
+
+#include "integrate/method.hpp"
+
+namespace chainreel {
+namespace {
+
+void problem_at(Fields& fields, const std::string& key, const std::string& message) {
+  fields.problems().add(message, fields.place_of(fields.find(key), key));
+}
+
+bool has(Fields& fields, const std::string& key) {
+  return fields.find(key).IsDefined();
+}
+
+void read_number(Fields& fields, const std::string& key, std::optional<double>& value,
+                 const std::string& message) {
+  if (!has(fields, key)) return;
+  double number = 1;
+  fields.read(key, number);
+  if (!(number > 0)) problem_at(fields, key, message);
+  value = number;
+}
+
+void read_accuracy(Fields& fields, Scene& scene) {
+  if (!has(fields, "accuracy")) return;
+  std::string text;
+  fields.read("accuracy", text);
+  try {
+    scene.accuracy = parse_accuracy(text);
+  } catch (const Error& error) {
+    problem_at(fields, "accuracy", "'accuracy': " + error.problems().front().message);
+  }
+  if (scene.method != "auto")
+    problem_at(fields, "accuracy",
+               "'accuracy' is what `method: auto` chooses by; with method " + scene.method +
+                   " it means nothing: leave one of the two out");
+}
+
+void refuse_with_auto(Fields& fields) {
+  for (const char* key : {"step", "tolerance", "order"})
+    if (has(fields, key))
+      problem_at(fields, key,
+                 "'" + std::string(key) + "' is chosen by `method: auto`: name a method, or leave '" + key +
+                     "' out");
+}
+
+void check_options(Fields& fields, const Scene& scene, const Method& method) {
+  if (scene.tolerance && !method.adaptive)
+    problem_at(fields, "tolerance", method.name + " takes no tolerance: its step is fixed, see 'step'");
+  if (scene.tolerance && scene.step)
+    problem_at(fields, "tolerance",
+               "'step' and 'tolerance' exclude each other: a fixed step meets no tolerance");
+  if (!scene.order) return;
+  if (method.highest_order == 0)
+    problem_at(fields, "order", method.name + " has one order only, " + std::to_string(method.order));
+  else if (*scene.order < method.lowest_order || *scene.order > method.highest_order)
+    problem_at(fields, "order",
+               "'order' of " + method.name + " must lie between " + std::to_string(method.lowest_order) +
+                   " and " + std::to_string(method.highest_order));
+}
+
+}  // namespace
+
+void read_method(Fields& fields, Scene& scene) {
+  fields.read("method", scene.method);
+  read_number(fields, "step", scene.step, "'step' must be above 0 s");
+  if (scene.step && *scene.step > scene.duration && scene.duration > 0)
+    problem_at(fields, "step", "'step' is longer than the duration");
+  read_number(fields, "tolerance", scene.tolerance, "'tolerance' must be above 0");
+  if (has(fields, "order")) fields.read("order", scene.order.emplace());
+  read_accuracy(fields, scene);
+  if (scene.method == "auto") return refuse_with_auto(fields);
+  try {
+    check_options(fields, scene, find_method(scene.method));
+  } catch (const Error& error) {
+    problem_at(fields, "method", error.problems().front().message);
+  }
+}
+
+}  // namespace chainreel

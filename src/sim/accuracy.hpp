@@ -1,0 +1,22 @@
+// How exact a run has to be, as a scene says it: the unit decides what is compared.
+#pragma once
+
+#include <string>
+
+namespace chainreel {
+
+// `value` in units of
+//   px        places of drawn points; 1 px is 1/1080 of the fitted scene's height, whatever the output's size
+//   m         the same places
+//   rad       angles of turning joints
+//   relative  the same places, in units of the diagonal of the box in which they move
+struct Accuracy {
+  double value = 0.1;
+  std::string unit = "px";
+};
+
+// "0.1 px", "1e-3 m", "0.01 rad", "1e-6 relative" (the last word may be left out). Throws Error (bad input).
+Accuracy parse_accuracy(const std::string& text);
+std::string to_string(const Accuracy& accuracy);
+
+}  // namespace chainreel
