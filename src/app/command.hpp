@@ -57,5 +57,6 @@ void add_inverse_command(CLI::App& app);
 void add_init_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_doctor_command(CLI::App& app);
+void add_methods_command(CLI::App& app);
 
 }  // namespace chainreel

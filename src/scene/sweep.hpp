@@ -1,0 +1,23 @@
+// One grammar for everything that varies a scene: KEY=a,b,c or KEY=from:to:count (equal distances) or
+// KEY=from:to:count:log (equal factors), with dotted keys and indices as in --set: step, torque.1,
+// parameters.k.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace chainreel {
+
+struct Sweep {
+  std::string key;
+  std::vector<std::string> values;  // as they are written into the scene
+  std::vector<double> numbers;      // the same; empty where one of them is no number
+  bool logarithmic = false;
+
+  std::string setting(std::size_t k) const { return key + "=" + values[k]; }
+};
+
+// Throws Error (usage) naming the option.
+Sweep parse_sweep(const std::string& text, const std::string& option);
+
+}  // namespace chainreel

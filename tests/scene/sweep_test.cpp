@@ -1,0 +1,66 @@
+#include "scene/sweep.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string refusal(const std::string& text) {
+  try {
+    parse_sweep(text, "--x");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Sweep, TakesListsOfWordsAndNumbers) {
+  const Sweep words = parse_sweep("method=rk4,verlet", "--vary");
+  EXPECT_EQ(words.key, "method");
+  EXPECT_THAT(words.values, ElementsAre("rk4", "verlet"));
+  EXPECT_TRUE(words.numbers.empty());
+  EXPECT_EQ(words.setting(1), "method=verlet");
+  EXPECT_THAT(parse_sweep("torque.1=1,-2.5", "--x").numbers, ElementsAre(1, -2.5));
+}
+
+TEST(Sweep, RangesHoldBothEndsAndEqualDistances) {
+  const Sweep range = parse_sweep("parameters.k=0:90deg:4", "--x");
+  ASSERT_EQ(range.numbers.size(), 4u);
+  EXPECT_EQ(range.numbers.front(), 0);
+  EXPECT_EQ(range.numbers.back(), std::acos(0.0));
+  // A rounding of each of two products.
+  EXPECT_NEAR(range.numbers[1], range.numbers[3] / 3, 1e-15);
+}
+
+TEST(Sweep, LogarithmicRangesHaveEqualFactors) {
+  const Sweep range = parse_sweep("step=1e-4:1e-1:4:log", "--x");
+  EXPECT_TRUE(range.logarithmic);
+  for (std::size_t k = 1; k < 4; ++k) EXPECT_NEAR(range.numbers[k] / range.numbers[k - 1], 10, 1e-13);
+}
+
+TEST(Sweep, ValuesReadBackAsTheNumbers) {
+  const Sweep range = parse_sweep("step=0.1:0.7:13", "--x");
+  for (std::size_t k = 0; k < range.numbers.size(); ++k)
+    EXPECT_EQ(std::stod(range.values[k]), range.numbers[k]);
+}
+
+TEST(Sweep, SaysWhatItTakesWhereAskedForAnythingElse) {
+  EXPECT_THAT(refusal("step"), HasSubstr("names no key or no values"));
+  EXPECT_THAT(refusal("=1,2"), HasSubstr("names no key"));
+  EXPECT_THAT(refusal("step=1,,2"), HasSubstr("empty value"));
+  EXPECT_THAT(refusal("step=0:1"), HasSubstr("is no range"));
+  EXPECT_THAT(refusal("step=0:1:1"), HasSubstr("count between 2"));
+  EXPECT_THAT(refusal("step=0:1:5:log"), HasSubstr("above 0"));
+  EXPECT_THAT(refusal("step=a:1:5"), HasSubstr("'a', which is no number"));
+}
+
+}  // namespace
+}  // namespace chainreel
