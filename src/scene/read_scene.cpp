@@ -7,6 +7,7 @@
 #include "core/format.hpp"
 #include "scene/fields.hpp"
 #include "scene/quantity.hpp"
+#include "scene/read_compare.hpp"
 #include "scene/read_control.hpp"
 #include "scene/read_method.hpp"
 #include "sim/limits.hpp"
@@ -173,14 +174,10 @@ void read_video(Fields& fields, Scene& scene) {
   video.finish();
 }
 
-// Keys of mappings, two levels deep: as far as later errors point.
-void remember_places(const YamlDocument& document, const YAML::Node& map, const std::string& prefix,
-                     Scene& scene) {
-  for (const auto& pair : map) {
-    const std::string key = prefix + pair.first.Scalar();
-    scene.places[key] = document.place_of(pair.first, key);
-    if (pair.second.IsMap()) remember_places(document, pair.second, key + ".", scene);
-  }
+void read_expectation(Fields& fields, Scene& scene) {
+  fields.read("expect", scene.expect);
+  require(fields, "expect", scene.expect == "finish" || scene.expect == "diverge",
+          "'expect' must be finish or diverge");
 }
 
 void check_numbers(Fields& fields, const Scene& scene) {
@@ -193,16 +190,11 @@ void check_numbers(Fields& fields, const Scene& scene) {
           "'duration' is shorter than half a frame: the film would be empty");
 }
 
-}  // namespace
-
-Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
-  std::vector<Override> parsed;
-  for (const std::string& text : overrides) parsed.push_back(parse_override(text));
-  const YamlDocument document = load_yaml(path, parsed);
-
+// A scene of one panel.
+Scene read_document(const YamlDocument& document) {
   Scene scene;
-  scene.file = path;
-  scene.name = std::filesystem::path(path).stem().string();
+  scene.file = document.file;
+  scene.name = std::filesystem::path(document.file).stem().string();
   ProblemList problems;
   Fields fields(document, document.root, "", problems);
   fields.read("title", scene.title);
@@ -215,14 +207,26 @@ Scene read_scene(const std::string& path, const std::vector<std::string>& overri
   fields.read("end_effector", scene.end_effector);
   fields.read("duration", scene.duration);
   read_method(fields, scene);
+  read_expectation(fields, scene);
   read_draw(fields, scene);
+  read_layout(fields, scene);
+  fields.find("compare");
   fields.read("text_scale", scene.text_scale);
   read_video(fields, scene);
   check_numbers(fields, scene);
   fields.finish();
   problems.throw_if_any();
-  remember_places(document, document.root, "", scene);
+  scene.places = document.places();
   return scene;
+}
+
+}  // namespace
+
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  std::vector<Override> parsed;
+  for (const std::string& text : overrides) parsed.push_back(parse_override(text));
+  const YamlDocument document = load_yaml(path, parsed);
+  return is_comparison(document) ? read_comparison(document, &read_document) : read_document(document);
 }
 
 }  // namespace chainreel

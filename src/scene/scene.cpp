@@ -10,6 +10,11 @@ const std::vector<std::string>& layer_names() {
   return names;
 }
 
+const std::vector<std::string>& layout_names() {
+  static const std::vector<std::string> names{"scene", "compare", "grid"};
+  return names;
+}
+
 Place Scene::place_of(const std::string& key) const {
   const auto place = places.find(key);
   return place == places.end() ? Place{file, 0, 0} : place->second;

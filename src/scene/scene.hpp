@@ -43,7 +43,11 @@ struct Scene {
   std::optional<double> tolerance;             // of adaptive methods; absent: 1e-9, unless they have a step
   std::optional<int> order;                    // of methods with several
   Accuracy accuracy;                           // of `method: auto`
+  std::string expect = "finish";               // or diverge: what the run is to do
   std::vector<std::string> draw{"chain", "trail", "time", "title", "torque_label"};
+  std::string layout = "scene";  // of the page: or compare, grid for several panels
+  std::vector<Scene>
+      compare;            // the panels, each the scene with its changes; empty: the scene is the only one
   double text_scale = 1;  // for clips used smaller than drawn
   Video video;
 
@@ -60,5 +64,6 @@ std::string method_text(const Scene& scene);
 
 // The layers that `draw:` may name.
 const std::vector<std::string>& layer_names();
+const std::vector<std::string>& layout_names();
 
 }  // namespace chainreel

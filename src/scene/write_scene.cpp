@@ -2,10 +2,21 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
+
 #include "core/format.hpp"
 
 namespace chainreel {
 namespace {
+
+// Text of a value in one line of YAML.
+template <class Emit>
+std::string flow_text(Emit emit) {
+  YAML::Emitter out;
+  out << YAML::Flow;
+  emit(out);
+  return out.c_str();
+}
 
 template <class Values, class Text>
 void emit_list(YAML::Emitter& out, const Values& values, Text text) {
@@ -16,6 +27,18 @@ void emit_list(YAML::Emitter& out, const Values& values, Text text) {
 
 void emit_numbers(YAML::Emitter& out, const std::vector<double>& values) {
   emit_list(out, values, format_shortest);
+}
+
+std::string text_of(const std::string& word) {
+  return flow_text([&](YAML::Emitter& out) { out << word; });
+}
+
+std::string text_of(const std::vector<double>& numbers) {
+  return flow_text([&](YAML::Emitter& out) { emit_numbers(out, numbers); });
+}
+
+std::string quoted(const std::string& words) {
+  return flow_text([&](YAML::Emitter& out) { out << YAML::DoubleQuoted << words; });
 }
 
 std::string rate_text(FrameRate fps) {
@@ -51,72 +74,114 @@ void emit_control(YAML::Emitter& out, const Control& control) {
   out << YAML::EndMap;
 }
 
-void emit_torque(YAML::Emitter& out, const Scene& scene) {
-  out << YAML::Key << "torque" << YAML::Value;
-  if (scene.control) return emit_control(out, *scene.control);
-  out << YAML::Flow << YAML::BeginSeq;
-  for (const TorqueEntry& entry : scene.torque) {
-    if (entry.control)
-      emit_control(out, *entry.control);
+std::string torque_text(const Scene& scene) {
+  return flow_text([&](YAML::Emitter& out) {
+    if (scene.control) return emit_control(out, *scene.control);
+    out << YAML::Flow << YAML::BeginSeq;
+    for (const TorqueEntry& entry : scene.torque) {
+      if (entry.control)
+        emit_control(out, *entry.control);
+      else
+        out << entry.text;
+    }
+    out << YAML::EndSeq;
+  });
+}
+
+void add_mechanism(std::vector<SceneEntry>& entries, const Scene& scene) {
+  entries.push_back({"model", text_of(scene.model)});
+  if (scene.gravity)
+    entries.push_back({"gravity", text_of(std::vector<double>{scene.gravity->x(), scene.gravity->y(),
+                                                              scene.gravity->z()})});
+  entries.push_back({"base", scene.base});
+  entries.push_back({"friction", scene.friction ? "true" : "false"});
+  if (scene.massless) entries.push_back({"massless", format_shortest(*scene.massless)});
+  entries.push_back({"limit", scene.limit});
+  for (const auto& [name, folder] : scene.packages) entries.push_back({"packages." + name, text_of(folder)});
+}
+
+void add_method(std::vector<SceneEntry>& entries, const Scene& scene) {
+  entries.push_back({"method", scene.method});
+  if (scene.step) entries.push_back({"step", format_shortest(*scene.step)});
+  if (scene.tolerance) entries.push_back({"tolerance", format_shortest(*scene.tolerance)});
+  if (scene.order) entries.push_back({"order", std::to_string(*scene.order)});
+  if (scene.method == "auto") entries.push_back({"accuracy", to_string(scene.accuracy)});
+  entries.push_back({"expect", scene.expect});
+}
+
+void add_page(std::vector<SceneEntry>& entries, const Scene& scene) {
+  entries.push_back({"draw", flow_text([&](YAML::Emitter& out) {
+                       emit_list(out, scene.draw, [](const std::string& name) { return name; });
+                     })});
+  entries.push_back({"layout", scene.layout});
+  entries.push_back({"text_scale", format_shortest(scene.text_scale)});
+  entries.push_back({"video.width", std::to_string(scene.video.width)});
+  entries.push_back({"video.height", std::to_string(scene.video.height)});
+  entries.push_back({"video.fps", rate_text(scene.video.fps)});
+}
+
+bool holds(const std::vector<SceneEntry>& entries, const SceneEntry& entry) {
+  return std::find(entries.begin(), entries.end(), entry) != entries.end();
+}
+
+// Lines `key: value`; neighbours below one key share its line: `video: {width: 640, height: 360}`.
+std::string lines_of(const std::vector<SceneEntry>& entries) {
+  std::string text, open;
+  for (const SceneEntry& entry : entries) {
+    const std::size_t dot = entry.key.find('.');
+    const std::string group = dot == std::string::npos ? "" : entry.key.substr(0, dot);
+    if (!open.empty() && group != open) text += "}\n";
+    if (group.empty())
+      text += entry.key + ": " + entry.text + "\n";
     else
-      out << entry.text;
+      text += (group == open ? ", " : group + ": {") + entry.key.substr(dot + 1) + ": " + entry.text;
+    open = group;
   }
-  out << YAML::EndSeq;
+  return text + (open.empty() ? "" : "}\n");
 }
 
-void emit_mechanism(YAML::Emitter& out, const Scene& scene) {
-  if (scene.gravity) {
-    out << YAML::Key << "gravity" << YAML::Value;
-    emit_numbers(out, {scene.gravity->x(), scene.gravity->y(), scene.gravity->z()});
-  }
-  out << YAML::Key << "base" << YAML::Value << scene.base;
-  out << YAML::Key << "friction" << YAML::Value << scene.friction;
-  if (scene.massless) out << YAML::Key << "massless" << YAML::Value << format_shortest(*scene.massless);
-  out << YAML::Key << "limit" << YAML::Value << scene.limit;
-  out << YAML::Key << "packages" << YAML::Value << YAML::Flow << YAML::BeginMap;
-  for (const auto& [name, folder] : scene.packages) out << YAML::Key << name << YAML::Value << folder;
-  out << YAML::EndMap;
-}
-
-void emit_motion(YAML::Emitter& out, const Scene& scene) {
-  out << YAML::Key << "start" << YAML::Value << YAML::BeginMap;
-  out << YAML::Key << "q" << YAML::Value;
-  emit_numbers(out, scene.start.q);
-  out << YAML::Key << "qd" << YAML::Value;
-  emit_numbers(out, scene.start.qd);
-  out << YAML::EndMap;
-  emit_torque(out, scene);
-  out << YAML::Key << "parameters" << YAML::Value << YAML::Flow << YAML::BeginMap;
-  for (const auto& [name, value] : scene.parameters)
-    out << YAML::Key << name << YAML::Value << format_shortest(value);
-  out << YAML::EndMap;
+std::string panel_text(const Scene& panel, const std::vector<SceneEntry>& shared) {
+  std::string text = "  - title: " + quoted(panel.title) + "\n";
+  for (const SceneEntry& entry : entries_of(panel))
+    if (!holds(shared, entry)) text += "    " + entry.key + ": " + entry.text + "\n";
+  return text;
 }
 
 }  // namespace
 
+std::vector<SceneEntry> entries_of(const Scene& scene) {
+  std::vector<SceneEntry> entries;
+  add_mechanism(entries, scene);
+  entries.push_back({"start.q", text_of(scene.start.q)});
+  entries.push_back({"start.qd", text_of(scene.start.qd)});
+  entries.push_back({"torque", torque_text(scene)});
+  for (const auto& [name, value] : scene.parameters)
+    entries.push_back({"parameters." + name, format_shortest(value)});
+  if (!scene.end_effector.empty()) entries.push_back({"end_effector", text_of(scene.end_effector)});
+  add_method(entries, scene);
+  return entries;
+}
+
+std::vector<SceneEntry> shared_entries(const std::vector<Scene>& panels) {
+  std::vector<SceneEntry> shared = entries_of(panels.front());
+  for (const Scene& panel : panels) {
+    const std::vector<SceneEntry> own = entries_of(panel);
+    std::erase_if(shared, [&](const SceneEntry& entry) { return !holds(own, entry); });
+  }
+  return shared;
+}
+
 std::string scene_text(const Scene& scene) {
-  YAML::Emitter out;
-  out << YAML::BeginMap;
-  out << YAML::Key << "title" << YAML::Value << YAML::DoubleQuoted << scene.title;
-  out << YAML::Key << "model" << YAML::Value << scene.model;
-  emit_mechanism(out, scene);
-  emit_motion(out, scene);
-  if (!scene.end_effector.empty()) out << YAML::Key << "end_effector" << YAML::Value << scene.end_effector;
-  out << YAML::Key << "duration" << YAML::Value << format_shortest(scene.duration);
-  out << YAML::Key << "method" << YAML::Value << scene.method;
-  if (scene.step) out << YAML::Key << "step" << YAML::Value << format_shortest(*scene.step);
-  if (scene.tolerance) out << YAML::Key << "tolerance" << YAML::Value << format_shortest(*scene.tolerance);
-  if (scene.order) out << YAML::Key << "order" << YAML::Value << *scene.order;
-  if (scene.method == "auto") out << YAML::Key << "accuracy" << YAML::Value << to_string(scene.accuracy);
-  out << YAML::Key << "draw" << YAML::Value;
-  emit_list(out, scene.draw, [](const std::string& name) { return name; });
-  out << YAML::Key << "text_scale" << YAML::Value << format_shortest(scene.text_scale);
-  out << YAML::Key << "video" << YAML::Value << YAML::Flow << YAML::BeginMap;
-  out << YAML::Key << "width" << YAML::Value << scene.video.width;
-  out << YAML::Key << "height" << YAML::Value << scene.video.height;
-  out << YAML::Key << "fps" << YAML::Value << rate_text(scene.video.fps);
-  out << YAML::EndMap << YAML::EndMap;
-  return std::string(out.c_str()) + "\n";
+  std::vector<SceneEntry> entries{{"title", quoted(scene.title)}};
+  const std::vector<SceneEntry> shared =
+      scene.compare.empty() ? entries_of(scene) : shared_entries(scene.compare);
+  entries.insert(entries.end(), shared.begin(), shared.end());
+  entries.push_back({"duration", format_shortest(scene.duration)});
+  add_page(entries, scene);
+  std::string text = lines_of(entries);
+  if (!scene.compare.empty()) text += "compare:\n";
+  for (const Scene& panel : scene.compare) text += panel_text(panel, shared);
+  return text;
 }
 
 }  // namespace chainreel

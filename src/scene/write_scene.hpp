@@ -3,12 +3,26 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "scene/scene.hpp"
 
 namespace chainreel {
 
-// `model` is written as given: the text is meant for the working folder.
+// `model` is written as given: the text is meant for the working folder. Of several panels, what they share
+// stands at the top, and each entry of `compare:` holds the rest of its panel.
 std::string scene_text(const Scene& scene);
+
+// A key, dotted below `start`, `parameters` and the like, and its value in one line of YAML.
+struct SceneEntry {
+  std::string key;
+  std::string text;
+  friend bool operator==(const SceneEntry&, const SceneEntry&) = default;
+};
+
+// What a panel can have for itself, in the order of the struct; without its title.
+std::vector<SceneEntry> entries_of(const Scene& scene);
+// Those entries that all panels have, with the same value.
+std::vector<SceneEntry> shared_entries(const std::vector<Scene>& panels);
 
 }  // namespace chainreel

@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/eventhandler.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -112,28 +113,73 @@ YAML::Node parse(const std::string& text, const std::string& where) {
   }
 }
 
+// A value for a dotted key, and who is to blame where it cannot be put there.
+struct Change {
+  std::string key;
+  YAML::Node value;
+  Place place;
+  ExitCode code = ExitCode::usage;
+};
+
 // The element that a part of a key names: an index from 1 in lists, a key elsewhere.
-YAML::Node child_of(YAML::Node node, const std::string& part, const Override& one) {
+YAML::Node child_of(YAML::Node node, const std::string& part, const Change& change) {
   if (node.IsMap()) return node[part];
   if (!node.IsSequence())
-    throw Error(ExitCode::usage, "'" + part + "' is sought in a value that has no parts", {name_of(one)});
+    throw Error(change.code, "'" + part + "' is sought in a value that has no parts", change.place);
   const std::optional<double> index = parse_number(part);
   if (!index || *index < 1 || *index > double(node.size()) || *index != double(std::size_t(*index)))
-    throw Error(ExitCode::usage, "'" + part + "' is no index from 1 to " + std::to_string(node.size()),
-                {name_of(one)});
+    throw Error(change.code, "'" + part + "' is no index from 1 to " + std::to_string(node.size()),
+                change.place);
   return node[std::size_t(*index) - 1];
 }
 
 // Puts the value where the rest of the dotted key leads; mappings that are not there yet are made.
-void apply(YAML::Node node, const std::string& key, const Override& one) {
+void apply(YAML::Node node, const std::string& key, const Change& change) {
   const std::size_t dot = key.find('.');
-  YAML::Node child = child_of(node, key.substr(0, dot), one);
+  YAML::Node child = child_of(node, key.substr(0, dot), change);
   if (dot == std::string::npos) {
-    child = parse(one.value, name_of(one));
+    child = change.value;
     return;
   }
   if (!child.IsDefined() || child.IsNull()) child = YAML::Node(YAML::NodeType::Map);
-  apply(child, key.substr(dot + 1), one);
+  apply(child, key.substr(dot + 1), change);
+}
+
+bool lies_below(const std::string& key, const std::string& other) {
+  return key.size() > other.size() && key.starts_with(other) && key[other.size()] == '.';
+}
+
+YamlDocument document_of(const std::string& text, const std::string& path,
+                         const std::vector<Override>& overrides) {
+  YamlDocument document{parse(text, path), path, text, overrides, {}};
+  if (!document.root.IsMap())
+    throw Error(ExitCode::bad_input,
+                "holds no scene: write `model: ...` and what else it needs, or see `chainreel init`", {path});
+  for (const Override& one : overrides) {
+    const Place place{name_of(one), 0, 0};
+    apply(document.root, one.key, {one.key, parse(one.value, name_of(one)), place});
+    document.origins.push_back({one.key, place});
+  }
+  return document;
+}
+
+// Notes which parts of the panel's value for `key` the command line has set.
+void note_overrides(YamlDocument& panel, const std::string& prefix, const std::string& key) {
+  const std::string full = prefix + key;
+  for (const Override& one : panel.overrides) {
+    const Place place{name_of(one), 0, 0};
+    if (one.key == full || lies_below(full, one.key)) panel.origins.push_back({key, place});
+    if (lies_below(one.key, full)) panel.origins.push_back({one.key.substr(prefix.size()), place});
+  }
+}
+
+void collect_places(const YamlDocument& document, const YAML::Node& map, const std::string& prefix,
+                    std::map<std::string, Place>& places) {
+  for (const auto& pair : map) {
+    const std::string key = prefix + pair.first.Scalar();
+    places[key] = document.place_of(pair.first, key);
+    if (pair.second.IsMap()) collect_places(document, pair.second, key + ".", places);
+  }
 }
 
 }  // namespace
@@ -146,22 +192,52 @@ Override parse_override(const std::string& text) {
 }
 
 Place YamlDocument::place_of(const YAML::Node& node, const std::string& key) const {
-  for (auto one = overrides.rbegin(); one != overrides.rend(); ++one) {
-    const std::string& set = one->key;
-    if (key == set || (key.size() > set.size() && key.starts_with(set) && key[set.size()] == '.'))
-      return {name_of(*one), 0, 0};
-  }
   const YAML::Mark mark = node.Mark();
-  return mark.is_null() ? Place{file, 0, 0} : Place{file, mark.line + 1, mark.column + 1};
+  const Place here = mark.is_null() ? Place{file, 0, 0} : Place{file, mark.line + 1, mark.column + 1};
+  for (auto one = origins.rbegin(); one != origins.rend(); ++one) {
+    if (key == one->key) return one->place;
+    if (lies_below(key, one->key)) return one->command_line ? one->place : here;
+  }
+  return here;
+}
+
+std::map<std::string, Place> YamlDocument::places() const {
+  std::map<std::string, Place> places;
+  collect_places(*this, root, "", places);
+  return places;
 }
 
 YamlDocument load_yaml(const std::string& path, const std::vector<Override>& overrides) {
-  YamlDocument document{parse(read_text(path), path), path, overrides};
-  if (!document.root.IsMap())
-    throw Error(ExitCode::bad_input,
-                "holds no scene: write `model: ...` and what else it needs, or see `chainreel init`", {path});
-  for (const Override& one : overrides) apply(document.root, one.key, one);
-  return document;
+  return document_of(read_text(path), path, overrides);
+}
+
+const std::vector<std::string>& page_keys() {
+  static const std::vector<std::string> keys{"duration", "draw", "layout", "compare", "text_scale", "video"};
+  return keys;
+}
+
+YamlDocument panel_document(const YamlDocument& whole, std::size_t index) {
+  // Read anew: nodes are shared, and a change in one panel must not reach the others.
+  YamlDocument panel = document_of(whole.text, whole.file, whole.overrides);
+  const YAML::Node changes = panel.root["compare"][index];
+  for (const char* key : {"title", "layout", "compare"}) panel.root.remove(key);
+  const std::string prefix = "compare." + std::to_string(index + 1) + ".";
+  for (const auto& pair : changes) {
+    const std::string& key = pair.first.Scalar();
+    const YAML::Mark mark = pair.first.Mark();
+    const Place place{panel.file, mark.line + 1, mark.column + 1};
+    if (key.find('.') == std::string::npos) {
+      panel.root.remove(key);
+      panel.root.force_insert(pair.first, pair.second);
+      std::erase_if(panel.origins,
+                    [&](const Origin& one) { return one.key == key || lies_below(one.key, key); });
+    } else {
+      apply(panel.root, key, {key, pair.second, place, ExitCode::bad_input});
+      panel.origins.push_back({key, place, false});
+    }
+    note_overrides(panel, prefix, key);
+  }
+  return panel;
 }
 
 }  // namespace chainreel

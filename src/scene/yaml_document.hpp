@@ -22,15 +22,34 @@ struct Override {
 // Throws Error (usage) where there is no '=' or no key.
 Override parse_override(const std::string& text);
 
+// Whence the value at a dotted path came that was put there after reading.
+struct Origin {
+  std::string key;
+  Place place;
+  bool command_line = true;  // else from elsewhere in the file: what lies below has places of its own
+};
+
 struct YamlDocument {
   YAML::Node root;
   std::string file;
+  std::string text;  // of the file
   std::vector<Override> overrides;
+  std::vector<Origin> origins;
 
   // Where a node stands; `key` is its dotted path, so that overridden values name the command line.
   Place place_of(const YAML::Node& node, const std::string& key) const;
+
+  // Where each key stands, by its dotted path, as deep as mappings lie in mappings.
+  std::map<std::string, Place> places() const;
 };
 
 YamlDocument load_yaml(const std::string& path, const std::vector<Override>& overrides);
+
+// Keys of the whole picture, which no single panel of a comparison can have.
+const std::vector<std::string>& page_keys();
+
+// The document that entry `index` (from 0) of `compare:` stands for: the file's keys without `title`,
+// `layout` and `compare`, changed by the entry's own, which may be dotted. The entry is a mapping.
+YamlDocument panel_document(const YamlDocument& whole, std::size_t index);
 
 }  // namespace chainreel

@@ -1,0 +1,202 @@
+#include "scene/stability_cells.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <thread>
+
+#include "dynamics/energy.hpp"
+#include "scene/prepare.hpp"
+#include "scene/read_scene.hpp"
+#include "sim/audit.hpp"
+#include "sim/batch.hpp"
+#include "sim/linear_modes.hpp"
+
+namespace chainreel {
+namespace {
+
+// Keys of the integration alone: the mechanism need not be made anew for them.
+bool is_of_method(const std::string& key) {
+  return key == "step" || key == "tolerance";
+}
+
+void set_of_method(Simulation& simulation, const std::string& key, double value) {
+  if (key == "step") {
+    simulation.step = value;
+    simulation.options.tolerance = 0;
+  } else {
+    simulation.step = 0;
+    simulation.options.tolerance = value;
+  }
+}
+
+// Each index once, on several threads; what the first of them throws is thrown here.
+void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& run) {
+  std::atomic<std::size_t> next = 0;
+  std::exception_ptr problem;
+  std::mutex lock;
+  const auto work = [&] {
+    try {
+      for (std::size_t i = next++; i < count; i = next++) run(i);
+    } catch (...) {
+      const std::lock_guard guard(lock);
+      if (!problem) problem = std::current_exception();
+      next = count;
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (int k = 1; k < threads; ++k) others.emplace_back(work);
+    work();
+  }
+  if (problem) std::rethrow_exception(problem);
+}
+
+class CellRuns {
+ public:
+  CellRuns(const std::string& scene, const std::vector<std::string>& overrides, const Sweep& x,
+           const Sweep& y, int threads, const StopRequest& stop)
+      : scene_(scene), overrides_(overrides), threads_(threads), stop_(stop) {
+    result_.x = x;
+    result_.y = y;
+    result_.threads = threads;
+    result_.cells.resize(x.values.size() * y.values.size());
+  }
+
+  StabilityCells run() {
+    // The first cell alone: a scene that cannot be read says so once.
+    const Simulation first = simulation_of({0, 0});
+    result_.method = first.method->name;
+    const bool same_step = !is_of_method(result_.x.key) && !is_of_method(result_.y.key);
+    result_.in_batches = same_step && fits_a_batch(first);
+    if (result_.in_batches)
+      run_batch();
+    else
+      for_each_index(result_.y.values.size(), threads_, [this](std::size_t iy) { run_row(iy); });
+    find_boundary();
+    return std::move(result_);
+  }
+
+ private:
+  struct At {
+    std::size_t x, y;
+  };
+
+  Simulation simulation_of(At at) const {
+    std::vector<std::string> settings = overrides_;
+    settings.push_back(result_.x.setting(at.x));
+    settings.push_back(result_.y.setting(at.y));
+    Scene scene = read_scene(scene_, settings);
+    if (scene.method == "auto")
+      throw Error(ExitCode::bad_input,
+                  "a stability map needs a method of its own: auto would choose another one in every cell; "
+                  "name one, like --set method=rk4",
+                  scene.place_of("method"));
+    return prepare(scene, false);
+  }
+
+  static void lengthen(Simulation& simulation) {
+    simulation.duration = std::max(simulation.duration, kLeastSteps * simulation.step);
+  }
+
+  static bool fits_a_batch(const Simulation& simulation) {
+    return simulation.method->name == "semi_implicit_euler" && simulation.torque->is_constant() &&
+           simulation.limit == LimitPolicy::report && !simulation.chain.has_dissipation &&
+           simulation.chain.nq == simulation.chain.nv;
+  }
+
+  StabilityCell& cell(At at) { return result_.cells[at.y * result_.x.values.size() + at.x]; }
+
+  void run_row(std::size_t iy) {
+    const std::string& key = result_.x.key;
+    std::optional<Simulation> simulation;
+    for (std::size_t ix = 0; ix < result_.x.values.size(); ++ix) {
+      if (!simulation || !is_of_method(key)) simulation.emplace(simulation_of({ix, iy}));
+      const double duration = simulation->duration;
+      if (is_of_method(key)) set_of_method(*simulation, key, result_.x.numbers[ix]);
+      lengthen(*simulation);
+      run_one(*simulation, cell({ix, iy}));
+      simulation->duration = duration;
+      if (stop_ && stop_(0)) return;
+    }
+  }
+
+  void run_one(Simulation& simulation, StabilityCell& cell) {
+    const double end[] = {simulation.duration};
+    const Trajectory trajectory = simulate(simulation, end, stop_);
+    cell.status = trajectory.status;
+    cell.trouble = trajectory.trouble;
+    cell.energy_error = is_complete(trajectory.status) && trajectory.size() > 0
+                            ? audit_of(simulation, trajectory).largest_error
+                            : std::numeric_limits<double>::infinity();
+  }
+
+  void run_batch() {
+    const std::size_t count = result_.cells.size(), row = result_.x.values.size();
+    std::vector<std::optional<Simulation>> all(count);
+    for_each_index(count, threads_, [&](std::size_t i) {
+      all[i].emplace(simulation_of({i % row, i / row}));
+    });
+    lengthen(*all[0]);  // all have its duration and step
+    BatchSimulator batch(all[0]->chain, int(count));
+    std::vector<double> tau(std::size_t(all[0]->chain.nv));
+    for (std::size_t i = 0; i < count; ++i) {
+      Simulation& one = *all[i];
+      Workspace ws(one.chain);
+      one.torque->evaluate(one.chain, ws, 0, one.q0, one.qd0, tau);
+      batch.set_chain(int(i), one.chain);
+      batch.set_state(int(i), one.q0, one.qd0);
+      batch.set_torque(int(i), tau);
+      batch.set_step(int(i), one.step);
+    }
+    batch.run(long(std::llround(all[0]->duration / all[0]->step)), threads_);
+    for_each_index(count, threads_,
+                   [&](std::size_t i) { read_one(batch, int(i), *all[i], result_.cells[i]); });
+  }
+
+  static void read_one(const BatchSimulator& batch, int i, Simulation& one, StabilityCell& cell) {
+    std::vector<double> q(one.q0.size()), qd(one.qd0.size()), tau(one.qd0.size());
+    batch.read_state(i, q, qd);
+    Workspace ws(one.chain);
+    one.torque->evaluate(one.chain, ws, 0, one.q0, one.qd0, tau);
+    double work = 0;
+    for (std::size_t k = 0; k < q.size(); ++k) work += tau[k] * (q[k] - one.q0[k]);
+    const double gained =
+        energy_of(one.chain, ws, q, qd).total() - energy_of(one.chain, ws, one.q0, one.qd0).total();
+    cell.energy_error = std::abs(gained - work);
+    if (std::isfinite(cell.energy_error)) return;
+    cell.energy_error = std::numeric_limits<double>::infinity();
+    cell.status = RunStatus::diverged;
+    cell.trouble = "diverged";
+  }
+
+  // Theory: where one key is the step, for each value of the other.
+  void find_boundary() {
+    const bool along_x = result_.x.key == "step";
+    if (!along_x && result_.y.key != "step") return;
+    const std::size_t count = (along_x ? result_.y : result_.x).values.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Simulation simulation = simulation_of(along_x ? At{0, i} : At{i, 0});
+      result_.boundary.push_back(longest_stable_step(*simulation.method, oscillating_modes(simulation)));
+    }
+  }
+
+  std::string scene_;
+  std::vector<std::string> overrides_;
+  int threads_;
+  StopRequest stop_;
+  StabilityCells result_;
+};
+
+}  // namespace
+
+StabilityCells run_stability_cells(const std::string& scene, const std::vector<std::string>& overrides,
+                                   const Sweep& x, const Sweep& y, int threads, const StopRequest& stop) {
+  return CellRuns(scene, overrides, x, y, threads, stop).run();
+}
+
+}  // namespace chainreel
