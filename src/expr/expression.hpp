@@ -41,6 +41,7 @@ class Expression {
   std::optional<double> constant() const { return constant_; }
   const std::vector<int>& used_variables() const { return used_variables_; }  // slots that occur, rising
   const std::string& text() const { return text_; }
+  const Program& program() const { return program_; }
 
  private:
   std::string text_;
