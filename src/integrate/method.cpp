@@ -27,6 +27,15 @@ const std::vector<Method>& methods() {
        .evaluations_per_step = 4,
        .source = "W. Kutta, Zeitschrift fuer Mathematik und Physik 46 (1901) 435-453",
        .make_stepper = make_rk4},
+      {.name = "dop853",
+       .order = 8,
+       .kind = "explicit, adaptive",
+       .adaptive = true,
+       .dense_order = 7,
+       .evaluations_per_step = 12,
+       .source = "J. Dormand, P. Prince; E. Hairer, S. Norsett, G. Wanner, Solving Ordinary Differential "
+                 "Equations I (1993), II.5, II.10",
+       .make = make_dop853},
   };
   return rows;
 }
