@@ -24,6 +24,11 @@ bool is_of_method(const std::string& key) {
   return key == "step" || key == "tolerance";
 }
 
+// Keys that let cells differ in the number of their steps.
+bool is_of_time(const std::string& key) {
+  return is_of_method(key) || key == "duration";
+}
+
 void set_of_method(Simulation& simulation, const std::string& key, double value) {
   if (key == "step") {
     simulation.step = value;
@@ -71,7 +76,7 @@ class CellRuns {
     // The first cell alone: a scene that cannot be read says so once.
     const Simulation first = simulation_of({0, 0});
     result_.method = first.method->name;
-    const bool same_step = !is_of_method(result_.x.key) && !is_of_method(result_.y.key);
+    const bool same_step = !is_of_time(result_.x.key) && !is_of_time(result_.y.key);
     result_.in_batches = same_step && fits_a_batch(first);
     if (result_.in_batches)
       run_batch();

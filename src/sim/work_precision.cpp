@@ -73,7 +73,8 @@ Rung measure(Simulation& simulation, const MethodSetting& setting, const EndStat
   simulation.options = setting.options;
   simulation.step = setting.step;
   const double end[] = {simulation.duration};
-  Rung rung{setting};
+  Rung rung;
+  rung.setting = setting;
   std::vector<double> seconds;
   while (int(seconds.size()) < runs) {
     const auto begin = std::chrono::steady_clock::now();
