@@ -5,11 +5,13 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/automatic.hpp"
 #include "app/command.hpp"
 #include "app/pipeline.hpp"
 #include "app/report.hpp"
 #include "app/signals.hpp"
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "dynamics/forward_dynamics.hpp"
 #include "integrate/method.hpp"
 #include "model/doctor.hpp"
@@ -93,10 +95,19 @@ void print_model(const Json& model) {
     std::printf("end effector: %s\n", model["end_effector"].get<std::string>().c_str());
 }
 
+void print_candidates(const Choice& choice, const Accuracy& accuracy) {
+  std::vector<std::vector<std::string>> table{{"tried", "off by, " + accuracy.unit, "us", "evaluations", ""}};
+  for (const Choice::Candidate& one : choice.tried)
+    table.push_back({to_string(one.setting), format_significant(one.error, 2),
+                     format_significant(one.cost / 1000, 3), std::to_string(one.evaluations), one.trouble});
+  std::fputs(table_text(table).c_str(), stdout);
+}
+
 void check_scene(const CheckOptions& options) {
   const PreparedScene prepared = load_scene(options.file, overrides_of(options.common));
   const Json model = model_report(prepared.simulation.chain);
-  const Json cost = cost_report(prepared.scene, prepared.simulation);
+  Json cost = cost_report(prepared.scene, prepared.simulation);
+  if (prepared.choice) cost["auto"] = choice_report(*prepared.choice, prepared.scene.accuracy, true);
   const std::string text = scene_text(prepared.scene);
   if (options.common.json) {
     std::puts(Json{{"scene", text}, {"model", model}, {"cost", cost}}.dump(2).c_str());
@@ -105,8 +116,15 @@ void check_scene(const CheckOptions& options) {
   std::printf("# %s with all defaults; paths from this folder\n%s\n", options.file.c_str(), text.c_str());
   print_model(model);
   std::printf("%s: order %d, %ld steps, %ld evaluations of the dynamics, %d frames\n",
-              method_text(prepared.scene).c_str(), cost["order"].get<int>(), cost["steps"].get<long>(),
-              cost["evaluations"].get<long>(), cost["frames"].get<int>());
+              to_string(MethodSetting{prepared.simulation.method, prepared.simulation.options,
+                                      prepared.simulation.step})
+                  .c_str(),
+              cost["order"].get<int>(), cost["steps"].get<long>(), cost["evaluations"].get<long>(),
+              cost["frames"].get<int>());
+  if (prepared.choice) {
+    std::printf("%s\n", choice_text(*prepared.choice, prepared.scene.accuracy).c_str());
+    print_candidates(*prepared.choice, prepared.scene.accuracy);
+  }
   std::printf("computed for the picture only: %d energies, %d Lambda\n", cost["energies_computed"].get<int>(),
               cost["Lambda_computed"].get<int>());
 }

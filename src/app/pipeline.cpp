@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/automatic.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/signals.hpp"
@@ -18,8 +19,9 @@
 namespace chainreel {
 
 PreparedScene load_scene(const std::string& path, const std::vector<std::string>& overrides, bool meshes) {
-  PreparedScene prepared{read_scene(path, overrides), {}};
+  PreparedScene prepared{read_scene(path, overrides), {}, {}};
   prepared.simulation = prepare(prepared.scene, meshes);
+  choose_automatically(prepared);
   return prepared;
 }
 

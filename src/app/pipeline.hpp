@@ -1,6 +1,7 @@
 // Where the stages are joined: scene -> simulation -> trajectory -> film -> pixels -> file.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "picture/text.hpp"
 #include "scene/scene.hpp"
 #include "sim/audit.hpp"
+#include "sim/choose_method.hpp"
 #include "sim/simulate.hpp"
 
 namespace chainreel {
@@ -18,6 +20,7 @@ namespace chainreel {
 struct PreparedScene {
   Scene scene;  // the effective one
   Simulation simulation;
+  std::optional<Choice> choice;  // of `method: auto`
 };
 
 PreparedScene load_scene(const std::string& path, const std::vector<std::string>& overrides,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/automatic.hpp"
 #include "core/format.hpp"
 #include "encode/libraries.hpp"
 #include "render/canvas.hpp"
@@ -76,6 +77,7 @@ Json audit_report(const PreparedScene& prepared, const Trajectory& trajectory, c
   json["step"] = simulation.step > 0 ? Json(simulation.step) : Json(nullptr);
   if (simulation.options.tolerance > 0) json["tolerance"] = simulation.options.tolerance;
   if (simulation.options.order > 0) json["order"] = simulation.options.order;
+  if (prepared.choice) json["auto"] = choice_report(*prepared.choice, scene.accuracy, false);
   json["steps"] = trajectory.steps;
   json["evaluations"] = trajectory.evaluations;
   json["frames"] = trajectory.size();

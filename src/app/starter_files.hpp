@@ -15,8 +15,8 @@ torque:                       # one number or expression a joint, N m
   - 0
   - -k * qd2                  # t, q1.., qd1.., x_G y_G z_G, xd_G yd_G zd_G, the parameters
 duration: 5                   # s
-method: semi_implicit_euler   # or rk4, explicit_euler
-step: 0.001                   # s
+method: auto                  # the cheapest within `accuracy:`, or a row of `chainreel methods`
+accuracy: 0.1 px              # or m, rad, relative
 draw: [+ellipse, +legend]     # edits the default layers: chain, trail, time, title, torque_label
 video: {width: 1280, height: 720, fps: 60}
 )";

@@ -10,7 +10,8 @@ void problem_at(Fields& fields, const std::string& key, const std::string& messa
 }
 
 bool has(Fields& fields, const std::string& key) {
-  return fields.find(key).IsDefined();
+  const YAML::Node node = fields.find(key);
+  return node.IsDefined() && !node.IsNull();
 }
 
 void read_number(Fields& fields, const std::string& key, std::optional<double>& value,

@@ -38,7 +38,7 @@ struct Scene {
   Parameters parameters;
   std::string end_effector;                    // "": link `gripper`, else the only leaf
   double duration = 10;                        // s
-  std::string method = "semi_implicit_euler";  // or auto
+  std::string method = "auto";      // or a row of the registry
   std::optional<double> step;                  // s; absent: 1 ms, or what the tolerance allows
   std::optional<double> tolerance;             // of adaptive methods; absent: 1e-9, unless they have a step
   std::optional<int> order;                    // of methods with several

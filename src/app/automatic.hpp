@@ -1,0 +1,20 @@
+// `method: auto` at work, and what it says about its choice.
+#pragma once
+
+#include <string>
+
+#include "app/pipeline.hpp"
+#include "core/json.hpp"
+
+namespace chainreel {
+
+// Fills in method and step where the scene leaves them to the program; else does nothing.
+void choose_automatically(PreparedScene& prepared);
+
+// One sentence: the choice, its estimated error and its price; and until when any run can be that exact.
+std::string choice_text(const Choice& choice, const Accuracy& accuracy);
+
+// The same, and with `tried` every candidate.
+Json choice_report(const Choice& choice, const Accuracy& accuracy, bool tried);
+
+}  // namespace chainreel
