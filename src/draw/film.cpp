@@ -1,84 +1,76 @@
 #include "draw/film.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "draw/chain.hpp"
-#include "draw/chain_fit.hpp"
-#include "draw/joints.hpp"
 #include "draw/metre_bar.hpp"
 #include "draw/torque_label.hpp"
 #include "draw/view.hpp"
-#include "dynamics/kinematics.hpp"
 
 namespace chainreel {
 namespace {
 
-constexpr double kWild =
-    100;  // lengths of the chain: beyond, a run that did not finish is left out of the fit
-constexpr int kScaleSamples = 200;    // of a clip decide on the scale of its ellipses
 constexpr double kEllipseBar = 0.10;  // units of H: the smaller semi-axis measures about as much
-constexpr int kSceneClip = 0;
+constexpr double kFrameLine = 0.0018;
+constexpr double kRowPitch = 1.55;   // of the em: a panel's title or note with the air around it
+constexpr double kBarInset = 0.014;  // of the metre bar from the frame of its panel
+constexpr double kRoundOff = 1e-12;  // a text that just fills its row fits
+constexpr double kDescent = 0.40;    // of the em, from the lower end of a row up to its base line
+
+std::vector<double> first_times(const Trajectory& trajectory, int frames) {
+  const auto count = std::size_t(std::clamp(frames, 0, trajectory.size()));
+  return {trajectory.t.begin(), trajectory.t.begin() + std::ptrdiff_t(count)};
+}
 
 }  // namespace
 
-Film::Layers Film::layers_of(const Scene& scene) {
-  const auto named = [&](const char* name) {
-    return std::find(scene.draw.begin(), scene.draw.end(), name) != scene.draw.end();
-  };
-  return {named("chain"),        named("trail"),   named("time"),      named("title"),
-          named("torque_label"), named("ellipse"), named("scale_bar"), named("legend")};
-}
-
 Film::Film(const Scene& scene, const Chain& chain, const Trajectory& trajectory, int frames,
            const Fonts& fonts)
-    : scene_(scene),
-      chain_(chain),
-      trajectory_(trajectory),
-      fonts_(fonts),
-      theme_(light_theme()),
-      layers_(layers_of(scene)),
-      samples_(std::min(frames, trajectory.size())),
-      skeleton_(skeleton_of(chain)),
-      ws_(std::make_unique<Workspace>(chain)) {
-  if (samples_ < 1)
-    throw Error(ExitCode::bad_input, "a film needs at least one frame", scene.place_of("duration"));
-  // A run that finished is drawn wherever it went: a free fall may be long.
-  limit_ =
-      trajectory.status == RunStatus::finished ? std::numeric_limits<double>::max() : kWild * skeleton_.reach;
-  find_rails();
+    : Film(scene, {{scene, chain, trajectory}}, first_times(trajectory, frames), fonts) {}
+
+Film::Film(const Scene& page, const std::vector<PanelRun>& runs, std::vector<double> times,
+           const Fonts& fonts)
+    : scene_(page), fonts_(fonts), theme_(light_theme()), layers_(layers_of(page)), times_(std::move(times)) {
+  for (const PanelRun& run : runs) {
+    const int samples = std::min(int(times_.size()), run.trajectory.size());
+    if (samples < 1)
+      throw Error(ExitCode::bad_input, "a film needs at least one frame", page.place_of("duration"));
+    const bool freezes = runs.size() > 1 || run.scene.expect == "diverge";
+    panels_.emplace_back(run, layers_, samples, freezes ? WildEnd::frozen : WildEnd::shown);
+  }
   if (layers_.ellipse) find_mass_scale();
   lay_out();
   fit_camera();
-  look_ = look_of(skeleton_, camera_, theme_);
-  follow_tip();
-}
-
-void Film::find_rails() {
-  for (int k = 0; k < samples_; ++k) widen_rails(skeleton_, chain_, trajectory_.q_at(k), limit_);
+  if (is_comparison() && layers_.title) place_titles();
 }
 
 void Film::find_mass_scale() {
-  const int count = std::min(samples_, kScaleSamples);
   std::vector<double> smaller;
-  for (int i = 0; i < count; ++i) {
-    const int k = int(std::int64_t(i) * samples_ / count);
-    const auto mass = smallest_mass(
-        mass_axes(effective_mass_of(chain_, *ws_, trajectory_.q_at(k), chain_.end_effector, Task::linear)));
-    if (mass) smaller.push_back(*mass);
+  for (const Panel& panel : panels_) {
+    const std::vector<double> own = panel.smaller_masses();
+    smaller.insert(smaller.end(), own.begin(), own.end());
   }
   mass_scale_ = mass_scale(std::move(smaller), kEllipseBar);
+}
+
+// What acts at the joints of all panels; nothing where they differ, since then their titles say it.
+std::vector<std::string> Film::common_torque() const {
+  const auto notations = [](const Panel& panel) {
+    return torque_notations(panel.chain(), panel.scene().torque, panel.scene().control);
+  };
+  const std::vector<std::string> first = notations(panels_.front());
+  const bool same = std::all_of(panels_.begin(), panels_.end(),
+                                [&](const Panel& panel) { return notations(panel) == first; });
+  return same ? first : std::vector<std::string>{};
 }
 
 void Film::lay_out() {
   SheetText text;
   text.title_place = scene_.place_of("title");
   if (layers_.title) text.title = scene_.title;
-  if (layers_.torque_label) text.torque = torque_notations(chain_, scene_.torque, scene_.control);
-  if (layers_.time) text.longest_time = time_text(trajectory_.t[std::size_t(samples_) - 1]);
+  if (layers_.torque_label) text.torque = common_torque();
+  if (layers_.time) text.longest_time = time_text(times_.back());
   if (layers_.ellipse) {
     text.bar = format_shortest(mass_scale_.bar_kg) + " kg";
     text.bar_length = mass_scale_.bar_length;
@@ -86,23 +78,55 @@ void Film::lay_out() {
   if (layers_.ellipse && layers_.legend) text.legend = kEllipseLegend;
   const double aspect = double(scene_.video.width) / scene_.video.height;
   sheet_ = lay_out_sheet(text, aspect, scene_.text_scale, theme_, fonts_);
+  if (is_comparison() && layers_.title) rows_.title = kRowPitch * scaled(size::kSymbol, scene_.text_scale);
+  if (std::any_of(panels_.begin(), panels_.end(), [](const Panel& panel) { return panel.may_freeze(); }))
+    rows_.note = kRowPitch * scaled(size::kAxis, scene_.text_scale);
+}
+
+FitBox Film::fit_box(const Camera& view, double marks) {
+  const bool all_wild =
+      std::all_of(panels_.begin(), panels_.end(), [](const Panel& panel) { return panel.is_wild(); });
+  FitBox box;
+  for (Panel& panel : panels_) box.add(panel.fit_box(view, marks, all_wild));
+  return box;
 }
 
 void Film::fit_camera() {
-  camera_ = view_of(chain_);
-  ChainFit fit(chain_, skeleton_, camera_);
-  for (int k = 0; k < samples_; ++k) {
-    compute_kinematics(chain_, *ws_, trajectory_.q_at(k), trajectory_.qd_at(k));
-    fit.add_pose(*ws_, limit_);
+  Camera camera = view_of(panels_.front().chain());
+  FitBox box = fit_box(camera, 1);
+  const int count = panel_count();
+  cells_ = scene_.layout == "compare" ? panel_cells(sheet_.scene, count, count, rows_)
+                                      : best_cells(sheet_.scene, count, rows_, box);
+  if (cells_.empty())
+    throw Error(ExitCode::bad_input,
+                "the panels get too small on this page: compare fewer, or lower text_scale",
+                scene_.place_of("compare"));
+  const double marks = marks_in(cells_);
+  if (marks != 1) box = fit_box(camera, marks);
+  const Rect& first = cells_.front().scene;
+  fit_to(camera, box, first, size::kFitMargin);
+  for (int i = 0; i < count; ++i) {
+    const Rect& scene = cells_[std::size_t(i)].scene;
+    Camera shifted = camera;
+    shifted.origin = camera.origin + Point{scene.x0 - first.x0, scene.y0 - first.y0};
+    panels_[std::size_t(i)].settle(shifted, scene, i, marks);
   }
-  fit_to(camera_, fit.box(), sheet_.scene, size::kFitMargin);
 }
 
-void Film::follow_tip() {
-  for (int k = 0; k < samples_; ++k) {
-    compute_kinematics(chain_, *ws_, trajectory_.q_at(k), trajectory_.qd_at(k));
-    tip_.add(trajectory_.t[std::size_t(k)], camera_.project(tip_position(chain_, *ws_)),
-             camera_.project_vector(frame_velocity(chain_, *ws_, chain_.end_effector)));
+void Film::place_titles() {
+  const bool two_sides = panels_.size() == 2;
+  for (std::size_t i = 0; i < panels_.size(); ++i) {
+    const Rect& row = cells_[i].title;
+    const Color color = !two_sides ? theme_.ink : i == 0 ? theme_.side_a : theme_.side_b;
+    const TextStyle style{Face::label_bold, scaled(size::kSymbol, scene_.text_scale), color, Align::left};
+    const Scene& scene = panels_[i].scene();
+    TextLine line = fit_text(fonts_, scene.title, style, row.width(), scene_.text_scale);
+    if (line.advance > row.width() + kRoundOff)
+      throw Error(ExitCode::bad_input,
+                  "the title of panel " + std::to_string(i + 1) +
+                      " does not fit above it: give the panel a short `title:`",
+                  scene.place_of("title"));
+    titles_.push_back({std::move(line), {row.x0, row.y0 + kDescent * style.size}});
   }
 }
 
@@ -110,37 +134,46 @@ Picture Film::page() const {
   Picture picture;
   picture.aspect = sheet_.aspect;
   picture.background = theme_.background;
-  picture.clips = {sheet_.scene};
+  for (const PanelCell& cell : cells_) picture.clips.push_back(cell.scene);
   return picture;
+}
+
+void Film::draw_frames(Picture& picture) const {
+  for (const PanelCell& cell : cells_) {
+    const Rect& r = cell.scene;
+    picture.add(Polygon{
+        {Point{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}, 4, {{}, theme_.rule, kFrameLine}});
+  }
 }
 
 Picture Film::static_layer() const {
   Picture picture = page();
-  if (layers_.chain) draw_base(picture, {chain_, skeleton_, camera_, look_}, kSceneClip);
-  if (layers_.scale_bar) draw_metre_bar(picture, camera_, sheet_, fonts_);
+  if (is_comparison()) draw_frames(picture);
+  for (const Panel& panel : panels_) panel.draw_static(picture);
+  if (layers_.scale_bar) {
+    Sheet first = sheet_;
+    first.scene = cells_.front().scene;
+    if (is_comparison()) first.scene.x0 += kBarInset;
+    draw_metre_bar(picture, camera(), first, fonts_);
+  }
   draw_sheet(picture, sheet_);
+  for (const PlacedText& title : titles_) draw_text(picture, title.line, title.anchor);
   return picture;
 }
 
 Picture Film::frame(int k) const {
-  k = std::clamp(k, 0, samples_ - 1);
-  compute_kinematics(chain_, *ws_, trajectory_.q_at(k), trajectory_.qd_at(k));
+  k = std::clamp(k, 0, int(times_.size()) - 1);
   Picture picture = page();
-  const Color trail = theme_.curve[std::size_t(std::max(chain_.nv, 1) - 1) % theme_.curve.size()];
-  const ChainDrawing drawing{chain_, skeleton_, camera_, look_};
-  if (layers_.chain) draw_rails(picture, drawing, *ws_, kSceneClip);
-  if (layers_.trail) draw_trail(picture, tip_, k, trail, kSceneClip);
-  if (layers_.chain) draw_links(picture, drawing, *ws_, kSceneClip);
-  const Point tip = tip_.place(k);
-  if (layers_.ellipse) {
-    const EllipseStyle style{&theme_, &fonts_, scene_.text_scale, mass_scale_.per_kg(), sheet_.scene};
-    draw_mass_ellipse(
-        picture,
-        mass_axes(effective_mass_of(chain_, *ws_, trajectory_.q_at(k), chain_.end_effector, Task::linear)),
-        tip, camera_, style, kSceneClip);
+  for (const Panel& panel : panels_) panel.draw_frame(picture, k, mass_scale_, fonts_);
+  for (std::size_t i = 0; i < panels_.size(); ++i) {
+    const std::string note = panels_[i].note(k);
+    if (note.empty()) continue;
+    const Rect& row = cells_[i].note;
+    const TextStyle style{Face::label, scaled(size::kAxis, scene_.text_scale), theme_.ink, Align::left};
+    draw_text(picture, fit_text(fonts_, note, style, row.width(), scene_.text_scale),
+              {row.x0, row.y0 + kDescent * style.size});
   }
-  if (layers_.chain) draw_end_effector(picture, tip, look_, kSceneClip);
-  if (layers_.time) draw_time(picture, sheet_, trajectory_.t[std::size_t(k)], fonts_);
+  if (layers_.time) draw_time(picture, sheet_, times_[std::size_t(k)], fonts_);
   return picture;
 }
 

@@ -1,64 +1,59 @@
-// A film: one scene's run as pictures, frame by frame.
+// A film: the runs of one scene's panels as pictures, frame by frame.
 #pragma once
 
-#include <memory>
+#include <string>
 #include <vector>
 
-#include "draw/ellipse.hpp"
-#include "draw/look.hpp"
+#include "draw/panel.hpp"
+#include "draw/panel_grid.hpp"
 #include "draw/sheet.hpp"
-#include "draw/skeleton.hpp"
-#include "draw/trail.hpp"
-#include "scene/scene.hpp"
-#include "sim/trajectory.hpp"
 
 namespace chainreel {
 
-// One scene's run, seen by one camera that is fitted once over all frames. Places along the whole run are
-// computed once; a frame then costs the kinematics of one pose. Not shared between threads: frames use one
-// workspace.
+// Runs seen by one camera that is fitted once over all frames of all panels: same scale everywhere, so that
+// lengths can be compared by eye. Not shared between threads.
 class Film {
  public:
-  // References must outlive the film. Samples 0..frames-1 of the trajectory are the frames; a run that ended
-  // early stands still from its last sample on.
+  // One panel. References must outlive the film. Samples 0..frames-1 of the trajectory are the frames; a run
+  // that ended early stands still from its last sample on.
   Film(const Scene& scene, const Chain& chain, const Trajectory& trajectory, int frames, const Fonts& fonts);
 
-  Picture static_layer() const;  // background, title, ground mark, torque label: what no frame changes
+  // `page` says what all panels share. Sample k of each trajectory is its frame k, shown at times[k]. A run
+  // that diverges is left out of the fit, unless all do; its panel stands still before the chain leaves it,
+  // and says so. That holds for the only panel, too, where the scene expects it to diverge.
+  Film(const Scene& page, const std::vector<PanelRun>& runs, std::vector<double> times, const Fonts& fonts);
+
+  Picture static_layer() const;  // background, words, ground marks: what no frame changes
   Picture frame(int k) const;    // everything that moves, painter's order, drawn over the static layer
 
-  const Camera& camera() const { return camera_; }
-  const Rect& scene_area() const { return sheet_.scene; }
+  int panel_count() const { return int(panels_.size()); }
+  const Panel& panel(int i) const { return panels_[std::size_t(i)]; }
+  const Camera& camera(int i = 0) const { return panel(i).camera(); }
+  const Rect& scene_area(int i = 0) const { return panel(i).area(); }
   const MassScale& ellipse_scale() const { return mass_scale_; }
 
  private:
-  struct Layers {
-    bool chain = false, trail = false, time = false, title = false;
-    bool torque_label = false, ellipse = false, scale_bar = false, legend = false;
-  };
-  static Layers layers_of(const Scene& scene);
-
-  void find_rails();
+  bool is_comparison() const { return panels_.size() > 1; }
   void find_mass_scale();
   void lay_out();
+  std::vector<std::string> common_torque() const;
+  FitBox fit_box(const Camera& view, double marks);
   void fit_camera();
-  void follow_tip();
+  void place_titles();
   Picture page() const;
+  void draw_frames(Picture& picture) const;
 
   const Scene& scene_;
-  const Chain& chain_;
-  const Trajectory& trajectory_;
   const Fonts& fonts_;
   const Theme& theme_;
   Layers layers_;
-  int samples_ = 0;   // that are drawn
-  double limit_ = 0;  // m; places beyond it belong to a run that diverged
-  Skeleton skeleton_;
+  std::vector<double> times_;
+  std::vector<Panel> panels_;
   MassScale mass_scale_;
   Sheet sheet_;
-  Camera camera_;
-  ChainLook look_;
-  TipPath tip_;
-  std::unique_ptr<Workspace> ws_;
+  PanelRows rows_;
+  std::vector<PanelCell> cells_;
+  std::vector<PlacedText> titles_;
 };
 
 }  // namespace chainreel

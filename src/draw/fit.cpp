@@ -35,6 +35,10 @@ void FitBox::add(int kind, Point place_m) {
               std::max(k.places.x1, place_m.x), std::max(k.places.y1, place_m.y)};
 }
 
+void FitBox::add(const FitBox& other) {
+  kinds_.insert(kinds_.end(), other.kinds_.begin(), other.kinds_.end());
+}
+
 bool FitBox::empty() const {
   return std::none_of(kinds_.begin(), kinds_.end(), [](const Kind& kind) { return kind.used; });
 }

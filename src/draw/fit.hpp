@@ -28,6 +28,8 @@ class FitBox {
   void add(int kind,
            Point place_m);  // along the camera's right and up, m; places that are not finite are passed over
 
+  void add(const FitBox& other);  // everything that it holds
+
   bool empty() const;
   // The whole in metres when one metre measures `scale`.
   Rect box(double scale) const;

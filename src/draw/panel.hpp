@@ -1,0 +1,98 @@
+// One run in its part of the page.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "draw/ellipse.hpp"
+#include "draw/fit.hpp"
+#include "draw/look.hpp"
+#include "draw/skeleton.hpp"
+#include "draw/trail.hpp"
+#include "scene/scene.hpp"
+#include "sim/trajectory.hpp"
+
+namespace chainreel {
+
+// What the scene's `draw:` names.
+struct Layers {
+  bool chain = false, trail = false, time = false, title = false;
+  bool torque_label = false, ellipse = false, scale_bar = false, legend = false;
+};
+Layers layers_of(const Scene& scene);
+
+// References must outlive what is drawn from them.
+struct PanelRun {
+  const Scene& scene;
+  const Chain& chain;
+  const Trajectory& trajectory;
+};
+
+// How a panel treats a run that came to no good end.
+enum class WildEnd {
+  shown,   // all of it, as far as the camera sees
+  frozen,  // the panel stands still before the chain leaves its part of the page
+};
+
+// Places along the whole run are computed once; a frame then costs the kinematics of one pose. Not shared
+// between threads: frames use one workspace. First fit, then settle, then draw.
+class Panel {
+ public:
+  // The first `samples` samples of the run are its frames.
+  Panel(const PanelRun& run, const Layers& layers, int samples, WildEnd wild_end);
+
+  // The run did not come to an end that it should have: other panels decide on the camera.
+  bool is_wild() const { return wild_; }
+  bool may_freeze() const { return wild_ && wild_end_ == WildEnd::frozen; }
+
+  // Smaller semi-axes of the mass ellipse at some of the frames, kg.
+  std::vector<double> smaller_masses() const;
+
+  // What a camera with these axes must hold. Wild panels widen it only where `with_wild`.
+  FitBox fit_box(const Camera& view, double marks, bool with_wild);
+
+  // The panel's part of the page, as a camera sees it; `clip` is the index of `scene` in the pictures to
+  // come.
+  void settle(const Camera& camera, const Rect& scene, int clip, double marks);
+
+  void draw_static(Picture& picture) const;
+  // Everything that moves, but words.
+  void draw_frame(Picture& picture, int k, const MassScale& scale, const Fonts& fonts) const;
+  // "left the picture at t = 1.24 s" from that frame on.
+  std::string note(int k) const;
+  // The instant of the note's first appearance.
+  std::optional<double> left_at() const;
+
+  const Scene& scene() const { return run_.scene; }
+  const Chain& chain() const { return run_.chain; }
+  const Camera& camera() const { return camera_; }
+  const Rect& area() const { return area_; }
+
+ private:
+  void find_rails(int samples);
+  void follow_tip();
+  void find_last_inside();
+  bool is_inside() const;
+  void pose_at(int k) const;
+
+  PanelRun run_;
+  Layers layers_;
+  const Theme& theme_;
+  WildEnd wild_end_;
+  bool wild_ = false;
+  int samples_ = 0;    // of the run
+  int last_ = 0;       // frame that is drawn
+  bool left_ = false;  // the chain left the picture before the run ended
+  double limit_ = 0;   // m; places beyond it belong to a run that diverged
+  Skeleton skeleton_;
+  Camera camera_;
+  Rect area_;
+  int clip_ = 0;
+  ChainLook look_;
+  TipPath tip_;
+  std::unique_ptr<Workspace> ws_;
+};
+
+}  // namespace chainreel

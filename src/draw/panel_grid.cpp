@@ -1,0 +1,57 @@
+#include "draw/panel_grid.hpp"
+
+#include <algorithm>
+
+namespace chainreel {
+namespace {
+
+// Marks have their full size in a panel of this height and shrink with it, down to a limit.
+constexpr double kFullPanel = 0.6, kSmallestMarks = 0.45;
+constexpr double kSmallestSide = 0.06;  // of a panel that shows anything
+
+bool is_large_enough(const Rect& scene) {
+  return std::min(scene.width(), scene.height()) > kSmallestSide;
+}
+
+}  // namespace
+
+std::vector<PanelCell> panel_cells(const Rect& area, int count, int columns, const PanelRows& rows) {
+  const int lines = (count + columns - 1) / columns;
+  const double width = (area.width() - (columns - 1) * size::kGutter) / columns;
+  const double height = (area.height() - (lines - 1) * size::kGutter) / lines;
+  std::vector<PanelCell> cells;
+  for (int i = 0; i < count; ++i) {
+    const double x0 = area.x0 + (i % columns) * (width + size::kGutter), x1 = x0 + width;
+    const double y1 = area.y1 - (i / columns) * (height + size::kGutter), y0 = y1 - height;
+    cells.push_back({{x0, y1 - rows.title, x1, y1},
+                     {x0, y0 + rows.note, x1, y1 - rows.title},
+                     {x0, y0, x1, y0 + rows.note}});
+  }
+  return cells;
+}
+
+std::vector<PanelCell> best_cells(const Rect& area, int count, const PanelRows& rows, const FitBox& box) {
+  std::vector<PanelCell> best;
+  double best_scale = 0;
+  for (int columns = count; columns >= 1; --columns) {
+    const int lines = (count + columns - 1) / columns;
+    if ((lines - 1) * columns >= count) continue;  // a row would stay empty
+    std::vector<PanelCell> cells = panel_cells(area, count, columns, rows);
+    if (!is_large_enough(cells[0].scene)) continue;
+    Camera camera;
+    fit_to(camera, box, cells[0].scene, size::kFitMargin);
+    if (camera.scale > best_scale) {
+      best_scale = camera.scale;
+      best = std::move(cells);
+    }
+  }
+  return best;
+}
+
+double marks_in(const std::vector<PanelCell>& cells) {
+  if (cells.size() == 1) return 1;
+  const Rect& scene = cells[0].scene;
+  return std::clamp(std::min(scene.width(), scene.height()) / kFullPanel, kSmallestMarks, 1.0);
+}
+
+}  // namespace chainreel
