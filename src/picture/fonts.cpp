@@ -195,7 +195,7 @@ ShapedText shape(const Fonts& fonts, Face face, std::u32string_view text) {
                                              encode_utf8(text) + "'");
     }
     const Glyph glyph = {infos[i].codepoint, double(pen_x + positions[i].x_offset) / entry.units_per_em,
-                         double(pen_y + positions[i].y_offset) / entry.units_per_em};
+                         double(pen_y + positions[i].y_offset) / entry.units_per_em, infos[i].cluster};
     add_ink(shaped, entry.ft_face, glyph, entry.units_per_em);
     shaped.glyphs.push_back(glyph);
     pen_x += positions[i].x_advance;

@@ -94,6 +94,9 @@ enum class Face { label, label_bold, math };
 struct Glyph {
   std::uint32_t index = 0;  // in the face, not a character
   double x = 0, y = 0;      // pen position relative to the run's origin, in units of H
+  // The first of the characters of the run's text that it stands for: a ligature takes several, and several
+  // glyphs may share one.
+  std::uint32_t character = 0;
 };
 
 struct GlyphRun {
@@ -105,7 +108,14 @@ struct GlyphRun {
   std::string text;  // what it says, for outputs with selectable text
 };
 
-using Shape = std::variant<Capsule, Ellipse, Arc, Polygon, Trail, GlyphRun>;
+// Flat coloured cells that fill a rectangle, never smoothed; row by row from the lower left.
+struct Cells {
+  Rect rect;
+  int nx = 0, ny = 0;
+  std::vector<Color> colors;  // nx * ny
+};
+
+using Shape = std::variant<Capsule, Ellipse, Arc, Polygon, Trail, GlyphRun, Cells>;
 
 struct Item {
   Shape shape;
@@ -118,7 +128,13 @@ struct Picture {
   std::vector<Rect> clips;
   std::vector<Item> items;
 
-  void add(Shape shape, int clip = -1) { items.push_back({std::move(shape), clip}); }
+  template <class S>
+  void add(S&& shape, int clip = -1) {
+    // Assigned in place: g++ 12 warns wrongly of unset members where a variant made for the call is moved.
+    Item& item = items.emplace_back();
+    item.shape = std::forward<S>(shape);
+    item.clip = clip;
+  }
 
   // Everything of `over` on top of what is here; its page and background are left out.
   void append(const Picture& over) {

@@ -22,8 +22,10 @@ void LineBuilder::add(const ShapedText& shaped, std::u32string_view text, double
       !line_.runs.empty() && line_.runs.back().size == em && line_.runs.back().origin.y == y;
   if (!continues) line_.runs.push_back({face_, em, {x, y}, {}, color_, {}});
   GlyphRun& run = line_.runs.back();
+  const auto before = std::uint32_t(decode_utf8(run.text).size());
   for (const Glyph& glyph : shaped.glyphs)
-    run.glyphs.push_back({glyph.index, x - run.origin.x + em * glyph.x, em * glyph.y});
+    run.glyphs.push_back(
+        {glyph.index, x - run.origin.x + em * glyph.x, em * glyph.y, before + glyph.character});
   run.text += encode_utf8(text);
   if (shaped.has_ink)
     enclose({x + em * shaped.ink.x0, y + em * shaped.ink.y0, x + em * shaped.ink.x1, y + em * shaped.ink.y1});

@@ -16,6 +16,7 @@ constexpr double kSmallestAxis = 0.01;    // px: a flatter ellipse is a line
 constexpr double kFarthest = 1 << 14;     // px: single precision still resolves 1/1000 px here
 constexpr double kLargestAxis = 1e6;      // px: and 1/16 px here
 constexpr double kLargestText = 1 << 13;  // px per em
+constexpr int kMostCells = 4096;           // along a side: Mesa takes textures of 8192 and more
 constexpr int kCorners = 8;
 
 }  // namespace
@@ -69,7 +70,8 @@ bool Batch::set_paint(const Paint& paint, double& half_stroke, Vector& fill, Vec
 void Batch::append(Primitive primitive, std::initializer_list<Vector> vectors) {
   const PrimitiveRow& row = kPrimitives[std::size_t(primitive)];
   std::vector<float>& stream = streams_[std::size_t(primitive)];
-  if (runs_.empty() || runs_.back().primitive != primitive || runs_.back().clip != clip_)
+  if (runs_.empty() || runs_.back().primitive != primitive || runs_.back().clip != clip_ ||
+      primitive == Primitive::cells)
     runs_.push_back({primitive, int(stream.size()) / (4 * row.vectors), 0, clip_});
   for (const Vector& v : vectors) stream.insert(stream.end(), {v.x, v.y, v.z, v.w});
   ++runs_.back().count;
@@ -77,6 +79,7 @@ void Batch::append(Primitive primitive, std::initializer_list<Vector> vectors) {
 
 void Batch::set(const Picture& picture) {
   runs_.clear();
+  cell_sheets_.clear();
   for (std::vector<float>& stream : streams_) stream.clear();
   for (const Item& item : picture.items) {
     clip_ =
@@ -274,6 +277,29 @@ void Batch::add(const GlyphRun& run) {
                               {double(bitmap.left), double(bitmap.top)},
                               Vector::premultiplied(run.color)});
   }
+}
+
+void Batch::add(const Cells& cells) {
+  const std::size_t count = std::size_t(std::max(cells.nx, 0)) * std::size_t(std::max(cells.ny, 0));
+  const Pixels low = to_pixels(Point{cells.rect.x0, cells.rect.y1});
+  const Pixels high = to_pixels(Point{cells.rect.x1, cells.rect.y0});
+  if (count == 0 || cells.colors.size() != count || !(high.x > low.x) || !(high.y > low.y) ||
+      !is_visible(low.x, low.y, high.x, high.y))
+    return;
+  if (std::max(cells.nx, cells.ny) > kMostCells)
+    throw Error(ExitCode::limit, "a map of " + std::to_string(cells.nx) + "x" + std::to_string(cells.ny) +
+                                     " cells; each side may have up to " + std::to_string(kMostCells));
+  CellSheet sheet{cells.nx, cells.ny, {}};
+  sheet.rgba.reserve(4 * count);
+  for (int row = cells.ny; row-- > 0;)
+    for (int column = 0; column < cells.nx; ++column) {
+      const Color& c = cells.colors[std::size_t(row) * std::size_t(cells.nx) + std::size_t(column)];
+      for (const std::uint8_t level : {c.r, c.g, c.b})
+        sheet.rgba.push_back(std::uint8_t(std::lround(c.a * level)));
+      sheet.rgba.push_back(std::uint8_t(std::lround(255 * c.a)));
+    }
+  cell_sheets_.push_back(std::move(sheet));
+  append(Primitive::cells, {{low.x, low.y, high.x, high.y}, {double(cells.nx), double(cells.ny)}});
 }
 
 }  // namespace chainreel

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -12,15 +13,27 @@
 
 namespace chainreel {
 
-enum class Primitive { capsule, ellipse, arc, polygon, glyph, trail, layer };
+enum class Primitive { capsule, ellipse, arc, polygon, glyph, trail, layer, cells };
 
 struct PrimitiveRow {
   std::string_view name;  // of the shader pair
   int vectors;            // vec4 per instance; their meaning stands at the head of the vertex shader
 };
 
-inline constexpr std::array<PrimitiveRow, 7> kPrimitives = {
-    {{"capsule", 5}, {"ellipse", 4}, {"arc", 3}, {"polygon", 7}, {"glyph", 3}, {"trail", 2}, {"layer", 2}}};
+inline constexpr std::array<PrimitiveRow, 8> kPrimitives = {{{"capsule", 5},
+                                                             {"ellipse", 4},
+                                                             {"arc", 3},
+                                                             {"polygon", 7},
+                                                             {"glyph", 3},
+                                                             {"trail", 2},
+                                                             {"layer", 2},
+                                                             {"cells", 2}}};
+
+// The colours of one Cells as a texture wants them: multiplied by their opacity, top row first.
+struct CellSheet {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;
+};
 
 // `clip` of a trail's pieces is also the part of the layer to be cleared before; the next run colours it.
 struct Run {
@@ -38,6 +51,8 @@ class Batch {
 
   const std::vector<Run>& runs() const { return runs_; }
   const std::vector<float>& instances(Primitive primitive) const { return streams_[std::size_t(primitive)]; }
+  // The sheet of each instance of Primitive::cells; each is a run by itself.
+  const std::vector<CellSheet>& cell_sheets() const { return cell_sheets_; }
 
  private:
   struct Vector;
@@ -55,6 +70,7 @@ class Batch {
   void add(const Polygon& polygon);
   void add(const Trail& trail);
   void add(const GlyphRun& run);
+  void add(const Cells& cells);
 
   int width_, height_;
   GlyphAtlas& atlas_;
@@ -62,6 +78,7 @@ class Batch {
   std::vector<PixelBox> trail_boxes_;
   PixelBox clip_;  // of the shape being added
   std::vector<Run> runs_;
+  std::vector<CellSheet> cell_sheets_;
   std::array<std::vector<float>, kPrimitives.size()> streams_;
 };
 

@@ -60,7 +60,7 @@ struct Canvas::State {
   double static_alpha = 1;                          // of the static layer's background
   std::array<std::optional<PrimitiveProgram>, kPrimitives.size()> programs;
   GlyphAtlas atlas;
-  GLuint atlas_texture = 0;
+  GLuint atlas_texture = 0, cell_texture = 0;
   int atlas_version = 0;
   Batch batch;
 
@@ -70,10 +70,12 @@ struct Canvas::State {
         page(checked(gl, w, h, largest), Target::Kind::color, w, h),
         atlas(fonts, largest),
         batch(w, h, atlas) {
-    gl.GenTextures(1, &atlas_texture);
-    gl.BindTexture(GL_TEXTURE_2D, atlas_texture);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    for (GLuint* texture : {&cell_texture, &atlas_texture}) {
+      gl.GenTextures(1, texture);
+      gl.BindTexture(GL_TEXTURE_2D, *texture);
+      gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+      gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    }
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     gl.Viewport(0, 0, w, h);
     gl.Enable(GL_SCISSOR_TEST);
@@ -82,6 +84,7 @@ struct Canvas::State {
   ~State() {
     context->make_current();
     gl.DeleteTextures(1, &atlas_texture);
+    gl.DeleteTextures(1, &cell_texture);
   }
   State(const State&) = delete;
   State& operator=(const State&) = delete;
@@ -121,6 +124,12 @@ struct Canvas::State {
     atlas_version = atlas.version();
   }
 
+  void upload_cells(const CellSheet& sheet) const {
+    gl.BindTexture(GL_TEXTURE_2D, cell_texture);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, sheet.width, sheet.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                  sheet.rgba.data());
+  }
+
   void draw_trail(const Run& run, const Target& target) {
     if (!trail_layer) trail_layer.emplace(gl, Target::Kind::coverage, width, height);
     gl.BindFramebuffer(GL_FRAMEBUFFER, trail_layer->framebuffer());
@@ -142,6 +151,7 @@ struct Canvas::State {
       }
       if (run.primitive == Primitive::glyph) gl.BindTexture(GL_TEXTURE_2D, atlas_texture);
       if (run.primitive == Primitive::layer) gl.BindTexture(GL_TEXTURE_2D, trail_layer->texture());
+      if (run.primitive == Primitive::cells) upload_cells(batch.cell_sheets()[std::size_t(run.first)]);
       program(run.primitive).draw(run.first, run.count);
     }
     gl.Disable(GL_BLEND);

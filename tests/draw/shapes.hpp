@@ -88,6 +88,9 @@ inline bool all_finite(const Picture& picture) {
                          [](const TrailPoint& p) { return is_finite(p.p); });
     }
     bool operator()(const GlyphRun& run) const { return is_finite(run.origin); }
+    bool operator()(const Cells& c) const {
+      return is_finite({c.rect.x0, c.rect.y0}) && is_finite({c.rect.x1, c.rect.y1});
+    }
   };
   return std::all_of(picture.items.begin(), picture.items.end(),
                      [](const Item& item) { return std::visit(Finite{}, item.shape); });

@@ -1,0 +1,28 @@
+// The page of a chart: what it shows above, how it came about below, and the room between the two.
+#pragma once
+
+#include <string>
+
+#include "picture/plot.hpp"
+
+namespace chainreel {
+
+struct ChartText {
+  std::string title, subtitle;
+  std::string footer;  // small, in as many lines as it needs
+};
+
+struct ChartLook {
+  double aspect = 16.0 / 9.0;
+  double text_scale = 1;
+  const Theme* theme = nullptr;
+  const Fonts* fonts = nullptr;
+
+  PlotStyle plot_style() const { return {fonts, theme, text_scale}; }
+};
+
+// An empty page with the chart's words. The title shrinks to its row; subtitle and footer are broken into
+// lines. Returns what is left for the axes. Throws Error (exit 3) where the words leave no room.
+Rect draw_chart_page(Picture& picture, const ChartText& text, const ChartLook& look);
+
+}  // namespace chainreel

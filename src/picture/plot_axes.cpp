@@ -1,0 +1,212 @@
+#include <algorithm>
+#include <cmath>
+
+#include "picture/plot.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kTickToLabel = 0.007, kLabelToTitle = 0.010;
+constexpr double kCapHeight = 0.73;                                // of the em, of the label face
+constexpr double kSuperscriptScale = 0.70, kSuperscriptUp = 0.38;  // of the em, as in formulas
+constexpr double kPitchX = 2.1;  // of the widest label: distance of labels along x
+constexpr double kPitchY = 3.0;  // of the em, along y
+constexpr int kFewestLabels = 3, kMostLinear = 5, kMostLog = 6;
+
+Color tick_color(const PlotStyle& style) {
+  return style.theme->muted;
+}
+
+TextStyle tick_style(const PlotStyle& style) {
+  return {Face::label, style.text(size::kTick), tick_color(style), Align::left};
+}
+
+struct TickLine {
+  TextLine base, superscript;
+  double advance = 0;
+};
+
+TickLine lay_out_tick(const Tick& tick, const PlotStyle& style) {
+  TextStyle text = tick_style(style);
+  TickLine line{lay_out_text(*style.fonts, tick.label, text), {}, 0};
+  line.advance = line.base.advance;
+  if (!tick.superscript.empty()) {
+    text.size *= kSuperscriptScale;
+    line.superscript = lay_out_text(*style.fonts, tick.superscript, text);
+    line.advance += line.superscript.advance;
+  }
+  return line;
+}
+
+double widest_label(const std::vector<Tick>& ticks, const PlotStyle& style) {
+  double widest = 0;
+  for (const Tick& tick : ticks) widest = std::max(widest, lay_out_tick(tick, style).advance);
+  return widest;
+}
+
+int most_labels(const Axis& axis, double length, double pitch) {
+  const int most = axis.scale == Scale::log ? kMostLog : kMostLinear;
+  return std::clamp(int(length / pitch), kFewestLabels, most);
+}
+
+std::vector<Tick> x_ticks(const Axis& axis, double width, const PlotStyle& style) {
+  const double pitch = kPitchX * widest_label(ticks_of(axis, kMostLog), style);
+  return ticks_of(axis, most_labels(axis, width, std::max(pitch, 1e-3)));
+}
+
+std::vector<Tick> y_ticks(const Axis& axis, double height, const PlotStyle& style) {
+  return ticks_of(axis, most_labels(axis, height, kPitchY * style.text(size::kTick)));
+}
+
+void draw_line(Picture& picture, Point a, Point b, double width, Color color) {
+  picture.add(Capsule{a, b, width / 2, {color, {}, 0}});
+}
+
+double place_on(const Axis& axis, double value) {
+  if (axis.scale != Scale::log) return (value - axis.low) / (axis.high - axis.low);
+  return (std::log10(value) - std::log10(axis.low)) / (std::log10(axis.high) - std::log10(axis.low));
+}
+
+double value_on(const Axis& axis, double place) {
+  if (axis.scale != Scale::log) return axis.low + place * (axis.high - axis.low);
+  const double low = std::log10(axis.low), high = std::log10(axis.high);
+  return std::pow(10.0, low + place * (high - low));
+}
+
+bool is_shown(const Axis& axis, double value) {
+  return std::isfinite(value) && (axis.scale != Scale::log || value > 0);
+}
+
+bool has_zero_inside(const Axis& axis) {
+  return axis.scale != Scale::log && axis.low < 0 && axis.high > 0;
+}
+
+void draw_grid(Picture& picture, const PlotFrame& f, const std::vector<Tick>& xs, const std::vector<Tick>& ys,
+               const Theme& theme) {
+  for (const Tick& tick : xs)
+    if (!tick.label.empty())
+      draw_line(picture, {f.at_x(tick.value), f.box.y0}, {f.at_x(tick.value), f.box.y1}, size::kPlotGrid,
+                theme.grid);
+  for (const Tick& tick : ys)
+    if (!tick.label.empty())
+      draw_line(picture, {f.box.x0, f.at_y(tick.value)}, {f.box.x1, f.at_y(tick.value)}, size::kPlotGrid,
+                theme.grid);
+  if (has_zero_inside(f.y))
+    draw_line(picture, {f.box.x0, f.at_y(0)}, {f.box.x1, f.at_y(0)}, size::kPlotFrame, theme.muted);
+  if (has_zero_inside(f.x))
+    draw_line(picture, {f.at_x(0), f.box.y0}, {f.at_x(0), f.box.y1}, size::kPlotFrame, theme.muted);
+}
+
+void draw_frame_line(Picture& picture, const Rect& box, const Theme& theme) {
+  const Point corners[] = {{box.x0, box.y0}, {box.x1, box.y0}, {box.x1, box.y1}, {box.x0, box.y1}};
+  for (std::size_t i = 0; i < 4; ++i)
+    draw_line(picture, corners[i], corners[(i + 1) % 4], size::kPlotFrame, theme.rule);
+}
+
+// Half as long where no number stands.
+double tick_length(const Tick& tick) {
+  return tick.label.empty() ? size::kPlotTick / 2 : size::kPlotTick;
+}
+
+void draw_x_ticks(Picture& picture, const PlotFrame& f, const std::vector<Tick>& ticks,
+                  const PlotStyle& style) {
+  const double middle = f.box.y0 - size::kPlotTick - kTickToLabel -
+                        kCapHeight * style.text(size::kTick) * (1 + kSuperscriptUp) / 2;
+  for (const Tick& tick : ticks) {
+    const double x = f.at_x(tick.value);
+    draw_line(picture, {x, f.box.y0}, {x, f.box.y0 - tick_length(tick)}, size::kPlotFrame,
+              style.theme->muted);
+    if (tick.label.empty()) continue;
+    draw_tick_label(picture, tick, {x, middle}, Align::center, style);
+  }
+}
+
+void draw_y_ticks(Picture& picture, const PlotFrame& f, const std::vector<Tick>& ticks,
+                  const PlotStyle& style) {
+  for (const Tick& tick : ticks) {
+    const double y = f.at_y(tick.value);
+    draw_line(picture, {f.box.x0, y}, {f.box.x0 - tick_length(tick), y}, size::kPlotFrame,
+              style.theme->muted);
+    if (tick.label.empty()) continue;
+    draw_tick_label(picture, tick, {f.box.x0 - size::kPlotTick - kTickToLabel, y}, Align::right, style);
+  }
+}
+
+}  // namespace
+
+double tick_label_width(const Tick& tick, const PlotStyle& style) {
+  return lay_out_tick(tick, style).advance;
+}
+
+void draw_tick_label(Picture& picture, const Tick& tick, Point at, Align align, const PlotStyle& style) {
+  const TickLine line = lay_out_tick(tick, style);
+  const double em = style.text(size::kTick);
+  const double shift = align == Align::left ? 0 : align == Align::center ? line.advance / 2 : line.advance;
+  const Point left = {at.x - shift, at.y - kCapHeight * em / 2};
+  draw_text(picture, line.base, left);
+  draw_text(picture, line.superscript, {left.x + line.base.advance, left.y + kSuperscriptUp * em});
+}
+
+double PlotStyle::text(double size) const {
+  return std::max(size * text_scale, size::kTick);
+}
+
+bool PlotFrame::can_show(Point data) const {
+  return is_shown(x, data.x) && is_shown(y, data.y);
+}
+
+double PlotFrame::at_x(double value) const {
+  return box.x0 + place_on(x, value) * box.width();
+}
+
+double PlotFrame::at_y(double value) const {
+  return box.y0 + place_on(y, value) * box.height();
+}
+
+Point PlotFrame::at(Point data) const {
+  return {at_x(data.x), at_y(data.y)};
+}
+
+Point PlotFrame::data_at(Point page) const {
+  return {value_on(x, (page.x - box.x0) / box.width()), value_on(y, (page.y - box.y0) / box.height())};
+}
+
+PlotFrame lay_out_plot(const Rect& area, const Axis& x, const Axis& y, const PlotStyle& style) {
+  const double tick = style.text(size::kTick), title = style.text(size::kAxis);
+  PlotFrame frame{x, y, area};
+  Rect& box = frame.box;
+  box.y0 += size::kPlotTick + kTickToLabel + tick;
+  if (!x.title.empty()) box.y0 += kLabelToTitle + title;
+  box.y1 -= y.title.empty() ? tick / 2 : title + kTitleAboveFrame;
+  box.x0 += size::kPlotTick + kTickToLabel + widest_label(y_ticks(y, box.height(), style), style);
+  // Half of the last number hangs over the end of the axis.
+  box.x1 -= widest_label(ticks_of(x, kMostLog), style) / 2;
+  return frame;
+}
+
+void draw_axes(Picture& picture, const PlotFrame& frame, const PlotStyle& style) {
+  const std::vector<Tick> xs = x_ticks(frame.x, frame.box.width(), style);
+  const std::vector<Tick> ys = y_ticks(frame.y, frame.box.height(), style);
+  draw_grid(picture, frame, xs, ys, *style.theme);
+  draw_frame_line(picture, frame.box, *style.theme);
+  draw_x_ticks(picture, frame, xs, style);
+  draw_y_ticks(picture, frame, ys, style);
+
+  const double em = style.text(size::kAxis);
+  const TextStyle text{Face::label, em, style.theme->ink, Align::center};
+  const double below =
+      size::kPlotTick + kTickToLabel + style.text(size::kTick) + kLabelToTitle + kCapHeight * em;
+  draw_text(picture, lay_out_text(*style.fonts, frame.x.title, text),
+            {(frame.box.x0 + frame.box.x1) / 2, frame.box.y0 - below});
+  const double labels = widest_label(ys, style) + kTickToLabel + size::kPlotTick;
+  draw_text(picture,
+            lay_out_text(*style.fonts, frame.y.title, {Face::label, em, style.theme->ink, Align::left}),
+            {frame.box.x0 - labels, frame.box.y1 + kTitleAboveFrame});
+}
+
+void draw_cursor(Picture& picture, const PlotFrame& frame, double x, Color color) {
+  if (!(x >= frame.x.low && x <= frame.x.high)) return;
+  draw_line(picture, {frame.at_x(x), frame.box.y0}, {frame.at_x(x), frame.box.y1}, size::kPlotCursor, color);
+}
+
+}  // namespace chainreel

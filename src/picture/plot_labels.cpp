@@ -1,0 +1,117 @@
+// Words of a plot: paragraphs, labels at the ends of curves, slopes.
+#include <algorithm>
+#include <cmath>
+
+#include "picture/plot.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kCapHeight = 0.73;  // of the em
+
+constexpr double kKeyLength = 0.042, kKeyToText = 0.010, kLeaderGap = 0.004, kLeader = 0.0014;
+constexpr double kLeaderOpacity = 0.55;
+constexpr double kTriangleLine = size::kPlotFrame;
+
+}  // namespace
+
+std::vector<std::string> wrapped(const Fonts& fonts, const std::string& words, const TextStyle& style,
+                                 double width) {
+  std::vector<std::string> lines;
+  std::string line;
+  for (std::size_t at = 0; at < words.size();) {
+    const std::size_t space = std::min(words.find(' ', at), words.size());
+    const std::string word = words.substr(at, space - at);
+    const std::string longer = line.empty() ? word : line + " " + word;
+    if (line.empty() || lay_out_text(fonts, longer, style).advance <= width) {
+      line = longer;
+    } else {
+      lines.push_back(line);
+      line = word;
+    }
+    at = space + 1;
+  }
+  if (!line.empty()) lines.push_back(line);
+  return lines;
+}
+
+double draw_paragraph(Picture& picture, const Fonts& fonts, const std::string& words, const TextStyle& style,
+                      Point top_left, double width) {
+  const std::vector<std::string> lines = wrapped(fonts, words, style, width);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    draw_text(picture, lay_out_text(fonts, lines[i], style),
+              {top_left.x, top_left.y - double(i) * kLinePitch * style.size});
+  return double(lines.size()) * kLinePitch * style.size;
+}
+
+// y[i] - i pitch must not fall: pooled to means where it would, then held within the bounds.
+std::vector<double> moved_apart(std::vector<double> wanted, double pitch, double low, double high) {
+  struct Block {
+    double sum;
+    int count;
+    double mean() const { return sum / count; }
+  };
+  std::vector<Block> blocks;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    Block block{wanted[i] - double(i) * pitch, 1};
+    while (!blocks.empty() && blocks.back().mean() >= block.mean()) {
+      block.sum += blocks.back().sum;
+      block.count += blocks.back().count;
+      blocks.pop_back();
+    }
+    blocks.push_back(block);
+  }
+  const double top = high - (double(wanted.size()) - 1) * pitch;
+  std::size_t i = 0;
+  for (const Block& block : blocks)
+    for (int k = 0; k < block.count; ++k, ++i)
+      wanted[i] = (top >= low ? std::clamp(block.mean(), low, top) : (low + top) / 2) + double(i) * pitch;
+  return wanted;
+}
+
+void draw_slope_triangle(Picture& picture, const SlopeTriangle& triangle, const PlotStyle& style) {
+  const Color color = style.theme->muted;
+  const Point c = triangle.corner, along = c + Point{triangle.run, 0}, up = c + Point{0, triangle.rise};
+  Polygon shape;
+  shape.corners = {c, along, up};
+  shape.count = 3;
+  shape.paint = {color.faded(0.12), color, kTriangleLine};
+  picture.add(shape);
+  const double em = style.text(size::kTick);
+  const double beside = triangle.rise > 0 ? -(kCapHeight + 0.25) * em : 0.25 * em;
+  draw_text(picture, lay_out_text(*style.fonts, triangle.label, {Face::label, em, color, Align::center}),
+            {c.x + triangle.run / 2, c.y + beside});
+}
+
+double end_labels_width(std::span<const std::string> texts, const PlotStyle& style) {
+  double widest = 0;
+  for (const std::string& text : texts)
+    widest =
+        std::max(widest, lay_out_text(*style.fonts, text,
+                                      {Face::label, style.text(size::kTick), style.theme->ink, Align::left})
+                             .advance);
+  return kKeyLength + kKeyToText + widest;
+}
+
+void draw_end_labels(Picture& picture, const PlotFrame& frame, std::vector<EndLabel> labels, double x,
+                     const PlotStyle& style) {
+  std::stable_sort(labels.begin(), labels.end(),
+                   [](const EndLabel& a, const EndLabel& b) { return a.end.y < b.end.y; });
+  const double em = style.text(size::kTick), half = kLinePitch * em / 2;
+  std::vector<double> wanted;
+  for (const EndLabel& label : labels) wanted.push_back(label.end.y);
+  const std::vector<double> places =
+      moved_apart(std::move(wanted), 2 * half, frame.box.y0 + half, frame.box.y1 - half);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const EndLabel& label = labels[i];
+    const Point at = {x, places[i]};
+    const Color thin = label.curve.color.faded(kLeaderOpacity * label.curve.color.a);
+    picture.add(Capsule{label.end, {at.x - kLeaderGap, at.y}, kLeader / 2, {thin, {}, 0}});
+    draw_key(picture, at, kKeyLength, label.curve, *style.theme);
+    draw_text(picture,
+              lay_out_text(*style.fonts, label.text, {Face::label, em, style.theme->ink, Align::left}),
+              {at.x + kKeyLength + kKeyToText, at.y - kCapHeight * em / 2});
+  }
+}
+
+}  // namespace chainreel
