@@ -9,10 +9,9 @@ namespace chainreel {
 namespace {
 
 constexpr double kSafety = 0.9;
-constexpr double kLeastRatio = 1e-4;         // a lucky step says little about the next
-constexpr double kShrinkWithoutError = 0.1;  // where an attempt gave no numbers
-constexpr double kLost = 16 * 0x1p-52;       // of the time: below it, stages fall on the same instants
-constexpr double kNearlyThere = 1.01;        // a step may stretch by this to spare a tiny last one
+constexpr double kLeastRatio = 1e-4;    // a lucky step says little about the next
+constexpr double kLost = 16 * 0x1p-52;  // of the time: below it, stages fall on the same instants
+constexpr double kNearlyThere = 1.01;   // a step may stretch by this to spare a tiny last one
 
 // max_i |x_i| / (1 + |y_i|); NaN where an x is.
 double size_of(std::span<const double> x, std::span<const double> y) {
@@ -72,10 +71,10 @@ StepControl::Attempt StepControl::next(double t, double end) const {
 bool StepControl::accept(double h, double error) {
   const double ratio = error / tolerance_;
   if (!std::isfinite(ratio)) {
-    reject(h);
+    reject(h, 0.1);
     return false;
   }
-  const double proportional = power(std::max(ratio, 1e-30), -(1 / rule_.power - 0.2 * rule_.beta));
+  const double proportional = power(std::max(ratio, 1e-30), -(1 / rule_.power - 0.75 * rule_.beta));
   if (!(ratio <= 1)) {
     h_ = h * std::clamp(kSafety * proportional, rule_.slowest, 1.0);
     rejected_ = true;
@@ -90,8 +89,8 @@ bool StepControl::accept(double h, double error) {
   return true;
 }
 
-void StepControl::reject(double h) {
-  h_ = kShrinkWithoutError * h;
+void StepControl::reject(double h, double factor) {
+  h_ = factor * h;
   rejected_ = true;
 }
 

@@ -6,7 +6,7 @@
 // the largest component, absolute for numbers below 1 (rad, m, or per second) and relative above. A step is
 // accepted where |e| <= tolerance; what is no number is never accepted. With r = |e| / tolerance, p the power
 // of h in e, and r' of the accepted step before:
-//   h_new = h safety r^-(1/p - 0.2 beta) r'^beta   within the limits of shrinking and growing.
+//   h_new = h safety r^-(1/p - 0.75 beta) r'^beta   within the limits of shrinking and growing.
 #pragma once
 
 #include <span>
@@ -51,9 +51,9 @@ class StepControl {
 
   // After an attempt of length h: whether it stands; sets the length of the next.
   bool accept(double h, double error);
-  // The attempt has no result at all.
-  void reject(double h);
-  // Keeps the next step from growing (a rejection came before it).
+  // Where the attempt has no result at all: the next is `factor` times as long.
+  void reject(double h, double factor);
+  // Of a method to which an equal step is worth more than a somewhat longer one.
   void set_step(double h) { h_ = h; }
   double step() const { return h_; }
 

@@ -36,6 +36,14 @@ const std::vector<Method>& methods() {
        .source = "J. Dormand, P. Prince; E. Hairer, S. Norsett, G. Wanner, Solving Ordinary Differential "
                  "Equations I (1993), II.5, II.10",
        .make = make_dop853},
+      {.name = "radau5",
+       .order = 5,
+       .kind = "implicit, adaptive, L-stable",
+       .adaptive = true,
+       .dense_order = 4,
+       .evaluations_per_step = 0,
+       .source = "E. Hairer, G. Wanner, Solving Ordinary Differential Equations II (1996), IV.5, IV.8",
+       .make = make_radau5},
   };
   return rows;
 }
