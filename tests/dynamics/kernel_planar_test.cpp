@@ -88,7 +88,7 @@ double by_kernel(int joints, std::size_t link, bool sine, const std::vector<doub
   (sine ? kernel.pull_s : kernel.pull_c)[link] = sine ? -1 : 1;
   ws.scratch->planar_kernel = kernel;
   const std::vector<double> zero(4, 0.0);
-  planar_kernel_for_any_processor(kernel)(chain, ws, q, zero, zero);
+  planar_kernel_for_any_processor(kernel)(chain, ws, q, zero, zero, ws.qdd.data());
   return ws.qdd[link];
 }
 
