@@ -29,6 +29,8 @@ class Momenta {
  public:
   virtual ~Momenta() = default;
   virtual int n() const = 0;
+  // M is constant and no force depends on v: what is implicit for others then needs no iteration.
+  virtual bool is_separable() const { return false; }
   virtual void momentum(std::span<const double> q, std::span<const double> v, std::span<double> p) = 0;
   virtual void velocity(std::span<const double> q, std::span<const double> p, std::span<double> v) = 0;
   // p' at v = M(q)^-1 p. Counts as one evaluation.
@@ -57,10 +59,11 @@ class LinkedPoints {
   };
   virtual ~LinkedPoints() = default;
   virtual std::span<const Link> links() const = 0;  // n
+  virtual bool force_depends_on_velocity() const { return true; }
   // x: (x_1, y_1, .. x_n, y_n); from and to coordinates. `q_near` says which of the angles that differ by
-  // whole turns is meant.
+  // whole turns is meant; `force` means the one that is nearest to what was placed or asked for last.
   virtual void place(std::span<const double> q, std::span<const double> v, std::span<double> x,
-                     std::span<double> x_dot) const = 0;
+                     std::span<double> x_dot) = 0;
   virtual void read(std::span<const double> x, std::span<const double> x_dot, std::span<const double> q_near,
                     std::span<double> q, std::span<double> v) const = 0;
   // All forces on the points but those of the links, 2 n numbers. Counts as one evaluation.

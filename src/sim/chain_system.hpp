@@ -26,6 +26,9 @@ class ChainSystem final : public SecondOrder {
   // The torques at this state, cut where the limit policy says so; valid until the next call.
   ConstVec torque(double t, ConstVec q, ConstVec qd);
   LimitWatch& limits() { return limits_; }
+  const Chain& chain() const { return *chain_; }
+  const TorqueLaw& law() const { return *torque_; }
+  void count_evaluation() { ++evaluations_; }  // of the dynamics in another form
 
   long evaluations() const { return evaluations_; }
   int bad_torque() const { return bad_torque_; }  // the first freedom whose torque was not finite, or -1

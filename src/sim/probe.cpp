@@ -6,7 +6,7 @@
 
 namespace chainreel {
 
-Probe::Probe(const Chain& chain, const Parameters& parameters) {
+Probe::Probe(const Chain& chain, const Parameters& parameters) : nq_(chain.nq) {
   names_.push_back("t");
   for (int i = 1; i <= chain.nq; ++i) names_.push_back("q" + std::to_string(i));
   for (int i = 1; i <= chain.nv; ++i) names_.push_back("qd" + std::to_string(i));

@@ -22,6 +22,10 @@ class Probe {
   // Names by slot, for Expression::parse.
   const std::vector<std::string>& names() const { return names_; }
   bool is_kinematic(int slot) const { return slot >= kinematic_begin_ && slot < kinematic_begin_ + 6; }
+  // A rate of a joint or of the end effector.
+  bool is_velocity(int slot) const {
+    return (slot > nq_ && slot < kinematic_begin_) || (slot >= kinematic_begin_ + 3 && is_kinematic(slot));
+  }
 
   // Moves to an instant of the chain that it was made for. Allocates nothing.
   void set(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, bool with_kinematics);
@@ -30,6 +34,7 @@ class Probe {
  private:
   std::vector<std::string> names_;
   std::vector<double> values_;
+  int nq_ = 0;
   int kinematic_begin_ = 0;
 };
 

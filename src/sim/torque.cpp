@@ -27,19 +27,25 @@ class ExpressionTorque final : public TorqueLaw {
  public:
   ExpressionTorque(Probe probe, std::vector<Expression> entries)
       : probe_(std::move(probe)), entries_(std::move(entries)) {
-    for (const Expression& entry : entries_)
-      for (int slot : entry.used_variables()) needs_kinematics_ |= probe_.is_kinematic(slot);
+    for (const Expression& entry : entries_) {
+      for (int slot : entry.used_variables()) {
+        needs_kinematics_ |= probe_.is_kinematic(slot);
+        depends_on_velocity_ |= probe_.is_velocity(slot);
+      }
+    }
   }
 
   void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) override {
     probe_.set(chain, ws, t, q, qd, needs_kinematics_);
     for (std::size_t i = 0; i < entries_.size(); ++i) tau[i] = entries_[i].evaluate(probe_.values());
   }
+  bool depends_on_velocity() const override { return depends_on_velocity_; }
 
  private:
   Probe probe_;
   std::vector<Expression> entries_;
   bool needs_kinematics_ = false;
+  bool depends_on_velocity_ = false;
 };
 
 // Expressions and constants for all joints, with single joints driven by controls instead.

@@ -18,6 +18,7 @@ class TorqueLaw {
   // is written as NaN, which stops the run.
   virtual void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) = 0;
   virtual bool is_constant() const { return false; }  // then the work done is tau . (q - q(0)) exactly
+  virtual bool depends_on_velocity() const { return !is_constant(); }
   // Instants at which the torque has a kink or a jump: steps end there, so that methods keep their order.
   virtual std::vector<double> breaks() const { return {}; }
 };
