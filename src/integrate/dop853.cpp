@@ -20,7 +20,7 @@ namespace {
 
 using namespace dop853;
 
-constexpr StepControl::Rule kRule{.power = 8, .beta = 0.04, .slowest = 1.0 / 3, .fastest = 6};
+constexpr StepControl::Rule kRule{.power = 8, .beta = 0.02, .slowest = 1.0 / 3, .fastest = 6};
 
 // The entries of a row that are not zero.
 struct Sum {

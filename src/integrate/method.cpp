@@ -40,7 +40,6 @@ const std::vector<Method>& methods() {
        .order = 5,
        .kind = "implicit, adaptive, L-stable",
        .adaptive = true,
-       .dense_order = 4,
        .evaluations_per_step = 0,
        .source = "E. Hairer, G. Wanner, Solving Ordinary Differential Equations II (1996), IV.5, IV.8",
        .make = make_radau5},

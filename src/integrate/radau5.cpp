@@ -6,7 +6,10 @@
 // are unknown, z = h A f. With z = T w and the Jacobians Jq = df/dq and Jv = df/dv held fixed, Newton's
 // iteration falls apart into one real and one complex system of n equations each, not 2 n:
 //   (lambda/h - Jv - h/lambda Jq) dw = T^-1 f - lambda/h w,   lambda = gamma and alpha + i beta.
-// Between the ends of a step v is the cubic polynomial through v0 and the stages, q its integral (order 4).
+// Dense output: with steps from a tolerance, which resolve what is stiff where it moves, the quintic
+// polynomial in q, q', q'' at a step's ends: measured on stiff and other chains three to ten times nearer
+// than that of the stages. With steps as told, where h^2 q'' may be far from any motion: v is the cubic
+// polynomial through v0 and the stages, which knows no q'', and q its integral (order 4).
 //
 // The estimate of a step's error e = (e_q, e_v) is that of a method of order 3, filtered (8.19, 8.20):
 //   (gamma/h - J) e = f(y0) + sum_i d_i (y_i - y0) / h.
@@ -22,6 +25,7 @@
 #include "core/scalar.hpp"
 #include "integrate/adaptive.hpp"
 #include "integrate/dense_lu.hpp"
+#include "integrate/hermite_span.hpp"
 #include "integrate/makers.hpp"
 #include "integrate/radau5_tableau.hpp"
 
@@ -30,7 +34,7 @@ namespace {
 
 using namespace radau5;
 
-constexpr StepControl::Rule kRule{.power = 4, .beta = 0.1, .slowest = 0.2, .fastest = 8};
+constexpr StepControl::Rule kRule{.power = 4, .beta = 0.04, .slowest = 0.2, .fastest = 8};
 constexpr int kMostPasses = 7, kMostPassesOfFixedStep = 30;
 constexpr double kFixedStepLimit = 1e-15;  // of the last correction: all that doubles can show
 constexpr double kStagnation = 1e-11;      // corrections that small which fall no more are rounding
@@ -45,6 +49,7 @@ class Radau5 final : public Integrator {
       : Integrator(system.nq(), system.nv()),
         system_(system),
         n_(std::size_t(system.nv())),
+        span_(system.nq(), system.nv()),
         y0_(2 * n_),
         y1_(2 * n_),
         f0_(2 * n_),
@@ -77,6 +82,7 @@ class Radau5 final : public Integrator {
     factored_h_ = 0;
     rest_ = 1;
     if (control_) control_->start();
+    span_.start();
     is_first_ = true;
   }
 
@@ -102,6 +108,7 @@ class Radau5 final : public Integrator {
   }
 
   void interpolate(double t, std::span<double> q, std::span<double> v) override {
+    if (control_) return span_.interpolate(system_, t, q, v);
     const double s = (t - begin_) / (time_ - begin_), h = time_ - begin_;
     for (std::size_t i = 0; i < n_; ++i) {
       const double p1 = p_[i], p2 = p_[n_ + i], p3 = p_[2 * n_ + i];
@@ -110,11 +117,12 @@ class Radau5 final : public Integrator {
     }
   }
 
-  int dense_order() const override { return 4; }
+  int dense_order() const override { return control_ ? span_.order() : 4; }
 
  private:
   void begin_step() {
     begin_ = time_;
+    span_.begin(begin_, q_, v_);
     std::swap(y0_, y1_);
     state_rate(system_, begin_, y0_, f0_);
     jacobian_is_here_ = false;
@@ -136,6 +144,7 @@ class Radau5 final : public Integrator {
       control_->set_step(h);
     time_ = end;
     publish();
+    span_.end(time_, q_, v_);
   }
 
   void publish() {
@@ -327,6 +336,7 @@ class Radau5 final : public Integrator {
   std::optional<StepControl> control_;
   double limit_ = kFixedStepLimit;  // of Newton's last correction
   std::size_t n_;
+  HermiteSpan span_;
   double step_ = 1;         // of the polynomial
   double factored_h_ = 0;   // of the factors; 0: none
   double contraction_ = 0;  // of Newton's iteration, from pass to pass; 0 where one was enough
