@@ -1,29 +1,33 @@
 #include "draw/chart.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "core/format.hpp"
 #include "draw/chart_marks.hpp"
 
 namespace chainreel {
 namespace {
 
 constexpr double kLabelGap = 0.045;  // between the frame and the labels of its curves
-constexpr double kMostForLabels =
-    0.42;  // of the page's width; where it is not enough panels share their labels
+// Of the page's width; where it is not enough for all panels, they share the labels of the last.
+constexpr double kMostForLabels = 0.30;
 constexpr double kZonePad = 0.012;
 constexpr double kWidestZone = 0.34;  // of the panel
 constexpr double kZoneOpacity = 0.14;
 constexpr const char* kZoneWords = "no double-precision method can be here";
 
-std::string cost_title(ChartCost cost) {
-  return cost == ChartCost::seconds ? "time per run [s]" : "evaluations of the dynamics";
+// The longest form that fits.
+std::string cost_title(ChartCost cost, double width, const PlotStyle& style) {
+  if (cost == ChartCost::seconds) return "time per run [s]";
+  const std::string whole = "evaluations of the dynamics";
+  const TextStyle text{Face::label, style.text(size::kAxis), style.theme->ink, Align::left};
+  return lay_out_text(*style.fonts, whole, text).advance <= width ? whole : "evaluations";
 }
 
-CurveStyle style_of(const WorkPrecision& data, std::size_t curve, const Theme& theme) {
-  const int look = data.curves[curve].look;
-  return curve_style(look < 0 ? int(curve) : look, theme);
+CurveStyle style_of(const WorkPrecision& data, std::size_t curve, const ChartLook& look) {
+  const int index = data.curves[curve].look;
+  return curve_style(index < 0 ? int(curve) : index, *look.theme, look.text_scale);
 }
 
 struct Range {
@@ -41,11 +45,11 @@ Axis log_axis(Range range, const std::string& title) {
   return rounded_out({Scale::log, range.low, range.high, title});
 }
 
-Axis cost_axis(const WorkPrecision& data, ChartCost cost) {
+Axis cost_axis(const WorkPrecision& data, ChartCost cost, double width, const PlotStyle& style) {
   Range range;
   for (const ChartCurve& curve : data.curves)
     for (const ChartPoint& point : curve.points) range.see(cost_of(point, cost));
-  return log_axis(range, cost_title(cost));
+  return log_axis(range, cost_title(cost, width, style));
 }
 
 Range errors_of(const WorkPrecision& data) {
@@ -100,7 +104,7 @@ void draw_floor_words(Picture& picture, const PlotFrame& frame, const WorkPrecis
 void draw_curves(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,
                  const ChartLook& look) {
   for (std::size_t i = 0; i < data.curves.size(); ++i) {
-    const CurveStyle style = style_of(data, i, *look.theme);
+    const CurveStyle style = style_of(data, i, look);
     std::vector<Point> points;
     for (const ChartPoint& point : data.curves[i].points) {
       // No error at all is as good as the axis shows.
@@ -122,7 +126,7 @@ std::vector<EndLabel> labels_of(const PlotFrame& frame, const WorkPrecision& dat
                        cost_of(point, cost)};
       if (frame.can_show(p) && (!end || frame.at(p).x > end->x)) end = frame.at(p);
     }
-    if (end) labels.push_back({*end, data.curves[i].method, style_of(data, i, *look.theme)});
+    if (end) labels.push_back({*end, data.curves[i].method, style_of(data, i, look)});
   }
   return labels;
 }
@@ -149,19 +153,30 @@ Columns columns_of(const Rect& area, std::size_t count, double labels) {
 void draw_panel(Picture& picture, const Rect& area, const WorkPrecision& data, ChartCost cost,
                 bool with_labels, const ChartLook& look) {
   const PlotStyle style = look.plot_style();
-  const Axis costs = cost_axis(data, cost);
+  const Axis costs = cost_axis(data, cost, area.width(), style);
   const double width =
       lay_out_plot(area, log_axis(errors_of(data), data.error_title), costs, style).box.width();
   const PlotFrame frame = lay_out_plot(area, error_axis(data, width, look), costs, style);
   draw_floor(picture, frame, data, look);
   draw_axes(picture, frame, style);
   draw_floor_words(picture, frame, data, look);
-  draw_best_guides(picture, frame, data, cost, look);
-  draw_slopes(picture, frame, data, cost, look);
+  draw_marks(picture, frame, data, cost, look);
   if (with_labels)
     draw_end_labels(picture, frame, labels_of(frame, data, cost, look), frame.box.x1 + kLabelGap, style);
   draw_curves(picture, frame, data, cost, look);
-  draw_choice(picture, frame, data, cost, look);
+}
+
+// "3\u00D710\u207B\u00B9\u2074"
+std::string power_text(double value) {
+  static constexpr std::array<const char*, 10> kSuperscripts = {
+      "\u2070", "\u00B9", "\u00B2", "\u00B3", "\u2074", "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+  int exponent = int(std::floor(std::log10(value)));
+  long digit = std::lround(value / std::pow(10.0, exponent));
+  if (digit == 10) digit = 1, ++exponent;
+  std::string text = std::to_string(digit) + "\u00D710";
+  for (const char c : std::to_string(exponent))
+    text += c == '-' ? "\u207B" : kSuperscripts[std::size_t(c - '0')];
+  return text;
 }
 
 std::string footer_of(const WorkPrecision& data) {
@@ -169,15 +184,15 @@ std::string footer_of(const WorkPrecision& data) {
   const auto add = [&text](const std::string& part) {
     text += (text.empty() || part.empty() ? "" : "; ") + part;
   };
-  if (data.reference_uncertainty > 0)
-    add("reference known to " + format_significant(data.reference_uncertainty, 1));
   if (data.floor > 0)
-    add("shaded: below the problem's amplification times 2^\u221253, " + format_significant(data.floor, 1));
+    add("shaded: the problem's amplification times 2\u207B\u2075\u00B3 is " + power_text(data.floor));
+  if (data.reference_uncertainty > 0) add("reference known to " + power_text(data.reference_uncertainty));
+  add("triangles: slope of an order");
   const bool any_failed = std::any_of(data.curves.begin(), data.curves.end(), [](const ChartCurve& curve) {
     return std::any_of(curve.points.begin(), curve.points.end(),
                        [](const ChartPoint& p) { return p.failed; });
   });
-  if (any_failed) add("crosses at the right edge: runs that failed");
+  if (any_failed) add("crosses at the right edge: failed runs");
   add(data.machine);
   return text;
 }

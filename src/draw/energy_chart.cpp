@@ -15,10 +15,9 @@ constexpr double kBeyondOthers = 1e3;
 constexpr int kMarkers = 5;  // along each curve
 constexpr const char* kNote = "each curve shows the largest error around each time";
 
-CurveStyle style_of(const EnergyChart& data, std::size_t curve, const Theme& theme) {
-  const int look = data.curves[curve].look;
-  CurveStyle style = curve_style(look < 0 ? int(curve) : look, theme);
-  return style;
+CurveStyle style_of(const EnergyChart& data, std::size_t curve, const ChartLook& look) {
+  const int index = data.curves[curve].look;
+  return curve_style(index < 0 ? int(curve) : index, *look.theme, look.text_scale);
 }
 
 std::size_t length_of(const EnergyCurve& curve) {
@@ -68,7 +67,7 @@ void draw_markers(Picture& picture, const PlotFrame& frame, const std::vector<Po
     if (at.x < next) continue;
     next = at.x + frame.box.width() / kMarkers;
     if (at.y < frame.box.y0 || at.y > frame.box.y1) continue;
-    draw_marker(picture, at, style.marker, size::kMarker, style.color, theme.background);
+    draw_marker(picture, at, style.marker, style.marker_size, style.color, theme.background);
   }
 }
 
@@ -127,11 +126,11 @@ Picture energy_chart(const EnergyChart& data, const ChartLook& look) {
   std::vector<EndLabel> ends;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     if (curves[i].empty()) continue;
-    ends.push_back({end_of(frame, curves[i]), texts[i], style_of(data, i, *look.theme)});
+    ends.push_back({end_of(frame, curves[i]), texts[i], style_of(data, i, look)});
   }
   draw_end_labels(picture, frame, ends, frame.box.x1 + kLabelGap, style);
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    CurveStyle curve = style_of(data, i, *look.theme);
+    CurveStyle curve = style_of(data, i, look);
     const Marker marker = curve.marker;
     curve.marker = Marker::none;
     draw_curve(picture, frame, curves[i], curve, *look.theme);
@@ -139,7 +138,7 @@ Picture energy_chart(const EnergyChart& data, const ChartLook& look) {
     draw_markers(picture, frame, curves[i], curve, 0.3 + 0.7 * double(i) / double(curves.size()),
                  *look.theme);
     if (!data.curves[i].trouble.empty() && !curves[i].empty())
-      draw_marker(picture, end_of(frame, curves[i]), Marker::cross, 1.25 * size::kMarker, curve.color,
+      draw_marker(picture, end_of(frame, curves[i]), Marker::cross, 1.25 * curve.marker_size, curve.color,
                   look.theme->background);
   }
   return picture;

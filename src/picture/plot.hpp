@@ -107,12 +107,13 @@ struct CurveStyle {
   double width = size::kPlotLine;
   Dash dash = Dash::solid;
   Marker marker = Marker::none;
+  double marker_size = size::kMarker;
 };
 
 // Twelve looks that differ in colour and marker; neighbours differ in dash, too. Then they repeat with other
-// dashes.
+// dashes. Markers grow with the text.
 inline constexpr int kCurveLooks = 12;
-CurveStyle curve_style(int index, const Theme& theme);
+CurveStyle curve_style(int index, const Theme& theme, double text_scale = 1);
 
 // Cut at the frame. Of more points than the page can show, each column keeps its first, last, lowest and
 // highest. Markers of points outside are left out.
@@ -138,8 +139,8 @@ void draw_guide(Picture& picture, const PlotFrame& frame, Point from, Point to, 
 
 inline constexpr double kLinePitch = 1.35;  // of the em, between lines of a paragraph
 
-// Words in lines no wider than `width` where spaces allow, the first base line at `top_left`; returns the
-// height used.
+// Words in lines no wider than `width` where spaces and hyphens allow, the first base line at `top_left`;
+// returns the height used.
 double draw_paragraph(Picture& picture, const Fonts& fonts, const std::string& words, const TextStyle& style,
                       Point top_left, double width);
 // What draw_paragraph would draw, line by line.

@@ -9,7 +9,7 @@ namespace {
 constexpr double kTickToLabel = 0.007, kLabelToTitle = 0.010;
 constexpr double kCapHeight = 0.73;                                // of the em, of the label face
 constexpr double kSuperscriptScale = 0.70, kSuperscriptUp = 0.38;  // of the em, as in formulas
-constexpr double kPitchX = 2.1;  // of the widest label: distance of labels along x
+constexpr double kPitchX = 1.7;  // of the widest label: distance of labels along x
 constexpr double kPitchY = 3.0;  // of the em, along y
 constexpr int kFewestLabels = 3, kMostLinear = 5, kMostLog = 6;
 

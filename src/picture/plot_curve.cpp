@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "picture/plot.hpp"
+#include "picture/segment.hpp"
 
 namespace chainreel {
 namespace {
@@ -16,28 +17,6 @@ constexpr double kShortestDash = 0.0004;  // round ends make a dot of it
 constexpr double kHalo = 0.0016;          // of the background around a marker, where curves cross
 
 using Path = std::vector<Point>;
-
-// The part of a-b inside the box; false where there is none (Liang, Barsky 1984).
-bool cut_segment(const Rect& box, Point& a, Point& b) {
-  double t0 = 0, t1 = 1;
-  const Point d = b - a;
-  const std::array<std::array<double, 2>, 4> sides = {
-      {{-d.x, a.x - box.x0}, {d.x, box.x1 - a.x}, {-d.y, a.y - box.y0}, {d.y, box.y1 - a.y}}};
-  for (const auto& [p, q] : sides) {
-    if (p == 0) {
-      if (q < 0) return false;
-    } else if (p < 0) {
-      t0 = std::max(t0, q / p);
-    } else {
-      t1 = std::min(t1, q / p);
-    }
-  }
-  if (!(t0 <= t1)) return false;
-  const Point from = a;
-  if (t0 > 0) a = from + t0 * d;
-  if (t1 < 1) b = from + t1 * d;
-  return true;
-}
 
 bool same(Point a, Point b) {
   return a.x == b.x && a.y == b.y;
@@ -200,7 +179,7 @@ void draw_curve(Picture& picture, const PlotFrame& frame, std::span<const Point>
     if (at.x < frame.box.x0 - slack || at.x > frame.box.x1 + slack || at.y < frame.box.y0 - slack ||
         at.y > frame.box.y1 + slack)
       continue;
-    draw_marker(picture, at, style.marker, size::kMarker, style.color, theme.background);
+    draw_marker(picture, at, style.marker, style.marker_size, style.color, theme.background);
   }
 }
 
@@ -235,7 +214,8 @@ void draw_marker(Picture& picture, Point at, Marker marker, double size, Color c
 void draw_key(Picture& picture, Point at, double length, const CurveStyle& style, const Theme& theme) {
   const Point ends[] = {at, {at.x + length, at.y}};
   draw_path(picture, ends, style);
-  draw_marker(picture, {at.x + length / 2, at.y}, style.marker, size::kMarker, style.color, theme.background);
+  draw_marker(picture, {at.x + length / 2, at.y}, style.marker, style.marker_size, style.color,
+              theme.background);
 }
 
 void draw_zone(Picture& picture, const PlotFrame& frame, Point low, Point high, Color fill) {

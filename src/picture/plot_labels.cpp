@@ -20,16 +20,18 @@ std::vector<std::string> wrapped(const Fonts& fonts, const std::string& words, c
   std::vector<std::string> lines;
   std::string line;
   for (std::size_t at = 0; at < words.size();) {
-    const std::size_t space = std::min(words.find(' ', at), words.size());
-    const std::string word = words.substr(at, space - at);
-    const std::string longer = line.empty() ? word : line + " " + word;
+    std::size_t end = std::min(words.find_first_of(" -", at), words.size());
+    if (end < words.size() && words[end] == '-') ++end;  // a hyphen ends its line
+    const std::string part = words.substr(at, end - at);
+    const bool is_spaced = at > 0 && words[at - 1] == ' ';
+    const std::string longer = line + (is_spaced && !line.empty() ? " " : "") + part;
     if (line.empty() || lay_out_text(fonts, longer, style).advance <= width) {
       line = longer;
     } else {
       lines.push_back(line);
-      line = word;
+      line = part;
     }
-    at = space + 1;
+    at = end + (end < words.size() && words[end] == ' ' ? 1 : 0);
   }
   if (!line.empty()) lines.push_back(line);
   return lines;
