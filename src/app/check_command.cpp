@@ -103,18 +103,19 @@ void print_candidates(const Choice& choice, const Accuracy& accuracy) {
   std::fputs(table_text(table).c_str(), stdout);
 }
 
-void check_scene(const CheckOptions& options) {
-  const PreparedScene prepared = load_scene(options.file, overrides_of(options.common));
-  const Json model = model_report(prepared.simulation.chain);
-  Json cost = cost_report(prepared.scene, prepared.simulation);
-  if (prepared.choice) cost["auto"] = choice_report(*prepared.choice, prepared.scene.accuracy, true);
-  const std::string text = scene_text(prepared.scene);
-  if (options.common.json) {
-    std::puts(Json{{"scene", text}, {"model", model}, {"cost", cost}}.dump(2).c_str());
-    return;
-  }
-  std::printf("# %s with all defaults; paths from this folder\n%s\n", options.file.c_str(), text.c_str());
-  print_model(model);
+struct RunReport {
+  Json model, cost;
+};
+
+RunReport examine_run(const PreparedScene& prepared) {
+  RunReport report{model_report(prepared.simulation.chain), cost_report(prepared.scene, prepared.simulation)};
+  if (prepared.choice) report.cost["auto"] = choice_report(*prepared.choice, prepared.scene.accuracy, true);
+  return report;
+}
+
+void print_run(const PreparedScene& prepared, const RunReport& report) {
+  print_model(report.model);
+  const Json& cost = report.cost;
   std::printf("%s: order %d, %ld steps, %ld evaluations of the dynamics, %d frames\n",
               to_string(MethodSetting{prepared.simulation.method, prepared.simulation.options,
                                       prepared.simulation.step})
@@ -127,6 +128,29 @@ void check_scene(const CheckOptions& options) {
   }
   std::printf("computed for the picture only: %d energies, %d Lambda\n", cost["energies_computed"].get<int>(),
               cost["Lambda_computed"].get<int>());
+}
+
+void check_scene(const CheckOptions& options) {
+  const PreparedFilm film = load_film(options.file, overrides_of(options.common));
+  std::vector<RunReport> reports;
+  for (const PreparedScene& panel : film.panels) reports.push_back(examine_run(panel));
+  const std::string text = scene_text(film.scene);
+  const bool alone = reports.size() == 1;
+  if (options.common.json) {
+    Json json{{"scene", text}};
+    if (alone) json.update({{"model", reports[0].model}, {"cost", reports[0].cost}});
+    for (std::size_t i = 0; i < reports.size() && !alone; ++i)
+      json["panels"].push_back(
+          {{"title", film.panels[i].scene.title}, {"model", reports[i].model}, {"cost", reports[i].cost}});
+    std::puts(json.dump(2).c_str());
+    return;
+  }
+  std::printf("# %s with all defaults; paths from this folder\n%s\n", options.file.c_str(), text.c_str());
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    if (!alone)
+      std::printf("%spanel %d: %s\n", i > 0 ? "\n" : "", int(i) + 1, film.panels[i].scene.title.c_str());
+    print_run(film.panels[i], reports[i]);
+  }
 }
 
 void check_model(const CheckOptions& options) {

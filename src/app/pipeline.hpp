@@ -7,6 +7,7 @@
 
 #include "core/image.hpp"
 #include "core/json.hpp"
+#include "draw/film.hpp"
 #include "picture/picture.hpp"
 #include "picture/text.hpp"
 #include "scene/scene.hpp"
@@ -23,14 +24,33 @@ struct PreparedScene {
   std::optional<Choice> choice;  // of `method: auto`
 };
 
+// A scene with its panels: one, itself, unless it compares several.
+struct PreparedFilm {
+  Scene scene;  // the effective one; its `compare` holds the panels' scenes
+  std::vector<PreparedScene> panels;
+};
+
+PreparedFilm load_film(const std::string& path, const std::vector<std::string>& overrides,
+                       bool meshes = true);
+// For what takes a single run: throws Error where the scene compares several.
 PreparedScene load_scene(const std::string& path, const std::vector<std::string>& overrides,
                          bool meshes = true);
 
 // 0, 1/fps, 2/fps, ...: one a frame of the film.
 std::vector<double> frame_times(const Scene& scene);
 
-// Throws Error (exit 5, or the signal's) unless the run finished, or stopped as the scene wanted.
-void require_finished(const Trajectory& trajectory, const Scene& scene);
+// Throws Error (exit 5, or the signal's) unless the run came to the end that the scene expects: finished or
+// stopped by a limit, or diverged.
+void require_expected_end(const Trajectory& trajectory, const Scene& scene);
+// The same for all panels; for a picture of one frame, for those alone that cannot show it or must diverge.
+void require_expected_ends(const PreparedFilm& film, const std::vector<Trajectory>& runs,
+                           std::optional<int> frame = {});
+
+// Runs all panels, sampled at `times`. Throws only the signal's Error.
+std::vector<Trajectory> simulate_film(const PreparedFilm& film, const std::vector<double>& times);
+// The pictures of these runs at the first `frames` of `times`.
+Film film_of(const PreparedFilm& film, const std::vector<Trajectory>& runs, const std::vector<double>& times,
+             int frames, const Fonts& fonts);
 
 struct StageSeconds {
   double simulate = 0, draw = 0, render = 0, encode = 0, total = 0;
@@ -47,8 +67,7 @@ struct RenderResult {
 
 // Renders one film to an MP4 and writes the audit beside it. A run that failed leaves what was drawn under a
 // .partial name and throws.
-RenderResult render_film(const PreparedScene& prepared, const std::string& video_path, bool overwrite,
-                         bool quiet);
+RenderResult render_film(const PreparedFilm& film, const std::string& video_path, bool overwrite, bool quiet);
 
 // One picture as pixels.
 Image rasterise(const Picture& picture, int width, int height, const Fonts& fonts);

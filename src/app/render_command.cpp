@@ -48,36 +48,34 @@ std::vector<std::string> output_paths(const RenderOptions& options) {
 }
 
 // Every scene is read before the first is rendered, so that bad input costs no time and loses nothing.
-std::vector<PreparedScene> load_all(const RenderOptions& options) {
-  std::vector<PreparedScene> prepared;
+std::vector<PreparedFilm> load_all(const RenderOptions& options) {
+  std::vector<PreparedFilm> films;
   std::vector<Problem> problems;
   ExitCode code = ExitCode::bad_input;
   for (const std::string& scene : options.scenes) {
     try {
-      prepared.push_back(load_scene(scene, overrides_of(options.common)));
+      films.push_back(load_film(scene, overrides_of(options.common)));
     } catch (const Error& error) {
       code = error.code();
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   }
   if (!problems.empty()) throw Error(code, std::move(problems));
-  return prepared;
+  return films;
 }
 
 void run_render(const RenderOptions& options) {
   const std::vector<std::string> paths = output_paths(options);
-  const std::vector<PreparedScene> prepared = load_all(options);
+  const std::vector<PreparedFilm> films = load_all(options);
 
   Json reports = Json::array();
   std::vector<std::vector<std::string>> table{{"scene", "frames", "film s", "taken s", "file"}};
-  for (std::size_t i = 0; i < prepared.size(); ++i) {
-    const RenderResult result =
-        render_film(prepared[i], paths[i], options.common.force, options.common.quiet);
+  for (std::size_t i = 0; i < films.size(); ++i) {
+    const RenderResult result = render_film(films[i], paths[i], options.common.force, options.common.quiet);
     reports.push_back(result.audit);
     reports.back()["file"] = result.video;
-    table.push_back({prepared[i].scene.name, std::to_string(result.frames),
-                     format_fixed(result.film_seconds, 2), format_fixed(result.seconds.total, 2),
-                     result.video});
+    table.push_back({films[i].scene.name, std::to_string(result.frames), format_fixed(result.film_seconds, 2),
+                     format_fixed(result.seconds.total, 2), result.video});
   }
   if (options.common.json)
     std::puts(reports.dump(2).c_str());

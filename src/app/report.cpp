@@ -63,14 +63,15 @@ std::vector<LibraryLine> library_versions() {
   return lines;
 }
 
-Json audit_report(const PreparedScene& prepared, const Trajectory& trajectory, const Audit& audit,
-                  const StageSeconds& seconds) {
+Json run_report(const PreparedScene& prepared, const Trajectory& trajectory) {
+  const Audit audit = audit_of(prepared.simulation, trajectory);
   const Scene& scene = prepared.scene;
   Json json;
   json["scene"] = scene.file;
   json["title"] = scene.title;
   json["model"] = scene.model;
   json["status"] = to_string(trajectory.status);
+  if (scene.expect != "finish") json["expect"] = scene.expect;
   if (!trajectory.trouble.empty()) json["trouble"] = trajectory.trouble;
   const Simulation& simulation = prepared.simulation;
   json["method"] = simulation.method->name;
@@ -80,13 +81,7 @@ Json audit_report(const PreparedScene& prepared, const Trajectory& trajectory, c
   if (prepared.choice) json["auto"] = choice_report(*prepared.choice, scene.accuracy, false);
   json["steps"] = trajectory.steps;
   json["evaluations"] = trajectory.evaluations;
-  json["frames"] = trajectory.size();
-  const FrameRate fps = scene.video.fps;
-  json["fps"] = fps.den == 1 ? Json(fps.num) : Json(std::to_string(fps.num) + "/" + std::to_string(fps.den));
-  json["width"] = scene.video.width;
-  json["height"] = scene.video.height;
   json["duration"] = scene.duration;
-  json["film_seconds"] = frame_time(trajectory.size(), fps);
   json["energy_start"] = audit.energy_start;
   json["largest_kinetic_energy"] = audit.largest_kinetic;
   json["audit_error"] = audit.largest_error;
@@ -100,6 +95,36 @@ Json audit_report(const PreparedScene& prepared, const Trajectory& trajectory, c
                                      {"limit", event.limit}});
   }
   json["trajectory_sha256"] = audit.sha256;
+  return json;
+}
+
+Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, const Film& pictures,
+                 const StageSeconds& seconds) {
+  const auto report_of = [&](std::size_t i) {
+    Json json = run_report(film.panels[i], runs[i]);
+    if (const auto left = pictures.panel(int(i)).left_at()) json["left_picture_at"] = *left;
+    return json;
+  };
+  const Scene& scene = film.scene;
+  Json json;
+  if (runs.size() == 1) {
+    json = report_of(0);
+  } else {
+    json = {{"scene", scene.file},
+            {"title", scene.title},
+            {"layout", scene.layout},
+            {"duration", scene.duration}};
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      json["panels"].push_back(report_of(i));
+      for (const char* shared : {"scene", "duration"}) json["panels"].back().erase(shared);
+    }
+  }
+  const FrameRate fps = scene.video.fps;
+  json["frames"] = pictures.frame_count();
+  json["fps"] = fps.den == 1 ? Json(fps.num) : Json(std::to_string(fps.num) + "/" + std::to_string(fps.den));
+  json["width"] = scene.video.width;
+  json["height"] = scene.video.height;
+  json["film_seconds"] = frame_time(pictures.frame_count(), fps);
   json["seconds"] = {{"simulate", seconds.simulate},
                      {"draw", seconds.draw},
                      {"render", seconds.render},

@@ -1,7 +1,9 @@
 // chainreel simulate SCENE -o FILE.csv
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <numeric>
 
 #include "app/command.hpp"
 #include "app/pipeline.hpp"
@@ -19,6 +21,7 @@ struct SimulateOptions {
   std::string scene;
   std::string output;
   bool every_step = false;
+  int panel = 0;  // from 1; 0: all
   CommonOptions common;
 };
 
@@ -56,38 +59,68 @@ Trajectory run_scene(const PreparedScene& prepared, bool every_step) {
   return simulate(prepared.simulation, times, stop);
 }
 
-void run_simulate(const SimulateOptions& options) {
-  const PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false);
-  std::string output = options.output;
-  if (output.empty()) output = "out/" + prepared.scene.name + ".csv";
+// A panel's run as a CSV file, or on standard output where `output` is "-".
+Json simulate_panel(const PreparedScene& prepared, const std::string& output,
+                    const SimulateOptions& options) {
   const bool to_stdout = output == "-";
-  if (to_stdout && options.common.json)
-    throw Error(ExitCode::usage, "-o - and --json both write to standard output: name a file");
-
   std::unique_ptr<OutputFile> file;
   if (!to_stdout) file = std::make_unique<OutputFile>(output, options.common.force);
   const Trajectory trajectory = run_scene(prepared, options.every_step);
   throw_if_interrupted();
   const std::string text = csv_text(prepared.simulation.chain, trajectory);
+  const bool as_expected = is_complete(trajectory.status) || prepared.scene.expect == "diverge";
   if (to_stdout) {
     std::fwrite(text.data(), 1, text.size(), stdout);
-  } else if (is_complete(trajectory.status)) {
+  } else if (as_expected) {
     write_whole(*file, text);
   } else {
     write_partial(*file, text);
   }
-  require_finished(trajectory, prepared.scene);
+  require_expected_end(trajectory, prepared.scene);
+  Json report = run_report(prepared, trajectory);
+  report["rows"] = trajectory.size();
+  report["file"] = output;
+  return report;
+}
 
-  if (options.common.json) {
-    const Audit audit = audit_of(prepared.simulation, trajectory);
-    Json report = audit_report(prepared, trajectory, audit, {});
-    report.erase("seconds");
-    report["rows"] = trajectory.size();
-    report["file"] = output;
-    std::puts(report.dump(2).c_str());
-  } else if (!options.common.quiet && !to_stdout) {
-    std::printf("%s  %d rows\n", output.c_str(), trajectory.size());
+// The panels that are asked for, from 0.
+std::vector<std::size_t> chosen_panels(const PreparedFilm& film, const SimulateOptions& options) {
+  const std::size_t count = film.panels.size();
+  if (options.panel > int(count))
+    throw Error(ExitCode::usage, "--panel " + std::to_string(options.panel) + ": the scene has " +
+                                     std::to_string(count) + (count == 1 ? " panel" : " panels"));
+  if (options.panel > 0) return {std::size_t(options.panel) - 1};
+  std::vector<std::size_t> all(count);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+// NAME.csv of a single panel, NAME.1.csv, NAME.2.csv, .. of several.
+std::string panel_output(const std::string& output, std::size_t panel, bool alone) {
+  if (alone) return output;
+  std::filesystem::path path(output);
+  const std::string ending = path.extension().string();
+  return path.replace_extension(std::to_string(panel + 1) + ending).string();
+}
+
+void run_simulate(const SimulateOptions& options) {
+  const PreparedFilm film = load_film(options.scene, overrides_of(options.common), false);
+  const std::vector<std::size_t> chosen = chosen_panels(film, options);
+  const bool alone = chosen.size() == 1;
+  const std::string output = options.output.empty() ? "out/" + film.scene.name + ".csv" : options.output;
+  if (output == "-" && options.common.json)
+    throw Error(ExitCode::usage, "-o - and --json both write to standard output: name a file");
+  if (output == "-" && !alone)
+    throw Error(ExitCode::usage, "-o - takes one run, but the scene has " +
+                                     std::to_string(film.panels.size()) + " panels: choose one with --panel");
+  Json reports = Json::array();
+  for (const std::size_t i : chosen) {
+    reports.push_back(simulate_panel(film.panels[i], panel_output(output, i, alone), options));
+    if (!options.common.json && !options.common.quiet && output != "-")
+      std::printf("%s  %d rows\n", reports.back()["file"].get<std::string>().c_str(),
+                  reports.back()["rows"].get<int>());
   }
+  if (options.common.json) std::puts((alone ? reports.front() : Json{{"panels", reports}}).dump(2).c_str());
 }
 
 }  // namespace
@@ -97,7 +130,10 @@ void add_simulate_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("simulate", "run a scene and write its states as CSV");
   command->add_option("scene", options->scene, "a scene file")->required();
   command->add_option("-o,--output", options->output,
-                      "a .csv file, or - for standard output (default out/NAME.csv)");
+                      "a .csv file, or - for standard output (default out/NAME.csv); of a scene with several "
+                      "panels NAME.1.csv, NAME.2.csv, ...");
+  command->add_option("--panel", options->panel, "one panel of a scene that compares several, from 1")
+      ->check(CLI::Range(1, 12));
   command->add_flag("--every-step", options->every_step, "a row a step instead of a row a frame");
   add_common_options(*command, options->common);
   command->footer("Example: chainreel simulate assets/scenes/pp_free.yaml -o out/pp_free.csv");

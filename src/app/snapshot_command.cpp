@@ -36,33 +36,34 @@ std::string default_output(const SnapshotOptions& options) {
 }
 
 // The picture of the film at an instant: same camera, same scales, whatever the instant.
-Picture picture_at(const PreparedScene& prepared, double at, const Fonts& fonts) {
-  std::vector<double> times = frame_times(prepared.scene);
-  auto place = std::lower_bound(times.begin(), times.end(), at - same_instant(prepared.simulation));
-  if (place == times.end() || std::abs(*place - at) > same_instant(prepared.simulation))
-    place = times.insert(place, at);
-  const auto frame = std::size_t(place - times.begin());
-  const Trajectory trajectory = simulate(prepared.simulation, times, [](double) { return interrupted(); });
-  throw_if_interrupted();
-  if (frame >= std::size_t(trajectory.size())) require_finished(trajectory, prepared.scene);
-  const Film film(prepared.scene, prepared.simulation.chain, trajectory, trajectory.size(), fonts);
-  Picture picture = film.static_layer();
-  picture.append(film.frame(int(frame)));
+Picture picture_at(const PreparedFilm& film, double at, const Fonts& fonts) {
+  std::vector<double> times = frame_times(film.scene);
+  const double same = same_instant(film.panels.front().simulation);
+  auto place = std::lower_bound(times.begin(), times.end(), at - same);
+  if (place == times.end() || std::abs(*place - at) > same) place = times.insert(place, at);
+  const int frame = int(place - times.begin());
+  const std::vector<Trajectory> runs = simulate_film(film, times);
+  // A run that fails after the instant does not spoil its picture.
+  require_expected_ends(film, runs, frame);
+  int frames = int(times.size());
+  if (runs.size() == 1 && film.scene.expect == "finish") frames = std::min(frames, runs.front().size());
+  const Film pictures = film_of(film, runs, times, frames, fonts);
+  Picture picture = pictures.static_layer();
+  picture.append(pictures.frame(frame));
   return picture;
 }
 
 void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
-  PreparedScene prepared = load_scene(options.file, overrides_of(options.common));
-  if (options.width > 0) prepared.scene.video.width = options.width;
-  if (options.height > 0) prepared.scene.video.height = options.height;
+  PreparedFilm film = load_film(options.file, overrides_of(options.common));
+  Video& video = film.scene.video;
+  if (options.width > 0) video.width = options.width;
+  if (options.height > 0) video.height = options.height;
   const double at = parse_quantity(options.at, {});
-  if (at < 0 || at > prepared.scene.duration)
+  if (at < 0 || at > film.scene.duration)
     throw Error(ExitCode::usage, "--at " + options.at + " lies outside the scene's duration of " +
-                                     format_quantity(prepared.scene.duration, "s"));
+                                     format_quantity(film.scene.duration, "s"));
   const Fonts fonts;
-  const Video& video = prepared.scene.video;
-  write_picture(picture_at(prepared, at, fonts), video.width, video.height, fonts, output,
-                options.common.force);
+  write_picture(picture_at(film, at, fonts), video.width, video.height, fonts, output, options.common.force);
 }
 
 void snapshot_model(const SnapshotOptions& options, const std::string& output) {

@@ -26,6 +26,7 @@ class Film {
   Picture static_layer() const;  // background, words, ground marks: what no frame changes
   Picture frame(int k) const;    // everything that moves, painter's order, drawn over the static layer
 
+  int frame_count() const { return int(times_.size()); }
   int panel_count() const { return int(panels_.size()); }
   const Panel& panel(int i) const { return panels_[std::size_t(i)]; }
   const Camera& camera(int i = 0) const { return panel(i).camera(); }
