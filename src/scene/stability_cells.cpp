@@ -19,6 +19,8 @@
 namespace chainreel {
 namespace {
 
+constexpr int kInstants = 100;
+
 // Keys of the integration alone: the mechanism need not be made anew for them.
 bool is_of_method(const std::string& key) {
   return key == "step" || key == "tolerance";
@@ -131,8 +133,7 @@ class CellRuns {
   }
 
   void run_one(Simulation& simulation, StabilityCell& cell) {
-    const double end[] = {simulation.duration};
-    const Trajectory trajectory = simulate(simulation, end, stop_);
+    const Trajectory trajectory = simulate(simulation, stability_times(simulation.duration), stop_);
     cell.status = trajectory.status;
     cell.trouble = trajectory.trouble;
     cell.energy_error = is_complete(trajectory.status) && trajectory.size() > 0
@@ -158,12 +159,16 @@ class CellRuns {
       batch.set_torque(int(i), tau);
       batch.set_step(int(i), one.step);
     }
-    batch.run(long(std::llround(all[0]->duration / all[0]->step)), threads_);
-    for_each_index(count, threads_,
-                   [&](std::size_t i) { read_one(batch, int(i), *all[i], result_.cells[i]); });
+    const long steps = std::llround(all[0]->duration / all[0]->step);
+    for (int k = 1; k <= kInstants; ++k) {
+      batch.run(steps * k / kInstants - steps * (k - 1) / kInstants, threads_);
+      for_each_index(count, threads_,
+                     [&](std::size_t i) { look_at(batch, int(i), *all[i], result_.cells[i]); });
+      if (stop_ && stop_(0)) return;
+    }
   }
 
-  static void read_one(const BatchSimulator& batch, int i, Simulation& one, StabilityCell& cell) {
+  static void look_at(const BatchSimulator& batch, int i, Simulation& one, StabilityCell& cell) {
     std::vector<double> q(one.q0.size()), qd(one.qd0.size()), tau(one.qd0.size());
     batch.read_state(i, q, qd);
     Workspace ws(one.chain);
@@ -172,8 +177,11 @@ class CellRuns {
     for (std::size_t k = 0; k < q.size(); ++k) work += tau[k] * (q[k] - one.q0[k]);
     const double gained =
         energy_of(one.chain, ws, q, qd).total() - energy_of(one.chain, ws, one.q0, one.qd0).total();
-    cell.energy_error = std::abs(gained - work);
-    if (std::isfinite(cell.energy_error)) return;
+    const double error = std::abs(gained - work);
+    if (std::isfinite(error)) {
+      cell.energy_error = std::max(cell.energy_error, error);
+      return;
+    }
     cell.energy_error = std::numeric_limits<double>::infinity();
     cell.status = RunStatus::diverged;
     cell.trouble = "diverged";
@@ -198,6 +206,12 @@ class CellRuns {
 };
 
 }  // namespace
+
+std::vector<double> stability_times(double duration) {
+  std::vector<double> times;
+  for (int k = 1; k <= kInstants; ++k) times.push_back(duration * k / kInstants);
+  return times;
+}
 
 StabilityCells run_stability_cells(const std::string& scene, const std::vector<std::string>& overrides,
                                    const Sweep& x, const Sweep& y, int threads, const StopRequest& stop) {

@@ -12,7 +12,7 @@ namespace chainreel {
 
 struct StabilityCell {
   RunStatus status = RunStatus::finished;
-  double energy_error = 0;  // J, |audit error| at the end; infinite where the run failed
+  double energy_error = 0;  // J, largest |audit error| at stability_times; infinite where the run failed
   std::string trouble;
 };
 
@@ -31,6 +31,8 @@ struct StabilityCells {
 
 // A run takes the scene's duration, and at least kLeastSteps steps of a fixed step: slow growth shows then.
 inline constexpr int kLeastSteps = 1000;
+// Equally spaced instants at which energies are looked at, the last one at the end.
+std::vector<double> stability_times(double duration);
 
 // Both sweeps need numbers. On `threads` threads. Throws what reading or preparing a cell's scene throws.
 StabilityCells run_stability_cells(const std::string& scene, const std::vector<std::string>& overrides,

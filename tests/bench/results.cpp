@@ -10,24 +10,14 @@
 #include <thread>
 
 #include "core/format.hpp"
+#include "core/machine.hpp"
 #include "support/run_program.hpp"
 
 namespace chainreel::bench {
 namespace {
 
-// What follows the separator in the first line of a file that starts with `key`.
-std::string value_in(const char* path, const std::string& key, char separator) {
-  std::ifstream stream(path);
-  for (std::string line; std::getline(stream, line);) {
-    if (!line.starts_with(key)) continue;
-    const std::size_t at = line.find_first_not_of(" \t\"", line.find(separator) + 1);
-    return at == std::string::npos ? "" : line.substr(at, line.find_last_not_of('"') + 1 - at);
-  }
-  return "unknown";
-}
-
 std::string vector_units() {
-  const std::string flags = " " + value_in("/proc/cpuinfo", "flags", ':') + " ";
+  const std::string flags = " " + value_in_file("/proc/cpuinfo", "flags", ':') + " ";
   std::string units;
   for (const char* flag : {"sse4_2", "avx", "fma", "avx2", "avx512f"})
     if (flags.find(std::string(" ") + flag + " ") != std::string::npos)
@@ -65,12 +55,12 @@ std::string joined(const std::vector<std::string>& cells) {
 Facts machine_facts() {
   return {{"date", today()},
           {"revision", revision()},
-          {"processor", value_in("/proc/cpuinfo", "model name", ':')},
+          {"processor", processor_name()},
           {"vector units", vector_units()},
           {"cores", std::to_string(std::thread::hardware_concurrency())},
           {"load at the start", load()},
-          {"system", value_in("/etc/os-release", "PRETTY_NAME", '=')},
-          {"compiler", "g++ " __VERSION__},
+          {"system", system_name()},
+          {"compiler", compiler_name()},
           {"flags", CHAINREEL_BENCH_FLAGS}};
 }
 

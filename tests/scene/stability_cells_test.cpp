@@ -43,8 +43,8 @@ TEST(StabilityCells, HaveTheErrorOfARunByItself) {
   Scene scene = read_scene(kSpring, settings);
   Simulation alone = prepare(scene, false);
   alone.duration = kLeastSteps * 0.02;
-  const double end[] = {alone.duration};
-  EXPECT_EQ(map.at(1, 1).energy_error, audit_of(alone, simulate(alone, end)).largest_error);
+  const Trajectory trajectory = simulate(alone, stability_times(alone.duration));
+  EXPECT_EQ(map.at(1, 1).energy_error, audit_of(alone, trajectory).largest_error);
   EXPECT_NE(map.at(0, 1).energy_error, map.at(1, 1).energy_error);
 }
 
@@ -59,8 +59,7 @@ TEST(StabilityCells, InBatchesAreTheRunsByThemselves) {
       settings.insert(settings.end(), {map.x.setting(ix), map.y.setting(iy)});
       Scene scene = read_scene(kArm, settings);
       Simulation alone = prepare(scene, false);
-      const double end[] = {alone.duration};
-      const double error = audit_of(alone, simulate(alone, end)).largest_error;
+      const double error = audit_of(alone, simulate(alone, stability_times(alone.duration))).largest_error;
       // The same bits of the state; energies of some 10 J are added in another order.
       EXPECT_NEAR(map.at(ix, iy).energy_error, error, 1e-13);
       EXPECT_GT(error, 1e-6);

@@ -1,0 +1,87 @@
+#include "app/figure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "app/pipeline.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "core/machine.hpp"
+#include "core/output_file.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr std::array<const char*, 4> kEndings = {".png", ".svg", ".pdf", ".csv"};
+
+std::string version_text() {
+  return std::string(CHAINREEL_VERSION) + ", " + CHAINREEL_REVISION;
+}
+
+}  // namespace
+
+void add_figure_options(CLI::App& command, FigureOptions& options, const std::string& default_output) {
+  command.add_option("-o,--output", options.output,
+                     "a .png, .svg, .pdf or .csv file (default " + default_output +
+                         "); the numbers are "
+                         "written as CSV beside the picture");
+  command.add_option("--width", options.width, "pixels")->check(CLI::Range(16, 16384));
+  command.add_option("--height", options.height, "pixels")->check(CLI::Range(16, 16384));
+  command.add_option("--text-scale", options.text_scale, "larger text for small pictures")
+      ->check(CLI::Range(0.5, 3.0));
+}
+
+void check_figure_path(const std::string& path) {
+  if (std::any_of(kEndings.begin(), kEndings.end(), [&](const char* end) { return path.ends_with(end); }))
+    return;
+  throw Error(ExitCode::usage, "-o " + path + ": charts are written as .png, .svg, .pdf or .csv");
+}
+
+std::vector<std::string> write_figure(const Picture& picture, const std::string& csv,
+                                      const FigureOptions& options, const std::string& path,
+                                      const Fonts& fonts, bool overwrite) {
+  const std::string table = std::filesystem::path(path).replace_extension(".csv").string();
+  write_text_file(table, csv, overwrite);
+  if (path == table) return {table};
+  write_picture(picture, options.width, options.height, fonts, path, overwrite);
+  return {path, table};
+}
+
+std::vector<const Method*> parse_methods(const std::string& text) {
+  std::vector<const Method*> chosen;
+  if (text.empty())
+    for (const Method& method : methods()) chosen.push_back(&method);
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    try {
+      chosen.push_back(&find_method(text.substr(begin, end - begin)));
+    } catch (const Error& error) {
+      throw Error(ExitCode::usage, "--methods: " + error.problems().front().message);
+    }
+    begin = end + 1;
+  }
+  return chosen;
+}
+
+double parse_seconds(const std::string& text, const std::string& option) {
+  std::string number = text;
+  if (number.ends_with('s')) number.pop_back();
+  while (number.ends_with(' ')) number.pop_back();
+  const auto value = parse_number(number);
+  if (!value || !(*value > 0))
+    throw Error(ExitCode::usage, option + " takes seconds above 0, like 1000s; not '" + text + "'");
+  return *value;
+}
+
+std::string csv_facts(const std::string& scene) {
+  return "# scene: " + scene + "\n# machine: " + processor_name() + "\n# system: " + system_name() +
+         "\n# compiler: " + compiler_name() + "\n# revision: " + version_text() + "\n";
+}
+
+std::string machine_line() {
+  return processor_name() + "; " + compiler_name() + "; chainreel " + version_text();
+}
+
+}  // namespace chainreel

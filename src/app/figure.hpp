@@ -1,0 +1,43 @@
+// Charts as files: what several commands that draw one share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/command.hpp"
+#include "core/frame_rate.hpp"
+#include "integrate/method.hpp"
+#include "picture/picture.hpp"
+#include "picture/text.hpp"
+
+namespace chainreel {
+
+struct FigureOptions {
+  std::string output;
+  int width = 1920, height = 1080;
+  double text_scale = 1;
+};
+
+void add_figure_options(CLI::App& command, FigureOptions& options, const std::string& default_output);
+
+// Throws Error (usage) unless the ending is .png, .svg, .pdf or .csv.
+void check_figure_path(const std::string& path);
+
+// The picture as the path's ending says, and the numbers as CSV beside it: out/x.png and out/x.csv. Where the
+// path ends in .csv, the numbers alone. Returns what was written.
+std::vector<std::string> write_figure(const Picture& picture, const std::string& csv,
+                                      const FigureOptions& options, const std::string& path,
+                                      const Fonts& fonts, bool overwrite);
+
+// "rk4,taylor": rows of the registry; "" is all of them.
+std::vector<const Method*> parse_methods(const std::string& text);
+
+// "1000s", "1000 s" or "1000": seconds. Throws Error (usage) naming the option.
+double parse_seconds(const std::string& text, const std::string& option);
+
+// Lines that begin with #: machine, compiler, version, scene.
+std::string csv_facts(const std::string& scene);
+// "Xeon 2.80GHz; g++ 12.2.0; chainreel 0.1.0, 1a2b3c4": for the foot of a chart.
+std::string machine_line();
+
+}  // namespace chainreel

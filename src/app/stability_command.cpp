@@ -1,0 +1,219 @@
+// chainreel stability SCENE [--x KEY=.. --y KEY=..]: where the scene fails, and which method fails on it.
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "app/figure.hpp"
+#include "app/pipeline.hpp"
+#include "app/report.hpp"
+#include "app/signals.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "draw/stability_map.hpp"
+#include "picture/theme.hpp"
+#include "scene/read_scene.hpp"
+#include "scene/stability_cells.hpp"
+#include "sim/audit.hpp"
+#include "sim/linear_modes.hpp"
+
+namespace chainreel {
+namespace {
+
+struct StabilityOptions {
+  std::string scene;
+  std::string x, y;
+  std::string methods;
+  int threads = 0;
+  FigureOptions figure;
+  CommonOptions common;
+};
+
+constexpr double kTableSteps[] = {0.1, 0.01, 0.001};
+constexpr double kTableTolerances[] = {1e-3, 1e-6, 1e-9};
+
+Axis axis_of(const Sweep& sweep) {
+  Axis axis;
+  axis.scale = sweep.logarithmic ? Scale::log : Scale::linear;
+  const auto& v = sweep.numbers;
+  // Cells are centred on their values: half a cell beyond the first and the last.
+  if (sweep.logarithmic) {
+    const double half = std::sqrt(v[1] / v[0]);
+    axis.low = v.front() / half;
+    axis.high = v.back() * half;
+  } else {
+    const double half = 0.5 * (v[1] - v[0]);
+    axis.low = v.front() - half;
+    axis.high = v.back() + half;
+  }
+  const std::string prefix = "parameters.";
+  axis.title = sweep.key == "step"             ? "step [s]"
+               : sweep.key.starts_with(prefix) ? sweep.key.substr(prefix.size())
+                                               : sweep.key;
+  return axis;
+}
+
+// Cells of one size: rising values at equal distances or factors.
+void check_axis(const Sweep& sweep, const std::string& option) {
+  const auto& v = sweep.numbers;
+  bool good = v.size() >= 2;
+  for (std::size_t k = 1; good && k < v.size(); ++k) {
+    const double even =
+        sweep.logarithmic ? v[0] * std::pow(v[1] / v[0], double(k)) : v[0] + double(k) * (v[1] - v[0]);
+    good = v[k] > v[k - 1] && std::abs(v[k] - even) <= 1e-6 * std::abs(v[k] - v[0]);
+  }
+  if (!good)
+    throw Error(ExitCode::usage,
+                option +
+                    " of a map takes a range of rising numbers: KEY=from:to:count, maybe with "
+                    ":log behind it");
+}
+
+void add_boundary(const StabilityCells& cells, StabilityMap& map) {
+  const bool along_x = cells.x.key == "step";
+  const std::vector<double>& others = (along_x ? cells.y : cells.x).numbers;
+  MapBoundary line;
+  line.label = "theory";
+  for (std::size_t i = 0; i < cells.boundary.size(); ++i) {
+    if (!cells.boundary[i] || !std::isfinite(*cells.boundary[i]) || *cells.boundary[i] <= 0) continue;
+    const double step = *cells.boundary[i];
+    line.points.push_back(along_x ? Point{step, others[i]} : Point{others[i], step});
+  }
+  if (line.points.size() >= 2) map.boundaries.push_back(line);
+}
+
+StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
+  StabilityMap map;
+  map.title = "Where " + cells.method + " fails";
+  map.subtitle = scene.title.empty() ? scene.name : scene.title;
+  map.x = axis_of(cells.x);
+  map.y = axis_of(cells.y);
+  map.nx = int(cells.x.values.size());
+  map.ny = int(cells.y.values.size());
+  map.error_title = "largest |energy error| [J]";
+  for (const StabilityCell& cell : cells.cells)
+    map.cells.push_back({!std::isfinite(cell.energy_error), cell.energy_error});
+  add_boundary(cells, map);
+  map.footer =
+      "Each cell is a run of the scene's duration and of at least " + std::to_string(kLeastSteps) + " steps.";
+  if (!map.boundaries.empty())
+    map.footer += " Theory: the method's limit for the motion linearised about the start.";
+  return map;
+}
+
+std::string csv_of(const std::string& scene, const StabilityCells& cells) {
+  std::string text = csv_facts(scene) + cells.x.key + "," + cells.y.key + ",status,energy_error,trouble\n";
+  for (std::size_t iy = 0; iy < cells.y.values.size(); ++iy)
+    for (std::size_t ix = 0; ix < cells.x.values.size(); ++ix) {
+      const StabilityCell& cell = cells.at(ix, iy);
+      text += cells.x.values[ix] + "," + cells.y.values[iy] + "," + to_string(cell.status) + "," +
+              (std::isfinite(cell.energy_error) ? format_shortest(cell.energy_error) : "") + ",\"" +
+              cell.trouble + "\"\n";
+    }
+  return text;
+}
+
+void print_map_summary(const StabilityCells& cells) {
+  std::size_t failed = 0;
+  for (const StabilityCell& cell : cells.cells) failed += !std::isfinite(cell.energy_error);
+  std::printf("%s: %zu of %zu cells fail; %d threads%s\n", cells.method.c_str(), failed, cells.cells.size(),
+              cells.threads, cells.in_batches ? ", stepped in batches" : "");
+}
+
+void draw_map(const StabilityOptions& options, const std::string& output) {
+  const Sweep x = parse_sweep(options.x, "--x"), y = parse_sweep(options.y, "--y");
+  check_axis(x, "--x");
+  check_axis(y, "--y");
+  const std::vector<std::string> overrides = overrides_of(options.common);
+  const int threads = options.threads > 0 ? options.threads : int(std::thread::hardware_concurrency());
+  const StabilityCells cells =
+      run_stability_cells(options.scene, overrides, x, y, threads, [](double) { return interrupted(); });
+  throw_if_interrupted();
+  const Scene scene = read_scene(options.scene, overrides);
+  const Fonts fonts;
+  const ChartLook look{double(options.figure.width) / options.figure.height, options.figure.text_scale,
+                       &light_theme(), &fonts};
+  const auto files = write_figure(stability_map(map_of(scene, cells), look), csv_of(options.scene, cells),
+                                  options.figure, output, fonts, options.common.force);
+  if (options.common.quiet) return;
+  print_map_summary(cells);
+  for (const std::string& file : files) std::printf("%s\n", file.c_str());
+}
+
+std::string verdict(Simulation& simulation, const MethodSetting& setting) {
+  simulation.method = setting.method;
+  simulation.options = setting.options;
+  simulation.step = setting.step;
+  const double end[] = {simulation.duration};
+  const Trajectory trajectory = simulate(simulation, end, [](double) { return interrupted(); });
+  throw_if_interrupted();
+  if (trajectory.status != RunStatus::finished || trajectory.size() == 0)
+    return to_string(trajectory.status) + " at " + format_significant(trajectory.end_time, 3) + " s";
+  return format_significant(audit_of(simulation, trajectory).largest_error, 2) + " J";
+}
+
+// "Who fails here": every method at three steps or tolerances.
+void print_methods(const StabilityOptions& options) {
+  PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false);
+  Simulation& simulation = prepared.simulation;
+  const std::vector<Mode> modes = oscillating_modes(simulation);
+  std::vector<std::vector<std::string>> table{
+      {"method", "coarse", "middle", "fine", "longest stable step, s"}};
+  for (const Method* method : parse_methods(options.methods)) {
+    simulation.method = method;
+    try {
+      check_method(simulation);
+    } catch (const Error& error) {
+      table.push_back({method->name, error.problems().front().message, "", "", ""});
+      continue;
+    }
+    std::vector<std::string> row{method->name};
+    for (std::size_t k = 0; k < 3; ++k)
+      row.push_back(verdict(simulation, method->adaptive ? MethodSetting{method, {kTableTolerances[k], 0}, 0}
+                                                         : MethodSetting{method, {}, kTableSteps[k]}));
+    const std::optional<double> longest = longest_stable_step(*method, modes);
+    row.push_back(!longest ? "" : std::isfinite(*longest) ? format_significant(*longest, 4) : "any");
+    table.push_back(row);
+  }
+  std::printf(
+      "Who fails here: the energy error at the end with steps of 0.1, 0.01 and 0.001 s, or tolerances of "
+      "1e-3, 1e-6 and 1e-9\n");
+  std::fputs(table_text(table).c_str(), stdout);
+  if (!modes.empty())
+    std::printf("linearised about the start: omega = %s rad/s\n",
+                format_significant(modes.back().omega, 6).c_str());
+}
+
+void run_stability(const StabilityOptions& options) {
+  if (options.x.empty() != options.y.empty())
+    throw Error(ExitCode::usage, "a map needs both --x and --y; without them the methods are compared");
+  if (options.x.empty()) return print_methods(options);
+  std::string output = options.figure.output;
+  if (output.empty())
+    output = "out/" + std::filesystem::path(options.scene).stem().string() + "_stability.png";
+  check_figure_path(output);
+  draw_map(options, output);
+}
+
+}  // namespace
+
+void add_stability_command(CLI::App& app) {
+  auto options = std::make_shared<StabilityOptions>();
+  CLI::App* command = app.add_subcommand(
+      "stability", "a map of where a scene fails over two of its keys, or which method does");
+  command->add_option("scene", options->scene, "a scene file")->required();
+  command->add_option("--x", options->x, "KEY=from:to:count, maybe with :log behind it");
+  command->add_option("--y", options->y, "the same, upward");
+  command->add_option("--methods", options->methods, "of the table: rk4,taylor,.. (default all)");
+  command->add_option("--threads", options->threads, "default: all cores")->check(CLI::Range(1, 256));
+  add_figure_options(*command, options->figure, "out/NAME_stability.png");
+  add_common_options(*command, options->common);
+  command->footer(
+      "Example: chainreel stability assets/scenes/pp_spring.yaml --set 'torque=[0, -k * y_G]'\n"
+      "         --set parameters.k=100 --x step=0.02:0.4:96 --y parameters.k=25:400:60");
+  command->callback([options] { run_stability(*options); });
+}
+
+}  // namespace chainreel
