@@ -1,0 +1,63 @@
+// What methods in coordinates and momenta share: their state, carried with the part that rounding cuts off
+// each sum (E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, 2006, VIII.5: compensated
+// summation), and dense output in (q, v).
+#pragma once
+
+#include <vector>
+
+#include "integrate/hermite_span.hpp"
+#include "integrate/integrator.hpp"
+
+namespace chainreel {
+
+class MomentaIntegrator : public Integrator {
+ public:
+  explicit MomentaIntegrator(const Forms& forms);
+
+  void start(double t, std::span<const double> q, std::span<const double> v) final;
+  StepResult step(double end, double h) final;
+  void interpolate(double t, std::span<double> q, std::span<double> v) final;
+  int dense_order() const final { return span_.order(); }
+
+ protected:
+  virtual void forget() = 0;  // the steps before
+  // Moves q_ and p_; v_ is the velocity at their beginning.
+  virtual bool move(double t, double h) = 0;
+
+  // x += dx; what the sum loses is kept in the carry.
+  static void add(std::span<const double> dx, std::span<double> x, std::span<double> carry);
+  // y = x + (carry + dx)
+  static void stage(std::span<const double> x, std::span<const double> carry, std::span<const double> dx,
+                    std::span<double> y);
+
+  const std::size_t n_;
+  Momenta& system_;
+  std::vector<double> p_, q_carry_, p_carry_;
+  // How large coordinates and momenta are, for what is small beside them.
+  std::vector<double> q_size_, p_size_;
+
+ private:
+  void measure(double h);
+
+  SecondOrder& second_order_;
+  HermiteSpan span_;
+  bool is_first_ = true;
+  std::vector<double> p_largest_, force_;
+};
+
+// The next increment from those of the last two steps, where these were of equal length.
+class Extrapolation {
+ public:
+  explicit Extrapolation(std::size_t n) : last_(n), before_(n) {}
+  void forget() { known_ = 0; }
+  // False where nothing is known.
+  bool predict(double h, std::span<double> x) const;
+  void learn(double h, std::span<const double> x);
+
+ private:
+  std::vector<double> last_, before_;
+  int known_ = 0;
+  double h_ = 0;
+};
+
+}  // namespace chainreel
