@@ -165,34 +165,45 @@ class Run {
     trajectory_.work.push_back(work);
   }
 
+  // The state decides: a torque that was no number in an attempt that was rejected does no harm.
   bool check_state(double begin, double end) {
-    const int torque = system_.bad_torque();
-    if (torque >= 0) {
-      set_trouble(RunStatus::torque_not_finite,
-                  "the torque at joint '" + name(torque) + "' is not a finite number", begin);
-      return false;
-    }
+    const int wild = wild_freedom();
+    if (wild < 0) return true;
+    if (system_.bad_torque() >= 0) return blame_torque(begin);
+    set_trouble(RunStatus::diverged, "diverged at joint '" + name(wild) + "'", end);
+    return false;
+  }
+
+  // The first freedom whose numbers have left all bounds, or -1.
+  int wild_freedom() const {
     const auto sane = [](double x) { return std::abs(x) < kDivergenceBound; };  // false for NaN
     const ConstVec q = integrator_->q(), qd = integrator_->v();
     for (std::size_t i = 0; i < q.size(); ++i)
-      if (!sane(q[i])) return diverge(int(std::min(i, qd.size() - 1)), end);
+      if (!sane(q[i])) return int(std::min(i, qd.size() - 1));
     for (std::size_t i = 0; i < qd.size(); ++i)
-      if (!sane(qd[i])) return diverge(int(i), end);
-    return true;
+      if (!sane(qd[i])) return int(i);
+    return -1;
   }
 
   bool check_result(StepResult result, double begin) {
     if (result == StepResult::ok) return true;
-    if (const int torque = system_.bad_torque(); torque >= 0) return check_state(begin, begin);
+    if (system_.bad_torque() >= 0) return blame_torque(begin);
+    // What makes steps small is most often the joint that moves fastest.
+    const ConstVec qd = integrator_->v();
+    const auto slower = [](double x, double y) { return std::abs(x) < std::abs(y); };
+    const std::string fastest = "; the fastest joint is '" +
+                                name(int(std::max_element(qd.begin(), qd.end(), slower) - qd.begin())) + "'";
     if (result == StepResult::not_converged)
-      set_trouble(RunStatus::not_converged, "the implicit equations of a step found no solution", begin);
+      set_trouble(RunStatus::not_converged, "the implicit equations of a step found no solution" + fastest,
+                  begin);
     else
-      set_trouble(RunStatus::step_too_small, "no step was small enough for the tolerance", begin);
+      set_trouble(RunStatus::step_too_small, "no step was small enough for the tolerance" + fastest, begin);
     return false;
   }
 
-  bool diverge(int freedom, double t) {
-    set_trouble(RunStatus::diverged, "diverged at joint '" + name(freedom) + "'", t);
+  bool blame_torque(double t) {
+    set_trouble(RunStatus::torque_not_finite,
+                "the torque at joint '" + name(system_.bad_torque()) + "' is not a finite number", t);
     return false;
   }
 
