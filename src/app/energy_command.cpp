@@ -87,11 +87,13 @@ MethodRun run_method(Simulation& simulation, const MethodSetting& setting, const
 }
 
 std::string csv_of(const std::string& scene, const std::vector<MethodRun>& runs) {
-  std::string text = csv_facts(scene) + "method,setting,t,energy_error\n";
+  std::string text = csv_facts(scene);
+  for (const MethodRun& run : runs) text += "# " + to_string(run.setting) + "\n";
+  text += "method,t,energy_error\n";
   for (const MethodRun& run : runs)
     for (std::size_t k = 0; k < run.curve.t.size(); ++k)
-      text += run.curve.method + ",\"" + to_string(run.setting) + "\"," + format_shortest(run.curve.t[k]) +
-              "," + format_shortest(run.curve.error[k]) + "\n";
+      text += run.curve.method + "," + format_significant(run.curve.t[k], 6) + "," +
+              format_significant(run.curve.error[k], 6) + "\n";
   return text;
 }
 

@@ -9,6 +9,8 @@
 #include "core/format.hpp"
 #include "core/machine.hpp"
 #include "core/output_file.hpp"
+#include "render/vector_cairo.hpp"
+#include "render/vector_svg.hpp"
 
 namespace chainreel {
 namespace {
@@ -44,7 +46,15 @@ std::vector<std::string> write_figure(const Picture& picture, const std::string&
   const std::string table = std::filesystem::path(path).replace_extension(".csv").string();
   write_text_file(table, csv, overwrite);
   if (path == table) return {table};
-  write_picture(picture, options.width, options.height, fonts, path, overwrite);
+  // Vector pages have the proportions of the pixels, and a height that suits a sheet of paper.
+  VectorPage page;
+  page.title = std::filesystem::path(path).stem().string();
+  if (path.ends_with(".svg"))
+    write_text_file(path, svg_text(picture, fonts, page), overwrite);
+  else if (path.ends_with(".pdf"))
+    write_text_file(path, pdf_text(picture, fonts, page), overwrite);
+  else
+    write_picture(picture, options.width, options.height, fonts, path, overwrite);
   return {path, table};
 }
 

@@ -2,6 +2,7 @@
 
 #include <cairo-ft.h>
 #include <cairo-pdf.h>
+#include <cairo.h>
 #include <ft2build.h>
 #include FT_FREETYPE_H
 

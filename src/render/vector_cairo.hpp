@@ -1,10 +1,12 @@
 // Shapes by Cairo: the same list as for the canvas, on any of Cairo's surfaces.
 #pragma once
 
-#include <cairo.h>
+#include <string>
 
 #include "picture/text.hpp"
 #include "render/vector_shapes.hpp"
+
+typedef struct _cairo cairo_t;  // of <cairo.h>, which no other floor sees
 
 namespace chainreel {
 
