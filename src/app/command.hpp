@@ -58,6 +58,7 @@ void add_init_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_doctor_command(CLI::App& app);
 void add_methods_command(CLI::App& app);
+void add_chart_command(CLI::App& app);
 void add_energy_command(CLI::App& app);
 void add_stability_command(CLI::App& app);
 

@@ -24,6 +24,7 @@ int run(int argc, char** argv) {
   add_check_command(app);
   add_doctor_command(app);
   add_methods_command(app);
+  add_chart_command(app);
   add_energy_command(app);
   add_stability_command(app);
   app.footer(

@@ -14,8 +14,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLeastStep = 1e-7;  // s
-// A ladder ends where rungs do not get better any more: what is left is rounding.
+// A ladder ends where errors this small do not get smaller any more: what is left is rounding.
 constexpr int kRungsOfRounding = 2;
+constexpr double kSmallError = 1e-7;
 // Very short runs are repeated inside one measurement, or the clock would be what is measured.
 constexpr double kShortestMeasurement = 2e-4;  // s
 
@@ -117,7 +118,7 @@ Ladder climb(Simulation& simulation, const Method& method, const EndState& refer
     const bool gained = rung.error < best;
     best = std::min(best, rung.error);
     if (!interrupted) ladder.rungs.push_back(rung);
-    without_gain = gained || !std::isfinite(best) ? 0 : without_gain + 1;
+    without_gain = gained || !(best < kSmallError) ? 0 : without_gain + 1;
     if (interrupted || without_gain >= kRungsOfRounding || rung.seconds > 2 * options.longest_run) break;
   }
   return ladder;
