@@ -26,7 +26,7 @@ enum class Scale {
 struct Axis {
   Scale scale = Scale::linear;
   double low = 0, high = 1;
-  std::string title;  // running text with the unit in brackets: "energy [J]"
+  std::string title{};  // running text with the unit in brackets: "energy [J]"
 };
 
 struct PlotStyle {
@@ -48,7 +48,7 @@ inline constexpr double kMarker = 0.0135;  // across a disc; other markers cover
 struct Tick {
   double value = 0;
   // Empty for ticks without a number. `superscript` is set above and behind: the exponent of a power of ten.
-  std::string label, superscript;
+  std::string label{}, superscript{};
 };
 
 // Steps of 1, 2 or 5 x 10^n, at most `most` labels. On log axes decades are labelled, thinned evenly; an axis

@@ -24,6 +24,8 @@ constexpr std::array<FamilyRow, 3> kFamilies = {
      {"chainreel-bold", "'DejaVu Sans',Verdana,sans-serif", "bold"},
      {"chainreel-math", "'Latin Modern Math','STIX Two Math','Cambria Math',serif", "normal"}}};
 
+constexpr double kThinnestAxis = 0.001;  // units of the page: the last digit that is written
+
 std::string escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -183,8 +185,10 @@ class SvgWriter {
 
   void add(const Ellipse& e) {
     const auto size_of = [](Point p) { return std::sqrt(p.x * p.x + p.y * p.y); };
-    const double a = size_of(e.u), b = size_of(e.v);
-    const Point axis = a > 0 ? e.u : Point{e.v.y, -e.v.x};
+    // An axis of zero length would take the stroke with it.
+    const double thinnest = kThinnestAxis / scale_;
+    const double a = std::max(size_of(e.u), thinnest), b = std::max(size_of(e.v), thinnest);
+    const Point axis = size_of(e.u) > 0 ? e.u : Point{e.v.y, -e.v.x};
     const double degrees = -std::atan2(axis.y, axis.x) * 180 / std::numbers::pi;
     const std::string center = number(x(e.center.x)) + " " + number(y(e.center.y));
     body_ += "<ellipse cx=\"" + number(x(e.center.x)) + "\" cy=\"" + number(y(e.center.y)) + "\" rx=\"" +
@@ -221,8 +225,9 @@ class SvgWriter {
     }
   }
 
-  // Characters beyond the first plane count as one or as two from reader to reader, so each of them, and each
-  // cluster that is not one glyph for one character, has an element of its own.
+  // Some readers (librsvg) take the first of a list of places alone, so where the gaps are the layout's own,
+  // in formulas, every character has an element of its own. So have characters beyond the first plane, which
+  // count as one or as two from reader to reader, and clusters that are not one glyph for one character.
   void add(const GlyphRun& run) {
     if (run.glyphs.empty()) return;
     const FamilyRow& family = kFamilies[std::size_t(run.face)];
@@ -238,7 +243,8 @@ class SvgWriter {
     };
     for (const GlyphCluster& cluster : clusters_of(run)) {
       for (const char32_t c : cluster.text) used_[std::size_t(run.face)].insert(c);
-      const bool is_simple = cluster.count == 1 && cluster.text.size() == 1 && cluster.text[0] < 0x10000;
+      const bool is_simple = run.face != Face::math && cluster.count == 1 && cluster.text.size() == 1 &&
+                             cluster.text[0] < 0x10000;
       if (!is_simple) flush();
       places += (places.empty() ? "" : " ") + number(x(run.origin.x + run.glyphs[cluster.first].x));
       words += encode_utf8(cluster.text);

@@ -111,6 +111,15 @@ void draw_lines(Picture& page, const Theme& theme, Point at) {
                    0.2});
 }
 
+// Cells of any size, a few of them translucent.
+void draw_map(Picture& page, const Rect& rect) {
+  Cells cells{rect, 7, 5, {}};
+  for (int i = 0; i < 35; ++i)
+    cells.colors.push_back(
+        {std::uint8_t(7 * i), std::uint8_t(90 + 3 * i), std::uint8_t(250 - 5 * i), i % 6 == 0 ? 0.5 : 1});
+  page.add(cells);
+}
+
 void draw_texts(Picture& page, const Fonts& fonts, const Theme& theme) {
   const auto text = [&](Face face, double em, Color color, Align align, const char* words, Point at) {
     draw_text(page, lay_out_text(fonts, words, {face, em, color, align}), at);
@@ -148,6 +157,7 @@ Picture test_card(const Fonts& fonts, const Theme& theme) {
     const Point at = on_circle({1.58, 0.42}, 0.05, 2 * pi * i / 3);
     page.add(Ellipse{at, {0.08, 0}, {0, 0.08}, {theme.link[std::size_t(i)].faded(0.5), {}, 0}});
   }
+  draw_map(page, {1.62, 0.52, 1.74, 0.60});
   return page;
 }
 
