@@ -25,9 +25,11 @@ class ChainSystem final : public SecondOrder {
 
   // The torques at this state, cut where the limit policy says so; valid until the next call.
   ConstVec torque(double t, ConstVec q, ConstVec qd);
+  ConstVec net_torque(double t, ConstVec q, ConstVec qd);  // tau - tau_f
   LimitWatch& limits() { return limits_; }
   const Chain& chain() const { return *chain_; }
   const TorqueLaw& law() const { return *torque_; }
+  LimitPolicy limit_policy() const { return limit_; }
   void count_evaluation() { ++evaluations_; }  // of the dynamics in another form
 
   long evaluations() const { return evaluations_; }
@@ -42,6 +44,7 @@ class ChainSystem final : public SecondOrder {
   LimitWatch limits_;
   Workspace ws_;
   std::vector<double> tau_;
+  std::vector<double> tau_net_;   // of a chain with friction
   bool torque_is_known_ = false;  // constant and evaluated: the same tau_ at every instant
   long evaluations_ = 0;
   int bad_torque_ = -1;

@@ -1,13 +1,34 @@
 #include "sim/forms.hpp"
 
 #include "core/error.hpp"
+#include "sim/chain_momenta.hpp"
+#include "sim/chain_points.hpp"
+#include "sim/chain_series.hpp"
 
 namespace chainreel {
 
 ChainForms::ChainForms(ChainSystem& system, const Method& method) {
   forms_.second_order = &system;
-  if (method.form != Form::second_order)
-    throw Error(ExitCode::bad_input, "the method " + method.name + " does not take this chain; take dop853");
+  switch (method.form) {
+    case Form::second_order:
+      if (method.plain_coordinates && system.nq() != system.nv())
+        throw Error(ExitCode::bad_input, "the method " + method.name +
+                                             " takes no quaternions, which this chain's floating joint has: "
+                                             "take dop853");
+      return;
+    case Form::momenta:
+      momenta_ = std::make_unique<ChainMomenta>(system, method.name);
+      forms_.momenta = momenta_.get();
+      return;
+    case Form::series:
+      series_ = make_chain_series(system, method.highest_order + 1);
+      forms_.series = series_.get();
+      return;
+    case Form::linked_points:
+      linked_points_ = make_chain_points(system, method.name);
+      forms_.linked_points = linked_points_.get();
+      return;
+  }
 }
 
 ChainForms::~ChainForms() = default;

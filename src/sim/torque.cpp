@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/format.hpp"
+#include "expr/affine.hpp"
 #include "expr/expression.hpp"
 #include "model/read_chain.hpp"
 
@@ -18,6 +19,17 @@ class ConstantTorque final : public TorqueLaw {
     std::copy(tau_.begin(), tau_.end(), tau.begin());
   }
   bool is_constant() const override { return true; }
+  std::optional<AffineTorque> affine() const override {
+    const std::size_t n = tau_.size();
+    AffineTorque torque{{}, std::vector<Quad>(n * n), std::vector<Quad>(n * n)};
+    for (const double tau : tau_) torque.powers.push_back({Quad(tau)});
+    return torque;
+  }
+  bool evaluate_in_quad(Quad, std::span<const Quad>, std::span<const Quad>,
+                        std::span<Quad> tau) const override {
+    std::copy(tau_.begin(), tau_.end(), tau.begin());
+    return true;
+  }
 
  private:
   std::vector<double> tau_;
@@ -41,7 +53,52 @@ class ExpressionTorque final : public TorqueLaw {
   }
   bool depends_on_velocity() const override { return depends_on_velocity_; }
 
+  std::optional<AffineTorque> affine() const override {
+    const std::size_t n = entries_.size();
+    if (!has_coordinate_a_freedom()) return {};
+    AffineTorque torque{{}, std::vector<Quad>(n * n), std::vector<Quad>(n * n)};
+    const std::vector<VariableUse> uses = variable_uses();
+    for (std::size_t i = 0; i < n; ++i) {
+      auto form = affine_form_of<Quad>(entries_[i], uses);
+      if (!form) return {};
+      torque.powers.push_back(std::move(form->powers));
+      std::copy_n(form->weights.begin() + 1, n, torque.K.begin() + std::ptrdiff_t(i * n));
+      std::copy_n(form->weights.begin() + 1 + std::ptrdiff_t(n), n, torque.D.begin() + std::ptrdiff_t(i * n));
+    }
+    return torque;
+  }
+
+  bool evaluate_in_quad(Quad t, std::span<const Quad> q, std::span<const Quad> qd,
+                        std::span<Quad> tau) const override {
+    if (needs_kinematics_) return false;
+    std::vector<Quad> values(probe_.values().begin(), probe_.values().end());
+    values[0] = t;
+    std::copy(qd.begin(), qd.end(), std::copy(q.begin(), q.end(), values.begin() + 1));
+    for (std::size_t i = 0; i < entries_.size(); ++i)
+      tau[i] = entries_[i].evaluate(std::span<const Quad>(values));
+    return true;
+  }
+
  private:
+  // False with floating joints, whose rates are no derivatives of their coordinates.
+  bool has_coordinate_a_freedom() const { return probe_.is_kinematic(int(1 + 2 * entries_.size())); }
+
+  // Time, then coordinates and rates, then the end effector, then parameters.
+  std::vector<VariableUse> variable_uses() const {
+    std::vector<VariableUse> uses;
+    for (std::size_t slot = 0; slot < probe_.values().size(); ++slot) {
+      if (slot == 0)
+        uses.push_back({VariableRole::time, 0});
+      else if (slot <= 2 * entries_.size())
+        uses.push_back({VariableRole::linear, 0});
+      else if (probe_.is_kinematic(int(slot)))
+        uses.push_back({VariableRole::other, 0});
+      else
+        uses.push_back({VariableRole::constant, probe_.values()[slot]});
+    }
+    return uses;
+  }
+
   Probe probe_;
   std::vector<Expression> entries_;
   bool needs_kinematics_ = false;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "dynamics/taylor_planar.hpp"
 #include "sim/control.hpp"
 #include "sim/probe.hpp"
 
@@ -21,6 +22,12 @@ class TorqueLaw {
   virtual bool depends_on_velocity() const { return !is_constant(); }
   // Instants at which the torque has a kink or a jump: steps end there, so that methods keep their order.
   virtual std::vector<double> breaks() const { return {}; }
+  // The law as polynomials in t plus multiples of q and qd, where it is one.
+  virtual std::optional<AffineTorque> affine() const { return {}; }
+  // The law with the digits of Quad; false where it has none.
+  virtual bool evaluate_in_quad(Quad, std::span<const Quad>, std::span<const Quad>, std::span<Quad>) const {
+    return false;
+  }
 };
 
 // One joint's entry as the scene wrote it: a number, an expression, or a control of this joint alone.
