@@ -1,0 +1,168 @@
+// `chart`, `energy`, `stability`, `methods`: what they draw and the numbers beside it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+#include "core/json.hpp"
+#include "integrate/method.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+// Rows of a CSV as columns by name; lines that begin with # are passed over.
+struct Csv {
+  std::vector<std::map<std::string, std::string>> rows;
+  explicit Csv(const std::string& text) {
+    std::istringstream stream(text);
+    std::vector<std::string> head;
+    for (std::string line; std::getline(stream, line);) {
+      if (line.starts_with('#')) continue;
+      std::vector<std::string> cells;
+      std::istringstream cut(line);
+      for (std::string cell; std::getline(cut, cell, ',');) cells.push_back(cell);
+      if (head.empty()) {
+        head = cells;
+        continue;
+      }
+      auto& row = rows.emplace_back();
+      for (std::size_t i = 0; i < cells.size() && i < head.size(); ++i) row[head[i]] = cells[i];
+    }
+  }
+};
+
+double number(const std::string& text) {
+  return text.empty() ? std::nan("") : std::stod(text);
+}
+
+TEST(MethodsCommand, ListsEveryRowOfTheRegistry) {
+  const ProgramResult result = run_program({"methods", "--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json list = Json::parse(result.out);
+  ASSERT_EQ(list.size(), methods().size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    EXPECT_EQ(list[i]["name"], methods()[i].name);
+    EXPECT_EQ(list[i]["order"], methods()[i].order);
+    EXPECT_FALSE(list[i]["source"].get<std::string>().empty());
+  }
+  const std::string table = run_program({"methods"}).out;
+  for (const Method& method : methods()) EXPECT_THAT(table, HasSubstr(method.name));
+}
+
+TEST(ChartCommand, WritesAPictureAndTheNumbersBesideIt) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_program({"chart", "assets/scenes/rr_free.yaml", "--set", "duration=1", "--runs", "1", "--longest",
+                   "0.005", "--methods", "rk4,dop853", "-o", folder.file("chart.svg")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("reference: "), HasSubstr("uncertainty"), HasSubstr("auto: ")));
+  EXPECT_THAT(read_whole_file(folder.file("chart.svg")), AllOf(HasSubstr("<svg"), HasSubstr("rk4")));
+  const std::string text = read_whole_file(folder.file("chart.csv"));
+  EXPECT_THAT(text, AllOf(HasSubstr("# machine: "), HasSubstr("# compiler: "), HasSubstr("# revision: ")));
+  const Csv csv(text);
+  ASSERT_GT(csv.rows.size(), 12u);
+  std::map<std::string, double> best;
+  for (const auto& row : csv.rows) {
+    EXPECT_GT(number(row.at("median_seconds")), 0);
+    EXPECT_GT(number(row.at("evaluations")), 0);
+    if (row.at("status") != "finished") continue;
+    auto [place, first] = best.try_emplace(row.at("method"), number(row.at("error")));
+    if (!first) place->second = std::min(place->second, number(row.at("error")));
+  }
+  // Both reach rounding or nearly so: 1e-9 on a motion of a second that magnifies errors ten times.
+  EXPECT_LT(best.at("rk4"), 1e-9);
+  EXPECT_LT(best.at("dop853"), 1e-11);
+}
+
+TEST(ChartCommand, RefusesUnknownMethodsAndEndings) {
+  const ProgramResult method = run_program({"chart", "assets/scenes/rr_free.yaml", "--methods", "rk5"});
+  EXPECT_EQ(method.status, 2);
+  EXPECT_THAT(method.err, HasSubstr("did you mean 'rk4'?"));
+  const ProgramResult ending = run_program({"chart", "assets/scenes/rr_free.yaml", "-o", "chart.gif"});
+  EXPECT_EQ(ending.status, 2);
+  EXPECT_THAT(ending.err, HasSubstr(".png, .svg, .pdf or .csv"));
+}
+
+TEST(EnergyCommand, ShowsWhoGainsEnergyAndWhoKeepsIt) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_program({"energy", "assets/scenes/rr_free.yaml", "--until", "5s", "--step", "0.01", "--methods",
+                   "explicit_euler,rk4,dop853", "-o", folder.file("energy.csv")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("energy.png")));
+  const Csv csv(read_whole_file(folder.file("energy.csv")));
+  std::map<std::string, double> largest;
+  double end = 0;
+  for (const auto& row : csv.rows) {
+    double& error = largest[row.at("method")];
+    error = std::max(error, std::abs(number(row.at("energy_error"))));
+    end = std::max(end, number(row.at("t")));
+  }
+  EXPECT_EQ(end, 5);
+  // Three classes, each a hundred times better: first order, fourth order, a tolerance of 1e-9.
+  EXPECT_GT(largest.at("explicit_euler"), 1);
+  EXPECT_LT(largest.at("rk4"), 0.01 * largest.at("explicit_euler"));
+  EXPECT_LT(largest.at("dop853"), 0.01 * largest.at("rk4"));
+}
+
+TEST(StabilityCommand, PutsTheBorderWhereTheTheoryHasIt) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_program({"stability", "assets/scenes/pp_spring.yaml", "--set", "torque=[0, -k * y_G]", "--set",
+                   "parameters.k=100", "--x", "step=0.05:0.3:26", "--y", "parameters.k=50:400:8", "-o",
+                   folder.file("map.png"), "--width", "640", "--height", "360"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_GT(std::filesystem::file_size(folder.file("map.png")), 5000u);
+  const Csv csv(read_whole_file(folder.file("map.csv")));
+  ASSERT_EQ(csv.rows.size(), 26u * 8u);
+  int failed = 0;
+  for (const auto& row : csv.rows) {
+    const double omega_h = std::sqrt(number(row.at("parameters.k"))) * number(row.at("step"));
+    if (std::abs(omega_h - 2) < 1e-9) continue;  // on the border itself rounding decides
+    EXPECT_EQ(row.at("status") == "finished", omega_h < 2) << omega_h;
+    failed += omega_h > 2;
+  }
+  EXPECT_GT(failed, 20);
+}
+
+TEST(StabilityCommand, ComparesTheMethodsWithoutAMap) {
+  const ProgramResult result = run_program({"stability", "assets/scenes/pp_spring.yaml"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  // omega = 10 rad/s: 2 / omega and 2 sqrt(2) / omega.
+  EXPECT_THAT(result.out, AllOf(HasSubstr("Who fails here"), HasSubstr("0.2828"), HasSubstr("diverged")));
+}
+
+TEST(StabilityCommand, SaysWhatItTakesInsteadOfAnythingElse) {
+  EXPECT_EQ(run_program({"stability", "assets/scenes/pp_spring.yaml", "--x", "step=1:2:3"}).status, 2);
+  const ProgramResult words = run_program(
+      {"stability", "assets/scenes/pp_spring.yaml", "--x", "method=rk4,verlet", "--y", "step=0.1:0.2:2"});
+  EXPECT_EQ(words.status, 2);
+  EXPECT_THAT(words.err, HasSubstr("--x of a map takes a range"));
+}
+
+TEST(AutoMethod, IsChosenWhereASceneNamesNoneAndSaysSo) {
+  const ProgramResult check = run_program({"check", "assets/scenes/rr_free.yaml", "--json", "--set",
+                                           "method=auto", "--set", "step=null", "--set", "duration=2"});
+  ASSERT_EQ(check.status, 0) << check.err;
+  const Json report = Json::parse(check.out);
+  const Json& choice = report["cost"]["auto"];
+  EXPECT_TRUE(choice["is_met"]);
+  EXPECT_EQ(choice["accuracy"], "0.1 px");
+  EXPECT_LE(choice["error"].get<double>(), 0.1);
+  EXPECT_GT(choice["tried"].size(), 5u);
+  EXPECT_THAT(report["scene"].get<std::string>(),
+              AllOf(HasSubstr("method: auto"), Not(HasSubstr("\nstep:"))));
+}
+
+}  // namespace
+}  // namespace chainreel
