@@ -37,9 +37,13 @@ class ChainSeries final : public Series {
 
 }  // namespace
 
+bool cuts_torques(const Chain& chain, LimitPolicy limit) {
+  return limit == LimitPolicy::clamp && has_effort_limit(chain);
+}
+
 std::optional<std::string> why_no_series(const Chain& chain, const TorqueLaw& law, LimitPolicy limit) {
   if (auto why = why_no_planar_series(chain)) return why;
-  if (limit == LimitPolicy::clamp && has_effort_limit(chain)) return "torques are cut at the joints' effort";
+  if (cuts_torques(chain, limit)) return "torques are cut at the joints' effort";
   if (!law.affine()) return "a torque is neither a polynomial in t nor affine in the state";
   return {};
 }

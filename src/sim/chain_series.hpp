@@ -11,6 +11,9 @@
 
 namespace chainreel {
 
+// Whether the policy may cut torques.
+bool cuts_torques(const Chain& chain, LimitPolicy limit);
+
 // Why this chain under this law has no series, a clause that follows "because"; nothing where it has one.
 std::optional<std::string> why_no_series(const Chain& chain, const TorqueLaw& law, LimitPolicy limit);
 
