@@ -72,9 +72,18 @@ double zone_width(const ChartLook& look) {
   return widest + 2 * kZonePad;
 }
 
-// Left of the smallest error there is as much room as the words in the zone need.
+bool any_failed(const WorkPrecision& data) {
+  return std::any_of(data.curves.begin(), data.curves.end(), [](const ChartCurve& curve) {
+    return std::any_of(curve.points.begin(), curve.points.end(),
+                       [](const ChartPoint& p) { return p.failed; });
+  });
+}
+
+// Left of the smallest error there is as much room as the words in the zone need; right of the largest a
+// decade for what failed.
 Axis error_axis(const WorkPrecision& data, double panel_width, const ChartLook& look) {
   Axis axis = log_axis(errors_of(data), data.error_title);
+  if (any_failed(data)) axis.high *= 10;
   if (!(data.floor > 0)) return axis;
   axis.high = std::max(axis.high, rounded_out({Scale::log, data.floor, 10 * data.floor, ""}).high);
   const double share = std::min(zone_width(look) / panel_width, kWidestZone);
@@ -188,11 +197,7 @@ std::string footer_of(const WorkPrecision& data) {
     add("shaded: the problem's amplification times 2\u207B\u2075\u00B3 is " + power_text(data.floor));
   if (data.reference_uncertainty > 0) add("reference known to " + power_text(data.reference_uncertainty));
   add("triangles: slope of an order");
-  const bool any_failed = std::any_of(data.curves.begin(), data.curves.end(), [](const ChartCurve& curve) {
-    return std::any_of(curve.points.begin(), curve.points.end(),
-                       [](const ChartPoint& p) { return p.failed; });
-  });
-  if (any_failed) add("crosses at the right edge: failed runs");
+  if (any_failed(data)) add("crosses at the right edge: failed runs");
   add(data.machine);
   return text;
 }
