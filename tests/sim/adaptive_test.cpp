@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "sim/chain_system.hpp"
 #include "sim/runs.hpp"
+#include "support/allocation_count.hpp"
 
 namespace chainreel {
 namespace {
@@ -116,6 +118,31 @@ TEST(StiffJoint, IsTheSameRunWhateverIsSampled) {
     return trajectory.q_at(trajectory.size() - 1)[0];
   };
   EXPECT_EQ(end(0.25), end(0.0625));
+}
+
+// Allocations of a whole run, from the start of a method that has been made to its end.
+long allocations(const std::string& method, double tolerance) {
+  const Simulation run = run_of("rrr", {"1", "-y_G", "-0.1 * qd3"}, 1);
+  ChainSystem system(run.chain, *run.torque, run.limit);
+  Forms forms;
+  forms.second_order = &system;
+  const auto integrator = make_integrator(find_method(method), forms, {.tolerance = tolerance, .order = 0});
+  std::vector<double> q(3), qd(3);
+  const long before = allocation_count();
+  integrator->start(0, run.q0, run.qd0);
+  while (integrator->time() < 1) {
+    if (tolerance > 0)
+      integrator->step(1, 1 - integrator->time());
+    else
+      integrator->step(integrator->time() + 0.125, 0.125);
+    integrator->interpolate(0.5 * (integrator->begin_time() + integrator->time()), q, qd);
+  }
+  return allocation_count() - before;
+}
+
+TEST_P(Adaptive, AllocatesNothingOnceMade) {
+  EXPECT_EQ(allocations(GetParam(), 1e-6), 0);
+  EXPECT_EQ(allocations(GetParam(), 0), 0);
 }
 
 }  // namespace
