@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/error.hpp"
+#include "sim/quad_reference.hpp"
 
 namespace chainreel {
 namespace {
@@ -46,6 +48,15 @@ double amplification_of(Simulation& simulation, const MethodSetting& setting, co
   return largest;
 }
 
+std::optional<EndReference> by_quads(const Simulation& simulation) {
+  const double end[] = {simulation.duration};
+  const auto quads = quad_reference(simulation, end);
+  const auto amplification = quad_amplification(simulation, simulation.duration);
+  if (!quads || !amplification) return std::nullopt;
+  return EndReference{{quads->q, quads->qd}, quads->uncertainty.back(), *amplification, quads->how};
+}
+
+// For torques that cannot be had in quadruple precision.
 EndReference by_doubles(Simulation& simulation) {
   const MethodSetting first{&find_method("dop853"), {1e-14, 0}, 0};
   const MethodSetting second{&find_method("radau5"), {1e-11, 0}, 0};
@@ -60,6 +71,7 @@ EndReference by_doubles(Simulation& simulation) {
 }  // namespace
 
 EndReference end_reference(Simulation& simulation) {
+  if (const auto quads = by_quads(simulation)) return *quads;
   const Method* const method = simulation.method;
   const MethodOptions options = simulation.options;
   const double step = simulation.step;
