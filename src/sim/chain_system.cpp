@@ -14,7 +14,8 @@ ChainSystem::ChainSystem(const Chain& chain, TorqueLaw& torque, LimitPolicy limi
       limit_(limit),
       limits_(chain),
       ws_(chain),
-      tau_(std::size_t(chain.nv)) {}
+      tau_(std::size_t(chain.nv)),
+      tau_net_(chain.has_dissipation ? tau_.size() : 0) {}
 
 void ChainSystem::evaluate_torque(double t, ConstVec q, ConstVec qd) {
   if (torque_is_known_) return;
@@ -35,6 +36,14 @@ ConstVec ChainSystem::torque(double t, ConstVec q, ConstVec qd) {
   return tau_;
 }
 
+ConstVec ChainSystem::net_torque(double t, ConstVec q, ConstVec qd) {
+  evaluate_torque(t, q, qd);
+  if (!chain_->has_dissipation) return tau_;
+  compute_friction(*chain_, ws_, qd);
+  for (std::size_t i = 0; i < tau_.size(); ++i) tau_net_[i] = tau_[i] - ws_.tau_f[i];
+  return tau_net_;
+}
+
 void ChainSystem::acceleration(double t, std::span<const double> q, std::span<const double> v,
                                std::span<double> vd) {
   ++evaluations_;
@@ -43,10 +52,9 @@ void ChainSystem::acceleration(double t, std::span<const double> q, std::span<co
 }
 
 double ChainSystem::power(double t, ConstVec q, ConstVec qd) {
-  evaluate_torque(t, q, qd);
-  compute_friction(*chain_, ws_, qd);
+  const ConstVec tau = net_torque(t, q, qd);
   double sum = 0;
-  for (std::size_t i = 0; i < tau_.size(); ++i) sum += qd[i] * (tau_[i] - ws_.tau_f[i]);
+  for (std::size_t i = 0; i < tau.size(); ++i) sum += qd[i] * tau[i];
   return sum;
 }
 

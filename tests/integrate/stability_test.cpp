@@ -63,8 +63,8 @@ std::string name_of(const testing::TestParamInfo<Row>& p) {
 
 class Undamped : public testing::TestWithParam<Row> {};
 INSTANTIATE_TEST_SUITE_P(Methods, Undamped,
-                         testing::Values(Row{"semi_implicit_euler", 2}, Row{"rk4", 2.828427},
-                                         Row{"dop853", 5.960360}),
+                         testing::Values(Row{"semi_implicit_euler", 2}, Row{"symplectic_euler", 2},
+                                         Row{"verlet", 2}, Row{"rk4", 2.828427}, Row{"dop853", 5.960360}),
                          name_of);
 
 TEST_P(Undamped, EndsItsStabilityWhereTheorySays) {
@@ -135,7 +135,10 @@ TEST(SemiImplicitEuler, KeepsTheEnergyOfAnOscillatorReleasedFromRestWithinItsBou
 
 class Implicit : public testing::TestWithParam<Row> {};
 // What is left of an oscillation after one step at omega h = 1e6: 0 where L-stable, 1 where only A-stable.
-INSTANTIATE_TEST_SUITE_P(Methods, Implicit, testing::Values(Row{"radau5", 0}), name_of);
+INSTANTIATE_TEST_SUITE_P(Methods, Implicit,
+                         testing::Values(Row{"radau5", 0}, Row{"implicit_midpoint", 1}, Row{"gauss4", 1},
+                                         Row{"gauss6", 1}),
+                         name_of);
 
 TEST_P(Implicit, IsStableFarBeyondEveryExplicitMethod) {
   for (const double omega : {10.0, 1e3, 1e6}) {

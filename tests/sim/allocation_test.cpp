@@ -20,7 +20,9 @@ long allocations_in_loop(const Simulation& run, std::span<const double> times) {
 }
 
 class Loop : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Registry, Loop, testing::Values("explicit_euler", "semi_implicit_euler", "rk4"),
+INSTANTIATE_TEST_SUITE_P(Registry, Loop,
+                         testing::Values("explicit_euler", "semi_implicit_euler", "rk4", "symplectic_euler",
+                                         "verlet", "implicit_midpoint", "gauss6"),
                          [](const auto& p) { return p.param; });
 
 TEST_P(Loop, AllocatesNothingAfterTheFirstStep) {
@@ -29,6 +31,12 @@ TEST_P(Loop, AllocatesNothingAfterTheFirstStep) {
   EXPECT_EQ(allocations_in_loop(run_of("rrr", {"1", "-y_G", "-0.1 * qd3"}, 20, GetParam(), 0.0005), times),
             0);
   EXPECT_EQ(allocations_in_loop(run_of("pp", {"0", "-100 * y_G"}, 20, GetParam(), 0.0005), times), 0);
+}
+
+TEST(RattlesLoop, AllocatesNothingAfterTheFirstStep) {
+  const std::vector<double> times = instants(20, 1.0 / 60);
+  EXPECT_EQ(allocations_in_loop(run_of("rr", {"1", "1"}, 20, "rattle4", 0.002), times), 0);
+  EXPECT_EQ(allocations_in_loop(run_of("rrr", {"1", "-y_G", "-0.1 * qd3"}, 20, "rattle2", 0.002), times), 0);
 }
 
 TEST(Counter, SeesALawThatAllocates) {
