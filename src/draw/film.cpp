@@ -113,20 +113,32 @@ void Film::fit_camera() {
   }
 }
 
+// The size at which every panel's title fits, if it is not too small to read.
+double Film::title_size() const {
+  const double full = scaled(size::kSymbol, scene_.text_scale);
+  double common = full;
+  for (std::size_t i = 0; i < panels_.size(); ++i) {
+    const TextLine line =
+        lay_out_text(fonts_, panels_[i].scene().title, {Face::label_bold, full, theme_.ink});
+    if (line.advance > 0) common = std::min(common, full * cells_[i].title.width() / line.advance);
+  }
+  return std::max(common, std::min(full, scaled(kSmallestText, scene_.text_scale)));
+}
+
 void Film::place_titles() {
   const bool two_sides = panels_.size() == 2;
+  const double text_size = title_size();
   for (std::size_t i = 0; i < panels_.size(); ++i) {
     const Rect& row = cells_[i].title;
     const Color color = !two_sides ? theme_.ink : i == 0 ? theme_.side_a : theme_.side_b;
-    const TextStyle style{Face::label_bold, scaled(size::kSymbol, scene_.text_scale), color, Align::left};
     const Scene& scene = panels_[i].scene();
-    TextLine line = fit_text(fonts_, scene.title, style, row.width(), scene_.text_scale);
+    TextLine line = lay_out_text(fonts_, scene.title, {Face::label_bold, text_size, color});
     if (line.advance > row.width() + kRoundOff)
       throw Error(ExitCode::bad_input,
                   "the title of panel " + std::to_string(i + 1) +
                       " does not fit above it: give the panel a short `title:`",
                   scene.place_of("title"));
-    titles_.push_back({std::move(line), {row.x0, row.y0 + kDescent * style.size}});
+    titles_.push_back({std::move(line), {row.x0, row.y0 + kDescent * text_size}});
   }
 }
 

@@ -40,6 +40,7 @@ class Film {
   std::vector<std::string> common_torque() const;
   FitBox fit_box(const Camera& view, double marks);
   void fit_camera();
+  double title_size() const;
   void place_titles();
   Picture page() const;
   void draw_frames(Picture& picture) const;

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kWild =
     100;  // lengths of the chain: beyond, a run that did not finish is left out of the fit
-constexpr int kScaleSamples = 200;  // of a clip decide on the scale of its ellipses
+constexpr double kLargestMark = size::kCarriageLength / 2;  // around a place of the chain, half of its size
+constexpr int kScaleSamples = 200;                          // of a clip decide on the scale of its ellipses
 
 }  // namespace
 
@@ -78,18 +79,21 @@ void Panel::settle(const Camera& camera, const Rect& scene, int clip, double mar
   camera_ = camera;
   area_ = scene;
   clip_ = clip;
+  look_ = look_of(skeleton_, camera_, theme_, 1, marks);
   if (may_freeze()) {
     find_last_inside();
     find_rails(last_ + 1);
   }
-  look_ = look_of(skeleton_, camera_, theme_, 1, marks);
   follow_tip();
 }
 
 bool Panel::is_inside() const {
+  const double edge = look_.marks * kLargestMark;
   const auto holds = [&](const Eigen::Vector3d& place) {
     const Point p = camera_.project(place);
-    return p.x >= area_.x0 && p.x <= area_.x1 && p.y >= area_.y0 && p.y <= area_.y1;  // false for NaN
+    // False for NaN, too.
+    return p.x - edge >= area_.x0 && p.x + edge <= area_.x1 && p.y - edge >= area_.y0 &&
+           p.y + edge <= area_.y1;
   };
   for (int b = 1; b < int(run_.chain.bodies.size()); ++b) {
     if (!holds(pose_of(*ws_, b).translation())) return false;

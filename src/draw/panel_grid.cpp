@@ -21,8 +21,12 @@ std::vector<PanelCell> panel_cells(const Rect& area, int count, int columns, con
   const double height = (area.height() - (lines - 1) * size::kGutter) / lines;
   std::vector<PanelCell> cells;
   for (int i = 0; i < count; ++i) {
-    const double x0 = area.x0 + (i % columns) * (width + size::kGutter), x1 = x0 + width;
-    const double y1 = area.y1 - (i / columns) * (height + size::kGutter), y0 = y1 - height;
+    const int line = i / columns, column = i % columns;
+    const double x0 = area.x0 + column * (width + size::kGutter);
+    const double y1 = area.y1 - line * (height + size::kGutter);
+    // At the edges exactly those of the area, so that one panel is the area to the last bit.
+    const double x1 = column + 1 == columns ? area.x1 : x0 + width;
+    const double y0 = line + 1 == lines ? area.y0 : y1 - height;
     cells.push_back({{x0, y1 - rows.title, x1, y1},
                      {x0, y0 + rows.note, x1, y1 - rows.title},
                      {x0, y0, x1, y0 + rows.note}});
@@ -33,9 +37,9 @@ std::vector<PanelCell> panel_cells(const Rect& area, int count, int columns, con
 std::vector<PanelCell> best_cells(const Rect& area, int count, const PanelRows& rows, const FitBox& box) {
   std::vector<PanelCell> best;
   double best_scale = 0;
-  for (int columns = count; columns >= 1; --columns) {
-    const int lines = (count + columns - 1) / columns;
-    if ((lines - 1) * columns >= count) continue;  // a row would stay empty
+  for (int lines = 1; lines <= count; ++lines) {
+    const int columns = (count + lines - 1) / lines;  // as few as these lines allow: no line is nearly empty
+    if ((lines - 1) * columns >= count) continue;     // a line would stay empty
     std::vector<PanelCell> cells = panel_cells(area, count, columns, rows);
     if (!is_large_enough(cells[0].scene)) continue;
     Camera camera;
