@@ -41,6 +41,7 @@ class MujocoChain {
   mjData* data() { return data_.get(); }
   void set_position(std::span<const double> q);
   void set_step(double h) { model_->opt.timestep = h; }
+  void use_rk4() { model_->opt.integrator = mjINT_RK4; }
 
  private:
   Eigen::Matrix3d turn(std::size_t joint) const;  // of a floating joint, as set
