@@ -49,7 +49,7 @@ int add_choice(Simulation& simulation, const Measured& measured, Ladder& ladder,
   const EndState& end = measured.reference.state;
   Rung rung = measure(simulation, setting, end, runs, stop_asked);
   const auto place =
-      std::find_if(rungs.begin(), rungs.end(), [&](const Rung& one) { return one.seconds > rung.seconds; });
+      std::find_if(rungs.begin(), rungs.end(), [&](const Rung& one) { return one.error < rung.error; });
   return int(rungs.insert(place, rung) - rungs.begin());
 }
 

@@ -1,5 +1,6 @@
 // Colours for up to twelve curves in one plot. Contrast with the background is at least 3.5; colour is never
-// the only cue: markers differ, and so do the dashes of neighbours.
+// the only cue: markers differ, and so do the dashes of neighbours. Further curves take the colours again with
+// other markers and dashes.
 #include <algorithm>
 #include <array>
 
@@ -26,7 +27,7 @@ CurveStyle curve_style(int index, const Theme& theme, double text_scale) {
   const auto& colors = is_dark(theme.background) ? kOnDark : kOnLight;
   CurveStyle style;
   style.color = color_of(colors[std::size_t(look)]);
-  style.marker = Marker(1 + look);
+  style.marker = Marker(1 + (look + 5 * round) % kCurveLooks);
   style.dash = Dash((look + round) % 4);
   style.marker_size = size::kMarker * std::max(1.0, text_scale);
   return style;
