@@ -34,6 +34,7 @@ class ChainSystem final : public SecondOrder {
 
   long evaluations() const { return evaluations_; }
   int bad_torque() const { return bad_torque_; }  // the first freedom whose torque was not finite, or -1
+  void forget_bad_torque() { bad_torque_ = -1; }  // of an attempt that came to nothing
 
  private:
   void evaluate_torque(double t, ConstVec q, ConstVec qd);

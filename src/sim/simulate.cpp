@@ -96,6 +96,7 @@ class Run {
     const Grid::Next next = grid_.next(begin);
     if (!check_result(integrator_->step(next.end, next.h), begin)) return false;
     if (!check_state(begin, now())) return false;
+    system_.forget_bad_torque();
     work_.add_step(system_, *integrator_);
     ++trajectory_.steps;
     trajectory_.end_time = now();
