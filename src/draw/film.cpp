@@ -1,6 +1,7 @@
 #include "draw/film.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -51,7 +52,8 @@ void Film::find_mass_scale() {
     const std::vector<double> own = panel.smaller_masses();
     smaller.insert(smaller.end(), own.begin(), own.end());
   }
-  mass_scale_ = mass_scale(std::move(smaller), kEllipseBar);
+  // Panels share the page, so their sides shrink with the root of their number.
+  mass_scale_ = mass_scale(std::move(smaller), kEllipseBar / std::sqrt(double(panels_.size())));
 }
 
 // What acts at the joints of all panels; nothing where they differ, since then their titles say it.

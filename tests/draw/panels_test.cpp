@@ -90,6 +90,17 @@ TEST_F(PanelFilm, ShowsEachGripperWhereItsOwnRunHasIt) {
   EXPECT_GT(test::distance(discs[1].center, both.camera(0).project({0.5 * t, 0.2, 0})), 0.1);  // control
 }
 
+TEST_F(PanelFilm, HasOneScaleForAllEllipsesSmallerThanThatOfAWholePage) {
+  page.draw.push_back("ellipse");
+  add("left", sliding);
+  const double alone = film().ellipse_scale().per_kg();
+  for (int i = 1; i < 4; ++i) add("more", sliding);
+  const double bar = film().ellipse_scale().per_kg();
+  // Half of it, rounded to a bar of 1, 2 or 5 x 10^n kg.
+  EXPECT_LT(bar, 0.8 * alone);
+  EXPECT_GT(bar, 0.2 * alone);
+}
+
 TEST_F(PanelFilm, FitsTheUnionOfItsRuns) {
   add("small", [](double) { return std::vector<double>{0, 0.1}; });
   add("large", [](double t) { return std::vector<double>{0, 3 * std::sin(t)}; });
@@ -174,9 +185,15 @@ TEST_F(PanelFilm, HasOneTitleOneTimeAndATitleForEachPanelInTheColourOfItsSide) {
   for (const char* title : {"Whole", "left", "right"}) EXPECT_THAT(words, HasSubstr(title));
   EXPECT_EQ(test::words_of(both.frame(30)), "t = 0.50 s");
   for (const GlyphRun& run : test::all_of<GlyphRun>(both.static_layer())) {
-    if (run.text == "left") EXPECT_EQ(run.color, light_theme().side_a);
-    if (run.text == "right") EXPECT_EQ(run.color, light_theme().side_b);
-    if (run.text == "Whole") EXPECT_EQ(run.color, light_theme().ink);
+    if (run.text == "left") {
+      EXPECT_EQ(run.color, light_theme().side_a);
+    }
+    if (run.text == "right") {
+      EXPECT_EQ(run.color, light_theme().side_b);
+    }
+    if (run.text == "Whole") {
+      EXPECT_EQ(run.color, light_theme().ink);
+    }
   }
 }
 
@@ -215,7 +232,9 @@ TEST_F(PanelFilm, KeepsEverythingThatMovesInsideItsPanelAndWordsOutside) {
       if (const auto* c = std::get_if<Capsule>(&item.shape)) {
         EXPECT_TRUE(test::is_inside(clip, c->a) && test::is_inside(clip, c->b));
       }
-      if (const auto* e = std::get_if<Ellipse>(&item.shape)) EXPECT_TRUE(test::is_inside(clip, e->center));
+      if (const auto* e = std::get_if<Ellipse>(&item.shape)) {
+        EXPECT_TRUE(test::is_inside(clip, e->center));
+      }
     }
   }
   for (int i = 0; i < 5; ++i)

@@ -42,7 +42,7 @@ TEST_F(ReadScene, LeavesTheDefaultsOfTheStructWhereKeysAreAbsent) {
   EXPECT_EQ(scene.method, defaults.method);
   EXPECT_FALSE(scene.step);
   EXPECT_EQ(to_string(scene.accuracy), "0.1 px");
-  EXPECT_EQ(scene.method, "semi_implicit_euler");
+  EXPECT_EQ(scene.method, "auto");
   EXPECT_EQ(scene.duration, defaults.duration);
   EXPECT_EQ(scene.draw, defaults.draw);
   EXPECT_EQ(scene.video.width, 1920);
