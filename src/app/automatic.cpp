@@ -1,6 +1,7 @@
 #include "app/automatic.hpp"
 
 #include <cmath>
+#include <cstdio>
 
 #include "app/signals.hpp"
 #include "core/format.hpp"
@@ -45,6 +46,12 @@ std::string choice_text(const Choice& choice, const Accuracy& accuracy) {
             " s: this motion magnifies rounding so much that nothing in double precision stays within " +
             to_string(accuracy) + " for longer";
   return text;
+}
+
+void say_choice(const PreparedScene& prepared, bool quiet) {
+  if (quiet || !prepared.choice) return;
+  std::fprintf(stderr, "%s: %s\n", prepared.scene.name.c_str(),
+               choice_text(*prepared.choice, prepared.scene.accuracy).c_str());
 }
 
 Json choice_report(const Choice& choice, const Accuracy& accuracy, bool tried) {

@@ -14,7 +14,10 @@ void choose_automatically(PreparedScene& prepared);
 // One sentence: the choice, its estimated error and its price; and until when any run can be that exact.
 std::string choice_text(const Choice& choice, const Accuracy& accuracy);
 
-// The same, and with `tried` every candidate.
+// That sentence on standard error, unless there was nothing to choose or all is to be quiet.
+void say_choice(const PreparedScene& prepared, bool quiet);
+
+// The same as JSON, and with `tried` every candidate.
 Json choice_report(const Choice& choice, const Accuracy& accuracy, bool tried);
 
 }  // namespace chainreel

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 
+#include "app/automatic.hpp"
 #include "app/command.hpp"
 #include "app/pipeline.hpp"
 #include "app/report.hpp"
@@ -71,6 +72,7 @@ void run_render(const RenderOptions& options) {
   Json reports = Json::array();
   std::vector<std::vector<std::string>> table{{"scene", "frames", "film s", "taken s", "file"}};
   for (std::size_t i = 0; i < films.size(); ++i) {
+    for (const PreparedScene& panel : films[i].panels) say_choice(panel, options.common.quiet);
     const RenderResult result = render_film(films[i], paths[i], options.common.force, options.common.quiet);
     reports.push_back(result.audit);
     reports.back()["file"] = result.video;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <numeric>
 
+#include "app/automatic.hpp"
 #include "app/command.hpp"
 #include "app/pipeline.hpp"
 #include "app/report.hpp"
@@ -63,6 +64,7 @@ Trajectory run_scene(const PreparedScene& prepared, bool every_step) {
 Json simulate_panel(const PreparedScene& prepared, const std::string& output,
                     const SimulateOptions& options) {
   const bool to_stdout = output == "-";
+  say_choice(prepared, options.common.quiet);
   std::unique_ptr<OutputFile> file;
   if (!to_stdout) file = std::make_unique<OutputFile>(output, options.common.force);
   const Trajectory trajectory = run_scene(prepared, options.every_step);
