@@ -68,11 +68,7 @@ PreparedFilm load_film(const std::string& path, const std::vector<std::string>& 
 
 PreparedScene load_scene(const std::string& path, const std::vector<std::string>& overrides, bool meshes) {
   Scene scene = read_scene(path, overrides);
-  if (!scene.compare.empty())
-    throw Error(ExitCode::bad_input,
-                "compares " + std::to_string(scene.compare.size()) +
-                    " panels, but a single run is asked for: take a scene without `compare:`",
-                scene.place_of("compare"));
+  require_single_run(scene);
   return prepare_panel(std::move(scene), meshes);
 }
 

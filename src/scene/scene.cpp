@@ -20,6 +20,14 @@ Place Scene::place_of(const std::string& key) const {
   return place == places.end() ? Place{file, 0, 0} : place->second;
 }
 
+void require_single_run(const Scene& scene) {
+  if (scene.compare.empty()) return;
+  throw Error(ExitCode::bad_input,
+              "compares " + std::to_string(scene.compare.size()) +
+                  " panels, but a single run is asked for: take a scene without `compare:`",
+              scene.place_of("compare"));
+}
+
 std::string method_text(const Scene& scene) {
   std::string text = scene.method;
   if (scene.order) text += ", order " + std::to_string(*scene.order);

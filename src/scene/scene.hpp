@@ -59,6 +59,9 @@ struct Scene {
   Place place_of(const std::string& key) const;
 };
 
+// Throws Error (bad input) where the scene compares several runs.
+void require_single_run(const Scene& scene);
+
 // "rk4, step 0.001 s", "dop853, tolerance 1e-9".
 std::string method_text(const Scene& scene);
 

@@ -98,6 +98,7 @@ class CellRuns {
     settings.push_back(result_.x.setting(at.x));
     settings.push_back(result_.y.setting(at.y));
     Scene scene = read_scene(scene_, settings);
+    require_single_run(scene);
     if (scene.method == "auto")
       throw Error(ExitCode::bad_input,
                   "a stability map needs a method of its own: auto would choose another one in every cell; "
