@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
-#include <exception>
 #include <vector>
 
 #include "bench/engines.hpp"
@@ -134,11 +133,5 @@ void run() {
 }  // namespace chainreel::bench
 
 int main() {
-  try {
-    chainreel::bench::run();
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
+  return chainreel::bench::run_main(chainreel::bench::run);
 }

@@ -5,7 +5,6 @@
 // spends on the call. Valgrind 3.19 shows programs a processor with AVX2 and FMA where the machine has them,
 // and none with AVX-512.
 #include <cstdio>
-#include <exception>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -58,11 +57,5 @@ void run() {
 }  // namespace chainreel::bench
 
 int main() {
-  try {
-    chainreel::bench::run();
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
+  return chainreel::bench::run_main(chainreel::bench::run);
 }

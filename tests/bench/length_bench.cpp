@@ -6,7 +6,6 @@
 // links.
 #include <cstdio>
 #include <ctime>
-#include <exception>
 #include <memory>
 #include <stdexcept>
 #include <vector>
@@ -74,11 +73,5 @@ void run() {
 }  // namespace chainreel::bench
 
 int main() {
-  try {
-    chainreel::bench::run();
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
+  return chainreel::bench::run_main(chainreel::bench::run);
 }

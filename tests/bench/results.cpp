@@ -90,4 +90,14 @@ void Results::write() const {
   std::printf("written: %s\n", path.c_str());
 }
 
+int run_main(void (*run)()) {
+  try {
+    run();
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
+
 }  // namespace chainreel::bench

@@ -15,6 +15,9 @@ Facts machine_facts();
 
 double median_of(std::vector<double> values);
 
+// Of a program: 0, or 1 with what was thrown on standard error.
+int run_main(void (*run)());
+
 class Results {
  public:
   Results(std::string name, std::vector<std::string> columns);

@@ -7,7 +7,7 @@
 #include "scene/prepare.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/write_scene.hpp"
-#include "support/temporary_folder.hpp"
+#include "written_scenes.hpp"
 
 namespace chainreel {
 namespace {
@@ -15,23 +15,8 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-class CompareScene : public testing::Test {
+class CompareScene : public WrittenScenes {
  protected:
-  CompareScene() { folder_.write("rr.urdf", "<robot/>"); }
-
-  Scene read(const std::string& text, const std::vector<std::string>& overrides = {}) {
-    return read_scene(folder_.write("one.yaml", "model: rr.urdf\n" + text), overrides);
-  }
-
-  std::string error(const std::string& text, const std::vector<std::string>& overrides = {}) {
-    try {
-      read(text, overrides);
-      return "";
-    } catch (const Error& error) {
-      return error.what();
-    }
-  }
-
   static std::vector<std::string> titles(Scene scene) {
     name_panels(scene.compare);
     std::vector<std::string> titles;
@@ -44,8 +29,6 @@ class CompareScene : public testing::Test {
     for (const SceneEntry& entry : entries_of(scene)) lines.push_back(entry.key + ": " + entry.text);
     return lines;
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(CompareScene, GivesEachPanelTheSceneWithItsOwnChanges) {

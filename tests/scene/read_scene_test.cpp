@@ -7,7 +7,7 @@
 
 #include "scene/quantity.hpp"
 #include "scene/write_scene.hpp"
-#include "support/temporary_folder.hpp"
+#include "written_scenes.hpp"
 
 namespace chainreel {
 namespace {
@@ -15,26 +15,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-class ReadScene : public testing::Test {
- protected:
-  ReadScene() { folder_.write("rr.urdf", "<robot/>"); }
-
-  Scene read(const std::string& text, const std::vector<std::string>& overrides = {}) {
-    return read_scene(folder_.write("one.yaml", "model: rr.urdf\n" + text), overrides);
-  }
-
-  // The text of the error, or "" where the scene was read.
-  std::string error(const std::string& text, const std::vector<std::string>& overrides = {}) {
-    try {
-      read(text, overrides);
-      return "";
-    } catch (const Error& error) {
-      return error.what();
-    }
-  }
-
-  TemporaryFolder folder_;
-};
+class ReadScene : public WrittenScenes {};
 
 TEST_F(ReadScene, LeavesTheDefaultsOfTheStructWhereKeysAreAbsent) {
   const Scene scene = read("");
