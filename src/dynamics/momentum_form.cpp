@@ -87,10 +87,10 @@ bool MomentumForm::is_new(ConstVec q) {
   return true;
 }
 
-void MomentumForm::place_kernel(ConstVec q) {
+template <std::size_t n>
+[[gnu::flatten]] void MomentumForm::place_kernel(ConstVec q) {
   if (!is_new(q)) return;
   const PlanarKernel& kernel = ws_.scratch->planar_kernel;
-  const std::size_t n = joints_;
   double U_x[kMax], U_y[kMax], H_x[kMax], H_y[kMax];
   double phi = 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -117,38 +117,87 @@ void MomentumForm::place_links(ConstVec q) {
   with_links(ws_, [&](auto& links) { place(links, q); });
 }
 
-void MomentumForm::momentum(ConstVec q, ConstVec qd, Vec p) {
-  if (joints_ == 0) {
-    place_links(q);
-    return with_links(ws_, [&](auto& links) { momentum_of(links, qd, p); });
-  }
-  place_kernel(q);
+template <std::size_t n>
+[[gnu::flatten]] void MomentumForm::kernel_momentum(ConstVec q, ConstVec qd, Vec p) {
+  place_kernel<n>(q);
   const auto& sign = ws_.scratch->planar_kernel.sign;
-  double rate[kMax], behind = 0;
-  for (std::size_t i = 0; i < joints_; ++i) rate[i] = (i > 0 ? rate[i - 1] : 0) + sign[i] * qd[i];
-  for (std::size_t i = joints_; i-- > 0;) {
-    for (std::size_t j = 0; j < joints_; ++j) behind += A_[i][j] * rate[j];
+  double rate[n], behind = 0;
+  for (std::size_t i = 0; i < n; ++i) rate[i] = (i > 0 ? rate[i - 1] : 0) + sign[i] * qd[i];
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t j = 0; j < n; ++j) behind += A_[i][j] * rate[j];
     p[i] = sign[i] * behind;
   }
 }
 
+template <std::size_t n>
+[[gnu::flatten]] void MomentumForm::kernel_velocity(ConstVec q, ConstVec p, Vec qd) {
+  place_kernel<n>(q);
+  const auto& sign = ws_.scratch->planar_kernel.sign;
+  double x[n];
+  for (std::size_t i = 0; i < n; ++i) x[i] = sign[i] * p[i] - (i + 1 < n ? sign[i + 1] * p[i + 1] : 0);
+  ldlt_solve(int(n), factor_, x);
+  for (std::size_t i = 0; i < n; ++i) qd[i] = sign[i] * (i > 0 ? x[i] - x[i - 1] : x[i]);
+}
+
+template <std::size_t n>
+[[gnu::flatten]] void MomentumForm::kernel_force(ConstVec q, ConstVec qd, Vec p_dot) {
+  place_kernel<n>(q);
+  const auto& sign = ws_.scratch->planar_kernel.sign;
+  double rate[n], force[n], behind = 0;
+  for (std::size_t j = 0; j < n; ++j) {
+    rate[j] = (j > 0 ? rate[j - 1] : 0) + sign[j] * qd[j];
+    force[j] = pull_[j];
+    for (std::size_t i = 0; i < j; ++i) {
+      const double pair = slope_[j][i] * (rate[i] * rate[j]);
+      force[i] += pair;
+      force[j] -= pair;
+    }
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    behind += force[i];
+    p_dot[i] = sign[i] * behind;
+  }
+}
+
+void MomentumForm::momentum(ConstVec q, ConstVec qd, Vec p) {
+  switch (joints_) {
+    case 1:
+      return kernel_momentum<1>(q, qd, p);
+    case 2:
+      return kernel_momentum<2>(q, qd, p);
+    case 3:
+      return kernel_momentum<3>(q, qd, p);
+    case 4:
+      return kernel_momentum<4>(q, qd, p);
+    default:
+      place_links(q);
+      with_links(ws_, [&](auto& links) { momentum_of(links, qd, p); });
+  }
+}
+
 void MomentumForm::velocity(ConstVec q, ConstVec p, Vec qd) {
-  if (joints_ > 0) {
-    place_kernel(q);
-    const auto& sign = ws_.scratch->planar_kernel.sign;
-    double x[kMax];
-    for (std::size_t i = 0; i < joints_; ++i)
-      x[i] = sign[i] * p[i] - (i + 1 < joints_ ? sign[i + 1] * p[i + 1] : 0);
-    ldlt_solve(int(joints_), factor_, x);
-    for (std::size_t i = 0; i < joints_; ++i) qd[i] = sign[i] * (i > 0 ? x[i] - x[i - 1] : x[i]);
-    return;
+  switch (joints_) {
+    case 1:
+      return kernel_velocity<1>(q, p, qd);
+    case 2:
+      return kernel_velocity<2>(q, p, qd);
+    case 3:
+      return kernel_velocity<3>(q, p, qd);
+    case 4:
+      return kernel_velocity<4>(q, p, qd);
+    default:
+      return factors_ ? velocity_by_factor(q, p, qd) : velocity_by_bodies(q, p, qd);
   }
+}
+
+// At rest and without gravity qdd = M^-1 tau.
+void MomentumForm::velocity_by_bodies(ConstVec q, ConstVec p, Vec qd) {
   place_links(q);
-  if (!factors_) {
-    return with_links(ws_, [&](auto& links) {
-      aba(links, {}, ConstVec(ws_.scratch->zeros), p, qd);  // at rest and without gravity: qdd = M^-1 tau
-    });
-  }
+  with_links(ws_, [&](auto& links) { aba(links, {}, ConstVec(ws_.scratch->zeros), p, qd); });
+}
+
+void MomentumForm::velocity_by_factor(ConstVec q, ConstVec p, Vec qd) {
+  place_links(q);
   if (!has_factor_) {
     with_links(ws_, [&](auto& links) { crba(links, p.size(), M_.data()); });
     ldlt_factor(int(p.size()), M_.data());
@@ -159,25 +208,18 @@ void MomentumForm::velocity(ConstVec q, ConstVec p, Vec qd) {
 }
 
 void MomentumForm::force(ConstVec q, ConstVec qd, Vec p_dot) {
-  if (joints_ == 0) {
-    place_links(q);
-    return with_links(ws_, [&](auto& links) { force_of(links, qd, p_dot); });
-  }
-  place_kernel(q);
-  const auto& sign = ws_.scratch->planar_kernel.sign;
-  double rate[kMax], force[kMax], behind = 0;
-  for (std::size_t j = 0; j < joints_; ++j) {
-    rate[j] = (j > 0 ? rate[j - 1] : 0) + sign[j] * qd[j];
-    force[j] = pull_[j];
-    for (std::size_t i = 0; i < j; ++i) {
-      const double pair = slope_[j][i] * (rate[i] * rate[j]);
-      force[i] += pair;
-      force[j] -= pair;
-    }
-  }
-  for (std::size_t i = joints_; i-- > 0;) {
-    behind += force[i];
-    p_dot[i] = sign[i] * behind;
+  switch (joints_) {
+    case 1:
+      return kernel_force<1>(q, qd, p_dot);
+    case 2:
+      return kernel_force<2>(q, qd, p_dot);
+    case 3:
+      return kernel_force<3>(q, qd, p_dot);
+    case 4:
+      return kernel_force<4>(q, qd, p_dot);
+    default:
+      place_links(q);
+      with_links(ws_, [&](auto& links) { force_of(links, qd, p_dot); });
   }
 }
 

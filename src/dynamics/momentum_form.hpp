@@ -28,8 +28,18 @@ class MomentumForm {
 
  private:
   bool is_new(ConstVec q);
+  // Of the planar kernel with n joints, unrolled.
+  template <std::size_t n>
   void place_kernel(ConstVec q);
+  template <std::size_t n>
+  void kernel_momentum(ConstVec q, ConstVec qd, Vec p);
+  template <std::size_t n>
+  void kernel_velocity(ConstVec q, ConstVec p, Vec qd);
+  template <std::size_t n>
+  void kernel_force(ConstVec q, ConstVec qd, Vec p_dot);
   void place_links(ConstVec q);
+  void velocity_by_bodies(ConstVec q, ConstVec p, Vec qd);
+  void velocity_by_factor(ConstVec q, ConstVec p, Vec qd);
 
   Workspace ws_;
   std::vector<double> q_;  // of the last question; NaN before the first

@@ -71,7 +71,7 @@ class Gauss final : public MomentaIntegrator {
         last_(rates_.size()),
         before_(rates_.size()),
         increments_(rates_.size()),
-        size_(rates_.size()),
+        weight_(rates_.size()),
         dq_(n_),
         dp_(n_),
         equation_(rates_.size()) {
@@ -111,8 +111,8 @@ class Gauss final : public MomentaIntegrator {
 
   bool move(double t, double h) override {
     for (std::size_t i = 0; i < s_; ++i) {
-      std::copy(q_size_.begin(), q_size_.end(), q_of(size_, i).begin());
-      std::copy(p_size_.begin(), p_size_.end(), p_of(size_, i).begin());
+      std::copy(q_weight_.begin(), q_weight_.end(), q_of(weight_, i).begin());
+      std::copy(p_weight_.begin(), p_weight_.end(), p_of(weight_, i).begin());
     }
     guess(t, h);
     const auto next = [&](std::span<const double> z, std::span<double> z_next) {
@@ -120,7 +120,7 @@ class Gauss final : public MomentaIntegrator {
       for (std::size_t i = 0; i < s_; ++i)
         combine(h, tableau_.a[i], rates_, z_next.subspan(2 * n_ * i, 2 * n_));
     };
-    if (!equation_.solve(next, size_, increments_)) return false;
+    if (!equation_.solve(next, weight_, increments_)) return false;
     finish(h);
     std::swap(before_, last_);
     std::swap(last_, rates_);
@@ -208,7 +208,7 @@ class Gauss final : public MomentaIntegrator {
   std::vector<double> rates_, last_, before_;  // y' at the stages of this step and the two before
   int known_ = 0;                              // steps before, of equal length
   double h_ = 0;
-  std::vector<double> increments_, size_, dq_, dp_;
+  std::vector<double> increments_, weight_, dq_, dp_;
   ImplicitEquation equation_;
 };
 

@@ -32,19 +32,19 @@ class ImplicitEquation {
   // Newton's iteration is at work: g is steep, and what it says is less exact than x.
   bool is_steep() const { return !contracts_; }
 
-  // x: the guess, then the solution; size: of each unknown, above zero. g(x, gx) writes g(x). False where
-  // neither iteration finds a solution.
+  // x: the guess, then the solution; weight: of each unknown, one over its size. g(x, gx) writes g(x). False
+  // where neither iteration finds a solution.
   template <class G>
-  bool solve(G&& g, std::span<const double> size, std::span<double> x) {
+  bool solve(G&& g, std::span<const double> weight, std::span<double> x) {
     std::copy(x.begin(), x.end(), guess_.begin());
     if (contracts_) {
-      if (iterate(size, x, [&] { g(x, next_); })) return true;
+      if (iterate(weight, x, [&] { g(x, next_); })) return true;
       std::copy(guess_.begin(), guess_.end(), x.begin());
       if (!has_newton_) return false;
     }
     for (int attempt = 0; attempt < kMostMatrices; ++attempt) {
-      if (!has_matrix_) find_matrix(g, size, x);
-      const bool found = iterate(size, x, [&] {
+      if (!has_matrix_) find_matrix(g, weight, x);
+      const bool found = iterate(weight, x, [&] {
         g(x, next_);
         for (std::size_t i = 0; i < x.size(); ++i) next_[i] -= x[i];
         matrix_.solve(next_);
@@ -72,19 +72,19 @@ class ImplicitEquation {
   }
 
   template <class Next>
-  bool iterate(std::span<const double> size, std::span<double> x, Next&& find_next) {
+  bool iterate(std::span<const double> weight, std::span<double> x, Next&& find_next) {
     double last = std::numeric_limits<double>::infinity();
     int growths = 0;
     for (int k = 0; k < kMostIterations; ++k) {
       find_next();
       double increment = 0;
       for (std::size_t i = 0; i < x.size(); ++i) {
-        const double part = std::fabs(next_[i] - x[i]) / size[i];
+        const double part = std::fabs(next_[i] - x[i]) * weight[i];
         if (!(part <= increment)) increment = part;  // also NaN
         x[i] = next_[i];
       }
       if (!std::isfinite(increment)) return false;
-      if (increment == 0 || (k > 0 && increment * (increment / last) < 0.01 * kRoundOff)) return true;
+      if (increment == 0 || (k > 0 && increment * increment < 0.01 * kRoundOff * last)) return true;
       if (increment >= last) {
         if (increment < kSolved) return true;
         if (++growths > 2) return false;
@@ -96,12 +96,12 @@ class ImplicitEquation {
 
   // I - g' at x.
   template <class G>
-  void find_matrix(G&& g, std::span<const double> size, std::span<double> x) {
+  void find_matrix(G&& g, std::span<const double> weight, std::span<double> x) {
     const std::size_t n = x.size();
     g(x, next_);
     for (std::size_t j = 0; j < n; ++j) {
       const double kept = x[j];
-      x[j] = kept + 0x1p-26 * size[j];
+      x[j] = kept + 0x1p-26 / weight[j];
       g(x, column_);
       const double dx = x[j] - kept;
       for (std::size_t i = 0; i < n; ++i) matrix_(i, j) = (i == j) - (column_[i] - next_[i]) / dx;

@@ -12,8 +12,8 @@ MomentaIntegrator::MomentaIntegrator(const Forms& forms)
       p_(n_),
       q_carry_(n_),
       p_carry_(n_),
-      q_size_(n_),
-      p_size_(n_),
+      q_weight_(n_),
+      p_weight_(n_),
       second_order_(*forms.second_order),
       span_(int(n_), int(n_)),
       p_largest_(n_),
@@ -48,19 +48,18 @@ void MomentaIntegrator::interpolate(double t, std::span<double> q, std::span<dou
 // The largest momentum so far; before the first step, what the forces give in it. One that is a thousand
 // times smaller than another is measured by that one.
 void MomentaIntegrator::measure(double h) {
+  for (std::size_t i = 0; i < n_; ++i) p_largest_[i] = std::max(p_largest_[i], std::fabs(p_[i]));
+  const std::vector<double>& size = is_first_ ? force_ : p_largest_;
   if (is_first_) {
     system_.force(begin_, q_, v_, force_);
-    for (std::size_t i = 0; i < n_; ++i) p_size_[i] = std::max(std::fabs(h * force_[i]), std::fabs(p_[i]));
-  } else {
-    for (std::size_t i = 0; i < n_; ++i)
-      p_size_[i] = p_largest_[i] = std::max(p_largest_[i], std::fabs(p_[i]));
+    for (std::size_t i = 0; i < n_; ++i) force_[i] = std::max(std::fabs(h * force_[i]), p_largest_[i]);
   }
   is_first_ = false;
-  const double largest = *std::max_element(p_size_.begin(), p_size_.end());
+  const double largest = *std::max_element(size.begin(), size.end());
   const double least = largest > 0 ? 1e-3 * largest : 1;
   for (std::size_t i = 0; i < n_; ++i) {
-    p_size_[i] = std::max(p_size_[i], least);
-    q_size_[i] = 1 + std::fabs(q_[i]);
+    p_weight_[i] = 1 / std::max(size[i], least);
+    q_weight_[i] = 1 / (1 + std::fabs(q_[i]));
   }
 }
 

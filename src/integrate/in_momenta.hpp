@@ -33,8 +33,8 @@ class MomentaIntegrator : public Integrator {
   const std::size_t n_;
   Momenta& system_;
   std::vector<double> p_, q_carry_, p_carry_;
-  // How large coordinates and momenta are, for what is small beside them.
-  std::vector<double> q_size_, p_size_;
+  // One over the size of coordinates and momenta, for what is small beside them.
+  std::vector<double> q_weight_, p_weight_;
 
  private:
   void measure(double h);

@@ -13,8 +13,6 @@
 // of a positive definite matrix, and in a step e is near d.
 #include "integrate/linked_masses.hpp"
 
-#include <cstddef>
-
 namespace chainreel {
 
 LinkedMasses::LinkedMasses(std::span<const LinkedPoints::Link> links)
@@ -22,7 +20,6 @@ LinkedMasses::LinkedMasses(std::span<const LinkedPoints::Link> links)
       off_(links.size()),
       inverse_(links.size()),
       factor_(links.size()),
-      pivot_inverse_(links.size()),
       upper_(links.size()) {
   const std::size_t n = links.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -50,14 +47,14 @@ void LinkedMasses::accelerate(std::span<Vec2> f) const {
 void LinkedMasses::correct(std::span<const Vec2> e, std::span<const Vec2> d, std::span<const double> change,
                            std::span<double> lambda, std::span<Vec2> move) {
   if (single_)
-    correct_single(e, d, change, lambda, move);
+    eliminate_single(e, d, change, lambda, move);
   else
-    correct_coupled(e, d, change, lambda, move);
+    eliminate_coupled(e, d, change, lambda, move);
 }
 
-void LinkedMasses::correct_single(std::span<const Vec2> e, std::span<const Vec2> d,
-                                  std::span<const double> change, std::span<double> lambda,
-                                  std::span<Vec2> move) {
+void LinkedMasses::eliminate_single(std::span<const Vec2> e, std::span<const Vec2> d,
+                                    std::span<const double> change, std::span<double> lambda,
+                                    std::span<Vec2> move) {
   const std::size_t n = d.size();
   const auto& w = inverse_;
   for (std::size_t i = 0; i < n; ++i) {
@@ -76,9 +73,9 @@ void LinkedMasses::correct_single(std::span<const Vec2> e, std::span<const Vec2>
   move[n - 1] = d[n - 1] * (-lambda[n - 1] * w[n - 1]);
 }
 
-void LinkedMasses::correct_coupled(std::span<const Vec2> e, std::span<const Vec2> d,
-                                   std::span<const double> change, std::span<double> lambda,
-                                   std::span<Vec2> move) {
+void LinkedMasses::eliminate_coupled(std::span<const Vec2> e, std::span<const Vec2> d,
+                                     std::span<const double> change, std::span<double> lambda,
+                                     std::span<Vec2> move) {
   const std::size_t n = d.size();
   for (std::size_t i = n; i-- > 0;) {
     const Follower& next = followers_[i + 1];

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include "integrate/hermite_span.hpp"
@@ -53,6 +54,8 @@ constexpr int kMostIterations = 30;
 constexpr double kLeft = 1e-22;
 constexpr double kRoundOff = 0x1p-53;
 
+// For k links with single masses, unrolled; k = 0: for any chain.
+template <std::size_t k>
 class Rattle final : public Integrator {
  public:
   Rattle(const Forms& forms, const HalfComposition& half)
@@ -61,13 +64,16 @@ class Rattle final : public Integrator {
         second_order_(*forms.second_order),
         masses_(points_.links()),
         gamma_(composition(half)),
-        n_(points_.links().size()),
+        links_(points_.links().size()),
         needs_velocity_(points_.force_depends_on_velocity()),
-        span_(int(n_), int(n_)) {
-    for (auto* points : {&x_, &u_, &x_carry_, &u_carry_, &f_, &d_, &e_, &kick_, &drift_, &move_, &u_middle_})
-      points->resize(n_);
-    for (auto* numbers : {&change_, &lambda_, &nu_}) numbers->resize(n_);
-    for (auto& impulses : past_) impulses.resize(n_ * gamma_.size());
+        span_(int(links_), int(links_)) {
+    if constexpr (k == 0) {
+      for (auto* points :
+           {&x_, &u_, &x_carry_, &u_carry_, &f_, &d_, &e_, &kick_, &drift_, &move_, &u_middle_})
+        points->resize(links_);
+      for (auto* numbers : {&change_, &lambda_, &nu_}) numbers->resize(links_);
+    }
+    for (auto& impulses : past_) impulses.resize(links_ * gamma_.size());
   }
 
   void start(double t, std::span<const double> q, std::span<const double> v) override {
@@ -91,13 +97,13 @@ class Rattle final : public Integrator {
     for (std::size_t s = 0; s < gamma_.size(); ++s) {
       guess_impulses(s);
       if (!substep(begin_ + c * h, gamma_[s] * h)) return StepResult::not_converged;
-      std::copy(nu_.begin(), nu_.end(), past_[2].begin() + std::ptrdiff_t(s * n_));
+      std::copy(nu_.begin(), nu_.end(), past_[2].begin() + std::ptrdiff_t(s * size()));
       c += gamma_[s];
     }
     std::rotate(past_.begin(), past_.begin() + 2, past_.end());
     known_ = std::min(known_ + 1, 3);
     project();
-    points_.read(numbers_of(x_), numbers_of(u_), q_, q_, v_);
+    points_.read(numbers_of(x_), numbers_of(u_), q_, v_);
     time_ = end;
     span_.end(end, q_, v_);
     return StepResult::ok;
@@ -109,8 +115,25 @@ class Rattle final : public Integrator {
   int dense_order() const override { return span_.order(); }
 
  private:
-  using Points = std::vector<Vec2>;
+  using Points = std::conditional_t<k == 0, std::vector<Vec2>, std::array<Vec2, k>>;
+  using Numbers = std::conditional_t<k == 0, std::vector<double>, std::array<double, k>>;
+  static_assert(sizeof(Vec2) == 2 * sizeof(double));
   static std::span<double> numbers_of(Points& points) { return {&points.data()->x, 2 * points.size()}; }
+
+  std::size_t size() const { return k > 0 ? k : links_; }
+
+  void accelerate(Points& f) const {
+    if constexpr (k > 0)
+      masses_.accelerate_single(f);
+    else
+      masses_.accelerate(f);
+  }
+  void correct(const Points& e) {
+    if constexpr (k > 0)
+      masses_.correct_single(e, d_, change_, lambda_, move_);
+    else
+      masses_.correct(e, d_, change_, lambda_, move_);
+  }
 
   static void add(const Points& dx, Points& x, Points& carry) {
     const auto add_one = [](double change, double& value, double& lost) {
@@ -127,16 +150,16 @@ class Rattle final : public Integrator {
 
   // nu_ <- the quadratic through those of this part of the last three steps, continued.
   void guess_impulses(std::size_t s) {
-    for (std::size_t i = 0; i < n_; ++i) {
-      const std::size_t k = s * n_ + i;
-      const double a = past_[0][k], b = past_[1][k], c = past_[2][k];
+    for (std::size_t i = 0; i < size(); ++i) {
+      const std::size_t j = s * size() + i;
+      const double a = past_[0][j], b = past_[1][j], c = past_[2][j];
       nu_[i] = known_ == 0 ? 0 : known_ == 1 ? a : known_ == 2 ? 2 * a - b : 3 * (a - b) + c;
     }
   }
 
   void find_links(const Points& x, const Points& carry, Points& links) const {
     links[0] = x[0] + carry[0];
-    for (std::size_t i = 1; i < n_; ++i) links[i] = (x[i] - x[i - 1]) + (carry[i] - carry[i - 1]);
+    for (std::size_t i = 1; i < size(); ++i) links[i] = (x[i] - x[i - 1]) + (carry[i] - carry[i - 1]);
   }
 
   bool substep(double t, double h) {
@@ -148,8 +171,8 @@ class Rattle final : public Integrator {
     add(kick_, u_, u_carry_);
     points_.force(t + h, numbers_of(x_), numbers_of(u_), numbers_of(f_));
     has_force_ = !needs_velocity_;
-    for (std::size_t i = 0; i < n_; ++i) kick_[i] = f_[i] * (0.5 * h);
-    masses_.accelerate(kick_);
+    for (std::size_t i = 0; i < size(); ++i) kick_[i] = f_[i] * (0.5 * h);
+    accelerate(kick_);
     add(kick_, u_, u_carry_);
     return true;
   }
@@ -157,16 +180,16 @@ class Rattle final : public Integrator {
   // f_ at u_m, which f_ itself decides: until the increments of u_m no longer decrease.
   bool iterate_on_velocity(double t, double h) {
     double last = 0;
-    for (int k = 0; k < kMostIterations; ++k) {
-      double increment = 0, size = 0;
-      for (std::size_t i = 0; i < n_; ++i) {
+    for (int m = 0; m < kMostIterations; ++m) {
+      double increment = 0, speed = 0;
+      for (std::size_t i = 0; i < size(); ++i) {
         const Vec2 u = u_[i] + (u_carry_[i] + kick_[i]);
         increment = std::max({increment, std::fabs(u.x - u_middle_[i].x), std::fabs(u.y - u_middle_[i].y)});
-        size = std::max({size, std::fabs(u.x), std::fabs(u.y)});
+        speed = std::max({speed, std::fabs(u.x), std::fabs(u.y)});
         u_middle_[i] = u;
       }
-      if (k > 0 && (increment <= 0.1 * kRoundOff * size || (k > 1 && increment >= last)))
-        return increment <= 1e3 * kRoundOff * (1 + size);
+      if (m > 0 && (increment <= 0.1 * kRoundOff * speed || (m > 1 && increment >= last)))
+        return increment <= 1e3 * kRoundOff * (1 + speed);
       last = increment;
       points_.force(t, numbers_of(x_), numbers_of(u_middle_), numbers_of(f_));
       if (!find_drift(h)) return false;
@@ -176,23 +199,23 @@ class Rattle final : public Integrator {
 
   // kick_ <- u_m - u_0, drift_ <- x_1 - x_0 with f_ and links that keep their lengths; nu_: the guess, then
   // the impulses.
-  bool find_drift(double h) {
-    for (std::size_t i = 0; i < n_; ++i) {
-      const Vec2 handed_on = i + 1 < n_ ? d_[i + 1] * nu_[i + 1] : Vec2{};
+  [[gnu::always_inline]] bool find_drift(double h) {
+    for (std::size_t i = 0; i < size(); ++i) {
+      const Vec2 handed_on = i + 1 < size() ? d_[i + 1] * nu_[i + 1] : Vec2{};
       kick_[i] = f_[i] * (0.5 * h) + (handed_on - d_[i] * nu_[i]);
     }
-    masses_.accelerate(kick_);
-    for (std::size_t i = 0; i < n_; ++i) drift_[i] = (u_[i] + (u_carry_[i] + kick_[i])) * h;
+    accelerate(kick_);
+    for (std::size_t i = 0; i < size(); ++i) drift_[i] = (u_[i] + (u_carry_[i] + kick_[i])) * h;
     const double h_inverse = 1 / h;
-    for (int k = 0; k < kMostIterations; ++k) {
-      for (std::size_t i = 0; i < n_; ++i) {
+    for (int m = 0; m < kMostIterations; ++m) {
+      for (std::size_t i = 0; i < size(); ++i) {
         const Vec2 turn = i > 0 ? drift_[i] - drift_[i - 1] : drift_[0];
         e_[i] = d_[i] + turn;
         change_[i] = -dot(d_[i] + turn * 0.5, turn);
       }
-      masses_.correct(e_, d_, change_, lambda_, move_);
+      correct(e_);
       bool done = true;
-      for (std::size_t i = 0; i < n_; ++i) {
+      for (std::size_t i = 0; i < size(); ++i) {
         const Vec2 part = i > 0 ? move_[i] - move_[i - 1] : move_[0];
         done = done && dot(part, part) <= kLeft * dot(d_[i], d_[i]);
         drift_[i] = drift_[i] + move_[i];
@@ -207,8 +230,8 @@ class Rattle final : public Integrator {
   // Velocities along the links are taken away.
   void project() {
     find_links(x_, x_carry_, d_);
-    for (std::size_t i = 0; i < n_; ++i) change_[i] = -dot(d_[i], i > 0 ? u_[i] - u_[i - 1] : u_[0]);
-    masses_.correct(d_, d_, change_, lambda_, move_);
+    for (std::size_t i = 0; i < size(); ++i) change_[i] = -dot(d_[i], i > 0 ? u_[i] - u_[i - 1] : u_[0]);
+    correct(d_);
     add(move_, u_, u_carry_);
   }
 
@@ -216,33 +239,43 @@ class Rattle final : public Integrator {
   SecondOrder& second_order_;
   LinkedMasses masses_;
   const std::vector<double> gamma_;
-  const std::size_t n_;
+  const std::size_t links_;
   const bool needs_velocity_;
   HermiteSpan span_;
-  Points x_, u_, x_carry_, u_carry_;
-  Points f_;
+  Points x_{}, u_{}, x_carry_{}, u_carry_{};
+  Points f_{};
   bool has_force_ = false;  // f_ is that at x_
-  Points d_, e_;            // the links at a step's beginning, and as the iteration has turned them
-  Points kick_, drift_, move_, u_middle_;
-  std::vector<double> change_, lambda_, nu_;
+  Points d_{}, e_{};        // the links at a step's beginning, and as the iteration has turned them
+  Points kick_{}, drift_{}, move_{}, u_middle_{};
+  Numbers change_{}, lambda_{}, nu_{};
   std::array<std::vector<double>, 3> past_;  // nu of each part of the last steps, the latest first
   int known_ = 0;                            // how many of them, all of length h_
   double h_ = 0;
 };
 
+std::unique_ptr<Integrator> make_rattle(const Forms& forms, const HalfComposition& half) {
+  const std::span<const LinkedPoints::Link> links = forms.linked_points->links();
+  if (LinkedMasses(links).are_single()) {
+    if (links.size() == 1) return std::make_unique<Rattle<1>>(forms, half);
+    if (links.size() == 2) return std::make_unique<Rattle<2>>(forms, half);
+    if (links.size() == 3) return std::make_unique<Rattle<3>>(forms, half);
+  }
+  return std::make_unique<Rattle<0>>(forms, half);
+}
+
 }  // namespace
 
 std::unique_ptr<Integrator> make_rattle2(const Forms& forms, const MethodOptions&) {
-  return std::make_unique<Rattle>(forms, kOrder2);
+  return make_rattle(forms, kOrder2);
 }
 std::unique_ptr<Integrator> make_rattle4(const Forms& forms, const MethodOptions&) {
-  return std::make_unique<Rattle>(forms, kOrder4);
+  return make_rattle(forms, kOrder4);
 }
 std::unique_ptr<Integrator> make_rattle6(const Forms& forms, const MethodOptions&) {
-  return std::make_unique<Rattle>(forms, kOrder6);
+  return make_rattle(forms, kOrder6);
 }
 std::unique_ptr<Integrator> make_rattle8(const Forms& forms, const MethodOptions&) {
-  return std::make_unique<Rattle>(forms, kOrder8);
+  return make_rattle(forms, kOrder8);
 }
 
 }  // namespace chainreel

@@ -55,7 +55,7 @@ class SymplecticEuler final : public MomentaIntegrator {
       system_.velocity(q_, p_stage_, v_stage_);
       from_velocity(v_stage_, next);
     };
-    if (!equation_.solve(from_increment, p_size_, increment_)) return false;
+    if (!equation_.solve(from_increment, p_weight_, increment_)) return false;
     kick_.learn(h, increment_);
     return true;
   }

@@ -60,12 +60,12 @@ class LinkedPoints {
   virtual ~LinkedPoints() = default;
   virtual std::span<const Link> links() const = 0;  // n
   virtual bool force_depends_on_velocity() const { return true; }
-  // x: (x_1, y_1, .. x_n, y_n); from and to coordinates. `q_near` says which of the angles that differ by
-  // whole turns is meant; `force` means the one that is nearest to what was placed or asked for last.
+  // x: (x_1, y_1, .. x_n, y_n); from and to coordinates. Of the angles that differ by whole turns `read` and
+  // `force` mean the one that is nearest to what was placed, read or asked for last.
   virtual void place(std::span<const double> q, std::span<const double> v, std::span<double> x,
                      std::span<double> x_dot) = 0;
-  virtual void read(std::span<const double> x, std::span<const double> x_dot, std::span<const double> q_near,
-                    std::span<double> q, std::span<double> v) const = 0;
+  virtual void read(std::span<const double> x, std::span<const double> x_dot, std::span<double> q,
+                    std::span<double> v) = 0;
   // All forces on the points but those of the links, 2 n numbers. Counts as one evaluation.
   virtual void force(double t, std::span<const double> x, std::span<const double> x_dot,
                      std::span<double> f) = 0;

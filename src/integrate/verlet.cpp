@@ -71,7 +71,7 @@ class Verlet final : public MomentaIntegrator {
       system_.velocity(q_, p_stage_, v_stage_);
       kick_from(t, h, v_stage_, next);
     };
-    if (!kick_equation_.solve(from_increment, p_size_, increment_)) return false;
+    if (!kick_equation_.solve(from_increment, p_weight_, increment_)) return false;
     kick_.learn(h, increment_);
     return true;
   }
@@ -86,7 +86,7 @@ class Verlet final : public MomentaIntegrator {
       system_.velocity(q_stage_, p_, v_stage_);
       for (std::size_t i = 0; i < n_; ++i) next[i] = 0.5 * h * (v_begin_[i] + v_stage_[i]);
     };
-    if (!drift_equation_.solve(from_increment, q_size_, increment_)) return false;
+    if (!drift_equation_.solve(from_increment, q_weight_, increment_)) return false;
     drift_.learn(h, increment_);
     return true;
   }

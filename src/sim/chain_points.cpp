@@ -17,6 +17,18 @@ double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
+// The angle of a turn by less than kLargeTurn from its sine: the series of the arc sine, whose next term is
+// below half a unit in the last place.
+constexpr double kLargeTurn = 0.15;
+double arc_sine_of_small(double s) {
+  constexpr double kSeries[] = {1.0 / 6,       3.0 / 40,      5.0 / 112,       35.0 / 1152,      63.0 / 2816,
+                                231.0 / 13312, 143.0 / 10240, 6435.0 / 557056, 12155.0 / 1245184};
+  const double z = s * s, z2 = z * z, z4 = z2 * z2;
+  const double low = (kSeries[0] + z * kSeries[1]) + z2 * (kSeries[2] + z * kSeries[3]);
+  const double high = (kSeries[4] + z * kSeries[5]) + z2 * (kSeries[6] + z * kSeries[7]);
+  return s + s * z * (low + z4 * (high + z4 * kSeries[8]));
+}
+
 std::string joint_name(const Chain& chain, std::size_t i) {
   return "'" + chain.bodies[i].joint.name + "'";
 }
@@ -54,8 +66,8 @@ class ChainPoints final : public LinkedPoints {
   bool force_depends_on_velocity() const override { return depends_on_velocity_; }
   void place(std::span<const double> q, std::span<const double> v, std::span<double> x,
              std::span<double> x_dot) override;
-  void read(std::span<const double> x, std::span<const double> x_dot, std::span<const double> q_near,
-            std::span<double> q, std::span<double> v) const override;
+  void read(std::span<const double> x, std::span<const double> x_dot, std::span<double> q,
+            std::span<double> v) override;
   void force(double t, std::span<const double> x, std::span<const double> x_dot,
              std::span<double> f) override;
 
@@ -67,9 +79,15 @@ class ChainPoints final : public LinkedPoints {
     double inverse_square = 1;          // 1 / L^2
   };
 
+  // A link as it was placed or read last: its end, itself, its absolute angle with what rounding cut off.
+  struct Seen {
+    double x = 0, y = 0, d_x = 0, d_y = 0, phi = 0, phi_carry = 0;
+  };
+
   ChainSystem& system_;
   std::vector<Link> links_;
   std::vector<Shape> shapes_;
+  std::vector<Seen> seen_;
   const bool depends_on_velocity_, is_constant_;
   std::vector<double> q_, v_;  // what torques see
 };
@@ -87,6 +105,7 @@ ChainPoints::ChainPoints(ChainSystem& system)
   const std::size_t n = q_.size();
   links_.resize(n);
   shapes_.resize(n);
+  seen_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const PlanarBody& body = bodies[i + 1];
     const double m = body.mass, about_joint = body.inertia + m * body.com.squaredNorm();
@@ -132,41 +151,53 @@ void ChainPoints::place(std::span<const double> q, std::span<const double> v, st
   double phi = 0, rate = 0, end[2] = {0, 0}, end_dot[2] = {0, 0};
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Shape& shape = shapes_[i];
+    Seen& seen = seen_[i];
     phi += shape.sign * q[i];
     rate += shape.sign * v[i];
     const auto [s, c] = sin_cos(phi);
-    const double d_x = links_[i].length * (shape.u_x * c - shape.u_y * s);
-    const double d_y = links_[i].length * (shape.u_x * s + shape.u_y * c);
-    x[2 * i] = end[0] += d_x;
-    x[2 * i + 1] = end[1] += d_y;
-    x_dot[2 * i] = end_dot[0] -= rate * d_y;
-    x_dot[2 * i + 1] = end_dot[1] += rate * d_x;
+    seen.d_x = links_[i].length * (shape.u_x * c - shape.u_y * s);
+    seen.d_y = links_[i].length * (shape.u_x * s + shape.u_y * c);
+    seen.x = x[2 * i] = end[0] += seen.d_x;
+    seen.y = x[2 * i + 1] = end[1] += seen.d_y;
+    seen.phi = phi, seen.phi_carry = 0;
+    x_dot[2 * i] = end_dot[0] -= rate * seen.d_y;
+    x_dot[2 * i + 1] = end_dot[1] += rate * seen.d_x;
   }
 }
 
-void ChainPoints::read(std::span<const double> x, std::span<const double> x_dot,
-                       std::span<const double> q_near, std::span<double> q, std::span<double> v) const {
-  constexpr double kTurn = 0x1.921fb54442d18p+2;  // 2 pi
-  double phi_before = 0, rate_before = 0, end[2] = {0, 0}, end_dot[2] = {0, 0};
+void ChainPoints::read(std::span<const double> x, std::span<const double> x_dot, std::span<double> q,
+                       std::span<double> v) {
+  double phi_before = 0, rate_before = 0, turn_before[2] = {0, 0};
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Shape& shape = shapes_[i];
-    const double d_x = x[2 * i] - end[0], d_y = x[2 * i + 1] - end[1];
-    const double v_x = x_dot[2 * i] - end_dot[0], v_y = x_dot[2 * i + 1] - end_dot[1];
-    const double phi = arc_tangent2(shape.u_x * d_y - shape.u_y * d_x, shape.u_x * d_x + shape.u_y * d_y);
-    const double rate = (d_x * v_y - d_y * v_x) * shape.inverse_square;
-    const double angle = shape.sign * (phi - phi_before);
-    q[i] = angle + kTurn * std::floor((q_near[i] - angle) / kTurn + 0.5);
+    Seen& seen = seen_[i];
+    const double moved_x = x[2 * i] - seen.x, moved_y = x[2 * i + 1] - seen.y;
+    const double turn_x = moved_x - turn_before[0], turn_y = moved_y - turn_before[1];
+    const double s = (seen.d_x * turn_y - seen.d_y * turn_x) * shape.inverse_square;
+    const double advance = (seen.d_x * turn_x + seen.d_y * turn_y) * shape.inverse_square;  // cos - 1
+    const double angle = s * s < kLargeTurn * kLargeTurn && advance > -0.5 ? arc_sine_of_small(s)
+                                                                           : arc_tangent2(s, 1 + advance);
+    const double phi = seen.phi;
+    seen.phi_carry += angle;
+    seen.phi = phi + seen.phi_carry;
+    seen.phi_carry += phi - seen.phi;
+    seen.x = x[2 * i], seen.y = x[2 * i + 1];
+    seen.d_x = i > 0 ? seen.x - seen_[i - 1].x : seen.x;
+    seen.d_y = i > 0 ? seen.y - seen_[i - 1].y : seen.y;
+    const double v_x = x_dot[2 * i] - (i > 0 ? x_dot[2 * i - 2] : 0);
+    const double v_y = x_dot[2 * i + 1] - (i > 0 ? x_dot[2 * i - 1] : 0);
+    const double rate = (seen.d_x * v_y - seen.d_y * v_x) * shape.inverse_square;
+    q[i] = shape.sign * (seen.phi - phi_before);
     v[i] = shape.sign * (rate - rate_before);
-    phi_before = phi, rate_before = rate;
-    end[0] = x[2 * i], end[1] = x[2 * i + 1];
-    end_dot[0] = x_dot[2 * i], end_dot[1] = x_dot[2 * i + 1];
+    phi_before = seen.phi, rate_before = rate;
+    turn_before[0] = moved_x, turn_before[1] = moved_y;
   }
 }
 
 void ChainPoints::force(double t, std::span<const double> x, std::span<const double> x_dot,
                         std::span<double> f) {
   system_.count_evaluation();
-  if (!is_constant_) read(x, x_dot, q_, q_, v_);
+  if (!is_constant_) read(x, x_dot, q_, v_);
   const ConstVec tau = system_.net_torque(t, q_, v_);
   const std::size_t n = links_.size();
   for (std::size_t i = 0; i < n; ++i) f[2 * i] = shapes_[i].weight_x, f[2 * i + 1] = shapes_[i].weight_y;

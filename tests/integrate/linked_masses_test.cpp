@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -75,6 +77,35 @@ TEST(LinkedMasses, CorrectsLinksByImpulsesAlongThem) {
       EXPECT_GT(residual(links, true, n), 1e-4) << n << rods;  // negative control
     }
   }
+}
+
+template <std::size_t k>
+double difference_when_unrolled() {
+  std::mt19937_64 engine(k);
+  LinkedMasses masses(random_links(engine, k, false));
+  std::array<Vec2, k> e, d, move, general;
+  std::array<double, k> change, lambda, impulse;
+  for (std::size_t i = 0; i < k; ++i) {
+    const double angle = between(engine, -3, 3);
+    d[i] = {std::cos(angle), std::sin(angle)};
+    e[i] = {std::cos(angle + 0.2), std::sin(angle + 0.2)};
+    change[i] = between(engine, -1, 1);
+  }
+  masses.correct_single(e, d, change, lambda, move);
+  masses.correct(e, d, change, impulse, general);
+  double largest = 0;
+  for (std::size_t i = 0; i < k; ++i) {
+    const Vec2 off = move[i] - general[i];
+    largest = std::max({largest, std::fabs(off.x), std::fabs(off.y), std::fabs(lambda[i] - impulse[i])});
+  }
+  return largest;
+}
+
+TEST(LinkedMasses, CorrectTheSameWhenUnrolled) {
+  EXPECT_LT(difference_when_unrolled<1>(), kSolved);
+  EXPECT_LT(difference_when_unrolled<2>(), kSolved);
+  EXPECT_LT(difference_when_unrolled<3>(), kSolved);
+  EXPECT_LT(difference_when_unrolled<4>(), kSolved);
 }
 
 TEST(LinkedMasses, AcceleratesAsTheirMatrixSays) {

@@ -264,12 +264,25 @@ TEST(Rattle, TakesALastLinkOfAnyShape) {
 }
 
 TEST(Rattle, CountsWholeTurns) {
-  Simulation run = run_of("rr", {}, 3, "rattle8", 0.005);
-  run.qd0 = {12, 0};
-  const End end = end_of(run);
-  EXPECT_GT(end.q[0], 2 * 6.3);
-  run.method = &find_method("dop853");
-  EXPECT_LT(distance(end, end_of(run)), 1e-8);
+  // Turns of 0.06 and 0.3 rad a step: angles from sines alone, and from both.
+  for (const double speed : {12.0, 60.0}) {
+    Simulation run = run_of("rr", {}, 3, "rattle8", 0.005);
+    run.qd0 = {speed, 0};
+    const End end = end_of(run);
+    EXPECT_GT(end.q[0], speed);
+    run.method = &find_method("dop853");
+    run.step = 0.001;
+    // A turn lost would be 6.28; RR's sensitivity grows with the turns.
+    EXPECT_LT(distance(end, end_of(run)), speed < 20 ? 1e-8 : 1e-2) << speed;
+  }
+}
+
+TEST(Rattle, SwingsASinglePendulum) {
+  const Chain chain = testing::planar_serial_chain(1);
+  const End reference = end_of(run_on(chain, {"0.5"}, 2, "dop853", 0.001));
+  EXPECT_LT(distance(end_of(run_on(chain, {"0.5"}, 2, "rattle8", 0.01)), reference), 1e-10);
+  EXPECT_LT(distance(end_of(run_on(chain, {"0.5"}, 2, "rattle2", 0.001)), reference), 1e-4);
+  EXPECT_GT(distance(end_of(run_on(chain, {"0.6"}, 2, "rattle8", 0.01)), reference), 1e-3);
 }
 
 }  // namespace
