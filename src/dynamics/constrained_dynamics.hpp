@@ -1,0 +1,40 @@
+// Forward dynamics under constraints, with multipliers:
+//
+//   tau = M qdd + nle + tau_f + Jc^T lambda,   Jc qdd + Jcd_qd = 0,   G = Jc M^-1 Jc^T,
+//   lambda = G^-1 (Jc M^-1 (tau - nle - tau_f) + Jcd_qd)
+//
+// (K. Lynch, F. Park, Modern Robotics, 2017, ch. 8.7, with this sign of lambda: +Jc^T lambda is the joint
+// force that the robot exerts on its surroundings.) Where rows repeat each other, lambda is the shortest that
+// does; where they contradict each other, qdd and lambda are the least squares of |Jc qdd + Jcd_qd|, and a
+// status says so. How is in constrained_solver.hpp.
+//
+// Every pass starts from the true residual r = Jc qdd + Jcd_qd, taken from the accelerations:
+// dlambda = G^-1 r (or the proximal one), lambda += dlambda, qdd -= M^-1 Jc^T dlambda. It ends where |r| is
+// below the tolerance, or where |G r| is and no motion can change the rest.
+#pragma once
+
+#include "dynamics/constrained_workspace.hpp"
+
+namespace chainreel {
+
+struct ConstrainedOptions {
+  // Of |Jc qdd + Jcd_qd|, relative to 1 + the sum of the sizes of its parts: 45 round-offs.
+  double tolerance = 1e-14;
+  int most_passes = 30;
+  double mu = 1e-8;  // of proximal passes, as a share of the mean of G's diagonal
+  bool always_proximal =
+      false;  // also where rows are independent: to compare, and to see the passes converge
+};
+
+// Writes qdd (nv numbers) and cws.lambda, status, residual, passes, rank; short planar chains leave phi, Jc
+// and Jcd_qd alone. Nothing is projected: phi(q) = 0 and Jc qd = 0 are the caller's.
+ConstraintStatus compute_constrained_dynamics(const Chain& chain, Workspace& ws, const ConstraintSet& set,
+                                              ConstrainedWorkspace& cws, ConstVec q, ConstVec qd,
+                                              ConstVec tau, Vec qdd, const ConstrainedOptions& options = {});
+
+// The same into ws.qdd.
+ConstraintStatus compute_constrained_dynamics(const Chain& chain, Workspace& ws, const ConstraintSet& set,
+                                              ConstrainedWorkspace& cws, ConstVec q, ConstVec qd,
+                                              ConstVec tau, const ConstrainedOptions& options = {});
+
+}  // namespace chainreel

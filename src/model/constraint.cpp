@@ -1,0 +1,28 @@
+#include "model/constraint.hpp"
+
+namespace chainreel {
+
+namespace {
+
+struct NameOf {
+  std::string operator()(const LineConstraint& c) const { return "line " + c.frame; }
+  std::string operator()(const PlaneConstraint& c) const { return "plane " + c.frame; }
+  std::string operator()(const PointConstraint& c) const { return "point " + c.frame; }
+  std::string operator()(const DistanceConstraint& c) const { return "distance " + c.a + " " + c.b; }
+  std::string operator()(const CloseConstraint& c) const { return "close " + c.a + " " + c.b; }
+  std::string operator()(const CurveConstraint& c) const { return "curve " + c.frame; }
+  std::string operator()(const JointConstraint& c) const { return "joint " + c.coordinate; }
+  std::string operator()(const LinearConstraint& c) const {
+    std::string name = "linear";
+    for (const LinearConstraint::Term& term : c.terms) name += " " + term.coordinate;
+    return name;
+  }
+};
+
+}  // namespace
+
+std::string name_of(const Constraint& constraint) {
+  return std::visit(NameOf{}, constraint);
+}
+
+}  // namespace chainreel
