@@ -33,10 +33,10 @@ constexpr std::array kRows = {
     Row{"implicit_midpoint", 40, 20, 5, 40, 0},
     Row{"gauss4", 60, 30, 5, 35, 0},
     Row{"gauss6", 60, 30, 5, 35, 0},
-    Row{"rattle2", 100, 50, 0, 0, 55},
-    Row{"rattle4", 100, 50, 0, 0, 55},
-    Row{"rattle6", 100, 50, 0, 0, 55},
-    Row{"rattle8", 100, 50, 0, 0, 55},
+    Row{"rattle2", 20, 20, 0, 0, 55},
+    Row{"rattle4", 20, 20, 0, 0, 55},
+    Row{"rattle6", 20, 20, 0, 0, 55},
+    Row{"rattle8", 20, 20, 0, 0, 55},
 };
 
 // The Taylor method's step: four convolutions a joint and order, and a product with the inverse of M.
