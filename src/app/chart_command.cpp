@@ -141,8 +141,7 @@ void print_summary(const WorkPrecision& data, const Measured& measured) {
   }
   std::fputs(table_text(table).c_str(), stdout);
   for (const Ladder& ladder : measured.ladders)
-    if (!ladder.refusal.empty())
-      std::printf("left out: %s: %s\n", ladder.method->name.c_str(), ladder.refusal.c_str());
+    if (!ladder.refusal.empty()) std::printf("left out: %s\n", ladder.refusal.c_str());
   std::printf("reference: %s, uncertainty %s; the motion magnifies errors %s times\n",
               measured.reference.how.c_str(), format_significant(measured.reference.uncertainty, 2).c_str(),
               format_significant(measured.reference.amplification, 2).c_str());

@@ -137,7 +137,7 @@ void run_energy(const EnergyOptions& options) {
     try {
       check_method(simulation);
     } catch (const Error& error) {
-      left_out.push_back(method->name + ": " + error.problems().front().message);
+      left_out.push_back(error.problems().front().message);
       continue;
     }
     runs.push_back(run_method(simulation, settings.of(*method), times));

@@ -161,12 +161,13 @@ void print_methods(const StabilityOptions& options) {
   const std::vector<Mode> modes = oscillating_modes(simulation);
   std::vector<std::vector<std::string>> table{
       {"method", "coarse", "middle", "fine", "longest stable step, s"}};
+  std::string left_out;
   for (const Method* method : parse_methods(options.methods)) {
     simulation.method = method;
     try {
       check_method(simulation);
     } catch (const Error& error) {
-      table.push_back({method->name, error.problems().front().message, "", "", ""});
+      left_out += "left out: " + error.problems().front().message + "\n";
       continue;
     }
     std::vector<std::string> row{method->name};
@@ -181,6 +182,7 @@ void print_methods(const StabilityOptions& options) {
       "Who fails here: the energy error at the end with steps of 0.1, 0.01 and 0.001 s, or tolerances of "
       "1e-3, 1e-6 and 1e-9\n");
   std::fputs(table_text(table).c_str(), stdout);
+  std::fputs(left_out.c_str(), stdout);
   if (!modes.empty())
     std::printf("linearised about the start: omega = %s rad/s\n",
                 format_significant(modes.back().omega, 6).c_str());
