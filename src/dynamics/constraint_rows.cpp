@@ -194,4 +194,18 @@ void compute_constraints(const Chain&, Workspace& ws, const ConstraintSet& set, 
   });
 }
 
+int reversed_row(Workspace& ws, const ConstraintSet& set) {
+  return with_links(ws, [&](auto& links) {
+    for (std::size_t i = 0; i < set.row_list().size(); ++i) {
+      const Row& row = set.row_list()[i];
+      if (row.kind != ConstraintSet::Kind::parallel) continue;
+      const auto pose_of = [&](int anchor) {
+        return links.pose[std::size_t(set.anchors()[std::size_t(anchor)].body)];
+      };
+      if (dot(rotated(pose_of(row.a), row.direction), rotated(pose_of(row.b), row.same_b)) < 0) return int(i);
+    }
+    return -1;
+  });
+}
+
 }  // namespace chainreel

@@ -23,8 +23,12 @@ namespace chainreel {
 void compute_constraints(const Chain& chain, Workspace& ws, const ConstraintSet& set,
                          ConstrainedWorkspace& cws, ConstVec q, ConstVec qd);
 
-// The same where links have been placed and located and hold v, and a for qdd = 0, of a world that
-// accelerates by `base`.
+// The first row of those that keep axes parallel whose frames stand the wrong way round, half a turn off,
+// where phi = 0 holds, too; or -1. After compute_constraints at the same pose.
+int reversed_row(Workspace& ws, const ConstraintSet& set);
+
+// As compute_constraints, where links have been placed and located and hold v, and a for qdd = 0, of a world
+// that accelerates by `base`.
 template <class A>
 void evaluate_rows(const Links<A>& links, const typename A::Motion& base, const ConstraintSet& set,
                    ConstrainedWorkspace& cws, ConstVec q);

@@ -181,7 +181,8 @@ class ConstraintSetMaker {
             .a = anchor_a,
             .b = anchor_b,
             .direction = body_numbers(chain_.frames[std::size_t(a)], axis_a),
-            .axis_b = body_numbers(chain_.frames[std::size_t(b)], axis_b)},
+            .axis_b = body_numbers(chain_.frames[std::size_t(b)], axis_b),
+            .same_b = body_numbers(chain_.frames[std::size_t(b)], axis_a)},
            part);
     };
     if (c.kind == Closure::weld && chain_.planar) return push_parallel_in_plane(anchor_a, anchor_b, a, b);
@@ -213,7 +214,8 @@ class ConstraintSetMaker {
           .a = anchor_a,
           .b = anchor_b,
           .direction = {u.x / size_u, u.y / size_u, 0},
-          .axis_b = {-w.y / size_w, w.x / size_w, 0}},
+          .axis_b = {-w.y / size_w, w.x / size_w, 0},
+          .same_b = {w.x / size_w, w.y / size_w, 0}},
          "w");
   }
 

@@ -43,6 +43,7 @@ class ConstraintSet {
     int a = -1, b = -1;        // anchors; b may be -1: the world's origin
     Vec3<double> direction{};  // along: unit, in W; parallel: axis_a in body a
     Vec3<double> axis_b{};     // parallel, in body b
+    Vec3<double> same_b{};     // parallel, in body b: what axis_a is along when all is well
     double offset = 0;
     int first_term = 0, terms = 0;  // coordinates
     int curve = -1;                 // into curves()
