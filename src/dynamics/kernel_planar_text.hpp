@@ -146,7 +146,7 @@ ForwardDynamics planar_kernel_for(bool along_x, bool turned) {
   return turned ? run_planar_kernel<n, false, true> : run_planar_kernel<n, false, false>;
 }
 
-ForwardDynamics planar_kernel_for(const PlanarKernel& kernel) {
+[[maybe_unused]] ForwardDynamics planar_kernel_for(const PlanarKernel& kernel) {
   switch (kernel.joints) {
     case 1:
       return planar_kernel_for<1>(kernel.along_x, kernel.turned);
