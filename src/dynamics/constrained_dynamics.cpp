@@ -28,7 +28,7 @@ std::string to_string(ConstraintStatus status) {
 }
 
 ConstrainedWorkspace::ConstrainedWorkspace(const Chain& chain, const ConstraintSet& set)
-    : solver(set.rows()) {
+    : solver(set.rows()), kernel(constrained_kernel_of(chain, set)) {
   const auto m = std::size_t(set.rows());
   const auto nv = std::size_t(chain.nv);
   for (auto* vector : {&phi, &Jcd_qd, &lambda, &r, &dlambda}) vector->resize(m);
@@ -144,6 +144,11 @@ ConstraintStatus resolve(ConstrainedWorkspace& cws, Vec qdd, const ConstrainedOp
 ConstraintStatus compute_constrained_dynamics(const Chain& chain, Workspace& ws, const ConstraintSet& set,
                                               ConstrainedWorkspace& cws, ConstVec q, ConstVec qd,
                                               ConstVec tau, Vec qdd, const ConstrainedOptions& options) {
+  const bool by_kernel = cws.kernel.run != nullptr && !options.always_proximal;
+  if (by_kernel && cws.kernel.run(ws, cws, q, qd, tau, qdd.data(), options.tolerance)) {
+    cws.rank = cws.kernel.rows;
+    return cws.status = cws.kernel.doubled ? ConstraintStatus::redundant : ConstraintStatus::regular;
+  }
   compute_free_motion(chain, ws, set, cws, q, qd, tau, qdd);
   compute_row_system(chain, ws, cws);
   cws.status = resolve(cws, qdd, options);

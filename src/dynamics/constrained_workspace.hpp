@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/constrained_kernel.hpp"
 #include "dynamics/constrained_solver.hpp"
 #include "dynamics/constraint_set.hpp"
 #include "dynamics/workspace.hpp"
@@ -51,6 +52,7 @@ struct ConstrainedWorkspace {
   std::vector<double> M;  // nv x nv: the factor L D L^T of M, where M is taken dense
   std::vector<double> r, dlambda, tau, qdd, dq;
   RowSolver solver;
+  ConstrainedKernel kernel;
 };
 
 }  // namespace chainreel
