@@ -97,8 +97,9 @@ PlanarSeriesState<T>::PlanarSeriesState(const Chain& chain, const AffineTorque& 
   stride = (2 * links + lanes - 1) / lanes * lanes;
   const auto orders = std::size_t(highest_order + 1);
   for (AlignedNumbers<T>* matrix : {&A, &sigma_ij, &M}) matrix->resize(links * links);
-  for (AlignedNumbers<T>* row_a_link : {&kappa, &sigma, &K, &D, &M_inv}) row_a_link->resize(links * stride);
-  for (AlignedNumbers<T>* row : {&pull, &S, &R}) row->resize(stride);
+  for (AlignedNumbers<T>* row_a_link : {&kappa, &sigma, &K, &D, &M_inv, &H_0, &H_1})
+    row_a_link->resize(links * stride);
+  for (AlignedNumbers<T>* row : {&pull, &S, &S_before, &R}) row->resize(stride);
   for (AlignedNumbers<T>* series : {&phi, &F, &E, &YX}) series->resize(orders * stride);
   sign.resize(links);
   inverse.resize(orders);
@@ -148,7 +149,6 @@ void PlanarSeriesState<T>::fold_torque(const Chain& chain, const AffineTorque& t
   const auto links = std::size_t(n);
   for (const std::vector<Quad>& one : torque.powers) degree = std::max(degree, int(one.size()) - 1);
   powers.resize(std::size_t(degree + 1) * stride);
-  Q.resize(std::size_t(degree + 1) * stride);
   const auto about_normal = [this](std::size_t i, const Quad& x) { return sign[i] < 0 ? -x : x; };
   const auto term = [&](const std::vector<Quad>& matrix, std::size_t i, std::size_t j, bool damped) {
     if (i >= links || j >= links) return Quad(0);
@@ -173,6 +173,7 @@ void PlanarSeriesState<T>::fold_torque(const Chain& chain, const AffineTorque& t
       has_linear |= K_ij != 0 || D_ij != 0;
     }
   }
+  Q = powers;
 }
 
 template <class T>

@@ -49,14 +49,15 @@ struct PlanarSeriesState {
   AlignedNumbers<T> inverse;       // 1/k
 
   // The series: row k holds the coefficients of t^k.
-  AlignedNumbers<T> phi;    // twice
-  AlignedNumbers<T> F;      // k phi[k], twice
-  AlignedNumbers<T> E;      // (c, -s)
-  AlignedNumbers<T> YX;     // (Y, X)
-  AlignedNumbers<T> Q;      // twice; of time alone, up to the degree
-  AlignedNumbers<T> M;      // n x n, its inverse at the end
-  AlignedNumbers<T> M_inv;  // row j, twice
-  AlignedNumbers<T> S, R;   // rows: sums of products
+  AlignedNumbers<T> phi;             // twice
+  AlignedNumbers<T> F;               // k phi[k], twice
+  AlignedNumbers<T> E;               // (c, -s)
+  AlignedNumbers<T> YX;              // (Y, X)
+  AlignedNumbers<T> Q;               // twice; of time alone, up to the degree
+  AlignedNumbers<T> M;               // n x n, its inverse at the end
+  AlignedNumbers<T> M_inv;           // row j, twice
+  AlignedNumbers<T> H_0, H_1;        // row j: of M^-1 times what pairs j give
+  AlignedNumbers<T> S, S_before, R;  // rows: sums of products
 
  private:
   void fold_links(const Chain& chain);

@@ -48,12 +48,18 @@ class PlanarRecurrence {
  public:
   using State = PlanarSeriesState<T>;
 
-  PlanarRecurrence(State& state) : w_(state), shape_(state.n), S_(state.S.data()), R_(state.R.data()) {}
+  explicit PlanarRecurrence(State& state)
+      : w_(state),
+        shape_(state.n),
+        S_(state.S.data()),
+        S_before_(state.S_before.data()),
+        R_(state.R.data()) {}
 
   void expand(T t, const T* q, const T* v, int order, T* c) {
     begin(q, v);
-    move_torque(t);
+    if (w_.degree > 0) move_torque(t);
     invert_mass_matrix();
+    fold_late_terms();
     for (int k = 0; k + 2 <= order; ++k) find_next(k);
     write_joint_angles(order, c);
   }
@@ -65,7 +71,7 @@ class PlanarRecurrence {
     return reinterpret_cast<Pack*>(rows.data() + std::size_t(k) * w_.stride);
   }
 
-  // phi, E of orders 0 and 1.
+  // phi and E of orders 0 and 1.
   void begin(const T* q, const T* v) {
     T angle(0), rate(0);
     T* const phi_0 = w_.phi.data();
@@ -81,7 +87,8 @@ class PlanarRecurrence {
     }
     for (std::size_t p = 0; p < shape_.packs; ++p) {
       at(w_.F, 1, p) = at(w_.phi, 1, p);
-      at(w_.E, 1, p) = turned(at(w_.E, 0, p) * at(w_.phi, 1, p));
+      S_before_[p] = at(w_.E, 0, p) * at(w_.phi, 1, p);
+      at(w_.E, 1, p) = turned(S_before_[p]);
     }
   }
 
@@ -141,68 +148,96 @@ class PlanarRecurrence {
     }
   }
 
-  // sum_j of kappa_ij (s_j, c_j) + sigma_ij (c_j, -s_j): what the pairs of a row give to (Y, X).
+  // kappa (s_j, c_j) + sigma (c_j, -s_j), summed over j: what a row of pairs gives to (Y, X).
   Pack coupled(const Pack* pairs, std::size_t p) const {
-    Pack sum{};
-    for (std::size_t j = 0; j < shape_.links; ++j) {
-      const Pack pair = spread(pairs, j);
-      sum += at(w_.kappa, int(j), p) * pair;
-      if (!w_.along_x) sum += at(w_.sigma, int(j), p) * turned(pair);
-    }
+    Pack sum = at(w_.kappa, 0, p) * spread(pairs, 0);
+    for (std::size_t j = 1; j < shape_.links; ++j) sum += at(w_.kappa, int(j), p) * spread(pairs, j);
+    if (!w_.along_x)
+      for (std::size_t j = 0; j < shape_.links; ++j)
+        sum += at(w_.sigma, int(j), p) * turned(spread(pairs, j));
     return sum;
   }
 
-  // Products of the orders below, for s and c of order k + 2 and for c Y - s X of order k. Two sums each, so
-  // that additions need not wait for one another; what has just been computed comes last.
-  void convolve(int k, std::size_t p, Pack& S, Pack& R) const {
-    const Pack* const F = row(w_.F, 0) + p;
-    const Pack* const E = row(w_.E, 0) + p;
-    const Pack* const YX = row(w_.YX, 0) + p;
-    Pack S_odd{}, R_odd{};
-    S = R = Pack{};
-    int j = k;
-    for (; j >= 3; j -= 2) {
-      S += of(F, j) * of(E, k + 2 - j);
-      R += of(E, j) * of(YX, k - j);
-      S_odd += of(F, j - 1) * of(E, k + 3 - j);
-      R_odd += of(E, j - 1) * of(YX, k + 1 - j);
-    }
-    for (; j >= 1; --j) {
-      S += of(F, j) * of(E, k + 2 - j);
-      R += of(E, j) * of(YX, k - j);
-    }
-    R += R_odd;
-    S += S_odd;
-    S += of(F, k + 1) * of(E, 1);
+  // M^-1 x, for x twice in each pair.
+  Pack solved(const Pack* x, std::size_t p) const {
+    Pack sum = at(w_.M_inv, 0, p) * spread(x, 0);
+    for (std::size_t j = 1; j < shape_.links; ++j) sum += at(w_.M_inv, int(j), p) * spread(x, j);
+    return sum;
   }
 
-  // Row k of a series, from its pack in row 0 on.
-  const Pack& of(const Pack* series, int k) const {
-    return series[std::size_t(k) * (w_.stride / (2 * kLinks<Pack>))];
+  // E[m] times what coupled() takes of pairs j, through M^-1, for m = 0 and 1: two matrices of pairs.
+  void fold_late_terms() {
+    for (int m = 0; m < 2; ++m) {
+      for (std::size_t j = 0; j < shape_.links; ++j) {
+        for (std::size_t p = 0; p < shape_.packs; ++p) {
+          const Pack& E = at(w_.E, m, p);
+          R_[p] = at(w_.kappa, int(j), p) * E;
+          if (!w_.along_x) R_[p] = R_[p] - at(w_.sigma, int(j), p) * turned(E);
+        }
+        for (std::size_t p = 0; p < shape_.packs; ++p)
+          at(m == 0 ? w_.H_0 : w_.H_1, int(j), p) = solved(R_.data(), p);
+      }
+    }
+  }
+
+  // The part of the sums whose factors are of orders 2 to k: S of (k + 2) (s, c)[k+2], R of what stands
+  // beside phi'' in order k. Two sums each, so that additions need not wait for one another.
+  void convolve(int k, std::size_t p, Pack& S, Pack& R) const {
+    const std::size_t stride = w_.stride / (2 * kLinks<Pack>);
+    const Pack* F = row(w_.F, 2) + p;
+    const Pack* YX = row(w_.YX, 0) + p;
+    const Pack* E = row(w_.E, k) + p;
+    Pack S_odd{}, R_odd{};
+    S = R = Pack{};
+    int j = 2;
+    for (; j < k; j += 2) {
+      S += F[0] * E[0];
+      R += YX[0] * E[0];
+      S_odd += F[stride] * *(E - stride);
+      R_odd += YX[stride] * *(E - stride);
+      F += 2 * stride, YX += 2 * stride, E -= 2 * stride;
+    }
+    if (j == k) {
+      S += F[0] * E[0];
+      R += YX[0] * E[0];
+    }
+    S += S_odd;
+    R += R_odd;
   }
 
   // Order k of the equations: phi[k+2], s and c of order k + 2, Y and X of order k.
+  //
+  // Each order waits for the one before it, so what has just been computed takes a short way: E[0] (Y, X)[k]
+  // and E[1] (Y, X)[k-1] are multiples of (s, c)[k+2] and (s, c)[k+1], folded with M^-1 before.
   void find_next(int k) {
-    const T twice = T(double((k + 1) * (k + 2)));
-    Row<Pack, n> S = S_, R = R_;
-    for (std::size_t p = 0; p < shape_.packs; ++p) convolve(k, p, S[p], R[p]);
+    const T inverse_1 = w_.inverse[std::size_t(k + 1)], inverse_2 = w_.inverse[std::size_t(k + 2)];
     for (std::size_t p = 0; p < shape_.packs; ++p) {
-      Pack YX = coupled(S.data(), p) * T(double(k + 1));
+      convolve(k, p, S_[p], R_[p]);
+      if (k < 2) R_[p] += at(w_.E, k, p) * at(w_.pull, 0, p);
+      R_[p] = torque(k, p) - pair_sums(R_[p]);
+      if (k > 0) S_[p] += at(w_.F, 1, p) * at(w_.E, k + 1, p);
+      S_[p] += at(w_.F, k + 1, p) * at(w_.E, 1, p);
+      S_before_[p] = S_before_[p] * (T(double(k)) * inverse_1);
+    }
+    for (std::size_t p = 0; p < shape_.packs; ++p) {
+      Pack late = at(w_.H_1, 0, p) * spread(S_before_.data(), 0);
+      for (std::size_t j = 1; j < shape_.links; ++j)
+        late += at(w_.H_1, int(j), p) * spread(S_before_.data(), j);
+      for (std::size_t j = 0; j < shape_.links; ++j) late += at(w_.H_0, int(j), p) * spread(S_.data(), j);
+      at(w_.F, k + 2, p) = solved(R_.data(), p) * inverse_1 - pair_sums(late);
+    }
+    for (std::size_t p = 0; p < shape_.packs; ++p) {
+      const Pack F = at(w_.F, k + 2, p);
+      at(w_.phi, k + 2, p) = F * inverse_2;
+      S_[p] += at(w_.E, 0, p) * F;
+      at(w_.E, k + 2, p) = turned(S_[p] * inverse_2);
+    }
+    for (std::size_t p = 0; p < shape_.packs; ++p) {
+      Pack YX = coupled(S_.data(), p) * T(double(k + 1));
       if (k == 0) YX += at(w_.pull, 0, p);
-      R[p] = torque(k, p) - pair_sums(R[p] + at(w_.E, 0, p) * YX);
+      at(w_.YX, k, p) = YX;
     }
-    for (std::size_t p = 0; p < shape_.packs; ++p) {
-      Pack phi_dd{};
-      for (std::size_t j = 0; j < shape_.links; ++j) phi_dd += at(w_.M_inv, int(j), p) * spread(R.data(), j);
-      at(w_.F, k + 2, p) = phi_dd * w_.inverse[std::size_t(k + 1)];
-      at(w_.phi, k + 2, p) = at(w_.F, k + 2, p) * w_.inverse[std::size_t(k + 2)];
-      S[p] = S[p] * w_.inverse[std::size_t(k + 2)] + at(w_.E, 0, p) * at(w_.phi, k + 2, p);
-      at(w_.E, k + 2, p) = turned(S[p]);
-    }
-    for (std::size_t p = 0; p < shape_.packs; ++p) {
-      at(w_.YX, k, p) = coupled(S.data(), p) * twice;
-      if (k == 0) at(w_.YX, k, p) += at(w_.pull, 0, p);
-    }
+    for (std::size_t p = 0; p < shape_.packs; ++p) S_before_[p] = S_[p];
   }
 
   // Q[k].
@@ -231,7 +266,7 @@ class PlanarRecurrence {
 
   State& w_;
   Shape<Pack, n> shape_;
-  Row<Pack, n> S_, R_;
+  Row<Pack, n> S_, S_before_, R_;
 };
 
 template <class Pack, class T, int n>

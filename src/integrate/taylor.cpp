@@ -71,8 +71,11 @@ class Taylor final : public Integrator {
         c_(n_ * std::size_t(last_ + 1)),
         next_c_(c_),
         weights_(std::size_t(last_ + 1)),
+        inverse_(std::size_t(last_ + 1)),
         now_(n_),
-        next_(n_) {}
+        next_(n_) {
+    for (std::size_t k = 1; k < inverse_.size(); ++k) inverse_[k] = 1.0 / double(k);
+  }
 
   void start(double t, std::span<const double> q, std::span<const double> v) override {
     begin_ = time_ = t;
@@ -132,6 +135,7 @@ class Taylor final : public Integrator {
   // At the beginning and at the end of the step.
   struct Joint {
     double q = 0, q_rest = 0, v = 0, v_rest = 0, vd = 0;
+    double q_weight = 0, v_weight = 0;  // 1 / (1 + |q|), 1 / (1 + |v|)
   };
   // Of order k: h^k, k h^(k-1), k (k-1) h^(k-2).
   struct Weights {
@@ -145,16 +149,20 @@ class Taylor final : public Integrator {
     for (std::size_t i = 0; i < n_; ++i) {
       const double size = std::fabs(c[i]);
       if (std::isnan(size)) return size;
-      q_size = std::max(q_size, size / (1 + std::fabs(q_[i])));
-      v_size = std::max(v_size, size / (1 + std::fabs(v_[i])));
+      q_size = std::max(q_size, size * now_[i].q_weight);
+      v_size = std::max(v_size, size * now_[i].v_weight);
     }
     if (q_size == 0) return -kInfinity;
-    return std::max((rough_log2(q_size) - log_tolerance_) / k,
-                    (rough_log2(v_size * k) - log_tolerance_) / (k - 1));
+    return std::max((rough_log2(q_size) - log_tolerance_) * inverse_[std::size_t(k)],
+                    (rough_log2(v_size * k) - log_tolerance_) * inverse_[std::size_t(k - 1)]);
   }
 
   // Infinite for uniform motion, NaN where a coefficient is no number.
-  double longest_step() const {
+  double longest_step() {
+    for (std::size_t i = 0; i < n_; ++i) {
+      now_[i].q_weight = 1 / (1 + std::fabs(q_[i]));
+      now_[i].v_weight = 1 / (1 + std::fabs(v_[i]));
+    }
     double need = -kInfinity;
     int k = last_;
     for (; k > last_ - kLastTerms; --k) {
@@ -234,6 +242,7 @@ class Taylor final : public Integrator {
   std::vector<double> c_, next_c_;  // of the last step, and of the next one where has_next_
   bool has_next_ = false;
   std::vector<Weights> weights_;
+  std::vector<double> inverse_;  // 1/k
   std::vector<Joint> now_, next_;
 };
 
