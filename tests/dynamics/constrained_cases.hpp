@@ -14,6 +14,8 @@
 
 namespace chainreel::testing {
 
+inline const Eigen::Vector3d kOrigin = Eigen::Vector3d::Zero();
+
 // A chain with its constraints and what is written for them.
 struct Tied {
   Tied(Chain chain_, std::vector<Constraint> constraints)

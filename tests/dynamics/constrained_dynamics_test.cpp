@@ -365,8 +365,8 @@ TEST(ConstrainedDynamicsTest, AllocatesNothing) {
   for (const Chain& chain :
        {rrr_chain(), arm_chain(2), planar_serial_chain(40), random_tree(612, {.bodies = 12, .mimic = 0.3})}) {
     const std::string tip = chain.frames.back().name;
-    Tied tied(chain,
-              {PointConstraint{tip, {}}, DistanceConstraint{"base", tip, 1}, PointConstraint{tip, {}}});
+    Tied tied(chain, {PointConstraint{tip, kOrigin}, DistanceConstraint{"base", tip, 1},
+                      PointConstraint{tip, kOrigin}});
     const State s = random_state(chain, random);
     const long before = allocation_count();
     tied.move(s);

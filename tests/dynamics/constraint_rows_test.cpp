@@ -138,19 +138,19 @@ std::string message_of(const Chain& chain, const std::vector<Constraint>& constr
 
 TEST(ConstraintRowsTest, WhatCannotBeIsNamed) {
   const Chain chain = rrr_chain();
-  EXPECT_NE(message_of(chain, {PointConstraint{"griper", {}}}).find("did you mean 'gripper'"),
+  EXPECT_NE(message_of(chain, {PointConstraint{"griper", kOrigin}}).find("did you mean 'gripper'"),
             std::string::npos);
   EXPECT_NE(message_of(chain, {JointConstraint{"elbow", 0}}).find("no coordinate 'elbow'"),
             std::string::npos);
-  EXPECT_NE(message_of(chain, {PointConstraint{"base", {}}}).find("does not move"), std::string::npos);
+  EXPECT_NE(message_of(chain, {PointConstraint{"base", kOrigin}}).find("does not move"), std::string::npos);
   EXPECT_NE(message_of(chain, {DistanceConstraint{"b3", "gripper", 1}}).find("one body"), std::string::npos);
   EXPECT_NE(message_of(chain, {DistanceConstraint{"base", "gripper", 0}}).find("above zero"),
             std::string::npos);
-  EXPECT_NE(message_of(chain, {PlaneConstraint{"gripper", {}, {0, 0, 1}}}).find("no motion in it"),
+  EXPECT_NE(message_of(chain, {PlaneConstraint{"gripper", kOrigin, {0, 0, 1}}}).find("no motion in it"),
             std::string::npos);
-  EXPECT_NE(message_of(chain, {LineConstraint{"gripper", {}, {0, 0, 0}}}).find("no length"),
+  EXPECT_NE(message_of(chain, {LineConstraint{"gripper", kOrigin, {0, 0, 0}}}).find("no length"),
             std::string::npos);
-  EXPECT_NE(message_of(chain, {LineConstraint{"gripper", {}, {0, 1, 1}}}).find("leaves the plane"),
+  EXPECT_NE(message_of(chain, {LineConstraint{"gripper", kOrigin, {0, 1, 1}}}).find("leaves the plane"),
             std::string::npos);
   EXPECT_NE(message_of(chain, {LinearConstraint{{{chain.coordinate_names[0], 0}}, 1}}).find("zero"),
             std::string::npos);
