@@ -13,7 +13,6 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/chart.hpp"
-#include "picture/theme.hpp"
 #include "sim/end_reference.hpp"
 #include "sim/work_precision.hpp"
 
@@ -157,8 +156,7 @@ void run_chart(const ChartOptions& options) {
   Measured measured = measure_all(prepared, chosen, options);
   const WorkPrecision data = data_of(prepared, measured, options);
   const Fonts fonts;
-  const ChartLook look{double(options.figure.width) / options.figure.height, options.figure.text_scale,
-                       &light_theme(), &fonts};
+  const ChartLook look = chart_look(options.figure, fonts);
   const ChartCost panels[] = {ChartCost::seconds, ChartCost::evaluations};
   const auto files = write_figure(work_precision_chart(data, panels, look), csv_of(options.scene, measured),
                                   options.figure, output, fonts, options.common.force);

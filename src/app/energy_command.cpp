@@ -11,7 +11,6 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/energy_chart.hpp"
-#include "picture/theme.hpp"
 #include "sim/audit.hpp"
 
 namespace chainreel {
@@ -70,9 +69,7 @@ struct MethodRun {
 };
 
 MethodRun run_method(Simulation& simulation, const MethodSetting& setting, const std::vector<double>& times) {
-  simulation.method = setting.method;
-  simulation.options = setting.options;
-  simulation.step = setting.step;
+  apply(setting, simulation);
   const Trajectory trajectory = simulate(simulation, times, [](double) { return interrupted(); });
   throw_if_interrupted();
   const Audit audit = audit_of(simulation, trajectory);
@@ -144,8 +141,7 @@ void run_energy(const EnergyOptions& options) {
   }
 
   const Fonts fonts;
-  const ChartLook look{double(options.figure.width) / options.figure.height, options.figure.text_scale,
-                       &light_theme(), &fonts};
+  const ChartLook look = chart_look(options.figure, fonts);
   const EnergyChart chart = chart_of(prepared, settings, simulation.duration, runs);
   const auto files = write_figure(energy_chart(chart, look), csv_of(options.scene, runs), options.figure,
                                   output, fonts, options.common.force);

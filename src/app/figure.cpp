@@ -34,6 +34,10 @@ void add_figure_options(CLI::App& command, FigureOptions& options, const std::st
       ->check(CLI::Range(0.5, 3.0));
 }
 
+ChartLook chart_look(const FigureOptions& options, const Fonts& fonts) {
+  return {double(options.width) / options.height, options.text_scale, &light_theme(), &fonts};
+}
+
 void check_figure_path(const std::string& path) {
   if (std::any_of(kEndings.begin(), kEndings.end(), [&](const char* end) { return path.ends_with(end); }))
     return;

@@ -6,6 +6,7 @@
 
 #include "app/command.hpp"
 #include "core/frame_rate.hpp"
+#include "draw/chart_page.hpp"
 #include "integrate/method.hpp"
 #include "picture/picture.hpp"
 #include "picture/text.hpp"
@@ -22,6 +23,8 @@ void add_figure_options(CLI::App& command, FigureOptions& options, const std::st
 
 // Throws Error (usage) unless the ending is .png, .svg, .pdf or .csv.
 void check_figure_path(const std::string& path);
+
+ChartLook chart_look(const FigureOptions& options, const Fonts& fonts);
 
 // The picture as the path's ending says, and the numbers as CSV beside it: out/x.png and out/x.csv. Where the
 // path ends in .csv, the numbers alone. Returns what was written.

@@ -13,7 +13,6 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/stability_map.hpp"
-#include "picture/theme.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/stability_cells.hpp"
 #include "sim/audit.hpp"
@@ -133,8 +132,7 @@ void draw_map(const StabilityOptions& options, const std::string& output) {
   throw_if_interrupted();
   const Scene scene = read_scene(options.scene, overrides);
   const Fonts fonts;
-  const ChartLook look{double(options.figure.width) / options.figure.height, options.figure.text_scale,
-                       &light_theme(), &fonts};
+  const ChartLook look = chart_look(options.figure, fonts);
   const auto files = write_figure(stability_map(map_of(scene, cells), look), csv_of(options.scene, cells),
                                   options.figure, output, fonts, options.common.force);
   if (options.common.quiet) return;
@@ -143,9 +141,7 @@ void draw_map(const StabilityOptions& options, const std::string& output) {
 }
 
 std::string verdict(Simulation& simulation, const MethodSetting& setting) {
-  simulation.method = setting.method;
-  simulation.options = setting.options;
-  simulation.step = setting.step;
+  apply(setting, simulation);
   const double end[] = {simulation.duration};
   const Trajectory trajectory = simulate(simulation, end, [](double) { return interrupted(); });
   throw_if_interrupted();

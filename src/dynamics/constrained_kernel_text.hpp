@@ -80,17 +80,7 @@ struct Eliminated {
     return sum;
   }
   [[gnu::always_inline]] inline void substitute(double (&x)[n]) const {
-    constexpr int a = n - 2, b = n - 1;
-    const double x_a = A[b][b] * x[a] - A[b][a] * x[b];
-    const double x_b = A[a][a] * x[b] - A[b][a] * x[a];
-    x[a] = x_a * det_inv;
-    x[b] = x_b * det_inv;
-#pragma GCC unroll 4
-    for (int k = n - 3; k >= 0; --k) {
-#pragma GCC unroll 4
-      for (int i = k + 1; i < n; ++i) x[k] -= A[i][k] * x[i];
-      x[k] *= D_inv[k];
-    }
+    substitute_back<n>(A, D_inv, det_inv, x);
   }
 };
 

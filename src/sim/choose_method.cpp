@@ -19,12 +19,6 @@ constexpr int kOrders[] = {12, 20};
 // Two runs that are each as exact as double precision allows may share this part of what is allowed.
 constexpr double kShareOfReference = 0.5;
 
-void apply(const MethodSetting& setting, Simulation& simulation) {
-  simulation.method = setting.method;
-  simulation.options = setting.options;
-  simulation.step = setting.step;
-}
-
 bool takes_the_chain(Simulation& simulation, const Method& method) {
   simulation.method = &method;
   try {
@@ -157,6 +151,12 @@ class Chooser {
 };
 
 }  // namespace
+
+void apply(const MethodSetting& setting, Simulation& simulation) {
+  simulation.method = setting.method;
+  simulation.options = setting.options;
+  simulation.step = setting.step;
+}
 
 std::string to_string(const MethodSetting& setting) {
   std::string text = setting.method->name;

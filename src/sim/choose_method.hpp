@@ -18,6 +18,8 @@ struct MethodSetting {
   double step = 0;  // s; 0: by the tolerance
 };
 
+void apply(const MethodSetting& setting, Simulation& simulation);
+
 // "taylor, order 16, tolerance 1e-6".
 std::string to_string(const MethodSetting& setting);
 

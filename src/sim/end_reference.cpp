@@ -14,9 +14,7 @@ namespace {
 constexpr double kPerturbation = 1e-9;
 
 EndState run(Simulation& simulation, const MethodSetting& setting) {
-  simulation.method = setting.method;
-  simulation.options = setting.options;
-  simulation.step = setting.step;
+  apply(setting, simulation);
   const double end[] = {simulation.duration};
   const Trajectory trajectory = simulate(simulation, end);
   if (trajectory.status != RunStatus::finished || trajectory.size() == 0)

@@ -70,9 +70,7 @@ std::vector<MethodSetting> settings_of(const Simulation& simulation, const Metho
 
 Rung measure(Simulation& simulation, const MethodSetting& setting, const EndState& reference, int runs,
              const StopRequest& stop) {
-  simulation.method = setting.method;
-  simulation.options = setting.options;
-  simulation.step = setting.step;
+  apply(setting, simulation);
   const double end[] = {simulation.duration};
   Rung rung;
   rung.setting = setting;

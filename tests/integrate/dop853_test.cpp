@@ -82,25 +82,12 @@ TEST(Dop853Tableau, MissesItsOrderWithOneDigitChanged) {
   EXPECT_GT(residual(b, 1, 1), 100 * kRoundOff);
 }
 
-// The largest error of q between the ends of `steps` steps over [0, 2] on the oscillator.
-double largest_dense_error(int steps) {
-  Oscillator system(1);
-  Started integrator(system, "dop853", 0, 0, 1, 0);
-  const double h = 2.0 / steps;
-  double largest = 0, q[1], v[1];
-  for (int k = 0; k < steps; ++k) {
-    integrator->step((k + 1) * h, h);
-    for (const double s : {0.2, 0.45, 0.7}) {
-      integrator->interpolate((k + s) * h, q, v);
-      largest = std::max(largest, std::abs(q[0] - std::cos((k + s) * h)));
-    }
-  }
-  return largest;
-}
+constexpr std::array<double, 3> kParts{0.2, 0.45, 0.7};  // of a step
 
 TEST(Dop853, InterpolatesWithItsDenseOrder) {
   // A local error of order 7 + 1; the next term is some h/2 = 0.06 of it, and halves too.
-  EXPECT_NEAR(std::log2(largest_dense_error(4) / largest_dense_error(8)), 8, 0.1);
+  EXPECT_NEAR(std::log2(largest_dense_error("dop853", 4, kParts) / largest_dense_error("dop853", 8, kParts)),
+              8, 0.1);
 }
 
 TEST(Dop853, InterpolatesIntoTheEndsOfItsSteps) {

@@ -1,7 +1,9 @@
 // A method at work on a system of one coordinate.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -36,5 +38,22 @@ class Started {
   AllForms forms_;
   std::unique_ptr<Integrator> integrator_;
 };
+
+// The largest error of q within `steps` fixed steps over [0, 2] on the oscillator q = cos t, at these parts
+// of each step.
+inline double largest_dense_error(const std::string& method, int steps, const std::array<double, 3>& parts) {
+  Oscillator system(1);
+  Started integrator(system, method, 0, 0, 1, 0);
+  const double h = 2.0 / steps;
+  double largest = 0, q[1], v[1];
+  for (int k = 0; k < steps; ++k) {
+    integrator->step((k + 1) * h, h);
+    for (const double s : parts) {
+      integrator->interpolate((k + s) * h, q, v);
+      largest = std::max(largest, std::abs(q[0] - std::cos((k + s) * h)));
+    }
+  }
+  return largest;
+}
 
 }  // namespace chainreel

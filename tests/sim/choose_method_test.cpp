@@ -19,9 +19,7 @@ std::vector<double> frames_until(double end) {
 }
 
 Trajectory run_with(Simulation& simulation, const MethodSetting& setting, const std::vector<double>& times) {
-  simulation.method = setting.method;
-  simulation.options = setting.options;
-  simulation.step = setting.step;
+  apply(setting, simulation);
   return simulate(simulation, times);
 }
 
