@@ -66,6 +66,14 @@ void compute_free_motion(const Chain& chain, Workspace& ws, const ConstraintSet&
   });
 }
 
+void add_stabilization(ConstrainedWorkspace& cws, ConstVec qd, double gain) {
+  for (std::size_t i = 0; i < cws.phi.size(); ++i) {
+    double rate = 0;
+    for (std::size_t v = 0; v < qd.size(); ++v) rate += cws.Jc[i * qd.size() + v] * qd[v];
+    cws.Jcd_qd[i] += gain * (2 * rate + gain * cws.phi[i]);
+  }
+}
+
 // cws.r = Jc qdd + Jcd_qd; returns the largest sum of the sizes of what is added there, which its round-off
 // goes by.
 double take_residual(ConstrainedWorkspace& cws, ConstVec qdd) {
@@ -144,12 +152,13 @@ ConstraintStatus resolve(ConstrainedWorkspace& cws, Vec qdd, const ConstrainedOp
 ConstraintStatus compute_constrained_dynamics(const Chain& chain, Workspace& ws, const ConstraintSet& set,
                                               ConstrainedWorkspace& cws, ConstVec q, ConstVec qd,
                                               ConstVec tau, Vec qdd, const ConstrainedOptions& options) {
-  const bool by_kernel = cws.kernel.run != nullptr && !options.always_proximal;
+  const bool by_kernel = cws.kernel.run != nullptr && !options.always_proximal && !(options.gain > 0);
   if (by_kernel && cws.kernel.run(ws, cws, q, qd, tau, qdd.data(), options.tolerance)) {
     cws.rank = cws.kernel.rows;
     return cws.status = cws.kernel.doubled ? ConstraintStatus::redundant : ConstraintStatus::regular;
   }
   compute_free_motion(chain, ws, set, cws, q, qd, tau, qdd);
+  if (options.gain > 0) add_stabilization(cws, qd, options.gain);
   compute_row_system(chain, ws, cws);
   cws.status = resolve(cws, qdd, options);
   if (!cws.solver.regular()) cws.solver.remove_null_part(cws.lambda.data());

@@ -21,6 +21,9 @@ struct ConstrainedOptions {
   // Of |Jc qdd + Jcd_qd|, relative to 1 + the sum of the sizes of its parts: 45 round-offs.
   double tolerance = 1e-14;
   int most_passes = 30;
+  // g of J. Baumgarte (Comput. Meth. Appl. Mech. Eng. 1 (1972)), 1/s: above zero rows are to have the
+  // accelerations -2 g dphi/dt - g^2 phi, which are then part of Jcd_qd with the other sign.
+  double gain = 0;
   double mu = 1e-8;  // of proximal passes, as a share of the mean of G's diagonal
   bool always_proximal =
       false;  // also where rows are independent: to compare, and to see the passes converge

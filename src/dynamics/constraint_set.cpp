@@ -87,6 +87,13 @@ class ConstraintSetMaker {
       const auto& X_zero = chain_.planar->X_WB_zero[std::size_t(frame.body)];
       anchor.point.z += chain_.planar->plane.normal.dot(X_zero.translation());
     }
+    return shared(anchor);
+  }
+
+  // A place of the world.
+  int anchor_at(const Vector3d& at) { return shared({0, numbers(at)}); }
+
+  int shared(const ConstraintSet::Anchor& anchor) {
     for (std::size_t k = 0; k < set_.anchors_.size(); ++k) {
       const auto& other = set_.anchors_[k];
       const Vec3<double> d = other.point - anchor.point;
@@ -163,10 +170,15 @@ class ConstraintSetMaker {
   }
 
   void take(const DistanceConstraint& c) {
-    int a = 0, b = 0;
-    if (!pair_of(c.a, c.b, a, b)) return;
     if (!(c.length > 0))
       return fault("the length must be above zero; two points that coincide are a 'close'");
+    if (c.at) {
+      const int a = moving_anchor(c.a);
+      if (a >= 0) push({.kind = Kind::distance, .a = a, .b = anchor_at(*c.at), .offset = c.length}, {});
+      return;
+    }
+    int a = 0, b = 0;
+    if (!pair_of(c.a, c.b, a, b)) return;
     push({.kind = Kind::distance, .a = anchor_at(a), .b = anchor_at(b), .offset = c.length}, {});
   }
 

@@ -71,6 +71,13 @@ class Dop853 final : public Integrator {
     if (control_) control_->start();
   }
 
+  void correct(std::span<const double> q, std::span<const double> v) override {
+    std::copy(q.begin(), q.end(), y1_.begin());
+    std::copy(v.begin(), v.end(), y1_.begin() + std::ptrdiff_t(nq_));
+    publish();
+    end_rate_is_known_ = false;
+  }
+
   StepResult step(double end, double h) override {
     begin_step();
     if (!control_) {
@@ -110,14 +117,26 @@ class Dop853 final : public Integrator {
     state_rate(system_, begin_ + c[stage] * h_, y, k(stage));
   }
 
-  // out = sum of the terms' k.
+  // out = sum of the terms' k; in registers where the state is short.
   void add_up(const Sum& sum, std::span<double> out) const {
+    if (n_ == 4) return add_up<4>(sum, out.data());
+    if (n_ == 6) return add_up<6>(sum, out.data());
     std::fill(out.begin(), out.end(), 0.0);
     for (std::size_t j = 0; j < sum.size; ++j) {
       const double factor = sum.terms[j].factor;
       const double* rate = k_.data() + sum.terms[j].stage * n_;
       for (std::size_t i = 0; i < n_; ++i) out[i] += factor * rate[i];
     }
+  }
+  template <std::size_t n>
+  void add_up(const Sum& sum, double* out) const {
+    double total[n] = {};
+    for (std::size_t j = 0; j < sum.size; ++j) {
+      const double factor = sum.terms[j].factor;
+      const double* rate = k_.data() + sum.terms[j].stage * n;
+      for (std::size_t i = 0; i < n; ++i) total[i] += factor * rate[i];
+    }
+    std::copy_n(total, n, out);
   }
   // out = y0 + h sum of the terms' k.
   void move(const Sum& sum, std::span<double> out) const {

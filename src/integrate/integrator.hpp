@@ -22,6 +22,10 @@ class Integrator {
   // Begins at a state: before the first step, and after each jump of the state or of a torque.
   virtual void start(double t, std::span<const double> q, std::span<const double> v) = 0;
 
+  // Puts the state a little aside at time(), less than a step's error: what the method has learnt of the motion
+  // stays, what it knew of the state itself goes. Dense output is not asked for until the next step.
+  virtual void correct(std::span<const double> q, std::span<const double> v) { start(time_, q, v); }
+
   // Moves from time() to `end`, which is h away; an adaptive method may stop before it. Allocates nothing.
   // What is not ok leaves no state that could be used. Numbers that are not finite are the caller's to find.
   virtual StepResult step(double end, double h) = 0;

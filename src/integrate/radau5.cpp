@@ -85,6 +85,13 @@ class Radau5 final : public Integrator {
     is_first_ = true;
   }
 
+  void correct(std::span<const double> q, std::span<const double> v) override {
+    std::copy(q.begin(), q.end(), y1_.begin());
+    std::copy(v.begin(), v.end(), y1_.begin() + std::ptrdiff_t(n_));
+    publish();
+    span_.start();
+  }
+
   StepResult step(double end, double h) override {
     begin_step();
     if (!control_) return fixed_step(end, h);
@@ -235,7 +242,7 @@ class Radau5 final : public Integrator {
     rest_ = power(std::max(rest_, 0x1p-52), 0.8);
     double last_size = 0;
     for (int pass = 1; pass <= most_passes; ++pass) {
-      const double size = correct(h);
+      const double size = improve(h);
       if (!std::isfinite(size)) return false;
       if (pass > 1) {
         const double theta = size / last_size;
@@ -262,7 +269,7 @@ class Radau5 final : public Integrator {
   }
 
   // One pass of Newton's iteration; the size of its correction.
-  double correct(double h) {
+  double improve(double h) {
     for (std::size_t k = 0; k < 3; ++k) {
       place_stage(h, k, moved_);
       acceleration(begin_ + c[k] * h, moved_, std::span(f_).subspan(k * n_, n_));

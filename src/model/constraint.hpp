@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -34,7 +35,8 @@ struct PointConstraint {
 // A massless rod with ball joints at both ends.
 struct DistanceConstraint {
   std::string a, b;
-  double length = 1;  // m, above zero
+  double length = 1;                    // m, above zero
+  std::optional<Eigen::Vector3d> at{};  // the second end's place in the world; then b is empty
 };
 
 // Two frames' origins coincide: a joint that closes a loop.

@@ -113,7 +113,7 @@ class CellRuns {
 
   static bool fits_a_batch(const Simulation& simulation) {
     return simulation.method->name == "semi_implicit_euler" && simulation.torque->is_constant() &&
-           simulation.limit == LimitPolicy::report && !simulation.chain.has_dissipation &&
+           simulation.constraints.empty() && simulation.limit == LimitPolicy::report && !simulation.chain.has_dissipation &&
            simulation.chain.nq == simulation.chain.nv;
   }
 

@@ -8,19 +8,23 @@
 
 namespace chainreel {
 
-ChainSystem::ChainSystem(const Chain& chain, TorqueLaw& torque, LimitPolicy limit)
+ChainSystem::ChainSystem(const Chain& chain, TorqueLaw& torque, LimitPolicy limit,
+                         const ConstraintPlan& constraints)
     : chain_(&chain),
       torque_(&torque),
       limit_(limit),
       limits_(chain),
       ws_(chain),
+      constrained_(constraints.empty() ? nullptr : std::make_unique<ConstrainedChain>(chain, constraints)),
       tau_(std::size_t(chain.nv)),
       tau_net_(chain.has_dissipation ? tau_.size() : 0) {}
 
 void ChainSystem::evaluate_torque(double t, ConstVec q, ConstVec qd) {
   if (torque_is_known_) return;
-  torque_is_known_ = torque_->is_constant();
+  const bool presses = constrained_ && constrained_->presses();
+  torque_is_known_ = torque_->is_constant() && !presses;
   torque_->evaluate(*chain_, ws_, t, q, qd, tau_);
+  if (presses) constrained_->press(ws_, q, qd, tau_);
   limits_.check_effort(t, tau_, limit_ == LimitPolicy::clamp);
   if (bad_torque_ >= 0) return;
   for (std::size_t i = 0; i < tau_.size(); ++i) {
@@ -48,6 +52,7 @@ void ChainSystem::acceleration(double t, std::span<const double> q, std::span<co
                                std::span<double> vd) {
   ++evaluations_;
   evaluate_torque(t, q, v);
+  if (constrained_) return constrained_->accelerate(ws_, q, v, tau_, vd);
   compute_forward_dynamics(*chain_, ws_, q, v, tau_, vd);
 }
 

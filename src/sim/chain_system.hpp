@@ -1,8 +1,11 @@
 // A chain under a torque law, as the methods see it.
 #pragma once
 
+#include <memory>
+
 #include "dynamics/workspace.hpp"
 #include "integrate/system.hpp"
+#include "sim/constrained_chain.hpp"
 #include "sim/limits.hpp"
 #include "sim/torque.hpp"
 
@@ -10,7 +13,7 @@ namespace chainreel {
 
 class ChainSystem final : public SecondOrder {
  public:
-  ChainSystem(const Chain& chain, TorqueLaw& torque, LimitPolicy limit);
+  ChainSystem(const Chain& chain, TorqueLaw& torque, LimitPolicy limit, const ConstraintPlan& constraints = {});
 
   int nq() const override { return chain_->nq; }
   int nv() const override { return chain_->nv; }
@@ -27,6 +30,10 @@ class ChainSystem final : public SecondOrder {
   ConstVec torque(double t, ConstVec q, ConstVec qd);
   ConstVec net_torque(double t, ConstVec q, ConstVec qd);  // tau - tau_f
   LimitWatch& limits() { return limits_; }
+
+  // Null where there are no constraints: then nothing of them is computed.
+  ConstrainedChain* constrained() const { return constrained_.get(); }
+  Workspace& workspace() { return ws_; }
   const Chain& chain() const { return *chain_; }
   const TorqueLaw& law() const { return *torque_; }
   LimitPolicy limit_policy() const { return limit_; }
@@ -44,6 +51,7 @@ class ChainSystem final : public SecondOrder {
   LimitPolicy limit_;
   LimitWatch limits_;
   Workspace ws_;
+  std::unique_ptr<ConstrainedChain> constrained_;
   std::vector<double> tau_;
   std::vector<double> tau_net_;   // of a chain with friction
   bool torque_is_known_ = false;  // constant and evaluated: the same tau_ at every instant

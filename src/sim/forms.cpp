@@ -9,6 +9,9 @@ namespace chainreel {
 
 ChainForms::ChainForms(ChainSystem& system, const Method& method) {
   forms_.second_order = &system;
+  if (system.constrained() && method.form != Form::second_order)
+    throw Error(ExitCode::bad_input,
+                "the method " + method.name + " takes no constraints: take dop853, or `method: auto`");
   switch (method.form) {
     case Form::second_order:
       if (method.plain_coordinates && system.nq() != system.nv())

@@ -38,7 +38,7 @@ Eigen::MatrixXd slope_of(SecondOrder& system, std::vector<double> q, std::vector
 
 std::vector<Mode> oscillating_modes(const Simulation& simulation) {
   if (simulation.chain.nq != simulation.chain.nv) return {};
-  ChainSystem system(simulation.chain, *simulation.torque, simulation.limit);
+  ChainSystem system(simulation.chain, *simulation.torque, simulation.limit, simulation.constraints);
   const Eigen::Index n = simulation.chain.nv;
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   A.topRightCorner(n, n).setIdentity();

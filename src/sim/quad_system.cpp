@@ -49,6 +49,7 @@ class ChainInQuad final : public QuadSystem {
 
 std::unique_ptr<QuadSystem> make_quad_system(const Simulation& simulation) {
   const Chain& chain = simulation.chain;
+  if (!simulation.constraints.empty()) return {};
   if (chain.has_floating || chain.has_mimic || cuts_torques(chain, simulation.limit)) return {};
   std::vector<Quad> q(simulation.q0.begin(), simulation.q0.end()), tau(q.size());
   if (!simulation.torque->evaluate_in_quad(0, q, q, tau)) return {};

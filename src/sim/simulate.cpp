@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "sim/chain_system.hpp"
+#include "sim/event_watch.hpp"
 #include "sim/forms.hpp"
 #include "sim/work.hpp"
 
@@ -16,6 +18,7 @@ namespace {
 constexpr double kDivergenceBound = 1e9;  // rad, m, rad/s, m/s
 constexpr double kMostNumbers = 2.5e8;    // stored in one trajectory: 2 GB
 constexpr double kSameInstant = 1e-9;     // of a step: two instants closer than this are one
+constexpr double kLostConstraint = 1e-6;  // m or rad, behind a projection
 constexpr long kStepsBetweenStopRequests = 4096;
 
 // The instants at which steps end: whole steps, and a shorter last one where the duration is no multiple of
@@ -73,7 +76,8 @@ class Run {
  public:
   Run(const Simulation& simulation, std::size_t samples)
       : simulation_(simulation),
-        system_(simulation.chain, *simulation.torque, simulation.limit),
+        system_(simulation.chain, *simulation.torque, simulation.limit, simulation.constraints),
+        constrained_(system_.constrained()),
         forms_(system_, *simulation.method),
         integrator_(make_integrator(*simulation.method, forms_.forms(), simulation.options)),
         grid_(simulation),
@@ -81,8 +85,10 @@ class Run {
         qd_(simulation.qd0),
         work_(simulation, system_, integrator_->dense_order()) {
     integrator_->start(0, q_, qd_);
+    if (simulation.events && !simulation.events->list.empty()) watch_.emplace(*simulation.events, system_);
     trajectory_.nq = simulation.chain.nq;
     trajectory_.nv = simulation.chain.nv;
+    if (constrained_) trajectory_.rows = constrained_->set().rows();
     reserve(samples);
   }
 
@@ -93,36 +99,50 @@ class Run {
   // False where the run ended in this step; its state is then not fit to be sampled.
   bool take_step() {
     const double begin = now();
+    if (constrained_ && steps() == 0 && !check_constraints(begin)) return false;
     const Grid::Next next = grid_.next(begin);
     if (!check_result(integrator_->step(next.end, next.h), begin)) return false;
     if (!check_state(begin, now())) return false;
+    if (constrained_ && !settle()) return false;
     system_.forget_bad_torque();
-    work_.add_step(system_, *integrator_);
+    work_.add_step(system_, *integrator_, q_now());
     ++trajectory_.steps;
     trajectory_.end_time = now();
-    passed_limit_ = system_.limits().check_state(now(), integrator_->q(), integrator_->v());
+    if (watch_ && !look_for_events(begin)) return false;
+    if (ended_by_event()) return true;
+    passed_limit_ = system_.limits().check_state(now(), q_now(), qd_now());
     start_anew_ = next.is_break && now() == next.end;
     return true;
   }
 
-  // Behind a break of the torques: what the method remembers of them is old. Called when the samples of the
-  // last step have been taken.
+  // Behind a break of the torques what the method remembers of them is old, and so is the state that it has
+  // where that was projected. Called when the samples of the last step have been taken.
   void pass_break() {
+    if (!start_anew_ && projected_) integrator_->correct(q_end_, qd_end_);
     if (!start_anew_) return;
-    const ConstVec q = integrator_->q(), qd = integrator_->v();
+    const ConstVec q = q_now(), qd = qd_now();
     std::copy(q.begin(), q.end(), q_.begin());
     std::copy(qd.begin(), qd.end(), qd_.begin());
     integrator_->start(now(), q_, qd_);
     start_anew_ = false;
   }
 
+  // The rest of the last step is no part of the run then: it ended at end_time.
+  bool ended_by_event() const { return trajectory_.ending_event >= 0; }
+  double end_time() const { return trajectory_.end_time; }
+  void sample_event() {
+    const double same = same_instant(simulation_);
+    if (trajectory_.t.empty() || trajectory_.t.back() < end_time() - same) sample(end_time());
+  }
+
   void sample_start() { append(0, simulation_.q0, simulation_.qd0, 0); }
-  void sample_end() { append(now(), integrator_->q(), integrator_->v(), work_.at_end()); }
+  void sample_end() { append(now(), q_now(), qd_now(), work_.at_end()); }
   // t lies in the last step.
   void sample(double t) {
     if (std::abs(t - now()) <= same_instant(simulation_))
-      return append(t, integrator_->q(), integrator_->v(), work_.at_end());
+      return append(t, q_now(), qd_now(), work_.at_end());
     integrator_->interpolate(t, q_, qd_);
+    if (projected_) constrained_->project_sample(system_.workspace(), q_, qd_);
     append(t, q_, qd_, work_.at(system_, *integrator_, t, q_));
   }
 
@@ -149,7 +169,7 @@ class Run {
 
  private:
   void reserve(std::size_t samples) {
-    const std::size_t row = std::size_t(trajectory_.nq + trajectory_.nv + 2);
+    const std::size_t row = std::size_t(trajectory_.nq + trajectory_.nv + trajectory_.rows + 2);
     if (double(samples) * double(row) > kMostNumbers)
       throw Error(ExitCode::limit, "this run would store more than " + format_shortest(kMostNumbers) +
                                        " numbers: take a shorter duration or fewer samples");
@@ -157,6 +177,7 @@ class Run {
     trajectory_.q.reserve(samples * std::size_t(trajectory_.nq));
     trajectory_.qd.reserve(samples * std::size_t(trajectory_.nv));
     trajectory_.work.reserve(samples);
+    trajectory_.lambda.reserve(samples * std::size_t(trajectory_.rows));
   }
 
   void append(double t, ConstVec q, ConstVec qd, double work) {
@@ -164,7 +185,51 @@ class Run {
     trajectory_.q.insert(trajectory_.q.end(), q.begin(), q.end());
     trajectory_.qd.insert(trajectory_.qd.end(), qd.begin(), qd.end());
     trajectory_.work.push_back(work);
+    if (constrained_) append_multipliers(t, q, qd);
   }
+
+  void append_multipliers(double t, ConstVec q, ConstVec qd) {
+    const auto look = constrained_->look(system_.workspace(), q, qd, system_.torque(t, q, qd));
+    const ConstVec lambda = constrained_->lambda();
+    trajectory_.lambda.insert(trajectory_.lambda.end(), lambda.begin(), lambda.end());
+    trajectory_.position_error = std::max(trajectory_.position_error, look.position_error);
+    trajectory_.velocity_error = std::max(trajectory_.velocity_error, look.velocity_error);
+  }
+
+  // The state at the end of the last step.
+  ConstVec q_now() const { return projected_ ? ConstVec(q_end_) : integrator_->q(); }
+  ConstVec qd_now() const { return projected_ ? ConstVec(qd_end_) : integrator_->v(); }
+
+  // After a step under constraints: back onto them, and whether they can be met there.
+  bool settle() {
+    if (constrained_->projects()) {
+      q_end_.assign(integrator_->q().begin(), integrator_->q().end());
+      qd_end_.assign(integrator_->v().begin(), integrator_->v().end());
+      projected_ = true;
+      const Projection way = constrained_->project(system_.workspace(), q_end_, qd_end_);
+      if (!(way.after <= kLostConstraint)) {
+        set_trouble(RunStatus::constraint_lost,
+                    "constraint '" + row_name(way.worst_row) + "' was lost by " +
+                        format_significant(way.after, 3) + ", and no way led back",
+                    now());
+        return false;
+      }
+    }
+    return !constrained_->take_suspicion() || check_constraints(now());
+  }
+
+  bool check_constraints(double t) {
+    const auto unmet = constrained_->unmet(system_.workspace(), q_now(), qd_now(),
+                                           system_.torque(t, q_now(), qd_now()));
+    if (!unmet || system_.bad_torque() >= 0) return true;
+    set_trouble(RunStatus::inconsistent,
+                "constraints contradict each other: no acceleration fulfils '" + row_name(unmet->row) +
+                    "', " + format_significant(unmet->residual, 3) + " are left",
+                t);
+    return false;
+  }
+
+  std::string row_name(int row) const { return constrained_->set().row_names()[std::size_t(row)]; }
 
   // The state decides: a torque that was no number in an attempt that was rejected does no harm.
   bool check_state(double begin, double end) {
@@ -184,6 +249,26 @@ class Run {
     for (std::size_t i = 0; i < qd.size(); ++i)
       if (!sane(qd[i])) return int(i);
     return -1;
+  }
+
+  bool look_for_events(double begin) {
+    const bool good = (steps() > 1 || watch_->start(0, simulation_.q0, simulation_.qd0)) &&
+                      watch_->check_step(*integrator_, trajectory_.events);
+    system_.forget_bad_torque();
+    if (!good) {
+      const Event& event = simulation_.events->list[std::size_t(watch_->bad_event())];
+      set_trouble(RunStatus::event_not_finite, "the event '" + event.name + "' is not a finite number", begin);
+      return false;
+    }
+    if (!watch_->has_ended()) return true;
+    const EventHits& hits = trajectory_.events;
+    trajectory_.ending_event = hits.event.back();
+    trajectory_.end_time = hits.t.back();
+    trajectory_.status = RunStatus::stopped;
+    trajectory_.trouble = simulation_.events->list[std::size_t(hits.event.back())].name +
+                          " at t = " + format_significant(hits.t.back(), 6) + " s";
+    system_.limits().check_state(hits.t.back(), hits.q_at(hits.size() - 1), hits.qd_at(hits.size() - 1));
+    return true;
   }
 
   bool check_result(StepResult result, double begin) {
@@ -218,11 +303,15 @@ class Run {
 
   const Simulation& simulation_;
   ChainSystem system_;
+  ConstrainedChain* constrained_;  // null: none
   ChainForms forms_;
   std::unique_ptr<Integrator> integrator_;
   Grid grid_;
-  std::vector<double> q_, qd_;  // of a sample
+  std::vector<double> q_, qd_;          // of a sample
+  std::vector<double> q_end_, qd_end_;  // the last step's end, on the constraints
+  bool projected_ = false;              // so that these two hold
   WorkIntegral work_;
+  std::optional<EventWatch> watch_;
   bool passed_limit_ = false;
   bool start_anew_ = false;
   Trajectory trajectory_;
@@ -240,10 +329,16 @@ std::string to_string(RunStatus status) {
       return "torque_not_finite";
     case RunStatus::stopped:
       return "stopped";
+    case RunStatus::event_not_finite:
+      return "event_not_finite";
     case RunStatus::not_converged:
       return "not_converged";
     case RunStatus::step_too_small:
       return "step_too_small";
+    case RunStatus::inconsistent:
+      return "inconsistent";
+    case RunStatus::constraint_lost:
+      return "constraint_lost";
     case RunStatus::interrupted:
       return "interrupted";
   }
@@ -255,7 +350,7 @@ double same_instant(const Simulation& simulation) {
 }
 
 void check_method(const Simulation& simulation) {
-  ChainSystem system(simulation.chain, *simulation.torque, simulation.limit);
+  ChainSystem system(simulation.chain, *simulation.torque, simulation.limit, simulation.constraints);
   const ChainForms forms(system, *simulation.method);
 }
 
@@ -267,8 +362,12 @@ Trajectory simulate(const Simulation& simulation, std::span<const double> times,
     ++next;
   }
   while (!run.at_end() && !run.stopped_by_limit() && !run.stop_requested(stop) && run.take_step()) {
-    const double end = run.now() + same_instant(simulation);
+    const double end = run.end_time() + same_instant(simulation);
     while (next < times.size() && times[next] <= end) run.sample(times[next++]);
+    if (run.ended_by_event()) {
+      if (next < times.size()) run.sample_event();
+      break;
+    }
     run.pass_break();
   }
   return run.finish();
@@ -278,6 +377,10 @@ Trajectory simulate_every_step(const Simulation& simulation, const StopRequest& 
   Run run(simulation, simulation.step > 0 ? std::size_t(simulation.duration / simulation.step) + 2 : 0);
   run.sample_start();
   while (!run.at_end() && !run.stopped_by_limit() && !run.stop_requested(stop) && run.take_step()) {
+    if (run.ended_by_event()) {
+      run.sample_event();
+      break;
+    }
     run.sample_end();
     run.pass_break();
   }

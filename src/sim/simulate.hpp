@@ -8,6 +8,8 @@
 
 #include "integrate/method.hpp"
 #include "model/chain.hpp"
+#include "sim/constraint_plan.hpp"
+#include "sim/events.hpp"
 #include "sim/limits.hpp"
 #include "sim/torque.hpp"
 #include "sim/trajectory.hpp"
@@ -25,6 +27,8 @@ struct Simulation {
   double step = 0.001;   // s; 0: the method chooses, see MethodOptions::tolerance
   double duration = 10;  // s
   LimitPolicy limit = LimitPolicy::report;
+  std::shared_ptr<const EventSet> events;  // null: none
+  ConstraintPlan constraints;
 };
 
 // Two instants closer than this are one, s.
@@ -38,11 +42,12 @@ using StopRequest = std::function<bool(double t)>;
 
 // Samples at `times` (rising, within [0, duration]) on the method's dense output; t = 0 and the ends of steps
 // give the steps' own values. Never throws for what happens during the run: see
-// Trajectory::status. Samples end where the run ended.
+// Trajectory::status. Samples end where the run ended; where an event ended it, the last one stands at its
+// instant.
 Trajectory simulate(const Simulation& simulation, std::span<const double> times,
                     const StopRequest& stop = {});
 
-// Samples at 0 and at the end of every step.
+// Samples at 0 and at the end of every step; the last one at the event that ended the run, if one did.
 Trajectory simulate_every_step(const Simulation& simulation, const StopRequest& stop = {});
 
 }  // namespace chainreel

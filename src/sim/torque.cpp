@@ -1,6 +1,7 @@
 #include "sim/torque.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
 
 #include "core/format.hpp"
@@ -136,13 +137,34 @@ class MixedTorque final : public TorqueLaw {
   std::vector<double> one_;
 };
 
+// Multipliers follow from the torques: one that reads them would be an equation, not a law.
+void refuse_multipliers(const TorqueEntry& entry, const Parameters& parameters) {
+  const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  const std::string& text = entry.text;
+  for (std::size_t at = text.find("lambda"); at != std::string::npos; at = text.find("lambda", at + 1)) {
+    const std::size_t end = text.find_first_not_of("0123456789", at + 6);
+    if (end == at + 6 || at + 6 == text.size()) continue;
+    if ((at > 0 && is_word(text[at - 1])) || (end != std::string::npos && is_word(text[end]))) continue;
+    const std::string name = text.substr(at, end == std::string::npos ? end : end - at);
+    if (std::any_of(parameters.begin(), parameters.end(), [&](const auto& one) { return one.first == name; }))
+      continue;
+    throw Error(ExitCode::bad_input,
+                "a torque cannot read " + name +
+                    ", which follows from the torques: an algebraic loop. Ask for a force with "
+                    "`contact_force:`, or read " + name + " in events and plots",
+                entry.place);
+  }
+}
+
 std::unique_ptr<TorqueLaw> make_plain_law(const Chain& chain, const std::vector<TorqueEntry>& entries,
-                                          const Parameters& parameters, ProblemList& problems) {
-  Probe probe(chain, parameters);
+                                          const Parameters& parameters, const NamedFrames& frames,
+                                          ProblemList& problems) {
+  Probe probe(chain, parameters, 0, frames);
   std::vector<Expression> parsed;
   std::vector<double> constants;
   for (const TorqueEntry& entry : entries) {
     try {
+      if (!entry.control) refuse_multipliers(entry, parameters);
       parsed.push_back(Expression::parse(entry.control ? "0" : entry.text, probe.names(), entry.place));
       const std::optional<double> constant = parsed.back().constant();
       if (constant) constants.push_back(*constant);
@@ -157,9 +179,9 @@ std::unique_ptr<TorqueLaw> make_plain_law(const Chain& chain, const std::vector<
 }  // namespace
 
 std::unique_ptr<TorqueLaw> make_torque_law(const Chain& chain, const std::vector<TorqueEntry>& entries,
-                                           const Parameters& parameters) {
+                                           const Parameters& parameters, const NamedFrames& frames) {
   ProblemList problems;
-  std::unique_ptr<TorqueLaw> plain = make_plain_law(chain, entries, parameters, problems);
+  std::unique_ptr<TorqueLaw> plain = make_plain_law(chain, entries, parameters, frames, problems);
   auto mixed = std::make_unique<MixedTorque>(entries.size());
   bool has_controls = false;
   for (std::size_t i = 0; i < entries.size(); ++i) {

@@ -13,9 +13,12 @@ enum class RunStatus {
   finished,
   diverged,           // a coordinate left the finite numbers or grew beyond all bounds
   torque_not_finite,  // a torque expression gave no finite number
-  stopped,            // a joint passed its limit and the scene stops there
+  stopped,            // a joint passed its limit or an event happened, and the scene stops there
+  event_not_finite,   // an event's expression gave no finite number
   not_converged,      // the equations of an implicit step found no solution
   step_too_small,     // an adaptive method found no step that meets its tolerance
+  inconsistent,       // constraints contradict each other: no acceleration fulfils them
+  constraint_lost,    // the way back onto the constraints was not found
   interrupted,        // the user stopped it
 };
 
@@ -26,6 +29,37 @@ inline bool is_complete(RunStatus status) {
   return status == RunStatus::finished || status == RunStatus::stopped;
 }
 
+// The events that happened, in the order of time.
+struct EventHits {
+  std::vector<int> event;  // index into the scene's list
+  std::vector<double> t;   // s
+  std::vector<double> q;   // nq numbers a hit: the state at that instant
+  std::vector<double> qd;  // nv numbers a hit
+
+  int size() const { return int(t.size()); }
+  std::span<const double> q_at(int k) const { return row(q, k); }
+  std::span<const double> qd_at(int k) const { return row(qd, k); }
+
+  void reserve(std::size_t hits, std::size_t nq, std::size_t nv) {
+    event.reserve(hits);
+    t.reserve(hits);
+    q.reserve(hits * nq);
+    qd.reserve(hits * nv);
+  }
+  void add(int which, double instant, std::span<const double> position, std::span<const double> rate) {
+    event.push_back(which);
+    t.push_back(instant);
+    q.insert(q.end(), position.begin(), position.end());
+    qd.insert(qd.end(), rate.begin(), rate.end());
+  }
+
+ private:
+  std::span<const double> row(const std::vector<double>& values, int k) const {
+    const std::size_t n = values.size() / t.size();
+    return {values.data() + std::size_t(k) * n, n};
+  }
+};
+
 struct Trajectory {
   int nq = 0;
   int nv = 0;
@@ -33,6 +67,10 @@ struct Trajectory {
   std::vector<double> q;     // nq numbers a sample
   std::vector<double> qd;    // nv numbers a sample
   std::vector<double> work;  // a number a sample: integral of qd^T (tau - tau_f) dt since the start, J
+  int rows = 0;                // of the constraints
+  std::vector<double> lambda;  // rows numbers a sample: N or N m; +Jc^T lambda acts on the surroundings
+  double position_error = 0;   // the largest |phi| over the samples, m or rad
+  double velocity_error = 0;   // the largest |Jc qd|, m/s or rad/s
 
   RunStatus status = RunStatus::finished;
   double end_time = 0;   // reached, s
@@ -41,6 +79,8 @@ struct Trajectory {
   std::string trouble;   // one sentence where the status is not `finished`: time, step and joint
 
   std::vector<LimitEvent> limits;  // passed, each joint and quantity once
+  EventHits events;
+  int ending_event = -1;  // the index of the one that ended the run
 
   int size() const { return int(t.size()); }
   std::span<const double> q_at(int k) const {
@@ -48,6 +88,9 @@ struct Trajectory {
   }
   std::span<const double> qd_at(int k) const {
     return {qd.data() + std::size_t(k) * std::size_t(nv), std::size_t(nv)};
+  }
+  std::span<const double> lambda_at(int k) const {
+    return {lambda.data() + std::size_t(k) * std::size_t(rows), std::size_t(rows)};
   }
 };
 

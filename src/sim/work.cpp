@@ -37,6 +37,7 @@ WorkIntegral::WorkIntegral(const Simulation& simulation, ChainSystem& system, in
   gauss_rule(std::clamp((dense_order + 2) / 2, kFewestNodes, kMostNodes), nodes_, weights_);
   const Chain& chain = simulation.chain;
   if (!simulation.torque->is_constant() || chain.has_dissipation) return;
+  if (!simulation.constraints.contact_forces.empty()) return;
   const ConstVec tau = system.torque(0, simulation.q0, simulation.qd0);
   std::copy(tau.begin(), tau.end(), tau_.begin());
   // With a floating base qd is no derivative of q: the short form holds there only where nothing pushes.
@@ -60,9 +61,9 @@ double WorkIntegral::integral(ChainSystem& system, Integrator& integrator, doubl
   return sum * (end - begin);
 }
 
-void WorkIntegral::add_step(ChainSystem& system, Integrator& integrator) {
+void WorkIntegral::add_step(ChainSystem& system, Integrator& integrator, ConstVec q) {
   before_ = total_;
-  total_ = constant_ ? work_of_constant(integrator.q())
+  total_ = constant_ ? work_of_constant(q)
                      : before_ + integral(system, integrator, integrator.time());
 }
 

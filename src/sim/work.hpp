@@ -12,8 +12,8 @@ class WorkIntegral {
  public:
   WorkIntegral(const Simulation& simulation, ChainSystem& system, int dense_order);
 
-  // After each step: work up to its end.
-  void add_step(ChainSystem& system, Integrator& integrator);
+  // After each step, which leads to q: work up to its end.
+  void add_step(ChainSystem& system, Integrator& integrator, ConstVec q);
   // Work up to the last step's end, and up to an instant within it, where q is the chain's position.
   double at_end() const { return total_; }
   double at(ChainSystem& system, Integrator& integrator, double t, ConstVec q);

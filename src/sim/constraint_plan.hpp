@@ -1,0 +1,38 @@
+// What a run is told about constraints: the list, how drift is held off, and the forces to press with.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "model/constraint.hpp"
+
+namespace chainreel {
+
+// The equations of motion hold d^2 phi / dt^2 = 0 alone; errors of each step add up to phi ~ t^2 unless
+// something holds them.
+enum class Stabilization {
+  none,
+  baumgarte,  // d^2 phi/dt^2 = -2 g dphi/dt - g^2 phi: J. Baumgarte, Comput. Meth. Appl. Mech. Eng. 1 (1972)
+  project,    // after each step, positions and velocities back onto the constraints
+};
+
+std::string to_string(Stabilization stabilize);
+
+// The robot is to press with `force` (N, W) on constraint `constraint` (from 0), whatever it does besides.
+struct ContactForce {
+  std::size_t constraint = 0;
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+};
+
+struct ConstraintPlan {
+  std::vector<Constraint> list;
+  Stabilization stabilize = Stabilization::project;
+  double gain = 10;  // 1/s, of Stabilization::baumgarte: errors die away in a few tenths of a second
+  std::vector<ContactForce> contact_forces;
+
+  bool empty() const { return list.empty(); }
+};
+
+}  // namespace chainreel
