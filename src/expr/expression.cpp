@@ -1,5 +1,6 @@
 #include "expr/expression.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 
@@ -45,6 +46,33 @@ T Expression::evaluate(std::span<const T> values) const {
   constexpr int kUsualStack = 8;
   if (program_.stack_size <= kUsualStack) return run<kUsualStack>(program_.instructions, values);
   return run<kMaxStack>(program_.instructions, values);
+}
+
+namespace {
+
+bool is_comparison(Operation operation) {
+  return operation >= Operation::less && operation <= Operation::not_equal;
+}
+
+}  // namespace
+
+std::optional<Operation> Expression::comparison() const {
+  const Operation outermost = program_.instructions.back().operation;
+  return is_comparison(outermost) ? std::optional(outermost) : std::nullopt;
+}
+
+bool Expression::compares_inside() const {
+  const auto& all = program_.instructions;
+  return std::any_of(all.begin(), all.end() - 1,
+                     [](const Instruction& one) { return is_comparison(one.operation); });
+}
+
+Expression Expression::difference() const {
+  Expression result = *this;
+  if (!comparison()) return result;
+  result.program_.instructions.back().operation = Operation::subtract;
+  if (constant_) result.constant_ = result.evaluate(std::span<const double>());
+  return result;
 }
 
 template double Expression::evaluate(std::span<const double>) const;

@@ -39,6 +39,11 @@ class Expression {
 
   bool is_constant() const { return constant_.has_value(); }
   std::optional<double> constant() const { return constant_; }
+  // The comparison that the expression is, and what it compares: a - b of `a < b`, itself of any other.
+  std::optional<Operation> comparison() const;
+  Expression difference() const;
+  // A comparison is part of it, below the outermost operation.
+  bool compares_inside() const;
   const std::vector<int>& used_variables() const { return used_variables_; }  // slots that occur, rising
   const std::string& text() const { return text_; }
   const Program& program() const { return program_; }

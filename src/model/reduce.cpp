@@ -207,6 +207,7 @@ class Reducer {
   void lump() {
     std::vector<bool> is_leaf(chain_.bodies.size(), true);
     for (const Body& body : chain_.bodies) is_leaf[std::size_t(body.parent)] = false;
+    chain_.bodies[0].inertia = lumped(parts_[0]);  // loads the ground alone
     for (std::size_t i = 1; i < chain_.bodies.size(); ++i) {
       Inertia& inertia = chain_.bodies[i].inertia;
       inertia = lumped(parts_[i]);

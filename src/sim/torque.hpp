@@ -39,6 +39,6 @@ struct TorqueEntry {
 
 // One entry per degree of freedom. Throws Error with every problem of the entries.
 std::unique_ptr<TorqueLaw> make_torque_law(const Chain& chain, const std::vector<TorqueEntry>& entries,
-                                           const Parameters& parameters);
+                                           const Parameters& parameters, const NamedFrames& frames = {});
 
 }  // namespace chainreel
