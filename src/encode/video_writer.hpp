@@ -1,36 +1,52 @@
-// Frames to MP4: H.264 High, yuv420p, BT.709 limited range and tagged, x264 veryfast CRF 18, closed GOPs of 2
-// s, constant frame rate, index first. The stream does not depend on the processor or its number of cores.
+// Frames to a film, constant frame rate, BT.709 limited range and tagged, closed GOPs of 2 s:
+//
+//   h264    MP4, High, yuv420p, x264 veryfast CRF 18, index first; the stream depends neither on the
+//           processor nor on its number of cores
+//   vp9     WebM, yuv420p or yuva420p, libvpx CRF 28
+//   prores  MOV, 4444, 10 bits, all frames key frames, at a fixed quantiser
+//
+// Opacity is straight in all of them; transparent pixels bear the colours of their surroundings, so that
+// edges keep their colour.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/frame_rate.hpp"
-#include "core/image.hpp"
+#include "encode/frame_sink.hpp"
 
 namespace chainreel {
+
+enum class VideoCodec { h264, vp9, prores };
 
 struct VideoSettings {
   int width = 1920;
   int height = 1080;
   FrameRate fps{};
-  double crf = 18;
+  std::optional<double> crf{};  // 0 best to 51 (h264) or 63 (vp9); absent: 18 and 28; prores has none
+  VideoCodec codec = VideoCodec::h264;
+  bool alpha = false;  // vp9 and prores alone
+  Tags tags{};
 };
+
+// The quality that holds: the settings' own or the codec's.
+double crf_of(const VideoSettings& settings);
 
 // Throws Error (usage) with the two nearest legal sizes where a side is odd: 4:2:0 needs even sides.
 void require_even_sides(int width, int height);
+// The same for everything in the settings.
+void require_settings(const VideoSettings& settings);
 
-class VideoWriter {
+class VideoWriter final : public FrameSink {
  public:
   // Writes to `path` as given; the caller renames it when finish() has returned. Throws Error (exit 4: no
   // encoder, 6: cannot be written).
   VideoWriter(const std::string& path, const VideoSettings& settings);
-  ~VideoWriter();
-  VideoWriter(const VideoWriter&) = delete;
-  VideoWriter& operator=(const VideoWriter&) = delete;
+  ~VideoWriter() override;
 
-  void write(const Image& frame);  // of exactly the size in the settings
-  void finish();                   // flushes the encoder and closes the file
+  void write(const Image& frame) override;  // of exactly the size in the settings
+  void finish() override;                   // flushes the encoder and closes the file
 
  private:
   struct State;

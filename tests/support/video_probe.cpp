@@ -65,7 +65,10 @@ InputPtr open_input(const std::string& path) {
 }
 
 CodecContextPtr open_decoder(const AVStream& stream, const std::string& path) {
-  const AVCodec* codec = avcodec_find_decoder(stream.codecpar->codec_id);
+  // FFmpeg's own decoder of VP9 leaves opacity out.
+  const AVCodec* codec = stream.codecpar->codec_id == AV_CODEC_ID_VP9
+                             ? avcodec_find_decoder_by_name("libvpx-vp9")
+                             : avcodec_find_decoder(stream.codecpar->codec_id);
   if (codec == nullptr) throw Error(ExitCode::bad_input, "its codec has no decoder here", {path});
   CodecContextPtr decoder(check_allocated(avcodec_alloc_context3(codec), "the decoder"));
   check_libav(avcodec_parameters_to_context(decoder.get(), stream.codecpar), ExitCode::bad_input,
@@ -106,7 +109,8 @@ void take_frames(VideoFacts& facts, AVCodecContext& decoder, const AVStream& str
     if (frame.key_frame != 0) facts.key_frames.push_back(facts.frames);
     if (facts.frames == 0) facts.first = to_image(frame);
     if (facts.frames == facts.declared_frames / 2) facts.middle = to_image(frame);
-    if (facts.frames == facts.declared_frames - 1) facts.last = to_image(frame);
+    if (facts.declared_frames == 0 || facts.frames == facts.declared_frames - 1) facts.last = to_image(frame);
+    facts.pixel_format = text_or_unknown(av_get_pix_fmt_name(AVPixelFormat(frame.format)));
     ++facts.frames;
   }
 }

@@ -18,14 +18,14 @@ struct Ratio {
 struct VideoFacts {
   std::string codec;         // "h264"
   std::string profile;       // "High"
-  std::string pixel_format;  // "yuv420p"
+  std::string pixel_format;  // "yuv420p", of the frames as decoded
   int width = 0;
   int height = 0;
   Ratio pixel_aspect;
   Ratio fps;                                       // as the container says
   Ratio duration;                                  // of the track, seconds, exact
   Ratio movie_duration;                            // of the whole file, seconds, to the microsecond
-  int declared_frames = 0;                         // in the container's index
+  int declared_frames = 0;                         // in the container's index; 0 where it has none
   int frames = 0;                                  // counted by decoding
   std::string primaries, transfer, matrix, range;  // FFmpeg's names: "bt709", ..., "tv"
   bool index_first = false;                        // moov before mdat: plays before it is loaded whole

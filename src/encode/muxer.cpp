@@ -1,0 +1,107 @@
+#include "encode/muxer.hpp"
+
+#include <filesystem>
+#include <utility>
+
+namespace chainreel {
+namespace {
+
+constexpr std::int64_t kFewestTicks = 10000;  // a second; what players are used to
+
+// A multiple of the frame rate, so that nothing is rounded.
+std::int64_t ticks_of(AVRational fps) {
+  std::int64_t ticks = fps.num;
+  while (ticks < kFewestTicks) ticks *= 2;
+  return ticks;
+}
+
+}  // namespace
+
+Muxer::Muxer(std::string path, const Container& container, CodecContextPtr encoder, const Tags& tags)
+    : path_(std::move(path)), encoder_(std::move(encoder)) {
+  packet_.reset(check_allocated(av_packet_alloc(), "a packet"));
+  try {
+    open_file(container, tags);
+  } catch (...) {
+    format_.reset();
+    throw;
+  }
+}
+
+void Muxer::open_file(const Container& container, const Tags& tags) {
+  const std::string url = "file:" + path_;  // or "a:b.mp4" would be taken for a protocol
+  AVFormatContext* raw = nullptr;
+  check_libav(avformat_alloc_output_context2(&raw, nullptr, container.format, url.c_str()),
+              ExitCode::no_renderer, std::string("FFmpeg's libavformat cannot write ") + container.name);
+  format_.reset(raw);
+  raw->flags |= AVFMT_FLAG_BITEXACT;  // no creation time, no version of the library
+  stream_ = check_allocated(avformat_new_stream(raw, nullptr), "the film's track");
+  stream_->time_base = encoder_->time_base;
+  stream_->avg_frame_rate = encoder_->framerate;
+  check_libav(avcodec_parameters_from_context(stream_->codecpar, encoder_.get()), ExitCode::limit,
+              "no memory left for the film's track");
+  // By this tag WebM's players find the opacity beside the pictures.
+  if (encoder_->pix_fmt == AV_PIX_FMT_YUVA420P) av_dict_set(&stream_->metadata, "alpha_mode", "1", 0);
+  for (const auto& [key, value] : tags) av_dict_set(&raw->metadata, key.c_str(), value.c_str(), 0);
+  check_libav(avio_open(&raw->pb, url.c_str(), AVIO_FLAG_WRITE), ExitCode::file,
+              "the film cannot be written here; choose another place with -o", path_);
+
+  AVDictionary* options = nullptr;
+  if (container.keeps_ticks) {
+    // Times are exact: movie and track both count in the track's ticks. Tags of any name need the second
+    // flag.
+    const std::int64_t ticks = ticks_of(encoder_->framerate);
+    av_dict_set(&options, "movflags", tags.empty() ? "+faststart" : "+faststart+use_metadata_tags", 0);
+    av_dict_set_int(&options, "video_track_timescale", ticks, 0);
+    av_dict_set_int(&options, "movie_timescale", ticks, 0);
+  }
+  if (std::string_view(container.format) == "apng") av_dict_set(&options, "plays", "0", 0);  // for ever
+  const int code = avformat_write_header(raw, &options);
+  av_dict_free(&options);
+  check_file(code);
+}
+
+Muxer::~Muxer() {
+  if (finished_) return;
+  format_.reset();
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path_, ignored)) std::filesystem::remove(path_, ignored);
+}
+
+// Gives the encoder a frame, or with nullptr the end, and writes every packet that is ready.
+void Muxer::send(const AVFrame* frame) {
+  const std::string failed = std::string(encoder_->codec->name) + " failed";
+  check_libav(avcodec_send_frame(encoder_.get(), frame), ExitCode::no_renderer, failed, path_);
+  for (;;) {
+    const int code = avcodec_receive_packet(encoder_.get(), packet_.get());
+    if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return;
+    check_libav(code, ExitCode::no_renderer, failed, path_);
+    packet_->duration = 1;  // encoders leave it open; without it the last frame would have no length
+    packet_->stream_index = stream_->index;
+    av_packet_rescale_ts(packet_.get(), encoder_->time_base, stream_->time_base);
+    check_file(av_write_frame(format_.get(), packet_.get()));
+    av_packet_unref(packet_.get());
+  }
+}
+
+void Muxer::encode(AVFrame& frame) {
+  frame.pts = frames_++;
+  send(&frame);
+}
+
+void Muxer::finish() {
+  if (finished_) return;
+  if (frames_ == 0)
+    throw Error(ExitCode::bad_input, "the film has no frame: its duration is shorter than half a frame",
+                {path_});
+  send(nullptr);
+  avio_flush(format_->pb);
+  check_file(format_->pb->error);  // before the index is moved to the front of data that is not there
+  check_file(av_write_trailer(format_.get()));
+  avio_flush(format_->pb);
+  check_file(format_->pb->error);
+  check_file(avio_closep(&format_->pb));
+  finished_ = true;
+}
+
+}  // namespace chainreel

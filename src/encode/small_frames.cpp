@@ -1,0 +1,60 @@
+#include "encode/small_frames.hpp"
+
+extern "C" {
+#include <libswscale/swscale.h>
+}
+
+#include <algorithm>
+#include <cmath>
+
+#include "encode/bleed.hpp"
+#include "encode/libav.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr int kWidest = 800;  // pixels
+constexpr int kMostPerSecond = 25;
+
+bool is_opaque(const Image& image) {
+  for (std::size_t i = 3; i < image.bgra.size(); i += 4)
+    if (image.bgra[i] != 255) return false;
+  return true;
+}
+
+}  // namespace
+
+SmallFrames::SmallFrames(int width, int height, FrameRate fps)
+    : full_width_(width), full_height_(height), width_(std::min(width, kWidest)), fps_(fps) {
+  height_ = std::max(1, int(std::lround(double(height) * width_ / width)));
+  every_ = std::max(1L, long(std::ceil(fps.value() / kMostPerSecond)));
+  fps_.den *= int(every_);
+  if (width_ == width) return;
+  scaler_ = check_allocated(
+      sws_getContext(width, height, AV_PIX_FMT_BGRA, width_, height_, AV_PIX_FMT_BGRA,
+                     SWS_AREA | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_FULL_CHR_H_INP | SWS_BITEXACT,
+                     nullptr, nullptr, nullptr),
+      "the scaler");
+  small_ = Image(width_, height_);
+}
+
+SmallFrames::~SmallFrames() {
+  sws_freeContext(scaler_);
+}
+
+const Image& SmallFrames::shrink(const Image& frame) {
+  if (scaler_ == nullptr) return frame;
+  const Image* from = &frame;
+  if (!is_opaque(frame)) {
+    bled_ = frame;
+    bleed_colors(bled_);
+    from = &bled_;
+  }
+  const std::uint8_t* source[4] = {from->bgra.data(), nullptr, nullptr, nullptr};
+  std::uint8_t* target[4] = {small_.bgra.data(), nullptr, nullptr, nullptr};
+  const int source_stride[4] = {4 * full_width_, 0, 0, 0}, target_stride[4] = {4 * width_, 0, 0, 0};
+  sws_scale(scaler_, source, source_stride, 0, full_height_, target, target_stride);
+  return small_;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,38 @@
+// The frames of a film that a small clip shows: every n-th, at most 25 a second, at most 800 pixels wide.
+// Internal to this floor.
+#pragma once
+
+#include <memory>
+
+#include "core/frame_rate.hpp"
+#include "core/image.hpp"
+
+struct SwsContext;
+
+namespace chainreel {
+
+class SmallFrames {
+ public:
+  SmallFrames(int width, int height, FrameRate fps);
+  ~SmallFrames();
+  SmallFrames(const SmallFrames&) = delete;
+  SmallFrames& operator=(const SmallFrames&) = delete;
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  FrameRate fps() const { return fps_; }
+
+  // Whether the next frame is shown; counts it.
+  bool takes_next() { return count_++ % every_ == 0; }
+  // The frame at the clip's size, by the mean of the pixels that fall into one; valid until the next call.
+  const Image& shrink(const Image& frame);
+
+ private:
+  int full_width_, full_height_, width_, height_;
+  FrameRate fps_;
+  long every_ = 1, count_ = 0;
+  SwsContext* scaler_ = nullptr;  // none where the size stays
+  Image bled_, small_;
+};
+
+}  // namespace chainreel
