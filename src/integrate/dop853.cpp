@@ -117,10 +117,10 @@ class Dop853 final : public Integrator {
     state_rate(system_, begin_ + c[stage] * h_, y, k(stage));
   }
 
-  // out = sum of the terms' k; in registers where the state is short.
+  // out = sum of the terms' k; of short states in registers.
   void add_up(const Sum& sum, std::span<double> out) const {
-    if (n_ == 4) return add_up<4>(sum, out.data());
-    if (n_ == 6) return add_up<6>(sum, out.data());
+    if (n_ == 4) return add_pairs<2>(sum, out.data());
+    if (n_ == 6) return add_pairs<3>(sum, out.data());
     std::fill(out.begin(), out.end(), 0.0);
     for (std::size_t j = 0; j < sum.size; ++j) {
       const double factor = sum.terms[j].factor;
@@ -128,15 +128,16 @@ class Dop853 final : public Integrator {
       for (std::size_t i = 0; i < n_; ++i) out[i] += factor * rate[i];
     }
   }
-  template <std::size_t n>
-  void add_up(const Sum& sum, double* out) const {
-    double total[n] = {};
+  template <std::size_t pairs>
+  void add_pairs(const Sum& sum, double* out) const {
+    using Pair [[gnu::vector_size(16), gnu::may_alias, gnu::aligned(8)]] = double;
+    Pair total[pairs] = {};
     for (std::size_t j = 0; j < sum.size; ++j) {
       const double factor = sum.terms[j].factor;
-      const double* rate = k_.data() + sum.terms[j].stage * n;
-      for (std::size_t i = 0; i < n; ++i) total[i] += factor * rate[i];
+      const Pair* rate = reinterpret_cast<const Pair*>(k_.data() + sum.terms[j].stage * 2 * pairs);
+      for (std::size_t p = 0; p < pairs; ++p) total[p] += factor * rate[p];
     }
-    std::copy_n(total, n, out);
+    std::copy_n(total, pairs, reinterpret_cast<Pair*>(out));
   }
   // out = y0 + h sum of the terms' k.
   void move(const Sum& sum, std::span<double> out) const {
