@@ -64,9 +64,10 @@ void write_twice(AlignedNumbers<T>& rows, std::size_t at, const T& value) {
 
 template <class T>
 ExpandPlanar<T> expand_for(int n) {
-  if constexpr (std::is_same_v<T, double>)
+  if constexpr (std::is_same_v<T, double>) {
+    if (n > 2 && __builtin_cpu_supports("avx512dq")) return expand_planar_for_avx512(n);
     return __builtin_cpu_supports("avx2") ? expand_planar_for_avx2(n) : expand_planar_for_any_processor(n);
-  else
+  } else
     return expand_planar_for<QuadPair, Quad>(n);
 }
 

@@ -2,7 +2,7 @@
 // its start to the end of the run at one rung of its ladder of tolerances or steps.
 //
 // Boost.odeint and CVODE are given our forward dynamics, the same calls that our own methods make: that is
-// generous to them. MuJoCo computes its own.
+// generous to them. odeint is timed with equations as its users write them, too. MuJoCo computes its own.
 #pragma once
 
 #include <memory>

@@ -227,7 +227,7 @@ void compare_stiff(const MotionProblem& problem, Results& results) {
 void run() {
   Results results("integrators", {"problem", "error", "engine", "finer_rung", "its_error", "median_us",
                                   "ratio_to_ours", "goal"});
-  results.note("odeint", odeint_version() + ", with our forward dynamics");
+  results.note("odeint", odeint_version() + ", with our forward dynamics, and with equations by hand");
   results.note("CVODE", cvode_version() + ", with our forward dynamics");
   results.note("ratio", "to the fastest of ours at the same error");
   compare_smooth(problem_of("A", "rr", {"0", "0"}, {0, 0}, 10), results);
