@@ -71,6 +71,6 @@ using ExpandPlanar = void (*)(PlanarSeriesState<T>& state, T t, const T* q, cons
 
 ExpandPlanar<double> expand_planar_for_any_processor(int n);
 ExpandPlanar<double> expand_planar_for_avx2(int n);
-ExpandPlanar<double> expand_planar_for_avx512(int n);  // of three links and more: fewer leave lanes idle
+ExpandPlanar<double> expand_planar_for_avx512(int n);  // n > 2: rows of fewer links have no eight lanes
 
 }  // namespace chainreel

@@ -151,7 +151,7 @@ TEST_P(ChainsOfAnyLength, HasTheSameBitsOnEveryProcessor) {
     };
     const auto any = bits_of(expand_planar_for_any_processor(n));
     EXPECT_EQ(any, bits_of(expand_planar_for_avx2(n)));
-    if (__builtin_cpu_supports("avx512dq")) {
+    if (n > 2 && __builtin_cpu_supports("avx512dq")) {
       EXPECT_EQ(any, bits_of(expand_planar_for_avx512(n)));
     }
   }
