@@ -21,7 +21,18 @@ constexpr std::array<std::u32string_view, 14> kFunctions = {U"sin", U"cos",  U"t
 constexpr std::array<std::u32string_view, 17> kUnits = {U"N",  U"m",   U"s",  U"kg", U"rad", U"J",
                                                         U"W",  U"Hz",  U"mm", U"cm", U"ms",  U"g",
                                                         U"Nm", U"deg", U"px", U"us", U"mJ"};
-constexpr int kDeepestScript = 8;
+// Words that take what stands in the braces behind them.
+struct Construct {
+  std::u32string_view name;
+  AtomKind kind;
+  std::u32string_view ends;  // of its cells
+};
+constexpr std::array<Construct, 5> kConstructs = {{{U"frac", AtomKind::fraction, U"}"},
+                                                   {U"col", AtomKind::matrix, U";}"},
+                                                   {U"mat", AtomKind::matrix, U",;}"},
+                                                   {U"hat", AtomKind::hat, U"}"},
+                                                   {U"bar", AtomKind::bar, U"}"}}};
+constexpr int kDeepestScript = 8, kDeepestBraces = 8;
 
 template <std::size_t n>
 bool contains(const std::array<std::u32string_view, n>& names, std::u32string_view name) {
@@ -100,6 +111,10 @@ bool ends_operand(const std::vector<MathAtom>& atoms) {
     case AtomKind::word:
     case AtomKind::unit:
     case AtomKind::close:
+    case AtomKind::fraction:
+    case AtomKind::matrix:
+    case AtomKind::hat:
+    case AtomKind::bar:
       return true;
     default:
       return false;
@@ -110,12 +125,15 @@ class Reader {
  public:
   explicit Reader(std::u32string_view text) : text_(text) {}
 
-  // Up to the end of the text, or to the brace that closes a script.
-  std::vector<MathAtom> read_list(int depth) {
+  // Up to the end of the text or to one of the characters in `ends` outside of brackets. `depth`: of scripts.
+  std::vector<MathAtom> read_list(int depth, std::u32string_view ends = U"") {
     std::vector<MathAtom> atoms;
+    int open = 0;
     for (;;) {
       const bool blank = skip_blanks();
-      if (at_ >= text_.size() || (depth > 0 && peek() == U'}')) return atoms;
+      if (at_ >= text_.size()) return atoms;
+      if (ends.find(peek()) != ends.npos && (open == 0 || peek() == U'}')) return atoms;
+      open += peek() == U'(' ? 1 : peek() == U')' && open > 0 ? -1 : 0;
       const std::size_t first = atoms.size();
       read_token(atoms, depth);
       if (first < atoms.size()) atoms[first].blank_before = blank;
@@ -143,7 +161,7 @@ class Reader {
     if (is_digit(c) || (c == U'.' && is_digit(peek(1)))) return read_number(atoms);
     if (is_letter(c)) return read_word(atoms, depth);
     if (c == U'_' || c == U'^') return read_script(atoms, depth);
-    if (c == U'{' || c == U'}') fail("a brace without _ or ^ before it");
+    if (c == U'{' || c == U'}') fail("a brace without _, ^, frac, col, mat, hat or bar before it");
     if (is_small_greek(c) || is_capital_greek(c))
       atoms.push_back({AtomKind::operand, {variable(c, depth > 0)}, 0, {}, {}, false});
     else
@@ -165,6 +183,7 @@ class Reader {
       atom.text = {c == U'<' ? char32_t(0x2264) : char32_t(0x2265)};
     }
     if (atom.kind == AtomKind::binary && !ends_operand(atoms)) atom.kind = AtomKind::sign;
+    if (c == U'[' || c == U']') in_square_brackets_ = c == U'[';
     atoms.push_back(std::move(atom));
   }
 
@@ -192,22 +211,53 @@ class Reader {
 
   bool is_unit_here(const std::vector<MathAtom>& atoms, bool blank, std::u32string_view word) const {
     if (!contains(kUnits, word) || atoms.empty() || peek() == U'_' || peek() == U'(') return false;
+    if (in_square_brackets_) return true;  // "M(q) [kg m^2]"
     const AtomKind before = atoms.back().kind;
     if (before == AtomKind::slash) return atoms.size() > 1 && atoms[atoms.size() - 2].kind == AtomKind::unit;
-    return blank && (before == AtomKind::number || before == AtomKind::close || before == AtomKind::unit);
+    return blank && (before == AtomKind::number || before == AtomKind::close || before == AtomKind::unit ||
+                     before == AtomKind::matrix || before == AtomKind::fraction);
   }
 
   void read_word(std::vector<MathAtom>& atoms, int depth) {
     const bool blank = at_ > 0 && text_[at_ - 1] == U' ';
     std::u32string word;
     while (is_letter(peek()) || is_digit(peek())) word += text_[at_++];
-    if (is_unit_here(atoms, blank, word)) {
+    const auto construct = std::find_if(kConstructs.begin(), kConstructs.end(),
+                                        [&](const Construct& c) { return c.name == word; });
+    if (peek() == U'{' && construct != kConstructs.end()) {
+      atoms.push_back(read_construct(*construct, depth));
+    } else if (is_unit_here(atoms, blank, word)) {
       atoms.push_back({AtomKind::unit, word, 0, {}, {}, false});
     } else if (contains(kFunctions, word)) {
       atoms.push_back({AtomKind::function, word, 0, {}, {}, false});
     } else {
       atoms.push_back(read_name(word, depth));
     }
+  }
+
+  // The cells in braces behind a word: frac{a}{b}, col{a; b}, mat{a, b; c, d}.
+  MathAtom read_construct(const Construct& construct, int depth) {
+    if (++braces_ > kDeepestBraces) fail("braces nested too deeply");
+    MathAtom atom;
+    atom.kind = construct.kind;
+    const int groups = construct.kind == AtomKind::fraction ? 2 : 1;
+    for (int group = 0; group < groups; ++group) {
+      if (peek() != U'{') fail("frac{..}{..} needs two pairs of braces");
+      atom.cells.emplace_back();
+      for (char32_t end = U'{'; end != U'}';) {
+        ++at_;
+        if (end == U';') atom.cells.emplace_back();
+        atom.cells.back().push_back(read_list(depth, construct.ends));
+        end = peek();
+        if (at_ >= text_.size()) fail("a brace is not closed");
+        if (atom.cells.back().back().empty()) fail("nothing stands here");
+      }
+      ++at_;
+    }
+    for (const auto& row : atom.cells)
+      if (row.size() != atom.cells.front().size()) fail("the rows of a matrix differ in length");
+    --braces_;
+    return atom;
   }
 
   // A letter or Greek name, with dots for a trailing d or dd and an index for trailing digits; else a word.
@@ -240,7 +290,7 @@ class Reader {
     std::vector<MathAtom> script;
     if (peek() == U'{') {
       ++at_;
-      script = read_list(depth + 1);
+      script = read_list(depth + 1, U"}");
       if (peek() != U'}') fail("a brace is not closed");
       ++at_;
     } else {
@@ -257,6 +307,8 @@ class Reader {
 
   std::u32string_view text_;
   std::size_t at_ = 0;
+  int braces_ = 0;
+  bool in_square_brackets_ = false;  // units stand there
 };
 
 }  // namespace

@@ -21,6 +21,10 @@ enum class AtomKind {
   open,
   close,
   comma,
+  fraction,  // cells: numerator, denominator
+  matrix,    // cells in square brackets, row by row
+  hat,       // cells: what it stands above
+  bar,
 };
 
 struct MathAtom {
@@ -29,6 +33,7 @@ struct MathAtom {
   int dots = 0;         // above, for derivatives
   std::vector<MathAtom> sub, sup;
   bool blank_before = false;
+  std::vector<std::vector<std::vector<MathAtom>>> cells{};  // rows of lists
 };
 
 // Throws Error (exit 3) at an unfinished script or brace, or where the text is not UTF-8.

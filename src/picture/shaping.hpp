@@ -31,6 +31,8 @@ class LineBuilder {
   // `scale` of the line's em, at (x, y).
   void add(const ShapedText& shaped, std::u32string_view text, double scale, double x, double y);
   void add_disc(Point center, double radius);
+  void add_rule(Point a, Point b, double width);  // with round ends
+  void set_color(Color color) { color_ = color; }  // of what is added from now on
   TextLine finish(double advance);
 
  private:

@@ -19,7 +19,8 @@ void LineBuilder::add(const ShapedText& shaped, std::u32string_view text, double
   const double em = scale * size_;
   // What shares size and baseline with the run before continues it, so that selected text reads on.
   const bool continues =
-      !line_.runs.empty() && line_.runs.back().size == em && line_.runs.back().origin.y == y;
+      !line_.runs.empty() && line_.runs.back().size == em && line_.runs.back().origin.y == y &&
+      line_.runs.back().color == color_;
   if (!continues) line_.runs.push_back({face_, em, {x, y}, {}, color_, {}});
   GlyphRun& run = line_.runs.back();
   const auto before = std::uint32_t(decode_utf8(run.text).size());
@@ -36,9 +37,19 @@ void LineBuilder::add_disc(Point center, double radius) {
   enclose({center.x - radius, center.y - radius, center.x + radius, center.y + radius});
 }
 
+void LineBuilder::add_rule(Point a, Point b, double width) {
+  const double r = width / 2;
+  line_.marks.push_back(Capsule{a, b, r, {color_, {}, 0}});
+  enclose({std::min(a.x, b.x) - r, std::min(a.y, b.y) - r, std::max(a.x, b.x) + r, std::max(a.y, b.y) + r});
+}
+
 namespace {
 
 void shift_shape(Shape& shape, Point by) {
+  if (auto* rule = std::get_if<Capsule>(&shape)) {
+    rule->a = rule->a + by;
+    rule->b = rule->b + by;
+  }
   if (auto* ellipse = std::get_if<Ellipse>(&shape)) ellipse->center = ellipse->center + by;
   if (auto* run = std::get_if<GlyphRun>(&shape)) run->origin = run->origin + by;
 }

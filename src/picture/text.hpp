@@ -45,7 +45,7 @@ struct TextStyle {
 // side.
 struct TextLine {
   std::vector<GlyphRun> runs;
-  std::vector<Shape> marks;  // what no glyph says: the dots of derivatives
+  std::vector<Shape> marks;  // what no glyph says: dots of derivatives, rules of fractions, brackets
   Rect box;                  // ink box relative to the anchor
   double advance = 0;
 };
@@ -54,13 +54,20 @@ struct TextLine {
 // where the text is not UTF-8.
 TextLine lay_out_text(const Fonts& fonts, const std::string& utf8, const TextStyle& style);
 
+// A symbol of a formula that takes the colour of the thing it names.
+struct SymbolColor {
+  std::string symbol;  // in the notation of lay_out_math: "tau"
+  Color color;
+};
+
 // A small subset of math notation, in the math face whatever the style says: Greek names (tau, lambda,
-// Lambda, ...),
-// `_x`, `_{..}`, `^x`, `^{..}`, an index by trailing digits (q1), dots by a trailing d or dd (qd, thetadd),
-// `^T`. Variables are italic; the matrices M, J, Lambda bold; numbers, units behind a number or bracket ("N
-// m"), function names and other words upright. E.g. "tau = (0, -100 y_G) N m". Throws Error (exit 3) at an
-// unfinished script or brace.
-TextLine lay_out_math(const Fonts& fonts, const std::string& notation, const TextStyle& style);
+// Lambda, ...), `_x`, `_{..}`, `^x`, `^{..}`, an index by trailing digits (q1), dots by a trailing d or dd
+// (qd, thetadd), `^T`, `frac{a}{b}`, `col{a; b}` for column vectors, `mat{a, b; c, d}`, `hat{q}`, `bar{q}`.
+// Variables are italic; the matrices M, J, Lambda bold; numbers, units behind a number or bracket ("N m"),
+// function names and other words upright. E.g. "tau = (0, -100 y_G) N m". Symbols take their colours also
+// inside of fractions and scripts. Throws Error (exit 3) at an unfinished script or brace.
+TextLine lay_out_math(const Fonts& fonts, const std::string& notation, const TextStyle& style,
+                      const std::vector<SymbolColor>& symbols = {});
 
 // Moves a laid-out line to the anchor and appends it to the picture.
 void draw_text(Picture& picture, const TextLine& line, Point anchor, int clip = -1);

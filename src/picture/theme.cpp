@@ -46,4 +46,8 @@ const Theme& dark_theme() {
   return theme;
 }
 
+const Theme& theme_named(std::string_view name) {
+  return name == "dark" ? dark_theme() : light_theme();
+}
+
 }  // namespace chainreel

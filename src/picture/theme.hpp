@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
 #include "picture/picture.hpp"
 
@@ -18,6 +19,8 @@ struct Theme {
 
 const Theme& light_theme();
 const Theme& dark_theme();
+// The dark one for "dark", the light one for any other word.
+const Theme& theme_named(std::string_view name);
 
 // Sizes in units of H.
 namespace size {
@@ -32,6 +35,11 @@ inline constexpr double kGroundLine = 0.0045, kGroundHatch = 0.0022, kGroundSpac
 inline constexpr double kEndEffector = 0.014;
 inline constexpr double kScaleBar = 0.0035, kEllipseLine = 0.0042, kEllipseAxis = 0.0022, kEllipseFade = 0.10;
 inline constexpr double kTrailHead = 0.0050, kTrailTail = 0.0015, kTrailDot = 0.006;
+inline constexpr double kArrowShaft = 0.0060, kArrowHead = 0.024, kArrowHeadWidth = 0.018;
+inline constexpr double kLongestArrow = 0.20, kArrowCut = 0.25, kShortestArrow = 0.012;
+inline constexpr double kTorqueArc = 0.058, kBesideRail = 0.034, kDash = 0.012, kDashGap = 0.008;
+inline constexpr double kCenterOfMass = 0.022;
+inline constexpr double kAxisShaft = 0.0045, kAxisLength = 0.075, kAxisHead = 0.016;
 inline constexpr double kFitMargin = 0.06;  // fraction of the fitted box
 }  // namespace size
 

@@ -35,6 +35,7 @@ constexpr double kRoundOff = 1e-14;  // sums of a few numbers of size 1 to 10
 TEST(Math, VariablesAreItalicNumbersAndUnitsUpright) {
   EXPECT_THAT(words("tau = (10, 10, 10) N m"), ElementsAre("\U0001D70F=(10,10,10)Nm"));
   EXPECT_THAT(words("N m"), ElementsAre("\U0001D441\U0001D45A"));  // no number before: two variables
+  EXPECT_THAT(words("M(q) [kg m^2]").at(0), HasSubstr("[kgm"));
   EXPECT_THAT(words("(N)"), ElementsAre("(\U0001D441)"));
   EXPECT_THAT(words("3 m/s"), ElementsAre("3m/s"));
   EXPECT_THAT(words("theta, phi"), ElementsAre("\U0001D703,\U0001D711"));
@@ -132,13 +133,84 @@ TEST(Math, ProductsOfNumbersNeedNoDot) {
   EXPECT_THAT(words("atan2(y, x)"), ElementsAre("atan2(\U0001D466,\U0001D465)"));
 }
 
+// The rules of fractions and brackets: capsules among the marks.
+std::vector<Capsule> rules(const TextLine& line) {
+  std::vector<Capsule> found;
+  for (const Shape& mark : line.marks)
+    if (const auto* rule = std::get_if<Capsule>(&mark)) found.push_back(*rule);
+  return found;
+}
+
+TEST(Math, FractionsStandAboveAndBelowTheirRule) {
+  const TextLine line = lay_out("frac{1}{2 m}");
+  ASSERT_EQ(rules(line).size(), 1u);
+  const double rule = rules(line)[0].a.y;
+  EXPECT_NEAR(rule, 0.25, kRoundOff);
+  ASSERT_EQ(line.runs.size(), 2u);
+  EXPECT_GT(line.runs[0].origin.y, rule);
+  EXPECT_LT(line.runs[1].origin.y, 0);
+  EXPECT_LT(line.runs[1].size, 1);
+  EXPECT_GT(line.advance, lay_out("2 m").advance * 0.7);
+  EXPECT_GT(lay_out("x = frac{1}{2}").advance, lay_out("x =").advance);
+}
+
+TEST(Math, ColumnsAndMatricesStandInBrackets) {
+  const TextLine column = lay_out("col{10; -2.5; q1}");
+  EXPECT_EQ(rules(column).size(), 6u);  // two brackets of three strokes
+  ASSERT_GE(column.runs.size(), 3u);
+  EXPECT_NEAR(column.runs[0].origin.y, 1.3, kRoundOff);
+  EXPECT_NEAR(column.runs[1].origin.y, 0, kRoundOff);
+  EXPECT_NEAR(column.runs[2].origin.y, -1.3, kRoundOff);
+  // Commas in brackets part arguments, not cells.
+  EXPECT_EQ(words("mat{f(a, b), 1; 2, 3}").size(), 4u);
+  // What holds a matrix is as tall as its brackets, and they stand about it.
+  EXPECT_NEAR((column.box.y0 + column.box.y1) / 2, 0.25, kRoundOff);
+  // The transpose stands at the top, a unit behind.
+  EXPECT_GT(lay_out("col{1; 2}^T").runs.back().origin.y, 0.8);
+  EXPECT_EQ(words("col{1; 2} kg").back(), "kg");
+}
+
+TEST(Math, HatsAndBarsStandAboveTheInk) {
+  const double ink = lay_out("q").box.y1;
+  ASSERT_EQ(rules(lay_out("hat{q}")).size(), 2u);
+  ASSERT_EQ(rules(lay_out("bar{q}")).size(), 1u);
+  EXPECT_GT(rules(lay_out("bar{q}"))[0].a.y, ink);
+  EXPECT_NEAR(lay_out("hat{q}").advance, lay_out("q").advance, kRoundOff);
+}
+
+TEST(Math, RulesMoveWithTheLine) {
+  Picture picture;
+  const TextLine line = lay_out("bar{q}");
+  draw_text(picture, line, {0.5, 0.25});
+  EXPECT_NEAR(std::get<Capsule>(picture.items.at(1).shape).a.x, 0.5 + rules(line)[0].a.x, kRoundOff);
+}
+
+TEST(Math, NumbersSetOffByBlanksStayApart) {
+  EXPECT_GT(lay_out("(10 10)").advance, lay_out("(1010)").advance + 0.2);
+}
+
+TEST(Math, SymbolsTakeTheirColours) {
+  const Color red = color_of(0xFF0000);
+  const TextLine line = lay_out_math(fonts(), "M(q) qdd = frac{tau}{2} + tau_1", {Face::math, 1}, {{"tau", red}});
+  int colored = 0;
+  for (const GlyphRun& run : line.runs) {
+    if (run.color != red) continue;
+    EXPECT_EQ(run.text, "\U0001D70F");
+    ++colored;
+  }
+  EXPECT_EQ(colored, 2);
+  // Control: without colours everything has the style's.
+  for (const GlyphRun& run : lay_out("frac{tau}{2}").runs) EXPECT_EQ(run.color, color_of(0x1A1A1A));
+}
+
 TEST(Math, UnicodeMayBeGivenDirectly) {
   EXPECT_EQ(words("\u03c4 = \u22121"), words("tau = -1"));
   EXPECT_EQ(words("x <= 1"), words("x \u2264 1"));
 }
 
 TEST(Math, UnfinishedNotationIsAnErrorThatSaysWhere) {
-  for (const char* bad : {"q_", "q_{1", "^2", "{x}", "x}", "q_ 1", "x_{a}}", "_", "q_{}}", "x_{_}"}) {
+  for (const char* bad : {"q_", "q_{1", "^2", "{x}", "x}", "q_ 1", "x_{a}}", "_", "q_{}}", "x_{_}",
+                          "frac{1}", "frac{1}{", "col{1; }", "mat{1, 2; 3}", "hat{", "col{1"}) {
     try {
       lay_out(bad);
       ADD_FAILURE() << bad;
