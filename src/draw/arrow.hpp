@@ -1,0 +1,26 @@
+// Arrows, straight and round: the marks of vectors, at places of the page and in the sizes of the theme.
+#pragma once
+
+#include "picture/picture.hpp"
+
+namespace chainreel {
+
+struct ArrowStyle {
+  Color color;
+  double size = 1;  // of shaft, head and dashes; below 1 in small panels
+  bool dashed = false;
+  bool cut = false;  // longer than what the scale can show: a second head says so
+};
+
+// From `tail` to tail + v. The head of a short arrow shrinks with it.
+void draw_arrow(Picture& picture, Point tail, Point v, const ArrowStyle& style, int clip);
+
+// Part of the curve center + cos(a) u + sin(a) w, a from -turn/2 to turn/2, with its head at that end: an
+// arc about `center` that opens opposite to u. A circle where u and w are equally long and perpendicular,
+// else a circle in space as the camera sees it. Dashes are for straight ones.
+void draw_turn(Picture& picture, Point center, Point u, Point w, double turn, const ArrowStyle& style,
+               int clip);
+// The whole curve as a thin line.
+void draw_ring(Picture& picture, Point center, Point u, Point w, Color color, int clip);
+
+}  // namespace chainreel

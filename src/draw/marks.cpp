@@ -1,0 +1,138 @@
+#include "draw/marks.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "draw/joints.hpp"
+#include "draw/sheet.hpp"
+#include "dynamics/kinematics.hpp"
+
+namespace chainreel {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kLetterGap =
+    0.008;                       // between an axis' tip and the middle of its letter's ink, less half of that
+constexpr double kTick = 0.016;  // length of a cross tick
+constexpr double kTickPitch = 0.010;    // between the two of z
+constexpr double kShortestAxis = 0.30;  // of its length: shorter on the page, it points at the viewer or away
+constexpr double kRing = 0.011;         // radius
+constexpr double kHeadWidth = 0.75;     // of the head's length, as arrows have it
+
+double length_of(Point v) {
+  return std::hypot(v.x, v.y);
+}
+
+}  // namespace
+
+FrameAxes::FrameAxes(const Chain& chain, const Theme& theme, const Fonts& fonts, double text_scale,
+                     double marks)
+    : chain_(&chain), theme_(&theme), marks_(marks) {
+  const char* const names[] = {"x", "y", "z"};
+  for (std::size_t i = 0; i < 3; ++i)
+    letters_[i] = lay_out_math(fonts, names[i],
+                               {Face::math, scaled(size::kTick, text_scale), theme.axis[i], Align::left});
+  const Frame& tip = chain.frames[std::size_t(chain.end_effector)];
+  at_tip_ = tip.body == 0 || tip.X_BF.translation().norm() > 0;
+}
+
+std::vector<Eigen::Isometry3d> FrameAxes::poses(const Workspace& ws) const {
+  std::vector<Eigen::Isometry3d> all;
+  for (std::size_t b = 1; b < chain_->bodies.size(); ++b) all.push_back(pose_of(ws, int(b)));
+  if (at_tip_) all.push_back(frame_pose(*chain_, ws, chain_->end_effector));
+  return all;
+}
+
+double FrameAxes::reach() const {
+  double letter = 0;
+  for (const TextLine& line : letters_) letter = std::max({letter, line.box.width(), line.box.height()});
+  return marks_ * size::kAxisLength + kLetterGap + letter;
+}
+
+void FrameAxes::draw_axis(Picture& picture, Point origin, Point v, double away, int axis, int clip) const {
+  const Color color = theme_->axis[std::size_t(axis)];
+  const double width = marks_ * size::kAxisShaft;
+  Point along{-std::numbers::sqrt2 / 2, -std::numbers::sqrt2 / 2}, tip = origin;
+  if (length_of(v) < kShortestAxis * marks_ * size::kAxisLength) {
+    const double r = marks_ * kRing;
+    picture.add(Ellipse{origin, {r, 0}, {0, r}, {theme_->background, color, width / 2}}, clip);
+    if (away < 0) {
+      picture.add(Ellipse{origin, {width / 2, 0}, {0, width / 2}, {color, {}, 0}}, clip);
+    } else {
+      const Point a = (0.7 * r) * along, b = normal_to(a);
+      draw_line(picture, {origin - a, origin + a}, width / 2, color, clip);
+      draw_line(picture, {origin - b, origin + b}, width / 2, color, clip);
+    }
+    tip = origin + r * along;
+  } else {
+    along = unit(v);
+    tip = origin + v;
+    const double head = std::min(marks_ * size::kAxisHead, 0.7 * length_of(v));
+    const Point base = tip - head * along, side = normal_to(along);
+    draw_line(picture, {origin, base + 0.2 * head * along}, width, color, clip);
+    const Point half = (kHeadWidth * head / 2) * side;
+    picture.add(Polygon{{tip, base + half, base - half}, 3, {color, {}, 0}}, clip);
+    for (int tick = 0; tick < axis; ++tick) {
+      const Point middle =
+          origin + (0.5 + 0.5 * marks_ * kTickPitch / length_of(v) * (2 * tick - axis + 1)) * v;
+      const Point reach = (marks_ * kTick / 2) * side;
+      draw_line(picture, {middle - reach, middle + reach}, width / 2, color, clip);
+    }
+  }
+  const TextLine& letter = letters_[std::size_t(axis)];
+  const Point half{letter.box.width() / 2, letter.box.height() / 2};
+  const Point middle = tip + (kLetterGap + std::abs(along.x) * half.x + std::abs(along.y) * half.y) * along;
+  draw_text(picture, letter, {middle.x - half.x - letter.box.x0, middle.y - half.y - letter.box.y0}, clip);
+}
+
+void FrameAxes::draw(Picture& picture, const Camera& camera, const Workspace& ws, int clip) const {
+  for (const Eigen::Isometry3d& X_WF : poses(ws)) {
+    const Point origin = camera.project(X_WF.translation());
+    if (!std::isfinite(origin.x) || !std::isfinite(origin.y)) continue;
+    // Axes that point away from the viewer first.
+    for (const bool away : {true, false}) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vector3d direction = X_WF.linear().col(axis);
+        const double depth = -camera.toward_viewer.dot(direction);
+        if ((depth > 0) != away) continue;
+        const double length = marks_ * size::kAxisLength;
+        draw_axis(picture, origin, {length * camera.right.dot(direction), length * camera.up.dot(direction)},
+                  depth, axis, clip);
+      }
+    }
+  }
+}
+
+Vector3d center_of_mass(const Chain& chain, const Workspace& ws) {
+  Vector3d moment = Vector3d::Zero();
+  double mass = 0;
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
+    const Inertia& inertia = chain.bodies[b].inertia;
+    moment += inertia.mass * (pose_of(ws, int(b)) * inertia.com);
+    mass += inertia.mass;
+  }
+  if (mass > 0) moment /= mass;
+  return moment;
+}
+
+void draw_center_of_mass(Picture& picture, Point center, const ChainLook& look, int clip) {
+  constexpr int kEdges = 6;  // of a quarter: 0.9 % of the radius off the circle, a tenth of a pixel
+  const double r = look.marks * size::kCenterOfMass / 2;
+  const Color ink = look.theme->ink;
+  picture.add(Ellipse{center, {r, 0}, {0, r}, {look.theme->background, {}, 0}}, clip);
+  for (const double start : {0.0, std::numbers::pi}) {
+    Polygon quarter;
+    quarter.count = kEdges + 2;
+    quarter.corners[0] = center;
+    quarter.paint = {ink, {}, 0};
+    for (int i = 0; i <= kEdges; ++i) {
+      const double angle = start + i * std::numbers::pi / 2 / kEdges;
+      quarter.corners[std::size_t(i + 1)] = center + Point{r * std::cos(angle), r * std::sin(angle)};
+    }
+    picture.add(quarter, clip);
+  }
+  picture.add(Ellipse{center, {r, 0}, {0, r}, {{}, ink, size::kLinkOutline}}, clip);
+}
+
+}  // namespace chainreel
