@@ -33,7 +33,7 @@ ConstrainedWorkspace::ConstrainedWorkspace(const Chain& chain, const ConstraintS
   const auto nv = std::size_t(chain.nv);
   for (auto* vector : {&phi, &Jcd_qd, &lambda, &r, &dlambda}) vector->resize(m);
   for (auto* matrix : {&Jc, &Z}) matrix->resize(m * nv);
-  for (auto* vector : {&tau, &qdd, &dq}) vector->resize(nv);
+  for (auto* vector : {&tau, &tau_net, &qdd, &dq}) vector->resize(nv);
   if (takes_dense_mass_matrix(chain)) M.resize(nv * nv);
   anchor_states.resize(set.anchors().size());
   row_states.resize(m);
@@ -42,12 +42,10 @@ ConstrainedWorkspace::ConstrainedWorkspace(const Chain& chain, const ConstraintS
 
 namespace {
 
-// qdd without constraints; phi, Jc, Jcd_qd; M ready to be solved with.
+// qdd without constraints; phi, Jc, Jcd_qd; M ready to be solved with. tau less friction.
 void compute_free_motion(const Chain& chain, Workspace& ws, const ConstraintSet& set,
                          ConstrainedWorkspace& cws, ConstVec q, ConstVec qd, ConstVec tau, Vec qdd) {
-  if (chain.has_dissipation) compute_friction(chain, ws, qd);
-  for (std::size_t v = 0; v < tau.size(); ++v)
-    cws.tau[v] = chain.has_dissipation ? tau[v] - ws.tau_f[v] : tau[v];
+  std::copy(tau.begin(), tau.end(), cws.tau.begin());
   with_links(ws, [&](auto& links) {
     const ConstVec zeros = ws.scratch->zeros;
     place(links, q);
@@ -152,6 +150,11 @@ ConstraintStatus resolve(ConstrainedWorkspace& cws, Vec qdd, const ConstrainedOp
 ConstraintStatus compute_constrained_dynamics(const Chain& chain, Workspace& ws, const ConstraintSet& set,
                                               ConstrainedWorkspace& cws, ConstVec q, ConstVec qd,
                                               ConstVec tau, Vec qdd, const ConstrainedOptions& options) {
+  if (chain.has_dissipation) {
+    compute_friction(chain, ws, qd);
+    for (std::size_t v = 0; v < tau.size(); ++v) cws.tau_net[v] = tau[v] - ws.tau_f[v];
+    tau = cws.tau_net;
+  }
   const bool by_kernel = cws.kernel.run != nullptr && !options.always_proximal && !(options.gain > 0);
   if (by_kernel && cws.kernel.run(ws, cws, q, qd, tau, qdd.data(), options.tolerance)) {
     cws.rank = cws.kernel.rows;

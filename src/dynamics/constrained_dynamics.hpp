@@ -29,8 +29,8 @@ struct ConstrainedOptions {
       false;  // also where rows are independent: to compare, and to see the passes converge
 };
 
-// Writes qdd (nv numbers) and cws.lambda, status, residual, passes, rank; short planar chains leave phi, Jc
-// and Jcd_qd alone. Nothing is projected: phi(q) = 0 and Jc qd = 0 are the caller's.
+// Writes qdd (nv numbers) and cws.lambda, status, residual, passes, rank; chains that have a kernel
+// leave phi, Jc and Jcd_qd alone. Nothing is projected: phi(q) = 0 and Jc qd = 0 are the caller's.
 ConstraintStatus compute_constrained_dynamics(const Chain& chain, Workspace& ws, const ConstraintSet& set,
                                               ConstrainedWorkspace& cws, ConstVec q, ConstVec qd,
                                               ConstVec tau, Vec qdd, const ConstrainedOptions& options = {});

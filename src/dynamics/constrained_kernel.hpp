@@ -11,6 +11,8 @@
 // With links eliminated from the first on, F_k the eliminated rows, G = sum of F_k F_l / D and
 // lambda = G^-1 (C A^-1 b + gamma) cost no further division but those of G.
 //
+// Chains in space take constrained_spatial.hpp.
+//
 // A row that was asked for several times is computed once, and its multiplier shared out evenly: that is the
 // shortest one. All else that is not regular is left to the general way.
 #pragma once
@@ -18,6 +20,7 @@
 #include <array>
 #include <vector>
 
+#include "dynamics/constrained_spatial.hpp"
 #include "dynamics/constraint_set.hpp"
 #include "dynamics/kernel_planar.hpp"
 
@@ -38,12 +41,13 @@ struct ConstrainedKernel {
     bool operator==(const Row&) const = default;
   };
   std::array<Row, kMostRows> row;
+  SpatialRows in_space;                   // of chains in space, in place of `row`
   int rows = 0;                           // different ones; 0: chain or constraints are of another kind
   std::vector<int> group;                 // of each row of the set, its place in `row`
   std::array<double, kMostRows> share{};  // 1 / how many rows of the set are this one
   bool doubled = false;
 
-  // Writes qdd and the results in cws; false where the general way must be taken.
+  // tau less friction. Writes qdd and the results in cws; false where the general way must be taken.
   using Run = bool (*)(const Workspace& ws, ConstrainedWorkspace& cws, ConstVec q, ConstVec qd, ConstVec tau,
                        double* qdd, double tolerance);
   Run run = nullptr;
@@ -54,5 +58,7 @@ ConstrainedKernel constrained_kernel_of(const Chain& chain, const ConstraintSet&
 // The text compiled for every processor, and for those with 256-bit vectors; both give the same bits.
 ConstrainedKernel::Run constrained_kernel_for_any_processor(int joints, int rows);
 ConstrainedKernel::Run constrained_kernel_for_avx2(int joints, int rows);
+ConstrainedKernel::Run constrained_spatial_for_any_processor(const SpatialKernel& kernel, int rows);
+ConstrainedKernel::Run constrained_spatial_for_avx2(const SpatialKernel& kernel, int rows);
 
 }  // namespace chainreel

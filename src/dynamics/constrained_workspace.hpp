@@ -50,7 +50,7 @@ struct ConstrainedWorkspace {
 
   std::vector<double> Z;  // rows x nv: M^-1 Jc^T, transposed
   std::vector<double> M;  // nv x nv: the factor L D L^T of M, where M is taken dense
-  std::vector<double> r, dlambda, tau, qdd, dq;
+  std::vector<double> r, dlambda, tau, tau_net, qdd, dq;
   RowSolver solver;
   ConstrainedKernel kernel;
 };

@@ -16,18 +16,6 @@ bool fits(const Chain& chain) {
   return true;
 }
 
-// A turn that takes z to the axis; where the axis is one of the body's own, one without round-off.
-Matrix3d turn_to(const Vector3d& axis) {
-  Eigen::Index largest = 0;
-  axis.cwiseAbs().maxCoeff(&largest);
-  const Vector3d other = Vector3d::Unit((largest + 1) % 3);
-  Matrix3d Q;
-  Q.col(2) = axis;
-  Q.col(0) = (other - axis * axis.dot(other)).normalized();
-  Q.col(1) = Q.col(2).cross(Q.col(0));
-  return Q;
-}
-
 SpatialKernel::Lanes all(double x) {
   return {x, x, x, x};
 }
@@ -62,6 +50,18 @@ SpatialKernel::RowMask mask_of(const std::vector<SpatialKernel::Link>& links, in
 
 }  // namespace
 
+// Where the axis is one of the body's own, without round-off.
+Matrix3d kernel_axes(const Vector3d& axis) {
+  Eigen::Index largest = 0;
+  axis.cwiseAbs().maxCoeff(&largest);
+  const Vector3d other = Vector3d::Unit((largest + 1) % 3);
+  Matrix3d Q;
+  Q.col(2) = axis;
+  Q.col(0) = (other - axis * axis.dot(other)).normalized();
+  Q.col(1) = Q.col(2).cross(Q.col(0));
+  return Q;
+}
+
 SpatialKernel spatial_kernel_of(const Chain& chain) {
   SpatialKernel kernel;
   if (!fits(chain)) return kernel;
@@ -70,7 +70,7 @@ SpatialKernel spatial_kernel_of(const Chain& chain) {
   kernel.base_acceleration = {-chain.gravity.x(), -chain.gravity.y(), -chain.gravity.z(), 0};
   std::vector<Matrix3d> Q{Matrix3d::Identity()};
   for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
-    Q.push_back(turn_to(chain.bodies[i].joint.axis));
+    Q.push_back(kernel_axes(chain.bodies[i].joint.axis));
     kernel.links.push_back(link_of(chain, i, Q[std::size_t(chain.bodies[i].parent)], Q.back()));
     kernel.serial &= chain.bodies[i].parent + 1 == int(i);
   }

@@ -51,4 +51,7 @@ struct SpatialKernel {
 
 SpatialKernel spatial_kernel_of(const Chain& chain);
 
+// The kernel's axes of the body behind a joint with this axis, in the body's own: z is the joint's axis.
+Eigen::Matrix3d kernel_axes(const Eigen::Vector3d& axis);
+
 }  // namespace chainreel

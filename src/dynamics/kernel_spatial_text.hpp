@@ -1,5 +1,5 @@
-// The text of dynamics/kernel_spatial.hpp. Included as kernel_packs.hpp is, and private to the same two
-// files.
+// The text of dynamics/kernel_spatial.hpp. Included as kernel_packs.hpp is, and private to the files
+// that include it.
 #pragma once
 
 #include "dynamics/kernel_packs.hpp"
@@ -160,12 +160,20 @@ inline void solve(int n, Pack4 (&row)[4 * kPacks][kPacks], double* qdd) {
   }
 }
 
-template <int kPacks, bool kSerial, Angles kAngles = Angles::common>
-[[gnu::noinline]] void run_spatial_kernel(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd,
-                                          ConstVec tau, double* qdd) {
-  const SpatialKernel& kernel = ws.scratch->spatial_kernel;
-  const int n = kernel.joints;
+// All that comes before the elimination.
+template <int kPacks>
+struct SpatialPass {
+  Moving body[4 * kPacks];  // [0] is the world
+  Axis S[4 * kPacks];       // [0] is free; those behind the last joint fill lanes that nobody reads
+  Carried carried[4 * kPacks];
+  Pack4 row[4 * kPacks][kPacks];
+};
 
+// False for angles that are not common, where these were asked for alone.
+template <int kPacks, bool kSerial, Angles kAngles>
+[[gnu::always_inline]] inline bool sweep(const SpatialKernel& kernel, ConstVec q, ConstVec qd, ConstVec tau,
+                                         SpatialPass<kPacks>& pass) {
+  const int n = kernel.joints;
   alignas(32) double angle[4 * kPacks], s[4 * kPacks], c[4 * kPacks];
   for (int i = 0; i < n; ++i) angle[i] = kernel.links[std::size_t(i)].slides ? 0 : q[std::size_t(i)];
   for (int i = n; i < 4 * kPacks; ++i) angle[i] = 0;
@@ -176,14 +184,12 @@ template <int kPacks, bool kSerial, Angles kAngles = Angles::common>
     if constexpr (kAngles == Angles::any) {
       sin_cos_of_any(x, sines, cosines);
     } else if (!sin_cos_of_common(x, sines, cosines)) [[unlikely]] {
-      return run_spatial_kernel<kPacks, kSerial, Angles::any>(chain, ws, q, qd, tau, qdd);
+      return false;
     }
   }
 
-  Moving body[4 * kPacks];  // [0] is the world
-  Axis S[4 * kPacks];       // [0] is free; those behind the last joint fill lanes that nobody reads
-  for (int i = n + 1; i < 4 * kPacks; ++i) S[i] = Axis{};
-  Carried carried[4 * kPacks];
+  Moving(&body)[4 * kPacks] = pass.body;
+  for (int i = n + 1; i < 4 * kPacks; ++i) pass.S[i] = Axis{};
   const Vector zero{};
   body[0].R = {Vector{1, 0, 0, 0}, Vector{0, 1, 0, 0}, Vector{0, 0, 1, 0}};
   const SpatialKernel::Link& first = kernel.links[0];
@@ -195,22 +201,32 @@ template <int kPacks, bool kSerial, Angles kAngles = Angles::common>
     const auto at = std::size_t(i);
     const SpatialKernel::Link& link = kernel.links[at];
     const Moving& parent = body[kSerial ? i : link.parent + 1];
-    place(link, parent, q[at], s[i], c[i], body[i + 1], S[i + 1]);
-    move(parent, S[i + 1], qd[at], body[i + 1]);
-    weigh(link, body[i + 1], carried[i]);
+    place(link, parent, q[at], s[i], c[i], body[i + 1], pass.S[i + 1]);
+    move(parent, pass.S[i + 1], qd[at], body[i + 1]);
+    weigh(link, body[i + 1], pass.carried[i]);
   }
 
-  Pack4 row[4 * kPacks][kPacks];
   for (int i = n - 1; i >= 0; --i) {
     const auto at = std::size_t(i);
-    fill_row<kPacks>(S, carried[i], i, tau[at], row[i]);
+    fill_row<kPacks>(pass.S, pass.carried[i], i, tau[at], pass.row[i]);
     const int parent = kSerial ? i - 1 : kernel.links[at].parent;
-    if (parent >= 0) add(carried[i], carried[parent]);
+    if (parent >= 0) add(pass.carried[i], pass.carried[parent]);
     if (!kSerial) {
-      for (int g = 0; g < kPacks; ++g) row[i][g] = masked(row[i][g], kernel.masks[at].lanes + 4 * g);
+      for (int g = 0; g < kPacks; ++g)
+        pass.row[i][g] = masked(pass.row[i][g], kernel.masks[at].lanes + 4 * g);
     }
   }
-  solve<kPacks>(n, row, qdd);
+  return true;
+}
+
+template <int kPacks, bool kSerial, Angles kAngles = Angles::common>
+[[gnu::noinline]] void run_spatial_kernel(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd,
+                                          ConstVec tau, double* qdd) {
+  const SpatialKernel& kernel = ws.scratch->spatial_kernel;
+  SpatialPass<kPacks> pass;
+  if (!sweep<kPacks, kSerial, kAngles>(kernel, q, qd, tau, pass)) [[unlikely]]
+    return run_spatial_kernel<kPacks, kSerial, Angles::any>(chain, ws, q, qd, tau, qdd);
+  solve<kPacks>(kernel.joints, pass.row, qdd);
 }
 
 template <int kPacks>
@@ -218,7 +234,7 @@ ForwardDynamics spatial_kernel_for_packs(const SpatialKernel& kernel) {
   return kernel.serial ? run_spatial_kernel<kPacks, true> : run_spatial_kernel<kPacks, false>;
 }
 
-ForwardDynamics spatial_kernel_for(const SpatialKernel& kernel) {
+[[maybe_unused]] ForwardDynamics spatial_kernel_for(const SpatialKernel& kernel) {
   switch (kernel.joints / 4) {
     case 0:
       return spatial_kernel_for_packs<1>(kernel);

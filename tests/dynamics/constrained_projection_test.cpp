@@ -1,4 +1,4 @@
-// Projection onto constraints, forces from multipliers, effective mass under constraints, and the kernel.
+// Projection onto constraints, forces from multipliers, effective mass under constraints.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -113,28 +113,6 @@ TEST(ConstrainedEffectiveMassTest, IsThatOfTheMotionsLeft) {
     EXPECT_FALSE(mass.Lambda);
     ASSERT_EQ(mass.singular_directions.size(), 1u);
     EXPECT_NEAR(mass.singular_directions[0][1], 1, 1e-9);
-  }
-}
-
-TEST(ConstrainedKernelTest, AgreesWithTheGeneralWay) {
-  Random random(706);
-  const std::vector<std::vector<Constraint>> cases{
-      {pen_line()},
-      {pin()},
-      {CloseConstraint{"gripper", "base"}},
-      {DistanceConstraint{"base", "gripper", 1.3}},
-      {DistanceConstraint{"gripper", "b1", 1.3}, PlaneConstraint{"b3", {0, 1, 0}, {1, 2, 0}}},
-      {pin(), pin()}};
-  for (const auto& ties : cases) {
-    Tied fast(rrr_chain(), ties), general(rrr_chain(), ties);
-    ASSERT_NE(fast.cws.kernel.run, nullptr);
-    general.cws.kernel.run = nullptr;
-    for (int k = 0; k < 50; ++k) {
-      const State s = random_state(fast.chain, random);
-      EXPECT_EQ(fast.move(s), general.move(s));
-      EXPECT_LT(relative_difference(fast.ws.qdd, general.ws.qdd), 1e-9);  // condition of G up to 1e6
-      EXPECT_LT(relative_difference(fast.cws.lambda, general.cws.lambda), 1e-9);
-    }
   }
 }
 
