@@ -4,6 +4,7 @@
 
 #include "expr/expression.hpp"
 #include "model/read_chain.hpp"
+#include "scene/prepare_constraints.hpp"
 
 namespace chainreel {
 namespace {
@@ -37,7 +38,7 @@ void check_torque(Scene& scene, const Chain& chain, ProblemList& problems) {
 
 // A parameter must be a name that expressions can read and that means nothing else there.
 void check_parameters(const Scene& scene, const Chain& chain, ProblemList& problems) {
-  const std::vector<std::string> taken = Probe(chain, {}).names();
+  const std::vector<std::string> taken = Probe(chain, {}, 6 * int(scene.constraints.size())).names();
   for (const auto& [name, value] : scene.parameters) {
     if (!is_variable_name(name) || is_reserved_name(name) ||
         std::find(taken.begin(), taken.end(), name) != taken.end())
@@ -106,6 +107,7 @@ Simulation prepare(Scene& scene, bool meshes) {
   simulation.qd0 = scene.start.qd;
   simulation.torque = scene.control ? make_control(chain, *scene.control, scene.parameters)
                                     : make_torque_law(chain, scene.torque, scene.parameters);
+  prepare_constraints(scene, simulation);
   if (scene.method != "auto") set_method(scene, simulation);
   simulation.limit = limit_policy_of(scene.limit);
   simulation.duration = scene.duration;

@@ -8,6 +8,7 @@
 #include "scene/fields.hpp"
 #include "scene/quantity.hpp"
 #include "scene/read_compare.hpp"
+#include "scene/read_constraints.hpp"
 #include "scene/read_control.hpp"
 #include "scene/read_method.hpp"
 #include "sim/limits.hpp"
@@ -204,6 +205,7 @@ Scene read_document(const YamlDocument& document) {
   read_start(fields, scene);
   read_torque(fields, scene);
   read_parameters(fields, scene);
+  read_constraints(fields, scene);
   fields.read("end_effector", scene.end_effector);
   fields.read("duration", scene.duration);
   read_method(fields, scene);

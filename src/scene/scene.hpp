@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "core/frame_rate.hpp"
+#include "scene/constraint_entry.hpp"
 #include "sim/accuracy.hpp"
+#include "sim/constraint_plan.hpp"
 #include "sim/torque.hpp"
 
 namespace chainreel {
@@ -36,6 +38,10 @@ struct Scene {
   std::vector<TorqueEntry> torque;  // one a degree of freedom; empty: none acts, or `control` does
   std::optional<Control> control;   // `torque:` as a mapping: for the whole chain
   Parameters parameters;
+  std::vector<ConstraintEntry> constraints;
+  std::string stabilize = "project";  // against drift: or baumgarte, none
+  double baumgarte_gain = 10;         // 1/s; `baumgarte: {gain: 10}`
+  std::vector<ContactEntry> contact_force;  // forces to press on constraints with
   std::string end_effector;                    // "": link `gripper`, else the only leaf
   double duration = 10;                        // s
   std::string method = "auto";      // or a row of the registry
@@ -53,6 +59,7 @@ struct Scene {
 
   std::string file;                     // where it was read; not a key
   std::string name;                     // the file's name without its ending; not a key
+  std::vector<std::string> notices;     // what was changed of it when it was made ready; not a key
   std::map<std::string, Place> places;  // where each key stood, by its dotted path; not a key
 
   // For errors found later: the key's place, or the file where the scene left it out.

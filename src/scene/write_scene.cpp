@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/format.hpp"
+#include "scene/write_constraints.hpp"
 
 namespace chainreel {
 namespace {
@@ -157,6 +158,13 @@ std::vector<SceneEntry> entries_of(const Scene& scene) {
   entries.push_back({"torque", torque_text(scene)});
   for (const auto& [name, value] : scene.parameters)
     entries.push_back({"parameters." + name, format_shortest(value)});
+  if (!scene.constraints.empty()) {
+    entries.push_back({"constraints", constraints_text(scene)});
+    entries.push_back({"stabilize", scene.stabilize});
+    if (scene.stabilize == "baumgarte")
+      entries.push_back({"baumgarte.gain", format_shortest(scene.baumgarte_gain)});
+    if (!scene.contact_force.empty()) entries.push_back({"contact_force", contact_force_text(scene)});
+  }
   if (!scene.end_effector.empty()) entries.push_back({"end_effector", text_of(scene.end_effector)});
   add_method(entries, scene);
   return entries;

@@ -1,5 +1,7 @@
 #include "sim/constraint_plan.hpp"
 
+#include "core/error.hpp"
+
 namespace chainreel {
 
 std::string to_string(Stabilization stabilize) {
@@ -12,6 +14,12 @@ std::string to_string(Stabilization stabilize) {
       return "project";
   }
   return {};
+}
+
+Stabilization stabilization_of(const std::string& name) {
+  for (const Stabilization one : {Stabilization::none, Stabilization::baumgarte, Stabilization::project})
+    if (to_string(one) == name) return one;
+  throw Error(ExitCode::bad_input, "'stabilize' must be project, baumgarte or none, not '" + name + "'");
 }
 
 }  // namespace chainreel

@@ -19,6 +19,8 @@ enum class Stabilization {
 };
 
 std::string to_string(Stabilization stabilize);
+// Throws Error (bad input) that names the three.
+Stabilization stabilization_of(const std::string& name);
 
 // The robot is to press with `force` (N, W) on constraint `constraint` (from 0), whatever it does besides.
 struct ContactForce {

@@ -1,0 +1,183 @@
+#include "scene/prepare_constraints.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "core/format.hpp"
+#include "dynamics/constraint_projection.hpp"
+#include "dynamics/constraint_rows.hpp"
+#include "dynamics/kinematics.hpp"
+#include "sim/expression_curve.hpp"
+
+namespace chainreel {
+namespace {
+
+// A start further off than this is more likely another pose than meant.
+constexpr double kFarthestMove = 0.5;  // of a coordinate, rad or m
+// Less is the rounding of a start that was written with all its digits.
+constexpr double kNoteworthy = 1e-9;  // m or rad, and per second
+
+std::string listed(const std::vector<double>& values) {
+  std::string text = "[";
+  for (const double x : values) text += (text.size() > 1 ? ", " : "") + format_significant(x, 6);
+  return text + "]";
+}
+
+class PlanMaker {
+ public:
+  PlanMaker(const Scene& scene, const Chain& chain) : scene_(scene), chain_(chain) {}
+
+  ConstraintPlan make() {
+    ConstraintPlan plan;
+    plan.stabilize = stabilization_of(scene_.stabilize);
+    plan.gain = scene_.baumgarte_gain;
+    for (const ConstraintEntry& entry : scene_.constraints) {
+      place_ = entry.place;
+      try {
+        Constraint constraint = constraint_of(entry);
+        ConstraintSet(chain_, {constraint});
+        plan.list.push_back(std::move(constraint));
+      } catch (const Error& error) {
+        for (const Problem& problem : error.problems())
+          problems_.add(problem.message, problem.place.file.empty() ? entry.place : problem.place);
+      }
+    }
+    for (const ContactEntry& entry : scene_.contact_force) {
+      place_ = entry.place;
+      plan.contact_forces.push_back(
+          {std::size_t(entry.constraint) - 1, world(entry.force, "'contact_force.force'")});
+    }
+    problems_.throw_if_any();
+    return plan;
+  }
+
+ private:
+  // Two numbers along the plane in which the chain moves, or three of the world.
+  Eigen::Vector3d world(const std::vector<double>& numbers, const std::string& what) {
+    if (numbers.size() == 3) return {numbers[0], numbers[1], numbers[2]};
+    if (numbers.size() == 2 && chain_.planar)
+      return chain_.planar->plane.ex * numbers[0] + chain_.planar->plane.ey * numbers[1];
+    problems_.add(what + " has " + std::to_string(numbers.size()) + " numbers, but " +
+                      (chain_.planar ? "two are needed, along the plane of motion, or three: world x y z"
+                                     : "this chain moves in space: three are needed, world x y z"),
+                  place_);
+    return Eigen::Vector3d::UnitX();
+  }
+
+  Eigen::Vector3d place_of(const ConstraintEntry& entry) {
+    // The world's origin, unless a link has that name.
+    if (entry.b == "world") return Eigen::Vector3d::Zero();
+    return world(entry.at, entry.kind + (entry.kind == "line" || entry.kind == "plane" ? ": 'point'" : ": 'at'"));
+  }
+
+  bool ends_at_place(const ConstraintEntry& entry) const {
+    return entry.b.empty() || (entry.b == "world" && find_frame(chain_, "world") < 0);
+  }
+
+  Constraint constraint_of(const ConstraintEntry& entry) {
+    const std::string& kind = entry.kind;
+    if (kind == "line")
+      return LineConstraint{entry.a, place_of(entry), world(entry.direction, "line: 'direction'")};
+    if (kind == "plane")
+      return PlaneConstraint{entry.a, place_of(entry), world(entry.direction, "plane: 'normal'")};
+    if (kind == "point") return PointConstraint{entry.a, place_of(entry)};
+    if (kind == "distance") {
+      if (ends_at_place(entry)) return DistanceConstraint{entry.a, "", entry.value, place_of(entry)};
+      return DistanceConstraint{entry.a, entry.b, entry.value, {}};
+    }
+    if (kind == "close") return closure_of(entry);
+    if (kind == "curve")
+      return CurveConstraint{
+          entry.a,
+          std::make_shared<ExpressionCurve>(entry.x, entry.y, scene_.parameters, entry.s, entry.place),
+          entry.s};
+    if (kind == "joint") return JointConstraint{entry.a, entry.value};
+    LinearConstraint linear;
+    for (const auto& [name, coefficient] : entry.coefficients) linear.terms.push_back({name, coefficient});
+    linear.value = entry.value;
+    return linear;
+  }
+
+  Constraint closure_of(const ConstraintEntry& entry) {
+    if (ends_at_place(entry)) return PointConstraint{entry.a, place_of(entry)};
+    CloseConstraint close{entry.a, entry.b};
+    if (entry.closure == "weld") close.kind = Closure::weld;
+    if (entry.closure != "axis") return close;
+    close.kind = Closure::axis;
+    if (!entry.direction.empty()) close.axis = world(entry.direction, "close: 'axis'");
+    return close;
+  }
+
+  const Scene& scene_;
+  const Chain& chain_;
+  Place place_;
+  ProblemList problems_;
+};
+
+// Why no pose fulfils all constraints: one of them that none fulfils, or that they contradict each other.
+[[noreturn]] void refuse_unreachable(const Scene& scene, const Simulation& simulation, const ConstraintSet& all,
+                                     const Projection& together) {
+  const Chain& chain = simulation.chain;
+  Workspace ws(chain);
+  ProblemList problems;
+  for (std::size_t k = 0; k < simulation.constraints.list.size(); ++k) {
+    const ConstraintSet one(chain, {simulation.constraints.list[k]});
+    ConstrainedWorkspace cws(chain, one);
+    std::vector<double> q = simulation.q0;
+    const Projection alone = project_positions(chain, ws, one, cws, q);
+    if (alone.reached) continue;
+    problems.add("constraint '" + name_of(simulation.constraints.list[k]) +
+                     "' is out of reach: the nearest pose that was found leaves it " +
+                     format_significant(alone.after, 3) + " away; move it, or start elsewhere",
+                 scene.constraints[k].place);
+  }
+  problems.throw_if_any();
+  std::size_t k = 0;
+  while (all.first_row(k + 1) <= together.worst_row) ++k;
+  throw Error(ExitCode::bad_input, "the constraints contradict each other, or their closure is out of reach: each can be met, but the "
+               "nearest pose to all leaves '" +
+                   all.row_names()[std::size_t(together.worst_row)] + "' " +
+                   format_significant(together.after, 3) + " away; change a length or place, or leave one out",
+               scene.constraints[k].place);
+}
+
+}  // namespace
+
+void prepare_constraints(Scene& scene, Simulation& simulation) {
+  const Chain& chain = simulation.chain;
+  simulation.constraints = PlanMaker(scene, chain).make();
+  if (simulation.constraints.empty()) return;
+  const ConstraintSet set(chain, simulation.constraints.list);
+  ConstrainedWorkspace cws(chain, set);
+  Workspace ws(chain);
+  std::vector<double> q = simulation.q0, qd = simulation.qd0;
+  const Projection way = project_positions(chain, ws, set, cws, q);
+  const Place start = scene.place_of("start.q").line > 0 ? scene.place_of("start.q") : scene.place_of("constraints");
+  if (!way.reached) refuse_unreachable(scene, simulation, set, way);
+  if (const int row = reversed_row(ws, set); row >= 0)
+    throw Error(ExitCode::bad_input,
+                "the start holds '" + set.row_names()[std::size_t(row)] +
+                    "' the wrong way round, half a turn off: start nearer to the pose that is meant",
+                start);
+  double moved = 0;
+  for (std::size_t i = 0; i < q.size(); ++i) moved = std::max(moved, std::fabs(q[i] - simulation.q0[i]));
+  if (moved > kFarthestMove)
+    throw Error(ExitCode::bad_input,
+                "the start is " + format_significant(way.before, 3) + " off '" +
+                    set.row_names()[std::size_t(way.worst_row)] +
+                    "'; the pose found on the constraints is far from it, by " + format_significant(moved, 3) +
+                    " in a coordinate: write `start: {q: " + listed(q) + "}` if it is meant",
+                start);
+  const double rate = project_velocities(chain, ws, set, cws, q, qd);
+  if (way.before > kNoteworthy)
+    scene.notices.push_back("the start was " + format_significant(way.before, 3) + " off '" +
+                            set.row_names()[std::size_t(way.worst_row)] + "' and was moved to q = " + listed(q));
+  if (rate > kNoteworthy)
+    scene.notices.push_back("the start's rates left the constraints by " + format_significant(rate, 3) +
+                            " a second and were changed to qd = " + listed(qd));
+  simulation.q0 = scene.start.q = q;
+  simulation.qd0 = scene.start.qd = qd;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,143 @@
+// The keys `constraints`, `stabilize`, `baumgarte`, `contact_force`: read, written, refused.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "dynamics/constraint_set.hpp"
+#include "scene/prepare.hpp"
+#include "scene/read_scene.hpp"
+#include "scene/write_scene.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::HasSubstr;
+
+class SceneConstraints : public testing::Test {
+ protected:
+  // A scene on a chain of models/, with these keys.
+  Scene read(const std::string& text, const std::string& model = "rrr") {
+    return read_scene(
+        folder_.write("one.yaml", "model: " CHAINREEL_SOURCE_FOLDER "/models/" + model + ".urdf\n" + text));
+  }
+  Simulation ready(const std::string& text, const std::string& model = "rrr") {
+    Scene scene = read(text, model);
+    Simulation simulation = prepare(scene);
+    notices_ = scene.notices;
+    return simulation;
+  }
+  // The text of the error, or "" where there is none.
+  std::string error(const std::string& text, const std::string& model = "rrr") {
+    try {
+      ready(text, model);
+      return "";
+    } catch (const Error& error) {
+      return error.what();
+    }
+  }
+
+  TemporaryFolder folder_;
+  std::vector<std::string> notices_;
+};
+
+const std::string kPenStart = "start: {q: [90deg, -60deg, -120deg]}\n";
+
+TEST_F(SceneConstraints, EveryKindIsReadAndWrittenBackTheSame) {
+  const std::string text =
+      "parameters: {r: 0.5}\n"
+      "constraints:\n"
+      "  - {line: {frame: gripper, point: [0, 0.5], direction: [1, 0]}}\n"
+      "  - {plane: {frame: gripper, point: [0, 0.5, 0], normal: [0, 1, 0]}}\n"
+      "  - {point: {frame: gripper, at: [1, 0.5]}}\n"
+      "  - {distance: {a: gripper, b: base, length: 1.2}}\n"
+      "  - {distance: {a: gripper, at: [2, 0], length: 1.2}}\n"
+      "  - {close: {a: gripper, b: link1}}\n"
+      "  - {close: {a: gripper, b: link1, weld: true}}\n"
+      "  - {close: {a: gripper, b: link1, axis: [0, 0, 1]}}\n"
+      "  - {close: {a: gripper, at: [1, 1]}}\n"
+      "  - {curve: {frame: gripper, x: \"1 + r * cos(s)\", y: \"max(r, 2) * sin(s)\", s: 0.5}}\n"
+      "  - {joint: {name: joint2, value: 90deg}}\n"
+      "  - {linear: {coefficients: {joint1: 1, joint2: -2}, value: 0.5}}\n"
+      "stabilize: baumgarte\nbaumgarte: {gain: 20}\n"
+      "contact_force: [{constraint: 1, force: [0, -5]}, {constraint: 3, force: [1, 2, 0]}]\n";
+  const Scene scene = read(text);
+  ASSERT_EQ(scene.constraints.size(), 12u);
+  EXPECT_EQ(scene.constraints[3].b, "base");
+  EXPECT_EQ(scene.constraints[9].y, "max(r, 2) * sin(s)");
+  EXPECT_EQ(scene.baumgarte_gain, 20);
+  EXPECT_EQ(scene.contact_force[1].force, (std::vector<double>{1, 2, 0}));
+  const std::string written = scene_text(scene);
+  const Scene again = read_scene(folder_.write("two.yaml", written));
+  EXPECT_EQ(scene_text(again), written);
+  ASSERT_EQ(again.constraints.size(), 12u);
+  EXPECT_EQ(again.constraints[9].y, scene.constraints[9].y);
+  EXPECT_EQ(again.constraints[11].coefficients, scene.constraints[11].coefficients);
+  EXPECT_EQ(again.constraints[7].closure, "axis");
+}
+
+TEST_F(SceneConstraints, PlacesOfTheWorldStandWhereFramesCould) {
+  const Simulation one = ready(kPenStart + "constraints: [{close: {a: gripper, at: [0.8660254037844386, 0.5]}}]\n");
+  EXPECT_TRUE(std::holds_alternative<PointConstraint>(one.constraints.list[0]));
+  const Simulation rod = ready(kPenStart + "constraints: [{distance: {a: gripper, b: world, length: 1}}]\n");
+  const ConstraintSet set(rod.chain, rod.constraints.list);
+  EXPECT_EQ(set.rows(), 1);
+  EXPECT_TRUE(notices_.empty()) << notices_[0];
+}
+
+TEST_F(SceneConstraints, AStartALittleBesideIsMovedWithANotice) {
+  const std::string line = "constraints: [{line: {frame: gripper, point: [0, 0.52], direction: [1, 0]}}]\n";
+  const Simulation moved = ready(kPenStart + line);
+  ASSERT_EQ(notices_.size(), 1u);
+  EXPECT_THAT(notices_[0], HasSubstr("0.02 off 'line gripper'"));
+  EXPECT_NE(moved.q0[0], 1.5707963267948966);
+  ready("start: {q: [90deg, -60deg, -120deg], qd: [1, 0, 0]}\n"
+        "constraints: [{line: {frame: gripper, point: [0, 0.5], direction: [1, 0]}}]\n");
+  ASSERT_EQ(notices_.size(), 1u);
+  EXPECT_THAT(notices_[0], HasSubstr("rates left the constraints by 0.866"));
+}
+
+TEST_F(SceneConstraints, WhatCannotBeReachedIsRefusedWithTheDistance) {
+  EXPECT_THAT(error(kPenStart + "constraints: [{line: {frame: gripper, point: [0, 3.5], direction: [1, 0]}}]\n"),
+              AllOf(HasSubstr("one.yaml:3:"), HasSubstr("'line gripper' is out of reach"), HasSubstr("0.5")));
+  EXPECT_THAT(error("start: {q: [180deg, -140deg, -90deg]}\n"
+                    "constraints: [{close: {a: rocker_end, at: [5, 0]}}]\n",
+                    "four_bar"),
+              AllOf(HasSubstr("one.yaml:3:"), HasSubstr("out of reach"), HasSubstr("2.5")));
+  EXPECT_THAT(error(kPenStart + "constraints:\n"
+                                "  - {line: {frame: gripper, point: [0, 0.5], direction: [1, 0]}}\n"
+                                "  - {line: {frame: gripper, point: [0, 0.6], direction: [1, 0]}}\n"),
+              AllOf(HasSubstr("contradict each other"), HasSubstr("leave one out")));
+  EXPECT_THAT(error(kPenStart + "constraints: [{line: {frame: gripper, point: [0, 2.5], direction: [1, 0]}}]\n"),
+              HasSubstr("if it is meant"))
+      << "far, but not out of reach";
+}
+
+TEST_F(SceneConstraints, BadInputNamesPlaceAndRemedy) {
+  const auto bad = [&](const std::string& list) { return error(kPenStart + "constraints: " + list + "\n"); };
+  EXPECT_THAT(bad("[{point: {frame: griper, at: [1, 1]}}]"),
+              AllOf(HasSubstr("one.yaml:3:15"), HasSubstr("no frame 'griper'"), HasSubstr("gripper")));
+  EXPECT_THAT(bad("[{point: {frame: gripper, at: [1]}}]"),
+              AllOf(HasSubstr("'at' has 1 numbers"), HasSubstr("two are needed")));
+  EXPECT_THAT(bad("[{line: {frame: gripper, point: [0, 1]}}]"), HasSubstr("direction' is missing: write {line:"));
+  EXPECT_THAT(bad("[{pont: {frame: gripper, at: [1, 1]}}]"), HasSubstr("unknown kind 'pont'"));
+  EXPECT_THAT(bad("[{point: {frame: gripper, at: [1, 1], axis: 2}}]"), HasSubstr("unknown key"));
+  EXPECT_THAT(bad("[gripper]"), HasSubstr("a constraint is one key"));
+  EXPECT_THAT(bad("{point: 1}"), HasSubstr("must be a list"));
+  EXPECT_THAT(bad("[{close: {a: gripper}}]"), HasSubstr("names a frame, or 'at' a place"));
+  EXPECT_THAT(bad("[{close: {a: gripper, b: base, axis: true, weld: true}}]"), HasSubstr("not both"));
+  EXPECT_THAT(bad("[{distance: {a: gripper, b: base, length: 0}}]"), HasSubstr("must be above zero"));
+  EXPECT_THAT(bad("[{joint: {name: joint9, value: 0}}]"), HasSubstr("no coordinate 'joint9'"));
+  EXPECT_THAT(bad("[{curve: {frame: gripper, x: cos(u), y: sin(s)}}]"), HasSubstr("curve, x:"));
+  EXPECT_THAT(bad("[{curve: {frame: gripper, x: 1, y: 2}}]"), HasSubstr("no place, tangent or curvature"));
+  EXPECT_THAT(bad("[]\nstabilize: projection"), HasSubstr("must be project, baumgarte or none"));
+  EXPECT_THAT(bad("[]\nbaumgarte: {gain: 3}"), HasSubstr("means nothing with stabilize: project"));
+  EXPECT_THAT(bad("[]\ncontact_force: {constraint: 1, force: [0, 1]}"), HasSubstr("the scene has none"));
+  const std::string pen = "[{line: {frame: gripper, point: [0, 0.5], direction: [1, 0]}}]\n";
+  EXPECT_THAT(bad(pen + "method: taylor"), AllOf(HasSubstr("one.yaml:4:"), HasSubstr("take dop853")));
+  EXPECT_THAT(bad(pen + "torque: [lambda1, 0, 0]"), HasSubstr("algebraic loop"));
+  EXPECT_EQ(bad(pen), "") << "negative control";
+}
+
+}  // namespace
+}  // namespace chainreel
