@@ -224,7 +224,7 @@ class Run {
     if (!unmet || system_.bad_torque() >= 0) return true;
     set_trouble(RunStatus::inconsistent,
                 "constraints contradict each other: no acceleration fulfils '" + row_name(unmet->row) +
-                    "', " + format_significant(unmet->residual, 3) + " are left",
+                    "', the nearest misses it by " + format_significant(unmet->residual, 3),
                 t);
     return false;
   }
