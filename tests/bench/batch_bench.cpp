@@ -7,7 +7,6 @@
 // differs, in any bit, from the narrowest width's.
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <vector>
 
 #include "bench/engines.hpp"
@@ -22,12 +21,6 @@ namespace {
 constexpr int kInstances = 4096;
 constexpr long kSteps = 200;  // per round
 constexpr int kRounds = 15;
-
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
 
 // The step of one chain by MuJoCo, from rest at zero and every kSteps steps anew.
 class Mujoco {

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <limits>
 #include <map>
@@ -29,12 +28,6 @@ namespace {
 
 constexpr int kRounds = 15;
 constexpr double kLeastTime = 2e-4;  // s: shorter runs are repeated within one measurement
-
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
 
 MotionProblem problem_of(const std::string& name, const std::string& model,
                          const std::vector<std::string>& torque, std::vector<double> q0, double end) {

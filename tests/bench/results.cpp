@@ -64,6 +64,12 @@ Facts machine_facts() {
           {"flags", CHAINREEL_BENCH_FLAGS}};
 }
 
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
 double median_of(std::vector<double> values) {
   if (values.empty()) throw std::invalid_argument("no values");
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);

@@ -15,6 +15,8 @@ Facts machine_facts();
 
 double median_of(std::vector<double> values);
 
+double processor_seconds();  // of this process
+
 // Of a program: 0, or 1 with what was thrown on standard error.
 int run_main(void (*run)());
 

@@ -71,7 +71,7 @@ void add_bodies(const Chain& chain, const std::vector<std::vector<int>>& childre
 
 }  // namespace
 
-std::string mjcf_of(const Chain& chain) {
+std::string mjcf_of(const Chain& chain, const std::string& equality) {
   check(chain);
   std::vector<std::vector<int>> children(chain.bodies.size());
   for (std::size_t i = 1; i < chain.bodies.size(); ++i)
@@ -84,11 +84,15 @@ std::string mjcf_of(const Chain& chain) {
       "<option timestep=\"0.001\" integrator=\"Euler\" gravity=\"" +
       numbers(chain.gravity) +
       "\">\n"
-      "<flag contact=\"disable\" constraint=\"disable\" passive=\"disable\" actuation=\"disable\" "
+      "<flag contact=\"disable\" " +
+      (equality.empty() ? "constraint=\"disable\" " : "") +
+      "passive=\"disable\" actuation=\"disable\" "
       "sensor=\"disable\"/>\n"
       "</option>\n<worldbody>\n";
   add_bodies(chain, children, 0, text);
-  return text + "</worldbody>\n</mujoco>\n";
+  text += "</worldbody>\n";
+  if (!equality.empty()) text += "<equality>" + equality + "</equality>\n";
+  return text + "</mujoco>\n";
 }
 
 }  // namespace chainreel::peers

@@ -16,6 +16,7 @@ inline constexpr double kLeast = 1e-14;  // kg and kg m^2; MuJoCo's own limit is
 // Joints in the order of the chain's coordinates; every body is named b1, b2, .., its joint j1, j2, ...
 // Throws std::invalid_argument for what MJCF cannot say: shared coordinates (mimic), floating joints that do
 // not hang on the world.
-std::string mjcf_of(const Chain& chain);
+// `equality` is text for MJCF's <equality>; constraints are switched on where there is any.
+std::string mjcf_of(const Chain& chain, const std::string& equality = "");
 
 }  // namespace chainreel::peers

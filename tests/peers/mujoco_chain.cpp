@@ -34,7 +34,8 @@ std::unique_ptr<mjModel, MujocoDeleter> load(const std::string& mjcf) {
 
 }  // namespace
 
-MujocoChain::MujocoChain(const Chain& chain) : nv_(std::size_t(chain.nv)), model_(load(mjcf_of(chain))) {
+MujocoChain::MujocoChain(const Chain& chain, const std::string& equality)
+    : nv_(std::size_t(chain.nv)), model_(load(mjcf_of(chain, equality))) {
   data_.reset(mj_makeData(model_.get()));
   for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
     const Joint& joint = chain.bodies[i].joint;

@@ -28,7 +28,8 @@ struct MujocoDeleter {
 class MujocoChain {
  public:
   // Throws std::runtime_error with MuJoCo's words where it refuses the model or warns about it.
-  explicit MujocoChain(const Chain& chain);
+  // `equality` as in mjcf.hpp.
+  explicit MujocoChain(const Chain& chain, const std::string& equality = "");
 
   // Accelerations under the given joint torques.
   std::vector<double> qdd_of(std::span<const double> q, std::span<const double> qd,
@@ -41,6 +42,11 @@ class MujocoChain {
   mjData* data() { return data_.get(); }
   void set_position(std::span<const double> q);
   void set_step(double h) { model_->opt.timestep = h; }
+  // Where a `connect` holds its first body's point, and that point: along the second body's axes and its own.
+  void connect(int equality, const Eigen::Vector3d& in_first, const Eigen::Vector3d& in_second) {
+    mjtNum* const data = model_->eq_data + equality * mjNEQDATA;
+    for (int k = 0; k < 3; ++k) data[k] = in_first[k], data[3 + k] = in_second[k];
+  }
   void use_rk4() { model_->opt.integrator = mjINT_RK4; }
 
  private:
