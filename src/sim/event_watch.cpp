@@ -64,6 +64,11 @@ EventWatch::EventWatch(const EventSet& events, ChainSystem& system)
 void EventWatch::set_probe(double t, ConstVec q, ConstVec qd) {
   const Chain& chain = system_.chain();
   probe_.set(chain, ws_, t, q, qd, events_.needs_kinematics);
+  if (events_.needs_multipliers) {
+    ConstrainedChain& constrained = *system_.constrained();
+    constrained.look(system_.workspace(), q, qd, system_.torque(t, q, qd));
+    probe_.set_multipliers(constrained.lambda());
+  }
   if (events_.cop_slot < 0) return;
   system_.acceleration(t, q, qd, qdd_);
   probe_.set_value(events_.cop_slot,
