@@ -68,6 +68,9 @@ Json cost_report(const Scene& scene, const Simulation& simulation) {
   // Counted, not guessed: adaptive methods have no other way. Nothing is sampled.
   const Trajectory run = simulate(simulation, {}, [](double) { return interrupted(); });
   throw_if_interrupted();
+  const auto of_layer = [&](const char* layer) {
+    return std::find(scene.draw.begin(), scene.draw.end(), layer) != scene.draw.end() ? frames : 0;
+  };
   return {{"method", simulation.method->name},
           {"order", simulation.options.order > 0 ? simulation.options.order : simulation.method->order},
           {"status", to_string(run.status)},
@@ -77,8 +80,10 @@ Json cost_report(const Scene& scene, const Simulation& simulation) {
           {"pixels_a_frame", scene.video.width * scene.video.height},
           {"layers", scene.draw},
           {"energies_computed", frames},
-          {"Lambda_computed",
-           std::find(scene.draw.begin(), scene.draw.end(), "ellipse") != scene.draw.end() ? frames : 0}};
+          {"Lambda_computed", of_layer("ellipse")},
+          {"torques_computed", of_layer("torque")},
+          {"constraint_forces_computed", of_layer("constraint_force")},
+          {"M_computed", of_layer("mass_matrix")}};
 }
 
 void print_model(const Json& model) {
@@ -126,8 +131,13 @@ void print_run(const PreparedScene& prepared, const RunReport& report) {
     std::printf("%s\n", choice_text(*prepared.choice, prepared.scene.accuracy).c_str());
     print_candidates(*prepared.choice, prepared.scene.accuracy);
   }
-  std::printf("computed for the picture only: %d energies, %d Lambda\n", cost["energies_computed"].get<int>(),
+  std::printf("computed for the picture only: %d energies, %d Lambda", cost["energies_computed"].get<int>(),
               cost["Lambda_computed"].get<int>());
+  for (const auto& [key, name] : {std::pair{"torques_computed", "joint torques"},
+                                  {"constraint_forces_computed", "constraint forces"},
+                                  {"M_computed", "M"}})
+    if (cost[key].get<int>() > 0) std::printf(", %d %s", cost[key].get<int>(), name);
+  std::puts("");
 }
 
 void check_scene(const CheckOptions& options) {

@@ -133,7 +133,8 @@ Film film_of(const PreparedFilm& film, const std::vector<Trajectory>& runs, cons
              int frames, const Fonts& fonts) {
   std::vector<PanelRun> panels;
   for (std::size_t i = 0; i < runs.size(); ++i)
-    panels.push_back({film.panels[i].scene, film.panels[i].simulation.chain, runs[i]});
+    panels.push_back(
+        {film.panels[i].scene, film.panels[i].simulation.chain, runs[i], &film.panels[i].simulation});
   return Film(film.scene, panels, {times.begin(), times.begin() + frames}, fonts);
 }
 

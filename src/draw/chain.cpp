@@ -59,7 +59,7 @@ void draw_rail_of(Picture& picture, const ChainDrawing& drawing, const Workspace
   if (parent == 0) draw_rail_ground(picture, line, drawing.look, clip);
   const Color fill = parent == 0 ? tinted(drawing.look.theme->base, 0.25, drawing.look)
                                  : tinted(link_color(drawing, parent), 0.4, drawing.look);
-  draw_rail(picture, line, fill, drawing.look, clip);
+  draw_rail(picture, line, drawing.look.filled ? fill : Color{}, drawing.look, clip);
 }
 
 void draw_carriage_of(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, const Rail& rail,
@@ -67,7 +67,7 @@ void draw_carriage_of(Picture& picture, const ChainDrawing& drawing, const Works
   const Point center = drawing.camera.project(pose_of(ws, rail.body).translation());
   if (!is_drawable(center)) return;
   draw_carriage(picture, center, rail_direction(drawing, ws, rail.body), rail.carrier,
-                toned(link_color(drawing, rail.body), drawing.look), drawing.look, clip);
+                filling(link_color(drawing, rail.body), drawing.look), drawing.look, clip);
 }
 
 void draw_link(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, const LinkSegment& link,
@@ -76,9 +76,9 @@ void draw_link(Picture& picture, const ChainDrawing& drawing, const Workspace& w
   const Point a = drawing.camera.project(X_WB * link.from), b = drawing.camera.project(X_WB * link.to);
   if (!is_drawable(a) || !is_drawable(b)) return;
   const ChainLook& look = drawing.look;
-  const Color fill = toned(link_color(drawing, link.body), look), ink = toned(look.theme->ink, look);
+  const Color fill = filling(link_color(drawing, link.body), look), ink = toned(look.theme->ink, look);
   picture.add(Capsule{a, b, look.link_width / 2, {fill, ink, size::kLinkOutline}}, clip);
-  if (drawing.skeleton.color[std::size_t(link.body)] < int(look.theme->link.size())) return;
+  if (drawing.skeleton.color[std::size_t(link.body)] < int(look.theme->link.size()) || !look.filled) return;
   // From the fifth link on the colours repeat: a hatch tells them apart.
   const Point along = unit(b - a);
   const Point stroke = (0.36 * look.link_width) * (along + normal_to(along));

@@ -48,10 +48,10 @@ void ChainFit::add_base() {
   }
 }
 
-void ChainFit::add_pose(const Workspace& ws, double limit) {
+bool ChainFit::add_pose(const Workspace& ws, double limit) {
   const int bodies = int(chain_.bodies.size());
   for (int b = 1; b < bodies; ++b) {
-    if (!(pose_of(ws, b).translation().norm() <= limit)) return;  // NaN, too
+    if (!(pose_of(ws, b).translation().norm() <= limit)) return false;  // NaN, too
   }
   for (const LinkSegment& link : skeleton_.links) {
     add_to(link_, pose_of(ws, link.body) * link.from);
@@ -67,6 +67,7 @@ void ChainFit::add_pose(const Workspace& ws, double limit) {
     add_to(rail_[i], rail_point(chain_, ws, rail.body, rail.upper));
   }
   add_to(tip_, tip_position(chain_, ws));
+  return true;
 }
 
 }  // namespace chainreel

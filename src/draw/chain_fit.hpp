@@ -13,8 +13,8 @@ class ChainFit {
  public:
   // `marks`: as in ChainLook.
   ChainFit(const Chain& chain, const Skeleton& skeleton, const Camera& camera, double marks = 1);
-  // Poses with a place farther than `limit` from the base are passed over (runs that diverged).
-  void add_pose(const Workspace& ws, double limit);
+  // Poses with a place farther than `limit` from the base are passed over (runs that diverged): false.
+  bool add_pose(const Workspace& ws, double limit);
   // Further places with room of their own.
   void add(const Eigen::Vector3d& place, const Room& room);
   const FitBox& box() const { return box_; }

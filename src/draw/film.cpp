@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "draw/legend.hpp"
 #include "draw/metre_bar.hpp"
 #include "draw/torque_label.hpp"
 #include "draw/view.hpp"
@@ -16,6 +17,7 @@ constexpr double kEllipseBar = 0.10;  // units of H: the smaller semi-axis measu
 constexpr double kFrameLine = 0.0018;
 constexpr double kRowPitch = 1.55;   // of the em: a panel's title or note with the air around it
 constexpr double kBarInset = 0.014;  // of the metre bar from the frame of its panel
+constexpr double kLargestAside = 0.6;  // of a panel's width may be taken by what stands beside its scene
 constexpr double kRoundOff = 1e-12;  // a text that just fills its row fits
 constexpr double kDescent = 0.40;    // of the em, from the lower end of a row up to its base line
 
@@ -32,15 +34,17 @@ Film::Film(const Scene& scene, const Chain& chain, const Trajectory& trajectory,
 
 Film::Film(const Scene& page, const std::vector<PanelRun>& runs, std::vector<double> times,
            const Fonts& fonts)
-    : scene_(page), fonts_(fonts), theme_(light_theme()), layers_(layers_of(page)), times_(std::move(times)) {
+    : scene_(page), fonts_(fonts), theme_(theme_named(page.theme)), layers_(layers_of(page)), times_(std::move(times)) {
   for (const PanelRun& run : runs) {
     const int samples = std::min(int(times_.size()), run.trajectory.size());
     if (samples < 1)
       throw Error(ExitCode::bad_input, "a film needs at least one frame", page.place_of("duration"));
     const bool freezes = runs.size() > 1 || run.scene.expect == "diverge";
-    panels_.emplace_back(run, layers_, samples, freezes ? WildEnd::frozen : WildEnd::shown);
+    panels_.emplace_back(run, layers_, samples, freezes ? WildEnd::frozen : WildEnd::shown, theme_);
   }
   if (layers_.ellipse) find_mass_scale();
+  if (layers_.acting.any()) find_vector_scales();
+  if (layers_.mass_matrix) make_mass_maps();
   lay_out();
   fit_camera();
   if (is_comparison() && layers_.title) place_titles();
@@ -54,6 +58,37 @@ void Film::find_mass_scale() {
   }
   // Panels share the page, so their sides shrink with the root of their number.
   mass_scale_ = mass_scale(std::move(smaller), kEllipseBar / std::sqrt(double(panels_.size())));
+}
+
+// Runs that diverge do not decide on it, unless all do: their arrows are cut.
+void Film::find_vector_scales() {
+  const bool all_wild =
+      std::all_of(panels_.begin(), panels_.end(), [](const Panel& panel) { return panel.is_wild(); });
+  for (Panel& panel : panels_)
+    if (all_wild || !panel.is_wild()) vector_scales_.peaks.add(panel.peaks());
+  vector_scales_.shrink = 1 / std::sqrt(double(panels_.size()));
+}
+
+void Film::make_mass_maps() {
+  double largest = 0;
+  for (const Panel& panel : panels_) largest = std::max(largest, panel.largest_mass_entry());
+  for (Panel& panel : panels_)
+    panel.set_mass_map({panel.chain().nv, mass_unit(panel.chain()), largest, theme_, fonts_, scene_.text_scale});
+}
+
+std::vector<ScaleEntry> Film::entries() const {
+  std::vector<VectorKind> shown;
+  for (const Panel& panel : panels_)
+    for (const VectorKind kind : kinds_shown(panel.chain(), layers_.acting))
+      if (std::find(shown.begin(), shown.end(), kind) == shown.end()) shown.push_back(kind);
+  std::vector<ScaleEntry> entries = scale_entries(vector_scales_, shown, layers_.legend, theme_);
+  if (layers_.com && layers_.legend)
+    entries.push_back({ScaleEntry::Mark::center_of_mass, 0, theme_.ink, "centre of mass"});
+  return entries;
+}
+
+bool Film::is_constrained() const {
+  return std::any_of(panels_.begin(), panels_.end(), [](const Panel& panel) { return panel.is_constrained(); });
 }
 
 // What acts at the joints of all panels; nothing where they differ, since then their titles say it.
@@ -78,6 +113,11 @@ void Film::lay_out() {
     text.bar_length = mass_scale_.bar_length;
   }
   if (layers_.ellipse && layers_.legend) text.legend = kEllipseLegend;
+  if (layers_.equation) {
+    text.equation = equation_of_motion(is_constrained());
+    text.symbols = equation_colors(layers_.acting, theme_);
+  }
+  text.scales = entries();
   const double aspect = double(scene_.video.width) / scene_.video.height;
   sheet_ = lay_out_sheet(text, aspect, scene_.text_scale, theme_, fonts_);
   if (is_comparison() && layers_.title) rows_.title = kRowPitch * scaled(size::kSymbol, scene_.text_scale);
@@ -89,6 +129,7 @@ FitBox Film::fit_box(const Camera& view, double marks) {
   const bool all_wild =
       std::all_of(panels_.begin(), panels_.end(), [](const Panel& panel) { return panel.is_wild(); });
   FitBox box;
+  for (Panel& panel : panels_) panel.set_pens(fonts_, vector_scales_, marks);
   for (Panel& panel : panels_) box.add(panel.fit_box(view, marks, all_wild));
   return box;
 }
@@ -105,13 +146,57 @@ void Film::fit_camera() {
                 scene_.place_of("compare"));
   const double marks = marks_in(cells_);
   if (marks != 1) box = fit_box(camera, marks);
-  const Rect& first = cells_.front().scene;
-  fit_to(camera, box, first, size::kFitMargin);
-  for (int i = 0; i < count; ++i) {
-    const Rect& scene = cells_[std::size_t(i)].scene;
-    Camera shifted = camera;
-    shifted.origin = camera.origin + Point{scene.x0 - first.x0, scene.y0 - first.y0};
-    panels_[std::size_t(i)].settle(shifted, scene, i, marks);
+  fit_to(camera, box, cells_.front().scene, size::kFitMargin);
+  if (layers_.mass_matrix && !place_mass_maps(camera)) {
+    set_mass_maps_aside();
+    fit_to(camera, box, cells_.front().scene, size::kFitMargin);
+  }
+  for (std::size_t i = 0; i < panels_.size(); ++i)
+    panels_[i].settle(camera_of(camera, i), cells_[i].scene, int(i), marks);
+}
+
+// All panels see the same part of the world at the same place of their cells.
+Camera Film::camera_of(const Camera& first, std::size_t i) const {
+  const Rect &from = cells_.front().scene, &to = cells_[i].scene;
+  Camera shifted = first;
+  shifted.origin = first.origin + Point{to.x0 - from.x0, to.y0 - from.y0};
+  return shifted;
+}
+
+// In a corner that nothing ever comes into, the same one in all panels; false where there is none.
+bool Film::place_mass_maps(const Camera& camera) {
+  const double inset = is_comparison() ? kBarInset : 0;
+  for (const auto& [right, top] : {std::pair{true, true}, {false, true}, {true, false}, {false, false}}) {
+    if (layers_.scale_bar && !right && !top) continue;
+    bool free = true;
+    for (std::size_t i = 0; i < panels_.size() && free; ++i) {
+      const Rect& cell = cells_[i].scene;
+      const double width = panels_[i].mass_map()->width(), height = panels_[i].mass_map()->height();
+      const Point corner{right ? cell.x1 - inset - width : cell.x0 + inset,
+                         top ? cell.y1 - inset - height : cell.y0 + inset};
+      panels_[i].place_mass_map(corner);
+      free = corner.x >= cell.x0 && corner.y >= cell.y0 &&
+             panels_[i].leaves_free(camera_of(camera, i),
+                                    {corner.x, corner.y, corner.x + width, corner.y + height});
+    }
+    if (free) return true;
+  }
+  return false;
+}
+
+// Right of the scenes, which become narrower.
+void Film::set_mass_maps_aside() {
+  double width = 0;
+  for (const Panel& panel : panels_) width = std::max(width, panel.mass_map()->width());
+  const double inset = is_comparison() ? kBarInset : 0;
+  for (std::size_t i = 0; i < panels_.size(); ++i) {
+    Rect& cell = cells_[i].scene;
+    panels_[i].place_mass_map({cell.x1 - inset - width, cell.y1 - inset - panels_[i].mass_map()->height()});
+    if (width + size::kGutter > kLargestAside * cell.width() ||
+        panels_[i].mass_map()->height() > cell.height())
+      throw Error(ExitCode::bad_input, "M(q) leaves no room for the chain: draw without mass_matrix",
+                  scene_.place_of("draw"));
+    cell.x1 -= inset + width + size::kGutter;
   }
 }
 
@@ -134,7 +219,7 @@ void Film::place_titles() {
     const Rect& row = cells_[i].title;
     const Color color = !two_sides ? theme_.ink : i == 0 ? theme_.side_a : theme_.side_b;
     const Scene& scene = panels_[i].scene();
-    TextLine line = lay_out_text(fonts_, scene.title, {Face::label_bold, text_size, color});
+    TextLine line = lay_out_text(fonts_, panels_[i].scene().title, {Face::label_bold, text_size, color});
     if (line.advance > row.width() + kRoundOff)
       throw Error(ExitCode::bad_input,
                   "the title of panel " + std::to_string(i + 1) +

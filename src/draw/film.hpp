@@ -32,10 +32,18 @@ class Film {
   const Camera& camera(int i = 0) const { return panel(i).camera(); }
   const Rect& scene_area(int i = 0) const { return panel(i).area(); }
   const MassScale& ellipse_scale() const { return mass_scale_; }
+  const VectorScales& vector_scales() const { return vector_scales_; }
 
  private:
   bool is_comparison() const { return panels_.size() > 1; }
   void find_mass_scale();
+  void find_vector_scales();
+  void make_mass_maps();
+  std::vector<ScaleEntry> entries() const;
+  bool is_constrained() const;
+  Camera camera_of(const Camera& first, std::size_t i) const;
+  bool place_mass_maps(const Camera& camera);
+  void set_mass_maps_aside();
   void lay_out();
   std::vector<std::string> common_torque() const;
   FitBox fit_box(const Camera& view, double marks);
@@ -52,6 +60,7 @@ class Film {
   std::vector<double> times_;
   std::vector<Panel> panels_;
   MassScale mass_scale_;
+  VectorScales vector_scales_;
   Sheet sheet_;
   PanelRows rows_;
   std::vector<PanelCell> cells_;

@@ -28,7 +28,7 @@ void draw_revolute(Picture& picture, Point center, const ChainLook& look, int cl
   const double r = look.joint_disc / 2, dot = size::kJointDot / 2 * look.joint_disc / size::kJointDisc;
   const Color ink = toned(look.theme->ink, look);
   const double outline = size::kJointOutline * std::sqrt(look.joint_disc / size::kJointDisc);
-  picture.add(Ellipse{center, {r, 0}, {0, r}, {look.theme->background, ink, outline}}, clip);
+  picture.add(Ellipse{center, {r, 0}, {0, r}, {look.filled ? look.theme->background : Color{}, ink, outline}}, clip);
   picture.add(Ellipse{center, {dot, 0}, {0, dot}, {ink, {}, 0}}, clip);
 }
 

@@ -20,7 +20,7 @@ std::vector<ScaleEntry> scale_entries(const VectorScales& scales, const std::vec
       const double value = round_length(scale.largest);
       entries.push_back({mark, scale.on_page(value), color_of(kind, theme),
                          name + format_shortest(value) + "\u2009" + unit_of(kind)});
-    } else if (kind == VectorKind::torque || named) {
+    } else if (kind == VectorKind::torque) {
       // Rings are drawn where nothing acts; arrows are not.
       entries.push_back({mark, 0, color_of(kind, theme), name + "0"});
     }

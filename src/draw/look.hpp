@@ -24,6 +24,7 @@ struct ChainLook {
   double link_width = size::kLinkWidth;
   double joint_disc = size::kJointDisc;
   double rails = 1;  // size of rails and carriages: that of the marks, less where links are thin
+  bool filled = true;  // false: outlines only
 };
 
 inline ChainLook look_of(const Skeleton& skeleton, const Camera& camera, const Theme& theme,
@@ -36,7 +37,8 @@ inline ChainLook look_of(const Skeleton& skeleton, const Camera& camera, const T
           marks,
           width,
           std::min(marks * size::kJointDisc, 1.1 * width),
-          marks * std::min(1.0, width / kWidthOfFullRails)};
+          marks * std::min(1.0, width / kWidthOfFullRails),
+          true};
 }
 
 // An opaque colour between the background (0) and `color` (1): onion skins hide what lies behind them, so
@@ -47,6 +49,11 @@ inline Color toned(Color color, const ChainLook& look) {
     return std::uint8_t(std::lround(from + look.strength * (double(to) - from)));
   };
   return {mix(back.r, color.r), mix(back.g, color.g), mix(back.b, color.b), color.a};
+}
+
+// Of the inside of a body: none where only outlines are drawn.
+inline Color filling(Color color, const ChainLook& look) {
+  return look.filled ? toned(color, look) : Color{};
 }
 
 // `tint` of the way from the background to the colour.

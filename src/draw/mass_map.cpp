@@ -53,7 +53,7 @@ MassMap::MassMap(int rows, std::string unit, double largest, const Theme& theme,
       fonts_(&fonts),
       text_size_(scaled(size::kTick, text_scale)) {
   const TextStyle title{Face::math, scaled(size::kAxis, text_scale), theme.ink, Align::left};
-  title_ = lay_out_math(fonts, "M(q) [" + unit + "]", title);
+  title_ = lay_out_math(fonts, "M(q)\u2009[" + unit + "]", title);
   const TextStyle plain{Face::label, text_size_, theme.ink, Align::left};
   const double title_height = kTitlePitch * title.size;
   if (rows_ <= kMostNumberedRows) {

@@ -6,9 +6,13 @@
 
 #include "draw/chain.hpp"
 #include "draw/chain_fit.hpp"
+#include "draw/ghosts.hpp"
 #include "draw/joints.hpp"
 #include "draw/sheet.hpp"
+#include "dynamics/crba.hpp"
 #include "dynamics/kinematics.hpp"
+#include "picture/segment.hpp"
+#include "scene/fall.hpp"
 
 namespace chainreel {
 namespace {
@@ -17,6 +21,7 @@ constexpr double kWild =
     100;  // lengths of the chain: beyond, a run that did not finish is left out of the fit
 constexpr double kLargestMark = size::kCarriageLength / 2;  // around a place of the chain, half of its size
 constexpr int kScaleSamples = 200;                          // of a clip decide on the scale of its ellipses
+constexpr double kAir = 0.010;                              // around a part of the page that is left free
 
 }  // namespace
 
@@ -25,13 +30,16 @@ Layers layers_of(const Scene& scene) {
     return std::find(scene.draw.begin(), scene.draw.end(), name) != scene.draw.end();
   };
   return {named("chain"),        named("trail"),   named("time"),      named("title"),
-          named("torque_label"), named("ellipse"), named("scale_bar"), named("legend")};
+          named("torque_label"), named("ellipse"), named("scale_bar"), named("legend"),
+          named("ghosts"),       named("frames"),  named("com"),       named("mass_matrix"),
+          named("equation"),
+          {named("torque"), named("velocity"), named("gravity"), named("constraint_force")}};
 }
 
-Panel::Panel(const PanelRun& run, const Layers& layers, int samples, WildEnd wild_end)
+Panel::Panel(const PanelRun& run, const Layers& layers, int samples, WildEnd wild_end, const Theme& theme)
     : run_(run),
       layers_(layers),
-      theme_(light_theme()),
+      theme_(theme),
       wild_end_(wild_end),
       wild_(!is_complete(run.trajectory.status)),
       samples_(samples),
@@ -41,6 +49,7 @@ Panel::Panel(const PanelRun& run, const Layers& layers, int samples, WildEnd wil
   // A run that finished is drawn wherever it went: a free fall may be long.
   limit_ = run.trajectory.status == RunStatus::finished ? std::numeric_limits<double>::max()
                                                         : kWild * skeleton_.reach;
+  if (layers_.acting.any()) acting_.emplace(run.chain, run.simulation, run.trajectory, layers_.acting);
 }
 
 void Panel::pose_at(int k) const {
@@ -59,20 +68,98 @@ std::vector<double> Panel::smaller_masses() const {
   return smaller;
 }
 
+VectorPeaks Panel::peaks() {
+  VectorPeaks peaks;
+  for (int k = 0; acting_ && k < samples_; ++k) {
+    pose_at(k);
+    // Where a run goes wild its forces say nothing.
+    if (!(tip_position(run_.chain, *ws_).norm() <= limit_)) break;
+    for (const WorldVector& vector : acting_->at(*ws_, k)) peaks.add(vector);
+  }
+  return peaks;
+}
+
+double Panel::largest_mass_entry() const {
+  double largest = 0;
+  const int count = std::min(samples_, kScaleSamples);
+  for (int i = 0; i < count; ++i) {
+    const int k = int(std::int64_t(i) * samples_ / count);
+    compute_mass_matrix(run_.chain, *ws_, run_.trajectory.q_at(k));
+    const double entry = ws_->M.cwiseAbs().maxCoeff();
+    if (std::isfinite(entry)) largest = std::max(largest, entry);
+  }
+  return largest;
+}
+
+void Panel::set_pens(const Fonts& fonts, const VectorScales& scales, double marks) {
+  const double text_scale = run_.scene.text_scale;
+  if (layers_.acting.any()) pen_.emplace(theme_, fonts, text_scale, scales, marks);
+  if (layers_.frames) axes_.emplace(run_.chain, theme_, fonts, text_scale, marks);
+}
+
 void Panel::find_rails(int samples) {
   for (int k = 0; k < samples; ++k) widen_rails(skeleton_, run_.chain, run_.trajectory.q_at(k), limit_);
 }
 
 FitBox Panel::fit_box(const Camera& view, double marks, bool with_wild) {
   // Where a run begins is in the picture however it ends.
-  const int counted = wild_ && !with_wild ? 1 : samples_;
-  find_rails(counted);
+  find_rails(counted(with_wild));
   ChainFit fit(run_.chain, skeleton_, view, marks);
-  for (int k = 0; k < counted; ++k) {
+  FitBox marked;  // what is drawn over the chain
+  std::map<int, int> kinds;
+  const int axes = marked.add_kind(room_around(axes_ ? axes_->reach() : 0));
+  const int com = marked.add_kind(room_around(marks * size::kCenterOfMass / 2));
+  const auto add = [&](int kind, const Eigen::Vector3d& place) {
+    marked.add(kind, {view.right.dot(place), view.up.dot(place)});
+  };
+  for (int k = 0; k < counted(with_wild); ++k) {
     pose_at(k);
-    fit.add_pose(*ws_, limit_);
+    if (!fit.add_pose(*ws_, limit_)) continue;
+    if (axes_)
+      for (const Eigen::Isometry3d& X_WF : axes_->poses(*ws_)) add(axes, X_WF.translation());
+    if (layers_.com) add(com, center_of_mass(run_.chain, *ws_));
+    if (!acting_ || !pen_) continue;
+    for (const WorldVector& vector : acting_->at(*ws_, k)) pen_->add_to(marked, kinds, vector, view);
   }
-  return fit.box();
+  FitBox box = fit.box();
+  box.add(marked);
+  return box;
+}
+
+bool Panel::covers(const Camera& camera, const Rect& part, int k) const {
+  const auto near = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius) {
+    Point a = camera.project(from), b = camera.project(to);
+    return cut_segment(widened(part, radius + kAir), a, b);
+  };
+  pose_at(k);
+  for (const LinkSegment& link : skeleton_.links) {
+    const Eigen::Isometry3d X_WB = pose_of(*ws_, link.body);
+    if (near(X_WB * link.from, X_WB * link.to, size::kLinkWidth / 2)) return true;
+  }
+  for (const Rail& rail : skeleton_.rails)
+    if (near(rail_point(run_.chain, *ws_, rail.body, rail.lower),
+             rail_point(run_.chain, *ws_, rail.body, rail.upper), rail_overhang(rail.carrier)))
+      return true;
+  const Eigen::Vector3d tip = tip_position(run_.chain, *ws_), root = root_place(run_.chain);
+  if (near(tip, tip, kLargestMark) || near(root, root, size::kGroundLength / 2)) return true;
+  if (axes_)
+    for (const Eigen::Isometry3d& X_WF : axes_->poses(*ws_))
+      if (near(X_WF.translation(), X_WF.translation(), axes_->reach())) return true;
+  if (!acting_ || !pen_) return false;
+  for (const WorldVector& vector : acting_->at(*ws_, k)) {
+    const Rect extent = pen_->extent(vector, camera);
+    const Point place = camera.project(vector.place);
+    if (overlap(widened(part, kAir), {extent.x0 + place.x, extent.y0 + place.y, extent.x1 + place.x,
+                                      extent.y1 + place.y}))
+      return true;
+  }
+  return false;
+}
+
+bool Panel::leaves_free(const Camera& camera, const Rect& part) {
+  for (int k = 0; k < counted(false); ++k)
+    if (covers(camera, part, k)) return false;
+  return true;
 }
 
 void Panel::settle(const Camera& camera, const Rect& scene, int clip, double marks) {
@@ -127,9 +214,31 @@ void Panel::draw_static(Picture& picture) const {
   if (layers_.chain) draw_base(picture, {run_.chain, skeleton_, camera_, look_}, clip_);
 }
 
+void Panel::draw_ghosts(Picture& picture, int k) const {
+  for (const Ghost& ghost : ghosts_at(run_.trajectory.t, k, run_.scene.video.fps)) {
+    pose_at(ghost.frame);
+    ChainLook look = look_;
+    look.strength = ghost.strength;
+    look.filled = ghost.filled;
+    const ChainDrawing drawing{run_.chain, skeleton_, camera_, look};
+    draw_rails(picture, drawing, *ws_, clip_);
+    draw_links(picture, drawing, *ws_, clip_);
+  }
+}
+
+// Marks and vectors, below the end effector's disc.
+void Panel::draw_overlays(Picture& picture, const std::vector<WorldVector>& vectors) const {
+  if (axes_) axes_->draw(picture, camera_, *ws_, clip_);
+  if (layers_.com)
+    draw_center_of_mass(picture, camera_.project(center_of_mass(run_.chain, *ws_)), look_, clip_);
+  for (const WorldVector& vector : vectors) pen_->draw(picture, vector, camera_, clip_);
+}
+
 void Panel::draw_frame(Picture& picture, int k, const MassScale& scale, const Fonts& fonts) const {
   k = std::clamp(k, 0, last_);
+  if (layers_.ghosts) draw_ghosts(picture, k);
   pose_at(k);
+  const std::vector<WorldVector> vectors = acting_ ? acting_->at(*ws_, k) : std::vector<WorldVector>{};
   const Color trail = theme_.curve[std::size_t(std::max(run_.chain.nv, 1) - 1) % theme_.curve.size()];
   const ChainDrawing drawing{run_.chain, skeleton_, camera_, look_};
   if (layers_.chain) draw_rails(picture, drawing, *ws_, clip_);
@@ -143,7 +252,11 @@ void Panel::draw_frame(Picture& picture, int k, const MassScale& scale, const Fo
                                                   run_.chain.end_effector, Task::linear)),
                       tip, camera_, style, clip_);
   }
+  draw_overlays(picture, vectors);
   if (layers_.chain) draw_end_effector(picture, tip, look_, clip_);
+  if (!map_) return;
+  compute_mass_matrix(run_.chain, *ws_, run_.trajectory.q_at(k));
+  map_->draw(picture, ws_->M, map_corner_);
 }
 
 std::optional<double> Panel::left_at() const {

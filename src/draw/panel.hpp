@@ -6,9 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "draw/acting.hpp"
 #include "draw/ellipse.hpp"
 #include "draw/fit.hpp"
 #include "draw/look.hpp"
+#include "draw/marks.hpp"
+#include "draw/mass_map.hpp"
 #include "draw/skeleton.hpp"
 #include "draw/trail.hpp"
 #include "scene/scene.hpp"
@@ -20,6 +23,8 @@ namespace chainreel {
 struct Layers {
   bool chain = false, trail = false, time = false, title = false;
   bool torque_label = false, ellipse = false, scale_bar = false, legend = false;
+  bool ghosts = false, frames = false, com = false, mass_matrix = false, equation = false;
+  ActingLayers acting;
 };
 Layers layers_of(const Scene& scene);
 
@@ -28,6 +33,7 @@ struct PanelRun {
   const Scene& scene;
   const Chain& chain;
   const Trajectory& trajectory;
+  const Simulation* simulation = nullptr;  // needed where torques or constraint forces are shown
 };
 
 // How a panel treats a run that came to no good end.
@@ -41,7 +47,7 @@ enum class WildEnd {
 class Panel {
  public:
   // The first `samples` samples of the run are its frames.
-  Panel(const PanelRun& run, const Layers& layers, int samples, WildEnd wild_end);
+  Panel(const PanelRun& run, const Layers& layers, int samples, WildEnd wild_end, const Theme& theme);
 
   // The run did not come to an end that it should have: other panels decide on the camera.
   bool is_wild() const { return wild_; }
@@ -50,12 +56,27 @@ class Panel {
   // Smaller semi-axes of the mass ellipse at some of the frames, kg.
   std::vector<double> smaller_masses() const;
 
+  // The largest magnitudes of the vectors that are shown.
+  VectorPeaks peaks();
+  // Of all |M_ij| at some of the frames.
+  double largest_mass_entry() const;
+
+  // Before fit_box: vectors and axes take room, which goes with the size of the panel's marks.
+  void set_pens(const Fonts& fonts, const VectorScales& scales, double marks);
+  void set_mass_map(MassMap map) { map_.emplace(std::move(map)); }
+  const std::optional<MassMap>& mass_map() const { return map_; }
+
   // What a camera with these axes must hold. Wild panels widen it only where `with_wild`.
   FitBox fit_box(const Camera& view, double marks, bool with_wild);
 
   // The panel's part of the page, as a camera sees it; `clip` is the index of `scene` in the pictures to
   // come.
   void settle(const Camera& camera, const Rect& scene, int clip, double marks);
+
+  // Nothing of the chain, its trail and its vectors ever comes into this part of the page, as this camera sees
+  // it.
+  bool leaves_free(const Camera& camera, const Rect& part);
+  void place_mass_map(Point corner) { map_corner_ = corner; }
 
   void draw_static(Picture& picture) const;
   // Everything that moves, but words.
@@ -65,6 +86,7 @@ class Panel {
   // The instant of the note's first appearance.
   std::optional<double> left_at() const;
 
+  bool is_constrained() const { return run_.simulation && !run_.simulation->constraints.empty(); }
   const Scene& scene() const { return run_.scene; }
   const Chain& chain() const { return run_.chain; }
   const Camera& camera() const { return camera_; }
@@ -76,6 +98,10 @@ class Panel {
   void find_last_inside();
   bool is_inside() const;
   void pose_at(int k) const;
+  int counted(bool with_wild) const { return wild_ && !with_wild ? 1 : samples_; }
+  bool covers(const Camera& camera, const Rect& part, int k) const;
+  void draw_ghosts(Picture& picture, int k) const;
+  void draw_overlays(Picture& picture, const std::vector<WorldVector>& vectors) const;
 
   PanelRun run_;
   Layers layers_;
@@ -92,6 +118,11 @@ class Panel {
   int clip_ = 0;
   ChainLook look_;
   TipPath tip_;
+  std::optional<Acting> acting_;
+  std::optional<VectorPen> pen_;
+  std::optional<FrameAxes> axes_;
+  std::optional<MassMap> map_;
+  Point map_corner_;
   std::unique_ptr<Workspace> ws_;
 };
 

@@ -17,16 +17,14 @@ constexpr double kBarTick = 0.012;  // height of the ticks at the ends of a scal
 constexpr double kBarToText = 0.014;
 constexpr double kRoundOff = 1e-12;  // a text that just fills its row fits
 
-using LayOut = TextLine (*)(const Fonts&, const std::string&, const TextStyle&);
-
-// Advances are proportional to the size, so one correction is enough.
-TextLine fit_line(LayOut lay_out, const Fonts& fonts, const std::string& text, TextStyle style, double width,
-                  double text_scale) {
-  TextLine line = lay_out(fonts, text, style);
+// Advances are proportional to the size, so one correction is enough. `lay_out`: of a style.
+template <class LayOut>
+TextLine fit_line(LayOut lay_out, TextStyle style, double width, double text_scale) {
+  TextLine line = lay_out(style);
   if (line.advance <= width) return line;
   style.size =
       std::max(style.size * width / line.advance, std::min(style.size, scaled(kSmallestText, text_scale)));
-  return lay_out(fonts, text, style);
+  return lay_out(style);
 }
 
 double baseline(double bottom, double top, double text_size) {
@@ -46,7 +44,7 @@ struct Builder {
 };
 
 void build_title_band(Builder& b, const SheetText& text) {
-  if (text.title.empty() && text.torque.empty()) return;
+  if (text.title.empty() && text.torque.empty() && text.equation.empty()) return;
   const Theme& theme = *b.sheet.theme;
   const double title_size = scaled(size::kTitle, b.sheet.text_scale);
   const double torque_size = scaled(size::kEquation, b.sheet.text_scale);
@@ -63,6 +61,8 @@ void build_title_band(Builder& b, const SheetText& text) {
     title_end += line.advance + kTextGap;
     b.place(std::move(line), {b.left, baseline(row_bottom, b.top, title_size)});
   }
+  double free_from = title_end;  // in the last row
+  bool row_has_room = true, is_second_row = false;
   if (!text.torque.empty()) {
     const TextStyle style = b.style(Face::math, size::kEquation, theme.ink);
     TextLine line = fit_math(b.fonts, text.torque, style, b.width(), b.sheet.text_scale);
@@ -73,6 +73,21 @@ void build_title_band(Builder& b, const SheetText& text) {
       row_bottom = row_top - kRowPitch * torque_size;
     }
     const double x = beside && !text.title.empty() ? b.right - line.advance : b.left;
+    free_from = b.left + line.advance + kTextGap;
+    row_has_room = !beside || text.title.empty();
+    is_second_row = !beside;
+    b.place(std::move(line), {x, baseline(row_bottom, row_top, torque_size)});
+  }
+  if (!text.equation.empty()) {
+    const TextStyle style = b.style(Face::math, size::kEquation, theme.ink);
+    TextLine line = fit_math(b.fonts, {text.equation}, style, b.width(), b.sheet.text_scale, text.symbols);
+    const bool beside = row_has_room && free_from + line.advance <= b.right;
+    double row_top = is_second_row ? row_bottom + kRowPitch * torque_size : b.top;
+    if (!beside) {
+      row_top = row_bottom + (is_second_row ? 0 : 0.2 * torque_size);
+      row_bottom = row_top - kRowPitch * torque_size;
+    }
+    const double x = beside && free_from > b.left ? b.right - line.advance : b.left;
     b.place(std::move(line), {x, baseline(row_bottom, row_top, torque_size)});
   }
   b.top = row_bottom;
@@ -102,8 +117,46 @@ void place_bar(Builder& b, TextLine label, double row_bottom, double row_top) {
                              baseline(row_bottom, row_top, scaled(size::kTick, b.sheet.text_scale))});
 }
 
+// Entries in rows of their width.
+std::vector<std::vector<EntryLine>> entry_rows(const Builder& b, const SheetText& text) {
+  std::vector<std::vector<EntryLine>> rows;
+  double used = 0;
+  for (const ScaleEntry& entry : text.scales) {
+    EntryLine line = lay_out_entry(entry, b.fonts, b.sheet.text_scale, *b.sheet.theme);
+    if (rows.empty() || used + kTextGap + line.width > b.width()) {
+      rows.emplace_back();
+      used = -kTextGap;
+    }
+    used += kTextGap + line.width;
+    rows.back().push_back(std::move(line));
+  }
+  return rows;
+}
+
+// Above what stands in the foot; the last row beside the time where `beside` has room for it.
+void place_entries(Builder& b, const SheetText& text, double beside, double row_bottom, double row_top) {
+  std::vector<std::vector<EntryLine>> rows = entry_rows(b, text);
+  const double pitch = kRowPitch * scaled(size::kAxis, b.sheet.text_scale);
+  bool first = true;
+  for (std::size_t i = rows.size(); i-- > 0; first = false) {
+    double width = -kTextGap;
+    for (const EntryLine& line : rows[i]) width += kTextGap + line.width;
+    if (!first || width > beside) {
+      row_bottom = row_top;
+      row_top += pitch;
+    }
+    double x = b.left;
+    for (EntryLine& line : rows[i]) {
+      const double step = line.width + kTextGap;
+      b.sheet.scales.push_back({std::move(line), {x, (row_bottom + row_top) / 2}});
+      x += step;
+    }
+  }
+  b.bottom = row_top;
+}
+
 void build_footer_band(Builder& b, const SheetText& text) {
-  if (text.longest_time.empty() && text.bar.empty() && text.legend.empty()) return;
+  if (text.longest_time.empty() && text.bar.empty() && text.legend.empty() && text.scales.empty()) return;
   const Theme& theme = *b.sheet.theme;
   const double row = size::kFooterBand * b.sheet.text_scale, axis = scaled(size::kAxis, b.sheet.text_scale);
   const TextLine time =
@@ -140,6 +193,8 @@ void build_footer_band(Builder& b, const SheetText& text) {
     b.place(std::move(legend[i]), {x, baseline(row_bottom, row_top, axis)});
   }
   b.bottom = row_top;
+  const bool bare = text.bar.empty() && text.legend.empty();
+  if (!text.scales.empty()) place_entries(b, text, bare ? b.width() - time_width : 0, row_bottom, row_top);
 }
 
 }  // namespace
@@ -158,15 +213,16 @@ double scaled(double size, double text_scale) {
 
 TextLine fit_text(const Fonts& fonts, const std::string& text, TextStyle style, double width,
                   double text_scale) {
-  return fit_line(&lay_out_text, fonts, text, style, width, text_scale);
+  return fit_line([&](const TextStyle& s) { return lay_out_text(fonts, text, s); }, style, width, text_scale);
 }
 
 TextLine fit_math(const Fonts& fonts, const std::vector<std::string>& forms, TextStyle style, double width,
-                  double text_scale) {
+                  double text_scale, const std::vector<SymbolColor>& symbols) {
   TextLine line;
   for (const std::string& form : forms) {
     try {
-      line = fit_line(&lay_out_math, fonts, form, style, width, text_scale);
+      line = fit_line([&](const TextStyle& s) { return lay_out_math(fonts, form, s, symbols); }, style, width,
+                      text_scale);
     } catch (const Error&) {
       continue;  // a name that is not notation, such as k_: a shorter form does without it
     }
@@ -199,6 +255,7 @@ Sheet lay_out_sheet(const SheetText& text, double aspect, double text_scale, con
 
 void draw_sheet(Picture& picture, const Sheet& sheet) {
   for (const PlacedText& text : sheet.texts) draw_text(picture, text.line, text.anchor);
+  for (const PlacedEntry& entry : sheet.scales) draw_entry(picture, entry.line, entry.left, *sheet.theme);
   if (sheet.bar) draw_scale_bar(picture, *sheet.bar, sheet.bar_length, sheet.theme->ellipse);
 }
 

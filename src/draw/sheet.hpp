@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "draw/scale_entry.hpp"
 #include "picture/picture.hpp"
 #include "picture/text.hpp"
 #include "picture/theme.hpp"
@@ -21,16 +22,24 @@ inline constexpr double kSmallestText = size::kTick;
 struct SheetText {
   std::string title;
   std::vector<std::string> torque;  // math notation; the first form that fits is taken
+  std::string equation;             // math notation, a line of its own where it does not fit beside others
+  std::vector<SymbolColor> symbols;  // of the equation
   std::string longest_time;         // of the running time: room is kept for it at the lower right
   std::string bar;                  // beside the scale bar of the ellipse
   double bar_length = 0;            // units of H
   std::string legend;               // may be broken behind ": "
+  std::vector<ScaleEntry> scales;   // of vectors, in rows above or beside the time
   Place title_place;                // for the message about a title that does not fit
 };
 
 struct PlacedText {
   TextLine line;
   Point anchor;
+};
+
+struct PlacedEntry {
+  EntryLine line;
+  Point left;
 };
 
 struct Sheet {
@@ -41,6 +50,7 @@ struct Sheet {
   std::vector<PlacedText> texts;
   std::optional<Point> bar;  // left end of the scale bar
   double bar_length = 0;
+  std::vector<PlacedEntry> scales;
   Point time_anchor;  // right end of its base line
 };
 
@@ -68,6 +78,6 @@ TextLine fit_text(const Fonts& fonts, const std::string& text, TextStyle style, 
                   double text_scale);
 // The same for the first of several math notations that can be read and fits.
 TextLine fit_math(const Fonts& fonts, const std::vector<std::string>& forms, TextStyle style, double width,
-                  double text_scale);
+                  double text_scale, const std::vector<SymbolColor>& symbols = {});
 
 }  // namespace chainreel

@@ -151,6 +151,13 @@ void read_draw(Fields& fields, Scene& scene) {
   }
 }
 
+void read_theme(Fields& fields, Scene& scene) {
+  fields.read("theme", scene.theme);
+  const auto& known = theme_names();
+  require(fields, "theme", std::find(known.begin(), known.end(), scene.theme) != known.end(),
+          "'theme' must be light or dark, not '" + scene.theme + "'");
+}
+
 void read_video(Fields& fields, Scene& scene) {
   const YAML::Node node = fields.find("video");
   if (!node.IsDefined()) return;
@@ -213,6 +220,7 @@ Scene read_document(const YamlDocument& document) {
   read_draw(fields, scene);
   read_layout(fields, scene);
   fields.find("compare");
+  read_theme(fields, scene);
   fields.read("text_scale", scene.text_scale);
   read_video(fields, scene);
   check_numbers(fields, scene);

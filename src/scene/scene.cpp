@@ -5,13 +5,21 @@
 namespace chainreel {
 
 const std::vector<std::string>& layer_names() {
-  static const std::vector<std::string> names{"chain",        "trail",   "time",      "title",
-                                              "torque_label", "ellipse", "scale_bar", "legend"};
+  static const std::vector<std::string> names{
+      "chain",       "trail",    "ghosts", "frames",           "com",
+      "torque",      "velocity", "gravity", "constraint_force", "ellipse",
+      "mass_matrix", "equation", "time",   "title",            "torque_label",
+      "scale_bar",   "legend"};
   return names;
 }
 
 const std::vector<std::string>& layout_names() {
   static const std::vector<std::string> names{"scene", "compare", "grid"};
+  return names;
+}
+
+const std::vector<std::string>& theme_names() {
+  static const std::vector<std::string> names{"light", "dark"};
   return names;
 }
 

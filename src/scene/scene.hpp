@@ -54,6 +54,7 @@ struct Scene {
   std::string layout = "scene";  // of the page: or compare, grid for several panels
   std::vector<Scene>
       compare;            // the panels, each the scene with its changes; empty: the scene is the only one
+  std::string theme = "light";  // or dark
   double text_scale = 1;  // for clips used smaller than drawn
   Video video;
 
@@ -75,5 +76,6 @@ std::string method_text(const Scene& scene);
 // The layers that `draw:` may name.
 const std::vector<std::string>& layer_names();
 const std::vector<std::string>& layout_names();
+const std::vector<std::string>& theme_names();
 
 }  // namespace chainreel

@@ -115,6 +115,7 @@ void add_page(std::vector<SceneEntry>& entries, const Scene& scene) {
                        emit_list(out, scene.draw, [](const std::string& name) { return name; });
                      })});
   entries.push_back({"layout", scene.layout});
+  entries.push_back({"theme", scene.theme});
   entries.push_back({"text_scale", format_shortest(scene.text_scale)});
   entries.push_back({"video.width", std::to_string(scene.video.width)});
   entries.push_back({"video.height", std::to_string(scene.video.height)});

@@ -33,6 +33,10 @@ std::vector<Rect> ink_boxes(const Sheet& sheet, const SheetText& text) {
       lay_out_text(test::fonts(), text.longest_time,
                    {Face::label, scaled(size::kAxis, sheet.text_scale), light_theme().ink, Align::right});
   boxes.push_back(test::shifted(time.box, sheet.time_anchor));
+  for (const PlacedEntry& entry : sheet.scales) {
+    const double half = 0.011 * sheet.text_scale;
+    boxes.push_back({entry.left.x, entry.left.y - half, entry.left.x + entry.line.width, entry.left.y + half});
+  }
   if (sheet.bar)
     boxes.push_back(
         {sheet.bar->x, sheet.bar->y - 0.006, sheet.bar->x + sheet.bar_length, sheet.bar->y + 0.006});
@@ -60,6 +64,30 @@ TEST(Sheet, KeepsItsTextsInsideThePageAndApart) {
       SheetText text = everything();
       if (aspect < 1) text.title = "RR falls";
       expect_tidy(laid_out(text, aspect, text_scale), text);
+    }
+  }
+}
+
+TEST(Sheet, KeepsScalesOfVectorsAndTheEquationApartFromEverythingElse) {
+  for (const double aspect : {16.0 / 9, 4.0 / 3}) {
+    for (const double text_scale : {1.0, 1.5}) {
+      for (const int left_out : {0, 1, 2, 3}) {
+        SCOPED_TRACE(testing::Message() << aspect << " x " << text_scale << " without " << left_out);
+        SheetText text = everything();
+        if (left_out >= 1) text.bar = text.legend = "";
+        if (left_out >= 2) text.torque.clear();
+        if (left_out >= 3) text.title = "";
+        text.equation = "M(q) qdd + h(q, qd) + J_c^T lambda = tau";
+        const Color ink = light_theme().ink;
+        text.scales = {{ScaleEntry::Mark::turn, 3, ink, "torque 10 N m"},
+                       {ScaleEntry::Mark::arrow, 0.19, ink, "velocity 5 m/s"},
+                       {ScaleEntry::Mark::arrow, 0.11, ink, "weight 5 N"},
+                       {ScaleEntry::Mark::dashed_arrow, 0.20, ink, "constraint force 20 N"},
+                       {ScaleEntry::Mark::center_of_mass, 0, ink, "centre of mass"}};
+        const Sheet sheet = laid_out(text, aspect, text_scale);
+        EXPECT_EQ(sheet.scales.size(), 5u);
+        expect_tidy(sheet, text);
+      }
     }
   }
 }

@@ -40,7 +40,7 @@ TEST_F(ReadScene, ReadsEveryKey) {
   const Scene scene = read(
       "title: \"A title\"\ngravity: [1, -2, 3.5]\nstart: {q: [90deg, pi/2], qd: [-1e-3, +2]}\n"
       "torque: [1, \"max(q1, 2)\"]\nparameters: {k: 100, angle: 30deg}\nend_effector: tip\nduration: 2.5\n"
-      "method: rk4\nstep: 0.01\ndraw: [chain, time]\ntext_scale: 1.5\nvideo: {width: 640, height: 360, fps: "
+      "method: rk4\nstep: 0.01\ndraw: [chain, time]\ntheme: dark\ntext_scale: 1.5\nvideo: {width: 640, height: 360, fps: "
       "30000/1001}\n");
   EXPECT_EQ(scene.title, "A title");
   EXPECT_EQ(*scene.gravity, Eigen::Vector3d(1, -2, 3.5));
@@ -58,6 +58,7 @@ TEST_F(ReadScene, ReadsEveryKey) {
   EXPECT_EQ(scene.step, 0.01);
   EXPECT_THAT(scene.draw, ElementsAre("chain", "time"));
   EXPECT_EQ(scene.text_scale, 1.5);
+  EXPECT_EQ(scene.theme, "dark");
   EXPECT_EQ(scene.video.fps, (FrameRate{30000, 1001}));
 }
 
@@ -65,6 +66,8 @@ TEST_F(ReadScene, EditsTheDefaultLayersByPlusAndMinus) {
   EXPECT_THAT(read("draw: [+ellipse, -trail]").draw,
               ElementsAre("chain", "time", "title", "torque_label", "ellipse"));
   EXPECT_THAT(error("draw: [+ellipse, trail]"), HasSubstr("do not mix"));
+  EXPECT_THAT(error("draw: [+torques]"), HasSubstr("did you mean 'torque'?"));
+  EXPECT_THAT(error("theme: drak"), HasSubstr("'theme' must be light or dark, not 'drak'"));
 }
 
 TEST_F(ReadScene, TakesOverridesByDottedKeyAndIndex) {
