@@ -49,7 +49,10 @@ std::string choice_text(const Choice& choice, const Accuracy& accuracy) {
 }
 
 void say_choice(const PreparedScene& prepared, bool quiet) {
-  if (quiet || !prepared.choice) return;
+  if (quiet) return;
+  for (const std::string& notice : prepared.scene.notices)
+    std::fprintf(stderr, "%s: %s\n", prepared.scene.name.c_str(), notice.c_str());
+  if (!prepared.choice) return;
   std::fprintf(stderr, "%s: %s\n", prepared.scene.name.c_str(),
                choice_text(*prepared.choice, prepared.scene.accuracy).c_str());
 }

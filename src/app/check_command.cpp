@@ -7,6 +7,7 @@
 
 #include "app/automatic.hpp"
 #include "app/command.hpp"
+#include "app/constraint_report.hpp"
 #include "app/pipeline.hpp"
 #include "app/report.hpp"
 #include "app/signals.hpp"
@@ -114,12 +115,16 @@ struct RunReport {
 
 RunReport examine_run(const PreparedScene& prepared) {
   RunReport report{model_report(prepared.simulation.chain), cost_report(prepared.scene, prepared.simulation)};
+  if (!prepared.simulation.constraints.empty())
+    report.model["constraints"] = constraint_plan_report(prepared.simulation);
   if (prepared.choice) report.cost["auto"] = choice_report(*prepared.choice, prepared.scene.accuracy, true);
   return report;
 }
 
 void print_run(const PreparedScene& prepared, const RunReport& report) {
   print_model(report.model);
+  if (report.model.contains("constraints"))
+    std::printf("%s\n", constraint_plan_text(report.model["constraints"]).c_str());
   const Json& cost = report.cost;
   std::printf("%s: order %d, %ld steps, %ld evaluations of the dynamics, %d frames\n",
               to_string(MethodSetting{prepared.simulation.method, prepared.simulation.options,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/automatic.hpp"
+#include "app/constraint_report.hpp"
 #include "core/format.hpp"
 #include "encode/libraries.hpp"
 #include "render/canvas.hpp"
@@ -86,6 +87,7 @@ Json run_report(const PreparedScene& prepared, const Trajectory& trajectory) {
   json["largest_kinetic_energy"] = audit.largest_kinetic;
   json["audit_error"] = audit.largest_error;
   json["audit_error_time"] = audit.largest_error_time;
+  if (trajectory.rows > 0) json["constraint_error"] = constraint_run_report(simulation, trajectory);
   json["limits_passed"] = Json::array();
   for (const LimitEvent& event : trajectory.limits) {
     json["limits_passed"].push_back({{"joint", event.joint},

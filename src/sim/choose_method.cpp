@@ -29,11 +29,19 @@ bool takes_the_chain(Simulation& simulation, const Method& method) {
   }
 }
 
+// What an evaluation costs more than that of the free chain, and a step.
+ConstraintCost price_of_constraints(const Simulation& simulation) {
+  ConstraintCost cost = constraint_cost(simulation.chain, simulation.constraints);
+  cost.evaluation = std::max(0.0, cost.evaluation - forward_dynamics_cost(simulation.chain));
+  return cost;
+}
+
 class Chooser {
  public:
   Chooser(Simulation& simulation, const Accuracy& accuracy, std::span<const double> times,
           const StopRequest& stop)
       : simulation_(simulation), accuracy_(accuracy), times_(times), stop_(stop) {
+    if (!simulation.constraints.empty()) constraints_ = price_of_constraints(simulation);
     for (const Method& method : methods())
       if (takes_the_chain(simulation_, method)) methods_.push_back(&method);
     // Adaptive ones first: what they cost bounds the search of all others.
@@ -88,7 +96,8 @@ class Chooser {
   }
 
   double cost_of(const MethodSetting& setting, double steps, double evaluations) const {
-    return run_cost(simulation_.chain, *setting.method, setting.options, steps, evaluations);
+    const double free = run_cost(simulation_.chain, *setting.method, setting.options, steps, evaluations);
+    return free + evaluations * constraints_.evaluation + steps * constraints_.projection;
   }
 
   // True where the setting is exact enough.
@@ -145,6 +154,7 @@ class Chooser {
   std::vector<const Method*> methods_;
   Trajectory reference_;
   std::optional<Deviation> deviation_;
+  ConstraintCost constraints_{0, 0};  // beyond a free chain's
   int samples_ = 0;
   bool stopped_ = false;
   Choice choice_;

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <string_view>
 
+#include "dynamics/constrained_kernel.hpp"
 #include "dynamics/forward_dynamics.hpp"
 
 namespace chainreel {
@@ -54,6 +55,15 @@ double forward_dynamics_cost(const Chain& chain) {
   if (algorithm.starts_with("spatial, CRBA")) return 50 * n + 20;
   if (algorithm.ends_with("CRBA and LDL^T")) return 130 * n + 4 * n * n;
   return (chain.planar ? 70 : 160) * n;
+}
+
+ConstraintCost constraint_cost(const Chain& chain, const ConstraintPlan& plan) {
+  const ConstraintSet set(chain, plan.list);
+  const bool by_kernel = plan.stabilize != Stabilization::baumgarte && constrained_kernel_of(chain, set).run;
+  const double n = chain.nv, m = set.rows(), plane = chain.planar ? 1 : 1.6;
+  const double general = plane * (450 * n + 400 * m);
+  const double kernel = chain.planar ? 10 * n + 25 * m : 60 * n + 130 * m;
+  return {by_kernel ? kernel : general, plan.stabilize == Stabilization::project ? 2.3 * general : 0};
 }
 
 double run_cost(const Chain& chain, const Method& method, const MethodOptions& options, double steps,

@@ -4,12 +4,19 @@
 
 #include "integrate/method.hpp"
 #include "model/chain.hpp"
+#include "sim/constraint_plan.hpp"
 #include "sim/trajectory.hpp"
 
 namespace chainreel {
 
 // ns of one forward dynamics on the machine that the table was measured on.
 double forward_dynamics_cost(const Chain& chain);
+
+// Of one evaluation under constraints, and of what is done after a step, ns.
+struct ConstraintCost {
+  double evaluation, projection;
+};
+ConstraintCost constraint_cost(const Chain& chain, const ConstraintPlan& plan);
 
 // ns, of steps and evaluations taken by the method with these options.
 double run_cost(const Chain& chain, const Method& method, const MethodOptions& options, double steps,
