@@ -1,15 +1,17 @@
-// chainreel ellipse MODEL --pose Q [--pose Q ...] -o FILE.png
+// chainreel ellipse MODEL --pose Q [--pose Q ...] -o FILE.png|.svg|.pdf|.csv, and other ways to name poses.
 
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/ellipse_numbers.hpp"
+#include "app/ellipse_poses.hpp"
+#include "app/figure.hpp"
 #include "app/pipeline.hpp"
-#include "app/report.hpp"
 #include "core/error.hpp"
+#include "core/output_file.hpp"
 #include "draw/poses.hpp"
-#include "dynamics/effective_mass.hpp"
 #include "model/read_chain.hpp"
 
 namespace chainreel {
@@ -17,59 +19,151 @@ namespace {
 
 struct EllipseOptions {
   std::string model;
-  std::vector<std::string> poses;
+  PoseSources sources;
+  std::string reading;  // "": mass
+  std::string layout;   // "": superposed along a motion, else grid
+  bool joint_space = false;
+  std::string joints;  // "1,2"
   std::string output;
   std::string end_effector;
+  std::string title;
+  std::string theme = "light";
+  double text_scale = 1;
   int width = 1920, height = 1080;
   CommonOptions common;
+
+  EllipseReading read_as() const { return reading_named(reading); }
 };
 
-// The numbers that the figure shows, pose by pose.
-Json numbers_of(const Chain& chain, const std::vector<std::vector<double>>& poses) {
-  Workspace ws(chain);
-  Json list = Json::array();
-  for (const std::vector<double>& q : poses) {
-    Json entry;
-    entry["q"] = to_json(std::span<const double>(q));
-    add_effective_mass(entry, effective_mass_of(chain, ws, q, chain.end_effector, Task::linear));
-    list.push_back(entry);
+std::string output_of(const EllipseOptions& options) {
+  std::string output = options.output;
+  const std::string& named = options.model.empty() ? options.sources.along : options.model;
+  if (output.empty()) output = "out/" + std::filesystem::path(named).stem().string() + "_ellipse.png";
+  check_figure_path(output);
+  if (options.joint_space && output.ends_with(".csv"))
+    throw Error(ExitCode::usage,
+                "-o " + output + ": --joint-space is written as .png, .svg or .pdf; --json prints its numbers");
+  return output;
+}
+
+// Two joints, counted from 0.
+std::array<int, 2> joints_of(const Chain& chain, const std::string& text) {
+  if (chain.nv < 2) throw Error(ExitCode::usage, "--joint-space shows two joints; " + chain.name + " has one");
+  if (text.empty() && chain.nv > 2)
+    throw Error(ExitCode::usage, chain.name + " has " + std::to_string(chain.nv) +
+                                     " joints: choose the two that --joint-space is to show, like --joints 1,2");
+  const std::vector<double> numbers = text.empty() ? std::vector<double>{1, 2} : parse_list(text, "--joints");
+  const auto good = [&](double n) { return n == int(n) && n >= 1 && n <= chain.nv; };
+  if (numbers.size() != 2 || !good(numbers[0]) || !good(numbers[1]) || numbers[0] == numbers[1])
+    throw Error(ExitCode::usage, "--joints takes two different joints between 1 and " + std::to_string(chain.nv) +
+                                     ", like --joints 1,2; not '" + text + "'");
+  return {int(numbers[0]) - 1, int(numbers[1]) - 1};
+}
+
+// The model, or what the scene moves.
+Motion chain_and_poses(const EllipseOptions& options) {
+  if (!options.sources.along.empty()) {
+    if (!options.end_effector.empty())
+      throw Error(ExitCode::usage, "--along takes the scene's end effector: --set end_effector=" + options.end_effector);
+    if (!options.model.empty())
+      throw Error(ExitCode::usage, "--along takes the model of its scene: leave out " + options.model);
+    return motion_of(options.sources, options.common);
   }
-  return list;
+  if (options.model.empty()) throw Error(ExitCode::usage, "which model? Name a .urdf, or a scene by --along");
+  ModelOptions model = model_options_of(options.common);
+  model.end_effector = options.end_effector;
+  Motion read{read_chain(options.model, model), {}};
+  require_end_effector(read.chain);
+  read.poses = gather_poses(read.chain, options.sources);
+  return read;
+}
+
+PoseFigureOptions figure_of(const EllipseOptions& options, const GatheredPoses& poses) {
+  PoseFigureOptions figure;
+  figure.title = options.title;
+  figure.width = options.width;
+  figure.height = options.height;
+  figure.text_scale = options.text_scale;
+  figure.theme = &theme_named(options.theme);
+  figure.reading = options.read_as();
+  figure.layout = !options.layout.empty() ? options.layout : poses.t.empty() ? "grid" : "superposed";
+  figure.labels = poses.labels;
+  figure.path = poses.path;
+  figure.cell = poses.cell;
+  return figure;
+}
+
+void check_combination(const EllipseOptions& options) {
+  if (options.joint_space && (!options.reading.empty() || !options.layout.empty() || options.sources.field))
+    throw Error(ExitCode::usage, "--joint-space shows M(q) itself: leave out --reading, --layout and --field");
+  if (!options.joint_space && !options.joints.empty())
+    throw Error(ExitCode::usage, "--joints goes with --joint-space");
+  if (options.sources.field && !options.layout.empty())
+    throw Error(ExitCode::usage, "--field is one picture of the workspace: leave out --layout");
 }
 
 void run_ellipse(const EllipseOptions& options) {
-  std::string output = options.output;
-  if (output.empty()) output = "out/" + std::filesystem::path(options.model).stem().string() + "_ellipse.png";
-  if (!output.ends_with(".png"))
-    throw Error(ExitCode::usage, "-o " + output + ": figures are written as .png");
-  ModelOptions model = model_options_of(options.common);
-  model.end_effector = options.end_effector;
-  const Chain chain = read_chain(options.model, model);
-  require_end_effector(chain);
-  std::vector<std::vector<double>> poses = parse_poses(chain, options.poses, "--pose");
-
-  const Fonts fonts;
-  PoseFigureOptions figure;
-  figure.width = options.width;
-  figure.height = options.height;
-  write_picture(draw_ellipse_figure(chain, poses, figure, fonts), options.width, options.height, fonts,
-                output, options.common.force);
-  if (options.common.json)
-    std::puts(Json{{"file", output}, {"poses", numbers_of(chain, poses)}}.dump(2).c_str());
-  else if (!options.common.quiet)
+  check_combination(options);
+  const std::string output = output_of(options);
+  const auto [chain, poses] = chain_and_poses(options);
+  Json numbers;
+  if (options.joint_space) {
+    const std::array<int, 2> joints = joints_of(chain, options.joints);
+    const Fonts fonts;
+    write_picture(draw_joint_space_figure(chain, poses.q, joints, figure_of(options, poses), fonts), options.width,
+                  options.height, fonts, output, options.common.force);
+    numbers = joint_space_json(chain, poses, joints);
+  } else if (output.ends_with(".csv")) {
+    write_text_file(output, ellipse_csv(chain, poses, options.read_as()), options.common.force);
+  } else {
+    const Fonts fonts;
+    write_picture(draw_ellipse_figure(chain, poses.q, figure_of(options, poses), fonts), options.width,
+                  options.height, fonts, output, options.common.force);
+  }
+  if (options.common.json) {
+    Json report{{"file", output}};
+    if (!options.joint_space) {
+      report["reading"] = to_string(options.read_as());
+      report["unit"] = options.read_as() == EllipseReading::energy ? "m/s" : "kg";
+      numbers = ellipse_json(chain, poses, options.read_as());
+    }
+    report["poses"] = numbers;
+    std::puts(report.dump(2).c_str());
+  } else if (!options.common.quiet) {
     std::printf("%s\n", output.c_str());
+  }
 }
 
 }  // namespace
 
 void add_ellipse_command(CLI::App& app) {
   auto options = std::make_shared<EllipseOptions>();
-  CLI::App* command = app.add_subcommand("ellipse", "a figure of the effective-mass ellipse at chosen poses");
-  command->add_option("model", options->model, "a model (.urdf)")->required();
-  add_repeatable(*command, "--pose", options->poses, "q of the chain: --pose 0,90deg (repeatable)")
-      ->required();
-  command->add_option("-o,--output", options->output, "a .png file (default out/NAME_ellipse.png)");
+  CLI::App* command = app.add_subcommand("ellipse", "a figure of the effective mass at chosen poses");
+  command->add_option("model", options->model, "a model (.urdf); not with --along");
+  PoseSources& sources = options->sources;
+  add_repeatable(*command, "--pose", sources.poses, "q of the chain: --pose 0,90deg (repeatable)");
+  command->add_option("--sweep", sources.sweep, "poses that differ in one coordinate: --sweep q2=0:180deg:9");
+  command->add_option("--along", sources.along, "poses along the motion of a scene (.yaml)");
+  command->add_flag("--field", sources.field, "a grid of points of the workspace, of planar chains of 2 or 3 joints");
+  command->add_option("--samples", sources.samples, "poses --along (default 6), points across the --field (default 12)")
+      ->check(CLI::Range(1, 200));
+  command->add_option("--elbow", sources.elbow, "of a --field: up, the elbow left of the way to the end, or down")
+      ->check(CLI::IsMember({"up", "down"}));
+  command->add_option("--reading", options->reading,
+                      "mass: forces for unit accelerations (default); energy: velocities of equal kinetic energy; "
+                      "belt: mass felt along each direction")
+      ->check(CLI::IsMember(reading_names()));
+  command->add_option("--layout", options->layout, "of the poses: grid, row, superposed")
+      ->check(CLI::IsMember(figure_layout_names()));
+  command->add_flag("--joint-space", options->joint_space, "the unit circle of accelerations beside its image under M(q)");
+  command->add_option("--joints", options->joints, "the two joints of --joint-space: --joints 1,2");
+  command->add_option("-o,--output", options->output,
+                      "a .png, .svg, .pdf or .csv file (default out/NAME_ellipse.png)");
   command->add_option("--end-effector", options->end_effector, "the link whose mass is felt");
+  command->add_option("--title", options->title, "above the figure");
+  command->add_option("--theme", options->theme, "light or dark")->check(CLI::IsMember(theme_names()));
+  command->add_option("--text-scale", options->text_scale, "larger text for small pictures")
+      ->check(CLI::Range(0.5, 3.0));
   command->add_option("--width", options->width, "pixels")->check(CLI::Range(16, 16384));
   command->add_option("--height", options->height, "pixels")->check(CLI::Range(16, 16384));
   add_common_options(*command, options->common);

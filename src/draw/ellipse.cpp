@@ -5,27 +5,12 @@
 #include <cmath>
 #include <limits>
 
-#include "draw/joints.hpp"
+#include "core/format.hpp"
+#include "draw/belt.hpp"
+#include "draw/open_ends.hpp"
 
 namespace chainreel {
 namespace {
-
-constexpr double kFill = 0.16;            // opacity
-constexpr double kSilhouetteFill = 0.12;  // of an ellipsoid
-constexpr double kDash = 0.012, kGap = 0.008;
-constexpr int kFadeSteps = 16;  // of the fill; each changes it by 1 %, below what can be seen
-// On the page, axes shorter than this have no direction (an axis of an ellipsoid towards the viewer).
-constexpr double kNoLength = 1e-9;
-
-double length_of(Point v) {
-  return std::hypot(v.x, v.y);
-}
-double dot(Point a, Point b) {
-  return a.x * b.x + a.y * b.y;
-}
-bool contains(const Rect& r, Point p) {
-  return p.x >= r.x0 && p.x <= r.x1 && p.y >= r.y0 && p.y <= r.y1;
-}
 
 // A semi-axis on the page: the whole vector, or the direction of an infinite one (projected, not unit).
 struct PageAxis {
@@ -33,19 +18,24 @@ struct PageAxis {
   bool open = false;
 };
 
+// From the longest to the shortest.
 std::vector<PageAxis> page_axes(const std::vector<MassAxis>& axes, Point center, const Camera& camera,
                                 const EllipseStyle& style) {
   std::vector<PageAxis> projected;
   for (const MassAxis& axis : axes) {
     const Point d{camera.right.dot(axis.direction), camera.up.dot(axis.direction)};
-    if (!axis.mass) {
+    const std::optional<double> length = semi_axis(axis, style.reading);
+    if (!length) {
       if (length_of(d) > 1e-6) projected.push_back({d, true});
       continue;
     }
-    const Point v = (*axis.mass * style.per_kg) * d;
-    const bool leaves = !contains(style.scene, center + v) && !contains(style.scene, center - v);
+    const Point v = (*length * style.per_unit) * d;
+    const bool leaves = style.reading != EllipseReading::energy && !contains(style.scene, center + v) &&
+                        !contains(style.scene, center - v);
     projected.push_back({leaves ? d : v, leaves});
   }
+  // What is heavy is slow.
+  if (style.reading == EllipseReading::energy) std::reverse(projected.begin(), projected.end());
   return projected;
 }
 
@@ -64,26 +54,15 @@ std::array<Point, 2> silhouette(const std::vector<PageAxis>& axes) {
   return {std::sqrt(mean + deviation) * u, std::sqrt(std::max(mean - deviation, 0.0)) * normal_to(u)};
 }
 
-void draw_dashed(Picture& picture, PageLine line, double width, Color color, int clip) {
-  const Point u = unit(line.b - line.a);
-  const double length = length_of(line.b - line.a);
-  // Symmetric about the middle, which is the middle of a dash.
-  const int half_count = int((length / 2 - kDash / 2) / (kDash + kGap)) + 1;
-  const Point middle = 0.5 * (line.a + line.b);
-  for (int i = -half_count; i <= half_count; ++i) {
-    const double from = std::max(i * (kDash + kGap) - kDash / 2, -length / 2);
-    const double to = std::min(i * (kDash + kGap) + kDash / 2, length / 2);
-    if (from < to) draw_line(picture, {middle + from * u, middle + to * u}, width, color, clip);
-  }
-}
-
 void draw_closed(Picture& picture, const std::vector<PageAxis>& axes, Point center, const EllipseStyle& style,
                  int clip) {
   const Color line = style.theme->ellipse;
   const bool solid = axes.size() > 2;
   const auto [u, v] = silhouette(axes);
-  picture.add(Ellipse{center, u, v, {line.faded(solid ? kSilhouetteFill : kFill), line, size::kEllipseLine}},
-              clip);
+  if (length_of(v) < kNoLength)  // nothing moves along the other axis
+    return draw_line(picture, {center - u, center + u}, size::kEllipseLine, line, clip);
+  picture.add(
+      Ellipse{center, u, v, {line.faded(solid ? kSilhouetteFill : kEllipseFill), line, size::kEllipseLine}}, clip);
   for (std::size_t i = 0; solid && i < axes.size(); ++i) {
     const auto [a, b] = silhouette({axes[i], axes[(i + 1) % axes.size()]});
     if (length_of(b) > kNoLength) picture.add(Ellipse{center, a, b, {{}, line, size::kEllipseAxis}}, clip);
@@ -96,16 +75,6 @@ void draw_closed(Picture& picture, const std::vector<PageAxis>& axes, Point cent
       draw_dashed(picture, axis, size::kEllipseAxis, line, clip);
     }
   }
-}
-
-// How far from p along the unit vector d the scene ends; 0 where p is outside and d leads away.
-double way_out(const Rect& scene, Point p, Point d) {
-  const auto to_edge = [](double x, double dx, double low, double high) {
-    if (std::abs(dx) < kNoLength) return std::numeric_limits<double>::infinity();
-    return ((dx > 0 ? high : low) - x) / dx;
-  };
-  return std::max(0.0,
-                  std::min(to_edge(p.x, d.x, scene.x0, scene.x1), to_edge(p.y, d.y, scene.y0, scene.y1)));
 }
 
 // The whole line through p along the unit vector d, from edge to edge of the scene, fading over its last
@@ -124,7 +93,7 @@ void draw_fading_line(Picture& picture, Point p, Point d, const EllipseStyle& st
   narrow(p.x, d.x, style.scene.x0, style.scene.x1);
   narrow(p.y, d.y, style.scene.y0, style.scene.y1);
   if (!(in < out)) return;
-  const double fade = std::min(size::kEllipseFade, (out - in) / 2);
+  const double fade = std::min(style.fade, (out - in) / 2);
   const Point a = p + in * d, b = p + out * d;
   Capsule line{a + fade * d, b - fade * d, size::kEllipseLine / 2, {style.theme->ellipse, {}, 0}};
   picture.add(line, clip);
@@ -136,62 +105,17 @@ void draw_fading_line(Picture& picture, Point p, Point d, const EllipseStyle& st
   }
 }
 
-// The part of a convex polygon where dot(p - through, inward) >= 0; one corner more at most.
-Polygon cut(const Polygon& polygon, Point through, Point inward) {
-  Polygon kept;
-  kept.paint = polygon.paint;
-  for (int i = 0; i < polygon.count; ++i) {
-    const Point p = polygon.corners[std::size_t(i)],
-                q = polygon.corners[std::size_t((i + 1) % polygon.count)];
-    const double at_p = dot(p - through, inward), at_q = dot(q - through, inward);
-    if (at_p >= 0) kept.corners[std::size_t(kept.count++)] = p;
-    if ((at_p >= 0) != (at_q >= 0)) {
-      kept.corners[std::size_t(kept.count++)] = p + (at_p / (at_p - at_q)) * (q - p);
-    }
-  }
-  return kept;
-}
-
 // The fill between the lines: scenes one in the other, ever smaller, each cut to the band, so that no seam
 // shows.
 void draw_fading_fill(Picture& picture, Point center, Point half_width, const EllipseStyle& style, int clip) {
-  const Color fill = style.theme->ellipse.faded(1 - std::pow(1 - kFill, 1.0 / kFadeSteps));
+  const Color fill = style.theme->ellipse.faded(1 - std::pow(1 - kEllipseFill, 1.0 / kFadeSteps));
   for (int i = 0; i < kFadeSteps; ++i) {
-    const double inset = size::kEllipseFade * (i + 0.5) / kFadeSteps;
-    const Rect r{style.scene.x0 + inset, style.scene.y0 + inset, style.scene.x1 - inset,
-                 style.scene.y1 - inset};
+    const Rect r = inset(style.scene, style.fade * (i + 0.5) / kFadeSteps);
     if (!(r.x0 < r.x1 && r.y0 < r.y1)) return;
     Polygon band{{Point{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}, 4, {fill, {}, 0}};
     band = cut(cut(band, center + half_width, -1 * half_width), center - half_width, half_width);
     if (band.count >= 3) picture.add(band, clip);
   }
-}
-
-// The sign with its middle as near to `at` as the scene allows.
-void draw_infinity(Picture& picture, Point at, const EllipseStyle& style, int clip) {
-  const TextStyle text{Face::label, size::kSymbol * style.text_scale, style.theme->ellipse, Align::left};
-  const TextLine sign = lay_out_text(*style.fonts, "\u221E", text);
-  const Point half{sign.box.width() / 2, sign.box.height() / 2};
-  const Rect& scene = style.scene;
-  const Point middle{
-      std::clamp(at.x, std::min(scene.x0 + half.x, scene.x1), std::max(scene.x1 - half.x, scene.x0)),
-      std::clamp(at.y, std::min(scene.y0 + half.y, scene.y1), std::max(scene.y1 - half.y, scene.y0))};
-  draw_text(picture, sign, {middle.x - half.x - sign.box.x0, middle.y - half.y - sign.box.y0}, clip);
-}
-
-// An infinity sign on the way from the centre along d, off the end effector's disc.
-void draw_infinity_along(Picture& picture, Point center, Point d, double half_width,
-                         const EllipseStyle& style, int clip) {
-  const double clear = 0.45 * size::kSymbol * style.text_scale + 0.008;  // half a sign and some air
-  const double along = way_out(style.scene, center, d) - clear;
-  if (along > clear + size::kEndEffector) {
-    draw_infinity(picture, center + along * d, style, clip);
-    return;
-  }
-  // Too near to the edge: beside the band, on the side that has more room.
-  const Point side = normal_to(d), foot = center + std::max(along, 0.0) * d;
-  const bool left = way_out(style.scene, foot, side) > way_out(style.scene, foot, -1 * side);
-  draw_infinity(picture, foot + ((left ? 1 : -1) * (half_width + clear)) * side, style, clip);
 }
 
 void draw_open(Picture& picture, const std::vector<PageAxis>& axes, Point center, Point direction,
@@ -214,6 +138,24 @@ void draw_open(Picture& picture, const std::vector<PageAxis>& axes, Point center
 
 }  // namespace
 
+EllipseReading reading_named(std::string_view name) {
+  return name == "energy" ? EllipseReading::energy
+         : name == "belt" ? EllipseReading::belt
+                          : EllipseReading::mass;
+}
+
+std::string to_string(EllipseReading reading) {
+  return reading == EllipseReading::energy ? "energy" : reading == EllipseReading::belt ? "belt" : "mass";
+}
+
+std::string ellipse_legend(EllipseReading reading) {
+  switch (reading) {
+    case EllipseReading::energy: return "kinetic energy ellipse of \u039B(q): velocities of equal energy, 0.5 J";
+    case EllipseReading::belt: return "effective mass belt of \u039B(q): mass felt along each direction";
+    default: return "effective mass ellipse \u039B(q): force for unit acceleration";
+  }
+}
+
 std::vector<MassAxis> mass_axes(const EffectiveMass& effective) {
   const Eigen::Index rows = effective.mobility.size();
   const double largest = rows == 0 ? 0 : effective.mobility.maxCoeff();
@@ -231,17 +173,25 @@ std::vector<MassAxis> mass_axes(const EffectiveMass& effective) {
   return axes;
 }
 
-std::optional<double> smallest_mass(const std::vector<MassAxis>& axes) {
-  return axes.empty() ? std::nullopt : axes.back().mass;
+std::optional<double> semi_axis(const MassAxis& axis, EllipseReading reading) {
+  if (reading != EllipseReading::energy) return axis.mass;
+  return axis.mass ? 1 / std::sqrt(*axis.mass) : 0.0;
 }
 
-MassScale mass_scale(std::vector<double> smaller_semi_axes, double bar_length) {
-  MassScale scale;
-  scale.bar_length = bar_length;
-  std::erase_if(smaller_semi_axes, [](double m) { return !(std::isfinite(m) && m > 0); });
-  if (smaller_semi_axes.empty()) return scale;
-  const auto middle = smaller_semi_axes.begin() + std::ptrdiff_t(smaller_semi_axes.size() / 2);
-  std::nth_element(smaller_semi_axes.begin(), middle, smaller_semi_axes.end());
+std::optional<double> bounded_semi_axis(const std::vector<MassAxis>& axes, EllipseReading reading) {
+  return axes.empty() ? std::nullopt : semi_axis(axes.back(), reading);
+}
+
+std::string EllipseScale::label() const {
+  return format_shortest(bar) + (reading == EllipseReading::energy ? " m/s" : " kg");
+}
+
+EllipseScale ellipse_scale(std::vector<double> bounded, double bar_length, EllipseReading reading) {
+  EllipseScale scale{1, bar_length, reading};
+  std::erase_if(bounded, [](double m) { return !(std::isfinite(m) && m > 0); });
+  if (bounded.empty()) return scale;
+  const auto middle = bounded.begin() + std::ptrdiff_t(bounded.size() / 2);
+  std::nth_element(bounded.begin(), middle, bounded.end());
   const double decade = std::pow(10.0, std::floor(std::log10(*middle)));
   double nearest = decade;
   for (const double step : {2.0, 5.0, 10.0}) {
@@ -249,13 +199,14 @@ MassScale mass_scale(std::vector<double> smaller_semi_axes, double bar_length) {
     if (std::abs(std::log(*middle / (step * decade))) < std::abs(std::log(*middle / nearest)))
       nearest = step * decade;
   }
-  scale.bar_kg = nearest;
+  scale.bar = nearest;
   return scale;
 }
 
 void draw_mass_ellipse(Picture& picture, const std::vector<MassAxis>& axes, Point center,
                        const Camera& camera, const EllipseStyle& style, int clip) {
   if (!contains(style.scene, center)) return;
+  if (style.reading == EllipseReading::belt) return draw_belt(picture, axes, center, camera, style, clip);
   const std::vector<PageAxis> projected = page_axes(axes, center, camera, style);
   Point open{};
   bool all_open = false;

@@ -1,15 +1,23 @@
-// The effective-mass ellipse of the end effector, `mass` form: all forces f = Lambda u for accelerations |u|
-// = 1. Its semi-axes lie along the eigenvectors of Lambda and measure its eigenvalues in kg (K. Lynch, F.
-// Park, Modern Robotics, ch. 8.1.1), drawn in H per kg. It is taken from the eigenvalues m of Lambda_inv = J
-// M^-1 J^T, which stay finite: a semi-axis is 1 / m. Where m is zero to within kSingularFraction, no
-// acceleration is possible along that direction, and where an axis leaves the scene at both of its ends no
-// number could be read from it: there the curve is open, two lines along the bounded width that fade towards
-// the edge of the scene, with an infinity sign at each end. In space the ellipse drawn is the silhouette of
-// the ellipsoid, with its three principal ellipses.
+// The effective mass of the end effector as a curve around it, in one of three readings:
+//
+//   mass    all forces f = Lambda u for accelerations |u| = 1: an ellipse whose semi-axes lie along the
+//           eigenvectors of Lambda and measure its eigenvalues in kg (K. Lynch, F. Park, Modern Robotics, ch. 8.1.1)
+//   energy  all velocities v with v^T Lambda v / 2 = 0.5 J: an ellipse with semi-axes 1/sqrt(lambda) in m/s
+//   belt    the mass felt along each direction u, 1 / (u^T Lambda_inv u) in kg, as a polar curve: it touches the
+//           ellipse of `mass` at its axes and lies outside of it between them, with a waist at the minor one where
+//           lambda_min < lambda_max / 2
+//
+// All are taken from the eigenvalues m of Lambda_inv = J M^-1 J^T, which stay finite: lambda = 1 / m. Where m is
+// zero to within kSingularFraction, no acceleration is possible along that direction, and where an axis in kg
+// leaves the scene at both of its ends no number could be read from it: there `mass` is open, two lines along
+// the bounded width that fade towards the edge of the scene, with an infinity sign at each end, and so are the
+// ends of `belt`; `energy` shrinks to a segment. In space the ellipse drawn is the silhouette of the ellipsoid,
+// with its three principal ellipses.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dynamics/effective_mass.hpp"
@@ -20,7 +28,13 @@
 
 namespace chainreel {
 
-inline const std::string kEllipseLegend = "effective mass ellipse \u039B(q): force for unit acceleration";
+enum class EllipseReading { mass, energy, belt };
+// Of "mass", "energy" or "belt"; any other word is mass.
+EllipseReading reading_named(std::string_view name);
+std::string to_string(EllipseReading reading);
+
+// What the curve is, in the words of a legend; may be broken behind ": ".
+std::string ellipse_legend(EllipseReading reading);
 
 // A semi-axis of the ellipse or ellipsoid.
 struct MassAxis {
@@ -30,28 +44,39 @@ struct MassAxis {
 // From the longest to the shortest.
 std::vector<MassAxis> mass_axes(const EffectiveMass& effective);
 
-// Of the axes with a finite mass the smallest, if there is one.
-std::optional<double> smallest_mass(const std::vector<MassAxis>& axes);
+// How long a semi-axis is in this reading, kg or m/s; absent: infinite.
+std::optional<double> semi_axis(const MassAxis& axis, EllipseReading reading);
+// The semi-axis that is bounded at singular poses, too, and so decides on the scale: the smaller one, of `energy`
+// the larger one.
+std::optional<double> bounded_semi_axis(const std::vector<MassAxis>& axes, EllipseReading reading);
 
-// Fixed for a whole clip or figure: a bar of 1, 2 or 5 x 10^n kg.
-struct MassScale {
-  double bar_kg = 1;
+// Fixed for a whole clip or figure: a bar of 1, 2 or 5 x 10^n kg, or m/s.
+struct EllipseScale {
+  double bar = 1;
   double bar_length = 0.10;  // units of H
-  double per_kg() const { return bar_length / bar_kg; }
+  EllipseReading reading = EllipseReading::mass;
+
+  double per_unit() const { return bar_length / bar; }  // units of H per kg or m/s
+  std::string label() const;                            // "2 kg"
 };
-// The bar nearest to the median of the smaller semi-axes (kg), drawn `bar_length` long; 1 kg where there are
+// The bar nearest to the median of the bounded semi-axes, drawn `bar_length` long; 1 kg or 1 m/s where there are
 // none.
-MassScale mass_scale(std::vector<double> smaller_semi_axes, double bar_length);
+EllipseScale ellipse_scale(std::vector<double> bounded_semi_axes, double bar_length,
+                           EllipseReading reading = EllipseReading::mass);
 
 // What belongs to the picture in which ellipses are drawn.
 struct EllipseStyle {
   const Theme* theme = nullptr;
   const Fonts* fonts = nullptr;
   double text_scale = 1;
-  double per_kg = 0.1;  // units of H
-  Rect scene;           // its edge is where open curves fade
+  double per_unit = 0.1;  // units of H per kg or m/s
+  Rect scene;             // its edge is where open curves fade
+  EllipseReading reading = EllipseReading::mass;
+  double fade = size::kEllipseFade;  // over this last stretch
+  bool signs = true;                 // infinity signs at open ends
 };
 
+// The curve about `center` in the reading of the style.
 void draw_mass_ellipse(Picture& picture, const std::vector<MassAxis>& axes, Point center,
                        const Camera& camera, const EllipseStyle& style, int clip);
 

@@ -1,18 +1,17 @@
 // Small multiples: every panel has the same camera up to a shift and the same kilograms per length, so that
 // poses can be compared by eye.
+#include "draw/ellipse_figure.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/error.hpp"
-#include "core/format.hpp"
 #include "draw/caption.hpp"
 #include "draw/chain.hpp"
 #include "draw/chain_fit.hpp"
-#include "draw/ellipse.hpp"
 #include "draw/joints.hpp"
-#include "draw/poses.hpp"
-#include "draw/sheet.hpp"
 #include "draw/view.hpp"
 #include "dynamics/kinematics.hpp"
 
@@ -21,34 +20,18 @@ namespace {
 
 constexpr int kMostAcross = 4;
 constexpr double kFrameLine = 0.0018;
-// Of the shorter side of a panel: how long the smaller semi-axes (their median) and the longest one are
+constexpr double kLabelInset = 0.014;
+// Of the shorter side of a panel: how long the bounded semi-axes (their median) and the longest one are
 // drawn, whatever gives the smaller scale. Axes beyond kLongest times the median do not count: near a
 // singular pose they have no bound.
-constexpr double kSmallerAxis = 0.14, kLongestAxis = 0.34, kLongest = 8;
-constexpr double kLongestBar = 0.12;  // units of H
+constexpr double kSmallerAxis = 0.14, kLargerAxis = 0.24, kLongest = 8;
+constexpr int kBeltSamples = 64;
 // Marks have their full size in a panel of this height and shrink with it, down to a limit.
 constexpr double kFullPanel = 0.6, kSmallestMarks = 0.45;
 
-struct Pose {
-  std::vector<double> q;
-  EffectiveMass effective;
-  std::vector<MassAxis> axes;
-};
-
-std::vector<Pose> poses_of(const Chain& chain, const std::vector<std::vector<double>>& configurations,
-                           Workspace& ws) {
-  std::vector<Pose> poses;
-  for (const std::vector<double>& q : configurations) {
-    Pose pose{q, effective_mass_of(chain, ws, q, chain.end_effector, Task::linear), {}};
-    pose.axes = mass_axes(pose.effective);
-    poses.push_back(std::move(pose));
-  }
-  return poses;
-}
-
 // Panels of equal size, row by row from the top.
-std::vector<Rect> panels_of(const Rect& area, int count) {
-  const int rows = (count + kMostAcross - 1) / kMostAcross, columns = (count + rows - 1) / rows;
+std::vector<Rect> panels_of(const Rect& area, int count, int most_across) {
+  const int rows = (count + most_across - 1) / most_across, columns = (count + rows - 1) / rows;
   const double width = (area.width() - (columns - 1) * size::kGutter) / columns;
   const double height = (area.height() - (rows - 1) * size::kGutter) / rows;
   std::vector<Rect> panels;
@@ -60,48 +43,8 @@ std::vector<Rect> panels_of(const Rect& area, int count) {
   return panels;
 }
 
-MassScale scale_for(const std::vector<Pose>& poses, double panel_side) {
-  std::vector<double> smaller;
-  for (const Pose& pose : poses) {
-    if (const auto mass = smallest_mass(pose.axes)) smaller.push_back(*mass);
-  }
-  if (smaller.empty()) return {};
-  std::nth_element(smaller.begin(), smaller.begin() + std::ptrdiff_t(smaller.size() / 2), smaller.end());
-  const double median = smaller[smaller.size() / 2];
-  double longest = median;
-  for (const Pose& pose : poses) {
-    for (const MassAxis& axis : pose.axes) {
-      if (axis.mass && *axis.mass <= kLongest * median) longest = std::max(longest, *axis.mass);
-    }
-  }
-  const double per_kg = panel_side * std::min(kSmallerAxis / median, kLongestAxis / longest);
-  const double bar_kg = round_length(kLongestBar / per_kg);
-  return {bar_kg, bar_kg * per_kg};
-}
-
-Sheet sheet_of(const PoseFigureOptions& options, const MassScale& scale, const Fonts& fonts) {
-  SheetText text;
-  text.title = options.title;
-  text.bar = format_shortest(scale.bar_kg) + " kg";
-  text.bar_length = scale.bar_length;
-  text.legend = kEllipseLegend;
-  return lay_out_sheet(text, double(options.width) / options.height, options.text_scale, *options.theme,
-                       fonts);
-}
-
 Rect above_caption(const Rect& panel, double caption) {
   return {panel.x0, panel.y0 + caption, panel.x1, panel.y1};
-}
-
-// The room that a closed ellipse of the usual size takes around the end effector.
-Room room_of(const std::vector<MassAxis>& axes, const Camera& camera, double per_kg, double most) {
-  double xx = 0, yy = 0;
-  for (const MassAxis& axis : axes) {
-    const double length = axis.mass ? std::min(*axis.mass * per_kg, most) : 0;
-    xx += std::pow(length * camera.right.dot(axis.direction), 2);
-    yy += std::pow(length * camera.up.dot(axis.direction), 2);
-  }
-  return {std::sqrt(xx), std::sqrt(xx), std::sqrt(yy), std::sqrt(yy)};
 }
 
 // What all panels share.
@@ -112,7 +55,7 @@ struct Panels {
   std::vector<Rect> places;
   double caption = 0;  // height of the words below each scene
   double marks = 1;
-  MassScale scale;
+  EllipseScale scale;
   Skeleton skeleton;
   Camera camera;  // of the first panel
 
@@ -131,7 +74,7 @@ void fit_panels(Panels& panels, const std::vector<Pose>& poses, Workspace& ws) {
     compute_kinematics(panels.chain, ws, pose.q, at_rest);
     fit.add_pose(ws, kNoLimit);
     fit.add(tip_position(panels.chain, ws),
-            room_of(pose.axes, panels.camera, panels.scale.per_kg(), kLongestAxis * panels.side()));
+            room_of(pose.axes, panels.camera, panels.scale, kLongestAxis * panels.side()));
   }
   fit_to(panels.camera, fit.box(), panels.scene(0), size::kFitMargin);
 }
@@ -156,8 +99,17 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
   draw_rails(picture, drawing, ws, clip);
   draw_links(picture, drawing, ws, clip);
   draw_mass_ellipse(picture, pose.axes, tip, camera,
-                    {&theme, &panels.fonts, panels.options.text_scale, panels.scale.per_kg(), scene}, clip);
+                    {&theme, &panels.fonts, panels.options.text_scale, panels.scale.per_unit(), scene,
+                     panels.options.reading},
+                    clip);
   draw_end_effector(picture, tip, drawing.look, clip);
+  if (i < panels.options.labels.size()) {
+    const TextStyle style{Face::label, scaled(size::kAxis, panels.options.text_scale), theme.ink, Align::left};
+    draw_text(picture,
+              fit_text(panels.fonts, panels.options.labels[i], style, scene.width() - 2 * kLabelInset,
+                       panels.options.text_scale),
+              {scene.x0 + kLabelInset, scene.y1 - kLabelInset - 0.75 * style.size}, clip);
+  }
   draw_caption(picture, panels.chain, pose.q, pose.effective,
                {scene.x0, panels.places[i].y0, scene.x1, scene.y0}, panels.options.text_scale, theme,
                panels.fonts);
@@ -165,20 +117,96 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
 
 }  // namespace
 
+const std::vector<std::string>& figure_layout_names() {
+  static const std::vector<std::string> names{"grid", "row", "superposed"};
+  return names;
+}
+
+std::vector<Pose> poses_of(const Chain& chain, const std::vector<std::vector<double>>& configurations,
+                           Workspace& ws) {
+  std::vector<Pose> poses;
+  for (const std::vector<double>& q : configurations) {
+    Pose pose{q, effective_mass_of(chain, ws, q, chain.end_effector, Task::linear), {}};
+    pose.axes = mass_axes(pose.effective);
+    poses.push_back(std::move(pose));
+  }
+  return poses;
+}
+
+EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReading reading) {
+  std::vector<double> bounded;
+  for (const Pose& pose : poses) {
+    const auto length = bounded_semi_axis(pose.axes, reading);
+    if (length && *length > 0) bounded.push_back(*length);
+  }
+  if (bounded.empty()) return {1, 0.10, reading};
+  std::nth_element(bounded.begin(), bounded.begin() + std::ptrdiff_t(bounded.size() / 2), bounded.end());
+  const double median = bounded[bounded.size() / 2];
+  double longest = median;
+  for (const Pose& pose : poses) {
+    for (const MassAxis& axis : pose.axes) {
+      const auto length = semi_axis(axis, reading);
+      if (length && *length <= kLongest * median) longest = std::max(longest, *length);
+    }
+  }
+  const double usual = reading == EllipseReading::energy ? kLargerAxis : kSmallerAxis;
+  const double per_unit = room * std::min(usual / median, kLongestAxis / longest);
+  const double bar = round_length(kLongestBar / per_unit);
+  return {bar, bar * per_unit, reading};
+}
+
+Sheet sheet_of(const PoseFigureOptions& options, const EllipseScale& scale, const Fonts& fonts) {
+  SheetText text;
+  text.title = options.title;
+  text.bar = scale.label();
+  text.bar_length = scale.bar_length;
+  text.legend = ellipse_legend(options.reading);
+  if (options.cell > 0) text.legend += "; open where longer than its cell";
+  return lay_out_sheet(text, double(options.width) / options.height, options.text_scale, *options.theme,
+                       fonts);
+}
+
+Room room_of(const std::vector<MassAxis>& axes, const Camera& camera, const EllipseScale& scale, double most) {
+  double x = 0, y = 0;
+  std::vector<Point> ends;  // of the semi-axes on the page, cut to `most`
+  for (const MassAxis& axis : axes) {
+    const auto length = semi_axis(axis, scale.reading);
+    const double drawn = length ? std::min(*length * scale.per_unit(), most) : 0;
+    ends.push_back(drawn * Point{camera.right.dot(axis.direction), camera.up.dot(axis.direction)});
+    x = std::hypot(x, ends.back().x);
+    y = std::hypot(y, ends.back().y);
+  }
+  if (scale.reading != EllipseReading::belt) return {x, x, y, y};
+  // Between the axes a belt lies outside of its ellipse: in the plane of its first and last axis at most.
+  const auto long_axis = axes.front().mass, short_axis = axes.back().mass;
+  for (int i = 0; long_axis && short_axis && i < kBeltSamples; ++i) {
+    const double a = i * 2 * std::numbers::pi / kBeltSamples, c = std::cos(a), s = std::sin(a);
+    const double r = std::min(scale.per_unit() / (c * c / *long_axis + s * s / *short_axis), most);
+    const Eigen::Vector3d p = r * (c * axes.front().direction + s * axes.back().direction);
+    x = std::max(x, std::abs(camera.right.dot(p)));
+    y = std::max(y, std::abs(camera.up.dot(p)));
+  }
+  return {x, x, y, y};
+}
+
 Picture draw_ellipse_figure(const Chain& chain, const std::vector<std::vector<double>>& configurations,
                             const PoseFigureOptions& options, const Fonts& fonts) {
   if (configurations.empty()) throw Error(ExitCode::usage, "a figure needs at least one pose");
   Workspace ws(chain);
   const std::vector<Pose> poses = poses_of(chain, configurations, ws);
+  if (options.cell > 0 || options.layout == "superposed") return draw_superposed(chain, poses, options, fonts);
   Panels panels{chain, options, fonts, {}, 0, 1, {}, {}, {}};
   panels.caption = caption_height(int(poses[0].effective.basis.directions.size()), options.text_scale);
   // The scale follows from the size of the panels: they are laid out with the longest bar and label that may
   // come.
-  panels.places = panels_of(sheet_of(options, {0.005, kLongestBar}, fonts).scene, int(poses.size()));
+  const int across = options.layout == "row" ? int(poses.size()) : kMostAcross;
+  panels.places = panels_of(sheet_of(options, {0.005, kLongestBar, options.reading}, fonts).scene,
+                            int(poses.size()), across);
   if (!(panels.side() > 0.08))
-    throw Error(ExitCode::usage, "too many poses for one page: draw several figures");
+    throw Error(ExitCode::usage,
+                "too many poses for one page: draw several figures, or take --layout superposed");
   panels.marks = std::clamp(panels.side() / kFullPanel, kSmallestMarks, 1.0);
-  panels.scale = scale_for(poses, panels.side());
+  panels.scale = scale_for(poses, panels.side(), options.reading);
   fit_panels(panels, poses, ws);
 
   Picture picture;

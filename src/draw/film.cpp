@@ -13,7 +13,7 @@
 namespace chainreel {
 namespace {
 
-constexpr double kEllipseBar = 0.10;  // units of H: the smaller semi-axis measures about as much
+constexpr double kEllipseBar = 0.10;  // units of H: the bounded semi-axis measures about as much
 constexpr double kFrameLine = 0.0018;
 constexpr double kRowPitch = 1.55;   // of the em: a panel's title or note with the air around it
 constexpr double kBarInset = 0.014;  // of the metre bar from the frame of its panel
@@ -42,7 +42,7 @@ Film::Film(const Scene& page, const std::vector<PanelRun>& runs, std::vector<dou
     const bool freezes = runs.size() > 1 || run.scene.expect == "diverge";
     panels_.emplace_back(run, layers_, samples, freezes ? WildEnd::frozen : WildEnd::shown, theme_);
   }
-  if (layers_.ellipse) find_mass_scale();
+  if (layers_.ellipse) find_ellipse_scale();
   if (layers_.acting.any()) find_vector_scales();
   if (layers_.mass_matrix) make_mass_maps();
   lay_out();
@@ -50,14 +50,15 @@ Film::Film(const Scene& page, const std::vector<PanelRun>& runs, std::vector<dou
   if (is_comparison() && layers_.title) place_titles();
 }
 
-void Film::find_mass_scale() {
-  std::vector<double> smaller;
+void Film::find_ellipse_scale() {
+  std::vector<double> bounded;
   for (const Panel& panel : panels_) {
-    const std::vector<double> own = panel.smaller_masses();
-    smaller.insert(smaller.end(), own.begin(), own.end());
+    const std::vector<double> own = panel.bounded_semi_axes();
+    bounded.insert(bounded.end(), own.begin(), own.end());
   }
   // Panels share the page, so their sides shrink with the root of their number.
-  mass_scale_ = mass_scale(std::move(smaller), kEllipseBar / std::sqrt(double(panels_.size())));
+  ellipse_scale_ =
+      chainreel::ellipse_scale(std::move(bounded), kEllipseBar / std::sqrt(double(panels_.size())), layers_.reading);
 }
 
 // Runs that diverge do not decide on it, unless all do: their arrows are cut.
@@ -109,10 +110,10 @@ void Film::lay_out() {
   if (layers_.torque_label) text.torque = common_torque();
   if (layers_.time) text.longest_time = time_text(times_.back());
   if (layers_.ellipse) {
-    text.bar = format_shortest(mass_scale_.bar_kg) + " kg";
-    text.bar_length = mass_scale_.bar_length;
+    text.bar = ellipse_scale_.label();
+    text.bar_length = ellipse_scale_.bar_length;
   }
-  if (layers_.ellipse && layers_.legend) text.legend = kEllipseLegend;
+  if (layers_.ellipse && layers_.legend) text.legend = ellipse_legend(layers_.reading);
   if (layers_.equation) {
     text.equation = equation_of_motion(is_constrained());
     text.symbols = equation_colors(layers_.acting, theme_);
@@ -263,7 +264,7 @@ Picture Film::static_layer() const {
 Picture Film::frame(int k) const {
   k = std::clamp(k, 0, int(times_.size()) - 1);
   Picture picture = page();
-  for (const Panel& panel : panels_) panel.draw_frame(picture, k, mass_scale_, fonts_);
+  for (const Panel& panel : panels_) panel.draw_frame(picture, k, ellipse_scale_, fonts_);
   for (std::size_t i = 0; i < panels_.size(); ++i) {
     const std::string note = panels_[i].note(k);
     if (note.empty()) continue;

@@ -31,12 +31,12 @@ class Film {
   const Panel& panel(int i) const { return panels_[std::size_t(i)]; }
   const Camera& camera(int i = 0) const { return panel(i).camera(); }
   const Rect& scene_area(int i = 0) const { return panel(i).area(); }
-  const MassScale& ellipse_scale() const { return mass_scale_; }
+  const EllipseScale& ellipse_scale() const { return ellipse_scale_; }
   const VectorScales& vector_scales() const { return vector_scales_; }
 
  private:
   bool is_comparison() const { return panels_.size() > 1; }
-  void find_mass_scale();
+  void find_ellipse_scale();
   void find_vector_scales();
   void make_mass_maps();
   std::vector<ScaleEntry> entries() const;
@@ -59,7 +59,7 @@ class Film {
   Layers layers_;
   std::vector<double> times_;
   std::vector<Panel> panels_;
-  MassScale mass_scale_;
+  EllipseScale ellipse_scale_;
   VectorScales vector_scales_;
   Sheet sheet_;
   PanelRows rows_;

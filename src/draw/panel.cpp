@@ -29,11 +29,13 @@ Layers layers_of(const Scene& scene) {
   const auto named = [&](const char* name) {
     return std::find(scene.draw.begin(), scene.draw.end(), name) != scene.draw.end();
   };
-  return {named("chain"),        named("trail"),   named("time"),      named("title"),
-          named("torque_label"), named("ellipse"), named("scale_bar"), named("legend"),
-          named("ghosts"),       named("frames"),  named("com"),       named("mass_matrix"),
+  Layers layers{named("chain"),        named("trail"),       named("time"),      named("title"),
+          named("torque_label"), named("ellipse"),     named("scale_bar"), named("legend"),
+          named("ghosts"),       named("frames"),      named("com"),       named("mass_matrix"),
           named("equation"),
           {named("torque"), named("velocity"), named("gravity"), named("constraint_force")}};
+  layers.reading = reading_named(scene.ellipse.reading);
+  return layers;
 }
 
 Panel::Panel(const PanelRun& run, const Layers& layers, int samples, WildEnd wild_end, const Theme& theme)
@@ -56,16 +58,16 @@ void Panel::pose_at(int k) const {
   compute_kinematics(run_.chain, *ws_, run_.trajectory.q_at(k), run_.trajectory.qd_at(k));
 }
 
-std::vector<double> Panel::smaller_masses() const {
-  std::vector<double> smaller;
+std::vector<double> Panel::bounded_semi_axes() const {
+  std::vector<double> bounded;
   const int count = std::min(samples_, kScaleSamples);
   for (int i = 0; i < count; ++i) {
     const int k = int(std::int64_t(i) * samples_ / count);
-    const auto mass = smallest_mass(mass_axes(
-        effective_mass_of(run_.chain, *ws_, run_.trajectory.q_at(k), run_.chain.end_effector, Task::linear)));
-    if (mass) smaller.push_back(*mass);
+    const auto axes = mass_axes(
+        effective_mass_of(run_.chain, *ws_, run_.trajectory.q_at(k), run_.chain.end_effector, Task::linear));
+    if (const auto length = bounded_semi_axis(axes, layers_.reading)) bounded.push_back(*length);
   }
-  return smaller;
+  return bounded;
 }
 
 VectorPeaks Panel::peaks() {
@@ -234,7 +236,7 @@ void Panel::draw_overlays(Picture& picture, const std::vector<WorldVector>& vect
   for (const WorldVector& vector : vectors) pen_->draw(picture, vector, camera_, clip_);
 }
 
-void Panel::draw_frame(Picture& picture, int k, const MassScale& scale, const Fonts& fonts) const {
+void Panel::draw_frame(Picture& picture, int k, const EllipseScale& scale, const Fonts& fonts) const {
   k = std::clamp(k, 0, last_);
   if (layers_.ghosts) draw_ghosts(picture, k);
   pose_at(k);
@@ -246,7 +248,7 @@ void Panel::draw_frame(Picture& picture, int k, const MassScale& scale, const Fo
   if (layers_.chain) draw_links(picture, drawing, *ws_, clip_);
   const Point tip = tip_.place(k);
   if (layers_.ellipse) {
-    const EllipseStyle style{&theme_, &fonts, run_.scene.text_scale, scale.per_kg(), area_};
+    const EllipseStyle style{&theme_, &fonts, run_.scene.text_scale, scale.per_unit(), area_, layers_.reading};
     draw_mass_ellipse(picture,
                       mass_axes(effective_mass_of(run_.chain, *ws_, run_.trajectory.q_at(k),
                                                   run_.chain.end_effector, Task::linear)),

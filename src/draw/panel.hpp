@@ -25,6 +25,7 @@ struct Layers {
   bool torque_label = false, ellipse = false, scale_bar = false, legend = false;
   bool ghosts = false, frames = false, com = false, mass_matrix = false, equation = false;
   ActingLayers acting;
+  EllipseReading reading = EllipseReading::mass;
 };
 Layers layers_of(const Scene& scene);
 
@@ -53,8 +54,8 @@ class Panel {
   bool is_wild() const { return wild_; }
   bool may_freeze() const { return wild_ && wild_end_ == WildEnd::frozen; }
 
-  // Smaller semi-axes of the mass ellipse at some of the frames, kg.
-  std::vector<double> smaller_masses() const;
+  // Bounded semi-axes of the ellipse at some of the frames, kg or m/s.
+  std::vector<double> bounded_semi_axes() const;
 
   // The largest magnitudes of the vectors that are shown.
   VectorPeaks peaks();
@@ -80,8 +81,8 @@ class Panel {
 
   void draw_static(Picture& picture) const;
   // Everything that moves, but words.
-  void draw_frame(Picture& picture, int k, const MassScale& scale, const Fonts& fonts) const;
-  // "left the picture at t = 1.24 s" from that frame on.
+  void draw_frame(Picture& picture, int k, const EllipseScale& scale, const Fonts& fonts) const;
+  // "left the picture at t = 1.24 s" from that frame on, or what happened last: "elbow straight at t = 1.24 s".
   std::string note(int k) const;
   // The instant of the note's first appearance.
   std::optional<double> left_at() const;

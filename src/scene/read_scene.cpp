@@ -151,6 +151,22 @@ void read_draw(Fields& fields, Scene& scene) {
   }
 }
 
+void read_ellipse(Fields& fields, Scene& scene) {
+  const YAML::Node node = fields.find("ellipse");
+  if (!node.IsDefined()) return;
+  if (!node.IsMap()) {
+    fields.problems().add("'ellipse' must hold its reading, mass, energy or belt: ellipse: {reading: belt}",
+                          fields.place_of(node, "ellipse"));
+    return;
+  }
+  Fields ellipse(fields.document(), node, fields.path("ellipse"), fields.problems());
+  ellipse.read("reading", scene.ellipse.reading);
+  const auto& known = reading_names();
+  require(ellipse, "reading", std::find(known.begin(), known.end(), scene.ellipse.reading) != known.end(),
+          "'ellipse.reading' must be mass, energy or belt, not '" + scene.ellipse.reading + "'");
+  ellipse.finish();
+}
+
 void read_theme(Fields& fields, Scene& scene) {
   fields.read("theme", scene.theme);
   const auto& known = theme_names();
@@ -218,6 +234,7 @@ Scene read_document(const YamlDocument& document) {
   read_method(fields, scene);
   read_expectation(fields, scene);
   read_draw(fields, scene);
+  read_ellipse(fields, scene);
   read_layout(fields, scene);
   fields.find("compare");
   read_theme(fields, scene);

@@ -13,6 +13,11 @@ const std::vector<std::string>& layer_names() {
   return names;
 }
 
+const std::vector<std::string>& reading_names() {
+  static const std::vector<std::string> names{"mass", "energy", "belt"};
+  return names;
+}
+
 const std::vector<std::string>& layout_names() {
   static const std::vector<std::string> names{"scene", "compare", "grid"};
   return names;

@@ -25,6 +25,11 @@ struct Video {
   FrameRate fps;
 };
 
+// How the layer `ellipse` reads the effective mass: see draw/ellipse.hpp.
+struct EllipseEntry {
+  std::string reading = "mass";  // or energy, belt
+};
+
 struct Scene {
   std::string title;
   std::string model;                       // path, as found from the working folder
@@ -51,6 +56,7 @@ struct Scene {
   Accuracy accuracy;                           // of `method: auto`
   std::string expect = "finish";               // or diverge: what the run is to do
   std::vector<std::string> draw{"chain", "trail", "time", "title", "torque_label"};
+  EllipseEntry ellipse;
   std::string layout = "scene";  // of the page: or compare, grid for several panels
   std::vector<Scene>
       compare;            // the panels, each the scene with its changes; empty: the scene is the only one
@@ -75,6 +81,7 @@ std::string method_text(const Scene& scene);
 
 // The layers that `draw:` may name.
 const std::vector<std::string>& layer_names();
+const std::vector<std::string>& reading_names();
 const std::vector<std::string>& layout_names();
 const std::vector<std::string>& theme_names();
 

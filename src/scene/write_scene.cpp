@@ -114,6 +114,7 @@ void add_page(std::vector<SceneEntry>& entries, const Scene& scene) {
   entries.push_back({"draw", flow_text([&](YAML::Emitter& out) {
                        emit_list(out, scene.draw, [](const std::string& name) { return name; });
                      })});
+  entries.push_back({"ellipse.reading", scene.ellipse.reading});
   entries.push_back({"layout", scene.layout});
   entries.push_back({"theme", scene.theme});
   entries.push_back({"text_scale", format_shortest(scene.text_scale)});

@@ -152,7 +152,7 @@ TEST(Ellipse, OfAPointThatCannotMoveIsInfiniteEverywhere) {
   stuck.directions = Eigen::MatrixXd::Identity(2, 2);
   const auto axes = mass_axes(stuck);
   EXPECT_FALSE(axes.at(0).mass || axes.at(1).mass);
-  EXPECT_FALSE(smallest_mass(axes));
+  EXPECT_FALSE(bounded_semi_axis(axes, EllipseReading::mass));
   Picture picture;
   draw_mass_ellipse(picture, axes, {0.8, 0.5}, {}, {&light_theme(), &test::fonts(), 1, 0.1, {0, 0, 1.7, 1}},
                     -1);
@@ -179,16 +179,16 @@ TEST(Ellipse, InSpaceIsTheSilhouetteOfTheEllipsoid) {
   EXPECT_EQ(test::all_of<Ellipse>(oblique).size(), 3u);
 }
 
-TEST(MassScale, DrawsARoundMassNearTheMedianAsTheBar) {
-  EXPECT_EQ(mass_scale({0.9, 1.0, 40}, 0.1).bar_kg, 1);
-  EXPECT_EQ(mass_scale({0.013}, 0.1).bar_kg, 0.01);
-  EXPECT_EQ(mass_scale({1.8, 2.4, 2.2}, 0.1).bar_kg, 2);
-  EXPECT_EQ(mass_scale({8}, 0.1).bar_kg, 10);
-  EXPECT_EQ(mass_scale({300, std::numeric_limits<double>::infinity()}, 0.1).bar_kg, 200);
-  EXPECT_EQ(mass_scale({}, 0.1).bar_kg, 1);
+TEST(EllipseScale, DrawsARoundMassNearTheMedianAsTheBar) {
+  EXPECT_EQ(ellipse_scale({0.9, 1.0, 40}, 0.1).bar, 1);
+  EXPECT_EQ(ellipse_scale({0.013}, 0.1).bar, 0.01);
+  EXPECT_EQ(ellipse_scale({1.8, 2.4, 2.2}, 0.1).bar, 2);
+  EXPECT_EQ(ellipse_scale({8}, 0.1).bar, 10);
+  EXPECT_EQ(ellipse_scale({300, std::numeric_limits<double>::infinity()}, 0.1).bar, 200);
+  EXPECT_EQ(ellipse_scale({}, 0.1).bar, 1);
   // Whatever the median, its axis is drawn within a factor sqrt(2.5) of the bar: half way between 2 and 5.
   for (double m = 0.01; m < 100; m *= 1.1) {
-    const double drawn = m * mass_scale({m}, 0.1).per_kg() / 0.1;
+    const double drawn = m * ellipse_scale({m}, 0.1).per_unit() / 0.1;
     EXPECT_LT(std::max(drawn, 1 / drawn), std::sqrt(2.5) + 1e-12) << m;
   }
 }

@@ -93,9 +93,9 @@ TEST_F(PanelFilm, ShowsEachGripperWhereItsOwnRunHasIt) {
 TEST_F(PanelFilm, HasOneScaleForAllEllipsesSmallerThanThatOfAWholePage) {
   page.draw.push_back("ellipse");
   add("left", sliding);
-  const double alone = film().ellipse_scale().per_kg();
+  const double alone = film().ellipse_scale().per_unit();
   for (int i = 1; i < 4; ++i) add("more", sliding);
-  const double bar = film().ellipse_scale().per_kg();
+  const double bar = film().ellipse_scale().per_unit();
   // Half of it, rounded to a bar of 1, 2 or 5 x 10^n kg.
   EXPECT_LT(bar, 0.8 * alone);
   EXPECT_GT(bar, 0.2 * alone);

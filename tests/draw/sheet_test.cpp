@@ -18,7 +18,7 @@ SheetText everything() {
   text.longest_time = time_text(10);
   text.bar = "0.5 kg";
   text.bar_length = 0.1;
-  text.legend = kEllipseLegend;
+  text.legend = ellipse_legend(EllipseReading::mass);
   return text;
 }
 

@@ -70,6 +70,14 @@ TEST_F(ReadScene, EditsTheDefaultLayersByPlusAndMinus) {
   EXPECT_THAT(error("theme: drak"), HasSubstr("'theme' must be light or dark, not 'drak'"));
 }
 
+TEST_F(ReadScene, KnowsHowTheEllipseIsRead) {
+  EXPECT_EQ(read("").ellipse.reading, "mass");
+  EXPECT_EQ(read("ellipse: {reading: belt}").ellipse.reading, "belt");
+  EXPECT_THAT(error("ellipse: {reading: tensor}"), HasSubstr("must be mass, energy or belt, not 'tensor'"));
+  EXPECT_THAT(error("ellipse: belt"), HasSubstr("ellipse: {reading: belt}"));
+  EXPECT_THAT(error("ellipse: {axes: 2}"), HasSubstr("unknown key 'ellipse.axes'"));
+}
+
 TEST_F(ReadScene, TakesOverridesByDottedKeyAndIndex) {
   const Scene scene =
       read("torque: [1, 2]\nvideo: {width: 640}\n",

@@ -1,0 +1,23 @@
+// The numbers behind an ellipse figure.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "app/ellipse_poses.hpp"
+#include "core/json.hpp"
+#include "draw/ellipse.hpp"
+
+namespace chainreel {
+
+// A list, one entry a pose: t along a motion, q, point (m, in W), Lambda_inv, Lambda and what else add_effective_mass
+// gives, eigenvalues of Lambda (kg, null where infinite) and semi_axes of the curve in its unit, in the same order,
+// from the heaviest direction on.
+Json ellipse_json(const Chain& chain, const GatheredPoses& poses, EllipseReading reading);
+// The same as a table; infinite numbers are "inf".
+std::string ellipse_csv(const Chain& chain, const GatheredPoses& poses, EllipseReading reading);
+
+// M(q) of each pose, and the part of it that belongs to two joints (from 0).
+Json joint_space_json(const Chain& chain, const GatheredPoses& poses, std::array<int, 2> joints);
+
+}  // namespace chainreel

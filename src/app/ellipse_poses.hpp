@@ -1,0 +1,39 @@
+// Where the poses of an ellipse figure come from: named ones, a sweep, a motion, or the workspace.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/command.hpp"
+#include "model/chain.hpp"
+
+namespace chainreel {
+
+struct PoseSources {
+  std::vector<std::string> poses;  // "0,90deg"
+  std::string sweep;               // "q2=0:180deg:9"
+  std::string along;               // a scene
+  bool field = false;
+  int samples = 0;  // 0: 6 along a motion, 12 points across the workspace
+  std::string elbow = "up";
+};
+
+struct GatheredPoses {
+  std::vector<std::vector<double>> q;
+  std::vector<std::string> labels;    // one a pose, or none
+  std::vector<double> t;              // s, along a motion
+  std::vector<Eigen::Vector3d> path;  // of the end effector along the motion, m
+  double cell = 0;                    // m, of a field
+};
+
+// The poses of a model. Throws Error (usage) where the options do not name any, or name them twice.
+GatheredPoses gather_poses(const Chain& chain, const PoseSources& sources);
+
+// The chain of the scene and its poses along the motion. Throws Error where the scene cannot be run.
+struct Motion {
+  Chain chain;
+  GatheredPoses poses;
+};
+Motion motion_of(const PoseSources& sources, const CommonOptions& common);
+
+}  // namespace chainreel

@@ -1,0 +1,37 @@
+// What the figures of ellipses share. Internal.
+#pragma once
+
+#include <vector>
+
+#include "draw/ellipse.hpp"
+#include "draw/fit.hpp"
+#include "draw/poses.hpp"
+#include "draw/sheet.hpp"
+
+namespace chainreel {
+
+inline constexpr double kLongestBar = 0.12;   // units of H
+inline constexpr double kLongestAxis = 0.34;  // of the shorter side of a panel
+
+struct Pose {
+  std::vector<double> q;
+  EffectiveMass effective;
+  std::vector<MassAxis> axes;
+};
+std::vector<Pose> poses_of(const Chain& chain, const std::vector<std::vector<double>>& configurations,
+                           Workspace& ws);
+
+// `room`: the shorter side of a panel, units of H.
+EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReading reading);
+
+// With legend, scale and title.
+Sheet sheet_of(const PoseFigureOptions& options, const EllipseScale& scale, const Fonts& fonts);
+
+// What a closed curve of the usual size takes around the end effector; none of its axes counts beyond `most`.
+Room room_of(const std::vector<MassAxis>& axes, const Camera& camera, const EllipseScale& scale, double most);
+
+// All poses in one place, or a field.
+Picture draw_superposed(const Chain& chain, const std::vector<Pose>& poses, const PoseFigureOptions& options,
+                        const Fonts& fonts);
+
+}  // namespace chainreel
