@@ -61,5 +61,6 @@ void add_methods_command(CLI::App& app);
 void add_chart_command(CLI::App& app);
 void add_energy_command(CLI::App& app);
 void add_stability_command(CLI::App& app);
+void add_fall_command(CLI::App& app);
 
 }  // namespace chainreel

@@ -69,7 +69,9 @@ PreparedFilm load_film(const std::string& path, const std::vector<std::string>& 
 PreparedScene load_scene(const std::string& path, const std::vector<std::string>& overrides, bool meshes) {
   Scene scene = read_scene(path, overrides);
   require_single_run(scene);
-  return prepare_panel(std::move(scene), meshes);
+  PreparedScene prepared = prepare_panel(std::move(scene), meshes);
+  prepared.simulation.events = nullptr;
+  return prepared;
 }
 
 std::vector<double> frame_times(const Scene& scene) {
@@ -129,13 +131,30 @@ std::vector<Trajectory> simulate_film(const PreparedFilm& film, const std::vecto
   return runs;
 }
 
+namespace {
+
+// Of the frames; where events ended all runs, the last frame stands at the last of them.
+std::vector<double> shown_times(const std::vector<Trajectory>& runs, const std::vector<double>& times,
+                                int frames) {
+  std::vector<double> shown(times.begin(), times.begin() + frames);
+  double end = 0;
+  for (const Trajectory& run : runs) {
+    if (run.ending_event < 0) return shown;
+    end = std::max(end, run.end_time);
+  }
+  for (double& time : shown) time = std::min(time, end);
+  return shown;
+}
+
+}  // namespace
+
 Film film_of(const PreparedFilm& film, const std::vector<Trajectory>& runs, const std::vector<double>& times,
              int frames, const Fonts& fonts) {
   std::vector<PanelRun> panels;
   for (std::size_t i = 0; i < runs.size(); ++i)
     panels.push_back(
         {film.panels[i].scene, film.panels[i].simulation.chain, runs[i], &film.panels[i].simulation});
-  return Film(film.scene, panels, {times.begin(), times.begin() + frames}, fonts);
+  return Film(film.scene, panels, shown_times(runs, times, frames), fonts);
 }
 
 namespace {

@@ -32,7 +32,8 @@ struct PreparedFilm {
 
 PreparedFilm load_film(const std::string& path, const std::vector<std::string>& overrides,
                        bool meshes = true);
-// For what takes a single run: throws Error where the scene compares several.
+// For charts and tables of a single run, which compare whole durations: events do not act. Throws Error where
+// the scene compares several.
 PreparedScene load_scene(const std::string& path, const std::vector<std::string>& overrides,
                          bool meshes = true);
 

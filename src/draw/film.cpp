@@ -106,7 +106,7 @@ std::vector<std::string> Film::common_torque() const {
 void Film::lay_out() {
   SheetText text;
   text.title_place = scene_.place_of("title");
-  if (layers_.title) text.title = scene_.title;
+  if (layers_.title) text.title = is_comparison() ? scene_.title : panels_.front().title();
   if (layers_.torque_label) text.torque = common_torque();
   if (layers_.time) text.longest_time = time_text(times_.back());
   if (layers_.ellipse) {
@@ -122,7 +122,7 @@ void Film::lay_out() {
   const double aspect = double(scene_.video.width) / scene_.video.height;
   sheet_ = lay_out_sheet(text, aspect, scene_.text_scale, theme_, fonts_);
   if (is_comparison() && layers_.title) rows_.title = kRowPitch * scaled(size::kSymbol, scene_.text_scale);
-  if (std::any_of(panels_.begin(), panels_.end(), [](const Panel& panel) { return panel.may_freeze(); }))
+  if (std::any_of(panels_.begin(), panels_.end(), [](const Panel& panel) { return panel.may_have_notes(); }))
     rows_.note = kRowPitch * scaled(size::kAxis, scene_.text_scale);
 }
 
@@ -207,7 +207,7 @@ double Film::title_size() const {
   double common = full;
   for (std::size_t i = 0; i < panels_.size(); ++i) {
     const TextLine line =
-        lay_out_text(fonts_, panels_[i].scene().title, {Face::label_bold, full, theme_.ink});
+        lay_out_text(fonts_, panels_[i].title(), {Face::label_bold, full, theme_.ink});
     if (line.advance > 0) common = std::min(common, full * cells_[i].title.width() / line.advance);
   }
   return std::max(common, std::min(full, scaled(kSmallestText, scene_.text_scale)));
@@ -220,7 +220,7 @@ void Film::place_titles() {
     const Rect& row = cells_[i].title;
     const Color color = !two_sides ? theme_.ink : i == 0 ? theme_.side_a : theme_.side_b;
     const Scene& scene = panels_[i].scene();
-    TextLine line = lay_out_text(fonts_, panels_[i].scene().title, {Face::label_bold, text_size, color});
+    TextLine line = lay_out_text(fonts_, panels_[i].title(), {Face::label_bold, text_size, color});
     if (line.advance > row.width() + kRoundOff)
       throw Error(ExitCode::bad_input,
                   "the title of panel " + std::to_string(i + 1) +

@@ -51,6 +51,8 @@ Panel::Panel(const PanelRun& run, const Layers& layers, int samples, WildEnd wil
   // A run that finished is drawn wherever it went: a free fall may be long.
   limit_ = run.trajectory.status == RunStatus::finished ? std::numeric_limits<double>::max()
                                                         : kWild * skeleton_.reach;
+  if (run.simulation && run.simulation->events && run.simulation->events->foot)
+    foot_.emplace(*run.simulation, run.trajectory, samples);
   if (layers_.acting.any()) acting_.emplace(run.chain, run.simulation, run.trajectory, layers_.acting);
 }
 
@@ -214,6 +216,7 @@ void Panel::follow_tip() {
 
 void Panel::draw_static(Picture& picture) const {
   if (layers_.chain) draw_base(picture, {run_.chain, skeleton_, camera_, look_}, clip_);
+  if (layers_.chain && foot_) foot_->draw_foot(picture, camera_, look_, clip_);
 }
 
 void Panel::draw_ghosts(Picture& picture, int k) const {
@@ -254,6 +257,7 @@ void Panel::draw_frame(Picture& picture, int k, const EllipseScale& scale, const
                                                   run_.chain.end_effector, Task::linear)),
                       tip, camera_, style, clip_);
   }
+  if (layers_.chain && foot_) foot_->draw_pressure(picture, camera_, look_, k, clip_);
   draw_overlays(picture, vectors);
   if (layers_.chain) draw_end_effector(picture, tip, look_, clip_);
   if (!map_) return;
@@ -267,9 +271,29 @@ std::optional<double> Panel::left_at() const {
   return run_.trajectory.t[std::size_t(std::min(last_ + 1, samples_ - 1))];
 }
 
+std::string Panel::title() const {
+  return title_of(run_.scene, run_.trajectory);
+}
+
+// The last events up to this frame, as many as a line holds.
+std::string Panel::event_note(int k) const {
+  constexpr int kInALine = 2;
+  const EventHits& hits = run_.trajectory.events;
+  const auto begin = hits.t.begin();
+  const auto end = k < run_.trajectory.size()
+                       ? std::upper_bound(begin, hits.t.end(), run_.trajectory.t[std::size_t(k)])
+                       : hits.t.end();
+  std::string text;
+  for (int i = std::max(0, int(end - begin) - kInALine); i < int(end - begin); ++i) {
+    const EventEntry& event = run_.scene.events[std::size_t(hits.event[std::size_t(i)])];
+    text += (text.empty() ? "" : ";  ") + event.title() + " at " + time_text(hits.t[std::size_t(i)]);
+  }
+  return text;
+}
+
 std::string Panel::note(int k) const {
   const std::optional<double> left = left_at();
-  if (!left || k <= last_) return "";
+  if (!left || k <= last_) return event_note(k);
   const bool gone = left_ || run_.trajectory.status == RunStatus::diverged;
   return (gone ? "left the picture at " : "ended at ") + time_text(*left);
 }

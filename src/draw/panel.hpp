@@ -9,6 +9,7 @@
 #include "draw/acting.hpp"
 #include "draw/ellipse.hpp"
 #include "draw/fit.hpp"
+#include "draw/foot_mark.hpp"
 #include "draw/look.hpp"
 #include "draw/marks.hpp"
 #include "draw/mass_map.hpp"
@@ -84,7 +85,9 @@ class Panel {
   void draw_frame(Picture& picture, int k, const EllipseScale& scale, const Fonts& fonts) const;
   // "left the picture at t = 1.24 s" from that frame on, or what happened last: "elbow straight at t = 1.24 s".
   std::string note(int k) const;
-  // The instant of the note's first appearance.
+  bool may_have_notes() const { return may_freeze() || !run_.scene.events.empty(); }
+  std::string title() const;  // of the scene, with what it says of this run
+  // The instant at which the panel stood still.
   std::optional<double> left_at() const;
 
   bool is_constrained() const { return run_.simulation && !run_.simulation->constraints.empty(); }
@@ -94,6 +97,7 @@ class Panel {
   const Rect& area() const { return area_; }
 
  private:
+  std::string event_note(int k) const;
   void find_rails(int samples);
   void follow_tip();
   void find_last_inside();
@@ -119,6 +123,7 @@ class Panel {
   int clip_ = 0;
   ChainLook look_;
   TipPath tip_;
+  std::optional<FootMark> foot_;
   std::optional<Acting> acting_;
   std::optional<VectorPen> pen_;
   std::optional<FrameAxes> axes_;

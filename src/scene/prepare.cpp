@@ -5,6 +5,7 @@
 #include "expr/expression.hpp"
 #include "model/read_chain.hpp"
 #include "scene/prepare_constraints.hpp"
+#include "sim/constrained_chain.hpp"
 
 namespace chainreel {
 namespace {
@@ -36,9 +37,19 @@ void check_torque(Scene& scene, const Chain& chain, ProblemList& problems) {
                scene.place_of("torque"));
 }
 
+std::string list_of(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+  return list;
+}
+
 // A parameter must be a name that expressions can read and that means nothing else there.
-void check_parameters(const Scene& scene, const Chain& chain, ProblemList& problems) {
-  const std::vector<std::string> taken = Probe(chain, {}, 6 * int(scene.constraints.size())).names();
+void check_parameters(const Scene& scene, const Chain& chain, const NamedFrames& frames,
+                      ProblemList& problems) {
+  const int rows = 6 * int(scene.constraints.size());  // the most there can be
+  std::vector<std::string> taken = Probe(chain, {}, rows, frames).names();
+  if (scene.foot)
+    for (const std::string& name : foot_names()) taken.push_back(name);
   for (const auto& [name, value] : scene.parameters) {
     if (!is_variable_name(name) || is_reserved_name(name) ||
         std::find(taken.begin(), taken.end(), name) != taken.end())
@@ -46,6 +57,43 @@ void check_parameters(const Scene& scene, const Chain& chain, ProblemList& probl
           "'" + name +
               "' cannot name a parameter: take letters, digits and _, and no name that expressions know",
           scene.place_of("parameters." + name));
+  }
+}
+
+// Links by their names, else joints by theirs: the frame of the link behind the joint.
+NamedFrames find_frames(const Scene& scene, const Chain& chain, ProblemList& problems) {
+  NamedFrames frames;
+  for (const auto& [name, wanted] : scene.frames) {
+    std::vector<std::string> known;
+    for (const Frame& frame : chain.frames) known.push_back(frame.name);
+    int index = find_frame(chain, wanted);
+    for (const Body& body : chain.bodies) {
+      if (&body == &chain.bodies[0]) continue;
+      known.push_back(body.joint.name);
+      if (index < 0 && body.joint.name == wanted) index = find_frame(chain, body.name);
+    }
+    if (index >= 0)
+      frames.push_back({name, index});
+    else
+      problems.add("'frames." + name + "' names no link and no moving joint of " + scene.model + ": '" +
+                       wanted + "';" + did_you_mean(wanted, known) + " They are " + list_of(known) + ".",
+                   scene.place_of("frames." + name));
+  }
+  return frames;
+}
+
+std::shared_ptr<const EventSet> events_of(const Scene& scene, const Simulation& simulation,
+                                          const NamedFrames& frames) {
+  const Chain& chain = simulation.chain;
+  const ConstraintPlan& plan = simulation.constraints;
+  const int rows = plan.empty() ? 0 : ConstrainedChain(chain, plan).set().rows();
+  try {
+    return make_events(chain, scene.events, scene.parameters, frames, scene.foot, rows);
+  } catch (const Error& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems)
+      if (problem.place.file.empty()) problem.place = scene.place_of("foot");
+    throw Error(error.code(), std::move(problems));
   }
 }
 
@@ -100,17 +148,19 @@ Simulation prepare(Scene& scene, bool meshes) {
   check_length(scene.start.q, zero_configuration(chain), "start.q", scene, problems);
   check_length(scene.start.qd, std::vector<double>(std::size_t(chain.nv)), "start.qd", scene, problems);
   check_torque(scene, chain, problems);
-  check_parameters(scene, chain, problems);
+  const NamedFrames frames = find_frames(scene, chain, problems);
+  check_parameters(scene, chain, frames, problems);
   problems.throw_if_any();
 
   simulation.q0 = scene.start.q;
   simulation.qd0 = scene.start.qd;
   simulation.torque = scene.control ? make_control(chain, *scene.control, scene.parameters)
-                                    : make_torque_law(chain, scene.torque, scene.parameters);
+                                    : make_torque_law(chain, scene.torque, scene.parameters, frames);
   prepare_constraints(scene, simulation);
   if (scene.method != "auto") set_method(scene, simulation);
   simulation.limit = limit_policy_of(scene.limit);
   simulation.duration = scene.duration;
+  simulation.events = events_of(scene, simulation, frames);
   return simulation;
 }
 

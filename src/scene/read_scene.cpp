@@ -10,6 +10,7 @@
 #include "scene/read_compare.hpp"
 #include "scene/read_constraints.hpp"
 #include "scene/read_control.hpp"
+#include "scene/read_events.hpp"
 #include "scene/read_method.hpp"
 #include "sim/limits.hpp"
 
@@ -230,6 +231,7 @@ Scene read_document(const YamlDocument& document) {
   read_parameters(fields, scene);
   read_constraints(fields, scene);
   fields.read("end_effector", scene.end_effector);
+  read_events(fields, scene);
   fields.read("duration", scene.duration);
   read_method(fields, scene);
   read_expectation(fields, scene);

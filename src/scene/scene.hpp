@@ -10,6 +10,7 @@
 #include "scene/constraint_entry.hpp"
 #include "sim/accuracy.hpp"
 #include "sim/constraint_plan.hpp"
+#include "sim/events.hpp"
 #include "sim/torque.hpp"
 
 namespace chainreel {
@@ -48,6 +49,9 @@ struct Scene {
   double baumgarte_gain = 10;         // 1/s; `baumgarte: {gain: 10}`
   std::vector<ContactEntry> contact_force;  // forces to press on constraints with
   std::string end_effector;                    // "": link `gripper`, else the only leaf
+  std::map<std::string, std::string> frames;   // name in expressions -> link, or joint for the link behind it
+  std::optional<Foot> foot;                    // on which the model stands: events may read `cop`
+  std::vector<EventEntry> events;              // what a run looks out for
   double duration = 10;                        // s
   std::string method = "auto";      // or a row of the registry
   std::optional<double> step;                  // s; absent: 1 ms, or what the tolerance allows

@@ -1,15 +1,11 @@
 #include "scene/stability_cells.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <functional>
 #include <limits>
-#include <mutex>
-#include <thread>
 
 #include "dynamics/energy.hpp"
+#include "scene/parallel.hpp"
 #include "scene/prepare.hpp"
 #include "scene/read_scene.hpp"
 #include "sim/audit.hpp"
@@ -39,28 +35,6 @@ void set_of_method(Simulation& simulation, const std::string& key, double value)
     simulation.step = 0;
     simulation.options.tolerance = value;
   }
-}
-
-// Each index once, on several threads; what the first of them throws is thrown here.
-void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& run) {
-  std::atomic<std::size_t> next = 0;
-  std::exception_ptr problem;
-  std::mutex lock;
-  const auto work = [&] {
-    try {
-      for (std::size_t i = next++; i < count; i = next++) run(i);
-    } catch (...) {
-      const std::lock_guard guard(lock);
-      if (!problem) problem = std::current_exception();
-      next = count;
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (int k = 1; k < threads; ++k) others.emplace_back(work);
-    work();
-  }
-  if (problem) std::rethrow_exception(problem);
 }
 
 class CellRuns {
@@ -113,8 +87,8 @@ class CellRuns {
 
   static bool fits_a_batch(const Simulation& simulation) {
     return simulation.method->name == "semi_implicit_euler" && simulation.torque->is_constant() &&
-           simulation.constraints.empty() && simulation.limit == LimitPolicy::report && !simulation.chain.has_dissipation &&
-           simulation.chain.nq == simulation.chain.nv;
+           !simulation.events && simulation.constraints.empty() && simulation.limit == LimitPolicy::report &&
+           !simulation.chain.has_dissipation && simulation.chain.nq == simulation.chain.nv;
   }
 
   StabilityCell& cell(At at) { return result_.cells[at.y * result_.x.values.size() + at.x]; }

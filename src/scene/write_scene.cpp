@@ -101,6 +101,32 @@ void add_mechanism(std::vector<SceneEntry>& entries, const Scene& scene) {
   for (const auto& [name, folder] : scene.packages) entries.push_back({"packages." + name, text_of(folder)});
 }
 
+std::string events_text(const std::vector<EventEntry>& events) {
+  return flow_text([&](YAML::Emitter& out) {
+    out << YAML::Flow << YAML::BeginSeq;
+    for (const EventEntry& event : events) {
+      out << YAML::Flow << YAML::BeginMap;
+      out << YAML::Key << "when" << YAML::Value << YAML::DoubleQuoted << event.when;
+      out << YAML::Key << "kind" << YAML::Value << to_string(event.kind);
+      if (!event.name.empty()) out << YAML::Key << "name" << YAML::Value << YAML::DoubleQuoted << event.name;
+      if (event.direction != Crossing::either)
+        out << YAML::Key << "direction" << YAML::Value << to_string(event.direction);
+      out << YAML::EndMap;
+    }
+    out << YAML::EndSeq;
+  });
+}
+
+void add_events(std::vector<SceneEntry>& entries, const Scene& scene) {
+  for (const auto& [name, frame] : scene.frames) entries.push_back({"frames." + name, text_of(frame)});
+  if (scene.foot) {
+    entries.push_back({"foot.heel", format_shortest(scene.foot->heel)});
+    entries.push_back({"foot.toe", format_shortest(scene.foot->toe)});
+    entries.push_back({"foot.height", format_shortest(scene.foot->height)});
+  }
+  if (!scene.events.empty()) entries.push_back({"events", events_text(scene.events)});
+}
+
 void add_method(std::vector<SceneEntry>& entries, const Scene& scene) {
   entries.push_back({"method", scene.method});
   if (scene.step) entries.push_back({"step", format_shortest(*scene.step)});
@@ -168,6 +194,7 @@ std::vector<SceneEntry> entries_of(const Scene& scene) {
     if (!scene.contact_force.empty()) entries.push_back({"contact_force", contact_force_text(scene)});
   }
   if (!scene.end_effector.empty()) entries.push_back({"end_effector", text_of(scene.end_effector)});
+  add_events(entries, scene);
   add_method(entries, scene);
   return entries;
 }

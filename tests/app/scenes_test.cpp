@@ -62,7 +62,8 @@ class EveryScene : public testing::TestWithParam<std::string> {
   std::vector<int> moving_panels(int frame) const {
     std::vector<int> panels;
     for (int i = 0; i < film_.panel_count(); ++i)
-      if (film_.panel(i).note(frame).empty()) panels.push_back(i);
+      if (const auto left = film_.panel(i).left_at(); !left || times_[std::size_t(frame)] < *left)
+        panels.push_back(i);
     return panels;
   }
 

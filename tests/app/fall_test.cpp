@@ -1,0 +1,103 @@
+// `fall`: the table of fall times, and what events are to films and audits.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "core/json.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr char kHuman[] = "assets/scenes/humanoid_fall.yaml";
+
+// PP falls freely from rest: through -1 m after sqrt(2/g).
+constexpr char kFalling[] =
+    "model: " CHAINREEL_SOURCE_FOLDER
+    "/models/pp.urdf\nduration: 2\nmethod: rk4\nstep: 0.01\n"
+    "title: \"Falls in {fall}\"\n"
+    "events: [{when: \"q2 < -0.5\", name: half}, {when: \"q2 < -1\", kind: fall, name: down}]\n";
+
+TEST(FallCommand, PrintsATableAgainstTheParameter) {
+  const ProgramResult result = run_program({"fall", kHuman, "--sweep", "parameters.k=0:1200:7"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("parameters.k"));
+  EXPECT_THAT(result.out, HasSubstr("falls at, s"));
+  EXPECT_THAT(result.out, HasSubstr("centre of pressure leaves the foot, s"));
+  EXPECT_THAT(result.out, HasSubstr("does not fall within 5 s"));
+}
+
+TEST(FallCommand, GivesTheClosedFormInJsonAndCsv) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("falling.yaml", kFalling), csv = folder.file("fall.csv");
+  const ProgramResult result =
+      run_program({"fall", scene, "--sweep", "torque.2=0,2,40", "--json", "-o", csv});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json json = Json::parse(result.out);
+  ASSERT_EQ(json["rows"].size(), 3u);
+  for (const int k : {0, 1}) {
+    const Json& row = json["rows"][std::size_t(k)];
+    const double fall = 9.81 - row["value"].get<double>();  // of 1 kg
+    EXPECT_NEAR(row["fall_time"].get<double>(), std::sqrt(2 / fall), 1e-11);
+    EXPECT_NEAR(row["first"][0].get<double>(), std::sqrt(1 / fall), 1e-11);
+    EXPECT_EQ(row["ended_by"], "down");
+  }
+  EXPECT_TRUE(json["rows"][2]["fall_time"].is_null()) << "40 N lift it";
+  EXPECT_EQ(json["rows"][2]["status"], "finished");
+  const std::string text = read_whole_file(csv);
+  EXPECT_THAT(text, HasSubstr("torque.2,fall_time,status,end_time,\"half\",\"down\""));
+  EXPECT_THAT(text, HasSubstr("40,,finished,2,,"));
+}
+
+TEST(FallCommand, SaysWhatItNeeds) {
+  const ProgramResult none = run_program({"fall", "assets/scenes/rr_free.yaml", "--sweep", "torque.1=0:1:2"});
+  EXPECT_EQ(none.status, 3);
+  EXPECT_THAT(none.err, HasSubstr("rr_free.yaml: has no event of kind `fall`"));
+  EXPECT_THAT(none.err, HasSubstr("events: [{when: \"y_G < 0.5\", kind: fall"));
+  EXPECT_EQ(run_program({"fall", kHuman, "--sweep", "k"}).status, 2);
+  EXPECT_EQ(run_program({"fall", kHuman, "-o", "x.txt"}).status, 2);
+}
+
+TEST(Events, AreInTheAuditWithNameTimeAndState) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("falling.yaml", kFalling), csv = folder.file("fall.csv");
+  const ProgramResult result = run_program({"simulate", scene, "-o", csv, "--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json json = Json::parse(result.out);
+  const Json& report = json.is_array() ? json[0] : json;
+  const double time = std::sqrt(2 / 9.81);
+  EXPECT_EQ(report["status"], "stopped");
+  EXPECT_EQ(report["title"], "Falls in 0.45 s");
+  EXPECT_NEAR(report["fall_time"].get<double>(), time, 1e-11);
+  ASSERT_EQ(report["events"].size(), 2u);
+  EXPECT_EQ(report["events"][0]["name"], "half");
+  EXPECT_EQ(report["events"][0]["kind"], "mark");
+  EXPECT_EQ(report["events"][1]["name"], "down");
+  EXPECT_NEAR(report["events"][1]["q"][1].get<double>(), -1, 1e-11);
+  EXPECT_NEAR(report["events"][1]["qd"][1].get<double>(), -std::sqrt(2 * 9.81), 1e-10);
+  EXPECT_LT(report["audit_error"].get<double>(), 1e-11);
+  // The last row stands at the fall.
+  std::string line, last;
+  for (std::istringstream rows(read_whole_file(csv)); std::getline(rows, line);) last = line;
+  EXPECT_NEAR(std::stod(last), time, 1e-11);
+}
+
+TEST(Events, LeadAutoNoFurtherThanToTheEnd) {
+  const TemporaryFolder folder;
+  const std::string plain = folder.write("plain.yaml", "model: " CHAINREEL_SOURCE_FOLDER
+                                                       "/models/pp.urdf\nduration: 2\naccuracy: 1e-9 m\n"
+                                                       "events: [{when: \"q2 < -1\", kind: fall}]\n");
+  const ProgramResult run = run_program({"simulate", plain, "-o", folder.file("b.csv"), "--json", "--quiet"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_NEAR((json.is_array() ? json[0] : json)["fall_time"].get<double>(), std::sqrt(2 / 9.81), 1e-9);
+}
+
+}  // namespace
+}  // namespace chainreel

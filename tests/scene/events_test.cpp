@@ -1,0 +1,142 @@
+// The keys `frames`, `foot` and `events`, and the table of falls.
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "scene/fall.hpp"
+#include "scene/prepare.hpp"
+#include "scene/write_scene.hpp"
+#include "written_scenes.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::HasSubstr;
+
+class Events : public WrittenScenes {
+ protected:
+  // The error of reading and preparing a scene of the human that stands.
+  std::string human_error(const std::string& text) {
+    try {
+      Scene scene = read(text);
+      scene.model = "models/humanoid.urdf";
+      prepare(scene, false);
+      return "";
+    } catch (const Error& error) {
+      return error.what();
+    }
+  }
+};
+
+const char kAll[] =
+    "frames: {H: hip, K: shank}\nfoot: {heel: -0.06, toe: 0.19, height: 0.01}\nevents:\n"
+    "  - {when: \"cop > toe\", name: tips}\n  - {when: y_H - y_K, kind: fall, direction: falling}\n";
+
+TEST_F(Events, AreReadAndWrittenBackTheSame) {
+  Scene scene = read(kAll);
+  scene.model = "rr.urdf";
+  const Scene again = read_scene(folder_.write("again.yaml", scene_text(scene)));
+  for (const Scene* one : std::initializer_list<const Scene*>{&scene, &again}) {
+    EXPECT_EQ(one->frames.at("H"), "hip");
+    EXPECT_EQ(one->frames.at("K"), "shank");
+    ASSERT_TRUE(one->foot.has_value());
+    EXPECT_EQ(one->foot->heel, -0.06);
+    EXPECT_EQ(one->foot->toe, 0.19);
+    EXPECT_EQ(one->foot->height, 0.01);
+    ASSERT_EQ(one->events.size(), 2u);
+    EXPECT_EQ(one->events[0].when, "cop > toe");
+    EXPECT_EQ(one->events[0].kind, EventKind::mark);
+    EXPECT_EQ(one->events[0].title(), "tips");
+    EXPECT_EQ(one->events[1].kind, EventKind::fall);
+    EXPECT_EQ(one->events[1].direction, Crossing::falling);
+    EXPECT_EQ(one->events[1].title(), "y_H - y_K");
+  }
+}
+
+TEST_F(Events, SayWhatIsWrongWithAnEntryAndWhere) {
+  EXPECT_THAT(
+      error("events: [{when: q1, kind: mrk}]\n"),
+      HasSubstr("one.yaml:2:27: 'events.1.kind': unknown kind of event 'mrk': did you mean 'mark'? They "
+                "are mark, stop, fall."));
+  EXPECT_THAT(error("events: [{when: q1, direction: up}]\n"), HasSubstr("They are either, rising, falling"));
+  EXPECT_THAT(error("events: [{wen: q1}]\n"), HasSubstr("unknown key 'events.1.wen': did you mean 'when'?"));
+  EXPECT_THAT(error("events: [{kind: stop}]\n"), HasSubstr("'events.1' needs `when`"));
+  EXPECT_THAT(error("events: q1 > 2\n"), HasSubstr("'events' must be a list of entries like"));
+  EXPECT_THAT(error("events: [q1 > 2]\n"), HasSubstr("'events.1' must be one of entries like"));
+  EXPECT_THAT(error("frames: [hip]\n"), HasSubstr("frames: {H: hip}"));
+  EXPECT_THAT(error("frames: {G: hip}\n"), HasSubstr("'G' cannot name a frame"));
+  EXPECT_THAT(error("foot: {heel: 0.2, toe: 0.1}\n"), HasSubstr("a heel below its toe"));
+  EXPECT_THAT(error("foot: 3\n"), HasSubstr("'foot' must hold heel and toe"));
+}
+
+TEST_F(Events, NameTheNearestOfWhatAnExpressionOrAFrameMayBe) {
+  EXPECT_EQ(human_error(std::string(kAll) + "end_effector: head\n"), "");  // negative control
+  const std::string unknown = human_error("frames: {H: hip}\nevents: [{when: \"y_Hh < 0.5\"}]\n");
+  EXPECT_THAT(unknown, HasSubstr("one.yaml:3:17: unknown name 'y_Hh'"));
+  EXPECT_THAT(unknown, HasSubstr("did you mean 'y_H'?"));
+  const std::string frame = human_error("frames: {H: hipp}\n");
+  EXPECT_THAT(frame, HasSubstr("one.yaml:2:"));
+  EXPECT_THAT(frame,
+              HasSubstr("names no link and no moving joint of models/humanoid.urdf: 'hipp'; did you mean "
+                        "'hip'?"));
+  EXPECT_THAT(human_error("events: [{when: cop - 0.1}]\n"), HasSubstr("unknown name 'cop'"));
+  EXPECT_THAT(human_error("foot: {heel: -1, toe: 1}\ngravity: [0, 0, -9.81]\n"),
+              HasSubstr("one.yaml:2:1: a foot needs gravity in the plane"));
+  EXPECT_THAT(human_error("foot: {heel: -1, toe: 1}\nparameters: {toe: 3}\n"),
+              HasSubstr("'toe' cannot name a parameter"));
+}
+
+TEST_F(Events, TorquesMayReadFramesToo) {
+  Scene scene =
+      read("frames: {H: hip}\ntorque: [\"-100 * x_H - 10 * xd_H\", 0, 0]\nstart: {q: [0.1, 0, 0]}\n");
+  scene.model = "models/humanoid.urdf";
+  const Simulation run = prepare(scene, false);
+  Workspace ws(run.chain);
+  std::vector<double> tau(3), qd{2, 0, 0};
+  run.torque->evaluate(run.chain, ws, 0, run.q0, qd, tau);
+  const double height = 0.4305 + 0.42875;  // of the hip above the ankle
+  EXPECT_NEAR(tau[0], 100 * height * std::sin(0.1) + 10 * 2 * height * std::cos(0.1), 1e-12);
+}
+
+TEST(Fall, TimeStandsInTheTitle) {
+  Scene scene;
+  scene.title = "Falls in {fall}, a pity";
+  scene.events = {{"q1 - 1", EventKind::fall, "", Crossing::either, {}}};
+  Trajectory run;
+  run.end_time = 5;
+  EXPECT_EQ(title_of(scene, run), "Falls in more than 5 s, a pity");
+  run.ending_event = 0;
+  run.end_time = 1.2345;
+  EXPECT_EQ(title_of(scene, run), "Falls in 1.23 s, a pity");
+  scene.events.clear();
+  run.ending_event = -1;
+  EXPECT_EQ(title_of(scene, run), scene.title);
+}
+
+TEST(Fall, TableIsTheSameForAnyNumberOfThreads) {
+  const Sweep sweep = parse_sweep("parameters.k=0:900:4", "--sweep");
+  const FallTable one = run_fall_table("assets/scenes/humanoid_fall.yaml", {}, sweep, 1);
+  const FallTable two = run_fall_table("assets/scenes/humanoid_fall.yaml", {}, sweep, 2);
+  ASSERT_EQ(one.rows.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(one.rows[k].fall_time, two.rows[k].fall_time) << k;
+    EXPECT_EQ(one.rows[k].first, two.rows[k].first) << k;
+  }
+  EXPECT_TRUE(one.rows[0].fall_time.has_value());
+  EXPECT_FALSE(one.rows[3].fall_time.has_value()) << "stiff calves hold";
+  EXPECT_EQ(one.rows[3].status, RunStatus::finished);
+}
+
+TEST(Fall, NeedsAnEventThatIsOne) {
+  try {
+    run_fall_table("assets/scenes/rr_free.yaml", {}, parse_sweep("torque.1=0,1", "--sweep"), 1);
+    FAIL() << "a scene without falls was taken";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_input);
+    EXPECT_THAT(error.what(), HasSubstr("rr_free.yaml: has no event of kind `fall`"));
+  }
+}
+
+}  // namespace
+}  // namespace chainreel
