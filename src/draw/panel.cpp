@@ -7,6 +7,7 @@
 #include "draw/chain.hpp"
 #include "draw/chain_fit.hpp"
 #include "draw/ghosts.hpp"
+#include "draw/closures.hpp"
 #include "draw/joints.hpp"
 #include "draw/sheet.hpp"
 #include "dynamics/crba.hpp"
@@ -116,6 +117,11 @@ FitBox Panel::fit_box(const Camera& view, double marks, bool with_wild) {
   const auto add = [&](int kind, const Eigen::Vector3d& place) {
     marked.add(kind, {view.right.dot(place), view.up.dot(place)});
   };
+  if (is_constrained()) {
+    const double half = marks * size::kGroundLength / 2;
+    const int pin = marked.add_kind({half, half, marks * pin_depth(), 0});
+    for (const Eigen::Vector3d& place : closure_pins(run_.chain, run_.simulation->constraints)) add(pin, place);
+  }
   for (int k = 0; k < counted(with_wild); ++k) {
     pose_at(k);
     if (!fit.add_pose(*ws_, limit_)) continue;
@@ -216,6 +222,8 @@ void Panel::follow_tip() {
 
 void Panel::draw_static(Picture& picture) const {
   if (layers_.chain) draw_base(picture, {run_.chain, skeleton_, camera_, look_}, clip_);
+  if (layers_.chain && is_constrained())
+    draw_closure_pins(picture, {run_.chain, skeleton_, camera_, look_}, run_.simulation->constraints, clip_);
   if (layers_.chain && foot_) foot_->draw_foot(picture, camera_, look_, clip_);
 }
 
@@ -249,6 +257,8 @@ void Panel::draw_frame(Picture& picture, int k, const EllipseScale& scale, const
   if (layers_.chain) draw_rails(picture, drawing, *ws_, clip_);
   if (layers_.trail) draw_trail(picture, tip_, k, trail, clip_);
   if (layers_.chain) draw_links(picture, drawing, *ws_, clip_);
+  if (layers_.chain && is_constrained())
+    draw_closure_joints(picture, drawing, *ws_, run_.simulation->constraints, clip_);
   const Point tip = tip_.place(k);
   if (layers_.ellipse) {
     const EllipseStyle style{&theme_, &fonts, run_.scene.text_scale, scale.per_unit(), area_, layers_.reading};
