@@ -14,7 +14,8 @@ namespace {
 
 std::string algorithm_of(const Chain& chain, const ConstrainedWorkspace& cws, bool by_kernel) {
   if (!by_kernel) return "general: M^-1 Jc^T, then the rows' own system";
-  return std::string(chain.planar ? "planar, unrolled in absolute angles" : "spatial, unrolled") + (cws.kernel.doubled ? ", equal rows once" : "");
+  return std::string(chain.planar ? "planar, unrolled in absolute angles" : "spatial, unrolled") +
+         (cws.kernel.doubled ? ", equal rows once" : "");
 }
 
 // The largest of each row's multiplier over the run.
@@ -52,8 +53,8 @@ std::string constraint_plan_text(const Json& report) {
   const std::size_t rows = report["rows"].size();
   std::string text = "constraints: " + names + " (" + std::to_string(rows) + (rows == 1 ? " row" : " rows") +
                      "); " + report["dynamics"].get<std::string>() + ", some " +
-                     format_significant(report["evaluation_ns"].get<double>(), 2) + " ns; stabilize: " +
-                     report["stabilize"].get<std::string>();
+                     format_significant(report["evaluation_ns"].get<double>(), 2) +
+                     " ns; stabilize: " + report["stabilize"].get<std::string>();
   if (report.contains("gain")) text += ", gain " + format_shortest(report["gain"].get<double>()) + " 1/s";
   const double projection = report["projection_ns"].get<double>();
   if (projection > 0) text += ", some " + format_significant(projection / 1000, 2) + " us a step";

@@ -11,21 +11,21 @@
 namespace chainreel {
 
 struct ConstraintEntry {
-  std::string kind;                // line plane point distance close curve joint linear
-  std::string a;                   // the frame, the first of two frames, or the joint
-  std::string b;                   // the second frame; empty: `at` says the place
-  std::vector<double> at;          // a point of the line or plane; where the frame or the rod's end is to be
-  std::vector<double> direction;   // of a line; a plane's normal; a closure's axis, empty: z
-  double value = 1;                // of a joint, a sum; a rod's length, m
-  std::string closure = "point";   // or axis, weld
-  std::string x, y;                // of a curve: expressions in s
-  double s = 0;                    // where along the curve its foot point is sought first
+  std::string kind;               // line plane point distance close curve joint linear
+  std::string a;                  // the frame, the first of two frames, or the joint
+  std::string b;                  // the second frame; empty: `at` says the place
+  std::vector<double> at;         // a point of the line or plane; where the frame or the rod's end is to be
+  std::vector<double> direction;  // of a line; a plane's normal; a closure's axis, empty: z
+  double value = 1;               // of a joint, a sum; a rod's length, m
+  std::string closure = "point";  // or axis, weld
+  std::string x, y;               // of a curve: expressions in s
+  double s = 0;                   // where along the curve its foot point is sought first
   std::vector<std::pair<std::string, double>> coefficients;
   Place place;
 };
 
 struct ContactEntry {
-  int constraint = 1;  // in the list, from 1
+  int constraint = 1;         // in the list, from 1
   std::vector<double> force;  // N
   Place place;
 };

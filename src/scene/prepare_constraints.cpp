@@ -68,7 +68,8 @@ class PlanMaker {
   Eigen::Vector3d place_of(const ConstraintEntry& entry) {
     // The world's origin, unless a link has that name.
     if (entry.b == "world") return Eigen::Vector3d::Zero();
-    return world(entry.at, entry.kind + (entry.kind == "line" || entry.kind == "plane" ? ": 'point'" : ": 'at'"));
+    return world(entry.at,
+                 entry.kind + (entry.kind == "line" || entry.kind == "plane" ? ": 'point'" : ": 'at'"));
   }
 
   bool ends_at_place(const ConstraintEntry& entry) const {
@@ -116,8 +117,8 @@ class PlanMaker {
 };
 
 // Why no pose fulfils all constraints: one of them that none fulfils, or that they contradict each other.
-[[noreturn]] void refuse_unreachable(const Scene& scene, const Simulation& simulation, const ConstraintSet& all,
-                                     const Projection& together) {
+[[noreturn]] void refuse_unreachable(const Scene& scene, const Simulation& simulation,
+                                     const ConstraintSet& all, const Projection& together) {
   const Chain& chain = simulation.chain;
   Workspace ws(chain);
   ProblemList problems;
@@ -135,11 +136,13 @@ class PlanMaker {
   problems.throw_if_any();
   std::size_t k = 0;
   while (all.first_row(k + 1) <= together.worst_row) ++k;
-  throw Error(ExitCode::bad_input, "the constraints contradict each other, or their closure is out of reach: each can be met, but the "
-               "nearest pose to all leaves '" +
-                   all.row_names()[std::size_t(together.worst_row)] + "' " +
-                   format_significant(together.after, 3) + " away; change a length or place, or leave one out",
-               scene.constraints[k].place);
+  throw Error(
+      ExitCode::bad_input,
+      "the constraints contradict each other, or their closure is out of reach: each can be met, but the "
+      "nearest pose to all leaves '" +
+          all.row_names()[std::size_t(together.worst_row)] + "' " + format_significant(together.after, 3) +
+          " away; change a length or place, or leave one out",
+      scene.constraints[k].place);
 }
 
 }  // namespace
@@ -153,7 +156,8 @@ void prepare_constraints(Scene& scene, Simulation& simulation) {
   Workspace ws(chain);
   std::vector<double> q = simulation.q0, qd = simulation.qd0;
   const Projection way = project_positions(chain, ws, set, cws, q);
-  const Place start = scene.place_of("start.q").line > 0 ? scene.place_of("start.q") : scene.place_of("constraints");
+  const Place start =
+      scene.place_of("start.q").line > 0 ? scene.place_of("start.q") : scene.place_of("constraints");
   if (!way.reached) refuse_unreachable(scene, simulation, set, way);
   if (const int row = reversed_row(ws, set); row >= 0)
     throw Error(ExitCode::bad_input,
@@ -166,13 +170,15 @@ void prepare_constraints(Scene& scene, Simulation& simulation) {
     throw Error(ExitCode::bad_input,
                 "the start is " + format_significant(way.before, 3) + " off '" +
                     set.row_names()[std::size_t(way.worst_row)] +
-                    "'; the pose found on the constraints is far from it, by " + format_significant(moved, 3) +
-                    " in a coordinate: write `start: {q: " + listed(q) + "}` if it is meant",
+                    "'; the pose found on the constraints is far from it, by " +
+                    format_significant(moved, 3) + " in a coordinate: write `start: {q: " + listed(q) +
+                    "}` if it is meant",
                 start);
   const double rate = project_velocities(chain, ws, set, cws, q, qd);
   if (way.before > kNoteworthy)
     scene.notices.push_back("the start was " + format_significant(way.before, 3) + " off '" +
-                            set.row_names()[std::size_t(way.worst_row)] + "' and was moved to q = " + listed(q));
+                            set.row_names()[std::size_t(way.worst_row)] +
+                            "' and was moved to q = " + listed(q));
   if (rate > kNoteworthy)
     scene.notices.push_back("the start's rates left the constraints by " + format_significant(rate, 3) +
                             " a second and were changed to qd = " + listed(qd));

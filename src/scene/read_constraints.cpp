@@ -43,9 +43,9 @@ void read_other_end(Fields& fields, ConstraintEntry& entry, const std::string& e
   fields.read("b", entry.b);
   fields.read("at", entry.at);
   if (entry.b.empty() == entry.at.empty())
-    fields.problems().add("'" + fields.path("b") + "' names a frame, or 'at' a place, one of the two: write " +
-                              example,
-                          entry.place);
+    fields.problems().add(
+        "'" + fields.path("b") + "' names a frame, or 'at' a place, one of the two: write " + example,
+        entry.place);
 }
 
 void read_closure(Fields& fields, ConstraintEntry& entry) {
@@ -70,9 +70,10 @@ void read_closure(Fields& fields, ConstraintEntry& entry) {
 void read_coefficients(Fields& fields, ConstraintEntry& entry) {
   const YAML::Node node = fields.find("coefficients");
   if (!node.IsDefined() || !node.IsMap() || node.size() == 0) {
-    fields.problems().add("'" + fields.path("coefficients") +
-                              "' must hold joints and numbers: {coefficients: {joint1: 1, joint2: -2}, value: 0}",
-                          entry.place);
+    fields.problems().add(
+        "'" + fields.path("coefficients") +
+            "' must hold joints and numbers: {coefficients: {joint1: 1, joint2: -2}, value: 0}",
+        entry.place);
     return;
   }
   Fields inner(fields.document(), node, fields.path("coefficients"), fields.problems());
@@ -100,7 +101,8 @@ void read_kind(Fields& fields, ConstraintEntry& entry) {
     needs.read("frame", entry.a);
     needs.read("at", entry.at);
   } else if (kind == "distance") {
-    const std::string example = "{distance: {a: gripper, b: base, length: 1.2}}, or `at: [x, y]` in the place of b";
+    const std::string example =
+        "{distance: {a: gripper, b: base, length: 1.2}}, or `at: [x, y]` in the place of b";
     Needs needs(fields, entry.place, example);
     needs.read("a", entry.a);
     read_other_end(fields, entry, example);
@@ -111,7 +113,8 @@ void read_kind(Fields& fields, ConstraintEntry& entry) {
     read_other_end(fields, entry, example);
     read_closure(fields, entry);
   } else if (kind == "curve") {
-    Needs needs(fields, entry.place, "{curve: {frame: gripper, x: \"1 + 0.5 * cos(s)\", y: \"0.5 * sin(s)\"}}");
+    Needs needs(fields, entry.place,
+                "{curve: {frame: gripper, x: \"1 + 0.5 * cos(s)\", y: \"0.5 * sin(s)\"}}");
     needs.read("frame", entry.a);
     needs.read("x", entry.x);
     needs.read("y", entry.y);
@@ -134,11 +137,12 @@ void read_entry(Fields& fields, const YAML::Node& node, const std::string& key, 
   if (!one_key || std::find(kKinds.begin(), kKinds.end(), kind) == kKinds.end()) {
     std::string kinds;
     for (const std::string& one : kKinds) kinds += (kinds.empty() ? "" : ", ") + one;
-    const std::string what = one_key ? "unknown kind '" + kind + "' of a constraint:" + did_you_mean(kind, kKinds) +
-                                           " There are " + kinds
-                                     : "a constraint is one key with what belongs to it, like {point: {frame: "
-                                       "gripper, at: [1, 0.5]}}; the keys are " +
-                                           kinds;
+    const std::string what =
+        one_key ? "unknown kind '" + kind + "' of a constraint:" + did_you_mean(kind, kKinds) +
+                      " There are " + kinds
+                : "a constraint is one key with what belongs to it, like {point: {frame: "
+                  "gripper, at: [1, 0.5]}}; the keys are " +
+                      kinds;
     fields.problems().add(what, place);
     return;
   }
@@ -154,9 +158,10 @@ void read_entry(Fields& fields, const YAML::Node& node, const std::string& key, 
 void read_contact(Fields& fields, const YAML::Node& node, const std::string& key, Scene& scene) {
   const Place place = fields.place_of(node, key);
   if (!node.IsMap()) {
-    fields.problems().add("'contact_force' must hold a constraint's number and a force in N: {constraint: 1, "
-                          "force: [0, -5]}, or a list of such",
-                          place);
+    fields.problems().add(
+        "'contact_force' must hold a constraint's number and a force in N: {constraint: 1, "
+        "force: [0, -5]}, or a list of such",
+        place);
     return;
   }
   Fields inner(fields.document(), node, fields.path(key), fields.problems());
@@ -179,8 +184,9 @@ void read_contact(Fields& fields, const YAML::Node& node, const std::string& key
 void read_constraints(Fields& fields, Scene& scene) {
   const YAML::Node list = fields.find("constraints");
   if (list.IsDefined() && !list.IsSequence())
-    problem_at(fields, "constraints",
-               "'constraints' must be a list: [{line: {frame: gripper, point: [0, 0.5], direction: [1, 0]}}]");
+    problem_at(
+        fields, "constraints",
+        "'constraints' must be a list: [{line: {frame: gripper, point: [0, 0.5], direction: [1, 0]}}]");
   if (list.IsSequence())
     for (std::size_t i = 0; i < list.size(); ++i)
       read_entry(fields, list[i], "constraints." + std::to_string(i + 1), scene);

@@ -81,7 +81,8 @@ std::string constraints_text(const Scene& scene) {
   YAML::Emitter out;
   out << YAML::Flow << YAML::BeginSeq;
   for (const ConstraintEntry& entry : scene.constraints) {
-    out << YAML::Flow << YAML::BeginMap << YAML::Key << entry.kind << YAML::Value << YAML::Flow << YAML::BeginMap;
+    out << YAML::Flow << YAML::BeginMap << YAML::Key << entry.kind << YAML::Value << YAML::Flow
+        << YAML::BeginMap;
     emit_members(out, entry);
     out << YAML::EndMap << YAML::EndMap;
   }

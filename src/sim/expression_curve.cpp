@@ -9,7 +9,8 @@ ExpressionCurve::ExpressionCurve(const std::string& x, const std::string& y, con
   std::vector<std::string> names{"s"};
   values_.emplace_back();
   for (const auto& [name, value] : parameters) {
-    if (name == "s") throw Error(ExitCode::bad_input, "a curve's own parameter is s: rename the other", place);
+    if (name == "s")
+      throw Error(ExitCode::bad_input, "a curve's own parameter is s: rename the other", place);
     names.push_back(name);
     values_.emplace_back(value);
   }

@@ -77,7 +77,8 @@ TEST_F(SceneConstraints, EveryKindIsReadAndWrittenBackTheSame) {
 }
 
 TEST_F(SceneConstraints, PlacesOfTheWorldStandWhereFramesCould) {
-  const Simulation one = ready(kPenStart + "constraints: [{close: {a: gripper, at: [0.8660254037844386, 0.5]}}]\n");
+  const Simulation one =
+      ready(kPenStart + "constraints: [{close: {a: gripper, at: [0.8660254037844386, 0.5]}}]\n");
   EXPECT_TRUE(std::holds_alternative<PointConstraint>(one.constraints.list[0]));
   const Simulation rod = ready(kPenStart + "constraints: [{distance: {a: gripper, b: world, length: 1}}]\n");
   const ConstraintSet set(rod.chain, rod.constraints.list);
@@ -91,15 +92,17 @@ TEST_F(SceneConstraints, AStartALittleBesideIsMovedWithANotice) {
   ASSERT_EQ(notices_.size(), 1u);
   EXPECT_THAT(notices_[0], HasSubstr("0.02 off 'line gripper'"));
   EXPECT_NE(moved.q0[0], 1.5707963267948966);
-  ready("start: {q: [90deg, -60deg, -120deg], qd: [1, 0, 0]}\n"
-        "constraints: [{line: {frame: gripper, point: [0, 0.5], direction: [1, 0]}}]\n");
+  ready(
+      "start: {q: [90deg, -60deg, -120deg], qd: [1, 0, 0]}\n"
+      "constraints: [{line: {frame: gripper, point: [0, 0.5], direction: [1, 0]}}]\n");
   ASSERT_EQ(notices_.size(), 1u);
   EXPECT_THAT(notices_[0], HasSubstr("rates left the constraints by 0.866"));
 }
 
 TEST_F(SceneConstraints, WhatCannotBeReachedIsRefusedWithTheDistance) {
-  EXPECT_THAT(error(kPenStart + "constraints: [{line: {frame: gripper, point: [0, 3.5], direction: [1, 0]}}]\n"),
-              AllOf(HasSubstr("one.yaml:3:"), HasSubstr("'line gripper' is out of reach"), HasSubstr("0.5")));
+  EXPECT_THAT(
+      error(kPenStart + "constraints: [{line: {frame: gripper, point: [0, 3.5], direction: [1, 0]}}]\n"),
+      AllOf(HasSubstr("one.yaml:3:"), HasSubstr("'line gripper' is out of reach"), HasSubstr("0.5")));
   EXPECT_THAT(error("start: {q: [180deg, -140deg, -90deg]}\n"
                     "constraints: [{close: {a: rocker_end, at: [5, 0]}}]\n",
                     "four_bar"),
@@ -108,8 +111,9 @@ TEST_F(SceneConstraints, WhatCannotBeReachedIsRefusedWithTheDistance) {
                                 "  - {line: {frame: gripper, point: [0, 0.5], direction: [1, 0]}}\n"
                                 "  - {line: {frame: gripper, point: [0, 0.6], direction: [1, 0]}}\n"),
               AllOf(HasSubstr("contradict each other"), HasSubstr("leave one out")));
-  EXPECT_THAT(error(kPenStart + "constraints: [{line: {frame: gripper, point: [0, 2.5], direction: [1, 0]}}]\n"),
-              HasSubstr("if it is meant"))
+  EXPECT_THAT(
+      error(kPenStart + "constraints: [{line: {frame: gripper, point: [0, 2.5], direction: [1, 0]}}]\n"),
+      HasSubstr("if it is meant"))
       << "far, but not out of reach";
 }
 
@@ -119,7 +123,8 @@ TEST_F(SceneConstraints, BadInputNamesPlaceAndRemedy) {
               AllOf(HasSubstr("one.yaml:3:15"), HasSubstr("no frame 'griper'"), HasSubstr("gripper")));
   EXPECT_THAT(bad("[{point: {frame: gripper, at: [1]}}]"),
               AllOf(HasSubstr("'at' has 1 numbers"), HasSubstr("two are needed")));
-  EXPECT_THAT(bad("[{line: {frame: gripper, point: [0, 1]}}]"), HasSubstr("direction' is missing: write {line:"));
+  EXPECT_THAT(bad("[{line: {frame: gripper, point: [0, 1]}}]"),
+              HasSubstr("direction' is missing: write {line:"));
   EXPECT_THAT(bad("[{pont: {frame: gripper, at: [1, 1]}}]"), HasSubstr("unknown kind 'pont'"));
   EXPECT_THAT(bad("[{point: {frame: gripper, at: [1, 1], axis: 2}}]"), HasSubstr("unknown key"));
   EXPECT_THAT(bad("[gripper]"), HasSubstr("a constraint is one key"));

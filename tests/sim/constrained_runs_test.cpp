@@ -65,8 +65,9 @@ Chain rrr_with_fixed_elbow(TemporaryFolder& folder) {
   const std::string joint = "<joint name=\"joint2\" type=\"continuous\">\n    <origin xyz=\"1 0 0\"/>";
   const std::size_t at = text.find(joint);
   EXPECT_NE(at, std::string::npos);
-  text.replace(at, joint.size(),
-               "<joint name=\"joint2\" type=\"fixed\">\n    <origin xyz=\"1 0 0\" rpy=\"0 0 1.0471975511965976\"/>");
+  text.replace(
+      at, joint.size(),
+      "<joint name=\"joint2\" type=\"fixed\">\n    <origin xyz=\"1 0 0\" rpy=\"0 0 1.0471975511965976\"/>");
   return read_chain(folder.write("fixed.urdf", text));
 }
 
@@ -190,8 +191,8 @@ TEST(ConstrainedRun, SliderCrankFollowsItsClosedForm) {
 
 TEST(ConstrainedRun, CurveOfTwoExpressionsKeepsThePenOnIt) {
   Simulation run = exact_run("rrr", {}, 3);
-  const auto circle =
-      std::make_shared<ExpressionCurve>("1.2 + r * cos(s)", "r * sin(s)", Parameters{{"r", 0.5}}, pi / 2, Place{});
+  const auto circle = std::make_shared<ExpressionCurve>("1.2 + r * cos(s)", "r * sin(s)",
+                                                        Parameters{{"r", 0.5}}, pi / 2, Place{});
   run.constraints.list = {CurveConstraint{"gripper", circle, pi / 2}};
   // Somewhere near the top of the circle; the start is brought onto it.
   run.q0 = {1.6, -1.0, -1.0};
