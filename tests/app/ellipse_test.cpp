@@ -1,0 +1,173 @@
+// chainreel ellipse: where poses come from, what is written, and what is refused.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/json.hpp"
+#include "encode/png.hpp"
+#include "support/picture_compare.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::HasSubstr;
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// Runs `ellipse` with these words and a small picture.
+ProgramResult draw(std::vector<std::string> words, const std::string& output) {
+  std::vector<std::string> all{"ellipse"};
+  all.insert(all.end(), words.begin(), words.end());
+  all.insert(all.end(), {"-o", output, "--width", "640", "--height", "360"});
+  return run_program(all);
+}
+
+Json report_of(const std::vector<std::string>& words) {
+  const TemporaryFolder folder;
+  std::vector<std::string> all = words;
+  all.push_back("--json");
+  const ProgramResult result = draw(all, folder.file("a.png"));
+  EXPECT_EQ(result.status, 0) << result.err;
+  return result.status == 0 ? Json::parse(result.out) : Json{};
+}
+
+std::string golden(const std::vector<std::string>& words, const std::string& name) {
+  const TemporaryFolder folder;
+  std::vector<std::string> all = words;
+  all.insert(all.end(), {"--text-scale", "1.5"});
+  const std::string file = folder.file("a.png");
+  const ProgramResult result = draw(all, file);
+  if (result.status != 0) return result.err;
+  const auto same = matches_golden(read_png(file), name, {.max = 24, .mean = 0.05});
+  return same ? "" : same.message();
+}
+
+TEST(EllipseGoldens, OfEachKindOfFigure) {
+  EXPECT_EQ(golden({"models/rr.urdf", "--pose", "0,90deg", "--pose", "0,150deg", "--reading", "belt"}, "ellipse_belt"), "");
+  EXPECT_EQ(golden({"models/rr.urdf", "--pose", "0,90deg", "--pose", "0,0", "--reading", "energy"}, "ellipse_energy"), "");
+  EXPECT_EQ(golden({"models/rr.urdf", "--sweep", "q2=30deg:150deg:5", "--layout", "superposed", "--theme", "dark"},
+                   "ellipse_superposed_dark"), "");
+  EXPECT_EQ(golden({"models/rr.urdf", "--field", "--samples", "8"}, "ellipse_field"), "");
+  EXPECT_EQ(golden({"models/rr.urdf", "--pose", "0,90deg", "--joint-space"}, "ellipse_joint_space"), "");
+}
+
+TEST(EllipseNumbers, HaveTheSemiAxesOfTheReading) {
+  const std::vector<std::string> folded{"models/rr.urdf", "--pose", "0,150deg", "--pose", "0,0", "--reading"};
+  const auto with = [&](const std::string& reading) {
+    std::vector<std::string> words = folded;
+    words.push_back(reading);
+    return report_of(words);
+  };
+  const Json mass = with("mass"), energy = with("energy");
+  EXPECT_EQ(mass["reading"], "mass");
+  EXPECT_EQ(mass["unit"], "kg");
+  EXPECT_EQ(energy["unit"], "m/s");
+  // A few roundings of numbers up to 5.
+  EXPECT_NEAR(mass["poses"][0]["semi_axes"][0].get<double>(), 5, 1e-12);
+  EXPECT_NEAR(mass["poses"][0]["semi_axes"][1].get<double>(), 1, 1e-12);
+  EXPECT_NEAR(energy["poses"][0]["semi_axes"][0].get<double>(), 1 / std::sqrt(5.0), 1e-12);
+  EXPECT_NEAR(energy["poses"][0]["eigenvalues"][0].get<double>(), 5, 1e-12);
+  EXPECT_NEAR(mass["poses"][0]["point"][0].get<double>(), 1 - std::sqrt(3.0) / 2, 1e-14);
+  EXPECT_TRUE(mass["poses"][1]["Lambda"].is_null());
+  EXPECT_TRUE(mass["poses"][1]["semi_axes"][0].is_null());
+  EXPECT_EQ(energy["poses"][1]["semi_axes"][0], 0);
+  EXPECT_EQ(mass["poses"][1]["singular_directions"].size(), 1u);
+}
+
+TEST(EllipseSweep, GoesThroughTheValuesOfOneCoordinate) {
+  const Json report = report_of({"models/rr.urdf", "--pose", "0.3,0", "--sweep", "q2=0:180deg:9"});
+  ASSERT_EQ(report["poses"].size(), 9u);
+  EXPECT_EQ(report["poses"][4]["q"][0], 0.3);
+  EXPECT_NEAR(report["poses"][4]["q"][1].get<double>(), std::acos(-1) / 2, 1e-15);
+  const ProgramResult wrong = draw({"models/rr.urdf", "--sweep", "q3=0,1"}, "out/x.png");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("no such coordinate"));
+}
+
+TEST(EllipseAlong, TakesPosesFromTheMotion) {
+  const Json report = report_of({"--along", "assets/scenes/rr_free.yaml", "--samples", "5"});
+  ASSERT_EQ(report["poses"].size(), 5u);
+  EXPECT_EQ(report["poses"][0]["t"], 0);
+  EXPECT_EQ(report["poses"][4]["t"], 10);
+  // Negative control: the chain has moved.
+  EXPECT_NE(report["poses"][0]["q"], report["poses"][4]["q"]);
+}
+
+TEST(EllipseField, ReachesItsPoints) {
+  const Json report = report_of({"models/rr.urdf", "--field", "--samples", "8"});
+  // Cells of 0.5 m about +-0.25, +-0.75, ...: those within 2 m of the base.
+  int within = 0;
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j) within += std::hypot(0.5 * i - 1.75, 0.5 * j - 1.75) <= 2;
+  ASSERT_EQ(report["poses"].size(), std::size_t(within));
+  for (const Json& pose : report["poses"]) {
+    for (const int axis : {0, 1}) {
+      const double cells = (pose["point"][axis].get<double>() + 1.75) / 0.5;
+      EXPECT_NEAR(cells, std::round(cells), 2e-9);
+    }
+    EXPECT_LE(pose["q"][1].get<double>(), 0);  // elbow up
+  }
+}
+
+TEST(EllipseOutputs, AreWordsInPdfAndSvgAndNumbersInCsv) {
+  const TemporaryFolder folder;
+  for (const char* ending : {"svg", "pdf"}) {
+    const std::string file = folder.file(std::string("a.") + ending);
+    ASSERT_EQ(draw({"models/rr.urdf", "--pose", "0,1", "--reading", "belt"}, file).status, 0);
+    EXPECT_GT(std::filesystem::file_size(file), 1000u);
+  }
+  EXPECT_THAT(text_of(folder.file("a.svg")), HasSubstr("belt"));
+  const std::string table = folder.file("a.csv");
+  ASSERT_EQ(draw({"models/rr.urdf", "--pose", "0,90deg", "--pose", "0,0"}, table).status, 0);
+  EXPECT_THAT(text_of(table), HasSubstr("Lambda_inv_xx,Lambda_inv_xy,Lambda_inv_yy"));
+  EXPECT_THAT(text_of(table), HasSubstr(",inf,"));
+}
+
+TEST(EllipseOptions, ThatDoNotGoTogetherAreNamed) {
+  const auto error = [](const std::vector<std::string>& words) {
+    const ProgramResult result = draw(words, "out/x.png");
+    EXPECT_EQ(result.status, 2) << result.err;
+    return result.err;
+  };
+  EXPECT_THAT(error({"models/rr.urdf"}), HasSubstr("which poses?"));
+  EXPECT_THAT(error({"--pose", "0,1"}), HasSubstr("which model?"));
+  EXPECT_THAT(error({"models/rr.urdf", "--field", "--pose", "0,1"}), HasSubstr("leave out --pose"));
+  EXPECT_THAT(error({"models/rrr.urdf", "--pose", "0,1,1", "--joint-space"}), HasSubstr("--joints 1,2"));
+  EXPECT_THAT(error({"models/rrr.urdf", "--pose", "0,1,1", "--joint-space", "--joints", "1,4"}),
+              HasSubstr("between 1 and 3"));
+  EXPECT_THAT(error({"models/pp.urdf", "--field"}), HasSubstr("without limits"));
+  EXPECT_THAT(error({"models/rr.urdf", "--pose", "0,1", "--joint-space", "--reading", "belt"}),
+              HasSubstr("leave out --reading"));
+  EXPECT_THAT(error({"models/rr.urdf", "--along", "assets/scenes/rr_free.yaml"}), HasSubstr("leave out models/rr.urdf"));
+}
+
+TEST(EllipseScene, NamesItsReading) {
+  const TemporaryFolder folder;
+  const auto snapshot = [&](const std::string& reading) {
+    const std::string file = folder.file(reading + ".png");
+    const ProgramResult result =
+        run_program({"snapshot", "assets/scenes/rr_ellipse.yaml", "--at", "1", "-o", file, "--set", "video.width=320",
+                     "--set", "video.height=180", "--set", "ellipse.reading=" + reading});
+    EXPECT_EQ(result.status, reading == "tensor" ? 3 : 0) << result.err;
+    return result.err;
+  };
+  for (const char* reading : {"mass", "energy", "belt"}) EXPECT_EQ(snapshot(reading), "");
+  EXPECT_NE(read_png(folder.file("mass.png")).bgra, read_png(folder.file("belt.png")).bgra);
+  EXPECT_NE(read_png(folder.file("mass.png")).bgra, read_png(folder.file("energy.png")).bgra);
+  EXPECT_THAT(snapshot("tensor"), HasSubstr("'ellipse.reading' must be mass, energy or belt"));
+}
+
+}  // namespace
+}  // namespace chainreel
