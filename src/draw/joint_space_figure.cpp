@@ -1,5 +1,4 @@
 // The unit circle of accelerations beside its image under M(q): what the mass matrix does, two joints at a time.
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -51,20 +50,21 @@ PlotFrame square_frame(const Rect& area, double most, const std::string& x, cons
   return frame;
 }
 
-// The image of the unit circle under the matrix, with the images of the unit vectors as arrows.
+// The image of the unit circle under a symmetric positive matrix, whose eigenvectors are its axes, with the images of the unit vectors as arrows.
 void draw_image(Picture& picture, const PlotFrame& frame, const Eigen::Matrix2d& map, const std::string& symbol,
                 std::array<int, 2> joints, const PlotStyle& style) {
   const int clip = int(picture.clips.size());
   picture.clips.push_back(frame.box);
   const Point center = frame.at({0, 0});
   const double unit = frame.box.width() / (frame.x.high - frame.x.low);
-  const Eigen::JacobiSVD<Eigen::Matrix2d> svd(map, Eigen::ComputeFullU);
-  const Eigen::Vector2d s = svd.singularValues();
-  const Eigen::Matrix2d U = svd.matrixU();
+  const double angle = std::atan2(2 * map(0, 1), map(0, 0) - map(1, 1)) / 2;
+  const double mean = (map(0, 0) + map(1, 1)) / 2;
+  const double deviation = std::hypot(map(0, 1), (map(0, 0) - map(1, 1)) / 2);
+  const double major = unit * (mean + deviation), minor = unit * (mean - deviation);
   const Color color = style.theme->ellipse;
   picture.add(Ellipse{center,
-                      {unit * s(0) * U(0, 0), unit * s(0) * U(1, 0)},
-                      {-unit * s(1) * U(1, 0), unit * s(1) * U(0, 0)},
+                      {major * std::cos(angle), major * std::sin(angle)},
+                      {-minor * std::sin(angle), minor * std::cos(angle)},
                       {color.faded(kFill), color, size::kEllipseLine}},
               clip);
   for (int k = 0; k < 2; ++k) {

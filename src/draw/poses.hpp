@@ -1,7 +1,6 @@
 // Still figures of a chain at chosen poses.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <string>
 #include <vector>
