@@ -52,6 +52,7 @@ void add_render_command(CLI::App& app);
 void add_snapshot_command(CLI::App& app);
 void add_ellipse_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
+void add_extract_command(CLI::App& app);
 void add_dynamics_command(CLI::App& app);
 void add_inverse_command(CLI::App& app);
 void add_init_command(CLI::App& app);

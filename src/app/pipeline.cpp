@@ -1,20 +1,17 @@
 #include "app/pipeline.hpp"
 
 #include <algorithm>
-#include <cstdio>
-#include <filesystem>
 #include <set>
 
 #include "app/automatic.hpp"
-#include "app/progress.hpp"
-#include "app/report.hpp"
 #include "app/signals.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/output_file.hpp"
 #include "encode/png.hpp"
-#include "encode/video_writer.hpp"
 #include "render/canvas.hpp"
+#include "render/vector_cairo.hpp"
+#include "render/vector_svg.hpp"
 #include "scene/panels.hpp"
 #include "scene/prepare.hpp"
 #include "scene/read_scene.hpp"
@@ -80,13 +77,9 @@ std::vector<double> frame_times(const Scene& scene) {
   return times;
 }
 
-namespace {
-
 std::string in_panel(const Scene& scene, std::size_t i, const std::string& message) {
   return "panel " + std::to_string(i + 1) + " (" + scene.title + "): " + message;
 }
-
-}  // namespace
 
 void require_expected_end(const Trajectory& trajectory, const Scene& scene) {
   throw_if_interrupted();
@@ -157,96 +150,6 @@ Film film_of(const PreparedFilm& film, const std::vector<Trajectory>& runs, cons
   return Film(film.scene, panels, shown_times(runs, times, frames), fonts);
 }
 
-namespace {
-
-// A film ends with the last of its runs; one that is to diverge is shown to stand still behind that.
-int frames_shown(const PreparedFilm& film, const std::vector<Trajectory>& runs, int frames) {
-  int shown = 0;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const bool stands = runs[i].status == RunStatus::diverged && film.panels[i].scene.expect == "diverge";
-    shown = std::max(shown, stands ? frames : runs[i].size());
-  }
-  return shown;
-}
-
-void film_to_video(const Film& film, const Scene& scene, const Fonts& fonts, VideoWriter& writer, bool quiet,
-                   StageSeconds& seconds) {
-  Stopwatch watch;
-  Canvas canvas(scene.video.width, scene.video.height, fonts);
-  canvas.set_static_layer(film.static_layer());
-  seconds.render += watch.lap();
-
-  Progress progress(scene.name, film.frame_count(), quiet);
-  Image image;
-  for (int k = 0; k < film.frame_count(); ++k) {
-    throw_if_interrupted();
-    watch.lap();
-    const Picture picture = film.frame(k);
-    seconds.draw += watch.lap();
-    canvas.draw(picture, image);
-    seconds.render += watch.lap();
-    writer.write(image);
-    seconds.encode += watch.lap();
-    progress.update(k + 1);
-  }
-  watch.lap();
-  writer.finish();
-  seconds.encode += watch.lap();
-}
-
-// Runs that a limit stopped: no failure, but not what one may think either.
-void tell_of_stops(const PreparedFilm& film, const std::vector<Trajectory>& runs) {
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (runs[i].trouble.empty() || !is_complete(runs[i].status)) continue;
-    const std::string text = "stopped: " + runs[i].trouble;
-    std::fprintf(stderr, "%s: %s\n", film.scene.name.c_str(),
-                 runs.size() == 1 ? text.c_str() : in_panel(film.panels[i].scene, i, text).c_str());
-  }
-}
-
-}  // namespace
-
-RenderResult render_film(const PreparedFilm& film, const std::string& video_path, bool overwrite,
-                         bool quiet) {
-  const Scene& scene = film.scene;
-  RenderResult result;
-  result.video = video_path;
-  result.sidecar = std::filesystem::path(video_path).replace_extension(".json").string();
-  OutputFile video(result.video, overwrite);
-  OutputFile sidecar(result.sidecar, overwrite);
-
-  Stopwatch total, watch;
-  const std::vector<double> times = frame_times(scene);
-  const std::vector<Trajectory> runs = simulate_film(film, times);
-  result.seconds.simulate = watch.lap();
-  if (std::any_of(runs.begin(), runs.end(), [](const Trajectory& run) { return run.size() == 0; }))
-    require_expected_ends(film, runs);
-
-  const Fonts fonts;
-  result.frames = frames_shown(film, runs, int(times.size()));
-  const Film pictures = film_of(film, runs, times, result.frames, fonts);
-  result.seconds.draw += watch.lap();
-  {
-    VideoWriter writer(video.temporary_path(), {scene.video.width, scene.video.height, scene.video.fps});
-    film_to_video(pictures, scene, fonts, writer, quiet, result.seconds);
-  }
-  result.film_seconds = frame_time(result.frames, scene.video.fps);
-  result.seconds.total = total.lap();
-  result.audit = film_report(film, runs, pictures, result.seconds);
-
-  const std::string text = result.audit.dump(2) + "\n";
-  try {
-    require_expected_ends(film, runs);
-  } catch (const Error&) {
-    video.keep_as_partial();
-    throw;
-  }
-  if (!quiet) tell_of_stops(film, runs);
-  video.commit();
-  write_whole(sidecar, text);
-  return result;
-}
-
 Image rasterise(const Picture& picture, int width, int height, const Fonts& fonts) {
   Canvas canvas(width, height, fonts);
   Image image;
@@ -254,10 +157,20 @@ Image rasterise(const Picture& picture, int width, int height, const Fonts& font
   return image;
 }
 
+void check_picture_path(const std::string& path) {
+  if (path.ends_with(".png") || path.ends_with(".svg") || path.ends_with(".pdf")) return;
+  throw Error(ExitCode::usage, "-o " + path + ": pictures are written as .png, .svg or .pdf");
+}
+
 void write_picture(const Picture& picture, int width, int height, const Fonts& fonts, const std::string& path,
-                   bool overwrite) {
+                   bool overwrite, const ClipMemory& memory) {
   OutputFile output(path, overwrite);
-  write_png(output.temporary_path(), rasterise(picture, width, height, fonts));
+  if (path.ends_with(".svg"))
+    write_temporary(output, svg_text(picture, fonts, memory.page()));
+  else if (path.ends_with(".pdf"))
+    write_temporary(output, pdf_text(picture, fonts, memory.page()));
+  else
+    write_png(output.temporary_path(), rasterise(picture, width, height, fonts), memory.tags());
   output.commit();
 }
 

@@ -1,10 +1,11 @@
-// Where the stages are joined: scene -> simulation -> trajectory -> film -> pixels -> file.
+// Where the stages are joined: scene -> simulation -> trajectory -> film -> pixels.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/clip_memory.hpp"
 #include "core/image.hpp"
 #include "core/json.hpp"
 #include "draw/film.hpp"
@@ -47,6 +48,9 @@ void require_expected_end(const Trajectory& trajectory, const Scene& scene);
 void require_expected_ends(const PreparedFilm& film, const std::vector<Trajectory>& runs,
                            std::optional<int> frame = {});
 
+// "panel 2 (rk4): message"
+std::string in_panel(const Scene& scene, std::size_t i, const std::string& message);
+
 // Runs all panels, sampled at `times`. Throws only the signal's Error.
 std::vector<Trajectory> simulate_film(const PreparedFilm& film, const std::vector<double>& times);
 // The pictures of these runs at the first `frames` of `times`.
@@ -57,23 +61,13 @@ struct StageSeconds {
   double simulate = 0, draw = 0, render = 0, encode = 0, total = 0;
 };
 
-struct RenderResult {
-  std::string video;
-  std::string sidecar;
-  int frames = 0;
-  double film_seconds = 0;
-  StageSeconds seconds;
-  Json audit;
-};
-
-// Renders one film to an MP4 and writes the audit beside it. A run that failed leaves what was drawn under a
-// .partial name and throws.
-RenderResult render_film(const PreparedFilm& film, const std::string& video_path, bool overwrite, bool quiet);
-
 // One picture as pixels.
 Image rasterise(const Picture& picture, int width, int height, const Fonts& fonts);
-// ... and as a PNG file that appears whole or not at all.
+// Throws Error (usage) unless the path ends in .png, .svg or .pdf.
+void check_picture_path(const std::string& path);
+// ... and as a file that appears whole or not at all: .png, .svg or .pdf. Vector pages have the proportions of the
+// pixels, and a height that suits a sheet of paper.
 void write_picture(const Picture& picture, int width, int height, const Fonts& fonts, const std::string& path,
-                   bool overwrite);
+                   bool overwrite, const ClipMemory& memory = {});
 
 }  // namespace chainreel

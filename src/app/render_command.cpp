@@ -1,4 +1,4 @@
-// chainreel render SCENE... [-o FILE|DIR]
+// chainreel render SCENE... [-o FILE]... | [-o DIR]
 
 #include <cstdio>
 #include <filesystem>
@@ -8,9 +8,11 @@
 #include "app/automatic.hpp"
 #include "app/command.hpp"
 #include "app/pipeline.hpp"
+#include "app/render_film.hpp"
 #include "app/report.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "scene/quantity.hpp"
 
 namespace chainreel {
 namespace {
@@ -19,33 +21,18 @@ namespace fs = std::filesystem;
 
 struct RenderOptions {
   std::vector<std::string> scenes;
-  std::string output;
+  std::vector<std::string> outputs;
+  std::string at = "0";
+  std::string preset, crf, hold;  // keys of the scene as flags
   CommonOptions common;
 };
 
-// Where each scene's film goes: a file is for one scene, a folder for any number.
-std::vector<std::string> output_paths(const RenderOptions& options) {
-  const fs::path output(options.output);
-  const bool folder = options.output.empty() || options.output.ends_with('/') || fs::is_directory(output) ||
-                      (options.scenes.size() > 1 && output.extension() != ".mp4");
-  if (!folder && options.scenes.size() > 1)
-    throw Error(ExitCode::usage,
-                "-o " + options.output + " names one file for several scenes: name a folder");
-  if (!folder && output.extension() != ".mp4")
-    throw Error(ExitCode::usage,
-                "-o " + options.output + ": films are written as .mp4; name a .mp4 file or a folder/");
-  std::vector<std::string> paths;
-  std::map<std::string, std::string> taken;
-  for (const std::string& scene : options.scenes) {
-    const std::string name = fs::path(scene).stem().string() + ".mp4";
-    const fs::path path = !folder ? output : (options.output.empty() ? fs::path("out") : output) / name;
-    const auto [other, is_new] = taken.emplace(path.string(), scene);
-    if (!is_new)
-      throw Error(ExitCode::usage, scene + " and " + other->second + " would both be written to " +
-                                       path.string() + ": render them one by one with -o");
-    paths.push_back(path.string());
-  }
-  return paths;
+std::vector<std::string> overrides_of(const RenderOptions& options) {
+  std::vector<std::string> overrides = overrides_of(options.common);
+  for (const auto& [key, value] :
+       {std::pair{"video.preset", options.preset}, {"video.crf", options.crf}, {"hold", options.hold}})
+    if (!value.empty()) overrides.push_back(std::string(key) + "=" + value);
+  return overrides;
 }
 
 // Every scene is read before the first is rendered, so that bad input costs no time and loses nothing.
@@ -55,7 +42,7 @@ std::vector<PreparedFilm> load_all(const RenderOptions& options) {
   ExitCode code = ExitCode::bad_input;
   for (const std::string& scene : options.scenes) {
     try {
-      films.push_back(load_film(scene, overrides_of(options.common)));
+      films.push_back(load_film(scene, overrides_of(options)));
     } catch (const Error& error) {
       code = error.code();
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
@@ -65,19 +52,53 @@ std::vector<PreparedFilm> load_all(const RenderOptions& options) {
   return films;
 }
 
+std::vector<RenderJob> jobs_of(const RenderOptions& options, const std::vector<PreparedFilm>& films) {
+  std::vector<RenderJob> jobs;
+  std::map<std::string, std::string> taken;
+  for (std::size_t i = 0; i < films.size(); ++i) {
+    RenderJob job;
+    job.targets = targets_of(options.outputs, films.size(), films[i].scene);
+    job.at = parse_quantity(options.at, {});
+    job.overwrite = options.common.force;
+    job.quiet = options.common.quiet;
+    if (!(job.at >= 0 && job.at <= films[i].scene.duration))
+      throw Error(ExitCode::usage, "--at " + options.at + " lies outside the duration of " +
+                                       format_quantity(films[i].scene.duration, "s"));
+    for (const Target& target : job.targets) {
+      const auto [other, is_new] =
+          taken.emplace(fs::path(target.path).lexically_normal().string(), options.scenes[i]);
+      if (!is_new)
+        throw Error(ExitCode::usage, options.scenes[i] + " and " + other->second +
+                                         " would both be written to " + target.path +
+                                         ": render them one by one with -o");
+    }
+    jobs.push_back(std::move(job));
+  }
+  return jobs;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
 void run_render(const RenderOptions& options) {
-  const std::vector<std::string> paths = output_paths(options);
+  check_outputs(options.outputs, options.scenes.size());
   const std::vector<PreparedFilm> films = load_all(options);
+  const std::vector<RenderJob> jobs = jobs_of(options, films);
 
   Json reports = Json::array();
   std::vector<std::vector<std::string>> table{{"scene", "frames", "film s", "taken s", "file"}};
   for (std::size_t i = 0; i < films.size(); ++i) {
     for (const PreparedScene& panel : films[i].panels) say_choice(panel, options.common.quiet);
-    const RenderResult result = render_film(films[i], paths[i], options.common.force, options.common.quiet);
+    const RenderResult result = render_film(films[i], jobs[i]);
     reports.push_back(result.audit);
-    reports.back()["file"] = result.video;
+    reports.back()["file"] = result.files.front();
+    reports.back()["files"] = result.files;
+    reports.back()["sidecars"] = result.sidecars;
     table.push_back({films[i].scene.name, std::to_string(result.frames), format_fixed(result.film_seconds, 2),
-                     format_fixed(result.seconds.total, 2), result.video});
+                     format_fixed(result.seconds.total, 2), joined(result.files)});
   }
   if (options.common.json)
     std::puts(reports.dump(2).c_str());
@@ -89,13 +110,23 @@ void run_render(const RenderOptions& options) {
 
 void add_render_command(CLI::App& app) {
   auto options = std::make_shared<RenderOptions>();
-  CLI::App* command =
-      app.add_subcommand("render", "render scenes to MP4 films, each with its audit as NAME.json");
+  CLI::App* command = app.add_subcommand("render",
+                                         "render scenes to films, clips and pictures, each with its audit as "
+                                         "NAME.json and in words as NAME.txt");
   command->add_option("scenes", options->scenes, "scene files")->required();
-  command->add_option("-o,--output", options->output,
-                      "a .mp4 file, or a folder for several (default out/NAME.mp4)");
+  add_repeatable(
+      *command, "-o,--output", options->outputs,
+      "a .mp4, .webm, .mov, .gif, .apng, .png, .svg, .pdf or .csv file, or NAME_000000.png for a sequence "
+      "(repeatable: each frame is drawn once for all), or a folder (default out/NAME.mp4)");
+  command->add_option("--preset", options->preset,
+                      "video.preset: slides, web, overlay, doc, frames or still");
+  command->add_option("--crf", options->crf, "video.crf: quality of films, 0 the best");
+  command->add_option("--hold", options->hold,
+                      "hold: seconds of the end frames, like \"{first: 1, last: 2}\"");
+  command->add_option("--at", options->at, "instant that .png, .svg and .pdf show, in seconds (default 0)");
   add_common_options(*command, options->common);
-  command->footer("Example: chainreel render assets/scenes/rr_free.yaml -o out/rr.mp4 --set duration=2");
+  command->footer(
+      "Example: chainreel render assets/scenes/rr_free.yaml -o out/rr.mp4 -o out/rr.gif --set duration=2");
   command->callback([options] { run_render(*options); });
 }
 

@@ -5,8 +5,10 @@
 #include "app/automatic.hpp"
 #include "app/constraint_report.hpp"
 #include "core/format.hpp"
+#include "core/hash.hpp"
 #include "encode/libraries.hpp"
 #include "render/canvas.hpp"
+#include "scene/fall.hpp"
 
 namespace chainreel {
 
@@ -64,13 +66,38 @@ std::vector<LibraryLine> library_versions() {
   return lines;
 }
 
+namespace {
+
+// What happened when, and whether it fell; nothing of a scene without events.
+void add_events(Json& json, const Scene& scene, const Trajectory& trajectory) {
+  if (scene.events.empty()) return;
+  json["events"] = Json::array();
+  const EventHits& hits = trajectory.events;
+  for (int k = 0; k < hits.size(); ++k) {
+    const EventEntry& event = scene.events[std::size_t(hits.event[std::size_t(k)])];
+    json["events"].push_back({{"name", event.title()},
+                              {"kind", to_string(event.kind)},
+                              {"t", hits.t[std::size_t(k)]},
+                              {"q", to_json(hits.q_at(k))},
+                              {"qd", to_json(hits.qd_at(k))}});
+  }
+  const bool may_fall = std::any_of(scene.events.begin(), scene.events.end(),
+                                    [](const EventEntry& event) { return event.kind == EventKind::fall; });
+  const std::optional<double> time = fall_time_of(scene, trajectory);
+  if (may_fall) json["fall_time"] = time ? Json(*time) : Json(nullptr);
+  json["end_time"] = trajectory.end_time;
+}
+
+}  // namespace
+
 Json run_report(const PreparedScene& prepared, const Trajectory& trajectory) {
   const Audit audit = audit_of(prepared.simulation, trajectory);
   const Scene& scene = prepared.scene;
   Json json;
   json["scene"] = scene.file;
-  json["title"] = scene.title;
+  json["title"] = title_of(scene, trajectory);
   json["model"] = scene.model;
+  json["model_sha256"] = sha256_of_file(scene.model);
   json["status"] = to_string(trajectory.status);
   if (scene.expect != "finish") json["expect"] = scene.expect;
   if (!trajectory.trouble.empty()) json["trouble"] = trajectory.trouble;
@@ -96,12 +123,12 @@ Json run_report(const PreparedScene& prepared, const Trajectory& trajectory) {
                                      {"value", event.value},
                                      {"limit", event.limit}});
   }
+  add_events(json, scene, trajectory);
   json["trajectory_sha256"] = audit.sha256;
   return json;
 }
 
-Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, const Film& pictures,
-                 const StageSeconds& seconds) {
+Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, const Film& pictures) {
   const auto report_of = [&](std::size_t i) {
     Json json = run_report(film.panels[i], runs[i]);
     if (const auto left = pictures.panel(int(i)).left_at()) json["left_picture_at"] = *left;
@@ -127,11 +154,6 @@ Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, 
   json["width"] = scene.video.width;
   json["height"] = scene.video.height;
   json["film_seconds"] = frame_time(pictures.frame_count(), fps);
-  json["seconds"] = {{"simulate", seconds.simulate},
-                     {"draw", seconds.draw},
-                     {"render", seconds.render},
-                     {"encode", seconds.encode},
-                     {"total", seconds.total}};
   for (const LibraryLine& line : library_versions()) json["versions"][line.name] = line.version;
   return json;
 }

@@ -32,9 +32,9 @@ std::vector<LibraryLine> library_versions();
 // What was run and whether it can be trusted: method, step, status, energy error, hash.
 Json run_report(const PreparedScene& prepared, const Trajectory& trajectory);
 
-// The sidecar of a film: that of its run, or a list `panels` of them; and what the film is and cost.
-Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, const Film& pictures,
-                 const StageSeconds& seconds);
+// The sidecar of a film: that of its run, or a list `panels` of them; and what the film is. The same from one run of
+// the program to the next.
+Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, const Film& pictures);
 
 // A table with left-aligned words and right-aligned numbers; the first row is its head.
 std::string table_text(const std::vector<std::vector<std::string>>& rows);

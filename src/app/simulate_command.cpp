@@ -10,6 +10,7 @@
 #include "app/pipeline.hpp"
 #include "app/report.hpp"
 #include "app/signals.hpp"
+#include "app/trajectory_csv.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/output_file.hpp"
@@ -25,29 +26,6 @@ struct SimulateOptions {
   int panel = 0;  // from 1; 0: all
   CommonOptions common;
 };
-
-// t, then q1.. and qd1.. of a serial chain, or q.NAME and qd.NAME of trees and floating bases.
-std::string csv_head(const Chain& chain) {
-  const bool plain = chain.serial && !chain.has_floating;
-  std::string head = "t";
-  const std::vector<std::string> q_names = position_names(chain);
-  for (int i = 0; i < chain.nq; ++i)
-    head += plain ? ",q" + std::to_string(i + 1) : ",q." + q_names[std::size_t(i)];
-  for (int i = 0; i < chain.nv; ++i)
-    head += plain ? ",qd" + std::to_string(i + 1) : ",qd." + chain.coordinate_names[std::size_t(i)];
-  return head + "\n";
-}
-
-std::string csv_text(const Chain& chain, const Trajectory& trajectory) {
-  std::string text = csv_head(chain);
-  for (int k = 0; k < trajectory.size(); ++k) {
-    text += format_exact(trajectory.t[std::size_t(k)]);
-    for (double value : trajectory.q_at(k)) text += "," + format_exact(value);
-    for (double value : trajectory.qd_at(k)) text += "," + format_exact(value);
-    text += "\n";
-  }
-  return text;
-}
 
 Trajectory run_scene(const PreparedScene& prepared, bool every_step) {
   const auto stop = [](double) { return interrupted(); };
@@ -69,7 +47,7 @@ Json simulate_panel(const PreparedScene& prepared, const std::string& output,
   if (!to_stdout) file = std::make_unique<OutputFile>(output, options.common.force);
   const Trajectory trajectory = run_scene(prepared, options.every_step);
   throw_if_interrupted();
-  const std::string text = csv_text(prepared.simulation.chain, trajectory);
+  const std::string text = trajectory_csv(prepared.simulation.chain, trajectory);
   const bool as_expected = is_complete(trajectory.status) || prepared.scene.expect == "diverge";
   if (to_stdout) {
     std::fwrite(text.data(), 1, text.size(), stdout);
@@ -97,14 +75,6 @@ std::vector<std::size_t> chosen_panels(const PreparedFilm& film, const SimulateO
   return all;
 }
 
-// NAME.csv of a single panel, NAME.1.csv, NAME.2.csv, .. of several.
-std::string panel_output(const std::string& output, std::size_t panel, bool alone) {
-  if (alone) return output;
-  std::filesystem::path path(output);
-  const std::string ending = path.extension().string();
-  return path.replace_extension(std::to_string(panel + 1) + ending).string();
-}
-
 void run_simulate(const SimulateOptions& options) {
   const PreparedFilm film = load_film(options.scene, overrides_of(options.common), false);
   const std::vector<std::size_t> chosen = chosen_panels(film, options);
@@ -117,7 +87,7 @@ void run_simulate(const SimulateOptions& options) {
                                      std::to_string(film.panels.size()) + " panels: choose one with --panel");
   Json reports = Json::array();
   for (const std::size_t i : chosen) {
-    reports.push_back(simulate_panel(film.panels[i], panel_output(output, i, alone), options));
+    reports.push_back(simulate_panel(film.panels[i], panel_csv_path(output, i, alone), options));
     if (!options.common.json && !options.common.quiet && output != "-")
       std::printf("%s  %d rows\n", reports.back()["file"].get<std::string>().c_str(),
                   reports.back()["rows"].get<int>());

@@ -1,4 +1,4 @@
-// chainreel snapshot SCENE --at T -o FILE.png, chainreel snapshot MODEL --pose Q -o FILE.png
+// chainreel snapshot SCENE --at T -o FILE, chainreel snapshot MODEL --pose Q -o FILE; .png, .svg or .pdf
 
 #include <algorithm>
 #include <cstdio>
@@ -7,6 +7,7 @@
 
 #include "app/command.hpp"
 #include "app/pipeline.hpp"
+#include "app/render_film.hpp"
 #include "app/report.hpp"
 #include "app/signals.hpp"
 #include "core/error.hpp"
@@ -30,13 +31,17 @@ struct SnapshotOptions {
 
 std::string default_output(const SnapshotOptions& options) {
   if (options.output.empty()) return "out/" + std::filesystem::path(options.file).stem().string() + ".png";
-  if (!options.output.ends_with(".png"))
-    throw Error(ExitCode::usage, "-o " + options.output + ": snapshots are written as .png");
+  check_picture_path(options.output);
   return options.output;
 }
 
+struct RememberedPicture {
+  Picture picture;
+  ClipMemory memory;
+};
+
 // The picture of the film at an instant: same camera, same scales, whatever the instant.
-Picture picture_at(const PreparedFilm& film, double at, const Fonts& fonts) {
+RememberedPicture picture_at(const PreparedFilm& film, double at, const Fonts& fonts) {
   std::vector<double> times = frame_times(film.scene);
   const double same = same_instant(film.panels.front().simulation);
   auto place = std::lower_bound(times.begin(), times.end(), at - same);
@@ -50,7 +55,9 @@ Picture picture_at(const PreparedFilm& film, double at, const Fonts& fonts) {
   const Film pictures = film_of(film, runs, times, frames, fonts);
   Picture picture = pictures.static_layer();
   picture.append(pictures.frame(frame));
-  return picture;
+  Json audit = film_report(film, runs, pictures);
+  audit["at"] = at;
+  return {std::move(picture), memory_of(film, audit)};
 }
 
 void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
@@ -63,7 +70,8 @@ void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
     throw Error(ExitCode::usage, "--at " + options.at + " lies outside the scene's duration of " +
                                      format_quantity(film.scene.duration, "s"));
   const Fonts fonts;
-  write_picture(picture_at(film, at, fonts), video.width, video.height, fonts, output, options.common.force);
+  const RememberedPicture shown = picture_at(film, at, fonts);
+  write_picture(shown.picture, video.width, video.height, fonts, output, options.common.force, shown.memory);
 }
 
 void snapshot_model(const SnapshotOptions& options, const std::string& output) {
@@ -104,7 +112,7 @@ void add_snapshot_command(CLI::App& app) {
   command->add_option("file", options->file, "a scene (.yaml) or a model (.urdf)")->required();
   command->add_option("--at", options->at, "instant of the scene in seconds (default 0)");
   add_repeatable(*command, "--pose", options->poses, "q of a model: --pose 0,90deg (repeatable)");
-  command->add_option("-o,--output", options->output, "a .png file (default out/NAME.png)");
+  command->add_option("-o,--output", options->output, "a .png, .svg or .pdf file (default out/NAME.png)");
   command->add_option("--end-effector", options->end_effector,
                       "the link that is marked, of a model with several ends");
   command->add_option("--width", options->width, "pixels")->check(CLI::Range(16, 16384));

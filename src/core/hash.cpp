@@ -4,6 +4,7 @@
 
 #include <array>
 #include <bit>
+#include <fstream>
 
 #include "core/error.hpp"
 
@@ -47,6 +48,16 @@ std::string Sha256::finish() {
     text += kHex[digest[i] & 15];
   }
   return text;
+}
+
+std::string sha256_of_file(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw Error(ExitCode::bad_input, "cannot be read", {path});
+  Sha256 hash;
+  std::array<char, 65536> buffer;
+  while (stream.read(buffer.data(), buffer.size()), stream.gcount() > 0)
+    hash.add(std::as_bytes(std::span(buffer.data(), std::size_t(stream.gcount()))));
+  return hash.finish();
 }
 
 }  // namespace chainreel

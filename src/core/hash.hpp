@@ -24,4 +24,7 @@ class Sha256 {
   std::unique_ptr<State> state_;
 };
 
+// Of a file's bytes. Throws Error (exit 3) where it cannot be read.
+std::string sha256_of_file(const std::string& path);
+
 }  // namespace chainreel

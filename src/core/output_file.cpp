@@ -70,24 +70,20 @@ void OutputFile::keep_as_partial() {
   rename_to(with_mark(path_, ".partial").string());
 }
 
-namespace {
-
-void write(const OutputFile& output, std::string_view text) {
+void write_temporary(const OutputFile& output, std::string_view text) {
   std::ofstream stream(output.temporary_path(), std::ios::binary);
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
   stream.close();
   if (!stream) throw Error(ExitCode::file, "could not be written whole: is the disk full?", {output.path()});
 }
 
-}  // namespace
-
 void write_whole(OutputFile& output, std::string_view text) {
-  write(output, text);
+  write_temporary(output, text);
   output.commit();
 }
 
 void write_partial(OutputFile& output, std::string_view text) {
-  write(output, text);
+  write_temporary(output, text);
   output.keep_as_partial();
 }
 

@@ -29,6 +29,8 @@ class OutputFile {
   bool done_ = false;
 };
 
+// Writes the whole text to the temporary file. Throws Error (exit 6) where the disk does not take it all.
+void write_temporary(const OutputFile& output, std::string_view text);
 // Writes the whole text, then commits or keeps it as partial. Throws Error (exit 6) where the disk does not
 // take it all.
 void write_whole(OutputFile& output, std::string_view text);

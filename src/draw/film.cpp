@@ -119,6 +119,7 @@ void Film::lay_out() {
     text.symbols = equation_colors(layers_.acting, theme_);
   }
   text.scales = entries();
+  if (is_transparent(scene_)) text = {};  // nothing above or below the scene
   const double aspect = double(scene_.video.width) / scene_.video.height;
   sheet_ = lay_out_sheet(text, aspect, scene_.text_scale, theme_, fonts_);
   if (is_comparison() && layers_.title) rows_.title = kRowPitch * scaled(size::kSymbol, scene_.text_scale);
@@ -234,6 +235,7 @@ Picture Film::page() const {
   Picture picture;
   picture.aspect = sheet_.aspect;
   picture.background = theme_.background;
+  if (is_transparent(scene_)) picture.background.a = 0;
   for (const PanelCell& cell : cells_) picture.clips.push_back(cell.scene);
   return picture;
 }

@@ -36,6 +36,10 @@ Layers layers_of(const Scene& scene) {
           named("equation"),
           {named("torque"), named("velocity"), named("gravity"), named("constraint_force")}};
   layers.reading = reading_named(scene.ellipse.reading);
+  if (is_transparent(scene)) {
+    layers.time = layers.title = layers.torque_label = layers.legend = layers.equation = false;
+    layers.scale_bar = false;
+  }
   return layers;
 }
 

@@ -70,11 +70,11 @@ void read_layout(Fields& fields, Scene& scene) {
   const std::vector<std::string>& known = layout_names();
   if (std::find(known.begin(), known.end(), layout) == known.end())
     fields.problems().add("unknown layout '" + layout + "':" + did_you_mean(layout, known) +
-                              " There are scene, compare and grid.",
+                              " There are scene, transparent, compare and grid.",
                           place);
-  else if ((layout == "scene") != (panels == 1))
+  else if ((layout == "scene" || layout == "transparent") != (panels == 1))
     fields.problems().add(panels == 1 ? "layout '" + layout + "' needs `compare:` with its panels"
-                                      : "layout 'scene' shows one panel: take compare or grid",
+                                      : "layout '" + layout + "' shows one panel: take compare or grid",
                           place);
   else if (layout == "compare" && panels != 2)
     fields.problems().add("layout 'compare' shows two panels, not " + std::to_string(panels) + ": take grid",

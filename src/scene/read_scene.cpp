@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kLongestFrameCount = 1e7;
 constexpr int kLargestSide = 16384;  // pixels
+constexpr double kLongestHold = 3600;  // s
 
 // A problem at a key's value unless `good`.
 void require(Fields& fields, const std::string& key, bool good, const std::string& message) {
@@ -187,6 +188,20 @@ void read_video(Fields& fields, Scene& scene) {
   video.read("width", scene.video.width);
   video.read("height", scene.video.height);
   video.read("fps", scene.video.fps);
+  video.read("preset", scene.video.preset);
+  const auto& presets = preset_names();
+  require(video, "preset",
+          !video.find("preset").IsDefined() ||
+              std::find(presets.begin(), presets.end(), scene.video.preset) != presets.end(),
+          "unknown preset '" + scene.video.preset + "':" + did_you_mean(scene.video.preset, presets) +
+              " There are slides, web, overlay, doc, frames and still.");
+  if (video.find("crf").IsDefined()) {
+    double crf = 0;
+    video.read("crf", crf);
+    require(video, "crf", crf >= 0 && crf <= 63,
+            "'video.crf' must lie between 0, the best, and 51 for MP4 or 63 for WebM");
+    scene.video.crf = crf;
+  }
   for (const auto& [key, side] :
        {std::pair{"width", scene.video.width}, std::pair{"height", scene.video.height}}) {
     require(video, key, side >= 16 && side <= kLargestSide,
@@ -197,6 +212,24 @@ void read_video(Fields& fields, Scene& scene) {
                 std::to_string(side - 1) + " or " + std::to_string(side + 1));
   }
   video.finish();
+}
+
+void read_hold(Fields& fields, Scene& scene) {
+  const YAML::Node node = fields.find("hold");
+  if (!node.IsDefined()) return;
+  if (!node.IsMap()) {
+    fields.problems().add("'hold' must hold first and last, in seconds: hold: {first: 1, last: 2}",
+                          fields.place_of(node, "hold"));
+    return;
+  }
+  Fields hold(fields.document(), node, fields.path("hold"), fields.problems());
+  hold.read("first", scene.hold.first);
+  hold.read("last", scene.hold.last);
+  for (const auto& [key, seconds] :
+       {std::pair{"first", scene.hold.first}, std::pair{"last", scene.hold.last}})
+    require(hold, key, seconds >= 0 && seconds <= kLongestHold,
+            "'hold." + std::string(key) + "' must lie between 0 and " + format_shortest(kLongestHold) + " s");
+  hold.finish();
 }
 
 void read_expectation(Fields& fields, Scene& scene) {
@@ -242,6 +275,7 @@ Scene read_document(const YamlDocument& document) {
   read_theme(fields, scene);
   fields.read("text_scale", scene.text_scale);
   read_video(fields, scene);
+  read_hold(fields, scene);
   check_numbers(fields, scene);
   fields.finish();
   problems.throw_if_any();

@@ -19,8 +19,17 @@ const std::vector<std::string>& reading_names() {
 }
 
 const std::vector<std::string>& layout_names() {
-  static const std::vector<std::string> names{"scene", "compare", "grid"};
+  static const std::vector<std::string> names{"scene", "transparent", "compare", "grid"};
   return names;
+}
+
+const std::vector<std::string>& preset_names() {
+  static const std::vector<std::string> names{"slides", "web", "overlay", "doc", "frames", "still"};
+  return names;
+}
+
+bool is_transparent(const Scene& scene) {
+  return scene.layout == "transparent" || scene.video.preset == "overlay";
 }
 
 const std::vector<std::string>& theme_names() {

@@ -24,6 +24,12 @@ struct Video {
   int width = 1920;
   int height = 1080;
   FrameRate fps;
+  std::string preset;         // of the outputs: slides, web, overlay, doc, frames, still; "": by their endings
+  std::optional<double> crf;  // of films, 0 best; absent: 18 for H.264, 28 for VP9
+};
+
+struct Hold {
+  double first = 0, last = 0;  // s for which the end frames stand still
 };
 
 // How the layer `ellipse` reads the effective mass: see draw/ellipse.hpp.
@@ -67,6 +73,7 @@ struct Scene {
   std::string theme = "light";  // or dark
   double text_scale = 1;  // for clips used smaller than drawn
   Video video;
+  Hold hold;
 
   std::string file;                     // where it was read; not a key
   std::string name;                     // the file's name without its ending; not a key
@@ -87,6 +94,10 @@ std::string method_text(const Scene& scene);
 const std::vector<std::string>& layer_names();
 const std::vector<std::string>& reading_names();
 const std::vector<std::string>& layout_names();
+const std::vector<std::string>& preset_names();
+
+// Drawn on nothing, without words above and below: layout `transparent` or preset `overlay`.
+bool is_transparent(const Scene& scene);
 const std::vector<std::string>& theme_names();
 
 }  // namespace chainreel

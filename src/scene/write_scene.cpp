@@ -147,6 +147,10 @@ void add_page(std::vector<SceneEntry>& entries, const Scene& scene) {
   entries.push_back({"video.width", std::to_string(scene.video.width)});
   entries.push_back({"video.height", std::to_string(scene.video.height)});
   entries.push_back({"video.fps", rate_text(scene.video.fps)});
+  if (!scene.video.preset.empty()) entries.push_back({"video.preset", scene.video.preset});
+  if (scene.video.crf) entries.push_back({"video.crf", format_shortest(*scene.video.crf)});
+  entries.push_back({"hold.first", format_shortest(scene.hold.first)});
+  entries.push_back({"hold.last", format_shortest(scene.hold.last)});
 }
 
 bool holds(const std::vector<SceneEntry>& entries, const SceneEntry& entry) {

@@ -117,13 +117,14 @@ TEST(Film, GoesToAFolderUnderItsScenesName) {
   const ProgramResult result = run_program(command);
   ASSERT_EQ(result.status, 0) << result.err;
   for (const char* file :
-       {"clips/pp_free.mp4", "clips/pp_free.json", "clips/rr_free.mp4", "clips/rr_free.json"})
+       {"clips/pp_free.mp4", "clips/pp_free.json", "clips/pp_free.txt", "clips/rr_free.mp4", "clips/rr_free.json",
+        "clips/rr_free.txt"})
     EXPECT_TRUE(fs::exists(folder.file(file))) << file;
   EXPECT_THAT(result.out, testing::HasSubstr("pp_free"));
   EXPECT_THAT(result.out, testing::HasSubstr("frames"));
   int files = 0;
   for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder.file("clips"))) ++files;
-  EXPECT_EQ(files, 4) << "a temporary file was left";
+  EXPECT_EQ(files, 6) << "a temporary file was left";
 }
 
 }  // namespace

@@ -98,6 +98,8 @@ const House& house() {
                    {"libav", {"encode"}},
                    {"libsw", {"encode"}},
                    {"png.h", {"encode"}},
+                   {"zlib.h", {"encode"}},
+                   {"libimagequant.h", {"encode"}},
                    {"urdf_", {"model"}},
                    {"console_bridge/", {"model"}},
                    {"tinyxml2.h", {"model"}},

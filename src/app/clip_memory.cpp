@@ -1,0 +1,131 @@
+#include "app/clip_memory.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "core/error.hpp"
+#include "encode/film_tags.hpp"
+#include "encode/png.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr const char* kScene = "chainreel_scene";
+constexpr const char* kAudit = "chainreel_audit";
+
+std::string read_bytes(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw Error(ExitCode::bad_input, "cannot be read", {path});
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+[[noreturn]] void remembers_nothing(const std::string& path) {
+  throw Error(ExitCode::bad_input,
+              "remembers no scene: it was not made by `chainreel render` or `snapshot`, or "
+              "what it said was taken out since",
+              {path});
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+}
+
+// The text of <metadata>, as our writer of SVG leaves it.
+std::string svg_words(const std::string& svg, const std::string& path) {
+  const std::string open = "<metadata>";
+  const std::size_t begin = svg.find(open), end = svg.find("</metadata>");
+  if (begin == std::string::npos || end == std::string::npos || end < begin) remembers_nothing(path);
+  std::string text = svg.substr(begin + open.size(), end - begin - open.size());
+  for (const auto& [entity, letter] :
+       {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&amp;", "&"}})
+    replace_all(text, entity, letter);
+  return text;
+}
+
+int hex_digit(char c) {
+  return c >= '0' && c <= '9'   ? c - '0'
+         : c >= 'A' && c <= 'F' ? c - 'A' + 10
+         : c >= 'a' && c <= 'f' ? c - 'a' + 10
+                                : -1;
+}
+
+// The keywords of a PDF that Cairo wrote: a hexadecimal string in UTF-16 behind a byte order mark (ISO
+// 32000-1, 7.3.4.3 and 7.9.2.2). Our JSON is ASCII and holds quotes that are escaped, so it is never a
+// literal string.
+std::string pdf_words(const std::string& pdf, const std::string& path) {
+  const std::string open = "/Keywords <FEFF";
+  const std::size_t begin = pdf.rfind(open);
+  const std::size_t end = begin == std::string::npos ? begin : pdf.find('>', begin);
+  if (end == std::string::npos) remembers_nothing(path);
+  std::string text;
+  int unit = 0, digits = 0;
+  for (std::size_t i = begin + open.size(); i < end; ++i) {
+    const int digit = hex_digit(pdf[i]);
+    if (digit < 0) continue;  // lines may be broken
+    unit = unit * 16 + digit;
+    if (++digits % 4 != 0) continue;
+    if (unit > 127) remembers_nothing(path);
+    text += char(unit);
+    unit = 0;
+  }
+  return text;
+}
+
+// Scene and audit as one text, in ASCII: for files that hold one text.
+Tags words_of(const std::string& text, const std::string& path) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object() || !json.contains(kScene) || !json[kScene].is_string()) remembers_nothing(path);
+  return {{kScene, json[kScene].get<std::string>()},
+          {kAudit, json.contains(kAudit) ? json[kAudit].dump() : "{}"}};
+}
+
+Tags tags_in(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending == ".png" || ending == ".apng") return read_png_text(path);
+  if (ending == ".svg") return words_of(svg_words(read_bytes(path), path), path);
+  if (ending == ".pdf") return words_of(pdf_words(read_bytes(path), path), path);
+  if (ending == ".mp4" || ending == ".mov" || ending == ".webm") return read_film_tags(path);
+  if (ending == ".gif")
+    throw Error(ExitCode::bad_input, "GIFs have no room for a scene: take a clip of another kind", {path});
+  throw Error(ExitCode::bad_input, "only .mp4, .mov, .webm, .png, .apng, .svg and .pdf remember a scene",
+              {path});
+}
+
+}  // namespace
+
+Tags ClipMemory::tags() const {
+  Tags tags{{kScene, scene}, {kAudit, audit.dump()}};
+  if (!title.empty()) tags["title"] = title;
+  if (!description.empty()) tags["description"] = description;
+  return tags;
+}
+
+VectorPage ClipMemory::page() const {
+  VectorPage page;
+  page.title = title;
+  page.description = description;
+  const Json json{{kScene, scene}, {kAudit, audit}};
+  page.metadata = json.dump(-1, ' ', true);
+  return page;
+}
+
+ClipMemory recall(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path))
+    throw Error(ExitCode::bad_input, "there is no such file", {path});
+  const Tags tags = tags_in(path);
+  const auto text = [&](const char* name) {
+    const auto place = tags.find(name);
+    return place == tags.end() ? std::string() : place->second;
+  };
+  ClipMemory memory{text("title"), text("description"), text(kScene), {}};
+  if (memory.scene.empty()) remembers_nothing(path);
+  memory.audit = Json::parse(text(kAudit), nullptr, false);
+  if (!memory.audit.is_object()) memory.audit = Json::object();
+  return memory;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,27 @@
+// What a clip or picture remembers: the scene that it shows, its audit, and words for those who cannot see
+// it.
+#pragma once
+
+#include <string>
+
+#include "core/json.hpp"
+#include "encode/frame_sink.hpp"
+#include "render/vector_shapes.hpp"
+
+namespace chainreel {
+
+struct ClipMemory {
+  std::string title;
+  std::string description;  // one sentence
+  std::string scene;  // YAML of the effective scene; paths as found from the folder where it was rendered
+  Json audit;         // nothing in it depends on the clock
+
+  Tags tags() const;        // of MP4, MOV, WebM, PNG, APNG
+  VectorPage page() const;  // of SVG (<metadata>) and PDF (keywords)
+};
+
+// Reads it back; by the file's ending. Throws Error (exit 3) where the file is of no such kind or remembers
+// nothing.
+ClipMemory recall(const std::string& path);
+
+}  // namespace chainreel

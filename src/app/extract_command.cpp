@@ -1,0 +1,73 @@
+// chainreel extract CLIP [-o SCENE.yaml]
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/clip_memory.hpp"
+#include "app/command.hpp"
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "core/output_file.hpp"
+#include "scene/move_scene.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExtractOptions {
+  std::string clip;
+  std::string output;
+  bool json = false;
+  bool force = false;
+};
+
+// The models must be where they were, and what they were, for the same frames to come again.
+void tell_of_models(const Json& audit, const std::string& clip) {
+  if (!audit.contains("model") || !audit.contains("model_sha256")) return;
+  const std::string model = audit["model"].get<std::string>();
+  if (!fs::is_regular_file(model))
+    std::fprintf(
+        stderr,
+        "%s: there is no model %s here: stand in the folder where the clip was rendered, or correct the "
+        "scene's `model:`\n",
+        clip.c_str(), model.c_str());
+  else if (sha256_of_file(model) != audit["model_sha256"])
+    std::fprintf(stderr, "%s: the model %s has changed since: frames may differ\n", clip.c_str(),
+                 model.c_str());
+}
+
+void run_extract(const ExtractOptions& options) {
+  const ClipMemory memory = recall(options.clip);
+  tell_of_models(memory.audit, options.clip);
+  if (memory.audit.contains("panels"))
+    for (const Json& panel : memory.audit["panels"]) tell_of_models(panel, options.clip);
+  if (!options.output.empty())
+    write_text_file(options.output,
+                    moved_scene_text(memory.scene, fs::path(options.output).parent_path().string()),
+                    options.force);
+  if (options.json)
+    std::puts(Json{{"scene", memory.scene}, {"audit", memory.audit}}.dump(2).c_str());
+  else if (options.output.empty())
+    std::fputs(memory.scene.c_str(), stdout);
+}
+
+}  // namespace
+
+void add_extract_command(CLI::App& app) {
+  auto options = std::make_shared<ExtractOptions>();
+  CLI::App* command = app.add_subcommand("extract", "the scene that a clip or picture remembers");
+  command->add_option("clip", options->clip, "a .mp4, .mov, .webm, .png, .apng, .svg or .pdf file")
+      ->required();
+  command->add_option(
+      "-o,--output", options->output,
+      "a .yaml file, its paths as found from there (default: standard output, paths as found from "
+      "the working folder)");
+  command->add_flag("--json", options->json, "print scene and audit as JSON on standard output");
+  command->add_flag("--force", options->force, "overwrite files outside a folder named out");
+  command->footer("Example: chainreel extract out/rr_free.mp4 -o out/again.yaml");
+  command->callback([options] { run_extract(*options); });
+}
+
+}  // namespace chainreel

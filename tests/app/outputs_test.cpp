@@ -1,0 +1,429 @@
+// What `render`, `snapshot`, `ellipse` and `extract` write, read again by others than the program.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "app/clip_memory.hpp"
+#include "core/error.hpp"
+#include "core/json.hpp"
+#include "encode/png.hpp"
+#include "support/picture_compare.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/video_probe.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+// 0.2 s in five small frames.
+const std::vector<std::string> kTiny{"--quiet",      "--set",           "video.width=160",
+                                     "--set",        "video.height=90", "--set",
+                                     "video.fps=25", "--set",           "duration=0.2"};
+
+ProgramResult render(const std::vector<std::string>& more, const std::string& scene = "rr_torque") {
+  std::vector<std::string> command{"render", "assets/scenes/" + scene + ".yaml"};
+  command.insert(command.end(), kTiny.begin(), kTiny.end());
+  command.insert(command.end(), more.begin(), more.end());
+  return run_program(command);
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Image over(const Image& image, int level) {
+  Image result = image;
+  for (std::size_t i = 0; i < result.bgra.size(); i += 4) {
+    const int a = image.bgra[i + 3];
+    for (std::size_t c = 0; c < 3; ++c)
+      result.bgra[i + c] = std::uint8_t((image.bgra[i + c] * a + level * (255 - a) + 127) / 255);
+    result.bgra[i + 3] = 255;
+  }
+  return result;
+}
+
+std::size_t rows_of(const std::string& text) {
+  return std::size_t(std::count(text.begin(), text.end(), '\n'));
+}
+
+// Every output of one scene, in one pass; made once for the tests that look at it.
+class OnePass : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    const std::vector<std::string> files{"a.mp4", "b.webm", "c.mov", "d.gif", "e.apng",
+                                         "f.png", "g.svg",  "h.pdf", "i.csv", "frames/k_000000.png"};
+    std::vector<std::string> more;
+    for (const std::string& file : files) more.insert(more.end(), {"-o", folder_->file(file)});
+    result_ = render(more);
+  }
+  static void TearDownTestSuite() { delete folder_; }
+  void SetUp() override { ASSERT_EQ(result_.status, 0) << result_.err; }
+
+  static std::string file(const std::string& name) { return folder_->file(name); }
+
+  static TemporaryFolder* folder_;
+  static ProgramResult result_;
+};
+TemporaryFolder* OnePass::folder_ = nullptr;
+ProgramResult OnePass::result_;
+
+TEST_F(OnePass, LeavesWhatWasNamedAndItsSidecarsAlone) {
+  EXPECT_THAT(names_in(folder_->path()),
+              ElementsAre("a.json", "a.mp4", "a.txt", "b.json", "b.txt", "b.webm", "c.json", "c.mov", "c.txt",
+                          "d.gif", "d.json", "d.txt", "e.apng", "e.json", "e.txt", "f.png", "frames", "g.svg",
+                          "h.pdf", "i.csv"));
+  EXPECT_THAT(names_in(folder_->path() / "frames"),
+              ElementsAre("k.json", "k.tex", "k.txt", "k_000000.png", "k_000001.png", "k_000002.png",
+                          "k_000003.png", "k_000004.png"));
+}
+
+TEST_F(OnePass, ClipsShowTheFramesOfTheSequence) {
+  const Image first = read_png(file("frames/k_000000.png")), last = read_png(file("frames/k_000004.png"));
+  ASSERT_GT(compare_pictures(first, last).mean, 0.2);  // it moves
+  struct Row {
+    const char* name;
+    const char* codec;
+    const char* pixel_format;
+    double mean;
+  };
+  for (const Row& row : {Row{"a.mp4", "h264", "yuv420p", 3}, Row{"b.webm", "vp9", "yuv420p", 4},
+                         Row{"c.mov", "prores", "yuv444p12le", 1}, Row{"d.gif", "gif", "bgra", 1},
+                         Row{"e.apng", "apng", "rgb24", 0}}) {
+    const VideoFacts facts = probe_video(file(row.name));
+    EXPECT_EQ(facts.codec, row.codec);
+    EXPECT_EQ(facts.pixel_format, row.pixel_format) << row.name;
+    EXPECT_EQ(facts.frames, 5) << row.name;
+    EXPECT_EQ(facts.width, 160);
+    EXPECT_EQ(facts.height, 90);
+    EXPECT_EQ(facts.fps, (Ratio{25, 1})) << row.name;
+    // Small letters are all edges: what codecs lose there is bounded by the mean.
+    EXPECT_LE(compare_pictures(facts.first, first).mean, row.mean) << row.name;
+    EXPECT_LE(compare_pictures(facts.last, last).mean, row.mean) << row.name;
+    if (std::string_view(row.codec) != "gif" && std::string_view(row.codec) != "apng") {
+      for (const std::string& tag : {facts.primaries, facts.transfer, facts.matrix}) EXPECT_EQ(tag, "bt709");
+      EXPECT_EQ(facts.range, "tv");
+    }
+  }
+  EXPECT_EQ(read_png(file("f.png")).bgra, first.bgra);
+}
+
+TEST_F(OnePass, VectorPagesHaveTheirWordsAndTheirPicture) {
+  const ProgramResult words = run_command({"pdftotext", file("h.pdf"), "-"});
+  ASSERT_EQ(words.status, 0) << words.err;
+  EXPECT_THAT(words.out, HasSubstr("t = 0.00 s"));
+  EXPECT_THAT(read_whole_file(file("g.svg")), HasSubstr("t = 0.00 s"));
+  // At the size of the pixels, both show what they show but for edges and hinting.
+  const Image first = read_png(file("f.png"));
+  ASSERT_EQ(
+      run_command({"rsvg-convert", "-w", "160", "-h", "90", file("g.svg"), "-o", file("frames/svg.png")})
+          .status,
+      0);
+  EXPECT_LT(compare_pictures(read_png(file("frames/svg.png")), first).mean, 3);
+  ASSERT_EQ(run_command({"pdftocairo", "-png", "-singlefile", "-scale-to-x", "160", "-scale-to-y", "90",
+                         file("h.pdf"), file("frames/pdf")})
+                .status,
+            0);
+  EXPECT_LT(compare_pictures(read_png(file("frames/pdf.png")), first).mean, 3);
+  EXPECT_GT(compare_pictures(Image(160, 90), first).mean, 30);  // negative control
+  fs::remove(file("frames/svg.png"));
+  fs::remove(file("frames/pdf.png"));
+}
+
+TEST_F(OnePass, TheTableHasARowAFrame) {
+  const std::string table = read_whole_file(file("i.csv"));
+  EXPECT_THAT(table, testing::StartsWith("t,q1,q2,qd1,qd2\n0,"));
+  EXPECT_EQ(rows_of(table), 6u);
+}
+
+TEST_F(OnePass, EverythingButTheGifRemembersTheScene) {
+  const ClipMemory first = recall(file("a.mp4"));
+  EXPECT_THAT(first.scene, HasSubstr("method: semi_implicit_euler"));
+  EXPECT_THAT(first.scene, HasSubstr("width: 160"));
+  EXPECT_THAT(first.scene, HasSubstr("model: models/rr.urdf"));
+  EXPECT_EQ(first.audit["frames"], 5);
+  EXPECT_EQ(first.audit["trajectory_sha256"],
+            Json::parse(read_whole_file(file("a.json")))["trajectory_sha256"]);
+  EXPECT_FALSE(first.audit.contains("seconds"));
+  for (const char* name : {"b.webm", "c.mov", "e.apng", "f.png", "g.svg", "h.pdf", "frames/k_000000.png"}) {
+    const ClipMemory memory = recall(file(name));
+    EXPECT_EQ(memory.scene, first.scene) << name;
+    EXPECT_EQ(memory.audit, first.audit) << name;
+  }
+  EXPECT_THAT(run_program({"extract", file("d.gif")}).err, HasSubstr("GIFs have no room"));
+}
+
+TEST_F(OnePass, TheExtractedSceneGivesTheSameFilesAgain) {
+  for (const char* name : {"a.mp4", "h.pdf", "g.svg", "f.png"}) {
+    const TemporaryFolder again;
+    const std::string scene = again.file("deep/scene.yaml");
+    ASSERT_EQ(run_program({"extract", file(name), "-o", scene}).status, 0);
+    const ProgramResult result = run_program(
+        {"render", scene, "--quiet", "-o", again.file("x.mp4"), "-o", again.file("k_000000.png")});
+    ASSERT_EQ(result.status, 0) << result.err;
+    for (int k = 0; k < 5; ++k) {
+      const std::string frame = "k_00000" + std::to_string(k) + ".png";
+      EXPECT_EQ(read_png(again.file(frame)).bgra, read_png(file("frames/" + frame)).bgra) << name << k;
+    }
+    EXPECT_EQ(recall(again.file("x.mp4")).audit["trajectory_sha256"],
+              recall(file("a.mp4")).audit["trajectory_sha256"]);
+  }
+  // Negative control: a scene that differs gives other frames.
+  const TemporaryFolder again;
+  ASSERT_EQ(run_program({"extract", file("a.mp4"), "-o", again.file("s.yaml")}).status, 0);
+  ASSERT_EQ(run_program({"render", again.file("s.yaml"), "--quiet", "--set", "torque.1=3", "-o",
+                         again.file("k_000000.png")})
+                .status,
+            0);
+  EXPECT_NE(read_png(again.file("k_000004.png")).bgra, read_png(file("frames/k_000004.png")).bgra);
+}
+
+TEST_F(OnePass, ToStandardOutputTheSceneIsMeantForTheWorkingFolder) {
+  const ProgramResult result = run_program({"extract", file("c.mov")});
+  EXPECT_EQ(result.out, recall(file("c.mov")).scene);
+  EXPECT_EQ(result.err, "");
+  const Json json = Json::parse(run_program({"extract", file("c.mov"), "--json"}).out);
+  EXPECT_EQ(json["scene"], result.out);
+  EXPECT_EQ(json["audit"]["frames"], 5);
+}
+
+TEST_F(OnePass, ItIsSaidInWords) {
+  const std::string words = read_whole_file(file("a.txt"));
+  for (const char* part : {"the chain ", "2 freedoms", "0.2 s", "5 frames", "at rest", "Units"})
+    EXPECT_THAT(words, HasSubstr(part));
+  EXPECT_EQ(words, read_whole_file(file("b.txt")));
+  EXPECT_THAT(read_whole_file(file("frames/k.tex")),
+              HasSubstr("\\animategraphics[autoplay,loop,width=\\linewidth]{25}{frames/k_}{000000}{000004}"));
+}
+
+TEST(Outputs, AnOverlayHasStraightOpacityAndNoWords) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      render({"--preset", "overlay", "-o", folder.file("a.mov"), "-o", folder.file("a.webm"), "-o",
+              folder.file("a_000000.png"), "-o", folder.file("a.svg"), "-o", folder.file("a.apng")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Image png = read_png(folder.file("a_000000.png"));
+  EXPECT_EQ(png.at(2, 2).a, 0);
+  EXPECT_EQ(png.at(157, 88).a, 0);  // no time
+  int opaque = 0, soft = 0;
+  for (std::size_t i = 3; i < png.bgra.size(); i += 4) {
+    opaque += png.bgra[i] == 255;
+    soft += png.bgra[i] > 0 && png.bgra[i] < 255;
+  }
+  EXPECT_GT(opaque, 50);
+  EXPECT_GT(soft, 50);
+  for (const char* name : {"a.mov", "a.webm", "a.apng"}) {
+    const VideoFacts facts = probe_video(folder.file(name));
+    EXPECT_EQ(facts.frames, 5);
+    EXPECT_THAT(facts.pixel_format, testing::AnyOf("yuva444p12le", "yuva420p", "rgba")) << name;
+    for (const int level : {0, 128, 255})
+      EXPECT_LE(compare_pictures(over(facts.first, level), over(png, level)).mean, 2.5) << name << level;
+  }
+  const std::string svg = read_whole_file(folder.file("a.svg"));
+  EXPECT_THAT(svg, Not(HasSubstr("<text")));
+  // Laid on white it is the picture on a white page, to the rounding of colours times opacity.
+  ASSERT_EQ(render({"-o", folder.file("w_000000.png"), "--set", "draw=[chain, trail]"}).status, 0);
+  const Image white = read_png(folder.file("w_000000.png"));
+  EXPECT_TRUE(pictures_agree(over(png, 255), white, {.max = 3, .mean = 0.05}, "overlay_on_white"));
+  EXPECT_FALSE(pictures_agree(over(png, 250), white, {.max = 3, .mean = 0.05}, "overlay_control"));
+}
+
+TEST(Outputs, HeldFramesAreCountedAndShown) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(render({"--hold", "{first: 0.08, last: 0.2}", "-o", folder.file("a.mp4"), "-o",
+                    folder.file("a_000000.png"), "-o", folder.file("a.csv")})
+                .status,
+            0);
+  const VideoFacts facts = probe_video(folder.file("a.mp4"));
+  EXPECT_EQ(facts.frames, 5 + 2 + 5);
+  EXPECT_TRUE(facts.regular);
+  const auto frame = [&](int k) {
+    return read_png(folder.file("a_0000" + std::string(k < 10 ? "0" : "") + std::to_string(k) + ".png")).bgra;
+  };
+  EXPECT_EQ(frame(0), frame(1));
+  EXPECT_EQ(frame(1), frame(2));
+  EXPECT_NE(frame(2), frame(3));
+  EXPECT_EQ(frame(6), frame(11));
+  EXPECT_NE(frame(5), frame(6));
+  const Json audit = Json::parse(read_whole_file(folder.file("a.json")));
+  EXPECT_EQ(audit["frames"], 12);
+  EXPECT_EQ(audit["held_frames"], (Json{{"first", 2}, {"last", 5}}));
+  EXPECT_EQ(audit["film_seconds"], 0.48);
+  EXPECT_EQ(audit["duration"], 0.2);
+  EXPECT_EQ(rows_of(read_whole_file(folder.file("a.csv"))), 6u);  // the motion alone
+}
+
+TEST(Outputs, PresetsNameTheirFiles) {
+  const auto files_of = [](const std::string& preset) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(render({"--preset", preset, "-o", folder.file("x") + "/"}).status, 0) << preset;
+    std::vector<std::string> names = names_in(folder.path() / "x");
+    std::erase_if(names,
+                  [](const std::string& name) { return name.ends_with(".json") || name.ends_with(".txt"); });
+    return names;
+  };
+  EXPECT_THAT(files_of("slides"), ElementsAre("rr_torque.mp4"));
+  EXPECT_THAT(files_of("web"), ElementsAre("rr_torque.png", "rr_torque.webm"));
+  EXPECT_THAT(files_of("doc"), ElementsAre("rr_torque.gif"));
+  EXPECT_THAT(files_of("frames"), ElementsAre("rr_torque_frames"));
+  EXPECT_THAT(files_of("still"), ElementsAre("rr_torque.pdf", "rr_torque.png", "rr_torque.svg"));
+  EXPECT_THAT(files_of("overlay"), ElementsAre("rr_torque.mov", "rr_torque.webm"));
+}
+
+TEST(Outputs, StillsShowTheFrameThatIsAskedFor) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(render({"--at", "0.13", "-o", folder.file("a.png"), "-o", folder.file("a_000000.png")}).status,
+            0);
+  EXPECT_EQ(read_png(folder.file("a.png")).bgra, read_png(folder.file("a_000003.png")).bgra);
+  EXPECT_THAT(render({"--at", "0.3", "-o", folder.file("b.png")}).err,
+              HasSubstr("lies outside the duration"));
+}
+
+TEST(Outputs, SnapshotsAndEllipsesAreVectorPages) {
+  const TemporaryFolder folder;
+  for (const std::string ending : {"svg", "pdf", "png"}) {
+    const std::string file = folder.file("s." + ending);
+    ASSERT_EQ(run_program({"snapshot", "assets/scenes/rr_torque.yaml", "--quiet", "--at", "0.1", "-o", file,
+                           "--set", "duration=0.2", "--set", "video.width=640", "--set", "video.height=360"})
+                  .status,
+              0);
+    EXPECT_EQ(recall(file).audit["at"], 0.1);
+    EXPECT_THAT(recall(file).scene, HasSubstr("duration: 0.2"));
+    ASSERT_EQ(run_program({"ellipse", "models/rr.urdf", "--quiet", "--pose", "0,90deg", "-o",
+                           folder.file("e." + ending)})
+                  .status,
+              0);
+  }
+  EXPECT_THAT(run_command({"pdftotext", folder.file("s.pdf"), "-"}).out, HasSubstr("t = 0.10 s"));
+  EXPECT_THAT(run_command({"pdftotext", folder.file("e.pdf"), "-"}).out, HasSubstr("kg"));
+  EXPECT_THAT(read_whole_file(folder.file("e.svg")), HasSubstr("<text"));
+  ASSERT_EQ(run_command({"rsvg-convert", "-w", "1920", "-h", "1080", folder.file("e.svg"), "-o",
+                         folder.file("again.png")})
+                .status,
+            0);
+  EXPECT_LT(compare_pictures(read_png(folder.file("again.png")), read_png(folder.file("e.png"))).mean, 1);
+  const ProgramResult bad =
+      run_program({"ellipse", "models/rr.urdf", "--pose", "0,0", "-o", folder.file("e.eps")});
+  EXPECT_EQ(bad.status, 2);
+  EXPECT_THAT(bad.err, HasSubstr(".png, .svg, .pdf"));
+  EXPECT_THAT(run_program({"extract", folder.file("e.png")}).err, HasSubstr("remembers no scene"));
+}
+
+TEST(Outputs, WhatCannotBeWrittenIsSaidBeforeTheRun) {
+  const TemporaryFolder folder;
+  const auto trouble = [&](const std::vector<std::string>& more) {
+    const ProgramResult result = render(more);
+    EXPECT_NE(result.status, 0);
+    return result.err;
+  };
+  EXPECT_THAT(trouble({"-o", folder.file("a.avi")}),
+              HasSubstr("no output has that ending; there are .mp4, .webm"));
+  EXPECT_THAT(trouble({"-o", folder.file("a.mp4"), "-o", folder.file("a.mp4")}), HasSubstr("named twice"));
+  EXPECT_THAT(trouble({"-o", folder.file("x") + "/", "-o", folder.file("a.mp4")}),
+              HasSubstr("either one folder or files"));
+  EXPECT_THAT(trouble({"--preset", "slide", "-o", folder.file("a.mp4")}),
+              HasSubstr("unknown preset 'slide': did you mean 'slides'?"));
+  EXPECT_THAT(trouble({"--preset", "overlay", "-o", folder.file("a.mp4")}),
+              HasSubstr("a transparent background cannot be written there"));
+  EXPECT_THAT(trouble({"--crf", "60", "-o", folder.file("a.webm"), "-o", folder.file("a.mp4")}),
+              HasSubstr("must be from 0 to 51"));
+  EXPECT_THAT(trouble({"--crf", "64", "-o", folder.file("a.webm")}),
+              HasSubstr("'video.crf' must lie between"));
+  EXPECT_THAT(trouble({"--set", "video.width=161", "-o", folder.file("a.gif")}),
+              HasSubstr("take 160 or 162"));
+  EXPECT_THAT(trouble({"--hold", "{first: -1}", "-o", folder.file("a.gif")}),
+              HasSubstr("'hold.first' must lie"));
+  EXPECT_THAT(trouble({"--hold", "{frist: 1}", "-o", folder.file("a.gif")}),
+              HasSubstr("The keys here are first, last."));
+  EXPECT_THAT(names_in(folder.path()), IsEmpty());
+  // One of several targets is there already: none is touched.
+  folder.write("b.csv", "mine");
+  EXPECT_THAT(trouble({"-o", folder.file("b.mp4"), "-o", folder.file("b.csv")}), HasSubstr("exists already"));
+  folder.write("seq/b_000007.png", "mine");
+  EXPECT_THAT(trouble({"-o", folder.file("seq/b_000000.png")}), HasSubstr("exists already"));
+  EXPECT_THAT(names_in(folder.path()), ElementsAre("b.csv", "seq"));
+  EXPECT_THAT(names_in(folder.path() / "seq"), ElementsAre("b_000007.png"));
+  EXPECT_EQ(read_whole_file(folder.file("b.csv")), "mine");
+  // By force the old frames go.
+  EXPECT_EQ(render({"--force", "-o", folder.file("seq/b_000000.png")}).status, 0);
+  EXPECT_THAT(names_in(folder.path() / "seq"), Not(Contains("b_000007.png")));
+}
+
+TEST(Outputs, EventsAreCaptions) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      render({"--set",
+              "events=[{when: \"t > 0.05\", name: \"a > b\"}, {when: \"t > 0.15\", name: late}, {when: \"t > "
+              "9\", name: never}]",
+              "--hold", "{first: 1}", "-o", folder.file("a.mp4"), "-o", folder.file("a.gif")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  // Times of the film: the first frame stands for a second.
+  EXPECT_EQ(read_whole_file(folder.file("a.srt")),
+            "1\n00:00:01,050 --> 00:00:01,150\na > b\n\n2\n00:00:01,150 --> 00:00:03,150\nlate\n\n");
+  EXPECT_THAT(read_whole_file(folder.file("a.txt")), HasSubstr("t = 0.050 s: a > b\n  t = 0.150 s: late\n"));
+  // None came: no captions.
+  ASSERT_EQ(render({"--set", "events=[{when: \"t > 9\", name: never}]", "-o", folder.file("b.mp4")}).status,
+            0);
+  EXPECT_FALSE(fs::exists(folder.file("b.srt")));
+}
+
+TEST(Outputs, AFailingRunLeavesFilmsAndTablesAsPartialAlone) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      render({"--set", "torque=[0, -1e6 * (1 + t^8 * 1e6) * y_G]", "--set", "step=0.001", "--set",
+              "duration=4", "-o", folder.file("a.mp4"), "-o", folder.file("a.gif"), "-o",
+              folder.file("a.png"), "-o", folder.file("a_000000.png"), "-o", folder.file("a.csv")},
+             "pp_spring");
+  EXPECT_EQ(result.status, 5);
+  EXPECT_THAT(names_in(folder.path()), ElementsAre("a.partial.csv", "a.partial.gif", "a.partial.mp4"));
+  EXPECT_LT(probe_video(folder.file("a.partial.mp4")).frames, 100);
+}
+
+TEST(Outputs, ExtractSaysWhatItCannotRead) {
+  const TemporaryFolder folder;
+  const auto trouble = [&](const std::string& file) {
+    const ProgramResult result = run_program({"extract", file});
+    EXPECT_EQ(result.status, 3) << file;
+    return result.err;
+  };
+  EXPECT_THAT(trouble(folder.file("none.mp4")), HasSubstr("no such file"));
+  EXPECT_THAT(trouble(folder.write("a.mp4", "no film")), HasSubstr("is no film that can be read"));
+  EXPECT_THAT(trouble(folder.write("a.pdf", "%PDF-1.5")), HasSubstr("remembers no scene"));
+  EXPECT_THAT(trouble(folder.write("b.pdf", "/Keywords <FEFF00")), HasSubstr("remembers no scene"));
+  EXPECT_THAT(trouble(folder.write("a.svg", "<svg><metadata>{\"chainreel_scene\": 1}</metadata></svg>")),
+              HasSubstr("remembers no scene"));
+  EXPECT_THAT(trouble(folder.write("a.txt", "words")), HasSubstr("only .mp4"));
+}
+
+TEST(Outputs, ExtractTellsOfAModelThatIsGoneOrAnother) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "models");
+  fs::copy(fs::path(CHAINREEL_SOURCE_FOLDER) / "models/rr.urdf", folder.path() / "models/rr.urdf");
+  folder.write("scene.yaml",
+               "model: models/rr.urdf\nduration: 0.1\nmethod: rk4\nvideo: {width: 160, height: 90}\n");
+  const RunOptions here{.folder = folder.path().string()};
+  ASSERT_EQ(run_program({"render", "scene.yaml", "--quiet", "-o", "a.mp4"}, here).status, 0);
+  EXPECT_EQ(run_program({"extract", "a.mp4"}, here).err, "");
+  folder.write("models/rr.urdf", read_whole_file(folder.file("models/rr.urdf")) + "\n");
+  EXPECT_THAT(run_program({"extract", "a.mp4"}, here).err, HasSubstr("has changed since"));
+  fs::remove(folder.path() / "models/rr.urdf");
+  EXPECT_THAT(run_program({"extract", "a.mp4"}, here).err,
+              HasSubstr("there is no model models/rr.urdf here"));
+}
+
+}  // namespace
+}  // namespace chainreel
