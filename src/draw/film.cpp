@@ -83,6 +83,8 @@ std::vector<ScaleEntry> Film::entries() const {
     for (const VectorKind kind : kinds_shown(panel.chain(), layers_.acting))
       if (std::find(shown.begin(), shown.end(), kind) == shown.end()) shown.push_back(kind);
   std::vector<ScaleEntry> entries = scale_entries(vector_scales_, shown, layers_.legend, theme_);
+  if (layers_.chain && panels_.front().foot())
+    entries.push_back(panels_.front().foot()->scale_entry(theme_));
   if (layers_.com && layers_.legend)
     entries.push_back({ScaleEntry::Mark::center_of_mass, 0, theme_.ink, "centre of mass"});
   return entries;

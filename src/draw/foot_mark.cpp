@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/format.hpp"
 #include "draw/arrow.hpp"
 #include "draw/joints.hpp"
+#include "draw/sheet.hpp"
 #include "dynamics/forward_dynamics.hpp"
 #include "dynamics/ground_reaction.hpp"
 
@@ -13,7 +15,7 @@ namespace {
 
 constexpr double kWeightArrow = 0.22;  // units of H: as long is the force that bears the weight
 constexpr double kFarthest = 3;        // lengths of the foot: beyond, the arrow tells nothing
-constexpr double kGroundBeyond = 0.5;  // of the foot's length, on each side
+constexpr double kGroundBeyond = 2.5;  // lengths of the foot, on each side
 
 double weight_of(const Chain& chain) {
   double mass = 0;
@@ -24,13 +26,14 @@ double weight_of(const Chain& chain) {
 }  // namespace
 
 FootMark::FootMark(const Simulation& simulation, const Trajectory& trajectory, int samples)
-    : foot_(*simulation.events->foot), ground_(simulation.events->ground) {
+    : weight_(weight_of(simulation.chain)),
+      foot_(*simulation.events->foot),
+      ground_(simulation.events->ground) {
   const Chain& chain = simulation.chain;
   for (const Body& body : chain.bodies)
     if (&body != &chain.bodies[0] && body.parent == 0) ankles_.push_back(body.joint.X_PJ.translation());
   Workspace ws(chain);
   std::vector<double> tau(std::size_t(chain.nv));
-  const double weight = weight_of(chain);
   for (int k = 0; k < samples; ++k) {
     const auto q = trajectory.q_at(k), qd = trajectory.qd_at(k);
     simulation.torque->evaluate(chain, ws, trajectory.t[std::size_t(k)], q, qd, tau);
@@ -38,12 +41,19 @@ FootMark::FootMark(const Simulation& simulation, const Trajectory& trajectory, i
     const std::vector<double> qdd = ws.qdd;
     const Wrench wrench = compute_ground_reaction(chain, ws, q, qd, qdd);
     pushes_.push_back(
-        {center_of_pressure(chain, ws, ground_, foot_.height, q, qd, qdd), wrench.force / weight});
+        {center_of_pressure(chain, ws, ground_, foot_.height, q, qd, qdd), wrench.force / weight_});
   }
 }
 
 Eigen::Vector3d FootMark::on_ground(double place) const {
   return place * ground_.along + foot_.height * ground_.up;
+}
+
+ScaleEntry FootMark::scale_entry(const Theme& theme) const {
+  constexpr double kShare = 0.3;  // of the weight, at most
+  const double force = round_length(kShare * weight_);
+  return {ScaleEntry::Mark::arrow, kWeightArrow * force / weight_, theme.constraint,
+          "ground reaction " + format_shortest(force) + " N"};
 }
 
 void FootMark::draw_foot(Picture& picture, const Camera& camera, const ChainLook& look, int clip) const {
@@ -61,7 +71,8 @@ void FootMark::draw_pressure(Picture& picture, const Camera& camera, const Chain
                              int clip) const {
   const Push& push = pushes_[std::size_t(std::clamp(k, 0, int(pushes_.size()) - 1))];
   const double middle = (foot_.heel + foot_.toe) / 2;
-  // False for what is no number, too.
+  // A ground cannot pull; false for what is no number, too.
+  if (!(push.force.dot(ground_.up) > 0)) return;
   if (!(std::abs(push.place - middle) < kFarthest * (foot_.toe - foot_.heel))) return;
   const Point force = (kWeightArrow / camera.scale) * camera.project_vector(push.force);
   const bool stands = push.place >= foot_.heel && push.place <= foot_.toe;

@@ -225,7 +225,7 @@ void Panel::follow_tip() {
 }
 
 void Panel::draw_static(Picture& picture) const {
-  if (layers_.chain) draw_base(picture, {run_.chain, skeleton_, camera_, look_}, clip_);
+  if (layers_.chain && !foot_) draw_base(picture, {run_.chain, skeleton_, camera_, look_}, clip_);
   if (layers_.chain && is_constrained())
     draw_closure_pins(picture, {run_.chain, skeleton_, camera_, look_}, run_.simulation->constraints, clip_);
   if (layers_.chain && foot_) foot_->draw_foot(picture, camera_, look_, clip_);

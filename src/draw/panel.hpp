@@ -86,6 +86,7 @@ class Panel {
   // "left the picture at t = 1.24 s" from that frame on, or what happened last: "elbow straight at t = 1.24 s".
   std::string note(int k) const;
   bool may_have_notes() const { return may_freeze() || !run_.scene.events.empty(); }
+  const std::optional<FootMark>& foot() const { return foot_; }
   std::string title() const;  // of the scene, with what it says of this run
   // The instant at which the panel stood still.
   std::optional<double> left_at() const;

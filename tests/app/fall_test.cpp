@@ -21,7 +21,7 @@ constexpr char kHuman[] = "assets/scenes/humanoid_fall.yaml";
 constexpr char kFalling[] =
     "model: " CHAINREEL_SOURCE_FOLDER
     "/models/pp.urdf\nduration: 2\nmethod: rk4\nstep: 0.01\n"
-    "title: \"Falls in {fall}\"\n"
+    "title: \"Falls in {fall}\"\ntorque: [0, 0]\n"
     "events: [{when: \"q2 < -0.5\", name: half}, {when: \"q2 < -1\", kind: fall, name: down}]\n";
 
 TEST(FallCommand, PrintsATableAgainstTheParameter) {
