@@ -27,8 +27,22 @@ Json candidate_report(const Choice::Candidate& candidate) {
 
 void choose_automatically(PreparedScene& prepared) {
   if (prepared.simulation.method) return;
-  prepared.choice = choose_method(prepared.simulation, prepared.scene.accuracy, frame_times(prepared.scene),
-                                  [](double) { return interrupted(); });
+  Simulation& simulation = prepared.simulation;
+  const auto stop = [](double) { return interrupted(); };
+  const auto events = simulation.events;
+  const double duration = simulation.duration;
+  std::vector<double> times = frame_times(prepared.scene);
+  if (events) {
+    // What comes behind the event that ends the run is nobody's concern.
+    apply({&find_method("dop853"), {1e-10, 0}, 0}, simulation);
+    const double end = simulate(simulation, {}, stop).end_time;
+    if (end > 0) simulation.duration = end;
+    while (times.size() > 1 && times.back() > simulation.duration) times.pop_back();
+    simulation.events = nullptr;
+  }
+  prepared.choice = choose_method(simulation, prepared.scene.accuracy, times, stop);
+  simulation.events = events;
+  simulation.duration = duration;
   throw_if_interrupted();
 }
 
