@@ -124,9 +124,31 @@ void Film::lay_out() {
   if (is_transparent(scene_)) text = {};  // nothing above or below the scene
   const double aspect = double(scene_.video.width) / scene_.video.height;
   sheet_ = lay_out_sheet(text, aspect, scene_.text_scale, theme_, fonts_);
+  if (!scene_.plot.empty() && !is_transparent(scene_)) lay_out_plots();
   if (is_comparison() && layers_.title) rows_.title = kRowPitch * scaled(size::kSymbol, scene_.text_scale);
   if (std::any_of(panels_.begin(), panels_.end(), [](const Panel& panel) { return panel.may_have_notes(); }))
     rows_.note = kRowPitch * scaled(size::kAxis, scene_.text_scale);
+}
+
+// One plot below the scene, more beside it, unless the layout says otherwise; below several panels.
+void Film::lay_out_plots() {
+  std::vector<StripRun> runs;
+  for (const Panel& panel : panels_) runs.push_back(panel.strip_run());
+  const int count = int(scene_.plot.size());
+  const bool right = !is_comparison() && scene_.layout != "scene-below" &&
+                     (count > 1 || scene_.layout == "scene-right");
+  const PlotAreas areas = plot_areas(sheet_.scene, count, right ? PlotPlace::right : PlotPlace::below);
+  sheet_.scene = areas.scene;
+  const PlotStyle style{&fonts_, &theme_, scene_.text_scale};
+  for (std::size_t i = 0; i < areas.plots.size(); ++i)
+    plots_.emplace_back(strip_data(runs, i, times_.back(), theme_), areas.plots[i], style);
+  if (!right) return;
+  double x0 = sheet_.scene.x1, x1 = sheet_.aspect;
+  for (const PlotStrip& plot : plots_) {
+    x0 = std::max(x0, plot.frame().box.x0);
+    x1 = std::min(x1, plot.frame().box.x1);
+  }
+  for (PlotStrip& plot : plots_) plot.narrow_to(x0, x1);
 }
 
 FitBox Film::fit_box(const Camera& view, double marks) {
@@ -262,6 +284,7 @@ Picture Film::static_layer() const {
   }
   draw_sheet(picture, sheet_);
   for (const PlacedText& title : titles_) draw_text(picture, title.line, title.anchor);
+  for (const PlotStrip& plot : plots_) plot.draw_static(picture);
   return picture;
 }
 
@@ -277,6 +300,7 @@ Picture Film::frame(int k) const {
     draw_text(picture, fit_text(fonts_, note, style, row.width(), scene_.text_scale),
               {row.x0, row.y0 + kDescent * style.size});
   }
+  for (const PlotStrip& plot : plots_) plot.draw_frame(picture, times_[std::size_t(k)]);
   if (layers_.time) draw_time(picture, sheet_, times_[std::size_t(k)], fonts_);
   return picture;
 }

@@ -6,6 +6,7 @@
 
 #include "draw/panel.hpp"
 #include "draw/panel_grid.hpp"
+#include "draw/plot_strip.hpp"
 #include "draw/sheet.hpp"
 
 namespace chainreel {
@@ -45,6 +46,7 @@ class Film {
   bool place_mass_maps(const Camera& camera);
   void set_mass_maps_aside();
   void lay_out();
+  void lay_out_plots();
   std::vector<std::string> common_torque() const;
   FitBox fit_box(const Camera& view, double marks);
   void fit_camera();
@@ -64,6 +66,7 @@ class Film {
   Sheet sheet_;
   PanelRows rows_;
   std::vector<PanelCell> cells_;
+  std::vector<PlotStrip> plots_;
   std::vector<PlacedText> titles_;
 };
 

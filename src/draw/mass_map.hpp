@@ -2,9 +2,9 @@
 // clip. Small matrices bear their numbers, larger ones a scale of colours.
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 
+#include "dynamics/crba.hpp"
 #include "model/chain.hpp"
 #include "picture/picture.hpp"
 #include "picture/text.hpp"

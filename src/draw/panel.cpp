@@ -58,6 +58,7 @@ Panel::Panel(const PanelRun& run, const Layers& layers, int samples, WildEnd wil
                                                         : kWild * skeleton_.reach;
   if (run.simulation && run.simulation->events && run.simulation->events->foot)
     foot_.emplace(*run.simulation, run.trajectory, samples);
+  if (layers_.ellipse) tip_mass_.emplace(run.chain, run.simulation);
   if (layers_.acting.any()) acting_.emplace(run.chain, run.simulation, run.trajectory, layers_.acting);
 }
 
@@ -70,8 +71,7 @@ std::vector<double> Panel::bounded_semi_axes() const {
   const int count = std::min(samples_, kScaleSamples);
   for (int i = 0; i < count; ++i) {
     const int k = int(std::int64_t(i) * samples_ / count);
-    const auto axes = mass_axes(
-        effective_mass_of(run_.chain, *ws_, run_.trajectory.q_at(k), run_.chain.end_effector, Task::linear));
+    const auto axes = mass_axes(tip_mass_->at(*ws_, run_.trajectory.q_at(k)));
     if (const auto length = bounded_semi_axis(axes, layers_.reading)) bounded.push_back(*length);
   }
   return bounded;
@@ -108,6 +108,13 @@ void Panel::set_pens(const Fonts& fonts, const VectorScales& scales, double mark
 
 void Panel::find_rails(int samples) {
   for (int k = 0; k < samples; ++k) widen_rails(skeleton_, run_.chain, run_.trajectory.q_at(k), limit_);
+}
+
+StripRun Panel::strip_run() const {
+  StripRun run{title(), wild_, {}, {}};
+  run.times.assign(run_.trajectory.t.begin(), run_.trajectory.t.begin() + samples_);
+  if (run_.simulation) run.plots = plot_curves(*run_.simulation, run_.trajectory, samples_);
+  return run;
 }
 
 FitBox Panel::fit_box(const Camera& view, double marks, bool with_wild) {
@@ -266,10 +273,7 @@ void Panel::draw_frame(Picture& picture, int k, const EllipseScale& scale, const
   const Point tip = tip_.place(k);
   if (layers_.ellipse) {
     const EllipseStyle style{&theme_, &fonts, run_.scene.text_scale, scale.per_unit(), area_, layers_.reading};
-    draw_mass_ellipse(picture,
-                      mass_axes(effective_mass_of(run_.chain, *ws_, run_.trajectory.q_at(k),
-                                                  run_.chain.end_effector, Task::linear)),
-                      tip, camera_, style, clip_);
+    draw_mass_ellipse(picture, mass_axes(tip_mass_->at(*ws_, run_.trajectory.q_at(k))), tip, camera_, style, clip_);
   }
   if (layers_.chain && foot_) foot_->draw_pressure(picture, camera_, look_, k, clip_);
   draw_overlays(picture, vectors);

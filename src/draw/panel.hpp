@@ -13,7 +13,9 @@
 #include "draw/look.hpp"
 #include "draw/marks.hpp"
 #include "draw/mass_map.hpp"
+#include "draw/plot_strip.hpp"
 #include "draw/skeleton.hpp"
+#include "draw/tip_mass.hpp"
 #include "draw/trail.hpp"
 #include "scene/scene.hpp"
 #include "sim/trajectory.hpp"
@@ -67,6 +69,9 @@ class Panel {
   void set_pens(const Fonts& fonts, const VectorScales& scales, double marks);
   void set_mass_map(MassMap map) { map_.emplace(std::move(map)); }
   const std::optional<MassMap>& mass_map() const { return map_; }
+
+  // What the plots of the page show of the run; its simulation must be there.
+  StripRun strip_run() const;
 
   // What a camera with these axes must hold. Wild panels widen it only where `with_wild`.
   FitBox fit_box(const Camera& view, double marks, bool with_wild);
@@ -125,6 +130,7 @@ class Panel {
   ChainLook look_;
   TipPath tip_;
   std::optional<FootMark> foot_;
+  std::optional<TipMass> tip_mass_;  // where the ellipse is drawn
   std::optional<Acting> acting_;
   std::optional<VectorPen> pen_;
   std::optional<FrameAxes> axes_;

@@ -79,6 +79,9 @@ inline constexpr double kTitleAboveFrame = 0.016;
 // The frame inside `area` that leaves room for tick labels and axis titles.
 PlotFrame lay_out_plot(const Rect& area, const Axis& x, const Axis& y, const PlotStyle& style);
 
+// The base line of the numbers below the frame.
+double tick_base_line(const PlotFrame& frame, const PlotStyle& style);
+
 // Grid, zero lines, frame, ticks, labels, titles: x's below at the right end, y's above at the left end, so
 // that no text is turned.
 void draw_axes(Picture& picture, const PlotFrame& frame, const PlotStyle& style);

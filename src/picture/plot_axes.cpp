@@ -108,10 +108,15 @@ double tick_length(const Tick& tick) {
   return tick.label.empty() ? size::kPlotTick / 2 : size::kPlotTick;
 }
 
+// The middle of the numbers below the frame.
+double tick_row(const PlotFrame& f, const PlotStyle& style) {
+  return f.box.y0 - size::kPlotTick - kTickToLabel -
+         kCapHeight * style.text(size::kTick) * (1 + kSuperscriptUp) / 2;
+}
+
 void draw_x_ticks(Picture& picture, const PlotFrame& f, const std::vector<Tick>& ticks,
                   const PlotStyle& style) {
-  const double middle = f.box.y0 - size::kPlotTick - kTickToLabel -
-                        kCapHeight * style.text(size::kTick) * (1 + kSuperscriptUp) / 2;
+  const double middle = tick_row(f, style);
   for (const Tick& tick : ticks) {
     const double x = f.at_x(tick.value);
     draw_line(picture, {x, f.box.y0}, {x, f.box.y0 - tick_length(tick)}, size::kPlotFrame,
@@ -182,6 +187,10 @@ PlotFrame lay_out_plot(const Rect& area, const Axis& x, const Axis& y, const Plo
   // Half of the last number hangs over the end of the axis.
   box.x1 -= widest_label(ticks_of(x, kMostLog), style) / 2;
   return frame;
+}
+
+double tick_base_line(const PlotFrame& frame, const PlotStyle& style) {
+  return tick_row(frame, style) - kCapHeight * style.text(size::kTick) / 2;
 }
 
 void draw_axes(Picture& picture, const PlotFrame& frame, const PlotStyle& style) {

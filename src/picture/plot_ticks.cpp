@@ -51,8 +51,8 @@ std::vector<double> multiples(const Axis& axis, double step) {
 std::vector<Tick> linear_ticks(const Axis& axis, int most) {
   const double range = axis.high - axis.low;
   if (!(range > 0) || !std::isfinite(range)) return {};
-  double step = nice_step(range, most);
-  // A step for `most` intervals has one tick more where both ends are ticks.
+  // That many ticks may stand on one interval more than their number.
+  double step = nice_step(range, most + 1);
   while (int(multiples(axis, step).size()) > most) step = nice_step(step * 1.5, 1);
   const double largest = std::max(std::abs(axis.low), std::abs(axis.high));
   const int step_exponent = int(std::floor(std::log10(step) + kSlack));

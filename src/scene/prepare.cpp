@@ -82,13 +82,17 @@ NamedFrames find_frames(const Scene& scene, const Chain& chain, ProblemList& pro
   return frames;
 }
 
+int constraint_rows(const Simulation& simulation) {
+  const ConstraintPlan& plan = simulation.constraints;
+  return plan.empty() ? 0 : ConstrainedChain(simulation.chain, plan).set().rows();
+}
+
 std::shared_ptr<const EventSet> events_of(const Scene& scene, const Simulation& simulation,
                                           const NamedFrames& frames) {
   const Chain& chain = simulation.chain;
-  const ConstraintPlan& plan = simulation.constraints;
-  const int rows = plan.empty() ? 0 : ConstrainedChain(chain, plan).set().rows();
   try {
-    return make_events(chain, scene.events, scene.parameters, frames, scene.foot, rows);
+    return make_events(chain, scene.events, scene.parameters, frames, scene.foot,
+                       constraint_rows(simulation));
   } catch (const Error& error) {
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems)
@@ -161,6 +165,8 @@ Simulation prepare(Scene& scene, bool meshes) {
   simulation.limit = limit_policy_of(scene.limit);
   simulation.duration = scene.duration;
   simulation.events = events_of(scene, simulation, frames);
+  simulation.plots =
+      make_plots(chain, scene.plot, scene.parameters, frames, scene.foot, constraint_rows(simulation));
   return simulation;
 }
 

@@ -70,9 +70,9 @@ void read_layout(Fields& fields, Scene& scene) {
   const std::vector<std::string>& known = layout_names();
   if (std::find(known.begin(), known.end(), layout) == known.end())
     fields.problems().add("unknown layout '" + layout + "':" + did_you_mean(layout, known) +
-                              " There are scene, transparent, compare and grid.",
+                              " There are scene, scene-below, scene-right, transparent, compare and grid.",
                           place);
-  else if ((layout == "scene" || layout == "transparent") != (panels == 1))
+  else if ((layout == "compare" || layout == "grid") != (panels > 1))
     fields.problems().add(panels == 1 ? "layout '" + layout + "' needs `compare:` with its panels"
                                       : "layout '" + layout + "' shows one panel: take compare or grid",
                           place);

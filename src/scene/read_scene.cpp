@@ -12,6 +12,7 @@
 #include "scene/read_control.hpp"
 #include "scene/read_events.hpp"
 #include "scene/read_method.hpp"
+#include "scene/read_plot.hpp"
 #include "sim/limits.hpp"
 
 namespace chainreel {
@@ -270,6 +271,7 @@ Scene read_document(const YamlDocument& document) {
   read_expectation(fields, scene);
   read_draw(fields, scene);
   read_ellipse(fields, scene);
+  read_plot(fields, scene);
   read_layout(fields, scene);
   fields.find("compare");
   read_theme(fields, scene);

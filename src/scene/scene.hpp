@@ -9,8 +9,9 @@
 #include "core/frame_rate.hpp"
 #include "scene/constraint_entry.hpp"
 #include "sim/accuracy.hpp"
-#include "sim/constraint_plan.hpp"
 #include "sim/events.hpp"
+#include "sim/constraint_plan.hpp"
+#include "sim/plots.hpp"
 #include "sim/torque.hpp"
 
 namespace chainreel {
@@ -67,7 +68,8 @@ struct Scene {
   std::string expect = "finish";               // or diverge: what the run is to do
   std::vector<std::string> draw{"chain", "trail", "time", "title", "torque_label"};
   EllipseEntry ellipse;
-  std::string layout = "scene";  // of the page: or compare, grid for several panels
+  std::vector<PlotEntry> plot;  // beside or below the scene, at most three
+  std::string layout = "scene";  // of the page: or scene-below, scene-right with plots; compare, grid for panels
   std::vector<Scene>
       compare;            // the panels, each the scene with its changes; empty: the scene is the only one
   std::string theme = "light";  // or dark

@@ -136,11 +136,29 @@ void add_method(std::vector<SceneEntry>& entries, const Scene& scene) {
   entries.push_back({"expect", scene.expect});
 }
 
+std::string plots_text(const std::vector<PlotEntry>& plots) {
+  return flow_text([&](YAML::Emitter& out) {
+    out << YAML::Flow << YAML::BeginSeq;
+    for (const PlotEntry& plot : plots) {
+      if (plot.title.empty()) {
+        out << YAML::DoubleQuoted << plot.value;
+        continue;
+      }
+      out << YAML::Flow << YAML::BeginMap;
+      out << YAML::Key << "value" << YAML::Value << YAML::DoubleQuoted << plot.value;
+      out << YAML::Key << "title" << YAML::Value << YAML::DoubleQuoted << plot.title;
+      out << YAML::EndMap;
+    }
+    out << YAML::EndSeq;
+  });
+}
+
 void add_page(std::vector<SceneEntry>& entries, const Scene& scene) {
   entries.push_back({"draw", flow_text([&](YAML::Emitter& out) {
                        emit_list(out, scene.draw, [](const std::string& name) { return name; });
                      })});
   entries.push_back({"ellipse.reading", scene.ellipse.reading});
+  if (!scene.plot.empty()) entries.push_back({"plot", plots_text(scene.plot)});
   entries.push_back({"layout", scene.layout});
   entries.push_back({"theme", scene.theme});
   entries.push_back({"text_scale", format_shortest(scene.text_scale)});

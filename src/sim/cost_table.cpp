@@ -27,7 +27,7 @@ constexpr std::array kRows = {
     Row{"explicit_euler", 10, 2, 1, 30, 0},
     Row{"semi_implicit_euler", 10, 2, 1, 30, 0},
     Row{"rk4", 20, 6, 1, 15, 0},
-    Row{"dop853", 60, 60, 1, 50, 0},
+    Row{"dop853", 60, 40, 1, 20, 0},
     Row{"radau5", 400, 170, 1, 30, 0},
     Row{"symplectic_euler", 20, 10, 5, 10, 0},
     Row{"verlet", 20, 10, 8, 0, 0},

@@ -11,6 +11,7 @@
 #include "sim/constraint_plan.hpp"
 #include "sim/events.hpp"
 #include "sim/limits.hpp"
+#include "sim/plots.hpp"
 #include "sim/torque.hpp"
 #include "sim/trajectory.hpp"
 
@@ -29,6 +30,7 @@ struct Simulation {
   LimitPolicy limit = LimitPolicy::report;
   std::shared_ptr<const EventSet> events;  // null: none
   ConstraintPlan constraints;
+  std::shared_ptr<const PlotSet> plots;  // null: none; of no matter to the run
 };
 
 // Two instants closer than this are one, s.

@@ -1,0 +1,63 @@
+// A plot beside the scene of a clip: the whole clip's time along x, the past in full, what is to come pale,
+// and a cursor at now.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "picture/plot.hpp"
+#include "sim/plots.hpp"
+
+namespace chainreel {
+
+struct StripCurve {
+  std::string label;  // at its right end; "" none
+  CurveStyle style;
+  std::vector<Point> points;  // (t, y), t rising
+  bool decides = true;        // on the range of the axis; curves of runs that went wild do not
+};
+
+struct StripData {
+  std::string title;
+  bool angles = false;
+  std::vector<StripCurve> curves;
+  double end = 0;  // of the clip, s
+};
+
+class PlotStrip {
+ public:
+  PlotStrip(StripData data, const Rect& area, const PlotStyle& style);
+
+  void draw_static(Picture& picture) const;  // axes, labels and all curves, pale
+  void draw_frame(Picture& picture, double t) const;
+  const PlotFrame& frame() const { return frame_; }
+  // Plots above one another begin and end at the same places.
+  void narrow_to(double x0, double x1) { frame_.box.x0 = x0, frame_.box.x1 = x1; }
+
+ private:
+  StripData data_;
+  PlotStyle style_;
+  PlotFrame frame_;
+};
+
+// What one of the runs of a film shows in its plots.
+struct StripRun {
+  std::string title;  // of its panel
+  bool wild = false;
+  std::vector<double> times;  // of its samples, s
+  std::vector<PlotCurves> plots;
+};
+
+// Plot i of all runs in one; with several runs colours tell runs apart, dashes what is plotted.
+StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double end, const Theme& theme);
+
+// Where plots stand, and what they leave to the scene.
+enum class PlotPlace { below, right };
+struct PlotAreas {
+  Rect scene;
+  std::vector<Rect> plots;
+};
+inline constexpr int kMostPlots = 3;
+PlotAreas plot_areas(const Rect& page, int count, PlotPlace place);
+
+}  // namespace chainreel

@@ -1,0 +1,44 @@
+#include "scene/read_plot.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr std::size_t kMostPlots = 3;
+
+PlotEntry read_entry(Fields& fields, const YAML::Node& node, const std::string& key) {
+  PlotEntry entry;
+  entry.place = fields.place_of(node, key);
+  if (node.IsScalar()) {
+    entry.value = node.Scalar();
+  } else if (node.IsMap()) {
+    Fields inner(fields.document(), node, key, fields.problems());
+    inner.read("value", entry.value);
+    if (!entry.value.empty()) entry.place = inner.place_of(inner.find("value"), "value");
+    inner.read("title", entry.title);
+    inner.finish();
+  }
+  if (entry.value.empty())
+    fields.problems().add("'" + key + "' must be energy, energy_error, q, qd, tau, lambda or an expression; " +
+                              "with a title of its own: {value: y_G - 1, title: \"height [m]\"}",
+                          entry.place);
+  return entry;
+}
+
+}  // namespace
+
+void read_plot(Fields& fields, Scene& scene) {
+  const YAML::Node node = fields.find("plot");
+  if (!node.IsDefined() || node.IsNull()) return;
+  if (!node.IsSequence()) {
+    scene.plot = {read_entry(fields, node, fields.path("plot"))};
+    return;
+  }
+  for (std::size_t i = 0; i < node.size(); ++i)
+    scene.plot.push_back(read_entry(fields, node[i], fields.path("plot." + std::to_string(i + 1))));
+  if (scene.plot.size() > kMostPlots)
+    fields.problems().add("'plot' names " + std::to_string(scene.plot.size()) +
+                              " plots, but no more than three fit beside a scene",
+                          fields.place_of(node, "plot"));
+}
+
+}  // namespace chainreel

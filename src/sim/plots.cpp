@@ -1,0 +1,201 @@
+#include "sim/plots.hpp"
+
+#include <algorithm>
+
+#include "dynamics/energy.hpp"
+#include "sim/audit.hpp"
+#include "sim/chain_system.hpp"
+#include "sim/torques_along.hpp"
+
+namespace chainreel {
+namespace {
+
+// Whether all joints turn, or all slide: what their numbers are.
+enum class JointUnits { turning, sliding, both };
+
+JointUnits units_of(const Chain& chain) {
+  bool turns = false, slides = false;
+  for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
+    const JointKind kind = chain.bodies[i].joint.kind;
+    turns |= kind != JointKind::prismatic;
+    slides |= kind != JointKind::revolute;
+  }
+  return turns && slides ? JointUnits::both : slides ? JointUnits::sliding : JointUnits::turning;
+}
+
+std::string with_unit(const std::string& words, JointUnits units, const char* turning, const char* sliding) {
+  switch (units) {
+    case JointUnits::turning:
+      return words + " [" + turning + "]";
+    case JointUnits::sliding:
+      return words + " [" + sliding + "]";
+    case JointUnits::both:
+      break;
+  }
+  return words + " [" + turning + ", " + sliding + "]";
+}
+
+std::string title_of(PlotQuantity quantity, const Chain& chain) {
+  const JointUnits units = units_of(chain);
+  switch (quantity) {
+    case PlotQuantity::energy:
+      return "energy [J]";
+    case PlotQuantity::energy_error:
+      return "energy error [J]";
+    case PlotQuantity::q:
+      return with_unit("q", units, "rad", "m");
+    case PlotQuantity::qd:
+      return with_unit("qd", units, "rad/s", "m/s");
+    case PlotQuantity::tau:
+      return with_unit("tau", units, "N m", "N");
+    case PlotQuantity::lambda:
+      return "lambda [N]";
+    case PlotQuantity::expression:
+      break;
+  }
+  return {};
+}
+
+void add_plot(PlotSet& plots, const PlotEntry& entry, const Chain& chain, int rows) {
+  PlotSet::Plot plot;
+  const auto& names = plot_quantities();
+  const auto named = std::find(names.begin(), names.end(), entry.value);
+  plot.quantity = PlotQuantity(named - names.begin());
+  plot.title = entry.title.empty() ? title_of(plot.quantity, chain) : entry.title;
+  if (plot.quantity == PlotQuantity::lambda && rows == 0)
+    throw Error(ExitCode::bad_input, "there is no lambda to plot: the scene has no constraints", entry.place);
+  if (plot.quantity == PlotQuantity::expression) {
+    plot.value = Expression::parse(entry.value, plots.probe.names(), entry.place);
+    if (plot.title.empty()) plot.title = entry.value;
+    for (const int slot : plot.value->used_variables())
+      plots.needs_kinematics |= plots.probe.is_kinematic(slot);
+  }
+  plots.list.push_back(std::move(plot));
+}
+
+std::vector<std::string> numbered(const std::string& stem, int count) {
+  std::vector<std::string> names;
+  for (int i = 1; i <= count; ++i) names.push_back(count == 1 ? stem : stem + std::to_string(i));
+  return names;
+}
+
+// Of a table with a row a sample.
+PlotCurves columns(const std::vector<double>& table, const std::vector<std::string>& names, int samples) {
+  PlotCurves plot;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    PlotCurve curve{names[i], {}};
+    for (int k = 0; k < samples; ++k) curve.y.push_back(table[std::size_t(k) * names.size() + i]);
+    plot.curves.push_back(std::move(curve));
+  }
+  return plot;
+}
+
+PlotCurves energies(const Simulation& simulation, const Trajectory& trajectory, int samples) {
+  PlotCurves plot;
+  plot.curves = {{"kinetic", {}}, {"potential", {}}, {"total", {}}};
+  Workspace ws(simulation.chain);
+  for (int k = 0; k < samples; ++k) {
+    const Energy energy = energy_of(simulation.chain, ws, trajectory.q_at(k), trajectory.qd_at(k));
+    plot.curves[0].y.push_back(energy.kinetic);
+    plot.curves[1].y.push_back(energy.potential);
+    plot.curves[2].y.push_back(energy.total());
+  }
+  return plot;
+}
+
+PlotCurves values_of(const Expression& value, const Simulation& simulation, const Trajectory& trajectory,
+                     int samples) {
+  const PlotSet& plots = *simulation.plots;
+  const Chain& chain = simulation.chain;
+  Probe probe = plots.probe;
+  Workspace ws(chain);
+  ChainSystem system(chain, *simulation.torque, simulation.limit, simulation.constraints);
+  std::vector<double> qdd(std::size_t(chain.nv));
+  PlotCurve curve;
+  for (int k = 0; k < samples; ++k) {
+    const double t = trajectory.t[std::size_t(k)];
+    const ConstVec q = trajectory.q_at(k), qd = trajectory.qd_at(k);
+    probe.set(chain, ws, t, q, qd, plots.needs_kinematics);
+    if (trajectory.rows > 0) probe.set_multipliers(trajectory.lambda_at(k));
+    if (plots.cop_slot >= 0) {
+      system.acceleration(t, q, qd, qdd);
+      probe.set_value(plots.cop_slot,
+                      center_of_pressure(chain, ws, plots.ground, plots.ground_height, q, qd, qdd));
+    }
+    curve.y.push_back(value.evaluate(probe.values()));
+  }
+  PlotCurves plot;
+  plot.curves.push_back(std::move(curve));
+  return plot;
+}
+
+PlotCurves curves_of(const PlotSet::Plot& plot, const Simulation& simulation, const Trajectory& trajectory,
+                     int samples) {
+  const Chain& chain = simulation.chain;
+  switch (plot.quantity) {
+    case PlotQuantity::energy:
+      return energies(simulation, trajectory, samples);
+    case PlotQuantity::energy_error: {
+      PlotCurves error;
+      error.curves.push_back({"", audit_of(simulation, trajectory, samples).error});
+      return error;
+    }
+    case PlotQuantity::q:
+      return columns(trajectory.q, numbered("q", trajectory.nq), samples);
+    case PlotQuantity::qd:
+      return columns(trajectory.qd, numbered("qd", trajectory.nv), samples);
+    case PlotQuantity::tau:
+      return columns(torques_along(simulation, trajectory), numbered("tau", chain.nv), samples);
+    case PlotQuantity::lambda:
+      return columns(trajectory.lambda, numbered("lambda", trajectory.rows), samples);
+    case PlotQuantity::expression:
+      break;
+  }
+  return values_of(*plot.value, simulation, trajectory, samples);
+}
+
+}  // namespace
+
+const std::vector<std::string>& plot_quantities() {
+  static const std::vector<std::string> names{"energy", "energy_error", "q", "qd", "tau", "lambda"};
+  return names;
+}
+
+std::shared_ptr<const PlotSet> make_plots(const Chain& chain, const std::vector<PlotEntry>& entries,
+                                          const Parameters& parameters, const NamedFrames& frames,
+                                          const std::optional<Foot>& foot, int rows) {
+  if (entries.empty()) return nullptr;
+  Parameters known = parameters;
+  if (foot) known.insert(known.end(), {{"cop", 0.0}, {"heel", foot->heel}, {"toe", foot->toe}});
+  auto plots = std::make_shared<PlotSet>(PlotSet{{}, Probe(chain, known, rows, frames), false, -1, 0, {}});
+  ProblemList problems;
+  for (const PlotEntry& entry : entries) {
+    try {
+      add_plot(*plots, entry, chain, rows);
+    } catch (const Error& error) {
+      for (const Problem& problem : error.problems()) problems.add(problem.message, problem.place);
+    }
+  }
+  problems.throw_if_any();
+  if (foot) {
+    const auto& names = plots->probe.names();
+    plots->cop_slot = int(std::find(names.begin(), names.end(), "cop") - names.begin());
+    plots->ground_height = foot->height;
+    plots->ground = ground_axes(chain);
+  }
+  return plots;
+}
+
+std::vector<PlotCurves> plot_curves(const Simulation& simulation, const Trajectory& trajectory, int samples) {
+  std::vector<PlotCurves> all;
+  if (!simulation.plots) return all;
+  for (const PlotSet::Plot& plot : simulation.plots->list) {
+    all.push_back(curves_of(plot, simulation, trajectory, samples));
+    all.back().quantity = plot.quantity;
+    all.back().title = plot.title;
+    all.back().angles = plot.quantity == PlotQuantity::q && units_of(simulation.chain) == JointUnits::turning;
+  }
+  return all;
+}
+
+}  // namespace chainreel

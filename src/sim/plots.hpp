@@ -1,0 +1,74 @@
+// What plots show of a run: quantities with a name of their own, or expressions of what a probe reads, at the
+// run's samples.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "expr/expression.hpp"
+#include "sim/foot.hpp"
+#include "sim/probe.hpp"
+#include "sim/trajectory.hpp"
+
+namespace chainreel {
+
+struct Simulation;
+
+enum class PlotQuantity {
+  energy,        // kinetic, potential and their sum, J
+  energy_error,  // E(t) - E(0) - work, J
+  q,             // of each joint
+  qd,
+  tau,         // as the run felt them
+  lambda,      // of each row of the constraints
+  expression,  // one curve
+};
+
+// A plot as the scene wrote it.
+struct PlotEntry {
+  std::string value;  // a quantity's name, or an expression
+  std::string title;  // of the axis, unit in brackets; "": the quantity's own, or the expression
+  Place place;        // of `value`
+};
+
+// The plots of a scene, ready for any number of runs.
+struct PlotSet {
+  struct Plot {
+    PlotQuantity quantity = PlotQuantity::expression;
+    std::string title;
+    std::optional<Expression> value;
+  };
+  std::vector<Plot> list;
+  Probe probe;
+  bool needs_kinematics = false;
+  int cop_slot = -1;  // of the probe, where an expression reads it
+  double ground_height = 0;
+  GroundAxes ground;
+};
+
+// Names of the quantities.
+const std::vector<std::string>& plot_quantities();
+
+// Null where there are none. `rows` of the constraints. Throws Error with every problem.
+std::shared_ptr<const PlotSet> make_plots(const Chain& chain, const std::vector<PlotEntry>& entries,
+                                          const Parameters& parameters, const NamedFrames& frames = {},
+                                          const std::optional<Foot>& foot = {}, int rows = 0);
+
+struct PlotCurve {
+  std::string name;       // "q1", "kinetic"; of an expression ""
+  std::vector<double> y;  // a number a sample
+};
+struct PlotCurves {
+  PlotQuantity quantity = PlotQuantity::expression;
+  std::string title;
+  bool angles = false;  // radians: ticks at multiples of pi/2
+  std::vector<PlotCurve> curves;
+};
+
+// One entry a plot of simulation.plots, over the first `samples` samples.
+std::vector<PlotCurves> plot_curves(const Simulation& simulation, const Trajectory& trajectory, int samples);
+
+}  // namespace chainreel
