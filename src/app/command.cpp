@@ -6,9 +6,9 @@
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "scene/quantity.hpp"
+#include "scene/sweep.hpp"
 
 namespace chainreel {
-
 void add_common_options(CLI::App& command, CommonOptions& options) {
   add_repeatable(command, "--set", options.set, "override a scene key: --set video.width=640 (repeatable)");
   add_repeatable(command, "--package", options.package,
@@ -21,6 +21,8 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
 }
 
 namespace {
+
+constexpr std::size_t kMostPanels = 12;
 
 // name=folder; folders are relative to where the program runs.
 std::pair<std::string, std::string> parse_package(const std::string& text) {
@@ -40,6 +42,31 @@ std::vector<std::string> overrides_of(const CommonOptions& options) {
     overrides.push_back("packages." + name + "=" + Json(folder).dump());  // a JSON text is YAML too
   }
   return overrides;
+}
+
+void add_vary_option(CLI::App& command, std::vector<std::string>& vary) {
+  add_repeatable(command, "--vary", vary,
+                 "show variants of the scene side by side: KEY=a,b,c or KEY=from:to:count, like "
+                 "method=explicit_euler,rk4,taylor");
+}
+
+void add_comparison(const std::vector<std::string>& vary, std::vector<std::string>& overrides) {
+  if (vary.empty()) return;
+  std::vector<std::string> panels{""};
+  for (const std::string& text : vary) {
+    const Sweep sweep = parse_sweep(text, "--vary");
+    std::vector<std::string> finer;
+    for (const std::string& panel : panels)
+      for (const std::string& value : sweep.values)
+        finer.push_back(panel + (panel.empty() ? "" : ", ") + Json(sweep.key).dump() + ": " + value);
+    panels = std::move(finer);
+  }
+  if (panels.size() > kMostPanels)
+    throw Error(ExitCode::usage, "--vary makes " + std::to_string(panels.size()) + " panels; no more than " +
+                                     std::to_string(kMostPanels) + " fit a page: give fewer values");
+  std::string list;
+  for (const std::string& panel : panels) list += (list.empty() ? "{" : ", {") + panel + "}";
+  overrides.push_back("compare=[" + list + "]");
 }
 
 ModelOptions model_options_of(const CommonOptions& options) {

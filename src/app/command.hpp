@@ -27,6 +27,11 @@ std::vector<std::string> overrides_of(const CommonOptions& options);
 // The same for a model without a scene.
 ModelOptions model_options_of(const CommonOptions& options);
 
+void add_vary_option(CLI::App& command, std::vector<std::string>& vary);
+// Adds what --vary KEY=a,b,c says in the words of a scene, as its key `compare`: a panel a value, with several
+// options a panel a combination. Throws Error (usage) for more than twelve panels.
+void add_comparison(const std::vector<std::string>& vary, std::vector<std::string>& overrides);
+
 // An option that takes one argument each time it stands there, and never swallows what follows.
 CLI::Option* add_repeatable(CLI::App& command, const std::string& name, std::vector<std::string>& values,
                             const std::string& help);

@@ -24,6 +24,7 @@ struct RenderOptions {
   std::vector<std::string> outputs;
   std::string at = "0";
   std::string preset, crf, hold;  // keys of the scene as flags
+  std::vector<std::string> vary;
   CommonOptions common;
 };
 
@@ -32,6 +33,7 @@ std::vector<std::string> overrides_of(const RenderOptions& options) {
   for (const auto& [key, value] :
        {std::pair{"video.preset", options.preset}, {"video.crf", options.crf}, {"hold", options.hold}})
     if (!value.empty()) overrides.push_back(std::string(key) + "=" + value);
+  add_comparison(options.vary, overrides);
   return overrides;
 }
 
@@ -124,6 +126,7 @@ void add_render_command(CLI::App& app) {
   command->add_option("--hold", options->hold,
                       "hold: seconds of the end frames, like \"{first: 1, last: 2}\"");
   command->add_option("--at", options->at, "instant that .png, .svg and .pdf show, in seconds (default 0)");
+  add_vary_option(*command, options->vary);
   add_common_options(*command, options->common);
   command->footer(
       "Example: chainreel render assets/scenes/rr_free.yaml -o out/rr.mp4 -o out/rr.gif --set duration=2");

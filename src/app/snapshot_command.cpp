@@ -25,6 +25,7 @@ struct SnapshotOptions {
   std::vector<std::string> poses;
   std::string output;
   std::string end_effector;
+  std::vector<std::string> vary;
   int width = 0, height = 0;
   CommonOptions common;
 };
@@ -61,7 +62,9 @@ RememberedPicture picture_at(const PreparedFilm& film, double at, const Fonts& f
 }
 
 void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
-  PreparedFilm film = load_film(options.file, overrides_of(options.common));
+  std::vector<std::string> overrides = overrides_of(options.common);
+  add_comparison(options.vary, overrides);
+  PreparedFilm film = load_film(options.file, overrides);
   Video& video = film.scene.video;
   if (options.width > 0) video.width = options.width;
   if (options.height > 0) video.height = options.height;
@@ -117,6 +120,7 @@ void add_snapshot_command(CLI::App& app) {
                       "the link that is marked, of a model with several ends");
   command->add_option("--width", options->width, "pixels")->check(CLI::Range(16, 16384));
   command->add_option("--height", options->height, "pixels")->check(CLI::Range(16, 16384));
+  add_vary_option(*command, options->vary);
   add_common_options(*command, options->common);
   command->footer("Example: chainreel snapshot assets/scenes/rrr_torque.yaml --at 1.2 -o out/rrr.png");
   command->callback([options] { run_snapshot(*options); });

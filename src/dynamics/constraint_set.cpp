@@ -76,7 +76,7 @@ class ConstraintSetMaker {
     if (frame >= 0) return frame;
     std::vector<std::string> names;
     for (const Frame& f : chain_.frames) names.push_back(f.name);
-    fault("no frame '" + name + "'" + did_you_mean(name, names));
+    fault("no frame '" + name + "';" + did_you_mean(name, names));
     return -1;
   }
 

@@ -147,6 +147,40 @@ TEST_F(CompareFilm, SnapshotDrawsThePanelsAlsoBehindTheEndOfOne) {
   EXPECT_FALSE(fs::exists(folder_.file("never.png")));
 }
 
+TEST_F(CompareFilm, VaryIsACompareWithoutAFile) {
+  const std::string written = scene(
+      "compare:\n  - {method: rk4, parameters.k: 100}\n  - {method: rk4, parameters.k: 50}\n"
+      "  - {method: dop853, parameters.k: 100}\n  - {method: dop853, parameters.k: 50}\n");
+  const ProgramResult file = run_program(
+      {"snapshot", written, "--at", "0.2", "-o", folder_.file("file.svg"), "--set", "draw=[chain, trail]"});
+  ASSERT_EQ(file.status, 0) << file.err;
+  const std::string plain = scene("");
+  const ProgramResult varied =
+      run_program({"snapshot", plain, "--at", "0.2", "-o", folder_.file("varied.svg"), "--set",
+                   "draw=[chain, trail]", "--vary", "method=rk4,dop853", "--vary", "parameters.k=100,50"});
+  ASSERT_EQ(varied.status, 0) << varied.err;
+  const auto without_memory = [&](const std::string& name) {
+    const std::string text = read_whole_file(folder_.file(name));
+    return text.substr(text.find("</metadata>"));
+  };
+  EXPECT_EQ(without_memory("file.svg"), without_memory("varied.svg"));
+  const ProgramResult other =
+      run_program({"snapshot", plain, "--at", "0.2", "-o", folder_.file("other.svg"), "--set",
+                   "draw=[chain, trail]", "--vary", "method=rk4,dop853", "--vary", "parameters.k=100,60"});
+  ASSERT_EQ(other.status, 0) << other.err;
+  EXPECT_NE(without_memory("file.svg"), without_memory("other.svg"));
+}
+
+TEST_F(CompareFilm, VaryRefusesWhatDoesNotFitAPage) {
+  const std::string plain = scene("");
+  const ProgramResult many = run_program({"snapshot", plain, "--vary", "parameters.k=1:100:13"});
+  EXPECT_EQ(many.status, 2);
+  EXPECT_THAT(many.err, HasSubstr("13 panels"));
+  const ProgramResult unknown = run_program({"render", plain, "--vary", "metod=rk4,taylor"});
+  EXPECT_EQ(unknown.status, 3);
+  EXPECT_THAT(unknown.err, HasSubstr("method"));
+}
+
 TEST_F(CompareFilm, CheckPrintsASceneThatReadsBackTheSame) {
   const ProgramResult once = run_program({"check", calm_and_wild("diverge"), "--json"});
   ASSERT_EQ(once.status, 0) << once.err;
