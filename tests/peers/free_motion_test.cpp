@@ -6,7 +6,7 @@
 // panda whip round at 75 rad/s, and rk4's own error at 1 ms reaches 1e-6 and more; there the error must be
 // the method's, which halving the step shows. Robots that hang on nothing drift without gravity, where
 // falling together would hide how they move: every joint starts with 1 rad/s or m/s, the base with a turn of
-// 1 rad/s about its z.
+// 1 rad/s about its z. The human, whose trunk has 0.68 of its mass, is treated like the robots that whip.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -55,9 +55,24 @@ double audit_error(const std::string& name, const Simulation& run) {
   return audit.largest_error / audit.largest_kinetic;
 }
 
+// Energy errors of rk4 fall as h^4 or, where they do not return, as h^5: by 16 to 32 when the step is halved.
+void expect_error_of_order_four(const std::string& name, Simulation run) {
+  const double coarse = audit_error(name, run);
+  if (coarse < 1e-9) return;  // of round-off's size when halved
+  run.step /= 2;
+  const double ratio = coarse / audit_error(name + ", half the step", run);
+  EXPECT_GT(ratio, 10) << name;
+  EXPECT_LT(ratio, 50) << name;
+}
+
 TEST(FreeMotion, OfTheCommittedModelsKeepsTheirEnergy) {
-  for (const std::string& path : committed_models())
-    EXPECT_LT(audit_error(path, free_motion(read_frictionless(path))), kLargestError) << path;
+  for (const std::string& path : committed_models()) {
+    // Its heavy trunk whips the light shank round.
+    if (path.ends_with("humanoid.urdf"))
+      expect_error_of_order_four(path, free_motion(read_frictionless(path)));
+    else
+      EXPECT_LT(audit_error(path, free_motion(read_frictionless(path))), kLargestError) << path;
+  }
 }
 
 TEST(FreeMotion, OfPublicRobotsKeepsTheirEnergy) {
@@ -69,16 +84,6 @@ TEST(FreeMotion, OfPublicRobotsThatHangOnNothingKeepsTheirEnergy) {
   for (const std::string& path : public_robots())
     EXPECT_LT(audit_error(path + ", floating", free_motion(read_frictionless(path, true))), kLargestError)
         << path;
-}
-
-// Energy errors of rk4 fall as h^4 or, where they do not return, as h^5: by 16 to 32 when the step is halved.
-void expect_error_of_order_four(const std::string& name, Simulation run) {
-  const double coarse = audit_error(name, run);
-  if (coarse < 1e-9) return;  // of round-off's size when halved
-  run.step /= 2;
-  const double ratio = coarse / audit_error(name + ", half the step", run);
-  EXPECT_GT(ratio, 10) << name;
-  EXPECT_LT(ratio, 50) << name;
 }
 
 TEST(FreeMotion, ErrorIsTheMethodsOwn) {
