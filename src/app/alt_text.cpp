@@ -36,13 +36,14 @@ std::string torque_words(const Scene& scene) {
   return acts ? "torques (" + text + ")" : "no torques";
 }
 
-std::string motion_words(const PreparedScene& panel) {
+// `seconds`: how long the motion went on.
+std::string motion_words(const PreparedScene& panel, double seconds) {
   const Scene& scene = panel.scene;
   const Chain& chain = panel.simulation.chain;
   const bool starts_at_rest =
       std::all_of(scene.start.qd.begin(), scene.start.qd.end(), [](double qd) { return qd == 0; });
   return "the chain " + chain.name + " with " + std::to_string(chain.nv) +
-         (chain.nv == 1 ? " freedom" : " freedoms") + " moves for " + format_quantity(scene.duration, "s") +
+         (chain.nv == 1 ? " freedom" : " freedoms") + " moves for " + format_significant(seconds, 4) + " s" +
          " under " +
          (chain.gravity.norm() > 0
               ? "gravity of " + format_significant(chain.gravity.norm(), 4) + " m/s^2 and "
@@ -96,18 +97,22 @@ double held_first(const PreparedFilm& film) {
 
 }  // namespace
 
-std::string sentence_of(const PreparedFilm& film) {
-  std::string text = film.scene.title.empty() ? film.scene.name : film.scene.title;
-  if (film.panels.size() == 1) return text + ": " + motion_words(film.panels.front()) + ".";
+std::string sentence_of(const PreparedFilm& film, const Json& audit) {
+  // The audit's title says what the scene's leaves open: when it falls.
+  std::string text = audit.value("title", film.scene.title);
+  if (text.empty()) text = film.scene.name;
+  const double seconds = audit.value("end_time", film.scene.duration);
+  const std::string motion = motion_words(film.panels.front(), seconds);
+  if (film.panels.size() == 1) return text + ": " + motion + ".";
   text += ": " + std::to_string(film.panels.size()) + " panels at one scale (";
   for (std::size_t i = 0; i < film.panels.size(); ++i)
     text += (i > 0 ? "; " : "") + film.panels[i].scene.title;
-  return text + "); in the first, " + motion_words(film.panels.front()) + ".";
+  return text + "); in the first, " + motion + ".";
 }
 
 std::string alt_text(const PreparedFilm& film, const Json& audit) {
   const Scene& scene = film.scene;
-  std::string text = sentence_of(film) + "\n\nScene: " + scene.name +
+  std::string text = sentence_of(film, audit) + "\n\nScene: " + scene.name +
                      "\nDuration: " + format_quantity(audit["film_seconds"].get<double>(), "s") + ", " +
                      std::to_string(audit["frames"].get<int>()) + " frames";
   const double first = scene.hold.first, last = scene.hold.last;

@@ -8,7 +8,7 @@
 namespace chainreel {
 
 // One sentence: what moves, for how long, under what.
-std::string sentence_of(const PreparedFilm& film);
+std::string sentence_of(const PreparedFilm& film, const Json& audit);
 
 // The sentence, scene, duration, units, and what happens when; from the film's audit.
 std::string alt_text(const PreparedFilm& film, const Json& audit);

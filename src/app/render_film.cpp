@@ -276,7 +276,7 @@ Json to_json(const StageSeconds& seconds) {
 }  // namespace
 
 ClipMemory memory_of(const PreparedFilm& film, const Json& audit) {
-  return {film.scene.title, sentence_of(film), scene_text(film.scene), audit};
+  return {film.scene.title, sentence_of(film, audit), scene_text(film.scene), audit};
 }
 
 RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
