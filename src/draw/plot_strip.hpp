@@ -57,7 +57,6 @@ struct PlotAreas {
   Rect scene;
   std::vector<Rect> plots;
 };
-inline constexpr int kMostPlots = 3;
 PlotAreas plot_areas(const Rect& page, int count, PlotPlace place);
 
 }  // namespace chainreel

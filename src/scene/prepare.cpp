@@ -88,11 +88,10 @@ int constraint_rows(const Simulation& simulation) {
 }
 
 std::shared_ptr<const EventSet> events_of(const Scene& scene, const Simulation& simulation,
-                                          const NamedFrames& frames) {
+                                          const NamedFrames& frames, int rows) {
   const Chain& chain = simulation.chain;
   try {
-    return make_events(chain, scene.events, scene.parameters, frames, scene.foot,
-                       constraint_rows(simulation));
+    return make_events(chain, scene.events, scene.parameters, frames, scene.foot, rows);
   } catch (const Error& error) {
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems)
@@ -164,9 +163,9 @@ Simulation prepare(Scene& scene, bool meshes) {
   if (scene.method != "auto") set_method(scene, simulation);
   simulation.limit = limit_policy_of(scene.limit);
   simulation.duration = scene.duration;
-  simulation.events = events_of(scene, simulation, frames);
-  simulation.plots =
-      make_plots(chain, scene.plot, scene.parameters, frames, scene.foot, constraint_rows(simulation));
+  const int rows = constraint_rows(simulation);
+  simulation.events = events_of(scene, simulation, frames, rows);
+  simulation.plots = make_plots(chain, scene.plot, scene.parameters, frames, scene.foot, rows);
   return simulation;
 }
 

@@ -45,17 +45,6 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-Image over(const Image& image, int level) {
-  Image result = image;
-  for (std::size_t i = 0; i < result.bgra.size(); i += 4) {
-    const int a = image.bgra[i + 3];
-    for (std::size_t c = 0; c < 3; ++c)
-      result.bgra[i + c] = std::uint8_t((image.bgra[i + c] * a + level * (255 - a) + 127) / 255);
-    result.bgra[i + 3] = 255;
-  }
-  return result;
-}
-
 std::size_t rows_of(const std::string& text) {
   return std::size_t(std::count(text.begin(), text.end(), '\n'));
 }

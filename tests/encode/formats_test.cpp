@@ -40,18 +40,6 @@ Image floating_disc(int k) {
   return image;
 }
 
-// As a compositing program lays a picture with straight opacity on a grey.
-Image over(const Image& image, int grey) {
-  Image result = image;
-  for (std::size_t i = 0; i < result.bgra.size(); i += 4) {
-    const int a = image.bgra[i + 3];
-    for (std::size_t c = 0; c < 3; ++c)
-      result.bgra[i + c] = std::uint8_t((image.bgra[i + c] * a + grey * (255 - a) + 127) / 255);
-    result.bgra[i + 3] = 255;
-  }
-  return result;
-}
-
 struct FilmCase {
   const char* file;
   VideoSettings settings;

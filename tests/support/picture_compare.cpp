@@ -73,6 +73,17 @@ std::string command_that_updates() {
 
 }  // namespace
 
+Image over(const Image& image, int grey) {
+  Image result = image;
+  for (std::size_t i = 0; i < result.bgra.size(); i += 4) {
+    const int a = image.bgra[i + 3];
+    for (std::size_t c = 0; c < 3; ++c)
+      result.bgra[i + c] = std::uint8_t((image.bgra[i + c] * a + grey * (255 - a) + 127) / 255);
+    result.bgra[i + 3] = 255;
+  }
+  return result;
+}
+
 PictureDifference compare_pictures(const Image& a, const Image& b) {
   PictureDifference result;
   result.same_size = a.width == b.width && a.height == b.height && a.bgra.size() == b.bgra.size();

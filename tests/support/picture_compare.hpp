@@ -20,6 +20,9 @@ struct PictureDifference {
 
 PictureDifference compare_pictures(const Image& a, const Image& b);
 
+// The picture, whose opacity is straight, as a compositing program lays it on a grey.
+Image over(const Image& image, int grey);
+
 struct PictureTolerance {
   int max = 0;
   double mean = 0;
