@@ -20,7 +20,8 @@ const std::vector<std::string>& reading_names() {
 
 const std::vector<std::string>& layout_names() {
   static const std::vector<std::string> names{"scene",       "scene-below", "scene-right",
-                                              "transparent", "compare",     "grid"};
+                                              "transparent", "compare",     "grid",
+                                              "ghost"};
   return names;
 }
 

@@ -1,6 +1,7 @@
 // A scene is a struct written in YAML: key = member name, in this order, defaults here and nowhere else.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -31,6 +32,23 @@ struct Video {
 
 struct Hold {
   double first = 0, last = 0;  // s for which the end frames stand still
+};
+
+// Where the picture is seen from. In the plane a chain is seen along the plane's normal, from infinitely far, as long
+// as neither angle is given; in space from azimuth 35 deg, elevation 20 deg, so far that 30 deg hold the motion.
+struct CameraEntry {
+  std::optional<double> azimuth;    // rad about the vertical; 0: from ahead (+x), 90 deg: from the left (+y)
+  std::optional<double> elevation;  // rad above the horizon
+  std::optional<double> distance;   // m from the middle of the motion; infinity: parallel rays
+  // The part that is shown, m along the camera's right and up: left, bottom, right, top. Absent: fitted to the motion.
+  std::optional<std::array<double, 4>> fit;
+};
+
+// A stretch of the motion that the film shows slower, or faster, than it was.
+struct SlowMotionEntry {
+  std::string event;  // "": `from` and `until` are instants; else seconds from its instants on
+  double from = 0, until = 0;  // s
+  double speed = 1;   // 0.25: four times slower
 };
 
 // How the layer `ellipse` reads the effective mass: see draw/ellipse.hpp.
@@ -67,14 +85,18 @@ struct Scene {
   Accuracy accuracy;                           // of `method: auto`
   std::string expect = "finish";               // or diverge: what the run is to do
   std::vector<std::string> draw{"chain", "trail", "time", "title", "torque_label"};
+  std::string links = "auto";   // as plain bars, or by the model's visual shapes; auto: visual in space
+  std::string mesh_up = "rviz";  // whose up of Collada files: rviz (theirs is not heeded), or file
   EllipseEntry ellipse;
+  CameraEntry camera;
   std::vector<PlotEntry> plot;  // beside or below the scene, at most three
-  std::string layout = "scene";  // of the page: or scene-below, scene-right with plots; compare, grid for panels
+  std::string layout = "scene";  // of the page: or scene-below, scene-right with plots; compare, grid, ghost for panels
   std::vector<Scene>
       compare;            // the panels, each the scene with its changes; empty: the scene is the only one
   std::string theme = "light";  // or dark
   double text_scale = 1;  // for clips used smaller than drawn
   Video video;
+  std::vector<SlowMotionEntry> slow_motion;
   Hold hold;
 
   std::string file;                     // where it was read; not a key

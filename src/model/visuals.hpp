@@ -1,0 +1,34 @@
+// What a model looks like: the <visual> shapes of its links, each on the body that carries it.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/chain.hpp"
+#include "model/read_chain.hpp"
+
+namespace chainreel {
+
+enum class VisualKind { box, cylinder, sphere, mesh };
+
+struct Visual {
+  int body = 0;                                            // index into Chain::bodies; 0: fixed to the world
+  Eigen::Isometry3d X_BV = Eigen::Isometry3d::Identity();  // pose of the shape in its body
+  VisualKind kind = VisualKind::box;
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  // as in UrdfShape, m
+  std::string mesh_file;                           // as found
+  Eigen::Vector3d mesh_scale = Eigen::Vector3d::Ones();
+  std::optional<std::array<std::uint8_t, 4>> color;  // of its <material>, red green blue opacity
+  std::string link;
+  Place place;  // of the <visual>, for errors
+};
+
+// In document order. `chain` was read from the same file with the same options. Throws Error with every
+// material that is named and not defined, every mesh that is not found, ....
+std::vector<Visual> read_visuals(const std::string& path, const Chain& chain, const ModelOptions& options);
+
+}  // namespace chainreel
