@@ -156,7 +156,7 @@ void run_chart(const ChartOptions& options) {
   Measured measured = measure_all(prepared, chosen, options);
   const WorkPrecision data = data_of(prepared, measured, options);
   const Fonts fonts;
-  const ChartLook look = chart_look(options.figure, fonts);
+  const ChartLook look = chart_look(options.figure, prepared.scene, fonts);
   const ChartCost panels[] = {ChartCost::seconds, ChartCost::evaluations};
   const auto files = write_figure(work_precision_chart(data, panels, look), csv_of(options.scene, measured),
                                   options.figure, output, fonts, options.common.force);
@@ -176,7 +176,7 @@ void add_chart_command(CLI::App& app) {
   command->add_option("--runs", options->runs, "of each rung; the median counts")->check(CLI::Range(1, 1000));
   command->add_option("--longest", options->longest, "s: rungs that would take longer are left out")
       ->check(CLI::PositiveNumber);
-  add_figure_options(*command, options->figure, "out/NAME_chart.png");
+  add_figure_options(*command, options->figure, options->common, "out/NAME_chart.png");
   add_common_options(*command, options->common);
   command->footer("Example: chainreel chart assets/scenes/rr_free.yaml -o out/chart.svg");
   command->callback([options] { run_chart(*options); });

@@ -41,6 +41,7 @@ std::vector<std::string> overrides_of(const CommonOptions& options) {
     const auto [name, folder] = parse_package(text);
     overrides.push_back("packages." + name + "=" + Json(folder).dump());  // a JSON text is YAML too
   }
+  add_overrides(options.flags, overrides);
   return overrides;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/scene_flags.hpp"
 #include "model/read_chain.hpp"
 
 namespace chainreel {
@@ -15,6 +16,7 @@ struct CommonOptions {
   std::vector<std::string> set;      // key=value over the scene's keys
   std::vector<std::string> package;  // name=folder for package:// in a model
   std::string base;                  // fixed or floating; "": as the scene says
+  FlagValues flags;                  // keys of the scene as flags, where the command has any
   bool json = false;
   bool quiet = false;
   bool force = false;

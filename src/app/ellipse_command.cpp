@@ -27,8 +27,6 @@ struct EllipseOptions {
   std::string output;
   std::string end_effector;
   std::string title;
-  std::string theme = "light";
-  double text_scale = 1;
   int width = 1920, height = 1080;
   CommonOptions common;
 
@@ -72,19 +70,21 @@ Motion chain_and_poses(const EllipseOptions& options) {
   if (options.model.empty()) throw Error(ExitCode::usage, "which model? Name a .urdf, or a scene by --along");
   ModelOptions model = model_options_of(options.common);
   model.end_effector = options.end_effector;
-  Motion read{read_chain(options.model, model), {}};
+  Motion read{read_chain(options.model, model), {}, theme_of(options.common.flags),
+              text_scale_of(options.common.flags)};
   require_end_effector(read.chain);
   read.poses = gather_poses(read.chain, options.sources);
   return read;
 }
 
-PoseFigureOptions figure_of(const EllipseOptions& options, const GatheredPoses& poses) {
+PoseFigureOptions figure_of(const EllipseOptions& options, const Motion& motion) {
+  const GatheredPoses& poses = motion.poses;
   PoseFigureOptions figure;
   figure.title = options.title;
   figure.width = options.width;
   figure.height = options.height;
-  figure.text_scale = options.text_scale;
-  figure.theme = &theme_named(options.theme);
+  figure.text_scale = motion.text_scale;
+  figure.theme = &theme_named(motion.theme);
   figure.reading = options.read_as();
   figure.layout = !options.layout.empty() ? options.layout : poses.t.empty() ? "grid" : "superposed";
   figure.labels = poses.labels;
@@ -105,19 +105,21 @@ void check_combination(const EllipseOptions& options) {
 void run_ellipse(const EllipseOptions& options) {
   check_combination(options);
   const std::string output = output_of(options);
-  const auto [chain, poses] = chain_and_poses(options);
+  const Motion motion = chain_and_poses(options);
+  const Chain& chain = motion.chain;
+  const GatheredPoses& poses = motion.poses;
   Json numbers;
   if (options.joint_space) {
     const std::array<int, 2> joints = joints_of(chain, options.joints);
     const Fonts fonts;
-    write_picture(draw_joint_space_figure(chain, poses.q, joints, figure_of(options, poses), fonts), options.width,
+    write_picture(draw_joint_space_figure(chain, poses.q, joints, figure_of(options, motion), fonts), options.width,
                   options.height, fonts, output, options.common.force);
     numbers = joint_space_json(chain, poses, joints);
   } else if (output.ends_with(".csv")) {
     write_text_file(output, ellipse_csv(chain, poses, options.read_as()), options.common.force);
   } else {
     const Fonts fonts;
-    write_picture(draw_ellipse_figure(chain, poses.q, figure_of(options, poses), fonts), options.width,
+    write_picture(draw_ellipse_figure(chain, poses.q, figure_of(options, motion), fonts), options.width,
                   options.height, fonts, output, options.common.force);
   }
   if (options.common.json) {
@@ -161,9 +163,7 @@ void add_ellipse_command(CLI::App& app) {
                       "a .png, .svg, .pdf or .csv file (default out/NAME_ellipse.png)");
   command->add_option("--end-effector", options->end_effector, "the link whose mass is felt");
   command->add_option("--title", options->title, "above the figure");
-  command->add_option("--theme", options->theme, "light or dark")->check(CLI::IsMember(theme_names()));
-  command->add_option("--text-scale", options->text_scale, "larger text for small pictures")
-      ->check(CLI::Range(0.5, 3.0));
+  add_scene_flags(*command, options->common.flags, kLookFlags);
   command->add_option("--width", options->width, "pixels")->check(CLI::Range(16, 16384));
   command->add_option("--height", options->height, "pixels")->check(CLI::Range(16, 16384));
   add_common_options(*command, options->common);

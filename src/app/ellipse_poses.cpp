@@ -92,7 +92,7 @@ Motion motion_of(const PoseSources& sources, const CommonOptions& common) {
   require_expected_ends(film, runs);
 
   const Trajectory& run = runs.front();
-  Motion motion{film.panels.front().simulation.chain, {}};
+  Motion motion{film.panels.front().simulation.chain, {}, film.scene.theme, film.scene.text_scale};
   const Chain& chain = motion.chain;
   require_end_effector(chain);
   Workspace ws(chain);

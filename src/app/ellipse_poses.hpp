@@ -33,6 +33,8 @@ GatheredPoses gather_poses(const Chain& chain, const PoseSources& sources);
 struct Motion {
   Chain chain;
   GatheredPoses poses;
+  std::string theme;  // of the page, the scene's
+  double text_scale = 1;
 };
 Motion motion_of(const PoseSources& sources, const CommonOptions& common);
 

@@ -141,7 +141,7 @@ void run_energy(const EnergyOptions& options) {
   }
 
   const Fonts fonts;
-  const ChartLook look = chart_look(options.figure, fonts);
+  const ChartLook look = chart_look(options.figure, prepared.scene, fonts);
   const EnergyChart chart = chart_of(prepared, settings, simulation.duration, runs);
   const auto files = write_figure(energy_chart(chart, look), csv_of(options.scene, runs), options.figure,
                                   output, fonts, options.common.force);
@@ -164,7 +164,7 @@ void add_energy_command(CLI::App& app) {
   command
       ->add_option("--tolerance", options->tolerance, "of adaptive methods (default the scene's, else 1e-9)")
       ->check(CLI::PositiveNumber);
-  add_figure_options(*command, options->figure, "out/NAME_energy.png");
+  add_figure_options(*command, options->figure, options->common, "out/NAME_energy.png");
   add_common_options(*command, options->common);
   command->footer("Example: chainreel energy assets/scenes/rr_free.yaml --until 100s --step 0.01");
   command->callback([options] { run_energy(*options); });

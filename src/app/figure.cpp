@@ -23,19 +23,19 @@ std::string version_text() {
 
 }  // namespace
 
-void add_figure_options(CLI::App& command, FigureOptions& options, const std::string& default_output) {
+void add_figure_options(CLI::App& command, FigureOptions& options, CommonOptions& common,
+                        const std::string& default_output) {
   command.add_option("-o,--output", options.output,
                      "a .png, .svg, .pdf or .csv file (default " + default_output +
                          "); the numbers are "
                          "written as CSV beside the picture");
   command.add_option("--width", options.width, "pixels")->check(CLI::Range(16, 16384));
   command.add_option("--height", options.height, "pixels")->check(CLI::Range(16, 16384));
-  command.add_option("--text-scale", options.text_scale, "larger text for small pictures")
-      ->check(CLI::Range(0.5, 3.0));
+  add_scene_flags(command, common.flags, kLookFlags);
 }
 
-ChartLook chart_look(const FigureOptions& options, const Fonts& fonts) {
-  return {double(options.width) / options.height, options.text_scale, &light_theme(), &fonts};
+ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fonts& fonts) {
+  return {double(options.width) / options.height, scene.text_scale, &theme_named(scene.theme), &fonts};
 }
 
 void check_figure_path(const std::string& path) {

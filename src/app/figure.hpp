@@ -10,21 +10,23 @@
 #include "integrate/method.hpp"
 #include "picture/picture.hpp"
 #include "picture/text.hpp"
+#include "scene/scene.hpp"
 
 namespace chainreel {
 
 struct FigureOptions {
   std::string output;
   int width = 1920, height = 1080;
-  double text_scale = 1;
 };
 
-void add_figure_options(CLI::App& command, FigureOptions& options, const std::string& default_output);
+// With the flags --theme and --text-scale: a chart has the look of its scene unless they say otherwise.
+void add_figure_options(CLI::App& command, FigureOptions& options, CommonOptions& common,
+                        const std::string& default_output);
 
 // Throws Error (usage) unless the ending is .png, .svg, .pdf or .csv.
 void check_figure_path(const std::string& path);
 
-ChartLook chart_look(const FigureOptions& options, const Fonts& fonts);
+ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fonts& fonts);
 
 // The picture as the path's ending says, and the numbers as CSV beside it: out/x.png and out/x.csv. Where the
 // path ends in .csv, the numbers alone. Returns what was written.

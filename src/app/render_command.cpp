@@ -23,16 +23,12 @@ struct RenderOptions {
   std::vector<std::string> scenes;
   std::vector<std::string> outputs;
   std::string at = "0";
-  std::string preset, crf, hold;  // keys of the scene as flags
   std::vector<std::string> vary;
   CommonOptions common;
 };
 
 std::vector<std::string> overrides_of(const RenderOptions& options) {
   std::vector<std::string> overrides = overrides_of(options.common);
-  for (const auto& [key, value] :
-       {std::pair{"video.preset", options.preset}, {"video.crf", options.crf}, {"hold", options.hold}})
-    if (!value.empty()) overrides.push_back(std::string(key) + "=" + value);
   add_comparison(options.vary, overrides);
   return overrides;
 }
@@ -120,11 +116,8 @@ void add_render_command(CLI::App& app) {
       *command, "-o,--output", options->outputs,
       "a .mp4, .webm, .mov, .gif, .apng, .png, .svg, .pdf or .csv file, or NAME_000000.png for a sequence "
       "(repeatable: each frame is drawn once for all), or a folder (default out/NAME.mp4)");
-  command->add_option("--preset", options->preset,
-                      "video.preset: slides, web, overlay, doc, frames or still");
-  command->add_option("--crf", options->crf, "video.crf: quality of films, 0 the best");
-  command->add_option("--hold", options->hold,
-                      "hold: seconds of the end frames, like \"{first: 1, last: 2}\"");
+  for (const std::span<const SceneFlag> flags : {std::span<const SceneFlag>(kOutputFlags), {kLookFlags}, {kPageFlags}})
+    add_scene_flags(*command, options->common.flags, flags);
   command->add_option("--at", options->at, "instant that .png, .svg and .pdf show, in seconds (default 0)");
   add_vary_option(*command, options->vary);
   add_common_options(*command, options->common);

@@ -80,6 +80,8 @@ void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
 void snapshot_model(const SnapshotOptions& options, const std::string& output) {
   ModelOptions model = model_options_of(options.common);
   model.end_effector = options.end_effector;
+  if (!options.common.flags.at("layout").empty())
+    throw Error(ExitCode::usage, "--layout goes with a scene; the poses of a model stand in one picture");
   const Chain chain = read_chain(options.file, model);
   require_end_effector(chain);
   std::vector<std::vector<double>> poses = parse_poses(chain, options.poses, "--pose");
@@ -88,6 +90,8 @@ void snapshot_model(const SnapshotOptions& options, const std::string& output) {
   PoseFigureOptions figure;
   figure.width = options.width > 0 ? options.width : 1920;
   figure.height = options.height > 0 ? options.height : 1080;
+  figure.theme = &theme_named(theme_of(options.common.flags));
+  figure.text_scale = text_scale_of(options.common.flags);
   write_picture(draw_pose_figure(chain, poses, figure, fonts), figure.width, figure.height, fonts, output,
                 options.common.force);
 }
@@ -120,6 +124,8 @@ void add_snapshot_command(CLI::App& app) {
                       "the link that is marked, of a model with several ends");
   command->add_option("--width", options->width, "pixels")->check(CLI::Range(16, 16384));
   command->add_option("--height", options->height, "pixels")->check(CLI::Range(16, 16384));
+  add_scene_flags(*command, options->common.flags, kLookFlags);
+  add_scene_flags(*command, options->common.flags, kPageFlags);
   add_vary_option(*command, options->vary);
   add_common_options(*command, options->common);
   command->footer("Example: chainreel snapshot assets/scenes/rrr_torque.yaml --at 1.2 -o out/rrr.png");

@@ -132,7 +132,7 @@ void draw_map(const StabilityOptions& options, const std::string& output) {
   throw_if_interrupted();
   const Scene scene = read_scene(options.scene, overrides);
   const Fonts fonts;
-  const ChartLook look = chart_look(options.figure, fonts);
+  const ChartLook look = chart_look(options.figure, scene, fonts);
   const auto files = write_figure(stability_map(map_of(scene, cells), look), csv_of(options.scene, cells),
                                   options.figure, output, fonts, options.common.force);
   if (options.common.quiet) return;
@@ -206,7 +206,7 @@ void add_stability_command(CLI::App& app) {
   command->add_option("--y", options->y, "the same, upward");
   command->add_option("--methods", options->methods, "of the table: rk4,taylor,.. (default all)");
   command->add_option("--threads", options->threads, "default: all cores")->check(CLI::Range(1, 256));
-  add_figure_options(*command, options->figure, "out/NAME_stability.png");
+  add_figure_options(*command, options->figure, options->common, "out/NAME_stability.png");
   add_common_options(*command, options->common);
   command->footer(
       "Example: chainreel stability assets/scenes/pp_spring.yaml --set 'torque=[0, -k * y_G]'\n"
