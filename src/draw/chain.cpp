@@ -39,7 +39,7 @@ Point rail_direction(const ChainDrawing& drawing, const Workspace& ws, int body)
   const Joint& joint = drawing.chain.bodies[std::size_t(body)].joint;
   const int parent = drawing.chain.bodies[std::size_t(body)].parent;
   const Vector3d axis = pose_of(ws, parent).linear() * (joint.X_PJ.linear() * joint.axis);
-  return unit(drawing.camera.project_vector(axis));
+  return unit(drawing.camera.project_vector(axis, pose_of(ws, body).translation()));
 }
 
 // A rail without length gets one that only says which way it runs.

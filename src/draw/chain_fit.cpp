@@ -29,7 +29,7 @@ ChainFit::ChainFit(const Chain& chain, const Skeleton& skeleton, const Camera& c
 }
 
 void ChainFit::add_to(int kind, const Vector3d& place) {
-  box_.add(kind, {camera_.right.dot(place), camera_.up.dot(place)});
+  box_.add(kind, camera_.flat(place));
 }
 
 void ChainFit::add(const Vector3d& place, const Room& room) {

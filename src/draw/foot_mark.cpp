@@ -74,7 +74,7 @@ void FootMark::draw_pressure(Picture& picture, const Camera& camera, const Chain
   // A ground cannot pull; false for what is no number, too.
   if (!(push.force.dot(ground_.up) > 0)) return;
   if (!(std::abs(push.place - middle) < kFarthest * (foot_.toe - foot_.heel))) return;
-  const Point force = (kWeightArrow / camera.scale) * camera.project_vector(push.force);
+  const Point force = (kWeightArrow / camera.scale) * camera.project_vector(push.force, camera.focus);
   const bool stands = push.place >= foot_.heel && push.place <= foot_.toe;
   draw_arrow(picture, camera.project(on_ground(push.place)), force,
              {look.theme->constraint, look.marks, !stands, false}, clip);

@@ -126,7 +126,7 @@ FitBox Panel::fit_box(const Camera& view, double marks, bool with_wild) {
   const int axes = marked.add_kind(room_around(axes_ ? axes_->reach() : 0));
   const int com = marked.add_kind(room_around(marks * size::kCenterOfMass / 2));
   const auto add = [&](int kind, const Eigen::Vector3d& place) {
-    marked.add(kind, {view.right.dot(place), view.up.dot(place)});
+    marked.add(kind, view.flat(place));
   };
   if (is_constrained()) {
     const double half = marks * size::kGroundLength / 2;
@@ -226,8 +226,9 @@ void Panel::find_last_inside() {
 void Panel::follow_tip() {
   for (int k = 0; k <= last_; ++k) {
     pose_at(k);
-    tip_.add(run_.trajectory.t[std::size_t(k)], camera_.project(tip_position(run_.chain, *ws_)),
-             camera_.project_vector(frame_velocity(run_.chain, *ws_, run_.chain.end_effector)));
+    const Eigen::Vector3d tip = tip_position(run_.chain, *ws_);
+    tip_.add(run_.trajectory.t[std::size_t(k)], camera_.project(tip),
+             camera_.project_vector(frame_velocity(run_.chain, *ws_, run_.chain.end_effector), tip));
   }
 }
 

@@ -158,7 +158,7 @@ Rect VectorPen::extent(const WorldVector& vector, const Camera& camera) const {
 void VectorPen::add_to(FitBox& box, std::map<int, int>& kinds, const WorldVector& vector,
                        const Camera& camera) const {
   const Rect r = extent(vector, camera);
-  const Point place{camera.right.dot(vector.place), camera.up.dot(vector.place)};
+  const Point place = camera.flat(vector.place);
   const std::array<double, 4> sides{-r.x0, r.x1, -r.y0, r.y1};
   for (int side = 0; side < 4; ++side) {
     const int steps = int(std::ceil(sides[std::size_t(side)] / kRoomStep));

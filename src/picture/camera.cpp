@@ -2,8 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace chainreel {
+namespace {
+
+// Of the way from `focus` to the eye: nearer points have no picture.
+constexpr double kBesideTheEye = 1e-3;
+
+}  // namespace
+
+Point Camera::flat(const Eigen::Vector3d& x) const {
+  const Eigen::Vector3d r = x - focus;
+  const double share = 1 - nearness * toward_viewer.dot(r);
+  if (share < kBesideTheEye) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    return {kNone, kNone};
+  }
+  return {right.dot(r) / share, up.dot(r) / share};
+}
+
+Point Camera::flat_vector(const Eigen::Vector3d& v, const Eigen::Vector3d& x) const {
+  const double share = 1 - nearness * toward_viewer.dot(x - focus);
+  const Point at = flat(x);
+  const double toward = nearness * toward_viewer.dot(v);
+  return {(right.dot(v) + toward * at.x) / share, (up.dot(v) + toward * at.y) / share};
+}
 
 void fit(Camera& camera, const Rect& box_m, const Rect& area, double margin) {
   double width_m = box_m.width() * (1 + 2 * margin);

@@ -1,5 +1,5 @@
-// World to page. Orthographic: a point's page position is its components along `right` and `up`, scaled and
-// shifted.
+// World to page. Parallel rays: a point's page position is its components along `right` and `up`, scaled and
+// shifted. With an eye at a finite distance they grow towards it.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,17 +12,25 @@ struct Camera {
   Eigen::Vector3d right = Eigen::Vector3d::UnitX();
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();
   Eigen::Vector3d toward_viewer = Eigen::Vector3d::UnitZ();  // right x up
-  double scale = 1;                                          // units of H per metre
-  Point origin;                                              // page position of the world's origin
+  Eigen::Vector3d focus = Eigen::Vector3d::Zero();           // the point looked at, m
+  double nearness = 0;                                       // 1/m: of the eye to `focus`; 0: parallel rays
+  double scale = 1;                                          // units of H per metre at `focus`
+  Point origin;                                              // page position of `focus`
 
-  Point project(const Eigen::Vector3d& x) const {
-    return {origin.x + scale * right.dot(x), origin.y + scale * up.dot(x)};
+  // Where the ray to a point meets the plane through `focus`, m along right and up; no numbers for points
+  // beside or behind the eye.
+  Point flat(const Eigen::Vector3d& x) const;
+  // The same of a small vector at `x`: the derivative of flat().
+  Point flat_vector(const Eigen::Vector3d& v, const Eigen::Vector3d& x) const;
+
+  Point project(const Eigen::Vector3d& x) const { return origin + scale * flat(x); }
+  Point project_vector(const Eigen::Vector3d& v, const Eigen::Vector3d& x) const {
+    return scale * flat_vector(v, x);
   }
-  Point project_vector(const Eigen::Vector3d& v) const { return {scale * right.dot(v), scale * up.dot(v)}; }
   double depth(const Eigen::Vector3d& x) const { return toward_viewer.dot(x); }
 };
 
-// Sets scale and origin so that the page-plane box (in metres along right and up) fills `area` with `margin`
+// Sets scale and origin so that the box (in metres as of Camera::flat) fills `area` with `margin`
 // (a fraction of the box's sides) around it. A box without extent gets one metre.
 void fit(Camera& camera, const Rect& box_m, const Rect& area, double margin);
 

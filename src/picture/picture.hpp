@@ -11,27 +11,10 @@
 #include <variant>
 #include <vector>
 
+#include "picture/color.hpp"
+#include "picture/solids.hpp"
+
 namespace chainreel {
-
-struct Color {
-  std::uint8_t r = 0, g = 0, b = 0;
-  double a = 0;  // opacity 0 to 1; 0 draws nothing
-
-  Color faded(double opacity) const { return {r, g, b, a * opacity}; }
-  friend bool operator==(const Color&, const Color&) = default;
-};
-
-// From 0xRRGGBB, opaque unless said.
-constexpr Color color_of(std::uint32_t rgb, double a = 1) {
-  return {std::uint8_t(rgb >> 16), std::uint8_t(rgb >> 8), std::uint8_t(rgb), a};
-}
-
-struct Point {
-  double x = 0, y = 0;
-  friend Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
-  friend Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
-  friend Point operator*(double s, Point a) { return {s * a.x, s * a.y}; }
-};
 
 struct Rect {
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
@@ -115,7 +98,7 @@ struct Cells {
   std::vector<Color> colors;  // nx * ny
 };
 
-using Shape = std::variant<Capsule, Ellipse, Arc, Polygon, Trail, GlyphRun, Cells>;
+using Shape = std::variant<Capsule, Ellipse, Arc, Polygon, Trail, GlyphRun, Cells, Solids>;
 
 struct Item {
   Shape shape;

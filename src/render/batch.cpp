@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/scalar.hpp"
+#include "render/solid_bounds.hpp"
 
 namespace chainreel {
 namespace {
@@ -71,7 +72,7 @@ void Batch::append(Primitive primitive, std::initializer_list<Vector> vectors) {
   const PrimitiveRow& row = kPrimitives[std::size_t(primitive)];
   std::vector<float>& stream = streams_[std::size_t(primitive)];
   if (runs_.empty() || runs_.back().primitive != primitive || runs_.back().clip != clip_ ||
-      primitive == Primitive::cells)
+      primitive == Primitive::cells || primitive == Primitive::solids)
     runs_.push_back({primitive, int(stream.size()) / (4 * row.vectors), 0, clip_});
   for (const Vector& v : vectors) stream.insert(stream.end(), {v.x, v.y, v.z, v.w});
   ++runs_.back().count;
@@ -80,6 +81,7 @@ void Batch::append(Primitive primitive, std::initializer_list<Vector> vectors) {
 void Batch::set(const Picture& picture) {
   runs_.clear();
   cell_sheets_.clear();
+  solids_.clear();
   for (std::vector<float>& stream : streams_) stream.clear();
   for (const Item& item : picture.items) {
     clip_ =
@@ -300,6 +302,17 @@ void Batch::add(const Cells& cells) {
     }
   cell_sheets_.push_back(std::move(sheet));
   append(Primitive::cells, {{low.x, low.y, high.x, high.y}, {double(cells.nx), double(cells.ny)}});
+}
+
+void Batch::add(const Solids& solids) {
+  if (solids.parts.empty() || !(solids.opacity > 0) || !is_drawable(solids)) return;
+  const bool has_line = !solids.is_shadow && solids.outline.a > 0 && solids.outline_width > 0;
+  const double radius = has_line ? std::max(2 * kThinnest, height_ * solids.outline_width) : 0;
+  const double opacity = solids.is_shadow ? solids.opacity * solids.outline.a : solids.opacity;
+  solids_.push_back(&solids);
+  append(Primitive::solids, {{double(clip_.left), double(clip_.top), double(clip_.right), double(clip_.bottom)},
+                             {opacity, radius},
+                             Vector::premultiplied(solids.outline)});
 }
 
 }  // namespace chainreel

@@ -13,21 +13,22 @@
 
 namespace chainreel {
 
-enum class Primitive { capsule, ellipse, arc, polygon, glyph, trail, layer, cells };
+enum class Primitive { capsule, ellipse, arc, polygon, glyph, trail, layer, cells, solids };
 
 struct PrimitiveRow {
   std::string_view name;  // of the shader pair
   int vectors;            // vec4 per instance; their meaning stands at the head of the vertex shader
 };
 
-inline constexpr std::array<PrimitiveRow, 8> kPrimitives = {{{"capsule", 5},
+inline constexpr std::array<PrimitiveRow, 9> kPrimitives = {{{"capsule", 5},
                                                              {"ellipse", 4},
                                                              {"arc", 3},
                                                              {"polygon", 7},
                                                              {"glyph", 3},
                                                              {"trail", 2},
                                                              {"layer", 2},
-                                                             {"cells", 2}}};
+                                                             {"cells", 2},
+                                                             {"solids", 3}}};
 
 // The colours of one Cells as a texture wants them: multiplied by their opacity, top row first.
 struct CellSheet {
@@ -46,13 +47,16 @@ class Batch {
  public:
   Batch(int width, int height, GlyphAtlas& atlas);
 
-  // Replaces what was there. Shapes that are not finite or not on the page are left out.
+  // Replaces what was there. Shapes that are not finite or not on the page are left out. Bodies stay the picture's,
+  // which must live until they are drawn.
   void set(const Picture& picture);
 
   const std::vector<Run>& runs() const { return runs_; }
   const std::vector<float>& instances(Primitive primitive) const { return streams_[std::size_t(primitive)]; }
   // The sheet of each instance of Primitive::cells; each is a run by itself.
   const std::vector<CellSheet>& cell_sheets() const { return cell_sheets_; }
+  // The bodies of each instance of Primitive::solids, which are those of the picture; each is a run by itself.
+  const std::vector<const Solids*>& solids() const { return solids_; }
 
  private:
   struct Vector;
@@ -71,6 +75,7 @@ class Batch {
   void add(const Trail& trail);
   void add(const GlyphRun& run);
   void add(const Cells& cells);
+  void add(const Solids& solids);
 
   int width_, height_;
   GlyphAtlas& atlas_;
@@ -79,6 +84,7 @@ class Batch {
   PixelBox clip_;  // of the shape being added
   std::vector<Run> runs_;
   std::vector<CellSheet> cell_sheets_;
+  std::vector<const Solids*> solids_;
   std::array<std::vector<float>, kPrimitives.size()> streams_;
 };
 

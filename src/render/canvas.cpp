@@ -9,6 +9,7 @@
 #include "render/gl_context.hpp"
 #include "render/gl_objects.hpp"
 #include "render/glyph_atlas.hpp"
+#include "render/solid_layer.hpp"
 
 namespace chainreel {
 namespace {
@@ -59,6 +60,7 @@ struct Canvas::State {
   std::optional<Target> static_layer, trail_layer;  // made when first used
   double static_alpha = 1;                          // of the static layer's background
   std::array<std::optional<PrimitiveProgram>, kPrimitives.size()> programs;
+  std::optional<SolidLayer> solid_layer;
   GlyphAtlas atlas;
   GLuint atlas_texture = 0, cell_texture = 0;
   int atlas_version = 0;
@@ -141,12 +143,27 @@ struct Canvas::State {
     gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
   }
 
+  // Bodies are drawn aside and put down where they are.
+  void draw_solids(const Run& run, const Target& target) {
+    if (!solid_layer) solid_layer.emplace(gl, width, height, largest);
+    const std::optional<PixelBox> box = solid_layer->draw(*batch.solids()[std::size_t(run.first)], run.clip);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
+    if (!box) return;
+    scissor(*box);
+    gl.BindTexture(GL_TEXTURE_2D, solid_layer->texture());
+    program(run.primitive).draw(run.first, run.count);
+  }
+
   void draw_runs(const Target& target) {
     gl.Enable(GL_BLEND);
     for (const Run& run : batch.runs()) {
       scissor(run.clip);
       if (run.primitive == Primitive::trail) {
         draw_trail(run, target);
+        continue;
+      }
+      if (run.primitive == Primitive::solids) {
+        draw_solids(run, target);
         continue;
       }
       if (run.primitive == Primitive::glyph) gl.BindTexture(GL_TEXTURE_2D, atlas_texture);

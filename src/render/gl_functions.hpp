@@ -14,6 +14,7 @@ namespace chainreel {
   X(AttachShader)                 \
   X(BindBuffer)                   \
   X(BindFramebuffer)              \
+  X(BindRenderbuffer)             \
   X(BindTexture)                  \
   X(BindVertexArray)              \
   X(BlendEquation)                \
@@ -29,16 +30,21 @@ namespace chainreel {
   X(DeleteBuffers)                \
   X(DeleteFramebuffers)           \
   X(DeleteProgram)                \
+  X(DeleteRenderbuffers)          \
   X(DeleteShader)                 \
   X(DeleteTextures)               \
   X(DeleteVertexArrays)           \
+  X(DepthMask)                    \
   X(Disable)                      \
   X(DrawArraysInstanced)          \
+  X(DrawElements)                 \
   X(Enable)                       \
   X(EnableVertexAttribArray)      \
+  X(FramebufferRenderbuffer)      \
   X(FramebufferTexture2D)         \
   X(GenBuffers)                   \
   X(GenFramebuffers)              \
+  X(GenRenderbuffers)             \
   X(GenTextures)                  \
   X(GenVertexArrays)              \
   X(GetError)                     \
@@ -52,6 +58,7 @@ namespace chainreel {
   X(LinkProgram)                  \
   X(PixelStorei)                  \
   X(ReadPixels)                   \
+  X(RenderbufferStorage)          \
   X(Scissor)                      \
   X(ShaderSource)                 \
   X(TexImage2D)                   \
@@ -59,6 +66,7 @@ namespace chainreel {
   X(TexSubImage2D)                \
   X(Uniform1i)                    \
   X(Uniform2f)                    \
+  X(Uniform4f)                    \
   X(UseProgram)                   \
   X(VertexAttribDivisor)          \
   X(VertexAttribPointer)          \

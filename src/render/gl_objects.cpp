@@ -93,17 +93,27 @@ void link(const GlFunctions& gl, GLuint program, const std::string& name) {
 
 }  // namespace
 
+GLuint make_program(const GlFunctions& gl, std::string_view name) {
+  const GLuint program = gl.CreateProgram();
+  try {
+    for (const auto& [stage, ending] :
+         {std::pair(GL_VERTEX_SHADER, ".vert"), std::pair(GL_FRAGMENT_SHADER, ".frag")}) {
+      const GLuint shader = compile(gl, GLenum(stage), std::string(name) + ending);
+      gl.AttachShader(program, shader);
+      gl.DeleteShader(shader);  // lives on while attached
+    }
+    link(gl, program, std::string(name));
+  } catch (...) {
+    gl.DeleteProgram(program);
+    throw;
+  }
+  return program;
+}
+
 PrimitiveProgram::PrimitiveProgram(const GlFunctions& gl, std::string_view name, int vectors, int page_width,
                                    int page_height)
     : gl_(gl), vectors_(vectors) {
-  program_ = gl_.CreateProgram();
-  for (const auto& [stage, ending] :
-       {std::pair(GL_VERTEX_SHADER, ".vert"), std::pair(GL_FRAGMENT_SHADER, ".frag")}) {
-    const GLuint shader = compile(gl_, GLenum(stage), std::string(name) + ending);
-    gl_.AttachShader(program_, shader);
-    gl_.DeleteShader(shader);  // lives on while attached
-  }
-  link(gl_, program_, std::string(name));
+  program_ = make_program(gl_, name);
   gl_.UseProgram(program_);
   gl_.Uniform2f(gl_.GetUniformLocation(program_, "page_px"), float(page_width), float(page_height));
 

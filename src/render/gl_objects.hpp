@@ -15,6 +15,9 @@ std::string gl_error_text(GLenum error);
 // failed.
 void check_gl(const GlFunctions& gl, const char* doing);
 
+// The shader pair NAME.vert, NAME.frag as a program.
+GLuint make_program(const GlFunctions& gl, std::string_view name);
+
 // A texture that can be drawn into.
 class Target {
  public:

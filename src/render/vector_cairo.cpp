@@ -14,6 +14,7 @@
 
 #include "core/error.hpp"
 #include "picture/utf8.hpp"
+#include "render/solid_image.hpp"
 
 namespace chainreel {
 namespace {
@@ -71,7 +72,7 @@ class CairoFaces {
 
 class Painter {
  public:
-  Painter(cairo_t* cairo, const Fonts& fonts, double height) : cr_(cairo), scale_(height), faces_(fonts) {
+  Painter(cairo_t* cairo, const Fonts& fonts, double height) : cr_(cairo), fonts_(fonts), scale_(height), faces_(fonts) {
     cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
     cairo_font_options_t* options = cairo_font_options_create();
     cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
@@ -82,6 +83,7 @@ class Painter {
   }
 
   void paint(const Picture& picture) {
+    aspect_ = picture.aspect;
     fill_page(picture.background);
     for (const Item& item : picture.items) {
       if (!is_finite(item.shape)) continue;
@@ -226,6 +228,21 @@ class Painter {
                            clusters.data(), int(clusters.size()), cairo_text_cluster_flags_t(0));
   }
 
+  // A picture in the picture: its light has no vector form.
+  void add(const Solids& solids) {
+    const std::optional<SolidImage> image = solid_image(solids, aspect_, fonts_);
+    if (!image) return;
+    cairo_surface_t* sheet = image_surface(image->pixels);
+    check(cairo_surface_status(sheet), "drawing bodies");
+    cairo_translate(cr_, x(image->place.x0), y(image->place.y1));
+    cairo_scale(cr_, scale_ * image->place.width() / image->pixels.width,
+                scale_ * image->place.height() / image->pixels.height);
+    cairo_set_source_surface(cr_, sheet, 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(cr_), CAIRO_FILTER_GOOD);
+    cairo_paint(cr_);
+    cairo_surface_destroy(sheet);
+  }
+
   void add(const Cells& cells) {
     cairo_surface_t* sheet = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, cells.nx, cells.ny);
     check(cairo_surface_status(sheet), "drawing a map");
@@ -251,7 +268,8 @@ class Painter {
   }
 
   cairo_t* cr_;
-  double scale_;
+  const Fonts& fonts_;
+  double scale_, aspect_ = 1;
   CairoFaces faces_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "picture/utf8.hpp"
+#include "render/solid_bounds.hpp"
 
 namespace chainreel {
 namespace {
@@ -44,6 +45,7 @@ struct Finite {
     return c.nx > 0 && c.ny > 0 && c.colors.size() == std::size_t(c.nx) * std::size_t(c.ny) &&
            good(c.rect.x0 + c.rect.y0) && good(c.rect.x1 + c.rect.y1);
   }
+  bool operator()(const Solids& s) const { return is_drawable(s); }
 };
 
 bool same(Point a, Point b) {

@@ -10,6 +10,7 @@
 #include "core/format.hpp"
 #include "picture/font_subset.hpp"
 #include "picture/utf8.hpp"
+#include "render/solid_image.hpp"
 
 namespace chainreel {
 namespace {
@@ -80,6 +81,7 @@ class SvgWriter {
 
   std::string write(const Picture& picture, const VectorPage& page) {
     const double width = scale_ * picture.aspect;
+    aspect_ = picture.aspect;
     for (std::size_t i = 0; i < picture.clips.size(); ++i) define_clip(i, picture.clips[i]);
     if (picture.background.a > 0)
       body_ += "<rect width=\"" + number(width) + "\" height=\"" + number(scale_) + "\"" +
@@ -210,6 +212,17 @@ class SvgWriter {
              line_text(a.color, a.width, true) + "/>\n";
   }
 
+  // A picture in the picture: its light has no vector form.
+  void add(const Solids& solids) {
+    const std::optional<SolidImage> image = solid_image(solids, aspect_, fonts_);
+    if (!image) return;
+    const Rect& r = image->place;
+    body_ += "<image x=\"" + number(x(r.x0)) + "\" y=\"" + number(y(r.y1)) + "\" width=\"" +
+             number(scale_ * r.width()) + "\" height=\"" + number(scale_ * r.height()) +
+             "\" preserveAspectRatio=\"none\" href=\"data:image/png;base64," + base64(png_text(image->pixels)) +
+             "\"/>\n";
+  }
+
   void add(const Polygon& p) {
     body_ += "<polygon points=\"";
     for (int i = 0; i < p.count; ++i) body_ += (i > 0 ? " " : "") + at(p.corners[std::size_t(i)]);
@@ -288,7 +301,7 @@ class SvgWriter {
   }
 
   const Fonts& fonts_;
-  double scale_;
+  double scale_, aspect_ = 1;
   std::string defs_, body_;
   std::array<std::set<char32_t>, 3> used_;
   int clip_ = -1, fades_ = 0;

@@ -91,6 +91,7 @@ inline bool all_finite(const Picture& picture) {
     bool operator()(const Cells& c) const {
       return is_finite({c.rect.x0, c.rect.y0}) && is_finite({c.rect.x1, c.rect.y1});
     }
+    bool operator()(const Solids& s) const { return is_finite(s.origin) && std::isfinite(s.scale); }
   };
   return std::all_of(picture.items.begin(), picture.items.end(),
                      [](const Item& item) { return std::visit(Finite{}, item.shape); });

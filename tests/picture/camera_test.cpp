@@ -71,8 +71,8 @@ TEST(Camera, ProjectionForgetsDepthAndVectorsForgetTheOrigin) {
   EXPECT_NEAR(near.x, 0.8 + 0.5 * 1, kRoundOff);
   EXPECT_NEAR(near.y, 0.4 + 0.5 * 2, kRoundOff);
   EXPECT_GT(camera.depth({1, -3, 2}), camera.depth({1, 9, 2}));
-  EXPECT_EQ(camera.project_vector({0, 5, 0}).x, 0);
-  EXPECT_EQ(camera.project_vector({0, 5, 0}).y, 0);
+  EXPECT_EQ(camera.project_vector({0, 5, 0}, {0, 0, 0}).x, 0);
+  EXPECT_EQ(camera.project_vector({0, 5, 0}, {0, 0, 0}).y, 0);
 }
 
 TEST(Camera, ABoxLargerThanTheFittedOneLeavesTheArea) {

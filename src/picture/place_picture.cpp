@@ -1,0 +1,114 @@
+#include "picture/place_picture.hpp"
+
+#include <algorithm>
+
+namespace chainreel {
+namespace {
+
+constexpr double kRoundOff = 1e-9;  // a text that just has the smallest size is kept
+
+// One overload a shape: a new shape does not compile before it has its own.
+struct Placer {
+  double scale = 1;
+  Point shift;
+  double thinnest = 0;
+
+  Point operator()(Point p) const { return shift + scale * p; }
+  Rect operator()(const Rect& r) const {
+    const Point low = (*this)(Point{r.x0, r.y0}), high = (*this)(Point{r.x1, r.y1});
+    return {low.x, low.y, high.x, high.y};
+  }
+  // Of lines: none where there was none.
+  double width(double w) const { return w > 0 ? std::max(scale * w, thinnest) : 0; }
+  Paint operator()(Paint paint) const {
+    paint.stroke_width = width(paint.stroke_width);
+    return paint;
+  }
+
+  Capsule operator()(Capsule capsule) const {
+    const bool is_line = capsule.paint.stroke_width == 0;
+    capsule.a = (*this)(capsule.a);
+    capsule.b = (*this)(capsule.b);
+    capsule.radius = is_line ? width(2 * capsule.radius) / 2 : scale * capsule.radius;
+    capsule.paint = (*this)(capsule.paint);
+    return capsule;
+  }
+  Ellipse operator()(Ellipse ellipse) const {
+    ellipse.center = (*this)(ellipse.center);
+    ellipse.u = scale * ellipse.u;
+    ellipse.v = scale * ellipse.v;
+    ellipse.paint = (*this)(ellipse.paint);
+    return ellipse;
+  }
+  Arc operator()(Arc arc) const {
+    arc.center = (*this)(arc.center);
+    arc.radius *= scale;
+    arc.width = width(arc.width);
+    return arc;
+  }
+  Polygon operator()(Polygon polygon) const {
+    for (int i = 0; i < polygon.count; ++i) {
+      Point& corner = polygon.corners[std::size_t(i)];
+      corner = (*this)(corner);
+    }
+    polygon.paint = (*this)(polygon.paint);
+    return polygon;
+  }
+  Trail operator()(Trail trail) const {
+    for (TrailPoint& point : trail.points) {
+      point.p = (*this)(point.p);
+      point.width = width(point.width);
+    }
+    return trail;
+  }
+  GlyphRun operator()(GlyphRun run) const {
+    run.size *= scale;
+    run.origin = (*this)(run.origin);
+    for (Glyph& glyph : run.glyphs) {
+      glyph.x *= scale;
+      glyph.y *= scale;
+    }
+    return run;
+  }
+  Cells operator()(Cells cells) const {
+    cells.rect = (*this)(cells.rect);
+    return cells;
+  }
+  Solids operator()(Solids solids) const {
+    solids.origin = (*this)(solids.origin);
+    solids.scale *= scale;
+    solids.outline_width = solids.is_shadow ? scale * solids.outline_width : width(solids.outline_width);
+    return solids;
+  }
+};
+
+bool is_unreadable(const Shape& shape, double smallest) {
+  const GlyphRun* run = std::get_if<GlyphRun>(&shape);
+  return run != nullptr && run->size < smallest * (1 - kRoundOff);
+}
+
+Rect common_part(const Rect& a, const Rect& b) {
+  const Rect both{std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+  return {both.x0, both.y0, std::max(both.x0, both.x1), std::max(both.y0, both.y1)};
+}
+
+}  // namespace
+
+void place_picture(Picture& target, const Picture& page, const Placing& placing) {
+  const Rect& cell = placing.cell;
+  const double scale = std::min(cell.width() / page.aspect, cell.height());
+  const Point corner{(cell.x0 + cell.x1 - scale * page.aspect) / 2, (cell.y0 + cell.y1 - scale) / 2};
+  const Placer place{scale, corner, placing.thinnest_line};
+  const Rect edges = place(Rect{0, 0, page.aspect, 1});
+
+  const int first_clip = int(target.clips.size());
+  target.clips.push_back(edges);
+  for (const Rect& clip : page.clips) target.clips.push_back(common_part(place(clip), edges));
+  for (const Item& item : page.items) {
+    Item placed{std::visit([&](const auto& shape) -> Shape { return place(shape); }, item.shape),
+                first_clip + 1 + item.clip};
+    if (!is_unreadable(placed.shape, placing.smallest_text)) target.items.push_back(std::move(placed));
+  }
+}
+
+}  // namespace chainreel

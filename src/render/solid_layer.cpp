@@ -1,0 +1,214 @@
+#include "render/solid_layer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "render/gl_objects.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr int kFinePage = 540;  // px of height: smaller pages take more samples a pixel, since they cost less
+constexpr double kDepthMargin = 0.01;
+
+int samples_for(int width, int height, int largest) {
+  const int wanted = height <= kFinePage ? 4 : 2;
+  return std::max(1, std::min(wanted, largest / std::max(width, height)));
+}
+
+}  // namespace
+
+struct SolidLayer::Buffers {
+  const GlFunctions& gl;
+  std::shared_ptr<const TriangleMesh> mesh;  // kept, so that no other mesh gets its place in memory
+  MeshBounds bounds;
+  bool is_translucent;
+  GLuint array = 0, vertices = 0, indices = 0;
+
+  Buffers(const GlFunctions& functions, std::shared_ptr<const TriangleMesh> whole)
+      : gl(functions),
+        mesh(std::move(whole)),
+        bounds(bounds_of(*mesh)),
+        is_translucent(std::any_of(mesh->vertices.begin(), mesh->vertices.end(),
+                                   [](const TriangleMesh::Vertex& v) { return v.color[3] < 255; })) {
+    using Vertex = TriangleMesh::Vertex;
+    for (const std::uint32_t index : mesh->triangles)
+      if (index >= mesh->vertices.size())
+        throw Error(ExitCode::bad_input, "a mesh has triangles between vertices that it does not have");
+    gl.GenVertexArrays(1, &array);
+    gl.GenBuffers(1, &vertices);
+    gl.GenBuffers(1, &indices);
+    gl.BindVertexArray(array);
+    gl.BindBuffer(GL_ARRAY_BUFFER, vertices);
+    gl.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(mesh->vertices.size() * sizeof(Vertex)), mesh->vertices.data(),
+                  GL_STATIC_DRAW);
+    gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices);
+    gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(mesh->triangles.size() * sizeof(std::uint32_t)),
+                  mesh->triangles.data(), GL_STATIC_DRAW);
+    const auto attribute = [&](GLuint location, GLint size, GLenum type, GLboolean normalized,
+                               std::size_t at) {
+      gl.EnableVertexAttribArray(location);
+      gl.VertexAttribPointer(location, size, type, normalized, GLsizei(sizeof(Vertex)),
+                             reinterpret_cast<const void*>(std::uintptr_t(at)));
+    };
+    attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position));
+    attribute(1, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, normal));
+    attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Vertex, color));
+    check_gl(gl, "taking a mesh");
+  }
+  ~Buffers() {
+    gl.DeleteBuffers(1, &indices);
+    gl.DeleteBuffers(1, &vertices);
+    gl.DeleteVertexArrays(1, &array);
+  }
+  Buffers(const Buffers&) = delete;
+  Buffers& operator=(const Buffers&) = delete;
+};
+
+struct SolidLayer::Program {
+  const GlFunctions& gl;
+  GLuint program;
+  std::array<GLint, 3> rows{};
+  GLint page, own_color, depth;
+
+  Program(const GlFunctions& functions, int width, int height)
+      : gl(functions), program(make_program(functions, "solid")) {
+    gl.UseProgram(program);
+    const auto place = [&](const char* name) { return gl.GetUniformLocation(program, name); };
+    gl.Uniform2f(place("page_px"), float(width), float(height));
+    rows = {place("row_x"), place("row_y"), place("row_z")};
+    page = place("page");
+    own_color = place("own_color");
+    depth = place("depth");
+  }
+  ~Program() { gl.DeleteProgram(program); }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+};
+
+struct SolidLayer::Target {
+  chainreel::Target color;
+  const GlFunctions& gl;
+  GLuint depth = 0;
+
+  Target(const GlFunctions& functions, int width, int height)
+      : color(functions, chainreel::Target::Kind::color, width, height), gl(functions) {
+    gl.GenRenderbuffers(1, &depth);
+    gl.BindRenderbuffer(GL_RENDERBUFFER, depth);
+    gl.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width, height);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, color.framebuffer());
+    gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+    check_gl(gl, "making room for bodies");
+    if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+      throw Error(ExitCode::no_renderer, "OpenGL offers no depth for a picture of " + std::to_string(width) +
+                                             "x" + std::to_string(height));
+  }
+  ~Target() { gl.DeleteRenderbuffers(1, &depth); }
+  Target(const Target&) = delete;
+  Target& operator=(const Target&) = delete;
+};
+
+SolidLayer::SolidLayer(const GlFunctions& gl, int width, int height, int largest)
+    : gl_(gl),
+      width_(width),
+      height_(height),
+      samples_(samples_for(width, height, largest)),
+      program_(std::make_unique<Program>(gl, width, height)),
+      target_(std::make_unique<Target>(gl, samples_ * width, samples_ * height)) {}
+
+SolidLayer::~SolidLayer() = default;
+
+GLuint SolidLayer::texture() const {
+  return target_->color.texture();
+}
+
+const SolidLayer::Buffers& SolidLayer::buffers_of(const std::shared_ptr<const TriangleMesh>& mesh) {
+  std::unique_ptr<Buffers>& own = meshes_[mesh.get()];
+  if (!own) own = std::make_unique<Buffers>(gl_, mesh);
+  return *own;
+}
+
+void SolidLayer::draw_part(const Solid& solid, const Buffers& buffers, const Solids& solids,
+                           const SolidBounds& bounds) {
+  for (std::size_t r = 0; r < 3; ++r) {
+    const double* row = &solid.to_view[4 * r];
+    gl_.Uniform4f(program_->rows[r], float(row[0]), float(row[1]), float(row[2]), float(row[3]));
+  }
+  gl_.Uniform4f(program_->page, float(height_ * solids.origin.x), float(height_ * (1 - solids.origin.y)),
+                float(height_ * solids.scale), float(solids.nearness));
+  const std::optional<Color> color = solids.is_shadow ? solids.outline.faded(1) : solid.color;
+  if (color)
+    gl_.Uniform4f(program_->own_color, float(color->r) / 255, float(color->g) / 255, float(color->b) / 255,
+                  float(solids.is_shadow ? 1 : color->a));
+  else
+    gl_.Uniform4f(program_->own_color, 0, 0, 0, -1);
+  // Clip space runs from -1 for the nearest point to 1 for the farthest, before the division by w.
+  const double margin = kDepthMargin * (bounds.nearest - bounds.farthest) + 1e-9;
+  const double near = solids.nearness > 0 ? std::min(bounds.nearest + margin, 0.99 / solids.nearness)
+                                          : bounds.nearest + margin;
+  const double far = bounds.farthest - margin;
+  const double w_near = 1 - near * solids.nearness, w_far = 1 - far * solids.nearness;
+  const double slope = -(w_near + w_far) / (near - far);
+  gl_.Uniform4f(program_->depth, float(slope), float(-w_near - slope * near), solids.is_shadow ? 0.f : 1.f,
+                0);
+  gl_.BindVertexArray(buffers.array);
+  gl_.DrawElements(GL_TRIANGLES, GLsizei(buffers.mesh->triangles.size()), GL_UNSIGNED_INT, nullptr);
+}
+
+std::optional<PixelBox> SolidLayer::draw(const Solids& solids, const PixelBox& clip) {
+  std::vector<const Buffers*> buffers;
+  std::vector<MeshBounds> boxes;
+  for (const Solid& solid : solids.parts) {
+    buffers.push_back(&buffers_of(solid.mesh));
+    boxes.push_back(buffers.back()->bounds);
+  }
+  const std::optional<SolidBounds> bounds = bounds_of(solids, boxes);
+  if (!bounds) return std::nullopt;
+  const auto pixel = [&](double edge, int low, int high) {
+    return int(std::clamp(std::floor(height_ * edge), double(low), double(high)));
+  };
+  const PixelBox box{pixel(bounds->page.x0, clip.left, clip.right),
+                     pixel(1 - bounds->page.y1, clip.top, clip.bottom),
+                     std::min(clip.right, pixel(bounds->page.x1, clip.left, clip.right) + 1),
+                     std::min(clip.bottom, pixel(1 - bounds->page.y0, clip.top, clip.bottom) + 1)};
+  if (box.empty()) return std::nullopt;
+
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, target_->color.framebuffer());
+  gl_.Viewport(0, 0, samples_ * width_, samples_ * height_);
+  // An outline looks for bodies beyond its own pixel.
+  const int beyond = 2 + int(std::ceil(height_ * solids.outline_width));
+  const PixelBox drawn{std::max(0, box.left - beyond), std::max(0, box.top - beyond),
+                       std::min(width_, box.right + beyond), std::min(height_, box.bottom + beyond)};
+  gl_.Scissor(samples_ * drawn.left, samples_ * drawn.top, samples_ * (drawn.right - drawn.left),
+              samples_ * (drawn.bottom - drawn.top));
+  gl_.DepthMask(GL_TRUE);
+  gl_.ClearColor(0, 0, 0, 0);
+  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.UseProgram(program_->program);
+  const auto is_translucent = [&](std::size_t i) {
+    if (solids.is_shadow) return false;
+    return solids.parts[i].color ? solids.parts[i].color->a < 1 : buffers[i]->is_translucent;
+  };
+  // What shines through comes last, farthest first, and hides nothing.
+  std::vector<std::size_t> translucent;
+  for (std::size_t i = 0; i < solids.parts.size(); ++i) {
+    if (is_translucent(i))
+      translucent.push_back(i);
+    else
+      draw_part(solids.parts[i], *buffers[i], solids, *bounds);
+  }
+  std::stable_sort(translucent.begin(), translucent.end(), [&](std::size_t a, std::size_t b) {
+    return solids.parts[a].to_view[11] < solids.parts[b].to_view[11];
+  });
+  gl_.DepthMask(GL_FALSE);
+  for (const std::size_t i : translucent) draw_part(solids.parts[i], *buffers[i], solids, *bounds);
+  gl_.DepthMask(GL_TRUE);
+  gl_.Disable(GL_DEPTH_TEST);
+  gl_.Viewport(0, 0, width_, height_);
+  return box;
+}
+
+}  // namespace chainreel
