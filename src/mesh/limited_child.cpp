@@ -54,22 +54,26 @@ bool write_all(int file, const std::string& text) {
   return true;
 }
 
-std::string read_all(int file) {
+// At most `limit` bytes and a little more.
+std::string read_all(int file, std::size_t limit) {
   std::string text;
-  std::array<char, 4096> buffer;
-  for (;;) {
+  std::array<char, 65536> buffer;  // what a pipe holds
+  while (text.size() <= limit) {
     const ssize_t n = read(file, buffer.data(), buffer.size());
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return text;
+    if (n <= 0) break;
     text.append(buffer.data(), std::size_t(n));
   }
+  return text;
 }
 
 [[noreturn]] void be_the_child(const std::function<std::string()>& work, const ChildLimits& limits,
                                int reply) {
   // The parent's handlers tidy up files that are the parent's.
-  for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGPIPE, SIGXCPU}) signal(number, SIG_DFL);
+  for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGPIPE, SIGXCPU, SIGALRM})
+    signal(number, SIG_DFL);
   apply(limits);
+  alarm(unsigned(limits.seconds));
   int status = kDone;
   try {
     if (!write_all(reply, work())) status = kFailed;
@@ -84,7 +88,7 @@ std::string read_all(int file) {
 std::string trouble_of(int status) {
   if (WIFSIGNALED(status)) {
     const int number = WTERMSIG(status);
-    if (number == SIGXCPU || number == SIGKILL) return "took too long";
+    if (number == SIGXCPU || number == SIGKILL || number == SIGALRM) return "took too long";
     return "ran out of memory or crashed (signal " + std::to_string(number) + ")";
   }
   return WEXITSTATUS(status) == kNoMemory ? "ran out of memory" : "failed";
@@ -111,13 +115,19 @@ ChildResult run_in_limited_child(const std::function<std::string()>& work, const
   close(ends[1]);
 
   ChildResult result;
-  result.reply = read_all(ends[0]);
+  result.reply = read_all(ends[0], limits.reply);
+  const bool is_too_long = result.reply.size() > limits.reply;
+  if (is_too_long) kill(child, SIGKILL);
   close(ends[0]);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   result.finished = WIFEXITED(status) && WEXITSTATUS(status) == kDone;
   if (!result.finished) result.trouble = trouble_of(status);
+  if (is_too_long) {
+    result = {};
+    result.trouble = "sent back too much";
+  }
   return result;
 }
 

@@ -12,6 +12,8 @@ struct ChildLimits {
   std::size_t memory = std::size_t(1)
                        << 30;  // bytes beyond what the program already has; not kept by sanitizer builds
   int cpu_seconds = 20;
+  int seconds = 120;                         // by the clock, for a child that waits and does not work
+  std::size_t reply = std::size_t(1) << 20;  // bytes
 };
 
 struct ChildResult {
@@ -21,7 +23,7 @@ struct ChildResult {
 };
 
 // Runs `work` in a child and hands back the text that it returns (any bytes). An exception inside counts as
-// dying. Throws Error (exit 7) where no process can be made.
+// dying, and so does a longer reply than is allowed. Throws Error (exit 7) where no process can be made.
 ChildResult run_in_limited_child(const std::function<std::string()>& work, const ChildLimits& limits = {});
 
 }  // namespace chainreel

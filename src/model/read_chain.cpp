@@ -1,11 +1,11 @@
 #include "model/read_chain.hpp"
 
-#include "model/package_path.hpp"
 #include "model/planar.hpp"
 #include "model/reduce.hpp"
 #include "model/regularity.hpp"
 #include "model/urdf_file.hpp"
 #include "model/urdf_problems.hpp"
+#include "model/visual_meshes.hpp"
 
 namespace chainreel {
 namespace {
@@ -25,21 +25,6 @@ int end_effector_of(const Chain& chain, const ModelOptions& options, const std::
               "has no link '" + options.end_effector + "' that could be the end effector:" +
                   (near.empty() ? " its last link is '" + names.back() + "'" : near),
               {path});
-}
-
-// Every mesh that can be drawn must be there.
-void require_meshes(const UrdfFile& file, const ModelOptions& options) {
-  FileFinder finder(file.path, options.packages);
-  UrdfProblems problems(file.path);
-  for (const UrdfLink& link : file.links) {
-    for (const UrdfShape& shape : link.visuals) {
-      if (shape.kind != UrdfShapeKind::mesh) continue;
-      const FoundFile& found = finder.find(shape.mesh_file);
-      if (found.path.empty())
-        problems.add(shape.line, missing_mesh_message(link.name, shape.mesh_file, found));
-    }
-  }
-  problems.throw_if_any();
 }
 
 void require_regular(const ReducedModel& model, const UrdfFile& file) {
@@ -73,7 +58,7 @@ Chain chain_of(const UrdfFile& file, const ModelOptions& options) {
 
 Chain read_chain(const std::string& path, const ModelOptions& options) {
   const UrdfFile file = read_urdf_file(path);
-  if (options.meshes) require_meshes(file, options);
+  if (options.meshes) find_visual_meshes(file, options);
   return chain_of(file, options);
 }
 

@@ -42,6 +42,7 @@ class Checker {
       const std::string tag = child->Name();
       if (tag == "link") check_link(*child);
       if (tag == "joint") check_joint(*child);
+      if (tag == "material") check_robot_material(*child);
       if (tag.starts_with("xacro:")) {
         problems_.add(child->GetLineNum(),
                       "<" + tag + "> is a xacro macro: expand the file first with `xacro FILE > model.urdf`");
@@ -166,8 +167,7 @@ class Checker {
     for (XMLElement* element = link.FirstChildElement(tag); element != nullptr;) {
       XMLElement* next = element->NextSiblingElement(tag);
       strip(*element, kShapeTags);
-      // Colours and textures are not read, and urdfdom refuses incomplete ones.
-      while (XMLElement* material = element->FirstChildElement("material")) element->DeleteChild(material);
+      const std::optional<UrdfMaterial> material = take_material(*element, tag, owner);
       XMLElement* geometry = only_child(*element, "geometry", owner);
       if (geometry == nullptr) {
         problems_.add(element->GetLineNum(),
@@ -178,6 +178,7 @@ class Checker {
           check_geometry(*shape, owner);
           shapes.emplace_back();
           shapes.back().origin = numbers_.origin(*element, owner);
+          shapes.back().material = material;
           shapes.back().line = element->GetLineNum();
         } else {
           link.DeleteChild(element);  // a capsule or the like, which was counted as ignored
@@ -186,6 +187,38 @@ class Checker {
       element = next;
     }
     return shapes;
+  }
+
+  // The <material> of a <visual>. All are taken out: urdfdom refuses incomplete ones, and names that only a later
+  // link explains. Those of a <collision> are seen by nobody.
+  std::optional<UrdfMaterial> take_material(XMLElement& shape, const std::string& tag,
+                                            const std::string& owner) {
+    std::optional<UrdfMaterial> material;
+    if (tag == "visual")
+      if (XMLElement* first = only_child(shape, "material", owner)) material = check_material(*first, owner);
+    while (XMLElement* found = shape.FirstChildElement("material")) shape.DeleteChild(found);
+    return material;
+  }
+
+  UrdfMaterial check_material(XMLElement& element, const std::string& owner) {
+    UrdfMaterial material;
+    const char* name = element.Attribute("name");
+    material.name = name == nullptr ? "" : name;
+    material.line = element.GetLineNum();
+    if (XMLElement* color = only_child(element, "color", owner)) material.rgba = numbers_.rgba(*color, owner);
+    if (XMLElement* texture = only_child(element, "texture", owner)) {
+      const char* file = texture->Attribute("filename");
+      material.texture = file == nullptr ? "" : file;
+      if (material.texture.empty())
+        problems_.add(texture->GetLineNum(),
+                      owner + ": <texture> names no file: write <texture filename=\"...\"/>");
+    }
+    return material;
+  }
+
+  void check_robot_material(XMLElement& element) {
+    const std::string name = name_of(element, "material");
+    result_.file.materials.push_back(check_material(element, "material '" + name + "'"));
   }
 
   void check_geometry(XMLElement& shape, const std::string& owner) {

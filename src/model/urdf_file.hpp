@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,15 @@ struct UrdfOrigin {
 
 Eigen::Isometry3d isometry_of(const UrdfOrigin& origin);
 
+// <material>: of a <visual>, or of the robot for all that name it.
+struct UrdfMaterial {
+  std::string name;                           // "" where it has none
+  std::optional<std::array<double, 4>> rgba;  // red green blue opacity, 0 to 1
+  std::string texture;                        // as written, "" where there is none
+  int line = 0;
+  bool says_something() const { return rgba || !texture.empty(); }
+};
+
 enum class UrdfShapeKind { box, cylinder, sphere, mesh };
 
 // One <visual> or <collision>.
@@ -33,6 +43,7 @@ struct UrdfShape {
       Eigen::Vector3d::Zero();  // box: edges; cylinder: radius, radius, length; sphere: radius x 3
   std::string mesh_file;        // as written: package://, file:// or a path
   Eigen::Vector3d mesh_scale = Eigen::Vector3d::Ones();
+  std::optional<UrdfMaterial> material;  // of a <visual>
   int line = 0;
 };
 
@@ -98,6 +109,7 @@ struct UrdfFile {
   std::string name;
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
+  std::vector<UrdfMaterial> materials;  // of the robot
   int root = -1;  // index into links
   std::vector<UrdfIgnoredTag> ignored;
 

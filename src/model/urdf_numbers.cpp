@@ -110,6 +110,29 @@ std::optional<Eigen::Vector3d> UrdfNumbers::three(XMLElement& element, const cha
   return vector;
 }
 
+std::optional<std::array<double, 4>> UrdfNumbers::rgba(XMLElement& color, const std::string& owner) {
+  const char* text = color.Attribute("rgba");
+  const std::vector<std::string_view> words = words_of(text == nullptr ? "" : text);
+  if (words.size() != 4) {
+    problems_.add(color.GetLineNum(),
+                  owner + ": <color> must have four numbers, red green blue and opacity: write rgba=\"0.5 "
+                          "0.5 0.5 1\"");
+    return std::nullopt;
+  }
+  std::array<double, 4> rgba{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto value = parse(words[i], color, "rgba", owner, Range::physical);
+    if (!value) return std::nullopt;
+    rgba[i] = *value;
+    if (*value >= 0 && *value <= 1) continue;
+    problems_.add(color.GetLineNum(), name_of(color, "rgba", owner) + " " + quoted(words[i]) +
+                                          " is not between 0 and 1" +
+                                          (*value > 1 ? ": divide it by 255 if that was meant" : ""));
+    return std::nullopt;
+  }
+  return rgba;
+}
+
 UrdfOrigin UrdfNumbers::origin(XMLElement& element, const std::string& owner) {
   UrdfOrigin origin;
   XMLElement* found = element.FirstChildElement("origin");

@@ -6,6 +6,7 @@
 #include <tinyxml2.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <string>
 
@@ -32,6 +33,8 @@ class UrdfNumbers {
   // Three numbers with white space between them.
   std::optional<Eigen::Vector3d> three(tinyxml2::XMLElement& element, const char* attribute,
                                        const std::string& owner, Need need);
+  // The four of <color rgba>, each from 0 to 1.
+  std::optional<std::array<double, 4>> rgba(tinyxml2::XMLElement& color, const std::string& owner);
   // <origin> inside `element`, zero where it is absent.
   UrdfOrigin origin(tinyxml2::XMLElement& element, const std::string& owner);
 

@@ -1,0 +1,36 @@
+// The one colour of a material.
+#pragma once
+
+#include <assimp/scene.h>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace chainreel {
+
+using ColorBytes = std::array<std::uint8_t, 4>;  // red, green, blue, opacity
+
+ColorBytes bytes_of(const aiColor4D& color);
+
+struct MaterialColor {
+  ColorBytes color{255, 255, 255, 255};
+  bool is_given = false;  // the file says it, or colours for each vertex
+};
+
+class MaterialColors {
+ public:
+  MaterialColors(const aiScene& scene, std::string path) : scene_(scene), path_(std::move(path)) {}
+
+  MaterialColor of(const aiMesh& mesh);
+
+ private:
+  MaterialColor color_of(const aiMaterial& material) const;
+
+  const aiScene& scene_;
+  std::string path_;  // of the mesh file
+  std::map<unsigned, MaterialColor> known_;
+};
+
+}  // namespace chainreel

@@ -1,0 +1,25 @@
+#include "model/visual_meshes.hpp"
+
+#include "model/package_path.hpp"
+#include "model/urdf_problems.hpp"
+
+namespace chainreel {
+
+std::map<std::string, std::string> find_visual_meshes(const UrdfFile& file, const ModelOptions& options) {
+  std::map<std::string, std::string> paths;
+  FileFinder finder(file.path, options.packages);
+  UrdfProblems problems(file.path);
+  for (const UrdfLink& link : file.links) {
+    for (const UrdfShape& shape : link.visuals) {
+      if (shape.kind != UrdfShapeKind::mesh) continue;
+      const FoundFile& found = finder.find(shape.mesh_file);
+      paths[shape.mesh_file] = found.path;
+      if (found.path.empty() && options.meshes)
+        problems.add(shape.line, missing_mesh_message(link.name, shape.mesh_file, found));
+    }
+  }
+  problems.throw_if_any();
+  return paths;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,16 @@
+// Where the meshes lie that a model shows.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "model/read_chain.hpp"
+#include "model/urdf_file.hpp"
+
+namespace chainreel {
+
+// For each mesh of a <visual>, by its name as written, the path where it was found, "" where it was not. With
+// `options.meshes` all must be found: throws Error with every one that is not.
+std::map<std::string, std::string> find_visual_meshes(const UrdfFile& file, const ModelOptions& options);
+
+}  // namespace chainreel

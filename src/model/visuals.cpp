@@ -1,0 +1,110 @@
+#include "model/visuals.hpp"
+
+#include <cmath>
+#include <map>
+#include <unordered_map>
+
+#include "model/package_path.hpp"
+#include "model/urdf_file.hpp"
+#include "model/urdf_problems.hpp"
+#include "model/visual_meshes.hpp"
+
+namespace chainreel {
+namespace {
+
+using Color = std::array<std::uint8_t, 4>;
+
+VisualKind kind_of(UrdfShapeKind kind) {
+  switch (kind) {
+    case UrdfShapeKind::box:
+      return VisualKind::box;
+    case UrdfShapeKind::cylinder:
+      return VisualKind::cylinder;
+    case UrdfShapeKind::sphere:
+      return VisualKind::sphere;
+    case UrdfShapeKind::mesh:
+      return VisualKind::mesh;
+  }
+  return VisualKind::box;
+}
+
+// What materials look like. A name is explained by the robot's <material>, else by the first link that says
+// more than the name; a <visual> that says something itself means that.
+class Materials {
+ public:
+  explicit Materials(const UrdfFile& file) {
+    for (const UrdfMaterial& material : file.materials) remember(material);
+    for (const UrdfLink& link : file.links)
+      for (const UrdfShape& shape : link.visuals)
+        if (shape.material) remember(*shape.material);
+  }
+
+  std::optional<Color> color_of(const UrdfMaterial& material, const std::string& link,
+                                UrdfProblems& problems) {
+    if (material.says_something()) return look_of(material);
+    if (material.name.empty()) return std::nullopt;
+    const auto known = known_.find(material.name);
+    if (known != known_.end()) return look_of(known->second);
+    const std::string near = problems.is_full() ? "" : near_name(material.name, names_);
+    problems.add(material.line, "link '" + link + "' names the material '" + material.name +
+                                    "', which has no colour anywhere:" +
+                                    (near.empty() ? " write <color rgba=\"0.5 0.5 0.5 1\"/> in it" : near));
+    return std::nullopt;
+  }
+
+ private:
+  void remember(const UrdfMaterial& material) {
+    if (material.name.empty() || !material.says_something()) return;
+    if (known_.emplace(material.name, material).second) names_.push_back(material.name);
+  }
+
+  static std::optional<Color> look_of(const UrdfMaterial& material) {
+    if (!material.rgba) return std::nullopt;
+    Color color{};
+    for (std::size_t i = 0; i < 4; ++i) color[i] = std::uint8_t(std::lround(255 * (*material.rgba)[i]));
+    return color;
+  }
+
+  std::unordered_map<std::string, UrdfMaterial> known_;
+  std::vector<std::string> names_;  // in the file's order
+};
+
+}  // namespace
+
+std::vector<Visual> read_visuals(const std::string& path, const Chain& chain, const ModelOptions& options) {
+  const UrdfFile file = read_urdf_file(path);
+  const std::map<std::string, std::string> meshes = find_visual_meshes(file, options);
+  std::unordered_map<std::string, const Frame*> frames;
+  for (const Frame& frame : chain.frames) frames.emplace(frame.name, &frame);
+
+  Materials materials(file);
+  UrdfProblems problems(file.path);
+  std::vector<Visual> visuals;
+  for (const UrdfLink& link : file.links) {
+    const auto frame = frames.find(link.name);
+    if (frame == frames.end()) {
+      problems.add(link.line, "link '" + link.name +
+                                  "' is not in the chain that was read before: has the file "
+                                  "changed meanwhile?");
+      continue;
+    }
+    for (const UrdfShape& shape : link.visuals) {
+      Visual visual;
+      visual.body = frame->second->body;
+      visual.X_BV = frame->second->X_BF * isometry_of(shape.origin);
+      visual.kind = kind_of(shape.kind);
+      visual.size = shape.size;
+      visual.mesh_scale = shape.mesh_scale;
+      visual.link = link.name;
+      visual.place = file.at(shape.line);
+      if (shape.material) visual.color = materials.color_of(*shape.material, link.name, problems);
+      if (visual.kind == VisualKind::mesh) visual.mesh_file = meshes.at(shape.mesh_file);
+      if (visual.kind == VisualKind::mesh && visual.mesh_file.empty()) continue;
+      visuals.push_back(std::move(visual));
+    }
+  }
+  problems.throw_if_any();
+  return visuals;
+}
+
+}  // namespace chainreel
