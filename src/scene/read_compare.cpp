@@ -8,6 +8,7 @@ namespace chainreel {
 namespace {
 
 constexpr std::size_t kFewestPanels = 2, kMostPanels = 12;
+constexpr std::size_t kMostInGhost = 4;  // outlines that one can still tell apart
 
 // Keeps the problems of several readers, those that more than one of them found only once.
 class Collected {
@@ -70,14 +71,19 @@ void read_layout(Fields& fields, Scene& scene) {
   const std::vector<std::string>& known = layout_names();
   if (std::find(known.begin(), known.end(), layout) == known.end())
     fields.problems().add("unknown layout '" + layout + "':" + did_you_mean(layout, known) +
-                              " There are scene, scene-below, scene-right, transparent, compare and grid.",
+                              " There are scene, scene-below, scene-right, transparent, compare, grid and ghost.",
                           place);
-  else if ((layout == "compare" || layout == "grid") != (panels > 1))
+  else if ((layout == "compare" || layout == "grid" || layout == "ghost") != (panels > 1))
     fields.problems().add(panels == 1 ? "layout '" + layout + "' needs `compare:` with its panels"
-                                      : "layout '" + layout + "' shows one panel: take compare or grid",
+                                      : "layout '" + layout + "' shows one panel: take compare, grid or ghost",
                           place);
   else if (layout == "compare" && panels != 2)
     fields.problems().add("layout 'compare' shows two panels, not " + std::to_string(panels) + ": take grid",
+                          place);
+  else if (layout == "ghost" && panels > kMostInGhost)
+    fields.problems().add("layout 'ghost' draws up to " + std::to_string(kMostInGhost) +
+                              " variants over one another, not " + std::to_string(panels) +
+                              ": compare fewer, or take grid",
                           place);
   else
     scene.layout = layout;

@@ -6,6 +6,7 @@
 
 #include "core/format.hpp"
 #include "scene/fields.hpp"
+#include "scene/film_clock.hpp"
 #include "scene/quantity.hpp"
 #include "scene/read_compare.hpp"
 #include "scene/read_constraints.hpp"
@@ -13,12 +14,12 @@
 #include "scene/read_events.hpp"
 #include "scene/read_method.hpp"
 #include "scene/read_plot.hpp"
+#include "scene/read_slow_motion.hpp"
 #include "sim/limits.hpp"
 
 namespace chainreel {
 namespace {
 
-constexpr double kLongestFrameCount = 1e7;
 constexpr int kLargestSide = 16384;  // pixels
 constexpr double kLongestHold = 3600;  // s
 
@@ -244,7 +245,7 @@ void check_numbers(Fields& fields, const Scene& scene) {
   require(fields, "text_scale", scene.text_scale >= 0.5 && scene.text_scale <= 3,
           "'text_scale' must lie between 0.5 and 3");
   const double frames = scene.duration * scene.video.fps.value();
-  require(fields, "duration", frames <= kLongestFrameCount, "'duration' is longer than ten million frames");
+  require(fields, "duration", frames <= kMostFrames, "'duration' is longer than ten million frames");
   require(fields, "duration", frames >= 0.5 || scene.duration <= 0,
           "'duration' is shorter than half a frame: the film would be empty");
 }
@@ -277,6 +278,7 @@ Scene read_document(const YamlDocument& document) {
   read_theme(fields, scene);
   fields.read("text_scale", scene.text_scale);
   read_video(fields, scene);
+  read_slow_motion(fields, scene);
   read_hold(fields, scene);
   check_numbers(fields, scene);
   fields.finish();

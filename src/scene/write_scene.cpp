@@ -153,6 +153,20 @@ std::string plots_text(const std::vector<PlotEntry>& plots) {
   });
 }
 
+std::string slow_motion_text(const std::vector<SlowMotionEntry>& stretches) {
+  return flow_text([&](YAML::Emitter& out) {
+    out << YAML::Flow << YAML::BeginSeq;
+    for (const SlowMotionEntry& one : stretches) {
+      out << YAML::Flow << YAML::BeginMap;
+      if (!one.event.empty()) out << YAML::Key << "event" << YAML::Value << YAML::DoubleQuoted << one.event;
+      for (const auto& [key, value] : {std::pair{"from", one.from}, {"until", one.until}, {"speed", one.speed}})
+        out << YAML::Key << key << YAML::Value << format_shortest(value);
+      out << YAML::EndMap;
+    }
+    out << YAML::EndSeq;
+  });
+}
+
 void add_page(std::vector<SceneEntry>& entries, const Scene& scene) {
   entries.push_back({"draw", flow_text([&](YAML::Emitter& out) {
                        emit_list(out, scene.draw, [](const std::string& name) { return name; });
@@ -167,6 +181,7 @@ void add_page(std::vector<SceneEntry>& entries, const Scene& scene) {
   entries.push_back({"video.fps", rate_text(scene.video.fps)});
   if (!scene.video.preset.empty()) entries.push_back({"video.preset", scene.video.preset});
   if (scene.video.crf) entries.push_back({"video.crf", format_shortest(*scene.video.crf)});
+  if (!scene.slow_motion.empty()) entries.push_back({"slow_motion", slow_motion_text(scene.slow_motion)});
   entries.push_back({"hold.first", format_shortest(scene.hold.first)});
   entries.push_back({"hold.last", format_shortest(scene.hold.last)});
 }

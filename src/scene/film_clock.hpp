@@ -1,0 +1,65 @@
+// Which instant of the motion each frame of a film shows, where `slow_motion:` lets parts of it pass slower or faster.
+//
+// Film time is the integral of dt / speed over the motion, so that the motion's time is a piecewise linear function of
+// it. Frame k shows the instant that its own film time k / fps belongs to: a change of speed takes effect on the first
+// frame at or after it, and nothing is repeated. Without stretches frame k shows k / fps to the last bit.
+#pragma once
+
+#include <vector>
+
+#include "core/frame_rate.hpp"
+#include "scene/scene.hpp"
+#include "sim/trajectory.hpp"
+
+namespace chainreel {
+
+inline constexpr double kSlowest = 0.001, kFastest = 1000;
+inline constexpr double kMostFrames = 1e7;  // of a film: beyond, the scene is a mistake
+
+// A part of the motion at one speed; s.
+struct Stretch {
+  double from = 0, until = 0;
+  double speed = 1;
+  friend bool operator==(const Stretch&, const Stretch&) = default;
+};
+
+class FilmClock {
+ public:
+  FilmClock() = default;  // speed 1 all the time; has no frames
+  // Stretches in any order, as far as they lie within [0, duration]; where they overlap the slowest holds.
+  FilmClock(double duration, FrameRate fps, const std::vector<Stretch>& stretches = {});
+
+  bool is_plain() const { return slow_.empty(); }
+  // What is not shown at speed 1, in the order of time, without overlaps.
+  const std::vector<Stretch>& stretches() const { return slow_; }
+
+  double film_seconds() const { return film_time(duration_); }
+  int frame_count() const;  // round(film_seconds() * fps)
+  double time_of_frame(int k) const;      // of the motion, s
+  std::vector<double> frame_times() const;  // of all frames
+  // The frame that stands when the motion is at t: the last one that is not later.
+  int frame_at(double t) const;
+
+  double film_time(double t) const;  // when the film is at instant t of the motion, s
+  double speed_at(double t) const;   // a stretch holds from its first instant on, and no more at its last
+  // Of the motion between two frames where they are closest, s.
+  double shortest_step() const;
+
+ private:
+  struct Piece {
+    double from = 0, film_from = 0, speed = 1;
+  };
+  const Piece& piece_at(double t) const;
+
+  double duration_ = 0;
+  FrameRate fps_;
+  std::vector<Piece> pieces_{{}};
+  std::vector<Stretch> slow_;
+};
+
+// The entries' stretches of the motion: those of an event once for each of its instants among `hits`, whose run had
+// the events `events`.
+std::vector<Stretch> stretches_of(const std::vector<SlowMotionEntry>& entries,
+                                  const std::vector<EventEntry>& events, const EventHits& hits);
+
+}  // namespace chainreel
