@@ -1,6 +1,7 @@
 #include "mesh/collect_triangles.hpp"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <array>
 #include <bit>

@@ -1,5 +1,6 @@
 #include "mesh/primitives.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "core/scalar.hpp"
