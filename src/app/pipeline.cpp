@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/output_file.hpp"
+#include "draw/view.hpp"
 #include "encode/png.hpp"
 #include "render/canvas.hpp"
 #include "render/vector_cairo.hpp"
@@ -48,11 +49,26 @@ std::vector<PreparedScene> prepare_panels(const std::vector<Scene>& scenes, bool
 
 }  // namespace
 
+namespace {
+
+void load_shapes(PreparedFilm& film) {
+  MeshShelf shelf;
+  for (PreparedScene& panel : film.panels) {
+    const Scene& scene = panel.scene;
+    const Chain& chain = panel.simulation.chain;
+    const BodyLook look{scene.links, scene.mesh_up, is_oblique(chain, film.scene.camera), scene.place_of("links")};
+    panel.shapes = shapes_for(look, scene.model, chain, model_options_of(scene), shelf);
+  }
+}
+
+}  // namespace
+
 PreparedFilm load_film(const std::string& path, const std::vector<std::string>& overrides, bool meshes) {
   PreparedFilm film{read_scene(path, overrides), {}};
   if (film.scene.compare.empty()) {
     film.panels.push_back(prepare_panel(std::move(film.scene), meshes));
     film.scene = film.panels.front().scene;
+    if (meshes) load_shapes(film);
     return film;
   }
   film.panels = prepare_panels(film.scene.compare, meshes);
@@ -60,6 +76,7 @@ PreparedFilm load_film(const std::string& path, const std::vector<std::string>& 
   name_panels(film.scene.compare);
   for (std::size_t i = 0; i < film.panels.size(); ++i)
     film.panels[i].scene.title = film.scene.compare[i].title;
+  if (meshes) load_shapes(film);
   return film;
 }
 
@@ -75,6 +92,28 @@ std::vector<double> frame_times(const Scene& scene) {
   std::vector<double> times(std::size_t(frame_count(scene.duration, scene.video.fps)));
   for (std::size_t k = 0; k < times.size(); ++k) times[k] = frame_time(int(k), scene.video.fps);
   return times;
+}
+
+FilmClock clock_of(const PreparedFilm& film) {
+  const Scene& scene = film.scene;
+  const PreparedScene& first = film.panels.front();
+  EventHits hits;
+  if (std::any_of(scene.slow_motion.begin(), scene.slow_motion.end(),
+                  [](const SlowMotionEntry& entry) { return !entry.event.empty(); })) {
+    hits = simulate(first.simulation, {}, [](double) { return interrupted(); }).events;
+    throw_if_interrupted();
+  }
+  const FilmClock clock(scene.duration, scene.video.fps,
+                        stretches_of(scene.slow_motion, first.scene.events, hits));
+  if (clock.is_plain()) return clock;
+  const double frames = clock.film_seconds() * scene.video.fps.value();
+  if (frames > kMostFrames)
+    throw Error(ExitCode::limit, "slow motion makes a film of more than ten million frames",
+                scene.place_of("slow_motion"));
+  if (frames < 0.5)
+    throw Error(ExitCode::bad_input, "slow motion leaves less than half a frame: the film would be empty",
+                scene.place_of("slow_motion"));
+  return clock;
 }
 
 std::string in_panel(const Scene& scene, std::size_t i, const std::string& message) {
@@ -142,12 +181,13 @@ std::vector<double> shown_times(const std::vector<Trajectory>& runs, const std::
 }  // namespace
 
 Film film_of(const PreparedFilm& film, const std::vector<Trajectory>& runs, const std::vector<double>& times,
-             int frames, const Fonts& fonts) {
+             int frames, const Fonts& fonts, const FilmClock& clock) {
   std::vector<PanelRun> panels;
   for (std::size_t i = 0; i < runs.size(); ++i)
     panels.push_back(
-        {film.panels[i].scene, film.panels[i].simulation.chain, runs[i], &film.panels[i].simulation});
-  return Film(film.scene, panels, shown_times(runs, times, frames), fonts);
+        {film.panels[i].scene, film.panels[i].simulation.chain, runs[i], &film.panels[i].simulation,
+         film.panels[i].shapes.get()});
+  return Film(film.scene, panels, shown_times(runs, times, frames), fonts, clock);
 }
 
 Image rasterise(const Picture& picture, int width, int height, const Fonts& fonts) {

@@ -11,6 +11,7 @@
 #include "draw/film.hpp"
 #include "picture/picture.hpp"
 #include "picture/text.hpp"
+#include "scene/film_clock.hpp"
 #include "scene/scene.hpp"
 #include "sim/audit.hpp"
 #include "sim/choose_method.hpp"
@@ -23,6 +24,7 @@ struct PreparedScene {
   Scene scene;  // the effective one
   Simulation simulation;
   std::optional<Choice> choice;  // of `method: auto`
+  std::shared_ptr<const BodyShapes> shapes;  // drawn instead of bars; none where no picture is asked for
 };
 
 // A scene with its panels: one, itself, unless it compares several.
@@ -38,8 +40,11 @@ PreparedFilm load_film(const std::string& path, const std::vector<std::string>& 
 PreparedScene load_scene(const std::string& path, const std::vector<std::string>& overrides,
                          bool meshes = true);
 
-// 0, 1/fps, 2/fps, ...: one a frame of the film.
+// 0, 1/fps, 2/fps, ...: one a frame of a film without slow motion.
 std::vector<double> frame_times(const Scene& scene);
+// Which instant each frame shows. Slow motion about events follows those of the first panel, whose run is computed for
+// them. Throws Error (exit 7) where the film would be too long, (bad input) where it would be empty.
+FilmClock clock_of(const PreparedFilm& film);
 
 // Throws Error (exit 5, or the signal's) unless the run came to the end that the scene expects: finished or
 // stopped by a limit, or diverged.
@@ -55,7 +60,7 @@ std::string in_panel(const Scene& scene, std::size_t i, const std::string& messa
 std::vector<Trajectory> simulate_film(const PreparedFilm& film, const std::vector<double>& times);
 // The pictures of these runs at the first `frames` of `times`.
 Film film_of(const PreparedFilm& film, const std::vector<Trajectory>& runs, const std::vector<double>& times,
-             int frames, const Fonts& fonts);
+             int frames, const Fonts& fonts, const FilmClock& clock = {});
 
 struct StageSeconds {
   double simulate = 0, draw = 0, render = 0, encode = 0, total = 0;

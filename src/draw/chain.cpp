@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "draw/ground_plane.hpp"
 #include "draw/joints.hpp"
 #include "dynamics/kinematics.hpp"
 
@@ -17,11 +18,20 @@ struct Part {
   Picture shapes;
 };
 
+constexpr double kBodyOutline = 0.0015;  // of body shapes, units of H: their light shows their form
+constexpr double kShadow = 0.16;         // opacity
+
 // Places this far from the page would only overflow in the renderer, in units of H.
 constexpr double kOffPage = 100;
 
 bool is_drawable(Point p) {
   return std::abs(p.x) < kOffPage && std::abs(p.y) < kOffPage;  // false for NaN, too
+}
+
+// Seen along the normal of the plane in which all motion stays.
+bool is_face_on(const ChainDrawing& drawing) {
+  if (!drawing.chain.planar) return false;
+  return std::abs(drawing.camera.toward_viewer.dot(drawing.chain.planar->plane.normal)) > 1 - 1e-9;
 }
 
 Color link_color(const ChainDrawing& drawing, int body) {
@@ -77,7 +87,7 @@ void draw_link(Picture& picture, const ChainDrawing& drawing, const Workspace& w
   if (!is_drawable(a) || !is_drawable(b)) return;
   const ChainLook& look = drawing.look;
   const Color fill = filling(link_color(drawing, link.body), look), ink = toned(look.theme->ink, look);
-  picture.add(Capsule{a, b, look.link_width / 2, {fill, ink, size::kLinkOutline}}, clip);
+  picture.add(Capsule{a, b, look.link_width / 2, {fill, ink, look.stroke * size::kLinkOutline}}, clip);
   if (drawing.skeleton.color[std::size_t(link.body)] < int(look.theme->link.size()) || !look.filled) return;
   // From the fifth link on the colours repeat: a hatch tells them apart.
   const Point along = unit(b - a);
@@ -108,9 +118,28 @@ void draw_foot(Picture& picture, const ChainDrawing& drawing, const Body& body, 
   draw_ground(picture, {foot - half, foot + half}, {0, -1}, look, clip);
 }
 
+void draw_bodies(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip) {
+  Solids solids = solids_seen_by(drawing.camera);
+  add_bodies(solids, *drawing.shapes, ws, drawing.camera);
+  solids.opacity = drawing.look.strength;
+  solids.outline = drawing.look.theme->ink;
+  solids.outline_width = kBodyOutline;
+  picture.add(std::move(solids), clip);
+}
+
 }  // namespace
 
+void draw_shadow(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip) {
+  if (!drawing.shapes) return;
+  Solids shadow = solids_seen_by(drawing.camera);
+  add_shadows(shadow, *drawing.shapes, ws, drawing.camera, up_of(drawing.chain));
+  shadow.is_shadow = true;
+  shadow.outline = drawing.look.theme->ink.faded(kShadow);
+  picture.add(std::move(shadow), clip);
+}
+
 void draw_base(Picture& picture, const ChainDrawing& drawing, int clip) {
+  if (drawing.shapes) return;
   const Workspace at_rest(drawing.chain);  // rails fixed to the world do not ask for a pose
   for (const Body& body : drawing.chain.bodies) {
     if (&body == &drawing.chain.bodies[0] || body.parent != 0) continue;
@@ -124,6 +153,7 @@ void draw_base(Picture& picture, const ChainDrawing& drawing, int clip) {
 }
 
 void draw_rails(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip) {
+  if (drawing.shapes) return;
   for (const Rail& rail : drawing.skeleton.rails) {
     if (drawing.chain.bodies[std::size_t(rail.body)].parent != 0)
       draw_rail_of(picture, drawing, ws, rail, clip);
@@ -132,6 +162,10 @@ void draw_rails(Picture& picture, const ChainDrawing& drawing, const Workspace& 
 }
 
 void draw_links(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip) {
+  if (drawing.shapes) {
+    draw_bodies(picture, drawing, ws, clip);
+    return;
+  }
   const std::vector<LinkSegment>& links = drawing.skeleton.links;
   const std::vector<Rail>& rails = drawing.skeleton.rails;
   std::vector<Part> parts;
@@ -160,7 +194,7 @@ void draw_links(Picture& picture, const ChainDrawing& drawing, const Workspace& 
       ++rail;
     }
   }
-  if (!drawing.chain.planar) {
+  if (!is_face_on(drawing)) {
     std::stable_sort(parts.begin(), parts.end(),
                      [](const Part& a, const Part& b) { return a.depth < b.depth; });
   }

@@ -1,6 +1,7 @@
 // A chain at one instant as shapes: what stands on the ground, links, joints.
 #pragma once
 
+#include "draw/body_shapes.hpp"
 #include "draw/look.hpp"
 
 namespace chainreel {
@@ -11,6 +12,7 @@ struct ChainDrawing {
   const Skeleton& skeleton;
   const Camera& camera;
   ChainLook look;
+  const BodyShapes* shapes = nullptr;  // drawn instead of bars, joints and ground marks
 };
 
 // Ground, fixed parts and the rails fixed to them: the same at every pose.
@@ -18,9 +20,12 @@ void draw_base(Picture& picture, const ChainDrawing& drawing, int clip);
 // The rails that the chain carries, with the carriages below them, after compute_kinematics: what lies under
 // a trail.
 void draw_rails(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip);
-// Links and joints; along the chain, in space from far to near. Without the end effector's disc, which is to
+// Body shapes, or links and joints; along the chain, in space from far to near. Without the end effector's disc, which is to
 // lie above what is drawn later.
 void draw_links(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip);
+
+// What the body shapes throw on the plane through the world's origin under a light right above; nothing without them.
+void draw_shadow(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip);
 
 // The root link's origin, where what is fixed to the world begins.
 Eigen::Vector3d root_place(const Chain& chain);

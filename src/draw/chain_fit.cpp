@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "draw/chain.hpp"
 #include "draw/joints.hpp"
+#include "dynamics/kinematics.hpp"
 
 namespace chainreel {
 
 using Eigen::Vector3d;
 
-ChainFit::ChainFit(const Chain& chain, const Skeleton& skeleton, const Camera& camera, double marks)
-    : chain_(chain), skeleton_(skeleton), camera_(camera), marks_(marks) {
+ChainFit::ChainFit(const Chain& chain, const Skeleton& skeleton, const Camera& camera, double marks,
+                   const BodyShapes* shapes)
+    : chain_(chain), skeleton_(skeleton), camera_(camera), marks_(marks), shapes_(shapes) {
   const double outline = size::kLinkOutline / 2;
   Room link = room_around(size::kLinkWidth / 2 + outline);
   link.metres = kLinkWidthOfShortest * skeleton.shortest_link / 2;
@@ -25,6 +28,7 @@ ChainFit::ChainFit(const Chain& chain, const Skeleton& skeleton, const Camera& c
     const double across = fixed ? rail_ground_depth() : (size::kRailGap + size::kRailLine) / 2;
     rail_.push_back(box_.add_kind(room_around(marks * std::hypot(rail_overhang(rail.carrier), across))));
   }
+  corner_ = box_.add_kind(room_around(outline));
   add_base();
 }
 
@@ -67,7 +71,32 @@ bool ChainFit::add_pose(const Workspace& ws, double limit) {
     add_to(rail_[i], rail_point(chain_, ws, rail.body, rail.upper));
   }
   add_to(tip_, tip_position(chain_, ws));
+  if (shapes_) for_each_corner(*shapes_, ws, [&](const Vector3d& corner) { add_to(corner_, corner); });
   return true;
+}
+
+void extend(Eigen::AlignedBox3d& box, const Chain& chain, const Skeleton& skeleton, const BodyShapes* shapes,
+            const Workspace& ws, double limit) {
+  const auto add = [&](const Vector3d& place) {
+    if (place.norm() <= limit) box.extend(place);
+  };
+  for (const LinkSegment& link : skeleton.links) {
+    add(pose_of(ws, link.body) * link.from);
+    add(pose_of(ws, link.body) * link.to);
+  }
+  add(tip_position(chain, ws));
+  if (shapes) for_each_corner(*shapes, ws, add);
+}
+
+Eigen::AlignedBox3d box_around(const Chain& chain, const Skeleton& skeleton, const BodyShapes* shapes,
+                               Workspace& ws, const std::vector<std::vector<double>>& configurations) {
+  const std::vector<double> at_rest(std::size_t(chain.nv), 0.0);
+  Eigen::AlignedBox3d box;
+  for (const std::vector<double>& q : configurations) {
+    compute_kinematics(chain, ws, q, at_rest);
+    extend(box, chain, skeleton, shapes, ws, std::numeric_limits<double>::max());
+  }
+  return box;
 }
 
 }  // namespace chainreel

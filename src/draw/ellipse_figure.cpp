@@ -67,16 +67,21 @@ void fit_panels(Panels& panels, const std::vector<Pose>& poses, Workspace& ws) {
   constexpr double kNoLimit = std::numeric_limits<double>::max();
   panels.skeleton = skeleton_of(panels.chain);
   for (const Pose& pose : poses) widen_rails(panels.skeleton, panels.chain, pose.q, kNoLimit);
-  panels.camera = view_of(panels.chain);
-  ChainFit fit(panels.chain, panels.skeleton, panels.camera, panels.marks);
+  const BodyShapes* shapes = panels.options.shapes.get();
   const std::vector<double> at_rest(std::size_t(panels.chain.nv), 0.0);
-  for (const Pose& pose : poses) {
-    compute_kinematics(panels.chain, ws, pose.q, at_rest);
-    fit.add_pose(ws, kNoLimit);
-    fit.add(tip_position(panels.chain, ws),
-            room_of(pose.axes, panels.camera, panels.scale, kLongestAxis * panels.side()));
-  }
-  fit_to(panels.camera, fit.box(), panels.scene(0), size::kFitMargin);
+  const auto fit = [&](Camera& seen) {
+    ChainFit places(panels.chain, panels.skeleton, seen, panels.marks, shapes);
+    for (const Pose& pose : poses) {
+      compute_kinematics(panels.chain, ws, pose.q, at_rest);
+      places.add_pose(ws, kNoLimit);
+      places.add(tip_position(panels.chain, ws),
+                 room_of(pose.axes, seen, panels.scale, kLongestAxis * panels.side()));
+    }
+    fit_to(seen, places.box(), panels.scene(0), size::kFitMargin);
+  };
+  const Eigen::AlignedBox3d motion =
+      box_around(panels.chain, panels.skeleton, shapes, ws, configurations_of(poses));
+  panels.camera = aimed_camera(panels.chain, panels.options.camera, motion, panels.scene(0), fit);
 }
 
 void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose& pose, Workspace& ws) {
@@ -93,7 +98,8 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
   const std::vector<double> at_rest(std::size_t(panels.chain.nv), 0.0);
   compute_kinematics(panels.chain, ws, pose.q, at_rest);
   const ChainDrawing drawing{panels.chain, panels.skeleton, camera,
-                             look_of(panels.skeleton, camera, theme, 1, panels.marks)};
+                             look_of(panels.skeleton, camera, theme, 1, panels.marks),
+                             panels.options.shapes.get()};
   const Point tip = camera.project(tip_position(panels.chain, ws));
   draw_base(picture, drawing, clip);
   draw_rails(picture, drawing, ws, clip);
@@ -102,7 +108,7 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
                     {&theme, &panels.fonts, panels.options.text_scale, panels.scale.per_unit(), scene,
                      panels.options.reading},
                     clip);
-  draw_end_effector(picture, tip, drawing.look, clip);
+  if (!drawing.shapes) draw_end_effector(picture, tip, drawing.look, clip);
   if (i < panels.options.labels.size()) {
     const TextStyle style{Face::label, scaled(size::kAxis, panels.options.text_scale), theme.ink, Align::left};
     draw_text(picture,
@@ -131,6 +137,12 @@ std::vector<Pose> poses_of(const Chain& chain, const std::vector<std::vector<dou
     poses.push_back(std::move(pose));
   }
   return poses;
+}
+
+std::vector<std::vector<double>> configurations_of(const std::vector<Pose>& poses) {
+  std::vector<std::vector<double>> configurations;
+  for (const Pose& pose : poses) configurations.push_back(pose.q);
+  return configurations;
 }
 
 EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReading reading) {

@@ -21,6 +21,8 @@ struct Pose {
 std::vector<Pose> poses_of(const Chain& chain, const std::vector<std::vector<double>>& configurations,
                            Workspace& ws);
 
+std::vector<std::vector<double>> configurations_of(const std::vector<Pose>& poses);
+
 // `room`: the shorter side of a panel, units of H.
 EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReading reading);
 

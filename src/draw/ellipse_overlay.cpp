@@ -71,7 +71,7 @@ struct Overlay {
   EllipseScale scale;
 
   Overlay(const Chain& c, const std::vector<Pose>& p, const PoseFigureOptions& o, const Fonts& f)
-      : chain(c), poses(p), options(o), fonts(f), ws(c), skeleton(skeleton_of(c)), camera(view_of(c)) {
+      : chain(c), poses(p), options(o), fonts(f), ws(c), skeleton(skeleton_of(c)), camera(view_of(c, o.camera)) {
     for (const Pose& pose : poses) widen_rails(skeleton, chain, pose.q, kNoLimit);
   }
 
@@ -82,28 +82,36 @@ struct Overlay {
   }
 
   void fit(const Rect& scene) {
-    ChainFit box(chain, skeleton, camera);
+    const Eigen::AlignedBox3d motion =
+        box_around(chain, skeleton, options.shapes.get(), ws, configurations_of(poses));
+    camera = aimed_camera(chain, options.camera, motion, scene,
+                          [&](Camera& seen) { fit_camera(seen, scene); });
+  }
+
+  void fit_camera(Camera& seen, const Rect& scene) {
+    ChainFit box(chain, skeleton, seen, 1, options.shapes.get());
     const double side = std::min(scene.width(), scene.height());
     for (std::size_t i = 0; i < poses.size(); ++i) {
       stand_in(poses[i]);
       const Eigen::Vector3d tip = tip_position(chain, ws);
       if (!is_field()) {
         box.add_pose(ws, kNoLimit);
-        box.add(tip, room_of(poses[i].axes, camera, scale, kLongestAxis * side));
+        box.add(tip, room_of(poses[i].axes, seen, scale, kLongestAxis * side));
         continue;
       }
       if (i == 0) box.add_pose(ws, kNoLimit);
       for (const double sx : {-0.5, 0.5})
         for (const double sy : {-0.5, 0.5})
-          box.add(tip + options.cell * (sx * camera.right + sy * camera.up), {});
+          box.add(tip + options.cell * (sx * seen.right + sy * seen.up), {});
     }
     for (const Eigen::Vector3d& place : options.path) box.add(place, {});
-    fit_to(camera, box.box(), scene, size::kFitMargin);
+    fit_to(seen, box.box(), scene, size::kFitMargin);
   }
 
   void draw_chain(Picture& picture, const Pose& pose, double strength) {
     stand_in(pose);
-    const ChainDrawing drawing{chain, skeleton, camera, look_of(skeleton, camera, *options.theme, strength)};
+    const ChainDrawing drawing{chain, skeleton, camera, look_of(skeleton, camera, *options.theme, strength),
+                               options.shapes.get()};
     draw_rails(picture, drawing, ws, kSceneClip);
     draw_links(picture, drawing, ws, kSceneClip);
   }
@@ -158,14 +166,14 @@ Picture draw_superposed(const Chain& chain, const std::vector<Pose>& poses, cons
   overlay.draw_path(picture);
   draw_base(picture,
             {chain, overlay.skeleton, overlay.camera,
-             look_of(overlay.skeleton, overlay.camera, *options.theme)},
+             look_of(overlay.skeleton, overlay.camera, *options.theme), options.shapes.get()},
             kSceneClip);
   if (overlay.is_field())
     overlay.draw_chain(picture, poses[roundest(poses)], kOnionSkin);
   else
     for (const Pose& pose : poses) overlay.draw_chain(picture, pose, kOnionSkin);
   for (const Pose& pose : poses) overlay.draw_ellipse(picture, pose, room);
-  if (!overlay.is_field())
+  if (!overlay.is_field() && !options.shapes)
     for (const Pose& pose : poses) {
       overlay.stand_in(pose);
       draw_end_effector(picture, overlay.camera.project(tip_position(chain, overlay.ws)),

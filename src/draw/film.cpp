@@ -8,7 +8,6 @@
 #include "draw/legend.hpp"
 #include "draw/metre_bar.hpp"
 #include "draw/torque_label.hpp"
-#include "draw/view.hpp"
 
 namespace chainreel {
 namespace {
@@ -33,41 +32,49 @@ Film::Film(const Scene& scene, const Chain& chain, const Trajectory& trajectory,
     : Film(scene, {{scene, chain, trajectory}}, first_times(trajectory, frames), fonts) {}
 
 Film::Film(const Scene& page, const std::vector<PanelRun>& runs, std::vector<double> times,
-           const Fonts& fonts)
-    : scene_(page), fonts_(fonts), theme_(theme_named(page.theme)), layers_(layers_of(page)), times_(std::move(times)) {
+           const Fonts& fonts, FilmClock clock)
+    : scene_(page), fonts_(fonts), theme_(theme_named(page.theme)), layers_(layers_of(page)), times_(std::move(times)),
+      clock_(std::move(clock)) {
   for (const PanelRun& run : runs) {
     const int samples = std::min(int(times_.size()), run.trajectory.size());
     if (samples < 1)
       throw Error(ExitCode::bad_input, "a film needs at least one frame", page.place_of("duration"));
     const bool freezes = runs.size() > 1 || run.scene.expect == "diverge";
-    panels_.emplace_back(run, layers_, samples, freezes ? WildEnd::frozen : WildEnd::shown, theme_);
+    const bool in_outline = is_ghost_layout(page) && !panels_.empty();
+    panels_.emplace_back(run, in_outline ? outline_layers(layers_) : layers_, samples, freezes ? WildEnd::frozen : WildEnd::shown, theme_);
   }
+  if (is_ghost()) tell_variants_apart();
   if (layers_.ellipse) find_ellipse_scale();
   if (layers_.acting.any()) find_vector_scales();
   if (layers_.mass_matrix) make_mass_maps();
   lay_out();
   fit_camera();
-  if (is_comparison() && layers_.title) place_titles();
+  if (has_cells() && layers_.title) place_titles();
+}
+
+void Film::tell_variants_apart() {
+  const int count = panel_count();
+  panels_.front().set_trail_color(variant_color(0, count, theme_));
+  for (int i = 1; i < count; ++i)
+    panels_[std::size_t(i)].draw_in_outline(variant_color(i, count, theme_), variant_letter(i, count));
 }
 
 void Film::find_ellipse_scale() {
   std::vector<double> bounded;
-  for (const Panel& panel : panels_) {
-    const std::vector<double> own = panel.bounded_semi_axes();
+  for (std::size_t i = 0; i < full_panels(); ++i) {
+    const std::vector<double> own = panels_[i].bounded_semi_axes();
     bounded.insert(bounded.end(), own.begin(), own.end());
   }
   // Panels share the page, so their sides shrink with the root of their number.
   ellipse_scale_ =
-      chainreel::ellipse_scale(std::move(bounded), kEllipseBar / std::sqrt(double(panels_.size())), layers_.reading);
+      chainreel::ellipse_scale(std::move(bounded), kEllipseBar / std::sqrt(double(full_panels())), layers_.reading);
 }
 
 // Runs that diverge do not decide on it, unless all do: their arrows are cut.
 void Film::find_vector_scales() {
-  const bool all_wild =
-      std::all_of(panels_.begin(), panels_.end(), [](const Panel& panel) { return panel.is_wild(); });
   for (Panel& panel : panels_)
-    if (all_wild || !panel.is_wild()) vector_scales_.peaks.add(panel.peaks());
-  vector_scales_.shrink = 1 / std::sqrt(double(panels_.size()));
+    if (is_ghost() || all_wild() || !panel.is_wild()) vector_scales_.peaks.add(panel.peaks());
+  vector_scales_.shrink = 1 / std::sqrt(double(full_panels()));
 }
 
 void Film::make_mass_maps() {
@@ -110,7 +117,11 @@ void Film::lay_out() {
   text.title_place = scene_.place_of("title");
   if (layers_.title) text.title = is_comparison() ? scene_.title : panels_.front().title();
   if (layers_.torque_label) text.torque = common_torque();
-  if (layers_.time) text.longest_time = time_text(times_.back());
+  if (layers_.time) text.longest_time = time_text(times_.back(), time_decimals(clock_));
+  if (!clock_.is_plain() && !is_transparent(scene_)) {
+    speed_.emplace(clock_, scene_.text_scale, theme_, fonts_);
+    text.beside_time = speed_->width();
+  }
   if (layers_.ellipse) {
     text.bar = ellipse_scale_.label();
     text.bar_length = ellipse_scale_.bar_length;
@@ -125,7 +136,11 @@ void Film::lay_out() {
   const double aspect = double(scene_.video.width) / scene_.video.height;
   sheet_ = lay_out_sheet(text, aspect, scene_.text_scale, theme_, fonts_);
   if (!scene_.plot.empty() && !is_transparent(scene_)) lay_out_plots();
-  if (is_comparison() && layers_.title) rows_.title = kRowPitch * scaled(size::kSymbol, scene_.text_scale);
+  if (is_ghost() && layers_.title) {
+    key_.emplace(panels_, sheet_.scene.width(), scene_.text_scale, theme_, fonts_);
+    rows_.title = key_->height();
+  }
+  if (has_cells() && layers_.title) rows_.title = kRowPitch * scaled(size::kSymbol, scene_.text_scale);
   if (std::any_of(panels_.begin(), panels_.end(), [](const Panel& panel) { return panel.may_have_notes(); }))
     rows_.note = kRowPitch * scaled(size::kAxis, scene_.text_scale);
 }
@@ -151,47 +166,9 @@ void Film::lay_out_plots() {
   for (PlotStrip& plot : plots_) plot.narrow_to(x0, x1);
 }
 
-FitBox Film::fit_box(const Camera& view, double marks) {
-  const bool all_wild =
-      std::all_of(panels_.begin(), panels_.end(), [](const Panel& panel) { return panel.is_wild(); });
-  FitBox box;
-  for (Panel& panel : panels_) panel.set_pens(fonts_, vector_scales_, marks);
-  for (Panel& panel : panels_) box.add(panel.fit_box(view, marks, all_wild));
-  return box;
-}
-
-void Film::fit_camera() {
-  Camera camera = view_of(panels_.front().chain());
-  FitBox box = fit_box(camera, 1);
-  const int count = panel_count();
-  cells_ = scene_.layout == "compare" ? panel_cells(sheet_.scene, count, count, rows_)
-                                      : best_cells(sheet_.scene, count, rows_, box);
-  if (cells_.empty())
-    throw Error(ExitCode::bad_input,
-                "the panels get too small on this page: compare fewer, or lower text_scale",
-                scene_.place_of("compare"));
-  const double marks = marks_in(cells_);
-  if (marks != 1) box = fit_box(camera, marks);
-  fit_to(camera, box, cells_.front().scene, size::kFitMargin);
-  if (layers_.mass_matrix && !place_mass_maps(camera)) {
-    set_mass_maps_aside();
-    fit_to(camera, box, cells_.front().scene, size::kFitMargin);
-  }
-  for (std::size_t i = 0; i < panels_.size(); ++i)
-    panels_[i].settle(camera_of(camera, i), cells_[i].scene, int(i), marks);
-}
-
-// All panels see the same part of the world at the same place of their cells.
-Camera Film::camera_of(const Camera& first, std::size_t i) const {
-  const Rect &from = cells_.front().scene, &to = cells_[i].scene;
-  Camera shifted = first;
-  shifted.origin = first.origin + Point{to.x0 - from.x0, to.y0 - from.y0};
-  return shifted;
-}
-
 // In a corner that nothing ever comes into, the same one in all panels; false where there is none.
 bool Film::place_mass_maps(const Camera& camera) {
-  const double inset = is_comparison() ? kBarInset : 0;
+  const double inset = has_cells() ? kBarInset : 0;
   for (const auto& [right, top] : {std::pair{true, true}, {false, true}, {true, false}, {false, false}}) {
     if (layers_.scale_bar && !right && !top) continue;
     bool free = true;
@@ -214,7 +191,7 @@ bool Film::place_mass_maps(const Camera& camera) {
 void Film::set_mass_maps_aside() {
   double width = 0;
   for (const Panel& panel : panels_) width = std::max(width, panel.mass_map()->width());
-  const double inset = is_comparison() ? kBarInset : 0;
+  const double inset = has_cells() ? kBarInset : 0;
   for (std::size_t i = 0; i < panels_.size(); ++i) {
     Rect& cell = cells_[i].scene;
     panels_[i].place_mass_map({cell.x1 - inset - width, cell.y1 - inset - panels_[i].mass_map()->height()});
@@ -274,15 +251,16 @@ void Film::draw_frames(Picture& picture) const {
 
 Picture Film::static_layer() const {
   Picture picture = page();
-  if (is_comparison()) draw_frames(picture);
+  if (has_cells()) draw_frames(picture);
   for (const Panel& panel : panels_) panel.draw_static(picture);
   if (layers_.scale_bar) {
     Sheet first = sheet_;
     first.scene = cells_.front().scene;
-    if (is_comparison()) first.scene.x0 += kBarInset;
+    if (has_cells()) first.scene.x0 += kBarInset;
     draw_metre_bar(picture, camera(), first, fonts_);
   }
   draw_sheet(picture, sheet_);
+  if (key_) key_->draw(picture, cells_.front().title);
   for (const PlacedText& title : titles_) draw_text(picture, title.line, title.anchor);
   for (const PlotStrip& plot : plots_) plot.draw_static(picture);
   return picture;
@@ -292,17 +270,24 @@ Picture Film::frame(int k) const {
   k = std::clamp(k, 0, int(times_.size()) - 1);
   Picture picture = page();
   for (const Panel& panel : panels_) panel.draw_frame(picture, k, ellipse_scale_, fonts_);
+  draw_notes(picture, k);
+  for (const PlotStrip& plot : plots_) plot.draw_frame(picture, times_[std::size_t(k)]);
+  if (layers_.time) draw_time(picture, sheet_, times_[std::size_t(k)], fonts_, time_decimals(clock_));
+  if (speed_) speed_->draw(picture, sheet_.time_left, clock_.speed_at(times_[std::size_t(k)]));
+  return picture;
+}
+
+// Of what the panels show; where they lie over one another each says whose it is.
+void Film::draw_notes(Picture& picture, int k) const {
   for (std::size_t i = 0; i < panels_.size(); ++i) {
-    const std::string note = panels_[i].note(k);
+    std::string note = panels_[i].note(k);
     if (note.empty()) continue;
+    if (is_ghost()) note = panels_[i].title() + ": " + note;
     const Rect& row = cells_[i].note;
     const TextStyle style{Face::label, scaled(size::kAxis, scene_.text_scale), theme_.ink, Align::left};
     draw_text(picture, fit_text(fonts_, note, style, row.width(), scene_.text_scale),
               {row.x0, row.y0 + kDescent * style.size});
   }
-  for (const PlotStrip& plot : plots_) plot.draw_frame(picture, times_[std::size_t(k)]);
-  if (layers_.time) draw_time(picture, sheet_, times_[std::size_t(k)], fonts_);
-  return picture;
 }
 
 }  // namespace chainreel

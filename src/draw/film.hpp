@@ -4,10 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "draw/ghost_layout.hpp"
 #include "draw/panel.hpp"
 #include "draw/panel_grid.hpp"
 #include "draw/plot_strip.hpp"
 #include "draw/sheet.hpp"
+#include "draw/speed_box.hpp"
 
 namespace chainreel {
 
@@ -19,14 +21,17 @@ class Film {
   // that ended early stands still from its last sample on.
   Film(const Scene& scene, const Chain& chain, const Trajectory& trajectory, int frames, const Fonts& fonts);
 
-  // `page` says what all panels share. Sample k of each trajectory is its frame k, shown at times[k]. A run
-  // that diverges is left out of the fit, unless all do; its panel stands still before the chain leaves it,
-  // and says so. That holds for the only panel, too, where the scene expects it to diverge.
-  Film(const Scene& page, const std::vector<PanelRun>& runs, std::vector<double> times, const Fonts& fonts);
+  // `page` says what all panels share. Sample k of each trajectory is its frame k, shown at times[k]; the clock says
+  // how fast the motion passes there. A run that diverges is left out of the fit, unless all do; its panel stands
+  // still before the chain leaves it, and says so. That holds for the only panel, too, where the scene expects it to
+  // diverge.
+  Film(const Scene& page, const std::vector<PanelRun>& runs, std::vector<double> times, const Fonts& fonts,
+       FilmClock clock = {});
 
   Picture static_layer() const;  // background, words, ground marks: what no frame changes
   Picture frame(int k) const;    // everything that moves, painter's order, drawn over the static layer
 
+  const FilmClock& clock() const { return clock_; }
   int frame_count() const { return int(times_.size()); }
   int panel_count() const { return int(panels_.size()); }
   const Panel& panel(int i) const { return panels_[std::size_t(i)]; }
@@ -37,6 +42,10 @@ class Film {
 
  private:
   bool is_comparison() const { return panels_.size() > 1; }
+  bool is_ghost() const { return is_comparison() && is_ghost_layout(scene_); }
+  bool has_cells() const { return is_comparison() && !is_ghost(); }
+  // The others are drawn over them, in outline.
+  std::size_t full_panels() const { return is_ghost() ? 1 : panels_.size(); }
   void find_ellipse_scale();
   void find_vector_scales();
   void make_mass_maps();
@@ -48,10 +57,17 @@ class Film {
   void lay_out();
   void lay_out_plots();
   std::vector<std::string> common_torque() const;
+  bool all_wild() const;
+  Eigen::AlignedBox3d motion() const;
   FitBox fit_box(const Camera& view, double marks);
+  void fit_to_area(Camera& camera, const FitBox& box, const Rect& area) const;
+  void find_ground(const Camera& camera, const Eigen::AlignedBox3d& motion);
   void fit_camera();
   double title_size() const;
+  void tell_variants_apart();
   void place_titles();
+  void find_cells(const FitBox& box);
+  void draw_notes(Picture& picture, int k) const;
   Picture page() const;
   void draw_frames(Picture& picture) const;
 
@@ -60,6 +76,7 @@ class Film {
   const Theme& theme_;
   Layers layers_;
   std::vector<double> times_;
+  FilmClock clock_;
   std::vector<Panel> panels_;
   EllipseScale ellipse_scale_;
   VectorScales vector_scales_;
@@ -68,6 +85,8 @@ class Film {
   std::vector<PanelCell> cells_;
   std::vector<PlotStrip> plots_;
   std::vector<PlacedText> titles_;
+  std::optional<GhostKey> key_;
+  std::optional<SpeedBox> speed_;
 };
 
 }  // namespace chainreel

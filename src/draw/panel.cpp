@@ -30,11 +30,14 @@ Layers layers_of(const Scene& scene) {
   const auto named = [&](const char* name) {
     return std::find(scene.draw.begin(), scene.draw.end(), name) != scene.draw.end();
   };
-  Layers layers{named("chain"),        named("trail"),       named("time"),      named("title"),
-          named("torque_label"), named("ellipse"),     named("scale_bar"), named("legend"),
-          named("ghosts"),       named("frames"),      named("com"),       named("mass_matrix"),
-          named("equation"),
-          {named("torque"), named("velocity"), named("gravity"), named("constraint_force")}};
+  Layers layers;
+  layers.chain = named("chain"), layers.trail = named("trail"), layers.ghosts = named("ghosts");
+  layers.frames = named("frames"), layers.com = named("com"), layers.ellipse = named("ellipse");
+  layers.ground = named("ground"), layers.shadow = named("shadow");
+  layers.acting = {named("torque"), named("velocity"), named("gravity"), named("constraint_force")};
+  layers.mass_matrix = named("mass_matrix"), layers.equation = named("equation"), layers.time = named("time");
+  layers.title = named("title"), layers.torque_label = named("torque_label");
+  layers.scale_bar = named("scale_bar"), layers.legend = named("legend");
   layers.reading = reading_named(scene.ellipse.reading);
   if (is_transparent(scene)) {
     layers.time = layers.title = layers.torque_label = layers.legend = layers.equation = false;
@@ -117,10 +120,20 @@ StripRun Panel::strip_run() const {
   return run;
 }
 
+Eigen::AlignedBox3d Panel::motion(bool with_wild) const {
+  Eigen::AlignedBox3d box;
+  const int samples = counted(with_wild), count = std::min(samples, kScaleSamples);
+  for (int i = 0; i < count; ++i) {
+    pose_at(int(std::int64_t(i) * samples / count));
+    extend(box, run_.chain, skeleton_, run_.shapes, *ws_, limit_);
+  }
+  return box;
+}
+
 FitBox Panel::fit_box(const Camera& view, double marks, bool with_wild) {
   // Where a run begins is in the picture however it ends.
   find_rails(counted(with_wild));
-  ChainFit fit(run_.chain, skeleton_, view, marks);
+  ChainFit fit(run_.chain, skeleton_, view, marks, run_.shapes);
   FitBox marked;  // what is drawn over the chain
   std::map<int, int> kinds;
   const int axes = marked.add_kind(room_around(axes_ ? axes_->reach() : 0));
@@ -157,6 +170,9 @@ bool Panel::covers(const Camera& camera, const Rect& part, int k) const {
     const Eigen::Isometry3d X_WB = pose_of(*ws_, link.body);
     if (near(X_WB * link.from, X_WB * link.to, size::kLinkWidth / 2)) return true;
   }
+  if (run_.shapes)
+    for (const BodyShape& shape : run_.shapes->shapes)
+      if (overlap(widened(part, kAir), extent_of(shape, *ws_, camera))) return true;
   for (const Rail& rail : skeleton_.rails)
     if (near(rail_point(run_.chain, *ws_, rail.body, rail.lower),
              rail_point(run_.chain, *ws_, rail.body, rail.upper), rail_overhang(rail.carrier)))
@@ -233,7 +249,9 @@ void Panel::follow_tip() {
 }
 
 void Panel::draw_static(Picture& picture) const {
-  if (layers_.chain && !foot_) draw_base(picture, {run_.chain, skeleton_, camera_, look_}, clip_);
+  if (outline_) return;
+  if (ground_) draw_ground_plane(picture, *ground_, camera_, theme_, clip_);
+  if (layers_.chain && !foot_) draw_base(picture, {run_.chain, skeleton_, camera_, look_, run_.shapes}, clip_);
   if (layers_.chain && is_constrained())
     draw_closure_pins(picture, {run_.chain, skeleton_, camera_, look_}, run_.simulation->constraints, clip_);
   if (layers_.chain && foot_) foot_->draw_foot(picture, camera_, look_, clip_);
@@ -245,11 +263,12 @@ void Panel::draw_ghosts(Picture& picture, int k) const {
     ChainLook look = look_;
     look.strength = ghost.strength;
     look.filled = ghost.filled;
-    const ChainDrawing drawing{run_.chain, skeleton_, camera_, look};
+    const ChainDrawing drawing{run_.chain, skeleton_, camera_, look, run_.shapes};
     draw_rails(picture, drawing, *ws_, clip_);
     draw_links(picture, drawing, *ws_, clip_);
   }
 }
+
 
 // Marks and vectors, below the end effector's disc.
 void Panel::draw_overlays(Picture& picture, const std::vector<WorldVector>& vectors) const {
@@ -260,12 +279,14 @@ void Panel::draw_overlays(Picture& picture, const std::vector<WorldVector>& vect
 }
 
 void Panel::draw_frame(Picture& picture, int k, const EllipseScale& scale, const Fonts& fonts) const {
+  if (outline_) return draw_outline(picture, k, fonts);
   k = std::clamp(k, 0, last_);
   if (layers_.ghosts) draw_ghosts(picture, k);
   pose_at(k);
   const std::vector<WorldVector> vectors = acting_ ? acting_->at(*ws_, k) : std::vector<WorldVector>{};
-  const Color trail = theme_.curve[std::size_t(std::max(run_.chain.nv, 1) - 1) % theme_.curve.size()];
-  const ChainDrawing drawing{run_.chain, skeleton_, camera_, look_};
+  const Color trail = trail_color_ ? *trail_color_ : theme_.curve[std::size_t(std::max(run_.chain.nv, 1) - 1) % theme_.curve.size()];
+  const ChainDrawing drawing{run_.chain, skeleton_, camera_, look_, run_.shapes};
+  if (layers_.shadow) draw_shadow(picture, drawing, *ws_, clip_);
   if (layers_.chain) draw_rails(picture, drawing, *ws_, clip_);
   if (layers_.trail) draw_trail(picture, tip_, k, trail, clip_);
   if (layers_.chain) draw_links(picture, drawing, *ws_, clip_);
@@ -278,7 +299,7 @@ void Panel::draw_frame(Picture& picture, int k, const EllipseScale& scale, const
   }
   if (layers_.chain && foot_) foot_->draw_pressure(picture, camera_, look_, k, clip_);
   draw_overlays(picture, vectors);
-  if (layers_.chain) draw_end_effector(picture, tip, look_, clip_);
+  if (layers_.chain && !run_.shapes) draw_end_effector(picture, tip, look_, clip_);
   if (!map_) return;
   compute_mass_matrix(run_.chain, *ws_, run_.trajectory.q_at(k));
   map_->draw(picture, ws_->M, map_corner_);

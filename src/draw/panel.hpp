@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "draw/acting.hpp"
+#include "draw/body_shapes.hpp"
 #include "draw/ellipse.hpp"
 #include "draw/fit.hpp"
 #include "draw/foot_mark.hpp"
+#include "draw/ground_plane.hpp"
 #include "draw/look.hpp"
 #include "draw/marks.hpp"
 #include "draw/mass_map.hpp"
@@ -26,6 +28,7 @@ namespace chainreel {
 struct Layers {
   bool chain = false, trail = false, time = false, title = false;
   bool torque_label = false, ellipse = false, scale_bar = false, legend = false;
+  bool ground = false, shadow = false;
   bool ghosts = false, frames = false, com = false, mass_matrix = false, equation = false;
   ActingLayers acting;
   EllipseReading reading = EllipseReading::mass;
@@ -38,6 +41,7 @@ struct PanelRun {
   const Chain& chain;
   const Trajectory& trajectory;
   const Simulation* simulation = nullptr;  // needed where torques or constraint forces are shown
+  const BodyShapes* shapes = nullptr;      // drawn instead of bars
 };
 
 // How a panel treats a run that came to no good end.
@@ -73,8 +77,14 @@ class Panel {
   // What the plots of the page show of the run; its simulation must be there.
   StripRun strip_run() const;
 
+  // A box in W around all places of the run, of wild ones only where `with_wild`.
+  Eigen::AlignedBox3d motion(bool with_wild) const;
+
   // What a camera with these axes must hold. Wild panels widen it only where `with_wild`.
   FitBox fit_box(const Camera& view, double marks, bool with_wild);
+
+  // The ground below the chain, the same for all panels; drawn where the scene names the layer.
+  void set_ground(const GroundPlane& ground) { ground_ = ground; }
 
   // The panel's part of the page, as a camera sees it; `clip` is the index of `scene` in the pictures to
   // come.
@@ -84,6 +94,12 @@ class Panel {
   // it.
   bool leaves_free(const Camera& camera, const Rect& part);
   void place_mass_map(Point corner) { map_corner_ = corner; }
+
+  // Over another panel, without ground and marks; `letter`: at the end of the chain, or "".
+  void draw_in_outline(Color color, const std::string& letter);
+  void set_trail_color(Color color) { trail_color_ = color; }
+  // Rails become as long as the other's, whose motion they show, too.
+  void reach_as_far_as(const Panel& other);
 
   void draw_static(Picture& picture) const;
   // Everything that moves, but words.
@@ -112,6 +128,8 @@ class Panel {
   int counted(bool with_wild) const { return wild_ && !with_wild ? 1 : samples_; }
   bool covers(const Camera& camera, const Rect& part, int k) const;
   void draw_ghosts(Picture& picture, int k) const;
+  void draw_outline(Picture& picture, int k, const Fonts& fonts) const;
+  void draw_letter(Picture& picture, Point tip, Color color, const Fonts& fonts) const;
   void draw_overlays(Picture& picture, const std::vector<WorldVector>& vectors) const;
 
   PanelRun run_;
@@ -129,7 +147,11 @@ class Panel {
   int clip_ = 0;
   ChainLook look_;
   TipPath tip_;
+  std::optional<Color> trail_color_;  // absent: of the last link's curve
+  std::unique_ptr<Theme> outline_;    // of a panel in outline: its ink is the outline's colour
+  std::string letter_;
   std::optional<FootMark> foot_;
+  std::optional<GroundPlane> ground_;
   std::optional<TipMass> tip_mass_;  // where the ellipse is drawn
   std::optional<Acting> acting_;
   std::optional<VectorPen> pen_;

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "draw/chain.hpp"
 #include "draw/chain_fit.hpp"
+#include "draw/ground_plane.hpp"
 #include "draw/joints.hpp"
 #include "draw/sheet.hpp"
 #include "draw/view.hpp"
@@ -31,26 +32,37 @@ Picture draw_pose_figure(const Chain& chain, const std::vector<std::vector<doubl
   Skeleton skeleton = skeleton_of(chain);
   for (const std::vector<double>& q : poses) widen_rails(skeleton, chain, q, kNoLimit);
   Workspace ws(chain);
-  Camera camera = view_of(chain);
-  ChainFit fit(chain, skeleton, camera);
-  for (const std::vector<double>& q : poses) {
-    compute_kinematics(chain, ws, q, at_rest);
-    fit.add_pose(ws, kNoLimit);
-  }
-  fit_to(camera, fit.box(), sheet.scene, size::kFitMargin);
+  const auto stand = [&](const std::vector<double>& q) { compute_kinematics(chain, ws, q, at_rest); };
+  const auto fit = [&](Camera& seen) {
+    ChainFit places(chain, skeleton, seen, 1, options.shapes.get());
+    for (const std::vector<double>& q : poses) {
+      stand(q);
+      places.add_pose(ws, kNoLimit);
+    }
+    fit_to(seen, places.box(), sheet.scene, size::kFitMargin);
+  };
+  const Eigen::AlignedBox3d motion = box_around(chain, skeleton, options.shapes.get(), ws, poses);
+  const Camera camera = aimed_camera(chain, options.camera, motion, sheet.scene, fit);
 
   Picture picture;
   picture.aspect = sheet.aspect;
   picture.background = options.theme->background;
   picture.clips = {sheet.scene};
-  draw_base(picture, {chain, skeleton, camera, look_of(skeleton, camera, *options.theme)}, kSceneClip);
+  const auto ground = ground_under(motion, up_of(chain));
+  if (ground && is_oblique(chain, options.camera) && camera.toward_viewer.dot(ground->up) >= 0)
+    draw_ground_plane(picture, *ground, camera, *options.theme, kSceneClip);
+  const auto drawing = [&](double strength) {
+    return ChainDrawing{chain, skeleton, camera, look_of(skeleton, camera, *options.theme, strength),
+                        options.shapes.get()};
+  };
+  draw_base(picture, drawing(1), kSceneClip);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const double strength = i + 1 < poses.size() ? kOnionSkin : 1;
-    const ChainLook look = look_of(skeleton, camera, *options.theme, strength);
-    compute_kinematics(chain, ws, poses[i], at_rest);
-    draw_rails(picture, {chain, skeleton, camera, look}, ws, kSceneClip);
-    draw_links(picture, {chain, skeleton, camera, look}, ws, kSceneClip);
-    draw_end_effector(picture, camera.project(tip_position(chain, ws)), look, kSceneClip);
+    stand(poses[i]);
+    draw_rails(picture, drawing(strength), ws, kSceneClip);
+    draw_links(picture, drawing(strength), ws, kSceneClip);
+    if (options.shapes) continue;
+    draw_end_effector(picture, camera.project(tip_position(chain, ws)), drawing(strength).look, kSceneClip);
   }
   draw_sheet(picture, sheet);
   return picture;

@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "draw/body_shapes.hpp"
 #include "draw/ellipse.hpp"
 #include "model/chain.hpp"
 #include "picture/text.hpp"
 #include "picture/theme.hpp"
+#include "scene/scene.hpp"
 
 namespace chainreel {
 
@@ -18,6 +20,8 @@ struct PoseFigureOptions {
   int height = 1080;
   double text_scale = 1;
   const Theme* theme = &light_theme();
+  CameraEntry camera;
+  std::shared_ptr<const BodyShapes> shapes;  // drawn instead of bars
 
   // Of figures with ellipses.
   EllipseReading reading = EllipseReading::mass;

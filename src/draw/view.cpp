@@ -1,7 +1,11 @@
 #include "draw/view.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
 
 namespace chainreel {
 namespace {
@@ -10,6 +14,9 @@ using Eigen::Vector3d;
 
 constexpr double kAzimuth = 35 * std::numbers::pi / 180;
 constexpr double kElevation = 20 * std::numbers::pi / 180;
+constexpr double kFieldOfView = 30 * std::numbers::pi / 180;  // from the lower to the upper edge of the scene
+constexpr int kEyePasses = 6;   // scale and distance depend on one another; each pass leaves a tenth or so
+constexpr double kClear = 1.5;  // the eye keeps this many times the way to the nearest place
 // Unit vectors whose part in the plane is shorter than this count as normal to it: far above round-off of the
 // axes of a file, far below an angle that anyone draws.
 constexpr double kNegligible = 1e-6;
@@ -56,16 +63,81 @@ Camera planar_view(const Chain& chain) {
   return camera;
 }
 
-}  // namespace
-
-Camera view_of(const Chain& chain) {
+// Azimuth 0, elevation 0: the plane's own view, or x to the right and z up.
+Camera front_view(const Chain& chain) {
   if (chain.planar) return planar_view(chain);
   Camera camera;
-  const double ca = std::cos(kAzimuth), sa = std::sin(kAzimuth);
-  const double ce = std::cos(kElevation), se = std::sin(kElevation);
-  camera.toward_viewer = {ce * sa, -ce * ca, se};
-  camera.right = {ca, sa, 0};
+  camera.right = Vector3d::UnitX();
+  camera.up = Vector3d::UnitZ();
+  camera.toward_viewer = -Vector3d::UnitY();
+  return camera;
+}
+
+}  // namespace
+
+bool is_oblique(const Chain& chain, const CameraEntry& entry) {
+  return !chain.planar || entry.azimuth || entry.elevation;
+}
+
+bool has_eye(const Chain& chain, const CameraEntry& entry) {
+  return entry.distance ? std::isfinite(*entry.distance) : is_oblique(chain, entry);
+}
+
+Camera view_of(const Chain& chain, const CameraEntry& entry) {
+  Camera camera = front_view(chain);
+  if (!is_oblique(chain, entry)) return camera;
+  const double azimuth = entry.azimuth.value_or(chain.planar ? 0 : kAzimuth);
+  const double elevation = entry.elevation.value_or(chain.planar ? 0 : kElevation);
+  const double ca = std::cos(azimuth), sa = std::sin(azimuth);
+  const double ce = std::cos(elevation), se = std::sin(elevation);
+  const Vector3d right = camera.right, up = camera.up, ahead = camera.toward_viewer;
+  camera.toward_viewer = ce * ca * ahead + ce * sa * right + se * up;
+  camera.right = ca * right - sa * ahead;
   camera.up = camera.toward_viewer.cross(camera.right);
+  return camera;
+}
+
+void place_eye(Camera& camera, const Eigen::AlignedBox3d& motion, const CameraEntry& entry, double height,
+               const std::function<void(Camera&)>& fit, const Place& place) {
+  if (motion.isEmpty()) return;
+  camera.focus = motion.center();
+  double nearest = 0;  // m before the focus
+  for (int i = 0; i < 8; ++i) {
+    const Vector3d corner = motion.corner(Eigen::AlignedBox3d::CornerType(i));
+    nearest = std::max(nearest, camera.toward_viewer.dot(corner - camera.focus));
+  }
+  if (entry.distance && *entry.distance <= nearest)
+    throw Error(ExitCode::bad_input,
+                "'camera.distance' puts the eye among the bodies: more than " +
+                    format_significant(nearest, 2) + " m are needed",
+                place);
+  for (int pass = 0; pass < kEyePasses; ++pass) {
+    fit(camera);
+    const double seen = height / camera.scale / 2;  // m above and below the focus
+    const double fitting = std::max(seen / std::tan(kFieldOfView / 2), kClear * nearest);
+    camera.nearness = 1 / entry.distance.value_or(fitting);
+  }
+  fit(camera);
+}
+
+bool fit_as_told(Camera& camera, const CameraEntry& entry, const Rect& area) {
+  if (!entry.fit) return false;
+  const auto& [left, bottom, right, top] = *entry.fit;
+  const double x = camera.right.dot(camera.focus), y = camera.up.dot(camera.focus);
+  fit(camera, {left - x, bottom - y, right - x, top - y}, area, 0);
+  return true;
+}
+
+Camera aimed_camera(const Chain& chain, const CameraEntry& entry, const Eigen::AlignedBox3d& motion,
+                    const Rect& area, const std::function<void(Camera&)>& fit) {
+  Camera camera = view_of(chain, entry);
+  const auto fit_or_obey = [&](Camera& seen) {
+    if (!fit_as_told(seen, entry, area)) fit(seen);
+  };
+  if (has_eye(chain, entry))
+    place_eye(camera, motion, entry, area.height(), fit_or_obey, {});
+  else
+    fit_or_obey(camera);
   return camera;
 }
 

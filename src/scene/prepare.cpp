@@ -132,13 +132,18 @@ void set_method(Scene& scene, Simulation& simulation) {
 
 }  // namespace
 
-Simulation prepare(Scene& scene, bool meshes) {
+ModelOptions model_options_of(const Scene& scene) {
   ModelOptions options;
   options.gravity = scene.gravity;
   options.floating_base = scene.base == "floating";
   options.friction = scene.friction;
   options.massless = scene.massless;
   options.packages = scene.packages;
+  return options;
+}
+
+Simulation prepare(Scene& scene, bool meshes) {
+  ModelOptions options = model_options_of(scene);
   options.meshes = meshes;
   Simulation simulation;
   simulation.chain = read_chain(scene.model, options);

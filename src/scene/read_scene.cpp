@@ -8,6 +8,7 @@
 #include "scene/fields.hpp"
 #include "scene/film_clock.hpp"
 #include "scene/quantity.hpp"
+#include "scene/read_camera.hpp"
 #include "scene/read_compare.hpp"
 #include "scene/read_constraints.hpp"
 #include "scene/read_control.hpp"
@@ -271,7 +272,9 @@ Scene read_document(const YamlDocument& document) {
   read_method(fields, scene);
   read_expectation(fields, scene);
   read_draw(fields, scene);
+  read_body_shapes(fields, scene);
   read_ellipse(fields, scene);
+  read_camera(fields, scene);
   read_plot(fields, scene);
   read_layout(fields, scene);
   fields.find("compare");

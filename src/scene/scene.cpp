@@ -9,7 +9,7 @@ const std::vector<std::string>& layer_names() {
       "chain",       "trail",    "ghosts", "frames",           "com",
       "torque",      "velocity", "gravity", "constraint_force", "ellipse",
       "mass_matrix", "equation", "time",   "title",            "torque_label",
-      "scale_bar",   "legend"};
+      "scale_bar",   "legend",   "ground", "shadow"};
   return names;
 }
 

@@ -37,7 +37,7 @@ struct Hold {
 // Where the picture is seen from. In the plane a chain is seen along the plane's normal, from infinitely far, as long
 // as neither angle is given; in space from azimuth 35 deg, elevation 20 deg, so far that 30 deg hold the motion.
 struct CameraEntry {
-  std::optional<double> azimuth;    // rad about the vertical; 0: from ahead (+x), 90 deg: from the left (+y)
+  std::optional<double> azimuth;    // rad about the vertical; 0: x to the right, or the plane's own view
   std::optional<double> elevation;  // rad above the horizon
   std::optional<double> distance;   // m from the middle of the motion; infinity: parallel rays
   // The part that is shown, m along the camera's right and up: left, bottom, right, top. Absent: fitted to the motion.
@@ -84,7 +84,7 @@ struct Scene {
   std::optional<int> order;                    // of methods with several
   Accuracy accuracy;                           // of `method: auto`
   std::string expect = "finish";               // or diverge: what the run is to do
-  std::vector<std::string> draw{"chain", "trail", "time", "title", "torque_label"};
+  std::vector<std::string> draw{"chain", "trail", "time", "title", "torque_label", "ground"};
   std::string links = "auto";   // as plain bars, or by the model's visual shapes; auto: visual in space
   std::string mesh_up = "rviz";  // whose up of Collada files: rviz (theirs is not heeded), or file
   EllipseEntry ellipse;

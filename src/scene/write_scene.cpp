@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/format.hpp"
 #include "scene/write_constraints.hpp"
@@ -153,6 +154,16 @@ std::string plots_text(const std::vector<PlotEntry>& plots) {
   });
 }
 
+// What the scene leaves to the film stays left to it.
+void add_camera(std::vector<SceneEntry>& entries, const CameraEntry& camera) {
+  if (camera.azimuth) entries.push_back({"camera.azimuth", format_shortest(*camera.azimuth)});
+  if (camera.elevation) entries.push_back({"camera.elevation", format_shortest(*camera.elevation)});
+  if (camera.distance)
+    entries.push_back(
+        {"camera.distance", std::isfinite(*camera.distance) ? format_shortest(*camera.distance) : "parallel"});
+  if (camera.fit) entries.push_back({"camera.fit", text_of(std::vector<double>(camera.fit->begin(), camera.fit->end()))});
+}
+
 std::string slow_motion_text(const std::vector<SlowMotionEntry>& stretches) {
   return flow_text([&](YAML::Emitter& out) {
     out << YAML::Flow << YAML::BeginSeq;
@@ -171,7 +182,10 @@ void add_page(std::vector<SceneEntry>& entries, const Scene& scene) {
   entries.push_back({"draw", flow_text([&](YAML::Emitter& out) {
                        emit_list(out, scene.draw, [](const std::string& name) { return name; });
                      })});
+  entries.push_back({"links", scene.links});
+  entries.push_back({"mesh_up", scene.mesh_up});
   entries.push_back({"ellipse.reading", scene.ellipse.reading});
+  add_camera(entries, scene.camera);
   if (!scene.plot.empty()) entries.push_back({"plot", plots_text(scene.plot)});
   entries.push_back({"layout", scene.layout});
   entries.push_back({"theme", scene.theme});

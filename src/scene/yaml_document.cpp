@@ -212,7 +212,7 @@ YamlDocument load_yaml(const std::string& path, const std::vector<Override>& ove
 }
 
 const std::vector<std::string>& page_keys() {
-  static const std::vector<std::string> keys{"duration", "draw",  "ellipse", "plot",    "layout", "compare",
+  static const std::vector<std::string> keys{"duration", "draw",  "ellipse", "plot",    "layout", "compare",     "camera",
                                              "theme",    "text_scale", "video", "slow_motion", "hold"};
   return keys;
 }
