@@ -7,6 +7,7 @@
 
 #include "app/report.hpp"
 #include "core/format.hpp"
+#include "draw/speed_box.hpp"
 
 namespace chainreel {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 constexpr double kCaptionSeconds = 2;  // at most; the next event ends it
 
 struct Moment {
-  double t = 0;  // of the run, s
+  double t = 0;  // of the run, or of the film, s
   std::string text;
 };
 
@@ -90,9 +91,15 @@ std::string srt_time(double t) {
   return text;
 }
 
-double held_first(const PreparedFilm& film) {
-  const FrameRate fps = film.scene.video.fps;
-  return frame_time(frame_count(film.scene.hold.first, fps), fps);
+// "; not at its own speed: t = 1 s to 1.5 s at 0.25x"
+std::string speed_words(const Json& audit) {
+  std::string text;
+  if (audit.contains("slow_motion"))
+    for (const Json& one : audit["slow_motion"])
+      text += (text.empty() ? "; not at its own speed: t = " : ", t = ") +
+              format_significant(one["from"].get<double>(), 6) + " s to " +
+              format_significant(one["until"].get<double>(), 6) + " s at " + speed_text(one["speed"].get<double>());
+  return text;
 }
 
 }  // namespace
@@ -104,9 +111,11 @@ std::string sentence_of(const PreparedFilm& film, const Json& audit) {
   const double seconds = audit.value("end_time", film.scene.duration);
   const std::string motion = motion_words(film.panels.front(), seconds);
   if (film.panels.size() == 1) return text + ": " + motion + ".";
-  text += ": " + std::to_string(film.panels.size()) + " panels at one scale (";
+  const bool ghost = is_ghost_layout(film.scene);
+  text += ": " + std::to_string(film.panels.size()) +
+          (ghost ? " variants in one place (filled: " : " panels at one scale (");
   for (std::size_t i = 0; i < film.panels.size(); ++i)
-    text += (i > 0 ? "; " : "") + film.panels[i].scene.title;
+    text += std::string(i == 0 ? "" : ghost && i == 1 ? "; in outline: " : "; ") + film.panels[i].scene.title;
   return text + "); in the first, " + motion + ".";
 }
 
@@ -118,7 +127,7 @@ std::string alt_text(const PreparedFilm& film, const Json& audit) {
   const double first = scene.hold.first, last = scene.hold.last;
   if (first > 0) text += "; the first is held for " + format_quantity(first, "s");
   if (last > 0) text += "; the last is held for " + format_quantity(last, "s");
-  text += "\nUnits: m, kg, s, N, N m, J, rad; times are those of the motion\n";
+  text += speed_words(audit) + "\nUnits: m, kg, s, N, N m, J, rad; times are those of the motion\n";
   std::vector<Moment> moments;
   visit_runs(audit, moments, &add_moments);
   visit_runs(audit, moments, &add_troubles);
@@ -130,11 +139,14 @@ std::string alt_text(const PreparedFilm& film, const Json& audit) {
   return text;
 }
 
-std::string captions(const PreparedFilm& film, const Json& audit) {
+std::string captions(const PreparedFilm& film, const FilmClock& clock, const Json& audit) {
   std::vector<Moment> moments;
   visit_runs(audit, moments, &add_moments);
   sort_by_time(moments);
-  const double start = held_first(film);
+  const double start = held_first(film.scene), film_end = audit["film_seconds"].get<double>();
+  // An event behind the last frame's instant is told while that frame stands.
+  const double latest = film_end - frame_time(1, film.scene.video.fps);
+  for (Moment& moment : moments) moment.t = std::min(start + clock.film_time(moment.t), latest);
   std::string text;
   int number = 0;
   for (std::size_t i = 0; i < moments.size(); ++i) {
@@ -144,10 +156,10 @@ std::string captions(const PreparedFilm& film, const Json& audit) {
     std::size_t next = i;
     for (; next < moments.size() && moments[next].t == moments[i].t; ++next)
       words += moments[next].text + "\n";
-    double end = moments[i].t + kCaptionSeconds;
+    double end = std::min(moments[i].t + kCaptionSeconds, film_end);
     if (next < moments.size()) end = std::min(end, moments[next].t);
-    text += std::to_string(++number) + "\n" + srt_time(start + moments[i].t) + " --> " +
-            srt_time(start + end) + "\n" + words + "\n";
+    text += std::to_string(++number) + "\n" + srt_time(moments[i].t) + " --> " + srt_time(end) + "\n" + words +
+            "\n";
   }
   return text;
 }

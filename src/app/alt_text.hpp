@@ -13,7 +13,7 @@ std::string sentence_of(const PreparedFilm& film, const Json& audit);
 // The sentence, scene, duration, units, and what happens when; from the film's audit.
 std::string alt_text(const PreparedFilm& film, const Json& audit);
 
-// Captions in SRT, one an event of the runs, at the times of the film; "" where there is no event.
-std::string captions(const PreparedFilm& film, const Json& audit);
+// Captions in SRT, one an event of the runs, at the times of the film, none behind its end; "" where there is no event.
+std::string captions(const PreparedFilm& film, const FilmClock& clock, const Json& audit);
 
 }  // namespace chainreel

@@ -64,8 +64,7 @@ Json model_report(const Chain& chain) {
   return json;
 }
 
-Json cost_report(const Scene& scene, const Simulation& simulation) {
-  const int frames = frame_count(scene.duration, scene.video.fps);
+Json cost_report(const Scene& scene, const Simulation& simulation, int frames) {
   // Counted, not guessed: adaptive methods have no other way. Nothing is sampled.
   const Trajectory run = simulate(simulation, {}, [](double) { return interrupted(); });
   throw_if_interrupted();
@@ -113,8 +112,10 @@ struct RunReport {
   Json model, cost;
 };
 
-RunReport examine_run(const PreparedScene& prepared) {
-  RunReport report{model_report(prepared.simulation.chain), cost_report(prepared.scene, prepared.simulation)};
+// `frames`: of the film.
+RunReport examine_run(const PreparedScene& prepared, int frames) {
+  RunReport report{model_report(prepared.simulation.chain),
+                   cost_report(prepared.scene, prepared.simulation, frames)};
   if (!prepared.simulation.constraints.empty())
     report.model["constraints"] = constraint_plan_report(prepared.simulation);
   if (prepared.choice) report.cost["auto"] = choice_report(*prepared.choice, prepared.scene.accuracy, true);
@@ -147,8 +148,9 @@ void print_run(const PreparedScene& prepared, const RunReport& report) {
 
 void check_scene(const CheckOptions& options) {
   const PreparedFilm film = load_film(options.file, overrides_of(options.common));
+  const int frames = clock_of(film).frame_count();
   std::vector<RunReport> reports;
-  for (const PreparedScene& panel : film.panels) reports.push_back(examine_run(panel));
+  for (const PreparedScene& panel : film.panels) reports.push_back(examine_run(panel, frames));
   const std::string text = scene_text(film.scene);
   const bool alone = reports.size() == 1;
   if (options.common.json) {

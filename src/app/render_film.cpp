@@ -121,9 +121,16 @@ int frames_shown(const PreparedFilm& film, const std::vector<Trajectory>& runs, 
   int shown = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const bool stands = runs[i].status == RunStatus::diverged && film.panels[i].scene.expect == "diverge";
-    shown = std::max(shown, stands ? frames : runs[i].size());
+    shown = std::max(shown, stands ? frames : std::min(frames, runs[i].size()));
   }
   return shown;
+}
+
+// The frames' instants, and the end of the motion for tables and the audit.
+std::vector<double> with_end(std::vector<double> times, const PreparedFilm& film) {
+  const double end = film.scene.duration;
+  if (times.back() < end - same_instant(film.panels.front().simulation)) times.push_back(end);
+  return times;
 }
 
 void write_still(const Output& output, const Film& film, int frame, const Image& image, const Fonts& fonts,
@@ -246,7 +253,7 @@ std::string sidecar_text(const Sidecar& sidecar, const PreparedFilm& film, const
     case Sidecar::words:
       return alt_text(film, result.audit);
     case Sidecar::captions:
-      return captions(film, result.audit);
+      return captions(film, result.clock, result.audit);
     case Sidecar::animate:
       break;
   }
@@ -286,8 +293,9 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
 
   RenderResult result;
   Stopwatch total, watch;
-  const std::vector<double> times = frame_times(scene);
-  const std::vector<Trajectory> runs = simulate_film(film, times);
+  const FilmClock clock = clock_of(film);
+  const std::vector<double> times = clock.frame_times();
+  const std::vector<Trajectory> runs = simulate_film(film, with_end(times, film));
   result.seconds.simulate = watch.lap();
   if (std::any_of(runs.begin(), runs.end(), [](const Trajectory& run) { return run.size() == 0; }))
     require_expected_ends(film, runs);
@@ -296,9 +304,10 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
   const FrameRate fps = scene.video.fps;
   const Schedule schedule{frames_shown(film, runs, int(times.size())), frame_count(scene.hold.first, fps),
                           frame_count(scene.hold.last, fps)};
-  const Film pictures = film_of(film, runs, times, schedule.frames, fonts);
+  const Film pictures = film_of(film, runs, times, schedule.frames, fonts, clock);
   result.frames = schedule.total();
   result.film_seconds = frame_time(result.frames, fps);
+  result.clock = clock;
   result.audit = film_report(film, runs, pictures);
   result.audit["frames"] = result.frames;
   result.audit["film_seconds"] = result.film_seconds;
@@ -306,9 +315,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
     result.audit["held_frames"] = {{"first", schedule.first}, {"last", schedule.last}};
   result.seconds.draw += watch.lap();
 
-  // Frame k stands from t_k on.
-  const double frame_at = std::floor(job.at * fps.value() + 1e-9);
-  const int still = int(std::clamp(frame_at, 0.0, double(schedule.frames - 1)));
+  const int still = std::clamp(clock.frame_at(job.at), 0, schedule.frames - 1);
   draw_film(pictures, scene, fonts, outputs, schedule, still, memory_of(film, result.audit), job.quiet,
             result.seconds);
   write_tables(film, runs, outputs);

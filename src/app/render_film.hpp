@@ -23,6 +23,7 @@ struct RenderResult {
   std::vector<std::string> sidecars;  // NAME.json, NAME.txt, and maybe NAME.srt and NAME.tex
   int frames = 0;                     // with those that are held
   double film_seconds = 0;
+  FilmClock clock;
   StageSeconds seconds;
   Json audit;
 };

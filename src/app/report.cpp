@@ -128,6 +128,26 @@ Json run_report(const PreparedScene& prepared, const Trajectory& trajectory) {
   return json;
 }
 
+double held_first(const Scene& scene) {
+  return frame_time(frame_count(scene.hold.first, scene.video.fps), scene.video.fps);
+}
+
+namespace {
+
+// `held`: film seconds before the motion begins.
+Json slow_motion_report(const FilmClock& clock, double held) {
+  Json list = Json::array();
+  for (const Stretch& one : clock.stretches())
+    list.push_back({{"from", one.from},
+                    {"until", one.until},
+                    {"speed", one.speed},
+                    {"film_from", held + clock.film_time(one.from)},
+                    {"film_until", held + clock.film_time(one.until)}});
+  return list;
+}
+
+}  // namespace
+
 Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, const Film& pictures) {
   const auto report_of = [&](std::size_t i) {
     Json json = run_report(film.panels[i], runs[i]);
@@ -146,6 +166,7 @@ Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, 
     for (std::size_t i = 0; i < runs.size(); ++i) {
       json["panels"].push_back(report_of(i));
       for (const char* shared : {"scene", "duration"}) json["panels"].back().erase(shared);
+      if (is_ghost_layout(scene)) json["panels"].back()["look"] = i == 0 ? "filled" : "outline";
     }
   }
   const FrameRate fps = scene.video.fps;
@@ -154,6 +175,7 @@ Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, 
   json["width"] = scene.video.width;
   json["height"] = scene.video.height;
   json["film_seconds"] = frame_time(pictures.frame_count(), fps);
+  if (!scene.slow_motion.empty()) json["slow_motion"] = slow_motion_report(pictures.clock(), held_first(scene));
   for (const LibraryLine& line : library_versions()) json["versions"][line.name] = line.version;
   return json;
 }

@@ -32,6 +32,9 @@ std::vector<LibraryLine> library_versions();
 // What was run and whether it can be trusted: method, step, status, energy error, hash.
 Json run_report(const PreparedScene& prepared, const Trajectory& trajectory);
 
+// For how long the first frame is held: whole frames, s.
+double held_first(const Scene& scene);
+
 // The sidecar of a film: that of its run, or a list `panels` of them; and what the film is. The same from one run of
 // the program to the next.
 Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, const Film& pictures);

@@ -27,7 +27,7 @@ void draw_line(Picture& picture, PageLine line, double width, Color color, int c
 void draw_revolute(Picture& picture, Point center, const ChainLook& look, int clip) {
   const double r = look.joint_disc / 2, dot = size::kJointDot / 2 * look.joint_disc / size::kJointDisc;
   const Color ink = toned(look.theme->ink, look);
-  const double outline = size::kJointOutline * std::sqrt(look.joint_disc / size::kJointDisc);
+  const double outline = look.stroke * size::kJointOutline * std::sqrt(look.joint_disc / size::kJointDisc);
   picture.add(Ellipse{center, {r, 0}, {0, r}, {look.filled ? look.theme->background : Color{}, ink, outline}}, clip);
   picture.add(Ellipse{center, {dot, 0}, {0, dot}, {ink, {}, 0}}, clip);
 }
@@ -61,7 +61,7 @@ void draw_carriage(Picture& picture, Point center, Point along, bool carrier, Co
   const Point h = (look.rails * size::kCarriageHeight / 2) * normal_to(u);
   picture.add(Polygon{{center + l + h, center - l + h, center - l - h, center + l - h},
                       4,
-                      {fill, toned(look.theme->ink, look), size::kLinkOutline}},
+                      {fill, toned(look.theme->ink, look), look.stroke * size::kLinkOutline}},
               clip);
 }
 

@@ -25,6 +25,7 @@ struct ChainLook {
   double joint_disc = size::kJointDisc;
   double rails = 1;  // size of rails and carriages: that of the marks, less where links are thin
   bool filled = true;  // false: outlines only
+  double stroke = 1;   // width of outlines, of their own
 };
 
 inline ChainLook look_of(const Skeleton& skeleton, const Camera& camera, const Theme& theme,

@@ -156,7 +156,8 @@ void place_entries(Builder& b, const SheetText& text, double beside, double row_
 }
 
 void build_footer_band(Builder& b, const SheetText& text) {
-  if (text.longest_time.empty() && text.bar.empty() && text.legend.empty() && text.scales.empty()) return;
+  const bool has_time = !text.longest_time.empty() || text.beside_time > 0;
+  if (!has_time && text.bar.empty() && text.legend.empty() && text.scales.empty()) return;
   const Theme& theme = *b.sheet.theme;
   const double row = size::kFooterBand * b.sheet.text_scale, axis = scaled(size::kAxis, b.sheet.text_scale);
   const TextLine time =
@@ -164,7 +165,8 @@ void build_footer_band(Builder& b, const SheetText& text) {
   TextLine bar = lay_out_text(b.fonts, text.bar, b.style(Face::label, size::kTick, theme.ink));
   std::vector<TextLine> legend = legend_lines(b, text.legend);
 
-  const double time_width = text.longest_time.empty() ? 0 : time.advance + kTextGap;
+  const double beside_gap = text.beside_time > 0 && !text.longest_time.empty() ? kTextGap / 2 : 0;
+  const double time_width = has_time ? time.advance + beside_gap + text.beside_time + kTextGap : 0;
   const double bar_width = text.bar.empty() ? 0 : text.bar_length + kBarToText + bar.advance;
   const double bar_to_legend = text.bar.empty() ? 0 : kTextGap / 2;
   const bool one_row =
@@ -175,6 +177,7 @@ void build_footer_band(Builder& b, const SheetText& text) {
   // Rows from the bottom up: time, scale bar, legend.
   double row_bottom = b.bottom, row_top = b.bottom + row;
   b.sheet.time_anchor = {b.right, baseline(row_bottom, row_top, axis)};
+  b.sheet.time_left = b.sheet.time_anchor - Point{time.advance + beside_gap, 0};
   if (!text.bar.empty()) {
     if (!bar_beside_time) {
       row_bottom = row_top;
@@ -183,7 +186,7 @@ void build_footer_band(Builder& b, const SheetText& text) {
     b.sheet.bar_length = text.bar_length;
     place_bar(b, std::move(bar), row_bottom, row_top);
   }
-  const bool row_taken = !text.bar.empty() || !text.longest_time.empty();
+  const bool row_taken = !text.bar.empty() || has_time;
   for (std::size_t i = legend.size(); i-- > 0;) {
     if (!one_row && (row_taken || i + 1 < legend.size())) {
       row_bottom = row_top;
@@ -231,8 +234,8 @@ TextLine fit_math(const Fonts& fonts, const std::vector<std::string>& forms, Tex
   return line;
 }
 
-std::string time_text(double t) {
-  return "t = " + format_fixed(t, 2) + " s";
+std::string time_text(double t, int decimals) {
+  return "t = " + format_fixed(t, decimals) + " s";
 }
 
 Sheet lay_out_sheet(const SheetText& text, double aspect, double text_scale, const Theme& theme,
@@ -259,10 +262,10 @@ void draw_sheet(Picture& picture, const Sheet& sheet) {
   if (sheet.bar) draw_scale_bar(picture, *sheet.bar, sheet.bar_length, sheet.theme->ellipse);
 }
 
-void draw_time(Picture& picture, const Sheet& sheet, double t, const Fonts& fonts) {
+void draw_time(Picture& picture, const Sheet& sheet, double t, const Fonts& fonts, int decimals) {
   // Figures of the label face are equally wide, so right alignment keeps every digit in its place.
   const TextStyle style{Face::label, scaled(size::kAxis, sheet.text_scale), sheet.theme->ink, Align::right};
-  draw_text(picture, lay_out_text(fonts, time_text(t), style), sheet.time_anchor);
+  draw_text(picture, lay_out_text(fonts, time_text(t, decimals), style), sheet.time_anchor);
 }
 
 void draw_scale_bar(Picture& picture, Point at, double length, Color color, int clip) {

@@ -25,6 +25,7 @@ struct SheetText {
   std::string equation;             // math notation, a line of its own where it does not fit beside others
   std::vector<SymbolColor> symbols;  // of the equation
   std::string longest_time;         // of the running time: room is kept for it at the lower right
+  double beside_time = 0;           // units of H that are kept free left of the running time
   std::string bar;                  // beside the scale bar of the ellipse
   double bar_length = 0;            // units of H
   std::string legend;               // may be broken behind ": "
@@ -52,6 +53,7 @@ struct Sheet {
   double bar_length = 0;
   std::vector<PlacedEntry> scales;
   Point time_anchor;  // right end of its base line
+  Point time_left;    // ... and where what stands beside it ends
 };
 
 Sheet lay_out_sheet(const SheetText& text, double aspect, double text_scale, const Theme& theme,
@@ -59,12 +61,12 @@ Sheet lay_out_sheet(const SheetText& text, double aspect, double text_scale, con
 
 // Everything on the sheet but the running time.
 void draw_sheet(Picture& picture, const Sheet& sheet);
-void draw_time(Picture& picture, const Sheet& sheet, double t, const Fonts& fonts);
+void draw_time(Picture& picture, const Sheet& sheet, double t, const Fonts& fonts, int decimals = 2);
 // A bar with end ticks, `at` its left end.
 void draw_scale_bar(Picture& picture, Point at, double length, Color color, int clip = -1);
 
 // "t = 1.24 s"
-std::string time_text(double t);
+std::string time_text(double t, int decimals = 2);
 
 // The largest of 1, 2, 5 x 10^n that is not above `most`: what a scale bar may measure.
 double round_length(double most);

@@ -59,6 +59,7 @@ int TipPath::pieces(int k, double length, int most) const {
 
 double TipPath::gapless_since(int k, double t) const {
   for (int i = k; i >= 0; --i) {
+    if (i < k && t_[std::size_t(i) + 1] - t_[std::size_t(i)] > kLongestTrailStep + 1e-9) return t_[std::size_t(i) + 1];
     if (gap_[std::size_t(i)]) return i == k ? t_[std::size_t(k)] : t_[std::size_t(i) + 1];
     if (t_[std::size_t(i)] <= t) return t;
   }

@@ -11,6 +11,8 @@ namespace chainreel {
 inline constexpr double kTrailSeconds = 1.0;
 inline constexpr int kTrailDotsPerSecond = 10;
 inline constexpr double kTrailOpacity = 0.7;
+// Frames further apart, where a film shows the motion much faster than it was, do not say how it went between them.
+inline constexpr double kLongestTrailStep = 0.1;  // s
 
 // Where the end effector was on the page and how fast it moved there, at the frames.
 class TipPath {

@@ -61,9 +61,8 @@ int FilmClock::frame_count() const {
 
 double FilmClock::time_of_frame(int k) const {
   const double film = frame_time(k, fps_);
-  const auto next =
-      std::upper_bound(pieces_.begin() + 1, pieces_.end(), film + kSameInstant,
-                       [](double now, const Piece& piece) { return now < piece.film_from; });
+  const auto next = std::upper_bound(pieces_.begin() + 1, pieces_.end(), film + kSameInstant,
+                                     [](double now, const Piece& piece) { return now < piece.film_from; });
   const Piece& piece = *(next - 1);
   return piece.from + std::max(0.0, film - piece.film_from) * piece.speed;
 }

@@ -1,8 +1,10 @@
-// Which instant of the motion each frame of a film shows, where `slow_motion:` lets parts of it pass slower or faster.
+// Which instant of the motion each frame of a film shows, where `slow_motion:` lets parts of it pass slower
+// or faster.
 //
-// Film time is the integral of dt / speed over the motion, so that the motion's time is a piecewise linear function of
-// it. Frame k shows the instant that its own film time k / fps belongs to: a change of speed takes effect on the first
-// frame at or after it, and nothing is repeated. Without stretches frame k shows k / fps to the last bit.
+// Film time is the integral of dt / speed over the motion, so that the motion's time is a piecewise linear
+// function of it. Frame k shows the instant that its own film time k / fps belongs to: a change of speed
+// takes effect on the first frame at or after it, and nothing is repeated. Without stretches frame k shows k
+// / fps to the last bit.
 #pragma once
 
 #include <vector>
@@ -34,8 +36,8 @@ class FilmClock {
   const std::vector<Stretch>& stretches() const { return slow_; }
 
   double film_seconds() const { return film_time(duration_); }
-  int frame_count() const;  // round(film_seconds() * fps)
-  double time_of_frame(int k) const;      // of the motion, s
+  int frame_count() const;                  // round(film_seconds() * fps)
+  double time_of_frame(int k) const;        // of the motion, s
   std::vector<double> frame_times() const;  // of all frames
   // The frame that stands when the motion is at t: the last one that is not later.
   int frame_at(double t) const;
@@ -57,8 +59,8 @@ class FilmClock {
   std::vector<Stretch> slow_;
 };
 
-// The entries' stretches of the motion: those of an event once for each of its instants among `hits`, whose run had
-// the events `events`.
+// The entries' stretches of the motion: those of an event once for each of its instants among `hits`, whose
+// run had the events `events`.
 std::vector<Stretch> stretches_of(const std::vector<SlowMotionEntry>& entries,
                                   const std::vector<EventEntry>& events, const EventHits& hits);
 

@@ -22,7 +22,9 @@ std::string listed(const std::vector<std::string>& names) {
 class StretchReader {
  public:
   StretchReader(Fields& fields, const YAML::Node& node, const std::string& key)
-      : inner_(fields.document(), node, key, fields.problems()), key_(key), place_(fields.place_of(node, key)) {}
+      : inner_(fields.document(), node, key, fields.problems()),
+        key_(key),
+        place_(fields.place_of(node, key)) {}
 
   // False where something is wrong that has been told.
   bool read(const Scene& scene, SlowMotionEntry& entry) {
@@ -74,10 +76,11 @@ class StretchReader {
     std::vector<std::string> names;
     for (const EventEntry& event : scene.events) names.push_back(event.title());
     if (std::find(names.begin(), names.end(), entry.event) != names.end()) return true;
-    return complain("names '" + entry.event + "', but " +
-                        (names.empty() ? "the scene has no 'events'" : "no entry of 'events' has that name:") +
-                        did_you_mean(entry.event, names) + (names.empty() ? "" : " There are " + listed(names) + "."),
-                    "event");
+    return complain(
+        "names '" + entry.event + "', but " +
+            (names.empty() ? "the scene has no 'events'" : "no entry of 'events' has that name:") +
+            did_you_mean(entry.event, names) + (names.empty() ? "" : " There are " + listed(names) + "."),
+        "event");
   }
 
   bool check_span(const SlowMotionEntry& entry) {
@@ -92,7 +95,8 @@ class StretchReader {
     if (entry.from < 0)
       return complain("must not lie before 0 s; seconds before an event go with `event: NAME`", "from");
     if (entry.from < scene.duration) return true;
-    return complain("lies at or behind the end of the motion, " + format_shortest(scene.duration) + " s", "from");
+    return complain("lies at or behind the end of the motion, " + format_shortest(scene.duration) + " s",
+                    "from");
   }
 
   Fields inner_;
@@ -148,7 +152,8 @@ void read_slow_motion(Fields& fields, Scene& scene) {
     const std::string key = "slow_motion." + std::to_string(i + 1);
     SlowMotionEntry entry;
     if (!node[i].IsMap())
-      fields.problems().add("'" + key + "' must be a stretch like " + kExample, fields.place_of(node[i], key));
+      fields.problems().add("'" + key + "' must be a stretch like " + kExample,
+                            fields.place_of(node[i], key));
     else if (StretchReader(fields, node[i], key).read(scene, entry))
       scene.slow_motion.push_back(entry);
   }

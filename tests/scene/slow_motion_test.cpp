@@ -39,12 +39,27 @@ TEST(FilmClock, IsTheIntegralOfOneOverTheSpeed) {
   const FilmClock clock = three_stretches();
   EXPECT_NEAR(clock.film_seconds(), 3.75, 1e-15 * 8);
   EXPECT_EQ(clock.frame_count(), 38) << "37.5, and half a frame counts";
-  for (const auto& [t, film] : {std::pair{0.0, 0.0}, {0.4, 0.4}, {0.6, 0.9}, {1.0, 2.5}, {1.2, 2.7}, {1.9, 3.1},
-                                {2.5, 3.25}, {2.9, 3.65}})
+  for (const auto& [t, film] : {std::pair{0.0, 0.0},
+                                {0.4, 0.4},
+                                {0.6, 0.9},
+                                {1.0, 2.5},
+                                {1.2, 2.7},
+                                {1.9, 3.1},
+                                {2.5, 3.25},
+                                {2.9, 3.65}})
     EXPECT_NEAR(clock.film_time(t), film, 1e-14) << t;
   // Frames by hand: the last one before and the first one in each part.
-  for (const auto& [k, t] : {std::pair{4, 0.4}, {5, 0.5}, {6, 0.525}, {24, 0.975}, {25, 1.0}, {26, 1.1}, {30, 1.5},
-                             {31, 1.9}, {32, 2.3}, {33, 2.55}, {37, 2.95}})
+  for (const auto& [k, t] : {std::pair{4, 0.4},
+                             {5, 0.5},
+                             {6, 0.525},
+                             {24, 0.975},
+                             {25, 1.0},
+                             {26, 1.1},
+                             {30, 1.5},
+                             {31, 1.9},
+                             {32, 2.3},
+                             {33, 2.55},
+                             {37, 2.95}})
     EXPECT_NEAR(clock.time_of_frame(k), t, 1e-14) << k;
 }
 
@@ -76,9 +91,8 @@ TEST(FilmClock, AFrameThatStandsOnAChangeBelongsToTheNewSpeed) {
 
 TEST(FilmClock, WhereStretchesOverlapTheSlowestHolds) {
   const FilmClock clock(10, kTen, {{1, 3, 0.5}, {2, 4, 0.25}, {3.5, 6, 4}, {-1, 0.5, 0.5}, {9, 12, 0.5}});
-  EXPECT_THAT(clock.stretches(),
-              ElementsAre(Stretch{0, 0.5, 0.5}, Stretch{1, 2, 0.5}, Stretch{2, 4, 0.25}, Stretch{4, 6, 4},
-                          Stretch{9, 10, 0.5}));
+  EXPECT_THAT(clock.stretches(), ElementsAre(Stretch{0, 0.5, 0.5}, Stretch{1, 2, 0.5}, Stretch{2, 4, 0.25},
+                                             Stretch{4, 6, 4}, Stretch{9, 10, 0.5}));
   EXPECT_NEAR(clock.film_seconds(), 1 + 0.5 + 2 + 8 + 0.5 + 3 + 2, 1e-13);
   EXPECT_EQ(clock.shortest_step(), 0.025);
 }
@@ -100,9 +114,10 @@ constexpr char kEvents[] = "events: [{when: \"q1 < 0\", name: touch}, {when: q2}
 
 TEST_F(SlowMotion, IsReadAndWritten) {
   EXPECT_TRUE(read("").slow_motion.empty());
-  const std::string text = std::string(kEvents) +
-                           "slow_motion: [{from: 1s, until: 1.5 s, speed: 0.25}, {from: 2, until: 5/2, speed: 4}, "
-                           "{event: touch, from: -0.2s, until: 0.3, speed: 0.1}]\n";
+  const std::string text =
+      std::string(kEvents) +
+      "slow_motion: [{from: 1s, until: 1.5 s, speed: 0.25}, {from: 2, until: 5/2, speed: 4}, "
+      "{event: touch, from: -0.2s, until: 0.3, speed: 0.1}]\n";
   Scene scene = read(text);
   ASSERT_EQ(scene.slow_motion.size(), 3u);
   EXPECT_EQ(scene.slow_motion[0].until, 1.5);
@@ -128,29 +143,37 @@ TEST_F(SlowMotion, BelongsToThePageOfAComparison) {
   const std::string slow = "slow_motion: [{event: touch, from: 0, until: 1, speed: 0.5}]\n";
   const Scene scene = read(kEvents + slow + panels);
   EXPECT_EQ(scene.slow_motion.size(), 1u);
-  EXPECT_THAT(scene_text(scene), HasSubstr("\nslow_motion: [{event: \"touch\", from: 0, until: 1, speed: 0.5}]\n"));
+  EXPECT_THAT(scene_text(scene),
+              HasSubstr("\nslow_motion: [{event: \"touch\", from: 0, until: 1, speed: 0.5}]\n"));
   EXPECT_THAT(error(std::string(kEvents) + "compare: [{slow_motion: []}, {}]\n"),
               HasSubstr("'slow_motion' belongs to the whole picture"));
 }
 
 TEST_F(SlowMotion, SaysWhatIsWrong) {
-  const auto wrong = [&](const std::string& list) { return error(std::string(kEvents) + "slow_motion: " + list + "\n"); };
+  const auto wrong = [&](const std::string& list) {
+    return error(std::string(kEvents) + "slow_motion: " + list + "\n");
+  };
   EXPECT_EQ(wrong("[{from: 9, until: 11, speed: 1}]"), "") << "what lies behind the end is cut";
   EXPECT_THAT(wrong("2"), HasSubstr("one.yaml:3:14: 'slow_motion' must be a list of stretches: [{from: 1s"));
   EXPECT_THAT(wrong("[2]"), HasSubstr("'slow_motion.1' must be a stretch like {from: 1s"));
-  EXPECT_THAT(wrong("[{from: 1, until: 2}]"), HasSubstr("one.yaml:3:15: 'slow_motion.1' needs `speed`: {from: 1s"));
+  EXPECT_THAT(wrong("[{from: 1, until: 2}]"),
+              HasSubstr("one.yaml:3:15: 'slow_motion.1' needs `speed`: {from: 1s"));
   EXPECT_THAT(wrong("[{until: 2, speed: 2}]"), HasSubstr("needs `from`"));
-  EXPECT_THAT(wrong("[{from: 2, until: 1, speed: 2}]"),
-              HasSubstr("one.yaml:3:22: 'slow_motion.1.from' must lie before `until`: 2 s is not before 1 s"));
+  EXPECT_THAT(
+      wrong("[{from: 2, until: 1, speed: 2}]"),
+      HasSubstr("one.yaml:3:22: 'slow_motion.1.from' must lie before `until`: 2 s is not before 1 s"));
   EXPECT_THAT(wrong("[{from: soon, until: 1, speed: 2}]"), HasSubstr("seconds are wanted, like 1.5s"));
-  EXPECT_THAT(wrong("[{from: -1, until: 1, speed: 2}]"), HasSubstr("seconds before an event go with `event: NAME`"));
+  EXPECT_THAT(wrong("[{from: -1, until: 1, speed: 2}]"),
+              HasSubstr("seconds before an event go with `event: NAME`"));
   EXPECT_THAT(wrong("[{from: 10, until: 11, speed: 2}]"), HasSubstr("behind the end of the motion, 10 s"));
   for (const char* speed : {"0", "-1", "0.0009", "1001", "slow"})
-    EXPECT_THAT(wrong("[{from: 0, until: 1, speed: " + std::string(speed) + "}]"), HasSubstr("'slow_motion.1.speed'"));
+    EXPECT_THAT(wrong("[{from: 0, until: 1, speed: " + std::string(speed) + "}]"),
+                HasSubstr("'slow_motion.1.speed'"));
   EXPECT_THAT(wrong("[{from: 0, until: 1, speed: 0}]"), HasSubstr("must lie between 0.001 and 1000"));
-  EXPECT_THAT(wrong("[{event: tuch, from: 0, until: 1, speed: 2}]"),
-              HasSubstr("'slow_motion.1.event' names 'tuch', but no entry of 'events' has that name: did you mean "
-                        "'touch'? There are 'touch', 'q2'."));
+  EXPECT_THAT(
+      wrong("[{event: tuch, from: 0, until: 1, speed: 2}]"),
+      HasSubstr("'slow_motion.1.event' names 'tuch', but no entry of 'events' has that name: did you mean "
+                "'touch'? There are 'touch', 'q2'."));
   EXPECT_EQ(wrong("[{event: q2, from: 0, until: 1, speed: 2}]"), "");
   EXPECT_THAT(error("slow_motion: [{event: touch, from: 0, until: 1, speed: 2}]\n"),
               HasSubstr("names 'touch', but the scene has no 'events'"));
