@@ -129,6 +129,26 @@ void write_png(const std::string& path, const Image& image, const std::map<std::
   throw Error(ExitCode::file, "could not be written whole (" + reason + "): is the disk full?", {path});
 }
 
+// libpng's simplified writer keeps its errors in `png.message`; nothing jumps.
+std::string png_bytes(const Image& image) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = png_uint_32(image.width);
+  png.height = png_uint_32(image.height);
+  png.format = PNG_FORMAT_BGRA;
+  png_alloc_size_t size = 0;
+  std::string bytes;
+  // Asked for its size first, then for the bytes.
+  for (int round = 0; round < 2; ++round) {
+    bytes.resize(size);
+    if (png_image_write_to_memory(&png, round == 0 ? nullptr : bytes.data(), &size, 0, image.bgra.data(), 0,
+                                  nullptr) == 0)
+      throw Error(ExitCode::limit, std::string("a picture cannot be written as PNG: ") + png.message);
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
 // libpng's simplified reader keeps its errors in `png.message`; nothing jumps.
 Image read_png(const std::string& path) {
   const FilePtr file = open_for_reading(path);

@@ -14,6 +14,9 @@ namespace chainreel {
 void write_png(const std::string& path, const Image& image,
                const std::map<std::string, std::string>& text = {});
 
+// The same in memory, without texts.
+std::string png_bytes(const Image& image);
+
 Image read_png(const std::string& path);  // throws Error (exit 3)
 
 // The texts that stand before the pixels, keyword to value. Throws Error (exit 3).

@@ -1,0 +1,48 @@
+// Many pictures on one page, a title below each.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "picture/picture.hpp"
+#include "picture/text.hpp"
+#include "picture/theme.hpp"
+
+namespace chainreel {
+
+inline constexpr int kMostCells = 48;
+inline constexpr double kCellAspect = 16.0 / 9.0;  // of each picture
+
+struct ContactSheetLook {
+  double aspect = 16.0 / 9.0;
+  int columns = 0;  // 0: as many as make the pictures largest
+  double text_scale = 1;
+  const Theme* theme = &light_theme();
+  const Fonts* fonts = nullptr;
+};
+
+// Where the cells lie: pictures row by row from the top, below each the room for its title.
+struct ContactGrid {
+  int columns = 1, lines = 1;
+  double text_size = 0;  // of titles, units of H
+  int title_lines = 2;
+  std::vector<Rect> pictures, titles;
+};
+
+// Throws Error (usage) where that many cells leave nothing to see: more than kMostCells, or too many columns.
+ContactGrid contact_grid(int count, const ContactSheetLook& look);
+
+// The text_scale at which the words inside a picture of this grid can be read; 1 where it is too small for
+// words, which are left out then.
+double text_scale_in(const ContactGrid& grid);
+
+struct ContactCell {
+  Picture picture;  // a page of kCellAspect
+  std::string title;
+};
+// One cell a place of the grid. Titles are broken into lines at spaces; what does not fit ends in "...".
+Picture draw_contact_sheet(const ContactGrid& grid, std::span<const ContactCell> cells,
+                           const ContactSheetLook& look);
+
+}  // namespace chainreel
