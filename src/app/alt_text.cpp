@@ -122,7 +122,7 @@ std::string sentence_of(const PreparedFilm& film, const Json& audit) {
 std::string alt_text(const PreparedFilm& film, const Json& audit) {
   const Scene& scene = film.scene;
   std::string text = sentence_of(film, audit) + "\n\nScene: " + scene.name +
-                     "\nDuration: " + format_quantity(audit["film_seconds"].get<double>(), "s") + ", " +
+                     "\nDuration: " + format_significant(audit["film_seconds"].get<double>(), 6) + " s, " +
                      std::to_string(audit["frames"].get<int>()) + " frames";
   const double first = scene.hold.first, last = scene.hold.last;
   if (first > 0) text += "; the first is held for " + format_quantity(first, "s");

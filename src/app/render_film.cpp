@@ -1,7 +1,6 @@
 #include "app/render_film.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>

@@ -134,15 +134,20 @@ double held_first(const Scene& scene) {
 
 namespace {
 
-// `held`: film seconds before the motion begins.
-Json slow_motion_report(const FilmClock& clock, double held) {
+// As far as the motion went. `held`: film seconds before it begins.
+Json slow_motion_report(const FilmClock& clock, const std::vector<Trajectory>& runs, double held) {
+  double end = 0;
+  for (const Trajectory& run : runs) end = std::max(end, run.end_time);
   Json list = Json::array();
-  for (const Stretch& one : clock.stretches())
+  for (const Stretch& one : clock.stretches()) {
+    if (one.from >= end) break;
+    const double until = std::min(one.until, end);
     list.push_back({{"from", one.from},
-                    {"until", one.until},
+                    {"until", until},
                     {"speed", one.speed},
                     {"film_from", held + clock.film_time(one.from)},
-                    {"film_until", held + clock.film_time(one.until)}});
+                    {"film_until", held + clock.film_time(until)}});
+  }
   return list;
 }
 
@@ -175,7 +180,7 @@ Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, 
   json["width"] = scene.video.width;
   json["height"] = scene.video.height;
   json["film_seconds"] = frame_time(pictures.frame_count(), fps);
-  if (!scene.slow_motion.empty()) json["slow_motion"] = slow_motion_report(pictures.clock(), held_first(scene));
+  if (!scene.slow_motion.empty()) json["slow_motion"] = slow_motion_report(pictures.clock(), runs, held_first(scene));
   for (const LibraryLine& line : library_versions()) json["versions"][line.name] = line.version;
   return json;
 }

@@ -68,7 +68,7 @@ void Film::fit_camera() {
 void Film::find_cells(const FitBox& box) {
   const int count = panel_count();
   if (is_ghost())
-    cells_ = ghost_cells(sheet_.scene, rows_, std::size_t(count));
+    cells_ = ghost_cells(sheet_.scene, rows_, panels_);
   else if (scene_.layout == "compare")
     cells_ = panel_cells(sheet_.scene, count, count, rows_);
   else

@@ -39,13 +39,16 @@ std::string variant_letter(int i, int count) {
   return i > 0 && count > 2 ? std::string(1, char('A' + i)) : "";
 }
 
-std::vector<PanelCell> ghost_cells(const Rect& area, const PanelRows& rows, std::size_t count) {
+std::vector<PanelCell> ghost_cells(const Rect& area, const PanelRows& rows, const std::vector<Panel>& panels) {
   PanelRows all = rows;
-  all.note = double(count) * rows.note;
-  std::vector<PanelCell> cells(count, panel_cells(area, 1, 1, all).front());
-  for (std::size_t i = 0; i < count; ++i) {
-    cells[i].note.y1 = cells[i].scene.y0 - double(i) * rows.note;
-    cells[i].note.y0 = cells[i].note.y1 - rows.note;
+  all.note = 0;
+  for (const Panel& panel : panels) all.note += panel.may_have_notes() ? rows.note : 0;
+  std::vector<PanelCell> cells(panels.size(), panel_cells(area, 1, 1, all).front());
+  double top = cells.front().scene.y0;
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    if (!panels[i].may_have_notes()) continue;
+    cells[i].note.y1 = top;
+    cells[i].note.y0 = top -= rows.note;
   }
   return cells;
 }

@@ -26,8 +26,8 @@ Color variant_color(int i, int count, const Theme& theme);
 // "B", "C", ... where there are several outlines to be told apart; "" else.
 std::string variant_letter(int i, int count);
 
-// One cell for all, with a row of its own below the scene for each variant's note.
-std::vector<PanelCell> ghost_cells(const Rect& area, const PanelRows& rows, std::size_t count);
+// One cell for all, with a row of its own below the scene for each variant that may have a note.
+std::vector<PanelCell> ghost_cells(const Rect& area, const PanelRows& rows, const std::vector<Panel>& panels);
 
 // Above the scene: what is filled and what is outlined, in rows as wide as the page.
 class GhostKey {

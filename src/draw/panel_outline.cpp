@@ -15,7 +15,7 @@ namespace {
 constexpr double kHalo = 1.8;  // times an outline's width: sets it off from what is filled below
 constexpr double kWiderJoint = 1.3, kWiderRail = 1.15, kWiderTip = 1.8;
 constexpr double kStoodStill = 0.4;    // strength of a run that left the picture
-constexpr double kLetterAway = 0.035;  // from the end effector, units of H
+constexpr double kLetterAway = 0.020;  // and more than half its size, from the end effector, units of H
 
 }  // namespace
 
@@ -70,8 +70,8 @@ void Panel::draw_letter(Picture& picture, Point tip, Color color, const Fonts& f
   if (letter_.empty() || skeleton_.links.empty()) return;
   const LinkSegment& last = skeleton_.links.back();
   const Point joint = camera_.project(pose_of(*ws_, last.body) * last.from);
-  const Point away = tip + kLetterAway * unit(tip - joint);
   const double em = scaled(size::kAxis, run_.scene.text_scale);
+  const Point away = tip + (kLetterAway + 0.6 * em) * unit(tip - joint);
   const TextLine line = lay_out_text(fonts, letter_, {Face::label_bold, em, color, Align::center});
   const double middle = (line.box.y0 + line.box.y1) / 2;
   draw_text(picture, line, {away.x, away.y - middle});

@@ -136,7 +136,8 @@ TEST_F(OnePass, VectorPagesHaveTheirWordsAndTheirPicture) {
 TEST_F(OnePass, TheTableHasARowAFrame) {
   const std::string table = read_whole_file(file("i.csv"));
   EXPECT_THAT(table, testing::StartsWith("t,q1,q2,qd1,qd2\n0,"));
-  EXPECT_EQ(rows_of(table), 6u);
+  EXPECT_EQ(rows_of(table), 7u) << "head, frames, and the end of the motion";
+  EXPECT_THAT(table, HasSubstr("\n0.20000000000000001,"));
 }
 
 TEST_F(OnePass, EverythingButTheGifRemembersTheScene) {
@@ -253,7 +254,7 @@ TEST(Outputs, HeldFramesAreCountedAndShown) {
   EXPECT_EQ(audit["held_frames"], (Json{{"first", 2}, {"last", 5}}));
   EXPECT_EQ(audit["film_seconds"], 0.48);
   EXPECT_EQ(audit["duration"], 0.2);
-  EXPECT_EQ(rows_of(read_whole_file(folder.file("a.csv"))), 6u);  // the motion alone
+  EXPECT_EQ(rows_of(read_whole_file(folder.file("a.csv"))), 7u);  // the motion alone
 }
 
 TEST(Outputs, PresetsNameTheirFiles) {
@@ -360,9 +361,9 @@ TEST(Outputs, EventsAreCaptions) {
               "9\", name: never}]",
               "--hold", "{first: 1}", "-o", folder.file("a.mp4"), "-o", folder.file("a.gif")});
   ASSERT_EQ(result.status, 0) << result.err;
-  // Times of the film: the first frame stands for a second.
+  // Times of the film: the first frame stands for a second; the last caption ends with the film.
   EXPECT_EQ(read_whole_file(folder.file("a.srt")),
-            "1\n00:00:01,050 --> 00:00:01,150\na > b\n\n2\n00:00:01,150 --> 00:00:03,150\nlate\n\n");
+            "1\n00:00:01,050 --> 00:00:01,150\na > b\n\n2\n00:00:01,150 --> 00:00:01,200\nlate\n\n");
   EXPECT_THAT(read_whole_file(folder.file("a.txt")), HasSubstr("t = 0.050 s: a > b\n  t = 0.150 s: late\n"));
   // None came: no captions.
   ASSERT_EQ(render({"--set", "events=[{when: \"t > 9\", name: never}]", "-o", folder.file("b.mp4")}).status,

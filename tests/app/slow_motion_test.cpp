@@ -1,0 +1,232 @@
+// Films with slow motion, as files: frames, tables, audit, captions and what remembers them.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "app/pipeline.hpp"
+#include "core/error.hpp"
+#include "core/json.hpp"
+#include "encode/png.hpp"
+#include "support/picture_compare.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/video_probe.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+// PP falls from rest: q2 = -g t^2 / 2, which rk4 follows exactly; through -0.5 m after sqrt(1 / g).
+constexpr char kFalling[] = "model: " CHAINREEL_SOURCE_FOLDER
+                            "/models/pp.urdf\nduration: 0.5\nmethod: rk4\nstep: 0.01\ntorque: [0, 0]\n"
+                            "events: [{when: \"q2 < -0.5\", name: half}, {when: \"t > 0.495\", name: late}]\n"
+                            "video: {width: 320, height: 180}\ntext_scale: 1.5\n";
+// 0.1 s, then 0.1 s four times slower (0.4 s), 0.3 s: 0.8 s of film.
+constexpr char kSlow[] = "slow_motion: [{from: 0.1, until: 0.2, speed: 0.25}]\n";
+// From 0.05 s before the event to as long after it ten times slower: 0.4 + 1 s.
+constexpr char kAround[] = "slow_motion: [{event: half, from: -0.05, until: 0.05, speed: 0.1}]\n";
+const double kHalf = std::sqrt(1 / 9.81);
+
+std::vector<std::vector<double>> table_of(const std::string& csv) {
+  std::vector<std::vector<double>> rows;
+  std::istringstream text(csv);
+  std::string line, cell;
+  std::getline(text, line);
+  while (std::getline(text, line)) {
+    rows.emplace_back();
+    for (std::istringstream cells(line); std::getline(cells, cell, ',');)
+      rows.back().push_back(std::stod(cell));
+  }
+  return rows;
+}
+
+class SlowMotionFilm : public testing::Test {
+ protected:
+  std::string scene(const std::string& more) const { return folder_.write("falls.yaml", kFalling + more); }
+  // Writes falls.ENDING for each.
+  Json render(const std::string& more, const std::vector<std::string>& endings,
+              const std::vector<std::string>& options = {}) const {
+    std::vector<std::string> command{"render", scene(more), "--quiet", "--force"};
+    for (const std::string& ending : endings) command.insert(command.end(), {"-o", file(ending)});
+    command.insert(command.end(), options.begin(), options.end());
+    const ProgramResult result = run_program(command);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return Json::parse(read_whole_file(file("json")));
+  }
+  std::string file(const std::string& ending) const { return folder_.file("falls." + ending); }
+  std::string text(const std::string& ending) const { return read_whole_file(file(ending)); }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(SlowMotionFilm, IsSampledAnewFromTheMotion) {
+  const Json audit = render(kSlow, {"mp4", "csv"});
+  const VideoFacts facts = probe_video(file("mp4"));
+  EXPECT_EQ(facts.frames, 48);
+  EXPECT_EQ(facts.duration, (Ratio{4, 5}));
+  EXPECT_TRUE(facts.regular);
+  EXPECT_EQ(audit["frames"], 48);
+  EXPECT_EQ(audit["film_seconds"], 0.8);
+  EXPECT_EQ(audit["duration"], 0.5);
+  const auto rows = table_of(text("csv"));
+  ASSERT_EQ(rows.size(), 49u) << "a row a frame, and one at the end";
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const double film = double(k) / 60;
+    const double t = film < 0.1 ? film : film < 0.5 ? 0.1 + (film - 0.1) / 4 : 0.2 + (film - 0.5);
+    EXPECT_NEAR(rows[k][0], t, 1e-14);
+    // The closed form, to round-off of the steps.
+    EXPECT_NEAR(rows[k][2], -9.81 / 2 * t * t, 1e-13);
+    if (k > 0) {
+      EXPECT_LT(rows[k][2], rows[k - 1][2]) << "a frame was repeated";
+    }
+  }
+  EXPECT_EQ(rows.back()[0], 0.5);
+  // Negative control.
+  render("", {"mp4", "csv"});
+  EXPECT_EQ(probe_video(file("mp4")).frames, 30);
+  EXPECT_EQ(table_of(text("csv")).size(), 31u);
+}
+
+TEST_F(SlowMotionFilm, FollowsAnEventThatOnlyTheRunKnows) {
+  const Json plain = render("", {"mp4"});
+  const Json audit = render(kAround, {"mp4", "csv"});
+  EXPECT_EQ(probe_video(file("mp4")).frames, 84);
+  ASSERT_EQ(audit["slow_motion"].size(), 1u);
+  const Json& one = audit["slow_motion"][0];
+  EXPECT_NEAR(one["from"].get<double>(), kHalf - 0.05, 1e-11);
+  EXPECT_NEAR(one["until"].get<double>(), kHalf + 0.05, 1e-11);
+  EXPECT_NEAR(one["film_from"].get<double>(), kHalf - 0.05, 1e-11);
+  EXPECT_NEAR(one["film_until"].get<double>(), kHalf + 0.95, 1e-11);
+  // Samples are none of the run's concern: the same instant to the last bit.
+  EXPECT_EQ(audit["events"], plain["events"]);
+  EXPECT_FALSE(plain.contains("slow_motion"));
+  // Captions at the times of the film: the event lies half a second behind the change; what comes behind the
+  // instant of the last frame is told with that frame, and nothing is told behind the end.
+  EXPECT_THAT(text("srt"), HasSubstr("1\n00:00:00,769 --> 00:00:01,383\nhalf\n"));
+  EXPECT_THAT(text("srt"), HasSubstr("2\n00:00:01,383 --> 00:00:01,400\nlate\n"));
+  EXPECT_THAT(text("txt"), HasSubstr("not at its own speed: t = 0.269275 s to 0.369275 s at 0.1\u00D7"));
+  EXPECT_THAT(text("txt"), HasSubstr("84 frames"));
+}
+
+TEST_F(SlowMotionFilm, OfAnEventThatDoesNotComeIsThePlainOne) {
+  const Json audit = render("slow_motion: [{event: half, from: 0, until: 1, speed: 0.1}]\n", {"csv"},
+                            {"--set", "duration=0.3"});
+  EXPECT_EQ(audit["slow_motion"], Json::array());
+  EXPECT_EQ(audit["frames"], 18);
+}
+
+TEST_F(SlowMotionFilm, SaysSoBesideTheTimeForAsLongAsItHolds) {
+  const auto words_at = [&](const std::string& at, const std::string& more = kSlow) {
+    const ProgramResult result =
+        run_program({"snapshot", scene(more), "--at", at, "-o", file("svg"), "--force", "--quiet"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return text("svg");
+  };
+  // Instants of the motion, with as many decimals as tell the frames apart.
+  EXPECT_THAT(words_at("0.1"), HasSubstr("0.25\u00D7"));
+  EXPECT_THAT(words_at("0.15"), testing::AllOf(HasSubstr("0.25\u00D7"), HasSubstr("t = 0.150 s")));
+  EXPECT_THAT(words_at("0.199"), HasSubstr("0.25\u00D7"));
+  EXPECT_THAT(words_at("0.099"), testing::AllOf(Not(HasSubstr("\u00D7")), HasSubstr("t = 0.099 s")));
+  EXPECT_THAT(words_at("0.2"), Not(HasSubstr("\u00D7")));
+  EXPECT_THAT(words_at("0.15", ""), testing::AllOf(Not(HasSubstr("\u00D7")), HasSubstr("t = 0.15 s")));
+  EXPECT_THAT(words_at("0.15", "slow_motion: [{from: 0, until: 0.5, speed: 4}]\n"),
+              testing::AllOf(HasSubstr("4\u00D7"), HasSubstr("t = 0.15 s")));
+}
+
+TEST_F(SlowMotionFilm, IsRememberedWithAllOfItsFrames) {
+  for (const char* slow : {kSlow, kAround}) {
+    const TemporaryFolder once, again;
+    const std::string film = scene(slow), clip = once.file("f_000000.png"), extracted = again.file("f.yaml");
+    ASSERT_EQ(run_program({"render", film, "--quiet", "-o", clip}).status, 0);
+    ASSERT_EQ(run_program({"extract", clip, "-o", extracted}).status, 0);
+    ASSERT_EQ(run_program({"render", extracted, "--quiet", "-o", again.file("f_000000.png")}).status, 0);
+    int frames = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(once.path())) {
+      if (entry.path().extension() != ".png") continue;
+      ++frames;
+      EXPECT_EQ(read_png(entry.path().string()).bgra,
+                read_png(again.file(entry.path().filename().string())).bgra);
+    }
+    EXPECT_EQ(frames, slow == kSlow ? 48 : 84);
+  }
+}
+
+TEST_F(SlowMotionFilm, IsCountedByCheckAndOfNoMatterToSimulate) {
+  const auto checked = [&](const std::string& more, const std::vector<std::string>& options = {}) {
+    std::vector<std::string> command{"check", scene(more), "--json"};
+    command.insert(command.end(), options.begin(), options.end());
+    return run_program(command);
+  };
+  EXPECT_EQ(Json::parse(checked(kAround).out)["cost"]["frames"], 84);
+  EXPECT_THAT(checked(kAround).out, HasSubstr("slow_motion: ["));
+  EXPECT_EQ(Json::parse(checked("").out)["cost"]["frames"], 30);
+  // Only the run can tell how long that gets.
+  const ProgramResult endless = checked("slow_motion: [{event: half, from: -1, until: 1000, speed: 0.001}]\n",
+                                        {"--set", "duration=100", "--set", "video.fps=240"});
+  EXPECT_EQ(endless.status, 7);
+  EXPECT_THAT(endless.err, HasSubstr("falls.yaml:9:"));
+  EXPECT_THAT(endless.err, HasSubstr("more than ten million frames"));
+  const auto states = [&](const std::string& more) {
+    return run_program({"simulate", scene(more), "-o", "-", "--quiet"}).out;
+  };
+  EXPECT_EQ(states(kSlow), states(""));
+}
+
+TEST_F(SlowMotionFilm, OfPanelsFollowsTheEventsOfTheFirst) {
+  const std::string panels = "compare: [{title: a}, {title: b, gravity: [0, -4, 0]}]\n";
+  const Json audit = render(kAround + panels, {"mp4"});
+  EXPECT_EQ(audit["frames"], 84);
+  EXPECT_NEAR(audit["slow_motion"][0]["from"].get<double>(), kHalf - 0.05, 1e-11);
+  EXPECT_EQ(probe_video(file("mp4")).frames, 84);
+}
+
+TEST_F(SlowMotionFilm, HoldsAndSmallClipsGoByTheTimeOfTheFilm) {
+  const Json audit =
+      render(kSlow, {"gif", "mp4"}, {"--set", "video.fps=25", "--hold", "{first: 0.2, last: 0.4}"});
+  EXPECT_EQ(audit["frames"], 20 + 5 + 10);
+  EXPECT_EQ(probe_video(file("gif")).frames, 35);
+  EXPECT_NEAR(audit["slow_motion"][0]["film_from"].get<double>(), 0.3, 1e-12);
+  EXPECT_NEAR(audit["slow_motion"][0]["film_until"].get<double>(), 0.7, 1e-12);
+  // `late` at 0.495 s of the motion is 0.995 s of the film, and ends with the film.
+  EXPECT_THAT(text("srt"), HasSubstr("00:00:00,995 --> 00:00:01,400\nlate\n"));
+}
+
+TEST_F(SlowMotionFilm, TheTableOfAFilmEndsWhereThatOfARunDoes) {
+  const Json audit = render("", {"csv"});
+  const std::string states = run_program({"simulate", scene(""), "-o", "-", "--quiet"}).out;
+  EXPECT_EQ(text("csv"), states);
+  const ProgramResult run = run_program({"simulate", scene(""), "-o", file("b.csv"), "--json", "--quiet"});
+  EXPECT_EQ(Json::parse(run.out)["trajectory_sha256"], audit["trajectory_sha256"]);
+}
+
+TEST_F(SlowMotionFilm, LooksLikeItsGolden) {
+  const Fonts fonts;
+  for (const char* theme : {"light", "dark"}) {
+    const PreparedFilm film = load_film(
+        "assets/scenes/rr_ellipse.yaml",
+        {"video.width=640", "video.height=360", "text_scale=1.5", "duration=2", std::string("theme=") + theme,
+         "slow_motion=[{from: 0.5, until: 1, speed: 0.25}, {from: 1.5, until: 2, speed: 4}]"});
+    const FilmClock clock = clock_of(film);
+    const std::vector<double> times = clock.frame_times();
+    ASSERT_EQ(times.size(), 60u + 120u + 8u);  // 1 s, 2 s and an eighth of a second, which is 7.5 frames
+    const auto runs = simulate_film(film, times);
+    const Film pictures = film_of(film, runs, times, int(times.size()), fonts, clock);
+    const auto image = [&](int k) {
+      Picture picture = pictures.static_layer();
+      picture.append(pictures.frame(k));
+      return rasterise(picture, 640, 360, fonts);
+    };
+    const std::string name = std::string("slow_motion_") + theme;
+    EXPECT_TRUE(matches_golden(image(90), name, {.max = 24, .mean = 0.05}));
+    EXPECT_FALSE(pictures_agree(image(90), image(160), {.max = 24, .mean = 0.05}, name + "_control"));
+  }
+}
+
+}  // namespace
+}  // namespace chainreel
