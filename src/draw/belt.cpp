@@ -194,7 +194,7 @@ void draw_surface(Picture& picture, const Eigen::Matrix3d& A, Point center, cons
     fill_piece(picture, {page(a.x, a.y), page(b.x, b.y), page(b.x, -height(-b.x)), page(a.x, -height(-a.x))},
                kSilhouetteFill, open, style, clip);
   }
-  draw_outline(picture, outline, size::kEllipseLine, open, style, clip);
+  draw_outline(picture, outline, style.lines * size::kEllipseLine, open, style, clip);
 }
 
 }  // namespace
@@ -224,7 +224,7 @@ void draw_belt(Picture& picture, const std::vector<MassAxis>& axes, Point center
     for (std::size_t j = i + 1; j < axes.size(); ++j) {
       if (!(mobility[j] > 0)) continue;  // infinite in this whole plane
       draw_plane_belt(picture, {page[i], page[j], mobility[i], mobility[j]}, center,
-                      solid ? size::kEllipseAxis : size::kEllipseLine, !solid, style, clip);
+                      solid ? style.lines * size::kEllipseAxis : style.lines * size::kEllipseLine, !solid, style, clip);
     }
   for (std::size_t i = 0; i < axes.size(); ++i) {
     if (open[i]) {
@@ -235,9 +235,9 @@ void draw_belt(Picture& picture, const std::vector<MassAxis>& axes, Point center
     }
     const Point v = mobility[i] > 0 ? (1 / mobility[i]) * page[i] : Point{};
     if (i == 0)
-      draw_line(picture, {center - v, center + v}, size::kEllipseAxis, style.theme->ellipse, clip);
+      draw_line(picture, {center - v, center + v}, style.lines * size::kEllipseAxis, style.theme->ellipse, clip);
     else
-      draw_dashed(picture, {center - v, center + v}, size::kEllipseAxis, style.theme->ellipse, clip);
+      draw_dashed(picture, {center - v, center + v}, style.lines * size::kEllipseAxis, style.theme->ellipse, clip);
   }
 }
 

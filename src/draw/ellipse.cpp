@@ -60,19 +60,19 @@ void draw_closed(Picture& picture, const std::vector<PageAxis>& axes, Point cent
   const bool solid = axes.size() > 2;
   const auto [u, v] = silhouette(axes);
   if (length_of(v) < kNoLength)  // nothing moves along the other axis
-    return draw_line(picture, {center - u, center + u}, size::kEllipseLine, line, clip);
+    return draw_line(picture, {center - u, center + u}, style.lines * size::kEllipseLine, line, clip);
   picture.add(
-      Ellipse{center, u, v, {line.faded(solid ? kSilhouetteFill : kEllipseFill), line, size::kEllipseLine}}, clip);
+      Ellipse{center, u, v, {line.faded(solid ? kSilhouetteFill : kEllipseFill), line, style.lines * size::kEllipseLine}}, clip);
   for (std::size_t i = 0; solid && i < axes.size(); ++i) {
     const auto [a, b] = silhouette({axes[i], axes[(i + 1) % axes.size()]});
-    if (length_of(b) > kNoLength) picture.add(Ellipse{center, a, b, {{}, line, size::kEllipseAxis}}, clip);
+    if (length_of(b) > kNoLength) picture.add(Ellipse{center, a, b, {{}, line, style.lines * size::kEllipseAxis}}, clip);
   }
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const PageLine axis{center - axes[i].v, center + axes[i].v};
     if (i == 0) {
-      draw_line(picture, axis, size::kEllipseAxis, line, clip);
+      draw_line(picture, axis, style.lines * size::kEllipseAxis, line, clip);
     } else {
-      draw_dashed(picture, axis, size::kEllipseAxis, line, clip);
+      draw_dashed(picture, axis, style.lines * size::kEllipseAxis, line, clip);
     }
   }
 }
@@ -95,7 +95,7 @@ void draw_fading_line(Picture& picture, Point p, Point d, const EllipseStyle& st
   if (!(in < out)) return;
   const double fade = std::min(style.fade, (out - in) / 2);
   const Point a = p + in * d, b = p + out * d;
-  Capsule line{a + fade * d, b - fade * d, size::kEllipseLine / 2, {style.theme->ellipse, {}, 0}};
+  Capsule line{a + fade * d, b - fade * d, style.lines * size::kEllipseLine / 2, {style.theme->ellipse, {}, 0}};
   picture.add(line, clip);
   line.alpha_b = 0;
   for (const auto& [inner, edge] : {std::pair{a + fade * d, a}, {b - fade * d, b}}) {
@@ -130,7 +130,7 @@ void draw_open(Picture& picture, const std::vector<PageAxis>& axes, Point center
   for (const double side : {-1.0, 1.0}) {
     draw_fading_line(picture, center + (side * half_width) * n, d, style, clip);
   }
-  draw_dashed(picture, {center - half_width * n, center + half_width * n}, size::kEllipseAxis,
+  draw_dashed(picture, {center - half_width * n, center + half_width * n}, style.lines * size::kEllipseAxis,
               style.theme->ellipse, clip);
   draw_infinity_along(picture, center, d, half_width, style, clip);
   draw_infinity_along(picture, center, -1 * d, half_width, style, clip);

@@ -74,6 +74,7 @@ struct EllipseStyle {
   EllipseReading reading = EllipseReading::mass;
   double fade = size::kEllipseFade;  // over this last stretch
   bool signs = true;                 // infinity signs at open ends
+  double lines = 1;                  // times the widths of the style guide
 };
 
 // The curve about `center` in the reading of the style.

@@ -4,10 +4,12 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "draw/caption.hpp"
 #include "draw/chain.hpp"
 #include "draw/chain_fit.hpp"
 #include "draw/ellipse_figure.hpp"
 #include "draw/joints.hpp"
+#include "draw/mark_labels.hpp"
 #include "draw/metre_bar.hpp"
 #include "draw/view.hpp"
 #include "dynamics/kinematics.hpp"
@@ -22,6 +24,10 @@ constexpr double kLeastRoom = 0.4;     // of the page for an ellipse, however ma
 constexpr double kInCell = 0.46;       // of a cell's side: the longest semi-axis that is drawn whole
 constexpr double kMostWhole = 0.7;     // of a field's ellipses have their long axes inside of their cells
 constexpr double kFadeOfCell = 0.25;   // of a cell's side
+constexpr double kCellOfFullLines = 0.2, kThinnestLines = 0.5;  // units of H; of the style guide's widths
+constexpr double kLabelOff = 0.022;  // units of H, from an end effector
+constexpr double kLabelAir = 0.008, kFarReach = 0.3;  // units of H: off a curve; longer curves are written on
+constexpr double kLabelFarthest = 5;  // heights of a label
 constexpr double kSmallestCell = 0.02;  // units of H: below, ellipses cannot be read
 constexpr int kSceneClip = 0;
 constexpr double kNoLimit = std::numeric_limits<double>::max();
@@ -135,10 +141,54 @@ struct Overlay {
       style.scene = {tip.x - half, tip.y - half, tip.x + half, tip.y + half};
       style.fade = kFadeOfCell * side;
       style.signs = false;
+      style.lines = std::clamp(side / kCellOfFullLines, kThinnestLines, 1.0);
       clip = int(picture.clips.size());
       picture.clips.push_back(style.scene);
     }
     draw_mass_ellipse(picture, pose.axes, tip, camera, style, clip);
+  }
+
+  // Each pose by its name, or its q, off its end effector: away from the middle of them all.
+  void draw_labels(Picture& picture, const Rect& scene) {
+    std::vector<Point> tips;
+    Point mean;
+    for (const Pose& pose : poses) {
+      stand_in(pose);
+      tips.push_back(camera.project(tip_position(chain, ws)));
+      mean = mean + (1.0 / double(poses.size())) * tips.back();
+    }
+    MarkLabels labels;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const TextLine line = label_of(i);
+      const Point way = tips[i] - mean;
+      const double length = std::hypot(way.x, way.y);
+      const Point out = length > kLabelOff ? (1 / length) * way : Point{0, 1};
+      const double half_width = line.box.width() / 2, half_height = line.box.height() / 2;
+      const double off = std::max(kLabelOff, reach_of(poses[i], out)) + kLabelAir + std::abs(out.x) * half_width +
+                         std::abs(out.y) * half_height;
+      const Point middle = tips[i] + off * out;
+      labels.add(line, {middle.x - half_width, middle.y - half_height, middle.x + half_width, middle.y + half_height},
+                 true);
+    }
+    labels.draw(picture, scene, options.theme->background, kSceneClip, kLabelFarthest);
+  }
+
+  // How far the curve of a pose goes that way; open ones are written on.
+  double reach_of(const Pose& pose, Point way) const {
+    double squared = 0;
+    for (const MassAxis& axis : pose.axes) {
+      const auto length = semi_axis(axis, options.reading);
+      if (!length || *length * scale.per_unit() > kFarReach) return 0;
+      const double along = camera.right.dot(axis.direction) * way.x + camera.up.dot(axis.direction) * way.y;
+      squared += std::pow(*length * scale.per_unit() * along, 2);
+    }
+    return std::sqrt(squared);
+  }
+
+  TextLine label_of(std::size_t i) const {
+    const TextStyle style{Face::label, scaled(size::kAxis, options.text_scale), options.theme->ink, Align::left};
+    if (i < options.labels.size()) return lay_out_text(fonts, options.labels[i], style);
+    return lay_out_math(fonts, pose_notations(chain, poses[i].q).front(), style);
   }
 };
 
@@ -179,6 +229,7 @@ Picture draw_superposed(const Chain& chain, const std::vector<Pose>& poses, cons
       draw_end_effector(picture, overlay.camera.project(tip_position(chain, overlay.ws)),
                         look_of(overlay.skeleton, overlay.camera, *options.theme), kSceneClip);
     }
+  if (!overlay.is_field() && poses.size() > 1) overlay.draw_labels(picture, room);
   Sheet inside = sheet;
   inside.scene = room;
   if (overlay.is_field()) draw_metre_bar(picture, overlay.camera, inside, fonts);

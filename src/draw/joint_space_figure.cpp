@@ -22,6 +22,7 @@ namespace {
 
 constexpr int kMostPoses = 3;
 constexpr double kFill = 0.16;
+constexpr double kWidestLabel = 0.25;  // of a frame
 constexpr double kAirAround = 1.25;  // of what is drawn, to the frame of its axes
 constexpr double kNoLimit = std::numeric_limits<double>::max();
 
@@ -72,8 +73,10 @@ void draw_image(Picture& picture, const PlotFrame& frame, const Eigen::Matrix2d&
     const Color arrow = style.theme->curve[std::size_t(k)];
     draw_arrow(picture, center, v, {arrow, 1, false, false}, clip);
     const TextStyle text{Face::math, style.text(size::kAxis), arrow, Align::center};
-    const TextLine label =
-        lay_out_math(*style.fonts, symbol + std::to_string(joints[std::size_t(k)] + 1) + " = 1", text);
+    const std::string name = symbol + std::to_string(joints[std::size_t(k)] + 1);
+    TextLine label = lay_out_math(*style.fonts, name + " = 1", text);
+    // Small frames have room for the symbol alone; that it is of unit length is said below the figure.
+    if (label.advance > kWidestLabel * frame.box.width()) label = lay_out_math(*style.fonts, name, text);
     const double length = std::max(std::hypot(v.x, v.y), 1e-9), em = text.size;
     // Beside the tip, on the side away from the other arrow.
     const double side = k == 0 ? -1 : 1;

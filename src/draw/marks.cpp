@@ -50,7 +50,8 @@ double FrameAxes::reach() const {
   return marks_ * size::kAxisLength + kLetterGap + letter;
 }
 
-void FrameAxes::draw_axis(Picture& picture, Point origin, Point v, double away, int axis, int clip) const {
+void FrameAxes::draw_axis(Picture& picture, Point origin, Point v, double away, int axis, int clip,
+                          MarkLabels& labels) const {
   const Color color = theme_->axis[std::size_t(axis)];
   const double width = marks_ * size::kAxisShaft;
   Point along{-std::numbers::sqrt2 / 2, -std::numbers::sqrt2 / 2}, tip = origin;
@@ -83,10 +84,11 @@ void FrameAxes::draw_axis(Picture& picture, Point origin, Point v, double away, 
   const TextLine& letter = letters_[std::size_t(axis)];
   const Point half{letter.box.width() / 2, letter.box.height() / 2};
   const Point middle = tip + (kLetterGap + std::abs(along.x) * half.x + std::abs(along.y) * half.y) * along;
-  draw_text(picture, letter, {middle.x - half.x - letter.box.x0, middle.y - half.y - letter.box.y0}, clip);
+  labels.add(letter, {middle.x - half.x, middle.y - half.y, middle.x + half.x, middle.y + half.y}, false);
 }
 
-void FrameAxes::draw(Picture& picture, const Camera& camera, const Workspace& ws, int clip) const {
+void FrameAxes::draw(Picture& picture, const Camera& camera, const Workspace& ws, int clip,
+                     MarkLabels& labels) const {
   for (const Eigen::Isometry3d& X_WF : poses(ws)) {
     const Point origin = camera.project(X_WF.translation());
     if (!std::isfinite(origin.x) || !std::isfinite(origin.y)) continue;
@@ -98,7 +100,7 @@ void FrameAxes::draw(Picture& picture, const Camera& camera, const Workspace& ws
         if ((depth > 0) != away) continue;
         const double length = marks_ * size::kAxisLength;
         draw_axis(picture, origin, {length * camera.right.dot(direction), length * camera.up.dot(direction)},
-                  depth, axis, clip);
+                  depth, axis, clip, labels);
       }
     }
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "draw/chain.hpp"
+#include "draw/mark_labels.hpp"
 #include "picture/text.hpp"
 
 namespace chainreel {
@@ -13,15 +14,15 @@ class FrameAxes {
  public:
   FrameAxes(const Chain& chain, const Theme& theme, const Fonts& fonts, double text_scale, double marks);
 
-  // After compute_kinematics.
-  void draw(Picture& picture, const Camera& camera, const Workspace& ws, int clip) const;
+  // After compute_kinematics. The letters go to `labels`.
+  void draw(Picture& picture, const Camera& camera, const Workspace& ws, int clip, MarkLabels& labels) const;
   // The frames that are drawn: their poses in W.
   std::vector<Eigen::Isometry3d> poses(const Workspace& ws) const;
   // How far from a frame's origin its axes and letters reach, units of H.
   double reach() const;
 
  private:
-  void draw_axis(Picture& picture, Point origin, Point v, double away, int axis, int clip) const;
+  void draw_axis(Picture& picture, Point origin, Point v, double away, int axis, int clip, MarkLabels& labels) const;
 
   const Chain* chain_;
   const Theme* theme_;

@@ -272,10 +272,12 @@ void Panel::draw_ghosts(Picture& picture, int k) const {
 
 // Marks and vectors, below the end effector's disc.
 void Panel::draw_overlays(Picture& picture, const std::vector<WorldVector>& vectors) const {
-  if (axes_) axes_->draw(picture, camera_, *ws_, clip_);
+  MarkLabels labels;
+  if (axes_) axes_->draw(picture, camera_, *ws_, clip_, labels);
   if (layers_.com)
     draw_center_of_mass(picture, camera_.project(center_of_mass(run_.chain, *ws_)), look_, clip_);
-  for (const WorldVector& vector : vectors) pen_->draw(picture, vector, camera_, clip_);
+  for (const WorldVector& vector : vectors) pen_->draw(picture, vector, camera_, clip_, labels);
+  labels.draw(picture, area_, theme_.background, clip_);
 }
 
 void Panel::draw_frame(Picture& picture, int k, const EllipseScale& scale, const Fonts& fonts) const {

@@ -154,7 +154,7 @@ void draw_legend(Picture& picture, const PlotFrame& map, const Axis& errors, boo
   }
   draw_color_bar(picture, {left, bottom, left + kBarWidth, map.box.y1}, errors, look);
   const TextStyle title{Face::label, style.text(size::kAxis), look.theme->ink, Align::left};
-  draw_text(picture, lay_out_text(*look.fonts, errors.title, title), {left, map.box.y1 + kTitleAboveFrame});
+  draw_text(picture, lay_out_text(*look.fonts, errors.title, title), {left, map.box.y1 + title_above_frame(look.plot_style())});
 }
 
 double legend_width(const Axis& errors, const ChartLook& look) {

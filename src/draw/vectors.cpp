@@ -13,10 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLabelGap = 0.010;   // between an arrow's tip or an arc and its label, units of H
-constexpr double kPlate = 0.75;       // opacity of what sets a label off from links below it
-constexpr double kPlateEdge = 0.004;  // of the plate around the letters
-constexpr double kRoomStep = 0.01;    // units of H: rooms are rounded up to multiples, to have few kinds
+constexpr double kLabelGap = 0.010;  // between an arrow's tip or an arc and its label, units of H
+constexpr double kRoomStep = 0.01;   // units of H: rooms are rounded up to multiples, to have few kinds
 
 double length_of(Point v) {
   return std::hypot(v.x, v.y);
@@ -112,14 +110,6 @@ Rect VectorPen::label_box(const TextLine& label, Point near, Point direction) co
   return {middle.x - half_width, middle.y - half_height, middle.x + half_width, middle.y + half_height};
 }
 
-void VectorPen::draw_label(Picture& picture, const TextLine& label, const Rect& box, int clip) const {
-  const double r = box.height() / 2 + kPlateEdge, y = (box.y0 + box.y1) / 2;
-  const double inset = std::min(box.height(), box.width()) / 2;
-  picture.add(Capsule{{box.x0 + inset, y}, {box.x1 - inset, y}, r, {theme_->background.faded(kPlate), {}, 0}},
-              clip);
-  draw_text(picture, label, {box.x0 - label.box.x0, box.y0 - label.box.y0}, clip);
-}
-
 VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera& camera) const {
   const VectorScale scale = scales_.of(vector.kind);
   const double magnitude = vector.value.norm();
@@ -174,7 +164,7 @@ void VectorPen::add_to(FitBox& box, std::map<int, int>& kinds, const WorldVector
 }
 
 void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const Camera& camera,
-                            int clip) const {
+                            int clip, MarkLabels& labels) const {
   const Point center = camera.project(vector.place);
   const double radius = marks_ * size::kTorqueArc;
   const Circle circle = circle_about(vector.axis, camera);
@@ -191,13 +181,14 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   }
   const TextLine& text = label(vector);
   const double off = radius + marks_ * size::kArrowHeadWidth / 2;
-  draw_label(picture, text, label_box(text, center + Point{0, off}, {0, 1}), clip);
+  labels.add(text, label_box(text, center + Point{0, off}, {0, 1}), true);
 }
 
-void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& camera, int clip) const {
+void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& camera, int clip,
+                     MarkLabels& labels) const {
   const Point place = camera.project(vector.place);
   if (!std::isfinite(place.x) || !std::isfinite(place.y)) return;
-  if (vector.kind == VectorKind::torque) return draw_torque(picture, vector, camera, clip);
+  if (vector.kind == VectorKind::torque) return draw_torque(picture, vector, camera, clip, labels);
   const Straight arrow = straight(vector, camera);
   if (length_of(arrow.v) < size::kShortestArrow) return;
   const Point tail = place + arrow.shift;
@@ -206,7 +197,7 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
              clip);
   if (vector.label.empty()) return;
   const TextLine& text = label(vector);
-  draw_label(picture, text, label_box(text, tail + arrow.v, unit(arrow.v)), clip);
+  labels.add(text, label_box(text, tail + arrow.v, unit(arrow.v)), true);
 }
 
 }  // namespace chainreel

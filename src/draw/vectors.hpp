@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "draw/fit.hpp"
+#include "draw/mark_labels.hpp"
 #include "picture/camera.hpp"
 #include "picture/text.hpp"
 #include "picture/theme.hpp"
@@ -70,7 +71,8 @@ class VectorPen {
   void add_to(FitBox& box, std::map<int, int>& kinds, const WorldVector& vector, const Camera& camera) const;
   // What it covers on the page, label included, about the projection of its place; empty if it is not drawn.
   Rect extent(const WorldVector& vector, const Camera& camera) const;
-  void draw(Picture& picture, const WorldVector& vector, const Camera& camera, int clip) const;
+  // Its label goes to `labels`, which are drawn over all vectors.
+  void draw(Picture& picture, const WorldVector& vector, const Camera& camera, int clip, MarkLabels& labels) const;
 
   const VectorScales& scales() const { return scales_; }
 
@@ -82,8 +84,8 @@ class VectorPen {
   Straight straight(const WorldVector& vector, const Camera& camera) const;
   const TextLine& label(const WorldVector& vector) const;
   Rect label_box(const TextLine& label, Point near, Point direction) const;
-  void draw_label(Picture& picture, const TextLine& label, const Rect& box, int clip) const;
-  void draw_torque(Picture& picture, const WorldVector& vector, const Camera& camera, int clip) const;
+  void draw_torque(Picture& picture, const WorldVector& vector, const Camera& camera, int clip,
+                   MarkLabels& labels) const;
 
   const Theme* theme_;
   const Fonts* fonts_;

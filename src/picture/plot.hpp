@@ -73,8 +73,8 @@ struct PlotFrame {
 void draw_tick_label(Picture& picture, const Tick& tick, Point at, Align align, const PlotStyle& style);
 double tick_label_width(const Tick& tick, const PlotStyle& style);
 
-// Where the base line of the title of a vertical axis stands above the frame.
-inline constexpr double kTitleAboveFrame = 0.016;
+// Where the base line of the title of a vertical axis stands above the frame: over the highest number and its exponent.
+double title_above_frame(const PlotStyle& style);
 
 // The frame inside `area` that leaves room for tick labels and axis titles.
 PlotFrame lay_out_plot(const Rect& area, const Axis& x, const Axis& y, const PlotStyle& style);

@@ -6,6 +6,7 @@
 namespace chainreel {
 namespace {
 
+constexpr double kTitleAbove = 0.019;  // with text at its usual size
 constexpr double kTickToLabel = 0.007, kLabelToTitle = 0.010;
 constexpr double kCapHeight = 0.73;                                // of the em, of the label face
 constexpr double kSuperscriptScale = 0.70, kSuperscriptUp = 0.38;  // of the em, as in formulas
@@ -176,13 +177,17 @@ Point PlotFrame::data_at(Point page) const {
   return {value_on(x, (page.x - box.x0) / box.width()), value_on(y, (page.y - box.y0) / box.height())};
 }
 
+double title_above_frame(const PlotStyle& style) {
+  return kTitleAbove * style.text(size::kTick) / size::kTick;
+}
+
 PlotFrame lay_out_plot(const Rect& area, const Axis& x, const Axis& y, const PlotStyle& style) {
   const double tick = style.text(size::kTick), title = style.text(size::kAxis);
   PlotFrame frame{x, y, area};
   Rect& box = frame.box;
   box.y0 += size::kPlotTick + kTickToLabel + tick;
   if (!x.title.empty()) box.y0 += kLabelToTitle + title;
-  box.y1 -= y.title.empty() ? tick / 2 : title + kTitleAboveFrame;
+  box.y1 -= y.title.empty() ? tick / 2 : title + title_above_frame(style);
   box.x0 += size::kPlotTick + kTickToLabel + widest_label(y_ticks(y, box.height(), style), style);
   // Half of the last number hangs over the end of the axis.
   box.x1 -= widest_label(ticks_of(x, kMostLog), style) / 2;
@@ -210,7 +215,7 @@ void draw_axes(Picture& picture, const PlotFrame& frame, const PlotStyle& style)
   const double labels = widest_label(ys, style) + kTickToLabel + size::kPlotTick;
   draw_text(picture,
             lay_out_text(*style.fonts, frame.y.title, {Face::label, em, style.theme->ink, Align::left}),
-            {frame.box.x0 - labels, frame.box.y1 + kTitleAboveFrame});
+            {frame.box.x0 - labels, frame.box.y1 + title_above_frame(style)});
 }
 
 void draw_cursor(Picture& picture, const PlotFrame& frame, double x, Color color) {

@@ -11,6 +11,7 @@ constexpr double kCapHeight = 0.73;  // of the em
 
 constexpr double kKeyLength = 0.042, kKeyToText = 0.010, kLeaderGap = 0.004, kLeader = 0.0014;
 constexpr double kLeaderOpacity = 0.55;
+constexpr double kLeastPitch = 1.1;  // of the em: letters of two lines do not touch
 constexpr double kTriangleLine = size::kPlotFrame;
 
 }  // namespace
@@ -99,11 +100,15 @@ void draw_end_labels(Picture& picture, const PlotFrame& frame, std::vector<EndLa
                      const PlotStyle& style) {
   std::stable_sort(labels.begin(), labels.end(),
                    [](const EndLabel& a, const EndLabel& b) { return a.end.y < b.end.y; });
-  const double em = style.text(size::kTick), half = kLinePitch * em / 2;
+  // Closer than lines of a paragraph where the frame is low; what it cannot hold stands out above it, not below, where
+  // the numbers are.
+  const double em = style.text(size::kTick), count = double(std::max<std::size_t>(labels.size(), 1));
+  const double half = std::clamp(frame.box.height() / count, kLeastPitch * em, kLinePitch * em) / 2;
+  const double low = frame.box.y0 + half, high = std::max(frame.box.y1 - half, low + (count - 1) * 2 * half);
   std::vector<double> wanted;
   for (const EndLabel& label : labels) wanted.push_back(label.end.y);
   const std::vector<double> places =
-      moved_apart(std::move(wanted), 2 * half, frame.box.y0 + half, frame.box.y1 - half);
+      moved_apart(std::move(wanted), 2 * half, low, high);
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const EndLabel& label = labels[i];
     const Point at = {x, places[i]};

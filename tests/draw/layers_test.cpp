@@ -283,7 +283,8 @@ TEST(VectorPen, CutsWhatTheScaleCannotShowAndSaysSo) {
     v.value = {value, 0, 0};
     v.label = "v";
     Picture picture;
-    pen.draw(picture, v, Camera{}, 0);
+    MarkLabels labels;
+    pen.draw(picture, v, Camera{}, 0, labels);
     const auto drawn = arrows(picture, light_theme().velocity);
     ASSERT_EQ(drawn.size(), 1u);
     EXPECT_NEAR(drawn[0].v().x, std::min(0.1 * value, 0.25), kRoundOff);
@@ -302,7 +303,8 @@ TEST(VectorPen, TurnsInSpaceLieOnTheCircleAsTheCameraSeesIt) {
   v.value = v.axis;
   v.label = "tau_1";
   Picture picture;
-  pen.draw(picture, v, camera, 0);
+  MarkLabels labels;
+  pen.draw(picture, v, camera, 0, labels);
   const auto paths = test::all_of<Trail>(picture);
   ASSERT_EQ(paths.size(), 1u);
   for (const TrailPoint& p : paths[0].points) {
