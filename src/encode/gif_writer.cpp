@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "encode/codecs.hpp"
+#include "encode/gif_comment.hpp"
 #include "encode/muxer.hpp"
 #include "encode/palette.hpp"
 #include "encode/small_clip.hpp"
@@ -32,13 +33,17 @@ void unpack(const std::vector<Bytef>& bytes, Image& image) {
 }  // namespace
 
 struct GifWriter::State {
+  std::string path;
+  Tags tags;
   SmallFrames small;
   Muxer muxer;
   PaletteMaker colors;
   std::vector<std::vector<Bytef>> frames;
 
-  State(const std::string& path, const SmallClipSettings& s)
-      : small(s.width, s.height, s.fps),
+  State(const std::string& p, const SmallClipSettings& s)
+      : path(p),
+        tags(s.tags),
+        small(s.width, s.height, s.fps),
         muxer(path, kGif,
               open_small_encoder("gif", AV_PIX_FMT_PAL8, small.width(), small.height(),
                                  {small.fps().den, small.fps().num}),
@@ -79,6 +84,7 @@ void GifWriter::finish() {
     s.muxer.encode(*frame);
   }
   s.muxer.finish();
+  put_gif_comment(s.path, s.tags);
 }
 
 }  // namespace chainreel

@@ -1,5 +1,5 @@
 // Clips for pages of text: GIF with one palette, APNG. Every n-th frame, at most 25 a second, at most 800
-// pixels wide, played for ever. GIF has no room for texts; those of an APNG are read by read_png_text.
+// pixels wide, played for ever. Their texts are read by read_gif_comment and read_png_text.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ struct SmallClipSettings {
   int height = 1080;
   FrameRate fps{};
   bool alpha = false;  // APNG alone
-  Tags tags{};         // APNG alone
+  Tags tags{};
 };
 
 // Keeps the frames, compressed, until finish(): the palette is known then.

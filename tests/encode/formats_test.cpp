@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "encode/gif_comment.hpp"
 #include "encode/bleed.hpp"
 #include "encode/film_tags.hpp"
 #include "encode/palette.hpp"
@@ -173,6 +174,24 @@ TEST(Formats, AGifTakesEveryNthFrameAndKeepsFlatColours) {
   // Few colours: the clip is exact.
   EXPECT_EQ(facts.last.bgra, over(floating_disc(12), 255).bgra);
   EXPECT_NE(facts.last.bgra, over(floating_disc(11), 255).bgra);
+}
+
+TEST(Formats, AGifRemembersTextsOfAnyLengthAndIsTheSameFilmStill) {
+  const TemporaryFolder folder;
+  const std::string plain = folder.file("a.gif"), told = folder.file("b.gif");
+  std::string text = "\u03C4: [0, 0]\n";
+  while (text.size() < 2000) text += "# longer than several blocks of 255 bytes\n";
+  const Tags tags{{"chainreel_scene", text}, {"title", "a \"disc\""}};
+  for (const std::string& path : {plain, told}) {
+    GifWriter writer(path, {.width = kWidth, .height = kHeight, .fps = {25, 1}, .tags = path == told ? tags : Tags{}});
+    for (int k = 0; k < 3; ++k) writer.write(over(floating_disc(k), 255));
+    writer.finish();
+  }
+  EXPECT_EQ(read_gif_comment(told), tags);
+  EXPECT_TRUE(read_gif_comment(plain).empty());  // negative control
+  const VideoFacts with = probe_video(told), without = probe_video(plain);
+  EXPECT_EQ(with.frames, without.frames);
+  EXPECT_EQ(with.last.bgra, without.last.bgra);
 }
 
 TEST(Formats, AGifIsAtMost800PixelsWide) {
