@@ -3,11 +3,11 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
+
+#include "mesh/equal_items.hpp"
+#include "mesh/smooth_normals.hpp"
 
 namespace chainreel {
 namespace {
@@ -19,138 +19,121 @@ Eigen::Vector3d vector_of(const aiVector3D& v) {
   return {double(v.x), double(v.y), double(v.z)};
 }
 
-std::array<float, 3> floats_of(const Eigen::Vector3d& v) {
+Point3f floats_of(const Eigen::Vector3d& v) {
   // Adding zero makes a zero of -0, so that both are one vertex.
   return {float(v[0]) + 0.0F, float(v[1]) + 0.0F, float(v[2]) + 0.0F};
 }
 
-Eigen::Vector3d position_of(const Vertex& vertex) {
-  return {double(vertex.position[0]), double(vertex.position[1]), double(vertex.position[2])};
-}
-
-// Vertices by their bytes: an open table of indices, half empty.
-class VertexTable {
- public:
-  explicit VertexTable(std::vector<Vertex>& vertices) : vertices_(vertices), table_(1024, kFree) {}
-
-  std::uint32_t index_of(const Vertex& vertex) {
-    if (2 * vertices_.size() >= table_.size()) grow();
-    std::uint32_t& slot = slot_of(vertex);
-    if (slot == kFree) {
-      slot = std::uint32_t(vertices_.size());
-      vertices_.push_back(vertex);
-    }
-    return slot;
-  }
-
- private:
-  static constexpr std::uint32_t kFree = ~std::uint32_t(0);
-
-  static std::size_t hash_of(const Vertex& vertex) {
-    std::array<std::uint32_t, 7> words;
-    std::memcpy(words.data(), &vertex, sizeof(vertex));
-    std::uint64_t hash = 0;
-    for (const std::uint32_t word : words) hash = std::rotl((hash ^ word) * 0x9E3779B97F4A7C15U, 29);
-    return std::size_t(hash);
-  }
-
-  std::uint32_t& slot_of(const Vertex& vertex) {
-    const std::size_t mask = table_.size() - 1;
-    std::size_t at = hash_of(vertex) & mask;
-    while (table_[at] != kFree && std::memcmp(&vertices_[table_[at]], &vertex, sizeof(vertex)) != 0)
-      at = (at + 1) & mask;
-    return table_[at];
-  }
-
-  void grow() {
-    table_.assign(2 * table_.size(), kFree);
-    for (std::size_t i = 0; i < vertices_.size(); ++i) slot_of(vertices_[i]) = std::uint32_t(i);
-  }
-
-  std::vector<Vertex>& vertices_;
-  std::vector<std::uint32_t> table_;
-};
-
 // Positions by X, normals by its inverse transpose, and what a mirror does to the order of corners.
-struct Placement {
+class Placement {
+ public:
   explicit Placement(const aiMatrix4x4& X) : X_(X) {
     Eigen::Matrix3d A;
     A << double(X.a1), double(X.a2), double(X.a3), double(X.b1), double(X.b2), double(X.b3), double(X.c1),
         double(X.c2), double(X.c3);
-    const double determinant = A.determinant();
-    mirrors = determinant < 0;
+    mirrors_ = A.determinant() < 0;
     // The cofactors are the inverse transpose times the determinant; they also serve a mesh pressed flat.
     N_.col(0) = A.col(1).cross(A.col(2));
     N_.col(1) = A.col(2).cross(A.col(0));
     N_.col(2) = A.col(0).cross(A.col(1));
-    if (mirrors) N_ = -N_;
+    if (mirrors_) N_ = -N_;
   }
 
-  Eigen::Vector3d position(const aiVector3D& p) const { return vector_of(X_ * p); }
-  Eigen::Vector3d normal(const aiVector3D& n) const { return N_ * vector_of(n); }
+  Point3f position(const aiVector3D& p) const { return floats_of(vector_of(X_ * p)); }
 
-  bool mirrors = false;
+  // Unit, or zero where the file's is no direction.
+  Eigen::Vector3d normal(const aiVector3D& n) const {
+    const Eigen::Vector3d placed = N_ * vector_of(n).normalized();
+    const double length = placed.norm();
+    return std::isfinite(length) && length > 0 ? Eigen::Vector3d(placed / length) : Eigen::Vector3d(0, 0, 0);
+  }
+
+  unsigned corner(unsigned c) const { return mirrors_ ? 2 - c : c; }
 
  private:
   aiMatrix4x4 X_;
   Eigen::Matrix3d N_;
+  bool mirrors_ = false;
 };
 
-class Collector {
- public:
-  explicit Collector(MaterialColors& colors) : colors_(colors), table_(mesh_.vertices) {}
+// The corners of one placed mesh, three a triangle.
+struct Corners {
+  std::vector<unsigned> indices;  // of the mesh's vertices
+  std::vector<Point3f> positions;
+};
 
-  void add(const PlacedMesh& placed) {
-    const aiMesh& from = *placed.mesh;
-    const Placement placement(placed.X);
-    const MaterialColor material = colors_.of(from);
-    mesh_.has_colors |= material.is_given;
-    for (unsigned f = 0; f < from.mNumFaces; ++f) {
-      if (from.mFaces[f].mNumIndices != 3) continue;  // a line or a point
-      std::array<Vertex, 3> corners;
-      for (unsigned c = 0; c < 3; ++c) {
-        const unsigned index = from.mFaces[f].mIndices[placement.mirrors ? 2 - c : c];
-        corners[c].position = floats_of(placement.position(from.mVertices[index]));
-        corners[c].color = from.HasVertexColors(0) ? bytes_of(from.mColors[0][index]) : material.color;
-      }
-      const Eigen::Vector3d face = face_normal(corners);
-      if (face.isZero(0)) continue;
-      for (unsigned c = 0; c < 3; ++c) {
-        const unsigned index = from.mFaces[f].mIndices[placement.mirrors ? 2 - c : c];
-        Eigen::Vector3d normal = from.HasNormals() ? placement.normal(from.mNormals[index]) : face;
-        // Some files have normals of length zero.
-        if (!normal.allFinite() || !(normal.norm() > 1e-12)) normal = face;
-        corners[c].normal = floats_of(normal.normalized());
-        mesh_.triangles.push_back(table_.index_of(corners[c]));
-      }
+Corners corners_of(const aiMesh& mesh, const Placement& placement) {
+  Corners corners;
+  corners.indices.reserve(3 * std::size_t(mesh.mNumFaces));
+  corners.positions.reserve(3 * std::size_t(mesh.mNumFaces));
+  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+    const aiFace& face = mesh.mFaces[f];
+    if (face.mNumIndices != 3) continue;  // a line or a point
+    for (unsigned c = 0; c < 3; ++c) {
+      corners.indices.push_back(face.mIndices[placement.corner(c)]);
+      corners.positions.push_back(placement.position(mesh.mVertices[corners.indices.back()]));
+    }
+    const std::size_t first = corners.positions.size() - 3;
+    const Point3f* p = &corners.positions[first];
+    if (face_normal(p[0], p[1], p[2]).isZero(0)) {
+      corners.indices.resize(first);
+      corners.positions.resize(first);
     }
   }
+  return corners;
+}
 
-  TriangleMesh take() {
-    if (!mesh_.has_colors)
-      for (Vertex& vertex : mesh_.vertices) vertex.color = {255, 255, 255, 255};
-    return std::move(mesh_);
+// Many exporters write one normal a face, which says nothing about the surface that is meant. Normals against
+// the order of the corners do: there the order is wrong.
+bool are_of_faces(const std::vector<Eigen::Vector3f>& normals, const Corners& corners) {
+  constexpr float kSame = 0.9999F;  // cosine of 0.8 degrees: files have some four digits
+  for (std::size_t c = 0; c < normals.size(); c += 3) {
+    const Point3f* p = &corners.positions[c];
+    if (normals[c].isZero(0) && normals[c + 1].isZero(0) && normals[c + 2].isZero(0)) continue;
+    if (normals[c].dot(normals[c + 1]) < kSame || normals[c].dot(normals[c + 2]) < kSame) return false;
+    if (normals[c].dot(face_normal(p[0], p[1], p[2]).cast<float>()) < -0.5F) return false;
   }
+  return true;
+}
 
- private:
-  // Unit, or zero where the triangle has no area.
-  static Eigen::Vector3d face_normal(const std::array<Vertex, 3>& corners) {
-    const Eigen::Vector3d a = position_of(corners[0]);
-    const Eigen::Vector3d n = (position_of(corners[1]) - a).cross(position_of(corners[2]) - a);
-    return n.isZero(0) ? n : Eigen::Vector3d(n.normalized());
+std::vector<Eigen::Vector3f> normals_of(const aiMesh& mesh, const Placement& placement,
+                                        const Corners& corners) {
+  if (!mesh.HasNormals()) return smooth_normals(corners.positions);
+  std::vector<Eigen::Vector3f> normals;
+  normals.reserve(corners.indices.size());
+  for (const unsigned index : corners.indices)
+    normals.push_back(placement.normal(mesh.mNormals[index]).cast<float>());
+  if (are_of_faces(normals, corners)) return smooth_normals(corners.positions);
+  for (std::size_t c = 0; c < normals.size(); ++c) {
+    if (!normals[c].isZero(0)) continue;
+    const Point3f* p = &corners.positions[c - c % 3];
+    normals[c] = face_normal(p[0], p[1], p[2]).cast<float>();
   }
-
-  MaterialColors& colors_;
-  TriangleMesh mesh_;
-  VertexTable table_;
-};
+  return normals;
+}
 
 }  // namespace
 
 TriangleMesh collect_triangles(const std::vector<PlacedMesh>& placed, MaterialColors& colors) {
-  Collector collector(colors);
-  for (const PlacedMesh& mesh : placed) collector.add(mesh);
-  return collector.take();
+  TriangleMesh result;
+  EqualItems<Vertex> vertices;
+  for (const auto& [mesh, X] : placed) {
+    const Placement placement(X);
+    const Corners corners = corners_of(*mesh, placement);
+    const std::vector<Eigen::Vector3f> normals = normals_of(*mesh, placement, corners);
+    const MaterialColor material = colors.of(*mesh);
+    result.has_colors |= material.is_given && !corners.indices.empty();
+    for (std::size_t c = 0; c < corners.indices.size(); ++c) {
+      Vertex vertex;
+      vertex.position = corners.positions[c];
+      vertex.normal = floats_of(normals[c].cast<double>());
+      vertex.color =
+          mesh->HasVertexColors(0) ? bytes_of(mesh->mColors[0][corners.indices[c]]) : material.color;
+      result.triangles.push_back(vertices.index_of(vertex));
+    }
+  }
+  result.vertices = std::move(vertices.items);
+  return result;
 }
 
 }  // namespace chainreel

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 
 namespace chainreel {
 
@@ -19,6 +20,7 @@ struct MaterialColor {
   bool is_given = false;  // the file says it, or colours for each vertex
 };
 
+// Diffuse colours with their opacity; in place of one with a texture the texture's mean, if that can be read.
 class MaterialColors {
  public:
   MaterialColors(const aiScene& scene, std::string path) : scene_(scene), path_(std::move(path)) {}

@@ -22,12 +22,16 @@ std::string lower_case_ending(const std::string& path) {
   return ending;
 }
 
-// A mesh may name further files; reading a pipe or a terminal would wait for ever.
+// A mesh may name further files; opening a pipe or a terminal, as assimp does also to see whether it is
+// there, would wait for ever.
 class PlainFiles : public Assimp::DefaultIOSystem {
  public:
-  Assimp::IOStream* Open(const char* path, const char* mode) override {
+  bool Exists(const char* path) const override {
     std::error_code code;
-    return fs::is_regular_file(path, code) ? DefaultIOSystem::Open(path, mode) : nullptr;
+    return fs::is_regular_file(path, code);
+  }
+  Assimp::IOStream* Open(const char* path, const char* mode) override {
+    return Exists(path) ? DefaultIOSystem::Open(path, mode) : nullptr;
   }
 };
 

@@ -15,9 +15,6 @@ namespace {
 
 using Vertex = TriangleMesh::Vertex;
 
-// Edges that are flatter than this are meant to be round.
-constexpr float kSmoothedEdge = 35;  // degrees
-
 const char* const kTooMany = "has more than 4 million triangles: reduce their number";
 
 // What stands before the vertices and the indices in the child's reply.
@@ -88,17 +85,16 @@ MeshReply import_triangles(const std::string& path, MeshUp up) {
   Assimp::Importer importer;
   prepare(importer);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, up == MeshUp::rviz);
-  importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kSmoothedEdge);
-  // The normals of an STL belong to faces and say nothing about the surface that is meant.
+  // The normals of an STL belong to faces and are often zero or stale.
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS);
+  const unsigned steps = aiProcess_Triangulate | (is_stl(path) ? unsigned(aiProcess_RemoveComponent) : 0U);
 
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene == nullptr || scene->mRootNode == nullptr)
     return {MeshReply::wrong, std::string("is no mesh that can be read: ") + importer.GetErrorString()};
   if (!has_good_indices(*scene)) return {MeshReply::wrong, "names vertices that it does not have"};
   if (has_too_many_faces(placed_meshes(*scene))) return {MeshReply::too_much, kTooMany};
-  scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_GenSmoothNormals |
-                                       (is_stl(path) ? unsigned(aiProcess_RemoveComponent) : 0U));
+  scene = importer.ApplyPostProcessing(steps);
   if (scene == nullptr)
     return {MeshReply::wrong, std::string("is no mesh that can be read: ") + importer.GetErrorString()};
 

@@ -8,12 +8,17 @@
 namespace chainreel {
 
 // Whose up a Collada file follows: a URDF has axes of its own, so that RViz takes the numbers as they are
-// written; `file` turns them so that the direction that the file calls up is z.
+// written; `file` turns them so that the direction that the file calls up is z. STL and OBJ call nothing up:
+// they are taken as written either way.
 enum class MeshUp { rviz, file };
 
 // STL, OBJ or DAE, by the file's ending: all nodes placed, Collada's unit applied, without `scale` of a URDF.
-// Normals are the file's, else those of the faces, smoothed over edges that are nearly flat. Colours are the
-// materials' diffuse ones, with a texture its mean. Errors as of mesh_extents; exit 7 also for more than
+// Lines, points and triangles without area are left out.
+// Normals are the file's where they tell of a surface; where they only repeat the faces' (as in every STL),
+// or are missing, those of the faces, smoothed over edges below 35 degrees. Colours are the file's for each
+// vertex, else the materials' diffuse ones with their opacity (one of 0 counts as 1: such files mean
+// transparency). A texture, PNG or JPEG, gives its mean; one that is missing, of another kind or inside the
+// mesh file leaves the material's colour. Errors as of mesh_extents; exit 7 also for more than
 // kMostTriangles.
 TriangleMesh read_mesh(const std::string& path, MeshUp up = MeshUp::rviz);
 

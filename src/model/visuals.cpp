@@ -1,9 +1,11 @@
 #include "model/visuals.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <unordered_map>
 
+#include "mesh/image_color.hpp"
 #include "model/package_path.hpp"
 #include "model/urdf_file.hpp"
 #include "model/urdf_problems.hpp"
@@ -32,7 +34,7 @@ VisualKind kind_of(UrdfShapeKind kind) {
 // more than the name; a <visual> that says something itself means that.
 class Materials {
  public:
-  explicit Materials(const UrdfFile& file) {
+  Materials(const UrdfFile& file, const ModelOptions& options) : finder_(file.path, options.packages) {
     for (const UrdfMaterial& material : file.materials) remember(material);
     for (const UrdfLink& link : file.links)
       for (const UrdfShape& shape : link.visuals)
@@ -58,13 +60,24 @@ class Materials {
     if (known_.emplace(material.name, material).second) names_.push_back(material.name);
   }
 
-  static std::optional<Color> look_of(const UrdfMaterial& material) {
-    if (!material.rgba) return std::nullopt;
-    Color color{};
-    for (std::size_t i = 0; i < 4; ++i) color[i] = std::uint8_t(std::lround(255 * (*material.rgba)[i]));
+  // A texture is the mean of its image, and opaque unless there is a colour, too.
+  std::optional<Color> look_of(const UrdfMaterial& material) {
+    std::optional<Color> color;
+    if (material.rgba) {
+      color.emplace();
+      for (std::size_t i = 0; i < 4; ++i) (*color)[i] = std::uint8_t(std::lround(255 * (*material.rgba)[i]));
+    }
+    if (material.texture.empty()) return color;
+    const auto [mean, is_new] = means_.try_emplace(material.texture);
+    if (is_new) mean->second = read_mean_color(finder_.find(material.texture).path);
+    if (!mean->second) return color;
+    if (!color) color = Color{0, 0, 0, 255};
+    std::copy(mean->second->begin(), mean->second->end(), color->begin());
     return color;
   }
 
+  FileFinder finder_;
+  std::map<std::string, std::optional<std::array<std::uint8_t, 3>>> means_;  // of textures, by name
   std::unordered_map<std::string, UrdfMaterial> known_;
   std::vector<std::string> names_;  // in the file's order
 };
@@ -77,7 +90,7 @@ std::vector<Visual> read_visuals(const std::string& path, const Chain& chain, co
   std::unordered_map<std::string, const Frame*> frames;
   for (const Frame& frame : chain.frames) frames.emplace(frame.name, &frame);
 
-  Materials materials(file);
+  Materials materials(file, options);
   UrdfProblems problems(file.path);
   std::vector<Visual> visuals;
   for (const UrdfLink& link : file.links) {

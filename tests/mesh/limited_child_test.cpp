@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <stdexcept>
@@ -57,6 +58,28 @@ TEST(LimitedChild, EndlessWorkIsEnded) {
       limits);
   EXPECT_FALSE(result.finished);
   EXPECT_EQ(result.trouble, "took too long");
+}
+
+TEST(LimitedChild, WorkThatOnlyWaitsIsEnded) {
+  ChildLimits limits;
+  limits.seconds = 1;
+  const ChildResult result = run_in_limited_child(
+      []() -> std::string {
+        for (;;) pause();
+      },
+      limits);
+  EXPECT_FALSE(result.finished);
+  EXPECT_EQ(result.trouble, "took too long");
+}
+
+TEST(LimitedChild, ALongReplyIsCutOffAndRefused) {
+  ChildLimits limits;
+  limits.reply = 1000;
+  EXPECT_EQ(run_in_limited_child([] { return std::string(1000, 'x'); }, limits).reply.size(), 1000U);
+  const ChildResult result = run_in_limited_child([] { return std::string(100'000'000, 'x'); }, limits);
+  EXPECT_FALSE(result.finished);
+  EXPECT_EQ(result.reply, "");
+  EXPECT_EQ(result.trouble, "sent back too much");
 }
 
 TEST(LimitedChild, MemoryEndsAtTheLimit) {
