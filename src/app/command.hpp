@@ -70,5 +70,7 @@ void add_chart_command(CLI::App& app);
 void add_energy_command(CLI::App& app);
 void add_stability_command(CLI::App& app);
 void add_fall_command(CLI::App& app);
+void add_sheet_command(CLI::App& app);
+void add_gallery_command(CLI::App& app);
 
 }  // namespace chainreel

@@ -29,6 +29,8 @@ int run(int argc, char** argv) {
   add_energy_command(app);
   add_stability_command(app);
   add_fall_command(app);
+  add_sheet_command(app);
+  add_gallery_command(app);
   app.footer(
       "Exit codes: 0 good, 1 a comparison failed, 2 usage, 3 bad input, 4 no renderer or codec, 5 numerical "
       "failure,\n"

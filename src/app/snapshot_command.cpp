@@ -1,17 +1,14 @@
 // chainreel snapshot SCENE --at T -o FILE, chainreel snapshot MODEL --pose Q -o FILE; .png, .svg or .pdf
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/moment.hpp"
 #include "app/pipeline.hpp"
-#include "app/render_film.hpp"
 #include "app/report.hpp"
-#include "app/signals.hpp"
 #include "core/error.hpp"
-#include "draw/film.hpp"
 #include "draw/poses.hpp"
 #include "model/read_chain.hpp"
 #include "scene/quantity.hpp"
@@ -36,31 +33,6 @@ std::string default_output(const SnapshotOptions& options) {
   return options.output;
 }
 
-struct RememberedPicture {
-  Picture picture;
-  ClipMemory memory;
-};
-
-// The picture of the film at an instant: same camera, same scales, whatever the instant.
-RememberedPicture picture_at(const PreparedFilm& film, double at, const Fonts& fonts) {
-  std::vector<double> times = frame_times(film.scene);
-  const double same = same_instant(film.panels.front().simulation);
-  auto place = std::lower_bound(times.begin(), times.end(), at - same);
-  if (place == times.end() || std::abs(*place - at) > same) place = times.insert(place, at);
-  const int frame = int(place - times.begin());
-  const std::vector<Trajectory> runs = simulate_film(film, times);
-  // A run that fails after the instant does not spoil its picture.
-  require_expected_ends(film, runs, frame);
-  int frames = int(times.size());
-  if (runs.size() == 1 && film.scene.expect == "finish") frames = std::min(frames, runs.front().size());
-  const Film pictures = film_of(film, runs, times, frames, fonts);
-  Picture picture = pictures.static_layer();
-  picture.append(pictures.frame(frame));
-  Json audit = film_report(film, runs, pictures);
-  audit["at"] = at;
-  return {std::move(picture), memory_of(film, audit)};
-}
-
 void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
   std::vector<std::string> overrides = overrides_of(options.common);
   add_comparison(options.vary, overrides);
@@ -73,7 +45,7 @@ void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
     throw Error(ExitCode::usage, "--at " + options.at + " lies outside the scene's duration of " +
                                      format_quantity(film.scene.duration, "s"));
   const Fonts fonts;
-  const RememberedPicture shown = picture_at(film, at, fonts);
+  const Moment shown = moment_at(film, at, fonts);
   write_picture(shown.picture, video.width, video.height, fonts, output, options.common.force, shown.memory);
 }
 

@@ -64,14 +64,16 @@ TextLine title_line(const std::string& text, double size, const ContactSheetLook
   return lay_out_text(*look.fonts, text, {Face::label, size, look.theme->ink});
 }
 
-// The longest beginning of a text, with an ellipsis behind it, that is no wider than `width`.
+// The longest beginning of a text, with an ellipsis behind it, that is no wider than `width`: whole words, or
+// a part of the only one.
 std::string shortened(const std::string& text, double size, double width, const ContactSheetLook& look) {
-  for (std::size_t end = text.size(); end > 0; --end) {
-    const bool inside_character = end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80;
-    if (inside_character || text[end - 1] == ' ') continue;
-    const std::string cut = text.substr(0, end) + kEllipsis;
-    if (title_line(cut, size, look).advance <= width) return cut;
-  }
+  for (const bool whole_words : {true, false})
+    for (std::size_t end = text.size() - 1; end > 0; --end) {
+      const bool inside_character = (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80;
+      if (inside_character || (whole_words && text[end] != ' ')) continue;
+      const std::string cut = text.substr(0, end) + kEllipsis;
+      if (title_line(cut, size, look).advance <= width) return cut;
+    }
   return kEllipsis;
 }
 
@@ -134,7 +136,8 @@ ContactGrid contact_grid(int count, const ContactSheetLook& look) {
 }
 
 double text_scale_in(const ContactGrid& grid) {
-  const double scale = kSmallestText / (size::kAxis * grid.pictures.front().height());
+  const double page_height = grid.pictures.front().height() / (1 - 2 * size::kMargin);
+  const double scale = kSmallestText / (size::kAxis * page_height);
   return scale <= kLargestWords ? std::max(scale, 1.0) : 1;
 }
 
@@ -145,7 +148,8 @@ Picture draw_contact_sheet(const ContactGrid& grid, std::span<const ContactCell>
   sheet.background = look.theme->background;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Rect& title = grid.titles[i];
-    place_picture(sheet, cells[i].picture, {grid.pictures[i], kThinnestLine, kScript * kSmallestText});
+    place_picture(sheet, cells[i].picture,
+                  {grid.pictures[i], kThinnestLine, kScript * kSmallestText, size::kMargin});
     draw_frame(sheet, grid.pictures[i], *look.theme);
     double y = title.y1 - (kTitleAir + kAscent) * grid.text_size;
     for (const std::string& line :

@@ -13,6 +13,8 @@ namespace chainreel {
 
 inline constexpr int kMostCells = 48;
 inline constexpr double kCellAspect = 16.0 / 9.0;  // of each picture
+// Of the page that a picture is drawn on: its outer margin is cut off.
+inline constexpr double kCellPageAspect = kCellAspect * (1 - 2 * size::kMargin) + 2 * size::kMargin;
 
 struct ContactSheetLook {
   double aspect = 16.0 / 9.0;
@@ -38,7 +40,7 @@ ContactGrid contact_grid(int count, const ContactSheetLook& look);
 double text_scale_in(const ContactGrid& grid);
 
 struct ContactCell {
-  Picture picture;  // a page of kCellAspect
+  Picture picture;  // a page of kCellPageAspect
   std::string title;
 };
 // One cell a place of the grid. Titles are broken into lines at spaces; what does not fit ends in "...".

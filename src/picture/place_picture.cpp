@@ -96,10 +96,11 @@ Rect common_part(const Rect& a, const Rect& b) {
 
 void place_picture(Picture& target, const Picture& page, const Placing& placing) {
   const Rect& cell = placing.cell;
-  const double scale = std::min(cell.width() / page.aspect, cell.height());
+  const Rect shown{placing.margin, placing.margin, page.aspect - placing.margin, 1 - placing.margin};
+  const double scale = std::min(cell.width() / shown.width(), cell.height() / shown.height());
   const Point corner{(cell.x0 + cell.x1 - scale * page.aspect) / 2, (cell.y0 + cell.y1 - scale) / 2};
   const Placer place{scale, corner, placing.thinnest_line};
-  const Rect edges = place(Rect{0, 0, page.aspect, 1});
+  const Rect edges = place(shown);
 
   const int first_clip = int(target.clips.size());
   target.clips.push_back(edges);

@@ -9,6 +9,7 @@ struct Placing {
   Rect cell;                 // of the larger page: the small one fills it both ways or one, in its middle
   double thinnest_line = 0;  // units of the larger page's H: lines become no thinner
   double smallest_text = 0;  // ... em: words that became smaller could not be read and are left out
+  double margin = 0;         // units of the small page's H: cut off on all sides
 };
 
 // Everything of `page` but its background, cut at its edges.

@@ -1,0 +1,37 @@
+// What a gallery shows of each film: the film itself, and what it and the files beside it say of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/json.hpp"
+#include "encode/film_start.hpp"
+
+namespace chainreel {
+
+struct GalleryChart {
+  std::string path;
+  std::string title;  // "Speed against accuracy"
+};
+
+struct GalleryClip {
+  std::string path;
+  std::string name;  // of the file, without its ending
+  std::string type;  // "video/mp4"
+  FilmStart start;
+  std::string title;
+  std::string words;  // one sentence for those who cannot see it
+  std::string scene;  // YAML; "" where the film remembers none
+  std::string why_no_scene;
+  Json audit;  // null where there is none
+  std::vector<GalleryChart> charts;
+};
+
+// Films named, and those in folders named (NAME.webm alone where there is no NAME.mp4), by their paths.
+// Throws Error (exit 3) where a path is no film and no folder, and where there is no film at all.
+std::vector<std::string> find_clips(const std::vector<std::string>& paths);
+
+// Throws Error (exit 3) with the problems of all that cannot be played.
+std::vector<GalleryClip> read_clips(const std::vector<std::string>& paths);
+
+}  // namespace chainreel

@@ -1,0 +1,190 @@
+// A small gallery as a browser shows it: films of different durations, one with a chart, one with a hostile
+// title.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "browser/page_check.hpp"
+#include "encode/png.hpp"
+#include "support/run_program.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr double kFrame = 1.0 / 30;
+const char* const kHostileTitle = "a < b & \"c\" <script>document.title = 'gone'</script>";
+
+void must_run(const std::vector<std::string>& arguments) {
+  const ProgramResult result = run_program(arguments);
+  if (result.status != 0) throw std::runtime_error(arguments.front() + ": " + result.err);
+}
+
+std::vector<std::string> with_size(std::vector<std::string> arguments) {
+  for (const char* setting : {"video.width=320", "video.height=180", "text_scale=1.5"})
+    arguments.insert(arguments.end(), {"--set", setting});
+  return arguments;
+}
+
+// The pages and the browser are made once for all tests.
+class GalleryPage : public testing::Test {
+ protected:
+  // What goes wrong here must fail every test: gtest itself would skip them.
+  static void SetUpTestSuite() {
+    try {
+      set_up();
+    } catch (const std::exception& error) {
+      trouble_ = error.what();
+    }
+  }
+  void SetUp() override { ASSERT_EQ(trouble_, ""); }
+
+  static void set_up() {
+    folder_ = std::make_unique<TemporaryFolder>();
+    const auto render = [](const std::string& scene, const std::string& seconds, const std::string& title) {
+      must_run(with_size({"render", "assets/scenes/" + scene + ".yaml", "-o", folder_->file(scene + ".mp4"),
+                          "--quiet", "--set", "video.fps=30", "--set", "duration=" + seconds, "--set",
+                          "title=" + Json(title).dump()}));
+    };
+    render("rr_ellipse", "1", "An ellipse");
+    render("rr_free", "1.5", kHostileTitle);
+    render("rrr_torque", "2", "Three joints");
+    must_run(with_size(
+        {"snapshot", "assets/scenes/rr_free.yaml", "-o", folder_->file("rr_free_chart.png"), "--quiet"}));
+    must_run({"gallery", folder_->path().string(), "-o", page(), "--quiet", "--title", "Small films"});
+    browser_ = std::make_unique<Browser>();
+  }
+  static void TearDownTestSuite() {
+    browser_.reset();
+    folder_.reset();
+  }
+
+  static std::string page() { return folder_->file("index.html"); }
+  static std::vector<ExpectedFilm> films() {
+    return {{1, kFrame, 320, 180}, {1.5, kFrame, 320, 180}, {2, kFrame, 320, 180}};
+  }
+  static Browser& browser() { return *browser_; }
+
+  static std::unique_ptr<TemporaryFolder> folder_;
+  static std::unique_ptr<Browser> browser_;
+  static std::string trouble_;
+};
+std::string GalleryPage::trouble_;
+std::unique_ptr<TemporaryFolder> GalleryPage::folder_;
+std::unique_ptr<Browser> GalleryPage::browser_;
+
+TEST_F(GalleryPage, PlaysEveryFilmAndIsSilent) {
+  browser().resize(1280, 900);
+  EXPECT_THAT(problems_of_page(browser(), page(), films()), IsEmpty());
+}
+
+TEST_F(GalleryPage, ShowsTextsAsTheyWereWritten) {
+  browser().open("file://" + page());
+  EXPECT_EQ(browser().run("return document.title"), "Small films");
+  EXPECT_EQ(browser().run("return [...document.querySelectorAll('h2')].map((h) => h.textContent)"),
+            (Json{"An ellipse", kHostileTitle, "Three joints"}));
+  EXPECT_EQ(browser().run("return document.querySelectorAll('main script').length"), 0);
+  // The scene is what the film remembers, letter by letter.
+  const ProgramResult scene = run_program({"extract", folder_->file("rr_free.mp4")});
+  EXPECT_EQ(browser().run("return document.querySelector('#clip-2-scene').textContent"), Json(scene.out));
+  EXPECT_THAT(browser().run("return document.querySelector('#clip-2-words').textContent").get<std::string>(),
+              HasSubstr("The chain rr with 2 freedoms"));
+}
+
+TEST_F(GalleryPage, HoldsAuditsAndTheChartOfItsFilmAlone) {
+  browser().open("file://" + page());
+  const Json rows = browser().run(
+      "return [...document.querySelectorAll('#clip-1 tr')].map((r) => [...r.children].map((c) => "
+      "c.textContent))");
+  const Json audit = Json::parse(read_whole_file(folder_->file("rr_ellipse.json")));
+  EXPECT_THAT(rows, Contains(Json{"Trajectory SHA-256", audit["trajectory_sha256"]}));
+  EXPECT_THAT(rows, Contains(Json{"Steps", std::to_string(audit["steps"].get<int>())}));
+  const Json charts = browser().run(
+      "return [...document.querySelectorAll('article')].map((a) => a.querySelectorAll('img').length)");
+  EXPECT_EQ(charts, (Json{0, 1, 0}));
+  EXPECT_EQ(browser().run("return document.querySelector('#clip-2 img').naturalWidth"), 320);
+}
+
+TEST_F(GalleryPage, SavesTheFilmByteByByte) {
+  browser().open("file://" + page());
+  const Json hash = browser().run_async(R"js(
+    const bytes = await filmOf(document.querySelector('#clip-3 button[data-film]')).arrayBuffer();
+    const digest = new Uint8Array(await crypto.subtle.digest('SHA-256', bytes));
+    return [...digest].map((b) => b.toString(16).padStart(2, '0')).join('');
+  )js");
+  const ProgramResult expected = run_command({"sha256sum", folder_->file("rrr_torque.mp4")});
+  EXPECT_EQ(hash, Json(expected.out.substr(0, 64)));
+  EXPECT_EQ(browser().run("return document.querySelectorAll('button[hidden]').length"), 0);
+}
+
+// The share of the first film's place that is near the fill of its first link.
+double share_of_first_link(Browser& browser, const Image& image) {
+  const Json box = browser.run(
+      "const r = document.querySelector('video').getBoundingClientRect();"
+      "return [r.left, r.top, r.right, r.bottom].map(Math.round)");
+  double count = 0;
+  for (int y = box[1]; y < std::min(box[3].get<int>(), image.height); ++y)
+    for (int x = box[0]; x < std::min(box[2].get<int>(), image.width); ++x) {
+      const Pixel p = image.at(x, y);
+      // #56B4E9 behind H.264: some levels off.
+      if (std::abs(p.r - 0x56) < 16 && std::abs(p.g - 0xB4) < 16 && std::abs(p.b - 0xE9) < 16) ++count;
+    }
+  return count /
+         ((box[2].get<double>() - box[0].get<double>()) * (box[3].get<double>() - box[1].get<double>()));
+}
+
+TEST_F(GalleryPage, ShowsItsFilmsAtDeskAndPhoneInLightAndDark) {
+  const std::string pictures = CHAINREEL_BINARY_FOLDER "/gallery_";
+  for (const int width : {1280, 390})
+    for (const bool dark : {false, true}) {
+      browser().resize(width, 900);
+      browser().prefer_dark(dark);
+      browser().open("file://" + page());
+      browser().run_async("for (let i = 0; i < 3; ++i) await new Promise(requestAnimationFrame)");
+      const std::string name = std::to_string(width) + (dark ? "_dark" : "_light");
+      const Image image = browser().screenshot(pictures + name + ".png");
+      EXPECT_EQ(image.width, width) << name;
+      EXPECT_EQ(image.at(3, 3), dark ? (Pixel{0x14, 0x17, 0x1C, 255}) : (Pixel{255, 255, 255, 255})) << name;
+      // Half of what it covers at least, since its edges are mixed with other colours; a blank page has none.
+      EXPECT_GT(share_of_first_link(browser(), image), 0.0005) << name;
+      // Nothing sticks out of the window; columns as they fit.
+      EXPECT_LE(browser().run("return document.documentElement.scrollWidth").get<int>(), width) << name;
+      const Json columns = browser().run(
+          "return new Set([...document.querySelectorAll('article')].map((a) => "
+          "a.getBoundingClientRect().left)).size");
+      EXPECT_EQ(columns, width == 1280 ? 2 : 1) << name;
+    }
+  browser().prefer_dark(false);
+}
+
+// Negative controls: the same check finds what is wrong on purpose.
+
+TEST_F(GalleryPage, CheckFindsABrokenFilm) {
+  std::string text = read_whole_file(page());
+  const std::string open = "src=\"data:video/mp4;base64,";
+  text.replace(text.find(open) + open.size() + 40, 200, std::string(200, 'A'));
+  const auto problems = problems_of_page(browser(), folder_->write("broken.html", text), films());
+  EXPECT_THAT(problems, Contains(HasSubstr("film 1: does not load")));
+}
+
+TEST_F(GalleryPage, CheckFindsErrorsRequestsAndWrongDurations) {
+  std::string text = read_whole_file(page());
+  text.replace(text.find("</main>"), 7,
+               "</main><script>noSuchFunction();</script><img alt=\"\" src=\"https://example.org/a.png\">");
+  std::vector<ExpectedFilm> longer = films();
+  longer[2].seconds += 2 * kFrame;
+  const auto problems = problems_of_page(browser(), folder_->write("loud.html", text), longer);
+  EXPECT_THAT(problems, Contains(HasSubstr("noSuchFunction is not defined")));
+  EXPECT_THAT(problems, Contains(HasSubstr("Content Security Policy")));
+  EXPECT_THAT(problems, Contains(HasSubstr("film 3: has another duration")));
+}
+
+}  // namespace
+}  // namespace chainreel
