@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "encode/film_tags.hpp"
+#include "encode/gif_comment.hpp"
 #include "encode/png.hpp"
 
 namespace chainreel {
@@ -15,6 +16,7 @@ namespace {
 
 constexpr const char* kScene = "chainreel_scene";
 constexpr const char* kAudit = "chainreel_audit";
+constexpr const char* kFigure = "chainreel_figure";
 
 std::string read_bytes(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
@@ -53,11 +55,15 @@ int hex_digit(char c) {
                                 : -1;
 }
 
-// The keywords of a PDF that Cairo wrote: a hexadecimal string in UTF-16 behind a byte order mark (ISO
-// 32000-1, 7.3.4.3 and 7.9.2.2). Our JSON is ASCII and holds quotes that are escaped, so it is never a
-// literal string.
+// The keywords of a PDF that Cairo wrote: a literal string where they are ASCII without brackets and backslashes, else
+// a hexadecimal one in UTF-16 behind a byte order mark (ISO 32000-1, 7.3.4 and 7.9.2.2). Our JSON is ASCII.
 std::string pdf_words(const std::string& pdf, const std::string& path) {
-  const std::string open = "/Keywords <FEFF";
+  const std::string literal = "/Keywords (", open = "/Keywords <FEFF";
+  if (const std::size_t at = pdf.rfind(literal); at != std::string::npos) {
+    const std::size_t first = at + literal.size(), end = pdf.find(')', first);
+    if (end == std::string::npos) remembers_nothing(path);
+    return pdf.substr(first, end - first);
+  }
   const std::size_t begin = pdf.rfind(open);
   const std::size_t end = begin == std::string::npos ? begin : pdf.find('>', begin);
   if (end == std::string::npos) remembers_nothing(path);
@@ -78,6 +84,7 @@ std::string pdf_words(const std::string& pdf, const std::string& path) {
 // Scene and audit as one text, in ASCII: for files that hold one text.
 Tags words_of(const std::string& text, const std::string& path) {
   const Json json = Json::parse(text, nullptr, false);
+  if (json.is_object() && json.contains(kFigure)) return {{kFigure, json[kFigure].dump()}};
   if (!json.is_object() || !json.contains(kScene) || !json[kScene].is_string()) remembers_nothing(path);
   return {{kScene, json[kScene].get<std::string>()},
           {kAudit, json.contains(kAudit) ? json[kAudit].dump() : "{}"}};
@@ -89,16 +96,19 @@ Tags tags_in(const std::string& path) {
   if (ending == ".svg") return words_of(svg_words(read_bytes(path), path), path);
   if (ending == ".pdf") return words_of(pdf_words(read_bytes(path), path), path);
   if (ending == ".mp4" || ending == ".mov" || ending == ".webm") return read_film_tags(path);
-  if (ending == ".gif")
-    throw Error(ExitCode::bad_input, "GIFs have no room for a scene: take a clip of another kind", {path});
-  throw Error(ExitCode::bad_input, "only .mp4, .mov, .webm, .png, .apng, .svg and .pdf remember a scene",
+  if (ending == ".gif") return read_gif_comment(path);
+  throw Error(ExitCode::bad_input, "only .mp4, .mov, .webm, .gif, .png, .apng, .svg and .pdf remember a scene",
               {path});
 }
 
 }  // namespace
 
 Tags ClipMemory::tags() const {
-  Tags tags{{kScene, scene}, {kAudit, audit.dump()}};
+  Tags tags;
+  if (!figure.is_null())
+    tags[kFigure] = figure.dump();
+  else
+    tags = {{kScene, scene}, {kAudit, audit.dump()}};
   if (!title.empty()) tags["title"] = title;
   if (!description.empty()) tags["description"] = description;
   return tags;
@@ -108,7 +118,7 @@ VectorPage ClipMemory::page() const {
   VectorPage page;
   page.title = title;
   page.description = description;
-  const Json json{{kScene, scene}, {kAudit, audit}};
+  const Json json = figure.is_null() ? Json{{kScene, scene}, {kAudit, audit}} : Json{{kFigure, figure}};
   page.metadata = json.dump(-1, ' ', true);
   return page;
 }
@@ -121,11 +131,31 @@ ClipMemory recall(const std::string& path) {
     const auto place = tags.find(name);
     return place == tags.end() ? std::string() : place->second;
   };
-  ClipMemory memory{text("title"), text("description"), text(kScene), {}};
+  ClipMemory memory{text("title"), text("description"), text(kScene), {}, {}};
+  const Json figure = Json::parse(text(kFigure), nullptr, false);
+  if (figure.is_object() && figure.contains("arguments") && figure["arguments"].is_array()) {
+    memory.figure = figure;
+    return memory;
+  }
   if (memory.scene.empty()) remembers_nothing(path);
   memory.audit = Json::parse(text(kAudit), nullptr, false);
   if (!memory.audit.is_object()) memory.audit = Json::object();
   return memory;
+}
+
+std::string command_line(const Json& figure) {
+  std::string line = "chainreel";
+  for (const Json& word : figure.at("arguments")) {
+    std::string text = word.is_string() ? word.get<std::string>() : word.dump();
+    const bool plain = !text.empty() && text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                                               "0123456789_-+=./,:@%") == std::string::npos;
+    if (!plain) {
+      replace_all(text, "'", "'\\''");
+      text = "'" + text + "'";
+    }
+    line += " " + text;
+  }
+  return line;
 }
 
 }  // namespace chainreel

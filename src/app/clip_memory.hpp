@@ -1,5 +1,5 @@
-// What a clip or picture remembers: the scene that it shows, its audit, and words for those who cannot see
-// it.
+// What a clip or picture remembers: the scene that it shows, its audit, and words for those who cannot see it. A
+// figure of a model, which shows no scene, remembers the words that made it.
 #pragma once
 
 #include <string>
@@ -15,13 +15,17 @@ struct ClipMemory {
   std::string description;  // one sentence
   std::string scene;  // YAML of the effective scene; paths as found from the folder where it was rendered
   Json audit;         // nothing in it depends on the clock
+  Json figure = nullptr;  // null, or in place of a scene {arguments, model, model_sha256, poses}
 
-  Tags tags() const;        // of MP4, MOV, WebM, PNG, APNG
+  Tags tags() const;        // of MP4, MOV, WebM, PNG, APNG, GIF
   VectorPage page() const;  // of SVG (<metadata>) and PDF (keywords)
 };
 
 // Reads it back; by the file's ending. Throws Error (exit 3) where the file is of no such kind or remembers
 // nothing.
 ClipMemory recall(const std::string& path);
+
+// "chainreel ellipse models/rr.urdf --pose 0,90deg": what a shell takes to make the figure again, but for -o.
+std::string command_line(const Json& figure);
 
 }  // namespace chainreel

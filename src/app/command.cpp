@@ -86,6 +86,20 @@ CLI::Option* add_repeatable(CLI::App& command, const std::string& name, std::vec
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+std::vector<std::string> words_of(const CLI::App& command) {
+  std::vector<std::string> words{command.get_name()};
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_single_name();
+    if (option->count() == 0 || name == "output" || name == "force" || name == "quiet" || name == "json") continue;
+    const bool is_flag = option->get_items_expected_max() == 0;
+    for (const std::string& value : is_flag ? std::vector<std::string>{""} : option->results()) {
+      if (!option->get_positional()) words.push_back("--" + name);
+      if (!is_flag) words.push_back(value);
+    }
+  }
+  return words;
+}
+
 std::vector<double> parse_list(const std::string& text, const std::string& what) {
   std::vector<double> values;
   std::stringstream stream(text);

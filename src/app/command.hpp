@@ -38,6 +38,10 @@ void add_comparison(const std::vector<std::string>& vary, std::vector<std::strin
 CLI::Option* add_repeatable(CLI::App& command, const std::string& name, std::vector<std::string>& values,
                             const std::string& help);
 
+// What was given to the command, as words that say it again: what is found out by default, where the result goes and
+// how much is told are left out.
+std::vector<std::string> words_of(const CLI::App& command);
+
 // "0,90deg" as numbers; `what` names the option in the error.
 std::vector<double> parse_list(const std::string& text, const std::string& what);
 

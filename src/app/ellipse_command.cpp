@@ -29,6 +29,7 @@ struct EllipseOptions {
   std::string title;
   int width = 1920, height = 1080;
   CommonOptions common;
+  const CLI::App* command = nullptr;
 
   EllipseReading read_as() const { return reading_named(reading); }
 };
@@ -108,19 +109,20 @@ void run_ellipse(const EllipseOptions& options) {
   const Motion motion = chain_and_poses(options);
   const Chain& chain = motion.chain;
   const GatheredPoses& poses = motion.poses;
+  const ClipMemory memory = memory_of_figure(*options.command, options.title, options.model, poses.q);
   Json numbers;
   if (options.joint_space) {
     const std::array<int, 2> joints = joints_of(chain, options.joints);
     const Fonts fonts;
     write_picture(draw_joint_space_figure(chain, poses.q, joints, figure_of(options, motion), fonts), options.width,
-                  options.height, fonts, output, options.common.force);
+                  options.height, fonts, output, options.common.force, memory);
     numbers = joint_space_json(chain, poses, joints);
   } else if (output.ends_with(".csv")) {
     write_text_file(output, ellipse_csv(chain, poses, options.read_as()), options.common.force);
   } else {
     const Fonts fonts;
     write_picture(draw_ellipse_figure(chain, poses.q, figure_of(options, motion), fonts), options.width,
-                  options.height, fonts, output, options.common.force);
+                  options.height, fonts, output, options.common.force, memory);
   }
   if (options.common.json) {
     Json report{{"file", output}};
@@ -169,6 +171,7 @@ void add_ellipse_command(CLI::App& app) {
   add_common_options(*command, options->common);
   command->footer(
       "Example: chainreel ellipse models/rr.urdf --pose 0,90deg --pose 0,150deg -o out/ellipse.png");
+  options->command = command;
   command->callback([options] { run_ellipse(*options); });
 }
 

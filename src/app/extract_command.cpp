@@ -38,8 +38,21 @@ void tell_of_models(const Json& audit, const std::string& clip) {
                  model.c_str());
 }
 
+// A figure of a model shows no scene: what made it is said instead.
+void tell_of_figure(const ExtractOptions& options, const Json& figure) {
+  if (!options.output.empty())
+    throw Error(ExitCode::bad_input, "shows a model, not a scene; it was made by: " + command_line(figure),
+                {options.clip});
+  tell_of_models(figure, options.clip);
+  if (options.json)
+    std::puts(Json{{"command", command_line(figure)}, {"figure", figure}}.dump(2).c_str());
+  else
+    std::printf("%s\n", command_line(figure).c_str());
+}
+
 void run_extract(const ExtractOptions& options) {
   const ClipMemory memory = recall(options.clip);
+  if (!memory.figure.is_null()) return tell_of_figure(options, memory.figure);
   tell_of_models(memory.audit, options.clip);
   if (memory.audit.contains("panels"))
     for (const Json& panel : memory.audit["panels"]) tell_of_models(panel, options.clip);
@@ -57,8 +70,8 @@ void run_extract(const ExtractOptions& options) {
 
 void add_extract_command(CLI::App& app) {
   auto options = std::make_shared<ExtractOptions>();
-  CLI::App* command = app.add_subcommand("extract", "the scene that a clip or picture remembers");
-  command->add_option("clip", options->clip, "a .mp4, .mov, .webm, .png, .apng, .svg or .pdf file")
+  CLI::App* command = app.add_subcommand("extract", "the scene that a clip or picture remembers, or the command that made a figure");
+  command->add_option("clip", options->clip, "a .mp4, .mov, .webm, .gif, .png, .apng, .svg or .pdf file")
       ->required();
   command->add_option(
       "-o,--output", options->output,

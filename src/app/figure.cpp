@@ -7,10 +7,9 @@
 #include "app/pipeline.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/hash.hpp"
 #include "core/machine.hpp"
 #include "core/output_file.hpp"
-#include "render/vector_cairo.hpp"
-#include "render/vector_svg.hpp"
 
 namespace chainreel {
 namespace {
@@ -32,6 +31,7 @@ void add_figure_options(CLI::App& command, FigureOptions& options, CommonOptions
   command.add_option("--width", options.width, "pixels")->check(CLI::Range(16, 16384));
   command.add_option("--height", options.height, "pixels")->check(CLI::Range(16, 16384));
   add_scene_flags(command, common.flags, kLookFlags);
+  options.command = &command;
 }
 
 ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fonts& fonts) {
@@ -50,16 +50,23 @@ std::vector<std::string> write_figure(const Picture& picture, const std::string&
   const std::string table = std::filesystem::path(path).replace_extension(".csv").string();
   write_text_file(table, csv, overwrite);
   if (path == table) return {table};
-  // Vector pages have the proportions of the pixels, and a height that suits a sheet of paper.
-  VectorPage page;
-  page.title = std::filesystem::path(path).stem().string();
-  if (path.ends_with(".svg"))
-    write_text_file(path, svg_text(picture, fonts, page), overwrite);
-  else if (path.ends_with(".pdf"))
-    write_text_file(path, pdf_text(picture, fonts, page), overwrite);
-  else
-    write_picture(picture, options.width, options.height, fonts, path, overwrite);
+  write_picture(picture, options.width, options.height, fonts, path, overwrite,
+                memory_of_figure(*options.command, std::filesystem::path(path).stem().string()));
   return {path, table};
+}
+
+ClipMemory memory_of_figure(const CLI::App& command, const std::string& title) {
+  return {title, {}, {}, {}, {{"arguments", words_of(command)}}};
+}
+
+ClipMemory memory_of_figure(const CLI::App& command, const std::string& title, const std::string& model,
+                            const std::vector<std::vector<double>>& poses) {
+  ClipMemory memory = memory_of_figure(command, title);
+  memory.figure["poses"] = poses;
+  if (model.empty()) return memory;
+  memory.figure["model"] = model;
+  memory.figure["model_sha256"] = sha256_of_file(model);
+  return memory;
 }
 
 std::vector<const Method*> parse_methods(const std::string& text) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/clip_memory.hpp"
 #include "app/command.hpp"
 #include "core/frame_rate.hpp"
 #include "draw/chart_page.hpp"
@@ -17,6 +18,7 @@ namespace chainreel {
 struct FigureOptions {
   std::string output;
   int width = 1920, height = 1080;
+  const CLI::App* command = nullptr;  // what it was given is remembered by the picture
 };
 
 // With the flags --theme and --text-scale: a chart has the look of its scene unless they say otherwise.
@@ -33,6 +35,11 @@ ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fon
 std::vector<std::string> write_figure(const Picture& picture, const std::string& csv,
                                       const FigureOptions& options, const std::string& path,
                                       const Fonts& fonts, bool overwrite);
+
+// What a figure remembers that shows no scene: the words that made it, and the model and its poses where there are.
+ClipMemory memory_of_figure(const CLI::App& command, const std::string& title);
+ClipMemory memory_of_figure(const CLI::App& command, const std::string& title, const std::string& model,
+                            const std::vector<std::vector<double>>& poses);
 
 // "rk4,taylor": rows of the registry; "" is all of them.
 std::vector<const Method*> parse_methods(const std::string& text);
