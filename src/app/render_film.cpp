@@ -206,6 +206,18 @@ void tell_of_stops(const PreparedFilm& film, const std::vector<Trajectory>& runs
   }
 }
 
+// Slow motion about an event that never comes is none, which its author may want to know.
+void tell_of_missing_events(const PreparedFilm& film, const Trajectory& first) {
+  const std::vector<EventEntry>& events = film.panels.front().scene.events;
+  for (const SlowMotionEntry& entry : film.scene.slow_motion) {
+    const auto is_its = [&](int event) { return events[std::size_t(event)].title() == entry.event; };
+    const std::vector<int>& hits = first.events.event;
+    if (!entry.event.empty() && std::none_of(hits.begin(), hits.end(), is_its))
+      std::fprintf(stderr, "%s: no slow motion about '%s', which does not happen\n", film.scene.name.c_str(),
+                   entry.event.c_str());
+  }
+}
+
 // For LaTeX's package animate, which takes a frame rate as a number and frames by their first and last.
 std::string animate_snippet(const Target& target, int frames, FrameRate fps) {
   const SequencePlace place = place_of_sequence(target.path);
@@ -327,7 +339,10 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
     keep_partial(outputs);
     throw;
   }
-  if (!job.quiet) tell_of_stops(film, runs);
+  if (!job.quiet) {
+    tell_of_stops(film, runs);
+    tell_of_missing_events(film, runs.front());
+  }
   commit(outputs, result);
   for (Sidecar& sidecar : sidecars) {
     const std::string text = sidecar_text(sidecar, film, result);

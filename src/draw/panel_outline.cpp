@@ -1,6 +1,7 @@
 // A panel that is drawn over another one, in outline.
 
 #include <algorithm>
+#include <cmath>
 
 #include "draw/chain.hpp"
 #include "draw/closures.hpp"
@@ -15,6 +16,7 @@ namespace {
 constexpr double kHalo = 1.8;  // times an outline's width: sets it off from what is filled below
 constexpr double kWiderJoint = 1.3, kWiderRail = 1.15, kWiderTip = 1.8;
 constexpr double kStoodStill = 0.4;    // strength of a run that left the picture
+constexpr double kLetterTurn = 0.75;   // rad
 constexpr double kLetterAway = 0.020;  // and more than half its size, from the end effector, units of H
 
 }  // namespace
@@ -65,13 +67,16 @@ void Panel::draw_outline(Picture& picture, int k, const Fonts& fonts) const {
   draw_letter(picture, tip, toned(outline_->ink, look), fonts);
 }
 
-// Beyond the end of the chain, away from the joint before it.
+// Beyond the end of the chain.
 void Panel::draw_letter(Picture& picture, Point tip, Color color, const Fonts& fonts) const {
   if (letter_.empty() || skeleton_.links.empty()) return;
   const LinkSegment& last = skeleton_.links.back();
   const Point joint = camera_.project(pose_of(*ws_, last.body) * last.from);
   const double em = scaled(size::kAxis, run_.scene.text_scale);
-  const Point away = tip + (kLetterAway + 0.6 * em) * unit(tip - joint);
+  // Each turned a little more than the one before, so that they stand apart where the runs agree.
+  const double turn = kLetterTurn * (letter_[0] - 'C');
+  const Point along = unit(tip - joint), side = normal_to(along);
+  const Point away = tip + (kLetterAway + 0.6 * em) * (std::cos(turn) * along + std::sin(turn) * side);
   const TextLine line = lay_out_text(fonts, letter_, {Face::label_bold, em, color, Align::center});
   const double middle = (line.box.y0 + line.box.y1) / 2;
   draw_text(picture, line, {away.x, away.y - middle});

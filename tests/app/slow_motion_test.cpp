@@ -119,6 +119,9 @@ TEST_F(SlowMotionFilm, OfAnEventThatDoesNotComeIsThePlainOne) {
                             {"--set", "duration=0.3"});
   EXPECT_EQ(audit["slow_motion"], Json::array());
   EXPECT_EQ(audit["frames"], 18);
+  const ProgramResult loud =
+      run_program({"render", file("yaml"), "-o", file("csv"), "--force", "--set", "duration=0.3"});
+  EXPECT_THAT(loud.err, HasSubstr("falls: no slow motion about 'half', which does not happen"));
 }
 
 TEST_F(SlowMotionFilm, SaysSoBesideTheTimeForAsLongAsItHolds) {

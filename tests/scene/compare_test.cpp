@@ -130,7 +130,7 @@ TEST_F(CompareScene, NamesPanelsByWhatDiffers) {
   // Degrees are read as rad: as many digits as one reads, and all of them where that would not tell panels apart.
   EXPECT_THAT(titles(read("compare: [{start.q: [-20deg, 0]}, {start.q: [-40deg, 0]}]\n")),
               ElementsAre("q(0) = (-0.3491, 0)", "q(0) = (-0.6981, 0)"));
-  EXPECT_THAT(titles(read("compare: [{step: 1.23456781e-05}, {step: 1.23456782e-05}]\n")),
+  EXPECT_THAT(titles(read("method: rk4\ncompare: [{step: 1.23456781e-05}, {step: 1.23456782e-05}]\n")),
               ElementsAre("step 1.23456781e-05 s", "step 1.23456782e-05 s"));
 }
 
