@@ -15,7 +15,7 @@ float light(vec3 n) {
   const vec3 key = vec3(-0.485, 0.647, 0.588), fill = vec3(0.700, -0.140, 0.700);
   float diffuse = 0.52 * max(dot(n, key), 0.0) + 0.18 * max(dot(n, fill), 0.0);
   float facing = 0.62 + 0.38 * max(n.z, 0.0);
-  return min(1.0, (0.54 + diffuse) * facing + 0.08);
+  return min(1.0, (0.43 + diffuse) * facing + 0.08);
 }
 
 void main() {

@@ -36,8 +36,11 @@ void main() {
       covered += one.a > 0.0 ? share : 0.0;
     }
   vec4 around = vec4(0.0);
-  if (how.y > 0.0 && covered < 0.999) {
-    float reach = 0.0, radius = how.y * float(samples);
+  float radius = how.y * float(samples);
+  // Most pixels without a body are far from one: a wider ring finds that out at once.
+  if (how.y > 0.0 && covered < 0.999 &&
+      (covered > 0.0 || body_near(first + samples / 2, radius) + body_near(first + samples / 2, radius + float(samples)) > 0.0)) {
+    float reach = 0.0;
     for (int y = 0; y < samples; ++y)
       for (int x = 0; x < samples; ++x) {
         ivec2 texel = first + ivec2(x, y);

@@ -32,6 +32,16 @@ inline constexpr SceneFlag kPageFlags[] = {
     {"--layout", "layout", "layout: scene, scene-right, scene-below, compare, grid, ghost or transparent"},
 };
 
+// Of the view: every picture of a chain.
+inline constexpr SceneFlag kViewFlags[] = {
+    {"--azimuth", "camera.azimuth", "camera.azimuth: about the vertical, like 35deg"},
+    {"--elevation", "camera.elevation", "camera.elevation: above the horizon, like 20deg"},
+    {"--distance", "camera.distance", "camera.distance: of the eye from the middle in m, or parallel"},
+    {"--fit", "camera.fit", "camera.fit: motion, or the part shown in m: \"[left, bottom, right, top]\""},
+    {"--links", "links", "links: auto, plain (bars) or visual (the model's shapes)"},
+    {"--mesh-up", "mesh_up", "mesh_up: rviz or file, whose up Collada meshes follow"},
+};
+
 // What the command line says of the keys, by key; keys that it leaves out hold "".
 using FlagValues = std::map<std::string, std::string>;
 

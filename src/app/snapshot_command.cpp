@@ -5,6 +5,8 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/figure.hpp"
+#include "app/model_view.hpp"
 #include "app/moment.hpp"
 #include "app/pipeline.hpp"
 #include "app/report.hpp"
@@ -25,6 +27,7 @@ struct SnapshotOptions {
   std::vector<std::string> vary;
   int width = 0, height = 0;
   CommonOptions common;
+  const CLI::App* command = nullptr;
 };
 
 std::string default_output(const SnapshotOptions& options) {
@@ -64,8 +67,9 @@ void snapshot_model(const SnapshotOptions& options, const std::string& output) {
   figure.height = options.height > 0 ? options.height : 1080;
   figure.theme = &theme_named(theme_of(options.common.flags));
   figure.text_scale = text_scale_of(options.common.flags);
+  set_view(figure, options.common.flags, options.file, chain, model);
   write_picture(draw_pose_figure(chain, poses, figure, fonts), figure.width, figure.height, fonts, output,
-                options.common.force);
+                options.common.force, memory_of_figure(*options.command, chain.name, options.file, poses));
 }
 
 void run_snapshot(const SnapshotOptions& options) {
@@ -98,9 +102,11 @@ void add_snapshot_command(CLI::App& app) {
   command->add_option("--height", options->height, "pixels")->check(CLI::Range(16, 16384));
   add_scene_flags(*command, options->common.flags, kLookFlags);
   add_scene_flags(*command, options->common.flags, kPageFlags);
+  add_scene_flags(*command, options->common.flags, kViewFlags);
   add_vary_option(*command, options->vary);
   add_common_options(*command, options->common);
   command->footer("Example: chainreel snapshot assets/scenes/rrr_torque.yaml --at 1.2 -o out/rrr.png");
+  options->command = command;
   command->callback([options] { run_snapshot(*options); });
 }
 

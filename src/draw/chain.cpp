@@ -19,7 +19,8 @@ struct Part {
 };
 
 constexpr double kBodyOutline = 0.0015;  // of body shapes, units of H: their light shows their form
-constexpr double kShadow = 0.16;         // opacity
+// Opacity of the black of a shadow, on a white page and on a dark one.
+constexpr double kShadow = 0.15, kShadowOnDark = 0.5;
 
 // Places this far from the page would only overflow in the renderer, in units of H.
 constexpr double kOffPage = 100;
@@ -134,7 +135,8 @@ void draw_shadow(Picture& picture, const ChainDrawing& drawing, const Workspace&
   Solids shadow = solids_seen_by(drawing.camera);
   add_shadows(shadow, *drawing.shapes, ws, drawing.camera, up_of(drawing.chain));
   shadow.is_shadow = true;
-  shadow.outline = drawing.look.theme->ink.faded(kShadow);
+  const bool on_dark = drawing.look.theme->background.g < 128;
+  shadow.outline = color_of(0x000000, on_dark ? kShadowOnDark : kShadow);
   picture.add(std::move(shadow), clip);
 }
 

@@ -26,6 +26,7 @@ namespace chainreel {
   X(ClearColor)                   \
   X(CompileShader)                \
   X(CreateProgram)                \
+  X(CullFace)                     \
   X(CreateShader)                 \
   X(DeleteBuffers)                \
   X(DeleteFramebuffers)           \
@@ -42,6 +43,7 @@ namespace chainreel {
   X(EnableVertexAttribArray)      \
   X(FramebufferRenderbuffer)      \
   X(FramebufferTexture2D)         \
+  X(FrontFace)                    \
   X(GenBuffers)                   \
   X(GenFramebuffers)              \
   X(GenRenderbuffers)             \

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "render/closed_surface.hpp"
 #include "render/gl_objects.hpp"
 
 namespace chainreel {
@@ -25,6 +26,7 @@ struct SolidLayer::Buffers {
   std::shared_ptr<const TriangleMesh> mesh;  // kept, so that no other mesh gets its place in memory
   MeshBounds bounds;
   bool is_translucent;
+  std::size_t closed = 0, all = 0;  // triangles
   GLuint array = 0, vertices = 0, indices = 0;
 
   Buffers(const GlFunctions& functions, std::shared_ptr<const TriangleMesh> whole)
@@ -37,6 +39,9 @@ struct SolidLayer::Buffers {
     for (const std::uint32_t index : mesh->triangles)
       if (index >= mesh->vertices.size())
         throw Error(ExitCode::bad_input, "a mesh has triangles between vertices that it does not have");
+    const SortedTriangles sorted = closed_parts_first(*mesh);
+    closed = sorted.closed;
+    all = sorted.indices.size() / 3;
     gl.GenVertexArrays(1, &array);
     gl.GenBuffers(1, &vertices);
     gl.GenBuffers(1, &indices);
@@ -45,8 +50,8 @@ struct SolidLayer::Buffers {
     gl.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(mesh->vertices.size() * sizeof(Vertex)), mesh->vertices.data(),
                   GL_STATIC_DRAW);
     gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices);
-    gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(mesh->triangles.size() * sizeof(std::uint32_t)),
-                  mesh->triangles.data(), GL_STATIC_DRAW);
+    gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(sorted.indices.size() * sizeof(std::uint32_t)),
+                  sorted.indices.data(), GL_STATIC_DRAW);
     const auto attribute = [&](GLuint location, GLint size, GLenum type, GLboolean normalized,
                                std::size_t at) {
       gl.EnableVertexAttribArray(location);
@@ -154,7 +159,16 @@ void SolidLayer::draw_part(const Solid& solid, const Buffers& buffers, const Sol
   gl_.Uniform4f(program_->depth, float(slope), float(-w_near - slope * near), solids.is_shadow ? 0.f : 1.f,
                 0);
   gl_.BindVertexArray(buffers.array);
-  gl_.DrawElements(GL_TRIANGLES, GLsizei(buffers.mesh->triangles.size()), GL_UNSIGNED_INT, nullptr);
+  const auto draw = [&](std::size_t first, std::size_t count) {
+    if (count > 0)
+      gl_.DrawElements(GL_TRIANGLES, GLsizei(3 * count), GL_UNSIGNED_INT,
+                       reinterpret_cast<const void*>(3 * first * sizeof(std::uint32_t)));
+  };
+  // The inside of a closed part is never seen, and half of its triangles need not be filled.
+  gl_.Enable(GL_CULL_FACE);
+  draw(0, buffers.closed);
+  gl_.Disable(GL_CULL_FACE);
+  draw(buffers.closed, buffers.all - buffers.closed);
 }
 
 std::optional<PixelBox> SolidLayer::draw(const Solids& solids, const PixelBox& clip) {
@@ -187,6 +201,7 @@ std::optional<PixelBox> SolidLayer::draw(const Solids& solids, const PixelBox& c
   gl_.ClearColor(0, 0, 0, 0);
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   gl_.Enable(GL_DEPTH_TEST);
+  gl_.FrontFace(GL_CW);  // counter-clockwise triangles, in pictures whose y points down
   gl_.UseProgram(program_->program);
   const auto is_translucent = [&](std::size_t i) {
     if (solids.is_shadow) return false;

@@ -1,0 +1,19 @@
+// Which parts of a mesh bound a volume, so that triangles that turn away from the viewer are never seen.
+#pragma once
+
+#include "core/triangle_mesh.hpp"
+
+namespace chainreel {
+
+// The triangles in another order.
+struct SortedTriangles {
+  std::vector<std::uint32_t> indices;  // three a triangle
+  std::size_t closed = 0;              // so many of them, at the front, belong to closed parts
+};
+
+// A part is what hangs together by edges, with vertices at the same place counted as one. It is closed where
+// every edge joins just two triangles that run along it in opposite directions, and the volume inside is
+// positive.
+SortedTriangles closed_parts_first(const TriangleMesh& mesh);
+
+}  // namespace chainreel

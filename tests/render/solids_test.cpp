@@ -1,0 +1,275 @@
+// Bodies in space: what of them is seen, where, and how bright.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "encode/png.hpp"
+#include "mesh/primitives.hpp"
+#include "render/closed_surface.hpp"
+#include "render/drawing.hpp"
+#include "render/solid_bounds.hpp"
+#include "render/vector_cairo.hpp"
+#include "render/vector_svg.hpp"
+#include "support/picture_compare.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+using Mesh = std::shared_ptr<const TriangleMesh>;
+
+constexpr Color kRed = color_of(0xC02020), kGreen = color_of(0x20A020);
+// Four by four samples a pixel on pages as low as these: a straight edge is off by an eighth of a pixel at
+// most.
+constexpr double kEdge = 0.125;
+
+Mesh shared(TriangleMesh mesh) {
+  return std::make_shared<const TriangleMesh>(std::move(mesh));
+}
+Mesh cube(double edge) {
+  return shared(box_mesh({edge, edge, edge}));
+}
+
+// At (x, y, z) of the view, upright.
+Solid at(const Mesh& mesh, double x, double y, double z, std::optional<Color> color = {}) {
+  return {mesh, {1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z}, color};
+}
+
+// A metre is 64 px, and the view's origin the middle of the page.
+Solids scene(std::vector<Solid> parts, double nearness = 0) {
+  Solids solids;
+  solids.parts = std::move(parts);
+  solids.origin = {0.5, 0.5};
+  solids.scale = 0.5;
+  solids.nearness = nearness;
+  return solids;
+}
+
+Solids silhouette(std::vector<Solid> parts, double nearness = 0) {
+  Solids solids = scene(std::move(parts), nearness);
+  solids.is_shadow = true;
+  solids.outline = kBlack;
+  return solids;
+}
+
+TEST(Solids, CoverTheAreaOfTheirOutline) {
+  // 51.2 px a side; each of four edges is off by kEdge at most.
+  EXPECT_NEAR(covered_area(draw_items({silhouette({at(cube(0.8), 0, 0, 0)})})), 51.2 * 51.2,
+              4 * 51.2 * kEdge);
+  const double radius = 0.7 * 64;
+  // The sphere is a polyhedron inside the true one: short by 1 - cos(pi / 48) = 0.2 % of its radius at most.
+  EXPECT_NEAR(covered_area(draw_items({silhouette({at(shared(sphere_mesh(0.7)), 0, 0, 0)})})),
+              std::numbers::pi * radius * radius, 0.005 * std::numbers::pi * radius * radius);
+  EXPECT_EQ(covered_area(draw_items({silhouette({})})), 0);
+}
+
+TEST(Solids, StandWhereTheViewPutsThem) {
+  // A quarter of a metre right and up: 16 px.
+  const Image image = draw_items({silhouette({at(cube(0.25), 0.25, 0.25, 0)})});
+  double x = 0, y = 0, sum = 0;
+  for (int row = 0; row < kSide; ++row)
+    for (int column = 0; column < kSide; ++column) {
+      const double dark = darkness(image, column, row);
+      x += dark * (column + 0.5), y += dark * (row + 0.5), sum += dark;
+    }
+  EXPECT_NEAR(x / sum, 64 + 16, kEdge);
+  EXPECT_NEAR(y / sum, 64 - 16, kEdge);
+}
+
+TEST(Solids, GrowTowardsTheEye) {
+  // The front face of the cube, 0.2 m before the plane of scale 1, is seen from 2 m: 1 / (1 - 0.2 / 2) times
+  // as large, and hides all that lies behind.
+  const double side = 0.4 * 64 / (1 - 0.2 / 2);
+  const Image image = draw_items({silhouette({at(cube(0.4), 0, 0, 0)}, 0.5)});
+  EXPECT_NEAR(covered_area(image), side * side, 4 * side * kEdge);
+  EXPECT_LT(covered_area(draw_items({silhouette({at(cube(0.4), 0, 0, 0)})})), 0.9 * side * side);
+}
+
+TEST(Solids, HideWhatLiesBehindThemInAnyOrder) {
+  const Solid before = at(cube(0.4), 0, 0, 0.5, kRed), behind = at(cube(0.8), 0, 0, -0.5, kGreen);
+  const Image one = draw_items({scene({before, behind})}), other = draw_items({scene({behind, before})});
+  EXPECT_EQ(largest_difference(one, other), 0);
+  const auto is_red = [](const Pixel& p) { return p.r > 2 * p.g; };
+  EXPECT_TRUE(is_red(one.at(64, 64)));
+  EXPECT_FALSE(is_red(one.at(64 + 20, 64)));
+  // The other way round the small one is inside of nothing, but behind.
+  const Image swapped =
+      draw_items({scene({at(cube(0.4), 0, 0, -0.5, kRed), at(cube(0.8), 0, 0, 0.5, kGreen)})});
+  EXPECT_FALSE(is_red(swapped.at(64, 64)));
+}
+
+TEST(Solids, AreBrightestTowardsTheLight) {
+  const Image image = draw_items({scene({at(shared(sphere_mesh(0.8)), 0, 0, 0, color_of(0xFFFFFF))})});
+  const auto level = [&](double x, double y) { return int(image.at(int(64 + 51 * x), int(64 - 51 * y)).g); };
+  EXPECT_GT(level(-0.4, 0.5), level(0.5, -0.5) + 60);  // upper left in front
+  EXPECT_GT(level(0, 0), level(0, -0.9) + 40);
+  EXPECT_LT(level(0, 0), 252);       // a white body stands out from a white page
+  EXPECT_GT(level(0.85, -0.3), 60);  // and no side is black
+}
+
+TEST(Solids, ShineThroughAsOne) {
+  Solids half = scene({at(cube(0.4), 0, 0, 0.5, kRed), at(cube(0.8), 0, 0, -0.5, kGreen)});
+  const Image whole = draw_items({half});
+  half.opacity = 0.5;
+  const Image faded = draw_items({half});
+  for (const int x : {64, 64 + 20}) {
+    // Halfway to the white page: what is hidden stays hidden.
+    EXPECT_NEAR(faded.at(x, 64).r, (255 + whole.at(x, 64).r) / 2.0, 1.5);
+    EXPECT_NEAR(faded.at(x, 64).g, (255 + whole.at(x, 64).g) / 2.0, 1.5);
+  }
+}
+
+TEST(Solids, TranslucentPartsShowWhatLiesBehind) {
+  Color glass = kRed;
+  glass.a = 0.5;
+  const Solid pane = at(cube(0.4), 0, 0, 0.5, glass), wall = at(cube(0.8), 0, 0, -0.5, kGreen);
+  const Image both = draw_items({scene({pane, wall})}), alone = draw_items({scene({wall})});
+  EXPECT_GT(both.at(64, 64).r, alone.at(64, 64).r + 30);
+  EXPECT_GT(both.at(64, 64).g, 20);
+  EXPECT_EQ(largest_difference(both, draw_items({scene({wall, pane})})), 0);
+}
+
+TEST(Solids, HaveAnOutlineOfTheirWidth) {
+  Solids lined = scene({at(cube(0.8), 0, 0, 0, color_of(0xFFFFFF))});
+  const double bare = covered_area(draw_items({lined}));
+  lined.outline = kBlack;
+  lined.outline_width = 3 * kPx;
+  const double line = covered_area(draw_items({lined})) - bare;
+  // Four sides and four rounded corners of 3 px; twelve directions make the ring up to a tenth too thin.
+  const double ring = 4 * 51.2 * 3 + std::numbers::pi * 9;
+  EXPECT_NEAR(line, ring, 0.12 * ring);
+}
+
+TEST(Solids, StayInsideOfTheirClip) {
+  Canvas canvas(kSide, kSide, test_fonts());
+  Picture picture;
+  picture.clips = {{0.25, 0.25, 0.5, 0.75}};
+  picture.add(silhouette({at(cube(1.8), 0, 0, 0)}), 0);
+  Image image;
+  canvas.draw(picture, image);
+  EXPECT_NEAR(covered_area(image), 32 * 64, 1e-9);
+}
+
+// A second body elsewhere, then the first again: nothing of an earlier frame is left.
+TEST(Solids, LeaveNothingBehindForTheNextFrame) {
+  Solids lined = scene({at(cube(0.5), -0.3, 0, 0, kRed)});
+  lined.outline = kBlack;
+  lined.outline_width = 4 * kPx;
+  const Image first = draw_items({lined});
+  draw_items({silhouette({at(cube(1.6), 0.1, 0.1, 0)})});
+  EXPECT_EQ(largest_difference(first, draw_items({lined})), 0);
+}
+
+// Culling leaves out what is never seen, and nothing else.
+TEST(Solids, ClosedPartsLookAsTheyWouldWithAllTriangles) {
+  TriangleMesh torn = sphere_mesh(0.7);
+  ASSERT_EQ(closed_parts_first(torn).closed, torn.triangles.size() / 3);
+  const Image closed = draw_items({scene({at(shared(torn), 0.1, 0, 0, kRed)})});
+  // The first triangle twice: no edge of it joins just two, so the part counts as open and all is drawn.
+  for (int k = 0; k < 3; ++k) torn.triangles.push_back(torn.triangles[std::size_t(k)]);
+  ASSERT_EQ(closed_parts_first(torn).closed, 0u);
+  EXPECT_EQ(largest_difference(closed, draw_items({scene({at(shared(torn), 0.1, 0, 0, kRed)})})), 0);
+}
+
+TEST(Solids, OpenPartsAreSeenFromBehind) {
+  TriangleMesh lid = box_mesh({0.8, 0.8, 0.8});
+  lid.triangles.resize(lid.triangles.size() - 3);
+  EXPECT_EQ(closed_parts_first(lid).closed, 0u);
+  TriangleMesh inside_out = box_mesh({0.8, 0.8, 0.8});
+  for (std::size_t t = 0; t < inside_out.triangles.size(); t += 3)
+    std::swap(inside_out.triangles[t], inside_out.triangles[t + 1]);
+  EXPECT_EQ(closed_parts_first(inside_out).closed, 0u);
+  EXPECT_GT(covered_area(draw_items({silhouette({at(shared(inside_out), 0, 0, 0)})})), 51 * 51);
+}
+
+TEST(Solids, ClosedPartsComeFirstWhereAMeshHasBoth) {
+  TriangleMesh two = box_mesh({1, 1, 1});
+  const TriangleMesh other = box_mesh({0.5, 0.5, 0.5});
+  const auto shift = std::uint32_t(two.vertices.size());
+  two.triangles.resize(two.triangles.size() - 3);  // the first box is open
+  two.vertices.insert(two.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const std::uint32_t index : other.triangles) two.triangles.push_back(index + shift);
+  const SortedTriangles sorted = closed_parts_first(two);
+  EXPECT_EQ(sorted.closed, 12u);
+  EXPECT_EQ(sorted.indices.size(), two.triangles.size());
+  EXPECT_GE(sorted.indices.front(), shift);
+}
+
+TEST(Solids, ThatAreNoNumbersAreLeftOut) {
+  Solid broken = at(cube(0.8), 0, 0, 0, kRed);
+  broken.to_view[3] = NAN;
+  EXPECT_EQ(covered_area(draw_items({scene({broken})})), 0);
+  EXPECT_EQ(covered_area(draw_items({scene({Solid{nullptr, broken.to_view, {}}})})), 0);
+  Solids behind_the_eye = scene({at(cube(0.2), 0, 0, 5)}, 0.5);
+  EXPECT_NO_THROW(draw_items({behind_the_eye}));
+}
+
+TEST(Solids, WithTrianglesBetweenMissingVerticesAreAnError) {
+  TriangleMesh mesh = box_mesh({1, 1, 1});
+  mesh.triangles.back() = 1000;
+  EXPECT_THROW(draw_items({scene({at(shared(mesh), 0, 0, 0)})}), Error);
+}
+
+TEST(Solids, KnowWhereTheyStandWithoutBeingDrawn) {
+  const Solids solids = silhouette({at(cube(0.4), 0.1, 0, 0)}, 0.5);
+  const auto bounds = bounds_of(solids, {bounds_of(*solids.parts[0].mesh)});
+  ASSERT_TRUE(bounds);
+  EXPECT_NEAR(bounds->nearest, 0.2, 1e-7);  // vertices are floats
+  EXPECT_NEAR(bounds->farthest, -0.2, 1e-7);
+  EXPECT_NEAR(bounds->page.x1, 0.5 + 0.5 * 0.3 / (1 - 0.1), 1e-7);
+  EXPECT_FALSE(bounds_of(scene({}), {}));
+}
+
+class SolidsAsVectors : public testing::Test {
+ protected:
+  SolidsAsVectors() {
+    picture.aspect = 16.0 / 9;
+    Solids solids =
+        scene({at(shared(sphere_mesh(0.5)), 0.5, 0, 0, kRed), at(cube(0.5), 1, 0.2, 0.3, kGreen)});
+    solids.outline = kBlack;
+    solids.outline_width = 0.004;
+    picture.add(Capsule{{0.1, 0.1}, {1.6, 0.9}, 0.01, {kBlack, {}, 0}});
+    picture.add(std::move(solids));
+    Canvas canvas(960, 540, test_fonts());
+    canvas.draw(picture, by_canvas);
+  }
+  Picture picture;
+  Image by_canvas;
+};
+
+// The picture inside of the page has four times the pixels of this canvas a side and is drawn smaller: only
+// edges differ.
+constexpr double kMeanOfEdges = 0.6;
+
+TEST_F(SolidsAsVectors, LookTheSameInSvg) {
+  const TemporaryFolder folder;
+  const std::string text = svg_text(picture, test_fonts(), {540, "", "", ""});
+  EXPECT_THAT(text, testing::HasSubstr("<image "));
+  const std::string png = folder.file("page.png");
+  const ProgramResult result = run_command({"rsvg-convert", folder.write("page.svg", text), "-o", png});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_LT(compare_pictures(by_canvas, read_png(png)).mean, kMeanOfEdges);
+}
+
+TEST_F(SolidsAsVectors, LookTheSameInPdf) {
+  const TemporaryFolder folder;
+  const std::string pdf = folder.write("page.pdf", pdf_text(picture, test_fonts(), {540, "", "", ""}));
+  const ProgramResult result =
+      run_command({"pdftocairo", "-png", "-singlefile", "-r", "72", pdf, folder.file("page")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Image page = read_png(folder.file("page.png"));
+  EXPECT_LT(compare_pictures(by_canvas, page).mean, kMeanOfEdges);
+  // Without the bodies the pictures differ by far more.
+  Picture bare = picture;
+  bare.items.pop_back();
+  Canvas canvas(960, 540, test_fonts());
+  Image without;
+  canvas.draw(bare, without);
+  EXPECT_GT(compare_pictures(without, page).mean, 5 * kMeanOfEdges);
+}
+
+}  // namespace
+}  // namespace chainreel
