@@ -60,7 +60,7 @@ TEST(Primitives, ACylinderIsThePrismOverItsPolygon) {
   }
 }
 
-TEST(Primitives, ASphereIsRoundToHalfAPercent) {
+TEST(Primitives, ASphereHasItsRadiusAndNearlyItsVolume) {
   const double r = 0.2;
   const TriangleMesh sphere = sphere_mesh(r);
   expect_closed(sphere);

@@ -76,8 +76,7 @@ TEST_F(ReadMesh, AMirrorKeepsTheOutsideOutside) {
   expect_box(read_mesh(file("m.dae", collada(box_triangles(kLower, kUpper), with))), {-2, 2, 3}, {-1, 4, 6});
 }
 
-// A quarter turn about x carries y to z; a plane tilted by 45 degrees and pressed to a third has a normal
-// that is not carried like a vector.
+// Stretched along x, a slope is less steep: its normal turns towards z, where a vector would turn towards x.
 TEST_F(ReadMesh, NormalsOfTheFileGoByTheInverseTranspose) {
   const std::vector<Triangle> slope{{Eigen::Vector3d(0, 0, 0), {1, 0, -1}, {0, 1, 0}}};  // normal (1, 0, 1)
   Collada with;
