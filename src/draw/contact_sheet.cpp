@@ -18,8 +18,9 @@ constexpr double kSmallestCell = 0.045;   // height of a picture that shows anyt
 constexpr double kWideCell = 0.75;        // from this width on, titles have one line and their full size
 constexpr double kThinnestLine = 0.0011;  // 1.2 px of 1080
 constexpr double kFrameLine = 0.0018;
-constexpr double kLargestWords = 2.5;  // text_scale; beyond it words would hide what they name
-constexpr double kScript = 0.7;        // of the em: indices are that small by themselves
+constexpr double kLargestWords = 2;  // text_scale; beyond it words would hide what they name
+constexpr double kNoWords = 1e-3;    // text_scale of words, and of the room for them, that nobody sees
+constexpr double kScript = 0.7;      // of the em: indices are that small by themselves
 const std::string kEllipsis = "\u2026";
 
 // Heights that a grid of that many lines gives its pictures.
@@ -118,6 +119,7 @@ ContactGrid contact_grid(int count, const ContactSheetLook& look) {
                                      "--height or a smaller --text-scale");
   grid.text_size = cut.text_size;
   grid.title_lines = cut.title_lines;
+  grid.smallest_text = scaled(kSmallestText, look.text_scale);
 
   // The whole lies in the middle of the page; what is free between columns grows where the height decides, no
   // further than three gaps.
@@ -137,8 +139,8 @@ ContactGrid contact_grid(int count, const ContactSheetLook& look) {
 
 double text_scale_in(const ContactGrid& grid) {
   const double page_height = grid.pictures.front().height() / (1 - 2 * size::kMargin);
-  const double scale = kSmallestText / (size::kAxis * page_height);
-  return scale <= kLargestWords ? std::max(scale, 1.0) : 1;
+  const double scale = grid.smallest_text / (size::kAxis * page_height);
+  return scale <= kLargestWords ? std::max(scale, 1.0) : kNoWords;
 }
 
 Picture draw_contact_sheet(const ContactGrid& grid, std::span<const ContactCell> cells,
@@ -149,7 +151,7 @@ Picture draw_contact_sheet(const ContactGrid& grid, std::span<const ContactCell>
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Rect& title = grid.titles[i];
     place_picture(sheet, cells[i].picture,
-                  {grid.pictures[i], kThinnestLine, kScript * kSmallestText, size::kMargin});
+                  {grid.pictures[i], kThinnestLine, kScript * grid.smallest_text, size::kMargin});
     draw_frame(sheet, grid.pictures[i], *look.theme);
     double y = title.y1 - (kTitleAir + kAscent) * grid.text_size;
     for (const std::string& line :

@@ -27,7 +27,8 @@ struct ContactSheetLook {
 // Where the cells lie: pictures row by row from the top, below each the room for its title.
 struct ContactGrid {
   int columns = 1, lines = 1;
-  double text_size = 0;  // of titles, units of H
+  double text_size = 0;      // of titles, units of H
+  double smallest_text = 0;  // of all words
   int title_lines = 2;
   std::vector<Rect> pictures, titles;
 };
@@ -35,8 +36,8 @@ struct ContactGrid {
 // Throws Error (usage) where that many cells leave nothing to see: more than kMostCells, or too many columns.
 ContactGrid contact_grid(int count, const ContactSheetLook& look);
 
-// The text_scale at which the words inside a picture of this grid can be read; 1 where it is too small for
-// words, which are left out then.
+// The text_scale at which the words inside a picture of this grid can be read; next to nothing where they
+// would hide what they name, and then they are left out.
 double text_scale_in(const ContactGrid& grid);
 
 struct ContactCell {

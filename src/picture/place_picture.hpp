@@ -8,7 +8,8 @@ namespace chainreel {
 struct Placing {
   Rect cell;                 // of the larger page: the small one fills it both ways or one, in its middle
   double thinnest_line = 0;  // units of the larger page's H: lines become no thinner
-  double smallest_text = 0;  // ... em: words that became smaller could not be read and are left out
+  double smallest_text = 0;  // ... em: words that became smaller could not be read and are left out,
+                             // with the plates below them
   double margin = 0;         // units of the small page's H: cut off on all sides
 };
 
