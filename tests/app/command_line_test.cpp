@@ -9,6 +9,8 @@
 #include <sstream>
 
 #include "core/json.hpp"
+#include "encode/png.hpp"
+#include "scene/read_scene.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -19,7 +21,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 const std::vector<std::string> kCommands{"render",  "snapshot", "ellipse", "simulate", "dynamics",
-                                         "inverse", "init",     "check",   "doctor"};
+                                         "inverse", "init",     "check",   "doctor",   "sheet",    "gallery"};
 
 TEST(Help, HasAnExampleForEveryCommand) {
   for (const std::string& command : kCommands) {
@@ -112,6 +114,32 @@ std::vector<std::string> readme_commands() {
   return commands;
 }
 
+// What a page for people shows must be there, and be small enough to load at once.
+TEST(Readme, PicturesAreThereAndTheFirstIsTheSheetOfAllScenes) {
+  const std::string text = read_whole_file("README.md");
+  static const std::regex picture(R"(!\[[^\]]+\]\(([^)]+)\))");
+  std::vector<std::string> files;
+  for (std::sregex_iterator at(text.begin(), text.end(), picture), end; at != end; ++at) files.push_back((*at)[1]);
+  ASSERT_FALSE(files.empty());
+  EXPECT_EQ(files.front(), "assets/gallery/sheet.png");
+  EXPECT_LT(text.find(files.front()), 600u);
+  for (const std::string& file : files) {
+    EXPECT_TRUE(fs::is_regular_file(file)) << file;
+    EXPECT_LT(fs::file_size(file), 400000u) << file;
+  }
+}
+
+// The sheet remembers its titles.
+TEST(Readme, SheetShowsEveryScene) {
+  const std::string words = read_png_text("assets/gallery/sheet.png")["description"];
+  for (const auto& entry : fs::directory_iterator("assets/scenes")) {
+    const std::string title = read_scene(entry.path().string(), {}).title;
+    EXPECT_THAT(words, HasSubstr(title.substr(0, title.find('{'))))
+        << "make it anew: chainreel sheet assets/scenes/*.yaml --width 1600 --height 1120 -o assets/gallery/sheet.png "
+           "--force";
+  }
+}
+
 TEST(Readme, CommandsRun) {
   const std::vector<std::string> commands = readme_commands();
   EXPECT_GE(commands.size(), 5u);
@@ -128,6 +156,7 @@ TEST(Readme, CommandsRun) {
     const ProgramResult result = run_command({"sh", "-c", line}, {.folder = folder.path().string()});
     EXPECT_EQ(result.status, 0) << command << "\n" << result.err;
   }
+  for (const char* made : {"out/sheet.png", "out/index.html"}) EXPECT_TRUE(fs::exists(folder.path() / made)) << made;
 }
 
 }  // namespace

@@ -1,0 +1,158 @@
+// The gallery's page as text, and what it says of films that cannot be shown. tests/browser shows it in a
+// browser.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "app/gallery_audit.hpp"
+#include "app/page_template.hpp"
+#include "core/base64.hpp"
+#include "encode/film_start.hpp"
+#include "encode/png.hpp"
+#include "encode/video_writer.hpp"
+#include "support/picture_compare.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/video_probe.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string render(const TemporaryFolder& folder, const std::string& name) {
+  const std::string file = folder.file(name);
+  const ProgramResult result =
+      run_program({"render", "assets/scenes/rr_torque.yaml", "-o", file, "--quiet", "--force", "--set", "duration=0.2",
+                   "--set", "video.width=160", "--set", "video.height=90", "--set", "text_scale=1.5"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  return file;
+}
+
+ProgramResult gallery(const TemporaryFolder& folder, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> command{"gallery", folder.path().string(), "-o", folder.file("out/index.html")};
+  command.insert(command.end(), more.begin(), more.end());
+  return run_program(command);
+}
+
+std::string page(const TemporaryFolder& folder) {
+  return read_whole_file(folder.file("out/index.html"));
+}
+
+TEST(Gallery, HoldsFilmsWholeAndIsTheSameEachTime) {
+  const TemporaryFolder folder;
+  const std::string film = render(folder, "a.mp4");
+  ASSERT_EQ(gallery(folder).status, 0);
+  const std::string first = page(folder);
+  EXPECT_THAT(first, HasSubstr("src=\"data:video/mp4;base64," + base64(read_whole_file(film)) + "\""));
+  ASSERT_EQ(gallery(folder).status, 0);
+  EXPECT_EQ(page(folder), first);
+}
+
+TEST(Gallery, TakesAWebmWhereThereIsNoMp4AndLeavesPartialFilms) {
+  const TemporaryFolder folder;
+  const std::string film = render(folder, "a.mp4");
+  render(folder, "a.webm");
+  render(folder, "b.webm");
+  fs::copy_file(film, folder.file("c.partial.mp4"));
+  const ProgramResult result = gallery(folder, {"--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(Json::parse(result.out)["films"], 2);
+  EXPECT_THAT(page(folder), HasSubstr("data:video/webm;base64,"));
+}
+
+TEST(Gallery, GivesChartsToTheFilmWithTheLongestName) {
+  const TemporaryFolder folder;
+  fs::copy_file(render(folder, "rr.mp4"), folder.file("rr_long.mp4"));
+  for (const char* name : {"rr_long_chart.png", "rr_energy.png", "other_chart.png", "rr_frame.png"})
+    write_png(folder.file(name), Image(4, 4));
+  ASSERT_EQ(gallery(folder).status, 0);
+  const std::string text = page(folder);
+  const std::size_t second = text.find("id=\"clip-2\"");
+  EXPECT_LT(text.find("rr_energy.png"), second);
+  EXPECT_GT(text.find("rr_long_chart.png"), second);
+  EXPECT_THAT(text, Not(HasSubstr("other_chart.png")));
+  EXPECT_THAT(text, Not(HasSubstr("rr_frame.png")));
+}
+
+TEST(Gallery, SaysWhereAFilmRemembersNoScene) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("foreign.mp4");
+  VideoWriter writer(file, {.width = 64, .height = 36, .fps = {25, 1}});
+  for (int k = 0; k < 5; ++k) writer.write(Image(64, 36));
+  writer.finish();
+  ASSERT_EQ(gallery(folder).status, 0);
+  EXPECT_THAT(page(folder), HasSubstr("This film remembers no scene"));
+  EXPECT_THAT(page(folder), Not(HasSubstr("<summary>Audit")));
+}
+
+TEST(Gallery, TellsWhatItCannotShow) {
+  const TemporaryFolder folder;
+  const ProgramResult empty = gallery(folder);
+  EXPECT_EQ(empty.status, 3);
+  EXPECT_THAT(empty.err, HasSubstr("there is no film"));
+  folder.write("broken.mp4", "not a film");
+  const std::string cut = read_whole_file(render(folder, "whole.mp4"));
+  folder.write("cut.mp4", cut.substr(0, 400));
+  const ProgramResult broken = gallery(folder);
+  EXPECT_EQ(broken.status, 3);
+  EXPECT_THAT(broken.err, HasSubstr("broken.mp4: is no film that can be read"));
+  EXPECT_THAT(broken.err, HasSubstr("cut.mp4: "));
+  EXPECT_THAT(broken.err, HasSubstr("render it again"));
+  EXPECT_FALSE(fs::exists(folder.file("out/index.html")));
+  EXPECT_EQ(run_program({"gallery", folder.file("none")}).status, 3);
+  EXPECT_EQ(run_program({"gallery", "README.md"}).status, 3);
+  EXPECT_EQ(run_program({"gallery", folder.file("whole.mp4"), "-o", folder.file("page.pdf")}).status, 2);
+  // Nothing outside `out` is overwritten unasked.
+  const std::string mine = folder.write("mine.html", "mine");
+  EXPECT_EQ(run_program({"gallery", folder.file("whole.mp4"), "-o", mine}).status, 6);
+  EXPECT_EQ(read_whole_file(mine), "mine");
+}
+
+TEST(FilmStart, IsTheFirstFrameAsAnotherReaderSeesIt) {
+  const TemporaryFolder folder;
+  const std::string file = render(folder, "a.mp4");
+  const FilmStart start = read_film_start(file, 4096);
+  const VideoFacts facts = probe_video(file);
+  EXPECT_EQ(start.width, 160);
+  EXPECT_EQ(start.height, 90);
+  EXPECT_NEAR(start.seconds, 0.2, 1e-6);
+  // Two settings of one scaler: chroma is spread by other weights.
+  EXPECT_LT(compare_pictures(start.frame, facts.first).mean, 1);
+  EXPECT_GT(compare_pictures(start.frame, facts.last).mean, compare_pictures(start.frame, facts.first).mean);
+  const FilmStart small = read_film_start(file, 80);
+  EXPECT_EQ(small.frame.width, 80);
+  EXPECT_EQ(small.frame.height, 45);
+}
+
+TEST(GalleryAudit, PutsRunsSideBySideAndEnduresStrangeKinds) {
+  const Json audit{
+      {"duration", 3},
+      {"frames", 180},
+      {"panels",
+       {{{"title", "A"}, {"method", "rk4"}, {"audit_error", 1.25e-9}, {"largest_kinetic_energy", 20}},
+        {{"title", "B"}, {"method", 5}, {"events", "none"}, {"steps", "many"}}}}};
+  const std::vector<AuditRow> rows = audit_rows(audit);
+  ASSERT_GE(rows.size(), 3u);
+  EXPECT_EQ(rows[0].values, (std::vector<std::string>{"A", "B"}));
+  EXPECT_EQ(rows[1].name, "Energy error");
+  EXPECT_THAT(rows[1].values[0], HasSubstr("e-09 J (kinetic energy up to 20"));
+  EXPECT_EQ(rows[1].values[1], "");
+  EXPECT_EQ(audit_facts(audit, 3), "2 panels \u00B7 3.00 s \u00B7 180 frames");
+  EXPECT_EQ(audit_facts(Json(), 3), "3.00 s");
+}
+
+TEST(PageTemplate, FillsAndEscapes) {
+  EXPECT_EQ(
+      filled_page("<p title=\"{{a}}\">{{b}}</p>", {{"a", plain("\"x\" < & >\x01")}, {"b", markup("<b>")}}),
+      "<p title=\"&quot;x&quot; &lt; &amp; &gt; \"><b></p>");
+  EXPECT_THROW(filled_page("{{unknown}}", {}), std::logic_error);
+  EXPECT_THROW(embedded_page("unknown.html"), std::logic_error);
+}
+
+}  // namespace
+}  // namespace chainreel

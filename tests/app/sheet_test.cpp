@@ -1,0 +1,103 @@
+// Contact sheets as files.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/json.hpp"
+#include "encode/png.hpp"
+#include "support/picture_compare.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::HasSubstr;
+
+// Chains with and without ellipse, vectors, closures and panels.
+ProgramResult sheet(const std::vector<std::string>& more) {
+  std::vector<std::string> command{"sheet"};
+  for (const char* scene :
+       {"rr_ellipse", "four_bar", "rr_forces", "euler_gains_energy", "humanoid_fall", "pp_spring"})
+    command.push_back("assets/scenes/" + std::string(scene) + ".yaml");
+  command.insert(command.end(), more.begin(), more.end());
+  return run_program(command);
+}
+
+std::vector<std::string> small(const std::string& file, const std::string& theme) {
+  return {"-o",  file,      "--at", "1.2",          "--width", "640",   "--height",
+          "360", "--theme", theme,  "--text-scale", "1.5",     "--json"};
+}
+
+class SheetInTheme : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Themes, SheetInTheme, testing::Values("light", "dark"),
+                         [](const auto& p) { return p.param; });
+
+TEST_P(SheetInTheme, LooksLikeItsGolden) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.png");
+  const ProgramResult result = sheet(small(file, GetParam()));
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(Json::parse(result.out)["columns"], 3);
+  EXPECT_TRUE(matches_golden(read_png(file), "sheet_" + GetParam(), {.max = 24, .mean = 0.05}));
+}
+
+TEST(Sheet, ShowsAnotherInstantAndOtherKeysWhereAsked) {
+  const TemporaryFolder folder;
+  const auto picture = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> command = small(folder.file(name), "light");
+    command.insert(command.end(), more.begin(), more.end());
+    const ProgramResult result = sheet(command);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return read_png(folder.file(name));
+  };
+  const Image plain = picture("a.png", {});
+  EXPECT_EQ(compare_pictures(plain, picture("b.png", {})).max, 0);
+  EXPECT_GT(compare_pictures(plain, picture("c.png", {"--set", "draw=[chain, com]"})).mean, 0.1);
+  EXPECT_GT(compare_pictures(plain, picture("d.png", {"--columns", "2"})).mean, 1.0);
+}
+
+TEST(Sheet, ShowsTheEndOfAShorterSceneAndTheLastEventUnasked) {
+  const TemporaryFolder folder;
+  const std::string fall = "assets/scenes/humanoid_fall.yaml";
+  const auto picture = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> command{"sheet",   fall,  "-o",       folder.file(name),
+                                     "--width", "320", "--height", "180"};
+    command.insert(command.end(), more.begin(), more.end());
+    const ProgramResult result = run_program(command);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return read_png(folder.file(name));
+  };
+  // The run ends with the fall, its last event.
+  const Image unasked = picture("a.png", {});
+  EXPECT_EQ(compare_pictures(unasked, picture("b.png", {"--at", "1000"})).max, 0);
+  EXPECT_GT(compare_pictures(unasked, picture("c.png", {"--at", "0"})).mean, 0.1);
+}
+
+TEST(Sheet, IsAVectorPageToo) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.svg", "a.pdf"}) {
+    const ProgramResult result = run_program(
+        {"sheet", "assets/scenes/rr_free.yaml", "assets/scenes/pp_free.yaml", "-o", folder.file(name)});
+    ASSERT_EQ(result.status, 0) << result.err;
+  }
+  EXPECT_THAT(read_whole_file(folder.file("a.svg")), HasSubstr("Contact sheet"));
+  EXPECT_TRUE(read_whole_file(folder.file("a.pdf")).starts_with("%PDF"));
+}
+
+TEST(Sheet, TellsTheProblemsOfAllScenes) {
+  const TemporaryFolder folder;
+  const std::string bad = folder.write("bad.yaml", "model: none.urdf\ndurration: 3\n");
+  const ProgramResult result = run_program({"sheet", bad, "missing.yaml", "-o", folder.file("a.png")});
+  EXPECT_EQ(result.status, 3);
+  EXPECT_THAT(result.err, HasSubstr("durration"));
+  EXPECT_THAT(result.err, HasSubstr("missing.yaml"));
+  EXPECT_EQ(run_program({"sheet", bad, "-o", folder.file("a.txt")}).status, 2);
+  EXPECT_EQ(run_program({"sheet", "assets/scenes/rr_free.yaml", "--at", "-1"}).status, 2);
+  std::vector<std::string> many{"sheet"};
+  many.insert(many.end(), 49, "assets/scenes/rr_free.yaml");
+  EXPECT_EQ(run_program(many).status, 2);
+}
+
+}  // namespace
+}  // namespace chainreel
