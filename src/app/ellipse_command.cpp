@@ -8,6 +8,7 @@
 #include "app/ellipse_numbers.hpp"
 #include "app/ellipse_poses.hpp"
 #include "app/figure.hpp"
+#include "app/model_view.hpp"
 #include "app/pipeline.hpp"
 #include "core/error.hpp"
 #include "core/output_file.hpp"
@@ -21,6 +22,7 @@ struct EllipseOptions {
   std::string model;
   PoseSources sources;
   std::string reading;  // "": mass
+  std::string shape;    // "": the scene's, else ellipsoid
   std::string layout;   // "": superposed along a motion, else grid
   bool joint_space = false;
   std::string joints;  // "1,2"
@@ -32,6 +34,11 @@ struct EllipseOptions {
   const CLI::App* command = nullptr;
 
   EllipseReading read_as() const { return reading_named(reading); }
+  // In the plane there is nothing to cut.
+  EllipseForm form(const Motion& motion) const {
+    const std::string named = shape.empty() ? motion.ellipse.shape : shape;
+    return {read_as(), named == "section" && !motion.chain.planar};
+  }
 };
 
 std::string output_of(const EllipseOptions& options) {
@@ -91,6 +98,14 @@ PoseFigureOptions figure_of(const EllipseOptions& options, const Motion& motion)
   figure.labels = poses.labels;
   figure.path = poses.path;
   figure.cell = poses.cell;
+  if (options.sources.along.empty()) {
+    ModelOptions model = model_options_of(options.common);
+    set_view(figure, options.common.flags, options.model, motion.chain, model);
+  } else {
+    figure.camera = motion.camera;
+    figure.shapes = motion.shapes;
+  }
+  figure.section = options.form(motion).section;
   return figure;
 }
 
@@ -118,7 +133,7 @@ void run_ellipse(const EllipseOptions& options) {
                   options.height, fonts, output, options.common.force, memory);
     numbers = joint_space_json(chain, poses, joints);
   } else if (output.ends_with(".csv")) {
-    write_text_file(output, ellipse_csv(chain, poses, options.read_as()), options.common.force);
+    write_text_file(output, ellipse_csv(chain, poses, options.form(motion)), options.common.force);
   } else {
     const Fonts fonts;
     write_picture(draw_ellipse_figure(chain, poses.q, figure_of(options, motion), fonts), options.width,
@@ -128,8 +143,9 @@ void run_ellipse(const EllipseOptions& options) {
     Json report{{"file", output}};
     if (!options.joint_space) {
       report["reading"] = to_string(options.read_as());
+      report["shape"] = options.form(motion).section ? "section" : "ellipsoid";
       report["unit"] = options.read_as() == EllipseReading::energy ? "m/s" : "kg";
-      numbers = ellipse_json(chain, poses, options.read_as());
+      numbers = ellipse_json(chain, poses, options.form(motion));
     }
     report["poses"] = numbers;
     std::puts(report.dump(2).c_str());
@@ -166,6 +182,9 @@ void add_ellipse_command(CLI::App& app) {
   command->add_option("--end-effector", options->end_effector, "the link whose mass is felt");
   command->add_option("--title", options->title, "above the figure");
   add_scene_flags(*command, options->common.flags, kLookFlags);
+  add_scene_flags(*command, options->common.flags, kViewFlags);
+  command->add_option("--shape", options->shape, "of arms in space: ellipsoid, or section by the xy plane of the end effector")
+      ->check(CLI::IsMember({"ellipsoid", "section"}));
   command->add_option("--width", options->width, "pixels")->check(CLI::Range(16, 16384));
   command->add_option("--height", options->height, "pixels")->check(CLI::Range(16, 16384));
   add_common_options(*command, options->common);

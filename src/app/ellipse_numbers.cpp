@@ -1,7 +1,11 @@
 #include "app/ellipse_numbers.hpp"
 
+#include <algorithm>
+
 #include "app/report.hpp"
 #include "core/format.hpp"
+#include "draw/chain.hpp"
+#include "draw/section.hpp"
 #include "dynamics/crba.hpp"
 #include "dynamics/kinematics.hpp"
 
@@ -22,9 +26,18 @@ std::string number_or_inf(const std::optional<double>& value) {
   return value ? format_exact(*value) : "inf";
 }
 
+// At the pose at which `mass` was taken.
+std::vector<MassAxis> drawn_axes(const Chain& chain, Workspace& ws, const std::vector<double>& q,
+                                 const EffectiveMass& mass, const EllipseForm& form) {
+  if (!form.section) return mass_axes(mass);
+  const std::vector<double> at_rest(std::size_t(chain.nv), 0.0);
+  compute_kinematics(chain, ws, q, at_rest);
+  return section_axes(mass, tip_plane(chain, ws), form.reading);
+}
+
 }  // namespace
 
-Json ellipse_json(const Chain& chain, const GatheredPoses& poses, EllipseReading reading) {
+Json ellipse_json(const Chain& chain, const GatheredPoses& poses, const EllipseForm& form) {
   Workspace ws(chain);
   Json list = Json::array();
   for (std::size_t i = 0; i < poses.q.size(); ++i) {
@@ -35,16 +48,15 @@ Json ellipse_json(const Chain& chain, const GatheredPoses& poses, EllipseReading
     entry["point"] = to_json(point_of(chain, ws, poses.q[i]));
     add_effective_mass(entry, mass);
     entry["eigenvalues"] = entry["semi_axes"] = Json::array();
-    for (const MassAxis& axis : mass_axes(mass)) {
-      entry["eigenvalues"].push_back(number_or_null(axis.mass));
-      entry["semi_axes"].push_back(number_or_null(semi_axis(axis, reading)));
-    }
+    for (const MassAxis& axis : mass_axes(mass)) entry["eigenvalues"].push_back(number_or_null(axis.mass));
+    for (const MassAxis& axis : drawn_axes(chain, ws, poses.q[i], mass, form))
+      entry["semi_axes"].push_back(number_or_null(semi_axis(axis, form.reading)));
     list.push_back(entry);
   }
   return list;
 }
 
-std::string ellipse_csv(const Chain& chain, const GatheredPoses& poses, EllipseReading reading) {
+std::string ellipse_csv(const Chain& chain, const GatheredPoses& poses, const EllipseForm& form) {
   Workspace ws(chain);
   const TaskBasis basis = task_basis(chain, Task::linear);
   const std::size_t rows = basis.names.size();
@@ -54,8 +66,8 @@ std::string ellipse_csv(const Chain& chain, const GatheredPoses& poses, EllipseR
   for (std::size_t i = 0; i < rows; ++i)
     for (std::size_t j = i; j < rows; ++j) text += ",Lambda_inv_" + basis.names[i] + basis.names[j];
   for (std::size_t i = 0; i < rows; ++i) text += ",eigenvalue" + std::to_string(i + 1);
-  for (std::size_t i = 0; i < rows; ++i)
-    text += ",semi_axis" + std::to_string(i + 1) + "_" + to_string(reading);
+  for (std::size_t i = 0; i < (form.section ? std::min<std::size_t>(rows, 2) : rows); ++i)
+    text += ",semi_axis" + std::to_string(i + 1) + "_" + to_string(form.reading);
   text += "\n";
   for (std::size_t k = 0; k < poses.q.size(); ++k) {
     if (k < poses.t.size()) text += format_exact(poses.t[k]) + ",";
@@ -65,9 +77,9 @@ std::string ellipse_csv(const Chain& chain, const GatheredPoses& poses, EllipseR
     text += format_exact(point.x()) + "," + format_exact(point.y()) + "," + format_exact(point.z());
     for (Eigen::Index i = 0; i < Eigen::Index(rows); ++i)
       for (Eigen::Index j = i; j < Eigen::Index(rows); ++j) text += "," + format_exact(mass.Lambda_inv(i, j));
-    const std::vector<MassAxis> axes = mass_axes(mass);
-    for (const MassAxis& axis : axes) text += "," + number_or_inf(axis.mass);
-    for (const MassAxis& axis : axes) text += "," + number_or_inf(semi_axis(axis, reading));
+    for (const MassAxis& axis : mass_axes(mass)) text += "," + number_or_inf(axis.mass);
+    for (const MassAxis& axis : drawn_axes(chain, ws, poses.q[k], mass, form))
+      text += "," + number_or_inf(semi_axis(axis, form.reading));
     text += "\n";
   }
   return text;

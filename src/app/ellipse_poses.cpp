@@ -92,7 +92,8 @@ Motion motion_of(const PoseSources& sources, const CommonOptions& common) {
   require_expected_ends(film, runs);
 
   const Trajectory& run = runs.front();
-  Motion motion{film.panels.front().simulation.chain, {}, film.scene.theme, film.scene.text_scale};
+  Motion motion{film.panels.front().simulation.chain, {}, film.scene.theme, film.scene.text_scale,
+                film.scene.camera, film.scene.ellipse, film.panels.front().shapes};
   const Chain& chain = motion.chain;
   require_end_effector(chain);
   Workspace ws(chain);

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "app/command.hpp"
-#include "model/chain.hpp"
+#include "draw/body_shapes.hpp"
+#include "scene/scene.hpp"
 
 namespace chainreel {
 
@@ -35,6 +36,9 @@ struct Motion {
   GatheredPoses poses;
   std::string theme;  // of the page, the scene's
   double text_scale = 1;
+  CameraEntry camera = {};  // of a scene
+  EllipseEntry ellipse = {};
+  std::shared_ptr<const BodyShapes> shapes = nullptr;
 };
 Motion motion_of(const PoseSources& sources, const CommonOptions& common);
 

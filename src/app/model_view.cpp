@@ -61,7 +61,8 @@ void set_view(PoseFigureOptions& figure, const FlagValues& flags, const std::str
               const Chain& chain, const ModelOptions& options) {
   figure.camera = camera_of(flags);
   BodyLook look;
-  look.links = one_of(flags, "links", "--links", {"auto", "plain", "visual"}, "auto, plain or visual");
+  look.links = one_of(flags, "links", "--links", {"auto", "plain", "visual", "collision"},
+                      "auto, plain, visual or collision");
   look.mesh_up = one_of(flags, "mesh_up", "--mesh-up", {"rviz", "file"}, "rviz or file");
   look.is_oblique = is_oblique(chain, figure.camera);
   look.place = {model};

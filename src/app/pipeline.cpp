@@ -22,7 +22,7 @@ namespace chainreel {
 namespace {
 
 PreparedScene prepare_panel(Scene scene, bool meshes) {
-  PreparedScene prepared{std::move(scene), {}, {}};
+  PreparedScene prepared{std::move(scene), {}, {}, nullptr};
   prepared.simulation = prepare(prepared.scene, meshes);
   choose_automatically(prepared);
   return prepared;

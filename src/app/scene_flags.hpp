@@ -38,7 +38,7 @@ inline constexpr SceneFlag kViewFlags[] = {
     {"--elevation", "camera.elevation", "camera.elevation: above the horizon, like 20deg"},
     {"--distance", "camera.distance", "camera.distance: of the eye from the middle in m, or parallel"},
     {"--fit", "camera.fit", "camera.fit: motion, or the part shown in m: \"[left, bottom, right, top]\""},
-    {"--links", "links", "links: auto, plain (bars) or visual (the model's shapes)"},
+    {"--links", "links", "links: auto, plain (bars), visual or collision (the model's shapes)"},
     {"--mesh-up", "mesh_up", "mesh_up: rviz or file, whose up Collada meshes follow"},
 };
 

@@ -128,12 +128,15 @@ std::shared_ptr<const BodyShapes> shapes_for(const BodyLook& look, const std::st
                                              const Chain& chain, const ModelOptions& options,
                                              MeshShelf& shelf) {
   if (look.links == "plain" || (look.links == "auto" && !look.is_oblique)) return nullptr;
-  const std::vector<Visual> visuals = read_visuals(model, chain, options);
+  const bool collision = look.links == "collision";
+  const std::vector<Visual> visuals =
+      read_visuals(model, chain, options, collision ? ShapesOf::collision : ShapesOf::visual);
   const bool any_moves =
       std::any_of(visuals.begin(), visuals.end(), [](const Visual& visual) { return visual.body > 0; });
   if (look.links == "auto" && !any_moves) return nullptr;
   if (visuals.empty())
-    throw Error(ExitCode::bad_input, "'links' is visual, but the model has no <visual>: take auto or plain",
+    throw Error(ExitCode::bad_input,
+                "'links' is " + look.links + ", but the model has no <" + look.links + ">: take auto or plain",
                 look.place);
   const MeshUp up = look.mesh_up == "file" ? MeshUp::file : MeshUp::rviz;
   return std::make_shared<const BodyShapes>(load_body_shapes(visuals, up, shelf));

@@ -1,7 +1,6 @@
 // A robot as its model's visual shapes show it.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <map>
 #include <memory>
 #include <optional>

@@ -218,4 +218,9 @@ Vector3d tip_position(const Chain& chain, const Workspace& ws) {
   return frame_position(chain, ws, chain.end_effector);
 }
 
+Eigen::Matrix<double, 3, 2> tip_plane(const Chain& chain, const Workspace& ws) {
+  const Frame& tip = chain.frames[std::size_t(chain.end_effector)];
+  return (pose_of(ws, tip.body).linear() * tip.X_BF.linear()).leftCols<2>();
+}
+
 }  // namespace chainreel

@@ -148,11 +148,15 @@ std::string to_string(EllipseReading reading) {
   return reading == EllipseReading::energy ? "energy" : reading == EllipseReading::belt ? "belt" : "mass";
 }
 
-std::string ellipse_legend(EllipseReading reading) {
+std::string ellipse_legend(EllipseReading reading, bool section) {
+  const std::string cut = section ? ", cut at the tool" : "";
   switch (reading) {
-    case EllipseReading::energy: return "kinetic energy ellipse of \u039B(q): velocities of equal energy, 0.5 J";
-    case EllipseReading::belt: return "effective mass belt of \u039B(q): mass felt along each direction";
-    default: return "effective mass ellipse \u039B(q): force for unit acceleration";
+    case EllipseReading::energy:
+      return "kinetic energy ellipse of \u039B(q)" + cut + ": velocities of equal energy, 0.5 J";
+    case EllipseReading::belt:
+      return "effective mass belt of \u039B(q)" + cut + ": mass felt along each direction";
+    default:
+      return "effective mass ellipse \u039B(q)" + cut + ": force for unit acceleration";
   }
 }
 

@@ -34,7 +34,7 @@ EllipseReading reading_named(std::string_view name);
 std::string to_string(EllipseReading reading);
 
 // What the curve is, in the words of a legend; may be broken behind ": ".
-std::string ellipse_legend(EllipseReading reading);
+std::string ellipse_legend(EllipseReading reading, bool section = false);
 
 // A semi-axis of the ellipse or ellipsoid.
 struct MassAxis {

@@ -11,6 +11,7 @@
 #include "draw/caption.hpp"
 #include "draw/chain.hpp"
 #include "draw/chain_fit.hpp"
+#include "draw/section.hpp"
 #include "draw/joints.hpp"
 #include "draw/view.hpp"
 #include "dynamics/kinematics.hpp"
@@ -129,11 +130,16 @@ const std::vector<std::string>& figure_layout_names() {
 }
 
 std::vector<Pose> poses_of(const Chain& chain, const std::vector<std::vector<double>>& configurations,
-                           Workspace& ws) {
+                           const PoseFigureOptions& options, Workspace& ws) {
   std::vector<Pose> poses;
   for (const std::vector<double>& q : configurations) {
     Pose pose{q, effective_mass_of(chain, ws, q, chain.end_effector, Task::linear), {}};
     pose.axes = mass_axes(pose.effective);
+    if (options.section) {
+      const std::vector<double> at_rest(std::size_t(chain.nv), 0.0);
+      compute_kinematics(chain, ws, q, at_rest);
+      pose.axes = section_axes(pose.effective, tip_plane(chain, ws), options.reading);
+    }
     poses.push_back(std::move(pose));
   }
   return poses;
@@ -172,7 +178,7 @@ Sheet sheet_of(const PoseFigureOptions& options, const EllipseScale& scale, cons
   text.title = options.title;
   text.bar = scale.label();
   text.bar_length = scale.bar_length;
-  text.legend = ellipse_legend(options.reading);
+  text.legend = ellipse_legend(options.reading, options.section);
   if (options.cell > 0) text.legend += "; open where longer than its cell";
   return lay_out_sheet(text, double(options.width) / options.height, options.text_scale, *options.theme,
                        fonts);
@@ -205,7 +211,7 @@ Picture draw_ellipse_figure(const Chain& chain, const std::vector<std::vector<do
                             const PoseFigureOptions& options, const Fonts& fonts) {
   if (configurations.empty()) throw Error(ExitCode::usage, "a figure needs at least one pose");
   Workspace ws(chain);
-  const std::vector<Pose> poses = poses_of(chain, configurations, ws);
+  const std::vector<Pose> poses = poses_of(chain, configurations, options, ws);
   if (options.cell > 0 || options.layout == "superposed") return draw_superposed(chain, poses, options, fonts);
   Panels panels{chain, options, fonts, {}, 0, 1, {}, {}, {}};
   panels.caption = caption_height(int(poses[0].effective.basis.directions.size()), options.text_scale);

@@ -19,7 +19,7 @@ struct Pose {
   std::vector<MassAxis> axes;
 };
 std::vector<Pose> poses_of(const Chain& chain, const std::vector<std::vector<double>>& configurations,
-                           Workspace& ws);
+                           const PoseFigureOptions& options, Workspace& ws);
 
 std::vector<std::vector<double>> configurations_of(const std::vector<Pose>& poses);
 

@@ -126,7 +126,7 @@ void Film::lay_out() {
     text.bar = ellipse_scale_.label();
     text.bar_length = ellipse_scale_.bar_length;
   }
-  if (layers_.ellipse && layers_.legend) text.legend = ellipse_legend(layers_.reading);
+  if (layers_.ellipse && layers_.legend) text.legend = ellipse_legend(layers_.reading, layers_.section && !panels_.front().chain().planar);
   if (layers_.equation) {
     text.equation = equation_of_motion(is_constrained());
     text.symbols = equation_colors(layers_.acting, theme_);

@@ -1,7 +1,6 @@
 // The ground under a robot in space: a grid that fades out, drawn where the robot stands on it.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <optional>
 
 #include "model/chain.hpp"

@@ -9,6 +9,7 @@
 #include "draw/ghosts.hpp"
 #include "draw/closures.hpp"
 #include "draw/joints.hpp"
+#include "draw/section.hpp"
 #include "draw/sheet.hpp"
 #include "dynamics/crba.hpp"
 #include "dynamics/kinematics.hpp"
@@ -39,6 +40,7 @@ Layers layers_of(const Scene& scene) {
   layers.title = named("title"), layers.torque_label = named("torque_label");
   layers.scale_bar = named("scale_bar"), layers.legend = named("legend");
   layers.reading = reading_named(scene.ellipse.reading);
+  layers.section = scene.ellipse.shape == "section";
   if (is_transparent(scene)) {
     layers.time = layers.title = layers.torque_label = layers.legend = layers.equation = false;
     layers.scale_bar = false;
@@ -69,12 +71,19 @@ void Panel::pose_at(int k) const {
   compute_kinematics(run_.chain, *ws_, run_.trajectory.q_at(k), run_.trajectory.qd_at(k));
 }
 
+std::vector<MassAxis> Panel::ellipse_axes(int k) const {
+  const EffectiveMass effective = tip_mass_->at(*ws_, run_.trajectory.q_at(k));
+  if (!layers_.section) return mass_axes(effective);
+  pose_at(k);
+  return section_axes(effective, tip_plane(run_.chain, *ws_), layers_.reading);
+}
+
 std::vector<double> Panel::bounded_semi_axes() const {
   std::vector<double> bounded;
   const int count = std::min(samples_, kScaleSamples);
   for (int i = 0; i < count; ++i) {
     const int k = int(std::int64_t(i) * samples_ / count);
-    const auto axes = mass_axes(tip_mass_->at(*ws_, run_.trajectory.q_at(k)));
+    const auto axes = ellipse_axes(k);
     if (const auto length = bounded_semi_axis(axes, layers_.reading)) bounded.push_back(*length);
   }
   return bounded;
@@ -297,7 +306,7 @@ void Panel::draw_frame(Picture& picture, int k, const EllipseScale& scale, const
   const Point tip = tip_.place(k);
   if (layers_.ellipse) {
     const EllipseStyle style{&theme_, &fonts, run_.scene.text_scale, scale.per_unit(), area_, layers_.reading};
-    draw_mass_ellipse(picture, mass_axes(tip_mass_->at(*ws_, run_.trajectory.q_at(k))), tip, camera_, style, clip_);
+    draw_mass_ellipse(picture, ellipse_axes(k), tip, camera_, style, clip_);
   }
   if (layers_.chain && foot_) foot_->draw_pressure(picture, camera_, look_, k, clip_);
   draw_overlays(picture, vectors);

@@ -28,7 +28,7 @@ namespace chainreel {
 struct Layers {
   bool chain = false, trail = false, time = false, title = false;
   bool torque_label = false, ellipse = false, scale_bar = false, legend = false;
-  bool ground = false, shadow = false;
+  bool ground = false, shadow = false, section = false;
   bool ghosts = false, frames = false, com = false, mass_matrix = false, equation = false;
   ActingLayers acting;
   EllipseReading reading = EllipseReading::mass;
@@ -119,6 +119,8 @@ class Panel {
   const Rect& area() const { return area_; }
 
  private:
+  // Of the effective mass at frame k; moves the workspace.
+  std::vector<MassAxis> ellipse_axes(int k) const;
   std::string event_note(int k) const;
   void find_rails(int samples);
   void follow_tip();

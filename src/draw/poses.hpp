@@ -25,6 +25,7 @@ struct PoseFigureOptions {
 
   // Of figures with ellipses.
   EllipseReading reading = EllipseReading::mass;
+  bool section = false;               // by the xy plane of the end effector, instead of the ellipsoid
   std::string layout = "grid";        // panels, at most four across; or row: all in one; or superposed: no panels
   std::vector<std::string> labels;    // "t = 0.5 s", one a panel; may be empty
   std::vector<Eigen::Vector3d> path;  // of the end effector, m: drawn below superposed poses

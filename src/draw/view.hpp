@@ -1,7 +1,6 @@
 // Which way the camera looks at a chain.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <functional>
 
 #include "model/chain.hpp"

@@ -84,4 +84,15 @@ EffectiveMass effective_mass_of(const Chain& chain, Workspace& ws, ConstVec q, i
   return result;
 }
 
+PlaneForm form_on_plane(const EffectiveMass& effective, const Eigen::VectorXd& values,
+                        const Eigen::Matrix<double, 3, 2>& plane) {
+  Eigen::MatrixXd E(values.size(), 2);
+  for (Eigen::Index j = 0; j < values.size(); ++j)
+    E.row(j) = effective.basis.directions[std::size_t(j)].transpose() * plane;
+  const Eigen::MatrixXd turned = effective.directions.transpose() * E;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(
+      Eigen::Matrix2d(turned.transpose() * values.asDiagonal() * turned));
+  return {solver.eigenvalues().cwiseMax(0), plane * solver.eigenvectors()};
+}
+
 }  // namespace chainreel

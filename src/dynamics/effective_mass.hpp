@@ -27,4 +27,13 @@ struct EffectiveMass {
 // Uses ws.J, ws.M, ws.tau and ws.qdd on the way.
 EffectiveMass effective_mass_of(const Chain& chain, Workspace& ws, ConstVec q, int frame, Task task);
 
+// The quadratic form sum_i values_i d_i d_i^T, d_i the directions of Lambda_inv, on the plane of two perpendicular unit
+// vectors (columns, in W): its eigenvalues, rising, and their unit eigenvectors in W.
+struct PlaneForm {
+  Eigen::Vector2d values;
+  Eigen::Matrix<double, 3, 2> directions;
+};
+PlaneForm form_on_plane(const EffectiveMass& effective, const Eigen::VectorXd& values,
+                        const Eigen::Matrix<double, 3, 2>& plane);
+
 }  // namespace chainreel

@@ -58,7 +58,7 @@ Chain chain_of(const UrdfFile& file, const ModelOptions& options) {
 
 Chain read_chain(const std::string& path, const ModelOptions& options) {
   const UrdfFile file = read_urdf_file(path);
-  if (options.meshes) find_visual_meshes(file, options);
+  if (options.meshes) find_meshes(file, options);
   return chain_of(file, options);
 }
 

@@ -84,9 +84,10 @@ class Materials {
 
 }  // namespace
 
-std::vector<Visual> read_visuals(const std::string& path, const Chain& chain, const ModelOptions& options) {
+std::vector<Visual> read_visuals(const std::string& path, const Chain& chain, const ModelOptions& options,
+                                 ShapesOf which) {
   const UrdfFile file = read_urdf_file(path);
-  const std::map<std::string, std::string> meshes = find_visual_meshes(file, options);
+  const std::map<std::string, std::string> meshes = find_meshes(file, options, which);
   std::unordered_map<std::string, const Frame*> frames;
   for (const Frame& frame : chain.frames) frames.emplace(frame.name, &frame);
 
@@ -101,7 +102,7 @@ std::vector<Visual> read_visuals(const std::string& path, const Chain& chain, co
                                   "changed meanwhile?");
       continue;
     }
-    for (const UrdfShape& shape : link.visuals) {
+    for (const UrdfShape& shape : shapes_of(link, which)) {
       Visual visual;
       visual.body = frame->second->body;
       visual.X_BV = frame->second->X_BF * isometry_of(shape.origin);

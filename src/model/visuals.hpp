@@ -27,11 +27,14 @@ struct Visual {
   Place place;  // of the <visual>, for errors
 };
 
+enum class ShapesOf { visual, collision };  // the <visual>s or the <collision>s
+
 // In document order of links; lumped links are on the body that carries them. `chain` was read from the same
 // file with the same options. A material that is only named has the colour that the robot gives that name,
 // else the first link that does; a texture counts as its mean colour, and as nothing where it cannot be read.
 // Throws Error with every material that is named and has no colour anywhere, and every mesh that is not
 // found; without `options.meshes` such meshes are left out.
-std::vector<Visual> read_visuals(const std::string& path, const Chain& chain, const ModelOptions& options);
+std::vector<Visual> read_visuals(const std::string& path, const Chain& chain, const ModelOptions& options,
+                                 ShapesOf which = ShapesOf::visual);
 
 }  // namespace chainreel

@@ -84,7 +84,8 @@ void read_body_shapes(Fields& fields, Scene& scene) {
       fields.problems().add("'" + fields.path(key) + "' must be " + text + ", not '" + value + "'",
                             fields.place_of(fields.find(key), key));
   };
-  choose("links", scene.links, {"auto", "plain", "visual"}, "auto, plain or visual");
+  choose("links", scene.links, {"auto", "plain", "visual", "collision"},
+         "auto, plain, visual or collision");
   choose("mesh_up", scene.mesh_up, {"rviz", "file"}, "rviz or file");
 }
 

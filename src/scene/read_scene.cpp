@@ -160,7 +160,7 @@ void read_ellipse(Fields& fields, Scene& scene) {
   const YAML::Node node = fields.find("ellipse");
   if (!node.IsDefined()) return;
   if (!node.IsMap()) {
-    fields.problems().add("'ellipse' must hold its reading, mass, energy or belt: ellipse: {reading: belt}",
+    fields.problems().add("'ellipse' must hold reading or shape, like ellipse: {reading: belt}",
                           fields.place_of(node, "ellipse"));
     return;
   }
@@ -169,6 +169,9 @@ void read_ellipse(Fields& fields, Scene& scene) {
   const auto& known = reading_names();
   require(ellipse, "reading", std::find(known.begin(), known.end(), scene.ellipse.reading) != known.end(),
           "'ellipse.reading' must be mass, energy or belt, not '" + scene.ellipse.reading + "'");
+  ellipse.read("shape", scene.ellipse.shape);
+  require(ellipse, "shape", scene.ellipse.shape == "ellipsoid" || scene.ellipse.shape == "section",
+          "'ellipse.shape' must be ellipsoid or section, not '" + scene.ellipse.shape + "'");
   ellipse.finish();
 }
 

@@ -53,7 +53,8 @@ struct SlowMotionEntry {
 
 // How the layer `ellipse` reads the effective mass: see draw/ellipse.hpp.
 struct EllipseEntry {
-  std::string reading = "mass";  // or energy, belt
+  std::string reading = "mass";     // or energy, belt
+  std::string shape = "ellipsoid";  // in space; or section: by the xy plane of the end effector
 };
 
 struct Scene {
@@ -85,7 +86,7 @@ struct Scene {
   Accuracy accuracy;                           // of `method: auto`
   std::string expect = "finish";               // or diverge: what the run is to do
   std::vector<std::string> draw{"chain", "trail", "time", "title", "torque_label", "ground"};
-  std::string links = "auto";   // as plain bars, or by the model's visual shapes; auto: visual in space
+  std::string links = "auto";   // plain bars, or the model's visual or collision shapes; auto: visual in space
   std::string mesh_up = "rviz";  // whose up of Collada files: rviz (theirs is not heeded), or file
   EllipseEntry ellipse;
   CameraEntry camera;

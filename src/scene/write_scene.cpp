@@ -185,6 +185,7 @@ void add_page(std::vector<SceneEntry>& entries, const Scene& scene) {
   entries.push_back({"links", scene.links});
   entries.push_back({"mesh_up", scene.mesh_up});
   entries.push_back({"ellipse.reading", scene.ellipse.reading});
+  entries.push_back({"ellipse.shape", scene.ellipse.shape});
   add_camera(entries, scene.camera);
   if (!scene.plot.empty()) entries.push_back({"plot", plots_text(scene.plot)});
   entries.push_back({"layout", scene.layout});

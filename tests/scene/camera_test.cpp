@@ -67,7 +67,7 @@ TEST_F(CameraKeys, ThatMakeNoSenseAreErrorsWithTheirPlaces) {
   EXPECT_THAT(error("camera: {fit: [1, 0, 0, 1]}\n"), HasSubstr("must grow from left to right"));
   EXPECT_THAT(error("camera: {azimut: 1}\n"), HasSubstr("did you mean 'azimuth'?"));
   EXPECT_THAT(error("links: meshes\n"),
-              HasSubstr("one.yaml:2:8: 'links' must be auto, plain or visual, not 'meshes'"));
+              HasSubstr("one.yaml:2:8: 'links' must be auto, plain, visual or collision, not 'meshes'"));
   EXPECT_THAT(error("mesh_up: z\n"), HasSubstr("'mesh_up' must be rviz or file, not 'z'"));
 }
 
