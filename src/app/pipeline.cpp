@@ -58,6 +58,7 @@ void load_shapes(PreparedFilm& film) {
     const Chain& chain = panel.simulation.chain;
     const BodyLook look{scene.links, scene.mesh_up, is_oblique(chain, film.scene.camera), scene.place_of("links")};
     panel.shapes = shapes_for(look, scene.model, chain, model_options_of(scene), shelf);
+    if (panel.shapes) fill_by_several_threads();
   }
 }
 

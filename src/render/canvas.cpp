@@ -146,12 +146,14 @@ struct Canvas::State {
   // Bodies are drawn aside and put down where they are.
   void draw_solids(const Run& run, const Target& target) {
     if (!solid_layer) solid_layer.emplace(gl, width, height, largest);
-    const std::optional<PixelBox> box = solid_layer->draw(*batch.solids()[std::size_t(run.first)], run.clip);
+    const std::vector<PixelBox>& touched =
+        solid_layer->draw(*batch.solids()[std::size_t(run.first)], run.clip);
     gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
-    if (!box) return;
-    scissor(*box);
     gl.BindTexture(GL_TEXTURE_2D, solid_layer->texture());
-    program(run.primitive).draw(run.first, run.count);
+    for (const PixelBox& box : touched) {
+      scissor(box);
+      program(run.primitive).draw(run.first, run.count);
+    }
   }
 
   void draw_runs(const Target& target) {

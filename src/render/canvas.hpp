@@ -20,6 +20,10 @@ struct RendererInfo {
 // Makes a context for a moment. Throws Error (exit 4) where there is none.
 RendererInfo probe_renderer();
 
+// Flat pictures are drawn faster by the calling thread alone, bodies in space by several. To be called before the first
+// canvas of the process, later calls change nothing; the bytes of pictures are the same either way.
+void fill_by_several_threads();
+
 class Canvas {
  public:
   // Throws Error (exit 4) where there is no OpenGL 3.3 core context, exit 7 where the size is beyond its

@@ -1,9 +1,11 @@
 #include "render/gl_context.hpp"
 
+#include <atomic>
 #include <cstdlib>
 #include <mutex>
 
 #include "core/error.hpp"
+#include "render/canvas.hpp"
 
 namespace chainreel {
 
@@ -17,11 +19,20 @@ GlFunctions load_gl_functions(const GlLookup& lookup) {
   return gl;
 }
 
+namespace {
+std::atomic<bool> several_threads = false;
+}
+
+void fill_by_several_threads() {
+  several_threads = true;
+}
+
 std::unique_ptr<GlContext> create_gl_context() {
-  // Flat pictures are drawn faster by the calling thread alone, and films are drawn by several threads with a
-  // context each. Mesa reads the variable when its first context is made.
+  // Mesa reads the variable when its first context is made; without it there are as many threads as cores.
   static std::once_flag set;
-  std::call_once(set, [] { setenv("LP_NUM_THREADS", "0", /*overwrite=*/0); });
+  std::call_once(set, [] {
+    if (!several_threads) setenv("LP_NUM_THREADS", "0", /*overwrite=*/0);
+  });
   return create_osmesa_context();
 }
 

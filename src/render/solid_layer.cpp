@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kFinePage = 540;  // px of height: smaller pages take more samples a pixel, since they cost less
 constexpr double kDepthMargin = 0.01;
+constexpr double kFringe = 1;  // px around bodies that may be touched
 
 int samples_for(int width, int height, int largest) {
   const int wanted = height <= kFinePage ? 4 : 2;
@@ -120,6 +121,7 @@ SolidLayer::SolidLayer(const GlFunctions& gl, int width, int height, int largest
       width_(width),
       height_(height),
       samples_(samples_for(width, height, largest)),
+      touched_(width, height),
       program_(std::make_unique<Program>(gl, width, height)),
       target_(std::make_unique<Target>(gl, samples_ * width, samples_ * height)) {}
 
@@ -171,7 +173,37 @@ void SolidLayer::draw_part(const Solid& solid, const Buffers& buffers, const Sol
   draw(buffers.closed, buffers.all - buffers.closed);
 }
 
-std::optional<PixelBox> SolidLayer::draw(const Solids& solids, const PixelBox& clip) {
+// The tiles around each part, not around all: arms and legs leave most of the box around them empty.
+void SolidLayer::touch_tiles(const Solids& solids, const std::vector<MeshBounds>& boxes,
+                             const PixelBox& clip) {
+  touched_.clear();
+  Solids part = solids;
+  for (std::size_t i = 0; i < solids.parts.size(); ++i) {
+    part.parts = {solids.parts[i]};
+    const std::optional<SolidBounds> bounds = bounds_of(part, {boxes[i]});
+    if (!bounds) continue;
+    const Rect& r = bounds->page;
+    touched_.mark_box(height_ * r.x0 - kFringe, height_ * (1 - r.y1) - kFringe, height_ * r.x1 + kFringe,
+                      height_ * (1 - r.y0) + kFringe);
+  }
+  touched_.boxes(clip, tiles_);
+}
+
+// With a rim, since an outline looks for bodies beyond its own pixel.
+void SolidLayer::clear_tiles() const {
+  gl_.DepthMask(GL_TRUE);
+  gl_.ClearColor(0, 0, 0, 0);
+  constexpr int kRim = TileMask::kSide;
+  for (const PixelBox& tile : tiles_) {
+    gl_.Scissor(samples_ * (tile.left - kRim), samples_ * (tile.top - kRim),
+                samples_ * (tile.right - tile.left + 2 * kRim),
+                samples_ * (tile.bottom - tile.top + 2 * kRim));
+    gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  }
+}
+
+const std::vector<PixelBox>& SolidLayer::draw(const Solids& solids, const PixelBox& clip) {
+  tiles_.clear();
   std::vector<const Buffers*> buffers;
   std::vector<MeshBounds> boxes;
   for (const Solid& solid : solids.parts) {
@@ -179,27 +211,17 @@ std::optional<PixelBox> SolidLayer::draw(const Solids& solids, const PixelBox& c
     boxes.push_back(buffers.back()->bounds);
   }
   const std::optional<SolidBounds> bounds = bounds_of(solids, boxes);
-  if (!bounds) return std::nullopt;
-  const auto pixel = [&](double edge, int low, int high) {
-    return int(std::clamp(std::floor(height_ * edge), double(low), double(high)));
-  };
-  const PixelBox box{pixel(bounds->page.x0, clip.left, clip.right),
-                     pixel(1 - bounds->page.y1, clip.top, clip.bottom),
-                     std::min(clip.right, pixel(bounds->page.x1, clip.left, clip.right) + 1),
-                     std::min(clip.bottom, pixel(1 - bounds->page.y0, clip.top, clip.bottom) + 1)};
-  if (box.empty()) return std::nullopt;
+  if (!bounds) return tiles_;
+  touch_tiles(solids, boxes, clip);
+  if (tiles_.empty()) return tiles_;
 
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target_->color.framebuffer());
   gl_.Viewport(0, 0, samples_ * width_, samples_ * height_);
-  // An outline looks for bodies beyond its own pixel.
+  clear_tiles();
   const int beyond = 2 + int(std::ceil(height_ * solids.outline_width));
-  const PixelBox drawn{std::max(0, box.left - beyond), std::max(0, box.top - beyond),
-                       std::min(width_, box.right + beyond), std::min(height_, box.bottom + beyond)};
-  gl_.Scissor(samples_ * drawn.left, samples_ * drawn.top, samples_ * (drawn.right - drawn.left),
-              samples_ * (drawn.bottom - drawn.top));
-  gl_.DepthMask(GL_TRUE);
-  gl_.ClearColor(0, 0, 0, 0);
-  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  gl_.Scissor(samples_ * (clip.left - beyond), samples_ * (clip.top - beyond),
+              samples_ * (clip.right - clip.left + 2 * beyond),
+              samples_ * (clip.bottom - clip.top + 2 * beyond));
   gl_.Enable(GL_DEPTH_TEST);
   gl_.FrontFace(GL_CW);  // counter-clockwise triangles, in pictures whose y points down
   gl_.UseProgram(program_->program);
@@ -223,7 +245,7 @@ std::optional<PixelBox> SolidLayer::draw(const Solids& solids, const PixelBox& c
   gl_.DepthMask(GL_TRUE);
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Viewport(0, 0, width_, height_);
-  return box;
+  return tiles_;
 }
 
 }  // namespace chainreel

@@ -4,7 +4,7 @@
 
 #include <map>
 #include <memory>
-#include <optional>
+#include <vector>
 
 #include "render/gl_context.hpp"
 #include "render/solid_bounds.hpp"
@@ -20,9 +20,9 @@ class SolidLayer {
   SolidLayer(const SolidLayer&) = delete;
   SolidLayer& operator=(const SolidLayer&) = delete;
 
-  // Draws what falls into `clip` and tells its pixels; nothing where there is none. Leaves its own
-  // framebuffer bound, and the viewport and the state of blending as they are for flat shapes.
-  std::optional<PixelBox> draw(const Solids& solids, const PixelBox& clip);
+  // Draws what falls into `clip` and tells the parts of the page that it may touch, which do not overlap.
+  // Leaves its own framebuffer bound, and the viewport and the state of blending as they are for flat shapes.
+  const std::vector<PixelBox>& draw(const Solids& solids, const PixelBox& clip);
 
   GLuint texture() const;
   int samples() const { return samples_; }  // along a pixel's side
@@ -33,10 +33,14 @@ class SolidLayer {
   struct Target;
 
   const Buffers& buffers_of(const std::shared_ptr<const TriangleMesh>& mesh);
+  void touch_tiles(const Solids& solids, const std::vector<MeshBounds>& boxes, const PixelBox& clip);
+  void clear_tiles() const;
   void draw_part(const Solid& solid, const Buffers& buffers, const Solids& solids, const SolidBounds& bounds);
 
   const GlFunctions& gl_;
   int width_, height_, samples_;
+  TileMask touched_;
+  std::vector<PixelBox> tiles_;
   std::unique_ptr<Program> program_;
   std::unique_ptr<Target> target_;
   std::map<const TriangleMesh*, std::unique_ptr<Buffers>> meshes_;

@@ -38,6 +38,16 @@ void TileMask::mark_segment(double ax, double ay, double bx, double by, double r
   }
 }
 
+void TileMask::mark_box(double left, double top, double right, double bottom) {
+  if (!(right > 0 && bottom > 0 && left < kSide * columns_ && top < kSide * rows_)) return;
+  const auto tile = [](double px, int count) {
+    return std::size_t(std::clamp(std::floor(px / kSide), 0.0, double(count - 1)));
+  };
+  const std::size_t first = tile(left, columns_), last = tile(right, columns_);
+  for (std::size_t row = tile(top, rows_); row <= tile(bottom, rows_); ++row)
+    for (std::size_t column = first; column <= last; ++column) marked_[row * std::size_t(columns_) + column] = 1;
+}
+
 void TileMask::boxes(const PixelBox& clip, std::vector<PixelBox>& result) const {
   result.clear();
   for (int row = clip.top / kSide; row < rows_ && row * kSide < clip.bottom; ++row) {

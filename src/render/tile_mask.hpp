@@ -22,6 +22,8 @@ class TileMask {
   void clear();
   // The tiles within `reach` px of the segment, and perhaps a few more beside them.
   void mark_segment(double ax, double ay, double bx, double by, double reach);
+  // The tiles that meet the box.
+  void mark_box(double left, double top, double right, double bottom);
   // The marked tiles inside `clip` as boxes that do not overlap; neighbours in a row are one box.
   void boxes(const PixelBox& clip, std::vector<PixelBox>& result) const;
 
