@@ -47,6 +47,7 @@ struct FilmCase {
   const char* codec;
   const char* pixel_format;
   double largest_mean;  // of the difference to what was drawn, levels
+  friend void PrintTo(const FilmCase& film, std::ostream* out) { *out << film.file; }
 };
 
 class EveryFilm : public testing::TestWithParam<FilmCase> {};
