@@ -1,5 +1,5 @@
 // What a clip or picture remembers: the scene that it shows, its audit, and words for those who cannot see it. A
-// figure of a model, which shows no scene, remembers the words that made it.
+// figure of a model and a contact sheet, which show no scene or many, remember the words that made them.
 #pragma once
 
 #include <string>

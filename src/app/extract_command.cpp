@@ -38,10 +38,10 @@ void tell_of_models(const Json& audit, const std::string& clip) {
                  model.c_str());
 }
 
-// A figure of a model shows no scene: what made it is said instead.
+// A figure shows no scene, a sheet many: what made it is said instead.
 void tell_of_figure(const ExtractOptions& options, const Json& figure) {
   if (!options.output.empty())
-    throw Error(ExitCode::bad_input, "shows a model, not a scene; it was made by: " + command_line(figure),
+    throw Error(ExitCode::bad_input, "is a figure, not a scene; it was made by: " + command_line(figure),
                 {options.clip});
   tell_of_models(figure, options.clip);
   if (options.json)

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "app/clip_memory.hpp"
+#include "app/signals.hpp"
 #include "core/error.hpp"
 
 namespace chainreel {
@@ -30,9 +31,11 @@ bool is_film(const fs::path& path) {
   return path.extension() == ".mp4" || path.extension() == ".webm";
 }
 
-// What a run that failed left behind is no film to show, unless it is asked for.
+// What a run that failed left behind, or what one still writes (NAME.PID.tmp.mp4), is no film to show, unless it is
+// asked for.
 bool is_partial(const fs::path& path) {
-  return path.stem().extension() == ".partial";
+  const fs::path mark = path.stem().extension();
+  return mark == ".partial" || mark == ".tmp";
 }
 
 void add_films_in(const fs::path& folder, std::vector<std::string>& found) {
@@ -139,6 +142,7 @@ std::vector<GalleryClip> read_clips(const std::vector<std::string>& paths) {
   std::vector<GalleryClip> clips;
   std::vector<Problem> problems;
   for (const std::string& path : paths) {
+    throw_if_interrupted();
     GalleryClip clip;
     clip.path = path;
     clip.name = fs::path(path).stem().string();

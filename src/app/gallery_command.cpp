@@ -1,11 +1,13 @@
 // chainreel gallery [FOLDER|FILM...] -o PAGE.html
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 
 #include "app/command.hpp"
 #include "app/gallery_page.hpp"
+#include "app/signals.hpp"
 #include "core/error.hpp"
 #include "core/output_file.hpp"
 
@@ -19,6 +21,20 @@ struct GalleryOptions {
   bool json = false, quiet = false, force = false;
 };
 
+// Films lie in the page as data: URLs, whose length browsers limit, each in its own way.
+constexpr double kLongFilm = 20e6;  // bytes
+
+void tell_of_long_films(const std::vector<GalleryClip>& clips) {
+  for (const GalleryClip& clip : clips) {
+    const double bytes = double(std::filesystem::file_size(clip.path));
+    if (bytes <= kLongFilm) continue;
+    std::fprintf(stderr,
+                 "%s: has %.0f MB; some browsers do not play so long a film out of a page: render it with a "
+                 "smaller video.width or a higher video.crf\n",
+                 clip.path.c_str(), bytes / 1e6);
+  }
+}
+
 void run_gallery(const GalleryOptions& options) {
   if (!options.output.ends_with(".html"))
     throw Error(ExitCode::usage, "-o " + options.output + ": a gallery is written as .html");
@@ -28,7 +44,9 @@ void run_gallery(const GalleryOptions& options) {
   write_gallery(stream, clips, options.title);
   stream.close();
   if (!stream) throw Error(ExitCode::file, "could not be written whole: is the disk full?", {output.path()});
+  throw_if_interrupted();
   output.commit();
+  if (!options.quiet) tell_of_long_films(clips);
   if (options.json)
     std::puts(Json{{"file", options.output}, {"films", clips.size()}}.dump(2).c_str());
   else if (!options.quiet)

@@ -4,6 +4,7 @@
 
 #include "app/gallery_audit.hpp"
 #include "app/page_template.hpp"
+#include "app/signals.hpp"
 #include "core/base64.hpp"
 #include "core/format.hpp"
 #include "encode/png.hpp"
@@ -82,7 +83,10 @@ void write_gallery(std::ostream& stream, const std::vector<GalleryClip>& clips, 
   const std::string summary = (clips.size() == 1 ? "One film" : std::to_string(clips.size()) + " films") +
                               ", " + format_fixed(seconds, 1) + " s together.";
   const Filler cards = [&clips](std::ostream& out) {
-    for (std::size_t i = 0; i < clips.size(); ++i) write_card(out, clips[i], "clip-" + std::to_string(i + 1));
+    for (std::size_t i = 0; i < clips.size(); ++i) {
+      throw_if_interrupted();
+      write_card(out, clips[i], "clip-" + std::to_string(i + 1));
+    }
   };
   fill_page(stream, embedded_page("gallery.html"),
             {{"title", plain(title)},

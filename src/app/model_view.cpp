@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "draw/view.hpp"
 #include "scene/quantity.hpp"
+#include "scene/read_camera.hpp"
 
 namespace chainreel {
 namespace {
@@ -26,6 +27,12 @@ std::optional<double> quantity(const FlagValues& flags, const std::string& key, 
   }
 }
 
+void require_good(const std::optional<double>& value, const std::string& flag,
+                  std::string (*problem)(double)) {
+  const std::string wrong = value ? problem(*value) : "";
+  if (!wrong.empty()) throw Error(ExitCode::usage, flag + wrong);
+}
+
 CameraEntry camera_of(const FlagValues& flags) {
   CameraEntry camera;
   camera.azimuth = quantity(flags, "camera.azimuth", "--azimuth");
@@ -34,8 +41,9 @@ CameraEntry camera_of(const FlagValues& flags) {
     camera.distance = std::numeric_limits<double>::infinity();
   else
     camera.distance = quantity(flags, "camera.distance", "--distance");
-  if (camera.distance && !(*camera.distance > 0))
-    throw Error(ExitCode::usage, "--distance takes metres above 0, or parallel");
+  require_good(camera.azimuth, "--azimuth", azimuth_problem);
+  require_good(camera.elevation, "--elevation", elevation_problem);
+  require_good(camera.distance, "--distance", distance_problem);
   const std::string fit = given(flags, "camera.fit");
   if (fit.empty() || fit == "motion") return camera;
   const bool is_list = fit.size() > 2 && fit.front() == '[' && fit.back() == ']';

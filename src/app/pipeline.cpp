@@ -212,6 +212,7 @@ void write_picture(const Picture& picture, int width, int height, const Fonts& f
     write_temporary(output, pdf_text(picture, fonts, memory.page()));
   else
     write_png(output.temporary_path(), rasterise(picture, width, height, fonts), memory.tags());
+  throw_if_interrupted();
   output.commit();
 }
 

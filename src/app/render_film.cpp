@@ -115,16 +115,6 @@ struct Schedule {
   int shown(int k) const { return 1 + (k == 0 ? first : 0) + (k == frames - 1 ? last : 0); }
 };
 
-// A film ends with the last of its runs; one that is to diverge is shown to stand still behind that.
-int frames_shown(const PreparedFilm& film, const std::vector<Trajectory>& runs, int frames) {
-  int shown = 0;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const bool stands = runs[i].status == RunStatus::diverged && film.panels[i].scene.expect == "diverge";
-    shown = std::max(shown, stands ? frames : std::min(frames, runs[i].size()));
-  }
-  return shown;
-}
-
 // The frames' instants, and the end of the motion for tables and the audit.
 std::vector<double> with_end(std::vector<double> times, const PreparedFilm& film) {
   const double end = film.scene.duration;
@@ -293,6 +283,16 @@ Json to_json(const StageSeconds& seconds) {
 
 }  // namespace
 
+// One that is to diverge is shown to stand still behind its end.
+int frames_shown(const PreparedFilm& film, const std::vector<Trajectory>& runs, int frames) {
+  int shown = 0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const bool stands = runs[i].status == RunStatus::diverged && film.panels[i].scene.expect == "diverge";
+    shown = std::max(shown, stands ? frames : std::min(frames, runs[i].size()));
+  }
+  return shown;
+}
+
 ClipMemory memory_of(const PreparedFilm& film, const Json& audit) {
   return {film.scene.title, sentence_of(film, audit), scene_text(film.scene), audit};
 }
@@ -319,9 +319,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
   result.frames = schedule.total();
   result.film_seconds = frame_time(result.frames, fps);
   result.clock = clock;
-  result.audit = film_report(film, runs, pictures);
-  result.audit["frames"] = result.frames;
-  result.audit["film_seconds"] = result.film_seconds;
+  result.audit = film_report(film, runs, pictures, result.frames);
   if (schedule.first > 0 || schedule.last > 0)
     result.audit["held_frames"] = {{"first", schedule.first}, {"last", schedule.last}};
   result.seconds.draw += watch.lap();
@@ -335,8 +333,8 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
 
   try {
     require_expected_ends(film, runs);
-  } catch (const Error&) {
-    keep_partial(outputs);
+  } catch (const Error& error) {
+    if (error.code() == ExitCode::numerical) keep_partial(outputs);  // a signal leaves nothing
     throw;
   }
   if (!job.quiet) {

@@ -32,6 +32,9 @@ struct RenderResult {
 // failed leaves films and tables as far as they came under a .partial name, and throws.
 RenderResult render_film(const PreparedFilm& film, const RenderJob& job);
 
+// Of that many instants as were asked for, those that a film shows: it ends with the last of its runs.
+int frames_shown(const PreparedFilm& film, const std::vector<Trajectory>& runs, int frames);
+
 // What a film remembers: the effective scene, and the audit without what differs from one rendering to the
 // next.
 ClipMemory memory_of(const PreparedFilm& film, const Json& audit);

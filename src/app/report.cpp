@@ -153,7 +153,8 @@ Json slow_motion_report(const FilmClock& clock, const std::vector<Trajectory>& r
 
 }  // namespace
 
-Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, const Film& pictures) {
+Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, const Film& pictures,
+                 int frames) {
   const auto report_of = [&](std::size_t i) {
     Json json = run_report(film.panels[i], runs[i]);
     if (const auto left = pictures.panel(int(i)).left_at()) json["left_picture_at"] = *left;
@@ -175,11 +176,11 @@ Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, 
     }
   }
   const FrameRate fps = scene.video.fps;
-  json["frames"] = pictures.frame_count();
+  json["frames"] = frames;
   json["fps"] = fps.den == 1 ? Json(fps.num) : Json(std::to_string(fps.num) + "/" + std::to_string(fps.den));
   json["width"] = scene.video.width;
   json["height"] = scene.video.height;
-  json["film_seconds"] = frame_time(pictures.frame_count(), fps);
+  json["film_seconds"] = frame_time(frames, fps);
   if (!scene.slow_motion.empty()) json["slow_motion"] = slow_motion_report(pictures.clock(), runs, held_first(scene));
   for (const LibraryLine& line : library_versions()) json["versions"][line.name] = line.version;
   return json;

@@ -36,8 +36,8 @@ Json run_report(const PreparedScene& prepared, const Trajectory& trajectory);
 double held_first(const Scene& scene);
 
 // The sidecar of a film: that of its run, or a list `panels` of them; and what the film is. The same from one run of
-// the program to the next.
-Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, const Film& pictures);
+// the program to the next. `frames`: of the whole film, with those that are held; `pictures` may be of one instant.
+Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, const Film& pictures, int frames);
 
 // A table with left-aligned words and right-aligned numbers; the first row is its head.
 std::string table_text(const std::vector<std::vector<std::string>>& rows);

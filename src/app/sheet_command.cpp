@@ -7,8 +7,10 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/figure.hpp"
 #include "app/moment.hpp"
 #include "app/pipeline.hpp"
+#include "app/signals.hpp"
 #include "core/error.hpp"
 #include "draw/contact_sheet.hpp"
 #include "scene/quantity.hpp"
@@ -23,6 +25,7 @@ struct SheetOptions {
   int columns = 0;
   int width = 1920, height = 1080;
   CommonOptions common;
+  const CLI::App* command = nullptr;
 };
 
 // What a small picture shows: all that is drawn, without the words around it.
@@ -54,6 +57,7 @@ std::vector<ContactCell> cells_of(const SheetOptions& options, const std::string
   std::vector<Problem> problems;
   ExitCode code = ExitCode::bad_input;
   for (const std::string& file : options.scenes) {
+    throw_if_interrupted();
     try {
       cells.push_back(cell_of(file, options, theme, text_scale, fonts));
     } catch (const Error& error) {
@@ -69,9 +73,9 @@ std::vector<ContactCell> cells_of(const SheetOptions& options, const std::string
   return cells;
 }
 
-ClipMemory words_of(const std::vector<ContactCell>& cells) {
-  ClipMemory memory;
-  memory.title = "Contact sheet";
+// It shows no scene of its own but many: the command is remembered.
+ClipMemory memory_of_sheet(const CLI::App& command, const std::vector<ContactCell>& cells) {
+  ClipMemory memory = memory_of_figure(command, "Contact sheet");
   for (const ContactCell& cell : cells)
     memory.description += (memory.description.empty() ? "" : "; ") + cell.title;
   return memory;
@@ -88,7 +92,7 @@ void run_sheet(const SheetOptions& options) {
   const ContactGrid grid = contact_grid(int(options.scenes.size()), look);
   const std::vector<ContactCell> cells = cells_of(options, theme, text_scale_in(grid), fonts);
   write_picture(draw_contact_sheet(grid, cells, look), options.width, options.height, fonts, options.output,
-                options.common.force, words_of(cells));
+                options.common.force, memory_of_sheet(*options.command, cells));
   if (options.common.json)
     std::puts(
         Json{{"file", options.output}, {"columns", grid.columns}, {"lines", grid.lines}}.dump(2).c_str());
@@ -115,6 +119,7 @@ void add_sheet_command(CLI::App& app) {
   add_scene_flags(*command, options->common.flags, kLookFlags);
   add_common_options(*command, options->common);
   command->footer("Example: chainreel sheet assets/scenes/*.yaml -o out/sheet.png");
+  options->command = command;
   command->callback([options] { run_sheet(*options); });
 }
 

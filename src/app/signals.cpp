@@ -1,16 +1,39 @@
 #include "app/signals.hpp"
 
+#include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <ctime>
 
 #include "core/error.hpp"
 
 namespace chainreel {
 namespace {
 
-volatile std::sig_atomic_t received = 0;
+// Who sends a signal to a program and then to its group (timeout, a shell) means one.
+constexpr double kOneAndTheSame = 0.5;  // s
 
+std::atomic<int> received = 0;
+std::atomic<double> first_time = 0;  // s, of the monotonic clock
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<double>::is_always_lock_free);
+
+double now() {
+  timespec time = {};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
+
+// Calls nothing but what a handler may. A second signal that is another one ends the program at once.
 void remember(int signal) {
-  received = signal;
+  const int saved = errno;
+  if (received == 0) {
+    first_time = now();
+    received = signal;
+  } else if (now() - first_time > kOneAndTheSame) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);  // comes when this handler returns
+  }
+  errno = saved;
 }
 
 }  // namespace
@@ -18,7 +41,9 @@ void remember(int signal) {
 void install_signal_handlers() {
   struct sigaction action = {};
   action.sa_handler = remember;
-  action.sa_flags = SA_RESETHAND;  // a second signal ends the program at once
+  sigemptyset(&action.sa_mask);
+  sigaddset(&action.sa_mask, SIGINT);  // neither interrupts the handler of the other
+  sigaddset(&action.sa_mask, SIGTERM);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
 }

@@ -17,19 +17,21 @@ Vector3d position(const TriangleMesh::Vertex& vertex) {
   return {vertex.position[0], vertex.position[1], vertex.position[2]};
 }
 
-// Sizes along the axes; normals go with the inverse, and a mirror turns triangles inside out.
+// Sizes along the axes; normals go with the cofactors, and a mirror turns triangles inside out.
 void stretch(TriangleMesh& mesh, const Vector3d& scale) {
+  const double sense = scale.prod() < 0 ? -1 : 1;
+  const Vector3d cofactors = sense * Vector3d(scale[1] * scale[2], scale[2] * scale[0], scale[0] * scale[1]);
   for (TriangleMesh::Vertex& vertex : mesh.vertices) {
     Vector3d n;
     for (int i = 0; i < 3; ++i) {
       const auto at = std::size_t(i);
       vertex.position[at] = float(scale[i] * vertex.position[at]);
-      n[i] = vertex.normal[at] / scale[i];
+      n[i] = vertex.normal[at] * cofactors[i];
     }
     if (n.norm() > 0) n.normalize();
     for (int i = 0; i < 3; ++i) vertex.normal[std::size_t(i)] = float(n[i]);
   }
-  if (scale.prod() < 0)
+  if (sense < 0)
     for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3)
       std::swap(mesh.triangles[t], mesh.triangles[t + 1]);
 }
@@ -41,6 +43,7 @@ std::vector<Vector3d> corners_of(const TriangleMesh& mesh) {
   for (int x = -1; x <= 1; ++x)
     for (int y = -1; y <= 1; ++y)
       for (int z = -1; z <= 1; ++z) {
+        if (x == 0 && y == 0 && z == 0) continue;
         const Vector3d direction(x, y, z);
         std::size_t best = 0;
         double most = -HUGE_VAL;
@@ -55,6 +58,13 @@ std::vector<Vector3d> corners_of(const TriangleMesh& mesh) {
   return corners;
 }
 
+void require_finite(const TriangleMesh& mesh, const Visual& visual) {
+  for (const TriangleMesh::Vertex& vertex : mesh.vertices)
+    for (const float x : vertex.position)
+      if (!std::isfinite(x))
+        throw Error(ExitCode::bad_input, "is too large once it is scaled", {visual.mesh_file});
+}
+
 TriangleMesh read(const Visual& visual, MeshUp up) {
   switch (visual.kind) {
     case VisualKind::box:
@@ -66,6 +76,7 @@ TriangleMesh read(const Visual& visual, MeshUp up) {
     default: {
       TriangleMesh mesh = read_mesh(visual.mesh_file, up);
       stretch(mesh, visual.mesh_scale);
+      require_finite(mesh, visual);
       return mesh;
     }
   }
@@ -108,7 +119,7 @@ BodyShapes load_body_shapes(const std::vector<Visual>& visuals, MeshUp up, MeshS
     try {
       shape.mesh = shelf.mesh_of(visual, up);
     } catch (const Error& error) {
-      code = error.code();
+      if (problems.empty()) code = error.code();
       for (const Problem& problem : error.problems())
         problems.push_back({"link '" + visual.link + "': " + to_string(problem), visual.place});
       continue;
@@ -135,9 +146,10 @@ std::shared_ptr<const BodyShapes> shapes_for(const BodyLook& look, const std::st
       std::any_of(visuals.begin(), visuals.end(), [](const Visual& visual) { return visual.body > 0; });
   if (look.links == "auto" && !any_moves) return nullptr;
   if (visuals.empty())
-    throw Error(ExitCode::bad_input,
-                "'links' is " + look.links + ", but the model has no <" + look.links + ">: take auto or plain",
-                look.place);
+    throw Error(
+        ExitCode::bad_input,
+        "'links' is " + look.links + ", but the model has no <" + look.links + ">: take auto or plain",
+        look.place);
   const MeshUp up = look.mesh_up == "file" ? MeshUp::file : MeshUp::rviz;
   return std::make_shared<const BodyShapes>(load_body_shapes(visuals, up, shelf));
 }

@@ -75,10 +75,10 @@ bool ChainFit::add_pose(const Workspace& ws, double limit) {
   return true;
 }
 
-void extend(Eigen::AlignedBox3d& box, const Chain& chain, const Skeleton& skeleton, const BodyShapes* shapes,
+void extend(MotionBox& box, const Chain& chain, const Skeleton& skeleton, const BodyShapes* shapes,
             const Workspace& ws, double limit) {
   const auto add = [&](const Vector3d& place) {
-    if (place.norm() <= limit) box.extend(place);
+    if (place.norm() <= limit) box.add(place);
   };
   for (const LinkSegment& link : skeleton.links) {
     add(pose_of(ws, link.body) * link.from);
@@ -88,10 +88,10 @@ void extend(Eigen::AlignedBox3d& box, const Chain& chain, const Skeleton& skelet
   if (shapes) for_each_corner(*shapes, ws, add);
 }
 
-Eigen::AlignedBox3d box_around(const Chain& chain, const Skeleton& skeleton, const BodyShapes* shapes,
-                               Workspace& ws, const std::vector<std::vector<double>>& configurations) {
+MotionBox box_around(const Chain& chain, const Skeleton& skeleton, const BodyShapes* shapes, Workspace& ws,
+                     const std::vector<std::vector<double>>& configurations) {
   const std::vector<double> at_rest(std::size_t(chain.nv), 0.0);
-  Eigen::AlignedBox3d box;
+  MotionBox box(up_of(chain));
   for (const std::vector<double>& q : configurations) {
     compute_kinematics(chain, ws, q, at_rest);
     extend(box, chain, skeleton, shapes, ws, std::numeric_limits<double>::max());

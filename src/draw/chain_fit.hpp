@@ -5,6 +5,7 @@
 
 #include "draw/body_shapes.hpp"
 #include "draw/fit.hpp"
+#include "draw/motion_box.hpp"
 #include "draw/skeleton.hpp"
 
 namespace chainreel {
@@ -36,10 +37,10 @@ class ChainFit {
 };
 
 // Lets the box in W hold the chain as it stands, but places farther than `limit` from the origin.
-void extend(Eigen::AlignedBox3d& box, const Chain& chain, const Skeleton& skeleton, const BodyShapes* shapes,
+void extend(MotionBox& box, const Chain& chain, const Skeleton& skeleton, const BodyShapes* shapes,
             const Workspace& ws, double limit);
 // The same for configurations at which the chain stands in turn.
-Eigen::AlignedBox3d box_around(const Chain& chain, const Skeleton& skeleton, const BodyShapes* shapes,
-                               Workspace& ws, const std::vector<std::vector<double>>& configurations);
+MotionBox box_around(const Chain& chain, const Skeleton& skeleton, const BodyShapes* shapes, Workspace& ws,
+                     const std::vector<std::vector<double>>& configurations);
 
 }  // namespace chainreel

@@ -76,11 +76,11 @@ void fit_panels(Panels& panels, const std::vector<Pose>& poses, Workspace& ws) {
       compute_kinematics(panels.chain, ws, pose.q, at_rest);
       places.add_pose(ws, kNoLimit);
       places.add(tip_position(panels.chain, ws),
-                 room_of(pose.axes, seen, panels.scale, kLongestAxis * panels.side()));
+                 room_of(pose.axes, seen.seen_at(tip_position(panels.chain, ws)), panels.scale, kLongestAxis * panels.side()));
     }
     fit_to(seen, places.box(), panels.scene(0), size::kFitMargin);
   };
-  const Eigen::AlignedBox3d motion =
+  const MotionBox motion =
       box_around(panels.chain, panels.skeleton, shapes, ws, configurations_of(poses));
   panels.camera = aimed_camera(panels.chain, panels.options.camera, motion, panels.scene(0), fit);
 }
@@ -105,7 +105,7 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
   draw_base(picture, drawing, clip);
   draw_rails(picture, drawing, ws, clip);
   draw_links(picture, drawing, ws, clip);
-  draw_mass_ellipse(picture, pose.axes, tip, camera,
+  draw_mass_ellipse(picture, pose.axes, tip, camera.seen_at(tip_position(panels.chain, ws)),
                     {&theme, &panels.fonts, panels.options.text_scale, panels.scale.per_unit(), scene,
                      panels.options.reading},
                     clip);

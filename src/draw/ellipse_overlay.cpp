@@ -88,7 +88,7 @@ struct Overlay {
   }
 
   void fit(const Rect& scene) {
-    const Eigen::AlignedBox3d motion =
+    const MotionBox motion =
         box_around(chain, skeleton, options.shapes.get(), ws, configurations_of(poses));
     camera = aimed_camera(chain, options.camera, motion, scene,
                           [&](Camera& seen) { fit_camera(seen, scene); });
@@ -102,7 +102,7 @@ struct Overlay {
       const Eigen::Vector3d tip = tip_position(chain, ws);
       if (!is_field()) {
         box.add_pose(ws, kNoLimit);
-        box.add(tip, room_of(poses[i].axes, seen, scale, kLongestAxis * side));
+        box.add(tip, room_of(poses[i].axes, seen.seen_at(tip), scale, kLongestAxis * side));
         continue;
       }
       if (i == 0) box.add_pose(ws, kNoLimit);
@@ -145,7 +145,7 @@ struct Overlay {
       clip = int(picture.clips.size());
       picture.clips.push_back(style.scene);
     }
-    draw_mass_ellipse(picture, pose.axes, tip, camera, style, clip);
+    draw_mass_ellipse(picture, pose.axes, tip, camera.seen_at(tip_position(chain, ws)), style, clip);
   }
 
   // Each pose by its name, or its q, off its end effector: away from the middle of them all.

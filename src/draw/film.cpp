@@ -141,8 +141,13 @@ void Film::lay_out() {
     rows_.title = key_->height();
   }
   if (has_cells() && layers_.title) rows_.title = kRowPitch * scaled(size::kSymbol, scene_.text_scale);
-  if (std::any_of(panels_.begin(), panels_.end(), [](const Panel& panel) { return panel.may_have_notes(); }))
+  if (has_notes())
     rows_.note = kRowPitch * scaled(size::kAxis, scene_.text_scale);
+}
+
+bool Film::has_notes() const {
+  return !is_transparent(scene_) &&
+         std::any_of(panels_.begin(), panels_.end(), [](const Panel& panel) { return panel.may_have_notes(); });
 }
 
 // One plot below the scene, more beside it, unless the layout says otherwise; below several panels.
@@ -279,6 +284,7 @@ Picture Film::frame(int k) const {
 
 // Of what the panels show; where they lie over one another each says whose it is.
 void Film::draw_notes(Picture& picture, int k) const {
+  if (!has_notes()) return;
   for (std::size_t i = 0; i < panels_.size(); ++i) {
     std::string note = panels_[i].note(k);
     if (note.empty()) continue;

@@ -58,15 +58,16 @@ class Film {
   void lay_out_plots();
   std::vector<std::string> common_torque() const;
   bool all_wild() const;
-  Eigen::AlignedBox3d motion() const;
+  MotionBox motion() const;
   FitBox fit_box(const Camera& view, double marks);
   void fit_to_area(Camera& camera, const FitBox& box, const Rect& area) const;
-  void find_ground(const Camera& camera, const Eigen::AlignedBox3d& motion);
+  void find_ground(const Camera& camera);
   void fit_camera();
   double title_size() const;
   void tell_variants_apart();
   void place_titles();
   void find_cells(const FitBox& box);
+  bool has_notes() const;
   void draw_notes(Picture& picture, int k) const;
   Picture page() const;
   void draw_frames(Picture& picture) const;

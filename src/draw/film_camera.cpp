@@ -10,10 +10,10 @@ bool Film::all_wild() const {
   return std::all_of(panels_.begin(), panels_.end(), [](const Panel& panel) { return panel.is_wild(); });
 }
 
-Eigen::AlignedBox3d Film::motion() const {
-  Eigen::AlignedBox3d box;
+MotionBox Film::motion() const {
+  MotionBox box(up_of(panels_.front().chain()));
   for (const Panel& panel : panels_)
-    if (all_wild() || !panel.is_wild()) box.extend(panel.motion(all_wild()));
+    if (all_wild() || !panel.is_wild()) box.add(panel.motion(all_wild()));
   return box;
 }
 
@@ -29,13 +29,10 @@ void Film::fit_to_area(Camera& camera, const FitBox& box, const Rect& area) cons
   if (!fit_as_told(camera, scene_.camera, area)) fit_to(camera, box, area, size::kFitMargin);
 }
 
-void Film::find_ground(const Camera& camera, const Eigen::AlignedBox3d& motion) {
-  const Panel& first = panels_.front();
-  if (!layers_.ground || !is_oblique(first.chain(), scene_.camera)) return;
-  const Eigen::Vector3d up = up_of(first.chain());
-  // From below there is no ground to see.
-  if (camera.toward_viewer.dot(up) < 0) return;
-  if (const auto ground = ground_under(motion, up))
+void Film::find_ground(const Camera& camera) {
+  const bool wanted = layers_.ground || layers_.shadow;
+  if (!wanted || !is_oblique(panels_.front().chain(), scene_.camera)) return;
+  if (const auto ground = ground_under(motion(), camera))
     for (Panel& panel : panels_) panel.set_ground(*ground);
 }
 
@@ -59,7 +56,7 @@ void Film::fit_camera() {
     set_mass_maps_aside();
     fit_to_area(camera, box, cells_.front().scene);
   }
-  find_ground(camera, motion());
+  find_ground(camera);
   for (std::size_t i = 0; i < panels_.size(); ++i)
     panels_[i].settle(camera_of(camera, i), cells_[i].scene, int(i), marks);
   for (std::size_t i = full_panels(); i < panels_.size(); ++i) panels_.front().reach_as_far_as(panels_[i]);

@@ -25,21 +25,13 @@ std::array<Vector3d, 2> along(const Vector3d& up) {
 
 }  // namespace
 
-Vector3d up_of(const Chain& chain) {
-  return chain.gravity.norm() > 1e-9 ? Vector3d(-chain.gravity.normalized()) : Vector3d(Vector3d::UnitZ());
-}
-
-std::optional<GroundPlane> ground_under(const Eigen::AlignedBox3d& motion, const Vector3d& up) {
-  if (motion.isEmpty()) return std::nullopt;
-  double lowest = HUGE_VAL;
-  for (int corner = 0; corner < 8; ++corner)
-    lowest = std::min(lowest, up.dot(motion.corner(Eigen::AlignedBox3d::CornerType(corner))));
-  if (!(std::abs(lowest) <= kTouches * motion.diagonal().norm())) return std::nullopt;
+std::optional<GroundPlane> ground_under(const MotionBox& motion, const Camera& camera) {
+  if (motion.empty() || camera.toward_viewer.dot(motion.up()) < 0) return std::nullopt;
+  if (!(std::abs(motion.lowest()) <= kTouches * motion.size())) return std::nullopt;
   GroundPlane ground;
-  ground.up = up;
-  ground.middle = motion.center() - up.dot(motion.center()) * up;
-  const Vector3d across = motion.diagonal() - up.dot(motion.diagonal()) * up;
-  ground.radius = (1 + kBeyond) * std::max(across.norm(), motion.diagonal().norm() / 2) / 2;
+  ground.up = motion.up();
+  ground.middle = motion.middle() - ground.up.dot(motion.middle()) * ground.up;
+  ground.radius = (1 + kBeyond) * std::max(motion.width(), motion.size() / 2) / 2;
   ground.spacing = round_length(2 * ground.radius / kCells);
   return ground;
 }

@@ -92,14 +92,15 @@ void FrameAxes::draw(Picture& picture, const Camera& camera, const Workspace& ws
   for (const Eigen::Isometry3d& X_WF : poses(ws)) {
     const Point origin = camera.project(X_WF.translation());
     if (!std::isfinite(origin.x) || !std::isfinite(origin.y)) continue;
+    const Camera seen = camera.seen_at(X_WF.translation());
     // Axes that point away from the viewer first.
     for (const bool away : {true, false}) {
       for (int axis = 0; axis < 3; ++axis) {
         const Vector3d direction = X_WF.linear().col(axis);
-        const double depth = -camera.toward_viewer.dot(direction);
+        const double depth = -seen.toward_viewer.dot(direction);
         if ((depth > 0) != away) continue;
         const double length = marks_ * size::kAxisLength;
-        draw_axis(picture, origin, {length * camera.right.dot(direction), length * camera.up.dot(direction)},
+        draw_axis(picture, origin, {length * seen.right.dot(direction), length * seen.up.dot(direction)},
                   depth, axis, clip, labels);
       }
     }

@@ -129,8 +129,8 @@ StripRun Panel::strip_run() const {
   return run;
 }
 
-Eigen::AlignedBox3d Panel::motion(bool with_wild) const {
-  Eigen::AlignedBox3d box;
+MotionBox Panel::motion(bool with_wild) const {
+  MotionBox box(up_of(run_.chain));
   const int samples = counted(with_wild), count = std::min(samples, kScaleSamples);
   for (int i = 0; i < count; ++i) {
     pose_at(int(std::int64_t(i) * samples / count));
@@ -259,7 +259,7 @@ void Panel::follow_tip() {
 
 void Panel::draw_static(Picture& picture) const {
   if (outline_) return;
-  if (ground_) draw_ground_plane(picture, *ground_, camera_, theme_, clip_);
+  if (ground_ && layers_.ground) draw_ground_plane(picture, *ground_, camera_, theme_, clip_);
   if (layers_.chain && !foot_) draw_base(picture, {run_.chain, skeleton_, camera_, look_, run_.shapes}, clip_);
   if (layers_.chain && is_constrained())
     draw_closure_pins(picture, {run_.chain, skeleton_, camera_, look_}, run_.simulation->constraints, clip_);
@@ -297,7 +297,7 @@ void Panel::draw_frame(Picture& picture, int k, const EllipseScale& scale, const
   const std::vector<WorldVector> vectors = acting_ ? acting_->at(*ws_, k) : std::vector<WorldVector>{};
   const Color trail = trail_color_ ? *trail_color_ : theme_.curve[std::size_t(std::max(run_.chain.nv, 1) - 1) % theme_.curve.size()];
   const ChainDrawing drawing{run_.chain, skeleton_, camera_, look_, run_.shapes};
-  if (layers_.shadow) draw_shadow(picture, drawing, *ws_, clip_);
+  if (ground_ && layers_.shadow) draw_shadow(picture, drawing, *ws_, clip_);
   if (layers_.chain) draw_rails(picture, drawing, *ws_, clip_);
   if (layers_.trail) draw_trail(picture, tip_, k, trail, clip_);
   if (layers_.chain) draw_links(picture, drawing, *ws_, clip_);
@@ -306,7 +306,8 @@ void Panel::draw_frame(Picture& picture, int k, const EllipseScale& scale, const
   const Point tip = tip_.place(k);
   if (layers_.ellipse) {
     const EllipseStyle style{&theme_, &fonts, run_.scene.text_scale, scale.per_unit(), area_, layers_.reading};
-    draw_mass_ellipse(picture, ellipse_axes(k), tip, camera_, style, clip_);
+    const Camera seen = camera_.seen_at(tip_position(run_.chain, *ws_));
+    draw_mass_ellipse(picture, ellipse_axes(k), tip, seen, style, clip_);
   }
   if (layers_.chain && foot_) foot_->draw_pressure(picture, camera_, look_, k, clip_);
   draw_overlays(picture, vectors);

@@ -78,12 +78,12 @@ class Panel {
   StripRun strip_run() const;
 
   // A box in W around all places of the run, of wild ones only where `with_wild`.
-  Eigen::AlignedBox3d motion(bool with_wild) const;
+  MotionBox motion(bool with_wild) const;
 
   // What a camera with these axes must hold. Wild panels widen it only where `with_wild`.
   FitBox fit_box(const Camera& view, double marks, bool with_wild);
 
-  // The ground below the chain, the same for all panels; drawn where the scene names the layer.
+  // The ground below the chain, the same for all panels, for its grid and for shadows.
   void set_ground(const GroundPlane& ground) { ground_ = ground; }
 
   // The panel's part of the page, as a camera sees it; `clip` is the index of `scene` in the pictures to

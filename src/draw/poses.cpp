@@ -41,15 +41,15 @@ Picture draw_pose_figure(const Chain& chain, const std::vector<std::vector<doubl
     }
     fit_to(seen, places.box(), sheet.scene, size::kFitMargin);
   };
-  const Eigen::AlignedBox3d motion = box_around(chain, skeleton, options.shapes.get(), ws, poses);
+  const MotionBox motion = box_around(chain, skeleton, options.shapes.get(), ws, poses);
   const Camera camera = aimed_camera(chain, options.camera, motion, sheet.scene, fit);
 
   Picture picture;
   picture.aspect = sheet.aspect;
   picture.background = options.theme->background;
   picture.clips = {sheet.scene};
-  const auto ground = ground_under(motion, up_of(chain));
-  if (ground && is_oblique(chain, options.camera) && camera.toward_viewer.dot(ground->up) >= 0)
+  const auto ground = ground_under(motion, camera);
+  if (ground && is_oblique(chain, options.camera))
     draw_ground_plane(picture, *ground, camera, *options.theme, kSceneClip);
   const auto drawing = [&](double strength) {
     return ChainDrawing{chain, skeleton, camera, look_of(skeleton, camera, *options.theme, strength),

@@ -16,7 +16,7 @@ constexpr int kMostDecimals = 6;
 }  // namespace
 
 std::string speed_text(double speed) {
-  return format_significant(speed, 3) + "\u00D7";
+  return (speed >= 100 ? format_fixed(speed, 0) : format_significant(speed, 3)) + "\u00D7";
 }
 
 int time_decimals(const FilmClock& clock) {

@@ -118,8 +118,9 @@ VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera&
   arrow.cut = length > scales_.shrink * size::kArrowCut * (1 + 1e-12);
   if (arrow.cut) length = scales_.shrink * size::kArrowCut;
   if (!(magnitude > 0) || !std::isfinite(magnitude)) return arrow;
-  arrow.v = (length / magnitude) * on_page(vector.value, camera);
-  const Point rail = on_page(vector.rail, camera);
+  const Camera seen = camera.seen_at(vector.place);
+  arrow.v = (length / magnitude) * on_page(vector.value, seen);
+  const Point rail = on_page(vector.rail, seen);
   if (length_of(rail) > 0) {
     // On the side where there is no ground.
     Point side = normal_to(unit(rail));
@@ -167,8 +168,9 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
                             int clip, MarkLabels& labels) const {
   const Point center = camera.project(vector.place);
   const double radius = marks_ * size::kTorqueArc;
-  const Circle circle = circle_about(vector.axis, camera);
-  const Point u = radius * on_page(circle.top, camera), w = radius * on_page(circle.quarter, camera);
+  const Camera seen = camera.seen_at(vector.place);
+  const Circle circle = circle_about(vector.axis, seen);
+  const Point u = radius * on_page(circle.top, seen), w = radius * on_page(circle.quarter, seen);
   const VectorScale scale = scales_.of(vector.kind);
   const double value = vector.value.dot(vector.axis);
   ArrowStyle style{color_of(vector.kind, *theme_), marks_, false, false};

@@ -15,8 +15,9 @@ using Eigen::Vector3d;
 constexpr double kAzimuth = 35 * std::numbers::pi / 180;
 constexpr double kElevation = 20 * std::numbers::pi / 180;
 constexpr double kFieldOfView = 30 * std::numbers::pi / 180;  // from the lower to the upper edge of the scene
-constexpr int kEyePasses = 6;   // scale and distance depend on one another; each pass leaves a tenth or so
-constexpr double kClear = 1.5;  // the eye keeps this many times the way to the nearest place
+constexpr int kEyePasses = 6;  // scale and distance depend on one another; each pass leaves a tenth or so
+constexpr double kLeastClear = 1.05;  // ... also where the scene says how far it is
+constexpr double kClear = 1.5;        // the eye keeps this many times the way to the nearest place
 // Unit vectors whose part in the plane is shorter than this count as normal to it: far above round-off of the
 // axes of a file, far below an angle that anyone draws.
 constexpr double kNegligible = 1e-6;
@@ -75,6 +76,17 @@ Camera front_view(const Chain& chain) {
 
 }  // namespace
 
+namespace {
+
+// To two digits.
+double rounded_up(double value) {
+  if (!(value > 0)) return 0;
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return std::ceil(value / unit) * unit;
+}
+
+}  // namespace
+
 bool is_oblique(const Chain& chain, const CameraEntry& entry) {
   return !chain.planar || entry.azimuth || entry.elevation;
 }
@@ -97,19 +109,18 @@ Camera view_of(const Chain& chain, const CameraEntry& entry) {
   return camera;
 }
 
-void place_eye(Camera& camera, const Eigen::AlignedBox3d& motion, const CameraEntry& entry, double height,
+void place_eye(Camera& camera, const MotionBox& motion, const CameraEntry& entry, double height,
                const std::function<void(Camera&)>& fit, const Place& place) {
-  if (motion.isEmpty()) return;
-  camera.focus = motion.center();
+  if (motion.empty()) return;
+  camera.focus = motion.middle();
   double nearest = 0;  // m before the focus
-  for (int i = 0; i < 8; ++i) {
-    const Vector3d corner = motion.corner(Eigen::AlignedBox3d::CornerType(i));
+  for (const Vector3d& corner : motion.corners())
     nearest = std::max(nearest, camera.toward_viewer.dot(corner - camera.focus));
-  }
-  if (entry.distance && *entry.distance <= nearest)
+  const double least = kLeastClear * nearest;
+  if (entry.distance && *entry.distance < least)
     throw Error(ExitCode::bad_input,
-                "'camera.distance' puts the eye among the bodies: more than " +
-                    format_significant(nearest, 2) + " m are needed",
+                "'camera.distance' puts the eye among the bodies: " +
+                    format_significant(rounded_up(least), 2) + " m are needed at least",
                 place);
   for (int pass = 0; pass < kEyePasses; ++pass) {
     fit(camera);
@@ -128,8 +139,8 @@ bool fit_as_told(Camera& camera, const CameraEntry& entry, const Rect& area) {
   return true;
 }
 
-Camera aimed_camera(const Chain& chain, const CameraEntry& entry, const Eigen::AlignedBox3d& motion,
-                    const Rect& area, const std::function<void(Camera&)>& fit) {
+Camera aimed_camera(const Chain& chain, const CameraEntry& entry, const MotionBox& motion, const Rect& area,
+                    const std::function<void(Camera&)>& fit) {
   Camera camera = view_of(chain, entry);
   const auto fit_or_obey = [&](Camera& seen) {
     if (!fit_as_told(seen, entry, area)) fit(seen);

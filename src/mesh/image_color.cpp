@@ -83,7 +83,6 @@ struct JpegTrouble {
 
 void say_nothing(j_common_ptr, int) {}
 
-// Eight by eight pixels become one while they are decoded.
 bool add_jpeg(std::FILE* file, Mean& mean) {
   jpeg_decompress_struct jpeg;
   JpegTrouble trouble;
@@ -98,8 +97,10 @@ bool add_jpeg(std::FILE* file, Mean& mean) {
   jpeg_stdio_src(&jpeg, file);
   jpeg_read_header(&jpeg, TRUE);
   jpeg.out_color_space = JCS_RGB;
-  jpeg.scale_num = 1;
-  jpeg.scale_denom = 8;
+  if (double(jpeg.image_width) * jpeg.image_height > double(kMostPixels)) {
+    jpeg_destroy_decompress(&jpeg);
+    return false;
+  }
   jpeg_start_decompress(&jpeg);
   JSAMPARRAY row = (*jpeg.mem->alloc_sarray)(reinterpret_cast<j_common_ptr>(&jpeg), JPOOL_IMAGE,
                                              jpeg.output_width * JDIMENSION(jpeg.output_components), 1);

@@ -1,5 +1,7 @@
 #include "picture/camera.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,6 +29,17 @@ Point Camera::flat_vector(const Eigen::Vector3d& v, const Eigen::Vector3d& x) co
   const Point at = flat(x);
   const double toward = nearness * toward_viewer.dot(v);
   return {(right.dot(v) + toward * at.x) / share, (up.dot(v) + toward * at.y) / share};
+}
+
+Camera Camera::seen_at(const Eigen::Vector3d& x) const {
+  Camera local = *this;
+  if (nearness == 0) return local;
+  const Point at = flat(x);
+  local.right += nearness * at.x * toward_viewer;
+  local.up += nearness * at.y * toward_viewer;
+  local.toward_viewer = local.right.cross(local.up).normalized();
+  local.nearness = 0;
+  return local;
 }
 
 void fit(Camera& camera, const Rect& box_m, const Rect& area, double margin) {

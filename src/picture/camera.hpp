@@ -27,6 +27,9 @@ struct Camera {
   Point project_vector(const Eigen::Vector3d& v, const Eigen::Vector3d& x) const {
     return scale * flat_vector(v, x);
   }
+  // Parallel rays along the one to `x`: what is drawn there in a size of its own points as small vectors do
+  // that end there.
+  Camera seen_at(const Eigen::Vector3d& x) const;
   double depth(const Eigen::Vector3d& x) const { return toward_viewer.dot(x); }
 };
 

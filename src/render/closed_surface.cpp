@@ -86,13 +86,24 @@ SortedTriangles closed_parts_first(const TriangleMesh& mesh) {
   for (std::size_t t = 0; t < count; ++t) volume[parts.of(std::uint32_t(t))] += six_volumes(mesh, t);
   for (const std::uint32_t t : torn) volume[parts.of(t)] = -1;
 
+  const auto is_opaque = [&](std::size_t t) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (mesh.vertices[mesh.triangles[3 * t + k]].color[3] < 255) return false;
+    return true;
+  };
+  enum Group { closed, open, translucent };
+  std::vector<Group> group(count);
+  for (std::size_t t = 0; t < count; ++t)
+    group[t] = !is_opaque(t) ? translucent : volume[parts.of(std::uint32_t(t))] > 0 ? closed : open;
+
   SortedTriangles sorted;
-  for (const bool closed : {true, false}) {
+  for (const Group wanted : {closed, open, translucent}) {
     for (std::size_t t = 0; t < count; ++t)
-      if ((volume[parts.of(std::uint32_t(t))] > 0) == closed)
+      if (group[t] == wanted)
         sorted.indices.insert(sorted.indices.end(), mesh.triangles.begin() + std::ptrdiff_t(3 * t),
                               mesh.triangles.begin() + std::ptrdiff_t(3 * t + 3));
-    if (closed) sorted.closed = sorted.indices.size() / 3;
+    if (wanted == closed) sorted.closed = sorted.indices.size() / 3;
+    if (wanted == open) sorted.opaque = sorted.indices.size() / 3;
   }
   return sorted;
 }

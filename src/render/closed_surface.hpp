@@ -8,7 +8,8 @@ namespace chainreel {
 // The triangles in another order.
 struct SortedTriangles {
   std::vector<std::uint32_t> indices;  // three a triangle
-  std::size_t closed = 0;              // so many of them, at the front, belong to closed parts
+  std::size_t closed = 0;              // so many of them, at the front, are opaque and belong to closed parts
+  std::size_t opaque = 0;              // ... are opaque; the others let something through
 };
 
 // A part is what hangs together by edges, with vertices at the same place counted as one. It is closed where

@@ -13,7 +13,7 @@ struct MeshBounds {
 };
 MeshBounds bounds_of(const TriangleMesh& mesh);
 
-// All numbers are finite, all meshes whole: no index points beyond the vertices.
+// All numbers are finite and all parts have a mesh. Whether its indices are right is seen when it is drawn.
 bool is_drawable(const Solids& solids);
 
 // Of everything in front of the eye; the two depths are view coordinates z.

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "core/error.hpp"
-#include "render/canvas.hpp"
 
 namespace chainreel {
 namespace {
@@ -42,16 +40,20 @@ Image cut(const Image& image, const Part& part) {
 
 }  // namespace
 
-std::optional<SolidImage> solid_image(const Solids& solids, double aspect, const Fonts& fonts) {
-  const int height = std::max(1, std::min(kHeight, int(kWidest / aspect)));
-  const int width = std::max(1, int(std::lround(height * aspect)));
+SolidImages::SolidImages(double aspect, const Fonts& fonts) : aspect_(aspect), fonts_(fonts) {}
+
+SolidImages::~SolidImages() = default;
+
+std::optional<SolidImage> SolidImages::draw(const Solids& solids) {
+  const int height = std::max(1, std::min(kHeight, int(kWidest / aspect_)));
+  const int width = std::max(1, int(std::lround(height * aspect_)));
+  if (!canvas_) canvas_ = std::make_unique<Canvas>(width, height, fonts_);
   Picture picture;
-  picture.aspect = aspect;
+  picture.aspect = aspect_;
   picture.background.a = 0;
   picture.add(solids);
-  Canvas canvas(width, height, fonts);
   Image page;
-  canvas.draw(picture, page);
+  canvas_->draw(picture, page);
   const Part part = part_of(page);
   if (part.left >= part.right) return std::nullopt;
   const auto unit = [height](int pixels) { return double(pixels) / height; };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kFinePage = 540;  // px of height: smaller pages take more samples a pixel, since they cost less
 constexpr double kDepthMargin = 0.01;
-constexpr double kFringe = 1;  // px around bodies that may be touched
+constexpr double kFringe = 2;  // px around bodies that may be touched: outlines are a pixel wide at least
 
 int samples_for(int width, int height, int largest) {
   const int wanted = height <= kFinePage ? 4 : 2;
@@ -26,22 +26,18 @@ struct SolidLayer::Buffers {
   const GlFunctions& gl;
   std::shared_ptr<const TriangleMesh> mesh;  // kept, so that no other mesh gets its place in memory
   MeshBounds bounds;
-  bool is_translucent;
-  std::size_t closed = 0, all = 0;  // triangles
+  std::size_t closed = 0, opaque = 0, all = 0;  // triangles, in this order
   GLuint array = 0, vertices = 0, indices = 0;
 
   Buffers(const GlFunctions& functions, std::shared_ptr<const TriangleMesh> whole)
-      : gl(functions),
-        mesh(std::move(whole)),
-        bounds(bounds_of(*mesh)),
-        is_translucent(std::any_of(mesh->vertices.begin(), mesh->vertices.end(),
-                                   [](const TriangleMesh::Vertex& v) { return v.color[3] < 255; })) {
+      : gl(functions), mesh(std::move(whole)), bounds(bounds_of(*mesh)) {
     using Vertex = TriangleMesh::Vertex;
     for (const std::uint32_t index : mesh->triangles)
       if (index >= mesh->vertices.size())
         throw Error(ExitCode::bad_input, "a mesh has triangles between vertices that it does not have");
     const SortedTriangles sorted = closed_parts_first(*mesh);
     closed = sorted.closed;
+    opaque = sorted.opaque;
     all = sorted.indices.size() / 3;
     gl.GenVertexArrays(1, &array);
     gl.GenBuffers(1, &vertices);
@@ -138,7 +134,7 @@ const SolidLayer::Buffers& SolidLayer::buffers_of(const std::shared_ptr<const Tr
 }
 
 void SolidLayer::draw_part(const Solid& solid, const Buffers& buffers, const Solids& solids,
-                           const SolidBounds& bounds) {
+                           const SolidBounds& bounds, Pass pass) {
   for (std::size_t r = 0; r < 3; ++r) {
     const double* row = &solid.to_view[4 * r];
     gl_.Uniform4f(program_->rows[r], float(row[0]), float(row[1]), float(row[2]), float(row[3]));
@@ -161,16 +157,27 @@ void SolidLayer::draw_part(const Solid& solid, const Buffers& buffers, const Sol
   gl_.Uniform4f(program_->depth, float(slope), float(-w_near - slope * near), solids.is_shadow ? 0.f : 1.f,
                 0);
   gl_.BindVertexArray(buffers.array);
-  const auto draw = [&](std::size_t first, std::size_t count) {
-    if (count > 0)
-      gl_.DrawElements(GL_TRIANGLES, GLsizei(3 * count), GL_UNSIGNED_INT,
+  const auto draw = [&](std::size_t first, std::size_t end) {
+    if (end > first)
+      gl_.DrawElements(GL_TRIANGLES, GLsizei(3 * (end - first)), GL_UNSIGNED_INT,
                        reinterpret_cast<const void*>(3 * first * sizeof(std::uint32_t)));
   };
+  // A colour of its own holds for all triangles.
+  const bool one_color = color.has_value();
+  if (pass == Pass::translucent) return draw(one_color ? 0 : buffers.opaque, buffers.all);
   // The inside of a closed part is never seen, and half of its triangles need not be filled.
   gl_.Enable(GL_CULL_FACE);
   draw(0, buffers.closed);
   gl_.Disable(GL_CULL_FACE);
-  draw(buffers.closed, buffers.all - buffers.closed);
+  draw(buffers.closed, one_color ? buffers.all : buffers.opaque);
+}
+
+// The middle of the mesh's box, towards the viewer, m.
+double SolidLayer::depth_of(const Solid& solid, const Buffers& buffers) {
+  double z = solid.to_view[11];
+  for (std::size_t i = 0; i < 3; ++i)
+    z += solid.to_view[8 + i] * (buffers.bounds.lower[i] + buffers.bounds.upper[i]) / 2;
+  return z;
 }
 
 // The tiles around each part, not around all: arms and legs leave most of the box around them empty.
@@ -225,23 +232,20 @@ const std::vector<PixelBox>& SolidLayer::draw(const Solids& solids, const PixelB
   gl_.Enable(GL_DEPTH_TEST);
   gl_.FrontFace(GL_CW);  // counter-clockwise triangles, in pictures whose y points down
   gl_.UseProgram(program_->program);
-  const auto is_translucent = [&](std::size_t i) {
-    if (solids.is_shadow) return false;
-    return solids.parts[i].color ? solids.parts[i].color->a < 1 : buffers[i]->is_translucent;
-  };
   // What shines through comes last, farthest first, and hides nothing.
   std::vector<std::size_t> translucent;
   for (std::size_t i = 0; i < solids.parts.size(); ++i) {
-    if (is_translucent(i))
-      translucent.push_back(i);
-    else
-      draw_part(solids.parts[i], *buffers[i], solids, *bounds);
+    const std::optional<Color>& color = solids.parts[i].color;
+    const bool all = color && color->a < 1, some = !color && buffers[i]->opaque < buffers[i]->all;
+    if (solids.is_shadow || !all) draw_part(solids.parts[i], *buffers[i], solids, *bounds, Pass::opaque);
+    if (!solids.is_shadow && (all || some)) translucent.push_back(i);
   }
   std::stable_sort(translucent.begin(), translucent.end(), [&](std::size_t a, std::size_t b) {
-    return solids.parts[a].to_view[11] < solids.parts[b].to_view[11];
+    return depth_of(solids.parts[a], *buffers[a]) < depth_of(solids.parts[b], *buffers[b]);
   });
   gl_.DepthMask(GL_FALSE);
-  for (const std::size_t i : translucent) draw_part(solids.parts[i], *buffers[i], solids, *bounds);
+  for (const std::size_t i : translucent)
+    draw_part(solids.parts[i], *buffers[i], solids, *bounds, Pass::translucent);
   gl_.DepthMask(GL_TRUE);
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Viewport(0, 0, width_, height_);

@@ -35,7 +35,10 @@ class SolidLayer {
   const Buffers& buffers_of(const std::shared_ptr<const TriangleMesh>& mesh);
   void touch_tiles(const Solids& solids, const std::vector<MeshBounds>& boxes, const PixelBox& clip);
   void clear_tiles() const;
-  void draw_part(const Solid& solid, const Buffers& buffers, const Solids& solids, const SolidBounds& bounds);
+  enum class Pass { opaque, translucent };
+  void draw_part(const Solid& solid, const Buffers& buffers, const Solids& solids, const SolidBounds& bounds,
+                 Pass pass);
+  static double depth_of(const Solid& solid, const Buffers& buffers);
 
   const GlFunctions& gl_;
   int width_, height_, samples_;

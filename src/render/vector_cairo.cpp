@@ -11,6 +11,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 
 #include "core/error.hpp"
 #include "picture/utf8.hpp"
@@ -83,7 +84,7 @@ class Painter {
   }
 
   void paint(const Picture& picture) {
-    aspect_ = picture.aspect;
+    bodies_.emplace(picture.aspect, fonts_);
     fill_page(picture.background);
     for (const Item& item : picture.items) {
       if (!is_finite(item.shape)) continue;
@@ -230,7 +231,7 @@ class Painter {
 
   // A picture in the picture: its light has no vector form.
   void add(const Solids& solids) {
-    const std::optional<SolidImage> image = solid_image(solids, aspect_, fonts_);
+    const std::optional<SolidImage> image = bodies_->draw(solids);
     if (!image) return;
     cairo_surface_t* sheet = image_surface(image->pixels);
     check(cairo_surface_status(sheet), "drawing bodies");
@@ -269,7 +270,8 @@ class Painter {
 
   cairo_t* cr_;
   const Fonts& fonts_;
-  double scale_, aspect_ = 1;
+  double scale_;
+  std::optional<SolidImages> bodies_;
   CairoFaces faces_;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "core/format.hpp"
@@ -81,7 +82,7 @@ class SvgWriter {
 
   std::string write(const Picture& picture, const VectorPage& page) {
     const double width = scale_ * picture.aspect;
-    aspect_ = picture.aspect;
+    bodies_.emplace(picture.aspect, fonts_);
     for (std::size_t i = 0; i < picture.clips.size(); ++i) define_clip(i, picture.clips[i]);
     if (picture.background.a > 0)
       body_ += "<rect width=\"" + number(width) + "\" height=\"" + number(scale_) + "\"" +
@@ -214,7 +215,7 @@ class SvgWriter {
 
   // A picture in the picture: its light has no vector form.
   void add(const Solids& solids) {
-    const std::optional<SolidImage> image = solid_image(solids, aspect_, fonts_);
+    const std::optional<SolidImage> image = bodies_->draw(solids);
     if (!image) return;
     const Rect& r = image->place;
     body_ += "<image x=\"" + number(x(r.x0)) + "\" y=\"" + number(y(r.y1)) + "\" width=\"" +
@@ -301,7 +302,8 @@ class SvgWriter {
   }
 
   const Fonts& fonts_;
-  double scale_, aspect_ = 1;
+  double scale_;
+  std::optional<SolidImages> bodies_;
   std::string defs_, body_;
   std::array<std::set<char32_t>, 3> used_;
   int clip_ = -1, fades_ = 0;

@@ -13,16 +13,23 @@ namespace {
 
 constexpr double kFarthestEye = 1e6;  // m; beyond, rays are parallel for all that is drawn
 
-void read_angle(Fields& camera, const char* key, std::optional<double>& angle, double most) {
+std::string angle_problem(double angle, double most) {
+  if (std::abs(angle) <= most) return "";
+  const std::string degrees = format_shortest(most * 180 / std::numbers::pi);
+  return " must lie between -" + degrees + "deg and " + degrees + "deg; a number without deg is in radians";
+}
+
+void complain_of(Fields& camera, const char* key, const std::string& problem) {
+  if (!problem.empty())
+    camera.problems().add("'" + camera.path(key) + "'" + problem, camera.place_of(camera.find(key), key));
+}
+
+void read_angle(Fields& camera, const char* key, std::optional<double>& angle,
+                std::string (*problem)(double)) {
   if (!camera.find(key).IsDefined()) return;
   double value = 0;
   camera.read(key, value);
-  if (std::abs(value) > most)
-    camera.problems().add("'" + camera.path(key) + "' must lie between -" +
-                              format_shortest(most * 180 / std::numbers::pi) + "deg and " +
-                              format_shortest(most * 180 / std::numbers::pi) +
-                              "deg; a number without deg is in radians",
-                          camera.place_of(camera.find(key), key));
+  complain_of(camera, key, problem(value));
   angle = value;
 }
 
@@ -35,9 +42,7 @@ void read_distance(Fields& camera, std::optional<double>& distance) {
   }
   double value = 1;
   camera.read("distance", value);
-  if (!(value > 0 && value <= kFarthestEye))
-    camera.problems().add("'" + camera.path("distance") + "' must be metres above 0, or parallel",
-                          camera.place_of(node, "distance"));
+  complain_of(camera, "distance", distance_problem(value));
   distance = value;
 }
 
@@ -59,6 +64,19 @@ void read_fit(Fields& camera, std::optional<std::array<double, 4>>& fit) {
 
 }  // namespace
 
+std::string azimuth_problem(double azimuth) {
+  return angle_problem(azimuth, 2 * std::numbers::pi);
+}
+
+std::string elevation_problem(double elevation) {
+  return angle_problem(elevation, std::numbers::pi / 2);
+}
+
+std::string distance_problem(double distance) {
+  const bool good = distance > 0 && (distance <= kFarthestEye || std::isinf(distance));
+  return good ? "" : " must be metres above 0, or parallel";
+}
+
 void read_camera(Fields& fields, Scene& scene) {
   const YAML::Node node = fields.find("camera");
   if (!node.IsDefined()) return;
@@ -69,8 +87,8 @@ void read_camera(Fields& fields, Scene& scene) {
     return;
   }
   Fields camera(fields.document(), node, fields.path("camera"), fields.problems());
-  read_angle(camera, "azimuth", scene.camera.azimuth, 2 * std::numbers::pi);
-  read_angle(camera, "elevation", scene.camera.elevation, std::numbers::pi / 2);
+  read_angle(camera, "azimuth", scene.camera.azimuth, azimuth_problem);
+  read_angle(camera, "elevation", scene.camera.elevation, elevation_problem);
   read_distance(camera, scene.camera.distance);
   read_fit(camera, scene.camera.fit);
   camera.finish();
@@ -84,8 +102,7 @@ void read_body_shapes(Fields& fields, Scene& scene) {
       fields.problems().add("'" + fields.path(key) + "' must be " + text + ", not '" + value + "'",
                             fields.place_of(fields.find(key), key));
   };
-  choose("links", scene.links, {"auto", "plain", "visual", "collision"},
-         "auto, plain, visual or collision");
+  choose("links", scene.links, {"auto", "plain", "visual", "collision"}, "auto, plain, visual or collision");
   choose("mesh_up", scene.mesh_up, {"rviz", "file"}, "rviz or file");
 }
 

@@ -182,8 +182,6 @@ void add_page(std::vector<SceneEntry>& entries, const Scene& scene) {
   entries.push_back({"draw", flow_text([&](YAML::Emitter& out) {
                        emit_list(out, scene.draw, [](const std::string& name) { return name; });
                      })});
-  entries.push_back({"links", scene.links});
-  entries.push_back({"mesh_up", scene.mesh_up});
   entries.push_back({"ellipse.reading", scene.ellipse.reading});
   entries.push_back({"ellipse.shape", scene.ellipse.shape});
   add_camera(entries, scene.camera);
@@ -248,6 +246,8 @@ std::vector<SceneEntry> entries_of(const Scene& scene) {
   if (!scene.end_effector.empty()) entries.push_back({"end_effector", text_of(scene.end_effector)});
   add_events(entries, scene);
   add_method(entries, scene);
+  entries.push_back({"links", scene.links});
+  entries.push_back({"mesh_up", scene.mesh_up});
   return entries;
 }
 

@@ -222,6 +222,8 @@ YamlDocument panel_document(const YamlDocument& whole, std::size_t index) {
   YamlDocument panel = document_of(whole.text, whole.file, whole.overrides);
   const YAML::Node changes = panel.root["compare"][index];
   for (const char* key : {"title", "layout", "compare"}) panel.root.remove(key);
+  // The first panel's events decide when the film is slow; others need not have them.
+  if (index > 0) panel.root.remove("slow_motion");
   const std::string prefix = "compare." + std::to_string(index + 1) + ".";
   for (const auto& pair : changes) {
     const std::string& key = pair.first.Scalar();

@@ -10,6 +10,7 @@
 #include <cstdlib>
 
 #include "app/all_pictures.hpp"
+#include "app/print_pictures.hpp"
 #include "app/pipeline.hpp"
 #include "encode/png.hpp"
 #include "picture/theme.hpp"

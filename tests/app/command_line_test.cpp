@@ -2,12 +2,16 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <regex>
 #include <sstream>
 
+#include "app/signals.hpp"
 #include "core/json.hpp"
 #include "encode/png.hpp"
 #include "scene/read_scene.hpp"
@@ -102,6 +106,66 @@ TEST(Interrupt, LeavesNothingHalfWritten) {
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
+// As `timeout` signals its child and then the group of both: one signal, come twice.
+TEST(Interrupt, ThatComesTwiceAtOnceLeavesNothingEither) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_command(
+      {"sh", "-c",
+       "\"$0\" render assets/scenes/rrr_torque.yaml -o \"$1\" --quiet --set duration=300 & pid=$!; sleep 1; "
+       "kill -INT $pid; sleep 0.001; kill -INT $pid; wait $pid",
+       program_path(), folder.file("a.mp4")});
+  EXPECT_EQ(result.status, 130) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("nothing half-written was kept"));
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+// Of a program that does not look: the second signal is meant as one.
+TEST(InterruptDeathTest, AgainAfterAWhileEndsTheProgramAtOnce) {
+  const auto raise_twice = [](useconds_t apart, int first) {
+    install_signal_handlers();
+    std::raise(first);
+    usleep(apart);
+    std::raise(SIGINT);
+    std::_Exit(interrupted() ? 7 : 0);
+  };
+  EXPECT_EXIT(raise_twice(1000, SIGINT), testing::ExitedWithCode(7), "");
+  EXPECT_EXIT(raise_twice(600000, SIGINT), testing::KilledBySignal(SIGINT), "");
+  EXPECT_EXIT(raise_twice(600000, SIGTERM), testing::KilledBySignal(SIGINT), "");
+}
+
+// While the encoders finish, which takes them longer the more frames they look ahead.
+TEST(Interrupt, BehindTheLastFrameKeepsNoPartialFilm) {
+  const TemporaryFolder folder, log;
+  const ProgramResult result = run_command(
+      {"sh", "-c",
+       "\"$0\" render assets/scenes/rr_free.yaml -o \"$1\" --set duration=1 2>\"$2\" & pid=$!; "
+       "until grep -q '100 %' \"$2\"; do sleep 0.01; done; kill -INT $pid; wait $pid",
+       program_path(), folder.file("a.mp4"), log.file("said")});
+  EXPECT_EQ(result.status, 130) << read_whole_file(log.file("said"));
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(Interrupt, IsHeardByGalleryAndSheet) {
+  const TemporaryFolder folder, made;
+  ASSERT_EQ(run_program({"render", "assets/scenes/rr_free.yaml", "--quiet", "-o", made.file("a.mp4"), "--set",
+                         "duration=0.1", "--set", "video.width=320", "--set", "video.height=180"})
+                .status,
+            0);
+  // Some milliseconds each: it takes seconds to read them all.
+  for (int i = 0; i < 3000; ++i)
+    fs::create_symlink(made.path() / "a.mp4", made.path() / ("film_" + std::to_string(i) + ".mp4"));
+  std::vector<std::string> sheet{"sheet", "--width", "8000", "--height", "6000", "-o", folder.file("sheet.png")};
+  sheet.insert(sheet.end(), 48, "assets/scenes/rr_free.yaml");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"gallery", made.path().string(), "-o", folder.file("page.html")}, sheet}) {
+    std::vector<std::string> command{"timeout", "--signal=INT", "--preserve-status", "0.5", program_path()};
+    command.insert(command.end(), words.begin(), words.end());
+    const ProgramResult result = run_command(command);
+    EXPECT_EQ(result.status, 130) << words[0] << "\n" << result.err;
+    EXPECT_TRUE(fs::is_empty(folder.path())) << words[0];
+  }
+}
+
 // Lines of the README's shell blocks that call the program, with small pictures.
 std::vector<std::string> readme_commands() {
   std::vector<std::string> commands;
@@ -132,12 +196,19 @@ TEST(Readme, PicturesAreThereAndTheFirstIsTheSheetOfAllScenes) {
 // The sheet remembers its titles.
 TEST(Readme, SheetShowsEveryScene) {
   const std::string words = read_png_text("assets/gallery/sheet.png")["description"];
+  const std::string remedy =
+      "make it anew: chainreel sheet assets/scenes/*.yaml --width 1600 --height 1120 -o assets/gallery/sheet.png "
+      "--force";
+  std::ptrdiff_t scenes = 0;
   for (const auto& entry : fs::directory_iterator("assets/scenes")) {
     const std::string title = read_scene(entry.path().string(), {}).title;
-    EXPECT_THAT(words, HasSubstr(title.substr(0, title.find('{'))))
-        << "make it anew: chainreel sheet assets/scenes/*.yaml --width 1600 --height 1120 -o assets/gallery/sheet.png "
-           "--force";
+    const std::string shown = title.substr(0, title.find('{'));
+    ASSERT_FALSE(shown.empty()) << entry.path() << ": a title that begins with a blank to fill cannot be found";
+    ASSERT_EQ(title.find(';'), std::string::npos) << entry.path() << ": titles are told apart by semicolons";
+    EXPECT_THAT(words, HasSubstr(shown)) << remedy;
+    ++scenes;
   }
+  EXPECT_EQ(std::count(words.begin(), words.end(), ';') + 1, scenes) << remedy;
 }
 
 TEST(Readme, CommandsRun) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "app/gallery_audit.hpp"
 #include "app/page_template.hpp"
@@ -63,6 +64,33 @@ TEST(Gallery, TakesAWebmWhereThereIsNoMp4AndLeavesPartialFilms) {
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(Json::parse(result.out)["films"], 2);
   EXPECT_THAT(page(folder), HasSubstr("data:video/webm;base64,"));
+}
+
+// A render that was killed leaves such a file, one that runs writes it.
+TEST(Gallery, LeavesFilmsThatAreBeingWritten) {
+  const TemporaryFolder folder;
+  const std::string film = render(folder, "a.mp4");
+  fs::copy_file(film, folder.file("b.4711.tmp.mp4"));
+  const ProgramResult result = gallery(folder, {"--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(Json::parse(result.out)["films"], 1);
+}
+
+// 20 MB more, in a box that players pass over.
+TEST(Gallery, TellsOfFilmsThatAreLongForAPage) {
+  const TemporaryFolder folder;
+  const std::string film = render(folder, "a.mp4");
+  EXPECT_EQ(gallery(folder).err, "");
+  const auto size = fs::file_size(film);
+  constexpr unsigned kFree = 20'000'000;
+  std::ofstream(film, std::ios::binary | std::ios::app)
+      << char(kFree >> 24) << char(kFree >> 16 & 255) << char(kFree >> 8 & 255) << char(kFree & 255) << "free";
+  fs::resize_file(film, size + kFree);
+  const ProgramResult result = gallery(folder);
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, HasSubstr("a.mp4: has 20 MB; "));
+  EXPECT_THAT(result.err, HasSubstr("a smaller video.width or a higher video.crf"));
+  EXPECT_EQ(gallery(folder, {"--quiet"}).err, "");
 }
 
 TEST(Gallery, GivesChartsToTheFilmWithTheLongestName) {

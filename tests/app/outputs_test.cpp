@@ -311,13 +311,14 @@ TEST(Outputs, SnapshotsAndEllipsesAreVectorPages) {
   EXPECT_THAT(bad.err, HasSubstr(".png, .svg, .pdf"));
 }
 
-// A figure of a model says what made it; what it says makes it again.
-TEST(Outputs, FiguresOfModelsRememberTheirCommand) {
+// A figure of a model says what made it, so does a sheet; what it says makes it again.
+TEST(Outputs, FiguresRememberTheirCommand) {
   const TemporaryFolder folder;
   const std::vector<std::string> figures[] = {
       {"ellipse", "models/rr.urdf", "--pose", "0,90deg", "--pose", "-1,0", "--theme", "dark", "--title", "Two of it's"},
       {"ellipse", "models/rr.urdf", "--field", "--samples", "5"},
-      {"snapshot", "models/rr.urdf", "--pose", "0,90deg", "--text-scale", "1.5"}};
+      {"snapshot", "models/rr.urdf", "--pose", "0,90deg", "--text-scale", "1.5"},
+      {"sheet", "assets/scenes/rr_free.yaml", "assets/scenes/pp_free.yaml", "--at", "0.5", "--set", "draw=[chain]"}};
   for (const std::vector<std::string>& words : figures)
     for (const std::string ending : {"png", "svg", "pdf"}) {
       std::vector<std::string> command = words;
@@ -326,17 +327,43 @@ TEST(Outputs, FiguresOfModelsRememberTheirCommand) {
       ASSERT_EQ(run_program(command).status, 0);
       const ProgramResult said = run_program({"extract", file});
       ASSERT_EQ(said.status, 0) << said.err;
-      EXPECT_THAT(said.out, testing::StartsWith("chainreel " + words[0] + " models/rr.urdf --"));
+      EXPECT_THAT(said.out, testing::StartsWith("chainreel " + words[0] + " " + words[1] + " "));
       const Json figure = Json::parse(run_program({"extract", file, "--json"}).out)["figure"];
-      EXPECT_EQ(figure["model"], "models/rr.urdf");
-      EXPECT_GE(figure["poses"].size(), 1u);
+      if (words[0] != "sheet") {
+        EXPECT_EQ(figure["model"], "models/rr.urdf");
+        EXPECT_GE(figure["poses"].size(), 1u);
+      }
       std::vector<std::string> again = figure["arguments"].get<std::vector<std::string>>();
       again.insert(again.end(), {"--quiet", "-o", folder.file("again." + ending), "--force"});
       ASSERT_EQ(run_program(again).status, 0);
       EXPECT_EQ(read_whole_file(folder.file("again." + ending)), read_whole_file(file)) << said.out;
     }
   EXPECT_THAT(run_program({"extract", folder.file("e.png"), "-o", folder.file("x.yaml")}).err,
-              HasSubstr("shows a model, not a scene; it was made by: chainreel snapshot"));
+              HasSubstr("is a figure, not a scene; it was made by: chainreel sheet"));
+}
+
+// An instant between two frames belongs to the picture, not to the film.
+TEST(Outputs, SnapshotsTellTheFramesOfTheirFilm) {
+  const TemporaryFolder folder;
+  const std::string small = "video: {width: 320, height: 180, fps: 10}\ntext_scale: 1.5\nduration: 1\n";
+  const std::string rr = "model: " CHAINREEL_SOURCE_FOLDER "/models/rr.urdf\n" + small;
+  const std::pair<std::string, std::string> scenes[] = {
+      {"plain", rr},
+      {"held", rr + "hold: {first: 0.5, last: 1}\n"},
+      {"stops", rr + "events: [{when: \"t > 0.55\", kind: stop}]\n"},
+      {"stops_late", rr + "events: [{when: \"t > 0.95\", kind: stop}]\n"}};
+  for (const auto& [name, text] : scenes) {
+    const std::string scene = folder.write(name + ".yaml", text), film = folder.file(name + ".mp4");
+    ASSERT_EQ(run_program({"render", scene, "--quiet", "-o", film}).status, 0);
+    const Json rendered = recall(film).audit;
+    for (const std::string at : {"0.2", "0.25", "0.55", "0.98"}) {
+      const std::string still = folder.file(name + at + ".png");
+      ASSERT_EQ(run_program({"snapshot", scene, "--quiet", "--at", at, "-o", still}).status, 0) << name << at;
+      const Json audit = recall(still).audit;
+      EXPECT_EQ(audit["frames"], rendered["frames"]) << name << " at " << at;
+      EXPECT_EQ(audit["film_seconds"], rendered["film_seconds"]) << name << " at " << at;
+    }
+  }
 }
 
 TEST(Outputs, ACommandLineIsQuotedForTheShell) {

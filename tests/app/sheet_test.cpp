@@ -3,6 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "app/moment.hpp"
 #include "core/json.hpp"
 #include "encode/png.hpp"
 #include "support/picture_compare.hpp"
@@ -72,6 +77,30 @@ TEST(Sheet, ShowsTheEndOfAShorterSceneAndTheLastEventUnasked) {
   const Image unasked = picture("a.png", {});
   EXPECT_EQ(compare_pictures(unasked, picture("b.png", {"--at", "1000"})).max, 0);
   EXPECT_GT(compare_pictures(unasked, picture("c.png", {"--at", "0"})).mean, 0.1);
+}
+
+// One frame a second: the events come behind the only frame of the film, and between two.
+TEST(Sheet, ShowsAnEventThatNoFrameShows) {
+  const TemporaryFolder folder;
+  const Fonts fonts;
+  for (const auto& [name, event, at] : {std::tuple{"a.yaml", "{when: \"t > 0.95\", kind: stop}", 0.95},
+                                        {"b.yaml", "{when: \"t > 0.95\"}", 0.95},
+                                        {"c.yaml", "{when: \"t > 0.35\"}", 0.35}}) {
+    const std::string scene = folder.write(
+        name, "model: " CHAINREEL_SOURCE_FOLDER "/models/rr.urdf\nduration: 1\nvideo: {fps: 1}\nevents: [" +
+                  std::string(event) + "]\n");
+    const Moment moment = telling_moment(load_film(scene, {}), fonts);
+    EXPECT_NEAR(moment.at, at, 1e-9) << name;  // events are found to 1e-12 s, times of this run are below 1 s
+    EXPECT_EQ(moment.memory.audit["at"], moment.at);
+    const auto shows = [&](const std::string& words) {
+      return std::any_of(moment.picture.items.begin(), moment.picture.items.end(), [&](const Item& item) {
+        const auto* run = std::get_if<GlyphRun>(&item.shape);
+        return run && run->text == words;
+      });
+    };
+    EXPECT_TRUE(shows("t = 0." + std::to_string(std::lround(at * 100)) + " s")) << name;
+    EXPECT_FALSE(shows("t = 0.00 s")) << name;
+  }
 }
 
 TEST(Sheet, IsAVectorPageToo) {

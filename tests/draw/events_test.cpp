@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "draw/film.hpp"
+#include "draw/shapes.hpp"
 #include "scene/prepare.hpp"
 #include "scene/read_scene.hpp"
 
 namespace chainreel {
 namespace {
 
+using testing::HasSubstr;
 
 class FallingHuman : public ::testing::Test {
  protected:
@@ -42,6 +44,16 @@ TEST_F(FallingHuman, IsNotedFromTheInstantOn) {
   EXPECT_EQ(film.panel(0).note(119),
             "centre of pressure leaves the foot at t = 1.53 s;  hip at knee height at t = 1.65 s");
   EXPECT_EQ(film.panel(0).title(), "A standing human falls in 1.65 s");
+}
+
+TEST_F(FallingHuman, IsNotNotedOnNothing) {
+  EXPECT_THAT(test::words_of(film(&simulation_).frame(119)), HasSubstr("hip at knee height"));
+  scene_.layout = "transparent";
+  const Film film = this->film(&simulation_);
+  EXPECT_EQ(test::words_of(film.static_layer()) + test::words_of(film.frame(119)), "");
+  const double height = film.scene_area().height();
+  scene_.events.clear();
+  EXPECT_DOUBLE_EQ(height, this->film(&simulation_).scene_area().height()) << "no row is kept for it";
 }
 
 TEST_F(FallingHuman, HasAnArrowWhereTheGroundPushes) {

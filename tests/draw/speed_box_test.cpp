@@ -16,6 +16,10 @@ TEST(SpeedText, HasTheSignOfMultiplication) {
   EXPECT_EQ(speed_text(0.25), "0.25\u00D7");
   EXPECT_EQ(speed_text(4), "4\u00D7");
   EXPECT_EQ(speed_text(1.0 / 3), "0.333\u00D7");
+  EXPECT_EQ(speed_text(99.96), "100\u00D7");
+  EXPECT_EQ(speed_text(123.4), "123\u00D7");
+  EXPECT_EQ(speed_text(1000), "1000\u00D7");
+  EXPECT_EQ(speed_text(1234), "1234\u00D7");
 }
 
 TEST(TimeDecimals, TellAnyTwoFramesApart) {

@@ -132,6 +132,40 @@ TEST(Solids, TranslucentPartsShowWhatLiesBehind) {
   EXPECT_EQ(largest_difference(both, draw_items({scene({wall, pane})})), 0);
 }
 
+// One mesh with an opaque part before another and a pane: the pane costs the others neither order nor depth.
+TEST(Solids, OpaqueTrianglesOfAMeshHideOthersAlsoBesideTranslucentOnes) {
+  TriangleMesh mesh;
+  const auto add = [&](const TriangleMesh& part, double x, double z, std::array<std::uint8_t, 4> color) {
+    const auto shift = std::uint32_t(mesh.vertices.size());
+    for (TriangleMesh::Vertex vertex : part.vertices) {
+      vertex.position[0] += float(x);
+      vertex.position[2] += float(z);
+      vertex.color = color;
+      mesh.vertices.push_back(vertex);
+    }
+    for (const std::uint32_t index : part.triangles) mesh.triangles.push_back(index + shift);
+  };
+  add(box_mesh({0.4, 0.4, 0.1}), 0, 0.5, {200, 0, 0, 255});
+  add(box_mesh({0.4, 0.4, 0.1}), 0, -0.5, {0, 0, 200, 255});
+  add(box_mesh({0.1, 0.1, 0.1}), 0.7, 0, {0, 200, 0, 128});
+  const SortedTriangles sorted = closed_parts_first(mesh);
+  EXPECT_EQ(sorted.closed, 24u);
+  EXPECT_EQ(sorted.opaque, 24u);
+  const Pixel middle = draw_items({scene({at(shared(mesh), 0, 0, 0)})}).at(64, 64);
+  EXPECT_GT(middle.r, 100);
+  EXPECT_LT(middle.b, 60);
+}
+
+// A wire thinner than its outline: the line has no holes.
+TEST(Solids, OutlinesOfThinBodiesAreWhole) {
+  Solids wire = scene({at(shared(cylinder_mesh(0.002, 1.2)), 0, 0, 0, color_of(0xFFFFFF))});
+  wire.parts[0].to_view = {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0};  // upright on the page
+  wire.outline = kBlack;
+  wire.outline_width = 6 * kPx;
+  const Image image = draw_items({wire});
+  for (const int x : {60, 61, 62, 65, 66, 67}) EXPECT_GT(darkness(image, x, 64), 0.9) << x;
+}
+
 TEST(Solids, HaveAnOutlineOfTheirWidth) {
   Solids lined = scene({at(cube(0.8), 0, 0, 0, color_of(0xFFFFFF))});
   const double bare = covered_area(draw_items({lined}));

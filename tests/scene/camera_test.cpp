@@ -56,6 +56,20 @@ TEST_F(CameraKeys, ComeBackAsTheyWereWritten) {
   }
 }
 
+TEST_F(CameraKeys, OfPanelsComeBackAsTheyWereWritten) {
+  const Scene scene =
+      read("compare: [{links: plain}, {links: visual, mesh_up: file}]\ncamera: {azimuth: 0.5}\n");
+  const Scene again = read_scene(folder_.write("again.yaml", scene_text(scene)), {});
+  ASSERT_EQ(again.compare.size(), 2u);
+  EXPECT_EQ(again.compare[0].links, "plain");
+  EXPECT_EQ(again.compare[1].links, "visual");
+  EXPECT_EQ(again.compare[0].mesh_up, "rviz");
+  EXPECT_EQ(again.compare[1].mesh_up, "file");
+  EXPECT_EQ(again.camera.azimuth, 0.5);
+  EXPECT_THAT(error("compare: [{camera: {azimuth: 0}}, {}]\n"),
+              HasSubstr("'camera' belongs to the whole picture"));
+}
+
 TEST_F(CameraKeys, ThatMakeNoSenseAreErrorsWithTheirPlaces) {
   EXPECT_THAT(error("camera: left\n"), HasSubstr("one.yaml:2:9: 'camera' must hold azimuth"));
   EXPECT_THAT(error("camera: {azimuth: 40}\n"), HasSubstr("without deg is in radians"));

@@ -149,6 +149,13 @@ TEST_F(SlowMotion, BelongsToThePageOfAComparison) {
               HasSubstr("'slow_motion' belongs to the whole picture"));
 }
 
+TEST_F(SlowMotion, FollowsTheEventsOfTheFirstPanelAlone) {
+  const std::string page = "slow_motion: [{event: touch, from: 0, until: 1, speed: 0.5}]\n";
+  const std::string with = "events: [{when: \"q1 > 1\", name: touch}]", without = "events: []";
+  EXPECT_EQ(error(page + "compare: [{" + with + "}, {" + without + "}]\n"), "");
+  EXPECT_THAT(error(page + "compare: [{" + without + "}, {" + with + "}]\n"), HasSubstr("names 'touch'"));
+}
+
 TEST_F(SlowMotion, SaysWhatIsWrong) {
   const auto wrong = [&](const std::string& list) {
     return error(std::string(kEvents) + "slow_motion: " + list + "\n");

@@ -16,6 +16,7 @@ struct Problem {
   std::vector<std::string> torque;
   double end;
   std::vector<double> q, qd;
+  friend void PrintTo(const Problem& problem, std::ostream* out) { *out << problem.name; }
 };
 
 // Found by this reference at 1e-27 a step with a series of order 44 beside 12 columns of extrapolation, which
