@@ -17,7 +17,8 @@ int frames_of_film(const PreparedFilm& film, const std::vector<Trajectory>& runs
   double end = 0;
   for (const Trajectory& run : runs) end = std::max(end, run.end_time);
   int frames = frames_shown(film, runs, int(times.size()));
-  if (added && *added <= end) --frames;
+  // At the end itself it stands in the place of the sample that events leave there.
+  if (added && *added < end - same_instant(film.panels.front().simulation)) --frames;
   const Scene& scene = film.scene;
   return std::min(frames, clock.frame_count()) + frame_count(scene.hold.first, scene.video.fps) +
          frame_count(scene.hold.last, scene.video.fps);
