@@ -31,9 +31,10 @@ AnyPicture frame_of(const std::string& name, const std::string& scene, const Wor
             overrides.insert(overrides.end(), more.begin(), more.end());
             add_comparison(vary, overrides);
             const PreparedFilm film = load_film("assets/scenes/" + scene + ".yaml", overrides);
-            const std::vector<double> times = frame_times(film.scene);
+            const FilmClock clock = clock_of(film);
+            const std::vector<double> times = clock.frame_times();
             const std::vector<Trajectory> runs = simulate_film(film, times);
-            const Film pictures = film_of(film, runs, times, int(times.size()), fonts);
+            const Film pictures = film_of(film, runs, times, int(times.size()), fonts, clock);
             Picture picture = pictures.static_layer();
             picture.append(pictures.frame(std::min(kFrame, pictures.frame_count() - 1)));
             return picture;
@@ -138,6 +139,13 @@ void add_films(std::vector<AnyPicture>& list) {
       frame_of("plots_right", "rrr_torque", {"plot=[energy, q, tau]", "layout=scene-right", forces}));
   list.push_back(frame_of("plot_below", "rr_forces", {"plot=energy", "layout=scene-below"}));
   list.push_back(frame_of("compare_plot", "rr_torque", {"plot=energy"}, {"torque.1=2,-2"}));
+  list.push_back(frame_of("arm_section", "arm_ellipsoid",
+                          {"ellipse.shape=section", "camera.azimuth=60deg",
+                           "draw=[chain, ellipse, velocity, ghosts, "
+                           "frames, legend, ground, shadow, time]"}));
+  list.push_back(frame_of("arm_plain", "arm_ellipsoid", {"links=plain", "camera.distance=parallel"}));
+  list.push_back(frame_of("rr_oblique", "rr_forces", {"camera.azimuth=40deg", "links=visual"}));
+  list.push_back(frame_of("slow", "rr_torque", {"slow_motion=[{from: 0, until: 1, speed: 0.25}]"}));
   list.push_back(frame_of("transparent", "rr_forces", {"layout=transparent"}));
 }
 

@@ -34,7 +34,7 @@ class InTheDark : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Kinds, InTheDark,
                          testing::Values("rr_ellipse", "euler_gains_energy", "compare_layers", "plots_right",
                                          "poses_rr", "ellipse_row", "ellipse_field", "ellipse_along",
-                                         "ellipse_joint_space", "energy_chart", "stability_map"),
+                                         "ellipse_joint_space", "energy_chart", "stability_map", "arm_section"),
                          [](const auto& p) { return std::string(p.param); });
 
 TEST_P(InTheDark, LooksLikeItsGolden) {
