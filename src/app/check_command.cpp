@@ -118,6 +118,13 @@ RunReport examine_run(const PreparedScene& prepared, int frames) {
                    cost_report(prepared.scene, prepared.simulation, frames)};
   if (!prepared.simulation.constraints.empty())
     report.model["constraints"] = constraint_plan_report(prepared.simulation);
+  report.cost["shapes"] = report.cost["triangles"] = 0;
+  if (prepared.shapes) {
+    std::size_t triangles = 0;
+    for (const BodyShape& shape : prepared.shapes->shapes) triangles += shape.mesh->triangles.size() / 3;
+    report.cost["shapes"] = prepared.shapes->shapes.size();
+    report.cost["triangles"] = triangles;
+  }
   if (prepared.choice) report.cost["auto"] = choice_report(*prepared.choice, prepared.scene.accuracy, true);
   return report;
 }
@@ -144,6 +151,9 @@ void print_run(const PreparedScene& prepared, const RunReport& report) {
                                   {"M_computed", "M"}})
     if (cost[key].get<int>() > 0) std::printf(", %d %s", cost[key].get<int>(), name);
   std::puts("");
+  if (prepared.shapes)
+    std::printf("drawn as %ld shapes of the model, %ld triangles a frame\n", cost["shapes"].get<long>(),
+                cost["triangles"].get<long>());
 }
 
 void check_scene(const CheckOptions& options) {

@@ -92,6 +92,14 @@ TEST_F(OnTheCommandLine, TheDistanceThatAnErrorNamesIsAccepted) {
   snapshot({"--distance", refused.err.substr(begin, end - begin)});
 }
 
+TEST_F(OnTheCommandLine, CheckTellsWhatIsDrawn) {
+  const Words words{"check", "assets/scenes/arm_ellipsoid.yaml", "--json"};
+  const Json shapes = Json::parse(run_program(words).out)["cost"];
+  EXPECT_EQ(shapes["shapes"], 13);  // <visual>s in the file
+  EXPECT_GT(shapes["triangles"], 1000);
+  EXPECT_EQ(Json::parse(run_program(with(words, {"--set", "links=plain"})).out)["cost"]["shapes"], 0);
+}
+
 TEST_F(OnTheCommandLine, SectionsHaveTwoSemiAxes) {
   const auto report = [&](const std::string& shape) {
     const ProgramResult result =
