@@ -16,26 +16,21 @@
 
 #include "core/triangle_mesh.hpp"
 #include "mesh/mesh_extents.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace chainreel {
 
 // A folder of its own for a test, gone with it.
 class MeshFolder : public testing::Test {
  protected:
-  MeshFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "chainreel_mesh_test_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) std::abort();
-    folder_ = name;
-  }
-  ~MeshFolder() override { std::filesystem::remove_all(folder_); }
-
   std::string file(const std::string& name, const std::string& content) const {
     const std::string path = (folder_ / name).string();
     std::ofstream(path, std::ios::binary) << content;
     return path;
   }
 
-  std::filesystem::path folder_;
+  const TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 using Triangle = std::array<Eigen::Vector3d, 3>;
