@@ -167,15 +167,15 @@ void run_chart(const ChartOptions& options) {
 
 }  // namespace
 
-void add_chart_command(CLI::App& app) {
+void add_chart_command(CommandLine& app) {
   auto options = std::make_shared<ChartOptions>();
-  CLI::App* command =
+  Command* command =
       app.add_subcommand("chart", "speed against accuracy: a work-precision diagram of a scene");
-  command->add_option("scene", options->scene, "a scene file")->required();
+  command->add_option("scene", options->scene, "a scene file").required();
   command->add_option("--methods", options->methods, "rk4,taylor,.. (default all that take the scene)");
-  command->add_option("--runs", options->runs, "of each rung; the median counts")->check(CLI::Range(1, 1000));
+  command->add_option("--runs", options->runs, "of each rung; the median counts").range(1, 1000);
   command->add_option("--longest", options->longest, "s: rungs that would take longer are left out")
-      ->check(CLI::PositiveNumber);
+      .positive();
   add_figure_options(*command, options->figure, options->common, "out/NAME_chart.png");
   add_common_options(*command, options->common);
   command->footer("Example: chainreel chart assets/scenes/rr_free.yaml -o out/chart.svg");

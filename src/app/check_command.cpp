@@ -207,11 +207,11 @@ void check_model(const CheckOptions& options) {
 
 }  // namespace
 
-void add_check_command(CLI::App& app) {
+void add_check_command(CommandLine& app) {
   auto options = std::make_shared<CheckOptions>();
-  CLI::App* command =
+  Command* command =
       app.add_subcommand("check", "the effective scene with all defaults, or what a model holds");
-  command->add_option("file", options->file, "a scene (.yaml) or a model (.urdf)")->required();
+  command->add_option("file", options->file, "a scene (.yaml) or a model (.urdf)").required();
   add_common_options(*command, options->common);
   command->footer("Example: chainreel check assets/scenes/rr_free.yaml --set method=rk4");
   command->callback(

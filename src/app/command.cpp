@@ -9,12 +9,12 @@
 #include "scene/sweep.hpp"
 
 namespace chainreel {
-void add_common_options(CLI::App& command, CommonOptions& options) {
-  add_repeatable(command, "--set", options.set, "override a scene key: --set video.width=640 (repeatable)");
-  add_repeatable(command, "--package", options.package,
+void add_common_options(Command& command, CommonOptions& options) {
+  command.add_repeatable("--set", options.set, "override a scene key: --set video.width=640 (repeatable)");
+  command.add_repeatable("--package", options.package,
                  "where package://NAME lies: --package NAME=folder (repeatable)");
   command.add_option("--base", options.base, "how the root link is held")
-      ->check(CLI::IsMember({"fixed", "floating"}));
+      .one_of({"fixed", "floating"});
   command.add_flag("--json", options.json, "print the result as JSON on standard output");
   command.add_flag("--quiet", options.quiet, "no progress, no closing words");
   command.add_flag("--force", options.force, "overwrite files outside a folder named out");
@@ -45,8 +45,8 @@ std::vector<std::string> overrides_of(const CommonOptions& options) {
   return overrides;
 }
 
-void add_vary_option(CLI::App& command, std::vector<std::string>& vary) {
-  add_repeatable(command, "--vary", vary,
+void add_vary_option(Command& command, std::vector<std::string>& vary) {
+  command.add_repeatable("--vary", vary,
                  "show variants of the scene side by side: KEY=a,b,c or KEY=from:to:count, like "
                  "method=explicit_euler,rk4,taylor");
 }
@@ -75,29 +75,6 @@ ModelOptions model_options_of(const CommonOptions& options) {
   model.floating_base = options.base == "floating";
   for (const std::string& text : options.package) model.packages.insert(parse_package(text));
   return model;
-}
-
-CLI::Option* add_repeatable(CLI::App& command, const std::string& name, std::vector<std::string>& values,
-                            const std::string& help) {
-  return command.add_option(name, values, help)
-      ->type_size(1)
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
-
-std::vector<std::string> words_of(const CLI::App& command) {
-  std::vector<std::string> words{command.get_name()};
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = option->get_single_name();
-    if (option->count() == 0 || name == "output" || name == "force" || name == "quiet" || name == "json") continue;
-    const bool is_flag = option->get_items_expected_max() == 0;
-    for (const std::string& value : is_flag ? std::vector<std::string>{""} : option->results()) {
-      if (!option->get_positional()) words.push_back("--" + name);
-      if (!is_flag) words.push_back(value);
-    }
-  }
-  return words;
 }
 
 std::vector<double> parse_list(const std::string& text, const std::string& what) {

@@ -2,10 +2,10 @@
 // one that runs it. What a command throws is caught once, in main.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
+#include "app/command_line.hpp"
 #include "app/scene_flags.hpp"
 #include "model/read_chain.hpp"
 
@@ -22,25 +22,17 @@ struct CommonOptions {
   bool force = false;
 };
 
-void add_common_options(CLI::App& command, CommonOptions& options);
+void add_common_options(Command& command, CommonOptions& options);
 
 // `set` with what the other options say in the words of a scene.
 std::vector<std::string> overrides_of(const CommonOptions& options);
 // The same for a model without a scene.
 ModelOptions model_options_of(const CommonOptions& options);
 
-void add_vary_option(CLI::App& command, std::vector<std::string>& vary);
+void add_vary_option(Command& command, std::vector<std::string>& vary);
 // Adds what --vary KEY=a,b,c says in the words of a scene, as its key `compare`: a panel a value, with several
 // options a panel a combination. Throws Error (usage) for more than twelve panels.
 void add_comparison(const std::vector<std::string>& vary, std::vector<std::string>& overrides);
-
-// An option that takes one argument each time it stands there, and never swallows what follows.
-CLI::Option* add_repeatable(CLI::App& command, const std::string& name, std::vector<std::string>& values,
-                            const std::string& help);
-
-// What was given to the command, as words that say it again: what is found out by default, where the result goes and
-// how much is told are left out.
-std::vector<std::string> words_of(const CLI::App& command);
 
 // "0,90deg" as numbers; `what` names the option in the error.
 std::vector<double> parse_list(const std::string& text, const std::string& what);
@@ -59,22 +51,22 @@ Eigen::Vector3d parse_gravity(const std::string& text);
 // A file that names a mechanism, not a scene: .urdf or .xml.
 bool is_model_file(const std::string& path);
 
-void add_render_command(CLI::App& app);
-void add_snapshot_command(CLI::App& app);
-void add_ellipse_command(CLI::App& app);
-void add_simulate_command(CLI::App& app);
-void add_extract_command(CLI::App& app);
-void add_dynamics_command(CLI::App& app);
-void add_inverse_command(CLI::App& app);
-void add_init_command(CLI::App& app);
-void add_check_command(CLI::App& app);
-void add_doctor_command(CLI::App& app);
-void add_methods_command(CLI::App& app);
-void add_chart_command(CLI::App& app);
-void add_energy_command(CLI::App& app);
-void add_stability_command(CLI::App& app);
-void add_fall_command(CLI::App& app);
-void add_sheet_command(CLI::App& app);
-void add_gallery_command(CLI::App& app);
+void add_render_command(CommandLine& app);
+void add_snapshot_command(CommandLine& app);
+void add_ellipse_command(CommandLine& app);
+void add_simulate_command(CommandLine& app);
+void add_extract_command(CommandLine& app);
+void add_dynamics_command(CommandLine& app);
+void add_inverse_command(CommandLine& app);
+void add_init_command(CommandLine& app);
+void add_check_command(CommandLine& app);
+void add_doctor_command(CommandLine& app);
+void add_methods_command(CommandLine& app);
+void add_chart_command(CommandLine& app);
+void add_energy_command(CommandLine& app);
+void add_stability_command(CommandLine& app);
+void add_fall_command(CommandLine& app);
+void add_sheet_command(CommandLine& app);
+void add_gallery_command(CommandLine& app);
 
 }  // namespace chainreel

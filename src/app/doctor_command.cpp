@@ -72,9 +72,9 @@ void run_doctor(const CommonOptions& options) {
 
 }  // namespace
 
-void add_doctor_command(CLI::App& app) {
+void add_doctor_command(CommandLine& app) {
   auto options = std::make_shared<CommonOptions>();
-  CLI::App* command =
+  Command* command =
       app.add_subcommand("doctor", "the renderer, encoders, fonts and versions of this machine");
   add_common_options(*command, *options);
   command->footer("Example: chainreel doctor --json");

@@ -156,22 +156,22 @@ void run_dynamics(const DynamicsOptions& options) {
 
 }  // namespace
 
-void add_dynamics_command(CLI::App& app) {
+void add_dynamics_command(CommandLine& app) {
   auto options = std::make_shared<DynamicsOptions>();
-  CLI::App* command =
+  Command* command =
       app.add_subcommand("dynamics", "M, nle, qdd, J, Lambda and the energies of a model in one state");
-  command->add_option("model", options->model, "a model (.urdf)")->required();
+  command->add_option("model", options->model, "a model (.urdf)").required();
   command->add_option("--q", options->q, "joint positions: --q 0,90deg");
   command->add_option("--qd", options->qd, "joint rates");
   command->add_option("--tau", options->tau, "joint torques, N m or N");
   command->add_option("--gravity", options->gravity, "world x,y,z in m/s^2");
   command->add_option("--end-effector", options->end_effector, "the link that x, J and Lambda speak of");
   command->add_option("--formulation", options->formulation, "where M, nle, tau_g and qdd come from")
-      ->check(CLI::IsMember({"newton_euler", "lagrange"}))
-      ->capture_default_str();
+      .one_of({"newton_euler", "lagrange"})
+      .show_default();
   command->add_option("--task", options->task, "rows of J: linear velocity, or angular and linear")
-      ->check(CLI::IsMember({"linear", "full"}))
-      ->capture_default_str();
+      .one_of({"linear", "full"})
+      .show_default();
   add_common_options(*command, options->common);
   command->footer("Example: chainreel dynamics models/rr.urdf --q 0,90deg --json");
   command->callback([options] { run_dynamics(*options); });

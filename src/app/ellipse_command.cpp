@@ -31,7 +31,7 @@ struct EllipseOptions {
   std::string title;
   int width = 1920, height = 1080;
   CommonOptions common;
-  const CLI::App* command = nullptr;
+  const Command* command = nullptr;
 
   EllipseReading read_as() const { return reading_named(reading); }
   // In the plane there is nothing to cut.
@@ -156,25 +156,25 @@ void run_ellipse(const EllipseOptions& options) {
 
 }  // namespace
 
-void add_ellipse_command(CLI::App& app) {
+void add_ellipse_command(CommandLine& app) {
   auto options = std::make_shared<EllipseOptions>();
-  CLI::App* command = app.add_subcommand("ellipse", "a figure of the effective mass at chosen poses");
+  Command* command = app.add_subcommand("ellipse", "a figure of the effective mass at chosen poses");
   command->add_option("model", options->model, "a model (.urdf); not with --along");
   PoseSources& sources = options->sources;
-  add_repeatable(*command, "--pose", sources.poses, "q of the chain: --pose 0,90deg (repeatable)");
+  command->add_repeatable("--pose", sources.poses, "q of the chain: --pose 0,90deg (repeatable)");
   command->add_option("--sweep", sources.sweep, "poses that differ in one coordinate: --sweep q2=0:180deg:9");
   command->add_option("--along", sources.along, "poses along the motion of a scene (.yaml)");
   command->add_flag("--field", sources.field, "a grid of points of the workspace, of planar chains of 2 or 3 joints");
   command->add_option("--samples", sources.samples, "poses --along (default 6), points across the --field (default 12)")
-      ->check(CLI::Range(1, 200));
+      .range(1, 200);
   command->add_option("--elbow", sources.elbow, "of a --field: up, the elbow left of the way to the end, or down")
-      ->check(CLI::IsMember({"up", "down"}));
+      .one_of({"up", "down"});
   command->add_option("--reading", options->reading,
                       "mass: forces for unit accelerations (default); energy: velocities of equal kinetic energy; "
                       "belt: mass felt along each direction")
-      ->check(CLI::IsMember(reading_names()));
+      .one_of(reading_names());
   command->add_option("--layout", options->layout, "of the poses: grid, row, superposed")
-      ->check(CLI::IsMember(figure_layout_names()));
+      .one_of(figure_layout_names());
   command->add_flag("--joint-space", options->joint_space, "the unit circle of accelerations beside its image under M(q)");
   command->add_option("--joints", options->joints, "the two joints of --joint-space: --joints 1,2");
   command->add_option("-o,--output", options->output,
@@ -184,9 +184,9 @@ void add_ellipse_command(CLI::App& app) {
   add_scene_flags(*command, options->common.flags, kLookFlags);
   add_scene_flags(*command, options->common.flags, kViewFlags);
   command->add_option("--shape", options->shape, "of arms in space: ellipsoid, or section by the xy plane of the end effector")
-      ->check(CLI::IsMember({"ellipsoid", "section"}));
-  command->add_option("--width", options->width, "pixels")->check(CLI::Range(16, 16384));
-  command->add_option("--height", options->height, "pixels")->check(CLI::Range(16, 16384));
+      .one_of({"ellipsoid", "section"});
+  command->add_option("--width", options->width, "pixels").range(16, 16384);
+  command->add_option("--height", options->height, "pixels").range(16, 16384);
   add_common_options(*command, options->common);
   command->footer(
       "Example: chainreel ellipse models/rr.urdf --pose 0,90deg --pose 0,150deg -o out/ellipse.png");

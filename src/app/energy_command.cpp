@@ -152,18 +152,18 @@ void run_energy(const EnergyOptions& options) {
 
 }  // namespace
 
-void add_energy_command(CLI::App& app) {
+void add_energy_command(CommandLine& app) {
   auto options = std::make_shared<EnergyOptions>();
-  CLI::App* command =
+  Command* command =
       app.add_subcommand("energy", "a chart of the energy error against time, a curve a method");
-  command->add_option("scene", options->scene, "a scene file")->required();
+  command->add_option("scene", options->scene, "a scene file").required();
   command->add_option("--until", options->until, "how long, like 1000s (default the scene's duration)");
   command->add_option("--methods", options->methods, "rk4,taylor,.. (default all that take the scene)");
   command->add_option("--step", options->step, "s, of methods of fixed step (default the scene's, else 0.01)")
-      ->check(CLI::PositiveNumber);
+      .positive();
   command
       ->add_option("--tolerance", options->tolerance, "of adaptive methods (default the scene's, else 1e-9)")
-      ->check(CLI::PositiveNumber);
+      .positive();
   add_figure_options(*command, options->figure, options->common, "out/NAME_energy.png");
   add_common_options(*command, options->common);
   command->footer("Example: chainreel energy assets/scenes/rr_free.yaml --until 100s --step 0.01");

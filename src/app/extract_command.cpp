@@ -68,11 +68,11 @@ void run_extract(const ExtractOptions& options) {
 
 }  // namespace
 
-void add_extract_command(CLI::App& app) {
+void add_extract_command(CommandLine& app) {
   auto options = std::make_shared<ExtractOptions>();
-  CLI::App* command = app.add_subcommand("extract", "the scene that a clip or picture remembers, or the command that made a figure");
+  Command* command = app.add_subcommand("extract", "the scene that a clip or picture remembers, or the command that made a figure");
   command->add_option("clip", options->clip, "a .mp4, .mov, .webm, .gif, .png, .apng, .svg or .pdf file")
-      ->required();
+      .required();
   command->add_option(
       "-o,--output", options->output,
       "a .yaml file, its paths as found from there (default: standard output, paths as found from "

@@ -141,14 +141,14 @@ void run_fall(const FallOptions& options) {
 
 }  // namespace
 
-void add_fall_command(CLI::App& app) {
+void add_fall_command(CommandLine& app) {
   auto options = std::make_shared<FallOptions>();
-  CLI::App* command = app.add_subcommand("fall", "when a scene's model falls, against one of its keys");
-  command->add_option("scene", options->scene, "a scene file with an event of kind fall")->required();
+  Command* command = app.add_subcommand("fall", "when a scene's model falls, against one of its keys");
+  command->add_option("scene", options->scene, "a scene file with an event of kind fall").required();
   command->add_option("--sweep", options->sweep,
                       "KEY=a,b,c or KEY=from:to:count, maybe with :log behind it, like torque.1=0:60:7");
   command->add_option("-o,--output", options->output, "a .csv file");
-  command->add_option("--threads", options->threads, "default: all cores")->check(CLI::Range(1, 256));
+  command->add_option("--threads", options->threads, "default: all cores").range(1, 256);
   add_common_options(*command, options->common);
   command->footer("Example: chainreel fall assets/scenes/humanoid_fall.yaml --sweep parameters.k=0:1200:7");
   command->callback([options] { run_fall(*options); });

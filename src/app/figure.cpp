@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/pipeline.hpp"
+#include "app/version.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/hash.hpp"
@@ -17,19 +18,19 @@ namespace {
 constexpr std::array<const char*, 4> kEndings = {".png", ".svg", ".pdf", ".csv"};
 
 std::string version_text() {
-  return std::string(CHAINREEL_VERSION) + ", " + CHAINREEL_REVISION;
+  return std::string(program_version()) + ", " + program_revision();
 }
 
 }  // namespace
 
-void add_figure_options(CLI::App& command, FigureOptions& options, CommonOptions& common,
+void add_figure_options(Command& command, FigureOptions& options, CommonOptions& common,
                         const std::string& default_output) {
   command.add_option("-o,--output", options.output,
                      "a .png, .svg, .pdf or .csv file (default " + default_output +
                          "); the numbers are "
                          "written as CSV beside the picture");
-  command.add_option("--width", options.width, "pixels")->check(CLI::Range(16, 16384));
-  command.add_option("--height", options.height, "pixels")->check(CLI::Range(16, 16384));
+  command.add_option("--width", options.width, "pixels").range(16, 16384);
+  command.add_option("--height", options.height, "pixels").range(16, 16384);
   add_scene_flags(command, common.flags, kLookFlags);
   options.command = &command;
 }
@@ -55,11 +56,11 @@ std::vector<std::string> write_figure(const Picture& picture, const std::string&
   return {path, table};
 }
 
-ClipMemory memory_of_figure(const CLI::App& command, const std::string& title) {
-  return {title, {}, {}, {}, {{"arguments", words_of(command)}}};
+ClipMemory memory_of_figure(const Command& command, const std::string& title) {
+  return {title, {}, {}, {}, {{"arguments", command.words()}}};
 }
 
-ClipMemory memory_of_figure(const CLI::App& command, const std::string& title, const std::string& model,
+ClipMemory memory_of_figure(const Command& command, const std::string& title, const std::string& model,
                             const std::vector<std::vector<double>>& poses) {
   ClipMemory memory = memory_of_figure(command, title);
   memory.figure["poses"] = poses;

@@ -18,11 +18,11 @@ namespace chainreel {
 struct FigureOptions {
   std::string output;
   int width = 1920, height = 1080;
-  const CLI::App* command = nullptr;  // what it was given is remembered by the picture
+  const Command* command = nullptr;  // what it was given is remembered by the picture
 };
 
 // With the flags --theme and --text-scale: a chart has the look of its scene unless they say otherwise.
-void add_figure_options(CLI::App& command, FigureOptions& options, CommonOptions& common,
+void add_figure_options(Command& command, FigureOptions& options, CommonOptions& common,
                         const std::string& default_output);
 
 // Throws Error (usage) unless the ending is .png, .svg, .pdf or .csv.
@@ -37,8 +37,8 @@ std::vector<std::string> write_figure(const Picture& picture, const std::string&
                                       const Fonts& fonts, bool overwrite);
 
 // What a figure remembers that shows no scene: the words that made it, and the model and its poses where there are.
-ClipMemory memory_of_figure(const CLI::App& command, const std::string& title);
-ClipMemory memory_of_figure(const CLI::App& command, const std::string& title, const std::string& model,
+ClipMemory memory_of_figure(const Command& command, const std::string& title);
+ClipMemory memory_of_figure(const Command& command, const std::string& title, const std::string& model,
                             const std::vector<std::vector<double>>& poses);
 
 // "rk4,taylor": rows of the registry; "" is all of them.

@@ -55,9 +55,9 @@ void run_gallery(const GalleryOptions& options) {
 
 }  // namespace
 
-void add_gallery_command(CLI::App& app) {
+void add_gallery_command(CommandLine& app) {
   auto options = std::make_shared<GalleryOptions>();
-  CLI::App* command = app.add_subcommand(
+  Command* command = app.add_subcommand(
       "gallery", "one page for browsers with films, their audits, charts and scenes, without a server");
   command->add_option("paths", options->paths, "folders with films, or films: .mp4, .webm (default out)");
   command->add_option("-o,--output", options->output, "a .html file (default out/index.html)");

@@ -5,6 +5,7 @@
 #include "app/gallery_audit.hpp"
 #include "app/page_template.hpp"
 #include "app/signals.hpp"
+#include "app/version.hpp"
 #include "core/base64.hpp"
 #include "core/format.hpp"
 #include "encode/png.hpp"
@@ -90,7 +91,7 @@ void write_gallery(std::ostream& stream, const std::vector<GalleryClip>& clips, 
   };
   fill_page(stream, embedded_page("gallery.html"),
             {{"title", plain(title)},
-             {"generator", plain(std::string("chainreel ") + CHAINREEL_VERSION)},
+             {"generator", plain(std::string("chainreel ") + program_version())},
              {"summary", plain(summary)},
              {"style", markup(std::string(embedded_page("gallery.css")))},
              {"script", markup(std::string(embedded_page("gallery.js")))},

@@ -42,10 +42,10 @@ void run_init(const InitOptions& options) {
 
 }  // namespace
 
-void add_init_command(CLI::App& app) {
+void add_init_command(CommandLine& app) {
   auto options = std::make_shared<InitOptions>();
-  CLI::App* command = app.add_subcommand("init", "write a commented scene and model to start from");
-  command->add_option("name", options->name, "NAME gives NAME.yaml and NAME.urdf")->required();
+  Command* command = app.add_subcommand("init", "write a commented scene and model to start from");
+  command->add_option("name", options->name, "NAME gives NAME.yaml and NAME.urdf").required();
   add_common_options(*command, options->common);
   command->footer("Example: chainreel init my_arm");
   command->callback([options] { run_init(*options); });

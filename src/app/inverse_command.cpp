@@ -70,14 +70,14 @@ void run_inverse(const InverseOptions& options) {
 
 }  // namespace
 
-void add_inverse_command(CLI::App& app) {
+void add_inverse_command(CommandLine& app) {
   auto options = std::make_shared<InverseOptions>();
-  CLI::App* command = app.add_subcommand("inverse", "the torques that a motion takes, from CSV to CSV");
-  command->add_option("model", options->model, "a model (.urdf)")->required();
+  Command* command = app.add_subcommand("inverse", "the torques that a motion takes, from CSV to CSV");
+  command->add_option("model", options->model, "a model (.urdf)").required();
   command
       ->add_option("--trajectory", options->trajectory,
                    "a .csv with t,q1.. and maybe qd1.., qdd1.. (else splines)")
-      ->required();
+      .required();
   command->add_option("-o,--output", options->output, "a .csv file, or - (default out/TRAJECTORY_tau.csv)");
   command->add_option("--gravity", options->gravity, "world x,y,z in m/s^2");
   add_common_options(*command, options->common);

@@ -4,16 +4,20 @@
 
 #include "app/command.hpp"
 #include "app/signals.hpp"
+#include "app/version.hpp"
 #include "core/error.hpp"
 
 namespace {
 
 int run(int argc, char** argv) {
   using namespace chainreel;
-  CLI::App app("chainreel: from a scene file to a film of a robot chain moving under given torques.");
-  app.name("chainreel");
-  app.require_subcommand(1);
-  app.set_version_flag("--version", CHAINREEL_VERSION);
+  CommandLine app(
+      "chainreel", "chainreel: from a scene file to a film of a robot chain moving under given torques.",
+      program_version(),
+      "Exit codes: 0 good, 1 a comparison failed, 2 usage, 3 bad input, 4 no renderer or codec, 5 numerical "
+      "failure,\n"
+      "6 file or disk, 7 a limit exceeded, 130 and 143 signals.\n"
+      "Example: chainreel render assets/scenes/rr_free.yaml");
   add_render_command(app);
   add_snapshot_command(app);
   add_ellipse_command(app);
@@ -31,17 +35,7 @@ int run(int argc, char** argv) {
   add_fall_command(app);
   add_sheet_command(app);
   add_gallery_command(app);
-  app.footer(
-      "Exit codes: 0 good, 1 a comparison failed, 2 usage, 3 bad input, 4 no renderer or codec, 5 numerical "
-      "failure,\n"
-      "6 file or disk, 7 a limit exceeded, 130 and 143 signals.\n"
-      "Example: chainreel render assets/scenes/rr_free.yaml");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? int(ExitCode::good) : int(ExitCode::usage);
-  }
-  return int(ExitCode::good);
+  return app.run(argc, argv);
 }
 
 }  // namespace

@@ -58,9 +58,9 @@ void run_methods(const CommonOptions& options) {
 
 }  // namespace
 
-void add_methods_command(CLI::App& app) {
+void add_methods_command(CommandLine& app) {
   auto options = std::make_shared<CommonOptions>();
-  CLI::App* command = app.add_subcommand("methods", "the integrators: order, kind and source of each");
+  Command* command = app.add_subcommand("methods", "the integrators: order, kind and source of each");
   add_common_options(*command, *options);
   command->footer("Example: chainreel methods --json");
   command->callback([options] { run_methods(*options); });

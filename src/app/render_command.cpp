@@ -106,14 +106,13 @@ void run_render(const RenderOptions& options) {
 
 }  // namespace
 
-void add_render_command(CLI::App& app) {
+void add_render_command(CommandLine& app) {
   auto options = std::make_shared<RenderOptions>();
-  CLI::App* command = app.add_subcommand("render",
+  Command* command = app.add_subcommand("render",
                                          "render scenes to films, clips and pictures, each with its audit as "
                                          "NAME.json and in words as NAME.txt");
-  command->add_option("scenes", options->scenes, "scene files")->required();
-  add_repeatable(
-      *command, "-o,--output", options->outputs,
+  command->add_option("scenes", options->scenes, "scene files").required();
+  command->add_repeatable("-o,--output", options->outputs,
       "a .mp4, .webm, .mov, .gif, .apng, .png, .svg, .pdf or .csv file, or NAME_000000.png for a sequence "
       "(repeatable: each frame is drawn once for all), or a folder (default out/NAME.mp4)");
   for (const std::span<const SceneFlag> flags : {std::span<const SceneFlag>(kOutputFlags), {kLookFlags}, {kPageFlags}, {kViewFlags}})

@@ -4,6 +4,7 @@
 
 #include "app/automatic.hpp"
 #include "app/constraint_report.hpp"
+#include "app/version.hpp"
 #include "core/format.hpp"
 #include "core/hash.hpp"
 #include "encode/libraries.hpp"
@@ -60,7 +61,7 @@ std::string matrix_text(const Eigen::MatrixXd& matrix, int digits) {
 }
 
 std::vector<LibraryLine> library_versions() {
-  std::vector<LibraryLine> lines{{"chainreel", CHAINREEL_VERSION}};
+  std::vector<LibraryLine> lines{{"chainreel", program_version()}};
   for (const LibraryVersion& library : encode_library_versions())
     lines.push_back({library.name, library.version});
   return lines;

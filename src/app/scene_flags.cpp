@@ -8,7 +8,7 @@
 
 namespace chainreel {
 
-void add_scene_flags(CLI::App& command, FlagValues& values, std::span<const SceneFlag> flags) {
+void add_scene_flags(Command& command, FlagValues& values, std::span<const SceneFlag> flags) {
   for (const SceneFlag& one : flags) command.add_option(one.flag, values[one.key], one.help);
 }
 

@@ -2,11 +2,12 @@
 // overrides_of(CommonOptions), so a command takes a group of flags by one line where it is registered.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <map>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "app/command_line.hpp"
 
 namespace chainreel {
 
@@ -46,7 +47,7 @@ inline constexpr SceneFlag kViewFlags[] = {
 using FlagValues = std::map<std::string, std::string>;
 
 // `values` must outlive the command.
-void add_scene_flags(CLI::App& command, FlagValues& values, std::span<const SceneFlag> flags);
+void add_scene_flags(Command& command, FlagValues& values, std::span<const SceneFlag> flags);
 // Appends "theme=dark" for each flag that was given.
 void add_overrides(const FlagValues& values, std::vector<std::string>& overrides);
 

@@ -25,7 +25,7 @@ struct SheetOptions {
   int columns = 0;
   int width = 1920, height = 1080;
   CommonOptions common;
-  const CLI::App* command = nullptr;
+  const Command* command = nullptr;
 };
 
 // What a small picture shows: all that is drawn, without the words around it.
@@ -74,7 +74,7 @@ std::vector<ContactCell> cells_of(const SheetOptions& options, const std::string
 }
 
 // It shows no scene of its own but many: the command is remembered.
-ClipMemory memory_of_sheet(const CLI::App& command, const std::vector<ContactCell>& cells) {
+ClipMemory memory_of_sheet(const Command& command, const std::vector<ContactCell>& cells) {
   ClipMemory memory = memory_of_figure(command, "Contact sheet");
   for (const ContactCell& cell : cells)
     memory.description += (memory.description.empty() ? "" : "; ") + cell.title;
@@ -102,20 +102,20 @@ void run_sheet(const SheetOptions& options) {
 
 }  // namespace
 
-void add_sheet_command(CLI::App& app) {
+void add_sheet_command(CommandLine& app) {
   auto options = std::make_shared<SheetOptions>();
-  CLI::App* command =
+  Command* command =
       app.add_subcommand("sheet", "a contact sheet: one picture of each scene, all on one page");
-  command->add_option("scenes", options->scenes, "scene files, up to 48")->required();
+  command->add_option("scenes", options->scenes, "scene files, up to 48").required();
   command->add_option(
       "--at", options->at,
       "instant of every scene in seconds, or its end where that is earlier (default: the last "
       "event of a scene, else its middle)");
   command->add_option("-o,--output", options->output, "a .png, .svg or .pdf file (default out/sheet.png)");
   command->add_option("--columns", options->columns, "default: as many as make the pictures largest")
-      ->check(CLI::Range(1, kMostCells));
-  command->add_option("--width", options->width, "pixels")->check(CLI::Range(16, 16384));
-  command->add_option("--height", options->height, "pixels")->check(CLI::Range(16, 16384));
+      .range(1, kMostCells);
+  command->add_option("--width", options->width, "pixels").range(16, 16384);
+  command->add_option("--height", options->height, "pixels").range(16, 16384);
   add_scene_flags(*command, options->common.flags, kLookFlags);
   add_common_options(*command, options->common);
   command->footer("Example: chainreel sheet assets/scenes/*.yaml -o out/sheet.png");

@@ -97,15 +97,15 @@ void run_simulate(const SimulateOptions& options) {
 
 }  // namespace
 
-void add_simulate_command(CLI::App& app) {
+void add_simulate_command(CommandLine& app) {
   auto options = std::make_shared<SimulateOptions>();
-  CLI::App* command = app.add_subcommand("simulate", "run a scene and write its states as CSV");
-  command->add_option("scene", options->scene, "a scene file")->required();
+  Command* command = app.add_subcommand("simulate", "run a scene and write its states as CSV");
+  command->add_option("scene", options->scene, "a scene file").required();
   command->add_option("-o,--output", options->output,
                       "a .csv file, or - for standard output (default out/NAME.csv); of a scene with several "
                       "panels NAME.1.csv, NAME.2.csv, ...");
   command->add_option("--panel", options->panel, "one panel of a scene that compares several, from 1")
-      ->check(CLI::Range(1, 12));
+      .range(1, 12);
   command->add_flag("--every-step", options->every_step, "a row a step instead of a row a frame");
   add_common_options(*command, options->common);
   command->footer("Example: chainreel simulate assets/scenes/pp_free.yaml -o out/pp_free.csv");

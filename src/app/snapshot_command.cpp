@@ -27,7 +27,7 @@ struct SnapshotOptions {
   std::vector<std::string> vary;
   int width = 0, height = 0;
   CommonOptions common;
-  const CLI::App* command = nullptr;
+  const Command* command = nullptr;
 };
 
 std::string default_output(const SnapshotOptions& options) {
@@ -88,18 +88,18 @@ void run_snapshot(const SnapshotOptions& options) {
 
 }  // namespace
 
-void add_snapshot_command(CLI::App& app) {
+void add_snapshot_command(CommandLine& app) {
   auto options = std::make_shared<SnapshotOptions>();
-  CLI::App* command =
+  Command* command =
       app.add_subcommand("snapshot", "one picture: a scene at an instant, or a model at poses");
-  command->add_option("file", options->file, "a scene (.yaml) or a model (.urdf)")->required();
+  command->add_option("file", options->file, "a scene (.yaml) or a model (.urdf)").required();
   command->add_option("--at", options->at, "instant of the scene in seconds (default 0)");
-  add_repeatable(*command, "--pose", options->poses, "q of a model: --pose 0,90deg (repeatable)");
+  command->add_repeatable("--pose", options->poses, "q of a model: --pose 0,90deg (repeatable)");
   command->add_option("-o,--output", options->output, "a .png, .svg or .pdf file (default out/NAME.png)");
   command->add_option("--end-effector", options->end_effector,
                       "the link that is marked, of a model with several ends");
-  command->add_option("--width", options->width, "pixels")->check(CLI::Range(16, 16384));
-  command->add_option("--height", options->height, "pixels")->check(CLI::Range(16, 16384));
+  command->add_option("--width", options->width, "pixels").range(16, 16384);
+  command->add_option("--height", options->height, "pixels").range(16, 16384);
   add_scene_flags(*command, options->common.flags, kLookFlags);
   add_scene_flags(*command, options->common.flags, kPageFlags);
   add_scene_flags(*command, options->common.flags, kViewFlags);

@@ -197,15 +197,15 @@ void run_stability(const StabilityOptions& options) {
 
 }  // namespace
 
-void add_stability_command(CLI::App& app) {
+void add_stability_command(CommandLine& app) {
   auto options = std::make_shared<StabilityOptions>();
-  CLI::App* command = app.add_subcommand(
+  Command* command = app.add_subcommand(
       "stability", "a map of where a scene fails over two of its keys, or which method does");
-  command->add_option("scene", options->scene, "a scene file")->required();
+  command->add_option("scene", options->scene, "a scene file").required();
   command->add_option("--x", options->x, "KEY=from:to:count, maybe with :log behind it");
   command->add_option("--y", options->y, "the same, upward");
   command->add_option("--methods", options->methods, "of the table: rk4,taylor,.. (default all)");
-  command->add_option("--threads", options->threads, "default: all cores")->check(CLI::Range(1, 256));
+  command->add_option("--threads", options->threads, "default: all cores").range(1, 256);
   add_figure_options(*command, options->figure, options->common, "out/NAME_stability.png");
   add_common_options(*command, options->common);
   command->footer(

@@ -1,0 +1,66 @@
+// The command line's words: subcommands, their options and flags. CLI11 reads them, behind one unit: its headers
+// cost more to compile than any command.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace chainreel {
+
+// An option of a command, to say more of it where it is added.
+class Option {
+ public:
+  explicit Option(void* option) : option_(option) {}
+
+  Option required();
+  Option range(int least, int most);
+  Option positive();
+  Option one_of(std::vector<std::string> words);
+  Option show_default();  // in the help
+
+ private:
+  void* option_;
+};
+
+// What was added is filled in when the command line is parsed: targets must outlive it. Names as in "-o,--output";
+// without a dash the option is known by its place.
+class Command {
+ public:
+  explicit Command(void* command) : command_(command) {}
+
+  Option add_option(const std::string& name, std::string& target, const std::string& help);
+  Option add_option(const std::string& name, int& target, const std::string& help);
+  Option add_option(const std::string& name, double& target, const std::string& help);
+  Option add_option(const std::string& name, std::vector<std::string>& target, const std::string& help);
+  // Takes one argument each time it stands there, and never swallows what follows.
+  Option add_repeatable(const std::string& name, std::vector<std::string>& target, const std::string& help);
+  Option add_flag(const std::string& name, bool& target, const std::string& help);
+  void footer(const std::string& text);
+  void callback(std::function<void()> run);
+
+  // What was given to the command, as words that say it again: what is found out by default, where the result goes
+  // and how much is told are left out.
+  std::vector<std::string> words() const;
+
+ private:
+  void* command_;
+};
+
+class CommandLine {
+ public:
+  CommandLine(const std::string& name, const std::string& about, const std::string& version,
+              const std::string& footer);
+  ~CommandLine();
+
+  Command* add_subcommand(const std::string& name, const std::string& about);
+  // Runs the subcommand. Returns the exit code; what the callback throws passes through.
+  int run(int argc, char** argv);
+
+ private:
+  struct Parser;
+  std::unique_ptr<Parser> parser_;
+};
+
+}  // namespace chainreel
