@@ -1,9 +1,8 @@
 #include "dynamics/constrained_effective_mass.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include "dynamics/constrained_mass.hpp"
 #include "dynamics/constraint_rows.hpp"
+#include "dynamics/dense.hpp"
 #include "dynamics/scratch.hpp"
 
 namespace chainreel {
@@ -27,17 +26,17 @@ Mobilities mobilities_of(const Chain& chain, Workspace& ws, ConstrainedWorkspace
     M_inv_Jt.col(r) = column;
   }
   Mobilities result;
-  result.Lambda_inv = ws.J * M_inv_Jt;
+  result.Lambda_inv = product(ws.J, M_inv_Jt);
   result.free = result.Lambda_inv.trace();
   // Jc M^-1 J^T, and what the constraints' forces answer to each unit force.
   const Eigen::Map<const RowMajor> Jc(cws.Jc.data(), cws.solver.rows(), chain.nv);
-  const Eigen::MatrixXd coupling = Jc * M_inv_Jt;
+  const Eigen::MatrixXd coupling = product(Jc, M_inv_Jt);
   Eigen::MatrixXd answer(coupling.rows(), rows);
   for (Eigen::Index r = 0; r < rows; ++r) {
     const Eigen::VectorXd column = coupling.col(r);
     cws.solver.solve(column.data(), answer.col(r).data());
   }
-  result.Lambda_inv -= coupling.transpose() * answer;
+  result.Lambda_inv -= product(coupling.transpose(), answer);
   result.Lambda_inv = 0.5 * (result.Lambda_inv + result.Lambda_inv.transpose()).eval();
   return result;
 }
@@ -55,21 +54,9 @@ EffectiveMass constrained_effective_mass_of(const Chain& chain, Workspace& ws, c
   const Mobilities mobilities = mobilities_of(chain, ws, cws);
   result.Lambda_inv = mobilities.Lambda_inv;
 
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(result.Lambda_inv);
-  result.mobility = eigen.eigenvalues().cwiseMax(0.0);
-  result.directions = eigen.eigenvectors();
   // Against what the chain could do by itself: where all motion is forbidden, all that is left is round-off.
-  for (Eigen::Index k = 0; k < result.mobility.size(); ++k) {
-    Eigen::Index at = 0;
-    result.directions.col(k).cwiseAbs().maxCoeff(&at);
-    if (result.directions(at, k) < 0) result.directions.col(k) *= -1;
-    if (!(result.mobility(k) > kSingularFraction * mobilities.free))
-      result.singular_directions.emplace_back(result.directions.col(k));
-  }
-  if (result.singular_directions.empty()) {
-    result.Lambda =
-        result.directions * result.mobility.cwiseInverse().asDiagonal() * result.directions.transpose();
-  }
+  find_directions(result, mobilities.free);
+  if (result.singular_directions.empty()) result.Lambda = inverse_by_directions(result);
   return result;
 }
 

@@ -1,8 +1,7 @@
 #include "dynamics/constrained_inverse.hpp"
 
-#include <Eigen/QR>
-
 #include "dynamics/constraint_rows.hpp"
+#include "dynamics/dense.hpp"
 #include "dynamics/rnea.hpp"
 
 namespace chainreel {
@@ -44,14 +43,16 @@ void compute_constrained_inverse_dynamics(const Chain& chain, Workspace& ws, con
 Eigen::Vector3d contact_force(const Chain& chain, const ConstraintSet& set, const ConstrainedWorkspace& cws,
                               std::size_t k, ConstVec lambda) {
   const Eigen::Matrix3Xd forces = forces_of_rows(chain, set, cws, k);
-  return forces * Eigen::Map<const Eigen::VectorXd>(lambda.data() + set.first_row(k), forces.cols());
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = 0; i < forces.cols(); ++i) force += forces.col(i) * lambda[std::size_t(set.first_row(k) + i)];
+  return force;
 }
 
 void multipliers_of_force(const Chain& chain, const ConstraintSet& set, const ConstrainedWorkspace& cws,
                           std::size_t k, const Eigen::Vector3d& f, Vec lambda) {
   const Eigen::Matrix3Xd forces = forces_of_rows(chain, set, cws, k);
   Eigen::Map<Eigen::VectorXd>(lambda.data() + set.first_row(k), forces.cols()) =
-      forces.completeOrthogonalDecomposition().solve(f);
+      least_squares(forces, f);
 }
 
 }  // namespace chainreel

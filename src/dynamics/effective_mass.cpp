@@ -4,11 +4,10 @@
 // Automation 3 (1987), eq. 51.
 #include "dynamics/effective_mass.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 
 #include "dynamics/crba.hpp"
+#include "dynamics/dense.hpp"
 #include "dynamics/ldlt.hpp"
 #include "dynamics/recursions.hpp"
 #include "dynamics/scratch.hpp"
@@ -37,21 +36,25 @@ Eigen::MatrixXd inverse_of_effective_mass(const Chain& chain, Workspace& ws) {
   for (Eigen::Index r = 0; r < rows; ++r) {
     Eigen::Map<Eigen::VectorXd>(ws.tau.data(), chain.nv) = ws.J.row(r);
     solve_for_acceleration(chain, ws);
-    Lambda_inv.col(r) = ws.J * Eigen::Map<const Eigen::VectorXd>(ws.qdd.data(), chain.nv);
+    Lambda_inv.col(r) = product(ws.J, Eigen::Map<const Eigen::VectorXd>(ws.qdd.data(), chain.nv));
   }
   return 0.5 * (Lambda_inv + Lambda_inv.transpose());
 }
 
-// An eigenvector's sign is free: its largest number is made positive, the first of those that tie.
-void fix_signs(Eigen::MatrixXd& directions) {
-  for (Eigen::Index k = 0; k < directions.cols(); ++k) {
-    Eigen::Index at = 0;
-    directions.col(k).cwiseAbs().maxCoeff(&at);
-    if (directions(at, k) < 0) directions.col(k) = -directions.col(k);
-  }
+}  // namespace
+
+void find_directions(EffectiveMass& effective, double scale) {
+  SymmetricEigen eigen = eigen_of_symmetric(effective.Lambda_inv);
+  effective.mobility = eigen.values.cwiseMax(0.0);  // round-off may leave a zero below zero
+  effective.directions = std::move(eigen.vectors);
+  const double least = kSingularFraction * (scale > 0 ? scale : effective.mobility.maxCoeff());
+  for (Eigen::Index k = 0; k < effective.mobility.size(); ++k)
+    if (!(effective.mobility(k) > least)) effective.singular_directions.emplace_back(effective.directions.col(k));
 }
 
-}  // namespace
+Eigen::MatrixXd inverse_by_directions(const EffectiveMass& effective) {
+  return congruence(effective.directions.transpose(), effective.mobility.cwiseInverse().asDiagonal());
+}
 
 EffectiveMass effective_mass_of(const Chain& chain, Workspace& ws, ConstVec q, int frame, Task task) {
   EffectiveMass result;
@@ -59,27 +62,15 @@ EffectiveMass effective_mass_of(const Chain& chain, Workspace& ws, ConstVec q, i
   compute_jacobian(chain, ws, q, frame, task);
   result.Lambda_inv = inverse_of_effective_mass(chain, ws);
 
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(result.Lambda_inv);
-  result.mobility = eigen.eigenvalues().cwiseMax(0.0);  // round-off may leave a zero below zero
-  result.directions = eigen.eigenvectors();
-  fix_signs(result.directions);
-
-  const double largest = result.mobility.maxCoeff();
-  for (Eigen::Index k = 0; k < result.mobility.size(); ++k) {
-    const bool singular = !(result.mobility(k) > kSingularFraction * largest);
-    if (singular) result.singular_directions.emplace_back(result.directions.col(k));
-  }
+  find_directions(result, 0);
   if (!result.singular_directions.empty()) return result;
 
   if (ws.J.rows() == ws.J.cols()) {
     // Without the detour over the inverse, which squares the condition of J.
     compute_mass_matrix(chain, ws, q);
-    const Eigen::MatrixXd J_inv = ws.J.inverse();
-    const Eigen::MatrixXd Lambda = J_inv.transpose() * ws.M * J_inv;
-    result.Lambda = 0.5 * (Lambda + Lambda.transpose());
+    result.Lambda = congruence(inverse_of(ws.J), ws.M);
   } else {
-    result.Lambda =
-        result.directions * result.mobility.cwiseInverse().asDiagonal() * result.directions.transpose();
+    result.Lambda = inverse_by_directions(result);
   }
   return result;
 }
@@ -89,10 +80,9 @@ PlaneForm form_on_plane(const EffectiveMass& effective, const Eigen::VectorXd& v
   Eigen::MatrixXd E(values.size(), 2);
   for (Eigen::Index j = 0; j < values.size(); ++j)
     E.row(j) = effective.basis.directions[std::size_t(j)].transpose() * plane;
-  const Eigen::MatrixXd turned = effective.directions.transpose() * E;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(
-      Eigen::Matrix2d(turned.transpose() * values.asDiagonal() * turned));
-  return {solver.eigenvalues().cwiseMax(0), plane * solver.eigenvectors()};
+  const Eigen::MatrixXd turned = product(effective.directions.transpose(), E);
+  const SymmetricEigen eigen = eigen_of_symmetric(congruence(turned, values.asDiagonal()));
+  return {eigen.values.cwiseMax(0), plane * Eigen::Matrix2d(eigen.vectors)};
 }
 
 }  // namespace chainreel

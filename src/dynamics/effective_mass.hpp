@@ -27,6 +27,12 @@ struct EffectiveMass {
 // Uses ws.J, ws.M, ws.tau and ws.qdd on the way.
 EffectiveMass effective_mass_of(const Chain& chain, Workspace& ws, ConstVec q, int frame, Task task);
 
+// Fills mobility, directions and singular_directions from Lambda_inv. What lies below kSingularFraction of `scale`, 1/kg,
+// counts as zero; 0: of the largest mobility.
+void find_directions(EffectiveMass& effective, double scale);
+// Lambda from mobility and directions, none of them singular.
+Eigen::MatrixXd inverse_by_directions(const EffectiveMass& effective);
+
 // The quadratic form sum_i values_i d_i d_i^T, d_i the directions of Lambda_inv, on the plane of two perpendicular unit
 // vectors (columns, in W): its eigenvalues, rising, and their unit eigenvectors in W.
 struct PlaneForm {

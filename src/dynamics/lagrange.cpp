@@ -12,10 +12,10 @@
 // xi = 0: only the layer of time and one layer of x enter xi, so that every third power vanishes.
 #include "dynamics/lagrange.hpp"
 
-#include <Eigen/Cholesky>
 #include <array>
 
 #include "core/scalar.hpp"
+#include "dynamics/dense.hpp"
 #include "dynamics/friction.hpp"
 
 namespace chainreel {
@@ -218,7 +218,7 @@ LagrangeDynamics lagrange_dynamics_of(const Chain& chain, ConstVec q, ConstVec q
   const std::vector<double> tau_f = friction_of(chain, qd);
   for (Eigen::Index i = 0; i < n; ++i)
     result.qdd(i) = tau[std::size_t(i)] - tau_f[std::size_t(i)] - result.nle(i);
-  result.M.ldlt().solveInPlace(result.qdd);
+  result.qdd = solve_symmetric(result.M, result.qdd);
   return result;
 }
 
