@@ -1,6 +1,8 @@
 // chainreel stability SCENE [--x KEY=.. --y KEY=..]: where the scene fails, and which method fails on it.
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -150,13 +152,43 @@ std::string verdict(Simulation& simulation, const MethodSetting& setting) {
   return format_significant(audit_of(simulation, trajectory).largest_error, 2) + " J";
 }
 
+std::string limit_text(const std::optional<double>& limit) {
+  if (!limit) return "unknown";
+  return std::isfinite(*limit) ? format_significant(*limit, 4) : "none";
+}
+
+// "decays with 7063 /s", "swings with omega = 10 rad/s, damping ratio 0.05"
+std::string rate_text(const std::complex<double>& rate) {
+  const double size = std::abs(rate);
+  if (rate.imag() == 0)
+    return (rate.real() > 0 ? "grows with " : "decays with ") + format_significant(size, 6) + " /s";
+  std::string text = "swings with omega = " + format_significant(size, 6) + " rad/s";
+  if (rate.real() != 0) text += ", damping ratio " + format_significant(-rate.real() / size, 3);
+  return text;
+}
+
+void print_linearisation(const Linearisation& start) {
+  if (!start.trouble.empty()) return (void)std::printf("no limit can be told: %s\n", start.trouble.c_str());
+  std::printf("limits are those of the motion linearised about the start; its fastest part %s\n",
+              rate_text(start.rates.back()).c_str());
+  std::printf("none: stable at every step; 0: at no step; unknown: no limit was found\n");
+  if (!start.is_equilibrium)
+    std::printf("the start is no equilibrium (qd %s, qdd %s at most): elsewhere limits may differ\n",
+                format_significant(start.rate, 3).c_str(), format_significant(start.acceleration, 3).c_str());
+  const auto grows = std::find_if(start.rates.begin(), start.rates.end(),
+                                  [](const std::complex<double>& rate) { return rate.real() > 0; });
+  if (grows != start.rates.end())
+    std::printf("the motion itself is unstable there: a part of it %s; limits are those of the rest\n",
+                rate_text(*grows).c_str());
+}
+
 // "Who fails here": every method at three steps or tolerances.
 void print_methods(const StabilityOptions& options) {
   PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false);
   Simulation& simulation = prepared.simulation;
-  const std::vector<Mode> modes = oscillating_modes(simulation);
+  const Linearisation start = linearise(simulation);
   std::vector<std::vector<std::string>> table{
-      {"method", "coarse", "middle", "fine", "longest stable step, s"}};
+      {"method", "coarse", "middle", "fine", "limit of the step, s"}};
   std::string left_out;
   for (const Method* method : parse_methods(options.methods)) {
     simulation.method = method;
@@ -170,8 +202,7 @@ void print_methods(const StabilityOptions& options) {
     for (std::size_t k = 0; k < 3; ++k)
       row.push_back(verdict(simulation, method->adaptive ? MethodSetting{method, {kTableTolerances[k], 0}, 0}
                                                          : MethodSetting{method, {}, kTableSteps[k]}));
-    const std::optional<double> longest = longest_stable_step(*method, modes);
-    row.push_back(!longest ? "" : std::isfinite(*longest) ? format_significant(*longest, 4) : "any");
+    row.push_back(limit_text(longest_stable_step(*method, start)));
     table.push_back(row);
   }
   std::printf(
@@ -179,9 +210,7 @@ void print_methods(const StabilityOptions& options) {
       "1e-3, 1e-6 and 1e-9\n");
   std::fputs(table_text(table).c_str(), stdout);
   std::fputs(left_out.c_str(), stdout);
-  if (!modes.empty())
-    std::printf("linearised about the start: omega = %s rad/s\n",
-                format_significant(modes.back().omega, 6).c_str());
+  print_linearisation(start);
 }
 
 void run_stability(const StabilityOptions& options) {

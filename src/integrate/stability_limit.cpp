@@ -1,88 +1,177 @@
 #include "integrate/stability_limit.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 namespace chainreel {
 namespace {
 
-// omega h is looked for on this grid, then by halving; the widest of the explicit methods reaches 6.4.
-constexpr double kFinest = 0.01, kWidest = 20;
-// A step of unit length multiplies rounding errors by as much; growth below it is none.
-constexpr double kRounding = 1e-12;
+using Rate = std::complex<double>;
 
-struct Oscillator final : SecondOrder {
-  double omega, damping;
-  Oscillator(double omega_, double damping_) : omega(omega_), damping(damping_) {}
-  int nq() const override { return 1; }
-  int nv() const override { return 1; }
-  void acceleration(double, std::span<const double> q, std::span<const double> v,
-                    std::span<double> vd) override {
-    vd[0] = -omega * omega * q[0] - 2 * damping * omega * v[0];
+// Beside a fastest rate of 1: entries of the matrix are known to 1e-9, a double zero to the root of that.
+constexpr double kNoRate = 3e-5, kNoRealPart = 1e-9;
+// |R| - 1 that counts as growth where h |lambda| = y: equations of implicit steps leave 3e-12, rounding
+// 1e-15; explicit Euler's growth is y^2 / 2 and must be seen down to the finest step.
+double growth_of_a_mode(double y) {
+  return 1e-9 * std::min(1.0, y * y) + 1e-14;
+}
+// Of the whole step's eigenvalues: a double one is known to the root of rounding.
+double growth_of_a_step(double y) {
+  return 1e-7 * std::sqrt(std::min(1.0, y));
+}
+constexpr double kCommutes =
+    1e-11;  // a step at h |lambda| = 3; the series, which is cut in q and v apart, is not
+
+// Where a limit is looked for: evenly where explicit methods have theirs (the widest reaches some 12), by
+// factors below and beyond.
+constexpr double kFinestOfModes = 1e-6, kFinestOfSteps = 1e-4;
+constexpr double kEven = 0.02, kWidest = 20, kSmallFactor = 1.2, kLargeFactor = 10, kFactor = 1.02;
+constexpr double kFarthest = 1e6;
+
+std::vector<double> steps_for_modes() {
+  std::vector<double> steps;
+  for (double y = kFinestOfModes; y < kEven; y *= kSmallFactor) steps.push_back(y);
+  for (double y = kEven; y <= kWidest; y += kEven) steps.push_back(y);
+  for (double y = kLargeFactor * kWidest; y <= kFarthest; y *= kLargeFactor) steps.push_back(y);
+  return steps;
+}
+
+std::vector<double> steps_until(double last) {
+  std::vector<double> steps;
+  for (double y = kFinestOfSteps; y <= last; y *= kFactor) steps.push_back(y);
+  return steps;
+}
+
+template <class IsStable>
+double first_limit(const std::vector<double>& steps, const IsStable& holds) {
+  const auto broken = std::find_if_not(steps.begin(), steps.end(), holds);
+  if (broken == steps.begin()) return 0;
+  if (broken == steps.end()) return std::numeric_limits<double>::infinity();
+  double stable = *(broken - 1), unstable = *broken;
+  while (unstable - stable > 1e-10 * stable) {
+    const double middle = 0.5 * (stable + unstable);
+    (holds(middle) ? stable : unstable) = middle;
   }
+  return stable;
+}
+
+// Unit natural frequency, damping ratio -cos of the rate's angle: its two rates are `direction` and its
+// mirror.
+LinearMotion oscillator_of(const Rate& direction) {
+  return {Eigen::MatrixXd::Constant(1, 1, -1), Eigen::MatrixXd::Constant(1, 1, 2 * direction.real())};
+}
+
+// R(y direction) and its mirror image are the eigenvalues: their product is |R|^2.
+bool mode_holds(const Method& method, const Rate& direction, double y) {
+  const auto map = step_map(method, oscillator_of(direction), y);
+  if (!map) return false;
+  const double det = (*map)(0, 0) * (*map)(1, 1) - (*map)(0, 1) * (*map)(1, 0);
+  return std::sqrt(std::abs(det)) <= 1 + growth_of_a_mode(y);
+}
+
+bool acts_on_modes(const Method& method) {
+  const LinearMotion motion = oscillator_of({-0.3, std::sqrt(1 - 0.09)});
+  const auto map = step_map(method, motion, 3);
+  if (!map) return false;
+  const Eigen::MatrixXd A = motion.matrix();
+  return (*map * A - A * *map).norm() <= kCommutes * map->norm() * A.norm();
+}
+
+// The motion in units of time in which its fastest rate is 1.
+struct Scaled {
+  explicit Scaled(const LinearMotion& given) : motion(given) {
+    for (const Rate& rate : rates_of(given)) {
+      fastest = std::max(fastest, std::abs(rate));
+      (rate.real() > 0 ? growing : bounded).push_back(rate);
+    }
+    if (bounded.empty()) return;
+    motion = given.in_units_of(1 / fastest);
+    for (Rate& rate : bounded) rate /= fastest;
+  }
+
+  // What grows in the motion itself may grow in the step: as many eigenvalues.
+  std::size_t growths() const {
+    std::size_t count = 0;
+    for (const Rate& rate : growing) count += rate.imag() > 0 ? 2 : 1;
+    return count;
+  }
+
+  bool step_holds(const Method& method, double y) const {
+    const auto map = step_map(method, motion, y);
+    if (!map) return false;
+    const Eigen::VectorXcd eigenvalues = map->eigenvalues();
+    std::vector<double> moduli;
+    for (const Rate& one : eigenvalues) moduli.push_back(std::abs(one));
+    const auto place = moduli.begin() + std::ptrdiff_t(growths());
+    std::nth_element(moduli.begin(), place, moduli.end(), std::greater<>());
+    return *place <= 1 + growth_of_a_step(y);
+  }
+
+  LinearMotion motion;
+  double fastest = 0;
+  std::vector<Rate> bounded, growing;
 };
 
-// Of unit mass.
-struct OscillatorMomenta final : Momenta {
-  explicit OscillatorMomenta(Oscillator& given) : system(given) {}
-  int n() const override { return 1; }
-  void momentum(std::span<const double>, std::span<const double> v, std::span<double> p) override {
-    p[0] = v[0];
+bool is_known(const Method& method, const Scaled& scaled) {
+  return method.form != Form::linked_points && !scaled.bounded.empty();
+}
+
+double limit_of_modes(const Method& method, const std::vector<Rate>& rates) {
+  static const std::vector<double> steps = steps_for_modes();
+  double limit = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<Rate, double>> known;  // many rates are real
+  for (const Rate& rate : rates) {
+    const Rate direction = rate / std::abs(rate);
+    auto found =
+        std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.first == direction; });
+    if (found == known.end()) {
+      const auto holds = [&](double y) { return mode_holds(method, direction, y); };
+      found = known.insert(known.end(), {direction, first_limit(steps, holds)});
+    }
+    limit = std::min(limit, found->second / std::abs(rate));
   }
-  void velocity(std::span<const double>, std::span<const double> p, std::span<double> v) override {
-    v[0] = p[0];
-  }
-  void force(double t, std::span<const double> q, std::span<const double> v,
-             std::span<double> p_dot) override {
-    system.acceleration(t, q, v, p_dot);
-  }
-  Oscillator& system;
-};
+  return limit;
+}
 
 }  // namespace
 
-double amplification(const Method& method, double omega, double damping_ratio, double h) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  if (method.form == Form::series || method.form == Form::linked_points) return kNaN;
-  Oscillator system(omega, damping_ratio);
-  OscillatorMomenta momenta(system);
-  const auto integrator = make_integrator(method, {&system, &momenta, nullptr, nullptr});
-  // The columns of the map, from unit displacement and from unit rate (in units of omega).
-  double map[2][2];
-  for (int column = 0; column < 2; ++column) {
-    integrator->start(0, std::array{column == 0 ? 1.0 : 0.0}, std::array{column == 1 ? omega : 0.0});
-    if (integrator->step(h, h) != StepResult::ok) return kNaN;
-    map[0][column] = integrator->q()[0];
-    map[1][column] = integrator->v()[0] / omega;
+std::vector<Rate> rates_of(const LinearMotion& motion) {
+  std::vector<Rate> rates;
+  if (motion.n() == 0) return rates;
+  // Rates of one second may be 1e4 times those of another: the unit of time makes q and v alike.
+  const double unit = std::max({std::sqrt(motion.K.cwiseAbs().maxCoeff()), motion.D.cwiseAbs().maxCoeff()});
+  if (!(unit > 0) || !std::isfinite(unit)) return rates;
+  const Eigen::VectorXcd all = motion.in_units_of(1 / unit).matrix().eigenvalues();
+  const double fastest = all.cwiseAbs().maxCoeff();
+  for (Rate one : all) {
+    if (one.imag() < 0 || std::abs(one) < kNoRate * fastest) continue;
+    if (std::abs(one.real()) < kNoRealPart * fastest) one.real(0);
+    rates.push_back(one * unit);
   }
-  const double half_trace = 0.5 * (map[0][0] + map[1][1]);
-  const double det = map[0][0] * map[1][1] - map[0][1] * map[1][0];
-  const double discriminant = half_trace * half_trace - det;
-  if (discriminant <= 0) return std::sqrt(std::max(det, 0.0));
-  return std::abs(half_trace) + std::sqrt(discriminant);
+  std::sort(rates.begin(), rates.end(),
+            [](const Rate& a, const Rate& b) { return std::abs(a) < std::abs(b); });
+  return rates;
 }
 
-double stability_limit(const Method& method, double damping_ratio) {
-  const auto is_stable = [&](double h) {
-    return amplification(method, 1, damping_ratio, h) <= 1 + kRounding;
-  };
-  if (!is_stable(kFinest)) return 0;
-  double stable = kFinest, unstable = 0;
-  for (double h = 2 * kFinest; h <= kWidest; h += kFinest) {
-    if (!is_stable(h)) {
-      unstable = h;
-      break;
-    }
-    stable = h;
-  }
-  if (unstable == 0) return std::numeric_limits<double>::infinity();
-  while (unstable - stable > 1e-9 * stable) {
-    const double middle = 0.5 * (stable + unstable);
-    (is_stable(middle) ? stable : unstable) = middle;
-  }
-  return stable;
+std::optional<bool> is_stable(const Method& method, const LinearMotion& motion, double h) {
+  const Scaled scaled(motion);
+  if (!is_known(method, scaled)) return std::nullopt;
+  if (!acts_on_modes(method)) return scaled.step_holds(method, h * scaled.fastest);
+  return std::all_of(scaled.bounded.begin(), scaled.bounded.end(), [&](const Rate& rate) {
+    const double size = std::abs(rate);
+    return mode_holds(method, rate / size, h * scaled.fastest * size);
+  });
+}
+
+std::optional<double> stability_limit(const Method& method, const LinearMotion& motion) {
+  const Scaled scaled(motion);
+  if (!is_known(method, scaled)) return std::nullopt;
+  if (acts_on_modes(method)) return limit_of_modes(method, scaled.bounded) / scaled.fastest;
+  const double slowest = std::abs(scaled.bounded.front());
+  const auto holds = [&](double y) { return scaled.step_holds(method, y); };
+  return first_limit(steps_until(kWidest / slowest), holds) / scaled.fastest;
 }
 
 }  // namespace chainreel

@@ -169,7 +169,7 @@ class CellRuns {
     const std::size_t count = (along_x ? result_.y : result_.x).values.size();
     for (std::size_t i = 0; i < count; ++i) {
       const Simulation simulation = simulation_of(along_x ? At{0, i} : At{i, 0});
-      result_.boundary.push_back(longest_stable_step(*simulation.method, oscillating_modes(simulation)));
+      result_.boundary.push_back(longest_stable_step(*simulation.method, linearise(simulation)));
     }
   }
 

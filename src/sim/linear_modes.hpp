@@ -1,25 +1,31 @@
-// The motion of a chain linearised about a state: what decides whether a step is stable there.
+// The motion of a chain linearised about its start: what decides whether a step is stable there.
 #pragma once
 
+#include <complex>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "integrate/linear_motion.hpp"
 #include "sim/simulate.hpp"
 
 namespace chainreel {
 
-// exp(lambda t), lambda = omega (-z +- i sqrt(1 - z^2)).
-struct Mode {
-  double omega = 0;          // rad/s
-  double damping_ratio = 0;  // z
+struct Linearisation {
+  // Of small deviations from the start at t = 0, along what constraints leave free; nothing where `trouble`
+  // says why there is none.
+  std::optional<LinearMotion> motion;
+  std::string trouble;
+  std::vector<std::complex<double>> rates;  // lambda of exp(lambda t), 1/s, as rates_of has them
+  // Of the start itself: the largest |qd| and |qdd|. Where one of them is not zero the start is no
+  // equilibrium, and what holds there need not hold later.
+  double rate = 0, acceleration = 0;
+  bool is_equilibrium = true;
 };
 
-// The modes that oscillate, of the motion linearised about the start state; the slowest first. Empty for
-// floating bases and where nothing swings.
-std::vector<Mode> oscillating_modes(const Simulation& simulation);
+Linearisation linearise(const Simulation& simulation);
 
-// The longest step at which the simulation's method is stable in all these modes; none where there is no mode
-// or the method's limit is not known. Infinite for methods that are stable at every step.
-std::optional<double> longest_stable_step(const Method& method, const std::vector<Mode>& modes);
+// As stability_limit: nothing where it is not known.
+std::optional<double> longest_stable_step(const Method& method, const Linearisation& start);
 
 }  // namespace chainreel

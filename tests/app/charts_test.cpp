@@ -41,6 +41,19 @@ struct Csv {
   }
 };
 
+// The line of a table that begins with this word.
+std::string line_of(const std::string& text, const std::string& word) {
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+    if (line.starts_with(word + " ")) return line;
+  return "";
+}
+
+std::string last_word(const std::string& line) {
+  const std::size_t end = line.find_last_not_of(' ');
+  return end == std::string::npos ? "" : line.substr(line.rfind(' ', end) + 1, end - line.rfind(' ', end));
+}
+
 double number(const std::string& text) {
   return text.empty() ? std::nan("") : std::stod(text);
 }
@@ -138,8 +151,32 @@ TEST(StabilityCommand, PutsTheBorderWhereTheTheoryHasIt) {
 TEST(StabilityCommand, ComparesTheMethodsWithoutAMap) {
   const ProgramResult result = run_program({"stability", "assets/scenes/pp_spring.yaml"});
   ASSERT_EQ(result.status, 0) << result.err;
-  // omega = 10 rad/s: 2 / omega and 2 sqrt(2) / omega.
-  EXPECT_THAT(result.out, AllOf(HasSubstr("Who fails here"), HasSubstr("0.2828"), HasSubstr("diverged")));
+  // omega = 10 rad/s: 2 / omega and 2 sqrt(2) / omega; implicit methods have no limit.
+  EXPECT_THAT(result.out, AllOf(HasSubstr("Who fails here"), HasSubstr("0.2828"), HasSubstr("diverged"),
+                                HasSubstr("omega = 10 rad/s"), HasSubstr("no equilibrium")));
+  for (const char* method : {"radau5", "implicit_midpoint", "gauss4", "gauss6"})
+    EXPECT_EQ(last_word(line_of(result.out, method)), "none") << method;
+  EXPECT_EQ(last_word(line_of(result.out, "explicit_euler")), "0");
+}
+
+// Beyond critical damping nothing swings: the fastest decay, 26.18 /s, decides.
+TEST(StabilityCommand, HasLimitsWhereADamperLetsNothingSwing) {
+  const ProgramResult result =
+      run_program({"stability", "assets/scenes/pp_spring.yaml", "--set", "torque=[0, -100 * q2 - 30 * qd2]",
+                   "--set", "duration=1", "--methods", "rk4,semi_implicit_euler,gauss4"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(last_word(line_of(result.out, "rk4")), "0.1064");
+  EXPECT_EQ(last_word(line_of(result.out, "semi_implicit_euler")), "0.06056");
+  EXPECT_EQ(last_word(line_of(result.out, "gauss4")), "none");
+  EXPECT_THAT(result.out, HasSubstr("decays with 26.1803 /s"));
+}
+
+TEST(StabilityCommand, SaysUnknownWhereItFoundNoLimit) {
+  const ProgramResult result =
+      run_program({"stability", "assets/scenes/pp_free.yaml", "--methods", "rk4,gauss4"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(last_word(line_of(result.out, "rk4")), "unknown");
+  EXPECT_THAT(result.out, HasSubstr("nothing swings or decays about the start"));
 }
 
 TEST(StabilityCommand, SaysWhatItTakesInsteadOfAnythingElse) {

@@ -1,0 +1,127 @@
+#include "sim/linear_modes.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "dynamics/kinematics.hpp"
+#include "model/read_chain.hpp"
+#include "sim/runs.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::HasSubstr;
+
+double limit(const Simulation& run, const std::string& method) {
+  const auto found = longest_stable_step(find_method(method), linearise(run));
+  EXPECT_TRUE(found) << method;
+  return found.value_or(NAN);
+}
+
+Simulation weightless(Simulation run) {
+  run.chain.gravity.setZero();
+  return run;
+}
+
+// Differences of forces of 100 N leave 1e-9.
+constexpr double kTolerance = 1e-8;
+
+TEST(Linearise, GivesTheSpringsLimits) {
+  const Simulation run = weightless(run_of("pp", {"0", "-100 * q2"}, 1));
+  EXPECT_NEAR(limit(run, "semi_implicit_euler"), 0.2, kTolerance);
+  EXPECT_NEAR(limit(run, "rk4"), 0.2 * std::sqrt(2), kTolerance);
+  for (const char* method : {"implicit_midpoint", "gauss4", "gauss6", "radau5"})
+    EXPECT_EQ(limit(run, method), HUGE_VAL) << method;
+  EXPECT_TRUE(linearise(run).is_equilibrium);
+}
+
+TEST(Linearise, SeesDampersThatLetNothingSwing) {
+  for (const auto& [d, expected] : {std::pair{30.0, 0.1064}, {60.0, 0.04779}}) {
+    const Simulation run = weightless(run_of("pp", {"0", "-100 * q2 - " + std::to_string(d) + " * qd2"}, 1));
+    EXPECT_NEAR(limit(run, "rk4"), expected, 2e-4 * expected);
+    const double fastest = d / 2 + std::sqrt(d * d / 4 - 100);
+    EXPECT_NEAR(limit(run, "rk4"), 2.785293563 / fastest, kTolerance);
+  }
+}
+
+TEST(Linearise, SaysWhereTheStartIsNoEquilibrium) {
+  Simulation run = weightless(run_of("pp", {"0", "-100 * q2"}, 1));
+  run.q0 = {0, 1};
+  EXPECT_FALSE(linearise(run).is_equilibrium);
+  EXPECT_NEAR(linearise(run).acceleration, 100, 1e-9);
+  EXPECT_NEAR(limit(run, "rk4"), 0.2 * std::sqrt(2), kTolerance);
+  run.q0 = {0, 0};
+  run.qd0 = {0.5, 0};
+  EXPECT_FALSE(linearise(run).is_equilibrium);
+  EXPECT_EQ(linearise(run).rate, 0.5);
+}
+
+TEST(Linearise, TellsNoLimitWhereNothingSwings) {
+  const Simulation run = run_of("pp", {"0", "1"}, 1);
+  const Linearisation start = linearise(run);
+  EXPECT_THAT(start.trouble, HasSubstr("nothing swings or decays"));
+  EXPECT_FALSE(longest_stable_step(find_method("rk4"), start));
+}
+
+// Feedback on every joint: what the theory says, runs must do, from a little beside the rest.
+TEST(Linearise, PutsTheLimitOfAnArmUnderFeedbackWhereRunsDiverge) {
+  Simulation run = weightless(run_of("rrr", {}, 1));
+  Control control;
+  control.pd = Feedback{{2000}, {100}, {}, {}, {}, ""};
+  for (const char* angle : {"0.3", "-0.7", "1.1"}) control.pd->q.push_back({angle, {}});
+  run.torque = make_control(run.chain, control, {});
+  run.q0 = {0.3, -0.7, 1.1};
+  EXPECT_TRUE(linearise(run).is_equilibrium);
+  for (const char* method : {"explicit_euler", "semi_implicit_euler", "rk4", "symplectic_euler", "verlet"}) {
+    const double h = limit(run, method);
+    // Far below what swings allows: dampers decide.
+    for (const double factor : {0.99, 1.02}) {
+      Simulation one = weightless(run_of("rrr", {}, 1, method, factor * h));
+      one.torque = make_control(one.chain, control, {});
+      one.q0 = {0.3 + 1e-6, -0.7, 1.1};
+      one.duration = 2000 * one.step;
+      const double end[] = {one.duration};
+      const Trajectory trajectory = simulate(one, end);
+      const bool grew = trajectory.status != RunStatus::finished ||
+                        std::abs(trajectory.q_at(trajectory.size() - 1)[0] - 0.3) > 1e-3;
+      EXPECT_EQ(grew, factor > 1) << method << " " << factor;
+    }
+  }
+}
+
+TEST(Linearise, FindsThePandasLimitUnderStiffFeedback) {
+  const char* robots = std::getenv("CHAINREEL_ROBOTS");
+  const std::string file = std::string(robots ? robots : "") + "/panda_description/urdf/panda.urdf";
+  if (!robots || !std::filesystem::exists(file)) {
+    std::puts("CHAINREEL_ROBOTS names no folder with the Panda: nothing to read");
+    return;
+  }
+  ModelOptions options;
+  options.end_effector = "panda_hand";
+  options.meshes = false;
+  Simulation run;
+  run.chain = read_chain(file, options);
+  run.q0 = {0, -0.7854, 0, -2.3562, 0, 1.5708, 0.7854, 0.02};
+  run.q0.resize(std::size_t(run.chain.nq));
+  run.qd0.resize(std::size_t(run.chain.nv));
+  run.duration = 0.3;
+  Control control;
+  control.pd = Feedback{{2000}, {100}, {}, {}, {}, ""};
+  for (const double q : run.q0) control.pd->q.push_back({std::to_string(q), {}});
+  run.torque = make_control(run.chain, control, {});
+  // Its hand turns with some 0.006 kg m^2 on a damper of 100 N m s: 15327 /s.
+  EXPECT_NEAR(limit(run, "rk4"), 1.817e-4, 1e-7);
+  EXPECT_NEAR(limit(run, "semi_implicit_euler"), 1.301e-4, 1e-7);
+  run.method = &find_method("rk4");
+  for (const double step : {1.7e-4, 3e-4}) {
+    run.step = step;
+    EXPECT_EQ(simulate(run, {}).status == RunStatus::finished, step < 1.8e-4) << step;
+  }
+}
+
+}  // namespace
+}  // namespace chainreel
