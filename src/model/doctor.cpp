@@ -17,6 +17,8 @@ using Severity = Finding::Severity;
 constexpr double kLongestJointOffset = 100;
 // A joint that turns further than three times around either way is likely limited in degrees, rad.
 constexpr double kWidestTurn = 20;
+// A fixed rotation of more than that is likely in degrees, rad; a turn that was rounded up is not.
+constexpr double kMoreThanATurn = 6.3;
 
 // Tags that URDF files carry for other programs.
 const std::vector<std::string> kReadTags{"link",      "joint",  "material", "inertial", "visual",
@@ -76,7 +78,24 @@ void examine_strength(const UrdfJoint& joint, DoctorReport& report) {
   }
 }
 
+std::string angles_text(const Eigen::Vector3d& rpy) {
+  return format_shortest(rpy[0]) + " " + format_shortest(rpy[1]) + " " + format_shortest(rpy[2]);
+}
+
 }  // namespace
+
+void examine_angles(const UrdfOrigin& origin, const std::string& owner, int line, DoctorReport& report) {
+  if (!(origin.rpy.cwiseAbs().maxCoeff() > kMoreThanATurn)) return;
+  report.add(Finding::Severity::warning, "angles that look like degrees", line,
+             owner + " has rpy=\"" + angles_text(origin.rpy) +
+                 "\", more than a whole turn: were degrees meant? URDF has radians (90 degrees are 1.5707963)");
+}
+
+void examine_remarks(const UrdfFile& file, DoctorReport& report) {
+  for (const UrdfRemark& remark : file.remarks)
+    report.add(remark.is_harmless ? Finding::Severity::note : Finding::Severity::warning, remark.kind, remark.line,
+               remark.message);
+}
 
 std::string to_string(Finding::Severity severity) {
   switch (severity) {
@@ -145,6 +164,7 @@ void examine_joints(const UrdfFile& file, DoctorReport& report) {
     }
     if (is_bounded && joint.limit.given) examine_limit(joint, report);
     if (joint.type != UrdfJointType::fixed) examine_strength(joint, report);
+    examine_angles(joint.origin, owner, joint.line, report);
     const double offset = joint.origin.xyz.norm();
     if (offset > kLongestJointOffset) {
       report.add(Severity::warning, "joints far from their parents", joint.line,
@@ -159,6 +179,7 @@ std::vector<Finding> examine_model(const std::string& path, const ModelOptions& 
   try {
     const UrdfFile file = read_urdf_file(path);
     examine_tags(file, report);
+    examine_remarks(file, report);
     examine_joints(file, report);
     examine_links(file, options, report);
     examine_chain(chain_of(file, options), options, report);

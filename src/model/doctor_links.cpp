@@ -50,20 +50,22 @@ class LinkExaminer {
   LinkExaminer(const UrdfFile& file, const ModelOptions& options, DoctorReport& report)
       : file_(file),
         report_(report),
-        finder_(file.path, options.packages),
-        meshes_required_(options.meshes) {}
+        finder_(file.path, options.packages) {}
 
   void run() {
     for (const UrdfLink& link : file_.links) {
       Box box;
-      for (const UrdfShape& shape : link.visuals) add_shape(link, shape, meshes_required_, box);
-      for (const UrdfShape& shape : link.collisions) add_shape(link, shape, false, box);
+      for (const UrdfShape& shape : link.visuals) add_shape(link, shape, false, box);
+      for (const UrdfShape& shape : link.collisions) add_shape(link, shape, true, box);
       if (link.inertial) examine_inertial(link, box);
     }
   }
 
  private:
-  void add_shape(const UrdfLink& link, const UrdfShape& shape, bool is_required, Box& box) {
+  void add_shape(const UrdfLink& link, const UrdfShape& shape, bool is_collision, Box& box) {
+    examine_angles(shape.origin, "a " + std::string(is_collision ? "<collision>" : "<visual>") + " of link '" +
+                                     link.name + "'",
+                   shape.line, report_);
     Eigen::Vector3d scale = Eigen::Vector3d::Ones();
     Box own;
     switch (shape.kind) {
@@ -77,7 +79,7 @@ class LinkExaminer {
         own = around_origin(shape.size);
         break;
       case UrdfShapeKind::mesh:
-        own = mesh_box(link, shape, is_required);
+        own = mesh_box(link, shape, is_collision);
         scale = shape.mesh_scale;
         break;
     }
@@ -88,15 +90,19 @@ class LinkExaminer {
     box.add(in_link.upper);
   }
 
-  // Empty where there is no such mesh; that is reported.
-  Box mesh_box(const UrdfLink& link, const UrdfShape& shape, bool is_required) {
+  // Empty where there is no such mesh; that is reported. Only pictures that show it cannot do without.
+  Box mesh_box(const UrdfLink& link, const UrdfShape& shape, bool is_collision) {
     const FoundFile& found = finder_.find(shape.mesh_file);
     if (found.path.empty()) {
-      report_.add(is_required ? Severity::error : Severity::warning,
-                  is_required ? "meshes that are not found" : "collision meshes that are not found",
-                  shape.line, missing_mesh_message(link.name, shape.mesh_file, found));
+      report_.add(Severity::warning,
+                  is_collision ? "collision meshes that are not found" : "meshes that are not found", shape.line,
+                  missing_mesh_message(link.name, shape.mesh_file, found));
       return {};
     }
+    if (found.by_tail)
+      report_.add(Severity::warning, "meshes that are found elsewhere", shape.line,
+                  "link '" + link.name + "': the mesh '" + shape.mesh_file +
+                      "' is not where its package should be, and is taken from " + found.path);
     const auto [known, is_new] = mesh_boxes_.emplace(found.path, Box{});
     if (is_new) {
       try {
@@ -126,6 +132,7 @@ class LinkExaminer {
   void examine_inertial(const UrdfLink& link, const Box& box) {
     const UrdfInertial& inertial = *link.inertial;
     const std::string owner = "link '" + link.name + "'";
+    examine_angles(inertial.origin, "the <inertial> of " + owner, inertial.line, report_);
     if (inertial.mass > kHeaviestLink) {
       report_.add(Severity::warning, "links that are very heavy", inertial.line,
                   owner + " weighs " + format_significant(inertial.mass, 3) +
@@ -140,7 +147,7 @@ class LinkExaminer {
   void examine_moments(const std::string& owner, const UrdfInertial& inertial,
                        const Eigen::Vector3d& moments) {
     if (!is_positive(moments)) {
-      // Where the link moves, read_chain refuses it as well.
+      // Where the body that it is a part of is not positive, either, read_chain refuses it as well.
       report_.add(
           Severity::warning, "inertias that are not positive", inertial.line,
           owner + " has an inertia that is not positive (principal moments " + moments_text(moments) + ")");
@@ -179,7 +186,6 @@ class LinkExaminer {
   const UrdfFile& file_;
   DoctorReport& report_;
   FileFinder finder_;
-  bool meshes_required_;
   std::map<std::string, Box> mesh_boxes_;  // by path
 };
 

@@ -32,6 +32,9 @@ class DoctorReport {
   std::map<std::string, Kind> kinds_;
 };
 
+// What was noted while the file was read.
+void examine_remarks(const UrdfFile& file, DoctorReport& report);
+void examine_angles(const UrdfOrigin& origin, const std::string& owner, int line, DoctorReport& report);
 void examine_tags(const UrdfFile& file, DoctorReport& report);
 void examine_joints(const UrdfFile& file, DoctorReport& report);
 // Inertias, shapes and their sizes; meshes are searched and measured.

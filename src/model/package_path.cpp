@@ -2,6 +2,7 @@
 
 #include <tinyxml2.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>
@@ -12,6 +13,9 @@
 namespace chainreel {
 namespace fs = std::filesystem;
 namespace {
+
+// Of a package's own folders, in search of one that stands deeper.
+constexpr int kDeepest = 3, kMostLookedAt = 5000;
 
 // The <name> of a package.xml, or "" where it has none or is broken: another place may still be right.
 std::string name_in(const fs::path& package_xml) {
@@ -78,7 +82,7 @@ FileFinder::FileFinder(const std::string& urdf_path, std::map<std::string, std::
   }
 }
 
-std::vector<std::string> FileFinder::package_folders(const std::string& package) const {
+std::vector<std::string> FileFinder::own_folders(const std::string& package) const {
   std::vector<std::string> folders;
   const auto given = packages_.find(package);
   if (given != packages_.end()) folders.push_back(given->second);
@@ -88,6 +92,11 @@ std::vector<std::string> FileFinder::package_folders(const std::string& package)
     folders.push_back(at.string());
     break;
   }
+  return folders;
+}
+
+std::vector<std::string> FileFinder::package_folders(const std::string& package) const {
+  std::vector<std::string> folders = own_folders(package);
   for (const std::string& folder : folders_in("ROS_PACKAGE_PATH")) {
     const bool is_itself = fs::path(folder).filename() == package;
     folders.push_back(is_itself ? folder : (fs::path(folder) / package).string());
@@ -95,6 +104,40 @@ std::vector<std::string> FileFinder::package_folders(const std::string& package)
   for (const std::string& folder : folders_in("AMENT_PREFIX_PATH"))
     folders.push_back((fs::path(folder) / "share" / package).string());
   return folders;
+}
+
+const std::vector<std::string>& FileFinder::deeper_folders(const std::string& package) {
+  const auto [entry, is_new] = deeper_.emplace(package, std::vector<std::string>{});
+  std::vector<std::string>& found = entry->second;
+  if (!is_new) return found;
+  int looked_at = 0;
+  for (const std::string& folder : own_folders(package)) {
+    std::error_code error;
+    fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
+    for (; !error && at != fs::recursive_directory_iterator() && ++looked_at < kMostLookedAt; at.increment(error)) {
+      std::error_code ignored;
+      if (!at->is_directory(ignored) || at->is_symlink(ignored)) continue;
+      if (at->path().filename() == package) found.push_back(at->path().string());
+      if (at.depth() + 1 >= kDeepest) at.disable_recursion_pending();
+    }
+  }
+  std::sort(found.begin(), found.end());  // a folder's order is the file system's own
+  return found;
+}
+
+std::string FileFinder::find_by_tail(const std::string& package, const std::string& inside) {
+  for (const std::string& folder : deeper_folders(package))
+    if (const std::string place = (fs::path(folder) / inside).string(); is_file(place)) return place;
+  const fs::path path(inside);
+  for (fs::path at = folder_; at != at.parent_path(); at = at.parent_path()) {
+    for (auto step = path.begin(); step != path.end(); ++step) {
+      if (*step != at.filename()) continue;
+      fs::path place = at;
+      for (auto rest = std::next(step); rest != path.end(); ++rest) place /= *rest;
+      if (is_file(place.string())) return place.string();
+    }
+  }
+  return "";
 }
 
 const FoundFile& FileFinder::find(const std::string& name) {
@@ -109,6 +152,10 @@ const FoundFile& FileFinder::find(const std::string& name) {
     const std::size_t slash = std::min(rest.find('/'), rest.size());
     const std::string package = rest.substr(0, slash);
     const fs::path inside = rest.substr(std::min(slash + 1, rest.size()));
+    if (package.empty()) {
+      file.remedy = "the address names no package: write package://NAME/PATH, or a path from the folder of the URDF";
+      return file;
+    }
     for (const std::string& folder : package_folders(package))
       file.searched.push_back((folder / inside).string());
     file.remedy = "say where the package lies with `--package " + package + "=FOLDER`";
@@ -124,8 +171,12 @@ const FoundFile& FileFinder::find(const std::string& name) {
   for (const std::string& place : file.searched) {
     if (!is_file(place)) continue;
     file.path = place;
-    break;
+    return file;
   }
+  if (scheme != "package") return file;
+  const std::size_t slash = std::min(rest.find('/'), rest.size());
+  file.path = find_by_tail(rest.substr(0, slash), rest.substr(std::min(slash + 1, rest.size())));
+  file.by_tail = !file.path.empty();
   return file;
 }
 

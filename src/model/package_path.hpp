@@ -11,6 +11,7 @@ struct FoundFile {
   std::string path;                   // "" where nothing was found
   std::vector<std::string> searched;  // every place looked at, in order
   std::string remedy;                 // what the user can do, where nothing was found
+  bool by_tail = false;               // in none of the package's own places, see below
 };
 
 // package://NAME/PATH is looked for in
@@ -19,6 +20,9 @@ struct FoundFile {
 //   3. the nearest folder above the URDF that is called NAME,
 //   4. ROS_PACKAGE_PATH: FOLDER/NAME, or FOLDER where it is called NAME,
 //   5. AMENT_PREFIX_PATH: FOLDER/share/NAME.
+// Where that is in vain it is found by its tail:
+//   6. in the folders called NAME that stand deeper in those of 1 to 3, as in NAME/robots/NAME,
+//   7. where PATH goes through a folder that the URDF lies in, from there: robots/arm/meshes/m.stl below arm.
 class FileFinder {
  public:
   FileFinder(const std::string& urdf_path, std::map<std::string, std::string> packages);
@@ -27,11 +31,15 @@ class FileFinder {
 
  private:
   std::vector<std::string> package_folders(const std::string& package) const;
+  std::vector<std::string> own_folders(const std::string& package) const;
+  const std::vector<std::string>& deeper_folders(const std::string& package);
+  std::string find_by_tail(const std::string& package, const std::string& inside);
 
   std::string folder_;  // of the URDF, absolute
   std::map<std::string, std::string> packages_;
   std::string package_folder_, package_name_;  // of the nearest package.xml, or ""
   std::map<std::string, FoundFile> known_;
+  std::map<std::string, std::vector<std::string>> deeper_;  // by package
 };
 
 // What to tell the user about a mesh of a link that was not found.

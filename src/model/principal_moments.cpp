@@ -1,6 +1,7 @@
 #include "model/principal_moments.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 #include "core/format.hpp"
 
@@ -16,11 +17,11 @@ std::string moments_text(const Eigen::Vector3d& moments) {
 }
 
 bool is_positive(const Eigen::Vector3d& moments) {
-  return moments[0] >= -kMomentTolerance * moments.cwiseAbs().maxCoeff();
+  return moments[0] >= -std::max(kNoMoment, kMomentTolerance * moments.cwiseAbs().maxCoeff());
 }
 
 bool keeps_triangle_inequality(const Eigen::Vector3d& moments) {
-  return moments[2] <= moments[0] + moments[1] + kMomentTolerance * moments[2];
+  return moments[2] <= moments[0] + moments[1] + std::max(kNoMoment, kMomentTolerance * moments[2]);
 }
 
 }  // namespace chainreel

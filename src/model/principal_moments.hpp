@@ -15,6 +15,9 @@ Eigen::Vector3d principal_moments(const Eigen::Matrix3d& inertia);
 // moments of a plate slightly off their sum.
 inline constexpr double kMomentTolerance = 1e-4;  // of the largest moment
 
+// Below this a moment is what round-off left of a zero, kg m^2: a milligram within a picometre has more.
+inline constexpr double kNoMoment = 1e-30;
+
 std::string moments_text(const Eigen::Vector3d& moments);  // "0.1, 0.2, 0.3 kg m^2"
 
 bool is_positive(const Eigen::Vector3d& moments);

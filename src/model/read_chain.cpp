@@ -5,7 +5,6 @@
 #include "model/regularity.hpp"
 #include "model/urdf_file.hpp"
 #include "model/urdf_problems.hpp"
-#include "model/visual_meshes.hpp"
 
 namespace chainreel {
 namespace {
@@ -28,17 +27,15 @@ int end_effector_of(const Chain& chain, const ModelOptions& options, const std::
 }
 
 void require_regular(const ReducedModel& model, const UrdfFile& file) {
-  const Chain& chain = model.chain;
-  const int body = unresisted_body(chain);
-  if (body < 0) return;
-  const std::string joint = chain.bodies[std::size_t(body)].joint.name;
-  const int link = model.link_of_body[std::size_t(body)];
+  const std::optional<Unresisted> found = unresisted_motion(model.chain);
+  if (!found) return;
+  const Body& body = model.chain.bodies[std::size_t(found->body)];
+  const int link = model.link_of_body[std::size_t(found->body)];
   throw Error(ExitCode::bad_input,
-              "joint '" + joint +
-                  "' moves no mass at any pose (a point mass on its own axis?), so no torque has an "
-                  "acceleration: give "
-                  "link '" +
-                  chain.bodies[std::size_t(body)].name + "' an inertia, or make the joint fixed",
+              "joint '" + body.joint.name + "' moves no mass at any pose when it " + found->motion +
+                  (found->behind ? " (the joints behind it give way)" : "") +
+                  ", so no torque has an acceleration: give link '" + body.name + "' " + found->remedy +
+                  ", or make the joint fixed",
               file.at(link < 0 ? 0 : file.links[std::size_t(link)].line));
 }
 
@@ -57,9 +54,7 @@ Chain chain_of(const UrdfFile& file, const ModelOptions& options) {
 }
 
 Chain read_chain(const std::string& path, const ModelOptions& options) {
-  const UrdfFile file = read_urdf_file(path);
-  if (options.meshes) find_meshes(file, options);
-  return chain_of(file, options);
+  return chain_of(read_urdf_file(path), options);
 }
 
 }  // namespace chainreel

@@ -22,14 +22,14 @@ struct ModelOptions {
       gravity;  // absent: [0, -9.81, 0] for chains that move in the xy plane, else -z
   // "": link `gripper`, else the only leaf, else none (Chain::end_effector is -1; see require_end_effector).
   std::string end_effector;
-  bool meshes = true;                           // mesh files must be found
+  bool meshes = true;                           // for pictures: mesh files must be found
   std::map<std::string, std::string> packages;  // package:// name -> folder
 };
 
-// Throws Error with every problem of the file.
+// Throws Error with every problem of the file. Meshes are not looked at: only pictures that show them need them.
 Chain read_chain(const std::string& path, const ModelOptions& options = {});
 
-// The same from a file that has been read already; its meshes are not looked at.
+// The same from a file that has been read already.
 Chain chain_of(const UrdfFile& file, const ModelOptions& options);
 
 }  // namespace chainreel

@@ -36,6 +36,7 @@ class Reducer {
     chain_.name = file_.name;
     result_.link_of_body = {-1};
     parts_.resize(1);
+    part_links_.resize(1);
     place_.resize(file_.links.size());
     for (const int link : depth_first_links(file_)) place_link(link);
     number_coordinates();
@@ -74,12 +75,7 @@ class Reducer {
     if (link.child_joints.empty()) chain_.leaf_frames.push_back(int(chain_.frames.size()));
     chain_.frames.push_back({link.name, place.body, place.X_BL});
     if (!link.inertial) return;
-    if (place.body > 0 && !is_positive(principal_moments(link.inertial->inertia))) {
-      problems_.add(link.inertial->line, "link '" + link.name +
-                                             "' has an inertia that is not positive (principal moments " +
-                                             moments_text(principal_moments(link.inertial->inertia)) +
-                                             "): no body has one, so correct it");
-    }
+    part_links_[std::size_t(place.body)].push_back(index);
     parts_[std::size_t(place.body)].push_back(inertia_of(*link.inertial, place.X_BL));
   }
 
@@ -98,6 +94,7 @@ class Reducer {
     chain_.bodies.push_back(std::move(body));
     result_.link_of_body.push_back(link);
     parts_.emplace_back();
+    part_links_.emplace_back();
     return int(chain_.bodies.size()) - 1;
   }
 
@@ -211,7 +208,8 @@ class Reducer {
     for (std::size_t i = 1; i < chain_.bodies.size(); ++i) {
       Inertia& inertia = chain_.bodies[i].inertia;
       inertia = lumped(parts_[i]);
-      const bool weighs_nothing = inertia.mass == 0 && inertia.about_com.isZero(0);
+      require_positive(i);
+      const bool weighs_nothing = inertia.mass == 0 && inertia.about_com.cwiseAbs().maxCoeff() < kNoMoment;
       if (result_.link_of_body[i] < 0 || !weighs_nothing) continue;
       if (options_.massless) {
         inertia.mass = *options_.massless;
@@ -222,14 +220,30 @@ class Reducer {
     }
   }
 
+  // A light link may carry what a file's few digits left of a thin direction, where the body that it is fixed to has
+  // enough; what the whole body lacks comes from a part.
+  void require_positive(std::size_t body) {
+    if (is_positive(principal_moments(chain_.bodies[body].inertia.about_com))) return;
+    for (const int part : part_links_[body]) {
+      const UrdfLink& link = file_.links[std::size_t(part)];
+      const Eigen::Vector3d moments = principal_moments(link.inertial->inertia);
+      if (is_positive(moments)) continue;
+      const bool is_alone = part_links_[body].size() == 1;
+      problems_.add(link.inertial->line,
+                    "link '" + link.name + "' has an inertia that is not positive (principal moments " +
+                        moments_text(moments) + (is_alone ? ")" : "), and what it is fixed to does not make up for it") +
+                        ": no body has one, so correct it");
+    }
+  }
+
   void complain_of_massless(std::size_t body) {
     const UrdfLink& link = file_.links[std::size_t(result_.link_of_body[body])];
     problems_.add(
         link.line,
         "link '" + link.name + "' moves (joint '" + chain_.bodies[body].joint.name + "') but " +
             (link.inertial ? "weighs nothing" : "has no <inertial>") +
-            ": give it a mass and an inertia, make its joint fixed, or let it have a small mass with "
-            "`massless: 1e-6` (kg)");
+            ": give it a mass and an inertia, make its joint fixed, or let it have a small mass (kg) with "
+            "`--set massless=1e-6`, in a scene `massless: 1e-6`");
   }
 
   void finish() {
@@ -256,6 +270,7 @@ class Reducer {
   std::unordered_set<std::string> joint_names_;               // of the file
   std::vector<LinkPlace> place_;                              // per link
   std::vector<std::vector<Inertia>> parts_;                   // per body
+  std::vector<std::vector<int>> part_links_;                  // of each part its link
   std::unordered_map<std::string, int> mimics_;               // joint name -> its body
   std::unordered_map<std::string, const UrdfJoint*> joints_;  // those that may follow or be followed
 };

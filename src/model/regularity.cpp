@@ -1,7 +1,10 @@
 #include "model/regularity.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
+#include <vector>
 
+#include "core/format.hpp"
 #include "core/scalar.hpp"
 
 namespace chainreel {
@@ -73,7 +76,7 @@ bool release_joint(const Joint& joint, Articulated& body) {
     if (!(scale.minCoeff() > kLeastRadius * std::sqrt(body.mass))) return false;
     const Matrix6 unit = scale.cwiseInverse().asDiagonal() * body.inertia * scale.cwiseInverse().asDiagonal();
     const bool is_regular = unit.ldlt().vectorD().minCoeff() > kPivotFraction;
-    body.inertia.setZero();
+    if (is_regular) body.inertia.setZero();
     return is_regular;
   }
   const bool turns = joint.kind == JointKind::revolute;
@@ -87,12 +90,75 @@ bool release_joint(const Joint& joint, Articulated& body) {
   return true;
 }
 
+std::string vector_text(const Eigen::Vector3d& v) {
+  std::string text;
+  for (int i = 0; i < 3; ++i) text += (i == 0 ? "" : ", ") + format_significant(std::abs(v[i]) < 1e-9 ? 0 : v[i], 3);
+  return "(" + text + ")";
+}
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + words[i];
+  return text;
+}
+
+// Of a floating body: the axes of its frame that nothing resists, else the one motion that its inertia leaves free.
+void describe_floating(const Articulated& body, Unresisted& result) {
+  std::vector<std::string> turns, slides;
+  Vector6 scale = Vector6::Ones();
+  for (int k = 0; k < 6; ++k) {
+    const double least = k < 3 ? kLeastRadius * kLeastRadius * body.mass : 0, sum = body.sum(k, k);
+    if (sum > least) scale[k] = std::sqrt(sum);
+    if (body.inertia(k, k) > std::max(kPivotFraction * sum, least)) continue;
+    result.behind |= sum > least;
+    (k < 3 ? turns : slides).push_back(std::string(1, "xyz"[k % 3]));
+  }
+  if (turns.empty() && slides.empty()) {
+    const Matrix6 unit = scale.cwiseInverse().asDiagonal() * body.inertia * scale.cwiseInverse().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(unit);
+    Vector6 twist = scale.cwiseInverse().asDiagonal() * eigen.eigenvectors().col(0);
+    int largest = 0;
+    twist.cwiseAbs().maxCoeff(&largest);
+    if (twist[largest] < 0) twist = -twist;  // an eigenvector's sign is free
+    const Eigen::Vector3d w = twist.head<3>(), v = twist.tail<3>();
+    if (w.norm() > 1e-6 * v.norm()) {
+      turns.push_back("the axis " + vector_text(w.normalized()) + " through " +
+                      vector_text(w.cross(v) / w.squaredNorm()));
+    } else {
+      slides.push_back(vector_text(v.normalized()));
+    }
+    result.behind = (body.sum - body.inertia).norm() > kPivotFraction * body.sum.norm();
+  }
+  std::vector<std::string> motions, remedies;
+  if (!turns.empty()) motions.push_back("turns about " + listed(turns));
+  if (!slides.empty()) motions.push_back("moves along " + listed(slides));
+  if (!slides.empty()) remedies.push_back("a mass");
+  if (!turns.empty()) remedies.push_back("an inertia about " + listed(turns));
+  result.motion = listed(motions);
+  result.remedy = listed(remedies);
+}
+
+Unresisted describe(const Joint& joint, int index, const Articulated& body) {
+  Unresisted result{index, "", false, ""};
+  if (joint.kind == JointKind::floating) {
+    describe_floating(body, result);
+    return result;
+  }
+  const bool turns = joint.kind == JointKind::revolute;
+  const Eigen::Matrix3d sum = turns ? body.sum.topLeftCorner<3, 3>() : body.sum.bottomRightCorner<3, 3>();
+  result.motion = turns ? "turns" : "slides";
+  result.behind = joint.axis.dot(sum * joint.axis) > (turns ? kLeastRadius * kLeastRadius * body.mass : 0);
+  result.remedy = turns ? "an inertia about its axis " + vector_text(joint.axis) + ", or a mass off it" : "a mass";
+  return result;
+}
+
 bool is_mimic(const Chain& chain, const Joint& joint) {
   return joint.kind != JointKind::floating &&
          chain.coordinate_names[std::size_t(joint.v_index)] != joint.name;
 }
 
-int unresisted_body_at(const Chain& chain, int pose) {
+std::optional<Unresisted> unresisted_at(const Chain& chain, int pose) {
   const std::size_t n = chain.bodies.size();
   std::vector<Articulated> bodies(n);
   for (std::size_t i = 1; i < n; ++i) {
@@ -101,7 +167,8 @@ int unresisted_body_at(const Chain& chain, int pose) {
   }
   for (std::size_t i = n - 1; i > 0; --i) {
     const Body& body = chain.bodies[i];
-    if (!is_mimic(chain, body.joint) && !release_joint(body.joint, bodies[i])) return int(i);
+    if (!is_mimic(chain, body.joint) && !release_joint(body.joint, bodies[i]))
+      return describe(body.joint, int(i), bodies[i]);
     if (body.parent == 0) continue;
     const Matrix6 X = motion_transform(generic_pose(body.joint, i, pose));
     Articulated& parent = bodies[std::size_t(body.parent)];
@@ -109,18 +176,18 @@ int unresisted_body_at(const Chain& chain, int pose) {
     parent.sum += X.transpose() * bodies[i].sum * X;
     parent.mass += bodies[i].mass;
   }
-  return -1;
+  return std::nullopt;
 }
 
 }  // namespace
 
-int unresisted_body(const Chain& chain) {
-  int body = -1;
+std::optional<Unresisted> unresisted_motion(const Chain& chain) {
+  std::optional<Unresisted> found;
   for (int pose = 0; pose < kPoses; ++pose) {
-    body = unresisted_body_at(chain, pose);
-    if (body < 0) return -1;
+    found = unresisted_at(chain, pose);
+    if (!found) break;
   }
-  return body;
+  return found;
 }
 
 }  // namespace chainreel

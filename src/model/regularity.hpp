@@ -9,11 +9,22 @@
 // mass away from it in contrived chains.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "model/chain.hpp"
 
 namespace chainreel {
 
-// Index of a body whose joint nothing resists at any of the poses tried, or -1: M is regular.
-int unresisted_body(const Chain& chain);
+// A motion that nothing resists, in words for a message.
+struct Unresisted {
+  int body = 0;         // that its joint moves
+  std::string motion;   // "turns", "slides", "turns about x and moves along z"
+  bool behind = false;  // the bodies behind have inertia, but their joints give way
+  std::string remedy;   // what the body's link must be given: "a mass"
+};
+
+// At the last of the poses, where nothing resists a motion at any of those tried; absent: M is regular.
+std::optional<Unresisted> unresisted_motion(const Chain& chain);
 
 }  // namespace chainreel

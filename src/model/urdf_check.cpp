@@ -7,6 +7,7 @@
 #include <map>
 #include <span>
 
+#include "model/urdf_attributes.hpp"
 #include "model/urdf_numbers.hpp"
 
 namespace chainreel {
@@ -37,6 +38,7 @@ class Checker {
 
   CheckedUrdf run() {
     XMLElement& robot = robot_element();
+    examine_attributes(robot, problems_);
     for (XMLElement* child = robot.FirstChildElement(); child != nullptr;) {
       XMLElement* next = child->NextSiblingElement();  // the child may be removed
       const std::string tag = child->Name();
@@ -209,9 +211,11 @@ class Checker {
     if (XMLElement* texture = only_child(element, "texture", owner)) {
       const char* file = texture->Attribute("filename");
       material.texture = file == nullptr ? "" : file;
-      if (material.texture.empty())
-        problems_.add(texture->GetLineNum(),
-                      owner + ": <texture> names no file: write <texture filename=\"...\"/>");
+      material.has_empty_texture = material.texture.empty();
+      if (material.has_empty_texture)
+        problems_.remark({"textures without a file",
+                          owner + ": <texture> names no file and is not read: write <texture filename=\"...\"/>",
+                          texture->GetLineNum()});
     }
     return material;
   }
@@ -249,7 +253,15 @@ class Checker {
     if (has_type) check_axis(element, joint, owner);
     check_limit(element, joint, owner);
     check_dynamics(element, owner);
-    if (XMLElement* mimic = only_child(element, "mimic", owner)) {
+    XMLElement* mimic = only_child(element, "mimic", owner);
+    if (mimic != nullptr && joint.type == UrdfJointType::fixed && has_type) {
+      problems_.remark({"fixed joints that mimic",
+                        owner + " is fixed, so its <mimic> is not read: give it another type if it shall move",
+                        mimic->GetLineNum()});
+      element.DeleteChild(mimic);
+      mimic = nullptr;
+    }
+    if (mimic != nullptr) {
       joint.mimic.emplace();
       joint.mimic->line = mimic->GetLineNum();
       const char* target = mimic->Attribute("joint");

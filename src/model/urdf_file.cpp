@@ -46,6 +46,7 @@ UrdfFile read_urdf_file(const std::string& path) {
   check_mimics(urdf.file, problems);
   problems.throw_if_any();
   read_urdf_values(urdf.plain, urdf.file);
+  urdf.file.remarks = problems.take_remarks();
   return std::move(urdf.file);
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "model/urdf_remark.hpp"
 
 namespace chainreel {
 
@@ -29,6 +30,7 @@ struct UrdfMaterial {
   std::string name;                           // "" where it has none
   std::optional<std::array<double, 4>> rgba;  // red green blue opacity, 0 to 1
   std::string texture;                        // as written, "" where there is none
+  bool has_empty_texture = false;             // a <texture> without a file, which is remarked
   int line = 0;
   bool says_something() const { return rgba || !texture.empty(); }
 };
@@ -112,6 +114,7 @@ struct UrdfFile {
   std::vector<UrdfMaterial> materials;  // of the robot
   int root = -1;  // index into links
   std::vector<UrdfIgnoredTag> ignored;
+  std::vector<UrdfRemark> remarks;
 
   Place at(int line) const { return {path, line, 0}; }
 };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "model/urdf_remark.hpp"
 
 namespace chainreel {
 
@@ -19,6 +20,11 @@ class UrdfProblems {
   void add(int line, std::string message) {
     if (++count_ <= kMostShown) shown_.push_back({std::move(message), {path_, line, 0}});
   }
+  void remark(UrdfRemark remark) {
+    if (remarks_.size() < kMostRemarks) remarks_.push_back(std::move(remark));
+  }
+  std::vector<UrdfRemark> take_remarks() { return std::move(remarks_); }
+
   bool is_full() const { return count_ >= kMostShown; }  // what follows is only counted
 
   void throw_if_any() {
@@ -33,9 +39,11 @@ class UrdfProblems {
 
  private:
   static constexpr int kMostShown = 30;
+  static constexpr std::size_t kMostRemarks = 10'000;
 
   std::string path_;
   std::vector<Problem> shown_;
+  std::vector<UrdfRemark> remarks_;
   int count_ = 0;
 };
 

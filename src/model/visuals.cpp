@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <unordered_map>
 
 #include "mesh/image_color.hpp"
@@ -47,6 +48,7 @@ class Materials {
     if (material.name.empty()) return std::nullopt;
     const auto known = known_.find(material.name);
     if (known != known_.end()) return look_of(known->second);
+    if (without_file_.contains(material.name)) return std::nullopt;
     const std::string near = problems.is_full() ? "" : near_name(material.name, names_);
     problems.add(material.line, "link '" + link + "' names the material '" + material.name +
                                     "', which has no colour anywhere:" +
@@ -56,6 +58,7 @@ class Materials {
 
  private:
   void remember(const UrdfMaterial& material) {
+    if (material.has_empty_texture) without_file_.insert(material.name);
     if (material.name.empty() || !material.says_something()) return;
     if (known_.emplace(material.name, material).second) names_.push_back(material.name);
   }
@@ -80,6 +83,7 @@ class Materials {
   std::map<std::string, std::optional<std::array<std::uint8_t, 3>>> means_;  // of textures, by name
   std::unordered_map<std::string, UrdfMaterial> known_;
   std::vector<std::string> names_;  // in the file's order
+  std::set<std::string> without_file_;  // names of materials that are a texture without a file
 };
 
 }  // namespace

@@ -100,6 +100,40 @@ TEST(Doctor, SuspectsWrongUnits) {
               ElementsAre(HasSubstr("sits 333 m from its parent link")));
 }
 
+TEST(Doctor, SeesAttributesThatLookMisspelt) {
+  const auto with_origin = [](const std::string& origin) {
+    return findings_of(link_text("base") + link_text("arm", inertial_text()) +
+                       joint_text("swing", "continuous", "base", "arm", "0 0 1", "<origin " + origin + "/>"));
+  };
+  EXPECT_THAT(with_origin("xzy='0 0 1'"),
+              Contains("warning 4: joint 'swing': the attribute 'xzy' of <origin> is not read: did you mean 'xyz'?"));
+  EXPECT_THAT(with_origin("xyz='0 0 1' ryp='0 0 1'"), Contains(HasSubstr("'ryp' of <origin> is not read: did you mean 'rpy'?")));
+  EXPECT_THAT(with_origin("xyz='0 0 1' quat='1 0 0 0'"), Contains("note 4: joint 'swing': the attribute 'quat' of <origin> is not read"));
+  EXPECT_THAT(with_origin("xyz='0 0 1' rpy='0 0 1'"), IsEmpty());
+}
+
+TEST(Doctor, SeesAnglesThatLookLikeDegrees) {
+  const auto with_angles = [](const std::string& rpy) {
+    return findings_of(link_text("base") + link_text("arm", inertial_text()) +
+                       joint_text("swing", "continuous", "base", "arm", "0 0 1", "<origin rpy='" + rpy + "'/>"));
+  };
+  EXPECT_THAT(with_angles("90 0 0"), Contains(AllOf(StartsWith("warning 4: joint 'swing' has rpy=\"90 0 0\""),
+                                                    HasSubstr("were degrees meant?"))));
+  EXPECT_THAT(with_angles("0 -45 0"), Contains(HasSubstr("were degrees meant?")));
+  EXPECT_THAT(with_angles("1.5708 -3.1416 6.2832"), IsEmpty());
+  EXPECT_THAT(findings_of(arm_with("<inertial><origin rpy='0 0 180'/><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' "
+                                   "iyy='1' iyz='0' izz='1'/></inertial>")),
+              Contains(HasSubstr("the <inertial> of link 'arm' has rpy=\"0 0 180\"")));
+}
+
+TEST(Doctor, RemarksWhatOtherProgramsPassOver) {
+  EXPECT_THAT(findings_of(arm_with(inertial_text()) + link_text("pad") +
+                          joint_text("stick", "fixed", "arm", "pad", "0 0 1", "<mimic joint='none'/>")),
+              Contains("warning 6: joint 'stick' is fixed, so its <mimic> is not read: give it another type if it shall move"));
+  EXPECT_THAT(findings_of(arm_with(inertial_text()) + "<material name='worn'><texture/></material>\n"),
+              Contains(HasSubstr("material 'worn': <texture> names no file and is not read")));
+}
+
 TEST(Doctor, MeasuresMeshes) {
   const TemporaryFolder folder;
   folder.write(
@@ -120,7 +154,7 @@ TEST(Doctor, MeasuresMeshes) {
   // 1 kg m^2 and 1 kg in 0.27 m.
   EXPECT_THAT(with_mesh("filename='m.stl' scale='0.001 0.001 0.001'"), HasSubstr("measure 0.269 m across"));
   EXPECT_THAT(with_mesh("filename='lost.stl'"),
-              AllOf(HasSubstr("error: link 'arm': the mesh 'lost.stl' is not found (searched "),
+              AllOf(HasSubstr("warning: link 'arm': the mesh 'lost.stl' is not found (searched "),
                     HasSubstr("/lost.stl)")));
   EXPECT_THAT(with_mesh("filename='lost.stl'", "collision"),
               HasSubstr("warning: link 'arm': the mesh 'lost.stl'"));

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "model/visuals.hpp"
 #include "model_file.hpp"
 
 namespace chainreel {
@@ -95,26 +96,56 @@ TEST_F(PackagePath, WhatIsNotFoundTellsWhereItWasSearchedAndWhatToDo) {
                 "): say where the package lies with `--package lost=FOLDER`");
   EXPECT_THAT(find("http://host/m.stl").searched, IsEmpty());
   EXPECT_THAT(find("http://host/m.stl").remedy, HasSubstr("only package://, file:// and plain paths"));
-  EXPECT_THAT(find("package://").remedy, HasSubstr("--package"));
+  // A package without a name cannot be given a folder.
+  for (const char* name : {"package://", "package:///meshes/m.stl"}) {
+    EXPECT_THAT(find(name).remedy, HasSubstr("names no package"));
+    EXPECT_THAT(find(name).remedy, testing::Not(HasSubstr("--package")));
+  }
 }
 
-TEST_F(PackagePath, ReadChainAsksForTheMeshesThatAreDrawnOnly) {
-  const auto arm = [&](const std::string& tag, const std::string& file) {
-    return folder_.write(
+TEST_F(PackagePath, APackageThatStandsDeeperIsFoundByItsTail) {
+  const std::string deep = mesh("repository/robots/panda_description/meshes/m.stl");
+  const FoundFile found =
+      find("package://panda_description/meshes/m.stl", {{"panda_description", path("repository")}});
+  EXPECT_EQ(found.path, deep);
+  EXPECT_TRUE(found.by_tail);
+  // Its own place comes first, and is nothing to speak of.
+  const std::string own = mesh("repository/meshes/m.stl");
+  const FoundFile first = find("package://panda_description/meshes/m.stl", {{"panda_description", path("repository")}});
+  EXPECT_EQ(first.path, own);
+  EXPECT_FALSE(first.by_tail);
+}
+
+TEST_F(PackagePath, APathThroughAFolderAboveTheUrdfIsFoundByItsTail) {
+  const std::string inside = mesh("ws/arm_robot/meshes/m.stl");
+  const FoundFile found = find("package://collection/robots/arm_robot/meshes/m.stl");
+  EXPECT_EQ(found.path, inside);
+  EXPECT_TRUE(found.by_tail);
+  // Negative control: a file of the same name in the package of another robot is not taken.
+  EXPECT_EQ(find("package://collection/robots/leg_robot/meshes/m.stl").path, "");
+  EXPECT_EQ(find("package://collection/meshes/m.stl").path, "");
+}
+
+TEST_F(PackagePath, OnlyPicturesAskForMeshes) {
+  const auto asked_for = [&](const std::string& tag, const std::string& file) -> std::string {
+    const std::string arm = folder_.write(
         "ws/arm_robot/urdf/arm.urdf",
         robot_text(link_text("base") +
                    link_text("arm", inertial_text() + "<" + tag + "><geometry><mesh filename='" + file +
                                         "'/></geometry></" + tag + ">") +
                    joint_text("swing", "continuous", "base", "arm")));
+    EXPECT_EQ(refusal_of(arm), "");
+    try {
+      read_visuals(arm, read_chain(arm), {});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
   };
   mesh("ws/arm_robot/meshes/m.stl");
-  EXPECT_EQ(refusal_of(arm("visual", "package://arm_robot/meshes/m.stl")), "");
-  EXPECT_THAT(refusal_of(arm("visual", "package://arm_robot/meshes/n.stl")),
-              HasSubstr("is not found (searched"));
-  EXPECT_EQ(refusal_of(arm("collision", "package://arm_robot/meshes/n.stl")), "");
-  ModelOptions no_meshes;
-  no_meshes.meshes = false;
-  EXPECT_EQ(refusal_of(arm("visual", "package://arm_robot/meshes/n.stl"), no_meshes), "");
+  EXPECT_EQ(asked_for("visual", "package://arm_robot/meshes/m.stl"), "");
+  EXPECT_THAT(asked_for("visual", "package://arm_robot/meshes/n.stl"), HasSubstr("is not found (searched"));
+  EXPECT_EQ(asked_for("collision", "package://arm_robot/meshes/n.stl"), "");
 }
 
 }  // namespace

@@ -54,6 +54,36 @@ TEST(Regularity, AMassThatTurnsOnThePointItSitsOnIsRefusedWhenItFloats) {
   EXPECT_EQ(refusal(moving("a", "floating", "base")), "");
 }
 
+// What is missing is named: of a floating cart-pole the rail lacks a mass along the way of the cart, not an inertia.
+TEST(Regularity, TheMotionThatMovesNothingIsNamedWithWhatItLacks) {
+  const auto floating = [](const std::string& text) {
+    ModelOptions options;
+    options.floating_base = true;
+    const TemporaryFolder folder;
+    return refusal_of(folder.write("model.urdf", robot_text(text)), options);
+  };
+  const std::string unit = "ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'";
+  const std::string cart = moving("cart", "prismatic", "rail", "1 0 0") + moving("pole", "continuous", "cart", "0 1 0");
+  EXPECT_THAT(floating(link_text("rail", inertial_text(0, "0 0 0", unit)) + cart),
+              testing::AllOf(testing::HasSubstr("joint 'base' moves no mass at any pose when it moves along x (the "
+                                                "joints behind it give way)"),
+                             testing::HasSubstr("give link 'rail' a mass, or")));
+  EXPECT_EQ(floating(link_text("rail", inertial_text(1, "0 0 0", unit)) + cart), "");
+  EXPECT_THAT(refusal(point_mass("a", "base", "0 0 0", "0 0 1", "floating")),
+              testing::HasSubstr("when it turns about x, y and z, so no torque has an acceleration: give link 'a' an "
+                                 "inertia about x, y and z"));
+  EXPECT_THAT(refusal(point_mass("a", "base", "0 0 0.5", "0 0 1", "floating")),
+              testing::HasSubstr("when it turns about z, so"));
+  // About an axis that is none of the frame's.
+  const std::string rod = "ixx='0.5' ixy='-0.5' ixz='0' iyy='0.5' iyz='0' izz='1'";
+  EXPECT_THAT(floating(link_text("rod", inertial_text(1, "0 0 0", rod))),
+              testing::HasSubstr("when it turns about the axis (0.707, 0.707, 0) through (0, 0, 0), so"));
+  EXPECT_THAT(refusal(point_mass("a", "base", "0 0 0", "1 0 0", "prismatic", 0) +
+                      point_mass("b", "a", "0 0 0", "1 0 0", "prismatic")),
+              testing::HasSubstr("'to_a' moves no mass at any pose when it slides (the joints behind it give way), so no "
+                                 "torque has an acceleration: give link 'a' a mass"));
+}
+
 TEST(Regularity, AFollowerNeedsNoInertiaOfItsOwn) {
   const std::string leader = moving("a", "continuous", "base");
   const std::string follower = link_text("b", inertial_text(1, "0 0 1", kNoInertia));
