@@ -138,14 +138,15 @@ std::optional<Affine<T>> value_on_stack(const Instruction& instruction, std::spa
 }  // namespace
 
 template <class T>
-std::optional<AffineForm<T>> affine_form_of(const Expression& expression, std::span<const VariableUse> uses) {
+std::optional<AffineForm<T>> affine_form_of(std::span<const Instruction> instructions,
+                                            std::span<const VariableUse> uses) {
   std::vector<Affine<T>> stack;
   const auto pop = [&stack] {
     Affine<T> top = std::move(stack.back());
     stack.pop_back();
     return top;
   };
-  for (const Instruction& instruction : expression.program().instructions) {
+  for (const Instruction& instruction : instructions) {
     std::optional<Affine<T>> result;
     const int change = stack_change_of(instruction.operation);
     if (change > 0) {
@@ -164,7 +165,9 @@ std::optional<AffineForm<T>> affine_form_of(const Expression& expression, std::s
   return std::move(form);
 }
 
-template std::optional<AffineForm<double>> affine_form_of(const Expression&, std::span<const VariableUse>);
-template std::optional<AffineForm<Quad>> affine_form_of(const Expression&, std::span<const VariableUse>);
+template std::optional<AffineForm<double>> affine_form_of(std::span<const Instruction>,
+                                                           std::span<const VariableUse>);
+template std::optional<AffineForm<Quad>> affine_form_of(std::span<const Instruction>,
+                                                         std::span<const VariableUse>);
 
 }  // namespace chainreel

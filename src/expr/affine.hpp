@@ -34,6 +34,11 @@ inline constexpr int kHighestPowerOfTime = 8;
 
 // `uses`: of each name that the expression was parsed with. For double and Quad.
 template <class T>
-std::optional<AffineForm<T>> affine_form_of(const Expression& expression, std::span<const VariableUse> uses);
+std::optional<AffineForm<T>> affine_form_of(std::span<const Instruction> instructions,
+                                            std::span<const VariableUse> uses);
+template <class T>
+std::optional<AffineForm<T>> affine_form_of(const Expression& expression, std::span<const VariableUse> uses) {
+  return affine_form_of<T>(expression.program().instructions, uses);
+}
 
 }  // namespace chainreel

@@ -1,5 +1,6 @@
 #include "sim/chain_system.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "dynamics/forward_dynamics.hpp"
@@ -7,6 +8,12 @@
 #include "dynamics/kinematics.hpp"
 
 namespace chainreel {
+namespace {
+
+constexpr int kMostPasses = 5;   // of the sides that hold corners
+constexpr double kHeld = 1e-12;  // what is left of a rate then, of what the sides change in it
+
+}  // namespace
 
 ChainSystem::ChainSystem(const Chain& chain, TorqueLaw& torque, LimitPolicy limit,
                          const ConstraintPlan& constraints)
@@ -21,6 +28,11 @@ ChainSystem::ChainSystem(const Chain& chain, TorqueLaw& torque, LimitPolicy limi
 
 void ChainSystem::evaluate_torque(double t, ConstVec q, ConstVec qd) {
   if (torque_is_known_) return;
+  if (!held_.empty()) find_holding_sides(t, q, qd);
+  evaluate_law(t, q, qd);
+}
+
+void ChainSystem::evaluate_law(double t, ConstVec q, ConstVec qd) {
   const bool presses = constrained_ && constrained_->presses();
   torque_is_known_ = torque_->is_constant() && !presses;
   torque_->evaluate(*chain_, ws_, t, q, qd, tau_);
@@ -52,8 +64,67 @@ void ChainSystem::acceleration(double t, std::span<const double> q, std::span<co
                                std::span<double> vd) {
   ++evaluations_;
   evaluate_torque(t, q, v);
-  if (constrained_) return constrained_->accelerate(ws_, q, v, tau_, vd);
-  compute_forward_dynamics(*chain_, ws_, q, v, tau_, vd);
+  accelerate(q, v, vd);
+}
+
+void ChainSystem::accelerate(ConstVec q, ConstVec qd, Vec qdd) {
+  if (constrained_) return constrained_->accelerate(ws_, q, qd, tau_, qdd);
+  compute_forward_dynamics(*chain_, ws_, q, qd, tau_, qdd);
+}
+
+void ChainSystem::hold(std::vector<int> held) {
+  held_ = std::move(held);
+  change_ = DenseLu<double>(held_.size());
+  wanted_.resize(held_.size());
+}
+
+ConstVec ChainSystem::corner_rates(double t, ConstVec q, ConstVec qd) {
+  StateCorners& corners = *torque_->corners();
+  q_dot_.resize(q.size());
+  qdd_.resize(qd.size());
+  rates_.resize(std::size_t(corners.count()));
+  evaluate_law(t, q, qd);
+  accelerate(q, qd, qdd_);
+  ++evaluations_;
+  q_rate(q, qd, q_dot_);
+  corners.rates(*chain_, ws_, t, q, q_dot_, qd, qdd_, rates_);
+  return rates_;
+}
+
+bool ChainSystem::find_holding_sides(double t, ConstVec q, ConstVec qd) {
+  StateCorners& corners = *torque_->corners();
+  const std::size_t m = held_.size();
+  for (const int k : held_) corners.set_side(k, 0);
+  // Newton's iteration. The rates are affine in each side, so that one pass is enough unless two multiply.
+  double scale = 0;
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    corner_rates(t, q, qd);
+    double largest = 0;
+    for (std::size_t i = 0; i < m; ++i) {
+      wanted_[i] = -rates_[std::size_t(held_[i])];
+      largest = std::max(largest, std::fabs(wanted_[i]));
+    }
+    if (pass > 0 && largest <= kHeld * scale) return true;
+    for (std::size_t j = 0; j < m; ++j) {
+      const double side = corners.side(held_[j]);
+      corners.set_side(held_[j], side + 1);
+      corner_rates(t, q, qd);
+      corners.set_side(held_[j], side);
+      for (std::size_t i = 0; i < m; ++i) {
+        change_(i, j) = rates_[std::size_t(held_[i])] + wanted_[i];
+        scale = std::max(scale, std::fabs(change_(i, j)));
+      }
+    }
+    scale = std::max(scale, largest);
+    change_.factor();
+    change_.solve(wanted_);
+    for (std::size_t j = 0; j < m; ++j) {
+      const double side = corners.side(held_[j]) + wanted_[j];
+      if (!std::isfinite(side)) return false;
+      corners.set_side(held_[j], side);
+    }
+  }
+  return false;
 }
 
 double ChainSystem::power(double t, ConstVec q, ConstVec qd) {

@@ -4,9 +4,11 @@
 #include <memory>
 
 #include "dynamics/workspace.hpp"
+#include "integrate/dense_lu.hpp"
 #include "integrate/system.hpp"
 #include "sim/constrained_chain.hpp"
 #include "sim/limits.hpp"
+#include "sim/state_corners.hpp"
 #include "sim/torque.hpp"
 
 namespace chainreel {
@@ -31,6 +33,18 @@ class ChainSystem final : public SecondOrder {
   ConstVec net_torque(double t, ConstVec q, ConstVec qd);  // tau - tau_f
   LimitWatch& limits() { return limits_; }
 
+  // The corners of the torque law that depend on the state; null: none. Those of `held` are kept at zero from
+  // here on: their sides are, at each evaluation, the mean of both branches at which the switching functions
+  // do not change (A. F. Filippov, Differential Equations with Discontinuous Righthand Sides (1988), 4).
+  StateCorners* corners() { return torque_->corners(); }
+  void hold(std::vector<int> held);
+  const std::vector<int>& held() const { return held_; }
+  // The sides that hold them at this state, also beyond -1 and 1; false where none do.
+  bool find_holding_sides(double t, ConstVec q, ConstVec qd);
+  // The rates of all switching functions at the sides that stand, one a corner; valid until the next call.
+  ConstVec corner_rates(double t, ConstVec q, ConstVec qd);
+  ConstVec last_acceleration() const { return qdd_; }  // of corner_rates
+
   // Null where there are no constraints: then nothing of them is computed.
   ConstrainedChain* constrained() const { return constrained_.get(); }
   Workspace& workspace() { return ws_; }
@@ -45,6 +59,8 @@ class ChainSystem final : public SecondOrder {
 
  private:
   void evaluate_torque(double t, ConstVec q, ConstVec qd);
+  void evaluate_law(double t, ConstVec q, ConstVec qd);
+  void accelerate(ConstVec q, ConstVec qd, Vec qdd);
 
   const Chain* chain_;
   TorqueLaw* torque_;
@@ -55,6 +71,9 @@ class ChainSystem final : public SecondOrder {
   std::vector<double> tau_;
   std::vector<double> tau_net_;   // of a chain with friction
   bool torque_is_known_ = false;  // constant and evaluated: the same tau_ at every instant
+  std::vector<int> held_;
+  std::vector<double> q_dot_, qdd_, rates_, wanted_;
+  DenseLu<double> change_{0};
   long evaluations_ = 0;
   int bad_torque_ = -1;
 };

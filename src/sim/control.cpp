@@ -28,7 +28,7 @@ class CsvTorque final : public TorqueLaw {
             y[next - 1] + (t - times[next - 1]) / (times[next] - times[next - 1]) * (y[next] - y[next - 1]);
     }
   }
-  std::vector<double> breaks() const override { return table_.t; }
+  std::vector<double> breaks(double) const override { return table_.t; }
 
  private:
   TimeTable table_;
@@ -39,6 +39,10 @@ class ReferenceLaw : public TorqueLaw {
  public:
   ReferenceLaw(std::unique_ptr<Reference> reference, int n)
       : reference_(std::move(reference)), q_(std::size_t(n)), qd_(q_), qdd_(q_) {}
+
+  std::vector<double> breaks(double end) const override { return reference_->breaks(end); }
+  void enter_piece(double t) override { reference_->enter_piece(t); }
+  void leave_pieces() override { reference_->leave_pieces(); }
 
  protected:
   void move_to(double t) { reference_->evaluate(t, q_, qd_, qdd_); }
@@ -113,13 +117,19 @@ class SumOfTorques final : public TorqueLaw {
       for (std::size_t i = 0; i < tau.size(); ++i) tau[i] += part_[i];
     }
   }
-  std::vector<double> breaks() const override {
+  std::vector<double> breaks(double end) const override {
     std::vector<double> all;
     for (const auto& part : parts_) {
-      const std::vector<double> some = part->breaks();
+      const std::vector<double> some = part->breaks(end);
       all.insert(all.end(), some.begin(), some.end());
     }
     return all;
+  }
+  void enter_piece(double t) override {
+    for (const auto& part : parts_) part->enter_piece(t);
+  }
+  void leave_pieces() override {
+    for (const auto& part : parts_) part->leave_pieces();
   }
 
  private:

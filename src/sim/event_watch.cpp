@@ -1,13 +1,9 @@
-// The root finder is ITP: I. F. D. Oliveira, R. H. C. Takahashi, An Enhancement of the Bisection Method
-// Average Performance Preserving Minmax Optimality, ACM Trans. Math. Softw. 47 (2020) 5, with kappa_1 = 0.2 /
-// (b - a), kappa_2 = 2, n_0 = 1. It takes one look more than bisection at worst, whatever the function does
-// between the ends, and converges as fast as the secant method where that is smooth.
 #include "sim/event_watch.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "sim/first_instant.hpp"
 #include "sim/foot.hpp"
 
 namespace chainreel {
@@ -33,17 +29,6 @@ bool holds(Event::Test test, double value) {
       return false;
   }
   return false;
-}
-
-double itp_estimate(double a, double b, double ya, double yb, double truncation, double radius) {
-  const double half = 0.5 * (a + b);
-  // Regula falsi, where it means something.
-  const bool brackets = sign_of(ya) * sign_of(yb) < 0 && std::isfinite(ya) && std::isfinite(yb);
-  const double secant = brackets ? (yb * a - ya * b) / (yb - ya) : half;
-  const double sigma = secant < half ? 1 : -1;
-  const double truncated = truncation <= std::abs(half - secant) ? secant + sigma * truncation : half;
-  const double x = std::abs(truncated - half) <= radius ? truncated : half - sigma * radius;
-  return x > a && x < b ? x : half;
 }
 
 }  // namespace
@@ -107,24 +92,9 @@ double EventWatch::value_at(Integrator& integrator, const Event& event, double t
 // The first instant found at which the event has happened; within the tolerance before it, it had not.
 double EventWatch::locate(Integrator& integrator, std::size_t i, double a, double b) {
   const Event& event = events_.list[i];
-  double ya = before_[i].value, yb = now_[i];
-  const double ulp = std::nextafter(std::abs(b), std::numeric_limits<double>::max()) - std::abs(b);
-  const double tolerance = 0.5 * std::max(kInstantTolerance, 4 * ulp);
-  const double kappa = 0.2 / (b - a);
-  const int most = 1 + int(std::ceil(std::max(0.0, std::log2((b - a) / (2 * tolerance)))));
-  for (int j = 0; j <= most && b - a > 2 * tolerance; ++j) {
-    const double radius = tolerance * std::ldexp(1, most - j) - 0.5 * (b - a);
-    const double x = itp_estimate(a, b, ya, yb, kappa * (b - a) * (b - a), std::max(radius, 0.0));
-    const double y = value_at(integrator, event, x);
-    if (happens(event, before_[i], y)) {
-      b = x;
-      yb = y;
-    } else {
-      a = x;
-      ya = y;
-    }
-  }
-  return b;
+  return first_instant(
+      {a, before_[i].value}, {b, now_[i]}, [&](double t) { return value_at(integrator, event, t); },
+      [&](double value) { return happens(event, before_[i], value); });
 }
 
 void EventWatch::record(Integrator& integrator, const Pending& hit, EventHits& hits) {

@@ -19,13 +19,13 @@
 
 #include "core/error.hpp"
 #include "expr/expression.hpp"
+#include "sim/first_instant.hpp"
 #include "sim/foot.hpp"
 #include "sim/probe.hpp"
 
 namespace chainreel {
 
 inline constexpr int kLooksPerStep = 8;
-inline constexpr double kInstantTolerance = 1e-12;  // s, or four units in the last place of t
 
 enum class EventKind {
   mark,  // is recorded

@@ -2,7 +2,8 @@
 
 #include "core/csv.hpp"
 #include "core/scalar.hpp"
-#include "expr/expression.hpp"
+#include "expr/corners.hpp"
+#include "expr/instants.hpp"
 #include "sim/spline.hpp"
 
 namespace chainreel {
@@ -12,40 +13,56 @@ using SecondDual = Dual<Dual<double>>;
 
 class ExpressionReference final : public Reference {
  public:
-  ExpressionReference(std::vector<Expression> q, std::vector<Expression> qd, std::vector<Expression> qdd,
-                      const Parameters& parameters)
-      : q_(std::move(q)),
-        qd_(std::move(qd)),
-        qdd_(std::move(qdd)),
-        values_(1 + parameters.size()),
-        duals_(values_.size()) {
+  ExpressionReference(const std::vector<Expression>& q, const std::vector<Expression>& qd,
+                      const std::vector<Expression>& qdd, const Parameters& parameters)
+      : corners_(uses(parameters)), values_(1 + parameters.size()), duals_(values_.size()) {
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       values_[i + 1] = parameters[i].second;
       duals_[i + 1] = SecondDual(Dual<double>(parameters[i].second, 0), Dual<double>(0, 0));
     }
+    for (const Expression& one : q) q_.push_back(corners_.add(one));
+    for (const Expression& one : qd) qd_.push_back(corners_.add(one));
+    for (const Expression& one : qdd) qdd_.push_back(corners_.add(one));
+    leave_pieces();
   }
 
   void evaluate(double t, Vec q, Vec qd, Vec qdd) const override {
     values_[0] = t;
     duals_[0] = SecondDual(Dual<double>(t, 1), Dual<double>(1, 0));
     for (std::size_t i = 0; i < q_.size(); ++i) {
-      const SecondDual y = q_[i].evaluate<SecondDual>(duals_);
+      const SecondDual y = chainreel::evaluate<SecondDual>(q_[i], duals_, sides_);
       q[i] = y.re.re;
-      qd[i] = qd_.empty() ? y.re.du : qd_[i].evaluate<double>(values_);
-      qdd[i] = qdd_.empty() ? y.du.du : qdd_[i].evaluate<double>(values_);
+      qd[i] = qd_.empty() ? y.re.du : chainreel::evaluate<double>(qd_[i], values_, sides_);
+      qdd[i] = qdd_.empty() ? y.du.du : chainreel::evaluate<double>(qdd_[i], values_, sides_);
     }
   }
 
+  std::vector<double> breaks(double end) const override { return instants_of(corners_, end); }
+  void enter_piece(double t) override {
+    leave_pieces();
+    set_sides_of_time(corners_, t, sides_);
+  }
+  void leave_pieces() override { sides_.assign(std::size_t(corners_.count()), kAsWritten); }
+
  private:
-  std::vector<Expression> q_, qd_, qdd_;
+  static std::vector<VariableUse> uses(const Parameters& parameters) {
+    std::vector<VariableUse> uses{{VariableRole::time, 0}};
+    for (const auto& [name, value] : parameters) uses.push_back({VariableRole::constant, value});
+    return uses;
+  }
+
+  Corners corners_;
+  std::vector<CorneredProgram> q_, qd_, qdd_;
+  std::vector<double> sides_;
   mutable std::vector<double> values_;
   mutable std::vector<SecondDual> duals_;
 };
 
 class TableReference final : public Reference {
  public:
-  TableReference(std::vector<Spline> q, std::vector<Spline> qd, std::vector<Spline> qdd)
-      : q_(std::move(q)), qd_(std::move(qd)), qdd_(std::move(qdd)) {}
+  TableReference(std::vector<double> t, std::vector<Spline> q, std::vector<Spline> qd,
+                 std::vector<Spline> qdd)
+      : t_(std::move(t)), q_(std::move(q)), qd_(std::move(qd)), qdd_(std::move(qdd)) {}
 
   void evaluate(double t, Vec q, Vec qd, Vec qdd) const override {
     for (std::size_t i = 0; i < q_.size(); ++i) {
@@ -56,8 +73,11 @@ class TableReference final : public Reference {
       qdd[i] = qdd_.empty() ? rate.yd : qdd_[i].at(t).y;
     }
   }
+  // The accelerations of a spline bend at its rows.
+  std::vector<double> breaks(double) const override { return t_; }
 
  private:
+  std::vector<double> t_;
   std::vector<Spline> q_, qd_, qdd_;
 };
 
@@ -101,7 +121,7 @@ std::unique_ptr<Reference> make_table_reference(const std::string& path, int n) 
   if (table.groups[0].empty())
     throw Error(ExitCode::bad_input, "has no columns q1 to q" + std::to_string(n) + ", one a freedom",
                 {path});
-  return std::make_unique<TableReference>(splines(table, 0), splines(table, 1), splines(table, 2));
+  return std::make_unique<TableReference>(table.t, splines(table, 0), splines(table, 1), splines(table, 2));
 }
 
 }  // namespace chainreel

@@ -20,6 +20,10 @@ class Reference {
  public:
   virtual ~Reference() = default;
   virtual void evaluate(double t, Vec q, Vec qd, Vec qdd) const = 0;  // n numbers each; allocates nothing
+  // Where it bends or jumps, and the piece between two such instants: see TorqueLaw.
+  virtual std::vector<double> breaks(double) const { return {}; }
+  virtual void enter_piece(double) {}
+  virtual void leave_pieces() {}
 };
 
 // From expressions in t and the parameters, one a freedom. Empty `qd` and `qdd` are the derivatives of q,

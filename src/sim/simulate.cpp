@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <tuple>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "sim/chain_system.hpp"
+#include "sim/corner_watch.hpp"
 #include "sim/event_watch.hpp"
 #include "sim/forms.hpp"
 #include "sim/work.hpp"
@@ -16,19 +19,25 @@ namespace {
 
 // A coordinate or rate beyond this has left every machine that could be drawn.
 constexpr double kDivergenceBound = 1e9;  // rad, m, rad/s, m/s
+constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kMostNumbers = 2.5e8;    // stored in one trajectory: 2 GB
 constexpr double kSameInstant = 1e-9;     // of a step: two instants closer than this are one
+constexpr double kSameBreak = 1e-14;      // of the duration, where the method chooses its steps
 constexpr double kLostConstraint = 1e-6;  // m or rad, behind a projection
 constexpr long kStepsBetweenStopRequests = 4096;
+// Corners of the state: how exactly steps end there, in s and units in the last place, and how often that is tried.
+constexpr double kCutTolerance = 1e-13;
+constexpr int kMostCuts = 12;
 
 // The instants at which steps end: whole steps, and a shorter last one where the duration is no multiple of
 // the step; breaks of the torque law; where the method chooses its steps, the breaks and the duration alone.
 class Grid {
  public:
   Grid(const Simulation& simulation)
-      : step_(simulation.step), duration_(simulation.duration), breaks_(simulation.torque->breaks()) {
+      : step_(simulation.step), duration_(simulation.duration), breaks_(simulation.torque->breaks(duration_)) {
     std::sort(breaks_.begin(), breaks_.end());
-    same_ = same_instant(simulation);
+    // A step from break to break may be as short as time can tell; one to the grid may not.
+    same_ = step_ > 0 ? same_instant(simulation) : kSameBreak * duration_;
     if (step_ <= 0) return;
     whole_steps_ = long(std::floor(duration_ / step_ + kSameInstant));
     remainder_ = duration_ - double(whole_steps_) * step_;
@@ -47,19 +56,38 @@ class Grid {
   // The next multiple of the step, the duration, or a break that comes first. A step from multiple to
   // multiple has the step's own length, so that it does not depend on where it stands.
   Next next(double now) {
+    before_ = {whole_, on_grid_};
     while (next_break_ < breaks_.size() && breaks_[next_break_] <= now + same_) ++next_break_;
+    const double end_of_piece = next_break_ < breaks_.size() ? breaks_[next_break_] : kNever;
+    const double first = std::min(end_of_piece, cut_);
     const bool last = step_ <= 0 || whole_ == whole_steps_;
     const double grid = last ? duration_ : double(whole_ + 1) * step_;
-    if (next_break_ < breaks_.size() && breaks_[next_break_] < grid - same_) {
+    if (first < grid - same_) {
       on_grid_ = false;
-      return {breaks_[next_break_], breaks_[next_break_] - now, true};
+      return {first, first - now, true};
     }
-    if (step_ <= 0) return {duration_, duration_ - now, false};
+    if (step_ <= 0) return {duration_, duration_ - now, first <= grid};
     const double h = on_grid_ ? (last ? remainder_ : step_) : grid - now;
     if (!last) ++whole_;
     on_grid_ = true;
-    return {grid, h, next_break_ < breaks_.size() && breaks_[next_break_] <= grid + same_};
+    return {grid, h, first <= grid + same_};
   }
+
+  // The step that was asked for last is taken again, and ends at `cut` if nothing comes before.
+  void cut_at(double cut) {
+    std::tie(whole_, on_grid_) = before_;
+    cut_ = cut;
+  }
+  void forget_cut() { cut_ = kNever; }
+  bool is_cut() const { return cut_ < kNever; }
+
+  // The middle of the piece between breaks that begins at `now`, or holds it.
+  double middle_of_piece(double now) const {
+    const auto next = std::upper_bound(breaks_.begin(), breaks_.end(), now + same_);
+    const double begin = next == breaks_.begin() ? 0 : *(next - 1);
+    return 0.5 * (std::max(begin, 0.0) + std::min(next == breaks_.end() ? duration_ : *next, duration_));
+  }
+  double same() const { return same_; }
 
  private:
   double step_, duration_, same_;
@@ -69,6 +97,8 @@ class Grid {
   bool on_grid_ = true;   // now is such a multiple
   std::vector<double> breaks_;
   std::size_t next_break_ = 0;
+  double cut_ = kNever;  // a break found on the way
+  std::pair<long, bool> before_{0, true};
 };
 
 // One run in progress.
@@ -84,6 +114,9 @@ class Run {
         q_(simulation.q0),
         qd_(simulation.qd0),
         work_(simulation, system_, integrator_->dense_order()) {
+    if (system_.corners()) corners_.emplace(system_, simulation.duration);
+    simulation.torque->enter_piece(grid_.middle_of_piece(0));
+    settle_corners(0);
     integrator_->start(0, q_, qd_);
     if (simulation.events && !simulation.events->list.empty()) watch_.emplace(*simulation.events, system_);
     trajectory_.nq = simulation.chain.nq;
@@ -91,6 +124,10 @@ class Run {
     if (constrained_) trajectory_.rows = constrained_->set().rows();
     reserve(samples);
   }
+
+  ~Run() { simulation_.torque->leave_pieces(); }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
 
   bool at_end() const { return grid_.at_end(now()); }
   long steps() const { return trajectory_.steps; }
@@ -100,9 +137,10 @@ class Run {
   bool take_step() {
     const double begin = now();
     if (constrained_ && steps() == 0 && !check_constraints(begin)) return false;
-    const Grid::Next next = grid_.next(begin);
-    if (!check_result(integrator_->step(next.end, next.h), begin)) return false;
-    if (!check_state(begin, now())) return false;
+    if (chatters_) return blame_corner(begin);
+    const std::optional<Grid::Next> moved = corners_ ? step_to_corner(begin) : step_on(begin);
+    if (!moved) return false;
+    const Grid::Next next = *moved;
     if (constrained_ && !settle()) return false;
     system_.forget_bad_torque();
     work_.add_step(system_, *integrator_, q_now());
@@ -120,9 +158,10 @@ class Run {
   void pass_break() {
     if (!start_anew_ && projected_) integrator_->correct(q_end_, qd_end_);
     if (!start_anew_) return;
-    const ConstVec q = q_now(), qd = qd_now();
-    std::copy(q.begin(), q.end(), q_.begin());
-    std::copy(qd.begin(), qd.end(), qd_.begin());
+    remember_state();
+    grid_.forget_cut();
+    simulation_.torque->enter_piece(grid_.middle_of_piece(now()));
+    settle_corners(now());
     integrator_->start(now(), q_, qd_);
     start_anew_ = false;
   }
@@ -194,6 +233,65 @@ class Run {
     trajectory_.lambda.insert(trajectory_.lambda.end(), lambda.begin(), lambda.end());
     trajectory_.position_error = std::max(trajectory_.position_error, look.position_error);
     trajectory_.velocity_error = std::max(trajectory_.velocity_error, look.velocity_error);
+  }
+
+  std::optional<Grid::Next> step_on(double begin) {
+    const Grid::Next next = grid_.next(begin);
+    if (!check_result(integrator_->step(next.end, next.h), begin) || !check_state(begin, now())) return {};
+    return next;
+  }
+
+  // A step within which no corner of the torques leaves its side: one that does is taken again up to there,
+  // until it ends there.
+  std::optional<Grid::Next> step_to_corner(double begin) {
+    remember_state();
+    for (int cuts = 0;; ++cuts) {
+      const std::optional<Grid::Next> next = step_on(begin);
+      if (!next) return {};
+      const bool arrived = grid_.is_cut() && next->is_break && now() == next->end;
+      const double tolerance = std::max(kCutTolerance, 8e-16 * now());
+      std::optional<double> cut = corners_->first_crossing(*integrator_);
+      if (cut && now() - *cut <= tolerance && arrived) cut.reset();
+      if (!cut && arrived && cuts < kMostCuts) {
+        const double off = corners_->off_by(now(), integrator_->q(), integrator_->v());
+        if (std::abs(off) > tolerance && std::abs(off) < 0.5 * (now() - begin)) cut = now() + off;
+      }
+      if (!cut || cuts >= 2 * kMostCuts) {
+        if (cut) grid_.cut_at(now());  // as near as can be had
+        return cut ? Grid::Next{now(), next->h, true} : *next;
+      }
+      system_.forget_bad_torque();
+      if (*cut <= begin + std::max(grid_.same(), tolerance)) {  // it has no length: the corner is here
+        grid_.cut_at(kNever);
+        settle_corners(begin);
+        if (chatters_) return blame_corner(begin), std::nullopt;
+      } else {
+        grid_.cut_at(*cut);
+      }
+      integrator_->start(begin, q_, qd_);
+    }
+  }
+
+  void settle_corners(double t) {
+    if (!corners_) return;
+    chatters_ = !corners_->settle(t, q_, qd_);
+    if (!trajectory_.holds.empty() && trajectory_.holds.back().end == kNever) trajectory_.holds.back().end = t;
+    if (corners_->is_holding()) trajectory_.holds.push_back({t, kNever, system_.held()});
+  }
+
+  bool blame_corner(double t) {
+    set_trouble(RunStatus::chattering,
+                "the torque `" + corners_->culprit() +
+                    "` jumps to and fro without end: smooth its corner, as tanh(x/0.01) smooths a sign",
+                t);
+    return false;
+  }
+
+  // The state at the last step's end into that of samples.
+  void remember_state() {
+    const ConstVec q = q_now(), qd = qd_now();
+    std::copy(q.begin(), q.end(), q_.begin());
+    std::copy(qd.begin(), qd.end(), qd_.begin());
   }
 
   // The state at the end of the last step.
@@ -312,6 +410,8 @@ class Run {
   bool projected_ = false;              // so that these two hold
   WorkIntegral work_;
   std::optional<EventWatch> watch_;
+  std::optional<CornerWatch> corners_;  // of the state
+  bool chatters_ = false;               // they jump to and fro without end
   bool passed_limit_ = false;
   bool start_anew_ = false;
   Trajectory trajectory_;
@@ -339,6 +439,8 @@ std::string to_string(RunStatus status) {
       return "inconsistent";
     case RunStatus::constraint_lost:
       return "constraint_lost";
+    case RunStatus::chattering:
+      return "chattering";
     case RunStatus::interrupted:
       return "interrupted";
   }

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "core/format.hpp"
-#include "expr/affine.hpp"
 #include "expr/expression.hpp"
 #include "model/read_chain.hpp"
+#include "sim/expression_torque.hpp"
 
 namespace chainreel {
 namespace {
@@ -36,76 +36,6 @@ class ConstantTorque final : public TorqueLaw {
   std::vector<double> tau_;
 };
 
-class ExpressionTorque final : public TorqueLaw {
- public:
-  ExpressionTorque(Probe probe, std::vector<Expression> entries)
-      : probe_(std::move(probe)), entries_(std::move(entries)) {
-    for (const Expression& entry : entries_) {
-      for (int slot : entry.used_variables()) {
-        needs_kinematics_ |= probe_.is_kinematic(slot);
-        depends_on_velocity_ |= probe_.is_velocity(slot);
-      }
-    }
-  }
-
-  void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) override {
-    probe_.set(chain, ws, t, q, qd, needs_kinematics_);
-    for (std::size_t i = 0; i < entries_.size(); ++i) tau[i] = entries_[i].evaluate(probe_.values());
-  }
-  bool depends_on_velocity() const override { return depends_on_velocity_; }
-
-  std::optional<AffineTorque> affine() const override {
-    const std::size_t n = entries_.size();
-    if (!has_coordinate_a_freedom()) return {};
-    AffineTorque torque{{}, std::vector<Quad>(n * n), std::vector<Quad>(n * n)};
-    const std::vector<VariableUse> uses = variable_uses();
-    for (std::size_t i = 0; i < n; ++i) {
-      auto form = affine_form_of<Quad>(entries_[i], uses);
-      if (!form) return {};
-      torque.powers.push_back(std::move(form->powers));
-      std::copy_n(form->weights.begin() + 1, n, torque.K.begin() + std::ptrdiff_t(i * n));
-      std::copy_n(form->weights.begin() + 1 + std::ptrdiff_t(n), n, torque.D.begin() + std::ptrdiff_t(i * n));
-    }
-    return torque;
-  }
-
-  bool evaluate_in_quad(Quad t, std::span<const Quad> q, std::span<const Quad> qd,
-                        std::span<Quad> tau) const override {
-    if (needs_kinematics_) return false;
-    std::vector<Quad> values(probe_.values().begin(), probe_.values().end());
-    values[0] = t;
-    std::copy(qd.begin(), qd.end(), std::copy(q.begin(), q.end(), values.begin() + 1));
-    for (std::size_t i = 0; i < entries_.size(); ++i)
-      tau[i] = entries_[i].evaluate(std::span<const Quad>(values));
-    return true;
-  }
-
- private:
-  // False with floating joints, whose rates are no derivatives of their coordinates.
-  bool has_coordinate_a_freedom() const { return probe_.is_kinematic(int(1 + 2 * entries_.size())); }
-
-  // Time, then coordinates and rates, then the end effector, then parameters.
-  std::vector<VariableUse> variable_uses() const {
-    std::vector<VariableUse> uses;
-    for (std::size_t slot = 0; slot < probe_.values().size(); ++slot) {
-      if (slot == 0)
-        uses.push_back({VariableRole::time, 0});
-      else if (slot <= 2 * entries_.size())
-        uses.push_back({VariableRole::linear, 0});
-      else if (probe_.is_kinematic(int(slot)))
-        uses.push_back({VariableRole::other, 0});
-      else
-        uses.push_back({VariableRole::constant, probe_.values()[slot]});
-    }
-    return uses;
-  }
-
-  Probe probe_;
-  std::vector<Expression> entries_;
-  bool needs_kinematics_ = false;
-  bool depends_on_velocity_ = false;
-};
-
 // Expressions and constants for all joints, with single joints driven by controls instead.
 class MixedTorque final : public TorqueLaw {
  public:
@@ -122,14 +52,23 @@ class MixedTorque final : public TorqueLaw {
       tau[joint] = one_[joint];
     }
   }
-  std::vector<double> breaks() const override {
-    std::vector<double> all;
+  std::vector<double> breaks(double end) const override {
+    std::vector<double> all = rest_->breaks(end);
     for (const auto& [joint, law] : controls_) {
-      const std::vector<double> some = law->breaks();
+      const std::vector<double> some = law->breaks(end);
       all.insert(all.end(), some.begin(), some.end());
     }
     return all;
   }
+  void enter_piece(double t) override {
+    rest_->enter_piece(t);
+    for (const auto& [joint, law] : controls_) law->enter_piece(t);
+  }
+  void leave_pieces() override {
+    rest_->leave_pieces();
+    for (const auto& [joint, law] : controls_) law->leave_pieces();
+  }
+  StateCorners* corners() override { return rest_->corners(); }
 
  private:
   std::unique_ptr<TorqueLaw> rest_;
@@ -173,7 +112,7 @@ std::unique_ptr<TorqueLaw> make_plain_law(const Chain& chain, const std::vector<
     }
   }
   if (constants.size() == entries.size()) return std::make_unique<ConstantTorque>(std::move(constants));
-  return std::make_unique<ExpressionTorque>(std::move(probe), std::move(parsed));
+  return make_expression_torque(std::move(probe), std::move(parsed));
 }
 
 }  // namespace

@@ -12,6 +12,8 @@
 
 namespace chainreel {
 
+class StateCorners;
+
 class TorqueLaw {
  public:
   virtual ~TorqueLaw() = default;
@@ -20,8 +22,15 @@ class TorqueLaw {
   virtual void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) = 0;
   virtual bool is_constant() const { return false; }  // then the work done is tau . (q - q(0)) exactly
   virtual bool depends_on_velocity() const { return !is_constant(); }
-  // Instants at which the torque has a kink or a jump: steps end there, so that methods keep their order.
-  virtual std::vector<double> breaks() const { return {}; }
+  // Instants up to `end` at which the torque has a kink or a jump, in any order: steps end there, so that
+  // methods keep their order. Throws Error (limit) where there are too many.
+  virtual std::vector<double> breaks(double) const { return {}; }
+  // From here on all evaluations are for steps between two breaks, around t: at the breaks themselves the law
+  // goes on as it is between them. `leave_pieces` ends that.
+  virtual void enter_piece(double) {}
+  virtual void leave_pieces() {}
+  // What the torque bends or jumps at where that depends on the state; null: nothing.
+  virtual StateCorners* corners() { return nullptr; }
   // The law as polynomials in t plus multiples of q and qd, where it is one.
   virtual std::optional<AffineTorque> affine() const { return {}; }
   // The law with the digits of Quad; false where it has none.

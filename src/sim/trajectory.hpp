@@ -19,6 +19,7 @@ enum class RunStatus {
   step_too_small,     // an adaptive method found no step that meets its tolerance
   inconsistent,       // constraints contradict each other: no acceleration fulfils them
   constraint_lost,    // the way back onto the constraints was not found
+  chattering,         // a torque jumps to and fro at ever shorter intervals
   interrupted,        // the user stopped it
 };
 
@@ -79,6 +80,13 @@ struct Trajectory {
   std::string trouble;   // one sentence where the status is not `finished`: time, step and joint
 
   std::vector<LimitEvent> limits;  // passed, each joint and quantity once
+  // While corners of the torques were kept at zero, like dry friction at rest.
+  struct Hold {
+    double begin, end;         // s; infinite where the run ended in it
+    std::vector<int> corners;  // see ChainSystem::hold
+  };
+  std::vector<Hold> holds;
+
   EventHits events;
   int ending_event = -1;  // the index of the one that ended the run
 

@@ -1,0 +1,248 @@
+#include "sim/corner_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/events.hpp"
+#include "sim/first_instant.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kTouch = 1e-13;       // of 1 + |g|: closer to zero than this is at zero
+constexpr double kAhead = 1e-5;        // s: a look ahead where a rate says nothing
+constexpr std::size_t kRush = 100;     // changes of sides that are looked at together,
+constexpr double kRushTime = 0.01;     // s, and within how short a time they come to no end
+constexpr double kLeaving = 1e-6;      // of 1: a side that a crossing found there is beyond it
+constexpr std::size_t kMostOpen = 6;   // corners at zero at once: 3^6 combinations
+
+}  // namespace
+
+CornerWatch::CornerWatch(ChainSystem& system, double duration)
+    : system_(system),
+      corners_(*system.corners()),
+      ws_(system.chain()),
+      rush_(std::min(kRushTime, 1e-3 * duration)),
+      watched_(std::size_t(corners_.count())),
+      margins_(watched_.size()),
+      g_(watched_.size()),
+      g_ahead_(watched_.size()),
+      last_g_(watched_.size()),
+      q_(std::size_t(system.nq())),
+      qd_(std::size_t(system.nv())),
+      ahead_q_(q_),
+      ahead_qd_(qd_),
+      looks_(watched_.size() * (kLooksPerStep + 1)),
+      change_times_(kRush) {}
+
+void CornerWatch::read(double t, ConstVec q, ConstVec qd) {
+  if (is_holding()) system_.find_holding_sides(t, q, qd);
+  corners_.values(system_.chain(), ws_, t, q, qd, g_);
+  for (std::size_t k = 0; k < margins_.size(); ++k)
+    margins_[k] = watched_[k].as_written ? kTouch * (1 + std::fabs(g_[k])) - std::fabs(g_[k])
+                                         : corners_.side(int(k)) * g_[k];
+  for (const int k : system_.held()) margins_[std::size_t(k)] = 1 - std::fabs(corners_.side(k));
+}
+
+double CornerWatch::margin_at(Integrator& integrator, int k, double t) {
+  integrator.interpolate(t, q_, qd_);
+  read(t, q_, qd_);
+  return margins_[std::size_t(k)];
+}
+
+std::optional<double> CornerWatch::crossing(Integrator& integrator, int k, double from, double to) {
+  const double slack = watched_[std::size_t(k)].slack;
+  const double a = margin_at(integrator, k, from), b = margin_at(integrator, k, to);
+  if (b >= -slack) return {};
+  if (a < -slack) return from;
+  return first_instant(
+      {from, a + slack}, {to, b + slack}, [&](double t) { return margin_at(integrator, k, t) + slack; },
+      [](double margin) { return margin < 0; });
+}
+
+std::optional<double> CornerWatch::first_crossing(Integrator& integrator) {
+  const double begin = integrator.begin_time(), end = integrator.time();
+  const std::size_t n = watched_.size();
+  const auto instant = [&](int look) {
+    return look == kLooksPerStep ? end : begin + (end - begin) * look / kLooksPerStep;
+  };
+  std::optional<double> first;
+  const auto take = [&](std::size_t k, std::optional<double> t) {
+    if (!t || (first && *first <= *t)) return;
+    first = t;
+    crossed_ = int(k);
+  };
+  for (int look = 0; look <= kLooksPerStep && !first; ++look) {
+    integrator.interpolate(instant(look), q_, qd_);
+    read(instant(look), q_, qd_);
+    std::copy(margins_.begin(), margins_.end(), looks_.begin() + std::ptrdiff_t(std::size_t(look) * n));
+    if (look == 0) continue;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double now = looks_[std::size_t(look) * n + k], before = looks_[std::size_t(look - 1) * n + k];
+      if (now < -watched_[k].slack) {
+        take(k, crossing(integrator, int(k), instant(look - 1), instant(look)));
+        continue;
+      }
+      if (now > watched_[k].slack) watched_[k].slack = 0;
+      if (look < 2) continue;
+      // A dip between two looks: where the parabola through three of them has its lowest point.
+      const double earlier = looks_[std::size_t(look - 2) * n + k], bend = earlier - 2 * before + now;
+      if (!(before < earlier && before <= now && bend > 0)) continue;
+      const double lowest = std::clamp(0.5 * (earlier - now) / bend, -1.0, 1.0);
+      if (before - 0.125 * (earlier - now) * (earlier - now) / bend > 0.5 * before) continue;
+      const double there = instant(look - 1) + lowest * (end - begin) / kLooksPerStep;
+      take(k, crossing(integrator, int(k), instant(look - 2), there));
+    }
+  }
+  return first;
+}
+
+double CornerWatch::off_by(double t, ConstVec q, ConstVec qd) {
+  const auto k = std::size_t(crossed_);
+  // The side of a corner that is held is known by dense output alone.
+  if (watched_[k].as_written || std::fabs(corners_.side(crossed_)) != 1) return 0;
+  corners_.values(system_.chain(), ws_, t, q, qd, g_);
+  const double off = -g_[k] / system_.corner_rates(t, q, qd)[k];
+  return std::isfinite(off) ? off : 0;
+}
+
+// Which way the switching function goes from here, at the sides that stand: its rate, or, where that is zero,
+// a look ahead along the acceleration.
+int CornerWatch::direction(int k, double t, ConstVec q, ConstVec qd) {
+  const ConstVec rates = system_.corner_rates(t, q, qd);
+  const double rate = rates[std::size_t(k)];
+  if (!std::isfinite(rate)) return 0;
+  if (std::fabs(rate) > 1e-9) return rate > 0 ? 1 : -1;
+  const ConstVec qdd = system_.last_acceleration();
+  corners_.values(system_.chain(), ws_, t, q, qd, g_);
+  for (std::size_t i = 0; i < qd.size(); ++i) ahead_qd_[i] = qd[i] + 0.5 * kAhead * qdd[i];
+  std::copy(q.begin(), q.end(), ahead_q_.begin());
+  system_.advance(ahead_q_, ahead_qd_, kAhead);
+  for (std::size_t i = 0; i < qd.size(); ++i) ahead_qd_[i] = qd[i] + kAhead * qdd[i];
+  corners_.values(system_.chain(), ws_, t + kAhead, ahead_q_, ahead_qd_, g_ahead_);
+  const double change = g_ahead_[std::size_t(k)] - g_[std::size_t(k)];
+  return change > 1e-15 ? 1 : change < -1e-15 ? -1 : 0;
+}
+
+// Whether the motion at this choice (1, -1, or 0: held) of sides for the open corners stays on them.
+bool CornerWatch::is_consistent(const std::vector<int>& open, const std::vector<int>& choice, double t,
+                                ConstVec q, ConstVec qd) {
+  std::vector<int> held;
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    if (choice[i] == 0)
+      held.push_back(open[i]);
+    else
+      corners_.set_side(open[i], choice[i]);
+  }
+  system_.hold(held);
+  if (!held.empty()) {
+    if (!system_.find_holding_sides(t, q, qd)) return false;
+    for (const int k : held) {
+      const double side = corners_.side(k);
+      if (std::fabs(side) > 1) return false;
+      // Both branches must lead to it.
+      corners_.set_side(k, side + 1);
+      const double above = system_.corner_rates(t, q, qd)[std::size_t(k)];
+      corners_.set_side(k, side);
+      if (!(above < 0)) return false;
+    }
+  }
+  for (std::size_t i = 0; i < open.size(); ++i)
+    if (choice[i] != 0 && direction(open[i], t, q, qd) != choice[i]) return false;
+  return true;
+}
+
+bool CornerWatch::choose_sides(const std::vector<int>& open, double t, ConstVec q, ConstVec qd) {
+  if (open.empty()) return true;
+  if (open.size() > kMostOpen) return false;
+  std::vector<int> choice(open.size());
+  int combinations = 1;
+  for (std::size_t i = 0; i < open.size(); ++i) combinations *= 3;
+  for (int number = 0; number < combinations; ++number) {
+    int rest = number;
+    for (int& one : choice) {
+      one = rest % 3 == 0 ? 1 : rest % 3 == 1 ? -1 : 0;
+      rest /= 3;
+    }
+    if (is_consistent(open, choice, t, q, qd)) return true;
+  }
+  // Nothing drives the motion to one of the sides: the text decides as long as that is so.
+  system_.hold({});
+  for (const int k : open) {
+    corners_.set_side(k, kAsWritten);
+    watched_[std::size_t(k)].as_written = true;
+  }
+  return true;
+}
+
+// Those that are held, that stand at zero, or that have just left their side.
+std::vector<int> CornerWatch::near_ones(double t, ConstVec q, ConstVec qd) {
+  std::vector<int> open = system_.held();
+  left_.clear();
+  if (!open.empty() && system_.find_holding_sides(t, q, qd)) {
+    const auto is_left = [&](int k) { return std::fabs(std::fabs(corners_.side(k)) - 1) < kLeaving; };
+    std::copy_if(open.begin(), open.end(), std::back_inserter(left_), is_left);
+  }
+  return open;
+}
+
+bool CornerWatch::settle(double t, ConstVec q, ConstVec qd) {
+  std::vector<double> sides(watched_.size());
+  for (std::size_t k = 0; k < sides.size(); ++k) sides[k] = corners_.side(int(k));
+  const std::vector<int> was_held = system_.held();
+  std::vector<int> open = near_ones(t, q, qd);
+  corners_.values(system_.chain(), ws_, t, q, qd, last_g_);
+  // At sides from which no rate is told, the text's own branch is.
+  std::vector<double> rates(watched_.size());
+  {
+    system_.hold({});
+    const ConstVec now = system_.corner_rates(t, q, qd);
+    for (std::size_t k = 0; k < rates.size(); ++k) rates[k] = std::isfinite(now[k]) ? std::fabs(now[k]) : 0;
+  }
+  for (std::size_t k = 0; k < watched_.size(); ++k) {
+    if (std::find(open.begin(), open.end(), int(k)) != open.end()) continue;
+    const double g = last_g_[k];
+    const double touch = kTouch * (1 + std::fabs(g)) + 4 * kInstantTolerance * rates[k];
+    if (std::fabs(g) <= std::max(touch, 2 * watched_[k].slack))
+      open.push_back(int(k));
+    else
+      corners_.set_side(int(k), g > 0 ? 1 : -1);
+    watched_[k].slack = 0;
+    watched_[k].as_written = false;
+  }
+  for (const int k : open) watched_[std::size_t(k)].as_written = false;
+  // What cannot be held any longer goes where its side has gone.
+  for (const int k : left_) {
+    corners_.set_side(k, corners_.side(k) > 0 ? 1 : -1);
+    std::erase(open, k);
+  }
+  if (!choose_sides(open, t, q, qd)) {
+    culprit_ = open.front();
+    return false;
+  }
+  for (const int k : open)
+    watched_[std::size_t(k)].slack = std::max(kTouch * 10, 4 * std::fabs(last_g_[std::size_t(k)]));
+  for (const int k : left_)
+    watched_[std::size_t(k)].slack = std::max(kTouch * 10, 4 * std::fabs(last_g_[std::size_t(k)]));
+  std::vector<int> changed;
+  for (std::size_t k = 0; k < sides.size(); ++k)
+    if (started_ && sides[k] != corners_.side(int(k)) &&
+        !(std::count(was_held.begin(), was_held.end(), int(k)) &&
+          std::count(system_.held().begin(), system_.held().end(), int(k))))
+      changed.push_back(int(k));
+  started_ = true;
+  return !jumps_without_end(t, changed);
+}
+
+bool CornerWatch::jumps_without_end(double t, const std::vector<int>& changed) {
+  for (const int k : changed) {
+    const std::size_t slot = changes_++ % kRush;
+    const double earlier = change_times_[slot];
+    change_times_[slot] = t;
+    culprit_ = k;
+    if (changes_ > kRush && t - earlier < rush_) return true;
+  }
+  return false;
+}
+
+}  // namespace chainreel

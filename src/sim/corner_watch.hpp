@@ -1,0 +1,72 @@
+// The corners of a torque law that depend on the state, in one run in progress.
+//
+// Between crossings the law is smooth: each corner keeps its side. Where a switching function g leaves its
+// side, the step is cut and the corner is settled there: it goes over where the motion under the other branch
+// goes on that way; where both branches lead back to g = 0, it is held there by the mean of both that keeps g
+// as it is (a sliding mode: dry friction at rest), until that mean would need more than one of them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "integrate/integrator.hpp"
+#include "sim/chain_system.hpp"
+
+namespace chainreel {
+
+class CornerWatch {
+ public:
+  // Of a system whose law has such corners.
+  CornerWatch(ChainSystem& system, double duration);
+
+  // Picks the sides of all corners at the state where the run begins, or behind a cut or a break of the
+  // torques. False where they jump to and fro without end: see `culprit`.
+  bool settle(double t, ConstVec q, ConstVec qd);
+
+  // After a step: the first instant in it at which a corner leaves its side, by dense output.
+  std::optional<double> first_crossing(Integrator& integrator);
+
+  // At the end of a step that was cut there: by how much the crossing is still later, to first order.
+  double off_by(double t, ConstVec q, ConstVec qd);
+
+  const std::string& culprit() const { return corners_.text(culprit_); }
+  bool is_holding() const { return !system_.held().empty(); }
+
+ private:
+  struct Watched {
+    double before = 0;    // see margin_of
+    double slack = 0;     // what a margin may be below zero before the corner has been left
+    bool as_written = false;
+  };
+
+  // How far each corner is from leaving its side, into margins_: the switching function on it, or 1 - |side|
+  // of one that is held; negative beyond.
+  void read(double t, ConstVec q, ConstVec qd);
+  double margin_at(Integrator& integrator, int k, double t);
+  std::optional<double> crossing(Integrator& integrator, int k, double from, double to);
+
+  std::vector<int> near_ones(double t, ConstVec q, ConstVec qd);
+  bool choose_sides(const std::vector<int>& open, double t, ConstVec q, ConstVec qd);
+  bool is_consistent(const std::vector<int>& open, const std::vector<int>& choice, double t, ConstVec q,
+                     ConstVec qd);
+  int direction(int k, double t, ConstVec q, ConstVec qd);
+  bool jumps_without_end(double t, const std::vector<int>& changed);
+
+  ChainSystem& system_;
+  StateCorners& corners_;
+  Workspace ws_;
+  double rush_;  // s: as many changes as are counted, within this time, come to no end
+  std::vector<Watched> watched_;
+  std::vector<double> margins_, g_, g_ahead_, last_g_;
+  std::vector<double> q_, qd_, ahead_q_, ahead_qd_;
+  std::vector<double> looks_;       // margins at the looks of a step
+  std::vector<int> left_;           // corners that were held and cannot be any longer
+  std::vector<double> change_times_;
+  std::size_t changes_ = 0;
+  int culprit_ = 0;
+  int crossed_ = 0;  // the corner of the last crossing found
+  bool started_ = false;
+};
+
+}  // namespace chainreel

@@ -1,0 +1,41 @@
+// The corners of a torque law that depend on the state: where it jumps or bends as the motion crosses them.
+// In a run each has a side, see expr/corners.hpp, that holds from one crossing to the next.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "expr/corners.hpp"
+#include "sim/probe.hpp"
+
+namespace chainreel {
+
+class StateCorners {
+ public:
+  // The state's among `corners`, whose sides stand in `sides`. Both, and the probe, must outlive it.
+  StateCorners(const Corners& corners, std::vector<double>& sides, Probe& probe);
+
+  int count() const { return int(indices_.size()); }
+  double side(int k) const { return sides_[index(k)]; }
+  void set_side(int k, double side) { sides_[index(k)] = side; }
+  const std::string& text(int k) const { return corners_[int(index(k))].text; }
+
+  // The switching functions, `count` numbers. Allocates nothing.
+  void values(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec g);
+  // Their rates along a motion with the acceleration qdd; `q_dot` is the rate of q.
+  void rates(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec q_dot, ConstVec qd,
+             ConstVec qdd, Vec g_dot);
+
+ private:
+  std::size_t index(int k) const { return std::size_t(indices_[std::size_t(k)]); }
+
+  const Corners& corners_;
+  std::vector<double>& sides_;
+  Probe& probe_;
+  std::vector<int> indices_;
+  std::vector<Dual<double>> duals_;
+  std::vector<double> q_, qd_, ahead_;
+  bool needs_kinematics_ = false, needs_frame_rates_ = false;
+};
+
+}  // namespace chainreel
