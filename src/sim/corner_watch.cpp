@@ -18,10 +18,11 @@ constexpr std::size_t kMostOpen = 6;   // corners at zero at once: 3^6 combinati
 
 }  // namespace
 
-CornerWatch::CornerWatch(ChainSystem& system, double duration)
+CornerWatch::CornerWatch(ChainSystem& system, double duration, bool straight)
     : system_(system),
       corners_(*system.corners()),
       ws_(system.chain()),
+      straight_(straight),
       rush_(std::min(kRushTime, 1e-3 * duration)),
       watched_(std::size_t(corners_.count())),
       margins_(watched_.size()),
@@ -44,8 +45,17 @@ void CornerWatch::read(double t, ConstVec q, ConstVec qd) {
   for (const int k : system_.held()) margins_[std::size_t(k)] = 1 - std::fabs(corners_.side(k));
 }
 
+void CornerWatch::look(Integrator& integrator, double t) {
+  if (!straight_) return integrator.interpolate(t, q_, qd_);
+  const double s = (t - integrator.begin_time()) / (integrator.time() - integrator.begin_time());
+  const ConstVec q1 = integrator.q(), qd1 = integrator.v();
+  for (std::size_t i = 0; i < q_.size(); ++i) q_[i] = q0_[i] + s * (q1[i] - q0_[i]);
+  for (std::size_t i = 0; i < qd_.size(); ++i) qd_[i] = qd0_[i] + s * (qd1[i] - qd0_[i]);
+  system_.normalize(q_);
+}
+
 double CornerWatch::margin_at(Integrator& integrator, int k, double t) {
-  integrator.interpolate(t, q_, qd_);
+  look(integrator, t);
   read(t, q_, qd_);
   return margins_[std::size_t(k)];
 }
@@ -60,7 +70,9 @@ std::optional<double> CornerWatch::crossing(Integrator& integrator, int k, doubl
       [](double margin) { return margin < 0; });
 }
 
-std::optional<double> CornerWatch::first_crossing(Integrator& integrator) {
+std::optional<double> CornerWatch::first_crossing(Integrator& integrator, ConstVec q0, ConstVec qd0) {
+  q0_ = q0;
+  qd0_ = qd0;
   const double begin = integrator.begin_time(), end = integrator.time();
   const std::size_t n = watched_.size();
   const auto instant = [&](int look) {
@@ -73,7 +85,7 @@ std::optional<double> CornerWatch::first_crossing(Integrator& integrator) {
     crossed_ = int(k);
   };
   for (int look = 0; look <= kLooksPerStep && !first; ++look) {
-    integrator.interpolate(instant(look), q_, qd_);
+    this->look(integrator, instant(look));
     read(instant(look), q_, qd_);
     std::copy(margins_.begin(), margins_.end(), looks_.begin() + std::ptrdiff_t(std::size_t(look) * n));
     if (look == 0) continue;
@@ -155,7 +167,11 @@ bool CornerWatch::is_consistent(const std::vector<int>& open, const std::vector<
 bool CornerWatch::choose_sides(const std::vector<int>& open, double t, ConstVec q, ConstVec qd) {
   if (open.empty()) return true;
   if (open.size() > kMostOpen) return false;
-  std::vector<int> choice(open.size());
+  // What stands still at the start where the text says so stays there, though one push would make it go: but
+  // for what is held.
+  std::vector<int> choice(open.size(), 0);
+  if (is_consistent(open, choice, t, q, qd)) return true;
+  if (!started_ && take_text(open, t, q, qd)) return true;
   int combinations = 1;
   for (std::size_t i = 0; i < open.size(); ++i) combinations *= 3;
   for (int number = 0; number < combinations; ++number) {
@@ -167,12 +183,23 @@ bool CornerWatch::choose_sides(const std::vector<int>& open, double t, ConstVec 
     if (is_consistent(open, choice, t, q, qd)) return true;
   }
   // Nothing drives the motion to one of the sides: the text decides as long as that is so.
-  system_.hold({});
-  for (const int k : open) {
-    corners_.set_side(k, kAsWritten);
-    watched_[std::size_t(k)].as_written = true;
-  }
+  take_text(open, t, q, qd);
   return true;
+}
+
+// The text as it is written, for corners that stay at zero under it; the side to which it leads for others.
+// False where there are such.
+bool CornerWatch::take_text(const std::vector<int>& open, double t, ConstVec q, ConstVec qd) {
+  system_.hold({});
+  for (const int k : open) corners_.set_side(k, kAsWritten);
+  bool stays = true;
+  for (const int k : open) {
+    const int way = direction(k, t, q, qd);
+    stays = stays && way == 0;
+    watched_[std::size_t(k)].as_written = way == 0;
+    if (way != 0) corners_.set_side(k, way);
+  }
+  return stays;
 }
 
 // Those that are held, that stand at zero, or that have just left their side.
@@ -208,9 +235,8 @@ bool CornerWatch::settle(double t, ConstVec q, ConstVec qd) {
     else
       corners_.set_side(int(k), g > 0 ? 1 : -1);
     watched_[k].slack = 0;
-    watched_[k].as_written = false;
   }
-  for (const int k : open) watched_[std::size_t(k)].as_written = false;
+  for (Watched& one : watched_) one.as_written = false;
   // What cannot be held any longer goes where its side has gone.
   for (const int k : left_) {
     corners_.set_side(k, corners_.side(k) > 0 ? 1 : -1);
@@ -232,6 +258,10 @@ bool CornerWatch::settle(double t, ConstVec q, ConstVec qd) {
       changed.push_back(int(k));
   started_ = true;
   return !jumps_without_end(t, changed);
+}
+
+bool CornerWatch::changed_before(double t) const {
+  return changes_ > 0 && t - change_times_[(changes_ - 1) % kRush] <= 1e-3 * rush_;
 }
 
 bool CornerWatch::jumps_without_end(double t, const std::vector<int>& changed) {

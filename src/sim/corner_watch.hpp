@@ -17,20 +17,24 @@ namespace chainreel {
 
 class CornerWatch {
  public:
-  // Of a system whose law has such corners.
-  CornerWatch(ChainSystem& system, double duration);
+  // Of a system whose law has such corners. Methods of first order have velocities, between their steps' ends,
+  // on straight lines: `straight` looks for crossings there, dense output is less true than that.
+  CornerWatch(ChainSystem& system, double duration, bool straight);
 
   // Picks the sides of all corners at the state where the run begins, or behind a cut or a break of the
   // torques. False where they jump to and fro without end: see `culprit`.
   bool settle(double t, ConstVec q, ConstVec qd);
 
   // After a step: the first instant in it at which a corner leaves its side, by dense output.
-  std::optional<double> first_crossing(Integrator& integrator);
+  // `q0` and `qd0` are the state at its beginning.
+  std::optional<double> first_crossing(Integrator& integrator, ConstVec q0, ConstVec qd0);
 
   // At the end of a step that was cut there: by how much the crossing is still later, to first order.
   double off_by(double t, ConstVec q, ConstVec qd);
 
   const std::string& culprit() const { return corners_.text(culprit_); }
+  // Whether a side has changed just before t, or here.
+  bool changed_before(double t) const;
   bool is_holding() const { return !system_.held().empty(); }
 
  private:
@@ -43,6 +47,7 @@ class CornerWatch {
   // How far each corner is from leaving its side, into margins_: the switching function on it, or 1 - |side|
   // of one that is held; negative beyond.
   void read(double t, ConstVec q, ConstVec qd);
+  void look(Integrator& integrator, double t);  // the state at t into q_, qd_
   double margin_at(Integrator& integrator, int k, double t);
   std::optional<double> crossing(Integrator& integrator, int k, double from, double to);
 
@@ -50,12 +55,15 @@ class CornerWatch {
   bool choose_sides(const std::vector<int>& open, double t, ConstVec q, ConstVec qd);
   bool is_consistent(const std::vector<int>& open, const std::vector<int>& choice, double t, ConstVec q,
                      ConstVec qd);
+  bool take_text(const std::vector<int>& open, double t, ConstVec q, ConstVec qd);
   int direction(int k, double t, ConstVec q, ConstVec qd);
   bool jumps_without_end(double t, const std::vector<int>& changed);
 
   ChainSystem& system_;
   StateCorners& corners_;
   Workspace ws_;
+  bool straight_;
+  ConstVec q0_, qd0_;  // where the step began
   double rush_;  // s: as many changes as are counted, within this time, come to no end
   std::vector<Watched> watched_;
   std::vector<double> margins_, g_, g_ahead_, last_g_;

@@ -34,6 +34,13 @@ class Probe {
     return (slot > nq_ && slot < kinematic_begin_) || (is_kinematic(slot) && (slot - kinematic_begin_) % 6 >= 3);
   }
 
+  // The frame that a kinematic slot reads, and which of its x, y, z.
+  int frame_of(const Chain& chain, int slot) const {
+    const int which = (slot - kinematic_begin_) / 6;
+    return which == 0 ? chain.end_effector : frames_[std::size_t(which - 1)].frame;
+  }
+  int axis_of(int slot) const { return (slot - kinematic_begin_) % 3; }
+
   bool is_multiplier(int slot) const {
     return slot >= multiplier_begin_ && slot < multiplier_begin_ + rows_;
   }

@@ -114,7 +114,7 @@ class Run {
         q_(simulation.q0),
         qd_(simulation.qd0),
         work_(simulation, system_, integrator_->dense_order()) {
-    if (system_.corners()) corners_.emplace(system_, simulation.duration);
+    if (system_.corners()) corners_.emplace(system_, simulation.duration, simulation.method->order == 1);
     simulation.torque->enter_piece(grid_.middle_of_piece(0));
     settle_corners(0);
     integrator_->start(0, q_, qd_);
@@ -250,7 +250,7 @@ class Run {
       if (!next) return {};
       const bool arrived = grid_.is_cut() && next->is_break && now() == next->end;
       const double tolerance = std::max(kCutTolerance, 8e-16 * now());
-      std::optional<double> cut = corners_->first_crossing(*integrator_);
+      std::optional<double> cut = corners_->first_crossing(*integrator_, q_, qd_);
       if (cut && now() - *cut <= tolerance && arrived) cut.reset();
       if (!cut && arrived && cuts < kMostCuts) {
         const double off = corners_->off_by(now(), integrator_->q(), integrator_->v());
@@ -372,6 +372,7 @@ class Run {
   bool check_result(StepResult result, double begin) {
     if (result == StepResult::ok) return true;
     if (system_.bad_torque() >= 0) return blame_torque(begin);
+    if (corners_ && corners_->changed_before(begin)) return blame_corner(begin);
     // What makes steps small is most often the joint that moves fastest.
     const ConstVec qd = integrator_->v();
     const auto slower = [](double x, double y) { return std::abs(x) < std::abs(y); };

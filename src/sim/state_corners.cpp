@@ -1,24 +1,36 @@
 #include "sim/state_corners.hpp"
 
-#include <algorithm>
+#include "dynamics/jacobian.hpp"
 
 namespace chainreel {
 namespace {
 
-// s: the accelerations of frames are central differences of their velocities over this.
-constexpr double kBesides = 1e-5;
+// Along one axis of W, of a frame's origin.
+double frame_acceleration(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec qdd, int frame,
+                          int axis) {
+  compute_jacobian(chain, ws, q, frame, Task::linear);
+  compute_jacobian_rate(chain, ws, q, qd, frame, Task::linear);
+  const TaskBasis basis = task_basis(chain, Task::linear);
+  double sum = 0;
+  for (std::size_t row = 0; row < basis.directions.size(); ++row) {
+    double along = ws.Jd_qd[Eigen::Index(row)];
+    for (std::size_t i = 0; i < qdd.size(); ++i) along += ws.J(Eigen::Index(row), Eigen::Index(i)) * qdd[i];
+    sum += along * basis.directions[row][axis];
+  }
+  return sum;
+}
 
 }  // namespace
 
 StateCorners::StateCorners(const Corners& corners, std::vector<double>& sides, Probe& probe)
-    : corners_(corners), sides_(sides), probe_(probe), duals_(probe.values().size()), ahead_(duals_.size()) {
+    : corners_(corners), sides_(sides), probe_(probe), duals_(probe.values().size()) {
   for (int k = 0; k < corners.count(); ++k) {
     if (corners[k].time_alone) continue;
     indices_.push_back(k);
     for (const Instruction& one : corners[k].value.instructions) {
       if (one.operation != Operation::variable || !probe.is_kinematic(one.slot)) continue;
       needs_kinematics_ = true;
-      needs_frame_rates_ |= probe.is_velocity(one.slot);
+      if (probe.is_velocity(one.slot)) frame_rates_.push_back(one.slot);
     }
   }
 }
@@ -32,20 +44,6 @@ void StateCorners::values(const Chain& chain, Workspace& ws, double t, ConstVec 
 void StateCorners::rates(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec q_dot,
                          ConstVec qd, ConstVec qdd, Vec g_dot) {
   const std::size_t nq = q.size(), nv = qd.size();
-  q_.resize(nq);  // once
-  qd_.resize(nv);
-  const auto probe_beside = [&](double s) {
-    for (std::size_t i = 0; i < nq; ++i) q_[i] = q[i] + s * q_dot[i];
-    for (std::size_t i = 0; i < nv; ++i) qd_[i] = qd[i] + s * qdd[i];
-    probe_.set(chain, ws, t, q_, qd_, needs_kinematics_);
-  };
-  if (needs_frame_rates_) {
-    probe_beside(kBesides);
-    std::copy(probe_.values().begin(), probe_.values().end(), ahead_.begin());
-    probe_beside(-kBesides);
-    for (std::size_t i = 0; i < ahead_.size(); ++i)
-      ahead_[i] = (ahead_[i] - probe_.values()[i]) / (2 * kBesides);
-  }
   probe_.set(chain, ws, t, q, qd, needs_kinematics_);
   const std::span<const double> values = probe_.values();
   for (std::size_t i = 0; i < duals_.size(); ++i) {
@@ -55,9 +53,12 @@ void StateCorners::rates(const Chain& chain, Workspace& ws, double t, ConstVec q
     if (i == 0) rate = 1;
     else if (i <= nq) rate = q_dot[i - 1];
     else if (i <= nq + nv) rate = qdd[i - 1 - nq];
-    else if (kinematic && needs_kinematics_) rate = probe_.is_velocity(int(i)) ? ahead_[i] : values[i + 3];
+    else if (kinematic && needs_kinematics_ && !probe_.is_velocity(int(i))) rate = values[i + 3];
     duals_[i] = Dual<double>(values[i], rate);
   }
+  for (const int slot : frame_rates_)
+    duals_[std::size_t(slot)].du =
+        frame_acceleration(chain, ws, q, qd, qdd, probe_.frame_of(chain, slot), probe_.axis_of(slot));
   for (int k = 0; k < count(); ++k)
     g_dot[std::size_t(k)] =
         evaluate<Dual<double>>(corners_[int(index(k))].value, duals_, sides_).du;

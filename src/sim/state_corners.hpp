@@ -34,8 +34,8 @@ class StateCorners {
   Probe& probe_;
   std::vector<int> indices_;
   std::vector<Dual<double>> duals_;
-  std::vector<double> q_, qd_, ahead_;
-  bool needs_kinematics_ = false, needs_frame_rates_ = false;
+  std::vector<int> frame_rates_;  // slots of frames' velocities that they read
+  bool needs_kinematics_ = false;
 };
 
 }  // namespace chainreel
