@@ -81,8 +81,8 @@ T run(const CorneredProgram& program, std::span<const T> values, std::span<const
       if (stack_change_of(operation) == 0) {
         top[-1] = as_written ? result_of(operation, top[-1]) : on_side(operation, top[-1], side);
       } else {
-        top[-2] = as_written ? result_of(operation, top[-2], top[-1])
-                             : on_side(operation, top[-2], top[-1], side);
+        top[-2] =
+            as_written ? result_of(operation, top[-2], top[-1]) : on_side(operation, top[-2], top[-1], side);
         --top;
       }
     }

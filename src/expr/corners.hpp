@@ -26,8 +26,8 @@ inline constexpr double kAsWritten = std::numeric_limits<double>::quiet_NaN();  
 // An expression that knows its corners.
 struct CorneredProgram {
   struct Turn {
-    int corner = -1;   // index into Corners, -1: none
-    double sign = 1;   // of the operation's own switching function against the corner's
+    int corner = -1;  // index into Corners, -1: none
+    double sign = 1;  // of the operation's own switching function against the corner's
   };
   std::vector<Instruction> instructions;
   std::vector<Turn> turns;  // one an instruction
@@ -41,10 +41,10 @@ template <class T>
 T evaluate(const CorneredProgram& program, std::span<const T> values, std::span<const double> sides);
 
 struct Corner {
-  CorneredProgram value;     // the switching function
-  bool time_alone = false;   // it reads nothing that changes but t
-  bool only_bends = false;   // it is no operation with sides, but what is under a root: a kink of t alone
-  std::string text;          // of the first expression that has it
+  CorneredProgram value;    // the switching function
+  bool time_alone = false;  // it reads nothing that changes but t
+  bool only_bends = false;  // it is no operation with sides, but what is under a root: a kink of t alone
+  std::string text;         // of the first expression that has it
 };
 
 // The corners of some expressions over the same variables.

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr long kMostPieces = 4000000;   // looked at for one corner
-constexpr double kSmallest = 1e-12;     // of the duration: the shortest piece that is halved
+constexpr long kMostPieces = 4000000;  // looked at for one corner
+constexpr double kSmallest = 1e-12;    // of the duration: the shortest piece that is halved
 
 struct Range {
   double low = 0, high = 0;
@@ -152,9 +152,7 @@ Course course_of(Operation operation, const Course& a, const Course& b, double s
       if (!(std::abs(side) == 1)) return {{0, 1}, {}};
       const bool rises = operation == Operation::greater || operation == Operation::greater_equal;
       const bool falls = operation == Operation::less || operation == Operation::less_equal;
-      const double truth = rises   ? (side == 1)
-                           : falls ? (side == -1)
-                                   : (operation == Operation::not_equal);
+      const double truth = rises ? (side == 1) : falls ? (side == -1) : (operation == Operation::not_equal);
       return {{truth, truth}, {}};
     }
   }
@@ -164,7 +162,10 @@ Course course_of(Operation operation, const Course& a, const Course& b, double s
 class Search {
  public:
   Search(const Corners& corners, const Corner& corner, double end)
-      : corner_(corner), uses_(corners.uses()), smallest_(kSmallest * end), sides_(std::size_t(corners.count())) {
+      : corner_(corner),
+        uses_(corners.uses()),
+        smallest_(kSmallest * end),
+        sides_(std::size_t(corners.count())) {
     values_.reserve(uses_.size());
     for (const VariableUse& use : uses_) values_.push_back(use.value);
   }
@@ -226,7 +227,8 @@ class Search {
       return;
     }
     const double middle = 0.5 * (a + b);
-    if (b - a <= smallest_ || !(middle > a && middle < b)) return changes ? bisect(a, at_a, b) : touch(middle);
+    if (b - a <= smallest_ || !(middle > a && middle < b))
+      return changes ? bisect(a, at_a, b) : touch(middle);
     const double at_middle = value_at(middle);
     halve(a, at_a, middle, at_middle);
     halve(middle, at_middle, b, at_b);

@@ -9,12 +9,13 @@
 namespace chainreel {
 namespace {
 
-constexpr double kTouch = 1e-13;       // of 1 + |g|: closer to zero than this is at zero
-constexpr double kAhead = 1e-5;        // s: a look ahead where a rate says nothing
-constexpr std::size_t kRush = 100;     // changes of sides that are looked at together,
-constexpr double kRushTime = 0.01;     // s, and within how short a time they come to no end
-constexpr double kLeaving = 1e-6;      // of 1: a side that a crossing found there is beyond it
-constexpr std::size_t kMostOpen = 6;   // corners at zero at once: 3^6 combinations
+constexpr double kTouch = 1e-13;                           // of 1 + |g|: closer to zero than this is at zero
+constexpr double kLeastSlack = 1e-12, kMostSlack = 1e-10;  // of a corner that starts at zero
+constexpr double kAhead = 1e-5;                            // s: a look ahead where a rate says nothing
+constexpr std::size_t kRush = 100;                         // changes of sides that are looked at together,
+constexpr double kRushTime = 0.01;    // s, and within how short a time they come to no end
+constexpr double kLeaving = 1e-6;     // of 1: a side that a crossing found there is beyond it
+constexpr std::size_t kMostOpen = 6;  // corners at zero at once: 3^6 combinations
 
 }  // namespace
 
@@ -106,6 +107,7 @@ std::optional<double> CornerWatch::first_crossing(Integrator& integrator, ConstV
       take(k, crossing(integrator, int(k), instant(look - 2), there));
     }
   }
+  if (first) culprit_ = crossed_;
   return first;
 }
 
@@ -246,10 +248,12 @@ bool CornerWatch::settle(double t, ConstVec q, ConstVec qd) {
     culprit_ = open.front();
     return false;
   }
-  for (const int k : open)
-    watched_[std::size_t(k)].slack = std::max(kTouch * 10, 4 * std::fabs(last_g_[std::size_t(k)]));
-  for (const int k : left_)
-    watched_[std::size_t(k)].slack = std::max(kTouch * 10, 4 * std::fabs(last_g_[std::size_t(k)]));
+  const auto give_slack = [&](int k) {
+    watched_[std::size_t(k)].slack =
+        std::clamp(4 * std::fabs(last_g_[std::size_t(k)]), kLeastSlack, kMostSlack);
+  };
+  for (const int k : open) give_slack(k);
+  for (const int k : left_) give_slack(k);
   std::vector<int> changed;
   for (std::size_t k = 0; k < sides.size(); ++k)
     if (started_ && sides[k] != corners_.side(int(k)) &&

@@ -17,8 +17,9 @@ namespace chainreel {
 
 class CornerWatch {
  public:
-  // Of a system whose law has such corners. Methods of first order have velocities, between their steps' ends,
-  // on straight lines: `straight` looks for crossings there, dense output is less true than that.
+  // Of a system whose law has such corners. `straight` looks for crossings on straight lines between the ends
+  // of a step: for methods of low order, whose velocities change so; dense output may swing more than the
+  // method does.
   CornerWatch(ChainSystem& system, double duration, bool straight);
 
   // Picks the sides of all corners at the state where the run begins, or behind a cut or a break of the
@@ -39,8 +40,8 @@ class CornerWatch {
 
  private:
   struct Watched {
-    double before = 0;    // see margin_of
-    double slack = 0;     // what a margin may be below zero before the corner has been left
+    double before = 0;  // see margin_of
+    double slack = 0;   // what a margin may be below zero before the corner has been left
     bool as_written = false;
   };
 
@@ -64,12 +65,12 @@ class CornerWatch {
   Workspace ws_;
   bool straight_;
   ConstVec q0_, qd0_;  // where the step began
-  double rush_;  // s: as many changes as are counted, within this time, come to no end
+  double rush_;        // s: as many changes as are counted, within this time, come to no end
   std::vector<Watched> watched_;
   std::vector<double> margins_, g_, g_ahead_, last_g_;
   std::vector<double> q_, qd_, ahead_q_, ahead_qd_;
-  std::vector<double> looks_;       // margins at the looks of a step
-  std::vector<int> left_;           // corners that were held and cannot be any longer
+  std::vector<double> looks_;  // margins at the looks of a step
+  std::vector<int> left_;      // corners that were held and cannot be any longer
   std::vector<double> change_times_;
   std::size_t changes_ = 0;
   int culprit_ = 0;

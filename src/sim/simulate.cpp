@@ -28,6 +28,7 @@ constexpr long kStepsBetweenStopRequests = 4096;
 // Corners of the state: how exactly steps end there, in s and units in the last place, and how often that is tried.
 constexpr double kCutTolerance = 1e-13;
 constexpr int kMostCuts = 12;
+constexpr double kNearCut = 1e-6;  // of the step that ends there: good enough where no more can be had
 
 // The instants at which steps end: whole steps, and a shorter last one where the duration is no multiple of
 // the step; breaks of the torque law; where the method chooses its steps, the breaks and the duration alone.
@@ -114,7 +115,7 @@ class Run {
         q_(simulation.q0),
         qd_(simulation.qd0),
         work_(simulation, system_, integrator_->dense_order()) {
-    if (system_.corners()) corners_.emplace(system_, simulation.duration, simulation.method->order == 1);
+    if (system_.corners()) corners_.emplace(system_, simulation.duration, simulation.method->order <= 2);
     simulation.torque->enter_piece(grid_.middle_of_piece(0));
     settle_corners(0);
     integrator_->start(0, q_, qd_);
@@ -256,10 +257,9 @@ class Run {
         const double off = corners_->off_by(now(), integrator_->q(), integrator_->v());
         if (std::abs(off) > tolerance && std::abs(off) < 0.5 * (now() - begin)) cut = now() + off;
       }
-      if (!cut || cuts >= 2 * kMostCuts) {
-        if (cut) grid_.cut_at(now());  // as near as can be had
-        return cut ? Grid::Next{now(), next->h, true} : *next;
-      }
+      if (cut && arrived && cuts >= kMostCuts && now() - *cut <= kNearCut * (now() - begin)) cut.reset();
+      if (!cut) return next;
+      if (cuts >= 2 * kMostCuts) return blame_corner(begin), std::nullopt;
       system_.forget_bad_torque();
       if (*cut <= begin + std::max(grid_.same(), tolerance)) {  // it has no length: the corner is here
         grid_.cut_at(kNever);

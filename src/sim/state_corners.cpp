@@ -41,8 +41,8 @@ void StateCorners::values(const Chain& chain, Workspace& ws, double t, ConstVec 
     g[std::size_t(k)] = evaluate<double>(corners_[int(index(k))].value, probe_.values(), sides_);
 }
 
-void StateCorners::rates(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec q_dot,
-                         ConstVec qd, ConstVec qdd, Vec g_dot) {
+void StateCorners::rates(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec q_dot, ConstVec qd,
+                         ConstVec qdd, Vec g_dot) {
   const std::size_t nq = q.size(), nv = qd.size();
   probe_.set(chain, ws, t, q, qd, needs_kinematics_);
   const std::span<const double> values = probe_.values();
@@ -50,18 +50,21 @@ void StateCorners::rates(const Chain& chain, Workspace& ws, double t, ConstVec q
     const bool kinematic = probe_.is_kinematic(int(i));
     // A frame's position stands three places before its velocity.
     double rate = 0;
-    if (i == 0) rate = 1;
-    else if (i <= nq) rate = q_dot[i - 1];
-    else if (i <= nq + nv) rate = qdd[i - 1 - nq];
-    else if (kinematic && needs_kinematics_ && !probe_.is_velocity(int(i))) rate = values[i + 3];
+    if (i == 0)
+      rate = 1;
+    else if (i <= nq)
+      rate = q_dot[i - 1];
+    else if (i <= nq + nv)
+      rate = qdd[i - 1 - nq];
+    else if (kinematic && needs_kinematics_ && !probe_.is_velocity(int(i)))
+      rate = values[i + 3];
     duals_[i] = Dual<double>(values[i], rate);
   }
   for (const int slot : frame_rates_)
     duals_[std::size_t(slot)].du =
         frame_acceleration(chain, ws, q, qd, qdd, probe_.frame_of(chain, slot), probe_.axis_of(slot));
   for (int k = 0; k < count(); ++k)
-    g_dot[std::size_t(k)] =
-        evaluate<Dual<double>>(corners_[int(index(k))].value, duals_, sides_).du;
+    g_dot[std::size_t(k)] = evaluate<Dual<double>>(corners_[int(index(k))].value, duals_, sides_).du;
 }
 
 }  // namespace chainreel

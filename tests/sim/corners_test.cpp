@@ -53,7 +53,8 @@ double mass_of_slider() {
 
 class EveryMethod : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,
-                         ::testing::Values("rk4", "dop853", "radau5", "verlet", "gauss4", "implicit_midpoint"),
+                         ::testing::Values("rk4", "dop853", "radau5", "verlet", "gauss4",
+                                           "implicit_midpoint"),
                          [](const auto& p) { return p.param; });
 
 TEST_P(EveryMethod, FollowsAPushOfTwoMillisecondsExactly) {
@@ -87,6 +88,121 @@ TEST(Corners, FrictionLetsGoWhereThePushOutgrowsIt) {
     const double m = mass_of_slider();
     EXPECT_NEAR(end_of(run)[0], 8 / (6 * m), 1e-10) << method;
     EXPECT_NEAR(end_of(run)[2], 2 / m, 1e-10) << method;
+  }
+}
+
+TEST(Corners, FrictionStopsASliderUnderMethodsOfFirstOrderToo) {
+  for (const char* method : {"symplectic_euler", "explicit_euler", "semi_implicit_euler"}) {
+    Simulation run = slider("-2*((qd1>0)-(qd1<0))", 3, method, 1e-3);
+    run.qd0[0] = 1;
+    EXPECT_NEAR(end_of(run)[0], mass_of_slider() / 4, 2e-3) << method;
+    EXPECT_NEAR(end_of(run)[2], 0, 1e-11) << method;
+  }
+}
+
+TEST(Corners, ASurfaceOfPositionAndRateIsSlidDownExactly) {
+  // On q + qd = 0 the motion is q' = -q, whatever pushes it there.
+  Simulation run = with(slider("-10*((q1+qd1>0)-(q1+qd1<0))", 5), "dop853", 1e-10);
+  run.q0[0] = 1;
+  const Trajectory trajectory = simulate(run, instants(5, 1));
+  ASSERT_EQ(trajectory.size(), 6);
+  for (int k = 1; k < 6; ++k) EXPECT_NEAR(trajectory.q_at(k)[0] + trajectory.qd_at(k)[0], 0, 1e-10);
+  EXPECT_NEAR(trajectory.q_at(5)[0], trajectory.q_at(4)[0] * std::exp(-1), 1e-9);
+}
+
+TEST(Corners, ThatAreCrossedAtEverShorterIntervalsEndTheRunWithTheirExpression) {
+  for (const char* method : {"dop853", "radau5", "verlet"}) {
+    Simulation run = slider("-5*((q1>0)-(q1<0)) - ((qd1>0)-(qd1<0))", 10, method, 1e-3);
+    if (run.method->adaptive) run = with(std::move(run), method, 1e-10);
+    run.q0[0] = 0.3;
+    const Trajectory trajectory = simulate(run, instants(10, 1));
+    EXPECT_EQ(trajectory.status, RunStatus::chattering) << method;
+    EXPECT_THAT(trajectory.trouble, HasSubstr("-5*((q1>0)-(q1<0))"));
+    // Inwards with 4 N, outwards against 6 N; amplitudes shrink by 4 / 6: they come to an end where the
+    // series does.
+    double end = 0, x = 0.3;
+    const double m = mass_of_slider();
+    for (int k = 0; k < 200; ++k, x *= 4.0 / 6)
+      end += std::sqrt(2 * x * m / 4) + std::sqrt(2 * x * 4 / 6 * m / 6);
+    EXPECT_NEAR(trajectory.end_time, end, 0.01);
+  }
+}
+
+TEST(Corners, WhatTheTextHoldsAtRestStaysThere) {
+  for (const char* torque : {"5*(q1>0)", "2*((qd1>0)-(qd1<0))", "5*(q1==0)", "1-2*((qd1>0)-(qd1<0))"})
+    EXPECT_EQ(end_of(with(slider(torque, 2), "dop853", 1e-9))[0], 0) << torque;
+  const double m = mass_of_slider();
+  EXPECT_NEAR(end_of(with(slider("5*(q2<=0)", 2), "dop853", 1e-9))[0], 10 / m, 1e-9);
+}
+
+TEST(Corners, OfAReferenceEndStepsToo) {
+  // The gripper's goal turns back at 1 s, with a jump of its rate.
+  Simulation run = run_of("pp", {}, 2);
+  Control control;
+  control.pd = Feedback{{50}, {10}, {{"abs(t-1)", {}}, {"0", {}}}, {}, {}, ""};
+  run.torque = make_control(run.chain, control, {});
+  EXPECT_THAT(run.torque->breaks(2), ::testing::ElementsAre(1));
+  const std::vector<double> fine = end_of(with(std::move(run), "dop853", 1e-12));
+  Simulation coarse = run_of("pp", {}, 2, "rk4", 0.01);
+  coarse.torque = make_control(coarse.chain, control, {});
+  coarse.step = 0.03;  // 1 s is no multiple
+  EXPECT_LT(apart(end_of(coarse), fine), 2e-4);
+}
+
+// By another way: to each instant by itself, and on from there under the other torque.
+std::vector<double> by_hand(const std::vector<double>& q0, const std::vector<double>& instants,
+                            const std::vector<std::string>& torques, double end) {
+  std::vector<double> q = q0, qd(2);
+  double now = 0;
+  for (std::size_t k = 0; k < torques.size(); ++k) {
+    const double next = k < instants.size() ? instants[k] : end;
+    Simulation run = with(run_of("rr", {torques[k], "0"}, next - now), "dop853", 1e-12);
+    run.q0 = q;
+    run.qd0 = qd;
+    const std::vector<double> state = end_of(run);
+    q.assign(state.begin(), state.begin() + 2);
+    qd.assign(state.begin() + 2, state.end());
+    now = next;
+  }
+  q.insert(q.end(), qd.begin(), qd.end());
+  return q;
+}
+
+TEST(Corners, PushesOfAnArmAreThoseOfIntegrationFromCornerToCorner) {
+  struct Case {
+    std::vector<double> q0;
+    std::string torque;
+    std::vector<double> instants;
+    std::vector<std::string> torques;
+  };
+  const double down = -1.5707963267948966;
+  for (const Case& c : {Case{{-1, 0.5}, "60*(t>1.507)*(t<1.557)", {1.507, 1.557}, {"0", "60", "0"}},
+                        Case{{-1, 0.5}, "60*(t>1.507)", {1.507}, {"0", "60"}},
+                        Case{{down, 0}, "60*(t>1)*(t<1.05)", {1, 1.05}, {"0", "60", "0"}},
+                        Case{{down, 0}, "60*(t>1)*(t<1.002)", {1, 1.002}, {"0", "60", "0"}}}) {
+    Simulation run = run_of("rr", {c.torque, "0"}, 4);
+    run.q0 = c.q0;
+    EXPECT_LT(apart(end_of(with(std::move(run), "dop853", 1e-10)), by_hand(c.q0, c.instants, c.torques, 4)),
+              1e-7)
+        << c.torque;
+  }
+}
+
+TEST(Corners, ThirtyRandomScenesHaveOneMotionUnderThreeMethods) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    const testing::CorneredScene scene = testing::cornered_scene(seed);
+    const auto end_under = [&](const char* method, double tolerance, double beside) {
+      Simulation run = run_of(scene.model, scene.torque, scene.duration, method, 1e-3);
+      run.q0 = scene.q0;
+      run.qd0 = scene.qd0;
+      run.q0[0] += beside;
+      return end_of(tolerance > 0 ? with(std::move(run), method, tolerance) : std::move(run));
+    };
+    const std::vector<double> one = end_under("dop853", 1e-10, 0);
+    const double amplification = std::max(1.0, apart(one, end_under("dop853", 1e-10, 1e-7)) / 1e-7);
+    // Three bodies thrown about magnify errors of the way up to 1e8 times.
+    EXPECT_LT(apart(one, end_under("radau5", 1e-9, 0)), 1e-6 * amplification) << seed << ": " << scene.text();
+    EXPECT_LT(apart(one, end_under("rk4", 0, 0)), 1e-4 * amplification) << seed << ": " << scene.text();
   }
 }
 

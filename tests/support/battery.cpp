@@ -62,7 +62,8 @@ CorneredScene cornered_scene(std::uint64_t seed) {
   const bool from_rest = random.below(3) == 0;
   for (int i = 1; i <= n; ++i) {
     // At rest it hangs straight down.
-    scene.q0.push_back(from_rest ? (kind > 0 && i == 1 ? -1.5707963267948966 : 0) : random.between(-1.5, 1.5));
+    scene.q0.push_back(from_rest ? (kind > 0 && i == 1 ? -1.5707963267948966 : 0)
+                                 : random.between(-1.5, 1.5));
     scene.qd0.push_back(from_rest ? 0 : random.between(-2, 2));
     std::string torque = part(random, i, scene.duration);
     if (random.below(2) == 0) torque += " + " + part(random, i, scene.duration);
