@@ -75,12 +75,17 @@ Measured measure_all(PreparedScene& prepared, const std::vector<const Method*>& 
   return measured;
 }
 
+// What the error of a rung is: "the larger of q's and 0.13 s times qd's"
+std::string scale_text(const Measured& measured) {
+  return "the larger of q's and " + format_significant(measured.reference.state.qd_scale, 2) + " s \u00D7 qd's";
+}
+
 WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOptions& options) {
   WorkPrecision data;
   data.title = "Speed against accuracy";
   data.subtitle = (prepared.scene.title.empty() ? prepared.scene.name : prepared.scene.title) + ", " +
                   format_shortest(prepared.simulation.duration) + " s; reference: " + measured.reference.how;
-  data.error_title = "final error of q [rad, m]";
+  data.error_title = "final error, " + scale_text(measured) + " [rad, m]";
   data.floor = measured.reference.amplification * 0x1p-53;
   data.reference_uncertainty = measured.reference.uncertainty;
   data.machine = machine_line();
@@ -109,8 +114,11 @@ std::string csv_of(const std::string& scene, const Measured& measured) {
   std::string text = csv_facts(scene);
   text += "# reference: " + measured.reference.how + ", uncertainty " +
           format_significant(measured.reference.uncertainty, 2) +
-          "\n# amplification: " + format_significant(measured.reference.amplification, 3) + "\n";
-  text += "method,order,step,tolerance,runs,median_seconds,steps,evaluations,error,energy_error,status\n";
+          "\n# amplification: " + format_significant(measured.reference.amplification, 3) +
+          "\n# error: the larger of error_q and error_qd x " +
+          format_significant(measured.reference.state.qd_scale, 6) + " s\n";
+  text += "method,order,step,tolerance,runs,median_seconds,steps,evaluations,error,error_q,error_qd,energy_error,"
+          "status\n";
   for (const Ladder& ladder : measured.ladders)
     for (const Rung& rung : ladder.rungs) {
       const MethodSetting& setting = rung.setting;
@@ -120,7 +128,8 @@ std::string csv_of(const std::string& scene, const Measured& measured) {
               (setting.options.tolerance > 0 ? format_shortest(setting.options.tolerance) : "") + "," +
               std::to_string(rung.runs) + "," + format_significant(rung.seconds, 4) + "," +
               std::to_string(rung.steps) + "," + std::to_string(rung.evaluations) + "," +
-              number_or_empty(rung.error) + "," + number_or_empty(rung.energy_error) + "," +
+              number_or_empty(rung.error) + "," + number_or_empty(rung.error_q) + "," +
+              number_or_empty(rung.error_qd) + "," + number_or_empty(rung.energy_error) + "," +
               to_string(rung.status) + "\n";
     }
   return text;
@@ -141,6 +150,7 @@ void print_summary(const WorkPrecision& data, const Measured& measured) {
   std::fputs(table_text(table).c_str(), stdout);
   for (const Ladder& ladder : measured.ladders)
     if (!ladder.refusal.empty()) std::printf("left out: %s\n", ladder.refusal.c_str());
+  std::printf("error: %s\n", scale_text(measured).c_str());
   std::printf("reference: %s, uncertainty %s; the motion magnifies errors %s times\n",
               measured.reference.how.c_str(), format_significant(measured.reference.uncertainty, 2).c_str(),
               format_significant(measured.reference.amplification, 2).c_str());

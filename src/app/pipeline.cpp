@@ -16,6 +16,7 @@
 #include "scene/panels.hpp"
 #include "scene/prepare.hpp"
 #include "scene/read_scene.hpp"
+#include "sim/audit.hpp"
 
 namespace chainreel {
 
@@ -158,7 +159,7 @@ void require_expected_ends(const PreparedFilm& film, const std::vector<Trajector
 std::vector<Trajectory> simulate_film(const PreparedFilm& film, const std::vector<double>& times) {
   std::vector<Trajectory> runs;
   for (const PreparedScene& panel : film.panels) {
-    runs.push_back(simulate(panel.simulation, times, [](double) { return interrupted(); }));
+    runs.push_back(simulate_audited(panel.simulation, times, [](double) { return interrupted(); }));
     throw_if_interrupted();
   }
   return runs;

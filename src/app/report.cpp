@@ -113,8 +113,14 @@ Json run_report(const PreparedScene& prepared, const Trajectory& trajectory) {
   json["duration"] = scene.duration;
   json["energy_start"] = audit.energy_start;
   json["largest_kinetic_energy"] = audit.largest_kinetic;
-  json["audit_error"] = audit.largest_error;
-  json["audit_error_time"] = audit.largest_error_time;
+  // Samples at every step are their own audit.
+  const auto& steps = trajectory.energy_at_steps;
+  json["audit_error"] = steps ? steps->largest_error : audit.largest_error;
+  json["audit_error_time"] = steps ? steps->time : audit.largest_error_time;
+  if (steps) {
+    json["audit_error_of_frames"] = audit.largest_error;
+    json["audit_error_of_frames_time"] = audit.largest_error_time;
+  }
   if (trajectory.rows > 0) json["constraint_error"] = constraint_run_report(simulation, trajectory);
   json["limits_passed"] = Json::array();
   for (const LimitEvent& event : trajectory.limits) {

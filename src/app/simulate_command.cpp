@@ -35,7 +35,7 @@ Trajectory run_scene(const PreparedScene& prepared, bool every_step) {
   // One row at the end exactly, and no frame within round-off before it.
   while (!times.empty() && times.back() > duration - same_instant(prepared.simulation)) times.pop_back();
   times.push_back(duration);
-  return simulate(prepared.simulation, times, stop);
+  return simulate_audited(prepared.simulation, times, stop);
 }
 
 // A panel's run as a CSV file, or on standard output where `output` is "-".

@@ -72,17 +72,37 @@ void check_axis(const Sweep& sweep, const std::string& option) {
                     ":log behind it");
 }
 
-void add_boundary(const StabilityCells& cells, StabilityMap& map) {
+constexpr const char* kTheory = "theory";
+
+void add_limits(const StabilityCells& cells, StabilityMap& map) {
   const bool along_x = cells.x.key == "step";
   const std::vector<double>& others = (along_x ? cells.y : cells.x).numbers;
   MapBoundary line;
-  line.label = "theory";
+  line.label = kTheory;
   for (std::size_t i = 0; i < cells.boundary.size(); ++i) {
     if (!cells.boundary[i] || !std::isfinite(*cells.boundary[i]) || *cells.boundary[i] <= 0) continue;
     const double step = *cells.boundary[i];
     line.points.push_back(along_x ? Point{step, others[i]} : Point{others[i], step});
   }
   if (line.points.size() >= 2) map.boundaries.push_back(line);
+}
+
+double value_at(const Axis& axis, double share) {
+  return axis.scale == Scale::log ? axis.low * std::pow(axis.high / axis.low, share)
+                                  : axis.low + share * (axis.high - axis.low);
+}
+
+// Between the cells that are stable by theory and those that are not, along their edges.
+void add_edges(const StabilityCells& cells, StabilityMap& map) {
+  std::vector<std::optional<bool>> stable;
+  for (const StabilityCell& cell : cells.cells) stable.push_back(cell.stable);
+  for (const auto& corners : edges_between(stable, map.nx, map.ny)) {
+    MapBoundary line;
+    if (map.boundaries.empty()) line.label = kTheory;
+    for (const Point& corner : corners)
+      line.points.push_back({value_at(map.x, corner.x / map.nx), value_at(map.y, corner.y / map.ny)});
+    map.boundaries.push_back(line);
+  }
 }
 
 StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
@@ -95,22 +115,25 @@ StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
   map.ny = int(cells.y.values.size());
   map.error_title = "largest |energy error| [J]";
   for (const StabilityCell& cell : cells.cells)
-    map.cells.push_back({!std::isfinite(cell.energy_error), cell.energy_error});
-  add_boundary(cells, map);
-  map.footer =
-      "Each cell is a run of the scene's duration and of at least " + std::to_string(kLeastSteps) + " steps.";
-  if (!map.boundaries.empty())
-    map.footer += " Theory: the method's limit for the motion linearised about the start.";
+    map.cells.push_back({cell.failed, cell.energy_error});
+  add_limits(cells, map);
+  add_edges(cells, map);
+  map.footer = "Each cell is a run of the scene's duration and of at least " + std::to_string(kLeastSteps) +
+               " steps; failed: no end, or an energy error above " + format_shortest(kFailedEnergy) +
+               " times the motion's largest kinetic energy.";
+  if (!map.boundaries.empty()) map.footer += " Theory: the limit of the motion linearised about the start.";
   return map;
 }
 
 std::string csv_of(const std::string& scene, const StabilityCells& cells) {
-  std::string text = csv_facts(scene) + cells.x.key + "," + cells.y.key + ",status,energy_error,trouble\n";
+  std::string text = csv_facts(scene) + cells.x.key + "," + cells.y.key + ",status,failed,energy_error,energy_scale,trouble\n";
   for (std::size_t iy = 0; iy < cells.y.values.size(); ++iy)
     for (std::size_t ix = 0; ix < cells.x.values.size(); ++ix) {
       const StabilityCell& cell = cells.at(ix, iy);
       text += cells.x.values[ix] + "," + cells.y.values[iy] + "," + to_string(cell.status) + "," +
-              (std::isfinite(cell.energy_error) ? format_shortest(cell.energy_error) : "") + ",\"" +
+              (cell.failed ? "1," : "0,") +
+              (std::isfinite(cell.energy_error) ? format_shortest(cell.energy_error) : "") + "," +
+              (std::isfinite(cell.energy_scale) ? format_shortest(cell.energy_scale) : "") + ",\"" +
               cell.trouble + "\"\n";
     }
   return text;
@@ -118,8 +141,9 @@ std::string csv_of(const std::string& scene, const StabilityCells& cells) {
 
 void print_map_summary(const StabilityCells& cells) {
   std::size_t failed = 0;
-  for (const StabilityCell& cell : cells.cells) failed += !std::isfinite(cell.energy_error);
-  std::printf("%s: %zu of %zu cells fail; %d threads%s\n", cells.method.c_str(), failed, cells.cells.size(),
+  for (const StabilityCell& cell : cells.cells) failed += cell.failed;
+  std::printf("%s: %zu of %zu cells fail (no end, or an energy error above %s times the motion's); %d threads%s\n",
+              cells.method.c_str(), failed, cells.cells.size(), format_shortest(kFailedEnergy).c_str(),
               cells.threads, cells.in_batches ? ", stepped in batches" : "");
 }
 
@@ -145,11 +169,11 @@ void draw_map(const StabilityOptions& options, const std::string& output) {
 std::string verdict(Simulation& simulation, const MethodSetting& setting) {
   apply(setting, simulation);
   const double end[] = {simulation.duration};
-  const Trajectory trajectory = simulate(simulation, end, [](double) { return interrupted(); });
+  const Trajectory trajectory = simulate_audited(simulation, end, [](double) { return interrupted(); });
   throw_if_interrupted();
   if (trajectory.status != RunStatus::finished || trajectory.size() == 0)
     return to_string(trajectory.status) + " at " + format_significant(trajectory.end_time, 3) + " s";
-  return format_significant(audit_of(simulation, trajectory).largest_error, 2) + " J";
+  return format_significant(trajectory.energy_at_steps->largest_error, 2) + " J";
 }
 
 std::string limit_text(const std::optional<double>& limit) {
@@ -206,7 +230,7 @@ void print_methods(const StabilityOptions& options) {
     table.push_back(row);
   }
   std::printf(
-      "Who fails here: the energy error at the end with steps of 0.1, 0.01 and 0.001 s, or tolerances of "
+      "Who fails here: the largest energy error with steps of 0.1, 0.01 and 0.001 s, or tolerances of "
       "1e-3, 1e-6 and 1e-9\n");
   std::fputs(table_text(table).c_str(), stdout);
   std::fputs(left_out.c_str(), stdout);

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "dynamics/energy.hpp"
+#include "core/format.hpp"
+#include "integrate/stability_limit.hpp"
 #include "scene/parallel.hpp"
 #include "scene/prepare.hpp"
 #include "scene/read_scene.hpp"
@@ -16,6 +17,30 @@ namespace chainreel {
 namespace {
 
 constexpr int kInstants = 100;
+// Of all energies that were added up: less is rounding, whatever the motion.
+constexpr double kRounding = 1e-9;
+
+// What was seen of a run's energy.
+struct EnergySeen {
+  double error = 0, size = 0;  // J
+
+  void add(const EnergyBalance::State& state) {
+    error = std::isfinite(state.error) ? std::max(error, std::abs(state.error))
+                                       : std::numeric_limits<double>::infinity();
+    size = std::max(size, state.kinetic + std::abs(state.potential));
+  }
+};
+
+void judge(const EnergySeen& seen, double scale, StabilityCell& cell) {
+  cell.energy_error = seen.error;
+  cell.energy_scale = scale;
+  const bool is_lost =
+      seen.error > kFailedEnergy * scale + kRounding * seen.size;  // false where scale is NaN
+  cell.failed = !std::isfinite(seen.error) || is_lost;
+  if (is_lost && cell.trouble.empty())
+    cell.trouble = "the energy is off by " + format_significant(seen.error, 3) + " J, the motion has " +
+                   format_significant(scale, 3) + " J";
+}
 
 // Keys of the integration alone: the mechanism need not be made anew for them.
 bool is_of_method(const std::string& key) {
@@ -54,6 +79,7 @@ class CellRuns {
     result_.method = first.method->name;
     const bool same_step = !is_of_time(result_.x.key) && !is_of_time(result_.y.key);
     result_.in_batches = same_step && fits_a_batch(first);
+    find_scales();
     if (result_.in_batches)
       run_batch();
     else
@@ -85,6 +111,25 @@ class CellRuns {
     simulation.duration = std::max(simulation.duration, kLeastSteps * simulation.step);
   }
 
+  // Once for all cells of one motion, over the longest of their runs.
+  void find_scales() {
+    const std::size_t nx = result_.x.values.size(), ny = result_.y.values.size();
+    const bool one_of_x = is_of_method(result_.x.key), one_of_y = is_of_method(result_.y.key);
+    const std::size_t columns = one_of_x ? 1 : nx, rows = one_of_y ? 1 : ny;
+    std::vector<double> scales(columns * rows);
+    for_each_index(scales.size(), threads_, [&](std::size_t i) {
+      Simulation simulation = simulation_of({i % columns, i / columns});
+      for (const Sweep* sweep : {&result_.x, &result_.y})
+        if (sweep->key == "step")
+          simulation.step = *std::max_element(sweep->numbers.begin(), sweep->numbers.end());
+      lengthen(simulation);
+      scales[i] = energy_scale(simulation, stop_).value_or(std::numeric_limits<double>::quiet_NaN());
+    });
+    for (std::size_t iy = 0; iy < ny; ++iy)
+      for (std::size_t ix = 0; ix < nx; ++ix)
+        cell({ix, iy}).energy_scale = scales[(one_of_y ? 0 : iy) * columns + (one_of_x ? 0 : ix)];
+  }
+
   static bool fits_a_batch(const Simulation& simulation) {
     return simulation.method->name == "semi_implicit_euler" && simulation.torque->is_constant() &&
            !simulation.events && simulation.constraints.empty() && simulation.limit == LimitPolicy::report &&
@@ -108,12 +153,16 @@ class CellRuns {
   }
 
   void run_one(Simulation& simulation, StabilityCell& cell) {
-    const Trajectory trajectory = simulate(simulation, stability_times(simulation.duration), stop_);
+    const Trajectory trajectory = simulate(simulation, stability_times(simulation), stop_);
     cell.status = trajectory.status;
     cell.trouble = trajectory.trouble;
-    cell.energy_error = is_complete(trajectory.status) && trajectory.size() > 0
-                            ? audit_of(simulation, trajectory).largest_error
-                            : std::numeric_limits<double>::infinity();
+    EnergyBalance balance(simulation);
+    EnergySeen seen;
+    for (int k = 0; k < trajectory.size(); ++k)
+      seen.add(balance.at(trajectory.q_at(k), trajectory.qd_at(k), trajectory.work[std::size_t(k)]));
+    if (!is_complete(trajectory.status) || trajectory.size() == 0)
+      seen.error = std::numeric_limits<double>::infinity();
+    judge(seen, cell.energy_scale, cell);
   }
 
   void run_batch() {
@@ -124,6 +173,7 @@ class CellRuns {
     });
     lengthen(*all[0]);  // all have its duration and step
     BatchSimulator batch(all[0]->chain, int(count));
+    std::vector<EnergySeen> seen(count);
     std::vector<double> tau(std::size_t(all[0]->chain.nv));
     for (std::size_t i = 0; i < count; ++i) {
       Simulation& one = *all[i];
@@ -137,40 +187,45 @@ class CellRuns {
     const long steps = std::llround(all[0]->duration / all[0]->step);
     for (int k = 1; k <= kInstants; ++k) {
       batch.run(steps * k / kInstants - steps * (k - 1) / kInstants, threads_);
-      for_each_index(count, threads_,
-                     [&](std::size_t i) { look_at(batch, int(i), *all[i], result_.cells[i]); });
+      for_each_index(count, threads_, [&](std::size_t i) { look_at(batch, int(i), *all[i], seen[i]); });
       if (stop_ && stop_(0)) return;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      StabilityCell& cell = result_.cells[i];
+      if (!std::isfinite(seen[i].error)) cell.status = RunStatus::diverged, cell.trouble = "diverged";
+      judge(seen[i], cell.energy_scale, cell);
     }
   }
 
-  static void look_at(const BatchSimulator& batch, int i, Simulation& one, StabilityCell& cell) {
+  static void look_at(const BatchSimulator& batch, int i, Simulation& one, EnergySeen& seen) {
     std::vector<double> q(one.q0.size()), qd(one.qd0.size()), tau(one.qd0.size());
     batch.read_state(i, q, qd);
     Workspace ws(one.chain);
     one.torque->evaluate(one.chain, ws, 0, one.q0, one.qd0, tau);
     double work = 0;
     for (std::size_t k = 0; k < q.size(); ++k) work += tau[k] * (q[k] - one.q0[k]);
-    const double gained =
-        energy_of(one.chain, ws, q, qd).total() - energy_of(one.chain, ws, one.q0, one.qd0).total();
-    const double error = std::abs(gained - work);
-    if (std::isfinite(error)) {
-      cell.energy_error = std::max(cell.energy_error, error);
-      return;
-    }
-    cell.energy_error = std::numeric_limits<double>::infinity();
-    cell.status = RunStatus::diverged;
-    cell.trouble = "diverged";
+    seen.add(EnergyBalance(one).at(q, qd, work));
   }
 
-  // Theory: where one key is the step, for each value of the other.
+  // Theory: where one key is the step, for each value of the other; else for each cell at its step.
   void find_boundary() {
     const bool along_x = result_.x.key == "step";
-    if (!along_x && result_.y.key != "step") return;
+    if (!along_x && result_.y.key != "step") return find_stable_cells();
     const std::size_t count = (along_x ? result_.y : result_.x).values.size();
     for (std::size_t i = 0; i < count; ++i) {
       const Simulation simulation = simulation_of(along_x ? At{0, i} : At{i, 0});
       result_.boundary.push_back(longest_stable_step(*simulation.method, linearise(simulation)));
     }
+  }
+
+  void find_stable_cells() {
+    const std::size_t row = result_.x.values.size();
+    for_each_index(result_.cells.size(), threads_, [&](std::size_t i) {
+      const Simulation simulation = simulation_of({i % row, i / row});
+      const Linearisation start = linearise(simulation);
+      if (start.motion && simulation.step > 0)
+        result_.cells[i].stable = is_stable(*simulation.method, *start.motion, simulation.step);
+    });
   }
 
   std::string scene_;
@@ -182,9 +237,13 @@ class CellRuns {
 
 }  // namespace
 
-std::vector<double> stability_times(double duration) {
+std::vector<double> stability_times(const Simulation& simulation) {
+  const double duration = simulation.duration, step = simulation.step;
+  const long steps = step > 0 ? std::lround(duration / step) : 0;
   std::vector<double> times;
-  for (int k = 1; k <= kInstants; ++k) times.push_back(duration * k / kInstants);
+  for (int k = 1; k < kInstants; ++k)
+    times.push_back(step > 0 ? double(steps * k / kInstants) * step : duration * k / kInstants);
+  times.push_back(duration);
   return times;
 }
 

@@ -5,23 +5,38 @@
 
 #include "core/hash.hpp"
 #include "dynamics/energy.hpp"
+#include "sim/choose_method.hpp"
 
 namespace chainreel {
+namespace {
+
+constexpr double kScaleTolerance = 1e-6;
+
+}  // namespace
+
+EnergyBalance::EnergyBalance(const Simulation& simulation)
+    : chain_(simulation.chain),
+      ws_(simulation.chain),
+      energy_start_(energy_of(chain_, ws_, simulation.q0, simulation.qd0).total()) {}
+
+EnergyBalance::State EnergyBalance::at(ConstVec q, ConstVec qd, double work) {
+  const Energy energy = energy_of(chain_, ws_, q, qd);
+  return {energy.kinetic, energy.potential, energy.total() - energy_start_ - work};
+}
 
 Audit audit_of(const Simulation& simulation, const Trajectory& trajectory, int samples) {
   const int count = samples < 0 ? trajectory.size() : std::min(samples, trajectory.size());
   Audit audit;
-  Workspace ws(simulation.chain);
+  EnergyBalance balance(simulation);
   Sha256 hash;
-  audit.energy_start = energy_of(simulation.chain, ws, simulation.q0, simulation.qd0).total();
+  audit.energy_start = balance.energy_start();
   for (int k = 0; k < count; ++k) {
     const auto i = std::size_t(k);
-    const Energy energy = energy_of(simulation.chain, ws, trajectory.q_at(k), trajectory.qd_at(k));
-    const double error = energy.total() - audit.energy_start - trajectory.work[i];
-    audit.error.push_back(error);
-    audit.largest_kinetic = std::max(audit.largest_kinetic, energy.kinetic);
-    if (std::abs(error) > audit.largest_error) {
-      audit.largest_error = std::abs(error);
+    const auto state = balance.at(trajectory.q_at(k), trajectory.qd_at(k), trajectory.work[i]);
+    audit.error.push_back(state.error);
+    audit.largest_kinetic = std::max(audit.largest_kinetic, state.kinetic);
+    if (std::abs(state.error) > audit.largest_error) {
+      audit.largest_error = std::abs(state.error);
       audit.largest_error_time = trajectory.t[i];
     }
     hash.add(std::span<const double>(&trajectory.t[i], 1));
@@ -30,6 +45,34 @@ Audit audit_of(const Simulation& simulation, const Trajectory& trajectory, int s
   }
   audit.sha256 = hash.finish();
   return audit;
+}
+
+std::optional<double> energy_scale(Simulation& simulation, const StopRequest& stop) {
+  const MethodSetting own{simulation.method, simulation.options, simulation.step};
+  apply({&find_method("dop853"), {kScaleTolerance, 0}, 0}, simulation);
+  EnergyBalance balance(simulation);
+  double largest = balance.at(simulation.q0, simulation.qd0, 0).kinetic;
+  const Trajectory trajectory =
+      simulate(simulation, {}, stop, [&](double, ConstVec q, ConstVec qd, double work) {
+        largest = std::max(largest, balance.at(q, qd, work).kinetic);
+      });
+  apply(own, simulation);
+  return is_complete(trajectory.status) ? std::optional(largest) : std::nullopt;
+}
+
+Trajectory simulate_audited(const Simulation& simulation, std::span<const double> times,
+                            const StopRequest& stop) {
+  EnergyBalance balance(simulation);
+  EnergyAtSteps seen;
+  Trajectory trajectory =
+      simulate(simulation, times, stop, [&](double t, ConstVec q, ConstVec qd, double work) {
+        seen.at_end = balance.at(q, qd, work).error;
+        if (std::abs(seen.at_end) <= seen.largest_error) return;
+        seen.largest_error = std::abs(seen.at_end);
+        seen.time = t;
+      });
+  trajectory.energy_at_steps = seen;
+  return trajectory;
 }
 
 }  // namespace chainreel

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "sim/chain_system.hpp"
 #include "sim/quad_reference.hpp"
 
 namespace chainreel {
@@ -12,6 +13,7 @@ namespace {
 
 // Small against the start, large against rounding.
 constexpr double kPerturbation = 1e-9;
+constexpr int kLooks = 200;  // at rates and their changes
 
 EndState run(Simulation& simulation, const MethodSetting& setting) {
   apply(setting, simulation);
@@ -20,7 +22,7 @@ EndState run(Simulation& simulation, const MethodSetting& setting) {
   if (trajectory.status != RunStatus::finished || trajectory.size() == 0)
     throw Error(ExitCode::numerical, "no reference: " + to_string(setting) + " " + trajectory.trouble);
   const ConstVec q = trajectory.q_at(0), qd = trajectory.qd_at(0);
-  return {{q.begin(), q.end()}, {qd.begin(), qd.end()}};
+  return {{q.begin(), q.end()}, {qd.begin(), qd.end()}, 1};
 }
 
 double apart(const std::vector<double>& a, const std::vector<double>& b) {
@@ -46,12 +48,29 @@ double amplification_of(Simulation& simulation, const MethodSetting& setting, co
   return largest;
 }
 
+// The time in which rates change by their own size; see EndState. Two or three digits are plenty.
+double qd_scale_of(Simulation& simulation) {
+  apply({&find_method("dop853"), {1e-6, 0}, 0}, simulation);
+  std::vector<double> times;
+  for (int k = 0; k <= kLooks; ++k) times.push_back(simulation.duration * k / kLooks);
+  const Trajectory trajectory = simulate(simulation, times);
+  ChainSystem system(simulation.chain, *simulation.torque, simulation.limit, simulation.constraints);
+  std::vector<double> qdd(simulation.qd0.size());
+  double rate = 0, change = 0;
+  for (int k = 0; k < trajectory.size(); ++k) {
+    system.acceleration(trajectory.t[std::size_t(k)], trajectory.q_at(k), trajectory.qd_at(k), qdd);
+    for (const double x : trajectory.qd_at(k)) rate = std::max(rate, std::abs(x));
+    for (const double x : qdd) change = std::max(change, std::abs(x));
+  }
+  return rate > 0 && rate < change * simulation.duration ? rate / change : simulation.duration;
+}
+
 std::optional<EndReference> by_quads(const Simulation& simulation) {
   const double end[] = {simulation.duration};
   const auto quads = quad_reference(simulation, end);
   const auto amplification = quad_amplification(simulation, simulation.duration);
   if (!quads || !amplification) return std::nullopt;
-  return EndReference{{quads->q, quads->qd}, quads->uncertainty.back(), *amplification, quads->how};
+  return EndReference{{quads->q, quads->qd, 1}, quads->uncertainty.back(), *amplification, quads->how};
 }
 
 // For torques that cannot be had in quadruple precision.
@@ -69,11 +88,12 @@ EndReference by_doubles(Simulation& simulation) {
 }  // namespace
 
 EndReference end_reference(Simulation& simulation) {
-  if (const auto quads = by_quads(simulation)) return *quads;
   const Method* const method = simulation.method;
   const MethodOptions options = simulation.options;
   const double step = simulation.step;
-  const EndReference reference = by_doubles(simulation);
+  const auto quads = by_quads(simulation);
+  EndReference reference = quads ? *quads : by_doubles(simulation);
+  reference.state.qd_scale = qd_scale_of(simulation);
   simulation.method = method;
   simulation.options = options;
   simulation.step = step;

@@ -176,6 +176,7 @@ class Run {
   }
 
   void sample_start() { append(0, simulation_.q0, simulation_.qd0, 0); }
+  void show(const StepObserver& observer) const { observer(now(), q_now(), qd_now(), work_.at_end()); }
   void sample_end() { append(now(), q_now(), qd_now(), work_.at_end()); }
   // t lies in the last step.
   void sample(double t) {
@@ -457,7 +458,8 @@ void check_method(const Simulation& simulation) {
   const ChainForms forms(system, *simulation.method);
 }
 
-Trajectory simulate(const Simulation& simulation, std::span<const double> times, const StopRequest& stop) {
+Trajectory simulate(const Simulation& simulation, std::span<const double> times, const StopRequest& stop,
+                    const StepObserver& observer) {
   Run run(simulation, times.size());
   std::size_t next = 0;
   while (next < times.size() && times[next] <= 0) {
@@ -471,6 +473,7 @@ Trajectory simulate(const Simulation& simulation, std::span<const double> times,
       if (next < times.size()) run.sample_event();
       break;
     }
+    if (observer) run.show(observer);
     run.pass_break();
   }
   return run.finish();

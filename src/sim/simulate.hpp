@@ -42,12 +42,15 @@ void check_method(const Simulation& simulation);
 // Asked now and then during a run; true stops it with RunStatus::interrupted.
 using StopRequest = std::function<bool(double t)>;
 
+// Told of the end of each step that belongs to the run: q, qd and the work of the torques up to there, J.
+using StepObserver = std::function<void(double t, ConstVec q, ConstVec qd, double work)>;
+
 // Samples at `times` (rising, within [0, duration]) on the method's dense output; t = 0 and the ends of steps
 // give the steps' own values. Never throws for what happens during the run: see
 // Trajectory::status. Samples end where the run ended; where an event ended it, the last one stands at its
 // instant.
 Trajectory simulate(const Simulation& simulation, std::span<const double> times,
-                    const StopRequest& stop = {});
+                    const StopRequest& stop = {}, const StepObserver& observer = {});
 
 // Samples at 0 and at the end of every step; the last one at the event that ended the run, if one did.
 Trajectory simulate_every_step(const Simulation& simulation, const StopRequest& stop = {});

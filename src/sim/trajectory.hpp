@@ -1,6 +1,7 @@
 // A run as data: the state at the sampled instants and what became of it.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,6 +30,14 @@ std::string to_string(RunStatus status);
 inline bool is_complete(RunStatus status) {
   return status == RunStatus::finished || status == RunStatus::stopped;
 }
+
+// How far the energy was off at the ends of steps, where a run was looked at (simulate_audited): the method's own
+// error, without that of its dense output.
+struct EnergyAtSteps {
+  double largest_error = 0;  // of |E(t) - E(0) - work|, J
+  double time = 0;           // of it, s
+  double at_end = 0;         // of the last step, signed, J
+};
 
 // The events that happened, in the order of time.
 struct EventHits {
@@ -78,6 +87,8 @@ struct Trajectory {
   long steps = 0;        // taken
   long evaluations = 0;  // of the forward dynamics
   std::string trouble;   // one sentence where the status is not `finished`: time, step and joint
+
+  std::optional<EnergyAtSteps> energy_at_steps;  // where it was asked for
 
   std::vector<LimitEvent> limits;  // passed, each joint and quantity once
   // While corners of the torques were kept at zero, like dry friction at rest.

@@ -24,15 +24,21 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-double error_of(const Trajectory& trajectory, const EndState& reference) {
-  if (trajectory.status != RunStatus::finished || trajectory.size() == 0) return kInfinity;
-  const ConstVec q = trajectory.q_at(trajectory.size() - 1);
+double apart(ConstVec x, const std::vector<double>& reference) {
   double largest = 0;
-  for (std::size_t i = 0; i < q.size(); ++i) {
-    const double error = std::abs(q[i] - reference.q[i]);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double error = std::abs(x[i] - reference[i]);
     largest = std::isfinite(error) ? std::max(largest, error) : kInfinity;
   }
   return largest;
+}
+
+void find_errors(const Trajectory& trajectory, const EndState& reference, Rung& rung) {
+  rung.error = rung.error_q = rung.error_qd = kInfinity;
+  if (trajectory.status != RunStatus::finished || trajectory.size() == 0) return;
+  rung.error_q = apart(trajectory.q_at(trajectory.size() - 1), reference.q);
+  rung.error_qd = apart(trajectory.qd_at(trajectory.size() - 1), reference.qd);
+  rung.error = std::max(rung.error_q, reference.qd_scale * rung.error_qd);
 }
 
 double median(std::vector<double>& values) {
@@ -89,7 +95,7 @@ Rung measure(Simulation& simulation, const MethodSetting& setting, const EndStat
     rung.trouble = trajectory.trouble;
     rung.steps = trajectory.steps;
     rung.evaluations = trajectory.evaluations;
-    rung.error = error_of(trajectory, reference);
+    find_errors(trajectory, reference, rung);
     rung.energy_error = trajectory.size() > 0 ? audit_of(simulation, trajectory).largest_error : kInfinity;
     if (trajectory.status != RunStatus::finished) break;  // nobody asks how fast it failed
   }

@@ -251,5 +251,21 @@ TEST(StabilityMap, AWrongNumberOfCellsIsAnError) {
   EXPECT_THROW(stability_map(data, look_of(light_theme())), Error);
 }
 
+// Of cells that know: a corner of two, a hole, and one that does not know.
+TEST(EdgesBetween, RunAlongTheSidesOfCellsThatDiffer) {
+  const std::optional<bool> yes = true, no = false, unknown;
+  const auto corner = edges_between({yes, yes, no, yes, no, no}, 3, 2);
+  ASSERT_EQ(corner.size(), 1u);
+  ASSERT_EQ(corner[0].size(), 4u);
+  const Point ends[] = {corner[0].front(), corner[0].back()};
+  EXPECT_EQ(ends[0].x + ends[1].x, 3);
+  EXPECT_EQ(ends[0].y + ends[1].y, 2);
+  const auto hole = edges_between({yes, yes, yes, yes, no, yes, yes, yes, yes}, 3, 3);
+  ASSERT_EQ(hole.size(), 1u);
+  EXPECT_EQ(hole[0].size(), 5u);
+  EXPECT_TRUE(edges_between({yes, unknown, no}, 3, 1).empty());
+  EXPECT_TRUE(edges_between({yes, yes, yes, yes}, 2, 2).empty());
+}
+
 }  // namespace
 }  // namespace chainreel

@@ -43,7 +43,7 @@ TEST(StabilityCells, HaveTheErrorOfARunByItself) {
   Scene scene = read_scene(kSpring, settings);
   Simulation alone = prepare(scene, false);
   alone.duration = kLeastSteps * 0.02;
-  const Trajectory trajectory = simulate(alone, stability_times(alone.duration));
+  const Trajectory trajectory = simulate(alone, stability_times(alone));
   EXPECT_EQ(map.at(1, 1).energy_error, audit_of(alone, trajectory).largest_error);
   EXPECT_NE(map.at(0, 1).energy_error, map.at(1, 1).energy_error);
 }
@@ -59,12 +59,38 @@ TEST(StabilityCells, InBatchesAreTheRunsByThemselves) {
       settings.insert(settings.end(), {map.x.setting(ix), map.y.setting(iy)});
       Scene scene = read_scene(kArm, settings);
       Simulation alone = prepare(scene, false);
-      const double error = audit_of(alone, simulate(alone, stability_times(alone.duration))).largest_error;
+      const double error = audit_of(alone, simulate(alone, stability_times(alone))).largest_error;
       // The same bits of the state; energies of some 10 J are added in another order.
       EXPECT_NEAR(map.at(ix, iy).energy_error, error, 1e-13);
       EXPECT_GT(error, 1e-6);
     }
   }
+}
+
+// Joints that turn never leave all bounds: beyond its limit the arm rattles about with thousands of joules.
+TEST(StabilityCells, FailWhereTheEnergyIsLostThoughEveryNumberStaysFinite) {
+  const std::vector<std::string> set = {"torque={pd: {kp: 400, kd: 20, q: [0, 0]}}", "duration=2", "gravity=[0, 0, 0]",
+                                        "method=rk4", "step=0.01", "start.q=[0.01, 0]"};
+  const double limit = 0.0306;
+  const StabilityCells map =
+      run_stability_cells(kArm, set, parse_sweep("step=0.0298,0.0312", "--x"), parse_sweep("start.q.1=0.01,0.02", "--y"), 2);
+  ASSERT_TRUE(map.boundary[0]);
+  EXPECT_NEAR(*map.boundary[0], limit, 2e-4);
+  EXPECT_FALSE(map.at(0, 0).failed);
+  EXPECT_TRUE(map.at(1, 0).failed) << map.at(1, 0).energy_error << " J of " << map.at(1, 0).energy_scale;
+}
+
+// Where no key is the step, each cell knows whether its own step is stable.
+TEST(StabilityCells, KnowTheoryWithoutAnAxisOfSteps) {
+  const StabilityCells map =
+      run_stability_cells(kSpring, {"torque=[0, -k * y_G]", "parameters.k=100", "step=0.1"},
+                          parse_sweep("parameters.k=300,390,410,500", "--x"), parse_sweep("start.q.2=1,2", "--y"), 2);
+  EXPECT_TRUE(map.boundary.empty());
+  for (std::size_t iy = 0; iy < 2; ++iy)
+    for (std::size_t ix = 0; ix < 4; ++ix) {
+      EXPECT_EQ(map.at(ix, iy).stable, ix < 2);  // omega h = 2 at k = 400
+      EXPECT_EQ(map.at(ix, iy).failed, ix >= 2);
+    }
 }
 
 TEST(StabilityCells, RefuseAutoAndScenesThatCannotBeRead) {

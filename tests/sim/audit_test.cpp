@@ -46,6 +46,52 @@ TEST(Audit, RanksTheMethodsOnRr) {
   EXPECT_GT(semi_implicit, 1e5 * rk4);
 }
 
+struct Errors {
+  double at_steps, at_frames;
+};
+// RR, let go from the horizontal, at 10 ms; frames between the steps.
+Errors errors_of(const std::string& method, double duration, double dt = 0.004) {
+  const Simulation run = run_of("rr", {"0", "0"}, duration, method, 0.01);
+  const Trajectory trajectory = simulate_audited(run, instants(duration, dt));
+  EXPECT_TRUE(trajectory.energy_at_steps);
+  return {trajectory.energy_at_steps->largest_error, audit_of(run, trajectory).largest_error};
+}
+
+// Between steps the quintic through their ends is less exact than what symplectic methods keep.
+TEST(Audit, TellsTheErrorOfStepsFromThatOfFramesBetweenThem) {
+  const Errors euler = errors_of("symplectic_euler", 20), verlet = errors_of("verlet", 20);
+  EXPECT_NEAR(euler.at_steps, 1.60, 0.01);
+  EXPECT_GT(euler.at_frames, 5);
+  EXPECT_NEAR(verlet.at_steps, 0.144, 0.001);
+  EXPECT_GT(verlet.at_frames, 0.5);
+}
+
+// The numbers of src/README.md: semi-implicit Euler in (q, qd) strays, symplectic Euler does not.
+TEST(Audit, ShowsOverALongTimeWhoseEnergyStraysAndWhoseStaysWithinBounds) {
+  EXPECT_NEAR(errors_of("semi_implicit_euler", 1000, 10).at_steps, 24.3, 0.1);
+  EXPECT_NEAR(errors_of("symplectic_euler", 1000, 10).at_steps, 1.69, 0.01);
+}
+
+TEST(Audit, OfAllStepsMissesNone) {
+  const Simulation run = run_of("rr", {"0", "0"}, 3, "semi_implicit_euler", 0.01);
+  const Trajectory every = simulate_every_step(run);
+  const Audit all = audit_of(run, every);
+  const Trajectory few = simulate_audited(run, instants(3, 1.5));
+  EXPECT_EQ(few.energy_at_steps->largest_error, all.largest_error);
+  EXPECT_EQ(few.energy_at_steps->time, all.largest_error_time);
+  EXPECT_EQ(few.energy_at_steps->at_end, all.error.back());
+  EXPECT_LT(audit_of(run, few).largest_error, 0.9 * all.largest_error);  // negative control
+  EXPECT_EQ(audit_of(run, few).sha256, audit_of(run, simulate(run, instants(3, 1.5))).sha256);
+}
+
+TEST(Audit, HasAScaleThatWhatWasGainedFromNowhereDoesNotChange) {
+  Simulation good = run_of("rr", {"0", "0"}, 5), bad = run_of("rr", {"0", "0"}, 5, "explicit_euler", 0.02);
+  EXPECT_NEAR(energy_scale(good).value(), audit(good).largest_kinetic, 0.1);  // between its samples
+  EXPECT_EQ(energy_scale(bad), energy_scale(good));
+  EXPECT_EQ(bad.method->name, "explicit_euler");
+  EXPECT_GT(audit(bad).largest_kinetic, 2 * audit(good).largest_kinetic);  // negative control
+}
+
 // Negative control: a trajectory of another chain does not pass.
 TEST(Audit, FailsForAForeignTrajectory) {
   Simulation run = run_of("rr", {"0", "0"}, 1);
