@@ -77,7 +77,8 @@ Measured measure_all(PreparedScene& prepared, const std::vector<const Method*>& 
 
 // What the error of a rung is: "the larger of q's and 0.13 s times qd's"
 std::string scale_text(const Measured& measured) {
-  return "the larger of q's and " + format_significant(measured.reference.state.qd_scale, 2) + " s \u00D7 qd's";
+  return "the larger of q's and " + format_significant(measured.reference.state.qd_scale, 2) +
+         " s \u00D7 qd's";
 }
 
 WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOptions& options) {
@@ -117,8 +118,9 @@ std::string csv_of(const std::string& scene, const Measured& measured) {
           "\n# amplification: " + format_significant(measured.reference.amplification, 3) +
           "\n# error: the larger of error_q and error_qd x " +
           format_significant(measured.reference.state.qd_scale, 6) + " s\n";
-  text += "method,order,step,tolerance,runs,median_seconds,steps,evaluations,error,error_q,error_qd,energy_error,"
-          "status\n";
+  text +=
+      "method,order,step,tolerance,runs,median_seconds,steps,evaluations,error,error_q,error_qd,energy_error,"
+      "status\n";
   for (const Ladder& ladder : measured.ladders)
     for (const Rung& rung : ladder.rungs) {
       const MethodSetting& setting = rung.setting;

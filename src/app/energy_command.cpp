@@ -31,8 +31,8 @@ constexpr int kEarlyTimes = 1000, kLaterTimes = 9000;
 constexpr double kDefaultStep = 0.01, kDefaultTolerance = 1e-9;
 constexpr double kEarliest = 1e-4;  // of the whole time
 
-// The ends of the columns in which the largest error is kept, and the instants at which dense output is looked at.
-// Close together early on, where a log axis has room, and evenly later.
+// The ends of the columns in which the largest error is kept, and the instants at which dense output is
+// looked at. Close together early on, where a log axis has room, and evenly later.
 std::vector<double> times_until(double end) {
   std::vector<double> times;
   const double knee = 0.01 * end;
@@ -71,8 +71,8 @@ struct MethodRun {
   long evaluations = 0;
 };
 
-// The largest of the errors at the ends of steps in each column, at the instant where it occurs: no step is left out,
-// however many there are.
+// The largest of the errors at the ends of steps in each column, at the instant where it occurs: no step is
+// left out, however many there are.
 class Columns {
  public:
   Columns(const std::vector<double>& ends, EnergyCurve& curve) : ends_(ends), curve_(curve) {}
@@ -148,8 +148,10 @@ void print_table(const std::vector<MethodRun>& runs, const std::vector<std::stri
                      std::to_string(run.evaluations),
                      run.curve.trouble.empty() ? "finished" : run.curve.trouble});
   std::fputs(table_text(table).c_str(), stdout);
-  std::printf("errors are those at the ends of all steps; `between steps` is the largest on dense output, which frames "
-              "show\n");
+  std::printf(
+      "errors are those at the ends of all steps; `between steps` is the largest on dense output, which "
+      "frames "
+      "show\n");
   for (const std::string& line : left_out) std::printf("left out: %s\n", line.c_str());
 }
 

@@ -114,8 +114,7 @@ StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
   map.nx = int(cells.x.values.size());
   map.ny = int(cells.y.values.size());
   map.error_title = "largest |energy error| [J]";
-  for (const StabilityCell& cell : cells.cells)
-    map.cells.push_back({cell.failed, cell.energy_error});
+  for (const StabilityCell& cell : cells.cells) map.cells.push_back({cell.failed, cell.energy_error});
   add_limits(cells, map);
   add_edges(cells, map);
   map.footer = "Each cell is a run of the scene's duration and of at least " + std::to_string(kLeastSteps) +
@@ -126,7 +125,8 @@ StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
 }
 
 std::string csv_of(const std::string& scene, const StabilityCells& cells) {
-  std::string text = csv_facts(scene) + cells.x.key + "," + cells.y.key + ",status,failed,energy_error,energy_scale,trouble\n";
+  std::string text = csv_facts(scene) + cells.x.key + "," + cells.y.key +
+                     ",status,failed,energy_error,energy_scale,trouble\n";
   for (std::size_t iy = 0; iy < cells.y.values.size(); ++iy)
     for (std::size_t ix = 0; ix < cells.x.values.size(); ++ix) {
       const StabilityCell& cell = cells.at(ix, iy);
@@ -142,9 +142,10 @@ std::string csv_of(const std::string& scene, const StabilityCells& cells) {
 void print_map_summary(const StabilityCells& cells) {
   std::size_t failed = 0;
   for (const StabilityCell& cell : cells.cells) failed += cell.failed;
-  std::printf("%s: %zu of %zu cells fail (no end, or an energy error above %s times the motion's); %d threads%s\n",
-              cells.method.c_str(), failed, cells.cells.size(), format_shortest(kFailedEnergy).c_str(),
-              cells.threads, cells.in_batches ? ", stepped in batches" : "");
+  std::printf(
+      "%s: %zu of %zu cells fail (no end, or an energy error above %s times the motion's); %d threads%s\n",
+      cells.method.c_str(), failed, cells.cells.size(), format_shortest(kFailedEnergy).c_str(), cells.threads,
+      cells.in_batches ? ", stepped in batches" : "");
 }
 
 void draw_map(const StabilityOptions& options, const std::string& output) {

@@ -33,8 +33,8 @@ struct StabilityMap {
 // Throws Error (exit 3) where the cells are not nx * ny.
 Picture stability_map(const StabilityMap& data, const ChartLook& look);
 
-// The lines between cells where this holds and those where it does not, as corners of a grid of nx * ny cells,
-// (0, 0) at the lower left; cells where it is not known have no edge.
+// The lines between cells where this holds and those where it does not, as corners of a grid of nx * ny
+// cells, (0, 0) at the lower left; cells where it is not known have no edge.
 std::vector<std::vector<Point>> edges_between(const std::vector<std::optional<bool>>& cells, int nx, int ny);
 
 // A map of colours with even steps for the eye, readable in grey and by the colour-blind: dark violet at 0,

@@ -49,8 +49,8 @@ using StepObserver = std::function<void(double t, ConstVec q, ConstVec qd, doubl
 // give the steps' own values. Never throws for what happens during the run: see
 // Trajectory::status. Samples end where the run ended; where an event ended it, the last one stands at its
 // instant.
-Trajectory simulate(const Simulation& simulation, std::span<const double> times,
-                    const StopRequest& stop = {}, const StepObserver& observer = {});
+Trajectory simulate(const Simulation& simulation, std::span<const double> times, const StopRequest& stop = {},
+                    const StepObserver& observer = {});
 
 // Samples at 0 and at the end of every step; the last one at the event that ended the run, if one did.
 Trajectory simulate_every_step(const Simulation& simulation, const StopRequest& stop = {});

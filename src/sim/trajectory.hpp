@@ -31,8 +31,8 @@ inline bool is_complete(RunStatus status) {
   return status == RunStatus::finished || status == RunStatus::stopped;
 }
 
-// How far the energy was off at the ends of steps, where a run was looked at (simulate_audited): the method's own
-// error, without that of its dense output.
+// How far the energy was off at the ends of steps, where a run was looked at (simulate_audited): the method's
+// own error, without that of its dense output.
 struct EnergyAtSteps {
   double largest_error = 0;  // of |E(t) - E(0) - work|, J
   double time = 0;           // of it, s

@@ -13,14 +13,14 @@ namespace chainreel {
 // Where the run ends, far more exactly than any rung.
 struct EndState {
   std::vector<double> q, qd;
-  // By which errors of qd are multiplied to stand beside those of q, s: the time in which rates change by their own
-  // size, the largest |qd| over the largest |qdd| of the motion, and no more than its duration.
+  // By which errors of qd are multiplied to stand beside those of q, s: the time in which rates change by
+  // their own size, the largest |qd| over the largest |qdd| of the motion, and no more than its duration.
   double qd_scale = 1;
 };
 
 struct Rung {
   MethodSetting setting;
-  double error = 0;         // the larger of the next two, the second times qd_scale; infinite where the run failed
+  double error = 0;  // the larger of the next two, the second times qd_scale; infinite where the run failed
   double error_q = 0, error_qd = 0;  // largest of |q_i - reference| and |qd_i - reference| at the end
   double energy_error = 0;  // J, of the audit at the end
   double seconds = 0;       // median of the runs, nothing sampled but the end

@@ -69,11 +69,15 @@ TEST(StabilityCells, InBatchesAreTheRunsByThemselves) {
 
 // Joints that turn never leave all bounds: beyond its limit the arm rattles about with thousands of joules.
 TEST(StabilityCells, FailWhereTheEnergyIsLostThoughEveryNumberStaysFinite) {
-  const std::vector<std::string> set = {"torque={pd: {kp: 400, kd: 20, q: [0, 0]}}", "duration=2", "gravity=[0, 0, 0]",
-                                        "method=rk4", "step=0.01", "start.q=[0.01, 0]"};
+  const std::vector<std::string> set = {"torque={pd: {kp: 400, kd: 20, q: [0, 0]}}",
+                                        "duration=2",
+                                        "gravity=[0, 0, 0]",
+                                        "method=rk4",
+                                        "step=0.01",
+                                        "start.q=[0.01, 0]"};
   const double limit = 0.0306;
-  const StabilityCells map =
-      run_stability_cells(kArm, set, parse_sweep("step=0.0298,0.0312", "--x"), parse_sweep("start.q.1=0.01,0.02", "--y"), 2);
+  const StabilityCells map = run_stability_cells(kArm, set, parse_sweep("step=0.0298,0.0312", "--x"),
+                                                 parse_sweep("start.q.1=0.01,0.02", "--y"), 2);
   ASSERT_TRUE(map.boundary[0]);
   EXPECT_NEAR(*map.boundary[0], limit, 2e-4);
   EXPECT_FALSE(map.at(0, 0).failed);
@@ -82,9 +86,9 @@ TEST(StabilityCells, FailWhereTheEnergyIsLostThoughEveryNumberStaysFinite) {
 
 // Where no key is the step, each cell knows whether its own step is stable.
 TEST(StabilityCells, KnowTheoryWithoutAnAxisOfSteps) {
-  const StabilityCells map =
-      run_stability_cells(kSpring, {"torque=[0, -k * y_G]", "parameters.k=100", "step=0.1"},
-                          parse_sweep("parameters.k=300,390,410,500", "--x"), parse_sweep("start.q.2=1,2", "--y"), 2);
+  const StabilityCells map = run_stability_cells(
+      kSpring, {"torque=[0, -k * y_G]", "parameters.k=100", "step=0.1"},
+      parse_sweep("parameters.k=300,390,410,500", "--x"), parse_sweep("start.q.2=1,2", "--y"), 2);
   EXPECT_TRUE(map.boundary.empty());
   for (std::size_t iy = 0; iy < 2; ++iy)
     for (std::size_t ix = 0; ix < 4; ++ix) {
