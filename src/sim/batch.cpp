@@ -29,7 +29,7 @@ struct BatchSimulator::Alone {
   explicit Alone(const Chain& given)
       : chain(given),
         torque(chain.nv),
-        system(chain, torque, LimitPolicy::report),
+        system(chain, torque, LimitPolicy::report, {}),
         stepper(find_method("semi_implicit_euler").make_stepper(chain.nq, chain.nv)) {}
 
   Chain chain;

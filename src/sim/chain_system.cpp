@@ -6,6 +6,7 @@
 #include "dynamics/forward_dynamics.hpp"
 #include "dynamics/friction.hpp"
 #include "dynamics/kinematics.hpp"
+#include "sim/simulate.hpp"
 
 namespace chainreel {
 namespace {
@@ -25,6 +26,9 @@ ChainSystem::ChainSystem(const Chain& chain, TorqueLaw& torque, LimitPolicy limi
       constrained_(constraints.empty() ? nullptr : std::make_unique<ConstrainedChain>(chain, constraints)),
       tau_(std::size_t(chain.nv)),
       tau_net_(chain.has_dissipation ? tau_.size() : 0) {}
+
+ChainSystem::ChainSystem(const Simulation& simulation)
+    : ChainSystem(simulation.chain, *simulation.torque, simulation.limit, simulation.constraints) {}
 
 void ChainSystem::evaluate_torque(double t, ConstVec q, ConstVec qd) {
   if (torque_is_known_) return;

@@ -13,9 +13,13 @@
 
 namespace chainreel {
 
+struct Simulation;
+
 class ChainSystem final : public SecondOrder {
  public:
-  ChainSystem(const Chain& chain, TorqueLaw& torque, LimitPolicy limit, const ConstraintPlan& constraints = {});
+  ChainSystem(const Chain& chain, TorqueLaw& torque, LimitPolicy limit, const ConstraintPlan& constraints);
+  // What a run of it steps: its chain, torques, limits and constraints, whole. It must outlive the system.
+  explicit ChainSystem(const Simulation& simulation);
 
   int nq() const override { return chain_->nq; }
   int nv() const override { return chain_->nv; }

@@ -109,7 +109,7 @@ PlotCurves values_of(const Expression& value, const Simulation& simulation, cons
   const Chain& chain = simulation.chain;
   Probe probe = plots.probe;
   Workspace ws(chain);
-  ChainSystem system(chain, *simulation.torque, simulation.limit, simulation.constraints);
+  ChainSystem system(simulation);
   std::vector<double> qdd(std::size_t(chain.nv));
   PlotCurve curve;
   for (int k = 0; k < samples; ++k) {

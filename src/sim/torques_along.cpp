@@ -22,7 +22,7 @@ struct HeldFrame {
 }  // namespace
 
 std::vector<double> torques_along(const Simulation& simulation, const Trajectory& trajectory) {
-  ChainSystem system(simulation.chain, *simulation.torque, simulation.limit);
+  ChainSystem system(simulation);
   std::vector<double> torques;
   torques.reserve(std::size_t(trajectory.size()) * std::size_t(simulation.chain.nv));
   for (int k = 0; k < trajectory.size(); ++k) {

@@ -8,8 +8,8 @@
 
 namespace chainreel {
 
-// The joint torques at each sample, nv numbers each (N m or N), as the run felt them: cut where the limit
-// policy says so, friction left out.
+// The joint torques at each sample, nv numbers each (N m or N), as the run felt them: with those that press on
+// constraints, cut where the limit policy says so, friction left out.
 std::vector<double> torques_along(const Simulation& simulation, const Trajectory& trajectory);
 
 // The force on the robot (N, W) at the place where a constraint holds it.

@@ -123,7 +123,7 @@ TEST(StiffJoint, IsTheSameRunWhateverIsSampled) {
 // Allocations of a whole run, from the start of a method that has been made to its end.
 long allocations(const std::string& method, double tolerance) {
   const Simulation run = run_of("rrr", {"1", "-y_G", "-0.1 * qd3"}, 1);
-  ChainSystem system(run.chain, *run.torque, run.limit);
+  ChainSystem system(run);
   Forms forms;
   forms.second_order = &system;
   const auto integrator = make_integrator(find_method(method), forms, {.tolerance = tolerance, .order = 0});

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -11,12 +12,15 @@
 
 #include "dynamics/constrained_inverse.hpp"
 #include "dynamics/constraint_rows.hpp"
+#include "dynamics/crba.hpp"
 #include "dynamics/kinematics.hpp"
+#include "dynamics/rnea.hpp"
 #include "model/read_chain.hpp"
 #include "sim/audit.hpp"
 #include "sim/constrained_chain.hpp"
 #include "sim/expression_curve.hpp"
 #include "sim/runs.hpp"
+#include "sim/torques_along.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace chainreel {
@@ -157,6 +161,63 @@ TEST(ConstrainedRun, ForcesPressedOnPurposeComeOutAndChangeNoMotion) {
   }
   EXPECT_GT(free_force, 5) << "negative control";
   EXPECT_LT(audit_of(pressed, with).largest_error, 1e-9) << "the added torques do no work";
+}
+
+TEST(ConstrainedRun, TorquesOfAnArmAtRestThatPressesAreJacobianTransposeForce) {
+  Simulation run = exact_run("rr", {}, 0.1);
+  run.chain.gravity.setZero();
+  run.q0 = {0.3, 1.2};
+  const double height = std::sin(0.3) + std::sin(1.5);
+  run.constraints.list = {LineConstraint{"gripper", {0, height, 0}, {1, 0, 0}}};
+  run.constraints.contact_forces = {{0, {0, -50, 0}}};
+  const std::vector<double> tau = torques_along(run, simulate(run, instants(0.1, 0.05)));
+  ASSERT_EQ(tau.size(), 6u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(tau[2 * k], -50 * (std::cos(0.3) + std::cos(1.5)), 1e-11);  // J^T f, some roundings of 50
+    EXPECT_NEAR(tau[2 * k + 1], -50 * std::cos(1.5), 1e-11);
+  }
+}
+
+// The multipliers and accelerations that follow from torques by Lagrange's equations of the first kind, solved densely.
+Eigen::VectorXd dense_motion(const Simulation& run, const Trajectory& trajectory, int k, ConstVec tau) {
+  const Eigen::Index n = run.chain.nv;
+  const ConstraintSet set(run.chain, run.constraints.list);
+  Workspace ws(run.chain);
+  ConstrainedWorkspace cws(run.chain, set);
+  const ConstVec q = trajectory.q_at(k), qd = trajectory.qd_at(k);
+  compute_mass_matrix(run.chain, ws, q);
+  compute_nle(run.chain, ws, q, qd);
+  compute_constraints(run.chain, ws, set, cws, q, qd);
+  const Eigen::Index m = set.rows();
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n + m, n + m);
+  Eigen::VectorXd b(n + m);
+  A.topLeftCorner(n, n) = ws.M;
+  for (Eigen::Index i = 0; i < m; ++i) {
+    for (Eigen::Index v = 0; v < n; ++v) A(n + i, v) = A(v, n + i) = cws.Jc[std::size_t(i * n + v)];
+    b(n + i) = -cws.Jcd_qd[std::size_t(i)];
+  }
+  for (Eigen::Index v = 0; v < n; ++v) b(v) = tau[std::size_t(v)] - ws.nle[std::size_t(v)];
+  return A.fullPivLu().solve(b);
+}
+
+TEST(ConstrainedRun, TorquesThatAreShownGiveTheForceThatIsPressed) {
+  Simulation run = exact_run("rrr", {"3 * sin(2 * t)", "-1", "0.5 - qd3"}, 2);
+  run.q0 = {pi / 2, -pi / 2, -pi / 6};
+  run.constraints.list = {LineConstraint{"gripper", {0, 0.5, 0}, {1, 0, 0}}};
+  run.constraints.contact_forces = {{0, {0, -5, 0}}};
+  const Trajectory trajectory = simulate(run, instants(2, 0.25));
+  ASSERT_EQ(trajectory.status, RunStatus::finished);
+  const std::vector<double> tau = torques_along(run, trajectory);
+  std::vector<double> law(3);
+  Workspace ws(run.chain);
+  double pressing = 0;
+  for (int k = 0; k < trajectory.size(); ++k) {
+    const ConstVec here(tau.data() + 3 * k, 3);
+    EXPECT_NEAR(dense_motion(run, trajectory, k, here)(3), -5, 1e-10);  // roundings of some 100 N
+    run.torque->evaluate(run.chain, ws, trajectory.t[std::size_t(k)], trajectory.q_at(k), trajectory.qd_at(k), law);
+    for (std::size_t i = 0; i < 3; ++i) pressing = std::max(pressing, std::abs(here[i] - law[i]));
+  }
+  EXPECT_GT(pressing, 5) << "the law alone would not do it";
 }
 
 TEST(ConstrainedRun, FourBarFulfilsFreudensteinsEquation) {

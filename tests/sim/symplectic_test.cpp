@@ -197,7 +197,7 @@ TEST(StiffSpring, IsNoTroubleForImplicitMethodsAndDivergesOthers) {
 long evaluations(const std::string& method, const std::string& torque) {
   Simulation run = run_of("pp", {"0", torque}, 1, method, 0.01);
   run.q0 = {0, 1};
-  ChainSystem system(run.chain, *run.torque, run.limit);
+  ChainSystem system(run);
   const ChainForms forms(system, *run.method);
   const auto integrator = make_integrator(*run.method, forms.forms());
   integrator->start(0, run.q0, run.qd0);
