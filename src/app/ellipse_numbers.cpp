@@ -37,14 +37,15 @@ std::vector<MassAxis> drawn_axes(const Chain& chain, Workspace& ws, const std::v
 
 }  // namespace
 
-Json ellipse_json(const Chain& chain, const GatheredPoses& poses, const EllipseForm& form) {
+Json ellipse_json(const TipMass& tip, const GatheredPoses& poses, const EllipseForm& form) {
+  const Chain& chain = tip.chain();
   Workspace ws(chain);
   Json list = Json::array();
   for (std::size_t i = 0; i < poses.q.size(); ++i) {
     Json entry;
     if (i < poses.t.size()) entry["t"] = poses.t[i];
     entry["q"] = to_json(std::span<const double>(poses.q[i]));
-    const EffectiveMass mass = effective_mass_of(chain, ws, poses.q[i], chain.end_effector, Task::linear);
+    const EffectiveMass mass = tip.at(ws, poses.q[i]);
     entry["point"] = to_json(point_of(chain, ws, poses.q[i]));
     add_effective_mass(entry, mass);
     entry["eigenvalues"] = entry["semi_axes"] = Json::array();
@@ -56,7 +57,8 @@ Json ellipse_json(const Chain& chain, const GatheredPoses& poses, const EllipseF
   return list;
 }
 
-std::string ellipse_csv(const Chain& chain, const GatheredPoses& poses, const EllipseForm& form) {
+std::string ellipse_csv(const TipMass& tip, const GatheredPoses& poses, const EllipseForm& form) {
+  const Chain& chain = tip.chain();
   Workspace ws(chain);
   const TaskBasis basis = task_basis(chain, Task::linear);
   const std::size_t rows = basis.names.size();
@@ -72,7 +74,7 @@ std::string ellipse_csv(const Chain& chain, const GatheredPoses& poses, const El
   for (std::size_t k = 0; k < poses.q.size(); ++k) {
     if (k < poses.t.size()) text += format_exact(poses.t[k]) + ",";
     for (const double q : poses.q[k]) text += format_exact(q) + ",";
-    const EffectiveMass mass = effective_mass_of(chain, ws, poses.q[k], chain.end_effector, Task::linear);
+    const EffectiveMass mass = tip.at(ws, poses.q[k]);
     const Eigen::Vector3d point = point_of(chain, ws, poses.q[k]);
     text += format_exact(point.x()) + "," + format_exact(point.y()) + "," + format_exact(point.z());
     for (Eigen::Index i = 0; i < Eigen::Index(rows); ++i)

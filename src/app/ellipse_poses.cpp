@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/automatic.hpp"
 #include "app/pipeline.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -83,6 +84,7 @@ Motion motion_of(const PoseSources& sources, const CommonOptions& common) {
     throw Error(ExitCode::usage, "--along takes its poses from the motion: leave out --pose, --sweep and --field");
   const PreparedFilm film = load_film(sources.along, overrides_of(common));
   require_single_run(film.scene);
+  say_notices(film.panels.front(), common.quiet);
   const int count = sources.samples > 0 ? sources.samples : kPosesAlong;
   if (count < 2) throw Error(ExitCode::usage, "--samples: a motion has at least two poses, its ends");
   const int between = std::max(1, kPathPoints / (count - 1)), intervals = between * (count - 1);
@@ -93,7 +95,8 @@ Motion motion_of(const PoseSources& sources, const CommonOptions& common) {
 
   const Trajectory& run = runs.front();
   Motion motion{film.panels.front().simulation.chain, {}, film.scene.theme, film.scene.text_scale,
-                film.scene.camera, film.scene.ellipse, film.panels.front().shapes};
+                film.scene.camera, film.scene.ellipse, film.panels.front().shapes,
+                film.panels.front().simulation.constraints, film.scene.video};
   const Chain& chain = motion.chain;
   require_end_effector(chain);
   Workspace ws(chain);

@@ -39,6 +39,8 @@ struct Motion {
   CameraEntry camera = {};  // of a scene
   EllipseEntry ellipse = {};
   std::shared_ptr<const BodyShapes> shapes = nullptr;
+  ConstraintPlan constraints = {};  // of the scene
+  Video video = {};
 };
 Motion motion_of(const PoseSources& sources, const CommonOptions& common);
 

@@ -129,11 +129,12 @@ const std::vector<std::string>& figure_layout_names() {
   return names;
 }
 
-std::vector<Pose> poses_of(const Chain& chain, const std::vector<std::vector<double>>& configurations,
+std::vector<Pose> poses_of(const TipMass& mass, const std::vector<std::vector<double>>& configurations,
                            const PoseFigureOptions& options, Workspace& ws) {
+  const Chain& chain = mass.chain();
   std::vector<Pose> poses;
   for (const std::vector<double>& q : configurations) {
-    Pose pose{q, effective_mass_of(chain, ws, q, chain.end_effector, Task::linear), {}};
+    Pose pose{q, mass.at(ws, q), {}};
     pose.axes = mass_axes(pose.effective);
     if (options.section) {
       const std::vector<double> at_rest(std::size_t(chain.nv), 0.0);
@@ -207,11 +208,12 @@ Room room_of(const std::vector<MassAxis>& axes, const Camera& camera, const Elli
   return {x, x, y, y};
 }
 
-Picture draw_ellipse_figure(const Chain& chain, const std::vector<std::vector<double>>& configurations,
+Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& configurations,
                             const PoseFigureOptions& options, const Fonts& fonts) {
+  const Chain& chain = mass.chain();
   if (configurations.empty()) throw Error(ExitCode::usage, "a figure needs at least one pose");
   Workspace ws(chain);
-  const std::vector<Pose> poses = poses_of(chain, configurations, options, ws);
+  const std::vector<Pose> poses = poses_of(mass, configurations, options, ws);
   if (options.cell > 0 || options.layout == "superposed") return draw_superposed(chain, poses, options, fonts);
   Panels panels{chain, options, fonts, {}, 0, 1, {}, {}, {}};
   panels.caption = caption_height(int(poses[0].effective.basis.directions.size()), options.text_scale);

@@ -18,7 +18,7 @@ struct Pose {
   EffectiveMass effective;
   std::vector<MassAxis> axes;
 };
-std::vector<Pose> poses_of(const Chain& chain, const std::vector<std::vector<double>>& configurations,
+std::vector<Pose> poses_of(const TipMass& mass, const std::vector<std::vector<double>>& configurations,
                            const PoseFigureOptions& options, Workspace& ws);
 
 std::vector<std::vector<double>> configurations_of(const std::vector<Pose>& poses);

@@ -63,7 +63,7 @@ Panel::Panel(const PanelRun& run, const Layers& layers, int samples, WildEnd wil
                                                         : kWild * skeleton_.reach;
   if (run.simulation && run.simulation->events && run.simulation->events->foot)
     foot_.emplace(*run.simulation, run.trajectory, samples);
-  if (layers_.ellipse) tip_mass_.emplace(run.chain, run.simulation);
+  if (layers_.ellipse) tip_mass_.emplace(run.chain, run.simulation ? run.simulation->constraints : ConstraintPlan{});
   if (layers_.acting.any()) acting_.emplace(run.chain, run.simulation, run.trajectory, layers_.acting);
 }
 

@@ -17,9 +17,9 @@
 #include "draw/mass_map.hpp"
 #include "draw/plot_strip.hpp"
 #include "draw/skeleton.hpp"
-#include "draw/tip_mass.hpp"
 #include "draw/trail.hpp"
 #include "scene/scene.hpp"
+#include "sim/tip_mass.hpp"
 #include "sim/trajectory.hpp"
 
 namespace chainreel {

@@ -11,6 +11,7 @@
 #include "picture/text.hpp"
 #include "picture/theme.hpp"
 #include "scene/scene.hpp"
+#include "sim/tip_mass.hpp"
 
 namespace chainreel {
 
@@ -40,7 +41,7 @@ Picture draw_pose_figure(const Chain& chain, const std::vector<std::vector<doubl
 // One panel a pose, all at the same scale: the chain, its effective-mass ellipse, and below them the pose and the
 // numbers of Lambda; at singular poses an open band and the direction of infinite mass. Superposed: every chain as an
 // onion skin of 25 %, every ellipse at full strength. A field: the chain where its ellipse is roundest alone.
-Picture draw_ellipse_figure(const Chain& chain, const std::vector<std::vector<double>>& poses,
+Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& poses,
                             const PoseFigureOptions& options, const Fonts& fonts);
 
 // For each pose a row: the chain, the unit circle of accelerations of two joints, and its image under M(q) in the

@@ -56,6 +56,8 @@ EffectiveMass constrained_effective_mass_of(const Chain& chain, Workspace& ws, c
 
   // Against what the chain could do by itself: where all motion is forbidden, all that is left is round-off.
   find_directions(result, mobilities.free);
+  // They rise: the first ones are those of the singular directions.
+  result.mobility.head(Eigen::Index(result.singular_directions.size())).setZero();
   if (result.singular_directions.empty()) result.Lambda = inverse_by_directions(result);
   return result;
 }

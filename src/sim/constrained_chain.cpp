@@ -69,11 +69,16 @@ void ConstrainedChain::project_sample(Workspace& ws, Vec q, Vec qd) {
   cws_.curve_s = curve_s_;
 }
 
-ConstrainedChain::Look ConstrainedChain::look(Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau) {
+const ConstrainedWorkspace& ConstrainedChain::rows_at(Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau) {
   curve_s_ = cws_.curve_s;
   compute_constrained_dynamics(*chain_, ws, set_, cws_, q, qd, tau, qdd_, options_);
   compute_constraints(*chain_, ws, set_, cws_, q, qd);
   cws_.curve_s = curve_s_;
+  return cws_;
+}
+
+ConstrainedChain::Look ConstrainedChain::look(Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau) {
+  rows_at(ws, q, qd, tau);
   Look look{largest_of(cws_.phi), 0};
   for (std::size_t i = 0; i < cws_.phi.size(); ++i) {
     double rate = 0;

@@ -36,6 +36,8 @@ class ConstrainedChain {
   };
   Look look(Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau);
   void project_sample(Workspace& ws, Vec q, Vec qd);
+  // phi, Jc, Jc_dot qd and the multipliers that answer tau at this state; valid until the next call of anything.
+  const ConstrainedWorkspace& rows_at(Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau);
 
   // A row that no acceleration fulfils, seen since this was last asked for, if only at a stage of a step.
   bool take_suspicion();

@@ -74,7 +74,7 @@ AnyPicture ellipses_of(const std::string& name, const std::string& chain, const 
             options.labels = motion.poses.labels;
             options.path = motion.poses.path;
             options.cell = motion.poses.cell;
-            return draw_ellipse_figure(motion.chain, motion.poses.q, options, fonts);
+            return draw_ellipse_figure(TipMass(motion.chain, motion.constraints), motion.poses.q, options, fonts);
           }};
 }
 

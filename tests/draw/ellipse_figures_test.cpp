@@ -33,7 +33,7 @@ PoseFigureOptions with_layout(const std::string& layout) {
 // Ellipses stand at the tips: one camera takes all tips of unit links to the page, to a thousandth of a pixel at 1080.
 TEST(Superposed, HasEveryEllipseAtItsTipWithItsOwnAxes) {
   const Picture picture =
-      draw_ellipse_figure(test::model("rr"), kPoses, with_layout("superposed"), test::fonts());
+      draw_ellipse_figure(TipMass(test::model("rr")), kPoses, with_layout("superposed"), test::fonts());
   const auto ellipses = test::all_of<Ellipse>(picture, is_mass_ellipse);
   ASSERT_EQ(ellipses.size(), 3u);
   const Point a = tip_of_rr(kPoses[0]), b = tip_of_rr(kPoses[1]), c = tip_of_rr(kPoses[2]);
@@ -50,7 +50,7 @@ TEST(Superposed, HasEveryEllipseAtItsTipWithItsOwnAxes) {
 
 TEST(Superposed, ShowsChainsAsOnionSkinsAndEllipsesInFull) {
   const Picture picture =
-      draw_ellipse_figure(test::model("rr"), kPoses, with_layout("superposed"), test::fonts());
+      draw_ellipse_figure(TipMass(test::model("rr")), kPoses, with_layout("superposed"), test::fonts());
   const auto links = test::all_of<Capsule>(
       picture, [](const Capsule& c) { return c.paint.stroke_width == size::kLinkOutline && c.paint.fill.a == 1; });
   ASSERT_EQ(links.size(), 6u);
@@ -63,7 +63,7 @@ TEST(EllipseFigure, PutsAllPosesIntoOneRowWhereItIsToldTo) {
   const std::vector<std::vector<double>> six(6, kPoses[0]);
   const auto rows = [&](const std::string& layout) {
     std::vector<double> bottoms;
-    for (const Rect& r : draw_ellipse_figure(test::model("rr"), six, with_layout(layout), test::fonts()).clips)
+    for (const Rect& r : draw_ellipse_figure(TipMass(test::model("rr")), six, with_layout(layout), test::fonts()).clips)
       if (std::none_of(bottoms.begin(), bottoms.end(), [&](double y) { return std::abs(y - r.y0) < 1e-9; }))
         bottoms.push_back(r.y0);
     return bottoms.size();
@@ -79,7 +79,7 @@ TEST(EllipseFigure, HasAllReadings) {
       options.reading = reading;
       std::vector<std::vector<double>> poses = kPoses;
       poses.push_back({0, 0});
-      const Picture picture = draw_ellipse_figure(test::model("rr"), poses, options, test::fonts());
+      const Picture picture = draw_ellipse_figure(TipMass(test::model("rr")), poses, options, test::fonts());
       EXPECT_TRUE(test::all_finite(picture));
       const std::string words = test::words_of(picture);
       EXPECT_THAT(words, testing::HasSubstr(ellipse_legend(reading).substr(0, 12)));
@@ -95,7 +95,7 @@ TEST(Field, KeepsEachEllipseInItsCell) {
   // A stretched chain among them: an open ellipse.
   std::vector<std::vector<double>> poses{{0, 0}};
   for (const double q2 : {0.8, 1.2, 1.6, 2.0}) poses.push_back({-0.5, q2});
-  const Picture picture = draw_ellipse_figure(test::model("rr"), poses, options, test::fonts());
+  const Picture picture = draw_ellipse_figure(TipMass(test::model("rr")), poses, options, test::fonts());
   // The whole scene, and a cell for each.
   ASSERT_EQ(picture.clips.size(), 6u);
   const double side = picture.clips[1].width();

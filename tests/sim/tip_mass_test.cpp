@@ -1,7 +1,9 @@
-// The effective mass that a panel draws.
-#include "draw/tip_mass.hpp"
+// The effective mass that films, figures and tables show.
+#include "sim/tip_mass.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "support/chains.hpp"
 
@@ -10,19 +12,12 @@ namespace {
 
 constexpr double kRoundOff = 1e-12;  // of masses near 1 kg through an inverse of condition 10 or so
 
-Simulation simulation_of(Chain chain) {
-  Simulation simulation;
-  simulation.chain = std::move(chain);
-  return simulation;
-}
-
 TEST(TipMass, OfAFreeChainIsItsLambda) {
-  const Simulation free = simulation_of(rr_chain());
-  Workspace ws(free.chain);
+  const Chain chain = rr_chain();
+  Workspace ws(chain);
   // L = 1 m, m = 1 kg: Lambda = diag(1, 2) at (0, 90 deg).
   const std::vector<double> q{0, M_PI / 2};
-  for (const Simulation* simulation : {static_cast<const Simulation*>(nullptr), &free}) {
-    const EffectiveMass mass = TipMass(free.chain, simulation).at(ws, q);
+  for (const EffectiveMass& mass : {TipMass(chain).at(ws, q), TipMass(chain, {}).at(ws, q)}) {
     ASSERT_TRUE(mass.Lambda);
     EXPECT_NEAR((*mass.Lambda)(0, 0), 1, kRoundOff);
     EXPECT_NEAR((*mass.Lambda)(1, 1), 2, kRoundOff);
@@ -30,11 +25,12 @@ TEST(TipMass, OfAFreeChainIsItsLambda) {
 }
 
 TEST(TipMass, OfAPenOnALineIsInfiniteAcrossIt) {
-  Simulation pen = simulation_of(rr_chain());
-  pen.constraints.list = {LineConstraint{"gripper", {0, 1, 0}, {1, 0, 0}}};
-  Workspace ws(pen.chain);
+  const Chain chain = rr_chain();
+  ConstraintPlan line;
+  line.list = {LineConstraint{"gripper", {0, 1, 0}, {1, 0, 0}}};
+  Workspace ws(chain);
   const std::vector<double> q{0, M_PI / 2};
-  const EffectiveMass mass = TipMass(pen.chain, &pen).at(ws, q);
+  const EffectiveMass mass = TipMass(chain, line).at(ws, q);
   EXPECT_FALSE(mass.Lambda);
   ASSERT_EQ(mass.singular_directions.size(), 1u);
   EXPECT_NEAR(std::abs(mass.singular_directions[0][1]), 1, kRoundOff);

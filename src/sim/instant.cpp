@@ -1,0 +1,34 @@
+#include "sim/instant.hpp"
+
+#include "dynamics/constrained_inverse.hpp"
+#include "sim/chain_system.hpp"
+
+namespace chainreel {
+
+Instant instant_of(const Simulation& simulation, double t, ConstVec q, ConstVec qd) {
+  const Chain& chain = simulation.chain;
+  ChainSystem system(simulation);
+  Instant instant;
+  instant.qdd.resize(std::size_t(chain.nv));
+  system.acceleration(t, q, qd, instant.qdd);
+  const ConstVec tau = system.torque(t, q, qd);
+  instant.tau.assign(tau.begin(), tau.end());
+  if (!system.constrained()) return instant;
+
+  const ConstraintSet& set = system.constrained()->set();
+  const ConstrainedWorkspace& cws = system.constrained()->rows_at(system.workspace(), q, qd, tau);
+  instant.rows = set.row_names();
+  instant.phi = cws.phi;
+  instant.Jcd_qd = cws.Jcd_qd;
+  instant.lambda = cws.lambda;
+  instant.status = to_string(cws.status);
+  instant.Jc = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+      cws.Jc.data(), set.rows(), chain.nv);
+  for (std::size_t k = 0; k < set.constraints().size(); ++k) {
+    instant.constraints.push_back(name_of(set.constraints()[k]));
+    instant.forces.push_back(contact_force(chain, set, cws, k, cws.lambda));
+  }
+  return instant;
+}
+
+}  // namespace chainreel
