@@ -62,11 +62,15 @@ std::string choice_text(const Choice& choice, const Accuracy& accuracy) {
   return text;
 }
 
-void say_choice(const PreparedScene& prepared, bool quiet) {
+void say_notices(const PreparedScene& prepared, bool quiet) {
   if (quiet) return;
   for (const std::string& notice : prepared.scene.notices)
     std::fprintf(stderr, "%s: %s\n", prepared.scene.name.c_str(), notice.c_str());
-  if (!prepared.choice) return;
+}
+
+void say_choice(const PreparedScene& prepared, bool quiet) {
+  say_notices(prepared, quiet);
+  if (quiet || !prepared.choice) return;
   std::fprintf(stderr, "%s: %s\n", prepared.scene.name.c_str(),
                choice_text(*prepared.choice, prepared.scene.accuracy).c_str());
 }

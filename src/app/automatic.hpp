@@ -14,7 +14,9 @@ void choose_automatically(PreparedScene& prepared);
 // One sentence: the choice, its estimated error and its price; and until when any run can be that exact.
 std::string choice_text(const Choice& choice, const Accuracy& accuracy);
 
-// That sentence on standard error, unless there was nothing to choose or all is to be quiet.
+// What was changed of the scene when it was made ready, on standard error.
+void say_notices(const PreparedScene& prepared, bool quiet);
+// The same, and that sentence, unless there was nothing to choose or all is to be quiet.
 void say_choice(const PreparedScene& prepared, bool quiet);
 
 // The same as JSON, and with `tried` every candidate.

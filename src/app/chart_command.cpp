@@ -189,7 +189,9 @@ void add_chart_command(CommandLine& app) {
   command->add_option("--longest", options->longest, "s: rungs that would take longer are left out")
       .positive();
   add_figure_options(*command, options->figure, options->common, "out/NAME_chart.png");
-  add_common_options(*command, options->common);
+  add_scene_options(*command, options->common);
+  add_quiet_option(*command, options->common);
+  add_force_option(*command, options->common);
   command->footer("Example: chainreel chart assets/scenes/rr_free.yaml -o out/chart.svg");
   command->callback([options] { run_chart(*options); });
 }

@@ -8,6 +8,7 @@
 #include "app/automatic.hpp"
 #include "app/command.hpp"
 #include "app/constraint_report.hpp"
+#include "app/model_scene.hpp"
 #include "app/pipeline.hpp"
 #include "app/report.hpp"
 #include "app/signals.hpp"
@@ -160,7 +161,10 @@ void check_scene(const CheckOptions& options) {
   const PreparedFilm film = load_film(options.file, overrides_of(options.common));
   const int frames = clock_of(film).frame_count();
   std::vector<RunReport> reports;
-  for (const PreparedScene& panel : film.panels) reports.push_back(examine_run(panel, frames));
+  for (const PreparedScene& panel : film.panels) {
+    say_notices(panel, false);
+    reports.push_back(examine_run(panel, frames));
+  }
   const std::string text = scene_text(film.scene);
   const bool alone = reports.size() == 1;
   if (options.common.json) {
@@ -181,7 +185,10 @@ void check_scene(const CheckOptions& options) {
 }
 
 void check_model(const CheckOptions& options) {
-  const std::vector<Finding> findings = examine_model(options.file, model_options_of(options.common));
+  std::vector<std::string> honoured = mechanism_keys();
+  honoured.push_back("end_effector");
+  const ModelScene model = model_scene_of(options.file, overrides_of(options.common), "check", honoured);
+  const std::vector<Finding> findings = examine_model(options.file, model.options);
   Json list = Json::array();
   std::vector<Problem> errors;
   for (const Finding& finding : findings) {
@@ -197,7 +204,7 @@ void check_model(const CheckOptions& options) {
   }
   Json report{{"findings", list}};
   if (errors.empty())
-    report["model"] = model_report(read_chain(options.file, model_options_of(options.common)));
+    report["model"] = model_report(read_chain(options.file, model.options));
   if (options.common.json)
     std::puts(report.dump(2).c_str());
   else if (errors.empty())
@@ -212,7 +219,8 @@ void add_check_command(CommandLine& app) {
   Command* command =
       app.add_subcommand("check", "the effective scene with all defaults, or what a model holds");
   command->add_option("file", options->file, "a scene (.yaml) or a model (.urdf)").required();
-  add_common_options(*command, options->common);
+  add_scene_options(*command, options->common);
+  add_json_option(*command, options->common);
   command->footer("Example: chainreel check assets/scenes/rr_free.yaml --set method=rk4");
   command->callback(
       [options] { is_model_file(options->file) ? check_model(*options) : check_scene(*options); });

@@ -4,20 +4,37 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "core/json.hpp"
 #include "scene/quantity.hpp"
 #include "scene/sweep.hpp"
 
 namespace chainreel {
-void add_common_options(Command& command, CommonOptions& options) {
+
+void add_scene_options(Command& command, CommonOptions& options) {
   command.add_repeatable("--set", options.set, "override a scene key: --set video.width=640 (repeatable)");
   command.add_repeatable("--package", options.package,
                  "where package://NAME lies: --package NAME=folder (repeatable)");
   command.add_option("--base", options.base, "how the root link is held")
       .one_of({"fixed", "floating"});
+}
+
+void add_json_option(Command& command, CommonOptions& options) {
   command.add_flag("--json", options.json, "print the result as JSON on standard output");
+}
+
+void add_quiet_option(Command& command, CommonOptions& options) {
   command.add_flag("--quiet", options.quiet, "no progress, no closing words");
+}
+
+void add_force_option(Command& command, CommonOptions& options) {
   command.add_flag("--force", options.force, "overwrite files outside a folder named out");
+}
+
+void add_result_options(Command& command, CommonOptions& options) {
+  add_json_option(command, options);
+  add_quiet_option(command, options);
+  add_force_option(command, options);
 }
 
 namespace {
@@ -70,13 +87,6 @@ void add_comparison(const std::vector<std::string>& vary, std::vector<std::strin
   overrides.push_back("compare=[" + list + "]");
 }
 
-ModelOptions model_options_of(const CommonOptions& options) {
-  ModelOptions model;
-  model.floating_base = options.base == "floating";
-  for (const std::string& text : options.package) model.packages.insert(parse_package(text));
-  return model;
-}
-
 std::vector<double> parse_list(const std::string& text, const std::string& what) {
   std::vector<double> values;
   std::stringstream stream(text);
@@ -120,11 +130,11 @@ std::vector<double> parse_freedoms(const Chain& chain, const std::string& text, 
   return parse_counted(std::size_t(chain.nv), chain, text, what);
 }
 
-Eigen::Vector3d parse_gravity(const std::string& text) {
+std::string gravity_override(const std::string& text) {
   const std::vector<double> g = parse_list(text, "--gravity");
   if (g.size() != 3)
     throw Error(ExitCode::usage, "--gravity takes three numbers, world x,y,z: --gravity 0,-9.81,0");
-  return {g[0], g[1], g[2]};
+  return "gravity=[" + format_exact(g[0]) + ", " + format_exact(g[1]) + ", " + format_exact(g[2]) + "]";
 }
 
 bool is_model_file(const std::string& path) {

@@ -11,7 +11,7 @@
 
 namespace chainreel {
 
-// What every subcommand takes.
+// What several subcommands take; each offers those of them that it honours, and no others.
 struct CommonOptions {
   std::vector<std::string> set;      // key=value over the scene's keys
   std::vector<std::string> package;  // name=folder for package:// in a model
@@ -22,12 +22,16 @@ struct CommonOptions {
   bool force = false;
 };
 
-void add_common_options(Command& command, CommonOptions& options);
+// --set, --package and --base: of all that reads a scene or a model.
+void add_scene_options(Command& command, CommonOptions& options);
+void add_json_option(Command& command, CommonOptions& options);
+void add_quiet_option(Command& command, CommonOptions& options);
+void add_force_option(Command& command, CommonOptions& options);
+// The last three: of what writes a file and can tell of it.
+void add_result_options(Command& command, CommonOptions& options);
 
 // `set` with what the other options say in the words of a scene.
 std::vector<std::string> overrides_of(const CommonOptions& options);
-// The same for a model without a scene.
-ModelOptions model_options_of(const CommonOptions& options);
 
 void add_vary_option(Command& command, std::vector<std::string>& vary);
 // Adds what --vary KEY=a,b,c says in the words of a scene, as its key `compare`: a panel a value, with several
@@ -45,8 +49,8 @@ std::vector<std::vector<double>> parse_poses(const Chain& chain, const std::vect
 // One number a freedom; empty text gives zeros.
 std::vector<double> parse_freedoms(const Chain& chain, const std::string& text, const std::string& what);
 
-// Three world numbers from "0,-9.81,0".
-Eigen::Vector3d parse_gravity(const std::string& text);
+// "gravity=[0, -9.81, 0]" from "0,-9.81,0", as scenes say it.
+std::string gravity_override(const std::string& text);
 
 // A file that names a mechanism, not a scene: .urdf or .xml.
 bool is_model_file(const std::string& path);

@@ -76,7 +76,8 @@ void add_doctor_command(CommandLine& app) {
   auto options = std::make_shared<CommonOptions>();
   Command* command =
       app.add_subcommand("doctor", "the renderer, encoders, fonts and versions of this machine");
-  add_common_options(*command, *options);
+  add_json_option(*command, *options);
+  add_quiet_option(*command, *options);
   command->footer("Example: chainreel doctor --json");
   command->callback([options] { run_doctor(*options); });
 }

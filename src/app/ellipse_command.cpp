@@ -8,7 +8,7 @@
 #include "app/ellipse_numbers.hpp"
 #include "app/ellipse_poses.hpp"
 #include "app/figure.hpp"
-#include "app/model_view.hpp"
+#include "app/model_scene.hpp"
 #include "app/pipeline.hpp"
 #include "core/error.hpp"
 #include "core/output_file.hpp"
@@ -21,7 +21,7 @@ namespace {
 struct EllipseOptions {
   std::string model;
   PoseSources sources;
-  std::string reading;  // "": mass
+  std::string reading;  // "": the scene's, else mass
   std::string shape;    // "": the scene's, else ellipsoid
   std::string layout;   // "": superposed along a motion, else grid
   bool joint_space = false;
@@ -29,15 +29,18 @@ struct EllipseOptions {
   std::string output;
   std::string end_effector;
   std::string title;
-  int width = 1920, height = 1080;
+  int width = 0, height = 0;  // 0: as the scene says
   CommonOptions common;
   const Command* command = nullptr;
 
-  EllipseReading read_as() const { return reading_named(reading); }
+  // As the scene does, unless the command says otherwise.
+  EllipseReading read_as(const Motion& motion) const {
+    return reading_named(reading.empty() ? motion.ellipse.reading : reading);
+  }
   // In the plane there is nothing to cut.
   EllipseForm form(const Motion& motion) const {
     const std::string named = shape.empty() ? motion.ellipse.shape : shape;
-    return {read_as(), named == "section" && !motion.chain.planar};
+    return {read_as(motion), named == "section" && !motion.chain.planar};
   }
 };
 
@@ -66,47 +69,65 @@ std::array<int, 2> joints_of(const Chain& chain, const std::string& text) {
   return {int(numbers[0]) - 1, int(numbers[1]) - 1};
 }
 
-// The model, or what the scene moves.
-Motion chain_and_poses(const EllipseOptions& options) {
-  if (!options.sources.along.empty()) {
-    if (!options.end_effector.empty())
-      throw Error(ExitCode::usage, "--along takes the scene's end effector: --set end_effector=" + options.end_effector);
-    if (!options.model.empty())
-      throw Error(ExitCode::usage, "--along takes the model of its scene: leave out " + options.model);
-    return motion_of(options.sources, options.common);
-  }
-  if (options.model.empty()) throw Error(ExitCode::usage, "which model? Name a .urdf, or a scene by --along");
-  ModelOptions model = model_options_of(options.common);
-  model.end_effector = options.end_effector;
-  Motion read{read_chain(options.model, model), {}, theme_of(options.common.flags),
-              text_scale_of(options.common.flags)};
-  require_end_effector(read.chain);
-  read.poses = gather_poses(read.chain, options.sources);
-  return read;
+// What is drawn, and how the scene, or what stands in its place, wants it to look.
+struct EllipseJob {
+  Motion motion;
+  PoseFigureOptions figure;
+};
+
+std::vector<std::string> model_overrides(const EllipseOptions& options) {
+  std::vector<std::string> overrides = overrides_of(options.common);
+  if (!options.end_effector.empty())
+    overrides.push_back("end_effector=" + Json(options.end_effector).dump());
+  return overrides;
 }
 
-PoseFigureOptions figure_of(const EllipseOptions& options, const Motion& motion) {
-  const GatheredPoses& poses = motion.poses;
-  PoseFigureOptions figure;
-  figure.title = options.title;
-  figure.width = options.width;
-  figure.height = options.height;
-  figure.text_scale = motion.text_scale;
-  figure.theme = &theme_named(motion.theme);
-  figure.reading = options.read_as();
+EllipseJob job_of_scene(const EllipseOptions& options) {
+  if (!options.end_effector.empty())
+    throw Error(ExitCode::usage, "--along takes the scene's end effector: --set end_effector=" + options.end_effector);
+  if (!options.model.empty())
+    throw Error(ExitCode::usage, "--along takes the model of its scene: leave out " + options.model);
+  EllipseJob job{motion_of(options.sources, options.common), {}};
+  const Motion& motion = job.motion;
+  job.figure.text_scale = motion.text_scale;
+  job.figure.theme = &theme_named(motion.theme);
+  job.figure.camera = motion.camera;
+  job.figure.shapes = motion.shapes;
+  job.figure.width = motion.video.width;
+  job.figure.height = motion.video.height;
+  return job;
+}
+
+EllipseJob job_of_model(const EllipseOptions& options) {
+  if (options.model.empty()) throw Error(ExitCode::usage, "which model? Name a .urdf, or a scene by --along");
+  std::vector<std::string> honoured = picture_keys();
+  honoured.insert(honoured.end(), {"title", "ellipse"});
+  const ModelScene model = model_scene_of(options.model, model_overrides(options), "ellipse", honoured);
+  EllipseJob job{{read_chain(options.model, model.options), {}, model.scene.theme, model.scene.text_scale}, {}};
+  Motion& motion = job.motion;
+  require_end_effector(motion.chain);
+  motion.poses = gather_poses(motion.chain, options.sources);
+  motion.ellipse = model.scene.ellipse;
+  set_look(job.figure, model, motion.chain);
+  job.figure.title = model.scene.title;
+  return job;
+}
+
+// The chain and its poses, and all of the figure that the command names.
+EllipseJob job_of(const EllipseOptions& options) {
+  EllipseJob job = options.sources.along.empty() ? job_of_model(options) : job_of_scene(options);
+  const GatheredPoses& poses = job.motion.poses;
+  PoseFigureOptions& figure = job.figure;
+  if (!options.title.empty()) figure.title = options.title;
+  if (options.width > 0) figure.width = options.width;
+  if (options.height > 0) figure.height = options.height;
+  figure.reading = options.read_as(job.motion);
   figure.layout = !options.layout.empty() ? options.layout : poses.t.empty() ? "grid" : "superposed";
   figure.labels = poses.labels;
   figure.path = poses.path;
   figure.cell = poses.cell;
-  if (options.sources.along.empty()) {
-    ModelOptions model = model_options_of(options.common);
-    set_view(figure, options.common.flags, options.model, motion.chain, model);
-  } else {
-    figure.camera = motion.camera;
-    figure.shapes = motion.shapes;
-  }
-  figure.section = options.form(motion).section;
-  return figure;
+  figure.section = options.form(job.motion).section;
+  return job;
 }
 
 void check_combination(const EllipseOptions& options) {
@@ -121,31 +142,38 @@ void check_combination(const EllipseOptions& options) {
 void run_ellipse(const EllipseOptions& options) {
   check_combination(options);
   const std::string output = output_of(options);
-  const Motion motion = chain_and_poses(options);
+  const EllipseJob job = job_of(options);
+  const Motion& motion = job.motion;
+  const PoseFigureOptions& figure = job.figure;
   const Chain& chain = motion.chain;
+  const TipMass tip(chain, motion.constraints);
   const GatheredPoses& poses = motion.poses;
-  const ClipMemory memory = memory_of_figure(*options.command, options.title, options.model, poses.q);
+  if (options.joint_space && tip.is_constrained())
+    throw Error(ExitCode::usage,
+                "--joint-space shows M(q), which says of a constrained mechanism only what its cut chain would do: leave "
+                "one of the two out; `chainreel dynamics " + options.sources.along + " --at T` prints M, Jc and Lambda");
+  const ClipMemory memory = memory_of_figure(*options.command, figure.title, options.model, poses.q);
   Json numbers;
   if (options.joint_space) {
     const std::array<int, 2> joints = joints_of(chain, options.joints);
     const Fonts fonts;
-    write_picture(draw_joint_space_figure(chain, poses.q, joints, figure_of(options, motion), fonts), options.width,
-                  options.height, fonts, output, options.common.force, memory);
+    write_picture(draw_joint_space_figure(chain, poses.q, joints, figure, fonts), figure.width,
+                  figure.height, fonts, output, options.common.force, memory);
     numbers = joint_space_json(chain, poses, joints);
   } else if (output.ends_with(".csv")) {
-    write_text_file(output, ellipse_csv(chain, poses, options.form(motion)), options.common.force);
+    write_text_file(output, ellipse_csv(tip, poses, options.form(motion)), options.common.force);
   } else {
     const Fonts fonts;
-    write_picture(draw_ellipse_figure(chain, poses.q, figure_of(options, motion), fonts), options.width,
-                  options.height, fonts, output, options.common.force, memory);
+    write_picture(draw_ellipse_figure(tip, poses.q, figure, fonts), figure.width,
+                  figure.height, fonts, output, options.common.force, memory);
   }
   if (options.common.json) {
     Json report{{"file", output}};
     if (!options.joint_space) {
-      report["reading"] = to_string(options.read_as());
+      report["reading"] = to_string(options.read_as(motion));
       report["shape"] = options.form(motion).section ? "section" : "ellipsoid";
-      report["unit"] = options.read_as() == EllipseReading::energy ? "m/s" : "kg";
-      numbers = ellipse_json(chain, poses, options.form(motion));
+      report["unit"] = options.read_as(motion) == EllipseReading::energy ? "m/s" : "kg";
+      numbers = ellipse_json(tip, poses, options.form(motion));
     }
     report["poses"] = numbers;
     std::puts(report.dump(2).c_str());
@@ -187,7 +215,8 @@ void add_ellipse_command(CommandLine& app) {
       .one_of({"ellipsoid", "section"});
   command->add_option("--width", options->width, "pixels").range(16, 16384);
   command->add_option("--height", options->height, "pixels").range(16, 16384);
-  add_common_options(*command, options->common);
+  add_scene_options(*command, options->common);
+  add_result_options(*command, options->common);
   command->footer(
       "Example: chainreel ellipse models/rr.urdf --pose 0,90deg --pose 0,150deg -o out/ellipse.png");
   options->command = command;

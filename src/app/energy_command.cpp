@@ -204,7 +204,9 @@ void add_energy_command(CommandLine& app) {
       ->add_option("--tolerance", options->tolerance, "of adaptive methods (default the scene's, else 1e-9)")
       .positive();
   add_figure_options(*command, options->figure, options->common, "out/NAME_energy.png");
-  add_common_options(*command, options->common);
+  add_scene_options(*command, options->common);
+  add_quiet_option(*command, options->common);
+  add_force_option(*command, options->common);
   command->footer("Example: chainreel energy assets/scenes/rr_free.yaml --until 100s --step 0.01");
   command->callback([options] { run_energy(*options); });
 }

@@ -7,6 +7,7 @@
 #include "app/command.hpp"
 #include "app/starter_files.hpp"
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "core/output_file.hpp"
 
 namespace chainreel {
@@ -35,7 +36,9 @@ void run_init(const InitOptions& options) {
   OutputFile model(base.string() + ".urdf", options.common.force);
   write_whole(model, with_name(kStarterModel, name));
   write_whole(scene, with_name(kStarterScene, name));
-  if (!options.common.quiet)
+  if (options.common.json)
+    std::puts(Json{{"files", {scene.path(), model.path()}}}.dump(2).c_str());
+  else if (!options.common.quiet)
     std::printf("%s\n%s\nNext: chainreel render %s\n", scene.path().c_str(), model.path().c_str(),
                 scene.path().c_str());
 }
@@ -46,7 +49,7 @@ void add_init_command(CommandLine& app) {
   auto options = std::make_shared<InitOptions>();
   Command* command = app.add_subcommand("init", "write a commented scene and model to start from");
   command->add_option("name", options->name, "NAME gives NAME.yaml and NAME.urdf").required();
-  add_common_options(*command, options->common);
+  add_result_options(*command, options->common);
   command->footer("Example: chainreel init my_arm");
   command->callback([options] { run_init(*options); });
 }

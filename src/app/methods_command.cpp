@@ -61,7 +61,7 @@ void run_methods(const CommonOptions& options) {
 void add_methods_command(CommandLine& app) {
   auto options = std::make_shared<CommonOptions>();
   Command* command = app.add_subcommand("methods", "the integrators: order, kind and source of each");
-  add_common_options(*command, *options);
+  add_json_option(*command, *options);
   command->footer("Example: chainreel methods --json");
   command->callback([options] { run_methods(*options); });
 }

@@ -119,7 +119,8 @@ void add_render_command(CommandLine& app) {
     add_scene_flags(*command, options->common.flags, flags);
   command->add_option("--at", options->at, "instant that .png, .svg and .pdf show, in seconds (default 0)");
   add_vary_option(*command, options->vary);
-  add_common_options(*command, options->common);
+  add_scene_options(*command, options->common);
+  add_result_options(*command, options->common);
   command->footer(
       "Example: chainreel render assets/scenes/rr_free.yaml -o out/rr.mp4 -o out/rr.gif --set duration=2");
   command->callback([options] { run_render(*options); });

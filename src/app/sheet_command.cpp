@@ -81,7 +81,21 @@ ClipMemory memory_of_sheet(const Command& command, const std::vector<ContactCell
   return memory;
 }
 
+// What a sheet decides for all its cells is not left to a scene's key, which would be passed over.
+void refuse_own_keys(const std::vector<std::string>& set) {
+  for (const std::string& text : set) {
+    const std::string key = text.substr(0, text.find_first_of(".="));
+    if (key == "theme" || key == "text_scale")
+      throw Error(ExitCode::usage, "--set " + text + ": a sheet has one look: take --" +
+                                       (key == "theme" ? "theme" : "text-scale"));
+    if (key == "video" || key == "plot")
+      throw Error(ExitCode::usage, "--set " + text + ": the pictures of a sheet have a size of their own and no plots: " +
+                                       "take --width, --height and --columns");
+  }
+}
+
 void run_sheet(const SheetOptions& options) {
+  refuse_own_keys(options.common.set);
   check_picture_path(options.output);
   if (!options.at.empty() && parse_quantity(options.at, {}) < 0)
     throw Error(ExitCode::usage, "--at " + options.at + " lies before the start");
@@ -117,7 +131,8 @@ void add_sheet_command(CommandLine& app) {
   command->add_option("--width", options->width, "pixels").range(16, 16384);
   command->add_option("--height", options->height, "pixels").range(16, 16384);
   add_scene_flags(*command, options->common.flags, kLookFlags);
-  add_common_options(*command, options->common);
+  add_scene_options(*command, options->common);
+  add_result_options(*command, options->common);
   command->footer("Example: chainreel sheet assets/scenes/*.yaml -o out/sheet.png");
   options->command = command;
   command->callback([options] { run_sheet(*options); });

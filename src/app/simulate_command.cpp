@@ -107,7 +107,8 @@ void add_simulate_command(CommandLine& app) {
   command->add_option("--panel", options->panel, "one panel of a scene that compares several, from 1")
       .range(1, 12);
   command->add_flag("--every-step", options->every_step, "a row a step instead of a row a frame");
-  add_common_options(*command, options->common);
+  add_scene_options(*command, options->common);
+  add_result_options(*command, options->common);
   command->footer("Example: chainreel simulate assets/scenes/pp_free.yaml -o out/pp_free.csv");
   command->callback([options] { run_simulate(*options); });
 }

@@ -4,9 +4,10 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/automatic.hpp"
 #include "app/command.hpp"
 #include "app/figure.hpp"
-#include "app/model_view.hpp"
+#include "app/model_scene.hpp"
 #include "app/moment.hpp"
 #include "app/pipeline.hpp"
 #include "app/report.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 struct SnapshotOptions {
   std::string file;
-  std::string at = "0";
+  std::string at;  // "": 0
   std::vector<std::string> poses;
   std::string output;
   std::string end_effector;
@@ -36,14 +37,23 @@ std::string default_output(const SnapshotOptions& options) {
   return options.output;
 }
 
-void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
+// The keys that the command line names, however it does.
+std::vector<std::string> overrides_of(const SnapshotOptions& options) {
   std::vector<std::string> overrides = overrides_of(options.common);
+  if (!options.end_effector.empty())
+    overrides.push_back("end_effector=" + Json(options.end_effector).dump());
+  return overrides;
+}
+
+void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
+  std::vector<std::string> overrides = overrides_of(options);
   add_comparison(options.vary, overrides);
   PreparedFilm film = load_film(options.file, overrides);
+  for (const PreparedScene& panel : film.panels) say_notices(panel, options.common.quiet);
   Video& video = film.scene.video;
   if (options.width > 0) video.width = options.width;
   if (options.height > 0) video.height = options.height;
-  const double at = parse_quantity(options.at, {});
+  const double at = options.at.empty() ? 0 : parse_quantity(options.at, {});
   if (at < 0 || at > film.scene.duration)
     throw Error(ExitCode::usage, "--at " + options.at + " lies outside the scene's duration of " +
                                      format_quantity(film.scene.duration, "s"));
@@ -53,21 +63,18 @@ void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
 }
 
 void snapshot_model(const SnapshotOptions& options, const std::string& output) {
-  ModelOptions model = model_options_of(options.common);
-  model.end_effector = options.end_effector;
-  if (!options.common.flags.at("layout").empty())
-    throw Error(ExitCode::usage, "--layout goes with a scene; the poses of a model stand in one picture");
-  const Chain chain = read_chain(options.file, model);
+  if (!options.at.empty() || !options.vary.empty())
+    throw Error(ExitCode::usage, "--at and --vary go with a scene; a model stands still at --pose");
+  const ModelScene model = model_scene_of(options.file, overrides_of(options), "snapshot", picture_keys());
+  const Chain chain = read_chain(options.file, model.options);
   require_end_effector(chain);
   std::vector<std::vector<double>> poses = parse_poses(chain, options.poses, "--pose");
   if (poses.empty()) poses.push_back(zero_configuration(chain));
   const Fonts fonts;
   PoseFigureOptions figure;
-  figure.width = options.width > 0 ? options.width : 1920;
-  figure.height = options.height > 0 ? options.height : 1080;
-  figure.theme = &theme_named(theme_of(options.common.flags));
-  figure.text_scale = text_scale_of(options.common.flags);
-  set_view(figure, options.common.flags, options.file, chain, model);
+  set_look(figure, model, chain);
+  if (options.width > 0) figure.width = options.width;
+  if (options.height > 0) figure.height = options.height;
   write_picture(draw_pose_figure(chain, poses, figure, fonts), figure.width, figure.height, fonts, output,
                 options.common.force, memory_of_figure(*options.command, chain.name, options.file, poses));
 }
@@ -97,14 +104,15 @@ void add_snapshot_command(CommandLine& app) {
   command->add_repeatable("--pose", options->poses, "q of a model: --pose 0,90deg (repeatable)");
   command->add_option("-o,--output", options->output, "a .png, .svg or .pdf file (default out/NAME.png)");
   command->add_option("--end-effector", options->end_effector,
-                      "the link that is marked, of a model with several ends");
+                      "the link that is marked, where there are several ends");
   command->add_option("--width", options->width, "pixels").range(16, 16384);
   command->add_option("--height", options->height, "pixels").range(16, 16384);
   add_scene_flags(*command, options->common.flags, kLookFlags);
   add_scene_flags(*command, options->common.flags, kPageFlags);
   add_scene_flags(*command, options->common.flags, kViewFlags);
   add_vary_option(*command, options->vary);
-  add_common_options(*command, options->common);
+  add_scene_options(*command, options->common);
+  add_result_options(*command, options->common);
   command->footer("Example: chainreel snapshot assets/scenes/rrr_torque.yaml --at 1.2 -o out/rrr.png");
   options->command = command;
   command->callback([options] { run_snapshot(*options); });

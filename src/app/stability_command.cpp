@@ -261,7 +261,9 @@ void add_stability_command(CommandLine& app) {
   command->add_option("--methods", options->methods, "of the table: rk4,taylor,.. (default all)");
   command->add_option("--threads", options->threads, "default: all cores").range(1, 256);
   add_figure_options(*command, options->figure, options->common, "out/NAME_stability.png");
-  add_common_options(*command, options->common);
+  add_scene_options(*command, options->common);
+  add_quiet_option(*command, options->common);
+  add_force_option(*command, options->common);
   command->footer(
       "Example: chainreel stability assets/scenes/pp_spring.yaml --set 'torque=[0, -k * y_G]'\n"
       "         --set parameters.k=100 --x step=0.02:0.4:96 --y parameters.k=25:400:60");

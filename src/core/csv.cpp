@@ -42,7 +42,7 @@ Table read_csv(const std::string& path) {
   if (std::filesystem::file_size(path, code) > kLargestFile)
     throw Error(ExitCode::limit, "is larger than 256 MiB", {path});
   std::ifstream stream(path, std::ios::binary);
-  Table table{path, {}, {}};
+  Table table{path, {}, {}, {}};
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
     ++number;
@@ -50,6 +50,9 @@ Table read_csv(const std::string& path) {
     const std::vector<std::string> fields = fields_of(line);
     if (table.names.empty()) {
       table.names = fields;
+      for (std::size_t i = 0; i < fields.size(); ++i)
+        if (table.find(fields[i]) != int(i))
+          throw Error(ExitCode::bad_input, "two columns are named '" + fields[i] + "': rename or remove one", {path, number});
       table.columns.resize(fields.size());
       continue;
     }
@@ -59,6 +62,7 @@ Table read_csv(const std::string& path) {
                       std::to_string(table.names.size()) +
                       " names: values are separated by commas, decimals take a point",
                   {path, number});
+    table.lines.push_back(number);
     for (std::size_t i = 0; i < fields.size(); ++i) {
       const std::optional<double> value = parse_number(fields[i]);
       if (!value)
@@ -79,9 +83,13 @@ TimeTable read_time_table(const std::string& path, const std::vector<std::string
   const int time = table.find("t");
   if (time < 0) throw Error(ExitCode::bad_input, "has no column 't'", {path});
   result.t = table.columns[std::size_t(time)];
+  result.lines = table.lines;
   for (std::size_t k = 1; k < result.t.size(); ++k)
     if (result.t[k] <= result.t[k - 1])
-      throw Error(ExitCode::bad_input, "'t' does not rise at row " + std::to_string(k + 1), {path});
+      throw Error(ExitCode::bad_input,
+                  "'t' does not rise: " + format_shortest(result.t[k]) + " stands below " +
+                      format_shortest(result.t[k - 1]) + "; each instant takes one row, later ones below",
+                  {path, table.lines[k]});
   for (const std::string& name : wanted) {
     std::vector<std::vector<double>> group;
     for (int i = 1; i <= n; ++i) {
@@ -91,6 +99,11 @@ TimeTable read_time_table(const std::string& path, const std::vector<std::string
     if (!group.empty() && group.size() != std::size_t(n))
       throw Error(ExitCode::bad_input,
                   "needs the columns " + name + "1 to " + name + std::to_string(n) + ", one a freedom",
+                  {path});
+    if (!group.empty() && table.find(name + std::to_string(n + 1)) >= 0)
+      throw Error(ExitCode::bad_input,
+                  "has a column " + name + std::to_string(n + 1) + ", but the mechanism has " + std::to_string(n) +
+                      (n == 1 ? " freedom" : " freedoms") + ": is it a table of another one?",
                   {path});
     result.groups.push_back(std::move(group));
   }

@@ -10,17 +10,19 @@ struct Table {
   std::string file;
   std::vector<std::string> names;
   std::vector<std::vector<double>> columns;  // one a name, all of the same length
+  std::vector<int> lines;                    // of the file, where each row stands
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
   int find(const std::string& name) const;  // index of a column, or -1
 };
 
-// Throws Error with file and line for what is no table of finite numbers.
+// Throws Error with file and line for what is no table of finite numbers under names that differ.
 Table read_csv(const std::string& path);
 
-// The same with columns `t` (rising) and `NAME1..NAMEn` for each wanted name that the file has.
+// The same with columns `t` (rising) and `NAME1..NAMEn`, no more and no fewer, for each wanted name that the file has.
 struct TimeTable {
   std::vector<double> t;
+  std::vector<int> lines;  // of the file, where each row stands
   std::vector<std::vector<std::vector<double>>>
       groups;  // [wanted][1..n]; empty where the file has none of that name
 };

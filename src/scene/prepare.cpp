@@ -5,6 +5,7 @@
 #include "expr/expression.hpp"
 #include "model/read_chain.hpp"
 #include "scene/prepare_constraints.hpp"
+#include "scene/prepare_tables.hpp"
 #include "sim/constrained_chain.hpp"
 
 namespace chainreel {
@@ -152,6 +153,7 @@ Simulation prepare(Scene& scene, bool meshes) {
   scene.gravity = chain.gravity;
   scene.end_effector = chain.frames[std::size_t(chain.end_effector)].name;
 
+  prepare_tables(scene, chain);
   ProblemList problems;
   check_length(scene.start.q, zero_configuration(chain), "start.q", scene, problems);
   check_length(scene.start.qd, std::vector<double>(std::size_t(chain.nv)), "start.qd", scene, problems);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/format.hpp"
+#include "dynamics/constrained_inverse.hpp"
 #include "dynamics/constraint_projection.hpp"
 #include "dynamics/constraint_rows.hpp"
 #include "dynamics/kinematics.hpp"
@@ -17,6 +18,8 @@ namespace {
 constexpr double kFarthestMove = 0.5;  // of a coordinate, rad or m
 // Less is the rounding of a start that was written with all its digits.
 constexpr double kNoteworthy = 1e-9;  // m or rad, and per second
+// Of a force: less is the rounding of a direction.
+constexpr double kBorne = 1e-9;
 
 std::string listed(const std::vector<double>& values) {
   std::string text = "[";
@@ -145,6 +148,30 @@ class PlanMaker {
       scene.constraints[k].place);
 }
 
+// What a constraint cannot bear of the force that it is to be pressed with is left out, and said; one that bears no
+// force at a frame is refused. After compute_constraints at the start.
+void look_at_contact_forces(Scene& scene, const Simulation& simulation, const ConstraintSet& set,
+                            const ConstrainedWorkspace& cws) {
+  ProblemList problems;
+  std::vector<double> lambda(std::size_t(set.rows()));
+  const std::vector<ContactForce>& contacts = simulation.constraints.contact_forces;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const ContactForce& contact = contacts[i];
+    const std::string name = name_of(simulation.constraints.list[contact.constraint]);
+    multipliers_of_force(simulation.chain, set, cws, contact.constraint, contact.force, lambda);
+    const Eigen::Vector3d borne = contact_force(simulation.chain, set, cws, contact.constraint, lambda);
+    const auto numbers = [](const Eigen::Vector3d& f) { return listed({f.x(), f.y(), f.z()}) + " N"; };
+    if (contact.force.norm() > 0 && borne.norm() <= kBorne * contact.force.norm())
+      problems.add("'" + name + "' bears nothing of a contact_force of " + numbers(contact.force) +
+                       " at the start: press along what it holds, or another constraint",
+                   scene.contact_force[i].place);
+    else if ((borne - contact.force).norm() > kBorne * contact.force.norm())
+      scene.notices.push_back("of the contact_force of " + numbers(contact.force) + ", '" + name + "' bears " +
+                              numbers(borne) + " at the start; the rest is left out");
+  }
+  problems.throw_if_any();
+}
+
 }  // namespace
 
 void prepare_constraints(Scene& scene, Simulation& simulation) {
@@ -184,6 +211,8 @@ void prepare_constraints(Scene& scene, Simulation& simulation) {
                             " a second and were changed to qd = " + listed(qd));
   simulation.q0 = scene.start.q = q;
   simulation.qd0 = scene.start.qd = qd;
+  compute_constraints(chain, ws, set, cws, q, qd);
+  look_at_contact_forces(scene, simulation, set, cws);
 }
 
 }  // namespace chainreel

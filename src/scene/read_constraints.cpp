@@ -176,6 +176,11 @@ void read_contact(Fields& fields, const YAML::Node& node, const std::string& key
                               ", but the scene has " +
                               (count == 0 ? "none" : std::to_string(count) + ", counted from 1"),
                           place);
+  for (const ContactEntry& other : scene.contact_force)
+    if (other.constraint == entry.constraint)
+      fields.problems().add("'contact_force' presses constraint " + std::to_string(entry.constraint) +
+                                " twice: add the two forces up",
+                            place);
   scene.contact_force.push_back(std::move(entry));
 }
 

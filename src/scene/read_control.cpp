@@ -35,6 +35,22 @@ std::vector<Entry> read_entries(Fields& fields, const std::string& key) {
   return entries;
 }
 
+// Of a table; `has_table`: there is one.
+std::optional<Outside> read_outside(Fields& fields, bool has_table, const std::string& tables) {
+  const YAML::Node node = fields.find("outside");
+  if (!node.IsDefined()) return std::nullopt;
+  std::string name;
+  fields.read("outside", name);
+  try {
+    if (!has_table)
+      throw Error(ExitCode::bad_input, "'" + fields.path("outside") + "' says what a table is taken for beyond its rows, and there is no " + tables + ": leave it out");
+    return outside_of(name);
+  } catch (const Error& error) {
+    fields.problems().add(error.problems().front().message, fields.place_of(node, "outside"));
+  }
+  return std::nullopt;
+}
+
 std::optional<Feedback> read_feedback(Fields& fields, const std::string& key) {
   const YAML::Node node = fields.find(key);
   if (!node.IsDefined()) return std::nullopt;
@@ -55,6 +71,7 @@ std::optional<Feedback> read_feedback(Fields& fields, const std::string& key) {
     fields.problems().add(
         "'" + fields.path(key) + "' takes its motion from trajectory or from q, qd, qdd, not from both",
         fields.place_of(node, key));
+  feedback.outside = read_outside(inner, !feedback.trajectory.empty(), "trajectory");
   inner.finish();
   return feedback;
 }
@@ -67,6 +84,7 @@ Control read_control(Fields& fields, const YAML::Node& node, const std::string& 
   control.place = fields.place_of(node, key);
   inner.read_path("csv", control.csv);
   inner.read_path("inverse_of", control.inverse_of);
+  control.outside = read_outside(inner, !control.csv.empty() || !control.inverse_of.empty(), "csv or inverse_of");
   control.pd = read_feedback(inner, "pd");
   control.computed_torque = read_feedback(inner, "computed_torque");
   inner.read("gravity_compensation", control.gravity_compensation);

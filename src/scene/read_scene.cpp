@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/format.hpp"
+#include "core/json.hpp"
 #include "scene/fields.hpp"
 #include "scene/film_clock.hpp"
 #include "scene/quantity.hpp"
@@ -293,13 +294,28 @@ Scene read_document(const YamlDocument& document) {
   return scene;
 }
 
+Scene read_either(const YamlDocument& document) {
+  return is_comparison(document) ? read_comparison(document, &read_document) : read_document(document);
+}
+
+std::vector<Override> parse_overrides(const std::vector<std::string>& texts) {
+  std::vector<Override> parsed;
+  for (const std::string& text : texts) parsed.push_back(parse_override(text));
+  return parsed;
+}
+
 }  // namespace
 
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
-  std::vector<Override> parsed;
-  for (const std::string& text : overrides) parsed.push_back(parse_override(text));
-  const YamlDocument document = load_yaml(path, parsed);
-  return is_comparison(document) ? read_comparison(document, &read_document) : read_document(document);
+  return read_either(load_yaml(path, parse_overrides(overrides)));
+}
+
+Scene read_model_scene(const std::string& model, const std::vector<std::string>& overrides) {
+  if (!std::filesystem::is_regular_file(model))
+    throw Error(ExitCode::bad_input, "there is no such model file", {model});
+  // A JSON text is YAML too.
+  const std::string text = "model: " + Json(std::filesystem::path(model).filename().string()).dump();
+  return read_either(yaml_document_of(text, model, parse_overrides(overrides)));
 }
 
 }  // namespace chainreel

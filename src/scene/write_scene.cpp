@@ -63,6 +63,7 @@ void emit_feedback(YAML::Emitter& out, const std::string& key, const std::option
   entries("qd", feedback->qd);
   entries("qdd", feedback->qdd);
   if (!feedback->trajectory.empty()) out << YAML::Key << "trajectory" << YAML::Value << feedback->trajectory;
+  if (feedback->outside) out << YAML::Key << "outside" << YAML::Value << to_string(*feedback->outside);
   out << YAML::EndMap;
 }
 
@@ -70,6 +71,7 @@ void emit_control(YAML::Emitter& out, const Control& control) {
   out << YAML::Flow << YAML::BeginMap;
   if (!control.csv.empty()) out << YAML::Key << "csv" << YAML::Value << control.csv;
   if (!control.inverse_of.empty()) out << YAML::Key << "inverse_of" << YAML::Value << control.inverse_of;
+  if (control.outside) out << YAML::Key << "outside" << YAML::Value << to_string(*control.outside);
   emit_feedback(out, "pd", control.pd);
   emit_feedback(out, "computed_torque", control.computed_torque);
   if (control.gravity_compensation) out << YAML::Key << "gravity_compensation" << YAML::Value << true;

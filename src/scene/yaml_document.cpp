@@ -149,20 +149,6 @@ bool lies_below(const std::string& key, const std::string& other) {
   return key.size() > other.size() && key.starts_with(other) && key[other.size()] == '.';
 }
 
-YamlDocument document_of(const std::string& text, const std::string& path,
-                         const std::vector<Override>& overrides) {
-  YamlDocument document{parse(text, path), path, text, overrides, {}};
-  if (!document.root.IsMap())
-    throw Error(ExitCode::bad_input,
-                "holds no scene: write `model: ...` and what else it needs, or see `chainreel init`", {path});
-  for (const Override& one : overrides) {
-    const Place place{name_of(one), 0, 0};
-    apply(document.root, one.key, {one.key, parse(one.value, name_of(one)), place});
-    document.origins.push_back({one.key, place});
-  }
-  return document;
-}
-
 // Notes which parts of the panel's value for `key` the command line has set.
 void note_overrides(YamlDocument& panel, const std::string& prefix, const std::string& key) {
   const std::string full = prefix + key;
@@ -207,8 +193,22 @@ std::map<std::string, Place> YamlDocument::places() const {
   return places;
 }
 
+YamlDocument yaml_document_of(const std::string& text, const std::string& path,
+                              const std::vector<Override>& overrides) {
+  YamlDocument document{parse(text, path), path, text, overrides, {}};
+  if (!document.root.IsMap())
+    throw Error(ExitCode::bad_input,
+                "holds no scene: write `model: ...` and what else it needs, or see `chainreel init`", {path});
+  for (const Override& one : overrides) {
+    const Place place{name_of(one), 0, 0};
+    apply(document.root, one.key, {one.key, parse(one.value, name_of(one)), place});
+    document.origins.push_back({one.key, place});
+  }
+  return document;
+}
+
 YamlDocument load_yaml(const std::string& path, const std::vector<Override>& overrides) {
-  return document_of(read_text(path), path, overrides);
+  return yaml_document_of(read_text(path), path, overrides);
 }
 
 const std::vector<std::string>& page_keys() {
@@ -219,7 +219,7 @@ const std::vector<std::string>& page_keys() {
 
 YamlDocument panel_document(const YamlDocument& whole, std::size_t index) {
   // Read anew: nodes are shared, and a change in one panel must not reach the others.
-  YamlDocument panel = document_of(whole.text, whole.file, whole.overrides);
+  YamlDocument panel = yaml_document_of(whole.text, whole.file, whole.overrides);
   const YAML::Node changes = panel.root["compare"][index];
   for (const char* key : {"title", "layout", "compare"}) panel.root.remove(key);
   // The first panel's events decide when the film is slow; others need not have them.

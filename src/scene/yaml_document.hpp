@@ -44,6 +44,9 @@ struct YamlDocument {
 };
 
 YamlDocument load_yaml(const std::string& path, const std::vector<Override>& overrides);
+// The same of a text that stands in no file; `file` is where paths start and what errors name.
+YamlDocument yaml_document_of(const std::string& text, const std::string& file,
+                              const std::vector<Override>& overrides);
 
 // Keys of the whole picture, which no single panel of a comparison can have.
 const std::vector<std::string>& page_keys();

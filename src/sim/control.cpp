@@ -137,6 +137,46 @@ class SumOfTorques final : public TorqueLaw {
   std::vector<double> part_;
 };
 
+// A law that ends with its table.
+class WithinTable final : public TorqueLaw {
+ public:
+  WithinTable(std::unique_ptr<TorqueLaw> law, double from, double until)
+      : law_(std::move(law)), from_(from), until_(until) {}
+
+  void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) override {
+    if (piece_.value_or(is_within(t))) return law_->evaluate(chain, ws, t, q, qd, tau);
+    std::fill(tau.begin(), tau.end(), 0.0);
+  }
+  std::vector<double> breaks(double end) const override {
+    std::vector<double> all = law_->breaks(end);
+    all.insert(all.end(), {from_, until_});
+    return all;
+  }
+  void enter_piece(double t) override {
+    piece_ = is_within(t);
+    law_->enter_piece(t);
+  }
+  void leave_pieces() override {
+    piece_.reset();
+    law_->leave_pieces();
+  }
+
+ private:
+  bool is_within(double t) const { return t >= from_ && t <= until_; }
+
+  std::unique_ptr<TorqueLaw> law_;
+  double from_, until_;        // s
+  std::optional<bool> piece_;  // whether the piece that a run is in lies within
+};
+
+// `law` is driven by the table at `path`; where there is none it acts always.
+std::unique_ptr<TorqueLaw> within(std::unique_ptr<TorqueLaw> law, const std::string& path,
+                                  const std::optional<Outside>& outside, int n) {
+  if (path.empty() || outside != Outside::zero) return law;
+  const std::vector<double> t = read_time_table(path, {}, n).t;
+  return std::make_unique<WithinTable>(std::move(law), t.front(), t.back());
+}
+
 // One number for all freedoms, or one a freedom.
 template <class T>
 std::vector<T> spread(const std::vector<T>& given, int n, const std::string& key, const Place& place) {
@@ -161,6 +201,16 @@ std::unique_ptr<Reference> reference_of(const Chain& chain, const Feedback& feed
 
 }  // namespace
 
+std::string to_string(Outside outside) {
+  return outside == Outside::hold ? "hold" : outside == Outside::zero ? "zero" : "refuse";
+}
+
+Outside outside_of(const std::string& name) {
+  for (const Outside one : {Outside::hold, Outside::zero, Outside::refuse})
+    if (to_string(one) == name) return one;
+  throw Error(ExitCode::bad_input, "'outside' must be hold, zero or refuse, not '" + name + "'");
+}
+
 std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& control,
                                         const Parameters& parameters) {
   if (chain.has_floating && (!control.inverse_of.empty() || control.pd || control.computed_torque))
@@ -174,21 +224,24 @@ std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& contr
     if (table.groups[0].empty())
       throw Error(ExitCode::bad_input, "has no columns tau1 to tau" + std::to_string(chain.nv),
                   {control.csv});
-    parts.push_back(std::make_unique<CsvTorque>(std::move(table)));
+    parts.push_back(within(std::make_unique<CsvTorque>(std::move(table)), control.csv, control.outside, chain.nv));
   }
   if (!control.inverse_of.empty())
     parts.push_back(
-        std::make_unique<InverseTorque>(chain, make_table_reference(control.inverse_of, chain.nv)));
+        within(std::make_unique<InverseTorque>(chain, make_table_reference(control.inverse_of, chain.nv)),
+               control.inverse_of, control.outside, chain.nv));
   const auto gains = [&](const std::vector<double>& given, const char* key) {
     return spread(given, chain.nv, key, control.place);
   };
   if (const auto& pd = control.pd)
-    parts.push_back(std::make_unique<PdTorque>(reference_of(chain, *pd, parameters, control.place),
-                                               gains(pd->kp, "kp"), gains(pd->kd, "kd")));
+    parts.push_back(within(std::make_unique<PdTorque>(reference_of(chain, *pd, parameters, control.place),
+                                                      gains(pd->kp, "kp"), gains(pd->kd, "kd")),
+                           pd->trajectory, pd->outside, chain.nv));
   if (const auto& ct = control.computed_torque)
-    parts.push_back(std::make_unique<ComputedTorque>(chain,
-                                                     reference_of(chain, *ct, parameters, control.place),
-                                                     gains(ct->kp, "kp"), gains(ct->kd, "kd")));
+    parts.push_back(
+        within(std::make_unique<ComputedTorque>(chain, reference_of(chain, *ct, parameters, control.place),
+                                                gains(ct->kp, "kp"), gains(ct->kd, "kd")),
+               ct->trajectory, ct->outside, chain.nv));
   if (control.gravity_compensation) parts.push_back(std::make_unique<GravityCompensation>());
   return std::make_unique<SumOfTorques>(std::move(parts), chain.nv);
 }

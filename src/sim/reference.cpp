@@ -1,6 +1,9 @@
 #include "sim/reference.hpp"
 
+#include <cmath>
+
 #include "core/csv.hpp"
+#include "core/format.hpp"
 #include "core/scalar.hpp"
 #include "expr/corners.hpp"
 #include "expr/instants.hpp"
@@ -100,6 +103,22 @@ std::vector<Spline> splines(const TimeTable& table, std::size_t group) {
   return all;
 }
 
+// Values that are finite may have derivatives that are not.
+void require_finite(const Reference& reference, const TimeTable& table, int n, const std::string& path) {
+  std::vector<double> q(std::size_t(n), 0.0), qd(q), qdd(q);
+  for (std::size_t k = 0; k < table.t.size(); ++k) {
+    reference.evaluate(table.t[k], q, qd, qdd);
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      if (std::isfinite(q[i]) && std::isfinite(qd[i]) && std::isfinite(qdd[i])) continue;
+      throw Error(ExitCode::numerical,
+                  "the motion in column q" + std::to_string(i + 1) + " has no finite derivatives at t = " +
+                      format_shortest(table.t[k]) +
+                      " s: what stands here and in the rows about it changes too fast for numbers",
+                  {path, table.lines[k]});
+    }
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<Reference> make_expression_reference(const std::vector<Entry>& q,
@@ -121,7 +140,9 @@ std::unique_ptr<Reference> make_table_reference(const std::string& path, int n) 
   if (table.groups[0].empty())
     throw Error(ExitCode::bad_input, "has no columns q1 to q" + std::to_string(n) + ", one a freedom",
                 {path});
-  return std::make_unique<TableReference>(table.t, splines(table, 0), splines(table, 1), splines(table, 2));
+  auto reference = std::make_unique<TableReference>(table.t, splines(table, 0), splines(table, 1), splines(table, 2));
+  require_finite(*reference, table, n, path);
+  return reference;
 }
 
 }  // namespace chainreel

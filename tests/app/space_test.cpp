@@ -59,17 +59,18 @@ TEST_F(OnTheCommandLine, FlagsThatMakeNoSenseAreRefused) {
   const auto error = [&](const Words& more) {
     const ProgramResult result =
         run_program(with({"snapshot", "models/arm.urdf", "-o", folder_.file("b.png")}, more));
-    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.status, 3);
     return result.err;
   };
   EXPECT_THAT(error({"--azimuth", "35"}),
-              HasSubstr("--azimuth must lie between -360deg and 360deg; a number without"));
-  EXPECT_THAT(error({"--elevation", "120deg"}), HasSubstr("--elevation must lie between -90deg and 90deg"));
-  EXPECT_THAT(error({"--distance", "0"}), HasSubstr("--distance must be metres above 0, or parallel"));
-  EXPECT_THAT(error({"--distance", "1e300"}), HasSubstr("--distance must be metres"));
-  EXPECT_THAT(error({"--fit", "1,0,0,1"}), HasSubstr("--fit takes motion, or metres that grow"));
+              HasSubstr("'camera.azimuth' must lie between -360deg and 360deg; a number without"));
+  EXPECT_THAT(error({"--elevation", "120deg"}), HasSubstr("'camera.elevation' must lie between -90deg and 90deg"));
+  EXPECT_THAT(error({"--distance", "0"}), HasSubstr("'camera.distance' must be metres above 0, or parallel"));
+  EXPECT_THAT(error({"--distance", "1e300"}), HasSubstr("'camera.distance' must be metres"));
+  EXPECT_THAT(error({"--fit", "[1, 0, 0, 1]"}), HasSubstr("'camera.fit' must grow from left to right"));
+  EXPECT_THAT(error({"--fit", "1,0,0,1"}), HasSubstr("'camera.fit' must be motion, or the part that is shown"));
   EXPECT_THAT(error({"--links", "meshes"}),
-              HasSubstr("--links takes auto, plain, visual or collision, not 'meshes'"));
+              HasSubstr("'links' must be auto, plain, visual or collision, not 'meshes'"));
 }
 
 TEST_F(OnTheCommandLine, ShapesThatAreNotThereAreBadInput) {

@@ -12,6 +12,7 @@
 namespace chainreel {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 class SceneConstraints : public testing::Test {
@@ -141,7 +142,22 @@ TEST_F(SceneConstraints, BadInputNamesPlaceAndRemedy) {
   const std::string pen = "[{line: {frame: gripper, point: [0, 0.5], direction: [1, 0]}}]\n";
   EXPECT_THAT(bad(pen + "method: taylor"), AllOf(HasSubstr("one.yaml:4:"), HasSubstr("take dop853")));
   EXPECT_THAT(bad(pen + "torque: [lambda1, 0, 0]"), HasSubstr("algebraic loop"));
+  EXPECT_THAT(bad(pen + "contact_force: [{constraint: 1, force: [0, 1]}, {constraint: 1, force: [0, 2]}]"),
+              HasSubstr("presses constraint 1 twice"));
   EXPECT_EQ(bad(pen), "") << "negative control";
+}
+
+TEST_F(SceneConstraints, ForceThatAConstraintDoesNotBearIsSaidOrRefused) {
+  const std::string pen = kPenStart + "constraints: [{line: {frame: gripper, point: [0, 0.5], direction: [1, 0]}}]\n";
+  EXPECT_THAT(error(pen + "contact_force: {constraint: 1, force: [3, 0]}\n"),
+              AllOf(HasSubstr("one.yaml:4:"), HasSubstr("'line gripper' bears nothing")));
+  EXPECT_THAT(error(kPenStart + "constraints: [{joint: {name: joint2, value: -60deg}}]\n" +
+                    "contact_force: {constraint: 1, force: [0, -5]}\n"),
+              HasSubstr("'joint joint2' bears nothing"));
+  ready(pen + "contact_force: {constraint: 1, force: [3, -5]}\n");
+  EXPECT_THAT(notices_, testing::ElementsAre(HasSubstr("of the contact_force of [3, -5, 0] N, 'line gripper' bears [0, -5, 0] N")));
+  ready(pen + "contact_force: {constraint: 1, force: [0, -5]}\n");
+  EXPECT_THAT(notices_, testing::IsEmpty());
 }
 
 }  // namespace

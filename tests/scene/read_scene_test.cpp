@@ -149,6 +149,9 @@ TEST_F(ReadScene, SaysWhatIsWrongWithAControl) {
   EXPECT_THAT(error("torque: {pdd: {}}\n"), HasSubstr("unknown key 'torque.pdd': did you mean 'pd'?"));
   EXPECT_THAT(error("torque: {pd: {kp: 1, kq: 2}}\n"), HasSubstr("unknown key 'torque.pd.kq'"));
   EXPECT_THAT(error("torque: {pd: {q: [0, 0], trajectory: a.csv}}\n"), HasSubstr("not from both"));
+  EXPECT_THAT(error("torque: {csv: a.csv, outside: repeat}\n"), HasSubstr("'outside' must be hold, zero or refuse, not 'repeat'"));
+  EXPECT_THAT(error("torque: {gravity_compensation: true, outside: zero}\n"), HasSubstr("there is no csv or inverse_of"));
+  EXPECT_THAT(error("torque: {pd: {q: [0, 0], outside: zero}}\n"), HasSubstr("there is no trajectory"));
   EXPECT_THAT(error("base: flying\n"), HasSubstr("'base' must be fixed or floating"));
   EXPECT_THAT(error("limit: halt\n"), HasSubstr("unknown limit policy 'halt'"));
   EXPECT_THAT(error("massless: -1\n"), HasSubstr("above 0 kg"));
@@ -166,6 +169,24 @@ TEST_F(ReadScene, WritesControlsThatReadBackTheSame) {
   EXPECT_EQ(again.control->pd->qd.size(), 2u);
   EXPECT_TRUE(again.control->gravity_compensation);
   EXPECT_EQ(again.limit, "stop");
+}
+
+TEST_F(ReadScene, WritesWhatTablesAreTakenForBeyondTheirRows) {
+  Scene scene = read("torque: {csv: a.csv, outside: zero, pd: {kp: 1, trajectory: b.csv, outside: refuse}}\n");
+  scene.model = "rr.urdf";
+  const Scene again = read_scene(folder_.write("again.yaml", scene_text(scene)));
+  EXPECT_EQ(again.control->outside, Outside::zero);
+  EXPECT_EQ(again.control->pd->outside, Outside::refuse);
+  EXPECT_EQ(read("torque: {csv: a.csv}\n").control->outside, std::nullopt);
+}
+
+TEST_F(ReadScene, ReadsAModelInASceneSPlace) {
+  const Scene scene = read_model_scene("models/rr.urdf", {"gravity=[0, 0, 0]", "packages.parts=meshes"});
+  EXPECT_EQ(scene.model, "models/rr.urdf");
+  EXPECT_EQ(scene.gravity->norm(), 0);
+  EXPECT_EQ(scene.packages.at("parts"), "models/meshes") << "beside the model";
+  EXPECT_THROW(read_model_scene("models/rr.urdf", {"gravty=[0, 0, 0]"}), Error);
+  EXPECT_THROW(read_model_scene("models/none.urdf"), Error);
 }
 
 TEST_F(ReadScene, RefusesLargeFilesBeforeParsingThem) {

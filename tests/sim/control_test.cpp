@@ -110,6 +110,36 @@ TEST(CsvTorque, IsLinearBetweenItsRowsAndHeldAtItsEnds) {
   EXPECT_EQ(first(9), 6);
 }
 
+TEST(CsvTorque, MayEndWithItsTable) {
+  const TemporaryFolder folder;
+  Control control;
+  control.csv = folder.write("tau.csv", "t,tau1,tau2\n1, 2, 0\n2, 6, -1\n");
+  control.outside = Outside::zero;
+  const Simulation run = controlled("pp", control, 1);
+  Workspace ws(run.chain);
+  std::vector<double> zero(2), tau(2);
+  for (const auto& [t, expected] : {std::pair{0.5, 0.0}, {1.0, 2.0}, {1.25, 3.0}, {2.0, 6.0}, {2.5, 0.0}}) {
+    run.torque->evaluate(run.chain, ws, t, zero, zero, tau);
+    EXPECT_EQ(tau[0], expected) << t;
+  }
+  EXPECT_THAT(run.torque->breaks(1), testing::IsSupersetOf({1.0, 2.0}));
+}
+
+TEST(InverseOf, MayEndWithItsTable) {
+  const TemporaryFolder folder;
+  Control control;
+  control.inverse_of = folder.write("q.csv", "t,q1,q2\n0,0,0\n1,0.5,0.5\n2,1,0\n");
+  for (const Outside outside : {Outside::hold, Outside::zero}) {
+    control.outside = outside;
+    const Simulation run = controlled("rr", control, 1);
+    Workspace ws(run.chain);
+    std::vector<double> zero(2), tau(2);
+    run.torque->evaluate(run.chain, ws, 3, zero, zero, tau);
+    // Held: what carries the arm at rest at (1, 0), unit links and masses.
+    EXPECT_NEAR(tau[0], outside == Outside::hold ? 3 * 9.81 * std::cos(1.0) : 0, 1e-12);
+  }
+}
+
 TEST(CsvTorque, BreaksStepsAtItsKnotsSoThatRk4KeepsItsOrder) {
   // A push that begins and ends off the grid: x'' = f(t), triangular; closed form x(2) by integrating twice.
   const TemporaryFolder folder;
@@ -147,7 +177,32 @@ TEST(Control, SaysWhatIsWrongWithItsTable) {
   EXPECT_THAT(error("t,tau1\n0,1\n"), testing::HasSubstr("tau1 to tau2"));
   EXPECT_THAT(error("t,x\n0,1\n"), testing::HasSubstr("has no columns tau1 to tau2"));
   EXPECT_THAT(error("tau1,tau2\n0,1\n"), testing::HasSubstr("no column 't'"));
+  EXPECT_THAT(error("t,tau1,tau2\n1,1,2\n# so\n0.5,1,2\n"),
+              testing::HasSubstr("bad.csv:4: 't' does not rise: 0.5 stands below 1"));
+  EXPECT_THAT(error("t,tau1,tau2\n0,1,inf\n"), testing::HasSubstr("bad.csv:2: 'inf' under 'tau2'"));
+  EXPECT_THAT(error("t,tau1,tau2\nnan,1,0\n"), testing::HasSubstr("'nan' under 't'"));
+  EXPECT_THAT(error("t,tau1,tau2\n0,1e999,0\n"), testing::HasSubstr("'1e999' under 'tau1'"));
+  EXPECT_THAT(error("t,tau1,tau2,tau1\n0,1,2,3\n"), testing::HasSubstr("two columns are named 'tau1'"));
+  EXPECT_THAT(error("t,tau1,tau2,tau3\n0,1,2,3\n"), testing::HasSubstr("has a column tau3, but the mechanism has 2"));
+  EXPECT_THAT(error("t,tau1,tau2\n"), testing::HasSubstr("holds no row of numbers"));
+  EXPECT_THAT(error(""), testing::HasSubstr("holds no row of numbers"));
   EXPECT_EQ(error("t,tau1,tau2\n0,1,2\n"), "");  // negative control
+}
+
+TEST(Control, NamesTheRowWhereAMotionOverflows) {
+  const TemporaryFolder folder;
+  const auto error = [&](const std::string& rows) -> std::string {
+    try {
+      make_table_reference(folder.write("q.csv", "t,q1,q2\n" + rows), 2);
+      return "";
+    } catch (const Error& caught) {
+      EXPECT_EQ(caught.code(), ExitCode::numerical);
+      return caught.what();
+    }
+  };
+  EXPECT_THAT(error("0,0,0\n1,0,1e308\n2,0,-1e308\n3,0,0\n"), testing::HasSubstr("q.csv:2: the motion in column q2 has no finite derivatives"));
+  EXPECT_THAT(error("0,0,0\n1e-320,1,0\n"), testing::HasSubstr("column q1"));
+  EXPECT_EQ(error("0,0,0\n1,0,1e100\n2,0,-1e100\n3,0,0\n"), "");  // negative control
 }
 
 TEST(Control, WantsAsManyEntriesAsFreedoms) {
