@@ -153,15 +153,14 @@ class CellRuns {
   }
 
   void run_one(Simulation& simulation, StabilityCell& cell) {
-    const Trajectory trajectory = simulate(simulation, stability_times(simulation), stop_);
-    cell.status = trajectory.status;
-    cell.trouble = trajectory.trouble;
     EnergyBalance balance(simulation);
     EnergySeen seen;
-    for (int k = 0; k < trajectory.size(); ++k)
-      seen.add(balance.at(trajectory.q_at(k), trajectory.qd_at(k), trajectory.work[std::size_t(k)]));
-    if (!is_complete(trajectory.status) || trajectory.size() == 0)
-      seen.error = std::numeric_limits<double>::infinity();
+    const Trajectory trajectory =
+        simulate(simulation, {}, stop_,
+                 [&](double, ConstVec q, ConstVec qd, double work) { seen.add(balance.at(q, qd, work)); });
+    cell.status = trajectory.status;
+    cell.trouble = trajectory.trouble;
+    if (!is_complete(trajectory.status)) seen.error = std::numeric_limits<double>::infinity();
     judge(seen, cell.energy_scale, cell);
   }
 
@@ -236,16 +235,6 @@ class CellRuns {
 };
 
 }  // namespace
-
-std::vector<double> stability_times(const Simulation& simulation) {
-  const double duration = simulation.duration, step = simulation.step;
-  const long steps = step > 0 ? std::lround(duration / step) : 0;
-  std::vector<double> times;
-  for (int k = 1; k < kInstants; ++k)
-    times.push_back(step > 0 ? double(steps * k / kInstants) * step : duration * k / kInstants);
-  times.push_back(duration);
-  return times;
-}
 
 StabilityCells run_stability_cells(const std::string& scene, const std::vector<std::string>& overrides,
                                    const Sweep& x, const Sweep& y, int threads, const StopRequest& stop) {

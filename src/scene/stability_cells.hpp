@@ -18,7 +18,7 @@ inline constexpr double kFailedEnergy = 100;
 
 struct StabilityCell {
   RunStatus status = RunStatus::finished;
-  double energy_error = 0;     // J, largest |error| at stability_times; infinite where the run came to no end
+  double energy_error = 0;     // J, largest |error| at the ends of all steps, of 100 in batches; infinite where the run came to no end
   double energy_scale = 0;     // J, of the motion; NaN where the truth came to no end either
   bool failed = false;         // it came to no end, or its energy is lost
   std::optional<bool> stable;  // by theory: of the motion linearised about the start, at the cell's own step
@@ -40,9 +40,6 @@ struct StabilityCells {
 
 // A run takes the scene's duration, and at least kLeastSteps steps of a fixed step: slow growth shows then.
 inline constexpr int kLeastSteps = 1000;
-// Instants at which energies are looked at, equally spaced but for going to the ends of steps, the last one
-// at the end of the run.
-std::vector<double> stability_times(const Simulation& simulation);
 
 // Both sweeps need numbers. On `threads` threads. Throws what reading or preparing a cell's scene throws.
 StabilityCells run_stability_cells(const std::string& scene, const std::vector<std::string>& overrides,
