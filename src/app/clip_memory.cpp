@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 #include "encode/film_tags.hpp"
 #include "encode/gif_comment.hpp"
 #include "encode/png.hpp"
@@ -18,11 +17,7 @@ constexpr const char* kScene = "chainreel_scene";
 constexpr const char* kAudit = "chainreel_audit";
 constexpr const char* kFigure = "chainreel_figure";
 
-std::string read_bytes(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw Error(ExitCode::bad_input, "cannot be read", {path});
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
+constexpr std::uintmax_t kLargestPage = std::uintmax_t(256) << 20;  // bytes of an SVG or PDF
 
 [[noreturn]] void remembers_nothing(const std::string& path) {
   throw Error(ExitCode::bad_input,
@@ -83,7 +78,7 @@ std::string pdf_words(const std::string& pdf, const std::string& path) {
 
 // Scene and audit as one text, in ASCII: for files that hold one text.
 Tags words_of(const std::string& text, const std::string& path) {
-  const Json json = Json::parse(text, nullptr, false);
+  const Json json = parse_json(text);
   if (json.is_object() && json.contains(kFigure)) return {{kFigure, json[kFigure].dump()}};
   if (!json.is_object() || !json.contains(kScene) || !json[kScene].is_string()) remembers_nothing(path);
   return {{kScene, json[kScene].get<std::string>()},
@@ -93,8 +88,8 @@ Tags words_of(const std::string& text, const std::string& path) {
 Tags tags_in(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending == ".png" || ending == ".apng") return read_png_text(path);
-  if (ending == ".svg") return words_of(svg_words(read_bytes(path), path), path);
-  if (ending == ".pdf") return words_of(pdf_words(read_bytes(path), path), path);
+  if (ending == ".svg") return words_of(svg_words(read_plain_file(path, kLargestPage), path), path);
+  if (ending == ".pdf") return words_of(pdf_words(read_plain_file(path, kLargestPage), path), path);
   if (ending == ".mp4" || ending == ".mov" || ending == ".webm") return read_film_tags(path);
   if (ending == ".gif") return read_gif_comment(path);
   throw Error(ExitCode::bad_input, "only .mp4, .mov, .webm, .gif, .png, .apng, .svg and .pdf remember a scene",
@@ -124,21 +119,20 @@ VectorPage ClipMemory::page() const {
 }
 
 ClipMemory recall(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path))
-    throw Error(ExitCode::bad_input, "there is no such file", {path});
+  require_plain_file(path, kLargestInput * 64);  // films are not read as a whole
   const Tags tags = tags_in(path);
   const auto text = [&](const char* name) {
     const auto place = tags.find(name);
     return place == tags.end() ? std::string() : place->second;
   };
   ClipMemory memory{text("title"), text("description"), text(kScene), {}, {}};
-  const Json figure = Json::parse(text(kFigure), nullptr, false);
+  const Json figure = parse_json(text(kFigure));
   if (figure.is_object() && figure.contains("arguments") && figure["arguments"].is_array()) {
     memory.figure = figure;
     return memory;
   }
   if (memory.scene.empty()) remembers_nothing(path);
-  memory.audit = Json::parse(text(kAudit), nullptr, false);
+  memory.audit = parse_json(text(kAudit));
   if (!memory.audit.is_object()) memory.audit = Json::object();
   return memory;
 }

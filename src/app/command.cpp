@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/json.hpp"
+#include "model/pose.hpp"
 #include "scene/quantity.hpp"
 #include "scene/sweep.hpp"
 
@@ -46,7 +47,10 @@ std::pair<std::string, std::string> parse_package(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
     throw Error(ExitCode::usage, "--package takes name=folder, not '" + text + "'");
-  return {text.substr(0, equals), std::filesystem::absolute(text.substr(equals + 1)).string()};
+  std::error_code code;
+  const std::filesystem::path folder = std::filesystem::absolute(text.substr(equals + 1), code);
+  if (code) throw Error(ExitCode::usage, "--package " + text + ": " + code.message());
+  return {text.substr(0, equals), folder.string()};
 }
 
 }  // namespace
@@ -115,7 +119,10 @@ std::vector<double> parse_counted(std::size_t count, const Chain& chain, const s
 
 std::vector<double> parse_pose(const Chain& chain, const std::string& text, const std::string& what) {
   if (text.empty()) return zero_configuration(chain);
-  return parse_counted(std::size_t(chain.nq), chain, text, what);
+  std::vector<double> q = parse_counted(std::size_t(chain.nq), chain, text, what);
+  if (const std::string trouble = trouble_of_pose(chain, q); !trouble.empty())
+    throw Error(ExitCode::usage, what + " " + text + ": " + trouble);
+  return q;
 }
 
 std::vector<std::vector<double>> parse_poses(const Chain& chain, const std::vector<std::string>& texts,

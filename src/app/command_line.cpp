@@ -1,7 +1,9 @@
 #include "app/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <deque>
+#include <sstream>
 
 #include "core/error.hpp"
 
@@ -127,7 +129,12 @@ int CommandLine::run(int argc, char** argv) {
   try {
     parser_->app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return parser_->app.exit(error) == 0 ? int(ExitCode::good) : int(ExitCode::usage);
+    // By way of the C streams, which are guarded; CLI11 would write to those of C++.
+    std::ostringstream out, err;
+    const int status = parser_->app.exit(error, out, err);
+    std::fputs(out.str().c_str(), stdout);
+    std::fputs(err.str().c_str(), stderr);
+    return status == 0 ? int(ExitCode::good) : int(ExitCode::usage);
   }
   return int(ExitCode::good);
 }

@@ -8,7 +8,9 @@
 #include "app/command.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/input_file.hpp"
 #include "core/output_file.hpp"
+#include "model/xml_text.hpp"
 #include "scene/move_scene.hpp"
 
 namespace chainreel {
@@ -25,17 +27,27 @@ struct ExtractOptions {
 
 // The models must be where they were, and what they were, for the same frames to come again.
 void tell_of_models(const Json& audit, const std::string& clip) {
-  if (!audit.contains("model") || !audit.contains("model_sha256")) return;
-  const std::string model = audit["model"].get<std::string>();
-  if (!fs::is_regular_file(model))
+  // What a clip says was maybe not written by this program: everything is looked at before it is taken.
+  const auto word = [&](const char* key) {
+    return audit.is_object() && audit.contains(key) && audit[key].is_string() ? audit[key].get<std::string>() : "";
+  };
+  const std::string model = word("model"), before = word("model_sha256");
+  if (model.empty() || before.empty()) return;
+  std::error_code ignored;
+  if (!fs::is_regular_file(model, ignored)) {
     std::fprintf(
         stderr,
         "%s: there is no model %s here: stand in the folder where the clip was rendered, or correct the "
         "scene's `model:`\n",
         clip.c_str(), model.c_str());
-  else if (sha256_of_file(model) != audit["model_sha256"])
-    std::fprintf(stderr, "%s: the model %s has changed since: frames may differ\n", clip.c_str(),
-                 model.c_str());
+    return;
+  }
+  try {
+    if (fs::file_size(model, ignored) > kLargestXmlFile || sha256_of_file(model) != before)
+      std::fprintf(stderr, "%s: the model %s has changed since: frames may differ\n", clip.c_str(), model.c_str());
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s: whether the model has changed since cannot be said: %s\n", clip.c_str(), error.what());
+  }
 }
 
 // A figure shows no scene, a sheet many: what made it is said instead.
@@ -52,9 +64,10 @@ void tell_of_figure(const ExtractOptions& options, const Json& figure) {
 
 void run_extract(const ExtractOptions& options) {
   const ClipMemory memory = recall(options.clip);
+  note_input(options.clip);
   if (!memory.figure.is_null()) return tell_of_figure(options, memory.figure);
   tell_of_models(memory.audit, options.clip);
-  if (memory.audit.contains("panels"))
+  if (memory.audit.contains("panels") && memory.audit["panels"].is_array())
     for (const Json& panel : memory.audit["panels"]) tell_of_models(panel, options.clip);
   if (!options.output.empty())
     write_text_file(options.output,

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/pipeline.hpp"
+#include "app/sidecar.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -49,6 +50,7 @@ std::vector<std::string> write_figure(const Picture& picture, const std::string&
                                       const FigureOptions& options, const std::string& path,
                                       const Fonts& fonts, bool overwrite) {
   const std::string table = std::filesystem::path(path).replace_extension(".csv").string();
+  if (path != table) require_own_sidecar(table, overwrite);
   write_text_file(table, csv, overwrite);
   if (path == table) return {table};
   write_picture(picture, options.width, options.height, fonts, path, overwrite,

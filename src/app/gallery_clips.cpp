@@ -4,13 +4,12 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "app/clip_memory.hpp"
 #include "app/signals.hpp"
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 
 namespace chainreel {
 namespace {
@@ -41,15 +40,20 @@ bool is_partial(const fs::path& path) {
 void add_films_in(const fs::path& folder, std::vector<std::string>& found) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path& path = entry.path();
-    if (!entry.is_regular_file() || !is_film(path) || is_partial(path)) continue;
-    if (path.extension() == ".webm" && fs::exists(fs::path(path).replace_extension(".mp4"))) continue;
+    if (std::error_code code; !entry.is_regular_file(code) || !is_film(path) || is_partial(path)) continue;
+    std::error_code code;
+    if (path.extension() == ".webm" && fs::exists(fs::path(path).replace_extension(".mp4"), code)) continue;
     found.push_back(path.string());
   }
 }
 
+// Of a file beside a film: "" where there is none, or none that can be read.
 std::string read_text(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  constexpr std::uintmax_t kLargestText = std::uintmax_t(64) << 20;  // bytes
+  std::error_code code;
+  if (!fs::is_regular_file(path, code) || fs::file_size(path, code) > kLargestText) return "";
+  note_input(path.string());
+  return read_plain_file(path.string(), kLargestText);
 }
 
 // The first paragraph of NAME.txt.
@@ -59,7 +63,7 @@ std::string words_beside(const fs::path& film) {
 }
 
 Json audit_beside(const fs::path& film) {
-  Json audit = Json::parse(read_text(fs::path(film).replace_extension(".json")), nullptr, false);
+  Json audit = parse_json(read_text(fs::path(film).replace_extension(".json")));
   return audit.is_object() ? audit : Json();
 }
 
@@ -101,7 +105,8 @@ void add_charts(std::vector<GalleryClip>& clips) {
   for (const fs::path& folder : folders) {
     std::set<fs::path> files;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder))
-      if (kind_of(entry.path().filename().string())) files.insert(entry.path());
+      if (std::error_code code; kind_of(entry.path().filename().string()) && entry.is_regular_file(code))
+        files.insert(entry.path());
     for (const fs::path& file : files) {
       const std::string name = file.filename().string();
       GalleryClip* owner = nullptr;
@@ -120,9 +125,10 @@ std::vector<std::string> find_clips(const std::vector<std::string>& paths) {
   std::vector<std::string> found;
   ProblemList problems;
   for (const std::string& path : paths) {
-    if (fs::is_directory(path))
+    std::error_code code;
+    if (fs::is_directory(path, code))
       add_films_in(path, found);
-    else if (!fs::is_regular_file(path))
+    else if (!fs::is_regular_file(path, code))
       problems.add("there is no such file or folder", {path});
     else if (!is_film(path))
       problems.add("is no film for browsers: a gallery takes .mp4 and .webm", {path});
@@ -147,6 +153,7 @@ std::vector<GalleryClip> read_clips(const std::vector<std::string>& paths) {
     clip.path = path;
     clip.name = fs::path(path).stem().string();
     clip.type = fs::path(path).extension() == ".webm" ? "video/webm" : "video/mp4";
+    note_input(path);
     try {
       clip.start = read_film_start(path, kPosterWidth);
       remember(clip);

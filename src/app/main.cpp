@@ -1,9 +1,11 @@
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include "app/command.hpp"
 #include "app/signals.hpp"
+#include "app/streams.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
 
@@ -16,7 +18,7 @@ int run(int argc, char** argv) {
       program_version(),
       "Exit codes: 0 good, 1 a comparison failed, 2 usage, 3 bad input, 4 no renderer or codec, 5 numerical "
       "failure,\n"
-      "6 file or disk, 7 a limit exceeded, 130 and 143 signals.\n"
+      "6 file or disk, 7 a limit exceeded, 129, 130, 131 and 143 signals.\n"
       "Example: chainreel render assets/scenes/rr_free.yaml");
   add_render_command(app);
   add_snapshot_command(app);
@@ -38,20 +40,32 @@ int run(int argc, char** argv) {
   return app.run(argc, argv);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  chainreel::install_signal_handlers();
+// Whatever went wrong, in words and as an exit code.
+int run_and_tell(int argc, char** argv) {
+  using namespace chainreel;
   try {
     return run(argc, argv);
-  } catch (const chainreel::Error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+  } catch (const Error& error) {
+    print_error(error);
     return int(error.code());
   } catch (const std::bad_alloc&) {
     std::fputs("chainreel: out of memory: take a shorter duration or a smaller picture\n", stderr);
-    return int(chainreel::ExitCode::limit);
+    return int(ExitCode::limit);
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::fprintf(stderr, "%s: %s\n", error.path1().c_str(), error.code().message().c_str());
+    return int(ExitCode::bad_input);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "chainreel: %s\n", error.what());
-    return int(chainreel::ExitCode::file);
+    return int(ExitCode::file);
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  chainreel::guard_streams();
+  chainreel::install_signal_handlers();
+  const int code = run_and_tell(argc, argv);
+  if (chainreel::flush_standard_output() || code != int(chainreel::ExitCode::good)) return code;
+  return int(chainreel::ExitCode::file);
 }

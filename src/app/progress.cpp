@@ -4,6 +4,8 @@
 
 #include <cstdio>
 
+#include "core/printable.hpp"
+
 namespace chainreel {
 namespace {
 
@@ -37,10 +39,14 @@ void Progress::print(int done, Clock::time_point now) {
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const double rate = seconds > 0 ? done / seconds : 0;
   const double left = rate > 0 ? (total_ - done) / rate : 0;
-  std::fprintf(stderr, "%s%-16s %3d %%  %d/%d frames  %.1f frames/s  %.0f s left%s", terminal_ ? "\r" : "",
-               label_.c_str(), total_ > 0 ? int(100.0 * done / total_) : 100, done, total_, rate, left,
-               terminal_ ? "  " : "\n");
+  char numbers[128];
+  std::snprintf(numbers, sizeof numbers, " %3d %%  %d/%d frames  %.1f frames/s  %.0f s left%s",
+                total_ > 0 ? int(100.0 * done / total_) : 100, done, total_, rate, left, terminal_ ? "  " : "\n");
+  // To the file itself: standard error takes no carriage return, which would let a name write over its line.
+  std::string text = terminal_ ? "\r" : "";
+  text += printable(label_) + std::string(label_.size() < 16 ? 16 - label_.size() : 0, ' ') + numbers;
   std::fflush(stderr);
+  if (write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // nobody looks
   printed_ = true;
 }
 

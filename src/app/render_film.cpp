@@ -3,16 +3,19 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <set>
 
 #include "app/alt_text.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
+#include "app/sidecar.hpp"
 #include "app/signals.hpp"
 #include "app/trajectory_csv.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/hash.hpp"
 #include "core/output_file.hpp"
 #include "core/output_folder.hpp"
 #include "encode/png.hpp"
@@ -59,6 +62,7 @@ std::vector<Output> open_outputs(const RenderJob& job, std::size_t panels) {
   std::vector<Output> outputs;
   for (const Target& target : job.targets) {
     Output output{target, {}, {}, {}};
+    if (target.is_implied) require_own_sidecar(target.path, job.overwrite);
     if (target.kind == TargetKind::sequence) {
       const SequencePlace place = place_of_sequence(target.path);
       output.folder = std::make_unique<OutputFolder>(place.folder, place.stem, ".png", job.overwrite);
@@ -236,6 +240,7 @@ std::vector<Sidecar> open_sidecars(const RenderJob& job, const PreparedFilm& fil
     if (has_clips && !is_clip(target.kind)) continue;
     const std::string base = base_of(target);
     const auto open = [&](const char* ending, auto what) {
+      require_own_sidecar(base + ending, job.overwrite);
       sidecars.push_back({std::make_unique<OutputFile>(base + ending, job.overwrite), what, target});
     };
     if (target.kind == TargetKind::sequence) open(".tex", Sidecar::animate);
@@ -249,16 +254,36 @@ std::vector<Sidecar> open_sidecars(const RenderJob& job, const PreparedFilm& fil
 
 std::string sidecar_text(const Sidecar& sidecar, const PreparedFilm& film, const RenderResult& result) {
   switch (sidecar.what) {
-    case Sidecar::audit:
-      return result.audit.dump(2) + "\n";
     case Sidecar::words:
       return alt_text(film, result.audit);
     case Sidecar::captions:
       return captions(film, result.clock, result.audit);
+    case Sidecar::audit:
     case Sidecar::animate:
       break;
   }
   return animate_snippet(sidecar.target, result.frames, film.scene.video.fps);
+}
+
+// Texts first: each audit tells of those beside it.
+void write_sidecars(std::vector<Sidecar>& sidecars, const PreparedFilm& film, RenderResult& result) {
+  std::map<fs::path, Json> hashes;  // by NAME.json
+  for (Sidecar& sidecar : sidecars) {
+    if (sidecar.what == Sidecar::audit) continue;
+    const std::string text = sidecar_text(sidecar, film, result);
+    if (text.empty()) continue;  // no event came
+    write_whole(*sidecar.file, text);
+    const fs::path path(sidecar.file->path());
+    hashes[fs::path(path).replace_extension(".json")][path.extension().string()] = sha256_of(text);
+  }
+  for (Sidecar& sidecar : sidecars) {
+    if (sidecar.what != Sidecar::audit) continue;
+    Json audit = result.audit;
+    audit[kSidecarHashes] = hashes[sidecar.file->path()];
+    write_whole(*sidecar.file, audit.dump(2) + "\n");
+  }
+  for (const Sidecar& sidecar : sidecars)
+    if (sidecar.file->is_done()) result.sidecars.push_back(sidecar.file->path());
 }
 
 void commit(std::vector<Output>& outputs, RenderResult& result) {
@@ -342,12 +367,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
     tell_of_missing_events(film, runs.front());
   }
   commit(outputs, result);
-  for (Sidecar& sidecar : sidecars) {
-    const std::string text = sidecar_text(sidecar, film, result);
-    if (text.empty()) continue;  // no event came
-    write_whole(*sidecar.file, text);
-    result.sidecars.push_back(sidecar.file->path());
-  }
+  write_sidecars(sidecars, film, result);
   return result;
 }
 

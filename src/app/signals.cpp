@@ -1,9 +1,11 @@
 #include "app/signals.hpp"
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <ctime>
+#include <string>
 
 #include "core/error.hpp"
 
@@ -12,6 +14,16 @@ namespace {
 
 // Who sends a signal to a program and then to its group (timeout, a shell) means one.
 constexpr double kOneAndTheSame = 0.5;  // s
+
+struct Ending {
+  int signal;
+  const char* word;
+  bool may_be_ignored;
+};
+constexpr std::array<Ending, 4> kEndings = {{{SIGINT, "interrupted", false},
+                                             {SIGTERM, "terminated", false},
+                                             {SIGHUP, "the terminal was closed", true},
+                                             {SIGQUIT, "told to quit", true}}};
 
 std::atomic<int> received = 0;
 std::atomic<double> first_time = 0;  // s, of the monotonic clock
@@ -42,10 +54,15 @@ void install_signal_handlers() {
   struct sigaction action = {};
   action.sa_handler = remember;
   sigemptyset(&action.sa_mask);
-  sigaddset(&action.sa_mask, SIGINT);  // neither interrupts the handler of the other
-  sigaddset(&action.sa_mask, SIGTERM);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  for (const Ending& ending : kEndings) sigaddset(&action.sa_mask, ending.signal);  // none interrupts another's handler
+  for (const Ending& ending : kEndings) {
+    // Who started the program with one of them ignored (nohup) wants it to go on.
+    struct sigaction before = {};
+    if (ending.may_be_ignored && sigaction(ending.signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
+    sigaction(ending.signal, &action, nullptr);
+  }
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interrupted() {
@@ -53,8 +70,10 @@ bool interrupted() {
 }
 
 void throw_if_interrupted() {
-  if (received == SIGINT) throw Error(ExitCode::interrupted, "interrupted: nothing half-written was kept");
-  if (received == SIGTERM) throw Error(ExitCode::terminated, "terminated: nothing half-written was kept");
+  const int signal = received;
+  for (const Ending& ending : kEndings)
+    if (ending.signal == signal)
+      throw Error(ExitCode(128 + signal), std::string(ending.word) + ": nothing half-written was kept");
 }
 
 }  // namespace chainreel

@@ -39,7 +39,8 @@ std::vector<std::string> files_of_preset(const std::string& preset, const std::s
 }
 
 bool names_folder(const std::string& output) {
-  return output.ends_with('/') || fs::is_directory(output) || fs::path(output).extension().empty();
+  std::error_code ignored;
+  return output.ends_with('/') || fs::is_directory(output, ignored) || fs::path(output).extension().empty();
 }
 
 void require_possible(const Target& target, const Scene& scene) {
@@ -76,9 +77,9 @@ bool is_still(TargetKind kind) {
 Target target_of(const std::string& path) {
   const fs::path file(path);
   if (file.extension() == ".png" && file.stem().string().ends_with(kFirstOfSequence))
-    return {TargetKind::sequence, path};
+    return {TargetKind::sequence, path, false};
   for (const EndingRow& row : kEndings)
-    if (file.extension() == row.ending) return {row.kind, path};
+    if (file.extension() == row.ending) return {row.kind, path, false};
   std::string endings;
   for (const EndingRow& row : kEndings) endings += std::string(endings.empty() ? "" : ", ") + row.ending;
   throw Error(ExitCode::usage, "-o " + path + ": no output has that ending; there are " + endings +
@@ -114,6 +115,7 @@ std::vector<Target> targets_of(const std::vector<std::string>& outputs, std::siz
   std::vector<Target> targets;
   for (const std::string& path : paths) {
     targets.push_back(target_of(path));
+    targets.back().is_implied = paths != outputs && targets.back().kind != TargetKind::sequence;
     require_possible(targets.back(), scene);
   }
   std::map<std::string, int> seen;

@@ -13,6 +13,7 @@ enum class TargetKind { mp4, webm, mov, gif, apng, sequence, png, svg, pdf, csv 
 struct Target {
   TargetKind kind = TargetKind::mp4;
   std::string path;  // of a sequence, its first picture: FOLDER/NAME_000000.png
+  bool is_implied = false;  // no -o names the file itself
 };
 
 // Shows motion: a film, a small clip or a sequence of pictures.

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/input_file.hpp"
 
 namespace chainreel {
 namespace {
@@ -41,6 +42,7 @@ Table read_csv(const std::string& path) {
     throw Error(ExitCode::bad_input, "there is no such file", {path});
   if (std::filesystem::file_size(path, code) > kLargestFile)
     throw Error(ExitCode::limit, "is larger than 256 MiB", {path});
+  note_input(path);
   std::ifstream stream(path, std::ios::binary);
   Table table{path, {}, {}, {}};
   int number = 0;

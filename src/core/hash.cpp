@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 
 namespace chainreel {
 
@@ -50,7 +51,14 @@ std::string Sha256::finish() {
   return text;
 }
 
+std::string sha256_of(std::string_view text) {
+  Sha256 hash;
+  hash.add(std::as_bytes(std::span(text.data(), text.size())));
+  return hash.finish();
+}
+
 std::string sha256_of_file(const std::string& path) {
+  require_plain_file(path);
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw Error(ExitCode::bad_input, "cannot be read", {path});
   Sha256 hash;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace chainreel {
 
@@ -24,7 +25,9 @@ class Sha256 {
   std::unique_ptr<State> state_;
 };
 
-// Of a file's bytes. Throws Error (exit 3) where it cannot be read.
+std::string sha256_of(std::string_view text);
+
+// Of a plain file's bytes. Throws Error (exit 3) where it cannot be read, (exit 7) where it is larger than any input.
 std::string sha256_of_file(const std::string& path);
 
 }  // namespace chainreel

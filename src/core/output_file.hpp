@@ -2,32 +2,43 @@
 // and renamed when it is complete.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
+
+#include "core/temporary_file.hpp"
 
 namespace chainreel {
 
 class OutputFile {
  public:
-  // Makes the folders that are missing. Throws Error (exit 6) where the folder cannot be written, or where
-  // `path` exists, `overwrite` is false and the file does not lie below a folder named `out`.
+  // Makes the folders that are missing; a link to a file stands for that file. Throws Error (exit 6) where the folder
+  // cannot be written, where `path` is a folder, device, pipe or socket, where it is an input of this run, and where it
+  // exists, `overwrite` is false and the file does not lie below a folder named `out`.
   explicit OutputFile(std::string path, bool overwrite);
-  ~OutputFile();  // removes the temporary file unless committed
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   const std::string& path() const { return path_; }
-  const std::string& temporary_path() const { return temporary_path_; }  // write here, then commit()
-  void commit();                                                         // throws Error (exit 6)
+  bool is_done() const { return temporary_->path().empty(); }
+  const std::string& temporary_path() const { return temporary_->path(); }  // write here, then commit()
+  // Done when the disk has it. Throws Error (exit 6), also where a file has come to `path` since that may not be
+  // replaced.
+  void commit();
   void keep_as_partial();  // a run that failed: keep what there is as `path` with .partial before its ending
 
  private:
-  void rename_to(const std::string& target);
+  void rename_to(const std::string& target, bool replace);
 
-  std::string path_;
-  std::string temporary_path_;
-  bool done_ = false;
+  std::string path_;    // as named
+  std::string target_;  // what it stands for, behind links
+  bool replace_;        // a file may stand there
+  std::unique_ptr<TemporaryFile> temporary_;  // removed with this, unless renamed
 };
+
+// Throws Error (exit 6) where `path` cannot be replaced whatever the user says: it is no plain file, or an input of this
+// run.
+void require_replaceable(const std::string& path);
 
 // Writes the whole text to the temporary file. Throws Error (exit 6) where the disk does not take it all.
 void write_temporary(const OutputFile& output, std::string_view text);

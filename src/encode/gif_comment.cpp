@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
-#include <iterator>
 
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 #include "core/json.hpp"
 
 namespace chainreel {
@@ -14,12 +14,6 @@ namespace {
 constexpr char kExtension = 0x21, kComment = char(0xFE), kImage = 0x2C, kTrailer = 0x3B;
 constexpr std::size_t kBlock = 255;                 // bytes of a data sub-block, at most
 constexpr std::size_t kHead = 13, kImageHead = 10;  // with the logical screen; from the separator on
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw Error(ExitCode::bad_input, "cannot be read", {path});
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 // Of a table whose presence and size the packed byte of its head tells.
 std::size_t color_table(char packed) {
@@ -41,7 +35,7 @@ std::string sub_blocks(const std::string& gif, std::size_t& at) {
 
 Tags tags_of(const std::string& text) {
   Tags tags;
-  const Json json = Json::parse(text, nullptr, false);
+  const Json json = parse_json(text);
   if (!json.is_object()) return tags;
   for (const auto& [keyword, value] : json.items())
     if (value.is_string()) tags[keyword] = value.get<std::string>();
@@ -61,7 +55,7 @@ void put_gif_comment(const std::string& path, const Tags& tags) {
     block += char(part.size()) + part;
   }
   block += '\0';
-  std::string gif = bytes_of(path);
+  std::string gif = read_plain_file(path);
   if (gif.size() <= kHead || gif.back() != kTrailer)
     throw Error(ExitCode::file, "could not be read again to put its comment in", {path});
   gif.insert(gif.size() - 1, block);
@@ -72,7 +66,7 @@ void put_gif_comment(const std::string& path, const Tags& tags) {
 }
 
 Tags read_gif_comment(const std::string& path) {
-  const std::string gif = bytes_of(path);
+  const std::string gif = read_plain_file(path);
   if (gif.size() < kHead || !gif.starts_with("GIF8")) throw Error(ExitCode::bad_input, "is no GIF", {path});
   std::size_t at = kHead + color_table(gif[10]);
   while (at + 1 < gif.size()) {

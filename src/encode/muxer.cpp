@@ -43,8 +43,8 @@ void Muxer::open_file(const Container& container, const Tags& tags) {
   // By this tag WebM's players find the opacity beside the pictures.
   if (encoder_->pix_fmt == AV_PIX_FMT_YUVA420P) av_dict_set(&stream_->metadata, "alpha_mode", "1", 0);
   for (const auto& [key, value] : tags) av_dict_set(&raw->metadata, key.c_str(), value.c_str(), 0);
-  check_libav(avio_open(&raw->pb, url.c_str(), AVIO_FLAG_WRITE), ExitCode::file,
-              "the film cannot be written here; choose another place with -o", path_);
+  file_ = std::make_unique<FilmFile>(path_);
+  file_->attach(*raw);
 
   AVDictionary* options = nullptr;
   if (container.keeps_ticks) {
@@ -64,6 +64,7 @@ void Muxer::open_file(const Container& container, const Tags& tags) {
 Muxer::~Muxer() {
   if (finished_) return;
   format_.reset();
+  file_.reset();
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path_, ignored)) std::filesystem::remove(path_, ignored);
 }
@@ -98,9 +99,8 @@ void Muxer::finish() {
   avio_flush(format_->pb);
   check_file(format_->pb->error);  // before the index is moved to the front of data that is not there
   check_file(av_write_trailer(format_.get()));
-  avio_flush(format_->pb);
-  check_file(format_->pb->error);
-  check_file(avio_closep(&format_->pb));
+  format_.reset();
+  check_file(file_->close());
   finished_ = true;
 }
 

@@ -4,16 +4,14 @@
 #include <cstdint>
 #include <string>
 
+#include "encode/film_file.hpp"
 #include "encode/frame_sink.hpp"
 #include "encode/libav.hpp"
 
 namespace chainreel {
 
 struct CloseFormat {
-  void operator()(AVFormatContext* format) const {
-    if (format->pb != nullptr) avio_closep(&format->pb);
-    avformat_free_context(format);
-  }
+  void operator()(AVFormatContext* format) const { avformat_free_context(format); }
 };
 using FormatPtr = std::unique_ptr<AVFormatContext, CloseFormat>;
 
@@ -49,6 +47,7 @@ class Muxer {
 
   std::string path_;
   CodecContextPtr encoder_;
+  std::unique_ptr<FilmFile> file_;  // outlives the format that writes there
   FormatPtr format_;
   PacketPtr packet_;
   AVStream* stream_ = nullptr;

@@ -16,6 +16,7 @@
 #include <jpeglib.h>
 // clang-format on
 
+#include "core/input_file.hpp"
 #include "mesh/limited_child.hpp"
 
 namespace chainreel {
@@ -132,6 +133,7 @@ std::optional<std::array<std::uint8_t, 3>> mean_color(const std::string& path) {
 }
 
 std::optional<std::array<std::uint8_t, 3>> read_mean_color(const std::string& path) {
+  note_input(path);
   const ChildResult result = run_in_limited_child([&] {
     const auto mean = mean_color(path);
     return mean ? std::string(mean->begin(), mean->end()) : std::string();

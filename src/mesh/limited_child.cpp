@@ -70,7 +70,7 @@ std::string read_all(int file, std::size_t limit) {
 [[noreturn]] void be_the_child(const std::function<std::string()>& work, const ChildLimits& limits,
                                int reply) {
   // The parent's handlers tidy up files that are the parent's.
-  for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGPIPE, SIGXCPU, SIGALRM})
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV, SIGABRT, SIGPIPE, SIGXCPU, SIGXFSZ, SIGALRM})
     signal(number, SIG_DFL);
   apply(limits);
   alarm(unsigned(limits.seconds));

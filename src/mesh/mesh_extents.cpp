@@ -26,7 +26,7 @@ Box extents_of(const aiScene& scene) {
 
 MeshReply import_extents(const std::string& path) {
   Assimp::Importer importer;
-  prepare(importer);
+  prepare(importer, path);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene == nullptr || scene->mRootNode == nullptr)

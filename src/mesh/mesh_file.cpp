@@ -4,11 +4,13 @@
 #include <assimp/importerdesc.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 #include "mesh/mesh_extents.hpp"
 
 namespace chainreel {
@@ -23,16 +25,30 @@ std::string lower_case_ending(const std::string& path) {
 }
 
 // A mesh may name further files; opening a pipe or a terminal, as assimp does also to see whether it is
-// there, would wait for ever.
-class PlainFiles : public Assimp::DefaultIOSystem {
+// there, would wait for ever. Links count as what they lead to.
+class PlainFilesBeside : public Assimp::DefaultIOSystem {
  public:
+  explicit PlainFilesBeside(const std::string& mesh) : mesh_(mesh) {
+    std::error_code code;
+    folders_ = {fs::canonical(mesh, code).parent_path(), fs::weakly_canonical(fs::absolute(mesh, code).parent_path(), code)};
+  }
   bool Exists(const char* path) const override {
     std::error_code code;
-    return fs::is_regular_file(path, code);
+    return fs::is_regular_file(path, code) && (path == mesh_ || lies_beside(fs::canonical(path, code)));
   }
   Assimp::IOStream* Open(const char* path, const char* mode) override {
     return Exists(path) ? DefaultIOSystem::Open(path, mode) : nullptr;
   }
+
+ private:
+  bool lies_beside(const fs::path& path) const {
+    return std::any_of(folders_.begin(), folders_.end(), [&](const fs::path& folder) {
+      return !folder.empty() && std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+    });
+  }
+
+  std::string mesh_;
+  std::array<fs::path, 2> folders_;  // of the file itself, and of the link to it
 };
 
 void check_file(const std::string& path) {
@@ -50,6 +66,7 @@ void check_file(const std::string& path) {
         "is larger than " + std::to_string(kLargestMeshFile >> 20) + " MiB: reduce the number of triangles",
         {path});
   }
+  note_input(path);
 }
 
 }  // namespace
@@ -80,14 +97,14 @@ std::string read_mesh_file(const std::string& path, const std::function<MeshRepl
               result.reply.size() < 2 ? "cannot be read as a mesh" : result.reply.substr(1), {path});
 }
 
-void prepare(Assimp::Importer& importer) {
+void prepare(Assimp::Importer& importer, const std::string& path) {
   // Of the 48 readers only three are needed, and every other one is a way in for a hostile file.
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     const std::string endings = importer.GetImporterInfo(i)->mFileExtensions;
     const bool is_wanted = endings == "stl" || endings == "obj" || endings.starts_with("dae");
     if (!is_wanted) importer.UnregisterLoader(importer.GetImporter(i));
   }
-  importer.SetIOHandler(new PlainFiles);  // the importer's own from now on
+  importer.SetIOHandler(new PlainFilesBeside(path));  // the importer's own from now on
 }
 
 // A stack of nodes, since files may nest them deeply.

@@ -30,8 +30,9 @@ bool is_stl(const std::string& path);
 
 // For the child. ------------------------------------------------------------------------------------------
 
-// Only STL, OBJ and DAE, out of files that lie in folders: no device, no pipe.
-void prepare(Assimp::Importer& importer);
+// Only STL, OBJ and DAE, and of the files that the mesh at `path` names only those beside it and below: no device, no
+// pipe, nothing of which its reader's complaints would tell.
+void prepare(Assimp::Importer& importer, const std::string& path);
 
 struct PlacedMesh {
   const aiMesh* mesh = nullptr;

@@ -83,7 +83,7 @@ void turn_y_to_z(std::vector<PlacedMesh>& placed) {
 
 MeshReply import_triangles(const std::string& path, MeshUp up) {
   Assimp::Importer importer;
-  prepare(importer);
+  prepare(importer, path);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, up == MeshUp::rviz);
   // The normals of an STL belong to faces and are often zero or stale.
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS);

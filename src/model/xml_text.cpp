@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 
 namespace chainreel {
 namespace fs = std::filesystem;
@@ -124,6 +125,7 @@ std::string read_xml_text(const std::string& path) {
         {path});
   }
 
+  note_input(path);
   std::ifstream stream(path, std::ios::binary);
   std::string text(size, '\0');
   stream.read(text.data(), std::streamsize(size));

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <mutex>
 #include <span>
@@ -94,13 +96,16 @@ struct Fonts::State {
   void open(std::size_t which, const std::vector<std::string>& folders) {
     Entry& e = faces[which];
     e.file = find_font_file(kFaceFiles[which], folders);
+    errno = 0;
     e.blob = hb_blob_create_from_file(e.file.c_str());
     unsigned length = 0;
     const char* data = hb_blob_get_data(e.blob, &length);
     if (length == 0 || FT_New_Memory_Face(library, reinterpret_cast<const FT_Byte*>(data), FT_Long(length), 0,
                                           &e.ft_face) != 0)
       throw Error(ExitCode::no_renderer, "font file " + e.file +
-                                             " cannot be read; reinstall the Debian package " +
+                                             " cannot be read" +
+                                             (errno != 0 ? std::string(": ") + std::strerror(errno) : "") +
+                                             "; if it is broken, reinstall the Debian package " +
                                              kFaceFiles[which].package);
 
     hb_face_t* hb_face = hb_face_create(e.blob, 0);

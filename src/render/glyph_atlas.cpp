@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 
 #include "core/error.hpp"
 
@@ -27,8 +29,12 @@ struct GlyphAtlas::Rasteriser {
 
   const FT_Bitmap& draw(Face face, std::uint32_t index, int size, int step, AtlasGlyph& glyph) {
     FT_Face& ft_face = faces[std::size_t(face)];
-    bool good = ft_face != nullptr || FT_New_Face(library, fonts.file(face).c_str(), 0, &ft_face) == 0;
-    if (good && sizes[std::size_t(face)] != size) good = FT_Set_Char_Size(ft_face, 0, size, 72, 72) == 0;
+    errno = 0;
+    if (ft_face == nullptr && FT_New_Face(library, fonts.file(face).c_str(), 0, &ft_face) != 0)
+      throw Error(ExitCode::no_renderer, "font file " + fonts.file(face) + " cannot be opened" +
+                                             (errno != 0 ? std::string(": ") + std::strerror(errno) : ""));
+    bool good = true;
+    if (sizes[std::size_t(face)] != size) good = FT_Set_Char_Size(ft_face, 0, size, 72, 72) == 0;
     sizes[std::size_t(face)] = size;
     good = good && FT_Load_Glyph(ft_face, index, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) == 0;
     if (good) FT_Outline_Translate(&ft_face->glyph->outline, step * 64 / kSteps, 0);

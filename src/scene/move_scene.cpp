@@ -66,7 +66,9 @@ std::string moved_scene_text(const std::string& text, const std::string& to) {
   for (auto one = found.rbegin(); one != found.rend(); ++one) {
     const auto& [at, scalar] = *one;
     // Absolute first: of a folder that is not there yet, a relative path stays as it is.
-    const std::string path = fs::proximate(fs::absolute(scalar.value), fs::absolute(folder)).string();
+    std::error_code code;  // names too long, loops of links: such a path stays as it is
+    std::string path = fs::proximate(fs::absolute(scalar.value, code), fs::absolute(folder, code), code).string();
+    if (code) path = scalar.value;
     moved.replace(at, length_of(moved, at, scalar), Json(path).dump());  // a JSON text is YAML too
   }
   return moved;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "expr/expression.hpp"
+#include "model/pose.hpp"
 #include "model/read_chain.hpp"
 #include "scene/prepare_constraints.hpp"
 #include "scene/prepare_tables.hpp"
@@ -161,6 +162,8 @@ Simulation prepare(Scene& scene, bool meshes) {
   const NamedFrames frames = find_frames(scene, chain, problems);
   check_parameters(scene, chain, frames, problems);
   problems.throw_if_any();
+  if (const std::string trouble = trouble_of_pose(chain, scene.start.q); !trouble.empty())
+    throw Error(ExitCode::bad_input, "start.q: " + trouble, scene.place_of("start.q"));
 
   simulation.q0 = scene.start.q;
   simulation.qd0 = scene.start.qd;

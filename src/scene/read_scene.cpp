@@ -40,7 +40,8 @@ void read_model(Fields& fields, Scene& scene) {
     return;
   }
   scene.model = beside(scene.file, scene.model);
-  require(fields, "model", std::filesystem::is_regular_file(scene.model),
+  std::error_code ignored;
+  require(fields, "model", std::filesystem::is_regular_file(scene.model, ignored),
           "there is no model file " + scene.model + ": paths are relative to the scene file");
 }
 

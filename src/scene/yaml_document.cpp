@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/format.hpp"
+#include "core/input_file.hpp"
 
 namespace chainreel {
 namespace {
@@ -67,6 +68,7 @@ std::string read_text(const std::string& path) {
   if (!fs::is_regular_file(path, code)) throw Error(ExitCode::bad_input, "is not a file", {path});
   if (fs::file_size(path, code) > kLargestFile)
     throw Error(ExitCode::limit, "is larger than 1 MiB: a scene is some 25 lines", {path});
+  note_input(path);
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();

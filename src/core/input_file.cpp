@@ -1,0 +1,70 @@
+#include "core/input_file.hpp"
+
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace chainreel {
+namespace {
+
+using FileId = std::pair<dev_t, ino_t>;
+
+struct Inputs {
+  std::mutex mutex;
+  std::map<FileId, std::string> names;
+};
+
+Inputs& inputs() {
+  static Inputs all;
+  return all;
+}
+
+}  // namespace
+
+void require_plain_file(const std::string& path, std::uintmax_t largest) {
+  struct stat facts = {};
+  if (stat(path.c_str(), &facts) != 0) {
+    const bool missing = errno == ENOENT || errno == ENOTDIR;
+    throw Error(ExitCode::bad_input,
+                missing ? "there is no such file" : std::string("cannot be read: ") + std::strerror(errno), {path});
+  }
+  if (!S_ISREG(facts.st_mode)) throw Error(ExitCode::bad_input, "is not a file", {path});
+  if (std::uintmax_t(facts.st_size) > largest)
+    throw Error(ExitCode::limit, "is larger than " + std::to_string(largest >> 20) + " MiB", {path});
+}
+
+std::string read_plain_file(const std::string& path, std::uintmax_t largest) {
+  require_plain_file(path, largest);
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  std::string bytes;
+  if (stream) bytes.assign(std::istreambuf_iterator<char>(stream), {});
+  if (!stream || stream.bad())
+    throw Error(ExitCode::bad_input,
+                std::string("cannot be read") + (errno != 0 ? std::string(": ") + std::strerror(errno) : ""), {path});
+  return bytes;
+}
+
+void note_input(const std::string& path) {
+  struct stat facts = {};
+  if (stat(path.c_str(), &facts) != 0) return;
+  const std::lock_guard lock(inputs().mutex);
+  inputs().names.emplace(FileId{facts.st_dev, facts.st_ino}, path);
+}
+
+std::string noted_input(const std::string& path) {
+  struct stat facts = {};
+  if (stat(path.c_str(), &facts) != 0) return "";
+  const std::lock_guard lock(inputs().mutex);
+  const auto found = inputs().names.find({facts.st_dev, facts.st_ino});
+  return found == inputs().names.end() ? "" : found->second;
+}
+
+}  // namespace chainreel
