@@ -56,7 +56,7 @@ void note_input(const std::string& path) {
   struct stat facts = {};
   if (stat(path.c_str(), &facts) != 0) return;
   const std::lock_guard lock(inputs().mutex);
-  inputs().names.emplace(FileId{facts.st_dev, facts.st_ino}, path);
+  inputs().names[{facts.st_dev, facts.st_ino}] = path;
 }
 
 std::string noted_input(const std::string& path) {
@@ -64,7 +64,11 @@ std::string noted_input(const std::string& path) {
   if (stat(path.c_str(), &facts) != 0) return "";
   const std::lock_guard lock(inputs().mutex);
   const auto found = inputs().names.find({facts.st_dev, facts.st_ino});
-  return found == inputs().names.end() ? "" : found->second;
+  if (found == inputs().names.end()) return "";
+  // Of an input that is gone, another file may have the number.
+  struct stat input = {};
+  const bool is_there = stat(found->second.c_str(), &input) == 0;
+  return is_there && input.st_dev == facts.st_dev && input.st_ino == facts.st_ino ? found->second : "";
 }
 
 }  // namespace chainreel

@@ -1,7 +1,11 @@
 #include "core/output_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -115,6 +119,73 @@ TEST_F(OutputFiles, ThatTheDiskDoesNotTakeAreReportedAndRemoved) {
     EXPECT_THROW(write_whole(file, std::string(100000, 'x')), Error);
   }
   EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(OutputFiles, ReplaceNoDevicePipeOrSocket) {
+  ASSERT_EQ(mkfifo(path("pipe.mp4").c_str(), 0600), 0);
+  fs::create_symlink("/dev/full", path("device.csv"));
+  fs::create_symlink("loop.csv", path("loop.csv"));
+  for (const std::string& name : {path("pipe.mp4"), path("device.csv"), path("loop.csv"), std::string("/dev/null")}) {
+    EXPECT_EQ(code_of(name, true), ExitCode::file) << name;
+    std::error_code code;
+    EXPECT_FALSE(fs::is_regular_file(name, code)) << name;
+  }
+  // One that comes while the output is written is kept, too.
+  OutputFile file(path("late.csv"), true);
+  ASSERT_EQ(mkfifo(path("late.csv").c_str(), 0600), 0);
+  EXPECT_THROW(write_whole(file, "text"), Error);
+  EXPECT_TRUE(fs::is_fifo(path("late.csv")));
+}
+
+TEST_F(OutputFiles, GoToWhereALinkLeads) {
+  fs::create_directories(path("disk"));
+  write(path("disk/film.csv"), "old");
+  fs::create_symlink("disk/film.csv", path("film.csv"));
+  write_text_file(path("film.csv"), "new", true);
+  EXPECT_TRUE(fs::is_symlink(path("film.csv")));
+  EXPECT_EQ(read_whole_file(path("disk/film.csv")), "new");
+}
+
+TEST_F(OutputFiles, KeepWhatCameToTheirNameMeanwhile) {
+  OutputFile file(path("film.csv"), false);
+  write(path("film.csv"), "another run's");
+  EXPECT_THROW(write_whole(file, "text"), Error);
+  EXPECT_EQ(read_whole_file(path("film.csv")), "another run's");
+}
+
+TEST_F(OutputFiles, AreNotWrittenThroughWhatTookTheirTemporaryPlace) {
+  write(path("victim"), "precious");
+  OutputFile file(path("film.csv"), false);
+  fs::remove(file.temporary_path());
+  fs::create_symlink("victim", file.temporary_path());
+  EXPECT_THROW(file.commit(), Error);
+  EXPECT_FALSE(fs::exists(path("film.csv")));
+}
+
+// A child that dies without tidying up holds no lock any more; this process does.
+TEST_F(OutputFiles, OfKilledRunsAreTidiedUpByTheNextAndThoseOfLivingOnesStay) {
+  const TemporaryFile mine(TemporaryFile::Kind::coming_file, folder_.path().string(), ".csv", path("a.csv"));
+  write(path(".chainreel-notes.txt"), "the user's");
+  const pid_t child = fork();
+  if (child == 0) {
+    const OutputFile dead(path("b.csv"), false);
+    new TemporaryFile(TemporaryFile::Kind::coming_folder, folder_.path().string(), "", "c");
+    const TemporaryFile former(TemporaryFile::Kind::former_folder, folder_.path().string(), "", "d");
+    write(former.path() + "/d_000000.png", "old");
+    raise(SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(files(), 5u);
+  remove_leftovers(folder_.path().string());
+  EXPECT_TRUE(fs::exists(mine.path()));
+  EXPECT_EQ(read_whole_file(path("d_000000.png")), "old");
+  EXPECT_EQ(files(), 3u);  // mine, the user's, and what came back
+}
+
+TEST_F(OutputFiles, AreToldByTheirFinalNames) {
+  const OutputFile file(path("film.mp4"), false);
+  EXPECT_EQ(with_final_names(file.temporary_path() + ": full"), path("film.mp4") + ": full");
 }
 
 }  // namespace

@@ -47,5 +47,19 @@ TEST(OutputFolder, LeavesNothingWithoutACommitAndOverwritesNothingUnasked) {
   EXPECT_THROW(OutputFolder("/proc/nothing", "a_", ".png", false), Error);
 }
 
+// A name that a folder took meanwhile stands in the way of the fifth of twelve.
+TEST(OutputFolder, LeavesAllOldFilesWhereOneNewOneCannotCome) {
+  const TemporaryFolder folder;
+  const auto name = [](int i) { return "a_" + std::string(i < 10 ? "00000" : "0000") + std::to_string(i) + ".png"; };
+  for (int i = 0; i < 12; ++i)
+    if (i != 4) folder.write("x/" + name(i), "old");
+  OutputFolder output(folder.file("x"), "a_", ".png", true);
+  for (int i = 0; i < 12; ++i) put(output.temporary_folder(), name(i));
+  folder.write("x/" + name(4) + "/file", "in the way");
+  EXPECT_THROW(output.commit(), Error);
+  for (int i = 0; i < 12; ++i)
+    EXPECT_EQ(read_whole_file(folder.file("x/" + name(i) + (i == 4 ? "/file" : ""))), i == 4 ? "in the way" : "old");
+}
+
 }  // namespace
 }  // namespace chainreel

@@ -89,7 +89,7 @@ std::string nasty_number(Dice& dice) {
 }
 
 std::string mutated(std::string text, Dice& dice, std::span<const std::string> dictionary) {
-  for (std::size_t changes = 1 + dice.below(6); changes > 0; --changes) {
+  for (std::size_t changes = 1 + dice.below(1 + dice.below(6)); changes > 0; --changes) {
     if (text.empty()) text = " ";
     change(text, dice, dictionary);
     if (text.size() > kLongest) text.resize(kLongest);
