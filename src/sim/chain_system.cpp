@@ -39,8 +39,7 @@ void ChainSystem::evaluate_torque(double t, ConstVec q, ConstVec qd) {
 void ChainSystem::evaluate_law(double t, ConstVec q, ConstVec qd) {
   const bool presses = constrained_ && constrained_->presses();
   torque_is_known_ = torque_->is_constant() && !presses;
-  torque_->evaluate(*chain_, ws_, t, q, qd, tau_);
-  if (presses) constrained_->press(ws_, q, qd, tau_);
+  evaluate_uncut(t, q, qd);
   limits_.check_effort(t, tau_, limit_ == LimitPolicy::clamp);
   if (bad_torque_ >= 0) return;
   for (std::size_t i = 0; i < tau_.size(); ++i) {
@@ -49,6 +48,18 @@ void ChainSystem::evaluate_law(double t, ConstVec q, ConstVec qd) {
       return;
     }
   }
+}
+
+void ChainSystem::evaluate_uncut(double t, ConstVec q, ConstVec qd) {
+  torque_->evaluate(*chain_, ws_, t, q, qd, tau_);
+  if (constrained_ && constrained_->presses()) constrained_->press(ws_, q, qd, tau_);
+}
+
+ConstVec ChainSystem::uncut_torque(double t, ConstVec q, ConstVec qd) {
+  if (!held_.empty()) find_holding_sides(t, q, qd);
+  torque_is_known_ = false;
+  evaluate_uncut(t, q, qd);
+  return tau_;
 }
 
 ConstVec ChainSystem::torque(double t, ConstVec q, ConstVec qd) {

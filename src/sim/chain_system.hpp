@@ -35,6 +35,7 @@ class ChainSystem final : public SecondOrder {
   // The torques at this state, cut where the limit policy says so; valid until the next call.
   ConstVec torque(double t, ConstVec q, ConstVec qd);
   ConstVec net_torque(double t, ConstVec q, ConstVec qd);  // tau - tau_f
+  ConstVec uncut_torque(double t, ConstVec q, ConstVec qd);  // what the law asks for, whatever the joints can
   LimitWatch& limits() { return limits_; }
 
   // The corners of the torque law that depend on the state; null: none. Those of `held` are kept at zero from
@@ -64,6 +65,7 @@ class ChainSystem final : public SecondOrder {
  private:
   void evaluate_torque(double t, ConstVec q, ConstVec qd);
   void evaluate_law(double t, ConstVec q, ConstVec qd);
+  void evaluate_uncut(double t, ConstVec q, ConstVec qd);
   void accelerate(ConstVec q, ConstVec qd, Vec qdd);
 
   const Chain* chain_;

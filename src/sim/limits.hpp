@@ -12,7 +12,7 @@ namespace chainreel {
 enum class LimitPolicy {
   report,  // say so in the audit
   clamp,   // and cut torques at the joint's effort
-  stop,    // and end the run where a position or velocity limit is passed
+  stop,    // and end the run where one is passed
 };
 
 // The policies by name; throws Error naming the nearest one.
@@ -38,6 +38,7 @@ class LimitWatch {
   bool check_state(double t, ConstVec q, ConstVec qd);
   bool check_effort(double t, Vec tau, bool clamp);  // cuts tau where `clamp`
 
+  bool are_none() const { return watched_.empty(); }
   const std::vector<LimitEvent>& events() const { return events_; }
 
  private:

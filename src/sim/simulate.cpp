@@ -12,6 +12,7 @@
 #include "sim/corner_watch.hpp"
 #include "sim/event_watch.hpp"
 #include "sim/forms.hpp"
+#include "sim/limit_search.hpp"
 #include "sim/work.hpp"
 
 namespace chainreel {
@@ -118,6 +119,7 @@ class Run {
     if (system_.corners()) corners_.emplace(system_, simulation.duration, simulation.method->order <= 2);
     simulation.torque->enter_piece(grid_.middle_of_piece(0));
     settle_corners(0);
+    look_at_limits_of_start();
     integrator_->start(0, q_, qd_);
     if (simulation.events && !simulation.events->list.empty()) watch_.emplace(*simulation.events, system_);
     trajectory_.nq = simulation.chain.nq;
@@ -148,8 +150,7 @@ class Run {
     ++trajectory_.steps;
     trajectory_.end_time = now();
     if (watch_ && !look_for_events(begin)) return false;
-    if (ended_by_event()) return true;
-    passed_limit_ = system_.limits().check_state(now(), q_now(), qd_now());
+    look_at_limits();
     start_anew_ = next.is_break && now() == next.end;
     return true;
   }
@@ -168,7 +169,7 @@ class Run {
   }
 
   // The rest of the last step is no part of the run then: it ended at end_time.
-  bool ended_by_event() const { return trajectory_.ending_event >= 0; }
+  bool ended_early() const { return trajectory_.status == RunStatus::stopped; }
   double end_time() const { return trajectory_.end_time; }
   void sample_event() {
     const double same = same_instant(simulation_);
@@ -187,14 +188,6 @@ class Run {
     append(t, q_, qd_, work_.at(system_, *integrator_, t, q_));
   }
 
-  // Where the scene stops at limits: the step that passed one is the last.
-  bool stopped_by_limit() {
-    if (!passed_limit_ || simulation_.limit != LimitPolicy::stop) return false;
-    trajectory_.status = RunStatus::stopped;
-    trajectory_.trouble = to_string(system_.limits().events().back());
-    return true;
-  }
-
   bool stop_requested(const StopRequest& stop) {
     if (!stop || steps() % kStepsBetweenStopRequests != 0 || !stop(now())) return false;
     trajectory_.status = RunStatus::interrupted;
@@ -204,7 +197,6 @@ class Run {
 
   Trajectory finish() {
     trajectory_.evaluations = system_.evaluations();
-    trajectory_.limits = system_.limits().events();
     return std::move(trajectory_);
   }
 
@@ -366,8 +358,47 @@ class Run {
     trajectory_.status = RunStatus::stopped;
     trajectory_.trouble = simulation_.events->list[std::size_t(hits.event.back())].name +
                           " at t = " + format_significant(hits.t.back(), 6) + " s";
-    system_.limits().check_state(hits.t.back(), hits.q_at(hits.size() - 1), hits.qd_at(hits.size() - 1));
     return true;
+  }
+
+  // Limits that were passed in the last step, up to where the run ended; the first one ends it where the scene
+  // stops at limits. An effort may be asked for in an attempt or at a stage alone: then it is looked for on.
+  void look_at_limits() {
+    system_.limits().check_state(now(), q_now(), qd_now());
+    const std::vector<LimitEvent>& seen = system_.limits().events();
+    while (limits_seen_ < seen.size()) seen_limits_.push_back(seen[limits_seen_++]);
+    if (seen_limits_.empty()) return;
+    std::vector<LimitEvent> passed;
+    std::erase_if(seen_limits_, [&](const LimitEvent& one) {
+      const std::optional<LimitEvent> found = first_passing(one, system_, *integrator_);
+      if (found && found->t <= end_time()) passed.push_back(*found);
+      return found.has_value();
+    });
+    system_.forget_bad_torque();
+    report(std::move(passed));
+  }
+
+  void look_at_limits_of_start() {
+    if (system_.limits().are_none()) return;
+    system_.limits().check_state(0, q_, qd_);
+    system_.torque(0, q_, qd_);
+    system_.forget_bad_torque();
+    limits_seen_ = system_.limits().events().size();
+    report(system_.limits().events());
+  }
+
+  void report(std::vector<LimitEvent> passed) {
+    std::stable_sort(passed.begin(), passed.end(),
+                     [](const LimitEvent& a, const LimitEvent& b) { return a.t < b.t; });
+    for (const LimitEvent& one : passed) {
+      trajectory_.limits.push_back(one);
+      if (simulation_.limit != LimitPolicy::stop) continue;
+      trajectory_.status = RunStatus::stopped;
+      trajectory_.trouble = to_string(one);
+      trajectory_.end_time = one.t;
+      trajectory_.ending_event = -1;  // it comes before the event that would have ended the run, if one would
+      return;
+    }
   }
 
   bool check_result(StepResult result, double begin) {
@@ -414,7 +445,8 @@ class Run {
   std::optional<EventWatch> watch_;
   std::optional<CornerWatch> corners_;  // of the state
   bool chatters_ = false;               // they jump to and fro without end
-  bool passed_limit_ = false;
+  std::size_t limits_seen_ = 0;            // by the watch, of its list
+  std::vector<LimitEvent> seen_limits_;    // but not found on a step yet
   bool start_anew_ = false;
   Trajectory trajectory_;
 };
@@ -466,10 +498,10 @@ Trajectory simulate(const Simulation& simulation, std::span<const double> times,
     run.sample_start();
     ++next;
   }
-  while (!run.at_end() && !run.stopped_by_limit() && !run.stop_requested(stop) && run.take_step()) {
+  while (!run.at_end() && !run.ended_early() && !run.stop_requested(stop) && run.take_step()) {
     const double end = run.end_time() + same_instant(simulation);
     while (next < times.size() && times[next] <= end) run.sample(times[next++]);
-    if (run.ended_by_event()) {
+    if (run.ended_early()) {
       if (next < times.size()) run.sample_event();
       break;
     }
@@ -482,8 +514,8 @@ Trajectory simulate(const Simulation& simulation, std::span<const double> times,
 Trajectory simulate_every_step(const Simulation& simulation, const StopRequest& stop) {
   Run run(simulation, simulation.step > 0 ? std::size_t(simulation.duration / simulation.step) + 2 : 0);
   run.sample_start();
-  while (!run.at_end() && !run.stopped_by_limit() && !run.stop_requested(stop) && run.take_step()) {
-    if (run.ended_by_event()) {
+  while (!run.at_end() && !run.ended_early() && !run.stop_requested(stop) && run.take_step()) {
+    if (run.ended_early()) {
       run.sample_event();
       break;
     }

@@ -27,16 +27,49 @@ TEST(Limits, AreReportedOnceWithTimeAndValue) {
   ASSERT_EQ(trajectory.limits.size(), 1u);
   EXPECT_EQ(trajectory.limits[0].quantity, "position");
   EXPECT_EQ(trajectory.limits[0].limit, -1);
-  // It falls 1 m in sqrt(2 / g); the step after that instant is the one.
-  EXPECT_NEAR(trajectory.limits[0].t, std::sqrt(2 / 9.81), 0.001);
+  // It falls 1 m in sqrt(2 / g), a parabola, which the method has exactly.
+  EXPECT_NEAR(trajectory.limits[0].t, std::sqrt(2 / 9.81), 3e-12);
+  EXPECT_NEAR(trajectory.limits[0].value, -1, 1e-10);
 }
 
 TEST(Limits, StopTheRunWhereTheSceneSaysSo) {
   const Trajectory trajectory = simulate(falling(LimitPolicy::stop), instants(1, 0.1));
   EXPECT_EQ(trajectory.status, RunStatus::stopped);
-  EXPECT_NEAR(trajectory.end_time, std::sqrt(2 / 9.81), 0.001);
+  EXPECT_NEAR(trajectory.end_time, std::sqrt(2 / 9.81), 3e-12);
   EXPECT_THAT(trajectory.trouble, testing::HasSubstr("passed its position limit -1"));
-  EXPECT_EQ(trajectory.size(), 5);
+  ASSERT_EQ(trajectory.size(), 6) << "the last sample stands at the stop";
+  EXPECT_EQ(trajectory.t.back(), trajectory.end_time);
+  EXPECT_NEAR(trajectory.q_at(5)[1], -1, 1e-10);
+}
+
+TEST(Limits, AreFoundWithinTheLongStepsOfAdaptiveMethodsToo) {
+  for (const char* method : {"dop853", "radau5"}) {
+    Simulation run = falling(LimitPolicy::report);
+    run.chain.bodies[2].joint.limit.velocity = 3;
+    run.chain.bodies[1].joint.limit.effort = 2;
+    run.torque = make_torque_law(run.chain, {{"4*t", {}, {}}, {"0", {}, {}}}, {});
+    run.method = &find_method(method);
+    run.step = 0;
+    run.options.tolerance = 1e-9;
+    const Trajectory trajectory = simulate(run, instants(1, 1));
+    ASSERT_EQ(trajectory.limits.size(), 3u) << method;
+    EXPECT_NEAR(trajectory.limits[0].t, 3 / 9.81, 1e-10) << trajectory.limits[0].quantity;
+    EXPECT_NEAR(trajectory.limits[1].t, std::sqrt(2 / 9.81), 1e-10) << trajectory.limits[1].quantity;
+    EXPECT_NEAR(trajectory.limits[2].t, 0.5, 1e-10) << trajectory.limits[2].quantity;
+  }
+}
+
+TEST(Limits, ThatTheStartIsBeyondStopTheRunThere) {
+  Simulation run = run_of("pp", {"10", "0"}, 1);
+  run.chain.bodies[1].joint.limit.effort = 4;
+  run.limit = LimitPolicy::stop;
+  const Trajectory trajectory = simulate(run, instants(1, 0.5));
+  EXPECT_EQ(trajectory.status, RunStatus::stopped);
+  EXPECT_EQ(trajectory.end_time, 0);
+  EXPECT_EQ(trajectory.size(), 1);
+  ASSERT_EQ(trajectory.limits.size(), 1u);
+  EXPECT_EQ(trajectory.limits[0].quantity, "effort");
+  EXPECT_EQ(trajectory.limits[0].t, 0);
 }
 
 TEST(Limits, ClampTorquesAtTheEffortAndTheAuditFollows) {
