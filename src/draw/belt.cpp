@@ -10,9 +10,7 @@
 namespace chainreel {
 namespace {
 
-constexpr double kFlat = 0.0003;     // units of H: what a chord may lie off the curve
-constexpr double kLongPiece = 0.02;  // units of H: fading lines change their opacity in steps of this length
-constexpr double kBeyond = 3;        // units of H: farther than any corner of a page from any place on it
+constexpr double kFlat = 0.0003;  // units of H: what a chord may lie off the curve
 constexpr int kDeepest = 10;         // halvings of a part of the curve
 constexpr int kOutlinePoints = 180;  // of the silhouette of a surface
 
@@ -26,8 +24,8 @@ struct PlaneBelt {
     return (r * c) * d0 + (r * s) * d1;
   }
   // Where the curve comes nearer than kBeyond; 0 where all of it does.
-  double start(double per_unit) const {
-    const double least = per_unit / kBeyond;
+  double start() const {
+    const double least = std::max(length_of(d0), kNoLength) / kBeyond;
     return m0 >= least || m1 <= least ? 0 : std::asin(std::sqrt((least - m0) / (m1 - m0)));
   }
 };
@@ -42,95 +40,30 @@ void halve(const PlaneBelt& belt, double a, double b, int depth, std::vector<dou
 }
 
 // Angles of a quarter, from where the curve begins to the minor axis.
-std::vector<double> quarter(const PlaneBelt& belt, double per_unit) {
-  const double from = belt.start(per_unit), to = std::numbers::pi / 2;
+std::vector<double> quarter(const PlaneBelt& belt) {
+  const double from = belt.start(), to = std::numbers::pi / 2;
   std::vector<double> angles{from};
   for (int i = 0; i < 4; ++i) halve(belt, from + i * (to - from) / 4, from + (i + 1) * (to - from) / 4, 0, angles);
   return angles;
 }
 
-// 1 within the scene, 0 from its edge on.
-double opacity_at(Point p, const EllipseStyle& style) {
-  const Rect& s = style.scene;
-  const double inside = std::min({p.x - s.x0, s.x1 - p.x, p.y - s.y0, s.y1 - p.y});
-  return std::clamp(inside / style.fade, 0.0, 1.0);
-}
-
-// A line through the points; open ones fade towards the edge of the scene.
-void draw_outline(Picture& picture, const std::vector<Point>& points, double width, bool open,
-                  const EllipseStyle& style, int clip) {
-  Trail trail;
-  trail.color = style.theme->ellipse;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const int pieces =
-        open && i > 0 ? std::clamp(int(length_of(points[i] - points[i - 1]) / kLongPiece), 1, 200) : 1;
-    for (int j = 1; j <= pieces; ++j) {
-      const Point p = i == 0 ? points[0] : points[i - 1] + (double(j) / pieces) * (points[i] - points[i - 1]);
-      trail.points.push_back({p, width, open ? opacity_at(p, style) : 1});
-    }
-  }
-  picture.add(std::move(trail), clip);
-}
-
-// A convex piece of the inside; of an open curve the part in the scene, fading like its lines.
-void fill_piece(Picture& picture, const std::array<Point, 4>& corners, double opacity, bool open,
-                const EllipseStyle& style, int clip) {
-  Polygon piece;
-  for (const Point p : corners) {
-    const bool again = piece.count > 0 && length_of(p - piece.corners[std::size_t(piece.count - 1)]) < kNoLength;
-    if (!again) piece.corners[std::size_t(piece.count++)] = p;
-  }
-  if (piece.count > 2 && length_of(piece.corners[std::size_t(piece.count - 1)] - piece.corners[0]) < kNoLength)
-    --piece.count;
-  if (piece.count < 3) return;
-  if (!open) {
-    piece.paint.fill = style.theme->ellipse.faded(opacity);
-    picture.add(piece, clip);
-    return;
-  }
-  // Frame by frame from the edge inwards, each a little stronger: pieces side by side, none over another.
-  const auto fill = [&](const Rect& r, double strength) {
-    Polygon part = cut(cut(piece, {r.x0, r.y0}, {1, 0}), {r.x1, r.y1}, {-1, 0});
-    part = cut(cut(part, {r.x0, r.y0}, {0, 1}), {r.x1, r.y1}, {0, -1});
-    part.paint.fill = style.theme->ellipse.faded(opacity * strength);
-    if (part.count >= 3) picture.add(part, clip);
-  };
-  for (int i = 0; i < kFadeSteps; ++i) {
-    const Rect out = inset(style.scene, style.fade * i / kFadeSteps);
-    const Rect in = inset(style.scene, style.fade * (i + 1) / kFadeSteps);
-    if (!(in.x0 < in.x1 && in.y0 < in.y1)) return;
-    const double strength = (i + 0.5) / kFadeSteps;
-    fill({out.x0, out.y0, in.x0, out.y1}, strength);
-    fill({in.x1, out.y0, out.x1, out.y1}, strength);
-    fill({in.x0, out.y0, in.x1, in.y0}, strength);
-    fill({in.x0, in.y1, in.x1, out.y1}, strength);
-  }
-  fill(inset(style.scene, style.fade), 1);
-}
-
-void draw_plane_belt(Picture& picture, const PlaneBelt& belt, Point center, double width, bool filled,
-                     const EllipseStyle& style, int clip) {
-  const std::vector<double> angles = quarter(belt, style.per_unit);
-  const bool open = angles.front() > 0;
+void draw_plane_belt(Picture& picture, const PlaneBelt& belt, Point center, double width, bool filled, Color color,
+                     const Fade& fade, int clip) {
+  const std::vector<double> angles = quarter(belt);
   std::vector<Point> upper, lower;  // halves, from one end of the long axis to the other
   for (const double a : angles) upper.push_back(center + belt.at(a));
   for (std::size_t i = angles.size() - 1; i-- > 0;)
     upper.push_back(center + belt.at(std::numbers::pi - angles[i]));
   for (const Point p : upper) lower.push_back(2 * center - p);
-  if (filled) {
-    // Along the long axis the curve goes one way only, so that strips across it hold the inside.
-    const std::size_t n = upper.size();
-    for (std::size_t i = 0; i + 1 < n; ++i)
-      fill_piece(picture, {upper[i], upper[i + 1], lower[n - 2 - i], lower[n - 1 - i]}, kEllipseFill, open, style,
-                 clip);
-  }
-  if (open) {
-    draw_outline(picture, upper, width, true, style, clip);
-    draw_outline(picture, lower, width, true, style, clip);
+  // Along the long axis the curve goes one way only, so that strips across it hold the inside.
+  if (filled) fill_between(picture, upper, lower, color.faded(kEllipseFill), fade, clip);
+  if (angles.front() > 0) {
+    draw_outline(picture, upper, width, color, fade, clip);
+    draw_outline(picture, lower, width, color, fade, clip);
     return;
   }
   upper.insert(upper.end(), lower.begin() + 1, lower.end());
-  draw_outline(picture, upper, width, false, style, clip);
+  draw_outline(picture, upper, width, color, fade, clip);
 }
 
 // The largest sqrt(1 + t^2) / (ee + 2 en t + nn t^2): how far the surface reaches where the camera sees the direction
@@ -157,8 +90,8 @@ double seen_reach(double ee, double en, double nn, double most) {
 }
 
 // Of the surface 1 / (u^T A u) with A in 1/kg, as the camera sees it.
-void draw_surface(Picture& picture, const Eigen::Matrix3d& A, Point center, const Camera& camera, bool open,
-                  const EllipseStyle& style, int clip) {
+void draw_surface(Picture& picture, const Eigen::Matrix3d& A, Point center, const Camera& camera,
+                  const Fade& fade, const EllipseStyle& style, int clip) {
   const Eigen::Vector3d n = camera.toward_viewer;
   const double most = kBeyond / style.per_unit;
   const auto reach = [&](double angle) {
@@ -192,52 +125,54 @@ void draw_surface(Picture& picture, const Eigen::Matrix3d& A, Point center, cons
     const Point a = half[i], b = half[i + 1];
     const auto page = [&](double x, double y) { return center + x * along + y * across; };
     fill_piece(picture, {page(a.x, a.y), page(b.x, b.y), page(b.x, -height(-b.x)), page(a.x, -height(-a.x))},
-               kSilhouetteFill, open, style, clip);
+               style.theme->ellipse.faded(kSilhouetteFill), fade, clip);
   }
-  draw_outline(picture, outline, style.lines * size::kEllipseLine, open, style, clip);
+  draw_outline(picture, outline, style.lines * size::kEllipseLine, style.theme->ellipse, fade, clip);
 }
 
 }  // namespace
 
 void draw_belt(Picture& picture, const std::vector<MassAxis>& axes, Point center, const Camera& camera,
                const EllipseStyle& style, int clip) {
+  const Color line = style.theme->ellipse;
   std::vector<Point> page;  // for 1 kg
-  std::vector<double> mobility;
+  std::vector<double> mobility, stretch;
   std::vector<bool> open;
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   for (const MassAxis& axis : axes) {
     const Point d =
         style.per_unit * Point{camera.right.dot(axis.direction), camera.up.dot(axis.direction)};
     const double m = axis.mass ? 1 / *axis.mass : 0;
-    const auto leaves = [&] {
-      const Point v = (1 / m) * d;
-      return !contains(style.scene, center + v) && !contains(style.scene, center - v);
-    };
     page.push_back(d);
     mobility.push_back(m);
-    open.push_back(length_of(d) > kNoLength * style.per_unit && (!(m > 0) || leaves()));
+    open.push_back(!axis.mass && length_of(d) > kNoLength * style.per_unit);
+    stretch.push_back(open.back()  ? style.fade
+                      : axis.mass ? std::min(style.fade, excess_of(style.scene, center, *axis.mass * d))
+                                  : 0);
     A += m * axis.direction * axis.direction.transpose();
   }
-  const bool solid = axes.size() > 2, any_open = std::find(open.begin(), open.end(), true) != open.end();
-  if (solid && mobility.back() > 0) draw_surface(picture, A, center, camera, any_open, style, clip);
+  const bool solid = axes.size() > 2;
+  if (solid && mobility.back() > 0)
+    draw_surface(picture, A, center, camera, fade_everywhere(style.scene, *std::max_element(stretch.begin(), stretch.end())), style,
+                 clip);
   for (std::size_t i = 0; i + 1 < axes.size(); ++i)
     for (std::size_t j = i + 1; j < axes.size(); ++j) {
       if (!(mobility[j] > 0)) continue;  // infinite in this whole plane
       draw_plane_belt(picture, {page[i], page[j], mobility[i], mobility[j]}, center,
-                      solid ? style.lines * size::kEllipseAxis : style.lines * size::kEllipseLine, !solid, style, clip);
+                      solid ? style.lines * size::kEllipseAxis : style.lines * size::kEllipseLine, !solid, line,
+                      fade_everywhere(style.scene, std::max(stretch[i], stretch[j])), clip);
     }
   for (std::size_t i = 0; i < axes.size(); ++i) {
     if (open[i]) {
       // Beside the curve only the sign at each end says that there is no end.
-      draw_infinity_along(picture, center, unit(page[i]), 0, style, clip);
-      draw_infinity_along(picture, center, -1 * unit(page[i]), 0, style, clip);
+      draw_infinities(picture, center, unit(page[i]), 0, style, clip);
       continue;
     }
-    const Point v = mobility[i] > 0 ? (1 / mobility[i]) * page[i] : Point{};
-    if (i == 0)
-      draw_line(picture, {center - v, center + v}, style.lines * size::kEllipseAxis, style.theme->ellipse, clip);
-    else
-      draw_dashed(picture, {center - v, center + v}, style.lines * size::kEllipseAxis, style.theme->ellipse, clip);
+    if (!axes[i].mass) continue;
+    const Point v = *axes[i].mass * page[i];
+    draw_axis(picture, center, v, i > 0, style.lines * size::kEllipseAxis, line,
+              fade_before_length(center, v, *axes[i].mass, style), clip);
+    draw_length_along(picture, center, v, *axes[i].mass, 0, style, clip);
   }
 }
 

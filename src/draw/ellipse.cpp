@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/format.hpp"
 #include "draw/belt.hpp"
@@ -15,24 +16,17 @@ namespace {
 // A semi-axis on the page: the whole vector, or the direction of an infinite one (projected, not unit).
 struct PageAxis {
   Point v;
-  bool open = false;
+  std::optional<double> length;  // kg or m/s; absent: infinite
 };
 
 // From the longest to the shortest.
-std::vector<PageAxis> page_axes(const std::vector<MassAxis>& axes, Point center, const Camera& camera,
-                                const EllipseStyle& style) {
+std::vector<PageAxis> page_axes(const std::vector<MassAxis>& axes, const Camera& camera, const EllipseStyle& style) {
   std::vector<PageAxis> projected;
   for (const MassAxis& axis : axes) {
     const Point d{camera.right.dot(axis.direction), camera.up.dot(axis.direction)};
     const std::optional<double> length = semi_axis(axis, style.reading);
-    if (!length) {
-      if (length_of(d) > 1e-6) projected.push_back({d, true});
-      continue;
-    }
-    const Point v = (*length * style.per_unit) * d;
-    const bool leaves = style.reading != EllipseReading::energy && !contains(style.scene, center + v) &&
-                        !contains(style.scene, center - v);
-    projected.push_back({leaves ? d : v, leaves});
+    if (length) projected.push_back({(*length * style.per_unit) * d, length});
+    if (!length && length_of(d) > 1e-6) projected.push_back({d, length});
   }
   // What is heavy is slow.
   if (style.reading == EllipseReading::energy) std::reverse(projected.begin(), projected.end());
@@ -54,45 +48,77 @@ std::array<Point, 2> silhouette(const std::vector<PageAxis>& axes) {
   return {std::sqrt(mean + deviation) * u, std::sqrt(std::max(mean - deviation, 0.0)) * normal_to(u)};
 }
 
+// How far the finite axes reach from the centre along the unit vector n.
+double reach_along(const std::vector<PageAxis>& axes, Point n) {
+  double squared = 0;
+  for (const PageAxis& axis : axes)
+    if (axis.length) squared += dot(axis.v, n) * dot(axis.v, n);
+  return std::sqrt(squared);
+}
+
+// An ellipse with the semi-axes u and v, |u| >= |v| > 0, that is too large for its scene.
+void draw_fading_ellipse(Picture& picture, Point center, Point u, Point v, const Paint& paint, const Fade& fade,
+                         int clip) {
+  constexpr int kPieces = 96;  // of a half: chords lie 0.0006 of its length off at most, along the axis
+  const double a = length_of(u), seen = std::min(a, kBeyond);
+  std::vector<Point> upper, lower;
+  for (int i = 0; i <= kPieces; ++i) {
+    const double x = seen * std::cos(i * std::numbers::pi / kPieces) / a;
+    upper.push_back(center + x * u + std::sqrt(std::max(0.0, 1 - x * x)) * v);
+  }
+  for (const Point p : upper) lower.push_back(2 * center - p);
+  if (paint.fill.a > 0) fill_between(picture, upper, lower, paint.fill, fade, clip);
+  draw_outline(picture, upper, paint.stroke_width, paint.stroke, fade, clip);
+  draw_outline(picture, lower, paint.stroke_width, paint.stroke, fade, clip);
+}
+
+void draw_ellipse(Picture& picture, Point center, const std::array<Point, 2>& axes, const Paint& paint,
+                  const EllipseStyle& style, int clip) {
+  const auto [u, v] = axes;
+  const Fade fade =
+      longer(fade_along(style.scene, center, u, style.fade), fade_along(style.scene, center, v, style.fade));
+  if (length_of(v) < kNoLength)  // nothing moves along the other axis
+    return draw_axis(picture, center, u, false, paint.stroke_width, paint.stroke, fade, clip);
+  if (!fade.any()) return picture.add(Ellipse{center, u, v, paint}, clip);
+  draw_fading_ellipse(picture, center, u, v, paint, fade, clip);
+}
+
+// The axes that have an end, solid the first of all and dashed the others, with their lengths where none is seen.
+void draw_finite_axes(Picture& picture, const std::vector<PageAxis>& axes, Point center, const EllipseStyle& style,
+                      int clip) {
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    if (!axes[i].length || !(length_of(axes[i].v) > kNoLength)) continue;
+    const Fade fade = fade_before_length(center, axes[i].v, *axes[i].length, style);
+    draw_axis(picture, center, axes[i].v, i > 0, style.lines * size::kEllipseAxis, style.theme->ellipse, fade, clip);
+    draw_length_along(picture, center, axes[i].v, *axes[i].length, reach_along(axes, normal_to(unit(axes[i].v))),
+                      style, clip);
+  }
+}
+
 void draw_closed(Picture& picture, const std::vector<PageAxis>& axes, Point center, const EllipseStyle& style,
                  int clip) {
   const Color line = style.theme->ellipse;
   const bool solid = axes.size() > 2;
-  const auto [u, v] = silhouette(axes);
-  if (length_of(v) < kNoLength)  // nothing moves along the other axis
-    return draw_line(picture, {center - u, center + u}, style.lines * size::kEllipseLine, line, clip);
-  picture.add(
-      Ellipse{center, u, v, {line.faded(solid ? kSilhouetteFill : kEllipseFill), line, style.lines * size::kEllipseLine}}, clip);
+  const auto outline = silhouette(axes);
+  draw_ellipse(picture, center, outline,
+               {line.faded(solid ? kSilhouetteFill : kEllipseFill), line, style.lines * size::kEllipseLine}, style,
+               clip);
+  if (length_of(outline[1]) < kNoLength && !solid)
+    return draw_length_along(picture, center, axes[0].v, *axes[0].length, 0, style, clip);
   for (std::size_t i = 0; solid && i < axes.size(); ++i) {
-    const auto [a, b] = silhouette({axes[i], axes[(i + 1) % axes.size()]});
-    if (length_of(b) > kNoLength) picture.add(Ellipse{center, a, b, {{}, line, style.lines * size::kEllipseAxis}}, clip);
+    const auto principal = silhouette({axes[i], axes[(i + 1) % axes.size()]});
+    if (length_of(principal[1]) > kNoLength)
+      draw_ellipse(picture, center, principal, {{}, line, style.lines * size::kEllipseAxis}, style, clip);
   }
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    const PageLine axis{center - axes[i].v, center + axes[i].v};
-    if (i == 0) {
-      draw_line(picture, axis, style.lines * size::kEllipseAxis, line, clip);
-    } else {
-      draw_dashed(picture, axis, style.lines * size::kEllipseAxis, line, clip);
-    }
-  }
+  draw_finite_axes(picture, axes, center, style, clip);
 }
 
 // The whole line through p along the unit vector d, from edge to edge of the scene, fading over its last
 // stretches.
 void draw_fading_line(Picture& picture, Point p, Point d, const EllipseStyle& style, int clip) {
-  // Into the scene and out of it, where the line meets it at all.
-  double in = -std::numeric_limits<double>::infinity(), out = -in;
-  const auto narrow = [&](double x, double dx, double low, double high) {
-    if (std::abs(dx) < kNoLength) {
-      if (x < low || x > high) out = in;
-      return;
-    }
-    in = std::max(in, std::min((low - x) / dx, (high - x) / dx));
-    out = std::min(out, std::max((low - x) / dx, (high - x) / dx));
-  };
-  narrow(p.x, d.x, style.scene.x0, style.scene.x1);
-  narrow(p.y, d.y, style.scene.y0, style.scene.y1);
-  if (!(in < out)) return;
+  const auto part = part_inside(style.scene, p - kBeyond * d, p + kBeyond * d);
+  if (!part) return;
+  const double in = kBeyond * (2 * part->first - 1), out = kBeyond * (2 * part->second - 1);
   const double fade = std::min(style.fade, (out - in) / 2);
   const Point a = p + in * d, b = p + out * d;
   Capsule line{a + fade * d, b - fade * d, style.lines * size::kEllipseLine / 2, {style.theme->ellipse, {}, 0}};
@@ -107,10 +133,10 @@ void draw_fading_line(Picture& picture, Point p, Point d, const EllipseStyle& st
 
 // The fill between the lines: scenes one in the other, ever smaller, each cut to the band, so that no seam
 // shows.
-void draw_fading_fill(Picture& picture, Point center, Point half_width, const EllipseStyle& style, int clip) {
-  const Color fill = style.theme->ellipse.faded(1 - std::pow(1 - kEllipseFill, 1.0 / kFadeSteps));
+void draw_fading_fill(Picture& picture, Point center, Point half_width, const Fade& fade, Color line, int clip) {
+  const Color fill = line.faded(1 - std::pow(1 - kEllipseFill, 1.0 / kFadeSteps));
   for (int i = 0; i < kFadeSteps; ++i) {
-    const Rect r = inset(style.scene, style.fade * (i + 0.5) / kFadeSteps);
+    const Rect r = fade.inset((i + 0.5) / kFadeSteps);
     if (!(r.x0 < r.x1 && r.y0 < r.y1)) return;
     Polygon band{{Point{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}, 4, {fill, {}, 0}};
     band = cut(cut(band, center + half_width, -1 * half_width), center - half_width, half_width);
@@ -120,20 +146,23 @@ void draw_fading_fill(Picture& picture, Point center, Point half_width, const El
 
 void draw_open(Picture& picture, const std::vector<PageAxis>& axes, Point center, Point direction,
                const EllipseStyle& style, int clip) {
+  const Color line = style.theme->ellipse;
   const Point d = unit(direction), n = normal_to(d);
-  double squared = 0;
-  for (const PageAxis& axis : axes) {
-    if (!axis.open) squared += dot(axis.v, n) * dot(axis.v, n);
-  }
-  const double half_width = std::sqrt(squared);
-  draw_fading_fill(picture, center, half_width * n, style, clip);
+  const double half_width = reach_along(axes, n);
+  // As of an axis that is longer than any page: an ellipse that grows goes over into this band.
+  draw_fading_fill(picture, center, half_width * n, fade_along(style.scene, center, 2 * kBeyond * d, style.fade), line,
+                   clip);
   for (const double side : {-1.0, 1.0}) {
     draw_fading_line(picture, center + (side * half_width) * n, d, style, clip);
   }
-  draw_dashed(picture, {center - half_width * n, center + half_width * n}, style.lines * size::kEllipseAxis,
-              style.theme->ellipse, clip);
-  draw_infinity_along(picture, center, d, half_width, style, clip);
-  draw_infinity_along(picture, center, -1 * d, half_width, style, clip);
+  draw_axis(picture, center, kBeyond * d, false, style.lines * size::kEllipseAxis, line,
+            fade_before_infinity(center, d, style), clip);
+  draw_axis(picture, center, half_width * n, true, style.lines * size::kEllipseAxis, line,
+            fade_along(style.scene, center, half_width * n, style.fade), clip);
+  draw_infinities(picture, center, d, half_width, style, clip);
+  for (const PageAxis& axis : axes)
+    if (axis.length && length_of(axis.v) > kNoLength)
+      draw_length_along(picture, center, axis.v, *axis.length, 0, style, clip);
 }
 
 }  // namespace
@@ -211,18 +240,17 @@ void draw_mass_ellipse(Picture& picture, const std::vector<MassAxis>& axes, Poin
                        const Camera& camera, const EllipseStyle& style, int clip) {
   if (!contains(style.scene, center)) return;
   if (style.reading == EllipseReading::belt) return draw_belt(picture, axes, center, camera, style, clip);
-  const std::vector<PageAxis> projected = page_axes(axes, center, camera, style);
+  const std::vector<PageAxis> projected = page_axes(axes, camera, style);
   Point open{};
   bool all_open = false;
   for (const PageAxis& axis : projected) {
-    if (!axis.open) continue;
+    if (axis.length) continue;
     // A second, different open direction leaves nothing bounded.
     if (length_of(open) > 0 && std::abs(dot(unit(open), normal_to(unit(axis.v)))) > 1e-6) all_open = true;
     open = axis.v;
   }
   if (all_open) {
-    draw_infinity_along(picture, center, {1, 0}, 0, style, clip);
-    draw_infinity_along(picture, center, {-1, 0}, 0, style, clip);
+    draw_infinities(picture, center, {1, 0}, 0, style, clip);
   } else if (length_of(open) > 0) {
     draw_open(picture, projected, center, open, style, clip);
   } else if (!projected.empty()) {

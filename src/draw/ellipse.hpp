@@ -8,11 +8,12 @@
 //           lambda_min < lambda_max / 2
 //
 // All are taken from the eigenvalues m of Lambda_inv = J M^-1 J^T, which stay finite: lambda = 1 / m. Where m is
-// zero to within kSingularFraction, no acceleration is possible along that direction, and where an axis in kg
-// leaves the scene at both of its ends no number could be read from it: there `mass` is open, two lines along
-// the bounded width that fade towards the edge of the scene, with an infinity sign at each end, and so are the
-// ends of `belt`; `energy` shrinks to a segment. In space the ellipse drawn is the silhouette of the ellipsoid,
-// with its three principal ellipses.
+// zero to within kSingularFraction of the largest, as singular_directions has it, no acceleration is possible along
+// that direction: there, and nowhere else, `mass` is open, two lines along the bounded width that fade towards the
+// edge of the scene, with an infinity sign at each end, and so are the ends of `belt`; `energy` shrinks to a segment.
+// A curve with an axis that leaves the scene at both of its ends fades towards the edge, too, the sooner the further
+// it leads out, and has the length of that axis written at them ("7.91 kg"). In space the ellipse drawn is the
+// silhouette of the ellipsoid, with its three principal ellipses.
 #pragma once
 
 #include <optional>
@@ -73,7 +74,7 @@ struct EllipseStyle {
   Rect scene;             // its edge is where open curves fade
   EllipseReading reading = EllipseReading::mass;
   double fade = size::kEllipseFade;  // over this last stretch
-  bool signs = true;                 // infinity signs at open ends
+  bool signs = true;                 // infinity signs and lengths at ends that are not seen
   double lines = 1;                  // times the widths of the style guide
 };
 

@@ -22,10 +22,11 @@ namespace {
 constexpr int kMostAcross = 4;
 constexpr double kFrameLine = 0.0018;
 constexpr double kLabelInset = 0.014;
-// Of the shorter side of a panel: how long the bounded semi-axes (their median) and the longest one are
-// drawn, whatever gives the smaller scale. Axes beyond kLongest times the median do not count: near a
-// singular pose they have no bound.
-constexpr double kSmallerAxis = 0.14, kLargerAxis = 0.24, kLongest = 8;
+// Of the shorter side of a panel: how long the bounded semi-axes (their median) are drawn.
+constexpr double kSmallerAxis = 0.14, kLargerAxis = 0.24;
+// Of an ordinary pose the largest mass is at most so many times the smallest one. Nearer to a singular pose it has no
+// bound, and to show it would make all ellipses needles: it is written where it leaves its panel.
+constexpr double kOrdinaryRatio = 32;
 constexpr int kBeltSamples = 64;
 // Marks have their full size in a panel of this height and shrink with it, down to a limit.
 constexpr double kFullPanel = 0.6, kSmallestMarks = 0.45;
@@ -152,6 +153,11 @@ std::vector<std::vector<double>> configurations_of(const std::vector<Pose>& pose
   return configurations;
 }
 
+bool is_ordinary(const std::vector<MassAxis>& axes) {
+  return !axes.empty() && axes.front().mass && axes.back().mass &&
+         *axes.front().mass <= kOrdinaryRatio * *axes.back().mass;
+}
+
 EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReading reading) {
   std::vector<double> bounded;
   for (const Pose& pose : poses) {
@@ -163,10 +169,9 @@ EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReadi
   const double median = bounded[bounded.size() / 2];
   double longest = median;
   for (const Pose& pose : poses) {
-    for (const MassAxis& axis : pose.axes) {
-      const auto length = semi_axis(axis, reading);
-      if (length && *length <= kLongest * median) longest = std::max(longest, *length);
-    }
+    // Velocities of equal energy are bounded everywhere.
+    if (reading != EllipseReading::energy && !is_ordinary(pose.axes)) continue;
+    for (const MassAxis& axis : pose.axes) longest = std::max(longest, semi_axis(axis, reading).value_or(0));
   }
   const double usual = reading == EllipseReading::energy ? kLargerAxis : kSmallerAxis;
   const double per_unit = room * std::min(usual / median, kLongestAxis / longest);
@@ -180,7 +185,7 @@ Sheet sheet_of(const PoseFigureOptions& options, const EllipseScale& scale, cons
   text.bar = scale.label();
   text.bar_length = scale.bar_length;
   text.legend = ellipse_legend(options.reading, options.section);
-  if (options.cell > 0) text.legend += "; open where longer than its cell";
+  if (options.cell > 0) text.legend += "; fading where longer than its cell";
   return lay_out_sheet(text, double(options.width) / options.height, options.text_scale, *options.theme,
                        fonts);
 }

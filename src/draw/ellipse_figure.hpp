@@ -23,7 +23,11 @@ std::vector<Pose> poses_of(const TipMass& mass, const std::vector<std::vector<do
 
 std::vector<std::vector<double>> configurations_of(const std::vector<Pose>& poses);
 
-// `room`: the shorter side of a panel, units of H.
+// Far from singular poses.
+bool is_ordinary(const std::vector<MassAxis>& axes);
+// The bounded semi-axes (their median) have their usual length, but no semi-axis of an ordinary pose is longer than
+// kLongestAxis, so that all ellipses of ordinary poses can be seen whole. `room`: the shorter side of a panel, units
+// of H.
 EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReading reading);
 
 // With legend, scale and title.

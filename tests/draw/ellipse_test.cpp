@@ -7,6 +7,7 @@
 
 #include <numbers>
 
+#include "core/format.hpp"
 #include "draw/chains.hpp"
 #include "draw/shapes.hpp"
 
@@ -119,6 +120,65 @@ TEST(Ellipse, NearlySingularIsStillNeverANumberThatWasCut) {
   const Drawn nearly({0, 1e-3});
   EXPECT_TRUE(test::all_of<Ellipse>(nearly.picture).empty());
   EXPECT_EQ(nearly.words(), "\u221E\u221E");
+}
+
+// RR near its stretched pose, but regular: of Lambda_inv the smaller eigenvalue is 1e-4 of the larger one or more.
+TEST(Ellipse, HasNoInfinitySignWhereJIsRegular) {
+  for (const EllipseReading reading : {EllipseReading::mass, EllipseReading::belt})
+    for (const double angle : {2.0, 5.0, 20.0, 178.0}) {
+      Drawn regular({0.3, angle * kDegree}, 0.3);
+      regular.style.reading = reading;
+      regular.picture = {};
+      draw_mass_ellipse(regular.picture, regular.axes, regular.center, regular.camera, regular.style, -1);
+      ASSERT_TRUE(regular.axes[0].mass);
+      EXPECT_TRUE(test::all_of<Ellipse>(regular.picture).empty()) << "it is too large for the scene";
+      EXPECT_TRUE(test::all_finite(regular.picture));
+      // Its mass, at both ends of the axis that is cut.
+      const std::string mass = format_significant(*regular.axes[0].mass, 3) + " kg";
+      EXPECT_EQ(regular.words(), mass + mass) << angle;
+      // The curve fades: nothing of it is there at the edge that the axis leaves through.
+      double least = 1;
+      for (const Trail& trail : test::all_of<Trail>(regular.picture))
+        for (const TrailPoint& point : trail.points) {
+          EXPECT_TRUE(test::is_inside(regular.style.scene, point.p, 1e-9));
+          least = std::min(least, point.alpha);
+        }
+      EXPECT_LT(least, 1e-6);
+    }
+}
+
+// As the axis grows beyond the edge, the curve fades over no more than it leads out, and the mass comes in gradually:
+// between two frames of a film nothing flashes.
+TEST(Ellipse, FadesGraduallyAsItOutgrowsItsScene) {
+  const double reach = 0.8 - 0.045;  // of the centre from the left edge, the farther one is at 1.73 - 0.8 = 0.93
+  EXPECT_LT(reach, 0.93);
+  for (const double excess : {0.001, 0.01, 0.05, 0.3}) {
+    const std::vector<MassAxis> axes{{1, Eigen::Vector3d::UnitX()}, {0.1, Eigen::Vector3d::UnitY()}};
+    const EllipseStyle style{&light_theme(), &test::fonts(), 1, 0.93 + excess, {0.045, 0.11, 1.73, 0.87}};
+    Picture picture;
+    draw_mass_ellipse(picture, axes, {0.8, 0.5}, {}, style, -1);
+    const double stretch = std::min(excess, size::kEllipseFade);
+    double outermost = 0;
+    for (const Trail& trail : test::all_of<Trail>(picture)) {
+      if (trail.points.front().width != size::kEllipseLine) continue;  // the axis ends before its mass
+      for (const TrailPoint& point : trail.points) {
+        const double inside = std::min(point.p.x - style.scene.x0, style.scene.x1 - point.p.x);
+        EXPECT_NEAR(point.alpha, std::clamp(inside / stretch, 0.0, 1.0), 1e-9);
+        outermost = std::max(outermost, point.p.x);
+      }
+    }
+    EXPECT_NEAR(outermost, style.scene.x1, 1e-9);
+    const auto words = test::all_of<GlyphRun>(picture);
+    ASSERT_EQ(words.size(), 2u);
+    EXPECT_EQ(words[0].text, "1 kg");
+    EXPECT_NEAR(words[0].color.a, std::min(1.0, excess / 0.02), 1e-9);
+  }
+  // Just inside, it is whole.
+  Picture whole;
+  draw_mass_ellipse(whole, {{1, Eigen::Vector3d::UnitX()}, {0.1, Eigen::Vector3d::UnitY()}}, {0.8, 0.5}, {},
+                    {&light_theme(), &test::fonts(), 1, 0.9299, {0.045, 0.11, 1.73, 0.87}}, -1);
+  EXPECT_EQ(test::all_of<Ellipse>(whole).size(), 1u);
+  EXPECT_EQ(test::words_of(whole), "");
 }
 
 TEST(Ellipse, IsOnlyClippedWhereOneEndOfAnAxisStaysInTheScene) {
