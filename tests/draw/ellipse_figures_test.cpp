@@ -90,11 +90,12 @@ TEST(EllipseFigure, HasWholeEllipsesOfAllOrdinaryPosesOnEveryPage) {
         options.width = width;
         options.height = height;
         const Chain chain = test::model(model);
+        const TipMass mass(chain);
         Workspace ws(chain);
         std::size_t ordinary = 0;
-        for (const Pose& pose : poses_of(chain, poses, options, ws)) ordinary += is_ordinary(pose.axes) ? 1 : 0;
+        for (const Pose& pose : poses_of(mass, poses, options, ws)) ordinary += is_ordinary(pose.axes) ? 1 : 0;
         EXPECT_GE(ordinary, 2u) << model;
-        const Picture picture = draw_ellipse_figure(chain, poses, options, test::fonts());
+        const Picture picture = draw_ellipse_figure(mass, poses, options, test::fonts());
         EXPECT_GE(test::all_of<Ellipse>(picture, is_mass_ellipse).size(), ordinary) << model << " " << layout << width;
         EXPECT_THAT(test::words_of(picture), testing::Not(testing::HasSubstr("\u221E")));
       }
