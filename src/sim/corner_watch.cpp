@@ -15,7 +15,11 @@ constexpr double kAhead = 1e-5;                            // s: a look ahead wh
 constexpr std::size_t kRush = 100;                         // changes of sides that are looked at together,
 constexpr double kRushTime = 0.01;    // s, and within how short a time they come to no end
 constexpr double kLeaving = 1e-6;     // of 1: a side that a crossing found there is beyond it
-constexpr std::size_t kMostOpen = 6;  // corners at zero at once: 3^6 combinations
+constexpr std::size_t kMostOpen = 5;  // corners at zero at once: 4^5 combinations
+// What may become of a corner at zero: it is held, the text decides as long as nothing drives it (so what
+// stands still where the text says so stays there), or it goes to one side. Tried in this order.
+constexpr int kHold = 0, kText = 2;
+constexpr int kChoices[] = {kHold, kText, 1, -1};
 
 }  // namespace
 
@@ -138,15 +142,15 @@ int CornerWatch::direction(int k, double t, ConstVec q, ConstVec qd) {
   return change > 1e-15 ? 1 : change < -1e-15 ? -1 : 0;
 }
 
-// Whether the motion at this choice (1, -1, or 0: held) of sides for the open corners stays on them.
+// Whether the motion at this choice for the open corners stays on them.
 bool CornerWatch::is_consistent(const std::vector<int>& open, const std::vector<int>& choice, double t,
                                 ConstVec q, ConstVec qd) {
   std::vector<int> held;
   for (std::size_t i = 0; i < open.size(); ++i) {
-    if (choice[i] == 0)
+    if (choice[i] == kHold)
       held.push_back(open[i]);
     else
-      corners_.set_side(open[i], choice[i]);
+      corners_.set_side(open[i], choice[i] == kText ? kAsWritten : choice[i]);
   }
   system_.hold(held);
   if (!held.empty()) {
@@ -162,46 +166,41 @@ bool CornerWatch::is_consistent(const std::vector<int>& open, const std::vector<
     }
   }
   for (std::size_t i = 0; i < open.size(); ++i)
-    if (choice[i] != 0 && direction(open[i], t, q, qd) != choice[i]) return false;
+    if (choice[i] != kHold && direction(open[i], t, q, qd) != (choice[i] == kText ? 0 : choice[i]))
+      return false;
   return true;
 }
 
 bool CornerWatch::choose_sides(const std::vector<int>& open, double t, ConstVec q, ConstVec qd) {
   if (open.empty()) return true;
   if (open.size() > kMostOpen) return false;
-  // What stands still at the start where the text says so stays there, though one push would make it go: but
-  // for what is held.
-  std::vector<int> choice(open.size(), 0);
-  if (is_consistent(open, choice, t, q, qd)) return true;
-  if (!started_ && take_text(open, t, q, qd)) return true;
+  std::vector<int> choice(open.size());
   int combinations = 1;
-  for (std::size_t i = 0; i < open.size(); ++i) combinations *= 3;
+  for (std::size_t i = 0; i < open.size(); ++i) combinations *= 4;
   for (int number = 0; number < combinations; ++number) {
     int rest = number;
     for (int& one : choice) {
-      one = rest % 3 == 0 ? 1 : rest % 3 == 1 ? -1 : 0;
-      rest /= 3;
+      one = kChoices[rest % 4];
+      rest /= 4;
     }
-    if (is_consistent(open, choice, t, q, qd)) return true;
+    if (!is_consistent(open, choice, t, q, qd)) continue;
+    for (std::size_t i = 0; i < open.size(); ++i)
+      watched_[std::size_t(open[i])].as_written = choice[i] == kText;
+    return true;
   }
-  // Nothing drives the motion to one of the sides: the text decides as long as that is so.
-  take_text(open, t, q, qd);
+  follow_text(open, t, q, qd);
   return true;
 }
 
-// The text as it is written, for corners that stay at zero under it; the side to which it leads for others.
-// False where there are such.
-bool CornerWatch::take_text(const std::vector<int>& open, double t, ConstVec q, ConstVec qd) {
+// Where no choice agrees with the motion that it makes, each corner goes where the text leads it.
+void CornerWatch::follow_text(const std::vector<int>& open, double t, ConstVec q, ConstVec qd) {
   system_.hold({});
   for (const int k : open) corners_.set_side(k, kAsWritten);
-  bool stays = true;
   for (const int k : open) {
     const int way = direction(k, t, q, qd);
-    stays = stays && way == 0;
     watched_[std::size_t(k)].as_written = way == 0;
     if (way != 0) corners_.set_side(k, way);
   }
-  return stays;
 }
 
 // Those that are held, that stand at zero, or that have just left their side.

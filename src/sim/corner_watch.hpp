@@ -56,7 +56,7 @@ class CornerWatch {
   bool choose_sides(const std::vector<int>& open, double t, ConstVec q, ConstVec qd);
   bool is_consistent(const std::vector<int>& open, const std::vector<int>& choice, double t, ConstVec q,
                      ConstVec qd);
-  bool take_text(const std::vector<int>& open, double t, ConstVec q, ConstVec qd);
+  void follow_text(const std::vector<int>& open, double t, ConstVec q, ConstVec qd);
   int direction(int k, double t, ConstVec q, ConstVec qd);
   bool jumps_without_end(double t, const std::vector<int>& changed);
 

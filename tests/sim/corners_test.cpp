@@ -135,6 +135,16 @@ TEST(Corners, WhatTheTextHoldsAtRestStaysThere) {
   EXPECT_NEAR(end_of(with(slider("5*(q2<=0)", 2), "dop853", 1e-9))[0], 10 / m, 1e-9);
 }
 
+TEST(Corners, FrictionHoldsFromTheStartBesideACornerThatNothingDrives) {
+  // abs(qd1) stands at zero too, and nothing holds it there but that nothing pushes.
+  Simulation run = run_of("pp", {"-0.5*abs(qd1)*qd1", "9.81 + 2*t - ((qd2>0)-(qd2<0))"}, 1, "rk4", 0.01);
+  const Trajectory trajectory = simulate(run, instants(1, 1));
+  EXPECT_EQ(trajectory.status, RunStatus::finished) << trajectory.trouble;
+  ASSERT_EQ(trajectory.holds.size(), 1u);
+  EXPECT_NEAR(trajectory.holds[0].end, 0.5, 1e-10);
+  EXPECT_NEAR(trajectory.q_at(1)[1], 2 * 0.125 / 6, 1e-10);
+}
+
 TEST(Corners, OfAReferenceEndStepsToo) {
   // The gripper's goal turns back at 1 s, with a jump of its rate.
   Simulation run = run_of("pp", {}, 2);
