@@ -118,12 +118,14 @@ PlotCurves values_of(const Expression& value, const Simulation& simulation, cons
     probe.set(chain, ws, t, q, qd, plots.needs_kinematics);
     if (trajectory.rows > 0) probe.set_multipliers(trajectory.lambda_at(k));
     if (plots.cop_slot >= 0) {
+      hold_as_then(system, simulation, trajectory, t);
       system.acceleration(t, q, qd, qdd);
       probe.set_value(plots.cop_slot,
                       center_of_pressure(chain, ws, plots.ground, plots.ground_height, q, qd, qdd));
     }
     curve.y.push_back(value.evaluate(probe.values()));
   }
+  simulation.torque->leave_pieces();
   PlotCurves plot;
   plot.curves.push_back(std::move(curve));
   return plot;

@@ -1,8 +1,9 @@
 #include "sim/torques_along.hpp"
 
+#include <algorithm>
+
 #include "dynamics/constrained_inverse.hpp"
 #include "dynamics/constraint_rows.hpp"
-#include "sim/chain_system.hpp"
 
 namespace chainreel {
 namespace {
@@ -21,14 +22,26 @@ struct HeldFrame {
 
 }  // namespace
 
+void hold_as_then(ChainSystem& system, const Simulation& simulation, const Trajectory& trajectory, double t) {
+  const auto& holds = trajectory.holds;
+  const auto found = std::find_if(holds.begin(), holds.end(),
+                                  [t](const auto& one) { return one.begin <= t && t <= one.end; });
+  if (found == holds.end() && system.held().empty()) return;
+  simulation.torque->leave_pieces();
+  system.hold(found == holds.end() ? std::vector<int>() : found->corners);
+}
+
 std::vector<double> torques_along(const Simulation& simulation, const Trajectory& trajectory) {
   ChainSystem system(simulation);
   std::vector<double> torques;
   torques.reserve(std::size_t(trajectory.size()) * std::size_t(simulation.chain.nv));
   for (int k = 0; k < trajectory.size(); ++k) {
-    const ConstVec tau = system.torque(trajectory.t[std::size_t(k)], trajectory.q_at(k), trajectory.qd_at(k));
+    const double t = trajectory.t[std::size_t(k)];
+    hold_as_then(system, simulation, trajectory, t);
+    const ConstVec tau = system.torque(t, trajectory.q_at(k), trajectory.qd_at(k));
     torques.insert(torques.end(), tau.begin(), tau.end());
   }
+  simulation.torque->leave_pieces();
   return torques;
 }
 

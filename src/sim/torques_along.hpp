@@ -4,9 +4,13 @@
 
 #include <vector>
 
+#include "sim/chain_system.hpp"
 #include "sim/simulate.hpp"
 
 namespace chainreel {
+
+// Corners of the torques that the run held at zero at that instant are held in `system`, too; no others are.
+void hold_as_then(ChainSystem& system, const Simulation& simulation, const Trajectory& trajectory, double t);
 
 // The joint torques at each sample, nv numbers each (N m or N), as the run felt them: with those that press on
 // constraints, cut where the limit policy says so, friction left out.

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "sim/audit.hpp"
 #include "sim/runs.hpp"
+#include "sim/torques_along.hpp"
 #include "support/battery.hpp"
 
 namespace chainreel {
@@ -143,6 +144,14 @@ TEST(Corners, FrictionHoldsFromTheStartBesideACornerThatNothingDrives) {
   ASSERT_EQ(trajectory.holds.size(), 1u);
   EXPECT_NEAR(trajectory.holds[0].end, 0.5, 1e-10);
   EXPECT_NEAR(trajectory.q_at(1)[1], 2 * 0.125 / 6, 1e-10);
+}
+
+TEST(Corners, TheTorqueThatIsShownOfAHeldJointIsWhatHoldsIt) {
+  // 1 N pushes and friction answers, though the text knows 2 N, none and -2 N only.
+  const Simulation run = with(slider("1*t - 2*((qd1>0)-(qd1<0))", 3), "dop853", 1e-10);
+  const std::vector<double> tau = torques_along(run, simulate(run, instants(3, 0.5)));
+  for (int k = 0; k < 4; ++k) EXPECT_NEAR(tau[std::size_t(2 * k)], 0, 1e-12) << "at rest nothing is left";
+  EXPECT_NEAR(tau[2 * 6], 1, 1e-12) << "at 3 s it slides";
 }
 
 TEST(Corners, OfAReferenceEndStepsToo) {
