@@ -3,14 +3,19 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/progress.hpp"
 #include "app/signals.hpp"
+#include "core/error.hpp"
 #include "core/format.hpp"
 
 namespace chainreel {
 namespace {
 
+constexpr double kWorthSaying = 100;  // times what was asked for: beyond that nobody wants it
+constexpr long kMostEvaluationsForEvents = 10'000'000;
+
 std::string microseconds(double ns) {
-  return format_significant(ns / 1000, 2) + " us";
+  return ns < 1e9 ? format_significant(ns / 1000, 2) + " us" : format_significant(ns / 1e9, 2) + " s";
 }
 
 Json candidate_report(const Choice::Candidate& candidate) {
@@ -23,42 +28,77 @@ Json candidate_report(const Choice::Candidate& candidate) {
   return json;
 }
 
+std::string progress_text(const ChoiceProgress& now, double duration) {
+  return "choosing a method: " + now.doing + " at t = " + format_significant(now.t, 3) + " of " +
+         format_shortest(duration) + " s, behind " + std::to_string(now.runs) + " runs and " +
+         format_fixed(100 * now.spent, 0) + " % of the budget";
+}
+
+// Where the run ends by an event, s.
+std::optional<double> end_by_event(Simulation& simulation, std::span<const double> times) {
+  apply({&find_method("dop853"), {1e-10, 0}, 0}, simulation);
+  simulation.longest_step = times.size() > 1 ? times[1] - times[0] : 0;
+  simulation.most_evaluations = kMostEvaluationsForEvents;
+  const Trajectory run = simulate(simulation, {}, [](double) { return interrupted(); });
+  simulation.longest_step = 0;
+  simulation.most_evaluations = 0;
+  throw_if_interrupted();
+  return run.ending_event >= 0 ? std::optional(run.end_time) : std::nullopt;
+}
+
 }  // namespace
 
-void choose_automatically(PreparedScene& prepared) {
+void choose_automatically(PreparedScene& prepared, bool quiet) {
   if (prepared.simulation.method) return;
   Simulation& simulation = prepared.simulation;
-  const auto stop = [](double) { return interrupted(); };
   const auto events = simulation.events;
   const double duration = simulation.duration;
   std::vector<double> times = frame_times(prepared.scene);
   if (events) {
     // What comes behind the event that ends the run is nobody's concern.
-    apply({&find_method("dop853"), {1e-10, 0}, 0}, simulation);
-    const double end = simulate(simulation, {}, stop).end_time;
-    if (end > 0) simulation.duration = end;
+    const auto end = end_by_event(simulation, times);
+    if (end && *end > 0) simulation.duration = *end;
     while (times.size() > 1 && times.back() > simulation.duration) times.pop_back();
     simulation.events = nullptr;
   }
-  prepared.choice = choose_method(simulation, prepared.scene.accuracy, times, stop);
+  try {
+    prepared.choice = choose_with_progress(simulation, prepared.scene, times, quiet);
+  } catch (const Error& error) {
+    throw Error(error.code(), error.problems().front().message, prepared.scene.place_of("accuracy"));
+  }
   simulation.events = events;
   simulation.duration = duration;
+}
+
+Choice choose_with_progress(Simulation& simulation, const Scene& scene, std::span<const double> times, bool quiet) {
+  Ticker ticker(quiet);
+  Choice choice = choose_method(simulation, scene.accuracy, times, [&](const ChoiceProgress& now) {
+    if (ticker.is_due()) ticker.say(scene.name + ": " + progress_text(now, simulation.duration));
+    return interrupted();
+  });
   throw_if_interrupted();
+  return choice;
 }
 
 std::string choice_text(const Choice& choice, const Accuracy& accuracy) {
   const std::string unit = " " + accuracy.unit;
-  std::string text = "auto: " + to_string(choice.best.setting);
+  const Choice::Candidate& best = choice.best;
+  std::string text = "auto: " + to_string(best.setting);
   if (choice.is_met)
-    text += " is off by " + format_significant(choice.best.error, 2) + unit + " and costs some " +
-            microseconds(choice.best.cost) + "; " + std::to_string(choice.tried.size()) + " candidates";
+    text += " is off by at most " + format_significant(best.error, 2) + unit + " and costs some " +
+            microseconds(best.cost) + "; " + std::to_string(choice.tried.size()) + " candidates";
+  else if (std::isfinite(best.error))
+    text += " is the most exact that was found, off by up to " + format_significant(best.error, 2) + unit + " where " +
+            to_string(accuracy) + " was asked for";
   else
-    text += " is the most exact that was found, off by " + format_significant(choice.best.error, 2) + unit +
-            " where " + to_string(accuracy) + " was asked for";
-  if (choice.holds_until)
-    text += "; that holds until t = " + format_significant(*choice.holds_until, 3) +
-            " s: this motion magnifies rounding so much that nothing in double precision stays within " +
-            to_string(accuracy) + " for longer";
+    text += " is taken, though nothing is known of its error";
+  if (choice.out_of_budget)
+    text += "; the search ended before all was tried, at its budget of " + microseconds(choice.budget) +
+            " of counted work: this is the best so far";
+  if (!choice.holds_until) return text;
+  text += "; that holds until t = " + format_significant(*choice.holds_until, 4) + " s: " + choice.why_until;
+  if (choice.attainable && *choice.attainable > accuracy.value && *choice.attainable < kWorthSaying * accuracy.value)
+    text += "; to the end something can be promised from " + format_significant(*choice.attainable, 2) + unit + " on";
   return text;
 }
 
@@ -80,7 +120,12 @@ Json choice_report(const Choice& choice, const Accuracy& accuracy, bool tried) {
   json["accuracy"] = to_string(accuracy);
   json["is_met"] = choice.is_met;
   json["holds_until"] = choice.holds_until ? Json(*choice.holds_until) : Json(nullptr);
+  if (choice.holds_until) json["why_until"] = choice.why_until;
+  json["reference"] = choice.reference;
   json["reference_uncertainty"] = choice.reference_uncertainty;
+  if (choice.attainable) json["attainable"] = *choice.attainable;
+  json["out_of_budget"] = choice.out_of_budget;
+  json["spent"] = choice.spent / choice.budget;
   if (tried)
     for (const Choice::Candidate& one : choice.tried) json["tried"].push_back(candidate_report(one));
   return json;

@@ -8,10 +8,13 @@
 
 namespace chainreel {
 
-// Fills in method and step where the scene leaves them to the program; else does nothing.
-void choose_automatically(PreparedScene& prepared);
+// Fills in method and step where the scene leaves them to the program; else does nothing. Throws Error (numerical) at
+// the scene's `accuracy` where that cannot be had, and the signal's.
+void choose_automatically(PreparedScene& prepared, bool quiet);
+// choose_method, with a line on standard error from the first second on unless it is to be quiet.
+Choice choose_with_progress(Simulation& simulation, const Scene& scene, std::span<const double> times, bool quiet);
 
-// One sentence: the choice, its estimated error and its price; and until when any run can be that exact.
+// One sentence: the choice, a bound of its error and its price; until when that holds, and what happens there.
 std::string choice_text(const Choice& choice, const Accuracy& accuracy);
 
 // What was changed of the scene when it was made ready, on standard error.

@@ -59,7 +59,7 @@ Measured measure_all(PreparedScene& prepared, const std::vector<const Method*>& 
   measured.accuracy = prepared.scene.accuracy;
   measured.choice = prepared.choice;
   if (!measured.choice)
-    measured.choice = choose_method(simulation, measured.accuracy, frame_times(prepared.scene), stop_asked);
+    measured.choice = choose_with_progress(simulation, prepared.scene, frame_times(prepared.scene), options.common.quiet);
   throw_if_interrupted();
   measured.reference = end_reference(simulation);
   LadderOptions ladder;
@@ -161,7 +161,7 @@ void print_summary(const WorkPrecision& data, const Measured& measured) {
 
 void run_chart(const ChartOptions& options) {
   const std::vector<const Method*> chosen = parse_methods(options.methods);
-  PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false);
+  PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false, options.common.quiet);
   std::string output = options.figure.output;
   if (output.empty()) output = "out/" + prepared.scene.name + "_chart.png";
   check_figure_path(output);

@@ -158,7 +158,7 @@ void print_run(const PreparedScene& prepared, const RunReport& report) {
 }
 
 void check_scene(const CheckOptions& options) {
-  const PreparedFilm film = load_film(options.file, overrides_of(options.common));
+  const PreparedFilm film = load_film(options.file, overrides_of(options.common), true, options.common.quiet);
   const int frames = clock_of(film).frame_count();
   std::vector<RunReport> reports;
   for (const PreparedScene& panel : film.panels) {

@@ -82,7 +82,7 @@ GatheredPoses gather_poses(const Chain& chain, const PoseSources& sources) {
 Motion motion_of(const PoseSources& sources, const CommonOptions& common) {
   if (!sources.sweep.empty() || !sources.poses.empty() || sources.field)
     throw Error(ExitCode::usage, "--along takes its poses from the motion: leave out --pose, --sweep and --field");
-  const PreparedFilm film = load_film(sources.along, overrides_of(common));
+  const PreparedFilm film = load_film(sources.along, overrides_of(common), true, common.quiet);
   require_single_run(film.scene);
   say_notices(film.panels.front(), common.quiet);
   const int count = sources.samples > 0 ? sources.samples : kPosesAlong;

@@ -13,6 +13,7 @@
 #include "core/format.hpp"
 #include "draw/energy_chart.hpp"
 #include "sim/audit.hpp"
+#include "sim/workload.hpp"
 
 namespace chainreel {
 namespace {
@@ -54,6 +55,9 @@ struct Settings {
 
 Settings settings_of(const EnergyOptions& options, const Scene& scene) {
   Settings settings{options.step, options.tolerance};
+  if (settings.tolerance > 0 && settings.tolerance < kLeastTolerance)
+    throw Error(ExitCode::usage, "--tolerance is below the rounding of doubles, which no step can meet: take " +
+                                     format_shortest(kLeastTolerance) + " or more");
   if (settings.step <= 0) settings.step = scene.step.value_or(kDefaultStep);
   if (settings.tolerance <= 0) settings.tolerance = scene.tolerance.value_or(kDefaultTolerance);
   return settings;
@@ -155,15 +159,28 @@ void print_table(const std::vector<MethodRun>& runs, const std::vector<std::stri
   for (const std::string& line : left_out) std::printf("left out: %s\n", line.c_str());
 }
 
+// Before the first of them runs.
+void require_all_possible(Simulation& simulation, const std::vector<const Method*>& chosen, const Settings& settings) {
+  double work = 0;
+  for (const Method* method : chosen) {
+    apply(settings.of(*method), simulation);
+    require_possible(simulation);
+    work += least_work(simulation);
+  }
+  require_possible(work, double(chosen.size()));
+}
+
 void run_energy(const EnergyOptions& options) {
   const std::vector<const Method*> chosen = parse_methods(options.methods);
-  PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false);
+  PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false, options.common.quiet);
   const Settings settings = settings_of(options, prepared.scene);
   Simulation& simulation = prepared.simulation;
   if (!options.until.empty()) simulation.duration = parse_seconds(options.until, "--until");
   std::string output = options.figure.output;
   if (output.empty()) output = "out/" + prepared.scene.name + "_energy.png";
   check_figure_path(output);
+
+  require_all_possible(simulation, chosen, settings);
 
   const std::vector<double> times = times_until(simulation.duration);
   std::vector<MethodRun> runs;

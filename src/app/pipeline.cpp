@@ -22,22 +22,22 @@ namespace chainreel {
 
 namespace {
 
-PreparedScene prepare_panel(Scene scene, bool meshes) {
+PreparedScene prepare_panel(Scene scene, bool meshes, bool quiet) {
   PreparedScene prepared{std::move(scene), {}, {}, nullptr};
   prepared.simulation = prepare(prepared.scene, meshes);
-  choose_automatically(prepared);
+  choose_automatically(prepared, quiet);
   return prepared;
 }
 
 // Every panel is prepared, so that all problems are told at once; what several panels share is told once.
-std::vector<PreparedScene> prepare_panels(const std::vector<Scene>& scenes, bool meshes) {
+std::vector<PreparedScene> prepare_panels(const std::vector<Scene>& scenes, bool meshes, bool quiet) {
   std::vector<PreparedScene> panels;
   std::set<std::string> seen;
   std::vector<Problem> problems;
   ExitCode code = ExitCode::bad_input;
   for (const Scene& scene : scenes) {
     try {
-      panels.push_back(prepare_panel(scene, meshes));
+      panels.push_back(prepare_panel(scene, meshes, quiet));
     } catch (const Error& error) {
       code = error.code();
       for (const Problem& problem : error.problems())
@@ -65,15 +65,15 @@ void load_shapes(PreparedFilm& film) {
 
 }  // namespace
 
-PreparedFilm load_film(const std::string& path, const std::vector<std::string>& overrides, bool meshes) {
+PreparedFilm load_film(const std::string& path, const std::vector<std::string>& overrides, bool meshes, bool quiet) {
   PreparedFilm film{read_scene(path, overrides), {}};
   if (film.scene.compare.empty()) {
-    film.panels.push_back(prepare_panel(std::move(film.scene), meshes));
+    film.panels.push_back(prepare_panel(std::move(film.scene), meshes, quiet));
     film.scene = film.panels.front().scene;
     if (meshes) load_shapes(film);
     return film;
   }
-  film.panels = prepare_panels(film.scene.compare, meshes);
+  film.panels = prepare_panels(film.scene.compare, meshes, quiet);
   for (std::size_t i = 0; i < film.panels.size(); ++i) film.scene.compare[i] = film.panels[i].scene;
   name_panels(film.scene.compare);
   for (std::size_t i = 0; i < film.panels.size(); ++i)
@@ -82,10 +82,11 @@ PreparedFilm load_film(const std::string& path, const std::vector<std::string>& 
   return film;
 }
 
-PreparedScene load_scene(const std::string& path, const std::vector<std::string>& overrides, bool meshes) {
+PreparedScene load_scene(const std::string& path, const std::vector<std::string>& overrides, bool meshes,
+                         bool quiet) {
   Scene scene = read_scene(path, overrides);
   require_single_run(scene);
-  PreparedScene prepared = prepare_panel(std::move(scene), meshes);
+  PreparedScene prepared = prepare_panel(std::move(scene), meshes, quiet);
   prepared.simulation.events = nullptr;
   return prepared;
 }

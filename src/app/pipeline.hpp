@@ -33,12 +33,13 @@ struct PreparedFilm {
   std::vector<PreparedScene> panels;
 };
 
-PreparedFilm load_film(const std::string& path, const std::vector<std::string>& overrides,
-                       bool meshes = true);
+// `quiet`: says nothing while a method is chosen.
+PreparedFilm load_film(const std::string& path, const std::vector<std::string>& overrides, bool meshes = true,
+                       bool quiet = true);
 // For charts and tables of a single run, which compare whole durations: events do not act. Throws Error where
 // the scene compares several.
 PreparedScene load_scene(const std::string& path, const std::vector<std::string>& overrides,
-                         bool meshes = true);
+                         bool meshes = true, bool quiet = true);
 
 // 0, 1/fps, 2/fps, ...: one a frame of a film without slow motion.
 std::vector<double> frame_times(const Scene& scene);

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "core/printable.hpp"
@@ -11,6 +12,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kTerminalPeriod{100};
 constexpr std::chrono::milliseconds kPlainPeriod{4000};
+constexpr std::chrono::milliseconds kPatience{900};  // before the first word
 
 }  // namespace
 
@@ -48,6 +50,28 @@ void Progress::print(int done, Clock::time_point now) {
   std::fflush(stderr);
   if (write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // nobody looks
   printed_ = true;
+}
+
+Ticker::Ticker(bool quiet)
+    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), next_(Clock::now() + kPatience) {}
+
+Ticker::~Ticker() {
+  // What was said meanwhile is of no use any more.
+  if (terminal_ && printed_ > 0) std::fprintf(stderr, "\r%*s\r", int(printed_), "");
+}
+
+bool Ticker::is_due() const {
+  return !quiet_ && Clock::now() >= next_;
+}
+
+void Ticker::say(const std::string& text) {
+  next_ = Clock::now() + (terminal_ ? kTerminalPeriod : kPlainPeriod);
+  if (terminal_)
+    std::fprintf(stderr, "\r%-*s", int(printed_), text.c_str());
+  else
+    std::fprintf(stderr, "%s\n", text.c_str());
+  std::fflush(stderr);
+  printed_ = std::max(printed_, text.size());
 }
 
 }  // namespace chainreel

@@ -26,6 +26,24 @@ class Progress {
   Clock::time_point start_, last_;
 };
 
+// The same for what has no frames to count: sentences, from the first second on.
+class Ticker {
+ public:
+  explicit Ticker(bool quiet);
+  ~Ticker();
+
+  bool is_due() const;
+  void say(const std::string& text);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool quiet_;
+  bool terminal_;
+  std::size_t printed_ = 0;  // characters of the line that stands on the terminal
+  Clock::time_point next_;
+};
+
 // Seconds since it was made or last asked.
 class Stopwatch {
  public:

@@ -40,7 +40,7 @@ std::vector<PreparedFilm> load_all(const RenderOptions& options) {
   ExitCode code = ExitCode::bad_input;
   for (const std::string& scene : options.scenes) {
     try {
-      films.push_back(load_film(scene, overrides_of(options)));
+      films.push_back(load_film(scene, overrides_of(options), true, options.common.quiet));
     } catch (const Error& error) {
       code = error.code();
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());

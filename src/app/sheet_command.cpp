@@ -41,7 +41,7 @@ void set_for_cell(Scene& scene, const std::string& theme, double text_scale) {
 
 ContactCell cell_of(const std::string& file, const SheetOptions& options, const std::string& theme,
                     double text_scale, const Fonts& fonts) {
-  PreparedFilm film = load_film(file, overrides_of(options.common));
+  PreparedFilm film = load_film(file, overrides_of(options.common), true, options.common.quiet);
   set_for_cell(film.scene, theme, text_scale);
   for (PreparedScene& panel : film.panels) set_for_cell(panel.scene, theme, text_scale);
   Moment moment = options.at.empty()

@@ -76,7 +76,7 @@ std::vector<std::size_t> chosen_panels(const PreparedFilm& film, const SimulateO
 }
 
 void run_simulate(const SimulateOptions& options) {
-  const PreparedFilm film = load_film(options.scene, overrides_of(options.common), false);
+  const PreparedFilm film = load_film(options.scene, overrides_of(options.common), false, options.common.quiet);
   const std::vector<std::size_t> chosen = chosen_panels(film, options);
   const bool alone = chosen.size() == 1;
   const std::string output = options.output.empty() ? "out/" + film.scene.name + ".csv" : options.output;

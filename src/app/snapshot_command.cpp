@@ -48,7 +48,7 @@ std::vector<std::string> overrides_of(const SnapshotOptions& options) {
 void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
   std::vector<std::string> overrides = overrides_of(options);
   add_comparison(options.vary, overrides);
-  PreparedFilm film = load_film(options.file, overrides);
+  PreparedFilm film = load_film(options.file, overrides, true, options.common.quiet);
   for (const PreparedScene& panel : film.panels) say_notices(panel, options.common.quiet);
   Video& video = film.scene.video;
   if (options.width > 0) video.width = options.width;

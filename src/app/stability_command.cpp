@@ -209,7 +209,7 @@ void print_linearisation(const Linearisation& start) {
 
 // "Who fails here": every method at three steps or tolerances.
 void print_methods(const StabilityOptions& options) {
-  PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false);
+  PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false, options.common.quiet);
   Simulation& simulation = prepared.simulation;
   const Linearisation start = linearise(simulation);
   std::vector<std::vector<std::string>> table{

@@ -19,6 +19,9 @@ class Stepper {
   virtual void step(SecondOrder& system, double t, double h, std::span<double> q, std::span<double> v) = 0;
 };
 
+// Below it an adaptive method would chase the rounding of doubles.
+inline constexpr double kLeastTolerance = 1e-15;
+
 struct MethodOptions {
   double tolerance = 0;  // of an adaptive method; 0: every step goes where it is told
   int order = 0;         // of a method that offers several; 0: its row's

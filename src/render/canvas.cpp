@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/memory_limit.hpp"
 #include "render/batch.hpp"
 #include "render/gl_context.hpp"
 #include "render/gl_objects.hpp"
@@ -32,8 +33,13 @@ int largest_side(const GlFunctions& gl) {
   return std::min({texture, viewport[0], viewport[1]});
 }
 
+// The page, its layers and the image that is read back; measured with the renderer that draws without a screen.
+constexpr double kBytesOfPixel = 20;
+
 void require_size(int width, int height, int largest) {
-  if (width >= 1 && height >= 1 && width <= largest && height <= largest) return;
+  if (width >= 1 && height >= 1 && width <= largest && height <= largest)
+    return require_memory(kBytesOfPixel * width * height,
+                          "a picture of " + std::to_string(width) + "x" + std::to_string(height) + " px");
   throw Error(ExitCode::limit, "a picture of " + std::to_string(width) + "x" + std::to_string(height) +
                                    " px cannot be drawn; each side must be 1 to " + std::to_string(largest) +
                                    " px");

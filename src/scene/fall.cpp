@@ -6,6 +6,7 @@
 #include "scene/parallel.hpp"
 #include "scene/prepare.hpp"
 #include "scene/read_scene.hpp"
+#include "sim/workload.hpp"
 
 namespace chainreel {
 namespace {
@@ -85,6 +86,8 @@ FallTable run_fall_table(const std::string& scene, const std::vector<std::string
   table.events = first.events;
   table.duration = first.duration;
   table.method = method_text(first);
+  Scene counted = first;
+  require_possible(prepare(counted, false), double(table.rows.size()));
   for_each_index(table.rows.size(), threads, [&](std::size_t k) {
     if (stop && stop(0)) return;
     table.rows[k] = run_row(read_one(scene, settings(k)), stop);

@@ -1,5 +1,6 @@
 #include "scene/read_method.hpp"
 
+#include "core/format.hpp"
 #include "integrate/method.hpp"
 
 namespace chainreel {
@@ -69,6 +70,10 @@ void read_method(Fields& fields, Scene& scene) {
   if (scene.step && *scene.step > scene.duration && scene.duration > 0)
     problem_at(fields, "step", "'step' is longer than the duration");
   read_number(fields, "tolerance", scene.tolerance, "'tolerance' must be above 0");
+  if (scene.tolerance && *scene.tolerance > 0 && *scene.tolerance < kLeastTolerance)
+    problem_at(fields, "tolerance",
+               "'tolerance' is below the rounding of doubles, which no step can meet: take " +
+                   format_shortest(kLeastTolerance) + " or more");
   if (has(fields, "order")) fields.read("order", scene.order.emplace());
   read_accuracy(fields, scene);
   if (scene.method == "auto") return refuse_with_auto(fields);

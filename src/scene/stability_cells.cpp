@@ -11,7 +11,9 @@
 #include "scene/read_scene.hpp"
 #include "sim/audit.hpp"
 #include "sim/batch.hpp"
+#include "sim/cost_table.hpp"
 #include "sim/linear_modes.hpp"
+#include "sim/workload.hpp"
 
 namespace chainreel {
 namespace {
@@ -75,8 +77,9 @@ class CellRuns {
 
   StabilityCells run() {
     // The first cell alone: a scene that cannot be read says so once.
-    const Simulation first = simulation_of({0, 0});
+    Simulation first = simulation_of({0, 0});
     result_.method = first.method->name;
+    require_all_possible(first);
     const bool same_step = !is_of_time(result_.x.key) && !is_of_time(result_.y.key);
     result_.in_batches = same_step && fits_a_batch(first);
     find_scales();
@@ -105,6 +108,23 @@ class CellRuns {
                   "name one, like --set method=rk4",
                   scene.place_of("method"));
     return prepare(scene, false);
+  }
+
+  // All cells by the first one's mechanism, with the steps and tolerances of their own.
+  void require_all_possible(Simulation& one) const {
+    const double duration = one.duration;
+    const double least = kInstants * forward_dynamics_cost(one.chain);  // of any run
+    double work = 0;
+    for (std::size_t iy = 0; iy < result_.y.values.size(); ++iy)
+      for (std::size_t ix = 0; ix < result_.x.values.size(); ++ix) {
+        if (is_of_method(result_.x.key)) set_of_method(one, result_.x.key, result_.x.numbers[ix]);
+        if (is_of_method(result_.y.key)) set_of_method(one, result_.y.key, result_.y.numbers[iy]);
+        lengthen(one);
+        require_possible(one);
+        work += std::max(least_work(one), least);
+        one.duration = duration;
+      }
+    require_possible(work, double(result_.cells.size()));
   }
 
   static void lengthen(Simulation& simulation) {

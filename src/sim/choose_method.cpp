@@ -5,19 +5,18 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "sim/cost_table.hpp"
-#include "sim/deviation.hpp"
+#include "sim/choice_reference.hpp"
 
 namespace chainreel {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kStepLadder[] = {0.2,  0.1,  0.05, 0.02, 0.01, 5e-3, 2e-3,
                                   1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5};
 constexpr double kToleranceLadder[] = {1e-2, 1e-3, 1e-4,  1e-5,  1e-6,  1e-7,
                                        1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13};
 constexpr int kOrders[] = {12, 20};
-// Two runs that are each as exact as double precision allows may share this part of what is allowed.
-constexpr double kShareOfReference = 0.5;
+constexpr double kShareOfCandidate = 0.1;  // of the budget, where nothing is exact enough yet
 
 bool takes_the_chain(Simulation& simulation, const Method& method) {
   simulation.method = &method;
@@ -29,19 +28,27 @@ bool takes_the_chain(Simulation& simulation, const Method& method) {
   }
 }
 
-// What an evaluation costs more than that of the free chain, and a step.
-ConstraintCost price_of_constraints(const Simulation& simulation) {
-  ConstraintCost cost = constraint_cost(simulation.chain, simulation.constraints);
-  cost.evaluation = std::max(0.0, cost.evaluation - forward_dynamics_cost(simulation.chain));
-  return cost;
+// Frames show them; what is between two frames is asked for by slow motion, captions and tables.
+std::vector<double> with_halves(std::span<const double> frames, double end) {
+  std::vector<double> times;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    times.push_back(frames[k]);
+    const double next = k + 1 < frames.size() ? frames[k + 1] : end;
+    if (next > frames[k]) times.push_back(0.5 * (frames[k] + next));
+  }
+  if (times.empty() || times.back() < end) times.push_back(end);
+  return times;
 }
 
 class Chooser {
  public:
-  Chooser(Simulation& simulation, const Accuracy& accuracy, std::span<const double> times,
-          const StopRequest& stop)
-      : simulation_(simulation), accuracy_(accuracy), times_(times), stop_(stop) {
-    if (!simulation.constraints.empty()) constraints_ = price_of_constraints(simulation);
+  Chooser(Simulation& simulation, const Accuracy& accuracy, std::span<const double> frames,
+          const ChoiceWatch& watch, double budget)
+      : simulation_(simulation),
+        accuracy_(accuracy),
+        duration_(simulation.duration),
+        times_(with_halves(frames, duration_)),
+        runs_(simulation, budget, watch) {
     for (const Method& method : methods())
       if (takes_the_chain(simulation_, method)) methods_.push_back(&method);
     // Adaptive ones first: what they cost bounds the search of all others.
@@ -49,78 +56,117 @@ class Chooser {
   }
 
   Choice choose() {
-    find_reference();
+    reference_ = find_reference(runs_, accuracy_, times_);
+    if (!runs_.is_stopped()) look_through_methods();
+    simulation_.duration = duration_;
+    if (!choice_.best.setting.method) choice_.best.setting = {&find_method("dop853"), {1e-12, 0}, 0};
+    apply(choice_.best.setting, simulation_);
+    tell_of_reference();
+    return std::move(choice_);
+  }
+
+ private:
+  void look_through_methods() {
+    choice_.best.setting = reference_.setting;
+    choice_.best.error = kInfinity;
+    if (reference_.samples < 2) return;  // the start alone tells nothing
+    deviation_.emplace(simulation_.chain, accuracy_, reference_.size);
+    shorten();
     for (const Method* method : methods_) {
-      if (stopped_) break;
+      if (has_ended()) break;
       if (method->adaptive)
         try_tolerances(*method);
       else
         try_steps(*method);
     }
-    apply(choice_.best.setting, simulation_);
-    return std::move(choice_);
+    // What is held until there by the reference alone is held by it.
+    if (!choice_.is_met && !has_ended()) try_one(reference_.setting);
+    if (simulation_.duration < duration_) confirm();
   }
 
- private:
-  Trajectory run(const MethodSetting& setting) {
-    apply(setting, simulation_);
-    Trajectory trajectory = simulate(simulation_, times_, stop_);
-    stopped_ = stopped_ || trajectory.status == RunStatus::interrupted;
-    return trajectory;
+  // Behind what is known of the motion candidates cannot be told apart: they are run until there, the best to the end.
+  void shorten() {
+    samples_ = times_;
+    if (reference_.is_whole) return;
+    samples_.resize(std::size_t(reference_.samples));
+    if (samples_.back() > 0) simulation_.duration = samples_.back();
   }
 
-  const Method* one_that_fits(const char* name) const {
-    for (const Method* method : methods_)
-      if (method->name == name) return method;
-    return nullptr;
+  bool has_ended() const { return runs_.is_stopped() || runs_.is_spent(); }
+
+  // The largest of the deviations known, with what the reference itself may be off.
+  double error_of(const Trajectory& trajectory) {
+    if (trajectory.size() < reference_.samples) return kInfinity;
+    double largest = 0;
+    for (int k = 0; k < reference_.samples; ++k)
+      largest = std::max(largest,
+                         deviation_->at(trajectory, reference_.run, k) + reference_.uncertainty[std::size_t(k)]);
+    return largest;
   }
 
-  // Two runs that share no text where that can be had; up to where they part no third can be called exact.
-  void find_reference() {
-    const Method* const series = one_that_fits("taylor");
-    const Method* const general = one_that_fits("dop853");
-    reference_ = run(series ? MethodSetting{series, {1e-15, 24}, 0} : MethodSetting{general, {1e-14, 0}, 0});
-    const Trajectory second = run({general, {1e-12, 0}, 0});
-    const MotionSize size = motion_size(simulation_.chain, reference_);
-    deviation_.emplace(simulation_.chain, accuracy_, size);
-    samples_ = std::min(reference_.size(), second.size());
-    for (int k = 0; k < samples_; ++k) {
-      const double apart = deviation_->at(reference_, second, k);
-      if (apart > kShareOfReference * accuracy_.value) {
-        choice_.holds_until = k > 0 ? times_[std::size_t(k) - 1] : 0;
-        samples_ = k;
-        break;
-      }
-      choice_.reference_uncertainty = std::max(choice_.reference_uncertainty, apart);
-    }
+  // It came to the end, or to that of the motion itself.
+  bool ran(const Trajectory& trajectory) const {
+    return reference_.is_whole ? trajectory.status == reference_.run.status : is_complete(trajectory.status);
   }
 
-  double cost_of(const MethodSetting& setting, double steps, double evaluations) const {
-    const double free = run_cost(simulation_.chain, *setting.method, setting.options, steps, evaluations);
-    return free + evaluations * constraints_.evaluation + steps * constraints_.projection;
-  }
-
-  // True where the setting is exact enough.
-  bool try_one(const MethodSetting& setting) {
-    const Trajectory trajectory = run(setting);
+  Choice::Candidate candidate_of(const MethodSetting& setting, const Trajectory& trajectory) {
     Choice::Candidate candidate{setting,
-                                deviation_->largest(trajectory, reference_, samples_),
-                                cost_of(setting, double(trajectory.steps), double(trajectory.evaluations)),
+                                error_of(trajectory),
+                                runs_.cost_of(setting, trajectory),
                                 trajectory.steps,
                                 trajectory.evaluations,
                                 {}};
-    const bool ran = trajectory.status == reference_.status;
-    if (!ran) candidate.trouble = trajectory.trouble;
-    const bool met = ran && candidate.error <= accuracy_.value;
-    const bool better =
-        met ? !choice_.is_met || candidate.cost < choice_.best.cost
-            : !choice_.is_met && (choice_.tried.empty() || candidate.error < choice_.best.error);
+    if (trajectory.status == RunStatus::out_of_budget)
+      candidate.trouble = choice_.is_met ? "given up: dearer than the best" : "given up: out of the budget";
+    else if (!ran(trajectory))
+      candidate.trouble = trajectory.trouble.empty() ? "does not end where the motion does" : trajectory.trouble;
+    return candidate;
+  }
+
+  enum class Verdict {
+    met,
+    not_met,
+    too_dear,  // and so is all that is finer
+    stopped,
+  };
+
+  Verdict try_one(const MethodSetting& setting) {
+    // What costs more than the best can be left.
+    const double most = choice_.is_met ? choice_.best.cost : kShareOfCandidate * runs_.budget();
+    const Trajectory trajectory = runs_.run(setting, samples_, most);
+    if (runs_.is_stopped()) return Verdict::stopped;
+    const Choice::Candidate candidate = candidate_of(setting, trajectory);
+    const bool met = candidate.trouble.empty() && candidate.error <= accuracy_.value;
+    const bool better = met ? !choice_.is_met || candidate.cost < choice_.best.cost
+                            : !choice_.is_met && candidate.error < choice_.best.error;
     if (better) {
       choice_.best = candidate;
       choice_.is_met = met;
     }
-    choice_.tried.push_back(std::move(candidate));
-    return met;
+    choice_.tried.push_back(candidate);
+    if (trajectory.status == RunStatus::out_of_budget) {
+      left_out_ = true;
+      return Verdict::too_dear;
+    }
+    return met ? Verdict::met : Verdict::not_met;
+  }
+
+  // The best of the candidates that hold until there and come to the end of the whole run.
+  void confirm() {
+    simulation_.duration = duration_;
+    std::vector<Choice::Candidate> met;
+    for (const Choice::Candidate& one : choice_.tried)
+      if (one.trouble.empty() && one.error <= accuracy_.value) met.push_back(one);
+    std::stable_sort(met.begin(), met.end(),
+                     [](const auto& one, const auto& other) { return one.cost < other.cost; });
+    for (const Choice::Candidate& one : met) {
+      if (has_ended()) return;
+      const Trajectory whole = runs_.run(one.setting, times_, runs_.budget());
+      const Choice::Candidate confirmed = candidate_of(one.setting, whole);
+      if (!confirmed.trouble.empty() || confirmed.error > accuracy_.value) continue;
+      choice_.best = confirmed;
+      return;
+    }
   }
 
   bool is_hopeless(double cost) const { return choice_.is_met && cost >= choice_.best.cost; }
@@ -130,8 +176,13 @@ class Chooser {
       if (step > simulation_.duration) continue;
       const MethodSetting setting{&method, {0, 0}, step};
       const double steps = simulation_.duration / step;
-      if (is_hopeless(cost_of(setting, steps, steps * std::max(1, method.evaluations_per_step)))) return;
-      if (stopped_ || try_one(setting)) return;
+      const double cost = runs_.cost_of(setting, steps, steps * std::max(1, method.evaluations_per_step));
+      if (is_hopeless(cost)) return;
+      if (cost > kShareOfCandidate * runs_.budget()) {
+        left_out_ = true;
+        return;
+      }
+      if (has_ended() || try_one(setting) != Verdict::not_met) return;
     }
   }
 
@@ -142,43 +193,43 @@ class Chooser {
 
   void try_tolerances(const Method& method, int order) {
     for (const double tolerance : kToleranceLadder) {
-      if (stopped_ || try_one({&method, {tolerance, order}, 0})) return;
+      if (has_ended() || try_one({&method, {tolerance, order}, 0}) != Verdict::not_met) return;
       if (is_hopeless(choice_.tried.back().cost)) return;
     }
   }
 
+  void tell_of_reference() {
+    choice_.reference = reference_.how;
+    choice_.attainable = reference_.attainable;
+    // What was left out is dearer than a best one that is exact enough.
+    choice_.out_of_budget = runs_.is_spent() || (left_out_ && !choice_.is_met);
+    choice_.budget = runs_.budget();
+    choice_.spent = runs_.budget() - runs_.left();
+    for (const double apart : reference_.uncertainty)
+      choice_.reference_uncertainty = std::max(choice_.reference_uncertainty, apart);
+    if (reference_.is_whole) return;
+    choice_.holds_until = reference_.samples > 0 ? times_[std::size_t(reference_.samples) - 1] : 0;
+    choice_.why_until = reference_.why_no_further;
+  }
+
   Simulation& simulation_;
   Accuracy accuracy_;
-  std::span<const double> times_;
-  const StopRequest& stop_;
+  double duration_;            // s, of the whole run
+  std::vector<double> times_;  // frames and what is between them
+  std::vector<double> samples_;  // of candidates' runs
+  CountedRuns runs_;
   std::vector<const Method*> methods_;
-  Trajectory reference_;
+  ChoiceReference reference_;
   std::optional<Deviation> deviation_;
-  ConstraintCost constraints_{0, 0};  // beyond a free chain's
-  int samples_ = 0;
-  bool stopped_ = false;
+  bool left_out_ = false;  // something, for its price
   Choice choice_;
 };
 
 }  // namespace
 
-void apply(const MethodSetting& setting, Simulation& simulation) {
-  simulation.method = setting.method;
-  simulation.options = setting.options;
-  simulation.step = setting.step;
-}
-
-std::string to_string(const MethodSetting& setting) {
-  std::string text = setting.method->name;
-  if (setting.options.order > 0) text += ", order " + std::to_string(setting.options.order);
-  if (setting.step > 0) text += ", step " + format_shortest(setting.step) + " s";
-  if (setting.options.tolerance > 0) text += ", tolerance " + format_shortest(setting.options.tolerance);
-  return text;
-}
-
 Choice choose_method(Simulation& simulation, const Accuracy& accuracy, std::span<const double> times,
-                     const StopRequest& stop) {
-  return Chooser(simulation, accuracy, times, stop).choose();
+                     const ChoiceWatch& watch, double budget) {
+  return Chooser(simulation, accuracy, times, watch, budget).choose();
 }
 
 }  // namespace chainreel

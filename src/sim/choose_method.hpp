@@ -1,5 +1,5 @@
 // `method: auto`: the cheapest method and step whose error stays below what the scene allows, at every drawn
-// place, in every frame. Cost is counted (cost_table.hpp), never timed.
+// place, in every frame and halfway between. Cost is counted (cost_table.hpp), never timed.
 #pragma once
 
 #include <optional>
@@ -8,39 +8,37 @@
 #include <vector>
 
 #include "sim/accuracy.hpp"
-#include "sim/simulate.hpp"
+#include "sim/counted_runs.hpp"
 
 namespace chainreel {
-
-struct MethodSetting {
-  const Method* method = nullptr;
-  MethodOptions options;
-  double step = 0;  // s; 0: by the tolerance
-};
-
-void apply(const MethodSetting& setting, Simulation& simulation);
-
-// "taylor, order 16, tolerance 1e-6".
-std::string to_string(const MethodSetting& setting);
 
 struct Choice {
   struct Candidate {
     MethodSetting setting;
-    double error = 0;  // largest over the frames, in the accuracy's unit, against a run far more exact
+    double error = 0;  // no larger over the samples, in the accuracy's unit; the reference's own is added
     double cost = 0;   // ns by the table
     long steps = 0, evaluations = 0;
     std::string trouble;  // "" where it ran to the end
   };
   Candidate best;
   bool is_met = false;                // the best one's error is below the accuracy
-  std::optional<double> holds_until;  // s: from there on no run in double precision can be that exact
+  std::optional<double> holds_until;  // s: what is said of errors holds until there only; none: to the end
+  std::string why_until;              // then a clause without end mark: what happens behind that
+  std::string reference;              // what they were compared with
   double reference_uncertainty = 0;   // in the accuracy's unit, up to there
+  std::optional<double> attainable;   // an accuracy for which it would hold to the end, where that is known
+  bool out_of_budget = false;         // the search ended before all candidates were tried
+  double spent = 0, budget = 0;       // ns by the table
   std::vector<Candidate> tried;
 };
 
+// ns by the table of costs: some seconds.
+inline constexpr double kChoiceBudget = 6e9;
+
 // `times`: of the frames. Leaves the best setting in `simulation`. Where the run ends early (a torque that is
-// not finite, limits that stop), what can be compared is.
+// not finite, limits that stop), what can be compared is. Throws Error (numerical) where what is asked for cannot be
+// promised for a single frame.
 Choice choose_method(Simulation& simulation, const Accuracy& accuracy, std::span<const double> times,
-                     const StopRequest& stop = {});
+                     const ChoiceWatch& watch = {}, double budget = kChoiceBudget);
 
 }  // namespace chainreel

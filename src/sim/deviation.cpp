@@ -53,7 +53,7 @@ MotionSize motion_size(const Chain& chain, const Trajectory& trajectory) {
 }
 
 Deviation::Deviation(const Chain& chain, const Accuracy& accuracy, const MotionSize& size)
-    : chain_(chain), ws_(chain), zeros_(std::size_t(chain.nv)) {
+    : chain_(chain), ws_(chain), zeros_(std::size_t(chain.nv)), zero_(std::size_t(chain.nq)) {
   if (accuracy.unit == "px") unit_ = size.metres_per_px;
   if (accuracy.unit == "m") unit_ = 1;
   if (accuracy.unit == "relative") unit_ = size.diagonal;
@@ -87,6 +87,20 @@ double Deviation::metres_apart(ConstVec a, ConstVec b) {
 
 double Deviation::at(const Trajectory& a, const Trajectory& b, int k) {
   return unit_ == 0 ? angle_apart(a.q_at(k), b.q_at(k)) : metres_apart(a.q_at(k), b.q_at(k)) / unit_;
+}
+
+double Deviation::largest_number(const Trajectory& run) {
+  double largest = 0;
+  for (int k = 0; k < run.size(); ++k) {
+    if (unit_ == 0) {
+      largest = std::max(largest, angle_apart(run.q_at(k), zero_));
+      continue;
+    }
+    compute_kinematics(chain_, ws_, run.q_at(k), zeros_);
+    drawn_places(chain_, ws_, places_);
+    for (const Eigen::Vector3d& place : places_) largest = std::max(largest, place.lpNorm<Eigen::Infinity>() / unit_);
+  }
+  return largest;
 }
 
 double Deviation::largest(const Trajectory& a, const Trajectory& b, int samples) {

@@ -23,6 +23,8 @@ class Deviation {
 
   // Between the k-th samples, in the accuracy's unit. NaN and infinity count as infinitely far.
   double at(const Trajectory& a, const Trajectory& b, int k);
+  // The largest coordinate of a place, or the largest angle, that doubles hold over a run, in the same unit.
+  double largest_number(const Trajectory& run);
   // The largest over the first `samples` samples; infinite where one of the runs has fewer.
   double largest(const Trajectory& a, const Trajectory& b, int samples);
 
@@ -33,7 +35,7 @@ class Deviation {
   const Chain& chain_;
   double unit_ = 1;  // m in one unit; 0: angles are compared
   Workspace ws_;
-  std::vector<double> zeros_;
+  std::vector<double> zeros_, zero_;  // rates, coordinates
   std::vector<Eigen::Vector3d> places_, other_;
 };
 

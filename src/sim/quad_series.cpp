@@ -39,6 +39,8 @@ double QuadSeries::longest_step() const {
 
 bool QuadSeries::run_to(Quad end) {
   while (t_ < end) {
+    if (expansions_ >= most_) return false;
+    ++expansions_;
     series_.expand(t_, q_, v_, order_, c_);
     const Quad longest = longest_step();
     if (longest < kLost) return false;

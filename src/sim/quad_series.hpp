@@ -1,6 +1,7 @@
 // The Taylor method in quadruple precision, for references: a step goes as far as the last four terms allow.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "dynamics/taylor_planar.hpp"
@@ -12,7 +13,10 @@ class QuadSeries {
   QuadSeries(const Chain& chain, const AffineTorque& torque, int order, double tolerance);
 
   void start(Quad t, std::vector<Quad> q, std::vector<Quad> v);
-  // Moves to `end`; false where no step is small enough.
+  // Ends run_to behind so many expansions of all its calls.
+  void set_most_expansions(long most) { most_ = most; }
+  long expansions() const { return expansions_; }
+  // Moves to `end`; false where no step is small enough, or the expansions are spent.
   bool run_to(Quad end);
 
   const std::vector<Quad>& q() const { return q_; }
@@ -25,6 +29,7 @@ class QuadSeries {
   std::size_t n_;
   int order_;
   double tolerance_;
+  long most_ = std::numeric_limits<long>::max(), expansions_ = 0;
   Quad t_ = 0;
   std::vector<Quad> q_, v_, c_;
 };

@@ -8,12 +8,14 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/memory_limit.hpp"
 #include "sim/chain_system.hpp"
 #include "sim/corner_watch.hpp"
 #include "sim/event_watch.hpp"
 #include "sim/forms.hpp"
 #include "sim/limit_search.hpp"
 #include "sim/work.hpp"
+#include "sim/workload.hpp"
 
 namespace chainreel {
 namespace {
@@ -22,21 +24,26 @@ namespace {
 constexpr double kDivergenceBound = 1e9;  // rad, m, rad/s, m/s
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kMostNumbers = 2.5e8;    // stored in one trajectory: 2 GB
+constexpr double kNumbersThatFit = 1e7;   // everywhere
 constexpr double kSameInstant = 1e-9;     // of a step: two instants closer than this are one
 constexpr double kSameBreak = 1e-14;      // of the duration, where the method chooses its steps
 constexpr double kLostConstraint = 1e-6;  // m or rad, behind a projection
-constexpr long kStepsBetweenStopRequests = 4096;
 // Corners of the state: how exactly steps end there, in s and units in the last place, and how often that is tried.
 constexpr double kCutTolerance = 1e-13;
 constexpr int kMostCuts = 12;
 constexpr double kNearCut = 1e-6;  // of the step that ends there: good enough where no more can be had
+// Evaluations times freedoms, and steps: a long run listens as soon as a short one, whatever its mechanism.
+constexpr double kWorkBetweenStopRequests = 1 << 15;
 
 // The instants at which steps end: whole steps, and a shorter last one where the duration is no multiple of
 // the step; breaks of the torque law; where the method chooses its steps, the breaks and the duration alone.
 class Grid {
  public:
   Grid(const Simulation& simulation)
-      : step_(simulation.step), duration_(simulation.duration), breaks_(simulation.torque->breaks(duration_)) {
+      : step_(simulation.step),
+        duration_(simulation.duration),
+        longest_(simulation.longest_step),
+        breaks_(simulation.torque->breaks(duration_)) {
     std::sort(breaks_.begin(), breaks_.end());
     // A step from break to break may be as short as time can tell; one to the grid may not.
     same_ = step_ > 0 ? same_instant(simulation) : kSameBreak * duration_;
@@ -55,7 +62,7 @@ class Grid {
     bool is_break;  // of the torque law: methods start anew there
   };
 
-  // The next multiple of the step, the duration, or a break that comes first. A step from multiple to
+  // The next multiple of the step, the duration, a break or the longest step's end that comes first. A step from multiple to
   // multiple has the step's own length, so that it does not depend on where it stands.
   Next next(double now) {
     before_ = {whole_, on_grid_};
@@ -63,12 +70,13 @@ class Grid {
     const double end_of_piece = next_break_ < breaks_.size() ? breaks_[next_break_] : kNever;
     const double first = std::min(end_of_piece, cut_);
     const bool last = step_ <= 0 || whole_ == whole_steps_;
-    const double grid = last ? duration_ : double(whole_ + 1) * step_;
+    double grid = last ? duration_ : double(whole_ + 1) * step_;
+    if (step_ <= 0 && longest_ > 0 && grid - now > longest_ + same_) grid = now + longest_;
     if (first < grid - same_) {
       on_grid_ = false;
       return {first, first - now, true};
     }
-    if (step_ <= 0) return {duration_, duration_ - now, first <= grid};
+    if (step_ <= 0) return {grid, grid - now, first <= (grid < duration_ ? grid + same_ : grid)};
     const double h = on_grid_ ? (last ? remainder_ : step_) : grid - now;
     if (!last) ++whole_;
     on_grid_ = true;
@@ -92,7 +100,7 @@ class Grid {
   double same() const { return same_; }
 
  private:
-  double step_, duration_, same_;
+  double step_, duration_, longest_, same_;
   long whole_steps_ = 0;  // in the run
   double remainder_ = 0;  // s, after the whole steps
   long whole_ = 0;        // multiples of the step passed
@@ -116,6 +124,7 @@ class Run {
         q_(simulation.q0),
         qd_(simulation.qd0),
         work_(simulation, system_, integrator_->dense_order()) {
+    require_possible(simulation);
     if (system_.corners()) corners_.emplace(system_, simulation.duration, simulation.method->order <= 2);
     simulation.torque->enter_piece(grid_.middle_of_piece(0));
     settle_corners(0);
@@ -189,7 +198,16 @@ class Run {
   }
 
   bool stop_requested(const StopRequest& stop) {
-    if (!stop || steps() % kStepsBetweenStopRequests != 0 || !stop(now())) return false;
+    if (simulation_.most_evaluations > 0 && system_.evaluations() >= simulation_.most_evaluations) {
+      trajectory_.status = RunStatus::out_of_budget;
+      trajectory_.trouble = "took the " + std::to_string(simulation_.most_evaluations) +
+                            " evaluations that it was given until t = " + format_significant(now(), 6) + " s";
+      return true;
+    }
+    const double work = double(system_.evaluations()) * simulation_.chain.nv + double(steps());
+    if (!stop || work < next_request_) return false;
+    next_request_ = work + kWorkBetweenStopRequests;
+    if (!stop(now())) return false;
     trajectory_.status = RunStatus::interrupted;
     trajectory_.trouble = "interrupted at t = " + format_shortest(now()) + " s";
     return true;
@@ -203,9 +221,12 @@ class Run {
  private:
   void reserve(std::size_t samples) {
     const std::size_t row = std::size_t(trajectory_.nq + trajectory_.nv + trajectory_.rows + 2);
-    if (double(samples) * double(row) > kMostNumbers)
-      throw Error(ExitCode::limit, "this run would store more than " + format_shortest(kMostNumbers) +
-                                       " numbers: take a shorter duration or fewer samples");
+    const double numbers = double(samples) * double(row);
+    if (numbers > kMostNumbers)
+      throw Error(ExitCode::limit, "this run would store " + format_significant(numbers, 3) + " numbers, more than " +
+                                       format_shortest(kMostNumbers) + ": take a shorter duration or fewer samples");
+    if (numbers > kNumbersThatFit)
+      require_memory(numbers * sizeof(double), "a run of " + std::to_string(samples) + " samples");
     trajectory_.t.reserve(samples);
     trajectory_.q.reserve(samples * std::size_t(trajectory_.nq));
     trajectory_.qd.reserve(samples * std::size_t(trajectory_.nv));
@@ -447,6 +468,7 @@ class Run {
   bool chatters_ = false;               // they jump to and fro without end
   std::size_t limits_seen_ = 0;            // by the watch, of its list
   std::vector<LimitEvent> seen_limits_;    // but not found on a step yet
+  double next_request_ = 0;  // the work at which the next stop request is asked
   bool start_anew_ = false;
   Trajectory trajectory_;
 };
@@ -475,6 +497,8 @@ std::string to_string(RunStatus status) {
       return "constraint_lost";
     case RunStatus::chattering:
       return "chattering";
+    case RunStatus::out_of_budget:
+      return "out_of_budget";
     case RunStatus::interrupted:
       return "interrupted";
   }
@@ -512,7 +536,7 @@ Trajectory simulate(const Simulation& simulation, std::span<const double> times,
 }
 
 Trajectory simulate_every_step(const Simulation& simulation, const StopRequest& stop) {
-  Run run(simulation, simulation.step > 0 ? std::size_t(simulation.duration / simulation.step) + 2 : 0);
+  Run run(simulation, std::size_t(std::min(steps_of(simulation), kMostNumbers)) + 2);
   run.sample_start();
   while (!run.at_end() && !run.ended_early() && !run.stop_requested(stop) && run.take_step()) {
     if (run.ended_early()) {

@@ -27,6 +27,8 @@ struct Simulation {
   MethodOptions options;
   double step = 0.001;   // s; 0: the method chooses, see MethodOptions::tolerance
   double duration = 10;  // s
+  double longest_step = 0;    // s, that a method which chooses its steps may take; 0: any
+  long most_evaluations = 0;  // behind that many the run ends with RunStatus::out_of_budget; 0: any number
   LimitPolicy limit = LimitPolicy::report;
   std::shared_ptr<const EventSet> events;  // null: none
   ConstraintPlan constraints;
@@ -39,7 +41,7 @@ double same_instant(const Simulation& simulation);
 // Throws Error (bad input) where the method does not take this chain or torque; says which to take instead.
 void check_method(const Simulation& simulation);
 
-// Asked now and then during a run; true stops it with RunStatus::interrupted.
+// Asked now and then during a run, every some thousand evaluations; true stops it with RunStatus::interrupted.
 using StopRequest = std::function<bool(double t)>;
 
 // Told of the end of each step that belongs to the run: q, qd and the work of the torques up to there, J.

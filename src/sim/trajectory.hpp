@@ -21,6 +21,7 @@ enum class RunStatus {
   inconsistent,       // constraints contradict each other: no acceleration fulfils them
   constraint_lost,    // the way back onto the constraints was not found
   chattering,         // a torque jumps to and fro at ever shorter intervals
+  out_of_budget,      // it took all the evaluations that it was given
   interrupted,        // the user stopped it
 };
 

@@ -241,5 +241,69 @@ TEST(AutoMethod, IsChosenWhereASceneNamesNoneAndSaysSo) {
               AllOf(HasSubstr("method: auto"), Not(HasSubstr("\nstep:"))));
 }
 
+// Counted before anything is run: each of these would take years, or memory that is not there.
+TEST(Workload, IsRefusedWithItsCountBeforeItBegins) {
+  const std::string scene = "assets/scenes/pp_spring.yaml";
+  TemporaryFolder folder;
+  const std::string out = folder.file("x");
+  const auto with = [&](std::vector<std::string> words, const std::string& output) {
+    words.insert(words.end(), {"-o", output});
+    return words;
+  };
+  const std::vector<std::string> tiny{"--set", "method=rk4", "--set", "step=1e-15"};
+  const auto joined = [](std::vector<std::string> a, const std::vector<std::string>& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+  };
+  for (const std::vector<std::string>& words :
+       {with(joined({"simulate", scene}, tiny), out + ".csv"), with(joined({"render", scene}, tiny), out + ".mp4"),
+        joined({"check", scene}, tiny), with(joined({"snapshot", scene}, tiny), out + ".png"),
+        with(joined({"sheet", scene}, tiny), out + ".png"),
+        with({"energy", scene, "--until", "1e9s", "--step", "1e-9"}, out + ".png"),
+        with({"stability", scene, "--set", "method=rk4", "--x", "step=1e-12:1e-11:3", "--y", "start.q.2=0.1:1:3"},
+             out + ".png"),
+        with({"stability", scene, "--set", "method=rk4", "--set", "step=1e-6", "--x", "start.q.1=0:1:10000", "--y",
+              "start.q.2=0.1:1:10000"},
+             out + ".png")}) {
+    const ProgramResult result = run_program(words, {.timeout_s = 20});
+    EXPECT_EQ(result.status, 7) << words[0] << result.err;
+    EXPECT_THAT(result.err, AllOf(HasSubstr("take"), Not(HasSubstr("exception")))) << words[0];
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << words[0];
+  }
+}
+
+TEST(Workload, IsNoToleranceBelowTheRoundingOfDoubles) {
+  const ProgramResult scene = run_program({"check", "assets/scenes/pp_spring.yaml", "--set", "method=dop853", "--set",
+                                           "step=null", "--set", "tolerance=1e-17"});
+  EXPECT_EQ(scene.status, 3);
+  EXPECT_THAT(scene.err, AllOf(HasSubstr("tolerance"), HasSubstr("1e-15")));
+  const ProgramResult energy = run_program({"energy", "assets/scenes/pp_spring.yaml", "--tolerance", "1e-17"});
+  EXPECT_EQ(energy.status, 2);
+  EXPECT_THAT(energy.err, HasSubstr("1e-15"));
+}
+
+// What the search is at goes to standard error, and not with --quiet; the choice is the same in every command.
+TEST(Automatic, SaysTheSameInEveryCommand) {
+  const std::vector<std::string> scene{"assets/scenes/rr_free.yaml", "--set", "method=auto", "--set", "step=null",
+                                       "--set", "duration=30", "--set", "accuracy=1e-4 px"};
+  const auto run = [&](const std::string& command, const std::vector<std::string>& more) {
+    std::vector<std::string> words{command};
+    words.insert(words.end(), scene.begin(), scene.end());
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(words);
+  };
+  TemporaryFolder folder;
+  const ProgramResult check = run("check", {}), simulate = run("simulate", {"-o", folder.file("a.csv")}),
+                      json = run("simulate", {"-o", folder.file("b.csv"), "--json", "--quiet"});
+  const std::string sentence = line_of(check.out, "auto:");
+  ASSERT_FALSE(sentence.empty()) << check.err;
+  EXPECT_THAT(simulate.err, HasSubstr(sentence));
+  EXPECT_EQ(json.err, "");
+  const Json choice = Json::parse(json.out)["auto"];
+  EXPECT_THAT(sentence, HasSubstr(choice["setting"].get<std::string>()));
+  EXPECT_THAT(sentence, HasSubstr(choice["why_until"].get<std::string>()));
+  EXPECT_FALSE(choice["reference"].get<std::string>().empty());
+}
+
 }  // namespace
 }  // namespace chainreel

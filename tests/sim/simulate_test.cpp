@@ -141,5 +141,36 @@ TEST(Simulate, StopsWhenAsked) {
   EXPECT_LT(trajectory.end_time, 20);
 }
 
+TEST(Simulate, EndsWhereItsEvaluationsAreSpent) {
+  for (const char* method : {"rk4", "dop853", "radau5", "taylor"}) {
+    Simulation run = run_of("rr", {"0", "0"}, 100);
+    run.method = &find_method(method);
+    if (run.method->adaptive) run.step = 0, run.options.tolerance = 1e-9;
+    run.most_evaluations = 500;
+    const Trajectory trajectory = simulate(run, {});
+    EXPECT_EQ(trajectory.status, RunStatus::out_of_budget) << method;
+    EXPECT_GE(trajectory.evaluations, 500) << method;
+    // What a step takes more: radau5's iterations and Jacobians.
+    EXPECT_LT(trajectory.evaluations, 700) << method;
+    EXPECT_LT(trajectory.end_time, 100) << method;
+  }
+}
+
+// A push from rest that lies between the stages of a long step is met by short ones.
+TEST(Simulate, TakesNoStepThatIsLongerThanItMay) {
+  Simulation run = run_of("rr", {"0", "0"}, 2);
+  run.method = &find_method("dop853");
+  run.step = 0;
+  run.options.tolerance = 1e-6;
+  const long free = simulate(run, {}).steps;
+  run.longest_step = 0.01;
+  const Trajectory trajectory = simulate_every_step(run);
+  EXPECT_EQ(trajectory.status, RunStatus::finished);
+  EXPECT_EQ(trajectory.t.back(), 2);
+  EXPECT_GT(trajectory.steps, free);
+  for (int k = 1; k < trajectory.size(); ++k)
+    EXPECT_LE(trajectory.t[std::size_t(k)] - trajectory.t[std::size_t(k) - 1], 0.01 + 1e-8);
+}
+
 }  // namespace
 }  // namespace chainreel
