@@ -48,7 +48,7 @@ class Grid {
     // A step from break to break may be as short as time can tell; one to the grid may not.
     same_ = step_ > 0 ? same_instant(simulation) : kSameBreak * duration_;
     if (step_ <= 0) return;
-    whole_steps_ = long(std::floor(duration_ / step_ + kSameInstant));
+    whole_steps_ = long(std::floor(std::min(steps_of(simulation), 2 * kMostSteps) + kSameInstant));
     remainder_ = duration_ - double(whole_steps_) * step_;
     if (remainder_ <= kSameInstant * step_) remainder_ = 0;
   }
