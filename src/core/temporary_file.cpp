@@ -124,9 +124,13 @@ void TemporaryFile::lock_new() {
 }
 
 TemporaryFile::~TemporaryFile() {
-  std::error_code ignored;
-  if (!path_.empty()) fs::remove_all(path_, ignored);
   if (file_ >= 0) close(file_);
+  if (path_.empty()) return;
+  std::error_code ignored;
+  if (kind_ == Kind::coming_file)
+    fs::remove(path_, ignored);  // to remove all of a folder takes a free file number
+  else
+    fs::remove_all(path_, ignored);
 }
 
 void TemporaryFile::let_go() {

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "core/json.hpp"
 #include "support/run_program.hpp"
 
 namespace chainreel {
@@ -123,11 +124,12 @@ Case Subjects::scene(Dice& dice) const {
 
 Case Subjects::expression(Dice& dice) const {
   const std::string seeds[] = {"3*sin(2*t) - 0.5*qd1", "-k*(q1 - pi/2) + min(1, abs(qd2))", "60*(t>0.01)*(t<0.02)",
-                               "exp(-t)*cos(q1)^2/(1 + q2^2)", "sqrt(abs(q1))", "if(t < 0.01, 1, -1)", "90deg*tanh(x_G)"};
+                               "exp(-t)*cos(q1)^2/(1 + q2^2)", "sqrt(abs(q1))", "t < 0.01", "pi/2*tanh(q1) + max(qd1, qd2)"};
   const std::vector<std::string> words{"(", ")", "^", "**", "/0", "t", "q1", "q9", "sqrt(", "log(", "-", "--", "1e308*", ">=", ",", "pi"};
+  const std::string spoilt = mutated(dice.pick(seeds), dice, words);
   Case one;
   one.files["a/b/s.yaml"] = "model: ../../models/rr.urdf\nduration: 0.05\nmethod: rk4\nstep: 1e-3\nparameters: {k: 2}\ntorque:\n  - " +
-                            mutated(dice.pick(seeds), dice, words) + "\n  - 0\n";
+                            Json(spoilt).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n  - 0\n";
   one.arguments = {"simulate", "a/b/s.yaml", "-o", "run.csv"};
   return one;
 }
@@ -151,8 +153,8 @@ Case Subjects::table(Dice& dice) const {
     one.arguments = {"inverse", "models/rr.urdf", "--trajectory", "t.csv", "-o", "tau.csv"};
     return one;
   }
-  one.files["a/b/s.yaml"] = "model: ../../models/rr.urdf\nduration: 0.05\nmethod: rk4\ncontrol:\n  kind: " +
-                            std::string(dice.one_in(2) ? "feedback" : "inverse_dynamics") + "\n  table: ../../t.csv\n";
+  one.files["a/b/s.yaml"] = "model: ../../models/rr.urdf\nduration: 0.05\nmethod: rk4\ntorque: {" +
+                            std::string(dice.one_in(2) ? "inverse_of" : "csv") + ": ../../t.csv}\n";
   one.arguments = {"simulate", "a/b/s.yaml", "-o", "run.csv"};
   return one;
 }
@@ -166,7 +168,7 @@ Case Subjects::mesh(Dice& dice) const {
   one.files["m.mtl"] = dice.one_in(3) ? mutated(kMtl, dice, words) : kMtl;
   std::string box = kBox;
   one.files["r.urdf"] = box.replace(box.find("@MESH@"), 6, name);
-  one.arguments = joined({"snapshot", "r.urdf"}, kPicture);
+  one.arguments = joined({"snapshot", "r.urdf", "--links", "visual"}, kPicture);
   return one;
 }
 
