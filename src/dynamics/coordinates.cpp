@@ -5,52 +5,17 @@
 //   V = 1 + (1 - cos |w|)/|w|^2 [w]x + (|w| - sin |w|)/|w|^3 [w]x^2
 //
 // (K. Lynch, F. Park, Modern Robotics, 2017, eq. 3.88).
-//
-// Coordinates and freedoms are numbered in the same order, so that behind k floating joints the coordinate of
-// freedom v is v + k.
 #include <cmath>
 
 #include "core/scalar.hpp"
+#include "dynamics/floating.hpp"
 #include "dynamics/kinematics.hpp"
-#include "dynamics/vec3.hpp"
 
 namespace chainreel {
 
 namespace {
 
 using Vector = Vec3<double>;
-
-struct Quaternion {
-  Vector u;
-  double w = 1;
-};
-
-Quaternion operator*(const Quaternion& a, const Quaternion& b) {
-  return {b.u * a.w + a.u * b.w + cross(a.u, b.u), a.w * b.w - dot(a.u, b.u)};
-}
-
-// By a unit quaternion.
-Vector turned(const Quaternion& a, const Vector& v) {
-  const Vector t = cross(a.u, v) * 2.0;
-  return v + t * a.w + cross(a.u, t);
-}
-
-Quaternion unit_of(const Quaternion& a) {
-  const double k = 1 / square_root(dot(a.u, a.u) + a.w * a.w);
-  return {a.u * k, a.w * k};
-}
-
-// The pose and the twist of one floating joint within q and qd.
-struct Floating {
-  static Vector position(const double* q) { return {q[0], q[1], q[2]}; }
-  static Quaternion turn(const double* q) { return {{q[3], q[4], q[5]}, q[6]}; }
-  static Vector linear(const double* qd) { return {qd[0], qd[1], qd[2]}; }
-  static Vector angular(const double* qd) { return {qd[3], qd[4], qd[5]}; }
-  static void write(const Vector& p, const Quaternion& a, double* q) {
-    q[0] = p.x, q[1] = p.y, q[2] = p.z;
-    q[3] = a.u.x, q[4] = a.u.y, q[5] = a.u.z, q[6] = a.w;
-  }
-};
 
 // (x - sin x) / x^3
 double cubic_rest_of_sine(double x) {
@@ -79,26 +44,6 @@ void rate_floating(const double* q, const double* qd, double* q_dot) {
   const Quaternion turn = Floating::turn(q);
   const Quaternion rate = turn * Quaternion{Floating::angular(qd) * 0.5, 0};
   Floating::write(turned(unit_of(turn), Floating::linear(qd)), rate, q_dot);
-}
-
-// Calls `scalar(q index, v index)` for each single coordinate, `floating(q index, v index)` for each floating
-// joint.
-template <class Scalar, class FloatingJoint>
-void for_each_coordinate(const Chain& chain, Scalar&& scalar, FloatingJoint&& floating) {
-  std::size_t q = 0, v = 0;
-  const auto scalars_up_to = [&](std::size_t end) {
-    while (v < end) scalar(q++, v++);
-  };
-  if (chain.has_floating) {
-    for (const Body& body : chain.bodies) {
-      if (&body == &chain.bodies.front() || body.joint.kind != JointKind::floating) continue;
-      scalars_up_to(std::size_t(body.joint.v_index));
-      floating(q, v);
-      q += 7;
-      v += 6;
-    }
-  }
-  scalars_up_to(std::size_t(chain.nv));
 }
 
 }  // namespace

@@ -10,6 +10,10 @@
 //
 //   dT/dq_j = (v_p(j) x S_j) . h_j = (v_j x S_j) . h_j         since S_j x S_j = 0.
 //
+// For a floating joint p are the six numbers of S_j . h_j along the body's own axes, and v_j x S_j stands as it
+// is: what the joint's own twist adds, (S_k qd_k x S_j) . h_j, is no derivative of T but the turning of the axes
+// along which p is counted (Euler's and Poincare's equations).
+//
 // tau_g = S_j . F_j, where F_j is what the weights of all that j carries press on it, taken as RNEA does: the
 // world rises at -gravity.
 //
@@ -45,7 +49,8 @@ void momentum_of(Links<A>& links, ConstVec qd, Vec p) {
   std::fill(p.begin(), p.end(), 0.0);
   for (std::size_t i = links.size(); --i > 0;) {
     const auto& joint = links.joint[i];
-    p[joint.v] += A::power(links.S[i], links.f[i]);
+    for (std::size_t k = 0; k < joint.freedoms; ++k)
+      p[joint.v + k] += A::power(A::unit_motion(links.body[i], links.S[i], int(k)), links.f[i]);
     if (joint.parent > 0)
       links.f[joint.parent] = links.f[joint.parent] + A::to_parent(links.X[i], links.f[i]);
   }
@@ -65,7 +70,10 @@ void force_of(Links<A>& links, ConstVec qd, Vec p_dot) {
   std::fill(p_dot.begin(), p_dot.end(), 0.0);
   for (std::size_t i = links.size(); --i > 0;) {
     const auto& joint = links.joint[i];
-    p_dot[joint.v] += A::power(A::cross_motion(links.v[i], links.S[i]), h[i]) - A::power(links.S[i], F[i]);
+    for (std::size_t k = 0; k < joint.freedoms; ++k) {
+      const auto S = A::unit_motion(links.body[i], links.S[i], int(k));
+      p_dot[joint.v + k] += A::power(A::cross_motion(links.v[i], S), h[i]) - A::power(S, F[i]);
+    }
     if (joint.parent == 0) continue;
     h[joint.parent] = h[joint.parent] + A::to_parent(links.X[i], h[i]);
     F[joint.parent] = F[joint.parent] + A::to_parent(links.X[i], F[i]);

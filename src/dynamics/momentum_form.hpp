@@ -15,8 +15,9 @@
 namespace chainreel {
 
 // Remembers the configuration that it was last asked about, with its sines, cosines and what of M was
-// factored there: questions about one configuration cost little after the first. For chains without floating
-// joints (nq = nv).
+// factored there: questions about one configuration cost little after the first. q: nq numbers, qd and p: nv. Of a
+// floating joint p are the momenta along the body's own axes and about its origin, linear, then angular; p' those
+// of Euler and Poincare. In dynamics/local_coordinates they become a canonical pair.
 class MomentumForm {
  public:
   explicit MomentumForm(const Chain& chain);

@@ -21,13 +21,18 @@ MomentaIntegrator::MomentaIntegrator(const Forms& forms)
 
 void MomentaIntegrator::start(double t, std::span<const double> q, std::span<const double> v) {
   begin_ = time_ = t;
+  std::fill(p_largest_.begin(), p_largest_.end(), 0.0);
+  is_first_ = true;
+  correct(q, v);
+  forget();
+}
+
+void MomentaIntegrator::correct(std::span<const double> q, std::span<const double> v) {
   std::copy(q.begin(), q.end(), q_.begin());
   std::copy(v.begin(), v.end(), v_.begin());
   system_.momentum(q_, v_, p_);
-  for (auto* numbers : {&q_carry_, &p_carry_, &p_largest_}) std::fill(numbers->begin(), numbers->end(), 0.0);
-  is_first_ = true;
+  for (auto* carry : {&q_carry_, &p_carry_}) std::fill(carry->begin(), carry->end(), 0.0);
   span_.start();
-  forget();
 }
 
 StepResult MomentaIntegrator::step(double end, double h) {

@@ -15,6 +15,7 @@ class MomentaIntegrator : public Integrator {
   explicit MomentaIntegrator(const Forms& forms);
 
   void start(double t, std::span<const double> q, std::span<const double> v) final;
+  void correct(std::span<const double> q, std::span<const double> v) final;
   StepResult step(double end, double h) final;
   void interpolate(double t, std::span<double> q, std::span<double> v) final;
   int dense_order() const final { return span_.order(); }

@@ -1,6 +1,7 @@
 #include "integrate/method.hpp"
 
 #include "core/error.hpp"
+#include "integrate/in_chart.hpp"
 #include "integrate/makers.hpp"
 #include "integrate/stepped.hpp"
 
@@ -157,6 +158,7 @@ const Method& find_method(const std::string& name) {
 
 std::unique_ptr<Integrator> make_integrator(const Method& method, const Forms& forms,
                                             const MethodOptions& options) {
+  if (forms.chart) return make_in_chart(*forms.chart, method.make(forms, options));
   if (method.make) return method.make(forms, options);
   return make_stepped(*forms.second_order,
                       method.make_stepper(forms.second_order->nq(), forms.second_order->nv()));

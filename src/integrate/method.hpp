@@ -32,10 +32,10 @@ struct Method {
   int order = 1;
   std::string kind;  // a word or two for `chainreel methods`
   Form form = Form::second_order;
-  bool symplectic = false;                  // for constant mass; see the source's note where M depends on q
-  bool reversible = false;                  // a step back undoes a step
+  bool symplectic = false;                  // not in a Chart; see the source's note where M depends on q
+  bool reversible = false;                  // a step back undoes a step; not in a Chart
   bool adaptive = false;                    // takes a tolerance
-  bool plain_coordinates = false;           // of the second-order form: needs q' = v, no quaternions
+  bool plain_coordinates = false;           // of the second-order form: needs q' = v; floating joints: in a Chart
   int lowest_order = 0, highest_order = 0;  // that MethodOptions::order may ask for; 0, 0: none
   int dense_order = 5;                      // of the dense output where q' = v
   int evaluations_per_step = 1;             // 0: not always the same

@@ -71,6 +71,19 @@ class LinkedPoints {
                      std::span<double> f) = 0;
 };
 
+// Plain coordinates x (x' = rates, as many as v) of a system whose own q are none, about a base that moves along.
+class Chart {
+ public:
+  virtual ~Chart() = default;
+  virtual int own_coordinates() const = 0;  // of the system itself
+  // The base is q; writes its x and x'.
+  virtual void move_to(std::span<const double> q, std::span<const double> v, std::span<double> x,
+                       std::span<double> x_dot) = 0;
+  // The system's own state at (x, x').
+  virtual void leave(std::span<const double> x, std::span<const double> x_dot, std::span<double> q,
+                     std::span<double> v) const = 0;
+};
+
 enum class Form { second_order, momenta, series, linked_points };
 
 // One system in all forms that were made for it; a method takes the one that its row names. `second_order` is
@@ -80,6 +93,7 @@ struct Forms {
   Momenta* momenta = nullptr;
   Series* series = nullptr;
   LinkedPoints* linked_points = nullptr;
+  Chart* chart = nullptr;  // the forms speak of its x; null: of the system's own coordinates
 };
 
 }  // namespace chainreel

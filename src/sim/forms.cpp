@@ -12,15 +12,16 @@ ChainForms::ChainForms(ChainSystem& system, const Method& method) {
   if (system.constrained() && method.form != Form::second_order)
     throw Error(ExitCode::bad_input,
                 "the method " + method.name + " takes no constraints: take dop853, or `method: auto`");
+  if (system.chain().has_floating && (method.plain_coordinates || method.form == Form::momenta)) {
+    chart_ = std::make_unique<ChainChart>(system);
+    forms_.second_order = chart_.get();
+    forms_.chart = chart_.get();
+  }
   switch (method.form) {
     case Form::second_order:
-      if (method.plain_coordinates && system.nq() != system.nv())
-        throw Error(ExitCode::bad_input, "the method " + method.name +
-                                             " takes no quaternions, which this chain's floating joint has: "
-                                             "take dop853");
       return;
     case Form::momenta:
-      momenta_ = std::make_unique<ChainMomenta>(system, method.name);
+      momenta_ = std::make_unique<ChainMomenta>(system, chart_ ? &chart_->local() : nullptr);
       forms_.momenta = momenta_.get();
       return;
     case Form::series:

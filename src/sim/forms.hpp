@@ -5,6 +5,7 @@
 #include <string>
 
 #include "integrate/method.hpp"
+#include "sim/chain_chart.hpp"
 #include "sim/chain_system.hpp"
 
 namespace chainreel {
@@ -20,6 +21,7 @@ class ChainForms {
 
  private:
   Forms forms_;
+  std::unique_ptr<ChainChart> chart_;  // where the method needs plain coordinates and the chain has none
   std::unique_ptr<Momenta> momenta_;
   std::unique_ptr<Series> series_;
   std::unique_ptr<LinkedPoints> linked_points_;

@@ -223,14 +223,6 @@ std::string refusal(const Chain& chain, const std::string& method) {
   return "";
 }
 
-TEST(MethodsInMomenta, RefuseFloatingJoints) {
-  const Chain floating = testing::random_tree(3, {.bodies = 3, .floating_base = true});
-  for (const char* method : {"symplectic_euler", "verlet", "implicit_midpoint", "gauss4", "gauss6"}) {
-    EXPECT_THAT(refusal(floating, method), HasSubstr("floating")) << method;
-    EXPECT_EQ(refusal(testing::random_tree(3, {.bodies = 5, .mimic = 0.5}), method), "") << method;
-  }
-}
-
 TEST(Rattle, RefusesWhatIsNoRowOfPointsAndRods) {
   EXPECT_EQ(refusal(testing::rr_chain(), "rattle4"), "");
   EXPECT_EQ(refusal(testing::planar_serial_chain(20), "rattle4"), "");

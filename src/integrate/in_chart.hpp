@@ -1,0 +1,16 @@
+// A method for plain coordinates (q' = v) at work on a system whose own are none (quaternions): each step is taken
+// in a chart about the state that it begins at. One-step methods keep their order so. What is symplectic or symmetric
+// in one chart is so no longer where the chart moves with the state: energy and angular momentum are kept to the
+// method's order, and stray in proportion to the time.
+#pragma once
+
+#include <memory>
+
+#include "integrate/integrator.hpp"
+
+namespace chainreel {
+
+// `inside` works in the coordinates of `chart`, which must outlive it.
+std::unique_ptr<Integrator> make_in_chart(Chart& chart, std::unique_ptr<Integrator> inside);
+
+}  // namespace chainreel
