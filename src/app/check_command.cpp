@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "dynamics/forward_dynamics.hpp"
+#include "dynamics/friction.hpp"
 #include "integrate/method.hpp"
 #include "model/doctor.hpp"
 #include "model/read_chain.hpp"
@@ -61,6 +62,9 @@ Json model_report(const Chain& chain) {
   json["why"] = chain.why_algebra;
   json["forward_dynamics"] = forward_dynamics_algorithm(chain);
   json["gravity"] = to_json(chain.gravity);
+  if (std::any_of(chain.bodies.begin(), chain.bodies.end(), [](const Body& b) { return b.joint.friction > 0; }))
+    json["friction"] = {{"law", "F tanh(qd / " + format_shortest(kFrictionSmoothing) + ")"},
+                        {"creeps_under_three_quarters", kFrictionSmoothing * std::atanh(0.75)}};
   if (chain.end_effector >= 0) json["end_effector"] = chain.frames[std::size_t(chain.end_effector)].name;
   return json;
 }
@@ -97,6 +101,10 @@ void print_model(const Json& model) {
                      joint["body"].get<std::string>(), joint["parent"].get<std::string>(),
                      joint["mass"].dump()});
   std::fputs(table_text(table).c_str(), stdout);
+  if (model.contains("friction"))
+    std::printf("friction: %s, in which nothing sticks: pushed by 3/4 of its F a joint creeps at %s rad/s or m/s\n",
+                model["friction"]["law"].get<std::string>().c_str(),
+                format_significant(model["friction"]["creeps_under_three_quarters"].get<double>(), 2).c_str());
   if (model.contains("end_effector"))
     std::printf("end effector: %s\n", model["end_effector"].get<std::string>().c_str());
 }

@@ -33,7 +33,11 @@ std::string verdict(const FallTable& table, const FallRow& row) {
   if (row.fall_time) return format_fixed(*row.fall_time, 4);
   if (has_failed(row)) return row.trouble;
   if (row.status == RunStatus::stopped) return "stopped: " + row.trouble;
-  return "does not fall within " + format_quantity(table.duration, "s");
+  const std::string within = format_quantity(table.duration, "s");
+  if (!table.has_foot) return "does not fall within " + within;
+  if (!row.tips) return "stands for " + within;
+  return std::string("tips over the ") + (row.over_toe ? "toe" : "heel") + " at " + format_fixed(*row.tips, 4) +
+         ", not down within " + within;
 }
 
 // The first time of each event, but of falls: they are what the table is about.
@@ -86,6 +90,11 @@ Json report_of(const std::string& scene, const FallTable& table) {
         row.ending_event < 0 ? Json(nullptr) : Json(table.events[std::size_t(row.ending_event)].title());
     one["first"] = Json::array();
     for (const std::optional<double>& time : row.first) one["first"].push_back(optional_json(time));
+    if (table.has_foot) {
+      one["stands"] = !row.tips && !row.fall_time && row.status == RunStatus::finished;
+      one["tips_at"] = optional_json(row.tips);
+      one["tips_over"] = row.tips ? Json(row.over_toe ? "toe" : "heel") : Json(nullptr);
+    }
     if (!row.trouble.empty()) one["trouble"] = row.trouble;
     json["rows"].push_back(one);
   }

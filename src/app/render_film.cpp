@@ -362,6 +362,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
     if (error.code() == ExitCode::numerical) keep_partial(outputs);  // a signal leaves nothing
     throw;
   }
+  tell_warnings(scene.name, result.audit);
   if (!job.quiet) {
     tell_of_stops(film, runs);
     tell_of_missing_events(film, runs.front());

@@ -1,6 +1,7 @@
 #include "app/report.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "app/automatic.hpp"
 #include "app/constraint_report.hpp"
@@ -10,6 +11,7 @@
 #include "encode/libraries.hpp"
 #include "render/canvas.hpp"
 #include "scene/fall.hpp"
+#include "sim/doubts.hpp"
 
 namespace chainreel {
 
@@ -69,6 +71,15 @@ std::vector<LibraryLine> library_versions() {
 
 namespace {
 
+// A run that is to diverge is no motion that anyone takes for true.
+void add_warnings(Json& json, const PreparedScene& prepared, const Trajectory& trajectory, const Audit& audit) {
+  json["warnings"] = Json::array();
+  if (prepared.scene.expect == "diverge") return;
+  for (const Doubt& doubt : doubts_of(prepared.simulation, trajectory, audit))
+    json["warnings"].push_back(
+        {{"kind", doubt.kind}, {"amount", doubt.amount}, {"what", doubt.words}, {"remedy", doubt.remedy}});
+}
+
 // What happened when, and whether it fell; nothing of a scene without events.
 void add_events(Json& json, const Scene& scene, const Trajectory& trajectory) {
   if (scene.events.empty()) return;
@@ -121,6 +132,8 @@ Json run_report(const PreparedScene& prepared, const Trajectory& trajectory) {
     json["audit_error_of_frames"] = audit.largest_error;
     json["audit_error_of_frames_time"] = audit.largest_error_time;
   }
+  json["energy_moved"] = audit.energy_moved;
+  add_warnings(json, prepared, trajectory, audit);
   if (trajectory.rows > 0) json["constraint_error"] = constraint_run_report(simulation, trajectory);
   json["limits_passed"] = Json::array();
   for (const LimitEvent& event : trajectory.limits) {
@@ -133,6 +146,16 @@ Json run_report(const PreparedScene& prepared, const Trajectory& trajectory) {
   add_events(json, scene, trajectory);
   json["trajectory_sha256"] = audit.sha256;
   return json;
+}
+
+void tell_warnings(const std::string& name, const Json& report) {
+  const auto tell = [&](const Json& run, const std::string& who) {
+    for (const Json& one : run["warnings"])
+      std::fprintf(stderr, "WARNING: %s: %s; take %s\n", who.c_str(), one["what"].get<std::string>().c_str(),
+                   one["remedy"].get<std::string>().c_str());
+  };
+  if (!report.contains("panels")) return tell(report, name);
+  for (const Json& panel : report["panels"]) tell(panel, name + ", '" + panel["title"].get<std::string>() + "'");
 }
 
 double held_first(const Scene& scene) {

@@ -32,6 +32,9 @@ std::vector<LibraryLine> library_versions();
 // What was run and whether it can be trusted: method, step, status, energy error, hash.
 Json run_report(const PreparedScene& prepared, const Trajectory& trajectory);
 
+// One line on standard error for each of the report's warnings, and of its panels'. Said even where all is to be quiet.
+void tell_warnings(const std::string& name, const Json& report);
+
 // For how long the first frame is held: whole frames, s.
 double held_first(const Scene& scene);
 

@@ -9,6 +9,7 @@
 #include "app/command.hpp"
 #include "app/figure.hpp"
 #include "app/moment.hpp"
+#include "app/report.hpp"
 #include "app/pipeline.hpp"
 #include "app/signals.hpp"
 #include "core/error.hpp"
@@ -47,6 +48,7 @@ ContactCell cell_of(const std::string& file, const SheetOptions& options, const 
   Moment moment = options.at.empty()
                       ? telling_moment(film, fonts)
                       : moment_at(film, std::min(parse_quantity(options.at, {}), film.scene.duration), fonts);
+  tell_warnings(film.scene.name, moment.memory.audit);
   return {std::move(moment.picture), moment.title.empty() ? film.scene.name : moment.title};
 }
 

@@ -58,6 +58,7 @@ Json simulate_panel(const PreparedScene& prepared, const std::string& output,
   }
   require_expected_end(trajectory, prepared.scene);
   Json report = run_report(prepared, trajectory);
+  tell_warnings(prepared.scene.name, report);
   report["rows"] = trajectory.size();
   report["file"] = output;
   return report;

@@ -59,6 +59,7 @@ void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
                                      format_quantity(film.scene.duration, "s"));
   const Fonts fonts;
   const Moment shown = moment_at(film, at, fonts);
+  tell_warnings(film.scene.name, shown.memory.audit);
   write_picture(shown.picture, video.width, video.height, fonts, output, options.common.force, shown.memory);
 }
 

@@ -6,6 +6,7 @@
 #include "scene/parallel.hpp"
 #include "scene/prepare.hpp"
 #include "scene/read_scene.hpp"
+#include "sim/chain_system.hpp"
 #include "sim/workload.hpp"
 
 namespace chainreel {
@@ -33,7 +34,39 @@ Scene read_one(const std::string& path, const std::vector<std::string>& override
   return scene;
 }
 
+// By an angle, so that a ground that bears nothing, where the pressure is infinitely far away, is none without number.
+constexpr const char* kPressureLeavesTheFoot = "atan2(max(heel - cop, cop - toe), 1) > 0";
+
+double pressure_at(const Simulation& simulation, const Foot& foot, double t, ConstVec q, ConstVec qd) {
+  const Chain& chain = simulation.chain;
+  ChainSystem system(chain, *simulation.torque, simulation.limit, simulation.constraints);
+  std::vector<double> qdd(qd.size());
+  system.acceleration(t, q, qd, qdd);
+  Workspace ws(chain);
+  return center_of_pressure(chain, ws, ground_axes(chain), foot.height, q, qd, qdd);
+}
+
+// `event`: the one that watches the pressure; it waits where it holds from the start.
+void find_tipping(FallRow& row, const Simulation& simulation, const Foot& foot, const Trajectory& run, int event) {
+  const double at_start = pressure_at(simulation, foot, 0, simulation.q0, simulation.qd0);
+  if (!(at_start >= foot.heel && at_start <= foot.toe)) {
+    row.tips = 0;
+    row.over_toe = at_start > foot.toe;
+    return;
+  }
+  for (int k = 0; k < run.events.size(); ++k) {
+    if (run.events.event[std::size_t(k)] != event) continue;
+    const double t = run.events.t[std::size_t(k)];
+    row.tips = t;
+    const double place = pressure_at(simulation, foot, t, run.events.q_at(k), run.events.qd_at(k));
+    row.over_toe = place > 0.5 * (foot.heel + foot.toe);
+    return;
+  }
+}
+
 FallRow run_row(Scene scene, const StopRequest& stop) {
+  const std::size_t events = scene.events.size();
+  if (scene.foot) scene.events.push_back({.when = kPressureLeavesTheFoot, .name = {}, .place = {}});
   const Simulation simulation = prepare(scene, false);
   const double end[] = {simulation.duration};
   const Trajectory run = simulate(simulation, end, stop);
@@ -44,8 +77,10 @@ FallRow run_row(Scene scene, const StopRequest& stop) {
   row.ending_event = run.ending_event;
   row.trouble = run.trouble;
   row.first.resize(scene.events.size());
+  if (scene.foot) find_tipping(row, simulation, *scene.foot, run, int(events));
   for (int k = run.events.size() - 1; k >= 0; --k)
     row.first[std::size_t(run.events.event[std::size_t(k)])] = run.events.t[std::size_t(k)];
+  row.first.resize(events);
   return row;
 }
 
@@ -85,6 +120,7 @@ FallTable run_fall_table(const std::string& scene, const std::vector<std::string
   const Scene first = read_one(scene, settings(0));
   table.events = first.events;
   table.duration = first.duration;
+  table.has_foot = first.foot.has_value();
   table.method = method_text(first);
   Scene counted = first;
   require_possible(prepare(counted, false), double(table.rows.size()));

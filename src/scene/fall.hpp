@@ -28,12 +28,18 @@ struct FallRow {
   int ending_event = -1;                     // index into FallTable::events
   std::vector<std::optional<double>> first;  // the first time of each event, s
   std::string trouble;
+
+  // Of a scene with a foot: when the centre of pressure first left it, s, over toe or heel. From then on a flat foot
+  // on the ground would tip, which the model's, fixed to the world, does not.
+  std::optional<double> tips;
+  bool over_toe = false;
 };
 
 struct FallTable {
   Sweep sweep;
   std::vector<EventEntry> events;  // of the scene
   double duration = 0;             // s
+  bool has_foot = false;
   std::string method;
   int threads = 1;
   std::vector<FallRow> rows;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/hash.hpp"
 #include "dynamics/energy.hpp"
@@ -11,6 +12,12 @@ namespace chainreel {
 namespace {
 
 constexpr double kScaleTolerance = 1e-6;
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  void hold(double x) { low = std::min(low, x), high = std::max(high, x); }
+  double size() const { return low <= high ? high - low : 0; }
+};
 
 }  // namespace
 
@@ -30,11 +37,14 @@ Audit audit_of(const Simulation& simulation, const Trajectory& trajectory, int s
   EnergyBalance balance(simulation);
   Sha256 hash;
   audit.energy_start = balance.energy_start();
+  Range potential, work;
   for (int k = 0; k < count; ++k) {
     const auto i = std::size_t(k);
     const auto state = balance.at(trajectory.q_at(k), trajectory.qd_at(k), trajectory.work[i]);
     audit.error.push_back(state.error);
     audit.largest_kinetic = std::max(audit.largest_kinetic, state.kinetic);
+    potential.hold(state.potential);
+    work.hold(trajectory.work[i]);
     if (std::abs(state.error) > audit.largest_error) {
       audit.largest_error = std::abs(state.error);
       audit.largest_error_time = trajectory.t[i];
@@ -43,6 +53,7 @@ Audit audit_of(const Simulation& simulation, const Trajectory& trajectory, int s
     hash.add(trajectory.q_at(k));
     hash.add(trajectory.qd_at(k));
   }
+  audit.energy_moved = std::max({audit.largest_kinetic, potential.size(), work.size()});
   audit.sha256 = hash.finish();
   return audit;
 }

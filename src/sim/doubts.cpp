@@ -1,0 +1,163 @@
+#include "sim/doubts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <variant>
+
+#include "core/format.hpp"
+#include "sim/chain_system.hpp"
+#include "sim/forms.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kRounding = 1e-10;     // of all energies at play: below it an audit error says nothing
+constexpr int kSteps = 32;              // that are taken again
+constexpr double kNotable = 1e-3;       // of the fastest freedom's rate: slower ones are measured by it
+constexpr double kStill = 1e-9;         // rad/s or m/s: no motion
+constexpr double kAim = 0.1;            // of what is still not doubted: where a remedy aims
+
+std::string percent(double part) {
+  return format_significant(100 * part, 2) + " %";
+}
+
+// The largest of 1, 2 and 5 times a power of ten that is not above x.
+double round_down(double x) {
+  const double decade = std::pow(10, std::floor(std::log10(x)));
+  for (const double digit : {5.0, 2.0})
+    if (digit * decade <= x * (1 + 1e-12)) return digit * decade;
+  return decade;
+}
+
+// `factor`: by which a step would have to shrink.
+std::string finer(const Simulation& simulation, double factor) {
+  std::string text = "--set method=auto --set step=null --set tolerance=null";
+  if (simulation.step > 0)
+    return "--set step=" + format_significant(round_down(simulation.step * std::min(factor, 0.5)), 1) + ", or " + text;
+  const double tolerance = simulation.options.tolerance;
+  if (tolerance > 1e-12) return "--set tolerance=" + format_significant(std::max(1e-12, round_down(1e-3 * tolerance)), 1);
+  return text;
+}
+
+std::optional<Doubt> doubt_energy(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit) {
+  double largest_work = 0;
+  for (const double work : trajectory.work) largest_work = std::max(largest_work, std::abs(work));
+  const double at_play = std::abs(audit.energy_start) + audit.energy_moved + largest_work;
+  const auto& steps = trajectory.energy_at_steps;  // without what the frames between them miss
+  const double error = steps ? steps->largest_error : audit.largest_error;
+  const double time = steps ? steps->time : audit.largest_error_time;
+  if (!(error > kDoubtfulEnergy * audit.energy_moved && error > kRounding * at_play)) return {};
+  const double part = error / audit.energy_moved;
+  const double factor = std::pow(kAim * kDoubtfulEnergy / part, 1.0 / simulation.method->order);
+  return Doubt{"energy", part,
+               "the energy is off by " + format_significant(error, 3) + " J at t = " +
+                   format_significant(time, 4) + " s, " + percent(part) + " of the " +
+                   format_significant(audit.energy_moved, 3) + " J that this motion moves",
+               finer(simulation, factor)};
+}
+
+std::optional<Doubt> doubt_constraints(const Trajectory& trajectory) {
+  if (!(trajectory.position_error > kDoubtfulConstraint)) return {};
+  return Doubt{"constraint", trajectory.position_error,
+               "the constraints are missed by up to " + format_significant(trajectory.position_error, 3) + " m or rad",
+               "--set stabilize=project, or a shorter step"};
+}
+
+// Steps of a run taken again.
+class StepsAgain {
+ public:
+  StepsAgain(const Simulation& simulation, const Trajectory& trajectory)
+      : simulation_(simulation),
+        trajectory_(trajectory),
+        system_(simulation.chain, *simulation.torque, simulation.limit, simulation.constraints),
+        forms_(system_, *simulation.method),
+        whole_(make_integrator(*simulation.method, forms_.forms(), simulation.options)),
+        halves_(make_integrator(*simulation.method, forms_.forms(), simulation.options)),
+        breaks_(simulation.torque->breaks()),
+        size_(std::size_t(simulation.chain.nv)) {
+    double fastest = 0;
+    for (int k = 0; k < trajectory.size(); ++k)
+      for (std::size_t i = 0; i < size_.size(); ++i) size_[i] = std::max(size_[i], std::abs(trajectory.qd_at(k)[i]));
+    for (const double one : size_) fastest = std::max(fastest, one);
+    for (double& one : size_) one = std::max({one, kNotable * fastest, kStill});
+  }
+
+  std::optional<Doubt> doubt() {
+    const int count = std::min(kSteps, trajectory_.size() - 1);
+    int looked_at = 0, doubtful = 0;
+    for (int j = 0; j < count; ++j) {
+      const std::optional<Apart> apart = take(int(long(j) * trajectory_.size() / count));
+      if (!apart) continue;
+      ++looked_at;
+      doubtful += apart->part > kDoubtfulStep;
+      if (apart->part > worst_.part) worst_ = *apart;
+    }
+    if (doubtful < 2 || 10 * doubtful < looked_at) return {};
+    return Doubt{"step", worst_.part,
+                 "the step of " + format_shortest(simulation_.step) + " s does not resolve the motion: halved, it " +
+                     "changes the rate of '" + simulation_.chain.coordinate_names[worst_.freedom] + "' by " +
+                     format_significant(worst_.change, 3) + " at t = " + format_significant(worst_.t, 4) + " s, " +
+                     percent(worst_.part) + " of its largest (" + std::to_string(doubtful) + " of " +
+                     std::to_string(looked_at) + " steps looked at)",
+                 "--set method=radau5 --set step=null --set tolerance=1e-8, or " + finer(simulation_, 0.1)};
+  }
+
+ private:
+  struct Apart {
+    double part = 0, change = 0, t = 0;
+    std::size_t freedom = 0;
+  };
+
+  // Nothing where sample k is no place for a whole step.
+  std::optional<Apart> take(int k) {
+    const double t = trajectory_.t[std::size_t(k)], h = simulation_.step, end = t + h;
+    const auto within = [&](double one) { return one > t && one < end; };
+    if (end > trajectory_.end_time || std::any_of(breaks_.begin(), breaks_.end(), within)) return {};
+    whole_->start(t, trajectory_.q_at(k), trajectory_.qd_at(k));
+    halves_->start(t, trajectory_.q_at(k), trajectory_.qd_at(k));
+    if (whole_->step(end, h) != StepResult::ok || halves_->step(t + h / 2, h / 2) != StepResult::ok ||
+        halves_->step(end, h / 2) != StepResult::ok)
+      return {};
+    Apart apart;
+    apart.t = t;
+    for (std::size_t i = 0; i < size_.size(); ++i) {
+      const double change = std::abs(whole_->v()[i] - halves_->v()[i]);
+      if (change <= apart.part * size_[i]) continue;
+      apart.part = change / size_[i], apart.change = change, apart.freedom = i;
+    }
+    return apart;
+  }
+
+  const Simulation& simulation_;
+  const Trajectory& trajectory_;
+  ChainSystem system_;
+  ChainForms forms_;
+  std::unique_ptr<Integrator> whole_, halves_;
+  std::vector<double> breaks_;
+  std::vector<double> size_;  // of each freedom's rate
+  Apart worst_;
+};
+
+// A curve is followed from step to step, and not to be begun in the midst of a run.
+bool follows_a_curve(const Simulation& simulation) {
+  const auto& list = simulation.constraints.list;
+  return std::any_of(list.begin(), list.end(),
+                     [](const Constraint& one) { return std::holds_alternative<CurveConstraint>(one); });
+}
+
+}  // namespace
+
+std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit) {
+  std::vector<Doubt> doubts;
+  if (trajectory.size() < 2 || !is_complete(trajectory.status)) return doubts;
+  const auto add = [&](std::optional<Doubt> doubt) {
+    if (doubt) doubts.push_back(std::move(*doubt));
+  };
+  add(doubt_energy(simulation, trajectory, audit));
+  if (trajectory.rows > 0) add(doubt_constraints(trajectory));
+  if (simulation.step > 0 && !follows_a_curve(simulation)) add(StepsAgain(simulation, trajectory).doubt());
+  return doubts;
+}
+
+}  // namespace chainreel

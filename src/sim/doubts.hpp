@@ -1,0 +1,34 @@
+// What speaks against a run that came to its end: the method did what it could, and that is not the motion.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/audit.hpp"
+
+namespace chainreel {
+
+// Of the motion's energy_scale: an audit error beyond it is told.
+inline constexpr double kDoubtfulEnergy = 0.01;
+// m or rad, off a constraint.
+inline constexpr double kDoubtfulConstraint = 1e-3;
+// Of a freedom's largest rate in the run: what one step may differ by from two of half its length.
+inline constexpr double kDoubtfulStep = 0.1;
+
+struct Doubt {
+  std::string kind;    // "energy", "constraint" or "step"
+  double amount = 0;   // of what the constants above measure
+  std::string words;   // what, and how much
+  std::string remedy;  // what to type instead
+};
+
+// Nothing of a run that ended otherwise than it was told to: its status says so.
+//
+// Energy is blind where little of it is at stake: a small link whose friction is too steep for the step shakes with
+// next to none. So a few of the steps are taken again, whole and in two halves. Where the step lies within the
+// method's region of stability and resolves the motion both agree, since their difference is of the method's order;
+// where it does not, they differ by as much as the motion itself. A tenth of the steps looked at must do so, since
+// one of them may hold a jump of the torques.
+std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit);
+
+}  // namespace chainreel

@@ -1,0 +1,110 @@
+// What speaks against a run: each fault is found, and sound runs are let be.
+
+#include "sim/doubts.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/runs.hpp"
+#include "support/chains.hpp"
+
+namespace chainreel {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::vector<Doubt> doubts(const Simulation& run, double dt = 1.0 / 60) {
+  const Trajectory trajectory = simulate(run, instants(run.duration, dt));
+  EXPECT_EQ(trajectory.status, RunStatus::finished) << trajectory.trouble;
+  return doubts_of(run, trajectory, audit_of(run, trajectory));
+}
+
+std::vector<std::string> kinds(const Simulation& run) {
+  std::vector<std::string> names;
+  for (const Doubt& doubt : doubts(run)) names.push_back(doubt.kind);
+  return names;
+}
+
+// A body of 1 kg that floats without weight and carries a link of some grams, whose joint has 0.1 N m of friction:
+// tanh(qd / 0.01) pulls it with a rate of 10 N m s over 2e-5 kg m^2, 5e5 /s.
+Simulation light_link_with_friction(const std::string& method, double step) {
+  Simulation run;
+  run.chain = testing::random_tree(4, {.bodies = 2, .serial = true, .floating_base = true, .prismatic = 0});
+  run.chain.gravity.setZero();
+  run.chain.bodies[2].inertia = {0.01, {0.02, 0, 0}, Eigen::Vector3d(1e-5, 1e-5, 1e-5).asDiagonal()};
+  run.chain.bodies[2].joint.friction = 0.1;
+  run.chain.has_dissipation = true;
+  testing::finish(run.chain);
+  run.q0 = zero_configuration(run.chain);
+  run.qd0.assign(std::size_t(run.chain.nv), 0);
+  run.qd0[3] = 1, run.qd0[4] = 0.5;
+  run.torque = make_torque_law(run.chain, std::vector<TorqueEntry>(run.qd0.size()), {});
+  run.method = &find_method(method);
+  run.step = step;
+  run.duration = 1;
+  if (step == 0) run.options.tolerance = 1e-8;
+  return run;
+}
+
+double last_rate(const Simulation& run) {
+  double largest = 0;
+  const Trajectory path = simulate(run, instants(1, 0.1));
+  for (int k = 5; k < path.size(); ++k) largest = std::max(largest, std::abs(path.qd_at(k).back()));
+  return largest;
+}
+
+TEST(Doubts, FindAStepTooLongForFrictionThatEnergyDoesNotSee) {
+  const Simulation run = light_link_with_friction("rk4", 2e-4), truth = light_link_with_friction("radau5", 0);
+  EXPECT_GT(last_rate(run), 1000 * last_rate(truth));  // it shakes, and should creep
+  const std::vector<Doubt> found = doubts(run);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].kind, "step");
+  EXPECT_THAT(found[0].words, HasSubstr("'" + run.chain.coordinate_names.back() + "'"));
+  EXPECT_THAT(found[0].remedy, HasSubstr("--set method=radau5"));
+  EXPECT_THAT(kinds(truth), ::testing::IsEmpty());
+  Simulation fine = light_link_with_friction("rk4", 2e-6);
+  fine.duration = 0.1;
+  EXPECT_THAT(kinds(fine), ::testing::IsEmpty());
+}
+
+TEST(Doubts, FindEnergyThatAMethodMakes) {
+  const std::vector<Doubt> found = doubts(run_of("rr", {}, 10, "explicit_euler", 0.02));
+  ASSERT_GE(found.size(), 1u);
+  EXPECT_EQ(found[0].kind, "energy");
+  EXPECT_GT(found[0].amount, kDoubtfulEnergy);
+  EXPECT_THAT(found[0].words, HasSubstr("J at t = "));
+  EXPECT_THAT(found[0].remedy, HasSubstr("--set step="));
+}
+
+TEST(Doubts, LetSoundRunsBe) {
+  for (const auto& [method, step] : {std::pair{"rk4", 0.005}, {"verlet", 0.001}, {"gauss4", 0.01}, {"semi_implicit_euler", 1e-4},
+                                     {"explicit_euler", 1e-5}})
+    EXPECT_THAT(kinds(run_of("rr", {}, 2, method, step)), ::testing::IsEmpty()) << method;
+  // One jump of a torque within a step is one step's error, not the method's failure.
+  EXPECT_THAT(kinds(run_of("rr", {"5*(t>0.5003)"}, 2, "rk4", 0.001)), ::testing::IsEmpty());
+  // Nothing moves: rounding is no doubt.
+  Simulation still = run_of("rr", {"0", "0"}, 1, "rk4", 0.001);
+  still.q0 = {-1.5707963267948966, 0};
+  EXPECT_THAT(kinds(still), ::testing::IsEmpty());
+}
+
+TEST(Doubts, FindConstraintsThatAreLeft) {
+  Simulation run = run_of("rrr", {}, 5, "explicit_euler", 0.005);
+  run.q0 = {1.5707963267948966, -1.5707963267948966, -0.5235987755982988};
+  run.constraints.list = {LineConstraint{"gripper", {0, 0.5, 0}, {1, 0, 0}}};
+  run.constraints.stabilize = Stabilization::none;
+  EXPECT_THAT(kinds(run), ::testing::Contains("constraint"));
+  run.constraints.stabilize = Stabilization::project;
+  EXPECT_THAT(kinds(run), ::testing::Not(::testing::Contains("constraint")));
+}
+
+TEST(Doubts, AreNoneOfARunThatDidNotComeToItsEnd) {
+  Simulation run = run_of("rr", {"-1e7*qd1", "0"}, 1, "rk4", 0.01);
+  run.qd0 = {1, 0};
+  const Trajectory trajectory = simulate(run, instants(1, 0.05));
+  ASSERT_EQ(trajectory.status, RunStatus::diverged);
+  EXPECT_TRUE(doubts_of(run, trajectory, audit_of(run, trajectory)).empty());
+}
+
+}  // namespace
+}  // namespace chainreel
