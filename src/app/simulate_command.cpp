@@ -40,7 +40,7 @@ Trajectory run_scene(const PreparedScene& prepared, bool every_step) {
 
 // A panel's run as a CSV file, or on standard output where `output` is "-".
 Json simulate_panel(const PreparedScene& prepared, const std::string& output,
-                    const SimulateOptions& options) {
+                    const SimulateOptions& options, bool alone) {
   const bool to_stdout = output == "-";
   say_choice(prepared, options.common.quiet);
   std::unique_ptr<OutputFile> file;
@@ -58,7 +58,8 @@ Json simulate_panel(const PreparedScene& prepared, const std::string& output,
   }
   require_expected_end(trajectory, prepared.scene);
   Json report = run_report(prepared, trajectory);
-  tell_warnings(prepared.scene.name, report);
+  const std::string& title = prepared.scene.title;
+  tell_warnings(prepared.scene.name + (alone ? "" : ", '" + title + "'"), report);
   report["rows"] = trajectory.size();
   report["file"] = output;
   return report;
@@ -88,7 +89,7 @@ void run_simulate(const SimulateOptions& options) {
                                      std::to_string(film.panels.size()) + " panels: choose one with --panel");
   Json reports = Json::array();
   for (const std::size_t i : chosen) {
-    reports.push_back(simulate_panel(film.panels[i], panel_csv_path(output, i, alone), options));
+    reports.push_back(simulate_panel(film.panels[i], panel_csv_path(output, i, alone), options, alone));
     if (!options.common.json && !options.common.quiet && output != "-")
       std::printf("%s  %d rows\n", reports.back()["file"].get<std::string>().c_str(),
                   reports.back()["rows"].get<int>());

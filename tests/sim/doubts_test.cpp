@@ -53,14 +53,14 @@ double last_rate(const Simulation& run) {
   return largest;
 }
 
-TEST(Doubts, FindAStepTooLongForFrictionThatEnergyDoesNotSee) {
+TEST(Doubts, FindAStepTooLongForTheFrictionOfALightLink) {
   const Simulation run = light_link_with_friction("rk4", 2e-4), truth = light_link_with_friction("radau5", 0);
   EXPECT_GT(last_rate(run), 1000 * last_rate(truth));  // it shakes, and should creep
   const std::vector<Doubt> found = doubts(run);
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].kind, "step");
-  EXPECT_THAT(found[0].words, HasSubstr("'" + run.chain.coordinate_names.back() + "'"));
-  EXPECT_THAT(found[0].remedy, HasSubstr("--set method=radau5"));
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found.back().kind, "step");
+  EXPECT_THAT(found.back().words, HasSubstr("'" + run.chain.coordinate_names.back() + "'"));
+  EXPECT_THAT(found.back().remedy, HasSubstr("--set method=radau5"));
   EXPECT_THAT(kinds(truth), ::testing::IsEmpty());
   Simulation fine = light_link_with_friction("rk4", 2e-6);
   fine.duration = 0.1;
@@ -89,7 +89,7 @@ TEST(Doubts, LetSoundRunsBe) {
 }
 
 TEST(Doubts, FindConstraintsThatAreLeft) {
-  Simulation run = run_of("rrr", {}, 5, "explicit_euler", 0.005);
+  Simulation run = run_of("rrr", {}, 2, "explicit_euler", 0.005);
   run.q0 = {1.5707963267948966, -1.5707963267948966, -0.5235987755982988};
   run.constraints.list = {LineConstraint{"gripper", {0, 0.5, 0}, {1, 0, 0}}};
   run.constraints.stabilize = Stabilization::none;
