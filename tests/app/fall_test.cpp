@@ -38,7 +38,8 @@ TEST(FallCommand, SaysThatHeStandsOnlyWhileThePressureIsWithinTheFoot) {
   const ProgramResult result = run_program({"fall", kHuman, "--sweep", "parameters.k=0:1200:7", "--json"});
   ASSERT_EQ(result.status, 0) << result.err;
   int standing = 0, held = 0;
-  for (const Json& row : Json::parse(result.out)["rows"]) {
+  const Json json = Json::parse(result.out);
+  for (const Json& row : json["rows"]) {
     const bool left = !row["first"][0].is_null(), down = !row["fall_time"].is_null();
     EXPECT_EQ(row["stands"].get<bool>(), !left && !down) << row.dump();
     ASSERT_EQ(row["tips_at"].is_null(), !left);
@@ -46,7 +47,8 @@ TEST(FallCommand, SaysThatHeStandsOnlyWhileThePressureIsWithinTheFoot) {
     if (left) EXPECT_EQ(row["tips_over"], "toe");
     standing += !left && !down, held += left && !down;
   }
-  EXPECT_GT(standing + held, 0);
+  EXPECT_GT(standing, 0);
+  EXPECT_GT(held, 0);
   // Outside from the start on: an event would wait there, the verdict does not.
   const ProgramResult text =
       run_program({"fall", kHuman, "--set", "foot={heel: -0.2, toe: -0.1}", "--set", "parameters.k=1200"});
