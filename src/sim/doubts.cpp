@@ -74,7 +74,7 @@ class StepsAgain {
         forms_(system_, *simulation.method),
         whole_(make_integrator(*simulation.method, forms_.forms(), simulation.options)),
         halves_(make_integrator(*simulation.method, forms_.forms(), simulation.options)),
-        breaks_(simulation.torque->breaks()),
+        breaks_(simulation.torque->breaks(simulation.duration)),
         size_(std::size_t(simulation.chain.nv)) {
     double fastest = 0;
     for (int k = 0; k < trajectory.size(); ++k)
@@ -114,6 +114,9 @@ class StepsAgain {
     const double t = trajectory_.t[std::size_t(k)], h = simulation_.step, end = t + h;
     const auto within = [&](double one) { return one > t && one < end; };
     if (end > trajectory_.end_time || std::any_of(breaks_.begin(), breaks_.end(), within)) return {};
+    // Where a corner of the torques is held, the law by itself would jump across it to and fro.
+    const auto holds = [&](const Trajectory::Hold& hold) { return hold.begin < end && hold.end > t; };
+    if (std::any_of(trajectory_.holds.begin(), trajectory_.holds.end(), holds)) return {};
     whole_->start(t, trajectory_.q_at(k), trajectory_.qd_at(k));
     halves_->start(t, trajectory_.q_at(k), trajectory_.qd_at(k));
     if (whole_->step(end, h) != StepResult::ok || halves_->step(t + h / 2, h / 2) != StepResult::ok ||
