@@ -8,7 +8,7 @@
 
 namespace chainreel {
 
-// Of the motion's energy_scale: an audit error beyond it is told.
+// Of the Audit's energy_moved: an audit error beyond it is told.
 inline constexpr double kDoubtfulEnergy = 0.01;
 // m or rad, off a constraint.
 inline constexpr double kDoubtfulConstraint = 1e-3;

@@ -32,7 +32,7 @@ TEST(Warnings, AreSaidOfEnergyThatTheMethodMadeAndChangeNoExitCode) {
   ASSERT_EQ(report["warnings"].size(), 1u);
   EXPECT_EQ(report["warnings"][0]["kind"], "energy");
   EXPECT_NEAR(report["warnings"][0]["amount"].get<double>(),
-              report["audit_error"].get<double>() / report["energy_scale"].get<double>(), 1e-12);
+              report["audit_error"].get<double>() / report["energy_moved"].get<double>(), 1e-12);
   const ProgramResult picture = run_program({"snapshot", scene, "-o", folder.file("a.png"), "--at", "2", "--quiet"});
   EXPECT_EQ(picture.status, 0) << picture.err;
   EXPECT_THAT(picture.err, HasSubstr("WARNING: coarse: the energy is off by"));
