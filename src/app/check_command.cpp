@@ -53,8 +53,9 @@ Json model_report(const Chain& chain) {
                {"body", body.name},
                {"parent", body.parent == 0 ? "world" : chain.bodies[std::size_t(body.parent)].name},
                {"mass", body.inertia.mass}};
-    if (body.joint.ratio != 1 || body.joint.offset != 0)
-      joint["follows"] = chain.coordinate_names[std::size_t(body.joint.v_index)];
+    const std::string& coordinate = chain.coordinate_names[std::size_t(body.joint.v_index)];
+    if (body.joint.kind != JointKind::floating && coordinate != body.joint.name)
+      joint.update({{"follows", coordinate}, {"ratio", body.joint.ratio}, {"offset", body.joint.offset}});
     json["joints"].push_back(joint);
   }
   json["lumped_links"] = int(chain.frames.size()) - int(chain.bodies.size());
@@ -66,6 +67,8 @@ Json model_report(const Chain& chain) {
     json["friction"] = {{"law", "F tanh(qd / " + format_shortest(kFrictionSmoothing) + ")"},
                         {"creeps_under_three_quarters", kFrictionSmoothing * std::atanh(0.75)}};
   if (chain.end_effector >= 0) json["end_effector"] = chain.frames[std::size_t(chain.end_effector)].name;
+  json["ends"] = Json::array();
+  for (const int frame : chain.leaf_frames) json["ends"].push_back(chain.frames[std::size_t(frame)].name);
   return json;
 }
 
@@ -91,15 +94,36 @@ Json cost_report(const Scene& scene, const Simulation& simulation, int frames) {
           {"M_computed", of_layer("mass_matrix")}};
 }
 
+// What a joint mimics: "-1 left + 0.2".
+std::string follows_text(const Json& joint) {
+  if (!joint.contains("follows")) return "";
+  const double ratio = joint["ratio"].get<double>(), offset = joint["offset"].get<double>();
+  std::string text = (ratio == 1 ? "" : format_shortest(ratio) + " ") + joint["follows"].get<std::string>();
+  if (offset != 0) text += (offset > 0 ? " + " : " - ") + format_shortest(std::abs(offset));
+  return text;
+}
+
+std::string words_of(const Json& list) {
+  std::string words;
+  for (const Json& word : list) words += (words.empty() ? "" : ", ") + word.get<std::string>();
+  return words;
+}
+
 void print_model(const Json& model) {
   std::printf("model %s: %d freedoms; %s; forward dynamics: %s\n", model["name"].get<std::string>().c_str(),
               model["freedoms"].get<int>(), model["why"].get<std::string>().c_str(),
               model["forward_dynamics"].get<std::string>().c_str());
   std::vector<std::vector<std::string>> table{{"joint", "kind", "moves", "on", "kg"}};
-  for (const Json& joint : model["joints"])
+  bool any_mimics = false;
+  for (const Json& joint : model["joints"]) {
     table.push_back({joint["name"].get<std::string>(), joint["kind"].get<std::string>(),
                      joint["body"].get<std::string>(), joint["parent"].get<std::string>(),
-                     joint["mass"].dump()});
+                     joint["mass"].dump(), follows_text(joint)});
+    any_mimics |= joint.contains("follows");
+  }
+  table.front().emplace_back(any_mimics ? "mimics" : "");
+  if (!any_mimics)
+    for (std::vector<std::string>& row : table) row.pop_back();
   std::fputs(table_text(table).c_str(), stdout);
   if (model.contains("friction"))
     std::printf("friction: %s, in which nothing sticks: pushed by 3/4 of its F a joint creeps at %s rad/s or m/s\n",
@@ -107,6 +131,9 @@ void print_model(const Json& model) {
                 format_significant(model["friction"]["creeps_under_three_quarters"].get<double>(), 2).c_str());
   if (model.contains("end_effector"))
     std::printf("end effector: %s\n", model["end_effector"].get<std::string>().c_str());
+  else
+    std::printf("end effector: none of %s; choose one with --end-effector NAME, of a scene with end_effector: NAME\n",
+                words_of(model["ends"]).c_str());
 }
 
 void print_candidates(const Choice& choice, const Accuracy& accuracy) {

@@ -58,9 +58,7 @@ Chain load_chain(const DynamicsOptions& options) {
   honoured.push_back("end_effector");
   ModelScene model = model_scene_of(options.file, overrides_of(options), "dynamics", honoured);
   model.options.meshes = false;
-  Chain chain = read_chain(options.file, model.options);
-  require_end_effector(chain);
-  return chain;
+  return read_chain(options.file, model.options);
 }
 
 Json list(const std::vector<double>& values) {
@@ -103,6 +101,10 @@ void add_split(Json& json, const Chain& chain, Workspace& ws, const State& state
 
 void add_task(Json& json, const TipMass& tip, Workspace& ws, const State& state, Task task) {
   const Chain& chain = tip.chain();
+  if (chain.end_effector < 0) {
+    json["end_effector"] = nullptr;
+    return;
+  }
   compute_kinematics(chain, ws, state.q, state.qd);
   json["end_effector"] = chain.frames[std::size_t(chain.end_effector)].name;
   json["x"] = to_json(frame_position(chain, ws, chain.end_effector));
@@ -250,6 +252,8 @@ void run_dynamics(const DynamicsOptions& options) {
       for (const Json& one : value)
         std::printf("%-20s %s of %s\n", "constraint_force", text_of(one["force"]).c_str(),
                     one["constraint"].get<std::string>().c_str());
+    else if (key == "end_effector" && value.is_null())
+      std::puts("end_effector         none: choose a link with --end-effector NAME for x, J and Lambda");
     else if (key != "bodies")
       std::printf("%-20s %s\n", key.c_str(), text_of(value).c_str());
   }

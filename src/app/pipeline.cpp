@@ -1,6 +1,7 @@
 #include "app/pipeline.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <set>
 
 #include "app/automatic.hpp"
@@ -22,9 +23,22 @@ namespace chainreel {
 
 namespace {
 
+// Default layers of the end effector where the model has none.
+void say_what_is_left_out(const std::vector<std::string>& wanted, const PreparedScene& prepared) {
+  std::string missing;
+  for (const std::string& layer : wanted)
+    if (std::find(prepared.scene.draw.begin(), prepared.scene.draw.end(), layer) == prepared.scene.draw.end())
+      missing += (missing.empty() ? "" : ", ") + layer;
+  if (!missing.empty())
+    std::fprintf(stderr, "note: %s: not drawn, as %s has several ends: choose one with `--set end_effector=NAME`\n",
+                 missing.c_str(), prepared.scene.model.c_str());
+}
+
 PreparedScene prepare_panel(Scene scene, bool meshes, bool quiet) {
   PreparedScene prepared{std::move(scene), {}, {}, nullptr};
+  const std::vector<std::string> wanted = prepared.scene.draw;
   prepared.simulation = prepare(prepared.scene, meshes);
+  say_what_is_left_out(wanted, prepared);
   choose_automatically(prepared, quiet);
   return prepared;
 }

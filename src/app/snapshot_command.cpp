@@ -68,7 +68,6 @@ void snapshot_model(const SnapshotOptions& options, const std::string& output) {
     throw Error(ExitCode::usage, "--at and --vary go with a scene; a model stands still at --pose");
   const ModelScene model = model_scene_of(options.file, overrides_of(options), "snapshot", picture_keys());
   const Chain chain = read_chain(options.file, model.options);
-  require_end_effector(chain);
   std::vector<std::vector<double>> poses = parse_poses(chain, options.poses, "--pose");
   if (poses.empty()) poses.push_back(zero_configuration(chain));
   const Fonts fonts;

@@ -70,7 +70,7 @@ bool ChainFit::add_pose(const Workspace& ws, double limit) {
     add_to(rail_[i], rail_point(chain_, ws, rail.body, rail.lower));
     add_to(rail_[i], rail_point(chain_, ws, rail.body, rail.upper));
   }
-  add_to(tip_, tip_position(chain_, ws));
+  if (chain_.end_effector >= 0) add_to(tip_, tip_position(chain_, ws));
   if (shapes_) for_each_corner(*shapes_, ws, [&](const Vector3d& corner) { add_to(corner_, corner); });
   return true;
 }
@@ -84,7 +84,7 @@ void extend(MotionBox& box, const Chain& chain, const Skeleton& skeleton, const 
     add(pose_of(ws, link.body) * link.from);
     add(pose_of(ws, link.body) * link.to);
   }
-  add(tip_position(chain, ws));
+  if (chain.end_effector >= 0) add(tip_position(chain, ws));
   if (shapes) for_each_corner(*shapes, ws, add);
 }
 

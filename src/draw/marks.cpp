@@ -33,6 +33,7 @@ FrameAxes::FrameAxes(const Chain& chain, const Theme& theme, const Fonts& fonts,
   for (std::size_t i = 0; i < 3; ++i)
     letters_[i] = lay_out_math(fonts, names[i],
                                {Face::math, scaled(size::kTick, text_scale), theme.axis[i], Align::left});
+  if (chain.end_effector < 0) return;
   const Frame& tip = chain.frames[std::size_t(chain.end_effector)];
   at_tip_ = tip.body == 0 || tip.X_BF.translation().norm() > 0;
 }

@@ -94,7 +94,7 @@ VectorPeaks Panel::peaks() {
   for (int k = 0; acting_ && k < samples_; ++k) {
     pose_at(k);
     // Where a run goes wild its forces say nothing.
-    if (!(tip_position(run_.chain, *ws_).norm() <= limit_)) break;
+    if (run_.chain.end_effector >= 0 && !(tip_position(run_.chain, *ws_).norm() <= limit_)) break;
     for (const WorldVector& vector : acting_->at(*ws_, k)) peaks.add(vector);
   }
   return peaks;
@@ -186,8 +186,12 @@ bool Panel::covers(const Camera& camera, const Rect& part, int k) const {
     if (near(rail_point(run_.chain, *ws_, rail.body, rail.lower),
              rail_point(run_.chain, *ws_, rail.body, rail.upper), rail_overhang(rail.carrier)))
       return true;
-  const Eigen::Vector3d tip = tip_position(run_.chain, *ws_), root = root_place(run_.chain);
-  if (near(tip, tip, kLargestMark) || near(root, root, size::kGroundLength / 2)) return true;
+  const Eigen::Vector3d root = root_place(run_.chain);
+  if (near(root, root, size::kGroundLength / 2)) return true;
+  if (run_.chain.end_effector >= 0) {
+    const Eigen::Vector3d tip = tip_position(run_.chain, *ws_);
+    if (near(tip, tip, kLargestMark)) return true;
+  }
   if (axes_)
     for (const Eigen::Isometry3d& X_WF : axes_->poses(*ws_))
       if (near(X_WF.translation(), X_WF.translation(), axes_->reach())) return true;
@@ -235,7 +239,7 @@ bool Panel::is_inside() const {
     if (!holds(pose_of(*ws_, link.body) * link.from) || !holds(pose_of(*ws_, link.body) * link.to))
       return false;
   }
-  return holds(tip_position(run_.chain, *ws_));
+  return run_.chain.end_effector < 0 || holds(tip_position(run_.chain, *ws_));
 }
 
 void Panel::find_last_inside() {
@@ -249,6 +253,7 @@ void Panel::find_last_inside() {
 }
 
 void Panel::follow_tip() {
+  if (run_.chain.end_effector < 0) return;
   for (int k = 0; k <= last_; ++k) {
     pose_at(k);
     const Eigen::Vector3d tip = tip_position(run_.chain, *ws_);
@@ -303,15 +308,16 @@ void Panel::draw_frame(Picture& picture, int k, const EllipseScale& scale, const
   if (layers_.chain) draw_links(picture, drawing, *ws_, clip_);
   if (layers_.chain && is_constrained())
     draw_closure_joints(picture, drawing, *ws_, run_.simulation->constraints, clip_);
-  const Point tip = tip_.place(k);
   if (layers_.ellipse) {
+    const Point tip = tip_.place(k);
     const EllipseStyle style{&theme_, &fonts, run_.scene.text_scale, scale.per_unit(), area_, layers_.reading};
     const Camera seen = camera_.seen_at(tip_position(run_.chain, *ws_));
     draw_mass_ellipse(picture, ellipse_axes(k), tip, seen, style, clip_);
   }
   if (layers_.chain && foot_) foot_->draw_pressure(picture, camera_, look_, k, clip_);
   draw_overlays(picture, vectors);
-  if (layers_.chain && !run_.shapes) draw_end_effector(picture, tip, look_, clip_);
+  if (layers_.chain && !run_.shapes && run_.chain.end_effector >= 0)
+    draw_end_effector(picture, tip_.place(k), look_, clip_);
   if (!map_) return;
   compute_mass_matrix(run_.chain, *ws_, run_.trajectory.q_at(k));
   map_->draw(picture, ws_->M, map_corner_);

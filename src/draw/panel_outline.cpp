@@ -47,7 +47,12 @@ void Panel::draw_outline(Picture& picture, int k, const Fonts& fonts) const {
   if (may_freeze() && k > last_) look.strength = kStoodStill;
   k = std::clamp(k, 0, last_);
   pose_at(k);
-  const Point tip = tip_.place(k);
+  // Where there is no end effector the letter stands at the end of the last link.
+  const bool has_tip = run_.chain.end_effector >= 0;
+  const Point tip = has_tip                  ? tip_.place(k)
+                    : skeleton_.links.empty() ? Point{}
+                                              : camera_.project(pose_of(*ws_, skeleton_.links.back().body) *
+                                                                skeleton_.links.back().to);
   Theme halo_theme = *outline_;
   halo_theme.ink = outline_->background;
   if (layers_.trail) draw_trail(picture, tip_, k, toned(outline_->ink, look), clip_);
@@ -59,6 +64,7 @@ void Panel::draw_outline(Picture& picture, int k, const Fonts& fonts) const {
     draw_rails(picture, drawing, *ws_, clip_);
     draw_links(picture, drawing, *ws_, clip_);
     if (is_constrained()) draw_closure_joints(picture, drawing, *ws_, run_.simulation->constraints, clip_);
+    if (!has_tip) continue;
     const double r = kWiderTip * look.marks * size::kEndEffector / 2;
     picture.add(
         Ellipse{tip, {r, 0}, {0, r}, {{}, toned(look.theme->ink, look), look.stroke * size::kLinkOutline}},

@@ -61,7 +61,7 @@ Picture draw_pose_figure(const Chain& chain, const std::vector<std::vector<doubl
     stand(poses[i]);
     draw_rails(picture, drawing(strength), ws, kSceneClip);
     draw_links(picture, drawing(strength), ws, kSceneClip);
-    if (options.shapes) continue;
+    if (options.shapes || chain.end_effector < 0) continue;
     draw_end_effector(picture, camera.project(tip_position(chain, ws)), drawing(strength).look, kSceneClip);
   }
   draw_sheet(picture, sheet);

@@ -37,12 +37,12 @@ std::vector<LinkSegment> segments_of(const Chain& chain) {
     const Body& body = chain.bodies[std::size_t(b)];
     if (body.parent > 0) ends[std::size_t(body.parent)].push_back(body.joint.X_PJ.translation());
   }
-  const Frame& tip = chain.frames[std::size_t(chain.end_effector)];
+  const Frame* tip = chain.end_effector < 0 ? nullptr : &chain.frames[std::size_t(chain.end_effector)];
   std::vector<LinkSegment> links;
   for (int b = 1; b < bodies; ++b) {
     std::vector<Vector3d>& to = ends[std::size_t(b)];
-    const bool leaf = to.empty(), holds_tip = tip.body == b;
-    if (holds_tip) to.push_back(tip.X_BF.translation());
+    const bool leaf = to.empty(), holds_tip = tip != nullptr && tip->body == b;
+    if (holds_tip) to.push_back(tip->X_BF.translation());
     // A leaf whose end effector sits in its joint has an extent all the same.
     if (leaf && (!holds_tip || to.back().norm() == 0)) to.push_back(farthest_place(chain, b));
     for (const Vector3d& end : to) {

@@ -20,7 +20,7 @@ std::map<std::string, std::string> find_meshes(const UrdfFile& file, const Model
       const FoundFile& found = finder.find(shape.mesh_file);
       paths[shape.mesh_file] = found.path;
       if (found.path.empty() && options.meshes)
-        problems.add(shape.line, missing_mesh_message(link.name, shape.mesh_file, found));
+        problems.add(shape.line, missing_mesh_message(link.name, shape.mesh_file, found) + "; or draw without shapes with `--links plain`");
     }
   }
   problems.throw_if_any();

@@ -102,7 +102,27 @@ std::shared_ptr<const EventSet> events_of(const Scene& scene, const Simulation& 
   }
 }
 
-void choose_end_effector(const Scene& scene, Chain& chain) {
+// Layers of the end effector. Who names them asks for one; of the default ones those are left out that need it.
+void require_end_effector_of_layers(Scene& scene, const Chain& chain) {
+  const auto needs_one = [](const std::string& layer) {
+    return layer == "trail" || layer == "ellipse" || layer == "velocity";
+  };
+  const auto first = std::find_if(scene.draw.begin(), scene.draw.end(), needs_one);
+  if (first == scene.draw.end()) return;
+  if (scene.places.contains("draw")) {
+    try {
+      require_end_effector(chain);
+    } catch (const Error& error) {
+      throw Error(error.code(),
+                  "the layer '" + *first + "' is of the end effector: " + error.problems().front().message +
+                      "; or leave it out with draw: [-" + *first + "]",
+                  scene.place_of("draw"));
+    }
+  }
+  std::erase_if(scene.draw, needs_one);
+}
+
+void choose_end_effector(Scene& scene, Chain& chain) {
   if (!scene.end_effector.empty()) {
     chain.end_effector = find_frame(chain, scene.end_effector);
     std::vector<std::string> links;
@@ -113,7 +133,7 @@ void choose_end_effector(const Scene& scene, Chain& chain) {
                       did_you_mean(scene.end_effector, links),
                   scene.place_of("end_effector"));
   }
-  require_end_effector(chain);
+  if (chain.end_effector < 0) require_end_effector_of_layers(scene, chain);
 }
 
 // Fills in what the scene left to the method.
@@ -152,7 +172,7 @@ Simulation prepare(Scene& scene, bool meshes) {
   choose_end_effector(scene, simulation.chain);
   const Chain& chain = simulation.chain;
   scene.gravity = chain.gravity;
-  scene.end_effector = chain.frames[std::size_t(chain.end_effector)].name;
+  if (chain.end_effector >= 0) scene.end_effector = chain.frames[std::size_t(chain.end_effector)].name;
 
   prepare_tables(scene, chain);
   ProblemList problems;

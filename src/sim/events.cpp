@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/tip_reader.hpp"
+
 namespace chainreel {
 namespace {
 
@@ -46,10 +48,11 @@ Event::Test test_of(const Expression& when, const EventEntry& entry) {
                                                 : Event::Test::changes_side;
 }
 
-void add_event(EventSet& events, const EventEntry& entry) {
+void add_event(EventSet& events, const Chain& chain, const EventEntry& entry) {
   const Expression when = Expression::parse(entry.when, events.probe.names(), entry.place);
   events.list.push_back({entry.title(), entry.kind, when.difference(), test_of(when, entry)});
   for (const int slot : when.used_variables()) {
+    require_frame_of(chain, events.probe, slot, entry.place);
     events.needs_kinematics |= events.probe.is_kinematic(slot);
     events.needs_multipliers |= events.probe.is_multiplier(slot);
     if (events.foot && events.probe.names()[std::size_t(slot)] == "cop") events.cop_slot = slot;
@@ -95,7 +98,7 @@ std::shared_ptr<const EventSet> make_events(const Chain& chain, const std::vecto
   ProblemList problems;
   for (const EventEntry& entry : entries) {
     try {
-      add_event(*events, entry);
+      add_event(*events, chain, entry);
     } catch (const Error& error) {
       for (const Problem& problem : error.problems()) problems.add(problem.message, problem.place);
     }

@@ -5,6 +5,7 @@
 #include "dynamics/energy.hpp"
 #include "sim/audit.hpp"
 #include "sim/chain_system.hpp"
+#include "sim/tip_reader.hpp"
 #include "sim/torques_along.hpp"
 
 namespace chainreel {
@@ -67,8 +68,10 @@ void add_plot(PlotSet& plots, const PlotEntry& entry, const Chain& chain, int ro
   if (plot.quantity == PlotQuantity::expression) {
     plot.value = Expression::parse(entry.value, plots.probe.names(), entry.place);
     if (plot.title.empty()) plot.title = entry.value;
-    for (const int slot : plot.value->used_variables())
+    for (const int slot : plot.value->used_variables()) {
       plots.needs_kinematics |= plots.probe.is_kinematic(slot);
+      require_frame_of(chain, plots.probe, slot, entry.place);
+    }
   }
   plots.list.push_back(std::move(plot));
 }

@@ -41,7 +41,11 @@ void Probe::set(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVe
     const Eigen::Vector3d x = frame_position(chain, ws, frame), xd = frame_velocity(chain, ws, frame);
     next = std::copy(xd.begin(), xd.end(), std::copy(x.begin(), x.end(), next));
   };
-  write(chain.end_effector);
+  // Who reads it has asked for one.
+  if (chain.end_effector >= 0)
+    write(chain.end_effector);
+  else
+    next += 6;
   for (const NamedFrame& frame : frames_) write(frame.frame);
 }
 

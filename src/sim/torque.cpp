@@ -8,6 +8,7 @@
 #include "expr/expression.hpp"
 #include "model/read_chain.hpp"
 #include "sim/expression_torque.hpp"
+#include "sim/tip_reader.hpp"
 
 namespace chainreel {
 namespace {
@@ -105,6 +106,7 @@ std::unique_ptr<TorqueLaw> make_plain_law(const Chain& chain, const std::vector<
     try {
       if (!entry.control) refuse_multipliers(entry, parameters);
       parsed.push_back(Expression::parse(entry.control ? "0" : entry.text, probe.names(), entry.place));
+      for (const int slot : parsed.back().used_variables()) require_frame_of(chain, probe, slot, entry.place);
       const std::optional<double> constant = parsed.back().constant();
       if (constant) constants.push_back(*constant);
     } catch (const Error& error) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "scene/read_scene.hpp"
 
 namespace chainreel {
@@ -49,6 +51,59 @@ TEST(Prepare, NamesEveryFreedomWhereTheTorqueHasTheWrongLength) {
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("'torque' has 1 entries"));
     EXPECT_THAT(error.what(), testing::HasSubstr("3 freedoms"));
+  }
+}
+
+// A torso with two arms: no end effector until one is named.
+std::string two_ends() {
+  const std::string path = testing::TempDir() + "two_ends.urdf";
+  std::ofstream file(path);
+  file << "<robot name='two_ends'><link name='torso'/>";
+  for (const std::string arm : {"left", "right"})
+    file << "<link name='" << arm << "'><inertial><origin xyz='0.5 0 0'/><mass value='1'/>"
+         << "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>"
+         << "<joint name='swing_" << arm << "' type='continuous'><parent link='torso'/><child link='" << arm
+         << "'/><axis xyz='0 0 1'/></joint>";
+  file << "</robot>";
+  return path;
+}
+
+std::string refusal_of(Scene scene) {
+  try {
+    prepare(scene);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Prepare, AsksForAnEndEffectorOnlyWhereSomethingOfItIsWanted) {
+  Scene scene;
+  scene.model = two_ends();
+  ASSERT_THAT(scene.draw, testing::Contains("trail"));
+  Scene plain = scene;
+  EXPECT_EQ(prepare(plain).chain.end_effector, -1);
+  EXPECT_EQ(plain.end_effector, "");
+  EXPECT_THAT(plain.draw, testing::AllOf(testing::Contains("chain"), testing::Not(testing::Contains("trail"))));
+
+  // Who names one of them, or reads x_G, is told what to type.
+  Scene drawn = scene;
+  drawn.draw = {"chain", "ellipse"};
+  drawn.places["draw"] = {"scene.yaml", 3, 1};
+  EXPECT_THAT(refusal_of(drawn), testing::AllOf(testing::HasSubstr("scene.yaml:3"), testing::HasSubstr("'ellipse'"),
+                                                testing::HasSubstr("`--set end_effector=NAME`"),
+                                                testing::HasSubstr("left, right")));
+  Scene pushed = scene;
+  pushed.torque = {{"x_G", {}, {}}, {"0", {}, {}}};
+  EXPECT_THAT(refusal_of(pushed), testing::HasSubstr("x_G is of the end effector"));
+  Scene watched = scene;
+  watched.events.push_back({});
+  watched.events.back().when = "y_G < 0";
+  EXPECT_THAT(refusal_of(watched), testing::HasSubstr("y_G is of the end effector"));
+
+  for (Scene* named : {&drawn, &pushed, &watched}) {
+    named->end_effector = "left";
+    EXPECT_EQ(refusal_of(*named), "");
   }
 }
 
