@@ -89,8 +89,8 @@ RowValues parallel_row(const AnchorState& a, const AnchorState& b, const Vector&
   return {dot(u, z), dot(n, b.alpha - a.alpha) + dot(n_rate, b.w - a.w)};
 }
 
-// Newton's iteration for the foot point from where it was last; quadratic near the curve.
-PlaneCurve::Place foot_point(const PlaneCurve& curve, const Vector& p, double& s) {
+// Newton's iteration for the foot point from s; quadratic near the curve.
+PlaneCurve::Place near_foot_point(const PlaneCurve& curve, const Vector& p, double& s) {
   PlaneCurve::Place place = curve.at(s);
   constexpr int kMostPasses = 30;
   for (int pass = 0; pass < kMostPasses; ++pass) {
@@ -104,6 +104,46 @@ PlaneCurve::Place foot_point(const PlaneCurve& curve, const Vector& p, double& s
     if (!(absolute(step) > 1e-15 * (1 + absolute(s)))) break;
   }
   return place;
+}
+
+double distance(const PlaneCurve::Place& place, const Vector& p) {
+  return square_root((Eigen::Vector2d(p.x, p.y) - place.c).squaredNorm());
+}
+
+// m: a point further off than this may be on the curve elsewhere.
+constexpr double kFarFoot = 1e-3;
+
+// The foot point from where it was last. Where that is long ago, as when a state is looked at without those before it,
+// the nearest place on a winding curve may be far along it, behind others that are nearer than their neighbours: then
+// both ways along the curve are looked at, in pieces of a twentieth of the distance, for a place that p lies on.
+PlaneCurve::Place foot_point(const PlaneCurve& curve, const Vector& p, double& s) {
+  constexpr int kPieces = 1000;
+  constexpr double kOnIt = 1e-6;  // of the distance from the foot point that was found first
+  const PlaneCurve::Place first = near_foot_point(curve, p, s);
+  const double off = distance(first, p);
+  if (!(off > kFarFoot)) return first;
+  for (const double way : {1.0, -1.0}) {
+    double along = s, before = off;
+    bool nears = false;
+    PlaneCurve::Place place = first;
+    for (int i = 0; i < kPieces; ++i) {
+      const double last = along;
+      along += way * 0.05 * off / square_root(place.c1.squaredNorm());
+      place = curve.at(along);
+      const double now = distance(place, p);
+      if (nears && now > before) {
+        double found = last;
+        const PlaneCurve::Place other = near_foot_point(curve, p, found);
+        if (distance(other, p) <= kOnIt * off) {
+          s = found;
+          return other;
+        }
+      }
+      nears = now < before;
+      before = now;
+    }
+  }
+  return first;
 }
 
 RowValues curve_row(const AnchorState& a, const PlaneCurve& curve, double& s, RowState& row) {

@@ -48,6 +48,19 @@ inline PointConstraint pin(double x = 1.2, double y = 0.3) {
   return {.frame = "gripper", .at = {x, y, 0}};
 }
 
+// Along x, up and down by `height` eleven times on two metres.
+class Wave : public PlaneCurve {
+ public:
+  explicit Wave(double height) : height_(height) {}
+  Place at(double s) const override {
+    constexpr double w = 11 * 3.141592653589793;
+    return {{s, height_ * std::sin(w * s)}, {1, height_ * w * std::cos(w * s)}, {0, -height_ * w * w * std::sin(w * s)}};
+  }
+
+ private:
+  double height_;
+};
+
 // An ellipse about `centre`.
 class Ellipse : public PlaneCurve {
  public:

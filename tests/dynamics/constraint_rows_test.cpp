@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "dynamics/constrained_cases.hpp"
 #include "dynamics/kinematics.hpp"
+#include "model/read_chain.hpp"
 
 namespace chainreel::testing {
 namespace {
@@ -155,6 +156,23 @@ TEST(ConstraintRowsTest, WhatCannotBeIsNamed) {
   EXPECT_NE(message_of(chain, {LinearConstraint{{{chain.coordinate_names[0], 0}}, 1}}).find("zero"),
             std::string::npos);
   EXPECT_EQ(message_of(chain, {pin()}), "accepted");
+}
+
+TEST(CurveRows, FindTheFootOfAPlaceFarAlongAWindingCurve) {
+  // The tip of RR stands on a wave whose foot is sought first at its left end, with many arcs between.
+  const Chain chain = read_chain("models/rr.urdf");
+  const Wave wave(0.3);
+  for (const double x : {-0.85, -0.41, 0.13, 0.66, 1.31}) {
+    const Eigen::Vector2d c = wave.at(x).c;
+    const double bend = std::acos((c.squaredNorm() - 2) / 2);
+    const std::vector<double> q{std::atan2(c.y(), c.x()) - bend / 2, bend}, qd{1, -2};
+    const ConstraintSet set(chain, {CurveConstraint{"gripper", std::make_shared<Wave>(0.3), -0.9}});
+    ConstrainedWorkspace cold(chain, set);
+    Workspace ws(chain);
+    compute_constraints(chain, ws, set, cold, q, qd);
+    EXPECT_NEAR(cold.phi[0], 0, 1e-14) << x;
+    EXPECT_NEAR(cold.curve_s[0], x, 1e-12) << x;
+  }
 }
 
 }  // namespace

@@ -125,6 +125,20 @@ TEST(CsvTorque, MayEndWithItsTable) {
   EXPECT_THAT(run.torque->breaks(1), testing::IsSupersetOf({1.0, 2.0}));
 }
 
+TEST(CsvTorque, ThatEndsWithItsTableJumpsThereExactly) {
+  // A push that begins and ends off the grid, closed form x(2) by integrating twice.
+  const TemporaryFolder folder;
+  Control control;
+  control.csv = folder.write("push.csv", "t,tau1,tau2\n0.10037,8,0\n0.5501,8,0\n");
+  control.outside = Outside::zero;
+  Simulation run = controlled("pp", control, 2);
+  run.chain.gravity.setZero();
+  const double mass = run.chain.bodies[1].inertia.mass + run.chain.bodies[2].inertia.mass;
+  const double a = 0.10037, b = 0.5501;
+  // Piecewise parabolas: rk4 is exact between the jumps; 2000 roundings are left.
+  EXPECT_NEAR(last(simulate(run, instants(2, 2)), 0), 8 * (b - a) * (2 - (a + b) / 2) / mass, 1e-12);
+}
+
 TEST(InverseOf, MayEndWithItsTable) {
   const TemporaryFolder folder;
   Control control;
