@@ -90,7 +90,7 @@ TEST(ModelKeys, ThatMeanNothingToACommandAreRefusedNamingWhatItTakes) {
     EXPECT_EQ(wrong.status, 3) << command[0];
   }
   EXPECT_EQ(run_program(with(commands[0], {"--set", "theme=dark"})).status, 2) << "dynamics draws nothing";
-  EXPECT_EQ(run_program(with(commands[3], {"--layout", "grid"})).status, 2);
+  EXPECT_EQ(run_program(with(commands[3], {"--layout", "transparent"})).status, 2);
   EXPECT_EQ(run_program(with(commands[3], {"--at", "1"})).status, 2);
   EXPECT_EQ(run_program(with(commands[3], {"--vary", "method=rk4,taylor"})).status, 2);
 }
