@@ -38,7 +38,7 @@ PreparedScene prepare_panel(Scene scene, bool meshes, bool quiet) {
   PreparedScene prepared{std::move(scene), {}, {}, nullptr};
   const std::vector<std::string> wanted = prepared.scene.draw;
   prepared.simulation = prepare(prepared.scene, meshes);
-  say_what_is_left_out(wanted, prepared);
+  if (!quiet) say_what_is_left_out(wanted, prepared);
   choose_automatically(prepared, quiet);
   return prepared;
 }
