@@ -18,6 +18,12 @@ std::string microseconds(double ns) {
   return ns < 1e9 ? format_significant(ns / 1000, 2) + " us" : format_significant(ns / 1e9, 2) + " s";
 }
 
+// Two digits, rounded up: a bound stays one.
+std::string bound_text(double x) {
+  if (!(x > 0)) return "0";
+  return format_significant(x + 0.49 * std::pow(10, std::floor(std::log10(x)) - 1), 2);
+}
+
 Json candidate_report(const Choice::Candidate& candidate) {
   Json json{{"setting", to_string(candidate.setting)},
             {"error", std::isfinite(candidate.error) ? Json(candidate.error) : Json(nullptr)},
@@ -85,10 +91,10 @@ std::string choice_text(const Choice& choice, const Accuracy& accuracy) {
   const Choice::Candidate& best = choice.best;
   std::string text = "auto: " + to_string(best.setting);
   if (choice.is_met)
-    text += " is off by at most " + format_significant(best.error, 2) + unit + " and costs some " +
+    text += " is off by at most " + bound_text(best.error) + unit + " and costs some " +
             microseconds(best.cost) + "; " + std::to_string(choice.tried.size()) + " candidates";
   else if (std::isfinite(best.error))
-    text += " is the most exact that was found, off by up to " + format_significant(best.error, 2) + unit + " where " +
+    text += " is the most exact that was found, off by up to " + bound_text(best.error) + unit + " where " +
             to_string(accuracy) + " was asked for";
   else
     text += " is taken, though nothing is known of its error";
