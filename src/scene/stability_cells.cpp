@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.hpp"
 #include "core/format.hpp"
 #include "integrate/stability_limit.hpp"
 #include "scene/parallel.hpp"
@@ -19,6 +20,7 @@ namespace chainreel {
 namespace {
 
 constexpr int kInstants = 100;
+constexpr double kMostCells = 1e6;  // more than a page has room for
 // Of all energies that were added up: less is rounding, whatever the motion.
 constexpr double kRounding = 1e-9;
 
@@ -258,6 +260,11 @@ class CellRuns {
 
 StabilityCells run_stability_cells(const std::string& scene, const std::vector<std::string>& overrides,
                                    const Sweep& x, const Sweep& y, int threads, const StopRequest& stop) {
+  const double cells = double(x.values.size()) * double(y.values.size());
+  if (cells > kMostCells)
+    throw Error(ExitCode::limit, "a map of " + std::to_string(x.values.size()) + " times " +
+                                     std::to_string(y.values.size()) + " cells takes " + format_significant(cells, 3) +
+                                     " runs; the most is " + format_shortest(kMostCells));
   return CellRuns(scene, overrides, x, y, threads, stop).run();
 }
 
