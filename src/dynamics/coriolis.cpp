@@ -1,116 +1,120 @@
-// K. Lynch, F. Park, Modern Robotics (2017), eq. 8.16-8.17:
+// With J_k the Jacobian of body k's twist V_k in the world, I_k its inertia there,
 //
-//   C_ij = sum_k Gamma_ijk qd_k,   Gamma_ijk = 1/2 (dM_ij/dq_k + dM_ik/dq_j - dM_jk/dq_i)
+//   C = sum_k J_k^T (I_k J_k' + B_k J_k),   B = 1/2 (V x* I - I V x + (I V) bar-x*),   (f bar-x*) v = v x* f
 //
-// The derivatives are those of CRBA over dual numbers, one coordinate at a time. With D = dM/dq_k and
-// w = D qd: C += 1/2 D qd_k, and w / 2 is added to column k and taken from row k.
-//
-// Floating joints. The symbols are formed in the local chart q = q0 exp(xi) at xi = 0, where the body's twist
-// is v = J(xi) xi', J = 1 - 1/2 ad_xi + .., and the mass matrix is J^T M J. Hence D = dM + J_k^T M + M J_k
-// with J_k = -1/2 ad_(unit k). Back to twists: C = C_chart - M J', J' = sum J_k v_k. It changes nothing in C
-// v, because ad_v v = 0, and keeps Mdot - 2 C skew, because it adds M J' minus its own transpose.
+// (S. Echeandia, P. Wensing, Numerical methods to compute the Coriolis matrix and Christoffel symbols for rigid-body
+// systems, J. Comput. Nonlinear Dynam. 16(9), 2021.) B V is V x* I V, so that C qd is what it should be; I' = V x* I - I V x
+// and the last term is skew, so that Mdot - 2 C is; for joints of one freedom it is the matrix of Christoffel's symbols.
+// Summed from the leaves on, each pair of a body and one of its ancestors is met once: O(n d) for depth d.
 #include "dynamics/coriolis.hpp"
 
 #include <vector>
 
-#include "core/scalar.hpp"
 #include "dynamics/kinematics.hpp"
-#include "dynamics/recursions.hpp"
 
 namespace chainreel {
 
 namespace {
 
+using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
+using Vector6 = Eigen::Matrix<double, 6, 1>;  // angular above linear, about the world's origin, along its axes
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-Eigen::Matrix3d cross_matrix(const Vector3d& a) {
-  return Eigen::Matrix3d{{0, -a.z(), a.y()}, {a.z(), 0, -a.x()}, {-a.y(), a.x(), 0}};
+Matrix3d cross_matrix(const Vector3d& a) {
+  return Matrix3d{{0, -a.z(), a.y()}, {a.z(), 0, -a.x()}, {-a.y(), a.x(), 0}};
 }
 
-// -1/2 ad of a twist (linear, angular)
-Eigen::Matrix<double, 6, 6> chart_slope(const Vector3d& linear, const Vector3d& angular) {
-  Eigen::Matrix<double, 6, 6> ad;
-  ad << cross_matrix(angular), cross_matrix(linear), Eigen::Matrix3d::Zero(), cross_matrix(angular);
-  return -0.5 * ad;
+Vector6 stacked(const Vector3d& angular, const Vector3d& linear) {
+  Vector6 v;
+  v << angular, linear;
+  return v;
 }
 
-// J_k of every freedom k, as its non-zero 6x6 block; nothing for other joints.
-struct ChartSlope {
-  Eigen::Index first = 0;  // freedom of the joint
-  Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Zero();
+// V x, from motions to motions; that from forces to forces is minus its transpose.
+Matrix6 motion_cross(const Vector6& V) {
+  Matrix6 X = Matrix6::Zero();
+  X.topLeftCorner<3, 3>() = X.bottomRightCorner<3, 3>() = cross_matrix(V.head<3>());
+  X.bottomLeftCorner<3, 3>() = cross_matrix(V.tail<3>());
+  return X;
+}
+
+// f bar-x*
+Matrix6 force_cross_bar(const Vector6& f) {
+  Matrix6 X = Matrix6::Zero();
+  X.topLeftCorner<3, 3>() = -cross_matrix(f.head<3>());
+  X.topRightCorner<3, 3>() = X.bottomLeftCorner<3, 3>() = -cross_matrix(f.tail<3>());
+  return X;
+}
+
+Matrix6 inertia_in_world(const Inertia& inertia, const Eigen::Isometry3d& X_WB) {
+  const Matrix3d c = cross_matrix(X_WB * inertia.com);
+  Matrix6 I;
+  I << X_WB.linear() * inertia.about_com * X_WB.linear().transpose() + inertia.mass * c * c.transpose(), inertia.mass * c,
+      inertia.mass * c.transpose(), inertia.mass * Matrix3d::Identity();
+  return I;
+}
+
+// A freedom of a body's joint: the body's twist for a unit rate, and how that changes as the body moves.
+struct Column {
+  Eigen::Index index = 0;  // in qd
+  Vector6 S, S_dot;
 };
 
-std::vector<ChartSlope> chart_slopes(const Chain& chain) {
-  std::vector<ChartSlope> slopes(std::size_t(chain.nv));
-  for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
-    const Joint& joint = chain.bodies[i].joint;
-    if (joint.kind != JointKind::floating) continue;
-    for (int k = 0; k < 6; ++k) {
-      const Vector3d linear = k < 3 ? Vector3d(Vector3d::Unit(k)) : Vector3d(Vector3d::Zero());
-      const Vector3d angular = k < 3 ? Vector3d(Vector3d::Zero()) : Vector3d(Vector3d::Unit(k - 3));
-      slopes[std::size_t(joint.v_index + k)] = {joint.v_index, chart_slope(linear, angular)};
-    }
+std::vector<Column> columns_of(const Joint& joint, const Eigen::Isometry3d& X_WB, const Matrix6& V_cross) {
+  const Vector3d p = X_WB.translation();
+  const auto turning = [&](const Vector3d& axis) { return stacked(axis, p.cross(axis)); };
+  const auto sliding = [&](const Vector3d& axis) { return stacked(Vector3d::Zero(), axis); };
+  std::vector<Column> columns;
+  const auto add = [&](const Vector6& S) {
+    columns.push_back({Eigen::Index(joint.v_index) + Eigen::Index(columns.size()), S, V_cross * S});
+  };
+  const Vector3d axis = joint.ratio * (X_WB.linear() * joint.axis);
+  if (joint.kind == JointKind::revolute) add(turning(axis));
+  if (joint.kind == JointKind::prismatic) add(sliding(axis));
+  if (joint.kind == JointKind::floating) {
+    for (int k = 0; k < 3; ++k) add(sliding(X_WB.linear().col(k)));
+    for (int k = 0; k < 3; ++k) add(turning(X_WB.linear().col(k)));
   }
-  return slopes;
-}
-
-// M J_k, of which only six columns are not zero.
-MatrixXd times_slope(const MatrixXd& M, const ChartSlope& slope) {
-  MatrixXd product = MatrixXd::Zero(M.rows(), M.cols());
-  if (!slope.J.isZero(0)) product.middleCols<6>(slope.first) = M.middleCols<6>(slope.first) * slope.J;
-  return product;
-}
-
-// M and dM along the rates `unit` of the freedoms.
-template <class A>
-void mass_matrix_and_slope(const Chain& chain, Links<A>& links, ConstVec q, ConstVec unit, MatrixXd& M,
-                           MatrixXd& dM) {
-  std::vector<double> q_dot(q.size());
-  q_rate(chain, q, unit, q_dot);
-  std::vector<Dual<double>> dual_q(q.size());
-  for (std::size_t i = 0; i < q.size(); ++i) dual_q[i] = {q[i], q_dot[i]};
-  place(links, ConstScalarSpan<A>(dual_q));
-
-  const auto n = std::size_t(chain.nv);
-  std::vector<Dual<double>> dual_M(n * n);
-  crba(links, n, dual_M.data());
-  M.resize(chain.nv, chain.nv);
-  dM.resize(chain.nv, chain.nv);
-  for (std::size_t i = 0; i < n * n; ++i) {
-    M.data()[i] = dual_M[i].re;
-    dM.data()[i] = dual_M[i].du;
-  }
-}
-
-template <class A>
-MatrixXd coriolis_matrix(const Chain& chain, ConstVec q, ConstVec qd) {
-  Links<A> links(chain);
-  const Eigen::Index n = chain.nv;
-  const Eigen::Map<const Eigen::VectorXd> rates(qd.data(), n);
-  const std::vector<ChartSlope> slopes = chart_slopes(chain);
-  MatrixXd C = MatrixXd::Zero(n, n), M, D;
-  std::vector<double> unit(std::size_t(n), 0.0);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    unit[std::size_t(k)] = 1;
-    mass_matrix_and_slope(chain, links, q, unit, M, D);
-    unit[std::size_t(k)] = 0;
-    const MatrixXd MJ = times_slope(M, slopes[std::size_t(k)]);
-    D += MJ + MJ.transpose();
-    const Eigen::VectorXd w = 0.5 * (D * rates);
-    C += 0.5 * D * rates(k);
-    C.col(k) += w;
-    C.row(k) -= w.transpose();
-    C -= MJ * rates(k);
-  }
-  return C;
+  return columns;
 }
 
 }  // namespace
 
 MatrixXd coriolis_matrix_of(const Chain& chain, ConstVec q, ConstVec qd) {
-  return chain.planar ? coriolis_matrix<Planar<Dual<double>>>(chain, q, qd)
-                      : coriolis_matrix<Spatial<Dual<double>>>(chain, q, qd);
+  Workspace ws(chain);
+  compute_kinematics(chain, ws, q, qd);
+  const std::size_t bodies = chain.bodies.size();
+  std::vector<std::vector<Column>> columns(bodies);
+  std::vector<Matrix6> I(bodies, Matrix6::Zero()), B(bodies, Matrix6::Zero());  // of a body with all that it carries
+  for (std::size_t i = 1; i < bodies; ++i) {
+    const Body& body = chain.bodies[i];
+    const Eigen::Isometry3d& X_WB = ws.X_WB[i];
+    const Vector6 V = stacked(ws.w_WB[i], ws.v_WB[i] - ws.w_WB[i].cross(Vector3d(X_WB.translation())));
+    const Matrix6 V_cross = motion_cross(V);
+    columns[i] = columns_of(body.joint, X_WB, V_cross);
+    I[i] = inertia_in_world(body.inertia, X_WB);
+    B[i] = 0.5 * (force_cross_bar(I[i] * V) - V_cross.transpose() * I[i] - I[i] * V_cross);
+  }
+  MatrixXd C = MatrixXd::Zero(chain.nv, chain.nv);
+  for (std::size_t i = bodies - 1; i >= 1; --i) {
+    for (const Column& of_body : columns[i]) {
+      const Vector6 IS = I[i] * of_body.S, BS = I[i] * of_body.S_dot + B[i] * of_body.S;
+      const Vector6 transposed_BS = B[i].transpose() * of_body.S;
+      for (const Column& own : columns[i]) C(own.index, of_body.index) += own.S.dot(BS);
+      for (std::size_t a = std::size_t(chain.bodies[i].parent); a > 0; a = std::size_t(chain.bodies[a].parent)) {
+        for (const Column& above : columns[a]) {
+          C(above.index, of_body.index) += above.S.dot(BS);
+          C(of_body.index, above.index) += above.S_dot.dot(IS) + above.S.dot(transposed_BS);
+        }
+      }
+    }
+    const auto parent = std::size_t(chain.bodies[i].parent);
+    I[parent] += I[i];
+    B[parent] += B[i];
+  }
+  return C;
 }
 
 }  // namespace chainreel

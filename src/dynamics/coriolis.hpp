@@ -8,7 +8,7 @@
 
 namespace chainreel {
 
-// nv x nv. Costs nv mass matrices. For floating joints see coriolis.cpp: the two properties hold there too.
+// nv x nv, in O(nv d) for a tree of depth d. For floating joints see coriolis.cpp: the two properties hold there too.
 Eigen::MatrixXd coriolis_matrix_of(const Chain& chain, ConstVec q, ConstVec qd);
 
 }  // namespace chainreel

@@ -1,6 +1,7 @@
 // The backend that needs neither display nor device: Mesa's OSMesa, which renders on the processor.
 #include <GL/osmesa.h>
 #include <dlfcn.h>
+#include <sys/mman.h>
 
 #include <array>
 #include <cstdint>
@@ -11,6 +12,19 @@
 namespace chainreel {
 namespace {
 
+// What the library, the compiler in it and a first context map (185 MB were measured), and some more.
+constexpr std::size_t kAddressSpace = std::size_t(240) << 20;  // bytes
+
+// Where it is short, the library does not say so but crashes. Mapped without access, it takes no memory, so that only a
+// limit of the address space can refuse it.
+void require_address_space() {
+  void* const room = mmap(nullptr, kAddressSpace, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room == MAP_FAILED)
+    throw Error(ExitCode::limit, "the renderer needs " + std::to_string(kAddressSpace >> 20) +
+                                     " MiB of address space, which a limit (ulimit -v) does not leave: raise it");
+  munmap(room, kAddressSpace);
+}
+
 // Opened once and never closed: its LLVM leaves behind threads' destructors that would outlive it.
 struct OsmesaLibrary {
   decltype(&OSMesaCreateContextAttribs) create_context = nullptr;
@@ -20,6 +34,7 @@ struct OsmesaLibrary {
   decltype(&OSMesaGetProcAddress) proc_address = nullptr;
 
   OsmesaLibrary() {
+    require_address_space();
     void* library = dlopen("libOSMesa.so.8", RTLD_LAZY | RTLD_LOCAL);
     if (library == nullptr)
       throw Error(ExitCode::no_renderer, std::string("no OpenGL renderer: ") + dlerror() +

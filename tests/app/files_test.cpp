@@ -219,6 +219,23 @@ TEST(Fonts, ThatCannotBeOpenedAreToldAsFiles) {
   }
 }
 
+// From what hardly holds the program itself to what holds a picture too; without the room the renderer's library crashes.
+TEST(Memory, ThatIsShortIsExitSeven) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "a sanitizer's shadow takes terabytes of address space";
+#endif
+  int refused = 0;
+  for (int limit = 300; limit <= 600; limit += 20) {
+    const TemporaryFolder folder;
+    const ProgramResult result = shell("ulimit -v " + std::to_string(limit * 1000) +
+                                           "; \"$0\" snapshot assets/scenes/pp_free.yaml --width 640 --height 360 -o \"$1\"/a.png", folder);
+    EXPECT_TRUE(result.status == 0 || result.status == 7) << limit << ": " << result.status << result.err;
+    if (result.status == 7) EXPECT_TRUE(fs::is_empty(folder.path())) << limit;
+    refused += result.status == 7;
+  }
+  EXPECT_GT(refused, 0);
+}
+
 TEST(Quaternions, WithoutADirectionAreRefused) {
   const TemporaryFolder folder;
   const std::string inertial = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>";
