@@ -45,6 +45,23 @@ TEST_F(HostileMesh, FilesThatAreNoMeshAreRefused) {
   EXPECT_THROW(read_mesh((folder_ / "none.stl").string()), Error);
 }
 
+// A material file elsewhere is not opened, whatever leads to it: complaints about one quote its lines.
+TEST_F(HostileMesh, MaterialsAreReadBesideTheMeshAlone) {
+  const std::string red = "newmtl red\nKd 1 0 0\n";
+  std::filesystem::create_directories(folder_ / "robot/meshes/sub");
+  file("robot/secret.mtl", red);
+  file("robot/meshes/paint.mtl", red);  // not m.mtl, which is tried where another one is missing
+  file("robot/meshes/sub/paint.mtl", red);
+  std::filesystem::create_symlink("../secret.mtl", folder_ / "robot/meshes/link.mtl");
+  const auto is_red = [&](const std::string& library) {
+    const TriangleMesh mesh = read_mesh(file("robot/meshes/m.obj", "mtllib " + library + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n"));
+    return mesh.has_colors && mesh.vertices.at(0).color[1] == 0;
+  };
+  for (const char* library : {"paint.mtl", "sub/paint.mtl"}) EXPECT_TRUE(is_red(library)) << library;
+  for (const std::string& library : {std::string("../secret.mtl"), std::string("link.mtl"), (folder_ / "robot/secret.mtl").string()})
+    EXPECT_FALSE(is_red(library)) << library;
+}
+
 TEST_F(HostileMesh, BeyondTheLimitNothingIsRead) {
   const std::string path = file("large.dae", "");
   std::filesystem::resize_file(path, kLargestMeshFile + 1);
