@@ -29,6 +29,8 @@
 
 namespace chainreel {
 
+class MarkLabels;
+
 enum class EllipseReading { mass, energy, belt };
 // Of "mass", "energy" or "belt"; any other word is mass.
 EllipseReading reading_named(std::string_view name);
@@ -76,6 +78,7 @@ struct EllipseStyle {
   double fade = size::kEllipseFade;  // over this last stretch
   bool signs = true;                 // infinity signs and lengths at ends that are not seen
   double lines = 1;                  // times the widths of the style guide
+  MarkLabels* labels = nullptr;      // takes the lengths, to be drawn with other words; absent: they are drawn
 };
 
 // The curve about `center` in the reading of the style.

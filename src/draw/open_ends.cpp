@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/format.hpp"
+#include "draw/mark_labels.hpp"
 #include "draw/sheet.hpp"
 
 namespace chainreel {
@@ -13,13 +14,17 @@ constexpr double kAir = 0.008;       // units of H: about a sign
 constexpr double kAppearing = 0.02;  // units of H: an axis that leads out by so much has its length in full strength
 
 // The text with its middle as near to `at` as the scene allows.
-void draw_near(Picture& picture, const TextLine& text, Point at, const EllipseStyle& style, int clip) {
+void put_near(Picture& picture, const TextLine& text, Point at, const EllipseStyle& style, int clip,
+              MarkLabels* labels) {
   const Point half{text.box.width() / 2, text.box.height() / 2};
   const Rect& scene = style.scene;
   const Point middle{
       std::clamp(at.x, std::min(scene.x0 + half.x, scene.x1), std::max(scene.x1 - half.x, scene.x0)),
       std::clamp(at.y, std::min(scene.y0 + half.y, scene.y1), std::max(scene.y1 - half.y, scene.y0))};
-  draw_text(picture, text, {middle.x - half.x - text.box.x0, middle.y - half.y - text.box.y0}, clip);
+  if (labels != nullptr)
+    labels->add(text, {middle.x - half.x, middle.y - half.y, middle.x + half.x, middle.y + half.y}, false);
+  else
+    draw_text(picture, text, {middle.x - half.x - text.box.x0, middle.y - half.y - text.box.y0}, clip);
 }
 
 // Half of what a text takes along the unit vector d.
@@ -28,14 +33,14 @@ double half_along(const TextLine& text, Point d) {
 }
 
 void draw_along(Picture& picture, const TextLine& text, Point center, Point d, double half_width,
-                const EllipseStyle& style, int clip) {
+                const EllipseStyle& style, int clip, MarkLabels* labels = nullptr) {
   const double clear = half_along(text, d) + kAir, along = way_out(style.scene, center, d) - clear;
-  if (along > clear + size::kEndEffector) return draw_near(picture, text, center + along * d, style, clip);
+  if (along > clear + size::kEndEffector) return put_near(picture, text, center + along * d, style, clip, labels);
   // Too near to the edge: beside the band, on the side that has more room.
   const Point side = normal_to(d), foot = center + std::max(along, 0.0) * d;
   const bool left = way_out(style.scene, foot, side) > way_out(style.scene, foot, -1 * side);
-  draw_near(picture, text, foot + ((left ? 1 : -1) * (half_width + half_along(text, side) + kAir)) * side, style,
-            clip);
+  put_near(picture, text, foot + ((left ? 1 : -1) * (half_width + half_along(text, side) + kAir)) * side, style,
+           clip, labels);
 }
 
 double strength_of_length(Point center, Point v, const EllipseStyle& style) {
@@ -79,8 +84,8 @@ void draw_length_along(Picture& picture, Point center, Point v, double length, d
   const double strength = strength_of_length(center, v, style);
   if (!(strength > 0)) return;
   const TextLine text = text_of_length(length, strength, style);
-  draw_along(picture, text, center, unit(v), half_width, style, clip);
-  draw_along(picture, text, center, -1 * unit(v), half_width, style, clip);
+  draw_along(picture, text, center, unit(v), half_width, style, clip, style.labels);
+  draw_along(picture, text, center, -1 * unit(v), half_width, style, clip, style.labels);
 }
 
 Fade fade_before_length(Point center, Point v, double length, const EllipseStyle& style) {

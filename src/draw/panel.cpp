@@ -285,8 +285,7 @@ void Panel::draw_ghosts(Picture& picture, int k) const {
 
 
 // Marks and vectors, below the end effector's disc.
-void Panel::draw_overlays(Picture& picture, const std::vector<WorldVector>& vectors) const {
-  MarkLabels labels;
+void Panel::draw_overlays(Picture& picture, const std::vector<WorldVector>& vectors, MarkLabels& labels) const {
   if (axes_) axes_->draw(picture, camera_, *ws_, clip_, labels);
   if (layers_.com)
     draw_center_of_mass(picture, camera_.project(center_of_mass(run_.chain, *ws_)), look_, clip_);
@@ -308,14 +307,16 @@ void Panel::draw_frame(Picture& picture, int k, const EllipseScale& scale, const
   if (layers_.chain) draw_links(picture, drawing, *ws_, clip_);
   if (layers_.chain && is_constrained())
     draw_closure_joints(picture, drawing, *ws_, run_.simulation->constraints, clip_);
+  MarkLabels labels;
   if (layers_.ellipse) {
     const Point tip = tip_.place(k);
-    const EllipseStyle style{&theme_, &fonts, run_.scene.text_scale, scale.per_unit(), area_, layers_.reading};
+    EllipseStyle style{&theme_, &fonts, run_.scene.text_scale, scale.per_unit(), area_, layers_.reading};
+    style.labels = &labels;
     const Camera seen = camera_.seen_at(tip_position(run_.chain, *ws_));
     draw_mass_ellipse(picture, ellipse_axes(k), tip, seen, style, clip_);
   }
   if (layers_.chain && foot_) foot_->draw_pressure(picture, camera_, look_, k, clip_);
-  draw_overlays(picture, vectors);
+  draw_overlays(picture, vectors, labels);
   if (layers_.chain && !run_.shapes && run_.chain.end_effector >= 0)
     draw_end_effector(picture, tip_.place(k), look_, clip_);
   if (!map_) return;

@@ -132,7 +132,7 @@ class Panel {
   void draw_ghosts(Picture& picture, int k) const;
   void draw_outline(Picture& picture, int k, const Fonts& fonts) const;
   void draw_letter(Picture& picture, Point tip, Color color, const Fonts& fonts) const;
-  void draw_overlays(Picture& picture, const std::vector<WorldVector>& vectors) const;
+  void draw_overlays(Picture& picture, const std::vector<WorldVector>& vectors, MarkLabels& labels) const;
 
   PanelRun run_;
   Layers layers_;
