@@ -164,6 +164,7 @@ class Search {
   Search(const Corners& corners, const Corner& corner, double end)
       : corner_(corner),
         uses_(corners.uses()),
+        end_(end),
         smallest_(kSmallest * end),
         sides_(std::size_t(corners.count())) {
     values_.reserve(uses_.size());
@@ -244,8 +245,9 @@ class Search {
     }
   }
 
-  // Where zero is only touched, or nearly so: neighbours that cannot be told apart are one instant.
+  // Where zero is only touched, or nearly so: neighbours that cannot be told apart are one instant, or the start or the end.
   void touch(double t) {
+    if (t < 4 * smallest_ || t > end_ - 4 * smallest_) return;
     if (found_->empty() || t - found_->back() > 4 * smallest_) add(t);
   }
 
@@ -261,7 +263,7 @@ class Search {
 
   const Corner& corner_;
   std::span<const VariableUse> uses_;
-  double smallest_;
+  double end_, smallest_;
   std::vector<double> sides_, values_;
   std::vector<Course> stack_;
   std::vector<double>* found_ = nullptr;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <tuple>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -14,6 +13,7 @@
 #include "sim/event_watch.hpp"
 #include "sim/forms.hpp"
 #include "sim/limit_search.hpp"
+#include "sim/step_grid.hpp"
 #include "sim/work.hpp"
 #include "sim/workload.hpp"
 
@@ -25,8 +25,6 @@ constexpr double kDivergenceBound = 1e9;  // rad, m, rad/s, m/s
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kMostNumbers = 2.5e8;    // stored in one trajectory: 2 GB
 constexpr double kNumbersThatFit = 1e7;   // everywhere
-constexpr double kSameInstant = 1e-9;     // of a step: two instants closer than this are one
-constexpr double kSameBreak = 1e-14;      // of the duration, where the method chooses its steps
 constexpr double kLostConstraint = 1e-6;  // m or rad, behind a projection
 // Corners of the state: how exactly steps end there, in s and units in the last place, and how often that is tried.
 constexpr double kCutTolerance = 1e-13;
@@ -34,82 +32,6 @@ constexpr int kMostCuts = 12;
 constexpr double kNearCut = 1e-6;  // of the step that ends there: good enough where no more can be had
 // Evaluations times freedoms, and steps: a long run listens as soon as a short one, whatever its mechanism.
 constexpr double kWorkBetweenStopRequests = 1 << 15;
-
-// The instants at which steps end: whole steps, and a shorter last one where the duration is no multiple of
-// the step; breaks of the torque law; where the method chooses its steps, the breaks and the duration alone.
-class Grid {
- public:
-  Grid(const Simulation& simulation)
-      : step_(simulation.step),
-        duration_(simulation.duration),
-        longest_(simulation.longest_step),
-        breaks_(simulation.torque->breaks(duration_)) {
-    std::sort(breaks_.begin(), breaks_.end());
-    // A step from break to break may be as short as time can tell; one to the grid may not.
-    same_ = step_ > 0 ? same_instant(simulation) : kSameBreak * duration_;
-    if (step_ <= 0) return;
-    whole_steps_ = long(std::floor(std::min(steps_of(simulation), 2 * kMostSteps) + kSameInstant));
-    remainder_ = duration_ - double(whole_steps_) * step_;
-    if (remainder_ <= kSameInstant * step_) remainder_ = 0;
-  }
-
-  bool at_end(double now) const {
-    return step_ > 0 ? whole_ == whole_steps_ && (remainder_ == 0 || now == duration_) : now == duration_;
-  }
-
-  struct Next {
-    double end, h;
-    bool is_break;  // of the torque law: methods start anew there
-  };
-
-  // The next multiple of the step, the duration, a break or the longest step's end that comes first. A step from multiple to
-  // multiple has the step's own length, so that it does not depend on where it stands.
-  Next next(double now) {
-    before_ = {whole_, on_grid_};
-    while (next_break_ < breaks_.size() && breaks_[next_break_] <= now + same_) ++next_break_;
-    const double end_of_piece = next_break_ < breaks_.size() ? breaks_[next_break_] : kNever;
-    const double first = std::min(end_of_piece, cut_);
-    const bool last = step_ <= 0 || whole_ == whole_steps_;
-    double grid = last ? duration_ : double(whole_ + 1) * step_;
-    if (step_ <= 0 && longest_ > 0 && grid - now > longest_ + same_) grid = now + longest_;
-    if (first < grid - same_) {
-      on_grid_ = false;
-      return {first, first - now, true};
-    }
-    if (step_ <= 0) return {grid, grid - now, first <= (grid < duration_ ? grid + same_ : grid)};
-    const double h = on_grid_ ? (last ? remainder_ : step_) : grid - now;
-    if (!last) ++whole_;
-    on_grid_ = true;
-    return {grid, h, first <= grid + same_};
-  }
-
-  // The step that was asked for last is taken again, and ends at `cut` if nothing comes before.
-  void cut_at(double cut) {
-    std::tie(whole_, on_grid_) = before_;
-    cut_ = cut;
-  }
-  void forget_cut() { cut_ = kNever; }
-  bool is_cut() const { return cut_ < kNever; }
-
-  // The middle of the piece between breaks that begins at `now`, or holds it.
-  double middle_of_piece(double now) const {
-    const auto next = std::upper_bound(breaks_.begin(), breaks_.end(), now + same_);
-    const double begin = next == breaks_.begin() ? 0 : *(next - 1);
-    return 0.5 * (std::max(begin, 0.0) + std::min(next == breaks_.end() ? duration_ : *next, duration_));
-  }
-  double same() const { return same_; }
-
- private:
-  double step_, duration_, longest_, same_;
-  long whole_steps_ = 0;  // in the run
-  double remainder_ = 0;  // s, after the whole steps
-  long whole_ = 0;        // multiples of the step passed
-  bool on_grid_ = true;   // now is such a multiple
-  std::vector<double> breaks_;
-  std::size_t next_break_ = 0;
-  double cut_ = kNever;  // a break found on the way
-  std::pair<long, bool> before_{0, true};
-};
 
 // One run in progress.
 class Run {
@@ -150,9 +72,9 @@ class Run {
     const double begin = now();
     if (constrained_ && steps() == 0 && !check_constraints(begin)) return false;
     if (chatters_) return blame_corner(begin);
-    const std::optional<Grid::Next> moved = corners_ ? step_to_corner(begin) : step_on(begin);
+    const std::optional<StepGrid::Next> moved = corners_ ? step_to_corner(begin) : step_on(begin);
     if (!moved) return false;
-    const Grid::Next next = *moved;
+    const StepGrid::Next next = *moved;
     if (constrained_ && !settle()) return false;
     system_.forget_bad_torque();
     work_.add_step(system_, *integrator_, q_now());
@@ -250,18 +172,18 @@ class Run {
     trajectory_.velocity_error = std::max(trajectory_.velocity_error, look.velocity_error);
   }
 
-  std::optional<Grid::Next> step_on(double begin) {
-    const Grid::Next next = grid_.next(begin);
+  std::optional<StepGrid::Next> step_on(double begin) {
+    const StepGrid::Next next = grid_.next(begin);
     if (!check_result(integrator_->step(next.end, next.h), begin) || !check_state(begin, now())) return {};
     return next;
   }
 
   // A step within which no corner of the torques leaves its side: one that does is taken again up to there,
   // until it ends there.
-  std::optional<Grid::Next> step_to_corner(double begin) {
+  std::optional<StepGrid::Next> step_to_corner(double begin) {
     remember_state();
     for (int cuts = 0;; ++cuts) {
-      const std::optional<Grid::Next> next = step_on(begin);
+      const std::optional<StepGrid::Next> next = step_on(begin);
       if (!next) return {};
       const bool arrived = grid_.is_cut() && next->is_break && now() == next->end;
       const double tolerance = std::max(kCutTolerance, 8e-16 * now());
@@ -458,7 +380,7 @@ class Run {
   ConstrainedChain* constrained_;  // null: none
   ChainForms forms_;
   std::unique_ptr<Integrator> integrator_;
-  Grid grid_;
+  StepGrid grid_;
   std::vector<double> q_, qd_;          // of a sample
   std::vector<double> q_end_, qd_end_;  // the last step's end, on the constraints
   bool projected_ = false;              // so that these two hold
