@@ -86,7 +86,8 @@ WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOp
   data.title = "Speed against accuracy";
   data.subtitle = (prepared.scene.title.empty() ? prepared.scene.name : prepared.scene.title) + ", " +
                   format_shortest(prepared.simulation.duration) + " s; reference: " + measured.reference.how;
-  data.error_title = "final error, " + scale_text(measured) + " [rad, m]";
+  data.error_title = "final error [rad, m]";
+  data.error_meaning = "error: " + scale_text(measured);
   data.floor = measured.reference.amplification * 0x1p-53;
   data.reference_uncertainty = measured.reference.uncertainty;
   data.machine = machine_line();

@@ -193,6 +193,7 @@ std::string footer_of(const WorkPrecision& data) {
   const auto add = [&text](const std::string& part) {
     text += (text.empty() || part.empty() ? "" : "; ") + part;
   };
+  add(data.error_meaning);
   if (data.floor > 0)
     add("shaded: the problem's amplification times 2\u207B\u2075\u00B3 is " + power_text(data.floor));
   if (data.reference_uncertainty > 0) add("reference known to " + power_text(data.reference_uncertainty));

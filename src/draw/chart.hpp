@@ -36,6 +36,7 @@ struct ChartChoice {
 struct WorkPrecision {
   std::string title, subtitle;
   std::string error_title = "final error";
+  std::string error_meaning;         // for the foot; "": nothing to add
   double floor = 0;                  // the problem's amplification x 2^-53; 0: not known
   double reference_uncertainty = 0;  // 0: not known
   std::vector<ChartCurve> curves;
