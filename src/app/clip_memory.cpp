@@ -9,6 +9,7 @@
 #include "encode/film_tags.hpp"
 #include "encode/gif_comment.hpp"
 #include "encode/png.hpp"
+#include "picture/utf8.hpp"
 
 namespace chainreel {
 namespace {
@@ -118,6 +119,19 @@ VectorPage ClipMemory::page() const {
   return page;
 }
 
+namespace {
+
+// What a spoilt clip says may hold any bytes; everything behind this deals in text.
+void require_text(const std::string& name, const std::string& value, const std::string& path) {
+  try {
+    decode_utf8(value);
+  } catch (const Error&) {
+    throw Error(ExitCode::bad_input, "what it remembers as '" + name + "' is damaged: it is no UTF-8", {path});
+  }
+}
+
+}  // namespace
+
 ClipMemory recall(const std::string& path) {
   require_plain_file(path, kLargestInput * 64);  // films are not read as a whole
   const Tags tags = tags_in(path);
@@ -132,6 +146,7 @@ ClipMemory recall(const std::string& path) {
     return memory;
   }
   if (memory.scene.empty()) remembers_nothing(path);
+  for (const char* name : {"title", "description", kScene}) require_text(name, text(name), path);
   memory.audit = parse_json(text(kAudit));
   if (!memory.audit.is_object()) memory.audit = Json::object();
   return memory;

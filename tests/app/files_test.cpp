@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "core/json.hpp"
 #include "support/run_program.hpp"
@@ -251,6 +253,26 @@ TEST(Quaternions, WithoutADirectionAreRefused) {
 }
 
 // Texts that a clip is said to remember, wrong in every way that a reader trusts.
+TEST(Extract, OfAClipWhoseSceneIsNoTextIsExitThree) {
+  const TemporaryFolder folder;
+  const std::string clip = folder.file("a.mov");
+  const ProgramResult made = run_program({"render", "assets/scenes/pp_free.yaml", "-o", clip, "--set", "duration=0.05", "--set",
+                                          "video.width=160", "--set", "video.height=90", "--quiet"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  std::ifstream in(clip, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  in.close();
+  const std::size_t place = bytes.find("gravity:");
+  ASSERT_NE(place, std::string::npos) << "the scene stands in the file as it is";
+  bytes[place] = '\xFF';
+  std::ofstream(clip, std::ios::binary) << bytes;
+  for (const char* form : {"--json", "--force"}) {
+    const ProgramResult result = run_program({"extract", clip, form});
+    EXPECT_EQ(result.status, 3) << form << result.err;
+    EXPECT_NE(result.err.find("no UTF-8"), std::string::npos) << result.err;
+  }
+}
+
 TEST(Extract, OfAHostileClipIsOneLineAndExitThree) {
   const TemporaryFolder folder;
   const auto svg = [&](const std::string& text) { return folder.write("a.svg", "<svg><metadata>" + text + "</metadata></svg>"); };
