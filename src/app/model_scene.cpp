@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "draw/view.hpp"
 #include "scene/prepare.hpp"
 #include "scene/read_scene.hpp"
@@ -14,12 +15,6 @@ bool is_honoured(const std::string& key, const std::vector<std::string>& honoure
   return std::any_of(honoured.begin(), honoured.end(), [&](const std::string& known) {
     return key == known || key.starts_with(known + ".");
   });
-}
-
-std::string listed(const std::vector<std::string>& words) {
-  std::string list;
-  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
-  return list;
 }
 
 }  // namespace
@@ -42,7 +37,7 @@ ModelScene model_scene_of(const std::string& model, const std::vector<std::strin
   for (const std::string& text : overrides) {
     if (is_honoured(text.substr(0, text.find('=')), honoured)) continue;
     problems.push_back({"--set " + text + ": means nothing to `" + command + "` of the model " + model +
-                            "; of a scene's keys it takes " + listed(honoured) +
+                            "; of a scene's keys it takes " + joined(honoured) +
                             ": write a scene with `model: ...` for the others",
                         {}});
   }

@@ -34,6 +34,18 @@ std::string format_significant(double value, int digits) {
   return print(value == 0 ? 0.0 : value, std::chars_format::general, digits);
 }
 
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) text += (i == 0 ? "" : between) + words[i];
+  return text;
+}
+
+std::string bracketed(const std::vector<double>& values) {
+  std::vector<std::string> words;
+  for (const double x : values) words.push_back(format_significant(x, 6));
+  return "[" + joined(words) + "]";
+}
+
 std::optional<double> parse_number(std::string_view text) {
   if (!text.empty() && text.front() == '+') {
     text.remove_prefix(1);

@@ -24,6 +24,12 @@ struct Image {
     const std::uint8_t* p = &bgra[std::size_t(4) * (std::size_t(y) * std::size_t(width) + std::size_t(x))];
     return {p[2], p[1], p[0], p[3]};
   }
+
+  bool is_opaque() const {
+    for (std::size_t i = 3; i < bgra.size(); i += 4)
+      if (bgra[i] != 255) return false;
+    return true;
+  }
 };
 
 }  // namespace chainreel

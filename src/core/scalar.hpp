@@ -24,9 +24,12 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 namespace chainreel {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using Quad = __float128;
 

@@ -15,13 +15,6 @@ constexpr double kPieceOfTurn = 0.06;  // rad, of the straight pieces of a turn 
 constexpr double kSpeck = 1e-6;        // units of H: no direction can be seen
 constexpr double kSameShape = 1e-9;    // relative, to tell a circle from an ellipse
 
-double length_of(Point v) {
-  return std::hypot(v.x, v.y);
-}
-double cross(Point a, Point b) {
-  return a.x * b.y - a.y * b.x;
-}
-
 void draw_head(Picture& picture, Point tip, Point base, double half_width, Color color, int clip) {
   const Point side = half_width * normal_to(unit(tip - base));
   picture.add(Polygon{{tip, base + side, base - side}, 3, {color, {}, 0}}, clip);
@@ -32,7 +25,7 @@ void draw_dashes(Picture& picture, Point from, Point to, const ArrowStyle& style
   const double width = style.size * size::kArrowShaft, r = width / 2;
   const double dash = style.size * size::kDash, pitch = dash + style.size * size::kDashGap;
   const Point along = unit(to - from);
-  const double length = length_of(to - from);
+  const double length = norm(to - from);
   for (double s = 0; s < length; s += pitch) {
     const double end = std::min(s + dash, length);
     if (end - s > 2 * r)
@@ -41,7 +34,7 @@ void draw_dashes(Picture& picture, Point from, Point to, const ArrowStyle& style
 }
 
 bool is_circle(Point u, Point w) {
-  const double a = length_of(u), b = length_of(w);
+  const double a = norm(u), b = norm(w);
   return std::abs(a - b) <= kSameShape * a && std::abs(u.x * w.x + u.y * w.y) <= kSameShape * a * b;
 }
 
@@ -53,7 +46,7 @@ void draw_curve(Picture& picture, Point center, Point u, Point w, double from, d
                 Color color, int clip) {
   if (is_circle(u, w)) {
     const double side = cross(u, w) > 0 ? 1 : -1, start = std::atan2(u.y, u.x);
-    picture.add(Arc{center, length_of(u), start + side * from, side * (to - from), width, color}, clip);
+    picture.add(Arc{center, norm(u), start + side * from, side * (to - from), width, color}, clip);
     return;
   }
   const int pieces = std::max(2, int(std::ceil(std::abs(to - from) / kPieceOfTurn)));
@@ -67,7 +60,7 @@ void draw_curve(Picture& picture, Point center, Point u, Point w, double from, d
 }  // namespace
 
 void draw_arrow(Picture& picture, Point tail, Point v, const ArrowStyle& style, int clip) {
-  const double length = length_of(v);
+  const double length = norm(v);
   if (!(length > kSpeck)) return;
   const Point along = unit(v), tip = tail + v;
   const double head = std::min(style.size * size::kArrowHead, kHeadOfShort * length);
@@ -88,7 +81,7 @@ void draw_arrow(Picture& picture, Point tail, Point v, const ArrowStyle& style, 
 
 void draw_turn(Picture& picture, Point center, Point u, Point w, double turn, const ArrowStyle& style,
                int clip) {
-  const double radius = std::max(length_of(u), length_of(w));
+  const double radius = std::max(norm(u), norm(w));
   if (!(radius > kSpeck) || turn == 0) return;
   const double sign = turn > 0 ? 1 : -1;
   // The angle that a head takes.
@@ -96,7 +89,7 @@ void draw_turn(Picture& picture, Point center, Point u, Point w, double turn, co
   const double grow = head * radius / size::kArrowHead;
   const auto head_at = [&](double angle) {
     const Point tip = on_curve(center, u, w, angle), base = on_curve(center, u, w, angle - sign * head);
-    if (length_of(tip - base) > kSpeck)
+    if (norm(tip - base) > kSpeck)
       draw_head(picture, tip, base, grow * size::kArrowHeadWidth / 2, style.color, clip);
   };
   const double end = turn / 2;

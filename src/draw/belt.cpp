@@ -25,7 +25,7 @@ struct PlaneBelt {
   }
   // Where the curve comes nearer than kBeyond; 0 where all of it does.
   double start() const {
-    const double least = std::max(length_of(d0), kNoLength) / kBeyond;
+    const double least = std::max(norm(d0), kNoLength) / kBeyond;
     return m0 >= least || m1 <= least ? 0 : std::asin(std::sqrt((least - m0) / (m1 - m0)));
   }
 };
@@ -33,7 +33,7 @@ struct PlaneBelt {
 void halve(const PlaneBelt& belt, double a, double b, int depth, std::vector<double>& angles) {
   const double middle = (a + b) / 2;
   const Point p = belt.at(a), q = belt.at(b), m = belt.at(middle);
-  const bool flat = length_of(m - 0.5 * (p + q)) < kFlat && length_of(q - p) < 4 * kLongPiece;
+  const bool flat = norm(m - 0.5 * (p + q)) < kFlat && norm(q - p) < 4 * kLongPiece;
   if (depth >= kDeepest || flat) return angles.push_back(b);
   halve(belt, a, middle, depth + 1, angles);
   halve(belt, middle, b, depth + 1, angles);
@@ -145,7 +145,7 @@ void draw_belt(Picture& picture, const std::vector<MassAxis>& axes, Point center
     const double m = axis.mass ? 1 / *axis.mass : 0;
     page.push_back(d);
     mobility.push_back(m);
-    open.push_back(!axis.mass && length_of(d) > kNoLength * style.per_unit);
+    open.push_back(!axis.mass && norm(d) > kNoLength * style.per_unit);
     stretch.push_back(open.back()  ? style.fade
                       : axis.mass ? std::min(style.fade, excess_of(style.scene, center, *axis.mass * d))
                                   : 0);

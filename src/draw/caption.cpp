@@ -10,15 +10,15 @@
 namespace chainreel {
 namespace {
 
-constexpr double kRowPitch = 1.30;      // of the em, between rows of the matrix
-constexpr double kLinePitch = 1.75;     // of the em, between pose and matrix
+constexpr double kMatrixRow = 1.30;      // of the em, between rows of the matrix
+constexpr double kToMatrix = 1.75;     // of the em, between pose and matrix
 constexpr double kColumnGap = 0.9;      // of the em
 constexpr double kBracketGap = 0.38;    // of the em, between bracket and numbers
 constexpr double kBracketSerif = 0.16;  // of the em
 constexpr double kBracketLine = 0.0022;
 constexpr double kMathAxis = 0.25;  // of the em above the base line: where a matrix is centred
 // Lambda is the inverse of Lambda_inv: entries this far below its largest are what round-off left of a zero.
-constexpr double kRoundOff = 1e-9;
+constexpr double kSameWidth = 1e-9;
 
 std::string list_of(const std::vector<std::string>& entries) {
   std::string list;
@@ -77,12 +77,12 @@ void draw_matrix(Picture& picture, const MatrixLine& matrix, Point middle, Color
   const double base = middle.y - kMathAxis * em;
   draw_text(picture, matrix.name, {x, base});
   x += matrix.name.advance + 0.4 * em;
-  const double half_height = rows * kRowPitch * em / 2, serif = kBracketSerif * em;
+  const double half_height = rows * kMatrixRow * em / 2, serif = kBracketSerif * em;
   draw_bracket(picture, x, middle.y - half_height, middle.y + half_height, serif, color);
   draw_bracket(picture, x + matrix.bracket_width, middle.y - half_height, middle.y + half_height, -serif,
                color);
   for (std::size_t i = 0; i < matrix.entries.size(); ++i) {
-    const double row = base + ((rows - 1) / 2 - double(i)) * kRowPitch * em;
+    const double row = base + ((rows - 1) / 2 - double(i)) * kMatrixRow * em;
     double left = x + kBracketGap * em;
     for (std::size_t j = 0; j < matrix.entries[i].size(); ++j) {
       draw_text(picture, matrix.entries[i][j], {left + matrix.column_width[j] / 2, row});
@@ -110,7 +110,7 @@ std::vector<std::string> pose_notations(const Chain& chain, const std::vector<do
 }
 
 std::string number_notation(double value, double largest) {
-  if (std::abs(value) <= kRoundOff * largest) return "0";
+  if (std::abs(value) <= kSameWidth * largest) return "0";
   // Without an exponent as long as that is short.
   const double size = std::abs(value);
   if (size >= 1e-3 && size < 1e3) return format_significant(value, 3);
@@ -152,7 +152,7 @@ std::string singular_text(const EffectiveMass& effective) {
 }
 
 double caption_height(int rows, double text_scale) {
-  return scaled(size::kAxis, text_scale) * (kLinePitch + std::max(rows, 1) * kRowPitch + 0.5);
+  return scaled(size::kAxis, text_scale) * (kToMatrix + std::max(rows, 1) * kMatrixRow + 0.5);
 }
 
 void draw_caption(Picture& picture, const Chain& chain, const std::vector<double>& q,
@@ -162,7 +162,7 @@ void draw_caption(Picture& picture, const Chain& chain, const std::vector<double
   const double em = style.size, middle = (box.x0 + box.x1) / 2;
   draw_text(picture, fit_math(fonts, pose_notations(chain, q), style, box.width(), text_scale),
             {middle, box.y1 - 1.2 * em});
-  const double rest = box.y1 - kLinePitch * em;
+  const double rest = box.y1 - kToMatrix * em;
   if (!effective.Lambda) {
     style.face = Face::label;
     draw_text(picture, fit_text(fonts, singular_text(effective), style, box.width(), text_scale),
@@ -176,7 +176,7 @@ void draw_caption(Picture& picture, const Chain& chain, const std::vector<double
     style.size = std::max(kSmallestText, style.size * box.width() / matrix.width);
     matrix = lay_out_matrix(fonts, notations, style);
   }
-  draw_matrix(picture, matrix, {middle, rest - double(notations.size()) * kRowPitch * em / 2 - 0.15 * em},
+  draw_matrix(picture, matrix, {middle, rest - double(notations.size()) * kMatrixRow * em / 2 - 0.15 * em},
               theme.ink);
 }
 

@@ -22,13 +22,6 @@ constexpr double kBodyOutline = 0.0015;  // of body shapes, units of H: their li
 // Opacity of the black of a shadow, on a white page and on a dark one.
 constexpr double kShadow = 0.15, kShadowOnDark = 0.5;
 
-// Places this far from the page would only overflow in the renderer, in units of H.
-constexpr double kOffPage = 100;
-
-bool is_drawable(Point p) {
-  return std::abs(p.x) < kOffPage && std::abs(p.y) < kOffPage;  // false for NaN, too
-}
-
 // Seen along the normal of the plane in which all motion stays.
 bool is_face_on(const ChainDrawing& drawing) {
   if (!drawing.chain.planar) return false;
@@ -56,7 +49,7 @@ Point rail_direction(const ChainDrawing& drawing, const Workspace& ws, int body)
 // A rail without length gets one that only says which way it runs.
 PageLine with_direction(PageLine way, Point direction) {
   constexpr double kSpeck = 1e-6;
-  if (std::hypot(way.b.x - way.a.x, way.b.y - way.a.y) > kSpeck) return way;
+  if (norm(way.b - way.a) > kSpeck) return way;
   return {way.a - kSpeck * direction, way.b + kSpeck * direction};
 }
 
@@ -93,7 +86,7 @@ void draw_link(Picture& picture, const ChainDrawing& drawing, const Workspace& w
   // From the fifth link on the colours repeat: a hatch tells them apart.
   const Point along = unit(b - a);
   const Point stroke = (0.36 * look.link_width) * (along + normal_to(along));
-  const double length = std::hypot(b.x - a.x, b.y - a.y), spacing = size::kGroundSpacing;
+  const double length = norm(b - a), spacing = size::kGroundSpacing;
   for (double s = spacing; s < length - spacing / 2; s += spacing) {
     const Point middle = a + s * along;
     draw_line(picture, {middle - stroke, middle + stroke}, size::kGroundHatch, ink, clip);

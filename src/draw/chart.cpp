@@ -9,7 +9,6 @@
 namespace chainreel {
 namespace {
 
-constexpr double kLabelGap = 0.045;  // between the frame and the labels of its curves
 // Of the page's width; where it is not enough for all panels, they share the labels of the last.
 constexpr double kMostForLabels = 0.30;
 constexpr double kZonePad = 0.012;

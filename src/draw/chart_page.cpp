@@ -6,7 +6,6 @@
 namespace chainreel {
 namespace {
 
-constexpr double kCapHeight = 0.73;                                               // of the em
 constexpr double kAfterTitle = 0.45, kAfterSubtitle = 0.55, kBeforeFooter = 0.9;  // of the em
 constexpr double kLeastHeight = 0.25;
 

@@ -7,6 +7,8 @@
 
 namespace chainreel {
 
+inline constexpr double kLabelGap = 0.045;  // units of H, between the frame and the labels of its curves
+
 struct ChartText {
   std::string title, subtitle;
   std::string footer;  // small, in as many lines as it needs

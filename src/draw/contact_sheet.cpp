@@ -10,14 +10,13 @@
 namespace chainreel {
 namespace {
 
-constexpr double kGap = 0.022;            // between columns, and below the titles of a row
-constexpr double kLinePitch = 1.28;       // of the em
+constexpr double kColumnGap = 0.022;            // between columns, and below the titles of a row
+constexpr double kTitlePitch = 1.28;       // of the em
 constexpr double kTitleAir = 0.45;        // of the em, between a picture and its title
 constexpr double kAscent = 0.80;          // of the em
-constexpr double kSmallestCell = 0.045;   // height of a picture that shows anything
+constexpr double kSmallestPicture = 0.045;   // height of a picture that shows anything
 constexpr double kWideCell = 0.75;        // from this width on, titles have one line and their full size
 constexpr double kThinnestLine = 0.0011;  // 1.2 px of 1080
-constexpr double kFrameLine = 0.0018;
 constexpr double kLargestWords = 2;  // text_scale; beyond it words would hide what they name
 constexpr double kNoWords = 1e-3;    // text_scale of words, and of the room for them, that nobody sees
 constexpr double kScript = 0.7;      // of the em: indices are that small by themselves
@@ -33,12 +32,12 @@ struct Cut {
 
 Cut cut_page(int columns, int lines, const Rect& inside, double text_scale) {
   Cut cut;
-  cut.width = (inside.width() - (columns - 1) * kGap) / columns;
+  cut.width = (inside.width() - (columns - 1) * kColumnGap) / columns;
   const bool wide = cut.width >= kWideCell;
   cut.title_lines = wide ? 1 : 2;
   cut.text_size = scaled(wide ? size::kAxis : kSmallestText, text_scale);
-  cut.caption = (kTitleAir + cut.title_lines * kLinePitch) * cut.text_size;
-  const double room = (inside.height() - (lines - 1) * kGap) / lines - cut.caption;
+  cut.caption = (kTitleAir + cut.title_lines * kTitlePitch) * cut.text_size;
+  const double room = (inside.height() - (lines - 1) * kColumnGap) / lines - cut.caption;
   cut.height = std::min(cut.width / kCellAspect, room);
   cut.width = cut.height * kCellAspect;
   return cut;
@@ -98,7 +97,7 @@ std::vector<std::string> broken_title(const std::string& title, double size, dou
 
 void draw_frame(Picture& picture, const Rect& r, const Theme& theme) {
   picture.add(Polygon{
-      {Point{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}, 4, {{}, theme.rule, kFrameLine}});
+      {Point{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}, 4, {{}, theme.rule, size::kFrameLine}});
 }
 
 }  // namespace
@@ -113,7 +112,7 @@ ContactGrid contact_grid(int count, const ContactSheetLook& look) {
       look.columns > 0 ? std::min(look.columns, count) : best_columns(count, inside, look.text_scale);
   grid.lines = lines_of(count, grid.columns);
   const Cut cut = cut_page(grid.columns, grid.lines, inside, look.text_scale);
-  if (cut.height < kSmallestCell)
+  if (cut.height < kSmallestPicture)
     throw Error(ExitCode::usage, std::to_string(count) + " pictures in " + std::to_string(grid.columns) +
                                      " columns are too small on this page: choose other --columns, a larger "
                                      "--height or a smaller --text-scale");
@@ -124,10 +123,10 @@ ContactGrid contact_grid(int count, const ContactSheetLook& look) {
   // The whole lies in the middle of the page; what is free between columns grows where the height decides, no
   // further than three gaps.
   const double free = inside.width() - grid.columns * cut.width;
-  const double gap = grid.columns > 1 ? std::min(free / (grid.columns - 1), 3 * kGap) : 0;
+  const double gap = grid.columns > 1 ? std::min(free / (grid.columns - 1), 3 * kColumnGap) : 0;
   const double left = (look.aspect - grid.columns * cut.width - (grid.columns - 1) * gap) / 2;
-  const double line = cut.height + cut.caption + kGap;
-  const double top = inside.y1 - (inside.height() - grid.lines * line + kGap) / 2;
+  const double line = cut.height + cut.caption + kColumnGap;
+  const double top = inside.y1 - (inside.height() - grid.lines * line + kColumnGap) / 2;
   for (int i = 0; i < count; ++i) {
     const double x = left + (i % grid.columns) * (cut.width + gap);
     const double y = top - (i / grid.columns) * line;
@@ -157,7 +156,7 @@ Picture draw_contact_sheet(const ContactGrid& grid, std::span<const ContactCell>
     for (const std::string& line :
          broken_title(cells[i].title, grid.text_size, title.width(), grid.title_lines, look)) {
       draw_text(sheet, title_line(line, grid.text_size, look), {title.x0, y});
-      y -= kLinePitch * grid.text_size;
+      y -= kTitlePitch * grid.text_size;
     }
   }
   return sheet;

@@ -26,7 +26,7 @@ std::vector<PageAxis> page_axes(const std::vector<MassAxis>& axes, const Camera&
     const Point d{camera.right.dot(axis.direction), camera.up.dot(axis.direction)};
     const std::optional<double> length = semi_axis(axis, style.reading);
     if (length) projected.push_back({(*length * style.per_unit) * d, length});
-    if (!length && length_of(d) > 1e-6) projected.push_back({d, length});
+    if (!length && norm(d) > 1e-6) projected.push_back({d, length});
   }
   // What is heavy is slow.
   if (style.reading == EllipseReading::energy) std::reverse(projected.begin(), projected.end());
@@ -60,7 +60,7 @@ double reach_along(const std::vector<PageAxis>& axes, Point n) {
 void draw_fading_ellipse(Picture& picture, Point center, Point u, Point v, const Paint& paint, const Fade& fade,
                          int clip) {
   constexpr int kPieces = 96;  // of a half: chords lie 0.0006 of its length off at most, along the axis
-  const double a = length_of(u), seen = std::min(a, kBeyond);
+  const double a = norm(u), seen = std::min(a, kBeyond);
   std::vector<Point> upper, lower;
   for (int i = 0; i <= kPieces; ++i) {
     const double x = seen * std::cos(i * std::numbers::pi / kPieces) / a;
@@ -77,7 +77,7 @@ void draw_ellipse(Picture& picture, Point center, const std::array<Point, 2>& ax
   const auto [u, v] = axes;
   const Fade fade =
       longer(fade_along(style.scene, center, u, style.fade), fade_along(style.scene, center, v, style.fade));
-  if (length_of(v) < kNoLength)  // nothing moves along the other axis
+  if (norm(v) < kNoLength)  // nothing moves along the other axis
     return draw_axis(picture, center, u, false, paint.stroke_width, paint.stroke, fade, clip);
   if (!fade.any()) return picture.add(Ellipse{center, u, v, paint}, clip);
   draw_fading_ellipse(picture, center, u, v, paint, fade, clip);
@@ -87,7 +87,7 @@ void draw_ellipse(Picture& picture, Point center, const std::array<Point, 2>& ax
 void draw_finite_axes(Picture& picture, const std::vector<PageAxis>& axes, Point center, const EllipseStyle& style,
                       int clip) {
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    if (!axes[i].length || !(length_of(axes[i].v) > kNoLength)) continue;
+    if (!axes[i].length || !(norm(axes[i].v) > kNoLength)) continue;
     const Fade fade = fade_before_length(center, axes[i].v, *axes[i].length, style);
     draw_axis(picture, center, axes[i].v, i > 0, style.lines * size::kEllipseAxis, style.theme->ellipse, fade, clip);
     draw_length_along(picture, center, axes[i].v, *axes[i].length, reach_along(axes, normal_to(unit(axes[i].v))),
@@ -103,11 +103,11 @@ void draw_closed(Picture& picture, const std::vector<PageAxis>& axes, Point cent
   draw_ellipse(picture, center, outline,
                {line.faded(solid ? kSilhouetteFill : kEllipseFill), line, style.lines * size::kEllipseLine}, style,
                clip);
-  if (length_of(outline[1]) < kNoLength && !solid)
+  if (norm(outline[1]) < kNoLength && !solid)
     return draw_length_along(picture, center, axes[0].v, *axes[0].length, 0, style, clip);
   for (std::size_t i = 0; solid && i < axes.size(); ++i) {
     const auto principal = silhouette({axes[i], axes[(i + 1) % axes.size()]});
-    if (length_of(principal[1]) > kNoLength)
+    if (norm(principal[1]) > kNoLength)
       draw_ellipse(picture, center, principal, {{}, line, style.lines * size::kEllipseAxis}, style, clip);
   }
   draw_finite_axes(picture, axes, center, style, clip);
@@ -161,7 +161,7 @@ void draw_open(Picture& picture, const std::vector<PageAxis>& axes, Point center
             fade_along(style.scene, center, half_width * n, style.fade), clip);
   draw_infinities(picture, center, d, half_width, style, clip);
   for (const PageAxis& axis : axes)
-    if (axis.length && length_of(axis.v) > kNoLength)
+    if (axis.length && norm(axis.v) > kNoLength)
       draw_length_along(picture, center, axis.v, *axis.length, 0, style, clip);
 }
 
@@ -246,12 +246,12 @@ void draw_mass_ellipse(Picture& picture, const std::vector<MassAxis>& axes, Poin
   for (const PageAxis& axis : projected) {
     if (axis.length) continue;
     // A second, different open direction leaves nothing bounded.
-    if (length_of(open) > 0 && std::abs(dot(unit(open), normal_to(unit(axis.v)))) > 1e-6) all_open = true;
+    if (norm(open) > 0 && std::abs(dot(unit(open), normal_to(unit(axis.v)))) > 1e-6) all_open = true;
     open = axis.v;
   }
   if (all_open) {
     draw_infinities(picture, center, {1, 0}, 0, style, clip);
-  } else if (length_of(open) > 0) {
+  } else if (norm(open) > 0) {
     draw_open(picture, projected, center, open, style, clip);
   } else if (!projected.empty()) {
     draw_closed(picture, projected, center, style, clip);

@@ -11,8 +11,9 @@
 #include "draw/caption.hpp"
 #include "draw/chain.hpp"
 #include "draw/chain_fit.hpp"
-#include "draw/section.hpp"
 #include "draw/joints.hpp"
+#include "draw/panel_grid.hpp"
+#include "draw/section.hpp"
 #include "draw/view.hpp"
 #include "dynamics/kinematics.hpp"
 
@@ -20,7 +21,6 @@ namespace chainreel {
 namespace {
 
 constexpr int kMostAcross = 4;
-constexpr double kFrameLine = 0.0018;
 constexpr double kLabelInset = 0.014;
 // Of the shorter side of a panel: how long the bounded semi-axes (their median) are drawn.
 constexpr double kSmallerAxis = 0.14, kLargerAxis = 0.24;
@@ -28,8 +28,6 @@ constexpr double kSmallerAxis = 0.14, kLargerAxis = 0.24;
 // bound, and to show it would make all ellipses needles: it is written where it leaves its panel.
 constexpr double kOrdinaryRatio = 32;
 constexpr int kBeltSamples = 64;
-// Marks have their full size in a panel of this height and shrink with it, down to a limit.
-constexpr double kFullPanel = 0.6, kSmallestMarks = 0.45;
 
 // Panels of equal size, row by row from the top.
 std::vector<Rect> panels_of(const Rect& area, int count, int most_across) {
@@ -66,7 +64,6 @@ struct Panels {
 };
 
 void fit_panels(Panels& panels, const std::vector<Pose>& poses, Workspace& ws) {
-  constexpr double kNoLimit = std::numeric_limits<double>::max();
   panels.skeleton = skeleton_of(panels.chain);
   for (const Pose& pose : poses) widen_rails(panels.skeleton, panels.chain, pose.q, kNoLimit);
   const BodyShapes* shapes = panels.options.shapes.get();
@@ -94,7 +91,7 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
   picture.add(
       Polygon{{Point{scene.x0, scene.y0}, {scene.x1, scene.y0}, {scene.x1, scene.y1}, {scene.x0, scene.y1}},
               4,
-              {{}, theme.rule, kFrameLine}});
+              {{}, theme.rule, size::kFrameLine}});
   Camera camera = panels.camera;
   camera.origin = camera.origin + Point{scene.x0 - first.x0, scene.y0 - first.y0};
   const std::vector<double> at_rest(std::size_t(panels.chain.nv), 0.0);
@@ -230,7 +227,7 @@ Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<d
   if (!(panels.side() > 0.08))
     throw Error(ExitCode::usage,
                 "too many poses for one page: draw several figures, or take --layout superposed");
-  panels.marks = std::clamp(panels.side() / kFullPanel, kSmallestMarks, 1.0);
+  panels.marks = marks_in(panels.scene(0));
   panels.scale = scale_for(poses, panels.side(), options.reading);
   fit_panels(panels, poses, ws);
 

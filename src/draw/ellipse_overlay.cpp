@@ -17,7 +17,6 @@
 namespace chainreel {
 namespace {
 
-constexpr double kOnionSkin = 0.25;
 constexpr double kPathLine = 0.0018, kPathOpacity = 0.35;
 constexpr int kFewPoses = 3;           // more share the room of so many
 constexpr double kLeastRoom = 0.4;     // of the page for an ellipse, however many there are
@@ -29,8 +28,6 @@ constexpr double kLabelOff = 0.022;  // units of H, from an end effector
 constexpr double kLabelAir = 0.008, kFarReach = 0.3;  // units of H: off a curve; longer curves are written on
 constexpr double kLabelFarthest = 5;  // heights of a label
 constexpr double kSmallestCell = 0.02;  // units of H: below, ellipses cannot be read
-constexpr int kSceneClip = 0;
-constexpr double kNoLimit = std::numeric_limits<double>::max();
 
 // The pose whose ellipse is nearest to a circle.
 std::size_t roundest(const std::vector<Pose>& poses) {
@@ -161,7 +158,7 @@ struct Overlay {
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const TextLine line = label_of(i);
       const Point way = tips[i] - mean;
-      const double length = std::hypot(way.x, way.y);
+      const double length = norm(way);
       const Point out = length > kLabelOff ? (1 / length) * way : Point{0, 1};
       const double half_width = line.box.width() / 2, half_height = line.box.height() / 2;
       const double off = std::max(kLabelOff, reach_of(poses[i], out)) + kLabelAir + std::abs(out.x) * half_width +

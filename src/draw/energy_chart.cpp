@@ -6,7 +6,6 @@
 namespace chainreel {
 namespace {
 
-constexpr double kLabelGap = 0.045;
 constexpr int kColumns = 240;
 constexpr double kMostDecadesOfTime = 7;
 constexpr double kMostDecadesOfError = 24;
@@ -20,7 +19,7 @@ CurveStyle style_of(const EnergyChart& data, std::size_t curve, const ChartLook&
   return curve_style(index < 0 ? int(curve) : index, *look.theme, look.text_scale);
 }
 
-std::size_t length_of(const EnergyCurve& curve) {
+std::size_t samples_of(const EnergyCurve& curve) {
   return std::min(curve.t.size(), curve.error.size());
 }
 
@@ -88,7 +87,7 @@ std::string label_of(const EnergyCurve& curve) {
 
 std::vector<Point> crests(const EnergyCurve& curve, double from, int columns) {
   std::vector<Point> found;
-  const std::size_t count = length_of(curve);
+  const std::size_t count = samples_of(curve);
   if (count == 0 || !(curve.t[count - 1] > from) || !(from > 0)) return found;
   const double per_column = std::log10(curve.t[count - 1] / from) / columns;
   long column = -1;

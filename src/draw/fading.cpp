@@ -36,7 +36,7 @@ double way_out(const Rect& scene, Point p, Point d) {
 }
 
 double excess_of(const Rect& scene, Point center, Point v) {
-  const double length = length_of(v);
+  const double length = norm(v);
   if (!(length > kNoLength)) return 0;
   const Point d = (1 / length) * v;
   const double farther = std::max(way_out(scene, center, d), way_out(scene, center, -1 * d));
@@ -116,7 +116,7 @@ void draw_outline(Picture& picture, const std::vector<Point>& points, double wid
     }
     const auto [in, out] = *inside;
     if (in > 0) put_down();
-    const int pieces = std::clamp(int((out - in) * length_of(way) / kLongPiece), 1, 200);
+    const int pieces = std::clamp(int((out - in) * norm(way) / kLongPiece), 1, 200);
     for (int j = trail.points.empty() ? 0 : 1; j <= pieces; ++j) {
       const Point p = points[i] + (in + (out - in) * j / pieces) * way;
       trail.points.push_back({p, width, fade.opacity_at(p)});
@@ -136,10 +136,10 @@ void fill_between(Picture& picture, const std::vector<Point>& upper, const std::
 void fill_piece(Picture& picture, const std::array<Point, 4>& corners, Color color, const Fade& fade, int clip) {
   Polygon piece;
   for (const Point p : corners) {
-    const bool again = piece.count > 0 && length_of(p - piece.corners[std::size_t(piece.count - 1)]) < kNoLength;
+    const bool again = piece.count > 0 && norm(p - piece.corners[std::size_t(piece.count - 1)]) < kNoLength;
     if (!again) piece.corners[std::size_t(piece.count++)] = p;
   }
-  if (piece.count > 2 && length_of(piece.corners[std::size_t(piece.count - 1)] - piece.corners[0]) < kNoLength)
+  if (piece.count > 2 && norm(piece.corners[std::size_t(piece.count - 1)] - piece.corners[0]) < kNoLength)
     --piece.count;
   if (piece.count < 3) return;
   if (!fade.any()) {
@@ -169,7 +169,7 @@ void fill_piece(Picture& picture, const std::array<Point, 4>& corners, Color col
 
 void draw_axis(Picture& picture, Point center, Point v, bool dashed, double width, Color color, const Fade& fade,
                int clip) {
-  const double length = length_of(v);
+  const double length = norm(v);
   if (!(length > kNoLength)) return;
   const Point u = (1 / length) * v;
   // As far as it can be seen.

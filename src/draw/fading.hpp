@@ -20,12 +20,6 @@ inline constexpr int kFadeSteps = 16;  // of the fill; each changes it by 1 %, b
 inline constexpr double kLongPiece = 0.02;  // units of H: fading lines change their opacity in steps of this length
 inline constexpr double kBeyond = 3;        // units of H: farther than any corner of a page from any place on it
 
-inline double length_of(Point v) {
-  return std::hypot(v.x, v.y);
-}
-inline double dot(Point a, Point b) {
-  return a.x * b.x + a.y * b.y;
-}
 inline bool contains(const Rect& r, Point p) {
   return p.x >= r.x0 && p.x <= r.x1 && p.y >= r.y0 && p.y <= r.y1;
 }

@@ -13,12 +13,10 @@ namespace chainreel {
 namespace {
 
 constexpr double kEllipseBar = 0.10;  // units of H: the bounded semi-axis measures about as much
-constexpr double kFrameLine = 0.0018;
-constexpr double kRowPitch = 1.55;   // of the em: a panel's title or note with the air around it
+constexpr double kTitleRow = 1.55;   // of the em: a panel's title or note with the air around it
 constexpr double kBarInset = 0.014;  // of the metre bar from the frame of its panel
 constexpr double kLargestAside = 0.6;  // of a panel's width may be taken by what stands beside its scene
-constexpr double kRoundOff = 1e-12;  // a text that just fills its row fits
-constexpr double kDescent = 0.40;    // of the em, from the lower end of a row up to its base line
+constexpr double kTitleDescent = 0.40;    // of the em, from the lower end of a row up to its base line
 
 std::vector<double> first_times(const Trajectory& trajectory, int frames) {
   const auto count = std::size_t(std::clamp(frames, 0, trajectory.size()));
@@ -140,9 +138,9 @@ void Film::lay_out() {
     key_.emplace(panels_, sheet_.scene.width(), scene_.text_scale, theme_, fonts_);
     rows_.title = key_->height();
   }
-  if (has_cells() && layers_.title) rows_.title = kRowPitch * scaled(size::kSymbol, scene_.text_scale);
+  if (has_cells() && layers_.title) rows_.title = kTitleRow * scaled(size::kSymbol, scene_.text_scale);
   if (has_notes())
-    rows_.note = kRowPitch * scaled(size::kAxis, scene_.text_scale);
+    rows_.note = kTitleRow * scaled(size::kAxis, scene_.text_scale);
 }
 
 bool Film::has_notes() const {
@@ -233,7 +231,7 @@ void Film::place_titles() {
                   "the title of panel " + std::to_string(i + 1) +
                       " does not fit above it: give the panel a short `title:`",
                   scene.place_of("title"));
-    titles_.push_back({std::move(line), {row.x0, row.y0 + kDescent * text_size}});
+    titles_.push_back({std::move(line), {row.x0, row.y0 + kTitleDescent * text_size}});
   }
 }
 
@@ -250,7 +248,7 @@ void Film::draw_frames(Picture& picture) const {
   for (const PanelCell& cell : cells_) {
     const Rect& r = cell.scene;
     picture.add(Polygon{
-        {Point{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}, 4, {{}, theme_.rule, kFrameLine}});
+        {Point{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}, 4, {{}, theme_.rule, size::kFrameLine}});
   }
 }
 
@@ -292,7 +290,7 @@ void Film::draw_notes(Picture& picture, int k) const {
     const Rect& row = cells_[i].note;
     const TextStyle style{Face::label, scaled(size::kAxis, scene_.text_scale), theme_.ink, Align::left};
     draw_text(picture, fit_text(fonts_, note, style, row.width(), scene_.text_scale),
-              {row.x0, row.y0 + kDescent * style.size});
+              {row.x0, row.y0 + kTitleDescent * style.size});
   }
 }
 

@@ -11,11 +11,9 @@ namespace {
 
 constexpr double kMarkLength = 0.060;  // units of H, of a short link
 constexpr double kMarkWidth = 0.85;    // of the em
-constexpr double kMarkToText = 0.014, kEntryGap = 0.05;
-constexpr double kRowPitch = 1.7;    // of the em
-constexpr double kDescent = 0.50;    // of the em, from the lower end of a row up to its base line
-constexpr double kCapHeight = 0.73;  // of the em
-constexpr double kRoundOff = 1e-12;  // a text that just fills its row fits
+constexpr double kEntryGap = 0.05;
+constexpr double kKeyRow = 1.7;    // of the em
+constexpr double kKeyDescent = 0.50;    // of the em, from the lower end of a row up to its base line
 
 }  // namespace
 
@@ -65,7 +63,7 @@ GhostKey::GhostKey(const std::vector<Panel>& panels, double width, double text_s
     entry.color = variant_color(i, count, theme);
     const std::string letter = variant_letter(i, count);
     const std::string title = (letter.empty() ? "" : letter + ": ") + panel.title();
-    const double room = width - kMarkLength - kMarkToText;
+    const double room = width - kMarkLength - size::kMarkToText;
     entry.line =
         fit_text(fonts, title, {Face::label_bold, text_size_, entry.color, Align::left}, room, text_scale);
     if (entry.line.advance > room + kRoundOff)
@@ -73,7 +71,7 @@ GhostKey::GhostKey(const std::vector<Panel>& panels, double width, double text_s
                   "the title of panel " + std::to_string(i + 1) +
                       " does not fit on the page: give the panel a short `title:`",
                   panel.scene().place_of("title"));
-    const double taken = kMarkLength + kMarkToText + entry.line.advance;
+    const double taken = kMarkLength + size::kMarkToText + entry.line.advance;
     if (x > 0 && x + taken > width) {
       x = 0;
       ++rows_;
@@ -86,7 +84,7 @@ GhostKey::GhostKey(const std::vector<Panel>& panels, double width, double text_s
 }
 
 double GhostKey::height() const {
-  return rows_ * kRowPitch * text_size_;
+  return rows_ * kKeyRow * text_size_;
 }
 
 void GhostKey::draw_mark(Picture& picture, const Entry& entry, Point left) const {
@@ -100,10 +98,10 @@ void GhostKey::draw_mark(Picture& picture, const Entry& entry, Point left) const
 
 void GhostKey::draw(Picture& picture, const Rect& rows) const {
   for (const Entry& entry : entries_) {
-    const double base = rows.y1 - (entry.row + 1) * kRowPitch * text_size_ + kDescent * text_size_;
+    const double base = rows.y1 - (entry.row + 1) * kKeyRow * text_size_ + kKeyDescent * text_size_;
     const Point left{rows.x0 + entry.x, base};
     draw_mark(picture, entry, left + Point{0, kCapHeight / 2 * text_size_});
-    draw_text(picture, entry.line, left + Point{kMarkLength + kMarkToText, 0});
+    draw_text(picture, entry.line, left + Point{kMarkLength + size::kMarkToText, 0});
   }
 }
 

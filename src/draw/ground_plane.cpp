@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kTouches = 0.02;  // of the motion's size: how far from the plane its lowest place may be
-constexpr double kBeyond = 0.35;   // of the motion's reach, the grid goes on beyond it
+constexpr double kGroundBeyond = 0.35;   // of the motion's reach, the grid goes on beyond it
 constexpr double kCells = 10;      // about, over the diameter
 constexpr double kLine = 0.0016;   // units of H
 constexpr double kShown = 0.9;     // opacity of the lines in the middle
@@ -31,7 +31,7 @@ std::optional<GroundPlane> ground_under(const MotionBox& motion, const Camera& c
   GroundPlane ground;
   ground.up = motion.up();
   ground.middle = motion.middle() - ground.up.dot(motion.middle()) * ground.up;
-  ground.radius = (1 + kBeyond) * std::max(motion.width(), motion.size() / 2) / 2;
+  ground.radius = (1 + kGroundBeyond) * std::max(motion.width(), motion.size() / 2) / 2;
   ground.spacing = round_length(2 * ground.radius / kCells);
   return ground;
 }

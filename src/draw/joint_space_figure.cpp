@@ -24,7 +24,6 @@ constexpr int kMostPoses = 3;
 constexpr double kFill = 0.16;
 constexpr double kWidestLabel = 0.25;  // of a frame
 constexpr double kAirAround = 1.25;  // of what is drawn, to the frame of its axes
-constexpr double kNoLimit = std::numeric_limits<double>::max();
 
 bool is_prismatic(const Chain& chain, int freedom) {
   for (const Body& body : chain.bodies)
@@ -77,7 +76,7 @@ void draw_image(Picture& picture, const PlotFrame& frame, const Eigen::Matrix2d&
     TextLine label = lay_out_math(*style.fonts, name + " = 1", text);
     // Small frames have room for the symbol alone; that it is of unit length is said below the figure.
     if (label.advance > kWidestLabel * frame.box.width()) label = lay_out_math(*style.fonts, name, text);
-    const double length = std::max(std::hypot(v.x, v.y), 1e-9), em = text.size;
+    const double length = std::max(norm(v), 1e-9), em = text.size;
     // Beside the tip, on the side away from the other arrow.
     const double side = k == 0 ? -1 : 1;
     const Point out{-side * v.y / length, side * v.x / length};

@@ -11,15 +11,6 @@ constexpr double kHatchDepth = size::kGroundSpacing;
 
 }  // namespace
 
-Point unit(Point v) {
-  const double length = std::hypot(v.x, v.y);
-  return length > 0 ? (1 / length) * v : Point{1, 0};
-}
-
-Point normal_to(Point along) {
-  return {-along.y, along.x};
-}
-
 void draw_line(Picture& picture, PageLine line, double width, Color color, int clip) {
   picture.add(Capsule{line.a, line.b, width / 2, {color, {}, 0}}, clip);
 }
@@ -68,7 +59,7 @@ void draw_carriage(Picture& picture, Point center, Point along, bool carrier, Co
 void draw_ground(Picture& picture, PageLine line, Point inside, const ChainLook& look, int clip) {
   const Color base = toned(look.theme->base, look);
   const Point along = unit(line.b - line.a);
-  const double length = std::hypot(line.b.x - line.a.x, line.b.y - line.a.y);
+  const double length = norm(line.b - line.a);
   // Whole spacings, centred, so that the hatch is the same at both ends.
   const double spacing = look.marks * size::kGroundSpacing, depth = look.marks * kHatchDepth;
   const int strokes = std::max(1, int(std::floor(length / spacing)));

@@ -2,6 +2,8 @@
 // theme.
 #pragma once
 
+#include <cmath>
+
 #include "draw/look.hpp"
 #include "picture/picture.hpp"
 
@@ -22,13 +24,17 @@ constexpr double rail_overhang(bool carrier) {
   return carriage_length(carrier) / 2 + kRailEnd;
 }
 
+// Places this far from the page would only overflow in the renderer, in units of H: a run that diverged.
+inline constexpr double kOffPage = 100;
+
+inline bool is_drawable(Point p) {
+  return std::abs(p.x) < kOffPage && std::abs(p.y) < kOffPage;  // false for NaN, too
+}
+
 // A straight part of a rail or body on the page, from `a` to `b`.
 struct PageLine {
   Point a, b;
 };
-
-Point unit(Point v);           // (1, 0) where v has no length
-Point normal_to(Point along);  // a quarter turn to the left
 
 void draw_line(Picture& picture, PageLine line, double width, Color color, int clip);
 void draw_revolute(Picture& picture, Point center, const ChainLook& look, int clip);

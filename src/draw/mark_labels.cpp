@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kPlate = 0.75;       // opacity of what sets a label off from links below it
 constexpr double kPlateEdge = 0.004;  // of the plate around the letters
-constexpr double kAir = 0.008;        // between two labels, units of H
+constexpr double kBetweenLabels = 0.008;        // between two labels, units of H
 constexpr int kRounds = 80;
 constexpr std::size_t kCrowd = 60;  // labels; pushing more apart takes longer than drawing them
 constexpr double kTouch = 1e-6;
@@ -66,7 +66,7 @@ std::vector<PlacedBox> first_come(const std::vector<Rect>& wishes, const Rect& a
       return other.stands && d.x > kTouch && d.y > kTouch;
     });
     const Point way = middle(box) - middle(wish);
-    placed.push_back({box, free && std::hypot(way.x, way.y) < kTouch});
+    placed.push_back({box, free && norm(way) < kTouch});
   }
   return placed;
 }
@@ -94,7 +94,7 @@ std::vector<PlacedBox> boxes_apart(const std::vector<Rect>& wishes, const Rect& 
     for (std::size_t k = 0; k < boxes.size(); ++k) {
       const Rect& wish = wishes[standing[k]];
       const Point way = middle(boxes[k]) - middle(wish);
-      double strain = std::hypot(way.x, way.y) / (farthest * (wish.y1 - wish.y0));
+      double strain = norm(way) / (farthest * (wish.y1 - wish.y0));
       for (std::size_t m = 0; m < k; ++m) {
         const Point d = depth(boxes[k], boxes[m], 0);
         if (d.x > kTouch && d.y > kTouch) strain = std::max(strain, 2.0);
@@ -118,7 +118,7 @@ void MarkLabels::add(TextLine line, const Rect& box, bool plate) {
 void MarkLabels::draw(Picture& picture, const Rect& area, Color background, int clip, double farthest) const {
   std::vector<Rect> wishes;
   for (const Label& label : labels_) wishes.push_back(label.wish);
-  const std::vector<PlacedBox> placed = boxes_apart(wishes, area, kAir, farthest);
+  const std::vector<PlacedBox> placed = boxes_apart(wishes, area, kBetweenLabels, farthest);
   for (std::size_t i = 0; i < labels_.size(); ++i) {
     if (!placed[i].stands) continue;
     const Rect& box = placed[i].box;

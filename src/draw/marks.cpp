@@ -17,12 +17,8 @@ constexpr double kLetterGap =
 constexpr double kTick = 0.016;  // length of a cross tick
 constexpr double kTickPitch = 0.010;    // between the two of z
 constexpr double kShortestAxis = 0.30;  // of its length: shorter on the page, it points at the viewer or away
-constexpr double kRing = 0.011;         // radius
+constexpr double kAxisRing = 0.011;         // radius
 constexpr double kHeadWidth = 0.75;     // of the head's length, as arrows have it
-
-double length_of(Point v) {
-  return std::hypot(v.x, v.y);
-}
 
 }  // namespace
 
@@ -56,8 +52,8 @@ void FrameAxes::draw_axis(Picture& picture, Point origin, Point v, double away, 
   const Color color = theme_->axis[std::size_t(axis)];
   const double width = marks_ * size::kAxisShaft;
   Point along{-std::numbers::sqrt2 / 2, -std::numbers::sqrt2 / 2}, tip = origin;
-  if (length_of(v) < kShortestAxis * marks_ * size::kAxisLength) {
-    const double r = marks_ * kRing;
+  if (norm(v) < kShortestAxis * marks_ * size::kAxisLength) {
+    const double r = marks_ * kAxisRing;
     picture.add(Ellipse{origin, {r, 0}, {0, r}, {theme_->background, color, width / 2}}, clip);
     if (away < 0) {
       picture.add(Ellipse{origin, {width / 2, 0}, {0, width / 2}, {color, {}, 0}}, clip);
@@ -70,14 +66,14 @@ void FrameAxes::draw_axis(Picture& picture, Point origin, Point v, double away, 
   } else {
     along = unit(v);
     tip = origin + v;
-    const double head = std::min(marks_ * size::kAxisHead, 0.7 * length_of(v));
+    const double head = std::min(marks_ * size::kAxisHead, 0.7 * norm(v));
     const Point base = tip - head * along, side = normal_to(along);
     draw_line(picture, {origin, base + 0.2 * head * along}, width, color, clip);
     const Point half = (kHeadWidth * head / 2) * side;
     picture.add(Polygon{{tip, base + half, base - half}, 3, {color, {}, 0}}, clip);
     for (int tick = 0; tick < axis; ++tick) {
       const Point middle =
-          origin + (0.5 + 0.5 * marks_ * kTickPitch / length_of(v) * (2 * tick - axis + 1)) * v;
+          origin + (0.5 + 0.5 * marks_ * kTickPitch / norm(v) * (2 * tick - axis + 1)) * v;
       const Point reach = (marks_ * kTick / 2) * side;
       draw_line(picture, {middle - reach, middle + reach}, width / 2, color, clip);
     }

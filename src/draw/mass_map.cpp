@@ -19,7 +19,6 @@ constexpr double kTitlePitch = 1.5;   // of the em
 constexpr double kPlainSide = 0.26;   // of a map without numbers, units of H
 constexpr double kScaleHeight = 0.6;  // of the em: the scale of colours below it
 constexpr int kScaleCells = 41;
-constexpr double kFrameLine = 0.0018;
 constexpr int kSignificant = 3;
 
 Color between(Color from, Color to, double way) {
@@ -31,7 +30,7 @@ Color between(Color from, Color to, double way) {
 
 void draw_frame(Picture& picture, const Rect& r, Color color) {
   picture.add(
-      Polygon{{Point{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}, 4, {{}, color, kFrameLine}});
+      Polygon{{Point{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}, 4, {{}, color, size::kFrameLine}});
 }
 
 }  // namespace

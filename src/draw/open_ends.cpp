@@ -10,7 +10,7 @@
 namespace chainreel {
 namespace {
 
-constexpr double kAir = 0.008;       // units of H: about a sign
+constexpr double kSignAir = 0.008;       // units of H: about a sign
 constexpr double kAppearing = 0.02;  // units of H: an axis that leads out by so much has its length in full strength
 
 // The text with its middle as near to `at` as the scene allows.
@@ -34,12 +34,12 @@ double half_along(const TextLine& text, Point d) {
 
 void draw_along(Picture& picture, const TextLine& text, Point center, Point d, double half_width,
                 const EllipseStyle& style, int clip, MarkLabels* labels = nullptr) {
-  const double clear = half_along(text, d) + kAir, along = way_out(style.scene, center, d) - clear;
+  const double clear = half_along(text, d) + kSignAir, along = way_out(style.scene, center, d) - clear;
   if (along > clear + size::kEndEffector) return put_near(picture, text, center + along * d, style, clip, labels);
   // Too near to the edge: beside the band, on the side that has more room.
   const Point side = normal_to(d), foot = center + std::max(along, 0.0) * d;
   const bool left = way_out(style.scene, foot, side) > way_out(style.scene, foot, -1 * side);
-  put_near(picture, text, foot + ((left ? 1 : -1) * (half_width + half_along(text, side) + kAir)) * side, style,
+  put_near(picture, text, foot + ((left ? 1 : -1) * (half_width + half_along(text, side) + kSignAir)) * side, style,
            clip, labels);
 }
 
@@ -62,7 +62,7 @@ TextLine infinity(const EllipseStyle& style) {
 Fade fade_before(const TextLine& text, double strength, Point center, Point v, const EllipseStyle& style) {
   Fade fade = fade_along(style.scene, center, v, style.fade);
   const Point d = unit(v);
-  const double taken = strength * (2 * half_along(text, d) + kAir);
+  const double taken = strength * (2 * half_along(text, d) + kSignAir);
   // Only towards edges that the axis leaves through; one that it nearly misses comes in gradually.
   const auto room = [&](double stretch, double along) { return std::min(taken * std::abs(along), 4 * stretch); };
   fade.scene = {fade.scene.x0 + room(fade.left, d.x), fade.scene.y0 + room(fade.bottom, d.y),

@@ -52,10 +52,13 @@ std::vector<PanelCell> best_cells(const Rect& area, int count, const PanelRows& 
   return best;
 }
 
+double marks_in(const Rect& scene) {
+  return std::clamp(std::min(scene.width(), scene.height()) / kFullPanel, kSmallestMarks, 1.0);
+}
+
 double marks_in(const std::vector<PanelCell>& cells) {
   if (cells.size() == 1) return 1;
-  const Rect& scene = cells[0].scene;
-  return std::clamp(std::min(scene.width(), scene.height()) / kFullPanel, kSmallestMarks, 1.0);
+  return marks_in(cells[0].scene);
 }
 
 }  // namespace chainreel

@@ -26,7 +26,8 @@ std::vector<PanelCell> panel_cells(const Rect& area, int count, int columns, con
 // The arrangement in which what is in `box`, the same for all panels, is largest.
 std::vector<PanelCell> best_cells(const Rect& area, int count, const PanelRows& rows, const FitBox& box);
 
-// Size of the marks of joints and ground in panels this large: 1 for one that fills the page.
+// Size of the marks of joints and ground in a panel this large, or in one of these: 1 for one that fills the page.
+double marks_in(const Rect& scene);
 double marks_in(const std::vector<PanelCell>& cells);
 
 }  // namespace chainreel

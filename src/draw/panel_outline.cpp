@@ -13,7 +13,7 @@
 namespace chainreel {
 namespace {
 
-constexpr double kHalo = 1.8;  // times an outline's width: sets it off from what is filled below
+constexpr double kOutlineHalo = 1.8;  // times an outline's width: sets it off from what is filled below
 constexpr double kWiderJoint = 1.3, kWiderRail = 1.15, kWiderTip = 1.8;
 constexpr double kStoodStill = 0.4;    // strength of a run that left the picture
 constexpr double kLetterTurn = 0.75;   // rad
@@ -59,7 +59,7 @@ void Panel::draw_outline(Picture& picture, int k, const Fonts& fonts) const {
   if (!layers_.chain) return;
   for (const bool halo : {true, false}) {
     look.theme = halo ? &halo_theme : outline_.get();
-    look.stroke = halo ? kHalo : 1;
+    look.stroke = halo ? kOutlineHalo : 1;
     const ChainDrawing drawing{run_.chain, skeleton_, camera_, look};
     draw_rails(picture, drawing, *ws_, clip_);
     draw_links(picture, drawing, *ws_, clip_);

@@ -8,11 +8,11 @@ namespace {
 
 constexpr double kTotalLine = 0.0045;
 constexpr double kPale = 0.25;   // of a curve that is still to come
-constexpr double kBelow = 0.30;  // of the page's height, right: of its width
+constexpr double kShareBelow = 0.30;  // of the page's height, right: of its width
 constexpr double kRight = 0.38;
-constexpr double kLabelGap = 0.012;
+constexpr double kPlotLabelGap = 0.012;
 constexpr double kLeastSpan = 1e-9;  // of the size of the numbers: less is a constant
-constexpr double kAir = 0.06;        // of the range, above and below
+constexpr double kRangeAir = 0.06;        // of the range, above and below
 constexpr const char* kTimeTitle = "t [s]";
 constexpr double kTimeGap = 0.02;
 
@@ -61,7 +61,7 @@ Axis value_axis(const StripData& data) {
     low -= half;
     high += half;
   }
-  const double air = kAir * (high - low);
+  const double air = kRangeAir * (high - low);
   return {data.angles ? Scale::angle : Scale::linear, low - air, high + air, data.title};
 }
 
@@ -92,7 +92,7 @@ PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
     : data_(std::move(data)), style_(style) {
   const std::vector<std::string> labels = labels_of(data_);
   Rect inner = area;
-  inner.x1 -= std::max(time_width(style_), labels.empty() ? 0 : end_labels_width(labels, style_) + kLabelGap);
+  inner.x1 -= std::max(time_width(style_), labels.empty() ? 0 : end_labels_width(labels, style_) + kPlotLabelGap);
   const Axis time{Scale::linear, 0, data_.end > 0 ? data_.end : 1, ""};
   frame_ = lay_out_plot(inner, time, value_axis(data_), style_);
 }
@@ -106,7 +106,7 @@ void PlotStrip::draw_static(Picture& picture) const {
     const Point end = frame_.at(curve.points.back());
     ends.push_back({{end.x, std::clamp(end.y, frame_.box.y0, frame_.box.y1)}, curve.label, curve.style});
   }
-  draw_end_labels(picture, frame_, ends, frame_.box.x1 + kLabelGap, style_);
+  draw_end_labels(picture, frame_, ends, frame_.box.x1 + kPlotLabelGap, style_);
   const TextStyle text = time_style(style_, Align::left);
   draw_text(picture, lay_out_text(*style_.fonts, kTimeTitle, text),
             {frame_.box.x1 + kTimeGap, tick_base_line(frame_, style_)});
@@ -153,7 +153,7 @@ PlotAreas plot_areas(const Rect& page, int count, PlotPlace place) {
   const double gap = size::kGutter;
   Rect all = page;
   if (place == PlotPlace::below) {
-    all.y1 = page.y0 + kBelow * page.height();
+    all.y1 = page.y0 + kShareBelow * page.height();
     areas.scene.y0 = all.y1 + gap;
     const double width = (all.width() - gap * (count - 1)) / count;
     for (int i = 0; i < count; ++i) {

@@ -14,8 +14,6 @@
 namespace chainreel {
 namespace {
 
-constexpr double kOnionSkin = 0.25;
-constexpr int kSceneClip = 0;
 
 }  // namespace
 
@@ -27,7 +25,6 @@ Picture draw_pose_figure(const Chain& chain, const std::vector<std::vector<doubl
   const Sheet sheet =
       lay_out_sheet(text, double(options.width) / options.height, options.text_scale, *options.theme, fonts);
 
-  constexpr double kNoLimit = std::numeric_limits<double>::max();
   const std::vector<double> at_rest(std::size_t(chain.nv), 0.0);
   Skeleton skeleton = skeleton_of(chain);
   for (const std::vector<double>& q : poses) widen_rails(skeleton, chain, q, kNoLimit);

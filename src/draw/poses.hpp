@@ -15,6 +15,9 @@
 
 namespace chainreel {
 
+inline constexpr double kOnionSkin = 0.25;  // opacity of all poses but the last
+inline constexpr int kSceneClip = 0;        // of a picture with one scene
+
 struct PoseFigureOptions {
   std::string title;
   int width = 1920;  // of the page, px: only their ratio counts

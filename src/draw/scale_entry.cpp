@@ -7,9 +7,7 @@
 namespace chainreel {
 namespace {
 
-constexpr double kMarkToText = 0.014;
 constexpr double kTurnRadius = 0.70;  // of the em
-constexpr double kCapHeight = 0.73;   // of the em
 
 // An arc in the foot is small, but turns by the true angle.
 double turn_radius(double em) {
@@ -31,7 +29,7 @@ EntryLine lay_out_entry(const ScaleEntry& entry, const Fonts& fonts, double text
     default:
       line.mark_width = entry.measure;
   }
-  line.width = line.mark_width + (line.mark_width > 0 ? kMarkToText : 0) + line.text.advance;
+  line.width = line.mark_width + (line.mark_width > 0 ? size::kMarkToText : 0) + line.text.advance;
   return line;
 }
 

@@ -12,11 +12,11 @@ std::vector<MassAxis> section_axes(const EffectiveMass& effective, const Eigen::
   const double least = kSingularFraction * largest;  // 1/kg: smaller counts as none
   // The form of the curve of `energy` grows without bounds at singular poses, where the curve is a segment: a
   // mass beyond all that counts stands for it.
-  constexpr double kBeyond = 1e-3;
+  constexpr double kBeyondAll = 1e-3;
   auto values = effective.mobility;
   for (double& m : values) {
     if (reading == EllipseReading::mass) m = m * m;
-    if (reading == EllipseReading::energy) m = 1 / std::max(m, kBeyond * least);
+    if (reading == EllipseReading::energy) m = 1 / std::max(m, kBeyondAll * least);
   }
   const PlaneForm form = form_on_plane(effective, values, plane);
   std::vector<MassAxis> axes;

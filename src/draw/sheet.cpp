@@ -9,13 +9,9 @@
 namespace chainreel {
 namespace {
 
-constexpr double kCapHeight =
-    0.73;  // of the em: base lines are set so that capitals stand in the middle of a row
 constexpr double kTextGap = 0.05;   // between texts that share a row
-constexpr double kRowPitch = 1.5;   // of the em, for further rows
+constexpr double kNextRow = 1.5;    // of the em, for further rows
 constexpr double kBarTick = 0.012;  // height of the ticks at the ends of a scale bar
-constexpr double kBarToText = 0.014;
-constexpr double kRoundOff = 1e-12;  // a text that just fills its row fits
 
 // Advances are proportional to the size, so one correction is enough. `lay_out`: of a style.
 template <class LayOut>
@@ -70,7 +66,7 @@ void build_title_band(Builder& b, const SheetText& text) {
     double row_top = b.top;
     if (!beside) {
       row_top = row_bottom + 0.2 * torque_size;  // the title's row has air below it
-      row_bottom = row_top - kRowPitch * torque_size;
+      row_bottom = row_top - kNextRow * torque_size;
     }
     const double x = beside && !text.title.empty() ? b.right - line.advance : b.left;
     free_from = b.left + line.advance + kTextGap;
@@ -82,10 +78,10 @@ void build_title_band(Builder& b, const SheetText& text) {
     const TextStyle style = b.style(Face::math, size::kEquation, theme.ink);
     TextLine line = fit_math(b.fonts, {text.equation}, style, b.width(), b.sheet.text_scale, text.symbols);
     const bool beside = row_has_room && free_from + line.advance <= b.right;
-    double row_top = is_second_row ? row_bottom + kRowPitch * torque_size : b.top;
+    double row_top = is_second_row ? row_bottom + kNextRow * torque_size : b.top;
     if (!beside) {
       row_top = row_bottom + (is_second_row ? 0 : 0.2 * torque_size);
-      row_bottom = row_top - kRowPitch * torque_size;
+      row_bottom = row_top - kNextRow * torque_size;
     }
     const double x = beside && free_from > b.left ? b.right - line.advance : b.left;
     b.place(std::move(line), {x, baseline(row_bottom, row_top, torque_size)});
@@ -113,7 +109,7 @@ std::vector<TextLine> legend_lines(const Builder& b, const std::string& legend) 
 void place_bar(Builder& b, TextLine label, double row_bottom, double row_top) {
   const double middle = (row_bottom + row_top) / 2;
   b.sheet.bar = Point{b.left, middle};
-  b.place(std::move(label), {b.left + b.sheet.bar_length + kBarToText,
+  b.place(std::move(label), {b.left + b.sheet.bar_length + size::kMarkToText,
                              baseline(row_bottom, row_top, scaled(size::kTick, b.sheet.text_scale))});
 }
 
@@ -136,7 +132,7 @@ std::vector<std::vector<EntryLine>> entry_rows(const Builder& b, const SheetText
 // Above what stands in the foot; the last row beside the time where `beside` has room for it.
 void place_entries(Builder& b, const SheetText& text, double beside, double row_bottom, double row_top) {
   std::vector<std::vector<EntryLine>> rows = entry_rows(b, text);
-  const double pitch = kRowPitch * scaled(size::kAxis, b.sheet.text_scale);
+  const double pitch = kNextRow * scaled(size::kAxis, b.sheet.text_scale);
   bool first = true;
   for (std::size_t i = rows.size(); i-- > 0; first = false) {
     double width = -kTextGap;
@@ -167,7 +163,7 @@ void build_footer_band(Builder& b, const SheetText& text) {
 
   const double beside_gap = text.beside_time > 0 && !text.longest_time.empty() ? kTextGap / 2 : 0;
   const double time_width = has_time ? time.advance + beside_gap + text.beside_time + kTextGap : 0;
-  const double bar_width = text.bar.empty() ? 0 : text.bar_length + kBarToText + bar.advance;
+  const double bar_width = text.bar.empty() ? 0 : text.bar_length + size::kMarkToText + bar.advance;
   const double bar_to_legend = text.bar.empty() ? 0 : kTextGap / 2;
   const bool one_row =
       legend.size() <= 1 &&
@@ -181,7 +177,7 @@ void build_footer_band(Builder& b, const SheetText& text) {
   if (!text.bar.empty()) {
     if (!bar_beside_time) {
       row_bottom = row_top;
-      row_top += kRowPitch * axis;
+      row_top += kNextRow * axis;
     }
     b.sheet.bar_length = text.bar_length;
     place_bar(b, std::move(bar), row_bottom, row_top);
@@ -190,7 +186,7 @@ void build_footer_band(Builder& b, const SheetText& text) {
   for (std::size_t i = legend.size(); i-- > 0;) {
     if (!one_row && (row_taken || i + 1 < legend.size())) {
       row_bottom = row_top;
-      row_top += kRowPitch * axis;
+      row_top += kNextRow * axis;
     }
     const double x = b.left + (one_row ? bar_width + bar_to_legend : 0);
     b.place(std::move(legend[i]), {x, baseline(row_bottom, row_top, axis)});

@@ -18,6 +18,8 @@ namespace chainreel {
 // Nothing is written smaller than this, in units of H.
 inline constexpr double kSmallestText = size::kTick;
 
+inline constexpr double kRoundOff = 1e-12;  // a text that just fills its row fits
+
 // What a page says. Empty texts are left out, and bands without a text, too.
 struct SheetText {
   std::string title;

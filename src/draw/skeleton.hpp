@@ -2,6 +2,7 @@
 // body frames, made once; poses come later from the kinematics.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct Skeleton {
 };
 
 Skeleton skeleton_of(const Chain& chain);
+
+inline constexpr double kNoLimit = std::numeric_limits<double>::max();  // m, of poses that somebody named
 
 // Lets every rail reach this configuration. Values beyond +-limit or not finite are passed over (runs that
 // diverged).

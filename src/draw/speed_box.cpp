@@ -10,7 +10,6 @@ namespace chainreel {
 namespace {
 
 constexpr double kHeight = 1.6;      // of the em
-constexpr double kCapHeight = 0.73;  // of the em: capitals and figures stand in the middle of the box
 constexpr int kMostDecimals = 6;
 
 }  // namespace

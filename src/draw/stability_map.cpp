@@ -19,7 +19,6 @@ constexpr int kBarSteps = 128;
 constexpr double kSwatch = 0.044, kSwatchToText = 0.012;
 constexpr double kHalo = 0.0085, kBoundaryLine = 0.0040;
 constexpr double kLabelPad = 0.010, kLabelDistance = 0.030;
-constexpr double kCapHeight = 0.73;
 constexpr const char* kFailed = "failed";
 
 // Whole decades around the errors of the runs that held.

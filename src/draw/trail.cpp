@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "draw/joints.hpp"
 #include "picture/theme.hpp"
 
 namespace chainreel {
 namespace {
 
-constexpr double kOffPage = 100;  // in units of H: a run that diverged
 constexpr double kPiece =
     0.006;  // H: a piece this long of a turn of radius 0.03 H misses it by a sixth of a pixel
 constexpr int kMostPieces = 24;  // between two frames
@@ -27,7 +27,7 @@ TrailPoint trail_point(const TipPath& path, double t, double now) {
 }  // namespace
 
 void TipPath::add(double t, Point place, Point speed) {
-  const bool gap = !(std::abs(place.x) < kOffPage && std::abs(place.y) < kOffPage && std::isfinite(speed.x) &&
+  const bool gap = !(is_drawable(place) && std::isfinite(speed.x) &&
                      std::isfinite(speed.y));
   t_.push_back(t);
   place_.push_back(gap ? Point{} : place);
@@ -50,10 +50,9 @@ int TipPath::frame_at(double t) const {
 
 int TipPath::pieces(int k, double length, int most) const {
   const std::size_t i = std::size_t(k);
-  const auto size_of = [](Point v) { return std::hypot(v.x, v.y); };
   // A turn between two frames shows in the speeds, not in the distance.
-  const double way = std::max(size_of(place_[i + 1] - place_[i]),
-                              std::max(size_of(speed_[i]), size_of(speed_[i + 1])) * (t_[i + 1] - t_[i]));
+  const double way = std::max(norm(place_[i + 1] - place_[i]),
+                              std::max(norm(speed_[i]), norm(speed_[i + 1])) * (t_[i + 1] - t_[i]));
   return int(std::clamp(std::ceil(way / length), 1.0, double(most)));
 }
 

@@ -13,12 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLabelGap = 0.010;  // between an arrow's tip or an arc and its label, units of H
+constexpr double kVectorLabelGap = 0.010;  // between an arrow's tip or an arc and its label, units of H
 constexpr double kRoomStep = 0.01;   // units of H: rooms are rounded up to multiples, to have few kinds
-
-double length_of(Point v) {
-  return std::hypot(v.x, v.y);
-}
 
 Rect with(const Rect& a, const Rect& b) {
   return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
@@ -106,7 +102,7 @@ const TextLine& VectorPen::label(const WorldVector& vector) const {
 Rect VectorPen::label_box(const TextLine& label, Point near, Point direction) const {
   const double half_width = label.box.width() / 2, half_height = label.box.height() / 2;
   const double reach = std::abs(direction.x) * half_width + std::abs(direction.y) * half_height;
-  const Point middle = near + (reach + kLabelGap) * direction;
+  const Point middle = near + (reach + kVectorLabelGap) * direction;
   return {middle.x - half_width, middle.y - half_height, middle.x + half_width, middle.y + half_height};
 }
 
@@ -121,7 +117,7 @@ VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera&
   const Camera seen = camera.seen_at(vector.place);
   arrow.v = (length / magnitude) * on_page(vector.value, seen);
   const Point rail = on_page(vector.rail, seen);
-  if (length_of(rail) > 0) {
+  if (norm(rail) > 0) {
     // On the side where there is no ground.
     Point side = normal_to(unit(rail));
     if (side.y < -1e-9 || (std::abs(side.y) <= 1e-9 && side.x < 0)) side = -1 * side;
@@ -137,7 +133,7 @@ Rect VectorPen::extent(const WorldVector& vector, const Camera& camera) const {
     return with({-r, -r, r, r}, label_box(text, {0, r}, {0, 1}));
   }
   const Straight arrow = straight(vector, camera);
-  if (length_of(arrow.v) < size::kShortestArrow) return {};
+  if (norm(arrow.v) < size::kShortestArrow) return {};
   const double half = marks_ * size::kArrowHeadWidth / 2;
   const Point tail = arrow.shift, tip = arrow.shift + arrow.v;
   const Rect shaft{std::min(tail.x, tip.x) - half, std::min(tail.y, tip.y) - half,
@@ -192,7 +188,7 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   if (!std::isfinite(place.x) || !std::isfinite(place.y)) return;
   if (vector.kind == VectorKind::torque) return draw_torque(picture, vector, camera, clip, labels);
   const Straight arrow = straight(vector, camera);
-  if (length_of(arrow.v) < size::kShortestArrow) return;
+  if (norm(arrow.v) < size::kShortestArrow) return;
   const Point tail = place + arrow.shift;
   draw_arrow(picture, tail, arrow.v,
              {color_of(vector.kind, *theme_), marks_, vector.kind == VectorKind::constraint, arrow.cut},

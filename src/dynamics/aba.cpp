@@ -97,6 +97,7 @@ void aba(Links<A>& links, const typename A::Motion& base, ConstScalarSpan<A> qd,
 #define INSTANTIATE(A) \
   template void aba<A>(Links<A>&, const A::Motion&, ConstScalarSpan<A>, ConstScalarSpan<A>, ScalarSpan<A>);
 CHAINREEL_FOR_EACH_ALGEBRA(INSTANTIATE)
+#undef INSTANTIATE
 
 void compute_aba([[maybe_unused]] const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau) {
   assert(!chain.has_mimic);

@@ -2,7 +2,7 @@
 
 #include "dynamics/constrained_mass.hpp"
 #include "dynamics/constraint_rows.hpp"
-#include "dynamics/dense.hpp"
+#include "core/dense.hpp"
 #include "dynamics/scratch.hpp"
 
 namespace chainreel {

@@ -1,7 +1,7 @@
 #include "dynamics/constrained_inverse.hpp"
 
 #include "dynamics/constraint_rows.hpp"
-#include "dynamics/dense.hpp"
+#include "core/dense.hpp"
 #include "dynamics/rnea.hpp"
 
 namespace chainreel {

@@ -92,8 +92,8 @@ RowValues parallel_row(const AnchorState& a, const AnchorState& b, const Vector&
 // Newton's iteration for the foot point from s; quadratic near the curve.
 PlaneCurve::Place near_foot_point(const PlaneCurve& curve, const Vector& p, double& s) {
   PlaneCurve::Place place = curve.at(s);
-  constexpr int kMostPasses = 30;
-  for (int pass = 0; pass < kMostPasses; ++pass) {
+  constexpr int kMostSweeps = 30;
+  for (int pass = 0; pass < kMostSweeps; ++pass) {
     const Eigen::Vector2d d(p.x - place.c.x(), p.y - place.c.y());
     const double speed2 = place.c1.squaredNorm();
     // Beyond the centre of curvature Newton's slope changes its sign: the tangent alone leads on there.
@@ -222,6 +222,7 @@ void evaluate_rows(const Links<A>& links, const typename A::Motion& base, const 
                                  ConstrainedWorkspace&, ConstVec);
 INSTANTIATE(Planar<double>)
 INSTANTIATE(Spatial<double>)
+#undef INSTANTIATE
 
 void compute_constraints(const Chain&, Workspace& ws, const ConstraintSet& set, ConstrainedWorkspace& cws,
                          ConstVec q, ConstVec qd) {

@@ -51,6 +51,7 @@ void crba(Links<A>& links, std::size_t n, typename A::Scalar* M) {
 
 #define INSTANTIATE(A) template void crba<A>(Links<A>&, std::size_t, A::Scalar*);
 CHAINREEL_FOR_EACH_ALGEBRA(INSTANTIATE)
+#undef INSTANTIATE
 
 void compute_mass_matrix(const Chain& chain, Workspace& ws, ConstVec q) {
   ws.M.resize(chain.nv, chain.nv);  // symmetric: its order in memory does not matter

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "dynamics/crba.hpp"
-#include "dynamics/dense.hpp"
+#include "core/dense.hpp"
 #include "dynamics/ldlt.hpp"
 #include "dynamics/recursions.hpp"
 #include "dynamics/scratch.hpp"

@@ -1,10 +1,10 @@
 #include "dynamics/inverse_kinematics.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/dense.hpp"
 #include "core/error.hpp"
 #include "dynamics/jacobian.hpp"
 #include "dynamics/kinematics.hpp"
@@ -145,7 +145,7 @@ bool PointSolver::improve(std::vector<double>& q, const Eigen::Vector2d& point) 
   for (int step = 0; step < kMostSteps && error.norm() > kReached / 10; ++step) {
     compute_jacobian(chain_, ws_, q, chain_.end_effector, Task::linear);
     const Eigen::Matrix2d JJt = ws_.J * ws_.J.transpose() + damping * Eigen::Matrix2d::Identity();
-    const Eigen::VectorXd dq = ws_.J.transpose() * JJt.ldlt().solve(error);
+    const Eigen::VectorXd dq = ws_.J.transpose() * solve_symmetric(JJt, error);
     std::vector<double> next = q;
     for (std::size_t i = 0; i < next.size(); ++i) next[i] += dq(Eigen::Index(i));
     const Eigen::Vector2d left = point - tip(next);

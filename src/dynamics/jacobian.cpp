@@ -32,6 +32,7 @@ void jacobian(const Links<A>& links, std::size_t i, const typename A::Point& poi
   template void jacobian<A>(const Links<A>&, std::size_t, const A::Point&, std::size_t, std::size_t, \
                             A::Scalar*);
 CHAINREEL_FOR_EACH_ALGEBRA(INSTANTIATE)
+#undef INSTANTIATE
 
 namespace {
 

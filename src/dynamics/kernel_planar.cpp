@@ -4,7 +4,7 @@ namespace chainreel {
 
 namespace {
 
-bool fits(const Chain& chain) {
+bool fits_planar(const Chain& chain) {
   if (!chain.planar || !chain.serial || chain.has_mimic) return false;
   if (chain.nv < 1 || chain.nv > PlanarKernel::kMaxJoints) return false;
   const auto& bodies = chain.planar->bodies;
@@ -20,7 +20,7 @@ bool fits(const Chain& chain) {
 
 PlanarKernel planar_kernel_of(const Chain& chain) {
   PlanarKernel kernel;
-  if (!fits(chain)) return kernel;
+  if (!fits_planar(chain)) return kernel;
   kernel.joints = chain.nv;
   const Eigen::Vector2d gravity(chain.gravity.dot(chain.planar->plane.ex),
                                 chain.gravity.dot(chain.planar->plane.ey));

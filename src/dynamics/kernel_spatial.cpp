@@ -7,7 +7,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-bool fits(const Chain& chain) {
+bool fits_spatial(const Chain& chain) {
   if (chain.has_mimic || chain.has_floating) return false;
   if (chain.nv < 1 || chain.nv > SpatialKernel::kMaxJoints) return false;
   for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
@@ -64,7 +64,7 @@ Matrix3d kernel_axes(const Vector3d& axis) {
 
 SpatialKernel spatial_kernel_of(const Chain& chain) {
   SpatialKernel kernel;
-  if (!fits(chain)) return kernel;
+  if (!fits_spatial(chain)) return kernel;
   kernel.joints = chain.nv;
   kernel.serial = chain.serial;
   kernel.base_acceleration = {-chain.gravity.x(), -chain.gravity.y(), -chain.gravity.z(), 0};

@@ -36,6 +36,7 @@ void move(Links<A>& links, ConstScalarSpan<A> qd) {
   template void locate<A>(Links<A>&);                    \
   template void move<A>(Links<A>&, ConstScalarSpan<A>);
 CHAINREEL_FOR_EACH_ALGEBRA(INSTANTIATE)
+#undef INSTANTIATE
 
 namespace {
 

@@ -15,7 +15,7 @@
 #include <array>
 
 #include "core/scalar.hpp"
-#include "dynamics/dense.hpp"
+#include "core/dense.hpp"
 #include "dynamics/friction.hpp"
 
 namespace chainreel {

@@ -54,6 +54,7 @@ void rnea(Links<A>& links, const typename A::Motion& base, ConstScalarSpan<A> qd
   template void accelerate<A>(Links<A>&, const A::Motion&, ConstScalarSpan<A>, ConstScalarSpan<A>); \
   template void rnea<A>(Links<A>&, const A::Motion&, ConstScalarSpan<A>, ConstScalarSpan<A>, ScalarSpan<A>);
 CHAINREEL_FOR_EACH_ALGEBRA(INSTANTIATE)
+#undef INSTANTIATE
 
 void compute_inverse_dynamics(const Chain&, Workspace& ws, ConstVec q, ConstVec qd, ConstVec qdd) {
   with_links(ws, [&](auto& links) {

@@ -39,21 +39,21 @@ namespace chainreel {
 namespace {
 
 template <class T>
-struct Vector {
+struct PlaneVector {
   T x, y;
-  friend Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y}; }
-  friend Vector operator*(const Vector& a, const T& k) { return {a.x * k, a.y * k}; }
+  friend PlaneVector operator+(const PlaneVector& a, const PlaneVector& b) { return {a.x + b.x, a.y + b.y}; }
+  friend PlaneVector operator*(const PlaneVector& a, const T& k) { return {a.x * k, a.y * k}; }
 };
 template <class T>
-T dot(const Vector<T>& a, const Vector<T>& b) {
+T dot(const PlaneVector<T>& a, const PlaneVector<T>& b) {
   return a.x * b.x + a.y * b.y;
 }
 template <class T>
-T cross(const Vector<T>& a, const Vector<T>& b) {
+T cross(const PlaneVector<T>& a, const PlaneVector<T>& b) {
   return a.x * b.y - a.y * b.x;
 }
 template <class T>
-Vector<T> vector_of(const Eigen::Vector2d& a) {
+PlaneVector<T> vector_of(const Eigen::Vector2d& a) {
   return {T(a.x()), T(a.y())};
 }
 
@@ -112,16 +112,16 @@ PlanarSeriesState<T>::PlanarSeriesState(const Chain& chain, const AffineTorque& 
 template <class T>
 void PlanarSeriesState<T>::fold_links(const Chain& chain) {
   const auto links = std::size_t(n);
-  const Vector<T> gravity{T(chain.gravity.dot(chain.planar->plane.ex)),
+  const PlaneVector<T> gravity{T(chain.gravity.dot(chain.planar->plane.ex)),
                           T(chain.gravity.dot(chain.planar->plane.ey))};
   const auto& bodies = chain.planar->bodies;
-  std::vector<Vector<T>> l(links), h(links);
+  std::vector<PlaneVector<T>> l(links), h(links);
   T carried(0);  // mass behind the link
   for (std::size_t i = links; i-- > 0;) {
     const PlanarBody& body = bodies[i + 1];
     const T mass(body.mass);
-    const Vector<T> com = vector_of<T>(body.com);
-    l[i] = i + 1 < links ? vector_of<T>(bodies[i + 2].p_PJ) : Vector<T>{T(0), T(0)};
+    const PlaneVector<T> com = vector_of<T>(body.com);
+    l[i] = i + 1 < links ? vector_of<T>(bodies[i + 2].p_PJ) : PlaneVector<T>{T(0), T(0)};
     h[i] = com * mass + l[i] * carried;
     A[i * links + i] = T(body.inertia) + mass * dot(com, com) + carried * dot(l[i], l[i]);
     pull[2 * i] = -cross(h[i], gravity);
@@ -133,8 +133,8 @@ void PlanarSeriesState<T>::fold_links(const Chain& chain) {
   for (std::size_t i = 0; i < links; ++i) {
     for (std::size_t j = 0; j < links; ++j) {
       if (i == j) continue;
-      const Vector<T>& u = i < j ? l[i] : h[i];
-      const Vector<T>& w = i < j ? h[j] : l[j];
+      const PlaneVector<T>& u = i < j ? l[i] : h[i];
+      const PlaneVector<T>& w = i < j ? h[j] : l[j];
       A[i * links + j] = dot(u, w);
       sigma_ij[i * links + j] = cross(u, w);
       along_x &= sigma_ij[i * links + j] == 0;

@@ -13,7 +13,7 @@
 namespace chainreel {
 namespace {
 
-constexpr std::size_t kHead = 8 + 25;  // the signature and IHDR
+constexpr std::size_t kImageStart = 8 + 25;  // the signature and IHDR
 
 std::string big_endian(std::uint32_t value) {
   return {char(value >> 24), char(value >> 16), char(value >> 8), char(value)};
@@ -32,9 +32,9 @@ void put_texts(const std::string& path, const Tags& tags) {
   for (const auto& [keyword, text] : tags) chunks += text_chunk(keyword, text);
   std::ifstream stream(path, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream || bytes.size() < kHead || bytes.compare(12, 4, "IHDR") != 0)
+  if (!stream || bytes.size() < kImageStart || bytes.compare(12, 4, "IHDR") != 0)
     throw Error(ExitCode::file, "could not be read again to put its texts in", {path});
-  bytes.insert(kHead, chunks);
+  bytes.insert(kImageStart, chunks);
   std::ofstream out(path, std::ios::binary);
   out.write(bytes.data(), std::streamsize(bytes.size()));
   out.close();

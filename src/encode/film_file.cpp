@@ -24,12 +24,12 @@ std::int64_t moved(int file, std::int64_t position, std::int64_t offset, int whe
 }
 
 // Reads what has been written so far.
-struct Reader {
+struct FileReader {
   int file;
   std::int64_t position = 0;
 
   static int read(void* self, std::uint8_t* bytes, int count) {
-    Reader& reader = *static_cast<Reader*>(self);
+    FileReader& reader = *static_cast<FileReader*>(self);
     ssize_t got = 0;
     do got = pread(reader.file, bytes, std::size_t(count), reader.position);
     while (got < 0 && errno == EINTR);
@@ -38,7 +38,7 @@ struct Reader {
     return got == 0 ? AVERROR_EOF : int(got);
   }
   static std::int64_t seek(void* self, std::int64_t offset, int whence) {
-    Reader& reader = *static_cast<Reader*>(self);
+    FileReader& reader = *static_cast<FileReader*>(self);
     const std::int64_t to = moved(reader.file, reader.position, offset, whence);
     if (to >= 0 && (whence & ~AVSEEK_FORCE) != AVSEEK_SIZE) reader.position = to;
     return to;
@@ -55,9 +55,9 @@ void free_stream(AVIOContext* stream) {
 int open_reader(AVFormatContext* format, AVIOContext** stream, const char*, int flags, AVDictionary**) {
   if ((flags & AVIO_FLAG_WRITE) != 0) return AVERROR(ENOSYS);
   auto* buffer = static_cast<unsigned char*>(av_malloc(kBuffer));
-  auto reader = std::make_unique<Reader>(Reader{*static_cast<const int*>(format->opaque)});
+  auto reader = std::make_unique<FileReader>(FileReader{*static_cast<const int*>(format->opaque)});
   *stream = buffer == nullptr ? nullptr
-                              : avio_alloc_context(buffer, kBuffer, 0, reader.get(), &Reader::read, nullptr, &Reader::seek);
+                              : avio_alloc_context(buffer, kBuffer, 0, reader.get(), &FileReader::read, nullptr, &FileReader::seek);
   if (*stream == nullptr) {
     av_free(buffer);
     return AVERROR(ENOMEM);
@@ -68,7 +68,7 @@ int open_reader(AVFormatContext* format, AVIOContext** stream, const char*, int 
 
 int close_reader(AVFormatContext*, AVIOContext* stream) {
   if (stream == nullptr) return 0;
-  delete static_cast<Reader*>(stream->opaque);
+  delete static_cast<FileReader*>(stream->opaque);
   free_stream(stream);
   return 0;
 }

@@ -22,7 +22,7 @@ namespace {
 // half of the time (32 ms against 65 ms for a frame of 1920x1080).
 constexpr int kCompressionLevel = 6;
 constexpr std::size_t kLongestKeyword = 79;  // PNG specification, 11.3.4.2
-constexpr png_uint_32 kLargestSide = 32768;
+constexpr png_uint_32 kLargestPng = 32768;
 
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
@@ -40,12 +40,6 @@ struct Message {
 }
 
 void ignore_warning(png_structp, png_const_charp) {}
-
-bool is_opaque(const Image& image) {
-  for (std::size_t i = 3; i < image.bgra.size(); i += 4)
-    if (image.bgra[i] != 255) return false;
-  return true;
-}
 
 bool is_ascii(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 128; });
@@ -86,10 +80,10 @@ bool write_chunks(png_structp png, png_infop info, std::FILE* file, const Image&
   return true;
 }
 
-struct Reader {
+struct PngHandles {
   png_structp png = nullptr;
   png_infop info = nullptr;
-  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+  ~PngHandles() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
 bool read_until_pixels(png_structp png, png_infop info, std::FILE* file) {
@@ -119,7 +113,7 @@ void write_png(const std::string& path, const Image& image, const std::map<std::
       png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, keep_message_and_jump, ignore_warning);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
   const bool written =
-      info != nullptr && write_chunks(png, info, file.get(), image, is_opaque(image), chunks);
+      info != nullptr && write_chunks(png, info, file.get(), image, image.is_opaque(), chunks);
   png_destroy_write_struct(&png, &info);
 
   // A full disk may show itself only when the last buffer is handed over.
@@ -160,7 +154,7 @@ Image read_png(const std::string& path) {
     throw Error(ExitCode::bad_input, "is not a PNG that can be read: " + reason, {path});
   };
   if (png_image_begin_read_from_stdio(&png, file.get()) == 0) fail();
-  if (png.width > kLargestSide || png.height > kLargestSide) {
+  if (png.width > kLargestPng || png.height > kLargestPng) {
     png_image_free(&png);
     throw Error(ExitCode::limit, "is larger than 32768 pixels a side", {path});
   }
@@ -173,7 +167,7 @@ Image read_png(const std::string& path) {
 std::map<std::string, std::string> read_png_text(const std::string& path) {
   const FilePtr file = open_for_reading(path);
   Message message;
-  Reader reader;
+  PngHandles reader;
   reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &message, keep_message_and_jump, ignore_warning);
   reader.info = reader.png == nullptr ? nullptr : png_create_info_struct(reader.png);
   if (reader.info == nullptr || !read_until_pixels(reader.png, reader.info, file.get()))

@@ -16,12 +16,6 @@ namespace {
 constexpr int kWidest = 800;  // pixels
 constexpr int kMostPerSecond = 25;
 
-bool is_opaque(const Image& image) {
-  for (std::size_t i = 3; i < image.bgra.size(); i += 4)
-    if (image.bgra[i] != 255) return false;
-  return true;
-}
-
 }  // namespace
 
 SmallFrames::SmallFrames(int width, int height, FrameRate fps)
@@ -45,7 +39,7 @@ SmallFrames::~SmallFrames() {
 const Image& SmallFrames::shrink(const Image& frame) {
   if (scaler_ == nullptr) return frame;
   const Image* from = &frame;
-  if (!is_opaque(frame)) {
+  if (!frame.is_opaque()) {
     bled_ = frame;
     bleed_colors(bled_);
     from = &bled_;

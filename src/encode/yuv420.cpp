@@ -7,27 +7,23 @@
 #include <cassert>
 #include <cstddef>
 
+#include "encode/bt709.hpp"
+
 namespace chainreel {
 namespace {
 
 constexpr int kBits = 15;
-
-struct Weights {
-  int b, g, r;
+constexpr LumaChroma kTo8 = {
+    {2032, 20127, 5983},     // 219/255 * 2^15 * (0.0722, 0.7152, 0.2126)
+    {14392, -11094, -3298},  // 224/255 * 2^15 * (0.5, -0.7152/1.8556, -0.2126/1.8556)
+    {-1320, -13072, 14392},  // 224/255 * 2^15 * (-0.0722/1.5748, -0.7152/1.5748, 0.5)
 };
-constexpr Weights kY = {2032, 20127, 5983};      // 219/255 * 2^15 * (0.0722, 0.7152, 0.2126)
-constexpr Weights kCb = {14392, -11094, -3298};  // 224/255 * 2^15 * (0.5, -0.7152/1.8556, -0.2126/1.8556)
-constexpr Weights kCr = {-1320, -13072, 14392};  // 224/255 * 2^15 * (-0.0722/1.5748, -0.7152/1.5748, 0.5)
-static_assert(kY.b + kY.g + kY.r == 28142);      // white becomes 235
-static_assert(kCb.b + kCb.g + kCb.r == 0 && kCr.b + kCr.g + kCr.r == 0);  // grey becomes 128
+static_assert(kTo8.white() == 28142);  // becomes 235
+static_assert(kTo8.grey_is_grey());    // becomes 128
 
 constexpr int kChromaBits = kBits + 2;  // chroma is computed from the sum of four pixels
 constexpr int kLumaOffset = (16 << kBits) + (1 << (kBits - 1));
 constexpr int kChromaOffset = (128 << kChromaBits) + (1 << (kChromaBits - 1));
-
-constexpr int dot(const Weights& w, int b, int g, int r) {
-  return w.b * b + w.g * g + w.r * r;
-}
 
 // One row pair: where it is read and where it goes.
 struct RowPair {
@@ -40,7 +36,7 @@ struct RowPair {
 };
 
 std::uint8_t luma_of(const std::uint8_t* p) {
-  return static_cast<std::uint8_t>((dot(kY, p[0], p[1], p[2]) + kLumaOffset) >> kBits);
+  return static_cast<std::uint8_t>((dot(kTo8.y, p[0], p[1], p[2]) + kLumaOffset) >> kBits);
 }
 
 // Columns from x to the end, two at a time.
@@ -55,8 +51,8 @@ void convert_columns(const RowPair& rows, int x, int width) {
     const int b = u[0] + u[4] + l[0] + l[4];
     const int g = u[1] + u[5] + l[1] + l[5];
     const int r = u[2] + u[6] + l[2] + l[6];
-    rows.cb[x / 2] = static_cast<std::uint8_t>((dot(kCb, b, g, r) + kChromaOffset) >> kChromaBits);
-    rows.cr[x / 2] = static_cast<std::uint8_t>((dot(kCr, b, g, r) + kChromaOffset) >> kChromaBits);
+    rows.cb[x / 2] = static_cast<std::uint8_t>((dot(kTo8.cb, b, g, r) + kChromaOffset) >> kChromaBits);
+    rows.cr[x / 2] = static_cast<std::uint8_t>((dot(kTo8.cr, b, g, r) + kChromaOffset) >> kChromaBits);
   }
 }
 
@@ -99,8 +95,8 @@ __m128i add_neighbours(__m128i p, __m128i q) {
 // Eight columns at a time; returns the first column that is left.
 int convert_columns_by_eight(const RowPair& rows, int width) {
   const __m128i even_bytes = _mm_set1_epi32(0x00FF00FF);
-  const PairWeights weights_y = pair_weights(kY), weights_cb = pair_weights(kCb),
-                    weights_cr = pair_weights(kCr);
+  const PairWeights weights_y = pair_weights(kTo8.y), weights_cb = pair_weights(kTo8.cb),
+                    weights_cr = pair_weights(kTo8.cr);
   const __m128i offset_y = _mm_set1_epi32(kLumaOffset), offset_c = _mm_set1_epi32(kChromaOffset);
   int x = 0;
   for (; x + 8 <= width; x += 8) {

@@ -2,22 +2,19 @@
 
 #include <cstddef>
 
+#include "encode/bt709.hpp"
+
 namespace chainreel {
 namespace {
 
-constexpr int kBits = 14;
-
-// Rows of Cb and Cr add up to zero: grey has no colour.
-struct Weights {
-  int b, g, r;
-};
-constexpr Weights kY = {4064, 40254, 11966}, kCb = {28784, -22189, -6595}, kCr = {-2639, -26145, 28784};
-static_assert(kY.b + kY.g + kY.r == 56284);  // 876/255 * 2^14: white becomes 940
-static_assert(kCb.b + kCb.g + kCb.r == 0 && kCr.b + kCr.g + kCr.r == 0);
+// 876/255 and 896/255 * 2^14: ten bits a component.
+constexpr int kBits10 = 14;
+constexpr LumaChroma kTo10 = {{4064, 40254, 11966}, {28784, -22189, -6595}, {-2639, -26145, 28784}};
+static_assert(kTo10.white() == 56284);  // becomes 940
+static_assert(kTo10.grey_is_grey());
 
 constexpr std::uint16_t level(const Weights& w, int zero, const std::uint8_t* p) {
-  return std::uint16_t((w.b * p[0] + w.g * p[1] + w.r * p[2] + (zero << kBits) + (1 << (kBits - 1))) >>
-                       kBits);
+  return std::uint16_t((dot(w, p[0], p[1], p[2]) + (zero << kBits10) + (1 << (kBits10 - 1))) >> kBits10);
 }
 
 }  // namespace
@@ -29,9 +26,9 @@ void convert_to_yuv444(const Image& image, const PlanesYuv444& planes) {
     std::uint16_t *luma = row(0), *cb = row(1), *cr = row(2);
     std::uint16_t* alpha = planes.plane[3] == nullptr ? nullptr : row(3);
     for (int x = 0; x < image.width; ++x, p += 4) {
-      luma[x] = level(kY, 64, p);
-      cb[x] = level(kCb, 512, p);
-      cr[x] = level(kCr, 512, p);
+      luma[x] = level(kTo10.y, 64, p);
+      cb[x] = level(kTo10.cb, 512, p);
+      cr[x] = level(kTo10.cr, 512, p);
       if (alpha != nullptr) alpha[x] = std::uint16_t((p[3] * 1023 + 127) / 255);
     }
   }

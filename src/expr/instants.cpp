@@ -11,7 +11,6 @@ namespace chainreel {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr long kMostPieces = 4000000;  // looked at for one corner
 constexpr double kSmallest = 1e-12;    // of the duration: the shortest piece that is halved
 

@@ -128,7 +128,7 @@ class Rattle final : public Integrator {
     else
       masses_.accelerate(f);
   }
-  void correct(const Points& e) {
+  void correct_points(const Points& e) {
     if constexpr (k > 0)
       masses_.correct_single(e, d_, change_, lambda_, move_);
     else
@@ -213,7 +213,7 @@ class Rattle final : public Integrator {
         e_[i] = d_[i] + turn;
         change_[i] = -dot(d_[i] + turn * 0.5, turn);
       }
-      correct(e_);
+      correct_points(e_);
       bool done = true;
       for (std::size_t i = 0; i < size(); ++i) {
         const Vec2 part = i > 0 ? move_[i] - move_[i - 1] : move_[0];
@@ -231,7 +231,7 @@ class Rattle final : public Integrator {
   void project() {
     find_links(x_, x_carry_, d_);
     for (std::size_t i = 0; i < size(); ++i) change_[i] = -dot(d_[i], i > 0 ? u_[i] - u_[i - 1] : u_[0]);
-    correct(d_);
+    correct_points(d_);
     add(move_, u_, u_carry_);
   }
 

@@ -1,9 +1,10 @@
 #include "integrate/stability_limit.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/dense.hpp"
 
 namespace chainreel {
 namespace {
@@ -101,7 +102,7 @@ struct Scaled {
   bool step_holds(const Method& method, double y) const {
     const auto map = step_map(method, motion, y);
     if (!map) return false;
-    const Eigen::VectorXcd eigenvalues = map->eigenvalues();
+    const Eigen::VectorXcd eigenvalues = eigenvalues_of(*map);
     std::vector<double> moduli;
     for (const Rate& one : eigenvalues) moduli.push_back(std::abs(one));
     const auto place = moduli.begin() + std::ptrdiff_t(growths());
@@ -143,7 +144,7 @@ std::vector<Rate> rates_of(const LinearMotion& motion) {
   // Rates of one second may be 1e4 times those of another: the unit of time makes q and v alike.
   const double unit = std::max({std::sqrt(motion.K.cwiseAbs().maxCoeff()), motion.D.cwiseAbs().maxCoeff()});
   if (!(unit > 0) || !std::isfinite(unit)) return rates;
-  const Eigen::VectorXcd all = motion.in_units_of(1 / unit).matrix().eigenvalues();
+  const Eigen::VectorXcd all = eigenvalues_of(motion.in_units_of(1 / unit).matrix());
   const double fastest = all.cwiseAbs().maxCoeff();
   for (Rate one : all) {
     if (one.imag() < 0 || std::abs(one) < kNoRate * fastest) continue;

@@ -21,13 +21,14 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/scalar.hpp"
 #include "integrate/makers.hpp"
 
 namespace chainreel {
 namespace {
 
 constexpr int kLastTerms = 4;
-constexpr double kNearlyThere = 1.05;  // a step may stretch by this to spare a tiny last one
+constexpr double kStretch = 1.05;  // a step may stretch by this to spare a tiny last one
 // Terms left out of the acceleration are N/h of those of the rate, give or take the shape of the series.
 constexpr double kDefectMargin = 20;
 constexpr double kDefectRounding = 1e-9;  // of the accelerations: nothing is concluded from less
@@ -48,7 +49,6 @@ double rough_exp2(double x) {
   return m * std::bit_cast<double>(std::uint64_t(int(whole) + 1023) << 52);
 }
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // sum += x with what rounding takes off in `rest`, for |x| of any size.
 void add_exactly(double& sum, double& rest, double x) {
@@ -101,7 +101,7 @@ class Taylor final : public Integrator {
       move(h);
       return accept(end);
     }
-    bool whole = longest * kNearlyThere >= h;
+    bool whole = longest * kStretch >= h;
     double length = whole ? h : longest;
     for (double last_excess = kInfinity;; length *= 0.5, whole = false) {
       const double t = whole ? end : time_ + length;

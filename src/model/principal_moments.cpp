@@ -1,14 +1,14 @@
 #include "model/principal_moments.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "core/dense.hpp"
 #include "core/format.hpp"
 
 namespace chainreel {
 
 Eigen::Vector3d principal_moments(const Eigen::Matrix3d& inertia) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  return eigen_of_symmetric(inertia).values;
 }
 
 std::string moments_text(const Eigen::Vector3d& moments) {

@@ -1,9 +1,9 @@
 #include "model/regularity.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <vector>
 
+#include "core/dense.hpp"
 #include "core/format.hpp"
 #include "core/scalar.hpp"
 
@@ -96,7 +96,7 @@ std::string vector_text(const Eigen::Vector3d& v) {
   return "(" + text + ")";
 }
 
-std::string listed(const std::vector<std::string>& words) {
+std::string in_one_sentence(const std::vector<std::string>& words) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i)
     text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + words[i];
@@ -116,8 +116,7 @@ void describe_floating(const Articulated& body, Unresisted& result) {
   }
   if (turns.empty() && slides.empty()) {
     const Matrix6 unit = scale.cwiseInverse().asDiagonal() * body.inertia * scale.cwiseInverse().asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(unit);
-    Vector6 twist = scale.cwiseInverse().asDiagonal() * eigen.eigenvectors().col(0);
+    Vector6 twist = scale.cwiseInverse().asDiagonal() * eigen_of_symmetric(unit).vectors.col(0);
     int largest = 0;
     twist.cwiseAbs().maxCoeff(&largest);
     if (twist[largest] < 0) twist = -twist;  // an eigenvector's sign is free
@@ -131,12 +130,12 @@ void describe_floating(const Articulated& body, Unresisted& result) {
     result.behind = (body.sum - body.inertia).norm() > kPivotFraction * body.sum.norm();
   }
   std::vector<std::string> motions, remedies;
-  if (!turns.empty()) motions.push_back("turns about " + listed(turns));
-  if (!slides.empty()) motions.push_back("moves along " + listed(slides));
+  if (!turns.empty()) motions.push_back("turns about " + in_one_sentence(turns));
+  if (!slides.empty()) motions.push_back("moves along " + in_one_sentence(slides));
   if (!slides.empty()) remedies.push_back("a mass");
-  if (!turns.empty()) remedies.push_back("an inertia about " + listed(turns));
-  result.motion = listed(motions);
-  result.remedy = listed(remedies);
+  if (!turns.empty()) remedies.push_back("an inertia about " + in_one_sentence(turns));
+  result.motion = in_one_sentence(motions);
+  result.remedy = in_one_sentence(remedies);
 }
 
 Unresisted describe(const Joint& joint, int index, const Articulated& body) {

@@ -30,7 +30,7 @@ std::string quoted(const std::string& name) {
 }
 
 // 'a', 'b', 'c' and 7 more
-std::string listed(const std::vector<std::string>& names) {
+std::string first_quoted(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 5;
   std::string text;
   for (std::size_t i = 0; i < names.size() && i < kMost; ++i) text += (i == 0 ? "" : ", ") + quoted(names[i]);
@@ -59,7 +59,7 @@ void find_root(UrdfFile& file, UrdfProblems& problems) {
   }
   if (roots.size() > 1) {
     problems.add(file.links[std::size_t(file.root)].line,
-                 "the model has " + std::to_string(roots.size()) + " roots, " + listed(roots) +
+                 "the model has " + std::to_string(roots.size()) + " roots, " + first_quoted(roots) +
                      ": every link but one must be the child of a joint");
   }
 }
@@ -87,7 +87,7 @@ void find_loops(const UrdfFile& file, UrdfProblems& problems) {
   }
   if (lost.empty()) return;
   problems.add(
-      line, "the links " + listed(lost) +
+      line, "the links " + first_quoted(lost) +
                 " form a loop that hangs on nothing: a URDF is a tree, so remove the joint that closes it");
 }
 

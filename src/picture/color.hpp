@@ -1,4 +1,4 @@
-// Colours and places on the page.
+// Colours.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,5 @@ struct Color {
 constexpr Color color_of(std::uint32_t rgb, double a = 1) {
   return {std::uint8_t(rgb >> 16), std::uint8_t(rgb >> 8), std::uint8_t(rgb), a};
 }
-
-struct Point {
-  double x = 0, y = 0;
-  friend Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
-  friend Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
-  friend Point operator*(double s, Point a) { return {s * a.x, s * a.y}; }
-};
 
 }  // namespace chainreel

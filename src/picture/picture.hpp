@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "picture/color.hpp"
+#include "picture/point.hpp"
 #include "picture/solids.hpp"
 
 namespace chainreel {

@@ -8,7 +8,6 @@ namespace {
 
 constexpr double kTitleAbove = 0.019;  // with text at its usual size
 constexpr double kTickToLabel = 0.007, kLabelToTitle = 0.010;
-constexpr double kCapHeight = 0.73;                                // of the em, of the label face
 constexpr double kSuperscriptScale = 0.70, kSuperscriptUp = 0.38;  // of the em, as in formulas
 constexpr double kPitchX = 1.7;  // of the widest label: distance of labels along x
 constexpr double kPitchY = 3.0;  // of the em, along y

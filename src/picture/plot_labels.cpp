@@ -7,7 +7,6 @@
 namespace chainreel {
 namespace {
 
-constexpr double kCapHeight = 0.73;  // of the em
 
 constexpr double kKeyLength = 0.042, kKeyToText = 0.010, kLeaderGap = 0.004, kLeader = 0.0014;
 constexpr double kLeaderOpacity = 0.55;

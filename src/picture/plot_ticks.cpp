@@ -13,10 +13,10 @@ namespace {
 constexpr double kSlack = 1e-9;  // of a step: an end of the axis that is a tick up to round-off has its tick
 constexpr double kDecadesWithParts = 4.2;     // log axes up to this long show 2 .. 9 of each decade
 constexpr double kDecadesOfPlainTicks = 1.5;  // and up to this long label 1, 2, 5
-constexpr const char* kMinus = "\u2212";
+constexpr const char* kMinusSign = "\u2212";
 
 std::string signed_text(std::string digits) {
-  return digits.starts_with('-') ? kMinus + digits.substr(1) : digits;
+  return digits.starts_with('-') ? kMinusSign + digits.substr(1) : digits;
 }
 
 // 10^n with what stands before it: "3 x 10" and "-4".
@@ -75,7 +75,7 @@ std::string angle_text(long halves) {
   if (halves == 0) return "0";
   const bool is_whole = halves % 2 == 0;
   const long count = std::labs(is_whole ? halves / 2 : halves);
-  return (halves < 0 ? kMinus : "") + (count == 1 ? "" : std::to_string(count)) + "\u03C0" +
+  return (halves < 0 ? kMinusSign : "") + (count == 1 ? "" : std::to_string(count)) + "\u03C0" +
          (is_whole ? "" : "/2");
 }
 

@@ -32,6 +32,9 @@ class Fonts {
   std::unique_ptr<State> state_;
 };
 
+// Of capitals and figures, of the em: half of it above its base line is the middle of a row.
+inline constexpr double kCapHeight = 0.73;
+
 enum class Align { left, center, right };
 
 struct TextStyle {

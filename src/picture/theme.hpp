@@ -39,6 +39,8 @@ inline constexpr double kArrowShaft = 0.0060, kArrowHead = 0.024, kArrowHeadWidt
 inline constexpr double kLongestArrow = 0.20, kArrowCut = 0.25, kShortestArrow = 0.012;
 inline constexpr double kTorqueArc = 0.058, kBesideRail = 0.034, kDash = 0.012, kDashGap = 0.008;
 inline constexpr double kCenterOfMass = 0.022;
+inline constexpr double kFrameLine = 0.0018;  // about a panel
+inline constexpr double kMarkToText = 0.014;  // in a legend
 inline constexpr double kAxisShaft = 0.0045, kAxisLength = 0.075, kAxisHead = 0.016;
 inline constexpr double kFitMargin = 0.06;  // fraction of the fitted box
 }  // namespace size

@@ -142,11 +142,10 @@ void Batch::add(const Capsule& capsule) {
 }
 
 void Batch::add(const Ellipse& ellipse) {
-  const auto length_of = [](Point p) { return std::sqrt(p.x * p.x + p.y * p.y); };
-  const bool u_is_major = length_of(ellipse.u) >= length_of(ellipse.v);
+  const bool u_is_major = norm(ellipse.u) >= norm(ellipse.v);
   const Point major = u_is_major ? ellipse.u : ellipse.v, minor = u_is_major ? ellipse.v : ellipse.u;
-  const double length = length_of(major);
-  if (length_of(minor) >= length * (1 - 1e-9)) {
+  const double length = norm(major);
+  if (norm(minor) >= length * (1 - 1e-9)) {
     add(Capsule{ellipse.center, ellipse.center, length, ellipse.paint});  // a disc
     return;
   }
@@ -155,7 +154,7 @@ void Batch::add(const Ellipse& ellipse) {
   if (!set_paint(ellipse.paint, half_stroke, fill, stroke)) return;
   const double smallest = half_stroke > 0 ? kSmallestAxis : kThinnest;
   const double a = std::clamp(height_ * length, smallest, kLargestAxis);
-  const double b = std::clamp(height_ * length_of(minor), smallest, a);
+  const double b = std::clamp(height_ * norm(minor), smallest, a);
   const Pixels center = to_pixels(ellipse.center), axis = {major.x / length, -major.y / length};
   const double reach = half_stroke + kFringe;
   const double half_width = std::sqrt(a * a * axis.x * axis.x + b * b * axis.y * axis.y) + reach;

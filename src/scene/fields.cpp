@@ -18,6 +18,15 @@ std::string beside(const std::string& scene, const std::string& named) {
 Fields::Fields(const YamlDocument& document, const YAML::Node& map, std::string prefix, ProblemList& problems)
     : document_(&document), map_(map), prefix_(std::move(prefix)), problems_(&problems) {}
 
+bool Fields::has(const std::string& key) {
+  const YAML::Node node = find(key);
+  return node.IsDefined() && !node.IsNull();
+}
+
+void Fields::problem_at(const std::string& key, const std::string& message) {
+  problems().add(message, place_of(find(key), key));
+}
+
 YAML::Node Fields::find(const std::string& key) {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
   for (const auto& pair : map_)

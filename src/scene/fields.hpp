@@ -25,6 +25,8 @@ class Fields {
   // The node of a key, or an undefined one. Remembers that the key is known.
   YAML::Node find(const std::string& key);
   Place place_of(const YAML::Node& node, const std::string& key) const;
+  bool has(const std::string& key);  // null counts as absent: `--set step=null`
+  void problem_at(const std::string& key, const std::string& message);
   std::string path(const std::string& key) const { return prefix_.empty() ? key : prefix_ + "." + key; }
 
   // Each leaves `value` alone where the key is absent.

@@ -21,12 +21,6 @@ constexpr double kNoteworthy = 1e-9;  // m or rad, and per second
 // Of a force: less is the rounding of a direction.
 constexpr double kBorne = 1e-9;
 
-std::string listed(const std::vector<double>& values) {
-  std::string text = "[";
-  for (const double x : values) text += (text.size() > 1 ? ", " : "") + format_significant(x, 6);
-  return text + "]";
-}
-
 class PlanMaker {
  public:
   PlanMaker(const Scene& scene, const Chain& chain) : scene_(scene), chain_(chain) {}
@@ -160,7 +154,7 @@ void look_at_contact_forces(Scene& scene, const Simulation& simulation, const Co
     const std::string name = name_of(simulation.constraints.list[contact.constraint]);
     multipliers_of_force(simulation.chain, set, cws, contact.constraint, contact.force, lambda);
     const Eigen::Vector3d borne = contact_force(simulation.chain, set, cws, contact.constraint, lambda);
-    const auto numbers = [](const Eigen::Vector3d& f) { return listed({f.x(), f.y(), f.z()}) + " N"; };
+    const auto numbers = [](const Eigen::Vector3d& f) { return bracketed({f.x(), f.y(), f.z()}) + " N"; };
     if (contact.force.norm() > 0 && borne.norm() <= kBorne * contact.force.norm())
       problems.add("'" + name + "' bears nothing of a contact_force of " + numbers(contact.force) +
                        " at the start: press along what it holds, or another constraint",
@@ -198,17 +192,17 @@ void prepare_constraints(Scene& scene, Simulation& simulation) {
                 "the start is " + format_significant(way.before, 3) + " off '" +
                     set.row_names()[std::size_t(way.worst_row)] +
                     "'; the pose found on the constraints is far from it, by " +
-                    format_significant(moved, 3) + " in a coordinate: write `start: {q: " + listed(q) +
+                    format_significant(moved, 3) + " in a coordinate: write `start: {q: " + bracketed(q) +
                     "}` if it is meant",
                 start);
   const double rate = project_velocities(chain, ws, set, cws, q, qd);
   if (way.before > kNoteworthy)
     scene.notices.push_back("the start was " + format_significant(way.before, 3) + " off '" +
                             set.row_names()[std::size_t(way.worst_row)] +
-                            "' and was moved to q = " + listed(q));
+                            "' and was moved to q = " + bracketed(q));
   if (rate > kNoteworthy)
     scene.notices.push_back("the start's rates left the constraints by " + format_significant(rate, 3) +
-                            " a second and were changed to qd = " + listed(qd));
+                            " a second and were changed to qd = " + bracketed(qd));
   simulation.q0 = scene.start.q = q;
   simulation.qd0 = scene.start.qd = qd;
   compute_constraints(chain, ws, set, cws, q, qd);

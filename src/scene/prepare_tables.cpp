@@ -14,12 +14,6 @@ namespace {
 // Less is rounding, of an instant as a share of the duration, of a coordinate in rad or m.
 constexpr double kSame = 1e-9;
 
-std::string listed(const std::vector<double>& values) {
-  std::string text = "[";
-  for (const double x : values) text += (text.size() > 1 ? ", " : "") + format_significant(x, 6);
-  return text + "]";
-}
-
 struct NamedControl {
   const Control* control;
   std::size_t first, end;  // the freedoms that it drives
@@ -103,7 +97,7 @@ void take_start(Scene& scene, const Chain& chain) {
                             " in a coordinate and " + format_significant(faster, 3) +
                             " in a rate: the torques of that motion lead elsewhere from here");
   else if ((takes_q && farthest(q, zero) > kSame) || (takes_qd && farthest(qd, std::vector<double>(qd.size())) > kSame))
-    scene.notices.push_back("starts as the motion " + path + " does: q = " + listed(q) + ", qd = " + listed(qd));
+    scene.notices.push_back("starts as the motion " + path + " does: q = " + bracketed(q) + ", qd = " + bracketed(qd));
 }
 
 }  // namespace

@@ -10,14 +10,6 @@ namespace {
 const std::vector<std::string> kKinds{"line",  "plane", "point", "distance",
                                       "close", "curve", "joint", "linear"};
 
-void problem_at(Fields& fields, const std::string& key, const std::string& message) {
-  fields.problems().add(message, fields.place_of(fields.find(key), key));
-}
-
-bool has(Fields& fields, const std::string& key) {
-  return fields.find(key).IsDefined();
-}
-
 // Keys without which a constraint says nothing.
 class Needs {
  public:
@@ -26,7 +18,7 @@ class Needs {
 
   template <class T>
   void read(const std::string& key, T& value) {
-    if (has(fields_, key))
+    if (fields_.has(key))
       fields_.read(key, value);
     else
       fields_.problems().add("'" + fields_.path(key) + "' is missing: write " + example_, place_);
@@ -60,9 +52,9 @@ void read_closure(Fields& fields, ConstraintEntry& entry) {
     fields.read("axis", about_axis);
   }
   if (weld && about_axis)
-    problem_at(fields, "weld", "'weld' leaves no axis to turn about: keep 'weld' or 'axis', not both");
+    fields.problem_at("weld", "'weld' leaves no axis to turn about: keep 'weld' or 'axis', not both");
   if ((weld || about_axis) && entry.b.empty() && !entry.at.empty())
-    problem_at(fields, weld ? "weld" : "axis",
+    fields.problem_at(weld ? "weld" : "axis",
                "a place of the world has no axes: close on a frame of the base, with 'b'");
   entry.closure = weld ? "weld" : about_axis ? "axis" : "point";
 }
@@ -189,8 +181,8 @@ void read_contact(Fields& fields, const YAML::Node& node, const std::string& key
 void read_constraints(Fields& fields, Scene& scene) {
   const YAML::Node list = fields.find("constraints");
   if (list.IsDefined() && !list.IsSequence())
-    problem_at(
-        fields, "constraints",
+    fields.problem_at(
+        "constraints",
         "'constraints' must be a list: [{line: {frame: gripper, point: [0, 0.5], direction: [1, 0]}}]");
   if (list.IsSequence())
     for (std::size_t i = 0; i < list.size(); ++i)
@@ -200,19 +192,19 @@ void read_constraints(Fields& fields, Scene& scene) {
   try {
     stabilization_of(scene.stabilize);
   } catch (const Error& error) {
-    problem_at(fields, "stabilize", error.what());
+    fields.problem_at("stabilize", error.what());
   }
   const YAML::Node baumgarte = fields.find("baumgarte");
   if (baumgarte.IsDefined() && !baumgarte.IsMap()) {
-    problem_at(fields, "baumgarte", "'baumgarte' must hold its gain in 1/s: {gain: 10}");
+    fields.problem_at("baumgarte", "'baumgarte' must hold its gain in 1/s: {gain: 10}");
   } else if (baumgarte.IsDefined()) {
     Fields inner(fields.document(), baumgarte, fields.path("baumgarte"), fields.problems());
     inner.read("gain", scene.baumgarte_gain);
     if (!(scene.baumgarte_gain > 0))
-      problem_at(inner, "gain", "'baumgarte.gain' must be above 0 1/s; some 10 is good");
+      inner.problem_at("gain", "'baumgarte.gain' must be above 0 1/s; some 10 is good");
     inner.finish();
     if (scene.stabilize != "baumgarte")
-      problem_at(fields, "baumgarte",
+      fields.problem_at("baumgarte",
                  "'baumgarte' means nothing with stabilize: " + scene.stabilize +
                      ": write `stabilize: baumgarte`, or leave it out");
   }

@@ -13,12 +13,12 @@ namespace {
 constexpr std::array<const char*, 4> kUnits = {"px", "m", "rad", "relative"};
 // What doubles hold of a motion's size, and of an angle: some roundings. What metres are to a mechanism shows when it
 // is there.
-constexpr double kLeast = 1e-15;    // relative, rad
+constexpr double kLeastShare = 1e-15;    // relative, rad
 constexpr double kLeastPx = 1e-12;  // a page is 1080 px high
 
 std::optional<double> least_of(const std::string& unit) {
   if (unit == "m") return {};
-  return unit == "px" ? kLeastPx : kLeast;
+  return unit == "px" ? kLeastPx : kLeastShare;
 }
 
 }  // namespace

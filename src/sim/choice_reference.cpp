@@ -13,7 +13,7 @@ namespace {
 // Of the budget, for one run. What methods may do between the samples is bounded: steps of this part of the distance of
 // samples see what comes and goes within it. The second reference's steps end elsewhere.
 constexpr double kShareOfRun = 0.12;
-constexpr double kLongestStep = 0.5, kOtherLongestStep = 0.31;
+constexpr double kReferenceStep = 0.5, kOtherStep = 0.31;
 constexpr int kEvaluationsOfStep = 12;  // of dop853
 // A reference of another kind is less exact: it is contradicted only by what its own error does not explain.
 constexpr double kExplained = 10;
@@ -104,7 +104,7 @@ class Finder {
     for (const MethodSetting& setting : witnesses()) {
       if (ended.size() == 2 || runs_.is_stopped()) break;
       if (setting.method == too_dear) continue;
-      Witness one{setting, run(setting, ended.empty() ? kLongestStep : kOtherLongestStep)};
+      Witness one{setting, run(setting, ended.empty() ? kReferenceStep : kOtherStep)};
       if (one.run.status == RunStatus::out_of_budget) too_dear = setting.method;
       (came_to_an_end(one.run) ? ended : others).push_back(std::move(one));
     }
@@ -175,7 +175,7 @@ class Finder {
     std::optional<Trajectory> coarser;
     for (const double tolerance : kOtherKind) {
       const MethodSetting setting{method, {tolerance, 0}, 0};
-      Trajectory other = run(setting, kLongestStep);
+      Trajectory other = run(setting, kReferenceStep);
       if (!came_to_an_end(other)) return;
       const std::optional<int> parting = contradiction(first.run, other, coarser, reference.samples);
       if (!parting) {

@@ -5,12 +5,12 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/scalar.hpp"
 #include "sim/choice_reference.hpp"
 
 namespace chainreel {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kStepLadder[] = {0.2,  0.1,  0.05, 0.02, 0.01, 5e-3, 2e-3,
                                   1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5};
 constexpr double kToleranceLadder[] = {1e-2, 1e-3, 1e-4,  1e-5,  1e-6,  1e-7,

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "core/scalar.hpp"
 #include "dynamics/kinematics.hpp"
 
 namespace chainreel {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kPixels = 1080;      // a page's height
 constexpr double kFitMargin = 0.06;   // of the box, on every side
 constexpr double kPage = 16.0 / 9.0;  // width over height

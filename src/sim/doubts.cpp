@@ -12,7 +12,7 @@
 namespace chainreel {
 namespace {
 
-constexpr double kRounding = 1e-10;     // of all energies at play: below it an audit error says nothing
+constexpr double kAuditRounding = 1e-10;     // of all energies at play: below it an audit error says nothing
 constexpr int kSteps = 32;              // that are taken again
 constexpr double kNotable = 1e-3;       // of the fastest freedom's rate: slower ones are measured by it
 constexpr double kStill = 1e-9;         // rad/s or m/s: no motion
@@ -47,7 +47,7 @@ std::optional<Doubt> doubt_energy(const Simulation& simulation, const Trajectory
   const auto& steps = trajectory.energy_at_steps;  // without what the frames between them miss
   const double error = steps ? steps->largest_error : audit.largest_error;
   const double time = steps ? steps->time : audit.largest_error_time;
-  if (!(error > kDoubtfulEnergy * audit.energy_moved && error > kRounding * at_play)) return {};
+  if (!(error > kDoubtfulEnergy * audit.energy_moved && error > kAuditRounding * at_play)) return {};
   const double part = error / audit.energy_moved;
   const double factor = std::pow(kAim * kDoubtfulEnergy / part, 1.0 / simulation.method->order);
   return Doubt{"energy", part,

@@ -12,7 +12,7 @@ namespace chainreel {
 namespace {
 
 // Small against the start, large against rounding.
-constexpr double kPerturbation = 1e-9;
+constexpr double kPush = 1e-9;
 constexpr int kLooks = 200;  // at rates and their changes
 
 EndState run(Simulation& simulation, const MethodSetting& setting) {
@@ -39,7 +39,7 @@ double amplification_of(Simulation& simulation, const MethodSetting& setting, co
     if (start == &simulation.q0 && simulation.chain.has_floating) continue;
     for (double& x : *start) {
       const double x0 = x;
-      x = x0 + kPerturbation;
+      x = x0 + kPush;
       const double moved = x - x0;
       largest = std::max(largest, apart(run(simulation, setting).q, end.q) / moved);
       x = x0;

@@ -1,9 +1,9 @@
 #include "sim/linear_modes.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "core/dense.hpp"
 #include "dynamics/constraint_rows.hpp"
 #include "integrate/stability_limit.hpp"
 #include "sim/chain_system.hpp"
@@ -54,10 +54,7 @@ Eigen::MatrixXd free_directions(ChainSystem& system, const Simulation& simulatio
   compute_constraints(simulation.chain, system.workspace(), set, cws, simulation.q0, simulation.qd0);
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const Eigen::MatrixXd Jc = Eigen::Map<const Rows>(cws.Jc.data(), set.rows(), n);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(Jc, Eigen::ComputeFullV);
-  const Eigen::VectorXd& values = svd.singularValues();
-  const Eigen::Index rank = (values.array() > kSameRow * values.maxCoeff()).count();
-  return svd.matrixV().rightCols(n - rank);
+  return null_space(Jc, kSameRow);
 }
 
 // What differences leave where there is nothing: it would make slow rates of none.
@@ -99,7 +96,7 @@ Linearisation linearise(const Simulation& simulation) {
     start.trouble = "constraints leave nothing free";
     return start;
   }
-  start.motion = without_noise({T.transpose() * slopes.K * T, T.transpose() * slopes.D * T});
+  start.motion = without_noise({product(T.transpose(), product(slopes.K, T)), product(T.transpose(), product(slopes.D, T))});
   start.rates = rates_of(*start.motion);
   if (start.rates.empty()) start.trouble = "nothing swings or decays about the start";
   const double force = std::max(1.0, slopes.K.cwiseAbs().maxCoeff());

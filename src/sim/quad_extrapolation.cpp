@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kFirstStep = 0.05;  // s
 constexpr double kSafety = 0.8, kSlowest = 0.2, kFastest = 2;
-constexpr double kLost = 1e-12;  // s
+constexpr double kShortest = 1e-12;  // s
 
 }  // namespace
 
@@ -90,7 +90,7 @@ bool QuadExtrapolation::run_to(Quad end) {
       if (!last || factor < 1) h_ = h * factor;
     } else {
       h_ = h * std::min(factor, 0.9);
-      if (h_ < kLost) return false;
+      if (h_ < kShortest) return false;
     }
   }
   return true;

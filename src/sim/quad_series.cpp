@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kLastTerms = 4;
 constexpr double kLongestStep = 0.25;  // s; also where the last terms are all missing
-constexpr double kLost = 1e-12;        // s
+constexpr double kShortestStep = 1e-12;        // s
 
 }  // namespace
 
@@ -43,7 +43,7 @@ bool QuadSeries::run_to(Quad end) {
     ++expansions_;
     series_.expand(t_, q_, v_, order_, c_);
     const Quad longest = longest_step();
-    if (longest < kLost) return false;
+    if (longest < kShortestStep) return false;
     const bool last = t_ + longest >= end;
     const Quad h = last ? end - t_ : longest;
     for (std::size_t i = 0; i < n_; ++i) {

@@ -6,13 +6,13 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/scalar.hpp"
 #include "sim/audit.hpp"
 #include "sim/cost_table.hpp"
 
 namespace chainreel {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLeastStep = 1e-7;  // s
 // A ladder ends where errors this small do not get smaller any more: what is left is rounding.
 constexpr int kRungsOfRounding = 2;

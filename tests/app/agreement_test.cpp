@@ -15,15 +15,9 @@
 namespace chainreel {
 namespace {
 
-using Words = std::vector<std::string>;
 using testing::HasSubstr;
 
 const std::string kModels = CHAINREEL_SOURCE_FOLDER "/models/";
-
-Words with(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
 
 Json json_of(const Words& words) {
   const ProgramResult result = run_program(words);
@@ -55,7 +49,7 @@ constexpr const char* kMimicTree = R"(<robot name="follower">
 </robot>
 )";
 
-class Agreement : public testing::Test {
+class Agreement : public ::testing::Test {
  protected:
   std::string scene(const std::string& text) { return folder_.write("scene" + std::to_string(++count_) + ".yaml", text); }
 

@@ -15,8 +15,9 @@
 namespace chainreel::test {
 namespace {
 
-namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
+
+namespace fs = std::filesystem;
 
 // Chaos has not begun anywhere.
 constexpr int kFrame = 72;

@@ -43,8 +43,8 @@ Expectation expectation_of(const std::string& path) {
   return expected;
 }
 
-class BadScene : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Folder, BadScene, testing::ValuesIn(bad_scenes()),
+class BadScene : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Folder, BadScene, ::testing::ValuesIn(bad_scenes()),
                          [](const auto& p) { return p.param; });
 
 TEST_P(BadScene, GivesItsMessagePlaceAndExitCode) {

@@ -16,6 +16,7 @@
 #include "picture/theme.hpp"
 #include "render/vector_cairo.hpp"
 #include "render/vector_svg.hpp"
+#include "support/fonts.hpp"
 #include "support/picture_compare.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
@@ -24,11 +25,6 @@ namespace chainreel {
 namespace {
 
 constexpr int kWidth = 960, kHeight = 540;
-
-const Fonts& fonts() {
-  static const Fonts opened;
-  return opened;
-}
 
 // On the page's background, so that what is transparent can be compared, too: Cairo's opacity is
 // premultiplied.
@@ -101,9 +97,9 @@ constexpr int kFlatOfOpenFill = 17;
 constexpr const char* kWithOpenFill[] = {"layers_all",    "ellipse_row",   "ellipse_superposed_row",
                                          "ellipse_field", "ellipse_along", "ellipse_grid"};
 
-class TwoRenderers : public testing::TestWithParam<test::AnyPicture> {};
+class TwoRenderers : public ::testing::TestWithParam<test::AnyPicture> {};
 
-INSTANTIATE_TEST_SUITE_P(All, TwoRenderers, testing::ValuesIn(test::all_pictures()),
+INSTANTIATE_TEST_SUITE_P(All, TwoRenderers, ::testing::ValuesIn(test::all_pictures()),
                          [](const auto& p) { return p.param.name; });
 
 TEST_P(TwoRenderers, DifferAtEdgesAlone) {

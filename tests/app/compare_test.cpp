@@ -31,7 +31,7 @@ video: {width: 320, height: 180}
 text_scale: 1.5
 )";
 
-class CompareFilm : public testing::Test {
+class CompareFilm : public ::testing::Test {
  protected:
   std::string scene(const std::string& panels) const {
     std::string text = kScene;

@@ -16,7 +16,7 @@
 namespace chainreel {
 namespace {
 
-constexpr int kWidth = 640, kHeight = 360;
+constexpr int kDarkWidth = 640, kDarkHeight = 360;
 // The same pixels are expected everywhere; processors without FMA differ by 1 in a few bytes, and another
 // build of FreeType may move a glyph's edge.
 constexpr PictureTolerance kSame{.max = 24, .mean = 0.05};
@@ -26,13 +26,13 @@ Image picture_of(const std::string& name, const std::string& theme) {
   const auto& all = test::all_pictures();
   const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
   if (found == all.end()) throw std::logic_error("no picture is called " + name);
-  return rasterise(found->draw({theme, kWidth, kHeight, 1.5}, fonts), kWidth, kHeight, fonts);
+  return rasterise(found->draw({theme, kDarkWidth, kDarkHeight, 1.5}, fonts), kDarkWidth, kDarkHeight, fonts);
 }
 
-class InTheDark : public testing::TestWithParam<const char*> {};
+class InTheDark : public ::testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(Kinds, InTheDark,
-                         testing::Values("rr_ellipse", "euler_gains_energy", "compare_layers", "plots_right",
+                         ::testing::Values("rr_ellipse", "euler_gains_energy", "compare_layers", "plots_right",
                                          "poses_rr", "ellipse_row", "ellipse_field", "ellipse_along",
                                          "ellipse_joint_space", "energy_chart", "stability_map", "arm_section"),
                          [](const auto& p) { return std::string(p.param); });

@@ -21,11 +21,11 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr char kScene[] = "assets/scenes/ghost_euler.yaml";
+constexpr char kGhostScene[] = "assets/scenes/ghost_euler.yaml";
 
 // A film of variants, at hand with its runs.
 struct Ghosts {
-  explicit Ghosts(const std::vector<std::string>& overrides, const std::string& scene = kScene)
+  explicit Ghosts(const std::vector<std::string>& overrides, const std::string& scene = kGhostScene)
       : prepared(load_film(scene, overrides)),
         times(frame_times(prepared.scene)),
         runs(simulate_film(prepared, times)),

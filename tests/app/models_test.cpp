@@ -15,26 +15,19 @@ namespace {
 
 using testing::HasSubstr;
 
-using Words = std::vector<std::string>;
-
-Words with(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
-Json dynamics(const Words& more) {
+Json dynamics_of_rr(const Words& more) {
   const ProgramResult result = run_program(with({"dynamics", "models/rr.urdf", "--q", "0,90deg", "--json"}, more));
   EXPECT_EQ(result.status, 0) << result.err;
   return result.status == 0 ? Json::parse(result.out) : Json{};
 }
 
 TEST(ModelKeys, OfTheMechanismActOnDynamics) {
-  EXPECT_NEAR(dynamics({})["tau_g"][0].get<double>(), 2 * 9.81, 1e-13);
-  EXPECT_EQ(dynamics({"--set", "gravity=[0, 0, 0]"})["tau_g"][0], 0);
-  EXPECT_NEAR(dynamics({"--set", "gravity=[0, -1.62, 0]"})["tau_g"][0].get<double>(), 2 * 1.62, 1e-14);
-  EXPECT_EQ(dynamics({"--gravity", "0,0,0"})["tau_g"][0], 0);
-  EXPECT_EQ(dynamics({"--set", "end_effector=link1"})["end_effector"], "link1");
-  EXPECT_EQ(dynamics({"--end-effector", "link1"})["J"], dynamics({"--set", "end_effector=link1"})["J"]);
+  EXPECT_NEAR(dynamics_of_rr({})["tau_g"][0].get<double>(), 2 * 9.81, 1e-13);
+  EXPECT_EQ(dynamics_of_rr({"--set", "gravity=[0, 0, 0]"})["tau_g"][0], 0);
+  EXPECT_NEAR(dynamics_of_rr({"--set", "gravity=[0, -1.62, 0]"})["tau_g"][0].get<double>(), 2 * 1.62, 1e-14);
+  EXPECT_EQ(dynamics_of_rr({"--gravity", "0,0,0"})["tau_g"][0], 0);
+  EXPECT_EQ(dynamics_of_rr({"--set", "end_effector=link1"})["end_effector"], "link1");
+  EXPECT_EQ(dynamics_of_rr({"--end-effector", "link1"})["J"], dynamics_of_rr({"--set", "end_effector=link1"})["J"]);
 }
 
 constexpr const char* kRough = R"(<robot name="rough">

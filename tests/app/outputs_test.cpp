@@ -50,7 +50,7 @@ std::size_t rows_of(const std::string& text) {
 }
 
 // Every output of one scene, in one pass; made once for the tests that look at it.
-class OnePass : public testing::Test {
+class OnePass : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;

@@ -27,7 +27,7 @@ std::vector<std::string> scene_names() {
   return names;
 }
 
-class EveryScene : public testing::TestWithParam<std::string> {
+class EveryScene : public ::testing::TestWithParam<std::string> {
  protected:
   EveryScene()
       : prepared_(load_film("assets/scenes/" + GetParam() + ".yaml",
@@ -76,7 +76,7 @@ class EveryScene : public testing::TestWithParam<std::string> {
   Film film_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Assets, EveryScene, testing::ValuesIn(scene_names()),
+INSTANTIATE_TEST_SUITE_P(Assets, EveryScene, ::testing::ValuesIn(scene_names()),
                          [](const auto& p) { return p.param; });
 
 TEST_P(EveryScene, RunsToTheEndThatItExpects) {

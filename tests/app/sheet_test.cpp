@@ -34,8 +34,8 @@ std::vector<std::string> small(const std::string& file, const std::string& theme
           "360", "--theme", theme,  "--text-scale", "1.5",     "--json"};
 }
 
-class SheetInTheme : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Themes, SheetInTheme, testing::Values("light", "dark"),
+class SheetInTheme : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Themes, SheetInTheme, ::testing::Values("light", "dark"),
                          [](const auto& p) { return p.param; });
 
 TEST_P(SheetInTheme, LooksLikeItsGolden) {

@@ -46,7 +46,7 @@ std::vector<std::vector<double>> table_of(const std::string& csv) {
   return rows;
 }
 
-class SlowMotionFilm : public testing::Test {
+class SlowMotionFilm : public ::testing::Test {
  protected:
   std::string scene(const std::string& more) const { return folder_.write("falls.yaml", kFalling + more); }
   // Writes falls.ENDING for each.

@@ -12,14 +12,7 @@ namespace chainreel {
 namespace {
 
 using testing::HasSubstr;
-using Words = std::vector<std::string>;
-
-Words with(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
-class OnTheCommandLine : public testing::Test {
+class OnTheCommandLine : public ::testing::Test {
  protected:
   Image snapshot(const Words& more, const std::string& model = "models/arm.urdf") {
     const std::string file = folder_.file("a.png");

@@ -11,19 +11,15 @@
 #include "app/pipeline.hpp"
 #include "draw/film.hpp"
 #include "picture/theme.hpp"
+#include "support/fonts.hpp"
 
 namespace chainreel {
 namespace {
 
-constexpr int kWidth = 1920, kHeight = 1080;
+constexpr int kWide = 1920, kHigh = 1080;
 // Coverage is rounded to 1/255 and summed over hundreds of pixels; shapes are exact in their middle. Discs
 // and lines are found within a few hundredths of a pixel: a tenth is what nobody sees.
 constexpr double kSubPixel = 0.1;
-
-const Fonts& fonts() {
-  static const Fonts opened;
-  return opened;
-}
 
 // How much of `b` there is on the way from `a` to `b`.
 double part_of(Pixel p, Color a, Color b) {
@@ -45,7 +41,7 @@ class Still {
     const Film pictures = film_of(film, runs, times, int(times.size()), fonts());
     Picture picture = pictures.static_layer();
     picture.append(pictures.frame(0));
-    image_ = rasterise(picture, kWidth, kHeight, fonts());
+    image_ = rasterise(picture, kWide, kHigh, fonts());
     origin_ = pictures.camera().origin;
     scale_ = pictures.camera().scale;
     per_kg_ = pictures.ellipse_scale().per_unit();
@@ -53,16 +49,16 @@ class Still {
   }
 
   const Theme& theme() const { return theme_; }
-  double pixels_per_metre() const { return scale_ * kHeight; }
-  double pixels_per_kg() const { return per_kg_ * kHeight; }
+  double pixels_per_metre() const { return scale_ * kHigh; }
+  double pixels_per_kg() const { return per_kg_ * kHigh; }
   Point at(double x, double y) const {
-    return {(origin_.x + scale_ * x) * kHeight, (1 - origin_.y - scale_ * y) * kHeight};
+    return {(origin_.x + scale_ * x) * kHigh, (1 - origin_.y - scale_ * y) * kHigh};
   }
 
   // Ellipses have no part in the fit: some end beyond the scene.
   bool shows(Point p, double air) const {
-    return p.x > area_.x0 * kHeight + air && p.x < area_.x1 * kHeight - air &&
-           p.y > (1 - area_.y1) * kHeight + air && p.y < (1 - area_.y0) * kHeight - air;
+    return p.x > area_.x0 * kHigh + air && p.x < area_.x1 * kHigh - air &&
+           p.y > (1 - area_.y1) * kHigh + air && p.y < (1 - area_.y0) * kHigh - air;
   }
 
   Pixel pixel(Point p) const { return image_.at(int(p.x), int(p.y)); }
@@ -125,8 +121,8 @@ double apart(Point a, Point b) {
 // longer.
 constexpr double kOblique = 0.15;
 
-class Pixels : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Themes, Pixels, testing::Values("light", "dark"));
+class Pixels : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Themes, Pixels, ::testing::Values("light", "dark"));
 
 // RR with links of 1 m: elbow and gripper.
 Point elbow(double q1) {
@@ -143,11 +139,11 @@ TEST_P(Pixels, HaveJointsAndGripperOfRrWhereItsFormulaSays) {
     const Point end = tip(q1, q2), bend = elbow(q1);
     // The gripper is a disc of ink on the second link's fill; its outline is farther away than the radius
     // looked at.
-    const double reach = 0.6 * size::kEndEffector * kHeight;
+    const double reach = 0.6 * size::kEndEffector * kHigh;
     const Point gripper = still.middle(still.at(end.x, end.y), reach, theme.link[1], theme.ink);
     EXPECT_LT(apart(gripper, still.at(end.x, end.y)), kSubPixel);
     // A joint is a dot of ink on a disc of the background's colour.
-    const double inside = 0.3 * size::kJointDisc * kHeight;
+    const double inside = 0.3 * size::kJointDisc * kHigh;
     const Point joint = still.middle(still.at(bend.x, bend.y), inside, theme.background, theme.ink);
     EXPECT_LT(apart(joint, still.at(bend.x, bend.y)), kSubPixel);
     const Point root = still.middle(still.at(0, 0), inside, theme.background, theme.ink);
@@ -187,7 +183,7 @@ TEST_P(Pixels, HaveLinksOfRrAlongTheirLines) {
     for (const double part : {0.3, 0.5, 0.7}) {
       const Point on = begin + part * elbow(angle), axis = still.at(on.x, on.y);
       // Fill between two outlines: the middle of what is not the background is the axis.
-      const double reach = size::kLinkWidth * kHeight;
+      const double reach = size::kLinkWidth * kHigh;
       const Still::OnRay width =
           still.along(axis, across, -reach, reach, theme.background, theme.link[std::size_t(link)]);
       const Still::OnRay inner = still.along(axis, across, -0.15 * reach, 0.15 * reach, theme.background,
@@ -207,7 +203,7 @@ TEST_P(Pixels, HaveTheGripperOfPpWhereItsCoordinatesSay) {
     const Still still("pp_free", std::to_string(x) + ", " + std::to_string(y), GetParam(), "chain");
     const Theme& theme = still.theme();
     const Point gripper =
-        still.middle(still.at(x, y), 0.6 * size::kEndEffector * kHeight, theme.link[1], theme.ink);
+        still.middle(still.at(x, y), 0.6 * size::kEndEffector * kHigh, theme.link[1], theme.ink);
     EXPECT_LT(apart(gripper, still.at(x, y)), kSubPixel);
     EXPECT_GT(apart(gripper, still.at(x + 1 / still.pixels_per_metre(), y)),
               0.5);  // negative control: a pixel on
@@ -229,7 +225,7 @@ TEST_P(Pixels, HaveTheAxesOfTheEllipseWhereTheMassMatrixSays) {
                       "ellipse");
     const Theme& theme = still.theme();
     const Point end = tip(0, known.q2), center = still.at(end.x, end.y);
-    const double line = size::kEllipseLine * kHeight;
+    const double line = size::kEllipseLine * kHigh;
     int axes_seen = 0, curve_seen = 0;
     for (const int axis : {0, 1, 2, 3}) {
       const double angle = known.angle + axis * std::numbers::pi / 2;

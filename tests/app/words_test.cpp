@@ -10,6 +10,7 @@
 #include "app/print_pictures.hpp"
 #include "draw/sheet.hpp"
 #include "picture/theme.hpp"
+#include "support/fonts.hpp"
 
 namespace chainreel {
 namespace {
@@ -17,11 +18,6 @@ namespace {
 using test::AnyPicture;
 using test::PictureLook;
 using test::Written;
-
-const Fonts& fonts() {
-  static const Fonts opened;
-  return opened;
-}
 
 // Ink may lean over its advance by a side bearing, and letters hang below base lines that keep the margin.
 constexpr double kBearing = 0.004, kDescent = 0.25;
@@ -90,9 +86,9 @@ std::vector<std::string> faults_of(const Picture& picture, double text_scale) {
   return faults;
 }
 
-class EveryPicture : public testing::TestWithParam<AnyPicture> {};
+class EveryPicture : public ::testing::TestWithParam<AnyPicture> {};
 
-INSTANTIATE_TEST_SUITE_P(All, EveryPicture, testing::ValuesIn(test::all_pictures()),
+INSTANTIATE_TEST_SUITE_P(All, EveryPicture, ::testing::ValuesIn(test::all_pictures()),
                          [](const auto& p) { return p.param.name; });
 
 // 1280 x 720 has the page of 1920 x 1080; its letters are as many parts of the height.

@@ -28,7 +28,7 @@ double difference_of_accelerations(const Chain& chain) {
   Engine engine(chain);
   Reference reference(chain);
   double largest = 0;
-  for (const testing::State& state : states_of(chain)) {
+  for (const test::State& state : states_of(chain)) {
     engine.set(state);
     engine.forward_dynamics();
     reference.set(state);
@@ -46,7 +46,7 @@ double difference_of_steps(const Chain& chain) {
   Engine engine(chain);
   Reference reference(chain);
   double largest = 0;
-  for (const testing::State& state : states_of(chain)) {
+  for (const test::State& state : states_of(chain)) {
     engine.start(state);
     reference.start(state);
     for (int k = 0; k < kComparedSteps; ++k) {

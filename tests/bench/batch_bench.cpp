@@ -45,19 +45,19 @@ class Mujoco {
 
  private:
   MujocoEngine engine_;
-  testing::State start_;
+  test::State start_;
 };
 
 struct Timed {
   Timed(const Chain& chain, InstructionSet given) : set(given), batch(chain, kInstances, given) {
-    testing::Random random(1);
+    test::Random random(1);
     for (int i = 0; i < kInstances; ++i) {
       Chain other = chain;
       for (std::size_t b = 1; b < other.bodies.size(); ++b)
         other.bodies[b].inertia.mass *= random.between(0.5, 2);
-      testing::finish(other);
+      test::finish(other);
       batch.set_chain(i, other);
-      const testing::State state = testing::random_state(chain, random);
+      const test::State state = test::random_state(chain, random);
       batch.set_state(i, state.q, state.qd);
       batch.set_torque(i, state.tau);
       batch.set_step(i, random.between(1e-4, 1e-3));
@@ -117,8 +117,8 @@ void measure(const char* name, const Chain& chain, double goal, Results& results
 void run() {
   Results results("batch", {"chain", "instruction_set", "median_ns_per_step", "ratio_to_mujoco", "goal",
                             "instances_that_differ"});
-  measure("RR", testing::rr_chain(), 200, results);
-  measure("RRR", testing::rrr_chain(), 130, results);
+  measure("RR", test::rr_chain(), 200, results);
+  measure("RRR", test::rrr_chain(), 130, results);
   results.write();
 }
 

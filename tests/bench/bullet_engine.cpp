@@ -74,7 +74,7 @@ BulletEngine::BulletEngine(const Chain& chain) : body_(std::make_unique<Body>(in
 
 BulletEngine::~BulletEngine() = default;
 
-void BulletEngine::set(const testing::State& state) {
+void BulletEngine::set(const test::State& state) {
   for (int i = 0; i < body_->links; ++i) {
     const auto k = std::size_t(i);
     body_->multibody.setJointPosMultiDof(i, &state.q[k]);

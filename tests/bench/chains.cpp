@@ -14,10 +14,10 @@ std::vector<NamedChain> timed_chains() {
           {"arm7", read_chain(root + "/tests/bench/models/arm7.urdf", options)}};
 }
 
-std::vector<testing::State> states_of(const Chain& chain) {
-  testing::Random random(7);
-  std::vector<testing::State> states;
-  for (std::size_t k = 0; k < kStates; ++k) states.push_back(testing::random_state(chain, random));
+std::vector<test::State> states_of(const Chain& chain) {
+  test::Random random(7);
+  std::vector<test::State> states;
+  for (std::size_t k = 0; k < kStates; ++k) states.push_back(test::random_state(chain, random));
   return states;
 }
 

@@ -19,6 +19,6 @@ std::vector<NamedChain> timed_chains();
 
 // As many as a call after another goes round, so that no branch is learnt by heart.
 inline constexpr std::size_t kStates = 64;  // a power of two
-std::vector<testing::State> states_of(const Chain& chain);
+std::vector<test::State> states_of(const Chain& chain);
 
 }  // namespace chainreel::bench

@@ -42,9 +42,9 @@ class Ours {
       : chain_(given.chain), set_(chain_, given.ties), ws_(chain_), cws_(chain_, set_) {}
 
   // A random state on the constraints.
-  testing::State state(testing::Random& random) {
+  test::State state(test::Random& random) {
     for (int tries = 0; tries < 1000; ++tries) {
-      testing::State s = testing::random_state(chain_, random);
+      test::State s = test::random_state(chain_, random);
       if (!project_positions(chain_, ws_, set_, cws_, s.q).reached) continue;
       project_velocities(chain_, ws_, set_, cws_, s.q, s.qd);
       return s;
@@ -52,13 +52,13 @@ class Ours {
     throw std::runtime_error("no state on the constraints was found");
   }
 
-  const std::vector<double>& qdd_of(const testing::State& s) {
+  const std::vector<double>& qdd_of(const test::State& s) {
     status_ = compute_constrained_dynamics(chain_, ws_, set_, cws_, s.q, s.qd, s.tau);
     return ws_.qdd;
   }
   ConstraintStatus status() const { return status_; }
 
-  double residual(const testing::State& s, const std::vector<double>& qdd) {
+  double residual(const test::State& s, const std::vector<double>& qdd) {
     compute_constraints(chain_, ws_, set_, cws_, s.q, s.qd);
     const auto nv = std::size_t(chain_.nv);
     double largest = 0;
@@ -97,7 +97,7 @@ class Mujoco {
       sleigh.joint.X_PJ = Eigen::Isometry3d(Eigen::Translation3d(tie.point));
       sleigh.inertia.mass = 1e-6;
       chain.bodies.push_back(sleigh);
-      testing::finish(chain);
+      test::finish(chain);
       place.setZero();
     } else {
       place = std::get<PointConstraint>(given.ties.front()).at;
@@ -112,7 +112,7 @@ class Mujoco {
       chain_->connect(int(k), ours.tip().X_BF.translation(), place);
   }
 
-  void set(const testing::State& s, const Eigen::Vector3d& tip_place) {
+  void set(const test::State& s, const Eigen::Vector3d& tip_place) {
     mjData* d = chain_->data();
     const auto all = std::size_t(chain_->model()->nv);
     for (std::size_t i = 0; i < nv_; ++i) {
@@ -144,13 +144,13 @@ double lowest_of(const std::vector<double>& values) {
 void measure(const Case& one, Results& results) {
   Ours ours(one);
   Mujoco mujoco(one, ours);
-  testing::Random random(17);
-  std::vector<testing::State> states;
+  test::Random random(17);
+  std::vector<test::State> states;
   for (int k = 0; k < kCheckedStates; ++k) states.push_back(ours.state(random));
   Workspace ws(one.chain);
   std::vector<Eigen::Vector3d> tips;
   double residual = 0, their_residual = 0;
-  for (const testing::State& s : states) {
+  for (const test::State& s : states) {
     const std::vector<double> qdd = ours.qdd_of(s);
     if (ours.status() != ConstraintStatus::regular && ours.status() != ConstraintStatus::redundant)
       throw std::runtime_error(one.name + ": " + to_string(ours.status()));

@@ -45,7 +45,7 @@ DartEngine::DartEngine(const Chain& chain) : body_(std::make_unique<Body>()) {
 
 DartEngine::~DartEngine() = default;
 
-void DartEngine::set(const testing::State& state) {
+void DartEngine::set(const test::State& state) {
   const auto as_vector = [this](const std::vector<double>& numbers) -> const Eigen::VectorXd& {
     for (std::size_t i = 0; i < numbers.size(); ++i) body_->vector[Eigen::Index(i)] = numbers[i];
     return body_->vector;

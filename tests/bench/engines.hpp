@@ -36,9 +36,9 @@ class OurEngine {
   static EngineInfo info();
   explicit OurEngine(const Chain& chain);
 
-  void set(const testing::State& state) { state_ = &state; }
+  void set(const test::State& state) { state_ = &state; }
   void forward_dynamics() { compute_forward_dynamics(chain_, ws_, state_->q, state_->qd, state_->tau); }
-  void start(const testing::State& state);
+  void start(const test::State& state);
   void step(double h) { stepper_->step(*system_, 0, h, q_, qd_); }
 
   std::vector<double> qdd() const { return ws_.qdd; }
@@ -48,7 +48,7 @@ class OurEngine {
  private:
   const Chain& chain_;
   Workspace ws_;
-  const testing::State* state_ = nullptr;
+  const test::State* state_ = nullptr;
   std::unique_ptr<TorqueLaw> torque_;
   std::unique_ptr<ChainSystem> system_;
   std::unique_ptr<Stepper> stepper_;
@@ -60,9 +60,9 @@ class MujocoEngine {
   static EngineInfo info();
   explicit MujocoEngine(const Chain& chain) : chain_(chain) {}
 
-  void set(const testing::State& state);
+  void set(const test::State& state);
   void forward_dynamics() { mj_forward(chain_.model(), chain_.data()); }
-  void start(const testing::State& state) { set(state); }
+  void start(const test::State& state) { set(state); }
   void step(double h);
 
   std::vector<double> qdd();
@@ -79,9 +79,9 @@ class BulletEngine {
   explicit BulletEngine(const Chain& chain);
   ~BulletEngine();
 
-  void set(const testing::State& state);
+  void set(const test::State& state);
   void forward_dynamics();
-  void start(const testing::State& state) { set(state); }
+  void start(const test::State& state) { set(state); }
   void step(double h);
 
   std::vector<double> qdd() const;
@@ -99,9 +99,9 @@ class DartEngine {
   explicit DartEngine(const Chain& chain);
   ~DartEngine();
 
-  void set(const testing::State& state);
+  void set(const test::State& state);
   void forward_dynamics();
-  void start(const testing::State& state) { set(state); }
+  void start(const test::State& state) { set(state); }
   void step(double h);
 
   std::vector<double> qdd() const;

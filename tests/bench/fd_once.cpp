@@ -13,10 +13,10 @@ namespace {
 int run(const std::string& name, long calls) {
   for (const NamedChain& named : timed_chains()) {
     if (named.name != name) continue;
-    const std::vector<testing::State> states = states_of(named.chain);
+    const std::vector<test::State> states = states_of(named.chain);
     Workspace ws(named.chain);
     for (long i = 0; i < calls; ++i) {
-      const testing::State& state = states[std::size_t(i) % kStates];
+      const test::State& state = states[std::size_t(i) % kStates];
       compute_forward_dynamics(named.chain, ws, state.q, state.qd, state.tau);
     }
     std::printf("%g\n", ws.qdd[0]);

@@ -29,10 +29,10 @@ double processor_seconds() {
 }
 
 struct Timed {
-  explicit Timed(int n) : links(n), chain(testing::planar_serial_chain(n)), ws(chain) {
+  explicit Timed(int n) : links(n), chain(test::planar_serial_chain(n)), ws(chain) {
     if (!chain.planar) throw std::logic_error("the chain ought to be planar");
-    testing::Random random(1);
-    state = testing::random_state(chain, random);
+    test::Random random(1);
+    state = test::random_state(chain, random);
   }
 
   // ns per joint
@@ -46,7 +46,7 @@ struct Timed {
   int links;
   Chain chain;
   Workspace ws;
-  testing::State state;
+  test::State state;
   std::vector<double> ns;
 };
 

@@ -7,7 +7,7 @@ EngineInfo MujocoEngine::info() {
   return {"MuJoCo", mj_versionString(), "mj_forward", "mj_step (Euler)"};
 }
 
-void MujocoEngine::set(const testing::State& state) {
+void MujocoEngine::set(const test::State& state) {
   mjData* d = chain_.data();
   for (std::size_t i = 0; i < state.q.size(); ++i) {
     d->qpos[i] = state.q[i];

@@ -11,7 +11,7 @@ OurEngine::OurEngine(const Chain& chain) : chain_(chain), ws_(chain) {
   stepper_ = find_method("semi_implicit_euler").make_stepper(chain.nq, chain.nv);
 }
 
-void OurEngine::start(const testing::State& state) {
+void OurEngine::start(const test::State& state) {
   q_ = state.q;
   qd_ = state.qd;
   std::vector<TorqueEntry> entries(state.tau.size());

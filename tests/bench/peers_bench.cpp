@@ -37,7 +37,7 @@ const std::map<std::string, double> kGoals = {{"RR/fd", 40},    {"RR/step", 28},
 template <class Engine>
 void time_forward_dynamics(benchmark::State& loop, const Chain& chain) {
   Engine engine(chain);
-  const std::vector<testing::State> states = states_of(chain);
+  const std::vector<test::State> states = states_of(chain);
   std::size_t k = 0;
   for (auto _ : loop) {
     engine.set(states[k]);
@@ -50,7 +50,7 @@ template <class Engine>
 void time_step(benchmark::State& loop, const Chain& chain) {
   Engine engine(chain);
   // The torques of a random state would wind the chain up.
-  testing::State start = states_of(chain).front();
+  test::State start = states_of(chain).front();
   start.tau.assign(start.tau.size(), 0);
   engine.start(start);
   int k = 0;

@@ -34,7 +34,7 @@ std::vector<std::string> with_size(std::vector<std::string> arguments) {
 }
 
 // The pages and the browser are made once for all tests.
-class GalleryPage : public testing::Test {
+class GalleryPage : public ::testing::Test {
  protected:
   // What goes wrong here must fail every test: gtest itself would skip them.
   static void SetUpTestSuite() {

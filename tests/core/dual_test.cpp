@@ -9,7 +9,7 @@
 namespace chainreel {
 namespace {
 
-using testing::Numbers;
+using test::Numbers;
 
 // Every function and operator, each as a template over the scalar.
 template <class T>
@@ -75,7 +75,7 @@ TEST(Dual, ValuesAreThoseOfTheScalarToTheBit) {
   for (std::size_t i = 0; i < functions<double>().size(); ++i) {
     const auto& [name, f] = functions<double>()[i];
     const Dual<double> dual = functions<Dual<double>>()[i].second({1.3, 1}, {0.7, -2});
-    EXPECT_TRUE(testing::same_bits(dual.re, f(1.3, 0.7))) << name;
+    EXPECT_TRUE(test::same_bits(dual.re, f(1.3, 0.7))) << name;
   }
 }
 

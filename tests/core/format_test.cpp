@@ -12,7 +12,7 @@ namespace chainreel {
 namespace {
 
 TEST(Format, ShortestAndExactTextsReadBackAsTheSameDouble) {
-  testing::Numbers numbers(31);
+  test::Numbers numbers(31);
   for (int i = 0; i < 5000; ++i) {
     const double value = i % 2 == 0 ? numbers.any() : numbers.between(-10, 10);
     ASSERT_EQ(parse_number(format_shortest(value)), value);
@@ -21,7 +21,7 @@ TEST(Format, ShortestAndExactTextsReadBackAsTheSameDouble) {
 }
 
 TEST(Format, SixteenDigitsWouldNotReadBack) {
-  testing::Numbers numbers(32);
+  test::Numbers numbers(32);
   int lost = 0;
   for (int i = 0; i < 1000; ++i) {
     const double value = numbers.between(1, 10);

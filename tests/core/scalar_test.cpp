@@ -7,9 +7,9 @@
 namespace chainreel {
 namespace {
 
-using testing::error_in_ulps;
-using testing::Numbers;
-using testing::same_bits;
+using test::error_in_ulps;
+using test::Numbers;
+using test::same_bits;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 

@@ -13,7 +13,7 @@
 
 #include "core/scalar.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 
 inline double ulp_of(double value) {
   int exponent = 0;
@@ -53,4 +53,4 @@ class Numbers {
   std::mt19937_64 bits_;  // its sequence is fixed by the standard, unlike that of the distributions
 };
 
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

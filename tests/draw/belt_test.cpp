@@ -12,35 +12,35 @@
 namespace chainreel {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kPerDegree = std::numbers::pi / 180;
 constexpr double kPerKg = 0.05;
 const Point kCenter{0.8, 0.5};
 
-struct Drawn {
+struct DrawnBelt {
   std::vector<MassAxis> axes;
   Picture picture;
 
-  Drawn(const std::vector<double>& q, EllipseReading reading, double per_unit = kPerKg) {
+  DrawnBelt(const std::vector<double>& q, EllipseReading reading, double per_unit = kPerKg) {
     const Chain chain = test::model("rr");
     Workspace ws(chain);
     axes = mass_axes(effective_mass_of(chain, ws, q, chain.end_effector, Task::linear));
     draw(reading, per_unit, {});
   }
-  Drawn(std::vector<MassAxis> of, const Camera& camera, double per_unit) : axes(std::move(of)) {
+  DrawnBelt(std::vector<MassAxis> of, const Camera& camera, double per_unit) : axes(std::move(of)) {
     draw(EllipseReading::belt, per_unit, camera);
   }
 
   void draw(EllipseReading reading, double per_unit, const Camera& camera) {
     draw_mass_ellipse(picture, axes, kCenter, camera,
-                      {&light_theme(), &test::fonts(), 1, per_unit, {0.045, 0.11, 1.73, 0.87}, reading}, -1);
+                      {&light_theme(), &fonts(), 1, per_unit, {0.045, 0.11, 1.73, 0.87}, reading}, -1);
   }
 };
 
-std::vector<TrailPoint> outline_of(const Drawn& drawn) {
+std::vector<TrailPoint> outline_of(const DrawnBelt& drawn) {
   return test::all_of<Trail>(drawn.picture).at(0).points;
 }
 
-const std::vector<double> kFolded{0, 150 * kDegree};
+const std::vector<double> kFolded{0, 150 * kPerDegree};
 
 // 1 / (u^T Lambda_inv u) from the closed form.
 double felt(Point u) {
@@ -53,7 +53,7 @@ double ellipse_radius(Point u) {
 }
 
 TEST(Belt, IsTheMassFeltAlongEachDirection) {
-  const Drawn drawn(kFolded, EllipseReading::belt);
+  const DrawnBelt drawn(kFolded, EllipseReading::belt);
   const auto outlines = test::all_of<Trail>(drawn.picture);
   ASSERT_EQ(outlines.size(), 1u);
   ASSERT_GT(outlines[0].points.size(), 40u);
@@ -66,7 +66,7 @@ TEST(Belt, IsTheMassFeltAlongEachDirection) {
 }
 
 TEST(Belt, LiesOutsideTheEllipseAndTouchesItAtTheAxes) {
-  const Drawn drawn(kFolded, EllipseReading::belt);
+  const DrawnBelt drawn(kFolded, EllipseReading::belt);
   double nearest = 10, farthest = 0, ratio_between = 0;
   for (const TrailPoint& point : outline_of(drawn)) {
     const Point r = point.p - kCenter, u = (1 / test::length(r)) * r;
@@ -84,7 +84,7 @@ TEST(Belt, LiesOutsideTheEllipseAndTouchesItAtTheAxes) {
 
 // Negative control: what the test above measures is 1 for the ellipse itself.
 TEST(Belt, IsNotTheEllipse) {
-  const Ellipse e = test::all_of<Ellipse>(Drawn(kFolded, EllipseReading::mass).picture).at(0);
+  const Ellipse e = test::all_of<Ellipse>(DrawnBelt(kFolded, EllipseReading::mass).picture).at(0);
   const Point p = std::sqrt(0.5) * (e.u + e.v), u = (1 / test::length(p)) * p;
   EXPECT_NEAR(test::length(p), kPerKg * ellipse_radius(u), 1e-12);
   EXPECT_LT(test::length(p), 0.9 * kPerKg * felt(u));
@@ -94,7 +94,7 @@ TEST(Belt, IsNotTheEllipse) {
 // lambda_max / 2.
 TEST(Belt, HasAWaistWhereTheMinorMassIsLessThanHalfTheMajorOne) {
   const auto widest = [](double major) {
-    const Drawn drawn({{major, Eigen::Vector3d::UnitX()}, {1, Eigen::Vector3d::UnitY()}}, {}, 0.05);
+    const DrawnBelt drawn({{major, Eigen::Vector3d::UnitX()}, {1, Eigen::Vector3d::UnitY()}}, {}, 0.05);
     double most = 0;
     for (const TrailPoint& point : outline_of(drawn))
       most = std::max(most, point.p.y - kCenter.y);
@@ -106,7 +106,7 @@ TEST(Belt, HasAWaistWhereTheMinorMassIsLessThanHalfTheMajorOne) {
 }
 
 TEST(Belt, IsFilledOnceEverywhereInside) {
-  const Drawn drawn(kFolded, EllipseReading::belt);
+  const DrawnBelt drawn(kFolded, EllipseReading::belt);
   double area = 0;
   for (const Polygon& piece : test::all_of<Polygon>(drawn.picture)) {
     double twice = 0;
@@ -123,7 +123,7 @@ TEST(Belt, IsFilledOnceEverywhereInside) {
 }
 
 TEST(Belt, IsOpenAtASingularPose) {
-  const Drawn drawn({0, 0}, EllipseReading::belt);
+  const DrawnBelt drawn({0, 0}, EllipseReading::belt);
   EXPECT_EQ(test::words_of(drawn.picture), "\u221E\u221E");
   EXPECT_TRUE(test::all_finite(drawn.picture));
   const auto outlines = test::all_of<Trail>(drawn.picture);
@@ -146,7 +146,7 @@ TEST(Belt, IsOpenAtASingularPose) {
 TEST(Belt, InSpaceHasTheSilhouetteOfItsSurface) {
   const std::vector<MassAxis> axes{
       {5, Eigen::Vector3d::UnitX()}, {1, Eigen::Vector3d::UnitY()}, {1, Eigen::Vector3d::UnitZ()}};
-  const Drawn drawn(axes, {}, 0.05);
+  const DrawnBelt drawn(axes, {}, 0.05);
   const auto outlines = test::all_of<Trail>(drawn.picture);
   ASSERT_EQ(outlines.size(), 4u);  // the silhouette and three principal belts
   for (const TrailPoint& point : outlines[0].points) {
@@ -165,7 +165,7 @@ TEST(Belt, InSpaceHasTheSilhouetteOfItsSurface) {
 }
 
 TEST(EnergyEllipse, HasSemiAxesOfOneOverTheRoots) {
-  const Ellipse e = test::all_of<Ellipse>(Drawn(kFolded, EllipseReading::energy).picture).at(0);
+  const Ellipse e = test::all_of<Ellipse>(DrawnBelt(kFolded, EllipseReading::energy).picture).at(0);
   EXPECT_NEAR(test::length(e.u), kPerKg / 1, 1e-12);
   EXPECT_NEAR(test::length(e.v), kPerKg / std::sqrt(5.0), 1e-12);
   // The long one lies where mass is least: along (1, sqrt 3) / 2.
@@ -173,7 +173,7 @@ TEST(EnergyEllipse, HasSemiAxesOfOneOverTheRoots) {
 }
 
 TEST(EnergyEllipse, IsASegmentAtASingularPose) {
-  const Drawn drawn({0, 0}, EllipseReading::energy);
+  const DrawnBelt drawn({0, 0}, EllipseReading::energy);
   EXPECT_TRUE(test::all_of<Ellipse>(drawn.picture).empty());
   EXPECT_EQ(test::words_of(drawn.picture), "");
   const auto lines = test::all_of<Capsule>(drawn.picture);

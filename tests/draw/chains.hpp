@@ -11,13 +11,9 @@
 #include "model/read_chain.hpp"
 #include "picture/text.hpp"
 #include "sim/trajectory.hpp"
+#include "support/fonts.hpp"
 
 namespace chainreel::test {
-
-inline const Fonts& fonts() {
-  static const Fonts opened;
-  return opened;
-}
 
 inline Chain model(const std::string& name, const Eigen::Vector3d& gravity = {0, -9.81, 0}) {
   ModelOptions options;

@@ -10,6 +10,7 @@
 #include "draw/chart_samples.hpp"
 #include "draw/shapes.hpp"
 #include "render/canvas.hpp"
+#include "support/fonts.hpp"
 #include "support/picture_compare.hpp"
 
 namespace chainreel {
@@ -18,11 +19,6 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 using namespace test;
-
-const Fonts& fonts() {
-  static const Fonts opened;
-  return opened;
-}
 
 ChartLook look_of(const Theme& theme, double text_scale = 1) {
   return {16.0 / 9.0, text_scale, &theme, &fonts()};

@@ -9,6 +9,7 @@
 #include "draw/sheet.hpp"
 #include "picture/place_picture.hpp"
 #include "render/canvas.hpp"
+#include "support/fonts.hpp"
 #include "support/picture_compare.hpp"
 
 namespace chainreel {
@@ -16,11 +17,6 @@ namespace {
 
 constexpr double kAspect = 16.0 / 9.0;
 constexpr double kRoundOff = 1e-12;
-
-const Fonts& fonts() {
-  static const Fonts opened;
-  return opened;
-}
 
 ContactSheetLook look(double text_scale = 1, int columns = 0) {
   return {kAspect, columns, text_scale, &light_theme(), &fonts()};

@@ -14,8 +14,8 @@
 namespace chainreel {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-const std::vector<std::vector<double>> kPoses{{0, 90 * kDegree}, {0.4, 150 * kDegree}, {1, 60 * kDegree}};
+constexpr double kOneDegree = std::numbers::pi / 180;
+const std::vector<std::vector<double>> kPoses{{0, 90 * kOneDegree}, {0.4, 150 * kOneDegree}, {1, 60 * kOneDegree}};
 
 bool is_mass_ellipse(const Ellipse& e) {
   return e.paint.stroke == light_theme().ellipse && e.paint.fill.a > 0;
@@ -34,7 +34,7 @@ PoseFigureOptions with_layout(const std::string& layout) {
 // Ellipses stand at the tips: one camera takes all tips of unit links to the page, to a thousandth of a pixel at 1080.
 TEST(Superposed, HasEveryEllipseAtItsTipWithItsOwnAxes) {
   const Picture picture =
-      draw_ellipse_figure(TipMass(test::model("rr")), kPoses, with_layout("superposed"), test::fonts());
+      draw_ellipse_figure(TipMass(test::model("rr")), kPoses, with_layout("superposed"), fonts());
   const auto ellipses = test::all_of<Ellipse>(picture, is_mass_ellipse);
   ASSERT_EQ(ellipses.size(), 3u);
   const Point a = tip_of_rr(kPoses[0]), b = tip_of_rr(kPoses[1]), c = tip_of_rr(kPoses[2]);
@@ -45,13 +45,13 @@ TEST(Superposed, HasEveryEllipseAtItsTipWithItsOwnAxes) {
   const double per_kg = test::length(ellipses[0].v);
   EXPECT_NEAR(std::abs(ellipses[0].u.y), 2 * per_kg, 1e-12);
   EXPECT_NEAR(test::length(ellipses[1].u), 5 * per_kg, 1e-12);
-  const double angle = 150 * kDegree + 0.4;
+  const double angle = 150 * kOneDegree + 0.4;
   EXPECT_NEAR(std::abs(ellipses[1].u.x * std::cos(angle) + ellipses[1].u.y * std::sin(angle)), 5 * per_kg, 1e-12);
 }
 
 TEST(Superposed, ShowsChainsAsOnionSkinsAndEllipsesInFull) {
   const Picture picture =
-      draw_ellipse_figure(TipMass(test::model("rr")), kPoses, with_layout("superposed"), test::fonts());
+      draw_ellipse_figure(TipMass(test::model("rr")), kPoses, with_layout("superposed"), fonts());
   const auto links = test::all_of<Capsule>(
       picture, [](const Capsule& c) { return c.paint.stroke_width == size::kLinkOutline && c.paint.fill.a == 1; });
   ASSERT_EQ(links.size(), 6u);
@@ -64,7 +64,7 @@ TEST(EllipseFigure, PutsAllPosesIntoOneRowWhereItIsToldTo) {
   const std::vector<std::vector<double>> six(6, kPoses[0]);
   const auto rows = [&](const std::string& layout) {
     std::vector<double> bottoms;
-    for (const Rect& r : draw_ellipse_figure(TipMass(test::model("rr")), six, with_layout(layout), test::fonts()).clips)
+    for (const Rect& r : draw_ellipse_figure(TipMass(test::model("rr")), six, with_layout(layout), fonts()).clips)
       if (std::none_of(bottoms.begin(), bottoms.end(), [&](double y) { return std::abs(y - r.y0) < 1e-9; }))
         bottoms.push_back(r.y0);
     return bottoms.size();
@@ -81,7 +81,7 @@ TEST(EllipseFigure, HasWholeEllipsesOfAllOrdinaryPosesOnEveryPage) {
   };
   const std::vector<Case> cases{
       {"rrr", {{0, 0.6, 0.6}, {0.3, 2.2, 0.4}, {1, 0.4, -1.8}, {0.2, 2.5, -2.5}}},
-      {"rr", {{0, 15 * kDegree}, {0.4, 150 * kDegree}, {1, 60 * kDegree}, {0, 3 * kDegree}}},
+      {"rr", {{0, 15 * kOneDegree}, {0.4, 150 * kOneDegree}, {1, 60 * kOneDegree}, {0, 3 * kOneDegree}}},
   };
   for (const auto& [model, poses] : cases)
     for (const auto& [width, height] : {std::pair{1000, 1000}, {1920, 1080}, {1080, 1920}})
@@ -95,7 +95,7 @@ TEST(EllipseFigure, HasWholeEllipsesOfAllOrdinaryPosesOnEveryPage) {
         std::size_t ordinary = 0;
         for (const Pose& pose : poses_of(mass, poses, options, ws)) ordinary += is_ordinary(pose.axes) ? 1 : 0;
         EXPECT_GE(ordinary, 2u) << model;
-        const Picture picture = draw_ellipse_figure(mass, poses, options, test::fonts());
+        const Picture picture = draw_ellipse_figure(mass, poses, options, fonts());
         EXPECT_GE(test::all_of<Ellipse>(picture, is_mass_ellipse).size(), ordinary) << model << " " << layout << width;
         EXPECT_THAT(test::words_of(picture), testing::Not(testing::HasSubstr("\u221E")));
       }
@@ -108,7 +108,7 @@ TEST(EllipseFigure, HasAllReadings) {
       options.reading = reading;
       std::vector<std::vector<double>> poses = kPoses;
       poses.push_back({0, 0});
-      const Picture picture = draw_ellipse_figure(TipMass(test::model("rr")), poses, options, test::fonts());
+      const Picture picture = draw_ellipse_figure(TipMass(test::model("rr")), poses, options, fonts());
       EXPECT_TRUE(test::all_finite(picture));
       const std::string words = test::words_of(picture);
       EXPECT_THAT(words, testing::HasSubstr(ellipse_legend(reading).substr(0, 12)));
@@ -124,7 +124,7 @@ TEST(Field, KeepsEachEllipseInItsCell) {
   // A stretched chain among them: an open ellipse.
   std::vector<std::vector<double>> poses{{0, 0}};
   for (const double q2 : {0.8, 1.2, 1.6, 2.0}) poses.push_back({-0.5, q2});
-  const Picture picture = draw_ellipse_figure(TipMass(test::model("rr")), poses, options, test::fonts());
+  const Picture picture = draw_ellipse_figure(TipMass(test::model("rr")), poses, options, fonts());
   // The whole scene, and a cell for each.
   ASSERT_EQ(picture.clips.size(), 6u);
   const double side = picture.clips[1].width();
@@ -147,7 +147,7 @@ TEST(Field, KeepsEachEllipseInItsCell) {
 TEST(JointSpace, ShowsTheImageOfTheUnitCircle) {
   // M = [[3, 1], [1, 1]] at (0, 90 deg): eigenvalues 2 +- sqrt 2.
   const Picture picture =
-      draw_joint_space_figure(test::model("rr"), {{0, 90 * kDegree}}, {0, 1}, {}, test::fonts());
+      draw_joint_space_figure(test::model("rr"), {{0, 90 * kOneDegree}}, {0, 1}, {}, fonts());
   const auto ellipses = test::all_of<Ellipse>(picture, is_mass_ellipse);
   ASSERT_EQ(ellipses.size(), 2u);
   const double radius = test::length(ellipses[0].u);
@@ -163,7 +163,7 @@ TEST(JointSpace, ShowsTheImageOfTheUnitCircle) {
 
 TEST(JointSpace, OfSlidesHasTheirUnits) {
   const std::string words = test::words_of(
-      draw_joint_space_figure(test::model("pp"), {{0, 0}}, {0, 1}, {}, test::fonts()));
+      draw_joint_space_figure(test::model("pp"), {{0, 0}}, {0, 1}, {}, fonts()));
   EXPECT_THAT(words, testing::HasSubstr("acceleration 1 [m/s\u00B2]"));
   EXPECT_THAT(words, testing::HasSubstr("force 1 [N]"));
 }
@@ -172,11 +172,11 @@ TEST(JointSpace, OfSlidesHasTheirUnits) {
 TEST(JointSpace, TakesTheJointsThatAreNamed) {
   const auto ratio = [](std::array<int, 2> joints) {
     const auto ellipses = test::all_of<Ellipse>(
-        draw_joint_space_figure(test::model("rrr"), {{0, 1, 1}}, joints, {}, test::fonts()), is_mass_ellipse);
+        draw_joint_space_figure(test::model("rrr"), {{0, 1, 1}}, joints, {}, fonts()), is_mass_ellipse);
     return test::length(ellipses.at(1).u) / test::length(ellipses.at(1).v);
   };
   EXPECT_GT(std::abs(ratio({0, 1}) - ratio({1, 2})), 0.1);
-  EXPECT_THROW(draw_joint_space_figure(test::model("rr"), std::vector<std::vector<double>>(4, {0, 1}), {0, 1}, {}, test::fonts()), Error);
+  EXPECT_THROW(draw_joint_space_figure(test::model("rr"), std::vector<std::vector<double>>(4, {0, 1}), {0, 1}, {}, fonts()), Error);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ Point closed_form_tip(const Film& film, double t) {
       {std::cos(q[0]) + std::cos(q[0] + q[1]), std::sin(q[0]) + std::sin(q[0] + q[1]), 0});
 }
 
-class RrFilm : public testing::Test {
+class RrFilm : public ::testing::Test {
  protected:
   Chain chain = test::model("rr");
   Trajectory run = test::run_of(test::swing, 300);
@@ -39,7 +39,7 @@ class RrFilm : public testing::Test {
 };
 
 TEST_F(RrFilm, ShowsTheGripperWhereTheClosedFormSays) {
-  const Film film(scene, chain, run, run.size(), test::fonts());
+  const Film film(scene, chain, run, run.size(), fonts());
   for (const int k : {0, 17, 150, 299}) {
     const auto discs = grippers(film.frame(k));
     ASSERT_EQ(discs.size(), 1u);
@@ -51,7 +51,7 @@ TEST_F(RrFilm, ShowsTheGripperWhereTheClosedFormSays) {
 
 TEST_F(RrFilm, DrawsTheGripperAboveAllThatIsInTheScene) {
   scene.draw.push_back("ellipse");
-  const Film film(scene, chain, run, run.size(), test::fonts());
+  const Film film(scene, chain, run, run.size(), fonts());
   const Picture picture = film.frame(40);
   std::size_t gripper = 0;
   for (std::size_t i = 0; i < picture.items.size(); ++i) {
@@ -66,7 +66,7 @@ TEST_F(RrFilm, DrawsTheGripperAboveAllThatIsInTheScene) {
 }
 
 TEST_F(RrFilm, HasOneCameraThatHoldsAllFramesTightly) {
-  const Film film(scene, chain, run, run.size(), test::fonts());
+  const Film film(scene, chain, run, run.size(), fonts());
   const Rect& area = film.scene_area();
   Rect seen{1e9, 1e9, -1e9, -1e9};
   const auto see = [&](Point p, double r) {
@@ -94,13 +94,13 @@ TEST_F(RrFilm, HasOneCameraThatHoldsAllFramesTightly) {
 }
 
 TEST_F(RrFilm, DoesNotLetTheEllipseIntoTheFit) {
-  const double scale = Film(scene, chain, run, run.size(), test::fonts()).camera().scale;
+  const double scale = Film(scene, chain, run, run.size(), fonts()).camera().scale;
   scene.draw.push_back("ellipse");  // its bar stands in the footer, which is there for the time anyway
-  EXPECT_EQ(Film(scene, chain, run, run.size(), test::fonts()).camera().scale, scale);
+  EXPECT_EQ(Film(scene, chain, run, run.size(), fonts()).camera().scale, scale);
 }
 
 TEST_F(RrFilm, StaticLayerHoldsWhatNoFrameChanges) {
-  const Film film(scene, chain, run, run.size(), test::fonts());
+  const Film film(scene, chain, run, run.size(), fonts());
   const std::string words = test::words_of(film.static_layer());
   EXPECT_THAT(words, testing::HasSubstr("RR swings"));
   EXPECT_EQ(test::words_of(film.frame(60)), "t = 1.00 s");
@@ -114,18 +114,18 @@ TEST_F(RrFilm, StaticLayerHoldsWhatNoFrameChanges) {
 
 TEST_F(RrFilm, DrawsOnlyTheLayersThatTheSceneNames) {
   scene.draw = {"chain"};
-  const Film chain_only(scene, chain, run, run.size(), test::fonts());
+  const Film chain_only(scene, chain, run, run.size(), fonts());
   EXPECT_EQ(test::words_of(chain_only.static_layer()) + test::words_of(chain_only.frame(90)), "");
   EXPECT_TRUE(test::all_of<Trail>(chain_only.frame(90)).empty());
   scene.draw = {"trail"};
-  const Film trail_only(scene, chain, run, run.size(), test::fonts());
+  const Film trail_only(scene, chain, run, run.size(), fonts());
   EXPECT_TRUE(trail_only.static_layer().items.empty());
   EXPECT_EQ(test::all_of<Trail>(trail_only.frame(90)).size(), 1u);
   EXPECT_TRUE(test::all_of<Capsule>(trail_only.frame(90)).empty());
 }
 
 TEST_F(RrFilm, TrailOfAFrameIsItsLastSecond) {
-  const Film film(scene, chain, run, run.size(), test::fonts());
+  const Film film(scene, chain, run, run.size(), fonts());
   const auto points = test::all_of<Trail>(film.frame(200)).at(0).points;
   // At frames the trail has the closed form's places; its ends are frames here.
   EXPECT_LT(test::distance(points.front().p, closed_form_tip(film, 140 / 60.0)), 1e-9);
@@ -135,7 +135,7 @@ TEST_F(RrFilm, TrailOfAFrameIsItsLastSecond) {
 TEST_F(RrFilm, DrawsTheTrailAboveCarriedRailsAndBelowSliders) {
   const Chain pp = test::model("pp");
   const Trajectory slide = test::run_of([](double t) { return std::vector<double>{t, std::sin(t)}; }, 120);
-  const Film film(scene, pp, slide, slide.size(), test::fonts());
+  const Film film(scene, pp, slide, slide.size(), fonts());
   std::vector<char> order;
   const Picture picture = film.frame(100);
   for (const Item& item : picture.items) {
@@ -148,7 +148,7 @@ TEST_F(RrFilm, DrawsTheTrailAboveCarriedRailsAndBelowSliders) {
 
 TEST_F(RrFilm, NamesItsEllipseAndItsScale) {
   scene.draw.insert(scene.draw.end(), {"ellipse", "legend"});
-  const Film film(scene, chain, run, run.size(), test::fonts());
+  const Film film(scene, chain, run, run.size(), fonts());
   const std::string words = test::words_of(film.static_layer());
   EXPECT_THAT(words, testing::HasSubstr("effective mass ellipse"));
   EXPECT_THAT(words, testing::HasSubstr(" kg"));
@@ -174,17 +174,17 @@ TEST_F(RrFilm, NamesItsEllipseAndItsScale) {
 }
 
 TEST_F(RrFilm, IsNotSpoiltByTheWildEndOfADivergedRun) {
-  const double scale = Film(scene, chain, run, run.size(), test::fonts()).camera().scale;
+  const double scale = Film(scene, chain, run, run.size(), fonts()).camera().scale;
   const Chain pp = test::model("pp");
   Trajectory wild = test::run_of([](double t) { return std::vector<double>{t, 0.5 * t}; }, 60);
-  const double calm_scale = Film(scene, pp, wild, wild.size(), test::fonts()).camera().scale;
+  const double calm_scale = Film(scene, pp, wild, wild.size(), fonts()).camera().scale;
   for (const double q : {1e12, 1e200, std::nan("")}) {
     wild.t.push_back(wild.t.back() + 1 / 60.0);
     wild.q.insert(wild.q.end(), {q, -q});
     wild.qd.insert(wild.qd.end(), {q, q});
   }
   wild.status = RunStatus::diverged;
-  const Film film(scene, pp, wild, wild.size(), test::fonts());
+  const Film film(scene, pp, wild, wild.size(), fonts());
   EXPECT_EQ(film.camera().scale, calm_scale);
   for (const int k : {59, 60, 61, 62}) EXPECT_TRUE(test::all_finite(film.frame(k)));
   EXPECT_GT(scale, 0);
@@ -195,23 +195,23 @@ TEST_F(RrFilm, IsNotSpoiltByTheWildEndOfADivergedRun) {
   wild.q.resize(122);
   wild.qd.resize(122);
   wild.t.resize(61);
-  EXPECT_LT(Film(scene, pp, wild, wild.size(), test::fonts()).camera().scale, 0.01 * calm_scale);
+  EXPECT_LT(Film(scene, pp, wild, wild.size(), fonts()).camera().scale, 0.01 * calm_scale);
 }
 
 TEST_F(RrFilm, StandsStillBehindItsLastSample) {
-  const Film film(scene, chain, run, 10000, test::fonts());
+  const Film film(scene, chain, run, 10000, fonts());
   EXPECT_EQ(grippers(film.frame(9999)).at(0).center.x, grippers(film.frame(299)).at(0).center.x);
   EXPECT_EQ(test::words_of(film.frame(9999)), time_text(299 / 60.0));
 }
 
 TEST_F(RrFilm, NeedsAFrame) {
-  EXPECT_THROW(Film(scene, chain, run, 0, test::fonts()), Error);
+  EXPECT_THROW(Film(scene, chain, run, 0, fonts()), Error);
 }
 
 TEST_F(RrFilm, TellsWhichSceneHasATitleThatDoesNotFit) {
   scene.title = std::string(150, 'm');
   try {
-    const Film film(scene, chain, run, run.size(), test::fonts());
+    const Film film(scene, chain, run, run.size(), fonts());
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), testing::StartsWith("scenes/test.yaml: the title"));
@@ -219,9 +219,9 @@ TEST_F(RrFilm, TellsWhichSceneHasATitleThatDoesNotFit) {
 }
 
 TEST_F(RrFilm, GrowsItsLettersWithTextScale) {
-  const Film small(scene, chain, run, run.size(), test::fonts());
+  const Film small(scene, chain, run, run.size(), fonts());
   scene.text_scale = 1.5;
-  const Film large(scene, chain, run, run.size(), test::fonts());
+  const Film large(scene, chain, run, run.size(), fonts());
   const auto size_of = [](const Film& film) { return test::all_of<GlyphRun>(film.frame(0)).at(0).size; };
   EXPECT_NEAR(size_of(large), 1.5 * size_of(small), 1e-12);
   EXPECT_LT(large.scene_area().height(), small.scene_area().height());

@@ -85,7 +85,7 @@ std::vector<double> turns(const Picture& picture, Color color) {
   return found;
 }
 
-class LayerFilm : public testing::Test {
+class LayerFilm : public ::testing::Test {
  protected:
   LayerFilm() {
     scene.title = "Layers";
@@ -104,7 +104,7 @@ class LayerFilm : public testing::Test {
   void make_rr() { make("rr", {"10*sin(2*t)", "-3"}, test::swing); }
 
   Film film() const {
-    return Film(scene, {{scene, simulation.chain, run, &simulation}}, run.t, test::fonts());
+    return Film(scene, {{scene, simulation.chain, run, &simulation}}, run.t, fonts());
   }
   void draw(const std::vector<std::string>& more) {
     scene.draw.insert(scene.draw.end(), more.begin(), more.end());
@@ -137,7 +137,9 @@ TEST_F(LayerFilm, VelocityIsAsLongAsItsShareOfTheFastestAndBeginsAtTheTip) {
   for (int k = 0; k < run.size(); ++k) {
     const Vector3d v = rr_velocity(run.t[std::size_t(k)]);
     const auto drawn = arrows(pictures.frame(k), light.velocity);
-    if (0.20 * v.norm() / fastest < 0.012 - 1e-6) EXPECT_TRUE(drawn.empty()) << k;
+    if (0.20 * v.norm() / fastest < 0.012 - 1e-6) {
+      EXPECT_TRUE(drawn.empty()) << k;
+    }
     if (0.20 * v.norm() / fastest < 0.012 + 1e-6) continue;
     ASSERT_EQ(drawn.size(), 1u) << k;
     const auto q = test::swing(run.t[std::size_t(k)]);
@@ -277,7 +279,7 @@ TEST_F(LayerFilm, ConstraintForceIsDashedAndActsOnTheRobot) {
 TEST(VectorPen, CutsWhatTheScaleCannotShowAndSaysSo) {
   VectorScales scales;
   scales.peaks.largest[std::size_t(VectorKind::velocity)] = 2;
-  const VectorPen pen(light_theme(), test::fonts(), 1, scales, 1);
+  const VectorPen pen(light_theme(), fonts(), 1, scales, 1);
   for (const double value : {1.0, 2.4, 2.6, 1e9}) {
     WorldVector v;
     v.value = {value, 0, 0};
@@ -295,7 +297,7 @@ TEST(VectorPen, CutsWhatTheScaleCannotShowAndSaysSo) {
 TEST(VectorPen, TurnsInSpaceLieOnTheCircleAsTheCameraSeesIt) {
   VectorScales scales;
   scales.peaks.largest[std::size_t(VectorKind::torque)] = 1;
-  const VectorPen pen(light_theme(), test::fonts(), 1, scales, 1);
+  const VectorPen pen(light_theme(), fonts(), 1, scales, 1);
   Camera camera;  // along -z
   WorldVector v;
   v.kind = VectorKind::torque;
@@ -490,7 +492,7 @@ TEST_F(LayerFilm, AMassMatrixThatFindsNoCornerStandsBesideTheScene) {
 }
 
 TEST_F(LayerFilm, MassesKeepTheirSignAndTheirScale) {
-  const MassMap map(2, "kg m^2", 4, light, test::fonts(), 1);
+  const MassMap map(2, "kg m^2", 4, light, fonts(), 1);
   EXPECT_EQ(map.number(-1.234), "\u22121.23");
   EXPECT_EQ(map.number(-0.001), "0.00");
   EXPECT_EQ(map.color_at(0), light.background);
@@ -519,7 +521,7 @@ TEST_F(LayerFilm, TheEquationTakesTheColoursOfItsVectors) {
 TEST_F(LayerFilm, TorquesNeedTheirSimulation) {
   make_rr();
   draw({"torque"});
-  EXPECT_THROW(Film(scene, simulation.chain, run, run.size(), test::fonts()), std::logic_error);
+  EXPECT_THROW(Film(scene, simulation.chain, run, run.size(), fonts()), std::logic_error);
 }
 
 TEST_F(LayerFilm, DarkPicturesHaveNoLightThemesColours) {
@@ -546,13 +548,13 @@ class LayerGolden : public LayerFilm {
  protected:
   void expect_golden(const std::string& name) {
     scene.text_scale = 1.5;
-    scene.video = {640, 360, {}};
+    scene.video.width = 640, scene.video.height = 360, scene.video.fps = {};
     for (const char* theme : {"light", "dark"}) {
       scene.theme = theme;
       const Film pictures = film();
       Picture picture = pictures.static_layer();
       picture.append(pictures.frame(72));
-      Canvas canvas(640, 360, test::fonts());
+      Canvas canvas(640, 360, fonts());
       Image image;
       canvas.draw(picture, image);
       EXPECT_TRUE(matches_golden(image, name + "_" + theme, {.max = 24, .mean = 0.05}));

@@ -21,7 +21,7 @@ std::vector<double> growing(double t) {
   return {0, std::exp(3 * t) * std::cos(9 * t)};
 }
 
-class PanelFilm : public testing::Test {
+class PanelFilm : public ::testing::Test {
  protected:
   PanelFilm() {
     page.title = "Whole";
@@ -44,7 +44,7 @@ class PanelFilm : public testing::Test {
     for (std::size_t i = 0; i < runs.size(); ++i) panels.push_back({*scenes[i], chain, *runs[i]});
     std::vector<double> times;
     for (int k = 0; k < kFrames; ++k) times.push_back(frame_time(k, {}));
-    return Film(page, panels, times, test::fonts());
+    return Film(page, panels, times, fonts());
   }
 
   static std::vector<Ellipse> grippers(const Picture& picture) {

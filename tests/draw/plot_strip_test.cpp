@@ -21,7 +21,7 @@ PlotStyle style_of(const Fonts& fonts) {
   return {&fonts, &light_theme(), 1};
 }
 
-constexpr Rect kArea{0.1, 0.1, 1.6, 0.4};
+constexpr Rect kStripArea{0.1, 0.1, 1.6, 0.4};
 
 double right_end(const Picture& picture, Color color) {
   double right = 0;
@@ -34,7 +34,7 @@ double right_end(const Picture& picture, Color color) {
 
 TEST(PlotStrip, DrawsThePastInFullAndTheFuturePale) {
   const Fonts fonts;
-  const PlotStrip strip(strip_data({run_of("a", false, {0, 1, 2, 3, 4})}, 0, 4, light_theme()), kArea,
+  const PlotStrip strip(strip_data({run_of("a", false, {0, 1, 2, 3, 4})}, 0, 4, light_theme()), kStripArea,
                         style_of(fonts));
   Picture still, moving;
   strip.draw_static(still);
@@ -49,9 +49,9 @@ TEST(PlotStrip, DrawsThePastInFullAndTheFuturePale) {
 TEST(PlotStrip, RunsThatWentWildDoNotDecideOnTheAxis) {
   const Fonts fonts;
   const auto tame = run_of("a", false, {0, 1, 2}), wild = run_of("b", true, {0, 50, 1e8});
-  const PlotStrip strip(strip_data({tame, wild}, 0, 2, light_theme()), kArea, style_of(fonts));
+  const PlotStrip strip(strip_data({tame, wild}, 0, 2, light_theme()), kStripArea, style_of(fonts));
   EXPECT_LT(strip.frame().y.high, 3);
-  const PlotStrip alone(strip_data({wild}, 0, 2, light_theme()), kArea, style_of(fonts));
+  const PlotStrip alone(strip_data({wild}, 0, 2, light_theme()), kStripArea, style_of(fonts));
   EXPECT_GT(alone.frame().y.high, 1e7);
 }
 
@@ -82,7 +82,7 @@ TEST(PlotStrip, PlotsAndSceneShareThePageWithoutOverlap) {
 TEST(PlotStrip, WhatIsConstantOrNoNumberStillHasAnAxis) {
   const Fonts fonts;
   for (const std::vector<double>& y : {std::vector<double>{5, 5, 5}, {0, 0, 0}, {NAN, NAN}}) {
-    const PlotStrip strip(strip_data({run_of("a", false, y)}, 0, 2, light_theme()), kArea, style_of(fonts));
+    const PlotStrip strip(strip_data({run_of("a", false, y)}, 0, 2, light_theme()), kStripArea, style_of(fonts));
     EXPECT_GT(strip.frame().y.high, strip.frame().y.low);
   }
 }

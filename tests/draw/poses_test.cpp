@@ -25,7 +25,7 @@ bool is_mass_ellipse(const Ellipse& e) {
 
 TEST(PoseFigure, ShowsTheLastPoseInFullAndTheOthersAsOnionSkins) {
   const Chain chain = test::model("rr");
-  const Picture picture = draw_pose_figure(chain, {{0, 0.5}, {0.4, 0.5}, {0.8, 0.5}}, {}, test::fonts());
+  const Picture picture = draw_pose_figure(chain, {{0, 0.5}, {0.4, 0.5}, {0.8, 0.5}}, {}, fonts());
   const auto links =
       test::all_of<Capsule>(picture, [](const Capsule& c) { return c.paint.stroke_width > 0; });
   ASSERT_EQ(links.size(), 6u);
@@ -40,14 +40,14 @@ TEST(PoseFigure, ShowsTheLastPoseInFullAndTheOthersAsOnionSkins) {
 }
 
 TEST(PoseFigure, NeedsAPose) {
-  EXPECT_THROW(draw_pose_figure(test::model("rr"), {}, {}, test::fonts()), Error);
-  EXPECT_THROW(draw_ellipse_figure(TipMass(test::model("rr")), {}, {}, test::fonts()), Error);
+  EXPECT_THROW(draw_pose_figure(test::model("rr"), {}, {}, fonts()), Error);
+  EXPECT_THROW(draw_ellipse_figure(TipMass(test::model("rr")), {}, {}, fonts()), Error);
 }
 
 TEST(EllipseFigure, DrawsEveryPoseAtTheSameScale) {
   const Chain chain = test::model("rr");
   const Picture picture =
-      draw_ellipse_figure(TipMass(chain), {{0, 90 * kDegree}, {0, 150 * kDegree}}, {}, test::fonts());
+      draw_ellipse_figure(TipMass(chain), {{0, 90 * kDegree}, {0, 150 * kDegree}}, {}, fonts());
   const auto ellipses = test::all_of<Ellipse>(picture, is_mass_ellipse);
   ASSERT_EQ(ellipses.size(), 2u);
   // Lambda = diag(1, 2), and eigenvalues 5 and 1.
@@ -68,7 +68,7 @@ TEST(EllipseFigure, KeepsEllipsesOfOrdinaryPosesInsideTheirPanels) {
   for (const int poses : {1, 2, 4, 5, 8}) {
     std::vector<std::vector<double>> list;
     for (int i = 0; i < poses; ++i) list.push_back({0.3 * i, (60 + 10 * i) * kDegree});
-    const Picture picture = draw_ellipse_figure(TipMass(chain), list, {}, test::fonts());
+    const Picture picture = draw_ellipse_figure(TipMass(chain), list, {}, fonts());
     ASSERT_EQ(picture.clips.size(), std::size_t(poses));
     int seen = 0;
     for (const Item& item : picture.items) {
@@ -90,7 +90,7 @@ TEST(EllipseFigure, PutsPanelsOnThePageWithoutOverlap) {
     PoseFigureOptions options;
     options.text_scale = text_scale;
     options.title = "Six times the same pose";
-    const Picture picture = draw_ellipse_figure(TipMass(chain), list, options, test::fonts());
+    const Picture picture = draw_ellipse_figure(TipMass(chain), list, options, fonts());
     for (std::size_t i = 0; i < picture.clips.size(); ++i) {
       EXPECT_TRUE(test::is_inside(Rect{0, 0, picture.aspect, 1}, picture.clips[i]));
       for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(test::overlap(picture.clips[i], picture.clips[j]));
@@ -100,7 +100,7 @@ TEST(EllipseFigure, PutsPanelsOnThePageWithoutOverlap) {
 
 TEST(EllipseFigure, LeavesTheBandOpenAndNamesTheDirectionAtASingularPose) {
   const Chain chain = test::model("rr");
-  const Picture picture = draw_ellipse_figure(TipMass(chain), {{0, 0}}, {}, test::fonts());
+  const Picture picture = draw_ellipse_figure(TipMass(chain), {{0, 0}}, {}, fonts());
   EXPECT_TRUE(test::all_of<Ellipse>(picture, is_mass_ellipse).empty());
   EXPECT_THAT(test::words_of(picture), testing::HasSubstr("\u221E"));
   EXPECT_THAT(test::words_of(picture), testing::HasSubstr("infinite along (1, 0)"));

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 // Eigenvalues of 0.37 to 5 kg: products of three matrices of condition 14.
 constexpr double kRoundOff = 1e-11;
 
-class Section : public testing::Test {
+class Section : public ::testing::Test {
  protected:
   Section() : chain(test::model("arm", {0, 0, -9.81})), ws(chain) {
     effective = effective_mass_of(chain, ws, q, chain.end_effector, Task::linear);

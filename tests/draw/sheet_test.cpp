@@ -23,14 +23,14 @@ SheetText everything() {
 }
 
 Sheet laid_out(const SheetText& text, double aspect = 16.0 / 9, double text_scale = 1) {
-  return lay_out_sheet(text, aspect, text_scale, light_theme(), test::fonts());
+  return lay_out_sheet(text, aspect, text_scale, light_theme(), fonts());
 }
 
 std::vector<Rect> ink_boxes(const Sheet& sheet, const SheetText& text) {
   std::vector<Rect> boxes;
   for (const PlacedText& placed : sheet.texts) boxes.push_back(test::shifted(placed.line.box, placed.anchor));
   const TextLine time =
-      lay_out_text(test::fonts(), text.longest_time,
+      lay_out_text(fonts(), text.longest_time,
                    {Face::label, scaled(size::kAxis, sheet.text_scale), light_theme().ink, Align::right});
   boxes.push_back(test::shifted(time.box, sheet.time_anchor));
   for (const PlacedEntry& entry : sheet.scales) {
@@ -144,14 +144,14 @@ TEST(Sheet, TakesTheFirstTorqueFormThatFits) {
       "tau = (1, 2)", "tau = 3"};
   const TextLine line = laid_out(text, 9.0 / 16).texts.at(0).line;
   EXPECT_NEAR(line.advance,
-              lay_out_math(test::fonts(), "tau = (1, 2)", {Face::math, size::kEquation}).advance, 1e-12);
+              lay_out_math(fonts(), "tau = (1, 2)", {Face::math, size::kEquation}).advance, 1e-12);
 }
 
 TEST(Time, KeepsEveryDigitInItsPlace) {
   const Sheet sheet = laid_out(everything());
   const auto right_end = [&](double t) {
     Picture picture;
-    draw_time(picture, sheet, t, test::fonts());
+    draw_time(picture, sheet, t, fonts());
     const GlyphRun run = test::all_of<GlyphRun>(picture).at(0);
     return run.origin.x + run.glyphs.back().x;
   };

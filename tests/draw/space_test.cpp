@@ -24,7 +24,7 @@ namespace {
 using Eigen::Vector3d;
 using testing::HasSubstr;
 
-constexpr double kRoundOff = 1e-12;  // lengths of a metre after some dozens of operations
+constexpr double kSpaceRoundOff = 1e-12;  // lengths of a metre after some dozens of operations
 
 // Two links that turn about z and about x, with a box, a cylinder and a sphere to be seen; stands on z = 0.
 const char* const kTwoAxes = R"(<?xml version="1.0"?>
@@ -50,7 +50,7 @@ const char* const kTwoAxes = R"(<?xml version="1.0"?>
 </robot>
 )";
 
-class Space : public testing::Test {
+class Space : public ::testing::Test {
  protected:
   Space() : path(folder.write("two_axes.urdf", kTwoAxes)), chain(read_chain(path)) {}
 
@@ -68,7 +68,7 @@ class Space : public testing::Test {
   }
   // The film's page; the scene must live as long.
   Film film(const Scene& scene, const BodyShapes* shapes) {
-    return Film(scene, {{scene, chain, run, nullptr, shapes}}, run.t, test::fonts());
+    return Film(scene, {{scene, chain, run, nullptr, shapes}}, run.t, fonts());
   }
 
   TemporaryFolder folder;
@@ -97,9 +97,9 @@ TEST_F(Space, ShapesStandWhereTheirBodiesDo) {
   const Vector3d center(-0.5 * std::cos(q[1]) * std::sin(q[0]), 0.5 * std::cos(q[1]) * std::cos(q[0]),
                         0.7 + 0.5 * std::sin(q[1]));
   const auto& m = solids.parts[2].to_view;
-  EXPECT_NEAR(m[3], camera.right.dot(center - camera.focus), kRoundOff);
-  EXPECT_NEAR(m[7], camera.up.dot(center - camera.focus), kRoundOff);
-  EXPECT_NEAR(m[11], camera.toward_viewer.dot(center - camera.focus), kRoundOff);
+  EXPECT_NEAR(m[3], camera.right.dot(center - camera.focus), kSpaceRoundOff);
+  EXPECT_NEAR(m[7], camera.up.dot(center - camera.focus), kSpaceRoundOff);
+  EXPECT_NEAR(m[11], camera.toward_viewer.dot(center - camera.focus), kSpaceRoundOff);
   EXPECT_EQ(*solids.parts[1].color, color_of(0x0000FF));
   EXPECT_FALSE(solids.parts[0].color);
 }
@@ -119,8 +119,8 @@ TEST_F(Space, PointsOfShapesProjectAsTheCameraProjectsThem) {
     const double grown = solids.scale / (1 - m[11] * solids.nearness);
     const Point at = solids.origin + grown * Point{m[3], m[7]};
     const Vector3d place = pose_of(ws, all->shapes[i].body) * all->shapes[i].X_BM.translation();
-    EXPECT_NEAR(at.x, camera.project(place).x, kRoundOff);
-    EXPECT_NEAR(at.y, camera.project(place).y, kRoundOff);
+    EXPECT_NEAR(at.x, camera.project(place).x, kSpaceRoundOff);
+    EXPECT_NEAR(at.y, camera.project(place).y, kSpaceRoundOff);
   }
 }
 
@@ -184,9 +184,9 @@ TEST_F(Space, FitSaysWhatThePageShows) {
   const Film made = film(told, nullptr);
   const Rect& area = made.scene_area();
   const Point corner = made.camera().project({-0.5, 3, 0}), top = made.camera().project({0, -2, 1});
-  EXPECT_NEAR(corner.y, area.y0, kRoundOff);
-  EXPECT_NEAR(top.y, area.y1, kRoundOff);
-  EXPECT_NEAR(top.x, (area.x0 + area.x1) / 2, kRoundOff);
+  EXPECT_NEAR(corner.y, area.y0, kSpaceRoundOff);
+  EXPECT_NEAR(top.y, area.y1, kSpaceRoundOff);
+  EXPECT_NEAR(top.x, (area.x0 + area.x1) / 2, kSpaceRoundOff);
 }
 
 TEST(View, TurnsByAzimuthAndElevation) {
@@ -195,15 +195,15 @@ TEST(View, TurnsByAzimuthAndElevation) {
   entry.azimuth = 90 * M_PI / 180;
   // A quarter turn about the plane's up: what came towards the viewer now points left.
   const Camera side = view_of(chain, entry);
-  EXPECT_LT((side.toward_viewer - Vector3d::UnitX()).norm(), kRoundOff);
-  EXPECT_LT((side.right + Vector3d::UnitZ()).norm(), kRoundOff);
+  EXPECT_LT((side.toward_viewer - Vector3d::UnitX()).norm(), kSpaceRoundOff);
+  EXPECT_LT((side.right + Vector3d::UnitZ()).norm(), kSpaceRoundOff);
   EXPECT_TRUE(is_oblique(chain, entry));
   EXPECT_FALSE(is_oblique(chain, {}));
   entry = {};
   entry.elevation = 90 * M_PI / 180;
   const Camera above = view_of(chain, entry);
-  EXPECT_LT((above.toward_viewer - Vector3d::UnitY()).norm(), kRoundOff);
-  EXPECT_LT((above.up + Vector3d::UnitZ()).norm(), kRoundOff);
+  EXPECT_LT((above.toward_viewer - Vector3d::UnitY()).norm(), kSpaceRoundOff);
+  EXPECT_LT((above.up + Vector3d::UnitZ()).norm(), kSpaceRoundOff);
 }
 
 TEST(Camera, DerivesItsProjection) {
@@ -286,7 +286,7 @@ TEST(GroundPlane, LiesAcrossGravity) {
       camera);
   ASSERT_TRUE(straight && turned);
   // Directions on the ground are chosen anew, so that the box may be wider, but no more than by its diagonal.
-  EXPECT_NEAR(turned->middle.dot(turned->up), 0, kRoundOff);
+  EXPECT_NEAR(turned->middle.dot(turned->up), 0, kSpaceRoundOff);
   EXPECT_LT(turned->radius, 1.5 * straight->radius);
   EXPECT_GT(turned->radius, straight->radius / 1.5);
 }
@@ -306,8 +306,8 @@ TEST_F(Space, ThrowsAFlatShadow) {
   compute_kinematics(chain, ws, run.q_at(30), run.qd_at(30));
   const Vector3d center = pose_of(ws, 2) * all->shapes[2].X_BM.translation();
   const double rise = solids[1].parts[2].to_view[7] - solids[0].parts[2].to_view[7];
-  EXPECT_NEAR(rise, center.z() * std::cos(20 * M_PI / 180), kRoundOff);
-  EXPECT_NEAR(solids[1].parts[2].to_view[3], solids[0].parts[2].to_view[3], kRoundOff);
+  EXPECT_NEAR(rise, center.z() * std::cos(20 * M_PI / 180), kSpaceRoundOff);
+  EXPECT_NEAR(solids[1].parts[2].to_view[3], solids[0].parts[2].to_view[3], kSpaceRoundOff);
 }
 
 TEST_F(Space, ThrowsNoShadowWhereThereIsNoGround) {
@@ -327,7 +327,7 @@ TEST_F(Space, DirectionsAreSeenAsTheyAreAtTheirPlaces) {
   const Camera seen = camera.seen_at(place);
   const Point page = camera.project_vector(direction, place);
   const Point drawn{seen.right.dot(direction), seen.up.dot(direction)};
-  EXPECT_NEAR(page.x * drawn.y - page.y * drawn.x, 0, kRoundOff);
+  EXPECT_NEAR(page.x * drawn.y - page.y * drawn.x, 0, kSpaceRoundOff);
   EXPECT_GT(page.x * drawn.x + page.y * drawn.y, 0);
   // Without the ray's own direction it would be off by degrees.
   const Point naive{camera.right.dot(direction), camera.up.dot(direction)};
@@ -337,7 +337,7 @@ TEST_F(Space, DirectionsAreSeenAsTheyAreAtTheirPlaces) {
 TEST_F(Space, PosesOfAModelAreSeenTheSameWay) {
   PoseFigureOptions options;
   options.shapes = shapes();
-  const Picture picture = draw_pose_figure(chain, {{0, 0}, {0.5, 0.5}}, options, test::fonts());
+  const Picture picture = draw_pose_figure(chain, {{0, 0}, {0.5, 0.5}}, options, fonts());
   const auto solids = test::all_of<Solids>(picture);
   ASSERT_EQ(solids.size(), 2u);
   EXPECT_LT(solids[0].opacity, 0.5);  // an onion skin

@@ -32,7 +32,7 @@ TEST(TimeDecimals, TellAnyTwoFramesApart) {
   EXPECT_EQ(of(0.001), 5);
 }
 
-class SlowRr : public testing::Test {
+class SlowRr : public ::testing::Test {
  protected:
   SlowRr() {
     scene.title = "RR";
@@ -49,7 +49,7 @@ class SlowRr : public testing::Test {
     }
     run.end_time = run.t.back();
   }
-  Film film() const { return Film(scene, {{scene, chain, run}}, run.t, test::fonts(), clock); }
+  Film film() const { return Film(scene, {{scene, chain, run}}, run.t, fonts(), clock); }
 
   // Boxes outside the scene: capsules with an outline.
   static std::vector<Capsule> boxes(const Picture& picture) {
@@ -106,7 +106,7 @@ TEST_F(SlowRr, KeepsTheRunningTimeInItsPlaceBesideTheBox) {
   EXPECT_LT(first.b.x + first.radius, during.origin.x + during.glyphs.front().x) << "they do not touch";
   // The scene keeps its size: the box stands in the footer.
   EXPECT_GE(slow.scene_area().y0, first.a.y + first.radius);
-  const Film plain(scene, {{scene, chain, run}}, run.t, test::fonts());
+  const Film plain(scene, {{scene, chain, run}}, run.t, fonts());
   EXPECT_EQ(plain.scene_area().y0, slow.scene_area().y0);
   EXPECT_TRUE(boxes(plain.frame(31)).empty());
 }

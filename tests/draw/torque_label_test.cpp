@@ -25,7 +25,7 @@ TEST(TorqueLabel, ShowsExpressionsAsWritten) {
 TEST(TorqueLabel, RaisesExponentsAsAWhole) {
   EXPECT_EQ(label("pp", {"t ^ 2", "2 ^ (t - (1 + q1))"}), "tau = (t^{2}, 2^{t - (1 + q1)}) N");
   EXPECT_EQ(label("pp", {"2 ^ -1 * t", "2^cos(t) + 1"}), "tau = (2^{-1} * t, 2^{cos(t)} + 1) N");
-  EXPECT_NO_THROW(lay_out_math(test::fonts(), label("pp", {"min(t, 2) ^ 2", "3 ^ (-t) * x_G"}), {}));
+  EXPECT_NO_THROW(lay_out_math(fonts(), label("pp", {"min(t, 2) ^ 2", "3 ^ (-t) * x_G"}), {}));
 }
 
 TEST(TorqueLabel, WithoutEntriesSaysThatNothingActs) {
@@ -48,7 +48,7 @@ TEST(TorqueLabel, NamesWhatAControlDoes) {
   control.gravity_compensation = true;
   control.pd.emplace();
   EXPECT_EQ(control_notation(control), "tau_g(q) + PD");
-  EXPECT_NO_THROW(lay_out_math(test::fonts(), "tau = " + control_notation(control), {}));
+  EXPECT_NO_THROW(lay_out_math(fonts(), "tau = " + control_notation(control), {}));
   Control from_file;
   from_file.csv = "tau.csv";
   EXPECT_EQ(control_notation(from_file), "tau(t)");
@@ -71,7 +71,7 @@ TEST(TorqueLabel, OffersEverShorterForms) {
   EXPECT_THAT(forms.front(), testing::HasSubstr("1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12)"));
   EXPECT_THAT(forms, testing::Contains("tau = (1, 2, \u2026, 12) N m"));
   EXPECT_EQ(forms.back(), "tau = tau(t, q, qd)");
-  for (const std::string& form : forms) EXPECT_NO_THROW(lay_out_math(test::fonts(), form, {})) << form;
+  for (const std::string& form : forms) EXPECT_NO_THROW(lay_out_math(fonts(), form, {})) << form;
 }
 
 }  // namespace

@@ -9,12 +9,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRoundOff = 1e-14;  // a few operations on unit vectors
+constexpr double kViewRoundOff = 1e-14;  // a few operations on unit vectors
 
 void expect_axes(const Camera& camera, const Vector3d& right, const Vector3d& up) {
-  EXPECT_LT((camera.right - right).norm(), kRoundOff) << camera.right.transpose();
-  EXPECT_LT((camera.up - up).norm(), kRoundOff) << camera.up.transpose();
-  EXPECT_LT((camera.toward_viewer - right.cross(up)).norm(), kRoundOff);
+  EXPECT_LT((camera.right - right).norm(), kViewRoundOff) << camera.right.transpose();
+  EXPECT_LT((camera.up - up).norm(), kViewRoundOff) << camera.up.transpose();
+  EXPECT_LT((camera.toward_viewer - right.cross(up)).norm(), kViewRoundOff);
 }
 
 TEST(View, ShowsTheXyPlaneWithGravityDownThePage) {
@@ -50,11 +50,11 @@ TEST(View, LooksAtSpatialChainsFromAboveWithZUp) {
   Chain chain = test::model("rr");
   chain.planar.reset();
   const Camera camera = view_of(chain);
-  EXPECT_NEAR(camera.right.z(), 0, kRoundOff);
+  EXPECT_NEAR(camera.right.z(), 0, kViewRoundOff);
   EXPECT_GT(camera.right.x(), 0.5);
-  EXPECT_NEAR(camera.toward_viewer.z(), std::sin(20 * M_PI / 180), kRoundOff);
+  EXPECT_NEAR(camera.toward_viewer.z(), std::sin(20 * M_PI / 180), kViewRoundOff);
   EXPECT_GT(camera.up.z(), 0.9);
-  EXPECT_LT((camera.right.cross(camera.up) - camera.toward_viewer).norm(), kRoundOff);
+  EXPECT_LT((camera.right.cross(camera.up) - camera.toward_viewer).norm(), kViewRoundOff);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "dynamics/rnea.hpp"
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 struct Results {
@@ -144,4 +144,4 @@ TEST(AlgebraTest, DualNumbersCarryTheDerivative) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

@@ -12,7 +12,7 @@
 #include "support/allocation_count.hpp"
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 void use_everything(const Chain& chain, Workspace& ws, const State& s, std::vector<double>& q) {
@@ -66,4 +66,4 @@ TEST(AllocationTest, MakingAWorkspaceIsCounted) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

@@ -17,7 +17,7 @@
 #include "dynamics/rnea.hpp"
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 struct BookRR {
@@ -128,4 +128,4 @@ TEST(FreeBodyTest, FollowsEulersEquations) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

@@ -9,7 +9,7 @@
 
 #include "model/chain.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 
 inline constexpr double kRoundOff = 0x1p-52;
 
@@ -36,4 +36,4 @@ inline Chain with_changed_mass(Chain chain, int body, double factor) {
   return chain;
 }
 
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

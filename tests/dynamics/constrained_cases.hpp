@@ -12,7 +12,7 @@
 #include "dynamics/constraint_rows.hpp"
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 
 inline const Eigen::Vector3d kOrigin = Eigen::Vector3d::Zero();
 
@@ -75,4 +75,4 @@ class Ellipse : public PlaneCurve {
   Eigen::Vector2d centre_;
 };
 
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

@@ -12,7 +12,7 @@
 #include "dynamics/rnea.hpp"
 #include "support/allocation_count.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 // M, nle + tau_f and the rows, each by its own algorithm, for Eigen to solve.
@@ -375,4 +375,4 @@ TEST(ConstrainedDynamicsTest, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

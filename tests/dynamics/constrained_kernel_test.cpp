@@ -6,11 +6,11 @@
 #include "dynamics/constrained_cases.hpp"
 #include "dynamics/scratch.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 // Condition of G up to 1e6.
-constexpr double kTolerance = 1e-9;
+constexpr double kConstrainedTolerance = 1e-9;
 
 Chain damped(Chain chain) {
   chain.bodies[2].joint.damping = 0.7;
@@ -33,7 +33,7 @@ struct Pair {
 void expect_agreement(const Chain& chain, const std::vector<Constraint>& ties, Random& random) {
   Pair pair(chain, ties);
   ASSERT_NE(pair.fast.cws.kernel.run, nullptr) << chain.name;
-  for (int k = 0; k < 30; ++k) EXPECT_LT(pair.difference(random_state(chain, random)), kTolerance);
+  for (int k = 0; k < 30; ++k) EXPECT_LT(pair.difference(random_state(chain, random)), kConstrainedTolerance);
 }
 
 TEST(ConstrainedKernelTest, AgreesWithTheGeneralWayInThePlane) {
@@ -86,7 +86,7 @@ TEST(ConstrainedKernelTest, AgreesWithTheGeneralWayInTrees) {
     // A rod between places that no joint moves apart leaves a row of round-off.
     if (pair.general.move(s) != ConstraintStatus::regular || std::abs(pair.general.cws.lambda[0]) > 1e6)
       continue;
-    EXPECT_LT(pair.difference(s), kTolerance) << seed;
+    EXPECT_LT(pair.difference(s), kConstrainedTolerance) << seed;
     ++moving;
   }
   EXPECT_GT(moving, 10);
@@ -101,7 +101,7 @@ TEST(ConstrainedKernelTest, DiffersWhereOnePlaceDoes) {
   const State s = random_state(chain, random);
   here.move(s);
   there.move(s);
-  EXPECT_GT(relative_difference(here.ws.qdd, there.ws.qdd), 1e3 * kTolerance);
+  EXPECT_GT(relative_difference(here.ws.qdd, there.ws.qdd), 1e3 * kConstrainedTolerance);
 }
 
 TEST(ConstrainedKernelTest, LeavesSingularPosesAndOtherRowsToTheGeneralWay) {
@@ -119,7 +119,7 @@ TEST(ConstrainedKernelTest, LeavesSingularPosesAndOtherRowsToTheGeneralWay) {
   ASSERT_NE(pair.fast.cws.kernel.run, nullptr);
   const State s = random_state(arm, random);
   EXPECT_EQ(pair.fast.move(s), pair.general.move(s));
-  EXPECT_LT(relative_difference(pair.fast.ws.qdd, pair.general.ws.qdd), kTolerance);
+  EXPECT_LT(relative_difference(pair.fast.ws.qdd, pair.general.ws.qdd), kConstrainedTolerance);
 }
 
 std::vector<double> run(ConstrainedKernel::Run kernel, Tied& tied, const State& s) {
@@ -156,4 +156,4 @@ TEST(ConstrainedKernelTest, HasTheSameBitsOnEveryProcessor) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

@@ -10,7 +10,7 @@
 #include "dynamics/crba.hpp"
 #include "dynamics/jacobian.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 Projection project(Tied& tied, std::vector<double>& q) {
@@ -117,4 +117,4 @@ TEST(ConstrainedEffectiveMassTest, IsThatOfTheMotionsLeft) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

@@ -8,7 +8,7 @@
 #include "dynamics/kinematics.hpp"
 #include "model/read_chain.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 // The largest differences of Jc qd against the rate of phi, and of Jc_dot qd against the rate of Jc qd, along
@@ -176,4 +176,4 @@ TEST(CurveRows, FindTheFootOfAPlaceFarAlongAWindingCurve) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

@@ -8,7 +8,7 @@
 #include "dynamics/rnea.hpp"
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 std::vector<Chain> chains_with_christoffel_symbols() {
@@ -114,4 +114,4 @@ TEST(CoriolisTest, IsMadeOfChristoffelSymbols) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

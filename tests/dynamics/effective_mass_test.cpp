@@ -9,7 +9,7 @@
 #include "dynamics/crba.hpp"
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -118,4 +118,4 @@ TEST(EffectiveMassTest, AFixedFrameHasNoMobilityAndNoNan) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

@@ -8,7 +8,7 @@
 #include "dynamics/kinematics.hpp"
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 TEST(EnergyTest, RrAtRestStretchedOut) {
@@ -130,4 +130,4 @@ TEST(MomentumTest, ChangesByGravityAndTheBasesWrenchAlone) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

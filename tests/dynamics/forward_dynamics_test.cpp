@@ -11,7 +11,7 @@
 #include "dynamics/rnea.hpp"
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 std::vector<Chain> two_hundred_trees() {
@@ -156,4 +156,4 @@ TEST(ForwardDynamicsTest, TenThousandLinksFall) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

@@ -22,7 +22,7 @@ Eigen::Vector3d tip_of(const Chain& chain, const std::vector<double>& q) {
   return frame_position(chain, ws, chain.end_effector);
 }
 
-class Reaches : public testing::TestWithParam<std::string> {};
+class Reaches : public ::testing::TestWithParam<std::string> {};
 
 // 1e-9 m is what a figure promises; the solver itself stops at 1e-10 m.
 TEST_P(Reaches, EveryPointOfTheWorkspaceForBothElbows) {
@@ -42,7 +42,7 @@ TEST_P(Reaches, EveryPointOfTheWorkspaceForBothElbows) {
       }
   }
 }
-INSTANTIATE_TEST_SUITE_P(PlanarChains, Reaches, testing::Values("rr", "rrr"));
+INSTANTIATE_TEST_SUITE_P(PlanarChains, Reaches, ::testing::Values("rr", "rrr"));
 
 TEST(InverseKinematics, OfRrIsTheTriangleOfTheLawOfCosines) {
   const Chain chain = read_chain("models/rr.urdf");  // unit links

@@ -6,7 +6,7 @@
 #include "dynamics/kinematics.hpp"
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 std::vector<Chain> chains_with_jacobians() {
@@ -130,4 +130,4 @@ TEST(JacobianTest, RowsAreNamedAfterTheirDirections) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

@@ -13,7 +13,7 @@
 #include "dynamics/kernels.hpp"
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 // Serial, revolute, axes along and against the normal, centres of mass anywhere, gravity in any direction.
@@ -157,4 +157,4 @@ TEST(PlanarKernelTest, OtherChainsAreLeftToTheRecursions) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

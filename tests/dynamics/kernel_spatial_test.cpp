@@ -9,7 +9,7 @@
 #include "dynamics/kernels.hpp"
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 // Serial chains and trees of 1 to 15 turning and sliding joints, some bodies without inertia.
@@ -18,8 +18,8 @@ Chain any_fitting_chain(std::uint64_t seed) {
   return random_tree(seed, {.bodies = bodies, .serial = seed % 2 == 0, .massless = seed % 3 == 0 ? 0.2 : 0});
 }
 
-// Torque behind the difference of two accelerations, against the torques at work.
-double difference(Workspace& ws, const Chain& chain, const State& s, ConstVec a, ConstVec b) {
+// Torque behind the spatial_difference of two accelerations, against the torques at work.
+double spatial_difference(Workspace& ws, const Chain& chain, const State& s, ConstVec a, ConstVec b) {
   compute_mass_matrix(chain, ws, s.q);
   const Eigen::VectorXd torque = ws.M * (as_vector(a) - as_vector(b));
   const double size = (ws.M.cwiseAbs() * as_vector(b).cwiseAbs()).maxCoeff();
@@ -31,10 +31,10 @@ double difference_from_aba(const Chain& chain, const Chain& chain_of_kernel, con
   compute_aba(chain, ws, s.q, s.qd, s.tau);
   const std::vector<double> qdd = ws.qdd;
   compute_forward_dynamics(chain_of_kernel, ws_of_kernel, s.q, s.qd, s.tau);
-  return difference(ws, chain, s, ws_of_kernel.qdd, qdd);
+  return spatial_difference(ws, chain, s, ws_of_kernel.qdd, qdd);
 }
 
-constexpr double kTolerance = 1e-12;  // some thousand operations, rounded at random
+constexpr double kSpatialTolerance = 1e-12;  // some thousand operations, rounded at random
 
 TEST(SpatialKernelTest, EqualsTheArticulatedBodyAlgorithm) {
   Random random(131);
@@ -43,9 +43,9 @@ TEST(SpatialKernelTest, EqualsTheArticulatedBodyAlgorithm) {
     ASSERT_EQ(spatial_kernel_of(chain).joints, chain.nv);
     if (chain.planar) continue;
     const State s = random_state(chain, random, 3);
-    EXPECT_LT(difference_from_aba(chain, chain, s), kTolerance) << chain.name;
+    EXPECT_LT(difference_from_aba(chain, chain, s), kSpatialTolerance) << chain.name;
     const Chain other = with_changed_mass(chain, chain.nv, 1 + 1e-6);
-    EXPECT_GT(difference_from_aba(chain, other, s), kTolerance) << chain.name;
+    EXPECT_GT(difference_from_aba(chain, other, s), kSpatialTolerance) << chain.name;
   }
 }
 
@@ -54,17 +54,17 @@ TEST(SpatialKernelTest, ABaseFarFromTheOriginCostsNoDigits) {
   Chain chain = arm_chain(9);
   chain.bodies[1].joint.X_PJ.translation() += Eigen::Vector3d(1e6, -2e6, 3e6);
   const State s = random_state(chain, random, 3);
-  EXPECT_LT(difference_from_aba(chain, chain, s), kTolerance);
+  EXPECT_LT(difference_from_aba(chain, chain, s), kSpatialTolerance);
 
   // and so on a rail
   Chain cart = random_tree(133, {.bodies = 6, .serial = true});
   cart.bodies[1].joint.kind = JointKind::prismatic;
   State far = random_state(cart, random, 3);
   far.q[0] = 1e6;
-  EXPECT_LT(difference_from_aba(cart, cart, far), kTolerance);
+  EXPECT_LT(difference_from_aba(cart, cart, far), kSpatialTolerance);
 }
 
-std::vector<double> run(ForwardDynamics kernel, const Chain& chain, Workspace& ws, const State& s) {
+std::vector<double> run_spatial(ForwardDynamics kernel, const Chain& chain, Workspace& ws, const State& s) {
   kernel(chain, ws, s.q, s.qd, s.tau, ws.qdd.data());
   return ws.qdd;
 }
@@ -79,8 +79,8 @@ TEST(SpatialKernelTest, HasTheSameBitsOnEveryProcessor) {
     for (int k = 0; k < 20; ++k) {
       State s = random_state(chain, random, 3);
       if (k % 5 == 0) s.q.back() *= 1e6;  // rare angles
-      EXPECT_EQ(run(spatial_kernel_for_any_processor(kernel), chain, ws, s),
-                run(spatial_kernel_for_avx2(kernel), chain, ws, s))
+      EXPECT_EQ(run_spatial(spatial_kernel_for_any_processor(kernel), chain, ws, s),
+                run_spatial(spatial_kernel_for_avx2(kernel), chain, ws, s))
           << chain.name;
     }
   }
@@ -105,4 +105,4 @@ TEST(SpatialKernelTest, LongerFloatingAndMimicChainsAreLeftToTheRecursions) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

@@ -5,7 +5,7 @@
 #include "dynamics/compare.hpp"
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 // The path of the chain's definition: every joint's transform, one after the other.
@@ -132,4 +132,4 @@ TEST(KinematicsTest, WithoutFloatingJointsRateAndAdvanceAreTheCoordinatesOwn) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

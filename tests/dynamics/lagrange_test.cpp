@@ -9,7 +9,7 @@
 #include "dynamics/rnea.hpp"
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 // Largest difference of M, tau_g, nle, and of the torque behind the accelerations, each against its own size.
@@ -88,4 +88,4 @@ TEST(LagrangeTest, AVerticalParticleFallsWithG) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

@@ -8,7 +8,7 @@
 #include "dynamics/rnea.hpp"
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 // Every kind of chain that the algorithms know.
@@ -53,17 +53,17 @@ double largest_column_difference(const Chain& chain, const Chain& chain_of_colum
 
 // The columns are differences of torques that hold gravity and velocities too: about ten times as large as
 // M's numbers.
-constexpr double kTolerance = 1e-12;
+constexpr double kMassTolerance = 1e-12;
 
 TEST(MassMatrixTest, ColumnsAreInverseDynamicsOfUnitAcceleration) {
   for (const Chain& chain : all_kinds_of_chains()) {
-    EXPECT_LT(largest_column_difference(chain, chain), kTolerance) << chain.name;
+    EXPECT_LT(largest_column_difference(chain, chain), kMassTolerance) << chain.name;
   }
 }
 
 TEST(MassMatrixTest, ColumnsOfAnotherMassDiffer) {
   for (const Chain& chain : {rr_chain(), arm_chain(1)}) {
-    EXPECT_GT(largest_column_difference(chain, with_changed_mass(chain, 2, 1 + 1e-9)), kTolerance);
+    EXPECT_GT(largest_column_difference(chain, with_changed_mass(chain, 2, 1 + 1e-9)), kMassTolerance);
   }
 }
 
@@ -93,4 +93,4 @@ TEST(MassMatrixTest, GivesTheKineticEnergyOfAllBodies) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

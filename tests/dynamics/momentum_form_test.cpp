@@ -13,7 +13,7 @@
 #include "support/allocation_count.hpp"
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 // Kernels, planar and spatial recursions, shared coordinates, axes that point down.
@@ -166,4 +166,4 @@ TEST(MomentumForm, AnswersTheSameWhateverItRemembers) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

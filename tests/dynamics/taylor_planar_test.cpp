@@ -11,7 +11,7 @@
 #include "dynamics/taylor_planar_state.hpp"
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 // Serial, revolute, axes along and against the normal, centres of mass anywhere, gravity in any direction.
@@ -186,4 +186,4 @@ TEST(PlanarSeries, SaysWhichChainsHaveNone) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

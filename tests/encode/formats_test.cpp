@@ -50,11 +50,11 @@ struct FilmCase {
   friend void PrintTo(const FilmCase& film, std::ostream* out) { *out << film.file; }
 };
 
-class EveryFilm : public testing::TestWithParam<FilmCase> {};
+class EveryFilm : public ::testing::TestWithParam<FilmCase> {};
 
 INSTANTIATE_TEST_SUITE_P(
     Formats, EveryFilm,
-    testing::Values(
+    ::testing::Values(
         FilmCase{"a.mp4", {}, "h264", "yuv420p", 1.5},
         FilmCase{"b.webm", {.codec = VideoCodec::vp9}, "vp9", "yuv420p", 1.5},
         FilmCase{"c.webm", {.codec = VideoCodec::vp9, .alpha = true}, "vp9", "yuva420p", 1.5},

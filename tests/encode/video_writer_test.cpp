@@ -18,11 +18,11 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-constexpr int kWidth = 192, kHeight = 108;
+constexpr int kFilmWidth = 192, kFilmHeight = 108;
 
 void write_discs(const std::string& path, int frames, FrameRate fps = {60, 1}) {
-  VideoWriter writer(path, {.width = kWidth, .height = kHeight, .fps = fps});
-  for (int k = 0; k < frames; ++k) writer.write(disc_picture(kWidth, kHeight, k));
+  VideoWriter writer(path, {.width = kFilmWidth, .height = kFilmHeight, .fps = fps});
+  for (int k = 0; k < frames; ++k) writer.write(disc_picture(kFilmWidth, kFilmHeight, k));
   writer.finish();
 }
 
@@ -49,7 +49,7 @@ std::string film_faults(const std::string& path, int frames, FrameRate fps) {
     if (!holds) faults += std::string(what) + "; ";
   };
   require(film.codec == "h264" && film.profile == "High" && film.pixel_format == "yuv420p", "codec");
-  require(film.width == kWidth && film.height == kHeight && film.pixel_aspect == Ratio{1, 1}, "size");
+  require(film.width == kFilmWidth && film.height == kFilmHeight && film.pixel_aspect == Ratio{1, 1}, "size");
   require(film.fps == Ratio{fps.num, fps.den}, "fps");
   require(film.frames == frames && film.declared_frames == frames, "frames");
   require(film.duration == Ratio{std::int64_t(frames) * fps.den, fps.num}, "duration");
@@ -61,7 +61,7 @@ std::string film_faults(const std::string& path, int frames, FrameRate fps) {
   return faults;
 }
 
-class VideoWriterAtRate : public testing::TestWithParam<FrameRate> {};
+class VideoWriterAtRate : public ::testing::TestWithParam<FrameRate> {};
 
 TEST_P(VideoWriterAtRate, DecodesToWhatWasAskedFor) {
   const TemporaryFolder folder;
@@ -78,17 +78,17 @@ TEST_P(VideoWriterAtRate, DecodesToWhatWasAskedFor) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Rates, VideoWriterAtRate,
-                         testing::Values(FrameRate{60, 1}, FrameRate{25, 1}, FrameRate{30000, 1001},
+                         ::testing::Values(FrameRate{60, 1}, FrameRate{25, 1}, FrameRate{30000, 1001},
                                          FrameRate{1, 1}, FrameRate{24000, 1001}, FrameRate{240, 1}));
 
 TEST(VideoWriter, EveryTwoSecondsThereIsAKeyFrameAndNoneBetween) {
   const TemporaryFolder folder;
   const std::string path = folder.file("keys.mp4");
-  VideoWriter writer(path, {.width = kWidth, .height = kHeight, .fps = {25, 1}});
+  VideoWriter writer(path, {.width = kFilmWidth, .height = kFilmHeight, .fps = {25, 1}});
   // A cut in the middle of a group must not start a new one.
   for (int k = 0; k < 170; ++k)
-    writer.write(k < 70 ? disc_picture(kWidth, kHeight, k)
-                        : random_picture(kWidth, kHeight, unsigned(k / 90)));
+    writer.write(k < 70 ? disc_picture(kFilmWidth, kFilmHeight, k)
+                        : random_picture(kFilmWidth, kFilmHeight, unsigned(k / 90)));
   writer.finish();
   EXPECT_THAT(probe_video(path).key_frames, testing::ElementsAre(0, 50, 100, 150));
 }
@@ -118,10 +118,10 @@ TEST(VideoWriter, FramesStandWhereTheyWereWritten) {
   // quantiser rings: up to 82 in one pixel and 0.24 on average. One frame off is four times that, as the last
   // line shows.
   const PictureTolerance tolerance{.max = 100, .mean = 0.5};
-  EXPECT_TRUE(pictures_agree(film.first, disc_picture(kWidth, kHeight, 0), tolerance, "disc_first"));
-  EXPECT_TRUE(pictures_agree(film.middle, disc_picture(kWidth, kHeight, 20), tolerance, "disc_middle"));
-  EXPECT_TRUE(pictures_agree(film.last, disc_picture(kWidth, kHeight, 40), tolerance, "disc_last"));
-  EXPECT_FALSE(pictures_agree(film.middle, disc_picture(kWidth, kHeight, 21), tolerance, "disc_control"));
+  EXPECT_TRUE(pictures_agree(film.first, disc_picture(kFilmWidth, kFilmHeight, 0), tolerance, "disc_first"));
+  EXPECT_TRUE(pictures_agree(film.middle, disc_picture(kFilmWidth, kFilmHeight, 20), tolerance, "disc_middle"));
+  EXPECT_TRUE(pictures_agree(film.last, disc_picture(kFilmWidth, kFilmHeight, 40), tolerance, "disc_last"));
+  EXPECT_FALSE(pictures_agree(film.middle, disc_picture(kFilmWidth, kFilmHeight, 21), tolerance, "disc_control"));
 }
 
 TEST(VideoWriter, TwoRunsGiveTheSameBytes) {
@@ -195,8 +195,8 @@ TEST(VideoWriter, SettingsThatMakeNoFilmAreUsageErrors) {
 
 TEST(VideoWriter, AFullDiskIsAFileError) {
   const auto write_to_full_disk = [](int frames) {
-    VideoWriter writer("/dev/full", {.width = kWidth, .height = kHeight});
-    for (int k = 0; k < frames; ++k) writer.write(random_picture(kWidth, kHeight, unsigned(k)));
+    VideoWriter writer("/dev/full", {.width = kFilmWidth, .height = kFilmHeight});
+    for (int k = 0; k < frames; ++k) writer.write(random_picture(kFilmWidth, kFilmHeight, unsigned(k)));
     writer.finish();
   };
   EXPECT_EQ(error_of([&] { write_to_full_disk(100); }).code(), ExitCode::file);  // while frames are written

@@ -9,7 +9,7 @@
 namespace chainreel {
 namespace {
 
-const std::vector<std::string> kNames = {"t", "q1", "qd1", "k", "x_G"};
+const std::vector<std::string> kAffineNames = {"t", "q1", "qd1", "k", "x_G"};
 const std::vector<VariableUse> kUses = {{VariableRole::time, 0},
                                         {VariableRole::linear, 0},
                                         {VariableRole::linear, 0},
@@ -17,7 +17,7 @@ const std::vector<VariableUse> kUses = {{VariableRole::time, 0},
                                         {VariableRole::other, 0}};
 
 std::optional<AffineForm<double>> form_of(const std::string& text) {
-  return affine_form_of<double>(Expression::parse(text, kNames, {}), kUses);
+  return affine_form_of<double>(Expression::parse(text, kAffineNames, {}), kUses);
 }
 
 double value_of_form(const AffineForm<double>& form, const std::vector<double>& values) {
@@ -31,7 +31,7 @@ TEST(AffineForm, HasTheValueOfItsExpression) {
   for (const char* text : {"0", "1.5", "sin(0.3) + pi/2", "t", "-t^2 + 3*t", "q1", "-k*q1 - 0.2*qd1",
                            "k*(q1 - 2*t)/4 + 1", "(t + 1)^8", "(t^2 - 1)*(t^3 + k)", "2^3*q1", "q1^1", "t^0",
                            "max(1, k)*qd1", "(1 < 2)*q1", "-(q1 + qd1)", "sqrt(k)*q1 + exp(-1)*t*t"}) {
-    const Expression expression = Expression::parse(text, kNames, {});
+    const Expression expression = Expression::parse(text, kAffineNames, {});
     const auto form = form_of(text);
     ASSERT_TRUE(form) << text;
     for (const double t : {-1.25, 0.0, 0.7}) {
@@ -52,7 +52,7 @@ TEST(AffineForm, IsRefusedWhereThereIsNone) {
 }
 
 TEST(AffineForm, KeepsTheDigitsOfQuad) {
-  const auto form = affine_form_of<Quad>(Expression::parse("pi*q1/3", kNames, {}), kUses);
+  const auto form = affine_form_of<Quad>(Expression::parse("pi*q1/3", kAffineNames, {}), kUses);
   ASSERT_TRUE(form);
   // pi/3 = 1.0471975511965977461542144610931676; one and a half roundings of 2^-113.
   const Quad exact = 1.0471975511965977461542144610931676Q;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-const std::vector<std::string> kNames{"t", "q1", "qd1", "k"};
+const std::vector<std::string> kCornersNames{"t", "q1", "qd1", "k"};
 
 struct Cornered {
   Corners corners{{{VariableRole::time, 0},
@@ -25,7 +25,7 @@ struct Cornered {
   CorneredProgram program;
 
   explicit Cornered(const std::string& text) { add(text); }
-  void add(const std::string& text) { program = corners.add(Expression::parse(text, kNames, {})); }
+  void add(const std::string& text) { program = corners.add(Expression::parse(text, kCornersNames, {})); }
   double at(double t, double q, double qd, std::vector<double> sides) const {
     const std::vector<double> values{t, q, qd, 3};
     return evaluate<double>(program, values, sides);

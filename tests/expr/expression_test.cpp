@@ -13,10 +13,10 @@
 namespace chainreel {
 namespace {
 
-const std::vector<std::string> kNames = {"t", "q1", "q2", "qd1", "y_G", "k"};
+const std::vector<std::string> kExpressionNames = {"t", "q1", "q2", "qd1", "y_G", "k"};
 
 Expression parsed(const std::string& text) {
-  return Expression::parse(text, kNames, {"scene.yaml", 1, 1});
+  return Expression::parse(text, kExpressionNames, {"scene.yaml", 1, 1});
 }
 
 double constant_of(const std::string& text) {
@@ -110,7 +110,7 @@ TEST(Values, WhatHasNoValueIsNotANumberOrInfinite) {
 
 TEST(Values, VariablesAreReadFromTheirSlots) {
   const std::vector<double> values = {1, 2, 3, 5, 7, 11};
-  for (std::size_t i = 0; i < kNames.size(); ++i) EXPECT_EQ(value_at(kNames[i], values), values[i]);
+  for (std::size_t i = 0; i < kExpressionNames.size(); ++i) EXPECT_EQ(value_at(kExpressionNames[i], values), values[i]);
   EXPECT_EQ(value_at("q2 - q1 * k", values), 3 - 2 * 11);
 }
 
@@ -192,7 +192,7 @@ TEST(Values, OverNestedDualCarryTheSecondDerivative) {
 TEST(Values, EvaluationAllocatesNothing) {
   std::string deep = "t";
   for (int i = 0; i < 150; ++i) deep = "1+(" + deep + ")";
-  const std::vector<double> values(kNames.size(), 0.5);
+  const std::vector<double> values(kExpressionNames.size(), 0.5);
   for (const std::string& text : {std::string("k*(1-q1)-2*sqrt(k)*qd1"), deep}) {
     const Expression expression = parsed(text);
     const long before = allocation_count();

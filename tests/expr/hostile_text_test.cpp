@@ -8,11 +8,11 @@
 namespace chainreel {
 namespace {
 
-const std::vector<std::string> kNames = {"t", "q1", "q2"};
+const std::vector<std::string> kHostileTextNames = {"t", "q1", "q2"};
 
-std::string problem_with(const std::string& text) {
+std::string problem_of(const std::string& text) {
   try {
-    Expression::parse(text, kNames, {"a.yaml", 1, 1});
+    Expression::parse(text, kHostileTextNames, {"a.yaml", 1, 1});
   } catch (const Error& error) {
     return error.what();
   }
@@ -26,46 +26,46 @@ std::string repeated(const std::string& piece, int times) {
 }
 
 TEST(HostileTexts, NestingIsAllowedToTwoHundredLevels) {
-  EXPECT_EQ(problem_with(repeated("(", 200) + "1" + repeated(")", 200)), "");
-  EXPECT_EQ(problem_with(repeated("(", 201) + "1" + repeated(")", 201)),
+  EXPECT_EQ(problem_of(repeated("(", 200) + "1" + repeated(")", 200)), "");
+  EXPECT_EQ(problem_of(repeated("(", 201) + "1" + repeated(")", 201)),
             "a.yaml:1:202: nested deeper than 200 levels");
 }
 
 TEST(HostileTexts, EveryKindOfNestingIsLimited) {
   for (const char* piece : {"(", "-", "2^", "sin(", "max(1,", "1<(", "1+2*3^(", "+"})
-    EXPECT_NE(problem_with(repeated(piece, 1000)).find("nested deeper than 200 levels"), std::string::npos)
+    EXPECT_NE(problem_of(repeated(piece, 1000)).find("nested deeper than 200 levels"), std::string::npos)
         << piece;
 }
 
 // Each level leaves four values waiting: an argument, and the left sides of <, + and *.
 TEST(HostileTexts, TheDeepestStackIsLargeEnough) {
   const std::string text = repeated("max(0,0<0+1*", 200) + "1" + repeated(")", 200);
-  const Expression calls = Expression::parse(text, kNames, {});
+  const Expression calls = Expression::parse(text, kHostileTextNames, {});
   EXPECT_EQ(calls.constant(), 1);
   const std::vector<Dual<double>> none;
   EXPECT_EQ(calls.evaluate(std::span<const Dual<double>>(none)), 1);
   const Expression powers =
-      Expression::parse(repeated("0<0+1*1^(", 100) + "1" + repeated(")", 100), kNames, {});
+      Expression::parse(repeated("0<0+1*1^(", 100) + "1" + repeated(")", 100), kHostileTextNames, {});
   EXPECT_EQ(powers.constant(), 1);
 }
 
 TEST(HostileTexts, LongFlatExpressionsAreFine) {
-  const Expression sum = Expression::parse("0" + repeated("+1", 4999), kNames, {});
+  const Expression sum = Expression::parse("0" + repeated("+1", 4999), kHostileTextNames, {});
   EXPECT_EQ(sum.constant(), 4999);
 }
 
 TEST(HostileTexts, TextsAboveTenThousandCharactersAreRefused) {
-  EXPECT_EQ(problem_with(std::string(10000, '1')),
+  EXPECT_EQ(problem_of(std::string(10000, '1')),
             "a.yaml:1:1: '" + std::string(40, '1') + "..' is outside the range of numbers");
-  EXPECT_EQ(problem_with(std::string(10001, '1')),
+  EXPECT_EQ(problem_of(std::string(10001, '1')),
             "a.yaml:1:1: an expression may have 10000 characters, this one has 10001");
   for (const char* piece : {"(", "1+", "\xff", "a", " "})
-    EXPECT_NE(problem_with(repeated(piece, 1 << 20)).find("an expression may have"), std::string::npos)
+    EXPECT_NE(problem_of(repeated(piece, 1 << 20)).find("an expression may have"), std::string::npos)
         << piece;
 }
 
 TEST(HostileTexts, ALongNameIsShortenedInTheMessage) {
-  EXPECT_LT(problem_with(std::string(9999, 'a')).size(), 200u);
+  EXPECT_LT(problem_of(std::string(9999, 'a')).size(), 200u);
 }
 
 TEST(HostileTexts, RandomBytesEndInAnErrorOrAnExpression) {
@@ -75,11 +75,11 @@ TEST(HostileTexts, RandomBytesEndInAnErrorOrAnExpression) {
   for (int i = 0; i < 50000; ++i) {
     std::string text(random() % 24, ' ');
     for (char& c : text) c = i % 2 == 0 ? char(random()) : alphabet[random() % alphabet.size()];
-    const std::string problem = problem_with(text);
+    const std::string problem = problem_of(text);
     if (problem.empty()) {
       ++good;
       const std::vector<double> values = {1, 2, 3};
-      Expression::parse(text, kNames, {}).evaluate(std::span<const double>(values));
+      Expression::parse(text, kHostileTextNames, {}).evaluate(std::span<const double>(values));
     } else {
       ASSERT_TRUE(problem.starts_with("a.yaml:1:")) << problem;
     }
@@ -95,7 +95,7 @@ TEST(HostileTexts, OneWrongCharacterIsSurvived) {
   for (int i = 0; i < 20000; ++i) {
     std::string text = good;
     text[random() % text.size()] = char(32 + random() % 95);
-    refused += !problem_with(text).empty();
+    refused += !problem_of(text).empty();
   }
   EXPECT_GT(refused, 10000);
 }

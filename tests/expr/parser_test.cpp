@@ -6,12 +6,12 @@
 namespace chainreel {
 namespace {
 
-const std::vector<std::string> kNames = {"t", "q1", "q2", "qd1", "y_G", "stiffness"};
+const std::vector<std::string> kParserNames = {"t", "q1", "q2", "qd1", "y_G", "stiffness"};
 
 // What parsing ends in, "" if it succeeds; the text stands at line 7, column 100.
 std::string problem_with(const std::string& text) {
   try {
-    Expression::parse(text, kNames, {"a.yaml", 7, 100});
+    Expression::parse(text, kParserNames, {"a.yaml", 7, 100});
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_input);
     EXPECT_EQ(error.problems().size(), 1u);
@@ -98,7 +98,7 @@ TEST(Problems, AreNotSeenInGoodExpressions) {
 
 TEST(Problems, WithoutAKnownColumnNameTheLineAlone) {
   try {
-    Expression::parse("1,5", kNames, {"a.yaml", 7, 0});
+    Expression::parse("1,5", kParserNames, {"a.yaml", 7, 0});
     FAIL() << "nothing thrown";
   } catch (const Error& error) {
     EXPECT_EQ(error.what(), std::string("a.yaml:7: ") + kComma);

@@ -9,7 +9,7 @@ namespace chainreel {
 namespace {
 
 constexpr std::array<double, 2> kWeight{1, 1};
-constexpr double kRoundOff = 0x1p-52;
+constexpr double kEquationRoundOff = 0x1p-52;
 
 TEST(ImplicitEquation, SolvesAContractionByRepetition) {
   ImplicitEquation equation(2);
@@ -22,8 +22,8 @@ TEST(ImplicitEquation, SolvesAContractionByRepetition) {
   EXPECT_FALSE(equation.is_steep());
   std::array<double, 2> again;
   g(x, again);
-  EXPECT_NEAR(again[0], x[0], kRoundOff);
-  EXPECT_NEAR(again[1], x[1], kRoundOff);
+  EXPECT_NEAR(again[0], x[0], kEquationRoundOff);
+  EXPECT_NEAR(again[1], x[1], kEquationRoundOff);
 }
 
 TEST(ImplicitEquation, SolvesASteepOneByNewton) {
@@ -38,8 +38,8 @@ TEST(ImplicitEquation, SolvesASteepOneByNewton) {
     ASSERT_TRUE(equation.solve(g, kWeight, x)) << s;
     EXPECT_TRUE(equation.is_steep());
     // x (1 + s^2 + s x) = 1
-    EXPECT_NEAR(x[0] * (1 + s * s + s * x[0]), 1, 10 * kRoundOff) << s;
-    EXPECT_NEAR(x[1] / (s * x[0]), 1, 10 * kRoundOff) << s;
+    EXPECT_NEAR(x[0] * (1 + s * s + s * x[0]), 1, 10 * kEquationRoundOff) << s;
+    EXPECT_NEAR(x[1] / (s * x[0]), 1, 10 * kEquationRoundOff) << s;
   }
 }
 
@@ -61,10 +61,10 @@ TEST(ImplicitEquation, ForgetsThatItWasSteep) {
   const auto steep = [](std::span<const double> at, std::span<double> next) { next[0] = 1 - 5 * at[0]; };
   const auto mild = [](std::span<const double> at, std::span<double> next) { next[0] = 1 - 0.5 * at[0]; };
   ASSERT_TRUE(equation.solve(steep, weight, x));
-  EXPECT_NEAR(x[0], 1.0 / 6, kRoundOff);
+  EXPECT_NEAR(x[0], 1.0 / 6, kEquationRoundOff);
   // Newton's matrix is another equation's: it is found anew where it does not serve.
   ASSERT_TRUE(equation.solve(mild, weight, x));
-  EXPECT_NEAR(x[0], 2.0 / 3, 4 * kRoundOff);
+  EXPECT_NEAR(x[0], 2.0 / 3, 4 * kEquationRoundOff);
   EXPECT_TRUE(equation.is_steep());
   equation.forget();
   ASSERT_TRUE(equation.solve(mild, weight, x));

@@ -40,7 +40,7 @@ int steps_for(const Method& method) {
   return method.order <= 4 ? 100 : method.order <= 6 ? 12 : 4;
 }
 
-class EveryMethod : public testing::TestWithParam<std::string> {
+class EveryMethod : public ::testing::TestWithParam<std::string> {
  protected:
   const Method& method_ = find_method(GetParam());
 };
@@ -52,7 +52,7 @@ std::vector<std::string> names() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, EveryMethod, testing::ValuesIn(names()),
+INSTANTIATE_TEST_SUITE_P(Registry, EveryMethod, ::testing::ValuesIn(names()),
                          [](const auto& p) { return p.param; });
 
 TEST_P(EveryMethod, ConvergesWithItsOrderOnTheOscillator) {

@@ -14,7 +14,7 @@
 namespace chainreel {
 namespace {
 
-constexpr double kRoundOff = 1e-14;  // of sums of a few products of numbers up to 10
+constexpr double kRadauRoundOff = 1e-14;  // of sums of a few products of numbers up to 10
 
 // The largest deviation from the order conditions over the trees with n nodes, with b, the last row of A.
 double residual(int n) {
@@ -29,7 +29,7 @@ double residual(int n) {
 }
 
 TEST(Radau5Tableau, MeetsTheOrderConditionsOfAllTreesUpToFiveNodes) {
-  for (int n = 1; n <= 5; ++n) EXPECT_LT(residual(n), kRoundOff) << n;
+  for (int n = 1; n <= 5; ++n) EXPECT_LT(residual(n), kRadauRoundOff) << n;
   EXPECT_GT(residual(6), 1e-5);  // and of no more
 }
 
@@ -40,13 +40,13 @@ TEST(Radau5Tableau, FallsApartIntoOneRealAndOneComplexEigenvalue) {
     Row AT{};
     for (std::size_t j = 0; j < 3; ++j)
       for (std::size_t k = 0; k < 3; ++k) AT[j] += A[i][k] * T[k][j];
-    EXPECT_NEAR(AT[0] * gamma, T[i][0], kRoundOff);
-    EXPECT_NEAR(AT[1] * alpha + AT[2] * beta, T[i][1], kRoundOff);
-    EXPECT_NEAR(-AT[1] * beta + AT[2] * alpha, T[i][2], kRoundOff);
+    EXPECT_NEAR(AT[0] * gamma, T[i][0], kRadauRoundOff);
+    EXPECT_NEAR(AT[1] * alpha + AT[2] * beta, T[i][1], kRadauRoundOff);
+    EXPECT_NEAR(-AT[1] * beta + AT[2] * alpha, T[i][2], kRadauRoundOff);
     for (std::size_t j = 0; j < 3; ++j) {
       double sum = 0;
       for (std::size_t k = 0; k < 3; ++k) sum += T_inv[i][k] * T[k][j];
-      EXPECT_NEAR(sum, i == j, kRoundOff);
+      EXPECT_NEAR(sum, i == j, kRadauRoundOff);
     }
   }
 }
@@ -58,9 +58,9 @@ TEST(Radau5Tableau, EstimatesNoErrorForAConstantRate) {
     sum += radau5::d[i] * radau5::c[i];
     double dA = 0;
     for (std::size_t j = 0; j < 3; ++j) dA += radau5::d[j] * radau5::A[j][i];
-    EXPECT_NEAR(dA, radau5::dA[i], kRoundOff);
+    EXPECT_NEAR(dA, radau5::dA[i], kRadauRoundOff);
   }
-  EXPECT_NEAR(sum, -1, kRoundOff);
+  EXPECT_NEAR(sum, -1, kRadauRoundOff);
 }
 
 TEST(DenseLu, SolvesWhatItHasFactored) {
@@ -109,15 +109,15 @@ struct OnASpring final : SecondOrder {
   }
 };
 
-struct Cost {
+struct RadauCost {
   int steps = 0;
   long evaluations = 0;
   double error = 0;
 };
-Cost cost(const std::string& method, double k, double d, double tolerance, double q0 = 1) {
+RadauCost cost(const std::string& method, double k, double d, double tolerance, double q0 = 1) {
   OnASpring system(k, d);
   Started integrator(system, method, tolerance, 0, q0, 0);
-  Cost result;
+  RadauCost result;
   while (integrator.time() < 10) {
     EXPECT_EQ(integrator->step(10, 10), StepResult::ok);
     ++result.steps;
@@ -128,9 +128,9 @@ Cost cost(const std::string& method, double k, double d, double tolerance, doubl
 }
 
 TEST(Radau5, TakesNoShorterStepsForStifferSprings) {
-  const Cost soft = cost("radau5", 1e6, 1e3, 1e-6);
+  const RadauCost soft = cost("radau5", 1e6, 1e3, 1e-6);
   for (const double k : {1e8, 1e10}) {
-    const Cost stiff = cost("radau5", k, std::sqrt(k), 1e-6);
+    const RadauCost stiff = cost("radau5", k, std::sqrt(k), 1e-6);
     EXPECT_LT(stiff.steps, 1.2 * soft.steps) << k;
     EXPECT_LT(stiff.error, 1e-5) << k;  // the tolerance times ten for ten units of time
   }
@@ -141,7 +141,7 @@ TEST(Radau5, TakesNoShorterStepsForStifferSprings) {
 TEST(Radau5, FollowsWhatASpringLetsGoAndThenTheSlowMotion) {
   // Released a tenth away: the spring's own motion, over in some 10 / 500 s, must be seen and must not
   // linger.
-  const Cost one = cost("radau5", 1e6, 1e3, 1e-6, 1.1);
+  const RadauCost one = cost("radau5", 1e6, 1e3, 1e-6, 1.1);
   EXPECT_LT(one.error, 1e-5);
   EXPECT_LT(one.steps, 300);
 }
@@ -167,7 +167,7 @@ TEST(Radau5, HasErrorsInProportionToItsTolerance) {
 
 TEST(Radau5, AsksLittleOnLinearProblems) {
   // One evaluation at the beginning and, the Jacobian serving on, three for each of one or two passes.
-  const Cost one = cost("radau5", 100, 10, 1e-6);
+  const RadauCost one = cost("radau5", 100, 10, 1e-6);
   EXPECT_LT(double(one.evaluations) / one.steps, 7.5);
 }
 
@@ -180,12 +180,12 @@ TEST(Radau5, TakesAwayNearlyAllOfWhatItCannotFollow) {
   EXPECT_NEAR(std::hypot(integrator.q(), integrator.v() / 1e6), 3e-6, 1e-11);
 }
 
-constexpr std::array<double, 3> kParts{0.2, 0.45, 0.8};  // of a step
+constexpr std::array<double, 3> kDecayParts{0.2, 0.45, 0.8};  // of a step
 
 TEST(Radau5, InterpolatesFixedStepsToFourthOrder) {
   // A local error of order 4 + 1; the next term is h/2 = 0.05 of it and moves the slope by as much.
   EXPECT_NEAR(
-      std::log2(largest_dense_error("radau5", 20, kParts) / largest_dense_error("radau5", 40, kParts)), 5,
+      std::log2(largest_dense_error("radau5", 20, kDecayParts) / largest_dense_error("radau5", 40, kDecayParts)), 5,
       0.1);
 }
 

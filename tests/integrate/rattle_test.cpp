@@ -84,7 +84,9 @@ TEST(Rattle, HasAnEnergyErrorOfItsOrder) {
     Running run("rattle4", 0);
     ASSERT_EQ(run.go(int(1 / h), h), StepResult::ok);
     const double error = std::fabs(run.pendulum.energy());  // 0 at first
-    if (last > 0) EXPECT_NEAR(std::log2(last / error), 4, 0.1);
+    if (last > 0) {
+      EXPECT_NEAR(std::log2(last / error), 4, 0.1);
+    }
     last = error;
   }
 }

@@ -57,13 +57,13 @@ struct Row {
   double limit;  // of omega h, or of rate times h
   friend void PrintTo(const Row& row, std::ostream* out) { *out << row.method; }
 };
-std::string name_of(const testing::TestParamInfo<Row>& p) {
+std::string name_of(const ::testing::TestParamInfo<Row>& p) {
   return p.param.method;
 }
 
-class Undamped : public testing::TestWithParam<Row> {};
+class Undamped : public ::testing::TestWithParam<Row> {};
 INSTANTIATE_TEST_SUITE_P(Methods, Undamped,
-                         testing::Values(Row{"semi_implicit_euler", 2}, Row{"symplectic_euler", 2},
+                         ::testing::Values(Row{"semi_implicit_euler", 2}, Row{"symplectic_euler", 2},
                                          Row{"verlet", 2}, Row{"rk4", 2.828427}, Row{"dop853", 5.960360}),
                          name_of);
 
@@ -76,9 +76,9 @@ TEST_P(Undamped, EndsItsStabilityWhereTheorySays) {
   EXPECT_NEAR(stiffer, expected / std::sqrt(2), 1e-3 * expected);
 }
 
-class RealAxis : public testing::TestWithParam<Row> {};
+class RealAxis : public ::testing::TestWithParam<Row> {};
 INSTANTIATE_TEST_SUITE_P(Methods, RealAxis,
-                         testing::Values(Row{"explicit_euler", 2}, Row{"rk4", 2.785294},
+                         ::testing::Values(Row{"explicit_euler", 2}, Row{"rk4", 2.785294},
                                          Row{"dop853", 6.393652}),
                          name_of);
 
@@ -133,10 +133,10 @@ TEST(SemiImplicitEuler, KeepsTheEnergyOfAnOscillatorReleasedFromRestWithinItsBou
   }
 }
 
-class Implicit : public testing::TestWithParam<Row> {};
+class Implicit : public ::testing::TestWithParam<Row> {};
 // What is left of an oscillation after one step at omega h = 1e6: 0 where L-stable, 1 where only A-stable.
 INSTANTIATE_TEST_SUITE_P(Methods, Implicit,
-                         testing::Values(Row{"radau5", 0}, Row{"implicit_midpoint", 1}, Row{"gauss4", 1},
+                         ::testing::Values(Row{"radau5", 0}, Row{"implicit_midpoint", 1}, Row{"gauss4", 1},
                                          Row{"gauss6", 1}),
                          name_of);
 

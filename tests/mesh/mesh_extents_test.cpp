@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 // A file in a folder of its own, gone with the test.
-class MeshExtents : public testing::Test {
+class MeshExtents : public ::testing::Test {
  protected:
   MeshExtents() { fs::create_directories(folder_); }
   ~MeshExtents() override { fs::remove_all(folder_); }
@@ -53,7 +53,7 @@ constexpr const char* kTriangleStl =
     "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 1\nvertex 2 0 1\nvertex 0 3 "
     "-4\nendloop\nendfacet\nendsolid t\n";
 
-std::string collada(const std::string& unit, const std::string& placement, const std::string& up = "Z_UP") {
+std::string collada_scene(const std::string& unit, const std::string& placement, const std::string& up = "Z_UP") {
   return R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset><unit name="u" meter=")" +
@@ -77,17 +77,17 @@ TEST_F(MeshExtents, StlAndObjGiveTheBoxOfTheirVertices) {
 }
 
 TEST_F(MeshExtents, ColladaUnitsAreHonoured) {
-  expect_box(mesh_extents(file("m.dae", collada("1", ""))), {0, 0, -4}, {2, 3, 1});
-  expect_box(mesh_extents(file("mm.dae", collada("0.001", ""))), {0, 0, -0.004}, {0.002, 0.003, 0.001});
+  expect_box(mesh_extents(file("m.dae", collada_scene("1", ""))), {0, 0, -4}, {2, 3, 1});
+  expect_box(mesh_extents(file("mm.dae", collada_scene("0.001", ""))), {0, 0, -0.004}, {0.002, 0.003, 0.001});
 }
 
 TEST_F(MeshExtents, NodesPlaceTheirMeshes) {
-  const std::string shifted = collada("1", "<translate>10 20 30</translate><scale>2 1 1</scale>");
+  const std::string shifted = collada_scene("1", "<translate>10 20 30</translate><scale>2 1 1</scale>");
   expect_box(mesh_extents(file("n.dae", shifted)), {10, 20, 26}, {14, 23, 31});
 }
 
 TEST_F(MeshExtents, ColladasUpDoesNotTurnTheMesh) {
-  expect_box(mesh_extents(file("y.dae", collada("1", "", "Y_UP"))), {0, 0, -4}, {2, 3, 1});
+  expect_box(mesh_extents(file("y.dae", collada_scene("1", "", "Y_UP"))), {0, 0, -4}, {2, 3, 1});
 }
 
 TEST_F(MeshExtents, FilesThatAreNoMeshAreRefusedWithAReason) {
@@ -109,7 +109,7 @@ TEST_F(MeshExtents, ABrokenFileNeverEndsTheProgram) {
   const std::string endless = "<COLLADA version=\"1.4.1\">" + std::string(100'000, '<');
   EXPECT_EQ(refusal(file("endless.dae", endless)).first, ExitCode::bad_input);
   // Every cut of a good file is either read or refused.
-  const std::string whole = collada("1", "");
+  const std::string whole = collada_scene("1", "");
   for (std::size_t size = 0; size < whole.size(); size += 97) refusal(file("cut.dae", whole.substr(0, size)));
 }
 

@@ -24,7 +24,7 @@ namespace {
 using testing::ElementsAre;
 
 // Files and placements are in single precision, 6e-8 a number; here numbers go up to some 10.
-constexpr double kSingle = 1e-5;
+constexpr double kFloatRounding = 1e-5;
 
 const Eigen::Vector3d kLower(1, 2, 3), kUpper(2, 4, 6);  // a box of 1 x 2 x 3, volume 6
 
@@ -38,10 +38,10 @@ std::set<std::array<std::uint8_t, 4>> colors_of(const TriangleMesh& mesh) {
 
 void expect_box(const TriangleMesh& mesh, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
   const Box box = box_of(mesh);
-  EXPECT_LT((box.lower - lower).cwiseAbs().maxCoeff(), kSingle) << box.lower.transpose();
-  EXPECT_LT((box.upper - upper).cwiseAbs().maxCoeff(), kSingle) << box.upper.transpose();
-  EXPECT_NEAR(volume_of(mesh), (upper - lower).prod(), kSingle * (upper - lower).prod());
-  EXPECT_LT(vector_area_of(mesh).norm(), kSingle);
+  EXPECT_LT((box.lower - lower).cwiseAbs().maxCoeff(), kFloatRounding) << box.lower.transpose();
+  EXPECT_LT((box.upper - upper).cwiseAbs().maxCoeff(), kFloatRounding) << box.upper.transpose();
+  EXPECT_NEAR(volume_of(mesh), (upper - lower).prod(), kFloatRounding * (upper - lower).prod());
+  EXPECT_LT(vector_area_of(mesh).norm(), kFloatRounding);
   EXPECT_EQ(mesh.triangles.size(), 36U);
   EXPECT_EQ(mesh.vertices.size(), 24U);  // three normals at each corner of a box
   expect_sound_normals(mesh);
@@ -110,8 +110,8 @@ TEST_F(ReadMesh, UpIsIgnoredAsInRvizOrBecomesZ) {
   with = {};
   with.up = "X_UP";
   const Box turned = box_of(read_mesh(file("x.dae", collada(box, with)), MeshUp::file));
-  EXPECT_NEAR(turned.lower[2], 1, kSingle);
-  EXPECT_NEAR(turned.upper[2], 2, kSingle);
+  EXPECT_NEAR(turned.lower[2], 1, kFloatRounding);
+  EXPECT_NEAR(turned.upper[2], 2, kFloatRounding);
 
   const std::string o = file("o.obj", obj(box));
   expect_box(read_mesh(o, MeshUp::file), kLower, kUpper);

@@ -34,7 +34,7 @@ Expectation expectation_of(const std::string& path) {
   return {std::stoi(match[1]), match[2]};
 }
 
-class BadFile : public testing::TestWithParam<std::string> {};
+class BadFile : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(BadFile, IsRefusedWithItsMessageAndLineAndNothingElse) {
   const Expectation expected = expectation_of(GetParam());
@@ -50,23 +50,23 @@ TEST_P(BadFile, IsRefusedWithItsMessageAndLineAndNothingElse) {
   }
 }
 
-std::string test_name(const testing::TestParamInfo<std::string>& info) {
+std::string test_name(const ::testing::TestParamInfo<std::string>& info) {
   return fs::path(info.param).stem().string();
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, BadFile, testing::ValuesIn(files_in(CHAINREEL_SOURCE "/tests/model/bad")),
+INSTANTIATE_TEST_SUITE_P(Models, BadFile, ::testing::ValuesIn(files_in(CHAINREEL_SOURCE "/tests/model/bad")),
                          test_name);
 
-class GoodFile : public testing::TestWithParam<std::string> {};
+class GoodFile : public ::testing::TestWithParam<std::string> {};
 
 // The same tags in their right form: what is refused above is refused for its fault, not for its looks.
 TEST_P(GoodFile, IsRead) {
   EXPECT_EQ(refusal_of(GetParam()), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, GoodFile, testing::ValuesIn(files_in(CHAINREEL_SOURCE "/tests/model/good")),
+INSTANTIATE_TEST_SUITE_P(Models, GoodFile, ::testing::ValuesIn(files_in(CHAINREEL_SOURCE "/tests/model/good")),
                          test_name);
-INSTANTIATE_TEST_SUITE_P(OfTheProgram, GoodFile, testing::ValuesIn(files_in(CHAINREEL_SOURCE "/models")),
+INSTANTIATE_TEST_SUITE_P(OfTheProgram, GoodFile, ::testing::ValuesIn(files_in(CHAINREEL_SOURCE "/models")),
                          test_name);
 
 TEST(BadFiles, AllProblemsOfAFileAreToldInItsOrder) {

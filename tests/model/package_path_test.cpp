@@ -34,7 +34,7 @@ class Variable {
   std::optional<std::string> old_;
 };
 
-class PackagePath : public testing::Test {
+class PackagePath : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
   std::string mesh(const std::string& name) const { return folder_.write(name, "solid\nendsolid\n"); }

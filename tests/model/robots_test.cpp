@@ -31,7 +31,7 @@ const std::vector<Robot> kRobots{
     {"simple_humanoid_description/urdf/simple_humanoid_classical.urdf", 29, false, false},
 };
 
-class PublicRobots : public testing::Test {
+class PublicRobots : public ::testing::Test {
  protected:
   PublicRobots() {
     const char* folder = std::getenv("CHAINREEL_ROBOTS");

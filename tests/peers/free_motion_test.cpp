@@ -87,14 +87,14 @@ TEST(FreeMotion, OfPublicRobotsThatHangOnNothingKeepsTheirEnergy) {
 }
 
 TEST(FreeMotion, ErrorIsTheMethodsOwn) {
-  expect_error_of_order_four("arm", free_motion(chainreel::testing::arm_chain(3)));
+  expect_error_of_order_four("arm", free_motion(chainreel::test::arm_chain(3)));
   for (const std::string& path : public_robots())
     expect_error_of_order_four(path + ", upright", free_motion(read_frictionless(path), 0.3));
 }
 
 // Negative control: explicit Euler gains energy, some h^2 a step.
 TEST(FreeMotion, AuditSeesAMethodThatGainsEnergy) {
-  Simulation run = free_motion(chainreel::testing::arm_chain(3));
+  Simulation run = free_motion(chainreel::test::arm_chain(3));
   run.method = &find_method("explicit_euler");
   EXPECT_GT(audit_error("arm, explicit Euler", run), 1000 * kLargestError);
 }

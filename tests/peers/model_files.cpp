@@ -50,7 +50,7 @@ Chain with_independent_joints(Chain chain) {
     body.joint.ratio = 1;
     body.joint.offset = 0;
   }
-  testing::finish(chain);
+  test::finish(chain);
   return chain;
 }
 

@@ -23,14 +23,14 @@
 namespace chainreel::peers {
 namespace {
 
-using chainreel::testing::arm_chain;
-using chainreel::testing::as_vector;
-using chainreel::testing::Random;
-using chainreel::testing::random_state;
-using chainreel::testing::random_tree;
-using chainreel::testing::relative_difference;
-using chainreel::testing::State;
-using chainreel::testing::with_changed_mass;
+using chainreel::test::arm_chain;
+using chainreel::test::as_vector;
+using chainreel::test::Random;
+using chainreel::test::random_state;
+using chainreel::test::random_tree;
+using chainreel::test::relative_difference;
+using chainreel::test::State;
+using chainreel::test::with_changed_mass;
 
 constexpr double kAgreement = 1e-9;
 constexpr int kStates = 100;
@@ -194,7 +194,7 @@ TEST(Mujoco, IsGivenNothingThatItsFormatCannotSay) {
 // Negative controls: what is asked of MuJoCo differs from what is asked of us by one part in a million.
 
 TEST(Mujoco, SeesAMassThatIsWrongByOnePartInAMillion) {
-  for (const Chain& chain : {chainreel::testing::rrr_chain(), arm_chain(1),
+  for (const Chain& chain : {chainreel::test::rrr_chain(), arm_chain(1),
                              random_tree(2, {.bodies = 6, .floating_base = true})}) {
     MujocoChain theirs(with_changed_mass(chain, 2, 1 + 1e-6));
     const Difference found = difference(chain, theirs);

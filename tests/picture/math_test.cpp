@@ -7,17 +7,13 @@
 #include "picture/math_notation.hpp"
 #include "picture/text.hpp"
 #include "picture/utf8.hpp"
+#include "support/fonts.hpp"
 
 namespace chainreel {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-const Fonts& fonts() {
-  static const Fonts opened;
-  return opened;
-}
 
 TextLine lay_out(const std::string& notation, Align align = Align::left) {
   return lay_out_math(fonts(), notation, {Face::math, 1, color_of(0x1A1A1A), align});
@@ -30,7 +26,7 @@ std::vector<std::string> words(const std::string& notation) {
   return result;
 }
 
-constexpr double kRoundOff = 1e-14;  // sums of a few numbers of size 1 to 10
+constexpr double kMathRoundOff = 1e-14;  // sums of a few numbers of size 1 to 10
 
 TEST(Math, VariablesAreItalicNumbersAndUnitsUpright) {
   EXPECT_THAT(words("tau = (10, 10, 10) N m"), ElementsAre("\U0001D70F=(10,10,10)Nm"));
@@ -56,25 +52,25 @@ TEST(Math, MinusIsASignOfItsOwnAndCloserInFrontThanBetween) {
   EXPECT_THAT(words("0, -100 y_G"), ElementsAre("0,\u2212100\U0001D466", "\U0001D43A"));
   const double in_front = lay_out("-1").advance - lay_out("1").advance;
   const double between = lay_out("2 - 1").advance - lay_out("2").advance - lay_out("1").advance;
-  EXPECT_NEAR(between - in_front, 2 * 4.0 / 18, kRoundOff);  // a medium space on either side
+  EXPECT_NEAR(between - in_front, 2 * 4.0 / 18, kMathRoundOff);  // a medium space on either side
 }
 
 TEST(Math, ScriptsAreSmallerAndShifted) {
   const TextLine line = lay_out("lambda_{n_c}^2");
   ASSERT_EQ(line.runs.size(), 4u);
   EXPECT_EQ(line.runs[0].size, 1);
-  EXPECT_NEAR(line.runs[1].size, 0.7, kRoundOff);
-  EXPECT_NEAR(line.runs[1].origin.y, -0.18, kRoundOff);
-  EXPECT_NEAR(line.runs[2].size, 0.5, kRoundOff);
-  EXPECT_NEAR(line.runs[2].origin.y, -0.18 - 0.7 * 0.18, kRoundOff);
-  EXPECT_NEAR(line.runs[3].size, 0.7, kRoundOff);
-  EXPECT_NEAR(line.runs[3].origin.y, 0.38, kRoundOff);
+  EXPECT_NEAR(line.runs[1].size, 0.7, kMathRoundOff);
+  EXPECT_NEAR(line.runs[1].origin.y, -0.18, kMathRoundOff);
+  EXPECT_NEAR(line.runs[2].size, 0.5, kMathRoundOff);
+  EXPECT_NEAR(line.runs[2].origin.y, -0.18 - 0.7 * 0.18, kMathRoundOff);
+  EXPECT_NEAR(line.runs[3].size, 0.7, kMathRoundOff);
+  EXPECT_NEAR(line.runs[3].origin.y, 0.38, kMathRoundOff);
 }
 
 TEST(Math, TrailingDigitsAreAnIndex) {
   EXPECT_EQ(words("q1"), words("q_1"));
   EXPECT_EQ(words("lambda12"), words("lambda_{12}"));
-  EXPECT_NEAR(lay_out("q1").advance, lay_out("q_1").advance, kRoundOff);
+  EXPECT_NEAR(lay_out("q1").advance, lay_out("q_1").advance, kMathRoundOff);
   // Control: a superscript says the same at another place.
   EXPECT_EQ(words("q^1"), words("q1"));
   EXPECT_GT(lay_out("q^1").runs.at(1).origin.y, 0);
@@ -90,26 +86,26 @@ TEST(Math, DerivativesBearDotsAboveTheInk) {
 
   const Rect ink = lay_out("q").box;
   const auto& dot = std::get<Ellipse>(once.marks[0]);
-  EXPECT_NEAR(dot.center.y, ink.y1 + 0.10, kRoundOff);
-  EXPECT_NEAR(dot.u.x, 0.11 / 2, kRoundOff);
-  EXPECT_NEAR(dot.center.x, (ink.x0 + ink.x1) / 2, kRoundOff);
+  EXPECT_NEAR(dot.center.y, ink.y1 + 0.10, kMathRoundOff);
+  EXPECT_NEAR(dot.u.x, 0.11 / 2, kMathRoundOff);
+  EXPECT_NEAR(dot.center.x, (ink.x0 + ink.x1) / 2, kMathRoundOff);
   const auto& left = std::get<Ellipse>(twice.marks[0]);
   const auto& right = std::get<Ellipse>(twice.marks[1]);
-  EXPECT_NEAR(right.center.x - left.center.x, 0.18, kRoundOff);
-  EXPECT_NEAR((right.center.x + left.center.x) / 2, dot.center.x, kRoundOff);
-  EXPECT_NEAR(once.box.y1, ink.y1 + 0.10 + 0.11 / 2, kRoundOff);  // the dot is part of the box
+  EXPECT_NEAR(right.center.x - left.center.x, 0.18, kMathRoundOff);
+  EXPECT_NEAR((right.center.x + left.center.x) / 2, dot.center.x, kMathRoundOff);
+  EXPECT_NEAR(once.box.y1, ink.y1 + 0.10 + 0.11 / 2, kMathRoundOff);  // the dot is part of the box
 }
 
 TEST(Math, DotsMoveWithTheLine) {
   const TextLine right = lay_out("thetad", Align::right), left = lay_out("thetad", Align::left);
   const double shift =
       std::get<Ellipse>(right.marks.at(0)).center.x - std::get<Ellipse>(left.marks.at(0)).center.x;
-  EXPECT_NEAR(shift, -left.advance, kRoundOff);
+  EXPECT_NEAR(shift, -left.advance, kMathRoundOff);
   Picture picture;
   draw_text(picture, left, {0.5, 0.25});
   ASSERT_EQ(picture.items.size(), 2u);
   EXPECT_NEAR(std::get<Ellipse>(picture.items[1].shape).center.x,
-              0.5 + std::get<Ellipse>(left.marks.at(0)).center.x, kRoundOff);
+              0.5 + std::get<Ellipse>(left.marks.at(0)).center.x, kMathRoundOff);
 }
 
 TEST(Math, TransposeIsUprightAndInverseHasAMinus) {
@@ -145,7 +141,7 @@ TEST(Math, FractionsStandAboveAndBelowTheirRule) {
   const TextLine line = lay_out("frac{1}{2 m}");
   ASSERT_EQ(rules(line).size(), 1u);
   const double rule = rules(line)[0].a.y;
-  EXPECT_NEAR(rule, 0.25, kRoundOff);
+  EXPECT_NEAR(rule, 0.25, kMathRoundOff);
   ASSERT_EQ(line.runs.size(), 2u);
   EXPECT_GT(line.runs[0].origin.y, rule);
   EXPECT_LT(line.runs[1].origin.y, 0);
@@ -158,13 +154,13 @@ TEST(Math, ColumnsAndMatricesStandInBrackets) {
   const TextLine column = lay_out("col{10; -2.5; q1}");
   EXPECT_EQ(rules(column).size(), 6u);  // two brackets of three strokes
   ASSERT_GE(column.runs.size(), 3u);
-  EXPECT_NEAR(column.runs[0].origin.y, 1.3, kRoundOff);
-  EXPECT_NEAR(column.runs[1].origin.y, 0, kRoundOff);
-  EXPECT_NEAR(column.runs[2].origin.y, -1.3, kRoundOff);
+  EXPECT_NEAR(column.runs[0].origin.y, 1.3, kMathRoundOff);
+  EXPECT_NEAR(column.runs[1].origin.y, 0, kMathRoundOff);
+  EXPECT_NEAR(column.runs[2].origin.y, -1.3, kMathRoundOff);
   // Commas in brackets part arguments, not cells.
   EXPECT_EQ(words("mat{f(a, b), 1; 2, 3}").size(), 4u);
   // What holds a matrix is as tall as its brackets, and they stand about it.
-  EXPECT_NEAR((column.box.y0 + column.box.y1) / 2, 0.25, kRoundOff);
+  EXPECT_NEAR((column.box.y0 + column.box.y1) / 2, 0.25, kMathRoundOff);
   // The transpose stands at the top, a unit behind.
   EXPECT_GT(lay_out("col{1; 2}^T").runs.back().origin.y, 0.8);
   EXPECT_EQ(words("col{1; 2} kg").back(), "kg");
@@ -175,14 +171,14 @@ TEST(Math, HatsAndBarsStandAboveTheInk) {
   ASSERT_EQ(rules(lay_out("hat{q}")).size(), 2u);
   ASSERT_EQ(rules(lay_out("bar{q}")).size(), 1u);
   EXPECT_GT(rules(lay_out("bar{q}"))[0].a.y, ink);
-  EXPECT_NEAR(lay_out("hat{q}").advance, lay_out("q").advance, kRoundOff);
+  EXPECT_NEAR(lay_out("hat{q}").advance, lay_out("q").advance, kMathRoundOff);
 }
 
 TEST(Math, RulesMoveWithTheLine) {
   Picture picture;
   const TextLine line = lay_out("bar{q}");
   draw_text(picture, line, {0.5, 0.25});
-  EXPECT_NEAR(std::get<Capsule>(picture.items.at(1).shape).a.x, 0.5 + rules(line)[0].a.x, kRoundOff);
+  EXPECT_NEAR(std::get<Capsule>(picture.items.at(1).shape).a.x, 0.5 + rules(line)[0].a.x, kMathRoundOff);
 }
 
 TEST(Math, NumbersSetOffByBlanksStayApart) {

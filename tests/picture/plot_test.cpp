@@ -12,17 +12,13 @@
 #include "picture/font_subset.hpp"
 #include "picture/plot_hatch.hpp"
 #include "picture/segment.hpp"
+#include "support/fonts.hpp"
 
 namespace chainreel {
 namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
-
-const Fonts& fonts() {
-  static const Fonts opened;
-  return opened;
-}
 
 PlotStyle style_of(double text_scale = 1) {
   return {&fonts(), &light_theme(), text_scale};

@@ -13,19 +13,15 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "picture/utf8.hpp"
+#include "support/fonts.hpp"
 
 namespace chainreel {
 namespace {
 
 using testing::HasSubstr;
 
-const Fonts& fonts() {
-  static const Fonts opened;
-  return opened;
-}
-
 // Positions are a few sums of whole font units divided by the em: round-off of numbers of size 1.
-constexpr double kRoundOff = 1e-14;
+constexpr double kTextRoundOff = 1e-14;
 
 TextStyle label(double size, Align align = Align::left) {
   return {Face::label, size, color_of(0), align};
@@ -35,9 +31,9 @@ TEST(Text, MeasuresGrowWithTheSize) {
   const TextLine one = lay_out_text(fonts(), "Explicit Euler gains energy", label(0.03));
   const TextLine two = lay_out_text(fonts(), "Explicit Euler gains energy", label(0.06));
   EXPECT_GT(one.advance, 0.3);  // 27 letters of about half an em
-  EXPECT_NEAR(two.advance, 2 * one.advance, kRoundOff);
-  EXPECT_NEAR(two.box.x1, 2 * one.box.x1, kRoundOff);
-  EXPECT_NEAR(two.box.y0, 2 * one.box.y0, kRoundOff);
+  EXPECT_NEAR(two.advance, 2 * one.advance, kTextRoundOff);
+  EXPECT_NEAR(two.box.x1, 2 * one.box.x1, kTextRoundOff);
+  EXPECT_NEAR(two.box.y0, 2 * one.box.y0, kTextRoundOff);
 }
 
 TEST(Text, AlignmentMovesTheWholeLine) {
@@ -45,9 +41,9 @@ TEST(Text, AlignmentMovesTheWholeLine) {
   const TextLine center = lay_out_text(fonts(), "t = 1.24 s", label(0.03, Align::center));
   const TextLine right = lay_out_text(fonts(), "t = 1.24 s", label(0.03, Align::right));
   EXPECT_EQ(left.runs.at(0).origin.x, 0);
-  EXPECT_NEAR(center.runs.at(0).origin.x, -left.advance / 2, kRoundOff);
-  EXPECT_NEAR(right.runs.at(0).origin.x, -left.advance, kRoundOff);
-  EXPECT_NEAR(right.box.x1, left.box.x1 - left.advance, kRoundOff);
+  EXPECT_NEAR(center.runs.at(0).origin.x, -left.advance / 2, kTextRoundOff);
+  EXPECT_NEAR(right.runs.at(0).origin.x, -left.advance, kTextRoundOff);
+  EXPECT_NEAR(right.box.x1, left.box.x1 - left.advance, kTextRoundOff);
   EXPECT_EQ(right.box.y1, left.box.y1);
 }
 
@@ -58,10 +54,10 @@ TEST(Text, InkBoxIsThatOfTheOutline) {
   FT_BBox control;  // of the control points: never smaller than the ink, and equal where extrema are points
   FT_Outline_Get_CBox(&face->glyph->outline, &control);
   const double em = face->units_per_EM;
-  EXPECT_NEAR(line.box.x0, double(control.xMin) / em, kRoundOff);
-  EXPECT_NEAR(line.box.x1, double(control.xMax) / em, kRoundOff);
-  EXPECT_NEAR(line.box.y0, double(control.yMin) / em, kRoundOff);
-  EXPECT_NEAR(line.box.y1, double(control.yMax) / em, kRoundOff);
+  EXPECT_NEAR(line.box.x0, double(control.xMin) / em, kTextRoundOff);
+  EXPECT_NEAR(line.box.x1, double(control.xMax) / em, kTextRoundOff);
+  EXPECT_NEAR(line.box.y0, double(control.yMin) / em, kTextRoundOff);
+  EXPECT_NEAR(line.box.y1, double(control.yMax) / em, kTextRoundOff);
   EXPECT_LT(line.box.y0, -0.1);  // g has a descender
 }
 
@@ -95,7 +91,7 @@ TEST(Text, MissingGlyphIsAnErrorThatNamesCharacterFaceAndPackage) {
     EXPECT_EQ(error.code(), ExitCode::no_renderer);
     EXPECT_THAT(error.what(), HasSubstr("U+5B57"));
     EXPECT_THAT(error.what(), HasSubstr("DejaVu Sans"));
-    EXPECT_THAT(error.what(), HasSubstr("fonts-dejavu-core"));
+    EXPECT_THAT(error.what(), HasSubstr("text_fonts-dejavu-core"));
   }
   // The same sign may be missing in one face only: subscript one is.
   EXPECT_NO_THROW(lay_out_text(fonts(), "q\u2081", label(1)));
@@ -133,8 +129,8 @@ TEST(Text, DrawingMovesRunsToTheAnchorAndKeepsTheWords) {
   EXPECT_EQ(picture.items[0].clip, 3);
   const auto& run = std::get<GlyphRun>(picture.items[0].shape);
   EXPECT_EQ(run.text, "t = 1 s");
-  EXPECT_NEAR(run.origin.x, 1.7 - line.advance, kRoundOff);
-  EXPECT_NEAR(run.origin.y, 0.05, kRoundOff);
+  EXPECT_NEAR(run.origin.x, 1.7 - line.advance, kTextRoundOff);
+  EXPECT_NEAR(run.origin.y, 0.05, kTextRoundOff);
 }
 
 TEST(Text, FacesAreKnownByFileAndHash) {
@@ -156,13 +152,13 @@ TEST(Text, MissingFontFileNamesItsPackage) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::no_renderer);
     EXPECT_THAT(error.what(), HasSubstr("DejaVuSans.ttf"));
-    EXPECT_THAT(error.what(), HasSubstr("fonts-dejavu-core"));
+    EXPECT_THAT(error.what(), HasSubstr("text_fonts-dejavu-core"));
   }
   try {
-    Fonts without_math({"/usr/share/fonts/truetype/dejavu"});
+    Fonts without_math({"/usr/share/text_fonts/truetype/dejavu"});
     FAIL() << "no error";
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("fonts-lmodern"));
+    EXPECT_THAT(error.what(), HasSubstr("text_fonts-lmodern"));
   }
 }
 

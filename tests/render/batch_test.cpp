@@ -13,9 +13,9 @@ namespace {
 
 const Paint kPaint = {kBlack, kNothing, 0};
 
-class BatchTest : public testing::Test {
+class BatchTest : public ::testing::Test {
  protected:
-  GlyphAtlas atlas_{test_fonts(), 4096};
+  GlyphAtlas atlas_{fonts(), 4096};
   Batch batch_{kSide, kSide, atlas_};
   Picture picture_;
 };

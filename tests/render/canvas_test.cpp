@@ -18,22 +18,22 @@ namespace {
 constexpr int kWidth = 640, kHeight = 360;
 
 const Picture& card() {
-  static const Picture picture = test_card(test_fonts(), light_theme());
+  static const Picture picture = test_card(fonts(), light_theme());
   return picture;
 }
 
 Image drawn(const Picture& picture, int width = kWidth, int height = kHeight) {
-  Canvas canvas(width, height, test_fonts());
+  Canvas canvas(width, height, fonts());
   Image image;
   canvas.draw(picture, image);
   return image;
 }
 
 TEST(Canvas, TheSamePictureGivesTheSameBytes) {
-  Canvas one(kWidth, kHeight, test_fonts()), other(kWidth, kHeight, test_fonts());
+  Canvas one(kWidth, kHeight, fonts()), other(kWidth, kHeight, fonts());
   Image first, second, third, between;
   one.draw(card(), first);
-  one.draw(test_card(test_fonts(), dark_theme()), between);
+  one.draw(test_card(fonts(), dark_theme()), between);
   one.draw(card(), second);
   other.draw(card(), third);
   EXPECT_EQ(first.bgra, second.bgra);
@@ -47,7 +47,7 @@ TEST(Canvas, EveryThreadMayHaveItsOwn) {
   std::vector<std::thread> threads;
   for (Image& image : images)
     threads.emplace_back([&image] {
-      Canvas canvas(kWidth, kHeight, test_fonts());
+      Canvas canvas(kWidth, kHeight, fonts());
       for (int i = 0; i < 3; ++i) canvas.draw(card(), image);
     });
   for (std::thread& thread : threads) thread.join();
@@ -61,7 +61,7 @@ TEST(Canvas, AStaticLayerChangesNoByte) {
     below.items.resize(part);
     above.items.erase(above.items.begin(), above.items.begin() + std::ptrdiff_t(part));
     above.background = color_of(0xFF00FF);  // not to be seen: the layer has its own
-    Canvas canvas(kWidth, kHeight, test_fonts());
+    Canvas canvas(kWidth, kHeight, fonts());
     canvas.set_static_layer(below);
     Image image;
     canvas.draw(card(), image);  // what is drawn once must not stay
@@ -162,14 +162,14 @@ TEST(Canvas, ALineThatComesFromFarAwayIsStillStraight) {
 TEST(Canvas, SizesBeyondTheLimitsAreRefused) {
   for (const auto& [width, height] : {std::pair(0, 10), std::pair(10, -1), std::pair(1000000, 10)}) {
     try {
-      Canvas canvas(width, height, test_fonts());
+      Canvas canvas(width, height, fonts());
       ADD_FAILURE() << width << "x" << height;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::limit);
       EXPECT_THAT(error.what(), testing::HasSubstr(std::to_string(width)));
     }
   }
-  EXPECT_NO_THROW(Canvas(1, 1, test_fonts()));
+  EXPECT_NO_THROW(Canvas(1, 1, fonts()));
 }
 
 TEST(Canvas, AnySizeHasItsRowsInOrder) {
@@ -191,7 +191,7 @@ TEST(Canvas, RendererHasAName) {
   EXPECT_FALSE(info.backend.empty());
   EXPECT_FALSE(info.renderer.empty());
   EXPECT_GE(std::atof(info.version.c_str()), 3.3);
-  EXPECT_EQ(Canvas(8, 8, test_fonts()).info().renderer, info.renderer);
+  EXPECT_EQ(Canvas(8, 8, fonts()).info().renderer, info.renderer);
 }
 
 }  // namespace

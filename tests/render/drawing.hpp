@@ -8,13 +8,9 @@
 #include "core/image.hpp"
 #include "picture/picture.hpp"
 #include "render/canvas.hpp"
+#include "support/fonts.hpp"
 
 namespace chainreel {
-
-inline const Fonts& test_fonts() {
-  static const Fonts opened;
-  return opened;
-}
 
 inline constexpr int kSide = 128;
 inline constexpr double kPx = 1.0 / kSide;
@@ -28,7 +24,7 @@ inline Point at_px(double x, double y) {
 }
 
 inline Image draw_items(std::initializer_list<Shape> shapes, Color background = color_of(0xFFFFFF)) {
-  static Canvas canvas(kSide, kSide, test_fonts());
+  static Canvas canvas(kSide, kSide, fonts());
   Picture picture;
   picture.background = background;
   for (const Shape& shape : shapes) picture.add(shape);

@@ -249,7 +249,7 @@ TEST(Shapes, TrailsDoNotBead) {
   const Trail trail = wave(0.4, 9);
   for (std::size_t i = 1; i < trail.points.size(); ++i)
     beads.add(Capsule{trail.points[i - 1].p, trail.points[i].p, 4.5 * kPx, {color_of(0, 0.4), kNothing, 0}});
-  Canvas canvas(kSide, kSide, test_fonts());
+  Canvas canvas(kSide, kSide, fonts());
   Image image;
   canvas.draw(beads, image);
   EXPECT_GT(darkest_range(image).second, 0.6);

@@ -178,7 +178,7 @@ TEST(Solids, HaveAnOutlineOfTheirWidth) {
 }
 
 TEST(Solids, StayInsideOfTheirClip) {
-  Canvas canvas(kSide, kSide, test_fonts());
+  Canvas canvas(kSide, kSide, fonts());
   Picture picture;
   picture.clips = {{0.25, 0.25, 0.5, 0.75}};
   picture.add(silhouette({at(cube(1.8), 0, 0, 0)}), 0);
@@ -257,7 +257,7 @@ TEST(Solids, KnowWhereTheyStandWithoutBeingDrawn) {
   EXPECT_FALSE(bounds_of(scene({}), {}));
 }
 
-class SolidsAsVectors : public testing::Test {
+class SolidsAsVectors : public ::testing::Test {
  protected:
   SolidsAsVectors() {
     picture.aspect = 16.0 / 9;
@@ -267,7 +267,7 @@ class SolidsAsVectors : public testing::Test {
     solids.outline_width = 0.004;
     picture.add(Capsule{{0.1, 0.1}, {1.6, 0.9}, 0.01, {kBlack, {}, 0}});
     picture.add(std::move(solids));
-    Canvas canvas(960, 540, test_fonts());
+    Canvas canvas(960, 540, fonts());
     canvas.draw(picture, by_canvas);
   }
   Picture picture;
@@ -280,7 +280,7 @@ constexpr double kMeanOfEdges = 0.6;
 
 TEST_F(SolidsAsVectors, LookTheSameInSvg) {
   const TemporaryFolder folder;
-  const std::string text = svg_text(picture, test_fonts(), {540, "", "", ""});
+  const std::string text = svg_text(picture, fonts(), {540, "", "", ""});
   EXPECT_THAT(text, testing::HasSubstr("<image "));
   const std::string png = folder.file("page.png");
   const ProgramResult result = run_command({"rsvg-convert", folder.write("page.svg", text), "-o", png});
@@ -290,7 +290,7 @@ TEST_F(SolidsAsVectors, LookTheSameInSvg) {
 
 TEST_F(SolidsAsVectors, LookTheSameInPdf) {
   const TemporaryFolder folder;
-  const std::string pdf = folder.write("page.pdf", pdf_text(picture, test_fonts(), {540, "", "", ""}));
+  const std::string pdf = folder.write("page.pdf", pdf_text(picture, fonts(), {540, "", "", ""}));
   const ProgramResult result =
       run_command({"pdftocairo", "-png", "-singlefile", "-r", "72", pdf, folder.file("page")});
   ASSERT_EQ(result.status, 0) << result.err;
@@ -299,7 +299,7 @@ TEST_F(SolidsAsVectors, LookTheSameInPdf) {
   // Without the bodies the pictures differ by far more.
   Picture bare = picture;
   bare.items.pop_back();
-  Canvas canvas(960, 540, test_fonts());
+  Canvas canvas(960, 540, fonts());
   Image without;
   canvas.draw(bare, without);
   EXPECT_GT(compare_pictures(without, page).mean, 5 * kMeanOfEdges);

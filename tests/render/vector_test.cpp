@@ -25,10 +25,10 @@ constexpr int kWidth = 960, kHeight = 540;
 // Edges differ by up to a pixel's coverage: the canvas keeps lines a pixel wide and sets text on whole rows,
 // and each rasteriser has its own rule for what a pixel covers. Edges are a few per cent of the page;
 // measured are 0.5 to 0.9.
-constexpr double kMeanOfEdges = 1.2;
+constexpr double kMeanOfVectorEdges = 1.2;
 
 Image by_canvas(const Picture& picture) {
-  Canvas canvas(kWidth, kHeight, test_fonts());
+  Canvas canvas(kWidth, kHeight, fonts());
   Image image;
   canvas.draw(picture, image);
   return image;
@@ -39,7 +39,7 @@ Image by_cairo(const Picture& picture) {
   cairo_surface_t* surface = cairo_image_surface_create_for_data(image.bgra.data(), CAIRO_FORMAT_ARGB32,
                                                                  kWidth, kHeight, 4 * kWidth);
   cairo_t* cairo = cairo_create(surface);
-  paint_with_cairo(cairo, picture, test_fonts(), kHeight);
+  paint_with_cairo(cairo, picture, fonts(), kHeight);
   cairo_surface_flush(surface);
   cairo_destroy(cairo);
   cairo_surface_destroy(surface);
@@ -48,7 +48,7 @@ Image by_cairo(const Picture& picture) {
 
 Image by_rsvg(const Picture& picture) {
   const TemporaryFolder folder;
-  const std::string svg = folder.write("page.svg", svg_text(picture, test_fonts(), {kHeight, "", "", ""}));
+  const std::string svg = folder.write("page.svg", svg_text(picture, fonts(), {kHeight, "", "", ""}));
   const std::string png = folder.file("page.png");
   const ProgramResult result = run_command({"rsvg-convert", svg, "-o", png});
   EXPECT_EQ(result.status, 0) << result.err;
@@ -57,7 +57,7 @@ Image by_rsvg(const Picture& picture) {
 
 Image by_poppler(const Picture& picture) {
   const TemporaryFolder folder;
-  const std::string pdf = folder.write("page.pdf", pdf_text(picture, test_fonts(), {kHeight, "", "", ""}));
+  const std::string pdf = folder.write("page.pdf", pdf_text(picture, fonts(), {kHeight, "", "", ""}));
   const ProgramResult result =
       run_command({"pdftoppm", "-r", "72", "-png", "-singlefile", pdf, folder.file("page")});
   EXPECT_EQ(result.status, 0) << result.err;
@@ -65,7 +65,7 @@ Image by_poppler(const Picture& picture) {
 }
 
 Picture card() {
-  return test_card(test_fonts(), light_theme());
+  return test_card(fonts(), light_theme());
 }
 
 // The worst difference of any pixel after averaging squares of nine by nine: shifts of edges by part of a
@@ -91,7 +91,7 @@ double worst_of_blurred(const Image& a, const Image& b) {
 // than 60.
 constexpr double kWorstOfBlurred = 45;
 
-class VectorPictures : public testing::TestWithParam<const char*> {
+class VectorPictures : public ::testing::TestWithParam<const char*> {
  protected:
   Image drawn(const Picture& picture) const {
     const std::string by = GetParam();
@@ -103,7 +103,7 @@ TEST_P(VectorPictures, DifferFromTheCanvasAtEdgesAlone) {
   const Image expected = by_canvas(card()), actual = drawn(card());
   const PictureDifference difference = compare_pictures(actual, expected);
   ASSERT_TRUE(difference.same_size);
-  EXPECT_LT(difference.mean, kMeanOfEdges);
+  EXPECT_LT(difference.mean, kMeanOfVectorEdges);
   EXPECT_LT(worst_of_blurred(actual, expected), kWorstOfBlurred);
 }
 
@@ -121,7 +121,7 @@ TEST_P(VectorPictures, AMissingShapeIsNoticed) {
   EXPECT_GT(worst_of_blurred(drawn(less), expected), kWorstOfBlurred);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, VectorPictures, testing::Values("cairo", "svg", "pdf"));
+INSTANTIATE_TEST_SUITE_P(All, VectorPictures, ::testing::Values("cairo", "svg", "pdf"));
 
 TEST(Vector, CellsAreFlatAndExact) {
   Picture page;
@@ -149,45 +149,45 @@ std::string words_of_pdf(const std::string& bytes) {
 }
 
 TEST(Pdf, ItsWordsCanBeFound) {
-  const std::string words = words_of_pdf(pdf_text(card(), test_fonts(), {540, "Card", "all shapes", "kept"}));
+  const std::string words = words_of_pdf(pdf_text(card(), fonts(), {540, "Card", "all shapes", "kept"}));
   EXPECT_THAT(words, HasSubstr("Every primitive, once"));
   EXPECT_THAT(words, HasSubstr("t = 1.24 s"));
   Picture wordless = card();
   std::erase_if(wordless.items,
                 [](const Item& item) { return std::holds_alternative<GlyphRun>(item.shape); });
-  EXPECT_THAT(words_of_pdf(pdf_text(wordless, test_fonts(), {})), Not(HasSubstr("primitive")));
+  EXPECT_THAT(words_of_pdf(pdf_text(wordless, fonts(), {})), Not(HasSubstr("primitive")));
 }
 
 TEST(Pdf, LigaturesAreFoundByTheirLetters) {
   Picture page;
-  draw_text(page, lay_out_text(test_fonts(), "final office", {Face::label, 0.1, kBlack, Align::left}),
+  draw_text(page, lay_out_text(fonts(), "final office", {Face::label, 0.1, kBlack, Align::left}),
             {0.1, 0.5});
-  EXPECT_THAT(words_of_pdf(pdf_text(page, test_fonts(), {})), HasSubstr("final office"));
+  EXPECT_THAT(words_of_pdf(pdf_text(page, fonts(), {})), HasSubstr("final office"));
 }
 
 TEST(Pdf, EqualPicturesGiveEqualBytesWithoutATime) {
-  const std::string bytes = pdf_text(card(), test_fonts(), {540, "Card", "", ""});
-  EXPECT_EQ(bytes, pdf_text(card(), test_fonts(), {540, "Card", "", ""}));
+  const std::string bytes = pdf_text(card(), fonts(), {540, "Card", "", ""});
+  EXPECT_EQ(bytes, pdf_text(card(), fonts(), {540, "Card", "", ""}));
   EXPECT_THAT(bytes, Not(HasSubstr("CreationDate")));
 }
 
 TEST(Svg, HoldsItsWordsAsTextAndItsFonts) {
-  const std::string svg = svg_text(card(), test_fonts(), {540, "A <card>", "all & any", "kept"});
+  const std::string svg = svg_text(card(), fonts(), {540, "A <card>", "all & any", "kept"});
   EXPECT_THAT(svg, HasSubstr("<title>A &lt;card&gt;</title>"));
   EXPECT_THAT(svg, HasSubstr("<desc>all &amp; any</desc>"));
   EXPECT_THAT(svg, HasSubstr(">Every primitive, once</tspan>"));
   EXPECT_THAT(svg, HasSubstr("font-family:chainreel-math"));
-  EXPECT_EQ(svg, svg_text(card(), test_fonts(), {540, "A <card>", "all & any", "kept"}));
+  EXPECT_EQ(svg, svg_text(card(), fonts(), {540, "A <card>", "all & any", "kept"}));
 }
 
 TEST(Svg, EveryCharacterHasItsPlace) {
   Picture page;
-  draw_text(page, lay_out_text(test_fonts(), "AVA", {Face::label, 0.1, kBlack, Align::left}), {0.1, 0.5});
+  draw_text(page, lay_out_text(fonts(), "AVA", {Face::label, 0.1, kBlack, Align::left}), {0.1, 0.5});
   std::smatch places;
-  const std::string svg = svg_text(page, test_fonts(), {1000, "", "", ""});
+  const std::string svg = svg_text(page, fonts(), {1000, "", "", ""});
   ASSERT_TRUE(
       std::regex_search(svg, places, std::regex("<tspan x=\"([0-9.]+) ([0-9.]+) ([0-9.]+)\">AVA</tspan>")));
-  const GlyphRun run = lay_out_text(test_fonts(), "AVA", {Face::label, 0.1, kBlack, Align::left}).runs[0];
+  const GlyphRun run = lay_out_text(fonts(), "AVA", {Face::label, 0.1, kBlack, Align::left}).runs[0];
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_NEAR(std::stod(places[i + 1]), 1000 * (0.1 + run.glyphs[i].x), 0.0006);  // half of the last digit
 }
@@ -214,8 +214,8 @@ TEST(Vector, WhatIsNotFiniteIsLeftOut) {
   broken.add(Capsule{{NAN, 0}, {1, 1}, 0.1, {kBlack, {}, 0}});
   broken.add(Ellipse{{0.5, 0.5}, {HUGE_VAL, 0}, {0, 0.1}, {kBlack, {}, 0}});
   broken.add(Cells{{0, 0, 1, 1}, 3, 3, {}});
-  EXPECT_EQ(svg_text(page, test_fonts(), {}), svg_text(broken, test_fonts(), {}));
-  EXPECT_EQ(pdf_text(page, test_fonts(), {}), pdf_text(broken, test_fonts(), {}));
+  EXPECT_EQ(svg_text(page, fonts(), {}), svg_text(broken, fonts(), {}));
+  EXPECT_EQ(pdf_text(page, fonts(), {}), pdf_text(broken, fonts(), {}));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-class SceneConstraints : public testing::Test {
+class SceneConstraints : public ::testing::Test {
  protected:
   // A scene on a chain of models/, with these keys.
   Scene read(const std::string& text, const std::string& model = "rrr") {

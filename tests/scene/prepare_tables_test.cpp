@@ -16,7 +16,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-class SceneTables : public testing::Test {
+class SceneTables : public ::testing::Test {
  protected:
   // Of RRR, 2 s long, driven by tables beside the scene.
   Scene ready(const std::string& text) {

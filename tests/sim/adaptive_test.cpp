@@ -21,8 +21,8 @@ Simulation adaptive_run(const std::string& model, const std::vector<std::string>
   return run;
 }
 
-class Adaptive : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Methods, Adaptive, testing::Values("dop853", "radau5"),
+class Adaptive : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Methods, Adaptive, ::testing::Values("dop853", "radau5"),
                          [](const auto& p) { return p.param; });
 
 TEST_P(Adaptive, EndsWithStatusTimeAndJointWhereATorqueBlowsUp) {

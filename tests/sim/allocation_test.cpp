@@ -19,9 +19,9 @@ long allocations_in_loop(const Simulation& run, std::span<const double> times) {
   return at_last - at_first;
 }
 
-class Loop : public testing::TestWithParam<std::string> {};
+class Loop : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Registry, Loop,
-                         testing::Values("explicit_euler", "semi_implicit_euler", "rk4", "symplectic_euler",
+                         ::testing::Values("explicit_euler", "semi_implicit_euler", "rk4", "symplectic_euler",
                                          "verlet", "implicit_midpoint", "gauss6"),
                          [](const auto& p) { return p.param; });
 

@@ -15,41 +15,41 @@ namespace {
 
 struct Instance {
   Chain chain;
-  testing::State state;
+  test::State state;
   double h = 0.001;
 };
 
-using MakeChain = std::function<Chain(testing::Random&)>;
+using MakeChain = std::function<Chain(test::Random&)>;
 
 // Other masses and inertias each; the planar form is made anew from them.
-Chain varied(Chain chain, testing::Random& random) {
+Chain varied(Chain chain, test::Random& random) {
   for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
     const double scale = random.between(0.5, 3);
     chain.bodies[i].inertia.mass *= scale;
     chain.bodies[i].inertia.about_com *= scale;
   }
-  testing::finish(chain);
+  test::finish(chain);
   return chain;
 }
 
-Chain varied_rr(testing::Random& random) {
-  return testing::rr_chain({.L1 = random.between(0.5, 2),
+Chain varied_rr(test::Random& random) {
+  return test::rr_chain({.L1 = random.between(0.5, 2),
                             .L2 = random.between(0.5, 2),
                             .m1 = random.between(0.5, 3),
                             .m2 = random.between(0.5, 3)});
 }
 
-Chain varied_rrr(testing::Random& random) {
-  return varied(testing::rrr_chain(), random);
+Chain varied_rrr(test::Random& random) {
+  return varied(test::rrr_chain(), random);
 }
 
 // Some start where the fast reduction of angles ends: far off, near multiples of pi/2, at both zeros.
 std::vector<Instance> instances_of(const MakeChain& make, int count, std::uint64_t seed) {
-  testing::Random random(seed);
+  test::Random random(seed);
   std::vector<Instance> all;
   for (int i = 0; i < count; ++i) {
     Instance instance{make(random), {}, random.between(1e-4, 1e-3)};
-    instance.state = testing::random_state(instance.chain, random);
+    instance.state = test::random_state(instance.chain, random);
     if (i % 7 == 1) instance.state.q[0] = random.between(1e6, 1e8);
     if (i % 7 == 2) instance.state.q.back() = -random.between(1e6, 1e8);
     if (i % 7 == 3) instance.state.q[0] = 0x1.921fb54442d18p+0, instance.state.qd[0] = 1e-9;
@@ -154,7 +154,7 @@ TEST_P(Batch, OfThreeJointsHasTheBitsOfEachRunByItself) {
 
 TEST_P(Batch, OfOneAndOfFourJointsHasTheBitsOfEachRunByItself) {
   for (const int n : {1, 4}) {
-    const auto make = [n](testing::Random& r) { return varied(testing::planar_serial_chain(n), r); };
+    const auto make = [n](test::Random& r) { return varied(test::planar_serial_chain(n), r); };
     EXPECT_EQ(in_lanes(make, 60, 3), 60) << n;
   }
 }
@@ -163,8 +163,8 @@ TEST_P(Batch, OfOneAndOfFourJointsHasTheBitsOfEachRunByItself) {
 // axes are unlike the first one's in kind is stepped by itself.
 TEST_P(Batch, OfCrookedChainsHasTheBitsOfEachRunByItself) {
   for (const int n : {2, 3, 4}) {
-    const auto make = [n](testing::Random& r) {
-      return testing::random_planar_tree(std::uint64_t(r.below(1000)),
+    const auto make = [n](test::Random& r) {
+      return test::random_planar_tree(std::uint64_t(r.below(1000)),
                                          {.bodies = n, .serial = true, .prismatic = 0});
     };
     EXPECT_GT(in_lanes(make, 60, 4), 0) << n;
@@ -172,17 +172,17 @@ TEST_P(Batch, OfCrookedChainsHasTheBitsOfEachRunByItself) {
 }
 
 TEST_P(Batch, TakesChainsWithoutAKernelOneByOne) {
-  EXPECT_EQ(in_lanes([](testing::Random& r) { return varied(testing::pp_chain(), r); }, 20, 5), 0);
-  EXPECT_EQ(in_lanes([](testing::Random&) { return testing::arm_chain(7); }, 5, 6), 0);
-  const testing::TreeOptions flying{.bodies = 4, .floating_base = true};
-  EXPECT_EQ(in_lanes([&](testing::Random&) { return testing::random_tree(8, flying); }, 5, 7), 0);
+  EXPECT_EQ(in_lanes([](test::Random& r) { return varied(test::pp_chain(), r); }, 20, 5), 0);
+  EXPECT_EQ(in_lanes([](test::Random&) { return test::arm_chain(7); }, 5, 6), 0);
+  const test::TreeOptions flying{.bodies = 4, .floating_base = true};
+  EXPECT_EQ(in_lanes([&](test::Random&) { return test::random_tree(8, flying); }, 5, 7), 0);
 }
 
 TEST_P(Batch, StepsAChainWithFrictionBesideOthersByItself) {
   std::vector<Instance> all = instances_of(varied_rr, 20, 8);
   for (const std::size_t i : {3u, 12u}) {
     all[i].chain.bodies[1].joint.damping = 0.3;
-    testing::finish(all[i].chain);
+    test::finish(all[i].chain);
   }
   BatchSimulator batch = batch_of(all, GetParam());
   EXPECT_FALSE(batch.is_in_lane(3));
@@ -197,10 +197,10 @@ TEST_P(Batch, HasTheSameBitsForAnyNumberOfThreads) {
 TEST_P(Batch, KeepsStateTorqueAndStepWhenAChainIsReplaced) {
   std::vector<Instance> all = instances_of(varied_rr, 9, 10);
   BatchSimulator batch = batch_of(all, GetParam());
-  testing::Random random(11);
+  test::Random random(11);
   Chain rubbing = all[5].chain;
   rubbing.bodies[1].joint.damping = 1;
-  testing::finish(rubbing);
+  test::finish(rubbing);
   batch.set_chain(5, rubbing);  // out of its lane
   all[5].chain = varied_rr(random);
   batch.set_chain(5, all[5].chain);  // and back
@@ -213,7 +213,7 @@ TEST_P(Batch, DiffersWhereOneMassTorqueOrStepDiffers) {
   const std::vector<Instance> all = instances_of(varied_rr, 40, 12);
   Instance other = all[17];
   other.chain.bodies[2].inertia.mass *= 1 + 1e-12;
-  testing::finish(other.chain);
+  test::finish(other.chain);
   BatchSimulator mass = batch_of(all, GetParam());
   mass.set_chain(17, other.chain);
   EXPECT_EQ(different(all, mass), 1);

@@ -18,8 +18,8 @@
 namespace chainreel {
 namespace {
 
-using testing::CorneredScene;
-using testing::cornered_scene;
+using test::CorneredScene;
+using test::cornered_scene;
 
 constexpr int kScenes = 30;
 constexpr double kLongest = 1e-3, kShortest = 1e-12;  // s; the shortest push takes 2 ms

@@ -30,7 +30,7 @@ Simulation slider(const std::string& torque, double duration, const std::string&
   return run_of("pp", {torque, "0"}, duration, method, step);
 }
 
-std::vector<double> end_of(const Simulation& run) {
+std::vector<double> q_at_end(const Simulation& run) {
   const double end[] = {run.duration};
   const Trajectory trajectory = simulate(run, end);
   EXPECT_EQ(trajectory.status, RunStatus::finished) << trajectory.trouble;
@@ -49,7 +49,7 @@ double apart(const std::vector<double>& a, const std::vector<double>& b) {
 
 double mass_of_slider() {
   const Simulation run = slider("1", 1);
-  return 0.5 / end_of(run)[0];  // x = f t^2 / (2 m)
+  return 0.5 / q_at_end(run)[0];  // x = f t^2 / (2 m)
 }
 
 class EveryMethod : public ::testing::TestWithParam<std::string> {};
@@ -63,8 +63,8 @@ TEST_P(EveryMethod, FollowsAPushOfTwoMillisecondsExactly) {
   Simulation run = slider("1000*(t>0.507)*(t<0.509)", 1, GetParam(), 0.05);
   if (run.method->adaptive) run = with(std::move(run), GetParam(), 1e-9);
   const double m = mass_of_slider();
-  EXPECT_NEAR(end_of(run)[2], 2 / m, 1e-12);
-  EXPECT_NEAR(end_of(run)[0], 2 / m * (1 - 0.508), 1e-12);
+  EXPECT_NEAR(q_at_end(run)[2], 2 / m, 1e-12);
+  EXPECT_NEAR(q_at_end(run)[0], 2 / m * (1 - 0.508), 1e-12);
 }
 
 TEST_P(EveryMethod, HoldsASliderThatSignFrictionHasStopped) {
@@ -73,8 +73,8 @@ TEST_P(EveryMethod, HoldsASliderThatSignFrictionHasStopped) {
   if (run.method->adaptive) run = with(std::move(run), GetParam(), 1e-9);
   run.qd0[0] = 1;
   const double m = mass_of_slider();
-  EXPECT_NEAR(end_of(run)[0], m / 4, 1e-11);
-  EXPECT_NEAR(end_of(run)[2], 0, 1e-11);
+  EXPECT_NEAR(q_at_end(run)[0], m / 4, 1e-11);
+  EXPECT_NEAR(q_at_end(run)[2], 0, 1e-11);
   const Trajectory trajectory = simulate(run, instants(3, 0.1));
   ASSERT_EQ(trajectory.holds.size(), 1u);
   EXPECT_NEAR(trajectory.holds[0].begin, m / 2, 1e-11);
@@ -87,8 +87,8 @@ TEST(Corners, FrictionLetsGoWhereThePushOutgrowsIt) {
     Simulation run = slider("t - 2*((qd1>0)-(qd1<0))", 4, method, 0.05);
     if (run.method->adaptive) run = with(std::move(run), method, 1e-10);
     const double m = mass_of_slider();
-    EXPECT_NEAR(end_of(run)[0], 8 / (6 * m), 1e-10) << method;
-    EXPECT_NEAR(end_of(run)[2], 2 / m, 1e-10) << method;
+    EXPECT_NEAR(q_at_end(run)[0], 8 / (6 * m), 1e-10) << method;
+    EXPECT_NEAR(q_at_end(run)[2], 2 / m, 1e-10) << method;
   }
 }
 
@@ -96,8 +96,8 @@ TEST(Corners, FrictionStopsASliderUnderMethodsOfFirstOrderToo) {
   for (const char* method : {"symplectic_euler", "explicit_euler", "semi_implicit_euler"}) {
     Simulation run = slider("-2*((qd1>0)-(qd1<0))", 3, method, 1e-3);
     run.qd0[0] = 1;
-    EXPECT_NEAR(end_of(run)[0], mass_of_slider() / 4, 2e-3) << method;
-    EXPECT_NEAR(end_of(run)[2], 0, 1e-11) << method;
+    EXPECT_NEAR(q_at_end(run)[0], mass_of_slider() / 4, 2e-3) << method;
+    EXPECT_NEAR(q_at_end(run)[2], 0, 1e-11) << method;
   }
 }
 
@@ -131,9 +131,9 @@ TEST(Corners, ThatAreCrossedAtEverShorterIntervalsEndTheRunWithTheirExpression) 
 
 TEST(Corners, WhatTheTextHoldsAtRestStaysThere) {
   for (const char* torque : {"5*(q1>0)", "2*((qd1>0)-(qd1<0))", "5*(q1==0)", "1-2*((qd1>0)-(qd1<0))"})
-    EXPECT_EQ(end_of(with(slider(torque, 2), "dop853", 1e-9))[0], 0) << torque;
+    EXPECT_EQ(q_at_end(with(slider(torque, 2), "dop853", 1e-9))[0], 0) << torque;
   const double m = mass_of_slider();
-  EXPECT_NEAR(end_of(with(slider("5*(q2<=0)", 2), "dop853", 1e-9))[0], 10 / m, 1e-9);
+  EXPECT_NEAR(q_at_end(with(slider("5*(q2<=0)", 2), "dop853", 1e-9))[0], 10 / m, 1e-9);
 }
 
 TEST(Corners, FrictionHoldsFromTheStartBesideACornerThatNothingDrives) {
@@ -161,11 +161,11 @@ TEST(Corners, OfAReferenceEndStepsToo) {
   control.pd = Feedback{{50}, {10}, {{"abs(t-1)", {}}, {"0", {}}}, {}, {}, ""};
   run.torque = make_control(run.chain, control, {});
   EXPECT_THAT(run.torque->breaks(2), ::testing::ElementsAre(1));
-  const std::vector<double> fine = end_of(with(std::move(run), "dop853", 1e-12));
+  const std::vector<double> fine = q_at_end(with(std::move(run), "dop853", 1e-12));
   Simulation coarse = run_of("pp", {}, 2, "rk4", 0.01);
   coarse.torque = make_control(coarse.chain, control, {});
   coarse.step = 0.03;  // 1 s is no multiple
-  EXPECT_LT(apart(end_of(coarse), fine), 2e-4);
+  EXPECT_LT(apart(q_at_end(coarse), fine), 2e-4);
 }
 
 // By another way: to each instant by itself, and on from there under the other torque.
@@ -178,7 +178,7 @@ std::vector<double> by_hand(const std::vector<double>& q0, const std::vector<dou
     Simulation run = with(run_of("rr", {torques[k], "0"}, next - now), "dop853", 1e-12);
     run.q0 = q;
     run.qd0 = qd;
-    const std::vector<double> state = end_of(run);
+    const std::vector<double> state = q_at_end(run);
     q.assign(state.begin(), state.begin() + 2);
     qd.assign(state.begin() + 2, state.end());
     now = next;
@@ -201,7 +201,7 @@ TEST(Corners, PushesOfAnArmAreThoseOfIntegrationFromCornerToCorner) {
                         Case{{down, 0}, "60*(t>1)*(t<1.002)", {1, 1.002}, {"0", "60", "0"}}}) {
     Simulation run = run_of("rr", {c.torque, "0"}, 4);
     run.q0 = c.q0;
-    EXPECT_LT(apart(end_of(with(std::move(run), "dop853", 1e-10)), by_hand(c.q0, c.instants, c.torques, 4)),
+    EXPECT_LT(apart(q_at_end(with(std::move(run), "dop853", 1e-10)), by_hand(c.q0, c.instants, c.torques, 4)),
               1e-7)
         << c.torque;
   }
@@ -209,13 +209,13 @@ TEST(Corners, PushesOfAnArmAreThoseOfIntegrationFromCornerToCorner) {
 
 TEST(Corners, ThirtyRandomScenesHaveOneMotionUnderThreeMethods) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
-    const testing::CorneredScene scene = testing::cornered_scene(seed);
+    const test::CorneredScene scene = test::cornered_scene(seed);
     const auto end_under = [&](const char* method, double tolerance, double beside) {
       Simulation run = run_of(scene.model, scene.torque, scene.duration, method, 1e-3);
       run.q0 = scene.q0;
       run.qd0 = scene.qd0;
       run.q0[0] += beside;
-      return end_of(tolerance > 0 ? with(std::move(run), method, tolerance) : std::move(run));
+      return q_at_end(tolerance > 0 ? with(std::move(run), method, tolerance) : std::move(run));
     };
     const std::vector<double> one = end_under("dop853", 1e-10, 0);
     const double amplification = std::max(1.0, apart(one, end_under("dop853", 1e-10, 1e-7)) / 1e-7);
@@ -233,8 +233,8 @@ Simulation arm_with_dry_friction() {
 }
 
 TEST(Corners, DryFrictionOfBothJointsHoldsAnArmInTheEnd) {
-  const std::vector<double> one = end_of(with(arm_with_dry_friction(), "dop853", 1e-11));
-  const std::vector<double> other = end_of(with(arm_with_dry_friction(), "radau5", 1e-11));
+  const std::vector<double> one = q_at_end(with(arm_with_dry_friction(), "dop853", 1e-11));
+  const std::vector<double> other = q_at_end(with(arm_with_dry_friction(), "radau5", 1e-11));
   EXPECT_LT(apart(one, other), 1e-8);
   EXPECT_NEAR(one[2], 0, 1e-10);
   EXPECT_NEAR(one[3], 0, 1e-10);

@@ -29,12 +29,12 @@ std::vector<std::string> kinds(const Simulation& run) {
 // tanh(qd / 0.01) pulls it with a rate of 10 N m s over 2e-5 kg m^2, 5e5 /s.
 Simulation light_link_with_friction(const std::string& method, double step) {
   Simulation run;
-  run.chain = testing::random_tree(4, {.bodies = 2, .serial = true, .floating_base = true, .prismatic = 0});
+  run.chain = test::random_tree(4, {.bodies = 2, .serial = true, .floating_base = true, .prismatic = 0});
   run.chain.gravity.setZero();
   run.chain.bodies[2].inertia = {0.01, {0.02, 0, 0}, Eigen::Vector3d(1e-5, 1e-5, 1e-5).asDiagonal()};
   run.chain.bodies[2].joint.friction = 0.1;
   run.chain.has_dissipation = true;
-  testing::finish(run.chain);
+  test::finish(run.chain);
   run.q0 = zero_configuration(run.chain);
   run.qd0.assign(std::size_t(run.chain.nv), 0);
   run.qd0[3] = 1, run.qd0[4] = 0.5;

@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, Pendulum, ::testing::Values("dop853", "taylor"
 
 TEST_P(Pendulum, PassesTheVerticalAfterQuartersOfItsPeriod) {
   Simulation run = run_of("rr", {"0"}, 6);
-  run.chain = testing::planar_serial_chain(1);
+  run.chain = test::planar_serial_chain(1);
   run.torque = make_torque_law(run.chain, {{"0", {}, {}}}, {});
   run.q0 = {0};  // horizontal: an amplitude of 90 degrees
   run.qd0 = {0};
@@ -207,7 +207,7 @@ TEST(Events, ThatAreNoNumberEndTheRunAndSaySo) {
 
 std::string complaint(const EventEntry& entry) {
   try {
-    const Chain chain = testing::rr_chain();
+    const Chain chain = test::rr_chain();
     make_events(chain, {entry}, {});
   } catch (const Error& error) {
     return error.what();

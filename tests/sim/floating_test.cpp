@@ -11,7 +11,7 @@
 #include "sim/runs.hpp"
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 // A tree of three bodies that floats and tumbles.
@@ -272,4 +272,4 @@ TEST(FloatingBase, IsHeldByConstraintsWithRadau5) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

@@ -108,12 +108,12 @@ TEST(CenterOfPressure, CanBeReadByEvents) {
 
 TEST(GroundReaction, IsTheSameByBothAlgebras) {
   const Simulation run = falling_human();
-  const Chain spatial = testing::without_planar_form(run.chain);
+  const Chain spatial = test::without_planar_form(run.chain);
   Workspace planar_ws(run.chain), spatial_ws(spatial);
-  testing::Random random(11);
+  test::Random random(11);
   for (int k = 0; k < 20; ++k) {
-    const auto q = testing::random_vector(3, random, 1), qd = testing::random_vector(3, random, 3),
-               qdd = testing::random_vector(3, random, 10);
+    const auto q = test::random_vector(3, random, 1), qd = test::random_vector(3, random, 3),
+               qdd = test::random_vector(3, random, 10);
     const Wrench a = compute_ground_reaction(run.chain, planar_ws, q, qd, qdd);
     const Wrench b = compute_ground_reaction(spatial, spatial_ws, q, qd, qdd);
     // Roundings of some 1000 N.
@@ -123,11 +123,11 @@ TEST(GroundReaction, IsTheSameByBothAlgebras) {
 }
 
 TEST(GroundAxes, WantGravityInThePlaneOfTheChain) {
-  Chain chain = testing::rr_chain();
+  Chain chain = test::rr_chain();
   EXPECT_EQ(ground_axes(chain).up, Eigen::Vector3d::UnitY());
   chain.gravity = {0, 0, -9.81};
   EXPECT_THROW(ground_axes(chain), Error);
-  EXPECT_THROW(ground_axes(testing::arm_chain(1)), Error);
+  EXPECT_THROW(ground_axes(test::arm_chain(1)), Error);
 }
 
 }  // namespace

@@ -60,12 +60,12 @@ double slope_of(const Row& row) {
   return (n * xy - x_sum * y_sum) / (n * xx - x_sum * x_sum);
 }
 
-class OnProblemA : public testing::TestWithParam<Row> {};
+class OnProblemA : public ::testing::TestWithParam<Row> {};
 // A row here is one more method tested. The errors of dop853 fall with slopes of 9 to 11 above 1e-10: what
 // leads them there is not yet the first term of their series.
 INSTANTIATE_TEST_SUITE_P(
     Methods, OnProblemA,
-    testing::Values(Row{"explicit_euler", {1000000, 2000000}},
+    ::testing::Values(Row{"explicit_euler", {1000000, 2000000}},
                     Row{"semi_implicit_euler", {100000, 200000, 400000}},
                     Row{"symplectic_euler", {40000, 80000}}, Row{"verlet", {800, 1600, 6400}},
                     Row{"implicit_midpoint", {800, 1600, 6400}}, Row{"gauss4", {100, 160, 320, 800}},

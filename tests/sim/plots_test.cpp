@@ -8,7 +8,7 @@
 #include "sim/simulate.hpp"
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 Simulation pendulum(const std::vector<PlotEntry>& plots) {
@@ -85,4 +85,4 @@ TEST(Plots, SayWhatTheyCannotShow) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

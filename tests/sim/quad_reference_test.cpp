@@ -42,8 +42,8 @@ const Problem kProblems[] = {
      {-8.4091339323936243, 7.4518792440199677, 16.879509713974965}},
 };
 
-class Problems : public testing::TestWithParam<Problem> {};
-INSTANTIATE_TEST_SUITE_P(Measured, Problems, testing::ValuesIn(kProblems),
+class Problems : public ::testing::TestWithParam<Problem> {};
+INSTANTIATE_TEST_SUITE_P(Measured, Problems, ::testing::ValuesIn(kProblems),
                          [](const auto& p) { return p.param.name; });
 
 TEST_P(Problems, EndWhereTheyEnd) {

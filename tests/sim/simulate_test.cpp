@@ -58,8 +58,8 @@ TEST(Simulate, SwingsPpOnItsSpring) {
     EXPECT_NEAR(trajectory.q_at(k)[1], std::cos(10 * trajectory.t[std::size_t(k)]), 1e-8);
 }
 
-class Order : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Registry, Order, testing::Values("explicit_euler", "semi_implicit_euler", "rk4"),
+class Order : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Registry, Order, ::testing::Values("explicit_euler", "semi_implicit_euler", "rk4"),
                          [](const auto& p) { return p.param; });
 
 TEST_P(Order, OfTheMethodShowsInTheErrorOnRr) {

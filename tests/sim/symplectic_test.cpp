@@ -154,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& p) { return p.param.method; });
 
 TEST_P(UnderTorques, FollowsDop853) {
-  Chain chain = testing::rrr_chain();
+  Chain chain = test::rrr_chain();
   for (Body& body : chain.bodies) body.joint.damping = 0.4;
   chain.has_dissipation = true;
   const std::vector<std::string> torque{"3 * sin(2 * t)", "-4 * q2 - 0.5 * qd3", "xd_G"};
@@ -168,9 +168,9 @@ TEST_P(UnderTorques, FollowsDop853) {
 
 // Rods whose ends share their mass, axes that point down, torques at every joint.
 TEST_P(UnderTorques, FollowsDop853OnALongChain) {
-  Chain chain = testing::planar_serial_chain(7);
+  Chain chain = test::planar_serial_chain(7);
   for (std::size_t i = 2; i < chain.bodies.size(); i += 3) chain.bodies[i].joint.axis *= -1;
-  testing::finish(chain);
+  test::finish(chain);
   const std::vector<std::string> torque{"2", "-0.5", "0.3", "0", "-0.1", "0.05", "0.01"};
   const double T = 0.25;
   const End reference = end_of(run_on(chain, torque, T, "dop853", 0.0005));
@@ -183,11 +183,11 @@ TEST(StiffSpring, IsNoTroubleForImplicitMethodsAndDivergesOthers) {
   // omega h = 1e6 sqrt(k / M) h: some 1e3 s^-1 against 10 ms.
   const std::vector<std::string> torque{"0", "-1e6 * (q2 - 0.1)"};
   for (const char* method : {"implicit_midpoint", "gauss4", "gauss6"}) {
-    const End end = end_of(run_on(testing::rr_chain(), torque, 2, method, 0.01));
+    const End end = end_of(run_on(test::rr_chain(), torque, 2, method, 0.01));
     EXPECT_LT(std::abs(end.q[1] - 0.1), 0.01) << method;
   }
   for (const char* method : {"verlet", "symplectic_euler", "rk4"}) {
-    Simulation run = run_on(testing::rr_chain(), torque, 2, method, 0.01);
+    Simulation run = run_on(test::rr_chain(), torque, 2, method, 0.01);
     run.q0[1] = 0.11;
     EXPECT_NE(simulate_every_step(run).status, RunStatus::finished) << method;
   }
@@ -224,33 +224,33 @@ std::string refusal(const Chain& chain, const std::string& method) {
 }
 
 TEST(Rattle, RefusesWhatIsNoRowOfPointsAndRods) {
-  EXPECT_EQ(refusal(testing::rr_chain(), "rattle4"), "");
-  EXPECT_EQ(refusal(testing::planar_serial_chain(20), "rattle4"), "");
-  EXPECT_THAT(refusal(testing::pp_chain(), "rattle4"), HasSubstr("slides"));
-  EXPECT_THAT(refusal(testing::arm_chain(1), "rattle4"), HasSubstr("does not move in one plane"));
-  Chain chain = testing::rrr_chain();
+  EXPECT_EQ(refusal(test::rr_chain(), "rattle4"), "");
+  EXPECT_EQ(refusal(test::planar_serial_chain(20), "rattle4"), "");
+  EXPECT_THAT(refusal(test::pp_chain(), "rattle4"), HasSubstr("slides"));
+  EXPECT_THAT(refusal(test::arm_chain(1), "rattle4"), HasSubstr("does not move in one plane"));
+  Chain chain = test::rrr_chain();
   chain.bodies[1].inertia.com.y() += 0.01;
-  testing::finish(chain);
+  test::finish(chain);
   EXPECT_THAT(refusal(chain, "rattle2"), HasSubstr("beside the line"));
-  chain = testing::rrr_chain();
+  chain = test::rrr_chain();
   chain.bodies[2].joint.X_PJ.translation().setZero();
-  testing::finish(chain);
+  test::finish(chain);
   EXPECT_THAT(refusal(chain, "rattle2"), HasSubstr("coincide"));
-  chain = testing::rrr_chain();
+  chain = test::rrr_chain();
   chain.bodies[2].parent = 1;
   chain.bodies[3].parent = 1;
-  testing::finish(chain);
+  test::finish(chain);
   EXPECT_THAT(refusal(chain, "rattle2"), HasSubstr("branches"));
 }
 
 TEST(Rattle, TakesALastLinkOfAnyShape) {
-  Chain chain = testing::rrr_chain();
+  Chain chain = test::rrr_chain();
   chain.bodies[3].inertia.com = {0.2, 0.3, 0};
-  testing::finish(chain);
+  test::finish(chain);
   const End reference = end_of(run_on(chain, {"1"}, 1, "dop853", 0.001));
   EXPECT_LT(distance(end_of(run_on(chain, {"1"}, 1, "rattle8", 0.01)), reference), 1e-9);
   chain.bodies[3].inertia.com.setZero();  // a flywheel
-  testing::finish(chain);
+  test::finish(chain);
   const End wheel = end_of(run_on(chain, {"1"}, 1, "dop853", 0.001));
   EXPECT_LT(distance(end_of(run_on(chain, {"1"}, 1, "rattle8", 0.01)), wheel), 1e-9);
 }
@@ -270,7 +270,7 @@ TEST(Rattle, CountsWholeTurns) {
 }
 
 TEST(Rattle, SwingsASinglePendulum) {
-  const Chain chain = testing::planar_serial_chain(1);
+  const Chain chain = test::planar_serial_chain(1);
   const End reference = end_of(run_on(chain, {"0.5"}, 2, "dop853", 0.001));
   EXPECT_LT(distance(end_of(run_on(chain, {"0.5"}, 2, "rattle8", 0.01)), reference), 1e-10);
   EXPECT_LT(distance(end_of(run_on(chain, {"0.5"}, 2, "rattle2", 0.001)), reference), 1e-4);

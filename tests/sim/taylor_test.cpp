@@ -41,10 +41,10 @@ Trajectory by_rk4(Simulation& run, double step) {
   return end_of(run);
 }
 
-class Torques : public testing::TestWithParam<std::vector<std::string>> {};
+class Torques : public ::testing::TestWithParam<std::vector<std::string>> {};
 INSTANTIATE_TEST_SUITE_P(
     Affine, Torques,
-    testing::Values(std::vector<std::string>{"0", "0", "0"}, std::vector<std::string>{"10", "10", "10"},
+    ::testing::Values(std::vector<std::string>{"0", "0", "0"}, std::vector<std::string>{"10", "10", "10"},
                     std::vector<std::string>{"3*t - t^2", "1 - 2*t^3", "0"},
                     std::vector<std::string>{"-20*q1 - 2*qd1", "5*(q1 - q2)", "-0.5*qd3 + 4*t"}));
 
@@ -68,8 +68,8 @@ TEST(TaylorMethod, TakesTheDampingOfJoints) {
   EXPECT_LT(apart(damped, by_rk4(run, 1e-4)), 1e-10);
 }
 
-class Orders : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(TwelveToThirty, Orders, testing::Values(12, 13, 14, 15, 16, 20, 25, 30));
+class Orders : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(TwelveToThirty, Orders, ::testing::Values(12, 13, 14, 15, 16, 20, 25, 30));
 
 // From rest along the horizontal only the terms of orders 2, 6, 10, .. are there.
 TEST_P(Orders, AreNotDeceivedByReleaseFromTheHorizontal) {

@@ -7,7 +7,7 @@
 
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 constexpr double kRoundOff = 1e-12;  // of masses near 1 kg through an inverse of condition 10 or so
@@ -39,4 +39,4 @@ TEST(TipMass, OfAPenOnALineIsInfiniteAcrossIt) {
 }
 
 }  // namespace
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

@@ -5,7 +5,7 @@
 
 #include "support/chains.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 namespace {
 
 std::string number(double x) {
@@ -72,4 +72,4 @@ CorneredScene cornered_scene(std::uint64_t seed) {
   return scene;
 }
 
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace chainreel::testing {
+namespace chainreel::test {
 
 struct CorneredScene {
   std::string model;  // in models/, with as many freedoms as there are torques
@@ -19,4 +19,4 @@ struct CorneredScene {
 
 CorneredScene cornered_scene(std::uint64_t seed);
 
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

@@ -6,7 +6,7 @@
 
 #include "model/planar.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
@@ -304,4 +304,4 @@ State random_state(const Chain& chain, Random& random, double speed) {
   return state;
 }
 
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

@@ -7,7 +7,7 @@
 
 #include "model/chain.hpp"
 
-namespace chainreel::testing {
+namespace chainreel::test {
 
 // The same numbers on every machine; std::uniform_real_distribution promises none.
 class Random {
@@ -64,4 +64,4 @@ struct State {
 State random_state(const Chain& chain, Random& random, double speed = 2);
 std::vector<double> random_vector(std::size_t n, Random& random, double size);
 
-}  // namespace chainreel::testing
+}  // namespace chainreel::test

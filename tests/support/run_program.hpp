@@ -7,6 +7,13 @@
 
 namespace chainreel {
 
+// Of a command line.
+using Words = std::vector<std::string>;
+inline Words with(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
 struct ProgramResult {
   int status = -1;         // exit status; 128 + number where a signal ended it
   bool timed_out = false;  // it was ended by us

@@ -15,6 +15,12 @@ struct SymmetricEigen {
 // of those that tie.
 SymmetricEigen eigen_of_symmetric(const Eigen::MatrixXd& A);
 
+// Of any square A.
+Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& A);
+
+// Columns of length 1 at right angles that A sends to zero. Rows count as dependent below `threshold` of the largest.
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& A, double threshold);
+
 Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 // A^T B A, symmetric to the last bit as B is meant to be.
 Eigen::MatrixXd congruence(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);

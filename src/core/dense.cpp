@@ -1,4 +1,4 @@
-#include "dynamics/dense.hpp"
+#include "core/dense.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -16,6 +16,18 @@ SymmetricEigen eigen_of_symmetric(const Eigen::MatrixXd& A) {
     if (result.vectors(at, k) < 0) result.vectors.col(k) = -result.vectors.col(k);
   }
   return result;
+}
+
+Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& A) {
+  return A.eigenvalues();
+}
+
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& A, double threshold) {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(threshold);
+  qr.compute(A.transpose());
+  const Eigen::MatrixXd Q = qr.householderQ();
+  return Q.rightCols(A.cols() - qr.rank());
 }
 
 Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
