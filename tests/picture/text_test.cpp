@@ -91,7 +91,7 @@ TEST(Text, MissingGlyphIsAnErrorThatNamesCharacterFaceAndPackage) {
     EXPECT_EQ(error.code(), ExitCode::no_renderer);
     EXPECT_THAT(error.what(), HasSubstr("U+5B57"));
     EXPECT_THAT(error.what(), HasSubstr("DejaVu Sans"));
-    EXPECT_THAT(error.what(), HasSubstr("text_fonts-dejavu-core"));
+    EXPECT_THAT(error.what(), HasSubstr("fonts-dejavu-core"));
   }
   // The same sign may be missing in one face only: subscript one is.
   EXPECT_NO_THROW(lay_out_text(fonts(), "q\u2081", label(1)));
@@ -152,13 +152,13 @@ TEST(Text, MissingFontFileNamesItsPackage) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::no_renderer);
     EXPECT_THAT(error.what(), HasSubstr("DejaVuSans.ttf"));
-    EXPECT_THAT(error.what(), HasSubstr("text_fonts-dejavu-core"));
+    EXPECT_THAT(error.what(), HasSubstr("fonts-dejavu-core"));
   }
   try {
-    Fonts without_math({"/usr/share/text_fonts/truetype/dejavu"});
+    Fonts without_math({"/usr/share/fonts/truetype/dejavu"});
     FAIL() << "no error";
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("text_fonts-lmodern"));
+    EXPECT_THAT(error.what(), HasSubstr("fonts-lmodern"));
   }
 }
 
