@@ -62,10 +62,10 @@ class Finder {
     reference.size = motion_size(simulation_.chain, first.run);
     deviation_.emplace(simulation_.chain, accuracy_, reference.size);
     require_doubles_hold(first.run);
-    compare(first, second, reference);
+    const bool end_alike = compare(first, second, reference);
     if (first.setting.method == second.setting.method) ask_another_kind(first, reference);
     reference.run = first.run;
-    if (!reference.is_whole && first.setting.method->form == Form::series && came_to_an_end(first.run))
+    if (!end_alike && !reference.is_whole && first.setting.method->form == Form::series && came_to_an_end(first.run))
       go_on_in_quads(reference);
     if (reference.has_parted && reference.samples < 2 && !runs_.is_stopped()) refuse(reference);
     return reference;
@@ -126,7 +126,8 @@ class Finder {
                     format_significant(100 * rounding, 2) + " " + accuracy_.unit);
   }
 
-  void compare(const Witness& first, const Witness& second, ChoiceReference& reference) {
+  // Whether both go the same way until the same end. It may be that of the run alone: a failure is no whole one.
+  bool compare(const Witness& first, const Witness& second, ChoiceReference& reference) {
     const int both = std::min(first.run.size(), second.run.size());
     const bool same_end = came_to_an_end(first.run) && first.run.status == second.run.status;
     reference.how = to_string(first.setting) + " beside " + to_string(second.setting);
@@ -144,9 +145,13 @@ class Finder {
       reference.uncertainty.push_back(apart);
     }
     reference.samples = int(reference.uncertainty.size());
-    reference.is_whole = !parted && same_end;
+    reference.is_whole = !parted && same_end && is_complete(first.run.status);
     if (same_end && std::isfinite(largest)) reference.attainable = largest / kShareOfReference;
-    if (parted || reference.is_whole) return;
+    if (parted || reference.is_whole) return !parted;
+    if (same_end) {
+      reference.why_no_further = "there the motion itself ends: " + first.run.trouble;
+      return true;
+    }
     const Trajectory& shorter = first.run.end_time <= second.run.end_time ? first.run : second.run;
     const Witness& one = &shorter == &first.run ? first : second;
     const Witness& other = &shorter == &first.run ? second : first;
@@ -154,6 +159,7 @@ class Finder {
         came_to_an_end(one.run) ? "there the run with " + to_string(one.setting) + " ends (" + one.run.trouble +
                                       "), but that with " + to_string(other.setting) + " does not"
                                 : "no reference goes further: " + one.run.trouble + " with " + to_string(one.setting);
+    return false;
   }
 
   std::string parting_text(const MethodSetting& a, const MethodSetting& b, int k, double apart) const {

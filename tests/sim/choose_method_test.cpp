@@ -252,6 +252,20 @@ TEST(ChooseMethod, SaysWhereNoReferenceGoesFurther) {
   EXPECT_FALSE(choice.why_until.empty());
 }
 
+// Where the motion itself fails, as all references do, nothing is promised of what would follow.
+TEST(ChooseMethod, SaysUntilWhenAMotionThatFailsHolds) {
+  Simulation bouncing = run_of("pp", {"-5*((q1>0)-(q1<0)) - ((qd1>0)-(qd1<0))", "0"}, 10);
+  bouncing.q0[0] = 0.3;
+  Choice choice = choose_method(bouncing, {0.1, "px"}, frames_until(10));
+  ASSERT_TRUE(choice.holds_until);
+  EXPECT_LT(*choice.holds_until, 5);
+  EXPECT_THAT(choice.why_until, AllOf(HasSubstr("the motion itself ends"), HasSubstr("to and fro")));
+  Simulation infinite = run_of("rr", {"log(abs(t-1))*10", "0"}, 3);
+  choice = choose_method(infinite, {0.1, "px"}, frames_until(3));
+  ASSERT_TRUE(choice.holds_until);
+  EXPECT_LE(*choice.holds_until, 1);
+}
+
 // Negative control: what no method can reach is not said to be met.
 TEST(ChooseMethod, AdmitsWhereNothingIsExactEnough) {
   Simulation simulation = run_of("rr", {"0", "0"}, 12);
