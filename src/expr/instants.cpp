@@ -89,8 +89,10 @@ Course course_of(Operation operation, const Course& x, double side) {
       return {cosine_of(v), Range{} - sine_of(v) * d};
     case Operation::tangent: {
       const Range c = cosine_of(v);
-      if (c.has_zero()) return {kAnything, kAnything};
-      return {range_of({tangent(v.low), tangent(v.high)}), d / (c * c)};
+      const double low = tangent(v.low), high = tangent(v.high);
+      // Between poles it rises; the rounding of a cosine may hide one that lies at an end.
+      if (c.has_zero() || !(low <= high)) return {kAnything, kAnything};
+      return {{low, high}, d / (c * c)};
     }
     case Operation::square_root: {
       if (v.high < 0) return {kAnything, kAnything};
@@ -163,7 +165,6 @@ class Search {
   Search(const Corners& corners, const Corner& corner, double end)
       : corner_(corner),
         uses_(corners.uses()),
-        end_(end),
         smallest_(kSmallest * end),
         sides_(std::size_t(corners.count())) {
     values_.reserve(uses_.size());
@@ -174,6 +175,8 @@ class Search {
     std::fill(sides_.begin(), sides_.end(), kAsWritten);
     set_sides_of_time(corners, 0.5 * (a + b), sides_);
     found_ = &found;
+    begin_ = a;
+    end_ = b;
     halve(a, value_at(a), b, value_at(b));
   }
 
@@ -244,9 +247,10 @@ class Search {
     }
   }
 
-  // Where zero is only touched, or nearly so: neighbours that cannot be told apart are one instant, or the start or the end.
+  // Where zero is only touched, or nearly so: neighbours that cannot be told apart are one instant, or the start or the
+  // end of what lies between two that are known.
   void touch(double t) {
-    if (t < 4 * smallest_ || t > end_ - 4 * smallest_) return;
+    if (t < begin_ + 4 * smallest_ || t > end_ - 4 * smallest_) return;
     if (found_->empty() || t - found_->back() > 4 * smallest_) add(t);
   }
 
@@ -262,7 +266,8 @@ class Search {
 
   const Corner& corner_;
   std::span<const VariableUse> uses_;
-  double end_, smallest_;
+  double begin_ = 0, end_ = 0;  // of the time that is looked at
+  double smallest_;
   std::vector<double> sides_, values_;
   std::vector<Course> stack_;
   std::vector<double>* found_ = nullptr;
