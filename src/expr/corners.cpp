@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <optional>
+#include <set>
 
 #include "expr/operations.hpp"
 
@@ -61,33 +63,75 @@ T on_side(Operation operation, const T& a, const T& b, double side) {
   }
 }
 
+// What an operation reads onto the stack; false for those that compute.
+template <class T>
+bool push(const Instruction& instruction, std::span<const T> values, T*& top) {
+  switch (instruction.operation) {
+    case Operation::number:
+      *top++ = T(instruction.number);
+      return true;
+    case Operation::variable:
+      *top++ = values[std::size_t(instruction.slot)];
+      return true;
+    case Operation::pi:
+      *top++ = pi<T>();
+      return true;
+    default:
+      return false;
+  }
+}
+
+double side_of(const CorneredProgram& program, std::size_t i, std::span<const double> sides) {
+  const CorneredProgram::Turn turn = program.turns[i];
+  return turn.corner < 0 ? kAsWritten : turn.sign * sides[std::size_t(turn.corner)];
+}
+
+// Replaces the arguments at the top of the stack by what the operation makes of them on that side.
+template <class T>
+void operate(Operation operation, double side, T*& top) {
+  const bool as_written = std::isnan(side);
+  if (stack_change_of(operation) == 0) {
+    top[-1] = as_written ? result_of(operation, top[-1]) : on_side(operation, top[-1], side);
+  } else {
+    top[-2] =
+        as_written ? result_of(operation, top[-2], top[-1]) : on_side(operation, top[-2], top[-1], side);
+    --top;
+  }
+}
+
 template <std::size_t size, class T>
 T run(const CorneredProgram& program, std::span<const T> values, std::span<const double> sides) {
   std::array<T, size> stack;
   T* top = stack.data();  // one past the last value
+  for (std::size_t i = 0; i < program.instructions.size(); ++i)
+    if (!push(program.instructions[i], values, top))
+      operate(program.instructions[i].operation, side_of(program, i, sides), top);
+  return top[-1];
+}
+
+// Beside each value what it is as written, which takes its place where it alone is finite.
+template <std::size_t size, class T>
+T run_with_text(const CorneredProgram& program, std::span<const T> values, std::span<const double> sides) {
+  std::array<T, size> stack, text;
+  T *top = stack.data(), *text_top = text.data();
   for (std::size_t i = 0; i < program.instructions.size(); ++i) {
     const Instruction& instruction = program.instructions[i];
-    const Operation operation = instruction.operation;
-    if (operation == Operation::number) {
-      *top++ = T(instruction.number);
-    } else if (operation == Operation::variable) {
-      *top++ = values[std::size_t(instruction.slot)];
-    } else if (operation == Operation::pi) {
-      *top++ = pi<T>();
-    } else {
-      const CorneredProgram::Turn turn = program.turns[i];
-      const double side = turn.corner < 0 ? kAsWritten : turn.sign * sides[std::size_t(turn.corner)];
-      const bool as_written = std::isnan(side);
-      if (stack_change_of(operation) == 0) {
-        top[-1] = as_written ? result_of(operation, top[-1]) : on_side(operation, top[-1], side);
-      } else {
-        top[-2] =
-            as_written ? result_of(operation, top[-2], top[-1]) : on_side(operation, top[-2], top[-1], side);
-        --top;
-      }
+    if (push(instruction, values, top)) {
+      push(instruction, values, text_top);
+      continue;
     }
+    operate(instruction.operation, side_of(program, i, sides), top);
+    operate(instruction.operation, kAsWritten, text_top);
+    if (!std::isfinite(value_of(top[-1])) && std::isfinite(value_of(text_top[-1]))) top[-1] = text_top[-1];
   }
   return top[-1];
+}
+
+template <std::size_t size, class T>
+T finite_where_possible(const CorneredProgram& program, std::span<const T> values,
+                        std::span<const double> sides) {
+  const T result = run<size>(program, values, sides);
+  return std::isfinite(value_of(result)) ? result : run_with_text<size>(program, values, sides);
 }
 
 // Instructions [begin, end) of a program.
@@ -116,8 +160,8 @@ bool CorneredProgram::has_corners() const {
 template <class T>
 T evaluate(const CorneredProgram& program, std::span<const T> values, std::span<const double> sides) {
   constexpr int kUsualStack = 8;
-  if (program.stack_size <= kUsualStack) return run<kUsualStack>(program, values, sides);
-  return run<kMaxStack>(program, values, sides);
+  if (program.stack_size <= kUsualStack) return finite_where_possible<kUsualStack>(program, values, sides);
+  return finite_where_possible<kMaxStack>(program, values, sides);
 }
 
 // Two functions have one key where they are the same up to a factor; the number is that factor's sign.
@@ -176,7 +220,7 @@ CorneredProgram::Turn Corners::corner_at(const CorneredProgram& program, std::si
   const auto [key, sign] = key_of(value);
   const auto [found, is_new] = known_.try_emplace(key, int(list_.size()));
   if (is_new) {
-    list_.push_back({value, !reads_state, root, text});
+    list_.push_back({value, !reads_state, root, text, false});
     if (sign < 0) {  // the corner's own function is that of the first operation
       list_.back().value.instructions.push_back({Operation::negate});
       list_.back().value.turns.push_back({});
@@ -208,7 +252,44 @@ CorneredProgram Corners::add(const Expression& expression) {
     program.instructions.push_back(instruction);
     program.turns.push_back(turn);
   }
+  mark_curved(program);
   return program;
+}
+
+// Follows the corners that each waiting value reads; sums and products with others leave them affine.
+void Corners::mark_curved(const CorneredProgram& program) {
+  std::vector<std::set<int>> stack;
+  const auto mark = [&](const std::set<int>& read) {
+    for (const int k : read) list_[std::size_t(k)].is_curved = true;
+  };
+  for (std::size_t i = 0; i < program.instructions.size(); ++i) {
+    const Operation operation = program.instructions[i].operation;
+    const int change = stack_change_of(operation);
+    if (change > 0) {
+      stack.emplace_back();
+      continue;
+    }
+    std::set<int> last;
+    if (change < 0) {
+      last = std::move(stack.back());
+      stack.pop_back();
+    }
+    std::set<int>& read = stack.back();
+    if (operation == Operation::multiply) {
+      std::set<int> both;
+      std::set_intersection(read.begin(), read.end(), last.begin(), last.end(),
+                            std::inserter(both, both.begin()));
+      mark(both);
+    } else if (operation == Operation::divide) {
+      mark(last);
+    } else if (operation != Operation::negate && operation != Operation::add &&
+               operation != Operation::subtract) {
+      mark(read);
+      mark(last);
+    }
+    read.merge(last);
+    if (program.turns[i].corner >= 0) read.insert(program.turns[i].corner);
+  }
 }
 
 template double evaluate(const CorneredProgram&, std::span<const double>, std::span<const double>);

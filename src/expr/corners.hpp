@@ -7,6 +7,9 @@
 // Between -1 and 1 stands the mean of both branches with the weights (1 - s) / 2 and (1 + s) / 2; NaN stands
 // for the text as it is. == and != are never true, or always, but at instants; those push nothing.
 //
+// Beyond its corner a branch may leave the domain of what it stands in: max(0, x)^1.5 is x^1.5 there. What
+// has no value so, but has one as written, has that one; what stands around it keeps its side.
+//
 // What is the same function up to a constant factor, like qd1 > 0, 0 < 2*qd1 and abs(-qd1), is one corner.
 #pragma once
 
@@ -36,7 +39,8 @@ struct CorneredProgram {
   bool has_corners() const;
 };
 
-// `sides`: one a corner. Allocates nothing. For double, Dual<double> and Dual<Dual<double>>.
+// `sides`: one a corner. Finite wherever the expression is. Allocates nothing. For double, Dual<double> and
+// Dual<Dual<double>>.
 template <class T>
 T evaluate(const CorneredProgram& program, std::span<const T> values, std::span<const double> sides);
 
@@ -45,6 +49,9 @@ struct Corner {
   bool time_alone = false;  // it reads nothing that changes but t
   bool only_bends = false;  // it is no operation with sides, but what is under a root: a kink of t alone
   std::string text;         // of the first expression that has it
+  // Between its sides an expression is not the mean of what it is on them: another corner, a function or a
+  // denominator reads it.
+  bool is_curved = false;
 };
 
 // The corners of some expressions over the same variables.
@@ -66,6 +73,7 @@ class Corners {
   CorneredProgram::Turn corner_at(const CorneredProgram& program, std::size_t begin, Operation operation,
                                   std::size_t middle, const std::string& text);
   std::pair<Key, double> key_of(const CorneredProgram& value) const;
+  void mark_curved(const CorneredProgram& program);
 
   std::vector<VariableUse> uses_;
   std::vector<Corner> list_;

@@ -51,8 +51,32 @@ void ChainSystem::evaluate_law(double t, ConstVec q, ConstVec qd) {
 }
 
 void ChainSystem::evaluate_uncut(double t, ConstVec q, ConstVec qd) {
-  torque_->evaluate(*chain_, ws_, t, q, qd, tau_);
+  if (takes_means_)
+    evaluate_mean(t, q, qd);
+  else
+    torque_->evaluate(*chain_, ws_, t, q, qd, tau_);
   if (constrained_ && constrained_->presses()) constrained_->press(ws_, q, qd, tau_);
+}
+
+// Over the branches that meet at the corners that are held, each with both of its sides.
+void ChainSystem::evaluate_mean(double t, ConstVec q, ConstVec qd) {
+  StateCorners& corners = *torque_->corners();
+  const std::size_t m = held_.size();
+  for (std::size_t i = 0; i < m; ++i) held_sides_[i] = corners.side(held_[i]);
+  std::fill(tau_.begin(), tau_.end(), 0.0);
+  for (std::size_t branch = 0; branch < std::size_t(1) << m; ++branch) {
+    double weight = 1;
+    for (std::size_t i = 0; i < m; ++i) {
+      const double side = (branch >> i) & 1 ? 1 : -1;
+      corners.set_side(held_[i], side);
+      weight *= 0.5 * (1 + side * held_sides_[i]);
+    }
+    if (weight == 0) continue;
+    torque_->evaluate(*chain_, ws_, t, q, qd, tau_branch_);
+    if (limit_ == LimitPolicy::clamp) limits_.cut(tau_branch_);
+    for (std::size_t i = 0; i < tau_.size(); ++i) tau_[i] += weight * tau_branch_[i];
+  }
+  for (std::size_t i = 0; i < m; ++i) corners.set_side(held_[i], held_sides_[i]);
 }
 
 ConstVec ChainSystem::uncut_torque(double t, ConstVec q, ConstVec qd) {
@@ -89,6 +113,10 @@ void ChainSystem::accelerate(ConstVec q, ConstVec qd, Vec qdd) {
 
 void ChainSystem::hold(std::vector<int> held) {
   held_ = std::move(held);
+  takes_means_ = !held_.empty() && limit_ == LimitPolicy::clamp && limits_.have_effort();
+  for (const int k : held_) takes_means_ = takes_means_ || torque_->corners()->is_curved(k);
+  held_sides_.resize(held_.size());
+  tau_branch_.resize(tau_.size());
   change_ = DenseLu<double>(held_.size());
   wanted_.resize(held_.size());
 }

@@ -40,7 +40,8 @@ class ChainSystem final : public SecondOrder {
 
   // The corners of the torque law that depend on the state; null: none. Those of `held` are kept at zero from
   // here on: their sides are, at each evaluation, the mean of both branches at which the switching functions
-  // do not change (A. F. Filippov, Differential Equations with Discontinuous Righthand Sides (1988), 4).
+  // do not change (A. F. Filippov, Differential Equations with Discontinuous Righthand Sides (1988), 4). It is
+  // the mean of whole torques, as what stands around the corner and the joints' efforts make them.
   StateCorners* corners() { return torque_->corners(); }
   void hold(std::vector<int> held);
   const std::vector<int>& held() const { return held_; }
@@ -66,6 +67,7 @@ class ChainSystem final : public SecondOrder {
   void evaluate_torque(double t, ConstVec q, ConstVec qd);
   void evaluate_law(double t, ConstVec q, ConstVec qd);
   void evaluate_uncut(double t, ConstVec q, ConstVec qd);
+  void evaluate_mean(double t, ConstVec q, ConstVec qd);
   void accelerate(ConstVec q, ConstVec qd, Vec qdd);
 
   const Chain* chain_;
@@ -78,6 +80,8 @@ class ChainSystem final : public SecondOrder {
   std::vector<double> tau_net_;   // of a chain with friction
   bool torque_is_known_ = false;  // constant and evaluated: the same tau_ at every instant
   std::vector<int> held_;
+  bool takes_means_ = false;        // of whole torques: more than the sides between -1 and 1 make of them
+  std::vector<double> tau_branch_, held_sides_;
   std::vector<double> q_dot_, qdd_, rates_, wanted_;
   DenseLu<double> change_{0};
   long evaluations_ = 0;

@@ -57,21 +57,33 @@ bool LimitWatch::check_state(double t, ConstVec q, ConstVec qd) {
   return added;
 }
 
+// Of a joint that passes its effort; a mimic joint has no torque of its own.
+double* LimitWatch::excessive(const Watched& one, Vec tau) {
+  if (one.joint->ratio != 1 || one.joint->offset != 0) return nullptr;
+  double& torque = tau[std::size_t(one.joint->v_index)];
+  return std::abs(torque) > one.joint->limit.effort ? &torque : nullptr;
+}
+
 bool LimitWatch::check_effort(double t, Vec tau, bool clamp) {
   bool added = false;
   for (Watched& one : watched_) {
-    // A mimic joint has no torque of its own.
-    if (one.joint->ratio != 1 || one.joint->offset != 0) continue;
-    double& torque = tau[std::size_t(one.joint->v_index)];
-    const double effort = one.joint->limit.effort;
-    if (!(std::abs(torque) > effort)) continue;
-    if (!one.effort_passed) {
-      one.effort_passed = true;
-      added = add(*one.joint, "effort", t, torque, effort);
-    }
-    if (clamp) torque = std::copysign(effort, torque);
+    const double* const torque = excessive(one, tau);
+    if (!torque || one.effort_passed) continue;
+    one.effort_passed = true;
+    added = add(*one.joint, "effort", t, *torque, one.joint->limit.effort);
   }
+  if (clamp) cut(tau);
   return added;
+}
+
+void LimitWatch::cut(Vec tau) const {
+  for (const Watched& one : watched_)
+    if (double* const torque = excessive(one, tau)) *torque = std::copysign(one.joint->limit.effort, *torque);
+}
+
+bool LimitWatch::have_effort() const {
+  return std::any_of(watched_.begin(), watched_.end(),
+                     [](const Watched& one) { return std::isfinite(one.joint->limit.effort); });
 }
 
 }  // namespace chainreel

@@ -37,8 +37,10 @@ class LimitWatch {
   // Adds what is passed for the first time; allocates only then. True if something was added.
   bool check_state(double t, ConstVec q, ConstVec qd);
   bool check_effort(double t, Vec tau, bool clamp);  // cuts tau where `clamp`
+  void cut(Vec tau) const;                           // and says nothing of it
 
   bool are_none() const { return watched_.empty(); }
+  bool have_effort() const;
   const std::vector<LimitEvent>& events() const { return events_; }
 
  private:
@@ -46,6 +48,7 @@ class LimitWatch {
     const Joint* joint = nullptr;
     bool position_passed = false, velocity_passed = false, effort_passed = false;
   };
+  static double* excessive(const Watched& one, Vec tau);  // its torque; null: within its effort
   bool add(const Joint& joint, const char* quantity, double t, double value, double limit);
 
   std::vector<Watched> watched_;  // joints that have a limit

@@ -27,12 +27,26 @@ StateCorners::StateCorners(const Corners& corners, std::vector<double>& sides, P
   for (int k = 0; k < corners.count(); ++k) {
     if (corners[k].time_alone) continue;
     indices_.push_back(k);
+    reads_.push_back(corners_read_by(corners[k].value));
     for (const Instruction& one : corners[k].value.instructions) {
       if (one.operation != Operation::variable || !probe.is_kinematic(one.slot)) continue;
       needs_kinematics_ = true;
       if (probe.is_velocity(one.slot)) frame_rates_.push_back(one.slot);
     }
   }
+  for (std::vector<bool>& read : reads_) read.resize(indices_.size());
+}
+
+std::vector<bool> StateCorners::corners_read_by(const CorneredProgram& value) const {
+  std::vector<bool> read(indices_.size());
+  for (const CorneredProgram::Turn& turn : value.turns)
+    for (std::size_t k = 0; k < reads_.size(); ++k) {
+      if (indices_[k] != turn.corner) continue;
+      read[k] = true;
+      for (std::size_t inner = 0; inner < reads_[k].size(); ++inner)
+        if (reads_[k][inner]) read[inner] = true;
+    }
+  return read;
 }
 
 void StateCorners::values(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec g) {

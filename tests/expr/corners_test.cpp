@@ -39,6 +39,7 @@ std::vector<double> instants(const std::string& text, double end = 10) {
 void expect_instants(const std::string& text, const std::vector<double>& wanted, double tolerance,
                      double end = 10) {
   const std::vector<double> found = instants(text, end);
+
   ASSERT_EQ(found.size(), wanted.size()) << text;
   for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_NEAR(found[i], wanted[i], tolerance) << text;
 }
@@ -106,6 +107,32 @@ TEST(Corners, HeldOnASideMakeOneSmoothFunction) {
   EXPECT_EQ(Cornered("max(q1, 1)").at(0, 5, 0, {-1}), 1);
   EXPECT_NEAR(Cornered("atan2(q1, qd1)").at(0, -0.01, -1, {1}), pi + 0.01, 1e-6) << "no jump at pi";
   EXPECT_EQ(Cornered("5*(q1 == 0)").at(0, 0, 0, {1}), 0) << "an instant pushes nothing";
+}
+
+TEST(Corners, GiveTheTextsValueWhereTheBranchBeyondThemHasNone) {
+  EXPECT_EQ(Cornered("7*max(0, -q1)^1.5").at(0, 0.1, 0, {-1}), 0) << "(-0.1)^1.5 is none";
+  EXPECT_EQ(Cornered("2*sqrt(abs(q1)) + 1").at(0, -4, 0, {1}), 5);
+  EXPECT_EQ(Cornered("log(max(q1, 1))").at(0, -3, 0, {1}), 0);
+  EXPECT_EQ(Cornered("abs(qd1)^0.5*((qd1>0)-(qd1<0))").at(0, 0, -4, {1}), 2) << "the sign beside it is kept";
+  EXPECT_EQ(Cornered("min(30, 1/abs(q1))").at(0, 0, 0, {1, -1}), 30) << "at the pole";
+  EXPECT_EQ(Cornered("min(30, 1/abs(q1))").at(0, 0, 0, {1, 0}), 30);
+  EXPECT_TRUE(std::isnan(Cornered("sqrt(q1)*(q1>-2)").at(0, -1, 0, {1}))) << "the text has none either";
+}
+
+TEST(Corners, KnowWhereMeansOfSidesAreNoMeansOfValues) {
+  const auto curved = [](const std::string& text) { return Cornered(text).corners[0].is_curved; };
+  EXPECT_FALSE(curved("-2*((qd1>0)-(qd1<0)) + q1*(qd1>0)/3"));
+  EXPECT_FALSE(curved("(qd1>0)*(q1>0)"));
+  EXPECT_TRUE(curved("max(-6, -30*(qd1>0))"));
+  EXPECT_TRUE(curved("exp(-(qd1>0))"));
+  EXPECT_TRUE(curved("1/(1+(qd1>0))"));
+  EXPECT_TRUE(curved("((qd1>0)-(qd1<0))*((qd1>0)-(qd1<0))"));
+}
+
+TEST(Instants, BeforeAPoleOfATangentAreNotHiddenByIt) {
+  // The cosine is rounded where the tangent has its pole.
+  for (const char* text : {"min(50, max(-50, tan(3*t)))", "max(-50, min(50, tan(3*t)))"})
+    expect_instants(text, {std::atan(50) / 3, pi / 6, (pi - std::atan(50)) / 3}, 1e-14, 1);
 }
 
 }  // namespace

@@ -240,5 +240,94 @@ TEST(Corners, DryFrictionOfBothJointsHoldsAnArmInTheEnd) {
   EXPECT_NEAR(one[3], 0, 1e-10);
 }
 
+TEST_P(EveryMethod, BouncesOffASpringWhoseForceIsAPowerOfItsDepth) {
+  // Energy is kept: it leaves as fast as it came. Where it lifts off the force has no branch beyond zero.
+  for (const char* torque : {"300*max(0,-q1)^1.5", "30*sqrt(max(0,-q1))", "300*max(0,-q1)^1.5*(q1<0)"}) {
+    Simulation run = slider(torque, 1.5, GetParam(), 1e-3);
+    if (run.method->adaptive) run = with(std::move(run), GetParam(), 1e-9);
+    run.q0[0] = 0.1;
+    run.qd0[0] = -1;
+    // The bend costs methods of fixed steps their order, and roots more than powers.
+    EXPECT_NEAR(q_at_end(run)[2], 1, run.method->adaptive ? 1e-6 : 1e-3) << torque;
+  }
+}
+
+// The same torque as a text without corners inside others, or with others.
+struct Twins {
+  std::string nested, plain;
+};
+
+double apart_at_end(const Twins& twins, const std::string& method, double tolerance, double q0, double qd0) {
+  const auto end = [&](const std::string& torque) {
+    Simulation run = slider(torque, 2, method, 2e-3);
+    if (tolerance > 0) run = with(std::move(run), method, tolerance);
+    run.q0[0] = q0;
+    run.qd0[0] = qd0;
+    return q_at_end(run);
+  };
+  return apart(end(twins.nested), end(twins.plain));
+}
+
+const std::string sign_friction = "((qd1>0)-(qd1<0))";
+
+TEST(Corners, FrictionThatIsCutOffIsThatWhichItIsCutTo) {
+  const std::string f = sign_friction;
+  for (const Twins& twins : {Twins{"max(-6,min(6,-30*" + f + "))", "-6*" + f},
+                             {"5*sin(3*t) + max(-2,min(2,-9*" + f + " + sin(t)))", "5*sin(3*t) - 2*" + f},
+                             {"5*sin(3*t) - 2*" + f + "^3", "5*sin(3*t) - 2*" + f},
+                             {"5*sin(3*t) - 3*" + f + "/(1+0.5*" + f + "*" + f + ")", "5*sin(3*t) - 2*" + f},
+                             {"5*sin(3*t) - max(2*(qd1>0),0) + abs(2*(qd1<0))", "5*sin(3*t) - 2*" + f},
+                             {"5*sin(3*t) - min(2,3*abs(" + f + "))*" + f, "5*sin(3*t) - 2*" + f}})
+    for (const char* method : {"dop853", "radau5", "rk4"})
+      EXPECT_LT(apart_at_end(twins, method, method[0] == 'r' && method[1] == 'k' ? 0 : 1e-11, 0.3, 1), 1e-8)
+          << method << ": " << twins.nested;
+}
+
+TEST(Corners, PolesThatAreCutOffAreJumpsOrNothing) {
+  for (const Twins& twins : {Twins{"min(5,max(-5,1/(q1-0.5)))", "((q1>0.5)-(q1<0.5))/max(0.2,abs(q1-0.5))"},
+                             {"max(-5,min(5,1/(q1-0.5)))", "((q1>0.5)-(q1<0.5))/max(0.2,abs(q1-0.5))"},
+                             {"min(4,0.5/abs(q1-0.5))", "0.5/max(0.125,abs(q1-0.5))"},
+                             {"max(-4,min(4,-0.5/abs(q1-0.5)))", "-0.5/max(0.125,abs(q1-0.5))"},
+                             {"min(4,abs(0.5/(q1-0.5)))", "0.5/max(0.125,abs(q1-0.5))"},
+                             {"min(3,max(-3,1/(t-0.3)^3))",
+                              "(abs(t-0.3)>3^(-1/3))*0 + 3*(t>0.3)*(t<=0.3+3^(-1/3)) - "
+                              "3*(t<0.3) + (t>0.3+3^(-1/3))/max(0.1,t-0.3)^3"}})
+    for (const char* method : {"dop853", "radau5", "rk4"})
+      EXPECT_LT(apart_at_end(twins, method, method[0] == 'r' && method[1] == 'k' ? 0 : 1e-11, 0, 4), 1e-7)
+          << method << ": " << twins.nested;
+}
+
+TEST(Corners, FrictionBeyondTheEffortOfItsJointHoldsAsMuchAsTheJointCan) {
+  const auto end = [](const std::string& torque) {
+    Simulation run = with(slider(torque, 3), "dop853", 1e-10);
+    run.chain.bodies[1].joint.limit.effort = 2;
+    run.limit = LimitPolicy::clamp;
+    run.qd0[0] = 1;
+    return q_at_end(run);
+  };
+  EXPECT_LT(apart(end("-30*((qd1>0)-(qd1<0))"), end("-2*((qd1>0)-(qd1<0))")), 1e-10);
+  EXPECT_NEAR(end("-30*((qd1>0)-(qd1<0))")[2], 0, 1e-11);
+}
+
+TEST(Corners, AThinObstacleIsNotSteppedOver) {
+  // A disc of 1 mm beside the way: its distance dips sharply between the looks at a step.
+  const auto end = [](const char* place, const std::string& method, double tolerance) {
+    const std::string at = place;
+    Simulation run = run_of("pp", {"0", "9.81 + 3e5*max(0, 0.001 - sqrt((q1-" + at + ")^2 + (q2+0.0002)^2))"},
+                            1, method, 1e-4);
+    if (tolerance > 0) run = with(std::move(run), method, tolerance);
+    run.q0[0] = -1;
+    run.qd0[0] = 3;
+    return q_at_end(run);
+  };
+  // At the end of a step, too: 0.5 s and 1 s are such.
+  for (const char* place : {"0.31", "-0.998", "0.5004", "1.73", "-0.77123"}) {
+    const std::vector<double> fine = end(place, "rk4", 0);  // off by some 1e-5, and the way goes on by metres
+    EXPECT_GT(std::abs(fine[1]), 5e-3) << place;
+    for (const char* method : {"dop853", "radau5"})
+      EXPECT_LT(apart(end(place, method, 1e-9), fine), 5e-5) << method << " " << place;
+  }
+}
+
 }  // namespace
 }  // namespace chainreel
