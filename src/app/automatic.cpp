@@ -7,6 +7,7 @@
 #include "app/signals.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "scene/prepare.hpp"
 
 namespace chainreel {
 namespace {
@@ -22,6 +23,13 @@ std::string microseconds(double ns) {
 std::string bound_text(double x) {
   if (!(x > 0)) return "0";
   return format_significant(x + 0.49 * std::pow(10, std::floor(std::log10(x)) - 1), 2);
+}
+
+std::string price_text(const Choice& choice) {
+  std::string price = microseconds(choice.best.cost);
+  if (choice.counted_until) price += " until t = " + format_significant(*choice.counted_until, 4) + " s";
+  if (choice.cost_to_end) price += ", at that rate " + microseconds(*choice.cost_to_end) + " to the end";
+  return price;
 }
 
 Json candidate_report(const Choice::Candidate& candidate) {
@@ -77,6 +85,9 @@ void choose_automatically(PreparedScene& prepared, bool quiet) {
 }
 
 Choice choose_with_progress(Simulation& simulation, const Scene& scene, std::span<const double> times, bool quiet) {
+  // Bars have no extent but their own.
+  simulation.outline =
+      scene.links == "plain" ? Outline{} : read_outline(scene.model, simulation.chain, model_options_of(scene));
   Ticker ticker(quiet);
   Choice choice = choose_method(simulation, scene.accuracy, times, [&](const ChoiceProgress& now) {
     if (ticker.is_due()) ticker.say(scene.name + ": " + progress_text(now, simulation.duration));
@@ -91,8 +102,8 @@ std::string choice_text(const Choice& choice, const Accuracy& accuracy) {
   const Choice::Candidate& best = choice.best;
   std::string text = "auto: " + to_string(best.setting);
   if (choice.is_met)
-    text += " is off by at most " + bound_text(best.error) + unit + " and costs some " +
-            microseconds(best.cost) + "; " + std::to_string(choice.tried.size()) + " candidates";
+    text += " is off by at most " + bound_text(best.error) + unit + " and costs some " + price_text(choice) + "; " +
+            std::to_string(choice.tried.size()) + " candidates";
   else if (std::isfinite(best.error))
     text += " is the most exact that was found, off by up to " + bound_text(best.error) + unit + " where " +
             to_string(accuracy) + " was asked for";
@@ -101,6 +112,7 @@ std::string choice_text(const Choice& choice, const Accuracy& accuracy) {
   if (choice.out_of_budget)
     text += "; the search ended before all was tried, at its budget of " + microseconds(choice.budget) +
             " of counted work: this is the best so far";
+  for (const std::string& remark : choice.remarks) text += "; " + remark;
   if (!choice.holds_until) return text;
   text += "; that holds until t = " + format_significant(*choice.holds_until, 4) + " s: " + choice.why_until;
   if (choice.attainable && *choice.attainable > accuracy.value && *choice.attainable < kWorthSaying * accuracy.value)
@@ -127,6 +139,9 @@ Json choice_report(const Choice& choice, const Accuracy& accuracy, bool tried) {
   json["is_met"] = choice.is_met;
   json["holds_until"] = choice.holds_until ? Json(*choice.holds_until) : Json(nullptr);
   if (choice.holds_until) json["why_until"] = choice.why_until;
+  if (choice.counted_until) json["counted_until"] = *choice.counted_until;
+  if (choice.cost_to_end) json["cost_to_end_ns"] = *choice.cost_to_end;
+  json["remarks"] = choice.remarks;
   json["reference"] = choice.reference;
   json["reference_uncertainty"] = choice.reference_uncertainty;
   if (choice.attainable) json["attainable"] = *choice.attainable;

@@ -75,7 +75,8 @@ namespace {
 void add_warnings(Json& json, const PreparedScene& prepared, const Trajectory& trajectory, const Audit& audit) {
   json["warnings"] = Json::array();
   if (prepared.scene.expect == "diverge") return;
-  for (const Doubt& doubt : doubts_of(prepared.simulation, trajectory, audit))
+  const auto chosen_by = prepared.choice ? std::optional(prepared.scene.accuracy) : std::nullopt;
+  for (const Doubt& doubt : doubts_of(prepared.simulation, trajectory, audit, chosen_by))
     json["warnings"].push_back(
         {{"kind", doubt.kind}, {"amount", doubt.amount}, {"what", doubt.words}, {"remedy", doubt.remedy}});
 }

@@ -19,6 +19,22 @@ struct Range {
   double size() const { return low <= high ? high - low : 0; }
 };
 
+// How much of the energy is at stake.
+class Stake {
+ public:
+  void hold(const EnergyBalance::State& state, double work) {
+    kinetic_ = std::max(kinetic_, state.kinetic);
+    potential_.hold(state.potential);
+    work_.hold(work);
+  }
+  double largest_kinetic() const { return kinetic_; }
+  double moved() const { return std::max({kinetic_, potential_.size(), work_.size()}); }
+
+ private:
+  double kinetic_ = 0;  // J
+  Range potential_, work_;
+};
+
 }  // namespace
 
 EnergyBalance::EnergyBalance(const Simulation& simulation)
@@ -37,14 +53,12 @@ Audit audit_of(const Simulation& simulation, const Trajectory& trajectory, int s
   EnergyBalance balance(simulation);
   Sha256 hash;
   audit.energy_start = balance.energy_start();
-  Range potential, work;
+  Stake stake;
   for (int k = 0; k < count; ++k) {
     const auto i = std::size_t(k);
     const auto state = balance.at(trajectory.q_at(k), trajectory.qd_at(k), trajectory.work[i]);
     audit.error.push_back(state.error);
-    audit.largest_kinetic = std::max(audit.largest_kinetic, state.kinetic);
-    potential.hold(state.potential);
-    work.hold(trajectory.work[i]);
+    stake.hold(state, trajectory.work[i]);
     if (std::abs(state.error) > audit.largest_error) {
       audit.largest_error = std::abs(state.error);
       audit.largest_error_time = trajectory.t[i];
@@ -53,7 +67,13 @@ Audit audit_of(const Simulation& simulation, const Trajectory& trajectory, int s
     hash.add(trajectory.q_at(k));
     hash.add(trajectory.qd_at(k));
   }
-  audit.energy_moved = std::max({audit.largest_kinetic, potential.size(), work.size()});
+  audit.largest_kinetic = stake.largest_kinetic();
+  audit.energy_moved = stake.moved();
+  // Frames may stand where a fast motion turns round, all of them.
+  if (const auto& steps = trajectory.energy_at_steps; steps && samples < 0) {
+    audit.largest_kinetic = std::max(audit.largest_kinetic, steps->largest_kinetic);
+    audit.energy_moved = std::max(audit.energy_moved, steps->moved);
+  }
   audit.sha256 = hash.finish();
   return audit;
 }
@@ -75,13 +95,19 @@ Trajectory simulate_audited(const Simulation& simulation, std::span<const double
                             const StopRequest& stop) {
   EnergyBalance balance(simulation);
   EnergyAtSteps seen;
+  Stake stake;
+  stake.hold(balance.at(simulation.q0, simulation.qd0, 0), 0);
   Trajectory trajectory =
       simulate(simulation, times, stop, [&](double t, ConstVec q, ConstVec qd, double work) {
-        seen.at_end = balance.at(q, qd, work).error;
+        const EnergyBalance::State state = balance.at(q, qd, work);
+        stake.hold(state, work);
+        seen.at_end = state.error;
         if (std::abs(seen.at_end) <= seen.largest_error) return;
         seen.largest_error = std::abs(seen.at_end);
         seen.time = t;
       });
+  seen.largest_kinetic = stake.largest_kinetic();
+  seen.moved = stake.moved();
   trajectory.energy_at_steps = seen;
   return trajectory;
 }

@@ -12,9 +12,9 @@ namespace chainreel {
 // The energy error is E(t) - E(0) - integral of qd^T (tau - tau_f) dt, signed, J.
 struct Audit {
   double energy_start = 0;        // kinetic + potential at t = 0, J
-  double largest_kinetic = 0;     // over the samples, J
+  double largest_kinetic = 0;     // over the samples, and over the steps of a run whose energy was looked at there, J
   double energy_moved = 0;        // by this run, J: the largest of kinetic energy, and of the ranges of potential
-                                  // energy and of work, over the samples; see energy_scale() for the true motion's
+                                  // energy and of work, over the same; see energy_scale() for the true motion's
   double largest_error = 0;       // of |error| over the samples, J: with that of dense output between steps
   double largest_error_time = 0;  // s
   std::vector<double> error;      // signed, a number a sample, J

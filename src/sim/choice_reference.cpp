@@ -59,8 +59,8 @@ class Finder {
     if (runs_.is_stopped() || first.run.size() == 0) return {};
     ChoiceReference reference;
     reference.setting = first.setting;
-    reference.size = motion_size(simulation_.chain, first.run);
-    deviation_.emplace(simulation_.chain, accuracy_, reference.size);
+    reference.size = motion_size(simulation_, first.run);
+    deviation_.emplace(simulation_, accuracy_, reference.size);
     require_doubles_hold(first.run);
     const bool end_alike = compare(first, second, reference);
     if (first.setting.method == second.setting.method) ask_another_kind(first, reference);

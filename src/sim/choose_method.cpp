@@ -17,6 +17,11 @@ constexpr double kToleranceLadder[] = {1e-2, 1e-3, 1e-4,  1e-5,  1e-6,  1e-7,
                                        1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13};
 constexpr int kOrders[] = {12, 20};
 constexpr double kShareOfCandidate = 0.1;  // of the budget, where nothing is exact enough yet
+// Where a part of the run decides, what is cheapest there may be dear behind: candidates are looked at up to this many
+// times its cost, and then run to the end with equal bounds, from this share of the budget on.
+constexpr double kSpread = 10;
+constexpr double kFirstBound = 1e-3;
+constexpr double kNextBound = 4;  // times the one before
 
 bool takes_the_chain(Simulation& simulation, const Method& method) {
   simulation.method = &method;
@@ -56,6 +61,7 @@ class Chooser {
   }
 
   Choice choose() {
+    check_accuracy(simulation_.chain, accuracy_);
     reference_ = find_reference(runs_, accuracy_, times_);
     if (!runs_.is_stopped()) look_through_methods();
     simulation_.duration = duration_;
@@ -70,7 +76,7 @@ class Chooser {
     choice_.best.setting = reference_.setting;
     choice_.best.error = kInfinity;
     if (reference_.samples < 2) return;  // the start alone tells nothing
-    deviation_.emplace(simulation_.chain, accuracy_, reference_.size);
+    deviation_.emplace(simulation_, accuracy_, reference_.size);
     shorten();
     for (const Method* method : methods_) {
       if (has_ended()) break;
@@ -81,7 +87,7 @@ class Chooser {
     }
     // What is held until there by the reference alone is held by it.
     if (!choice_.is_met && !has_ended()) try_one(reference_.setting);
-    if (simulation_.duration < duration_) confirm();
+    if (is_shortened()) confirm();
   }
 
   // Behind what is known of the motion candidates cannot be told apart: they are run until there, the best to the end.
@@ -91,6 +97,8 @@ class Chooser {
     samples_.resize(std::size_t(reference_.samples));
     if (samples_.back() > 0) simulation_.duration = samples_.back();
   }
+
+  bool is_shortened() const { return samples_.size() < times_.size(); }
 
   bool has_ended() const { return runs_.is_stopped() || runs_.is_spent(); }
 
@@ -130,10 +138,15 @@ class Chooser {
     stopped,
   };
 
+  // What costs more than the best can be left.
+  double ceiling() const {
+    const double most = kShareOfCandidate * runs_.budget();
+    if (!choice_.is_met) return most;
+    return is_shortened() ? std::min(most, kSpread * choice_.best.cost) : choice_.best.cost;
+  }
+
   Verdict try_one(const MethodSetting& setting) {
-    // What costs more than the best can be left.
-    const double most = choice_.is_met ? choice_.best.cost : kShareOfCandidate * runs_.budget();
-    const Trajectory trajectory = runs_.run(setting, samples_, most);
+    const Trajectory trajectory = runs_.run(setting, samples_, ceiling());
     if (runs_.is_stopped()) return Verdict::stopped;
     const Choice::Candidate candidate = candidate_of(setting, trajectory);
     const bool met = candidate.trouble.empty() && candidate.error <= accuracy_.value;
@@ -151,25 +164,55 @@ class Chooser {
     return met ? Verdict::met : Verdict::not_met;
   }
 
-  // The best of the candidates that hold until there and come to the end of the whole run.
+  // Of the candidates that hold until there the one that comes to the end of the whole run for the least. All have the
+  // same bound, and a larger one from round to round, until one comes to the end.
   void confirm() {
+    choice_.counted_until = samples_.back();
     simulation_.duration = duration_;
-    std::vector<Choice::Candidate> met;
+    std::vector<Choice::Candidate> racers;
     for (const Choice::Candidate& one : choice_.tried)
-      if (one.trouble.empty() && one.error <= accuracy_.value) met.push_back(one);
-    std::stable_sort(met.begin(), met.end(),
+      if (one.trouble.empty() && one.error <= accuracy_.value) racers.push_back(one);
+    std::stable_sort(racers.begin(), racers.end(),
                      [](const auto& one, const auto& other) { return one.cost < other.cost; });
-    for (const Choice::Candidate& one : met) {
-      if (has_ended()) return;
-      const Trajectory whole = runs_.run(one.setting, times_, runs_.budget());
-      const Choice::Candidate confirmed = candidate_of(one.setting, whole);
-      if (!confirmed.trouble.empty() || confirmed.error > accuracy_.value) continue;
-      choice_.best = confirmed;
-      return;
+    if (racers.empty()) return;
+    double bound = std::max(kFirstBound * runs_.budget(), kSpread * racers.front().cost);
+    std::optional<Choice::Candidate> winner;
+    while (!racers.empty() && !winner && !has_ended()) {
+      std::vector<Choice::Candidate> others;
+      for (const Choice::Candidate& one : racers) {
+        if (has_ended()) break;
+        const Trajectory whole = runs_.run(one.setting, times_, winner ? winner->cost : bound);
+        const Choice::Candidate run = candidate_of(one.setting, whole);
+        if (whole.status == RunStatus::out_of_budget) {
+          others.push_back(one);
+          keep_furthest(one, run, whole.end_time);
+        } else if (run.trouble.empty() && run.error <= accuracy_.value) {
+          winner = run;
+        }
+      }
+      racers = std::move(others);
+      bound *= kNextBound;
+    }
+    if (winner) {
+      choice_.best = *winner;
+      choice_.counted_until.reset();
+      choice_.cost_to_end.reset();
     }
   }
 
-  bool is_hopeless(double cost) const { return choice_.is_met && cost >= choice_.best.cost; }
+  // The best as long as none comes to the end: who would cost the least there at the rate so far.
+  void keep_furthest(const Choice::Candidate& candidate, const Choice::Candidate& run, double end_time) {
+    const double cost_to_end = run.cost * duration_ / end_time;
+    const bool longer = to_string(candidate.setting) == to_string(choice_.best.setting);
+    if (!(end_time > samples_.back()) || (choice_.cost_to_end && !longer && cost_to_end >= *choice_.cost_to_end)) return;
+    choice_.best = run;
+    choice_.best.error = candidate.error;
+    choice_.best.trouble.clear();
+    choice_.counted_until = end_time;
+    choice_.cost_to_end = cost_to_end;
+  }
+
+  bool is_hopeless(double cost) const { return choice_.is_met && cost >= ceiling(); }
 
   void try_steps(const Method& method) {
     for (const double step : kStepLadder) {
@@ -200,6 +243,7 @@ class Chooser {
 
   void tell_of_reference() {
     choice_.reference = reference_.how;
+    tell_what_is_not_judged();
     choice_.attainable = reference_.attainable;
     // What was left out is dearer than a best one that is exact enough.
     choice_.out_of_budget = runs_.is_spent() || (left_out_ && !choice_.is_met);
@@ -210,6 +254,21 @@ class Chooser {
     if (reference_.is_whole) return;
     choice_.holds_until = reference_.samples > 0 ? times_[std::size_t(reference_.samples) - 1] : 0;
     choice_.why_until = reference_.why_no_further;
+  }
+
+  void tell_what_is_not_judged() {
+    const auto list_of = [](const std::vector<std::string>& names) {
+      std::string text;
+      for (const std::string& name : names) text += (text.empty() ? "'" : ", '") + name + "'";
+      return text;
+    };
+    if (const auto& links = simulation_.outline.unmeasured; !links.empty())
+      choice_.remarks.push_back("in place of meshes that cannot be read, of " + list_of(links) +
+                                ", boxes of the same mass and inertia are judged");
+    if (accuracy_.unit == "rad") return;
+    if (const auto names = unseen_freedoms(simulation_, reference_.run); !names.empty())
+      choice_.remarks.push_back(list_of(names) + (names.size() == 1 ? " moves" : " move") +
+                                " nothing that can be seen, and no error of that is judged: `accuracy: 1e-3 rad` does");
   }
 
   Simulation& simulation_;

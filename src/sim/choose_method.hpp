@@ -1,5 +1,5 @@
-// `method: auto`: the cheapest method and step whose error stays below what the scene allows, at every drawn
-// place, in every frame and halfway between. Cost is counted (cost_table.hpp), never timed.
+// `method: auto`: the cheapest method and step whose error stays below what the scene allows, at every
+// point that can be seen, in every frame and halfway between. Cost is counted (cost_table.hpp), never timed.
 #pragma once
 
 #include <optional>
@@ -21,6 +21,9 @@ struct Choice {
     std::string trouble;  // "" where it ran to the end
   };
   Candidate best;
+  // s: the best one's cost and counts are those until there, since no candidate came to the end; none: of the whole run.
+  std::optional<double> counted_until;
+  std::optional<double> cost_to_end;  // ns: at that rate, where the budget alone kept it from the end
   bool is_met = false;                // the best one's error is below the accuracy
   std::optional<double> holds_until;  // s: what is said of errors holds until there only; none: to the end
   std::string why_until;              // then a clause without end mark: what happens behind that
@@ -30,6 +33,7 @@ struct Choice {
   bool out_of_budget = false;         // the search ended before all candidates were tried
   double spent = 0, budget = 0;       // ns by the table
   std::vector<Candidate> tried;
+  std::vector<std::string> remarks;  // clauses without end mark: what was not judged, or not as it is
 };
 
 // ns by the table of costs: some seconds.
@@ -37,7 +41,7 @@ inline constexpr double kChoiceBudget = 6e9;
 
 // `times`: of the frames. Leaves the best setting in `simulation`. Where the run ends early (a torque that is
 // not finite, limits that stop), what can be compared is. Throws Error (numerical) where what is asked for cannot be
-// promised for a single frame.
+// promised for a single frame, (bad input) where its unit judges nothing of this chain.
 Choice choose_method(Simulation& simulation, const Accuracy& accuracy, std::span<const double> times,
                      const ChoiceWatch& watch = {}, double budget = kChoiceBudget);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.hpp"
 #include "core/scalar.hpp"
 #include "dynamics/kinematics.hpp"
 
@@ -13,7 +14,7 @@ namespace {
 constexpr double kPixels = 1080;      // a page's height
 constexpr double kFitMargin = 0.06;   // of the box, on every side
 constexpr double kPage = 16.0 / 9.0;  // width over height
-constexpr double kLeastSize = 1e-6;   // m: what stands still has no size; pictures show it a metre high
+constexpr double kLeastSize = 1e-6;   // m: what has no extent; pictures show it a metre high
 
 // In the plane of a planar chain, else in the world.
 void axes_of(const Chain& chain, Eigen::Vector3d& x, Eigen::Vector3d& y) {
@@ -21,84 +22,124 @@ void axes_of(const Chain& chain, Eigen::Vector3d& x, Eigen::Vector3d& y) {
   y = chain.planar ? chain.planar->plane.ey : Eigen::Vector3d::UnitY();
 }
 
-}  // namespace
-
-void drawn_places(const Chain& chain, const Workspace& ws, std::vector<Eigen::Vector3d>& places) {
-  places.clear();
-  for (std::size_t i = 1; i < chain.bodies.size(); ++i) places.push_back(ws.X_WB[i].translation());
-  for (const int frame : chain.leaf_frames) places.push_back(frame_position(chain, ws, frame));
-  if (chain.end_effector >= 0) places.push_back(frame_position(chain, ws, chain.end_effector));
+PictureSize picture_of(const Chain& chain, const Eigen::AlignedBox3d& box) {
+  if (box.isEmpty() || !(box.diagonal().norm() > kLeastSize)) return {1 / kPixels, 1};
+  const double diagonal = box.diagonal().norm();
+  // A mechanism in space is seen from anywhere: its box is as high as it is long.
+  const double height = chain.planar ? std::max(box.sizes().y(), box.sizes().x() / kPage) : diagonal;
+  return {height * (1 + 2 * kFitMargin) / kPixels, diagonal};
 }
 
-MotionSize motion_size(const Chain& chain, const Trajectory& trajectory) {
+bool has_shapes(const Outline& outline) {
+  return std::any_of(outline.points.begin(), outline.points.end(), [](const auto& points) { return !points.empty(); });
+}
+
+bool turns(const Joint& joint) {
+  return joint.kind != JointKind::prismatic;
+}
+
+// rad; quaternions x y z w of any length above 0. Exact for small angles, too.
+double turn_between(ConstVec a, ConstVec b) {
+  const Eigen::Quaterniond p = Eigen::Quaterniond(a[3], a[0], a[1], a[2]).normalized();
+  const Eigen::Quaterniond q = Eigen::Quaterniond(b[3], b[0], b[1], b[2]).normalized();
+  const Eigen::Quaterniond apart = p.conjugate() * q;
+  return 2 * std::atan2(apart.vec().norm(), std::abs(apart.w()));
+}
+
+double larger(double largest, double apart) {
+  return std::isfinite(apart) ? std::max(largest, apart) : kInfinity;
+}
+
+}  // namespace
+
+MotionSize motion_size(const Simulation& simulation, const Trajectory& trajectory) {
+  const Chain& chain = simulation.chain;
+  const SeenPoints points(simulation);
   Workspace ws(chain);
   std::vector<Eigen::Vector3d> places;
   const std::vector<double> zeros(std::size_t(chain.nv));
-  Eigen::AlignedBox3d box;
+  Eigen::AlignedBox3d bars, all;
   Eigen::Vector3d x, y;
   axes_of(chain, x, y);
   const Eigen::Vector3d z = x.cross(y);
   for (int k = 0; k < trajectory.size(); ++k) {
     compute_kinematics(chain, ws, trajectory.q_at(k), zeros);
-    drawn_places(chain, ws, places);
-    for (const Eigen::Vector3d& p : places) box.extend(Eigen::Vector3d(x.dot(p), y.dot(p), z.dot(p)));
+    points.read(ws, places);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Eigen::Vector3d p(x.dot(places[i]), y.dot(places[i]), z.dot(places[i]));
+      all.extend(p);
+      if (i < points.bars()) bars.extend(p);
+    }
   }
-  MotionSize size;
-  if (box.isEmpty() || !(box.diagonal().norm() > kLeastSize)) return {1 / kPixels, 1};
-  size.diagonal = box.diagonal().norm();
-  // A mechanism in space is seen from anywhere: its box is as high as it is long.
-  const double height = chain.planar ? std::max(box.sizes().y(), box.sizes().x() / kPage) : size.diagonal;
-  size.metres_per_px = height * (1 + 2 * kFitMargin) / kPixels;
-  return size;
+  const PictureSize bodies = picture_of(chain, all);
+  return {chain.planar || !has_shapes(simulation.outline) ? picture_of(chain, bars) : bodies, bodies};
 }
 
-Deviation::Deviation(const Chain& chain, const Accuracy& accuracy, const MotionSize& size)
-    : chain_(chain), ws_(chain), zeros_(std::size_t(chain.nv)), zero_(std::size_t(chain.nq)) {
-  if (accuracy.unit == "px") unit_ = size.metres_per_px;
-  if (accuracy.unit == "m") unit_ = 1;
-  if (accuracy.unit == "relative") unit_ = size.diagonal;
-  if (accuracy.unit == "rad") unit_ = 0;
+void check_accuracy(const Chain& chain, const Accuracy& accuracy) {
+  if (accuracy.unit != "rad") return;
+  if (std::any_of(chain.bodies.begin() + 1, chain.bodies.end(), [](const Body& body) { return turns(body.joint); }))
+    return;
+  throw Error(ExitCode::bad_input, "'accuracy': " + to_string(accuracy) +
+                                       " judges angles, and no joint of this chain turns: ask for m, px or relative");
+}
+
+Deviation::Deviation(const Simulation& simulation, const Accuracy& accuracy, const MotionSize& size)
+    : chain_(simulation.chain),
+      points_(simulation),
+      is_angle_(accuracy.unit == "rad"),
+      diagonal_(size.bodies.diagonal),
+      ws_(chain_),
+      zeros_(std::size_t(chain_.nv)),
+      zero_(zero_configuration(chain_)) {
+  check_accuracy(chain_, accuracy);
+  if (accuracy.unit == "px") unit_of_bars_ = size.bars.metres_per_px, unit_of_bodies_ = size.bodies.metres_per_px;
+  if (accuracy.unit == "relative") unit_of_bars_ = size.bars.diagonal, unit_of_bodies_ = size.bodies.diagonal;
 }
 
 double Deviation::angle_apart(ConstVec a, ConstVec b) const {
   double largest = 0;
   for (std::size_t i = 1; i < chain_.bodies.size(); ++i) {
     const Joint& joint = chain_.bodies[i].joint;
-    if (joint.kind != JointKind::revolute) continue;
     const auto at = std::size_t(joint.q_index);
+    if (joint.kind == JointKind::floating) {
+      const Eigen::Vector3d way(a[at] - b[at], a[at + 1] - b[at + 1], a[at + 2] - b[at + 2]);
+      largest = larger(largest, way.norm() / diagonal_);
+      largest = larger(largest, turn_between(a.subspan(at + 3, 4), b.subspan(at + 3, 4)));
+      continue;
+    }
     const double apart = std::abs(joint.ratio * (a[at] - b[at]));
-    largest = std::isfinite(apart) ? std::max(largest, apart) : kInfinity;
+    largest = larger(largest, joint.kind == JointKind::revolute ? apart : apart / diagonal_);
   }
   return largest;
 }
 
-double Deviation::metres_apart(ConstVec a, ConstVec b) {
+double Deviation::points_apart(ConstVec a, ConstVec b) {
   compute_kinematics(chain_, ws_, a, zeros_);
-  drawn_places(chain_, ws_, places_);
+  points_.read(ws_, places_);
   compute_kinematics(chain_, ws_, b, zeros_);
-  drawn_places(chain_, ws_, other_);
+  points_.read(ws_, other_);
   double largest = 0;
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const double apart = (places_[i] - other_[i]).norm();
-    largest = std::isfinite(apart) ? std::max(largest, apart) : kInfinity;
+    largest = larger(largest, (places_[i] - other_[i]).norm() / unit_at(i));
   }
   return largest;
 }
 
 double Deviation::at(const Trajectory& a, const Trajectory& b, int k) {
-  return unit_ == 0 ? angle_apart(a.q_at(k), b.q_at(k)) : metres_apart(a.q_at(k), b.q_at(k)) / unit_;
+  return is_angle_ ? angle_apart(a.q_at(k), b.q_at(k)) : points_apart(a.q_at(k), b.q_at(k));
 }
 
 double Deviation::largest_number(const Trajectory& run) {
   double largest = 0;
   for (int k = 0; k < run.size(); ++k) {
-    if (unit_ == 0) {
+    if (is_angle_) {
       largest = std::max(largest, angle_apart(run.q_at(k), zero_));
       continue;
     }
     compute_kinematics(chain_, ws_, run.q_at(k), zeros_);
-    drawn_places(chain_, ws_, places_);
-    for (const Eigen::Vector3d& place : places_) largest = std::max(largest, place.lpNorm<Eigen::Infinity>() / unit_);
+    points_.read(ws_, places_);
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      largest = std::max(largest, places_[i].lpNorm<Eigen::Infinity>() / unit_at(i));
   }
   return largest;
 }

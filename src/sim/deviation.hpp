@@ -1,25 +1,37 @@
-// How far two runs of one chain lie apart, as a viewer sees it: at every place that is drawn, in every frame.
+// How far two runs of one chain lie apart, as a viewer sees it: at every point that can be seen, in every frame.
 #pragma once
 
 #include <vector>
 
 #include "dynamics/workspace.hpp"
 #include "sim/accuracy.hpp"
+#include "sim/seen_points.hpp"
 #include "sim/trajectory.hpp"
 
 namespace chainreel {
 
-// The size of a motion, from a run that shows about where it goes.
-struct MotionSize {
+// How large a motion is in a picture that fits it.
+struct PictureSize {
   double metres_per_px =
       1;                // 1/1080 of the height of a page of 16:9 that the motion fills but for 6 % a side
-  double diagonal = 1;  // m, of the box of all drawn places
+  double diagonal = 1;  // m, of the box around it
 };
-MotionSize motion_size(const Chain& chain, const Trajectory& trajectory);
+
+// Chains in a plane, and those without shapes, are drawn as bars, which pictures fit; a picture of the bodies themselves
+// is the larger one.
+struct MotionSize {
+  PictureSize bars, bodies;
+};
+
+// From a run that shows about where it goes.
+MotionSize motion_size(const Simulation& simulation, const Trajectory& trajectory);
+
+// Throws Error (bad input) where the unit judges nothing of this chain.
+void check_accuracy(const Chain& chain, const Accuracy& accuracy);
 
 class Deviation {
  public:
-  Deviation(const Chain& chain, const Accuracy& accuracy, const MotionSize& size);
+  Deviation(const Simulation& simulation, const Accuracy& accuracy, const MotionSize& size);
 
   // Between the k-th samples, in the accuracy's unit. NaN and infinity count as infinitely far.
   double at(const Trajectory& a, const Trajectory& b, int k);
@@ -30,17 +42,18 @@ class Deviation {
 
  private:
   double angle_apart(ConstVec a, ConstVec b) const;
-  double metres_apart(ConstVec a, ConstVec b);
+  double points_apart(ConstVec a, ConstVec b);
+  // m in one unit at the i-th point.
+  double unit_at(std::size_t i) const { return i < points_.bars() ? unit_of_bars_ : unit_of_bodies_; }
 
   const Chain& chain_;
-  double unit_ = 1;  // m in one unit; 0: angles are compared
+  SeenPoints points_;
+  bool is_angle_ = false;
+  double unit_of_bars_ = 1, unit_of_bodies_ = 1;  // m
+  double diagonal_ = 1;                           // m
   Workspace ws_;
   std::vector<double> zeros_, zero_;  // rates, coordinates
   std::vector<Eigen::Vector3d> places_, other_;
 };
-
-// The places of a chain that pictures show, in the world: joints and the ends of links. After
-// compute_kinematics.
-void drawn_places(const Chain& chain, const Workspace& ws, std::vector<Eigen::Vector3d>& places);
 
 }  // namespace chainreel

@@ -17,6 +17,8 @@ constexpr int kSteps = 32;              // that are taken again
 constexpr double kNotable = 1e-3;       // of the fastest freedom's rate: slower ones are measured by it
 constexpr double kStill = 1e-9;         // rad/s or m/s: no motion
 constexpr double kAim = 0.1;            // of what is still not doubted: where a remedy aims
+constexpr double kTightening = 0.1, kLeastTightening = 1e-6;  // of an accuracy
+constexpr double kLeastAccuracy = 1e-9;  // in any unit: what is below is better had by a method that is named
 
 std::string percent(double part) {
   return format_significant(100 * part, 2) + " %";
@@ -30,17 +32,30 @@ double round_down(double x) {
   return decade;
 }
 
-// `factor`: by which a step would have to shrink.
-std::string finer(const Simulation& simulation, double factor) {
+// Of a choice.
+std::string finer_choice(const Accuracy& accuracy, double factor) {
+  const std::string named = "--set method=dop853 --set tolerance=1e-12 --set accuracy=null";
+  const double tighter = round_down(accuracy.value * std::clamp(factor, kLeastTightening, kTightening));
+  if (tighter < kLeastAccuracy) return named;
+  return "--set 'accuracy=" + to_string({tighter, accuracy.unit}) + "', or " + named;
+}
+
+// `factor`: by which the error would have to shrink.
+std::string finer(const Simulation& simulation, const std::optional<Accuracy>& chosen_by, double factor) {
+  if (chosen_by) return finer_choice(*chosen_by, factor);
   std::string text = "--set method=auto --set step=null --set tolerance=null";
-  if (simulation.step > 0)
-    return "--set step=" + format_significant(round_down(simulation.step * std::min(factor, 0.5)), 1) + ", or " + text;
+  if (simulation.method->highest_order > 0) text += " --set order=null";
+  if (simulation.step > 0) {
+    const double shorter = simulation.step * std::min(std::pow(factor, 1.0 / simulation.method->order), 0.5);
+    return "--set step=" + format_significant(round_down(shorter), 1) + ", or " + text;
+  }
   const double tolerance = simulation.options.tolerance;
   if (tolerance > 1e-12) return "--set tolerance=" + format_significant(std::max(1e-12, round_down(1e-3 * tolerance)), 1);
   return text;
 }
 
-std::optional<Doubt> doubt_energy(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit) {
+std::optional<Doubt> doubt_energy(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit,
+                                  const std::optional<Accuracy>& chosen_by) {
   double largest_work = 0;
   for (const double work : trajectory.work) largest_work = std::max(largest_work, std::abs(work));
   const double at_play = std::abs(audit.energy_start) + audit.energy_moved + largest_work;
@@ -49,19 +64,18 @@ std::optional<Doubt> doubt_energy(const Simulation& simulation, const Trajectory
   const double time = steps ? steps->time : audit.largest_error_time;
   if (!(error > kDoubtfulEnergy * audit.energy_moved && error > kAuditRounding * at_play)) return {};
   const double part = error / audit.energy_moved;
-  const double factor = std::pow(kAim * kDoubtfulEnergy / part, 1.0 / simulation.method->order);
   return Doubt{"energy", part,
                "the energy is off by " + format_significant(error, 3) + " J at t = " +
                    format_significant(time, 4) + " s, " + percent(part) + " of the " +
                    format_significant(audit.energy_moved, 3) + " J that this motion moves",
-               finer(simulation, factor)};
+               finer(simulation, chosen_by, kAim * kDoubtfulEnergy / part)};
 }
 
-std::optional<Doubt> doubt_constraints(const Trajectory& trajectory) {
+std::optional<Doubt> doubt_constraints(const Trajectory& trajectory, const std::optional<Accuracy>& chosen_by) {
   if (!(trajectory.position_error > kDoubtfulConstraint)) return {};
   return Doubt{"constraint", trajectory.position_error,
                "the constraints are missed by up to " + format_significant(trajectory.position_error, 3) + " m or rad",
-               "--set stabilize=project, or a shorter step"};
+               "--set stabilize=project, or " + (chosen_by ? finer_choice(*chosen_by, kTightening) : "a shorter step")};
 }
 
 // Steps of a run taken again.
@@ -83,7 +97,7 @@ class StepsAgain {
     for (double& one : size_) one = std::max({one, kNotable * fastest, kStill});
   }
 
-  std::optional<Doubt> doubt() {
+  std::optional<Doubt> doubt(const std::optional<Accuracy>& chosen_by) {
     const int count = std::min(kSteps, trajectory_.size() - 1);
     int looked_at = 0, doubtful = 0;
     for (int j = 0; j < count; ++j) {
@@ -100,7 +114,9 @@ class StepsAgain {
                      format_significant(worst_.change, 3) + " at t = " + format_significant(worst_.t, 4) + " s, " +
                      percent(worst_.part) + " of its largest (" + std::to_string(doubtful) + " of " +
                      std::to_string(looked_at) + " steps looked at)",
-                 "--set method=radau5 --set step=null --set tolerance=1e-8, or " + finer(simulation_, 0.1)};
+                 "--set method=radau5 --set step=null --set tolerance=1e-8" +
+                     std::string(chosen_by ? " --set accuracy=null" : "") + ", or " +
+                     finer(simulation_, chosen_by, std::pow(kAim, simulation_.method->order))};
   }
 
  private:
@@ -151,15 +167,16 @@ bool follows_a_curve(const Simulation& simulation) {
 
 }  // namespace
 
-std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit) {
+std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit,
+                             const std::optional<Accuracy>& chosen_by) {
   std::vector<Doubt> doubts;
   if (trajectory.size() < 2 || !is_complete(trajectory.status)) return doubts;
   const auto add = [&](std::optional<Doubt> doubt) {
     if (doubt) doubts.push_back(std::move(*doubt));
   };
-  add(doubt_energy(simulation, trajectory, audit));
-  if (trajectory.rows > 0) add(doubt_constraints(trajectory));
-  if (simulation.step > 0 && !follows_a_curve(simulation)) add(StepsAgain(simulation, trajectory).doubt());
+  add(doubt_energy(simulation, trajectory, audit, chosen_by));
+  if (trajectory.rows > 0) add(doubt_constraints(trajectory, chosen_by));
+  if (simulation.step > 0 && !follows_a_curve(simulation)) add(StepsAgain(simulation, trajectory).doubt(chosen_by));
   return doubts;
 }
 

@@ -1,9 +1,11 @@
 // What speaks against a run that came to its end: the method did what it could, and that is not the motion.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "sim/accuracy.hpp"
 #include "sim/audit.hpp"
 
 namespace chainreel {
@@ -29,6 +31,8 @@ struct Doubt {
 // method's region of stability and resolves the motion both agree, since their difference is of the method's order;
 // where it does not, they differ by as much as the motion itself. A tenth of the steps looked at must do so, since
 // one of them may hold a jump of the torques.
-std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit);
+// `chosen_by`: what `method: auto` chose the method by, none where it was named: what helps depends on it.
+std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit,
+                             const std::optional<Accuracy>& chosen_by);
 
 }  // namespace chainreel

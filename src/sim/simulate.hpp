@@ -8,6 +8,7 @@
 
 #include "integrate/method.hpp"
 #include "model/chain.hpp"
+#include "model/outline.hpp"
 #include "sim/constraint_plan.hpp"
 #include "sim/events.hpp"
 #include "sim/limits.hpp"
@@ -33,6 +34,7 @@ struct Simulation {
   std::shared_ptr<const EventSet> events;  // null: none
   ConstraintPlan constraints;
   std::shared_ptr<const PlotSet> plots;  // null: none; of no matter to the run
+  Outline outline;                       // of what pictures show, for who judges by the eye; of no matter to the run
 };
 
 // Two instants closer than this are one, s.

@@ -32,12 +32,14 @@ inline bool is_complete(RunStatus status) {
   return status == RunStatus::finished || status == RunStatus::stopped;
 }
 
-// How far the energy was off at the ends of steps, where a run was looked at (simulate_audited): the method's
-// own error, without that of its dense output.
+// The energy at the ends of steps, where a run was looked at (simulate_audited): how far it was off by the method's own
+// error, without that of its dense output, and how much of it was at stake, also between samples.
 struct EnergyAtSteps {
   double largest_error = 0;  // of |E(t) - E(0) - work|, J
   double time = 0;           // of it, s
   double at_end = 0;         // of the last step, signed, J
+  double largest_kinetic = 0;  // J
+  double moved = 0;            // the largest of that and of the ranges of potential energy and of work, J
 };
 
 // The events that happened, in the order of time.

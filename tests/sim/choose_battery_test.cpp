@@ -120,7 +120,7 @@ Outcome outcome_of(const CorneredScene& scene) {
     if (!choice.holds_until || k / 120.0 <= *choice.holds_until) promised.push_back(k / 120.0);
   const int count = int(promised.size());
   const Trajectory exact = Judge(run, kLocalError).at(promised), coarser = Judge(run, kCoarserError).at(promised);
-  Deviation deviation(run.chain, accuracy, motion_size(run.chain, exact));
+  Deviation deviation(run, accuracy, motion_size(run, exact));
   Outcome outcome;
   outcome.error = deviation.largest(simulate(run, promised), exact, count);
   outcome.promise = std::isfinite(choice.best.error) ? choice.best.error : accuracy.value;

@@ -35,7 +35,7 @@ double judged_error(Simulation& simulation, const Accuracy& accuracy, const Choi
                     const std::vector<double>& times) {
   const Trajectory exact = run_with(simulation, {&find_method("rk4"), {}, 1e-4}, times);
   const Trajectory chosen = run_with(simulation, choice.best.setting, times);
-  Deviation deviation(simulation.chain, accuracy, motion_size(simulation.chain, exact));
+  Deviation deviation(simulation, accuracy, motion_size(simulation, exact));
   return deviation.largest(chosen, exact, int(times.size()));
 }
 
@@ -124,7 +124,7 @@ TEST(ChooseMethod, PromisesToTheEndWhereQuadruplePrecisionConfirmsIt) {
   const Trajectory run = simulate(simulation, std::vector<double>{12});
   Trajectory exact = run;
   exact.q = quads->q;
-  Deviation deviation(simulation.chain, {0.001, "px"}, motion_size(simulation.chain, simulate(simulation, times)));
+  Deviation deviation(simulation, {0.001, "px"}, motion_size(simulation, simulate(simulation, times)));
   EXPECT_LE(deviation.at(run, exact, 0), 0.001);
 }
 
@@ -146,7 +146,7 @@ TEST(ChooseMethod, FindsHowLongDoublesHoldAMotion) {
   const Trajectory run = simulate(simulation, end);
   Trajectory exact = run;
   exact.q = quads->q;
-  Deviation deviation(simulation.chain, {0.1, "px"}, motion_size(simulation.chain, simulate(simulation, frames_until(25))));
+  Deviation deviation(simulation, {0.1, "px"}, motion_size(simulation, simulate(simulation, frames_until(25))));
   EXPECT_LE(deviation.at(run, exact, 0), 0.1);
 }
 
@@ -176,7 +176,7 @@ double error_of_pieces(Simulation& simulation, const std::vector<double>& tau1, 
   }
   const Trajectory run = simulate(simulation, times);
   if (run.size() < int(times.size())) return std::numeric_limits<double>::infinity();
-  Deviation deviation(simulation.chain, accuracy, motion_size(simulation.chain, exact));
+  Deviation deviation(simulation, accuracy, motion_size(simulation, exact));
   return deviation.largest(run, exact, int(times.size()));
 }
 
@@ -297,16 +297,16 @@ TEST(Deviation, MeasuresPlacesInMetresAndPixelsAndAnglesInRadians) {
   Trajectory b = a;
   const int k = 10;
   b.q[2 * k + 1] += 0.01;  // the elbow: the tip moves 1 m away from it
-  const MotionSize size = motion_size(simulation.chain, a);
+  const MotionSize size = motion_size(simulation, a);
   const auto apart = [&](const char* unit) {
-    return Deviation(simulation.chain, {1, unit}, size).at(a, b, k);
+    return Deviation(simulation, {1, unit}, size).at(a, b, k);
   };
   EXPECT_NEAR(apart("rad"), 0.01, 1e-15);
   // The chord of the angle over an arm of 1 m, with the rounding of some sines.
   EXPECT_NEAR(apart("m"), 2 * std::sin(0.005), 1e-14);
-  EXPECT_NEAR(apart("px"), apart("m") / size.metres_per_px, 1e-10);
-  EXPECT_NEAR(apart("relative"), apart("m") / size.diagonal, 1e-14);
-  EXPECT_EQ(Deviation(simulation.chain, {1, "m"}, size).at(a, b, k + 1), 0);
+  EXPECT_NEAR(apart("px"), apart("m") / size.bars.metres_per_px, 1e-10);
+  EXPECT_NEAR(apart("relative"), apart("m") / size.bars.diagonal, 1e-14);
+  EXPECT_EQ(Deviation(simulation, {1, "m"}, size).at(a, b, k + 1), 0);
   b.q[2 * k] = std::nan("");
   EXPECT_TRUE(std::isinf(apart("px")));
 }

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 std::vector<Doubt> doubts(const Simulation& run, double dt = 1.0 / 60) {
   const Trajectory trajectory = simulate(run, instants(run.duration, dt));
   EXPECT_EQ(trajectory.status, RunStatus::finished) << trajectory.trouble;
-  return doubts_of(run, trajectory, audit_of(run, trajectory));
+  return doubts_of(run, trajectory, audit_of(run, trajectory), {});
 }
 
 std::vector<std::string> kinds(const Simulation& run) {
@@ -103,7 +103,7 @@ TEST(Doubts, AreNoneOfARunThatDidNotComeToItsEnd) {
   run.qd0 = {1, 0};
   const Trajectory trajectory = simulate(run, instants(1, 0.05));
   ASSERT_EQ(trajectory.status, RunStatus::diverged);
-  EXPECT_TRUE(doubts_of(run, trajectory, audit_of(run, trajectory)).empty());
+  EXPECT_TRUE(doubts_of(run, trajectory, audit_of(run, trajectory), {}).empty());
 }
 
 }  // namespace
