@@ -6,10 +6,10 @@
 namespace chainreel {
 
 // `value` in units of
-//   px        places of drawn points; 1 px is 1/1080 of the fitted scene's height, whatever the output's size
+//   px        places of points that can be seen; 1 px is 1/1080 of the fitted scene's height, whatever the output's size
 //   m         the same places
-//   rad       angles of turning joints
-//   relative  the same places, in units of the diagonal of the box in which they move
+//   rad       angles of turning joints and of floating bases; ways of sliders and bases over the diagonal of the motion
+//   relative  the same places as px, in units of the diagonal of the box in which they move
 struct Accuracy {
   double value = 0.1;
   std::string unit = "px";

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <fstream>
+#include <utility>
+
 #include "core/json.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
@@ -45,6 +49,73 @@ TEST(Warnings, HaveARemedyThatCanBeTyped) {
                                             "step=null", "--set", "tolerance=null"});
   EXPECT_EQ(better.status, 0) << better.err;
   EXPECT_THAT(better.err, Not(HasSubstr("WARNING")));
+}
+
+// Words of a remedy up to its ", or", as a shell takes them.
+Words typed(const std::string& remedy) {
+  Words words;
+  std::string word;
+  char quote = 0;
+  for (const char c : remedy.substr(0, remedy.find(", or")) + " ") {
+    if (c == '\'') {
+      quote = quote ? 0 : c;
+    } else if (c == ' ' && !quote) {
+      if (!word.empty()) words.push_back(std::exchange(word, ""));
+    } else {
+      word += c;
+    }
+  }
+  return words;
+}
+
+TEST(Warnings, UnderAutoAdviseWhatHelpsThere) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("far.yaml", coarse("accuracy: 500 px\n"));
+  const Words command{"simulate", scene, "-o", folder.file("a.csv"), "--json", "--force"};
+  const ProgramResult run = run_program(command);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const Json report = Json::parse(run.out);
+  ASSERT_FALSE(report["warnings"].empty()) << run.out;
+  for (const Json& warning : report["warnings"]) {
+    const std::string remedy = warning["remedy"];
+    const std::size_t other = remedy.find(", or ");
+    ASSERT_NE(other, std::string::npos) << remedy;
+    for (const std::string& one : {remedy, remedy.substr(other + 5)}) {
+      const ProgramResult better = run_program(with(command, typed(one)));
+      EXPECT_EQ(better.status, 0) << better.err;
+      const Json finer = Json::parse(better.out);
+      EXPECT_LT(finer["audit_error"].get<double>(), 0.1 * report["audit_error"].get<double>()) << one;
+    }
+  }
+}
+
+// The shape is what counts, not the frame in it.
+TEST(Automatic, JudgesWheelsAsTheyAreDrawn) {
+  const TemporaryFolder folder;
+  const std::string inertial = "<inertial><mass value='0.5'/><inertia ixx='1e-6' iyy='1e-6' izz='2e-6' ixy='0' ixz='0' "
+                               "iyz='0'/></inertial>";
+  const std::string model = folder.write(
+      "wheel.urdf", "<robot name='w'><link name='base'/><link name='wheel'>" + inertial +
+                        "<visual><geometry><box size='0.8 0.6 0.02'/></geometry></visual></link><joint name='hub' "
+                        "type='continuous'><parent link='base'/><child link='wheel'/><axis xyz='0 0 1'/></joint></robot>");
+  const std::string scene =
+      folder.write("wheel.yaml", "model: " + model + "\ngravity: [0, 0, 0]\nduration: 2\ntorque: ['1e-5*cos(9*t)']\n");
+  const auto q_of = [&](const Words& more) {
+    const ProgramResult run = run_program(with({"simulate", scene, "-o", folder.file("q.csv"), "--json", "--force"}, more));
+    EXPECT_EQ(run.status, 0) << run.err;
+    std::ifstream file(folder.file("q.csv"));
+    std::vector<double> q;
+    std::string line;
+    for (std::getline(file, line); std::getline(file, line);) q.push_back(std::stod(line.substr(line.find(',') + 1)));
+    return q;
+  };
+  const std::vector<double> chosen = q_of({}), exact = q_of({"--set", "method=dop853", "--set", "tolerance=1e-13"});
+  ASSERT_EQ(chosen.size(), exact.size());
+  double error = 0;
+  for (std::size_t k = 0; k < exact.size(); ++k) error = std::max(error, std::abs(chosen[k] - exact[k]));
+  // 0.1 px of a picture that is at most 1 m high; its corners are 0.5 m away.
+  EXPECT_LT(error, 0.1 * 1.12 / 1080 / 0.5);
+  EXPECT_GT(error, 0);
 }
 
 TEST(Warnings, AreNoneWhereARunIsToDivergeOrIsSound) {

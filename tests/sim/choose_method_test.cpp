@@ -243,6 +243,20 @@ TEST(ChooseMethod, TellsWhatItDoesAndStopsWhenAsked) {
   EXPECT_LT(choice.spent, 0.1 * choice.budget);
 }
 
+// References die of the spring at once, and what is cheapest until there is very dear behind.
+TEST(ChooseMethod, PricesTheWholeRunWhereAPartDecides) {
+  Simulation simulation = run_of("rr", {"-1e9*(q1-1)", "-1e5*qd2+5*sin(100*t)"}, 30);
+  const std::vector<double> times = frames_until(30);
+  const Choice choice = choose_method(simulation, {0.1, "px"}, times, {}, 1e8);
+  EXPECT_TRUE(choice.is_met);
+  ASSERT_TRUE(choice.holds_until);
+  EXPECT_LT(*choice.holds_until, 1);
+  EXPECT_FALSE(choice.counted_until);
+  EXPECT_LT(choice.best.cost, 1e8);
+  simulation.most_evaluations = 2 * choice.best.evaluations;
+  EXPECT_EQ(simulate(simulation, times).evaluations, choice.best.evaluations);
+}
+
 // A finite-time end: the torque grows without bounds, no run comes further, and nothing is said of what is behind.
 TEST(ChooseMethod, SaysWhereNoReferenceGoesFurther) {
   Simulation simulation = run_of("rr", {"1/(1.0001-t)^2", "0"}, 3);
