@@ -22,6 +22,12 @@ bool has_sides(Operation operation) {
          operation == Operation::maximum || operation == Operation::arc_tangent2;
 }
 
+// And does not jump.
+bool bends(Operation operation) {
+  return operation == Operation::absolute || operation == Operation::minimum ||
+         operation == Operation::maximum;
+}
+
 // On one side of the corner, or the mean of both.
 template <class T>
 T on_side(Operation operation, const T& x, double side) {
@@ -89,7 +95,8 @@ double side_of(const CorneredProgram& program, std::size_t i, std::span<const do
 // Replaces the arguments at the top of the stack by what the operation makes of them on that side.
 template <class T>
 void operate(Operation operation, double side, T*& top) {
-  const bool as_written = std::isnan(side);
+  const bool as_written = std::isnan(side) || (std::isinf(side) && bends(operation));
+  if (std::isinf(side)) side = std::copysign(1.0, side);
   if (stack_change_of(operation) == 0) {
     top[-1] = as_written ? result_of(operation, top[-1]) : on_side(operation, top[-1], side);
   } else {

@@ -25,6 +25,9 @@
 namespace chainreel {
 
 inline constexpr double kAsWritten = std::numeric_limits<double>::quiet_NaN();  // as a side
+// As a side, with its sign: what jumps is on that side, what only bends (abs, min, max) is as written. At the
+// corner itself that is the same; but 1/abs(x) keeps its sign where rounding leaves x beside zero.
+inline constexpr double kJumpsAlone = std::numeric_limits<double>::infinity();
 
 // An expression that knows its corners.
 struct CorneredProgram {

@@ -68,7 +68,7 @@ void ChainSystem::evaluate_mean(double t, ConstVec q, ConstVec qd) {
     double weight = 1;
     for (std::size_t i = 0; i < m; ++i) {
       const double side = (branch >> i) & 1 ? 1 : -1;
-      corners.set_side(held_[i], side);
+      corners.set_side(held_[i], side * kJumpsAlone);
       weight *= 0.5 * (1 + side * held_sides_[i]);
     }
     if (weight == 0) continue;

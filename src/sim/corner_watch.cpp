@@ -175,9 +175,10 @@ std::optional<double> CornerWatch::first_crossing(Integrator& integrator, ConstV
 double CornerWatch::off_by(double t, ConstVec q, ConstVec qd) {
   const auto k = std::size_t(crossed_);
   // The side of a corner that is held is known by dense output alone.
-  if (crossed_pole_ || watched_[k].as_written || std::fabs(corners_.side(crossed_)) != 1) return 0;
+  if (watched_[k].as_written || std::fabs(corners_.side(crossed_)) != 1) return 0;
   corners_.values(system_.chain(), ws_, t, q, qd, g_);
-  const double off = -g_[k] / system_.corner_rates(t, q, qd)[k];
+  // At a pole it is the reciprocal that crosses zero.
+  const double off = (crossed_pole_ ? g_[k] : -g_[k]) / system_.corner_rates(t, q, qd)[k];
   return std::isfinite(off) ? off : 0;
 }
 

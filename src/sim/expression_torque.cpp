@@ -4,6 +4,7 @@
 
 #include "expr/corners.hpp"
 #include "expr/instants.hpp"
+#include "expr/pulses.hpp"
 #include "sim/state_corners.hpp"
 
 namespace chainreel {
@@ -36,7 +37,14 @@ class ExpressionTorque final : public TorqueLaw {
       tau[i] = chainreel::evaluate<double>(programs_[i], probe_.values(), sides_);
   }
 
-  std::vector<double> breaks(double end) const override { return instants_of(corners_, end); }
+  std::vector<double> breaks(double end) const override {
+    if (end == end_of_breaks_) return breaks_;
+    breaks_ = instants_of(corners_, end);
+    const std::vector<double> pulses = pulses_of(programs_, corners_, breaks_, end);
+    breaks_.insert(breaks_.end(), pulses.begin(), pulses.end());
+    end_of_breaks_ = end;
+    return breaks_;
+  }
   void enter_piece(double t) override { set_sides_of_time(corners_, t, sides_); }
   void leave_pieces() override { std::fill(sides_.begin(), sides_.end(), kAsWritten); }
   StateCorners* corners() override {
@@ -113,6 +121,8 @@ class ExpressionTorque final : public TorqueLaw {
   std::vector<CorneredProgram> programs_;  // of the entries
   std::vector<double> sides_;              // of the corners
   std::optional<StateCorners> state_corners_;
+  mutable std::vector<double> breaks_;  // until end_of_breaks_, in s; many runs ask for the same
+  mutable double end_of_breaks_ = -1;
   bool has_corners_ = false;  // with sides; else the entries are evaluated as they stand
   bool needs_kinematics_ = false;
   bool depends_on_velocity_ = false;

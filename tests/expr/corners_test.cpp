@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "expr/instants.hpp"
+#include "expr/pulses.hpp"
 
 namespace chainreel {
 namespace {
@@ -116,6 +117,9 @@ TEST(Corners, GiveTheTextsValueWhereTheBranchBeyondThemHasNone) {
   EXPECT_EQ(Cornered("abs(qd1)^0.5*((qd1>0)-(qd1<0))").at(0, 0, -4, {1}), 2) << "the sign beside it is kept";
   EXPECT_EQ(Cornered("min(30, 1/abs(q1))").at(0, 0, 0, {1, -1}), 30) << "at the pole";
   EXPECT_EQ(Cornered("min(30, 1/abs(q1))").at(0, 0, 0, {1, 0}), 30);
+  EXPECT_EQ(Cornered("(q1<0)/abs(q1)").at(0, -0.5, 0, {kJumpsAlone}), 0)
+      << "the jump's side and the text's bend";
+  EXPECT_EQ(Cornered("(q1<0)/abs(q1)").at(0, 0.5, 0, {-kJumpsAlone}), 2);
   EXPECT_TRUE(std::isnan(Cornered("sqrt(q1)*(q1>-2)").at(0, -1, 0, {1}))) << "the text has none either";
 }
 
@@ -129,10 +133,41 @@ TEST(Corners, KnowWhereMeansOfSidesAreNoMeansOfValues) {
   EXPECT_TRUE(curved("((qd1>0)-(qd1<0))*((qd1>0)-(qd1<0))"));
 }
 
+TEST(Instants, OfRootsOfWhatIsCutOffAreFound) {
+  expect_instants("abs(max(0, sin(5*t))^0.5)", {pi / 5, 2 * pi / 5, 3 * pi / 5}, 1e-14, 2);
+  expect_instants("max(max(0, 0.48)^0.5, t)", {std::sqrt(0.48)}, 1e-14);
+}
+
 TEST(Instants, BeforeAPoleOfATangentAreNotHiddenByIt) {
   // The cosine is rounded where the tangent has its pole.
   for (const char* text : {"min(50, max(-50, tan(3*t)))", "max(-50, min(50, tan(3*t)))"})
     expect_instants(text, {std::atan(50) / 3, pi / 6, (pi - std::atan(50)) / 3}, 1e-14, 1);
+}
+
+std::vector<double> pulses(const std::string& text, double end) {
+  const Cornered cornered(text);
+  return pulses_of({cornered.program}, cornered.corners, instants_of(cornered.corners, end), end);
+}
+
+TEST(Pulses, ThatAreNarrowAreDividedIntoParts) {
+  for (const char* text :
+       {"1e5*exp(-((t-1.2345)/1e-5)^2)", "2/(1+((t-1.2345)/2e-6)^2)^4*qd1 - q1",
+        "(t>1)*exp(-1e10*(t-1.2345)^2) + k", "-3*sin(t)^0*exp(-((t-1.2345)/1e-5)^2)*(t<2)"}) {
+    const std::vector<double> found = pulses(text, 3);
+    ASSERT_GE(found.size(), 34u) << text;
+    EXPECT_NEAR(found.front(), 1.2345, 1e-4) << text;
+    EXPECT_NEAR(found.back(), 1.2345, 1e-4) << text;
+    EXPECT_LT(found.front(), 1.2345 - 5e-6) << text;
+    EXPECT_GT(found.back(), 1.2345 + 5e-6) << text;
+  }
+  EXPECT_EQ(pulses("exp(-1e10*(t-1.2345)^2) + exp(-1e10*(t-1.2348)^2)", 3).size(), 68u) << "close together";
+}
+
+TEST(Pulses, AreNotSeenInSlowFunctionsNorInFastWaves) {
+  for (const char* text :
+       {"sin(20*t)", "t^2*exp(-t)", "sin(1e5*t)", "max(0, sin(20*t))", "60*(t>1)*(t<1.001)",
+        "exp(-((t-1)/0.1)^2)", "tan(t)", "1/(t-1)", "qd1*t", "log(t)", "sqrt(t)*q1"})
+    EXPECT_TRUE(pulses(text, 3).empty()) << text;
 }
 
 }  // namespace

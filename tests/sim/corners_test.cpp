@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "sim/audit.hpp"
@@ -238,6 +239,16 @@ TEST(Corners, DryFrictionOfBothJointsHoldsAnArmInTheEnd) {
   EXPECT_LT(apart(one, other), 1e-8);
   EXPECT_NEAR(one[2], 0, 1e-10);
   EXPECT_NEAR(one[3], 0, 1e-10);
+}
+
+TEST_P(EveryMethod, FeelsASmoothPulseOfTenMicroseconds) {
+  // Its momentum is sqrt(pi), wherever steps would end without it.
+  Simulation run = slider("1e5*exp(-((t-1.2345)/1e-5)^2) + 0*qd1", 2, GetParam(), 0.05);
+  if (run.method->adaptive) run = with(std::move(run), GetParam(), 1e-9);
+  const double m = mass_of_slider(), v = std::sqrt(std::numbers::pi) / m;
+  // Methods of fixed steps take some thirty through it.
+  EXPECT_NEAR(q_at_end(run)[2], v, run.method->adaptive ? 1e-7 : 2e-3);
+  EXPECT_NEAR(q_at_end(run)[0], v * (2 - 1.2345), run.method->adaptive ? 1e-6 : 2e-3);
 }
 
 TEST_P(EveryMethod, BouncesOffASpringWhoseForceIsAPowerOfItsDepth) {
