@@ -3,26 +3,12 @@
 // to lane; the number of joints and the two properties of PlanarKernel that choose another text may not.
 //
 // Each lane does the operations of the scalar path in the scalar path's order, none fused, so that it has the
-// same bits, whatever the width: 2, 4 or 8 lanes by the processor's instruction set. Lanes whose angles the
-// scalar path would hand to the careful sine and cosine are handed to it one by one.
+// same bits. Lanes whose angles the scalar path would hand to the careful sine and cosine are handed to it one by one.
 #pragma once
-
-#include <array>
-#include <string>
 
 #include "dynamics/kernel_planar.hpp"
 
 namespace chainreel {
-
-enum class InstructionSet { sse2, avx2, avx512 };
-
-inline constexpr InstructionSet kInstructionSets[] = {InstructionSet::sse2, InstructionSet::avx2,
-                                                      InstructionSet::avx512};
-
-// "avx512"
-std::string to_string(InstructionSet set);
-bool is_supported(InstructionSet set);    // by this processor
-InstructionSet widest_instruction_set();  // that is supported
 
 // Eight chains, each number of theirs in a row. The layout is the same for every width.
 struct alignas(64) PlanarBlock {
@@ -53,11 +39,6 @@ using StepPlanarBlocks = void (*)(PlanarBlock* blocks, int count, long steps);
 inline constexpr int kBlocksAtATime = 4;
 
 // For blocks of chains like this one.
-StepPlanarBlocks planar_batch_for(const PlanarKernel& kernel, InstructionSet set);
-
-// Each compiled for its instruction set.
-StepPlanarBlocks planar_batch_for_sse2(const PlanarKernel& kernel);
-StepPlanarBlocks planar_batch_for_avx2(const PlanarKernel& kernel);
-StepPlanarBlocks planar_batch_for_avx512(const PlanarKernel& kernel);
+StepPlanarBlocks planar_batch_for(const PlanarKernel& kernel);
 
 }  // namespace chainreel

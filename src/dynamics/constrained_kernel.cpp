@@ -113,12 +113,10 @@ bool collect(const ConstraintSet& set, std::array<Row, ConstrainedKernel::kMostR
 ConstrainedKernel constrained_kernel_of(const Chain& chain, const ConstraintSet& set) {
   if (!are_simple(set)) return {};
   ConstrainedKernel kernel;
-  const bool wide = __builtin_cpu_supports("avx2");
   if (const PlanarKernel links = planar_kernel_of(chain); links.joints >= 2) {
     const auto make_row = [&](const ConstraintSet::Row& row) { return row_of(chain, links, set, row); };
     if (!collect(set, kernel.row, make_row, kernel)) return {};
-    kernel.run = (wide ? constrained_kernel_for_avx2 : constrained_kernel_for_any_processor)(links.joints,
-                                                                                             kernel.rows);
+    kernel.run = constrained_run(links, kernel.rows);
     return kernel;
   }
   const SpatialKernel links = spatial_kernel_of(chain);
@@ -127,8 +125,7 @@ ConstrainedKernel constrained_kernel_of(const Chain& chain, const ConstraintSet&
     return row_in_space(chain, set, row, kernel.in_space);
   };
   if (!collect(set, kernel.in_space.row, make_row, kernel)) return {};
-  kernel.run =
-      (wide ? constrained_spatial_for_avx2 : constrained_spatial_for_any_processor)(links, kernel.rows);
+  kernel.run = constrained_run(links, kernel.rows);
   return kernel;
 }
 

@@ -55,10 +55,8 @@ struct ConstrainedKernel {
 
 ConstrainedKernel constrained_kernel_of(const Chain& chain, const ConstraintSet& set);
 
-// The text compiled for every processor, and for those with 256-bit vectors; both give the same bits.
-ConstrainedKernel::Run constrained_kernel_for_any_processor(int joints, int rows);
-ConstrainedKernel::Run constrained_kernel_for_avx2(int joints, int rows);
-ConstrainedKernel::Run constrained_spatial_for_any_processor(const SpatialKernel& kernel, int rows);
-ConstrainedKernel::Run constrained_spatial_for_avx2(const SpatialKernel& kernel, int rows);
+// The unrolled text for so many joints and rows; null where there is none.
+ConstrainedKernel::Run constrained_run(const PlanarKernel& kernel, int rows);
+ConstrainedKernel::Run constrained_run(const SpatialKernel& kernel, int rows);
 
 }  // namespace chainreel

@@ -44,12 +44,11 @@ void with_friction(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, C
 }
 
 ForwardDynamics smooth_dynamics_of(const Chain& chain, const Workspace::Scratch& scratch) {
-  const bool wide = __builtin_cpu_supports("avx2");
   switch (algorithm_of(chain)) {
     case Algorithm::planar_kernel:
-      return (wide ? planar_kernel_for_avx2 : planar_kernel_for_any_processor)(scratch.planar_kernel);
+      return dynamics_of(scratch.planar_kernel);
     case Algorithm::spatial_kernel:
-      return (wide ? spatial_kernel_for_avx2 : spatial_kernel_for_any_processor)(scratch.spatial_kernel);
+      return dynamics_of(scratch.spatial_kernel);
     case Algorithm::mass_matrix:
       return by_mass_matrix;
     default:

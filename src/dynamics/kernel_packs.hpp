@@ -1,10 +1,6 @@
-// Vectors of 2 and 4 doubles, and the sine and cosine of each lane. Compiled once for every processor and
-// once for those with 256-bit vectors: included by kernels_any.cpp and kernels_avx2.cpp alone, behind their
-// choice of processor, and private to them.
-//
-// Bits: each lane does what a scalar would, and no operation is fused or re-ordered, so that the width of the
-// vectors does not show. No lambdas here: g++ 12 compiles them for the common processor. Nor does it define
-// __AVX2__ behind the choice.
+// Vectors of 2 and 4 doubles, and the sine and cosine of each lane, for vectors of 128 bits, which every x86-64
+// processor has. Each lane does what a scalar would, and no operation is fused or re-ordered. Wider vectors gained no
+// command a quarter of its time.
 #pragma once
 
 #include "core/scalar.hpp"
@@ -15,53 +11,6 @@ namespace {
 
 using Pack2 = double __attribute__((vector_size(16)));
 using Bits2 = std::uint64_t __attribute__((vector_size(16)));
-
-#ifdef CHAINREEL_WIDE_VECTORS
-
-using Pack4 = double __attribute__((vector_size(32)));
-using Bits4 = std::uint64_t __attribute__((vector_size(32)));
-
-template <class Pack>
-using BitsOf = std::conditional_t<sizeof(Pack) == 16, Bits2, Bits4>;
-
-inline bool all_signs(const Pack2& x) {
-  return __builtin_ia32_movmskpd(x) == 3;
-}
-inline bool all_signs(const Pack4& x) {
-  return __builtin_ia32_movmskpd256(x) == 15;
-}
-
-// a where the highest bit of the mask is set, else b.
-inline Pack2 choose(const Bits2& mask, const Pack2& a, const Pack2& b) {
-  return __builtin_ia32_blendvpd(b, a, Pack2(mask));
-}
-inline Pack4 choose(const Bits4& mask, const Pack4& a, const Pack4& b) {
-  return __builtin_ia32_blendvpd256(b, a, Pack4(mask));
-}
-
-// One lane in all.
-template <int k>
-inline Pack4 lane(const Pack4& x) {
-  return __builtin_shufflevector(x, x, k, k, k, k);
-}
-
-// (y, z, x, w)
-inline Pack4 turned_lanes(const Pack4& x) {
-  return __builtin_shufflevector(x, x, 1, 2, 0, 3);
-}
-
-// Of each of four vectors the sum of its lanes, (x + y) + (z + w).
-inline Pack4 sums_of(const Pack4& a, const Pack4& b, const Pack4& c, const Pack4& d) {
-  const Pack4 ab = __builtin_ia32_haddpd256(a, b);
-  const Pack4 cd = __builtin_ia32_haddpd256(c, d);
-  return __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
-}
-
-inline Pack4 masked(const Pack4& x, const std::uint64_t* lanes) {
-  return Pack4(Bits4(x) & *reinterpret_cast<const Bits4*>(lanes));
-}
-
-#else
 
 // Two halves; left to itself the compiler would take every lane one by one.
 struct Pack4 {
@@ -115,8 +64,6 @@ inline Pack4 masked(const Pack4& x, const std::uint64_t* lanes) {
   return {Pack2(Bits2(x.lo) & mask[0]), Pack2(Bits2(x.hi) & mask[1])};
 }
 
-#endif
-
 enum class Angles { common, any };  // whether rare ones are looked for
 
 template <class Pack>
@@ -163,11 +110,9 @@ template <class Pack>
   c = Pack(Bits(choose(swapped, sine, cosine)) ^ (sign_s ^ swapped));
   return true;
 }
-#ifndef CHAINREEL_WIDE_VECTORS
 [[gnu::always_inline]] inline bool sin_cos_of_common(const Pack4& x, Pack4& s, Pack4& c) {
   return sin_cos_of_common(x.lo, s.lo, c.lo) && sin_cos_of_common(x.hi, s.hi, c.hi);
 }
-#endif
 
 // Of any angles, by the scalar function.
 inline void sin_cos_of_any(const Pack2& x, Pack2& s, Pack2& c) {

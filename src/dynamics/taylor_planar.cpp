@@ -65,8 +65,7 @@ void write_twice(AlignedNumbers<T>& rows, std::size_t at, const T& value) {
 template <class T>
 ExpandPlanar<T> expand_for(int n) {
   if constexpr (std::is_same_v<T, double>) {
-    if (n > 2 && __builtin_cpu_supports("avx512dq")) return expand_planar_for_avx512(n);
-    return __builtin_cpu_supports("avx2") ? expand_planar_for_avx2(n) : expand_planar_for_any_processor(n);
+    return expand_doubles(n);
   } else
     return expand_planar_for<QuadPair, Quad>(n);
 }
@@ -93,9 +92,7 @@ template <class T>
 PlanarSeriesState<T>::PlanarSeriesState(const Chain& chain, const AffineTorque& torque, int highest_order)
     : n(chain.nv) {
   const auto links = std::size_t(n);
-  constexpr std::size_t kFewLanes = 4, kManyLanes = 8;  // of the widest pack that a row is cut into
-  const std::size_t lanes = 2 * links <= kFewLanes ? kFewLanes : kManyLanes;
-  stride = (2 * links + lanes - 1) / lanes * lanes;
+  stride = 2 * links;
   const auto orders = std::size_t(highest_order + 1);
   for (AlignedNumbers<T>* matrix : {&A, &sigma_ij, &M}) matrix->resize(links * links);
   for (AlignedNumbers<T>* row_a_link : {&kappa, &sigma, &K, &D, &M_inv, &H_0, &H_1})

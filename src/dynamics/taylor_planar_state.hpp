@@ -64,13 +64,10 @@ struct PlanarSeriesState {
   void fold_torque(const Chain& chain, const AffineTorque& torque);
 };
 
-// Coefficients of phi up to the order into `c`, as joint angles. One text for all; the same bits for every
-// width of vectors.
+// Coefficients of phi up to the order into `c`, as joint angles.
 template <class T>
 using ExpandPlanar = void (*)(PlanarSeriesState<T>& state, T t, const T* q, const T* v, int order, T* c);
 
-ExpandPlanar<double> expand_planar_for_any_processor(int n);
-ExpandPlanar<double> expand_planar_for_avx2(int n);
-ExpandPlanar<double> expand_planar_for_avx512(int n);  // n > 2: rows of fewer links have no eight lanes
+ExpandPlanar<double> expand_doubles(int n);
 
 }  // namespace chainreel

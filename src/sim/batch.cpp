@@ -39,16 +39,15 @@ struct BatchSimulator::Alone {
   std::vector<double> q, qd;
 };
 
-BatchSimulator::BatchSimulator(const Chain& chain, int instances, InstructionSet set)
+BatchSimulator::BatchSimulator(const Chain& chain, int instances)
     : nq_(std::size_t(chain.nq)),
       nv_(std::size_t(chain.nv)),
       kernel_(planar_kernel_of(chain)),
       alone_(std::size_t(instances)),
       tau_(std::size_t(instances) * nv_),
       h_(std::size_t(instances), 0.001) {
-  assert(is_supported(set));
   if (fits_in_lane(chain, kernel_)) {
-    step_blocks_ = planar_batch_for(kernel_, set);
+    step_blocks_ = planar_batch_for(kernel_);
     blocks_.resize((alone_.size() + PlanarBlock::kLanes - 1) / PlanarBlock::kLanes);
     // Lanes without an instance rest as the first chain, so that they divide by nothing that is zero.
     for (PlanarBlock& block : blocks_)

@@ -22,7 +22,7 @@ namespace chainreel {
 class BatchSimulator {
  public:
   // Each instance rests at zero without torques, with a step of 1 ms.
-  BatchSimulator(const Chain& chain, int instances, InstructionSet set = widest_instruction_set());
+  BatchSimulator(const Chain& chain, int instances);
   ~BatchSimulator();
   BatchSimulator(BatchSimulator&&) noexcept;
   BatchSimulator& operator=(BatchSimulator&&) noexcept;

@@ -122,38 +122,5 @@ TEST(ConstrainedKernelTest, LeavesSingularPosesAndOtherRowsToTheGeneralWay) {
   EXPECT_LT(relative_difference(pair.fast.ws.qdd, pair.general.ws.qdd), kConstrainedTolerance);
 }
 
-std::vector<double> run(ConstrainedKernel::Run kernel, Tied& tied, const State& s) {
-  EXPECT_TRUE(kernel(tied.ws, tied.cws, s.q, s.qd, s.tau, tied.ws.qdd.data(), 1e-13));
-  std::vector<double> result = tied.ws.qdd;
-  result.insert(result.end(), tied.cws.lambda.begin(), tied.cws.lambda.end());
-  return result;
-}
-
-TEST(ConstrainedKernelTest, HasTheSameBitsOnEveryProcessor) {
-  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "this processor has only one way";
-  Random random(711);
-  Tied flat(rrr_chain(), {pin()});
-  for (int k = 0; k < 20; ++k) {
-    const State s = random_state(flat.chain, random);
-    EXPECT_EQ(run(constrained_kernel_for_any_processor(3, 2), flat, s),
-              run(constrained_kernel_for_avx2(3, 2), flat, s));
-  }
-  for (const int bodies : {4, 7, 15}) {
-    const Chain chain = random_tree(std::uint64_t(770 + bodies), {.bodies = bodies, .serial = true});
-    for (const auto& ties : ties_in_space(chain.frames.back().name)) {
-      Tied tied(chain, ties);
-      const SpatialKernel& links = tied.ws.scratch->spatial_kernel;
-      const int rows = tied.cws.kernel.rows;
-      for (int k = 0; k < 10; ++k) {
-        State s = random_state(chain, random);
-        if (k == 0) s.q.back() *= 1e6;  // rare angles
-        EXPECT_EQ(run(constrained_spatial_for_any_processor(links, rows), tied, s),
-                  run(constrained_spatial_for_avx2(links, rows), tied, s))
-            << chain.name;
-      }
-    }
-  }
-}
-
 }  // namespace
 }  // namespace chainreel::test

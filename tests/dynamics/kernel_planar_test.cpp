@@ -48,33 +48,6 @@ TEST(PlanarKernelTest, EqualsTheArticulatedBodyAlgorithm) {
   }
 }
 
-std::vector<double> run(ForwardDynamics kernel, const Chain& chain, Workspace& ws, const State& s) {
-  kernel(chain, ws, s.q, s.qd, s.tau, ws.qdd.data());
-  return ws.qdd;
-}
-
-TEST(PlanarKernelTest, HasTheSameBitsOnEveryProcessor) {
-  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "this processor has only one way";
-  Random random(122);
-  for (std::uint64_t seed = 120; seed < 140; ++seed) {
-    const Chain chain = any_small_chain(seed);
-    Workspace ws(chain);
-    for (const bool along_x : {false, true}) {
-      for (const bool turned : {false, true}) {
-        PlanarKernel& kernel = ws.scratch->planar_kernel;
-        kernel.along_x = along_x;
-        kernel.turned = turned;
-        for (int k = 0; k < 50; ++k) {
-          State s = random_state(chain, random, 5);
-          if (k % 10 == 0) s.q[0] *= 1e6;  // rare angles
-          EXPECT_EQ(run(planar_kernel_for_any_processor(kernel), chain, ws, s),
-                    run(planar_kernel_for_avx2(kernel), chain, ws, s));
-        }
-      }
-    }
-  }
-}
-
 // A kernel that hands out the cosine (or sine) of one absolute angle: unit inertias, no coupling, one link
 // that weighs.
 double by_kernel(int joints, std::size_t link, bool sine, const std::vector<double>& q) {
@@ -88,7 +61,7 @@ double by_kernel(int joints, std::size_t link, bool sine, const std::vector<doub
   (sine ? kernel.pull_s : kernel.pull_c)[link] = sine ? -1 : 1;
   ws.scratch->planar_kernel = kernel;
   const std::vector<double> zero(4, 0.0);
-  planar_kernel_for_any_processor(kernel)(chain, ws, q, zero, zero, ws.qdd.data());
+  dynamics_of(kernel)(chain, ws, q, zero, zero, ws.qdd.data());
   return ws.qdd[link];
 }
 

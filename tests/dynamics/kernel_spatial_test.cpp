@@ -64,28 +64,6 @@ TEST(SpatialKernelTest, ABaseFarFromTheOriginCostsNoDigits) {
   EXPECT_LT(difference_from_aba(cart, cart, far), kSpatialTolerance);
 }
 
-std::vector<double> run_spatial(ForwardDynamics kernel, const Chain& chain, Workspace& ws, const State& s) {
-  kernel(chain, ws, s.q, s.qd, s.tau, ws.qdd.data());
-  return ws.qdd;
-}
-
-TEST(SpatialKernelTest, HasTheSameBitsOnEveryProcessor) {
-  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "this processor has only one way";
-  Random random(134);
-  for (std::uint64_t seed = 130; seed < 190; ++seed) {
-    const Chain chain = any_fitting_chain(seed);
-    Workspace ws(chain);
-    const SpatialKernel& kernel = ws.scratch->spatial_kernel;
-    for (int k = 0; k < 20; ++k) {
-      State s = random_state(chain, random, 3);
-      if (k % 5 == 0) s.q.back() *= 1e6;  // rare angles
-      EXPECT_EQ(run_spatial(spatial_kernel_for_any_processor(kernel), chain, ws, s),
-                run_spatial(spatial_kernel_for_avx2(kernel), chain, ws, s))
-          << chain.name;
-    }
-  }
-}
-
 TEST(SpatialKernelTest, NanComesOutAsNan) {
   const Chain chain = arm_chain(1);
   Workspace ws(chain);

@@ -133,30 +133,6 @@ TEST_P(ChainsOfAnyLength, HasTheDigitsOfADouble) {
   }
 }
 
-TEST_P(ChainsOfAnyLength, HasTheSameBitsOnEveryProcessor) {
-  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "this processor has only one way";
-  Random random(920);
-  for (std::uint64_t seed = 920; seed < 930; ++seed) {
-    const Chain chain = chain_of(seed, GetParam());
-    const int n = chain.nv;
-    const State s = random_state(chain, random, 1);
-    constexpr int kOrder = 20;
-    PlanarSeriesState<double> state(chain, random_torque(n, random), kOrder);
-    const auto bits_of = [&](ExpandPlanar<double> expand) {
-      std::vector<double> c(std::size_t(n * (kOrder + 1)));
-      expand(state, 0.3, s.q.data(), s.qd.data(), kOrder, c.data());
-      std::vector<std::uint64_t> bits;
-      for (const double x : c) bits.push_back(std::bit_cast<std::uint64_t>(x));
-      return bits;
-    };
-    const auto any = bits_of(expand_planar_for_any_processor(n));
-    EXPECT_EQ(any, bits_of(expand_planar_for_avx2(n)));
-    if (n > 2 && __builtin_cpu_supports("avx512dq")) {
-      EXPECT_EQ(any, bits_of(expand_planar_for_avx512(n)));
-    }
-  }
-}
-
 TEST(PlanarSeries, OfTwoHorizontalLinksAtRestHasEveryFourthTerm) {
   const Chain chain = rr_chain();
   constexpr int kOrder = 30;

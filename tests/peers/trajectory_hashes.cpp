@@ -88,8 +88,7 @@ std::string hash_of(const Case& c, const Method& method, double step) {
   return audit_of(run, trajectory).sha256 + " " + to_string(trajectory.status);
 }
 
-// Of instances that differ in state, torque and step, stepped together by two threads with the widest vectors
-// of the processor.
+// Of instances that differ in state, torque and step, stepped together by two threads.
 std::string hash_of_batch(const Chain& chain, double step) {
   constexpr int kInstances = 37;  // no multiple of any width
   const auto nv = std::size_t(chain.nv);

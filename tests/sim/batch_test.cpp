@@ -93,8 +93,8 @@ std::vector<std::vector<std::uint64_t>> scalar_bits(const Instance& instance, in
   return bits;
 }
 
-BatchSimulator batch_of(const std::vector<Instance>& all, InstructionSet set) {
-  BatchSimulator batch(all.front().chain, int(all.size()), set);
+BatchSimulator batch_of(const std::vector<Instance>& all) {
+  BatchSimulator batch(all.front().chain, int(all.size()));
   for (int i = 0; i < batch.instances(); ++i) {
     const Instance& instance = all[std::size_t(i)];
     if (i > 0) batch.set_chain(i, instance.chain);
@@ -126,33 +126,28 @@ int different(const std::vector<Instance>& all, BatchSimulator& batch, int threa
   return int(std::count(differs.begin(), differs.end(), true));
 }
 
-class Batch : public ::testing::TestWithParam<InstructionSet> {
+class Batch : public ::testing::Test {
  protected:
-  void SetUp() override {
-    if (!is_supported(GetParam())) GTEST_SKIP() << "this processor has none";
-  }
   // All instances have the bits of `simulate`; says how many were stepped in lanes.
   int in_lanes(const MakeChain& make, int count, std::uint64_t seed, int threads = 1) {
     const std::vector<Instance> all = instances_of(make, count, seed);
-    BatchSimulator batch = batch_of(all, GetParam());
+    BatchSimulator batch = batch_of(all);
     EXPECT_EQ(different(all, batch, threads), 0);
     int lanes = 0;
     for (int i = 0; i < count; ++i) lanes += batch.is_in_lane(i);
     return lanes;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Widths, Batch, ::testing::ValuesIn(kInstructionSets),
-                         [](const auto& p) { return to_string(p.param); });
 
-TEST_P(Batch, OfTwoJointsHasTheBitsOfEachRunByItself) {
+TEST_F(Batch, OfTwoJointsHasTheBitsOfEachRunByItself) {
   EXPECT_EQ(in_lanes(varied_rr, 301, 1), 301);
 }
 
-TEST_P(Batch, OfThreeJointsHasTheBitsOfEachRunByItself) {
+TEST_F(Batch, OfThreeJointsHasTheBitsOfEachRunByItself) {
   EXPECT_EQ(in_lanes(varied_rrr, 301, 2), 301);
 }
 
-TEST_P(Batch, OfOneAndOfFourJointsHasTheBitsOfEachRunByItself) {
+TEST_F(Batch, OfOneAndOfFourJointsHasTheBitsOfEachRunByItself) {
   for (const int n : {1, 4}) {
     const auto make = [n](test::Random& r) { return varied(test::planar_serial_chain(n), r); };
     EXPECT_EQ(in_lanes(make, 60, 3), 60) << n;
@@ -161,7 +156,7 @@ TEST_P(Batch, OfOneAndOfFourJointsHasTheBitsOfEachRunByItself) {
 
 // Planes turned in space, centres of mass off the links' lines, axes that point either way: an instance whose
 // axes are unlike the first one's in kind is stepped by itself.
-TEST_P(Batch, OfCrookedChainsHasTheBitsOfEachRunByItself) {
+TEST_F(Batch, OfCrookedChainsHasTheBitsOfEachRunByItself) {
   for (const int n : {2, 3, 4}) {
     const auto make = [n](test::Random& r) {
       return test::random_planar_tree(std::uint64_t(r.below(1000)),
@@ -171,32 +166,32 @@ TEST_P(Batch, OfCrookedChainsHasTheBitsOfEachRunByItself) {
   }
 }
 
-TEST_P(Batch, TakesChainsWithoutAKernelOneByOne) {
+TEST_F(Batch, TakesChainsWithoutAKernelOneByOne) {
   EXPECT_EQ(in_lanes([](test::Random& r) { return varied(test::pp_chain(), r); }, 20, 5), 0);
   EXPECT_EQ(in_lanes([](test::Random&) { return test::arm_chain(7); }, 5, 6), 0);
   const test::TreeOptions flying{.bodies = 4, .floating_base = true};
   EXPECT_EQ(in_lanes([&](test::Random&) { return test::random_tree(8, flying); }, 5, 7), 0);
 }
 
-TEST_P(Batch, StepsAChainWithFrictionBesideOthersByItself) {
+TEST_F(Batch, StepsAChainWithFrictionBesideOthersByItself) {
   std::vector<Instance> all = instances_of(varied_rr, 20, 8);
   for (const std::size_t i : {3u, 12u}) {
     all[i].chain.bodies[1].joint.damping = 0.3;
     test::finish(all[i].chain);
   }
-  BatchSimulator batch = batch_of(all, GetParam());
+  BatchSimulator batch = batch_of(all);
   EXPECT_FALSE(batch.is_in_lane(3));
   EXPECT_TRUE(batch.is_in_lane(4));
   EXPECT_EQ(different(all, batch), 0);
 }
 
-TEST_P(Batch, HasTheSameBitsForAnyNumberOfThreads) {
+TEST_F(Batch, HasTheSameBitsForAnyNumberOfThreads) {
   for (const int threads : {2, 3, 16}) EXPECT_EQ(in_lanes(varied_rrr, 101, 9, threads), 101) << threads;
 }
 
-TEST_P(Batch, KeepsStateTorqueAndStepWhenAChainIsReplaced) {
+TEST_F(Batch, KeepsStateTorqueAndStepWhenAChainIsReplaced) {
   std::vector<Instance> all = instances_of(varied_rr, 9, 10);
-  BatchSimulator batch = batch_of(all, GetParam());
+  BatchSimulator batch = batch_of(all);
   test::Random random(11);
   Chain rubbing = all[5].chain;
   rubbing.bodies[1].joint.damping = 1;
@@ -209,28 +204,23 @@ TEST_P(Batch, KeepsStateTorqueAndStepWhenAChainIsReplaced) {
 }
 
 // Negative controls: the comparison sees one changed number in one instance.
-TEST_P(Batch, DiffersWhereOneMassTorqueOrStepDiffers) {
+TEST_F(Batch, DiffersWhereOneMassTorqueOrStepDiffers) {
   const std::vector<Instance> all = instances_of(varied_rr, 40, 12);
   Instance other = all[17];
   other.chain.bodies[2].inertia.mass *= 1 + 1e-12;
   test::finish(other.chain);
-  BatchSimulator mass = batch_of(all, GetParam());
+  BatchSimulator mass = batch_of(all);
   mass.set_chain(17, other.chain);
   EXPECT_EQ(different(all, mass), 1);
 
   other.state.tau[1] *= 1 + 1e-12;
-  BatchSimulator torque = batch_of(all, GetParam());
+  BatchSimulator torque = batch_of(all);
   torque.set_torque(17, other.state.tau);
   EXPECT_EQ(different(all, torque), 1);
 
-  BatchSimulator step = batch_of(all, GetParam());
+  BatchSimulator step = batch_of(all);
   step.set_step(17, other.h * (1 + 1e-12));
   EXPECT_EQ(different(all, step), 1);
-}
-
-TEST(BatchInstructionSet, TheWidestIsSupported) {
-  EXPECT_TRUE(is_supported(widest_instruction_set()));
-  EXPECT_TRUE(is_supported(InstructionSet::sse2));
 }
 
 }  // namespace

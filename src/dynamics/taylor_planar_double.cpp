@@ -28,7 +28,7 @@ inline Pair spread(const Pair* row, std::size_t j) {
 
 namespace chainreel {
 
-ExpandPlanar<double> expand_planar_for_any_processor(int n) {
+ExpandPlanar<double> expand_doubles(int n) {
   return expand_planar_for<Pair, double>(n);
 }
 
