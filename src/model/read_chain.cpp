@@ -35,7 +35,7 @@ void require_regular(const ReducedModel& model, const UrdfFile& file) {
               "joint '" + body.joint.name + "' moves no mass at any pose when it " + found->motion +
                   (found->behind ? " (the joints behind it give way)" : "") +
                   ", so no torque has an acceleration: give link '" + body.name + "' " + found->remedy +
-                  ", or make the joint fixed",
+                  (body.joint.kind == JointKind::floating ? ", or fix the base" : ", or make the joint fixed"),
               file.at(link < 0 ? 0 : file.links[std::size_t(link)].line));
 }
 
