@@ -3,6 +3,7 @@
 // IEEE 754 exactly, so what differs can only be which operations were done: by the compiler's choice or by a library's.
 #include <gmock/gmock.h>
 
+#include <ostream>
 #include <set>
 #include <sstream>
 #include <string>
@@ -24,6 +25,8 @@ struct Machine {
   std::string name;
   std::string emulated;  // QEMU's name of the processor; "": the one that we run on
   std::string tunables;  // of the C library
+
+  friend std::ostream& operator<<(std::ostream& out, const Machine& machine) { return out << machine.name; }
 };
 
 const Machine kHere = {"Here", "", ""};
