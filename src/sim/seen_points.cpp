@@ -1,9 +1,9 @@
 #include "sim/seen_points.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "core/dense.hpp"
 #include "dynamics/kinematics.hpp"
 
 namespace chainreel {
@@ -24,9 +24,9 @@ bool spans_space(const std::vector<Vector3d>& points) {
 // sqrt(3 (I_j + I_k - I_i) / (2 m)). Files that give moments about one axis only make it flat.
 std::vector<Vector3d> corners_of_equal_box(const Inertia& inertia) {
   if (!(inertia.mass > 0)) return {};
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia.about_com);
-  const Vector3d& moments = solver.eigenvalues();
-  Eigen::Matrix3d half = solver.eigenvectors();
+  const SymmetricEigen principal = eigen_of_symmetric(inertia.about_com);
+  const Vector3d moments = principal.values;
+  Eigen::Matrix3d half = principal.vectors;
   for (int i = 0; i < 3; ++i)
     half.col(i) *= std::sqrt(std::max(0.0, 3 * (moments.sum() - 2 * moments[i]) / (2 * inertia.mass)));
   if (!half.allFinite() || half.isZero(0)) return {};
