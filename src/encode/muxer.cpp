@@ -63,6 +63,8 @@ void Muxer::open_file(const Container& container, const Tags& tags) {
 
 Muxer::~Muxer() {
   if (finished_) return;
+  // libavformat's GIF muxer lets go of the packet that it holds back at the end of the file only.
+  if (!ended_ && encoder_->codec_id == AV_CODEC_ID_GIF) av_write_trailer(format_.get());
   format_.reset();
   file_.reset();
   std::error_code ignored;
@@ -98,6 +100,7 @@ void Muxer::finish() {
   send(nullptr);
   avio_flush(format_->pb);
   check_file(format_->pb->error);  // before the index is moved to the front of data that is not there
+  ended_ = true;
   check_file(av_write_trailer(format_.get()));
   format_.reset();
   check_file(file_->close());

@@ -53,6 +53,7 @@ class Muxer {
   AVStream* stream_ = nullptr;
   std::int64_t frames_ = 0;
   bool finished_ = false;
+  bool ended_ = false;  // libavformat was told of the end, whether the file has it or not
 };
 
 }  // namespace chainreel
