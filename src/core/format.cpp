@@ -40,6 +40,10 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
   return text;
 }
 
+std::string quoted_list(const std::vector<std::string>& names) {
+  return names.empty() ? "" : "'" + joined(names, "', '") + "'";
+}
+
 std::string bracketed(const std::vector<double>& values) {
   std::vector<std::string> words;
   for (const double x : values) words.push_back(format_significant(x, 6));

@@ -14,6 +14,7 @@ std::string format_fixed(double value, int decimals);  // never "-0.00"
 std::string format_significant(double value, int digits);
 
 std::string joined(const std::vector<std::string>& words, const std::string& between = ", ");
+std::string quoted_list(const std::vector<std::string>& names);  // 'a', 'b'
 std::string bracketed(const std::vector<double>& values);  // [1, 0.25, -3], six digits
 
 // The whole text must be one finite number; leading '+' allowed, nothing else around it.

@@ -4,6 +4,7 @@
 
 #include "core/scalar.hpp"
 #include "dynamics/kernel_sin_cos.hpp"
+#include "dynamics/substitute_back.hpp"
 
 namespace chainreel {
 namespace {
@@ -139,16 +140,7 @@ inline void solve(PlanarBlock& block, int column, Lanes (&A)[n][n], Lanes (&x)[n
     constexpr int a = n - 2, b = n - 1;
     const Lanes squares = n == 2 ? at(block.A_11_A_22, column) : A[a][a] * A[b][b];
     const Lanes det_inv = 1.0 / (squares - A[b][a] * A[b][a]);
-    const Lanes x_a = A[b][b] * x[a] - A[b][a] * x[b];
-    const Lanes x_b = A[a][a] * x[b] - A[b][a] * x[a];
-    x[a] = x_a * det_inv;
-    x[b] = x_b * det_inv;
-  }
-#pragma GCC unroll 4
-  for (int k = n - 3; k >= 0; --k) {
-#pragma GCC unroll 4
-    for (int i = k + 1; i < n; ++i) x[k] -= A[i][k] * x[i];
-    x[k] *= D_inv[k];
+    substitute_back<n>(A, D_inv, det_inv, x);
   }
 }
 

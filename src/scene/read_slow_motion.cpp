@@ -12,12 +12,6 @@ namespace {
 
 constexpr const char* kExample = "{from: 1s, until: 1.5s, speed: 0.25}";
 
-std::string all_quoted(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "'" : ", '") + name + "'";
-  return text;
-}
-
 // One entry of the list; `key` is its dotted path.
 class StretchReader {
  public:
@@ -79,7 +73,7 @@ class StretchReader {
     return complain(
         "names '" + entry.event + "', but " +
             (names.empty() ? "the scene has no 'events'" : "no entry of 'events' has that name:") +
-            did_you_mean(entry.event, names) + (names.empty() ? "" : " There are " + all_quoted(names) + "."),
+            did_you_mean(entry.event, names) + (names.empty() ? "" : " There are " + quoted_list(names) + "."),
         "event");
   }
 

@@ -257,17 +257,12 @@ class Chooser {
   }
 
   void tell_what_is_not_judged() {
-    const auto list_of = [](const std::vector<std::string>& names) {
-      std::string text;
-      for (const std::string& name : names) text += (text.empty() ? "'" : ", '") + name + "'";
-      return text;
-    };
     if (const auto& links = simulation_.outline.unmeasured; !links.empty())
-      choice_.remarks.push_back("in place of meshes that cannot be read, of " + list_of(links) +
+      choice_.remarks.push_back("in place of meshes that cannot be read, of " + quoted_list(links) +
                                 ", boxes of the same mass and inertia are judged");
     if (accuracy_.unit == "rad") return;
     if (const auto names = unseen_freedoms(simulation_, reference_.run); !names.empty())
-      choice_.remarks.push_back(list_of(names) + (names.size() == 1 ? " moves" : " move") +
+      choice_.remarks.push_back(quoted_list(names) + (names.size() == 1 ? " moves" : " move") +
                                 " nothing that can be seen, and no error of that is judged: `accuracy: 1e-3 rad` does");
   }
 
