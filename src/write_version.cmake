@@ -2,7 +2,7 @@
 # cmake -DOUTPUT=version.cpp -DVERSION=0.1.0 -DFOLDER=. -P write_version.cmake
 execute_process(COMMAND git -C ${FOLDER} describe --always --dirty --exclude=* OUTPUT_VARIABLE revision
   OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
-set(text "#include \"app/version.hpp\"
+set(text "#include \"app/report/version.hpp\"
 
 namespace chainreel {
 

@@ -4,9 +4,9 @@
 #include <new>
 
 #include "app/command.hpp"
+#include "app/report/version.hpp"
 #include "app/signals.hpp"
 #include "app/streams.hpp"
-#include "app/version.hpp"
 #include "core/error.hpp"
 
 namespace {

@@ -1,6 +1,14 @@
 #include "core/machine.hpp"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <fstream>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
 
 namespace chainreel {
 
@@ -24,6 +32,71 @@ std::string system_name() {
 
 std::string compiler_name() {
   return "g++ " __VERSION__;
+}
+
+namespace {
+
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
+// The first number of a file; infinite where there is none, or where it says "max".
+double number_in(const std::string& path) {
+  std::ifstream stream(path);
+  double number = 0;
+  return stream >> number ? number : kUnlimited;
+}
+
+// Of this process: its whole address space, and its data.
+double taken(int column) {
+  std::ifstream stream("/proc/self/statm");
+  double pages = 0;
+  for (int k = 0; k <= column; ++k) stream >> pages;
+  return stream ? pages * double(sysconf(_SC_PAGESIZE)) : 0;
+}
+
+double left_by(decltype(RLIMIT_AS) resource, double taken) {
+  rlimit limit = {};
+  if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kUnlimited;
+  return std::max(0.0, double(limit.rlim_cur) - taken);
+}
+
+// Control groups, of both versions: this process's own, as /proc/self/cgroup names them, and that at the root of what a
+// container sees.
+double left_by_control_group() {
+  double least = kUnlimited;
+  const auto look = [&least](const std::string& folder, const char* most, const char* used) {
+    const double limit = number_in(folder + most), now = number_in(folder + used);
+    if (limit < kUnlimited) least = std::min(least, std::max(0.0, limit - (now < kUnlimited ? now : 0)));
+  };
+  look("/sys/fs/cgroup", "/memory.max", "/memory.current");
+  look("/sys/fs/cgroup/memory", "/memory.limit_in_bytes", "/memory.usage_in_bytes");
+  std::ifstream groups("/proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);) {
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (second == std::string::npos) continue;
+    const std::string path = line.substr(second + 1), controllers = line.substr(first + 1, second - first - 1);
+    if (controllers.empty()) look("/sys/fs/cgroup" + path, "/memory.max", "/memory.current");
+    if (controllers.find("memory") != std::string::npos)
+      look("/sys/fs/cgroup/memory" + path, "/memory.limit_in_bytes", "/memory.usage_in_bytes");
+  }
+  return least;
+}
+
+std::string gigabytes(double bytes) {
+  return format_significant(bytes / 1e9, 2) + " GB";
+}
+
+}  // namespace
+
+double memory_limit() {
+  const double machine = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
+  return std::min({machine, left_by(RLIMIT_AS, taken(0)), left_by(RLIMIT_DATA, taken(5)), left_by_control_group()});
+}
+
+void require_memory(double bytes, const std::string& what) {
+  const double limit = memory_limit();
+  if (bytes <= limit) return;
+  throw Error(ExitCode::limit, what + " needs some " + gigabytes(bytes) + " of memory, but there may be " +
+                                   gigabytes(limit) + " only");
 }
 
 }  // namespace chainreel

@@ -13,4 +13,13 @@ std::string compiler_name();   // that built the program
 // where there is none.
 std::string value_in_file(const char* path, const std::string& key, char separator);
 
+// How much memory may be taken, so that what cannot fit is refused before it is begun.
+
+// Bytes that this process may still take: the least of what the limits of the process and of its control group leave, and
+// the machine's memory.
+double memory_limit();
+
+// Throws Error (exit 7) with both numbers where `what`, like "a picture of 100x100 px", needs more than there may be.
+void require_memory(double bytes, const std::string& what);
+
 }  // namespace chainreel

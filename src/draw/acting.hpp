@@ -6,7 +6,7 @@
 
 #include "draw/vectors.hpp"
 #include "dynamics/workspace.hpp"
-#include "sim/torques_along.hpp"
+#include "sim/drive/torques_along.hpp"
 
 namespace chainreel {
 

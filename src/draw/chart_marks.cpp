@@ -8,7 +8,7 @@
 #include <limits>
 #include <set>
 
-#include "picture/segment.hpp"
+#include "picture/point.hpp"
 
 namespace chainreel {
 namespace {

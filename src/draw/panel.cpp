@@ -6,14 +6,14 @@
 
 #include "draw/chain.hpp"
 #include "draw/chain_fit.hpp"
-#include "draw/ghosts.hpp"
 #include "draw/closures.hpp"
+#include "draw/ghosts.hpp"
 #include "draw/joints.hpp"
 #include "draw/section.hpp"
 #include "draw/sheet.hpp"
 #include "dynamics/crba.hpp"
 #include "dynamics/kinematics.hpp"
-#include "picture/segment.hpp"
+#include "picture/point.hpp"
 #include "scene/fall.hpp"
 
 namespace chainreel {

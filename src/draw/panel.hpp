@@ -19,7 +19,7 @@
 #include "draw/skeleton.hpp"
 #include "draw/trail.hpp"
 #include "scene/scene.hpp"
-#include "sim/tip_mass.hpp"
+#include "sim/tip.hpp"
 #include "sim/trajectory.hpp"
 
 namespace chainreel {

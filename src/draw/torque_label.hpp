@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "model/chain.hpp"
-#include "sim/control.hpp"
-#include "sim/torque.hpp"
+#include "sim/drive/control.hpp"
+#include "sim/drive/torque.hpp"
 
 namespace chainreel {
 

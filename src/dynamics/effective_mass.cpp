@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
-#include "dynamics/crba.hpp"
 #include "core/dense.hpp"
-#include "dynamics/ldlt.hpp"
+#include "dynamics/algebra.hpp"
+#include "dynamics/crba.hpp"
 #include "dynamics/recursions.hpp"
 #include "dynamics/scratch.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "dynamics/jacobian.hpp"
+#include "dynamics/kinematics.hpp"
 #include "dynamics/workspace.hpp"
 
 namespace chainreel {

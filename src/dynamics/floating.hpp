@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "core/scalar.hpp"
-#include "dynamics/vec3.hpp"
+#include "dynamics/algebra.hpp"
 #include "model/chain.hpp"
 
 namespace chainreel {

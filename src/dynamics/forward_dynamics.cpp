@@ -6,9 +6,9 @@
 // articulated-body algorithm. Which one it is depends on the chain alone, never on the processor.
 #include "dynamics/forward_dynamics.hpp"
 
+#include "dynamics/algebra.hpp"
 #include "dynamics/friction.hpp"
-#include "dynamics/kernels.hpp"
-#include "dynamics/ldlt.hpp"
+#include "dynamics/kernels/kernels.hpp"
 #include "dynamics/recursions.hpp"
 #include "dynamics/scratch.hpp"
 

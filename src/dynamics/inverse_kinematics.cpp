@@ -6,7 +6,6 @@
 
 #include "core/dense.hpp"
 #include "core/error.hpp"
-#include "dynamics/jacobian.hpp"
 #include "dynamics/kinematics.hpp"
 
 namespace chainreel {

@@ -17,7 +17,7 @@
 // tau_g = S_j . F_j, where F_j is what the weights of all that j carries press on it, taken as RNEA does: the
 // world rises at -gravity.
 //
-// Chains of the planar kernel take absolute angles phi_i (dynamics/kernel_planar.hpp): with the momenta
+// Chains of the planar kernel take absolute angles phi_i (dynamics/kernels/kernel_planar.hpp): with the momenta
 // P_i = p_i - p_{i+1}, sum_j A_ij phi_j' = P_i and dT/dphi_i = sum_{j>i} dA_ij/dphi_i phi_i' phi_j'
 // - sum_{j<i} dA_ji/dphi_j phi_i' phi_j'.
 #include "dynamics/momentum_form.hpp"
@@ -26,7 +26,7 @@
 #include <limits>
 
 #include "core/scalar.hpp"
-#include "dynamics/ldlt.hpp"
+#include "dynamics/algebra.hpp"
 #include "dynamics/recursions.hpp"
 #include "dynamics/scratch.hpp"
 

@@ -8,7 +8,7 @@
 #include <array>
 #include <vector>
 
-#include "dynamics/kernel_planar.hpp"
+#include "dynamics/kernels/kernel_planar.hpp"
 #include "dynamics/workspace.hpp"
 #include "model/chain.hpp"
 

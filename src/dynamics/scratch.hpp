@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-#include "dynamics/kernel_planar.hpp"
-#include "dynamics/kernel_spatial.hpp"
+#include "dynamics/kernels/kernel_planar.hpp"
+#include "dynamics/kernels/kernel_spatial.hpp"
 #include "dynamics/links.hpp"
 #include "dynamics/workspace.hpp"
 

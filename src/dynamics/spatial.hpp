@@ -12,8 +12,7 @@
 #include <array>
 
 #include "core/scalar.hpp"
-#include "dynamics/ldlt.hpp"
-#include "dynamics/vec3.hpp"
+#include "dynamics/algebra.hpp"
 #include "model/chain.hpp"
 
 namespace chainreel {

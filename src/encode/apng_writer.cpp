@@ -7,7 +7,6 @@
 
 #include "encode/codecs.hpp"
 #include "encode/muxer.hpp"
-#include "encode/small_clip.hpp"
 #include "encode/small_frames.hpp"
 
 namespace chainreel {

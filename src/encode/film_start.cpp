@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "encode/film_input.hpp"
 #include "encode/libav.hpp"
-
 extern "C" {
 #include <libswscale/swscale.h>
+
+#include <cctype>
 }
 
 namespace chainreel {
@@ -79,6 +79,31 @@ FilmStart read_film_start(const std::string& path, int widest) {
   if (!decode_first_frame(*input, index, *decoder, *frame, path))
     throw Error(ExitCode::bad_input, "holds no frame that can be decoded", {path});
   return {frame->width, frame->height, double(input->duration) / AV_TIME_BASE, to_image(*frame, widest)};
+}
+
+FilmInputPtr open_film(const std::string& path) {
+  capture_libav_log();
+  AVDictionary* options = nullptr;
+  // A file that plays a list must not open others.
+  av_dict_set(&options, "protocol_whitelist", "file", 0);
+  av_dict_set(&options, "format_whitelist", "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm", 0);
+  AVFormatContext* input = nullptr;
+  const int code = avformat_open_input(&input, ("file:" + path).c_str(), nullptr, &options);
+  av_dict_free(&options);
+  check_libav(code, ExitCode::bad_input, "is no film that can be read", path);
+  return FilmInputPtr(input);
+}
+
+Tags read_film_tags(const std::string& path) {
+  const FilmInputPtr input = open_film(path);
+  Tags tags;
+  const AVDictionaryEntry* entry = nullptr;
+  while ((entry = av_dict_get(input->metadata, "", entry, AV_DICT_IGNORE_SUFFIX)) != nullptr) {
+    std::string name = entry->key;  // WebM writes them in capitals
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+    tags[name] = entry->value;
+  }
+  return tags;
 }
 
 }  // namespace chainreel

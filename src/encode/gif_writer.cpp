@@ -8,7 +8,6 @@
 #include "encode/gif_comment.hpp"
 #include "encode/muxer.hpp"
 #include "encode/palette.hpp"
-#include "encode/small_clip.hpp"
 #include "encode/small_frames.hpp"
 
 namespace chainreel {

@@ -8,9 +8,9 @@ extern "C" {
 #include <libavutil/opt.h>
 #include <libavutil/pixdesc.h>
 }
-
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 
@@ -41,5 +41,18 @@ T* check_allocated(T* pointer, const char* what) {
   if (pointer == nullptr) throw Error(ExitCode::limit, std::string("no memory left for ") + what);
   return pointer;
 }
+
+// What the encoding libraries on this machine are and can do: for `doctor` and the audit beside a film.
+
+struct LibraryVersion {
+  std::string name;
+  std::string version;
+};
+
+// The libraries that were found at run time, which are not always those that were compiled against.
+std::vector<LibraryVersion> encode_library_versions();
+
+// Of the encoders that the program cares for, those that are there.
+std::vector<std::string> available_encoders();
 
 }  // namespace chainreel

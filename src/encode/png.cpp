@@ -10,7 +10,9 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -179,6 +181,20 @@ std::map<std::string, std::string> read_png_text(const std::string& path) {
   png_get_text(reader.png, reader.info, &chunks, &count);
   for (int i = 0; i < count; ++i) text[chunks[i].key] = chunks[i].text;
   return text;
+}
+
+PngSequence::PngSequence(std::string folder, std::string stem, Tags tags)
+    : folder_(std::move(folder)), stem_(std::move(stem)), tags_(std::move(tags)) {}
+
+std::string PngSequence::file_name(const std::string& stem, int frame) {
+  const std::string digits = std::to_string(frame);
+  return stem + std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits + ".png";
+}
+
+void PngSequence::write(const Image& frame) {
+  const std::string path = (std::filesystem::path(folder_) / file_name(stem_, count_)).string();
+  write_png(path, frame, count_ == 0 ? tags_ : Tags{});
+  ++count_;
 }
 
 }  // namespace chainreel

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/image.hpp"
+#include "encode/frame_sink.hpp"
 
 namespace chainreel {
 
@@ -21,5 +22,22 @@ Image read_png(const std::string& path);  // throws Error (exit 3)
 
 // The texts that stand before the pixels, keyword to value. Throws Error (exit 3).
 std::map<std::string, std::string> read_png_text(const std::string& path);
+
+// Frames as PNG files name000000.png, name000001.png, ..; opacity is straight.
+
+class PngSequence final : public FrameSink {
+ public:
+  // Files are `stem` and six digits in `folder`, which is there. Tags go into the first.
+  PngSequence(std::string folder, std::string stem, Tags tags);
+  void write(const Image& frame) override;
+  void finish() override {}
+
+  static std::string file_name(const std::string& stem, int frame);
+
+ private:
+  std::string folder_, stem_;
+  Tags tags_;
+  int count_ = 0;
+};
 
 }  // namespace chainreel

@@ -7,8 +7,7 @@
 #include "encode/bleed.hpp"
 #include "encode/codecs.hpp"
 #include "encode/muxer.hpp"
-#include "encode/yuv420.hpp"
-#include "encode/yuv444.hpp"
+#include "encode/yuv.hpp"
 
 namespace chainreel {
 namespace {

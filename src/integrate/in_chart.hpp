@@ -6,11 +6,17 @@
 
 #include <memory>
 
+#include "integrate/hermite_span.hpp"
 #include "integrate/integrator.hpp"
+#include "integrate/method.hpp"
 
 namespace chainreel {
 
 // `inside` works in the coordinates of `chart`, which must outlive it.
 std::unique_ptr<Integrator> make_in_chart(Chart& chart, std::unique_ptr<Integrator> inside);
+
+// A stepper with its state and dense output: what turns a bare step into an integrator.
+
+std::unique_ptr<Integrator> make_stepped(SecondOrder& system, std::unique_ptr<Stepper> stepper);
 
 }  // namespace chainreel

@@ -3,7 +3,6 @@
 #include "core/error.hpp"
 #include "integrate/in_chart.hpp"
 #include "integrate/makers.hpp"
-#include "integrate/stepped.hpp"
 
 namespace chainreel {
 

@@ -7,13 +7,31 @@
 // spectral radius of the whole step counts.
 #pragma once
 
+#include <Eigen/Core>
 #include <complex>
 #include <optional>
 #include <vector>
 
-#include "integrate/linear_motion.hpp"
+#include "integrate/method.hpp"
 
 namespace chainreel {
+
+// A linear motion q' = v, v' = K q + D v in every form that a method may ask for, and the matrix that one
+// step of a method makes of it.
+
+struct LinearMotion {
+  Eigen::MatrixXd K, D;  // n x n: 1/s^2, 1/s
+
+  Eigen::Index n() const { return K.rows(); }
+  // 2n x 2n: x' = A x for x = (q, v).
+  Eigen::MatrixXd matrix() const;
+  // The same motion with `scale` seconds as the unit of time.
+  LinearMotion in_units_of(double scale) const { return {K * (scale * scale), D * scale}; }
+};
+
+// 2n x 2n: x after a step of length h from x. Adaptive methods step as they are told. Nothing where the
+// method takes no such motion (linked points) or the equations of its step have no solution.
+std::optional<Eigen::MatrixXd> step_map(const Method& method, const LinearMotion& motion, double h);
 
 // Rates of the motion exp(lambda t), 1/s, that are neither 0 nor the mirror image of another one (imaginary
 // part >= 0), the slowest first. What cannot be told from 0 beside the fastest, 3e-5 of it, counts as 0, and

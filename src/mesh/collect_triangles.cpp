@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "mesh/equal_items.hpp"
 #include "mesh/smooth_normals.hpp"
 
 namespace chainreel {

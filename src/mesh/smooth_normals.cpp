@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "mesh/equal_items.hpp"
-
 namespace chainreel {
 namespace {
 

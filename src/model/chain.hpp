@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -129,5 +130,11 @@ std::vector<std::string> position_names(const Chain& chain);
 
 // q with every joint at zero: zeros, and the unit quaternion for floating joints.
 std::vector<double> zero_configuration(const Chain& chain);
+
+// Whether numbers are a pose of a chain.
+
+// What keeps the chain.nq numbers from being one, with its remedy; "" for a pose. Quaternions need no unit length, but
+// without any they point nowhere.
+std::string trouble_of_pose(const Chain& chain, std::span<const double> q);
 
 }  // namespace chainreel

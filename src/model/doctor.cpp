@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/format.hpp"
-#include "model/doctor_report.hpp"
 #include "model/planar.hpp"
 #include "model/urdf_problems.hpp"
 

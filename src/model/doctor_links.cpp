@@ -5,7 +5,7 @@
 
 #include "core/format.hpp"
 #include "mesh/mesh_extents.hpp"
-#include "model/doctor_report.hpp"
+#include "model/doctor.hpp"
 #include "model/package_path.hpp"
 #include "model/principal_moments.hpp"
 

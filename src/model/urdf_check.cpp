@@ -7,7 +7,6 @@
 #include <map>
 #include <span>
 
-#include "model/urdf_attributes.hpp"
 #include "model/urdf_numbers.hpp"
 
 namespace chainreel {

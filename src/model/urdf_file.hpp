@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "model/urdf_remark.hpp"
+#include "model/urdf_problems.hpp"
 
 namespace chainreel {
 

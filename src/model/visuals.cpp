@@ -6,11 +6,10 @@
 #include <set>
 #include <unordered_map>
 
-#include "mesh/image_color.hpp"
+#include "mesh/material_color.hpp"
 #include "model/package_path.hpp"
 #include "model/urdf_file.hpp"
 #include "model/urdf_problems.hpp"
-#include "model/visual_meshes.hpp"
 
 namespace chainreel {
 namespace {
@@ -123,6 +122,28 @@ std::vector<Visual> read_visuals(const std::string& path, const Chain& chain, co
   }
   problems.throw_if_any();
   return visuals;
+}
+
+const std::vector<UrdfShape>& shapes_of(const UrdfLink& link, ShapesOf which) {
+  return which == ShapesOf::visual ? link.visuals : link.collisions;
+}
+
+std::map<std::string, std::string> find_meshes(const UrdfFile& file, const ModelOptions& options,
+                                               ShapesOf which) {
+  std::map<std::string, std::string> paths;
+  FileFinder finder(file.path, options.packages);
+  UrdfProblems problems(file.path);
+  for (const UrdfLink& link : file.links) {
+    for (const UrdfShape& shape : shapes_of(link, which)) {
+      if (shape.kind != UrdfShapeKind::mesh) continue;
+      const FoundFile& found = finder.find(shape.mesh_file);
+      paths[shape.mesh_file] = found.path;
+      if (found.path.empty() && options.meshes)
+        problems.add(shape.line, missing_mesh_message(link.name, shape.mesh_file, found) + "; or draw without shapes with `--links plain`");
+    }
+  }
+  problems.throw_if_any();
+  return paths;
 }
 
 }  // namespace chainreel

@@ -4,12 +4,14 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "model/chain.hpp"
 #include "model/read_chain.hpp"
+#include "model/urdf_file.hpp"
 
 namespace chainreel {
 
@@ -36,5 +38,14 @@ enum class ShapesOf { visual, collision };  // the <visual>s or the <collision>s
 // found; without `options.meshes` such meshes are left out.
 std::vector<Visual> read_visuals(const std::string& path, const Chain& chain, const ModelOptions& options,
                                  ShapesOf which = ShapesOf::visual);
+
+// Where the meshes lie that a model shows.
+
+const std::vector<UrdfShape>& shapes_of(const UrdfLink& link, ShapesOf which);
+
+// For each mesh of a <visual> or <collision>, by its name as written, the path where it was found, "" where
+// it was not. With `options.meshes` all must be found: throws Error with every one that is not.
+std::map<std::string, std::string> find_meshes(const UrdfFile& file, const ModelOptions& options,
+                                               ShapesOf which = ShapesOf::visual);
 
 }  // namespace chainreel

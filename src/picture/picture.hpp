@@ -17,12 +17,6 @@
 
 namespace chainreel {
 
-struct Rect {
-  double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  double width() const { return x1 - x0; }
-  double height() const { return y1 - y0; }
-};
-
 // Fill the inside, then a stroke centred on the edge.
 struct Paint {
   Color fill;

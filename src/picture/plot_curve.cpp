@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "picture/plot.hpp"
-#include "picture/segment.hpp"
+#include "picture/point.hpp"
 
 namespace chainreel {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "core/memory_limit.hpp"
+#include "core/machine.hpp"
 #include "render/batch.hpp"
 #include "render/gl_context.hpp"
 #include "render/gl_objects.hpp"

@@ -7,7 +7,7 @@
 #include "scene/prepare.hpp"
 #include "scene/read_scene.hpp"
 #include "sim/chain_system.hpp"
-#include "sim/workload.hpp"
+#include "sim/choice/workload.hpp"
 
 namespace chainreel {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "expr/expression.hpp"
-#include "model/pose.hpp"
+#include "model/chain.hpp"
 #include "model/read_chain.hpp"
 #include "scene/prepare_constraints.hpp"
 #include "scene/prepare_tables.hpp"

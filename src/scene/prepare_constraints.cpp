@@ -5,11 +5,11 @@
 #include <memory>
 
 #include "core/format.hpp"
-#include "dynamics/constrained_inverse.hpp"
-#include "dynamics/constraint_projection.hpp"
-#include "dynamics/constraint_rows.hpp"
+#include "dynamics/constraints/constrained_dynamics.hpp"
+#include "dynamics/constraints/constraint_projection.hpp"
+#include "dynamics/constraints/constraint_rows.hpp"
 #include "dynamics/kinematics.hpp"
-#include "sim/expression_curve.hpp"
+#include "sim/constraint_plan.hpp"
 
 namespace chainreel {
 namespace {

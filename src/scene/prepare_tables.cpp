@@ -6,7 +6,7 @@
 #include "core/csv.hpp"
 #include "core/format.hpp"
 #include "dynamics/kinematics.hpp"
-#include "sim/reference.hpp"
+#include "sim/drive/reference.hpp"
 
 namespace chainreel {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "scene/fields.hpp"
-#include "sim/control.hpp"
+#include "sim/drive/control.hpp"
 
 namespace chainreel {
 

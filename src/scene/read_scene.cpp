@@ -17,7 +17,7 @@
 #include "scene/read_method.hpp"
 #include "scene/read_plot.hpp"
 #include "scene/read_slow_motion.hpp"
-#include "sim/limits.hpp"
+#include "sim/drive/limits.hpp"
 
 namespace chainreel {
 namespace {

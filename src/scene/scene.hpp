@@ -9,11 +9,11 @@
 
 #include "core/frame_rate.hpp"
 #include "scene/constraint_entry.hpp"
-#include "sim/accuracy.hpp"
-#include "sim/events.hpp"
+#include "sim/choice/accuracy.hpp"
 #include "sim/constraint_plan.hpp"
+#include "sim/drive/events.hpp"
+#include "sim/drive/torque.hpp"
 #include "sim/plots.hpp"
-#include "sim/torque.hpp"
 
 namespace chainreel {
 

@@ -12,9 +12,9 @@
 #include "scene/read_scene.hpp"
 #include "sim/audit.hpp"
 #include "sim/batch.hpp"
-#include "sim/cost_table.hpp"
+#include "sim/choice/cost_table.hpp"
+#include "sim/choice/workload.hpp"
 #include "sim/linear_modes.hpp"
-#include "sim/workload.hpp"
 
 namespace chainreel {
 namespace {

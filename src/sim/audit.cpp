@@ -6,7 +6,7 @@
 
 #include "core/hash.hpp"
 #include "dynamics/energy.hpp"
-#include "sim/choose_method.hpp"
+#include "sim/choice/choose_method.hpp"
 
 namespace chainreel {
 namespace {

@@ -6,14 +6,14 @@
 // instance here goes on to infinity and NaN.
 //
 // Planar chains of one to four revolute joints without friction are stepped several at a time
-// (dynamics/batch_planar.hpp); so is an instance with a chain of its own if it lies along the same axis and
+// (dynamics/kernels/batch_planar.hpp); so is an instance with a chain of its own if it lies along the same axis and
 // turns the same ways as the first one (PlanarKernel's along_x and turned). All others go one by one.
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "dynamics/batch_planar.hpp"
+#include "dynamics/kernels/batch_planar.hpp"
 #include "dynamics/workspace.hpp"
 #include "model/chain.hpp"
 

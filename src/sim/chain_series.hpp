@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "dynamics/taylor_planar.hpp"
+#include "dynamics/kernels/taylor_planar.hpp"
 #include "sim/chain_system.hpp"
 
 namespace chainreel {

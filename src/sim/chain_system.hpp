@@ -7,9 +7,9 @@
 #include "integrate/dense_lu.hpp"
 #include "integrate/system.hpp"
 #include "sim/constrained_chain.hpp"
-#include "sim/limits.hpp"
-#include "sim/state_corners.hpp"
-#include "sim/torque.hpp"
+#include "sim/drive/limits.hpp"
+#include "sim/drive/state_corners.hpp"
+#include "sim/drive/torque.hpp"
 
 namespace chainreel {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/constrained_inverse.hpp"
-#include "dynamics/constraint_rows.hpp"
+#include "dynamics/constraints/constrained_dynamics.hpp"
+#include "dynamics/constraints/constraint_rows.hpp"
 
 namespace chainreel {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "dynamics/constrained_dynamics.hpp"
-#include "dynamics/constraint_projection.hpp"
+#include "dynamics/constraints/constrained_dynamics.hpp"
+#include "dynamics/constraints/constraint_projection.hpp"
 #include "sim/constraint_plan.hpp"
 
 namespace chainreel {

@@ -1,5 +1,7 @@
 #include "sim/constraint_plan.hpp"
 
+#include <cmath>
+
 #include "core/error.hpp"
 
 namespace chainreel {
@@ -20,6 +22,45 @@ Stabilization stabilization_of(const std::string& name) {
   for (const Stabilization one : {Stabilization::none, Stabilization::baumgarte, Stabilization::project})
     if (to_string(one) == name) return one;
   throw Error(ExitCode::bad_input, "'stabilize' must be project, baumgarte or none, not '" + name + "'");
+}
+
+ExpressionCurve::ExpressionCurve(const std::string& x, const std::string& y, const Parameters& parameters,
+                                 double s, const chainreel::Place& place) {
+  std::vector<std::string> names{"s"};
+  values_.emplace_back();
+  for (const auto& [name, value] : parameters) {
+    if (name == "s")
+      throw Error(ExitCode::bad_input, "a curve's own parameter is s: rename the other", place);
+    names.push_back(name);
+    values_.emplace_back(value);
+  }
+  ProblemList problems;
+  for (const auto& [axis, text] : {std::pair("x", x), std::pair("y", y)}) {
+    try {
+      entries_.push_back(Expression::parse(text, names, place));
+    } catch (const Error& error) {
+      problems.add("curve, " + std::string(axis) + ": " + error.problems().front().message, place);
+    }
+  }
+  problems.throw_if_any();
+  const PlaneCurve::Place here = at(s);
+  if (!here.c.allFinite() || !here.c1.allFinite() || !here.c2.allFinite() || !(here.c1.norm() > 0))
+    throw Error(ExitCode::bad_input,
+                "the curve has no place, tangent or curvature at s = " + std::to_string(s) +
+                    ": it must be smooth, and move with s; `s:` says where to begin",
+                place);
+}
+
+PlaneCurve::Place ExpressionCurve::at(double s) const {
+  values_[0] = {Dual<double>(s, 1), Dual<double>(1, 0)};
+  PlaneCurve::Place place;
+  for (int k = 0; k < 2; ++k) {
+    const auto c = entries_[std::size_t(k)].evaluate(std::span<const Dual<Dual<double>>>(values_));
+    place.c[k] = c.re.re;
+    place.c1[k] = c.re.du;
+    place.c2[k] = c.du.du;
+  }
+  return place;
 }
 
 }  // namespace chainreel

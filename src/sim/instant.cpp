@@ -1,6 +1,6 @@
 #include "sim/instant.hpp"
 
-#include "dynamics/constrained_inverse.hpp"
+#include "dynamics/constraints/constrained_dynamics.hpp"
 #include "sim/chain_system.hpp"
 
 namespace chainreel {

@@ -7,11 +7,11 @@
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "dynamics/constrained_inverse.hpp"
-#include "dynamics/constraint_rows.hpp"
+#include "dynamics/constraints/constrained_dynamics.hpp"
+#include "dynamics/constraints/constraint_rows.hpp"
 #include "dynamics/friction.hpp"
 #include "dynamics/rnea.hpp"
-#include "sim/reference.hpp"
+#include "sim/drive/reference.hpp"
 
 namespace chainreel {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/dense.hpp"
-#include "dynamics/constraint_rows.hpp"
+#include "dynamics/constraints/constraint_rows.hpp"
 #include "integrate/stability_limit.hpp"
 #include "sim/chain_system.hpp"
 

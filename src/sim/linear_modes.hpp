@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "integrate/linear_motion.hpp"
+#include "integrate/stability_limit.hpp"
 #include "sim/simulate.hpp"
 
 namespace chainreel {

@@ -5,8 +5,8 @@
 #include "dynamics/energy.hpp"
 #include "sim/audit.hpp"
 #include "sim/chain_system.hpp"
-#include "sim/tip_reader.hpp"
-#include "sim/torques_along.hpp"
+#include "sim/drive/torques_along.hpp"
+#include "sim/tip.hpp"
 
 namespace chainreel {
 namespace {

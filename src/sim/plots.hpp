@@ -9,8 +9,8 @@
 
 #include "core/error.hpp"
 #include "expr/expression.hpp"
-#include "sim/foot.hpp"
-#include "sim/probe.hpp"
+#include "sim/choice/probe.hpp"
+#include "sim/drive/events.hpp"
 #include "sim/trajectory.hpp"
 
 namespace chainreel {

@@ -7,15 +7,14 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "core/memory_limit.hpp"
+#include "core/machine.hpp"
 #include "sim/chain_system.hpp"
-#include "sim/corner_watch.hpp"
-#include "sim/event_watch.hpp"
+#include "sim/choice/workload.hpp"
+#include "sim/drive/corner_watch.hpp"
+#include "sim/drive/events.hpp"
+#include "sim/drive/limit_search.hpp"
 #include "sim/forms.hpp"
-#include "sim/limit_search.hpp"
 #include "sim/step_grid.hpp"
-#include "sim/work.hpp"
-#include "sim/workload.hpp"
 
 namespace chainreel {
 namespace {

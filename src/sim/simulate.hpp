@@ -10,10 +10,10 @@
 #include "model/chain.hpp"
 #include "model/outline.hpp"
 #include "sim/constraint_plan.hpp"
-#include "sim/events.hpp"
-#include "sim/limits.hpp"
+#include "sim/drive/events.hpp"
+#include "sim/drive/limits.hpp"
+#include "sim/drive/torque.hpp"
 #include "sim/plots.hpp"
-#include "sim/torque.hpp"
 #include "sim/trajectory.hpp"
 
 namespace chainreel {

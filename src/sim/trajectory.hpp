@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/limits.hpp"
+#include "sim/drive/limits.hpp"
 
 namespace chainreel {
 

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "app/command.hpp"
-#include "app/ellipse_poses.hpp"
-#include "app/pipeline.hpp"
+#include "app/commands/ellipse_numbers.hpp"
+#include "app/film/pipeline.hpp"
 #include "draw/chart_samples.hpp"
 #include "draw/film.hpp"
 #include "draw/poses.hpp"

@@ -10,8 +10,8 @@
 #include <cstdlib>
 
 #include "app/all_pictures.hpp"
+#include "app/film/pipeline.hpp"
 #include "app/print_pictures.hpp"
-#include "app/pipeline.hpp"
 #include "encode/png.hpp"
 #include "picture/theme.hpp"
 #include "render/vector_cairo.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "app/all_pictures.hpp"
-#include "app/pipeline.hpp"
+#include "app/film/pipeline.hpp"
 #include "encode/png.hpp"
 #include "picture/theme.hpp"
 #include "support/picture_compare.hpp"

@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-#include "app/pipeline.hpp"
+#include "app/film/pipeline.hpp"
 #include "core/json.hpp"
 #include "support/picture_compare.hpp"
 #include "support/run_program.hpp"

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/gallery_audit.hpp"
-#include "app/page_template.hpp"
+#include "app/gallery/gallery_page.hpp"
+#include "app/gallery/page_template.hpp"
 #include "core/base64.hpp"
 #include "encode/film_start.hpp"
 #include "encode/png.hpp"

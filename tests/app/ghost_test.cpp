@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "app/pipeline.hpp"
+#include "app/film/pipeline.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "dynamics/kinematics.hpp"

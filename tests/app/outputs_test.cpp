@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "app/clip_memory.hpp"
+#include "app/film/clip_memory.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "encode/png.hpp"

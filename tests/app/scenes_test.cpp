@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/pipeline.hpp"
+#include "app/film/pipeline.hpp"
 #include "draw/film.hpp"
 #include "dynamics/kinematics.hpp"
 #include "picture/theme.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "app/moment.hpp"
+#include "app/film/moment.hpp"
 #include "core/json.hpp"
 #include "encode/png.hpp"
 #include "support/picture_compare.hpp"

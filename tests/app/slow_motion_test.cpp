@@ -6,7 +6,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "app/pipeline.hpp"
+#include "app/film/pipeline.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "encode/png.hpp"

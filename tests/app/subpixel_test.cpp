@@ -8,7 +8,7 @@
 #include <functional>
 #include <numbers>
 
-#include "app/pipeline.hpp"
+#include "app/film/pipeline.hpp"
 #include "draw/film.hpp"
 #include "picture/theme.hpp"
 #include "support/fonts.hpp"

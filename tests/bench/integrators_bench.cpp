@@ -21,7 +21,7 @@
 #include "bench/results.hpp"
 #include "core/format.hpp"
 #include "model/read_chain.hpp"
-#include "sim/quad_reference.hpp"
+#include "sim/choice/quad_reference.hpp"
 
 namespace chainreel::bench {
 namespace {

@@ -15,7 +15,7 @@
 #include "draw/legend.hpp"
 #include "draw/shapes.hpp"
 #include "dynamics/kinematics.hpp"
-#include "picture/segment.hpp"
+#include "picture/point.hpp"
 #include "render/canvas.hpp"
 #include "support/picture_compare.hpp"
 

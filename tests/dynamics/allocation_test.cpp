@@ -6,7 +6,6 @@
 #include "dynamics/energy.hpp"
 #include "dynamics/forward_dynamics.hpp"
 #include "dynamics/friction.hpp"
-#include "dynamics/jacobian.hpp"
 #include "dynamics/kinematics.hpp"
 #include "dynamics/rnea.hpp"
 #include "support/allocation_count.hpp"

@@ -1,5 +1,3 @@
-#include "dynamics/jacobian.hpp"
-
 #include <gtest/gtest.h>
 
 #include "dynamics/compare.hpp"

@@ -7,13 +7,12 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "encode/gif_comment.hpp"
 #include "encode/bleed.hpp"
-#include "encode/film_tags.hpp"
+#include "encode/film_start.hpp"
+#include "encode/gif_comment.hpp"
 #include "encode/palette.hpp"
 #include "encode/png.hpp"
-#include "encode/png_sequence.hpp"
-#include "encode/small_clip.hpp"
+#include "encode/small_frames.hpp"
 #include "encode/test_pictures.hpp"
 #include "encode/video_writer.hpp"
 #include "support/picture_compare.hpp"

@@ -1,6 +1,6 @@
-#include "encode/libraries.hpp"
-
 #include <gmock/gmock.h>
+
+#include "encode/libav.hpp"
 
 namespace chainreel {
 namespace {

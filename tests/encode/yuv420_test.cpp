@@ -1,5 +1,3 @@
-#include "encode/yuv420.hpp"
-
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "encode/test_pictures.hpp"
+#include "encode/yuv.hpp"
 
 namespace chainreel {
 namespace {

@@ -14,7 +14,7 @@
 // clang-format on
 
 #include "core/error.hpp"
-#include "mesh/image_color.hpp"
+#include "mesh/material_color.hpp"
 #include "mesh/primitives.hpp"
 #include "mesh_files.hpp"
 

@@ -11,7 +11,7 @@
 #include "picture/color_vision.hpp"
 #include "picture/font_subset.hpp"
 #include "picture/plot_hatch.hpp"
-#include "picture/segment.hpp"
+#include "picture/point.hpp"
 #include "support/fonts.hpp"
 
 namespace chainreel {

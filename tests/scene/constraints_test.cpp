@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "dynamics/constraint_set.hpp"
+#include "dynamics/constraints/constraint_set.hpp"
 #include "scene/prepare.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/write_scene.hpp"

@@ -10,17 +10,17 @@
 #include <numbers>
 #include <sstream>
 
-#include "dynamics/constrained_inverse.hpp"
-#include "dynamics/constraint_rows.hpp"
+#include "dynamics/constraints/constrained_dynamics.hpp"
+#include "dynamics/constraints/constraint_rows.hpp"
 #include "dynamics/crba.hpp"
 #include "dynamics/kinematics.hpp"
 #include "dynamics/rnea.hpp"
 #include "model/read_chain.hpp"
 #include "sim/audit.hpp"
 #include "sim/constrained_chain.hpp"
-#include "sim/expression_curve.hpp"
+#include "sim/constraint_plan.hpp"
+#include "sim/drive/torques_along.hpp"
 #include "sim/runs.hpp"
-#include "sim/torques_along.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace chainreel {

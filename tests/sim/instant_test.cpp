@@ -14,7 +14,7 @@
 #include "dynamics/rnea.hpp"
 #include "sim/constrained_chain.hpp"
 #include "sim/runs.hpp"
-#include "sim/tip_mass.hpp"
+#include "sim/tip.hpp"
 
 namespace chainreel {
 namespace {

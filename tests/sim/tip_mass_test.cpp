@@ -1,10 +1,9 @@
 // The effective mass that films, figures and tables show.
-#include "sim/tip_mass.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "sim/tip.hpp"
 #include "support/chains.hpp"
 
 namespace chainreel::test {

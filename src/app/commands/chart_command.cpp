@@ -1,0 +1,199 @@
+// chainreel chart SCENE: speed against accuracy, every method at every rung of its ladder.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "app/film/automatic.hpp"
+#include "app/film/pipeline.hpp"
+#include "app/report/figure.hpp"
+#include "app/report/report.hpp"
+#include "app/signals.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "draw/chart.hpp"
+#include "sim/choice/work_precision.hpp"
+
+namespace chainreel {
+namespace {
+
+struct ChartOptions {
+  std::string scene;
+  std::string methods;
+  int runs = 5;
+  double longest = 0.1;
+  FigureOptions figure;
+  CommonOptions common;
+};
+
+struct Measured {
+  EndReference reference;
+  std::vector<Ladder> ladders;
+  std::optional<Choice> choice;
+  Accuracy accuracy;
+};
+
+bool stop_asked(double) {
+  return interrupted();
+}
+
+// The setting that `auto` takes becomes a rung of its method's ladder, unless it is one already.
+int add_choice(Simulation& simulation, const Measured& measured, Ladder& ladder, int runs) {
+  const MethodSetting& setting = measured.choice->best.setting;
+  auto& rungs = ladder.rungs;
+  for (std::size_t k = 0; k < rungs.size(); ++k)
+    if (to_string(rungs[k].setting) == to_string(setting)) return int(k);
+  const EndState& end = measured.reference.state;
+  Rung rung = measure(simulation, setting, end, runs, stop_asked);
+  const auto place =
+      std::find_if(rungs.begin(), rungs.end(), [&](const Rung& one) { return one.error < rung.error; });
+  return int(rungs.insert(place, rung) - rungs.begin());
+}
+
+Measured measure_all(PreparedScene& prepared, const std::vector<const Method*>& chosen,
+                     const ChartOptions& options) {
+  Simulation& simulation = prepared.simulation;
+  Measured measured;
+  measured.accuracy = prepared.scene.accuracy;
+  measured.choice = prepared.choice;
+  if (!measured.choice)
+    measured.choice = choose_with_progress(simulation, prepared.scene, frame_times(prepared.scene), options.common.quiet);
+  throw_if_interrupted();
+  measured.reference = end_reference(simulation);
+  LadderOptions ladder;
+  ladder.runs = options.runs;
+  ladder.longest_run = options.longest;
+  const EndState& end = measured.reference.state;
+  for (const Method* method : chosen) {
+    measured.ladders.push_back(climb(simulation, *method, end, ladder, stop_asked));
+    throw_if_interrupted();
+    if (!options.common.quiet)
+      std::fprintf(stderr, "%s: %zu rungs\n", method->name.c_str(), measured.ladders.back().rungs.size());
+  }
+  return measured;
+}
+
+// What the error of a rung is: "the larger of q's and 0.13 s times qd's"
+std::string scale_text(const Measured& measured) {
+  return "the larger of q's and " + format_significant(measured.reference.state.qd_scale, 2) +
+         " s \u00D7 qd's";
+}
+
+WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOptions& options) {
+  WorkPrecision data;
+  data.title = "Speed against accuracy";
+  data.subtitle = (prepared.scene.title.empty() ? prepared.scene.name : prepared.scene.title) + ", " +
+                  format_shortest(prepared.simulation.duration) + " s; reference: " + measured.reference.how;
+  data.error_title = "final error [rad, m]";
+  data.error_meaning = "error: " + scale_text(measured);
+  data.floor = measured.reference.amplification * 0x1p-53;
+  data.reference_uncertainty = measured.reference.uncertainty;
+  data.machine = machine_line();
+  for (Ladder& ladder : measured.ladders) {
+    if (ladder.rungs.empty()) continue;
+    const bool chosen = ladder.method == measured.choice->best.setting.method;
+    if (chosen)
+      data.choice = {ladder.method->name, add_choice(prepared.simulation, measured, ladder, options.runs)};
+    ChartCurve curve;
+    curve.method = ladder.method->name;
+    curve.order = ladder.method->adaptive ? 0 : ladder.method->order;
+    curve.look = int(ladder.method - methods().data());
+    for (const Rung& rung : ladder.rungs)
+      curve.points.push_back({rung.error, rung.seconds, double(rung.evaluations), !std::isfinite(rung.error),
+                              to_string(rung.setting)});
+    data.curves.push_back(curve);
+  }
+  return data;
+}
+
+std::string number_or_empty(double value) {
+  return std::isfinite(value) ? format_significant(value, 6) : "";
+}
+
+std::string csv_of(const std::string& scene, const Measured& measured) {
+  std::string text = csv_facts(scene);
+  text += "# reference: " + measured.reference.how + ", uncertainty " +
+          format_significant(measured.reference.uncertainty, 2) +
+          "\n# amplification: " + format_significant(measured.reference.amplification, 3) +
+          "\n# error: the larger of error_q and error_qd x " +
+          format_significant(measured.reference.state.qd_scale, 6) + " s\n";
+  text +=
+      "method,order,step,tolerance,runs,median_seconds,steps,evaluations,error,error_q,error_qd,energy_error,"
+      "status\n";
+  for (const Ladder& ladder : measured.ladders)
+    for (const Rung& rung : ladder.rungs) {
+      const MethodSetting& setting = rung.setting;
+      const int order = setting.options.order > 0 ? setting.options.order : setting.method->order;
+      text += setting.method->name + "," + std::to_string(order) + "," +
+              (setting.step > 0 ? format_shortest(setting.step) : "") + "," +
+              (setting.options.tolerance > 0 ? format_shortest(setting.options.tolerance) : "") + "," +
+              std::to_string(rung.runs) + "," + format_significant(rung.seconds, 4) + "," +
+              std::to_string(rung.steps) + "," + std::to_string(rung.evaluations) + "," +
+              number_or_empty(rung.error) + "," + number_or_empty(rung.error_q) + "," +
+              number_or_empty(rung.error_qd) + "," + number_or_empty(rung.energy_error) + "," +
+              to_string(rung.status) + "\n";
+    }
+  return text;
+}
+
+void print_summary(const WorkPrecision& data, const Measured& measured) {
+  std::vector<std::vector<std::string>> table{{"ms to reach", "1e-3", "1e-6", "1e-9"}};
+  for (const ChartCurve& curve : data.curves) {
+    WorkPrecision one;
+    one.curves = {curve};
+    std::vector<std::string> row{curve.method};
+    for (const double error : {1e-3, 1e-6, 1e-9}) {
+      const auto cost = least_cost(one, ChartCost::seconds, error);
+      row.push_back(cost ? format_significant(1000 * *cost, 3) : "-");
+    }
+    table.push_back(row);
+  }
+  std::fputs(table_text(table).c_str(), stdout);
+  for (const Ladder& ladder : measured.ladders)
+    if (!ladder.refusal.empty()) std::printf("left out: %s\n", ladder.refusal.c_str());
+  std::printf("error: %s\n", scale_text(measured).c_str());
+  std::printf("reference: %s, uncertainty %s; the motion magnifies errors %s times\n",
+              measured.reference.how.c_str(), format_significant(measured.reference.uncertainty, 2).c_str(),
+              format_significant(measured.reference.amplification, 2).c_str());
+  std::printf("%s\n", choice_text(*measured.choice, measured.accuracy).c_str());
+}
+
+void run_chart(const ChartOptions& options) {
+  const std::vector<const Method*> chosen = parse_methods(options.methods);
+  PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false, options.common.quiet);
+  std::string output = options.figure.output;
+  if (output.empty()) output = "out/" + prepared.scene.name + "_chart.png";
+  check_figure_path(output);
+  Measured measured = measure_all(prepared, chosen, options);
+  const WorkPrecision data = data_of(prepared, measured, options);
+  const Fonts fonts;
+  const ChartLook look = chart_look(options.figure, prepared.scene, fonts);
+  const ChartCost panels[] = {ChartCost::seconds, ChartCost::evaluations};
+  const auto files = write_figure(work_precision_chart(data, panels, look), csv_of(options.scene, measured),
+                                  options.figure, output, fonts, options.common.force);
+  if (options.common.quiet) return;
+  print_summary(data, measured);
+  for (const std::string& file : files) std::printf("%s\n", file.c_str());
+}
+
+}  // namespace
+
+void add_chart_command(CommandLine& app) {
+  auto options = std::make_shared<ChartOptions>();
+  Command* command =
+      app.add_subcommand("chart", "speed against accuracy: a work-precision diagram of a scene");
+  command->add_option("scene", options->scene, "a scene file").required();
+  command->add_option("--methods", options->methods, "rk4,taylor,.. (default all that take the scene)");
+  command->add_option("--runs", options->runs, "of each rung; the median counts").range(1, 1000);
+  command->add_option("--longest", options->longest, "s: rungs that would take longer are left out")
+      .positive();
+  add_figure_options(*command, options->figure, options->common, "out/NAME_chart.png");
+  add_scene_options(*command, options->common);
+  add_quiet_option(*command, options->common);
+  add_force_option(*command, options->common);
+  command->footer("Example: chainreel chart assets/scenes/rr_free.yaml -o out/chart.svg");
+  command->callback([options] { run_chart(*options); });
+}
+
+}  // namespace chainreel

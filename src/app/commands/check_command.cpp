@@ -1,0 +1,264 @@
+// chainreel check SCENE|MODEL: the effective scene with all defaults, and what of the mechanism is modelled.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/film/automatic.hpp"
+#include "app/film/model_scene.hpp"
+#include "app/film/pipeline.hpp"
+#include "app/report/constraint_report.hpp"
+#include "app/report/report.hpp"
+#include "app/signals.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "dynamics/forward_dynamics.hpp"
+#include "dynamics/friction.hpp"
+#include "integrate/method.hpp"
+#include "model/doctor.hpp"
+#include "model/read_chain.hpp"
+#include "scene/write_scene.hpp"
+
+namespace chainreel {
+namespace {
+
+struct CheckOptions {
+  std::string file;
+  CommonOptions common;
+};
+
+std::string kind_name(const Joint& joint) {
+  switch (joint.kind) {
+    case JointKind::revolute:
+      return "revolute";
+    case JointKind::prismatic:
+      return "prismatic";
+    case JointKind::floating:
+      return "floating";
+  }
+  return "";
+}
+
+Json model_report(const Chain& chain) {
+  Json json;
+  json["name"] = chain.name;
+  json["freedoms"] = chain.nv;
+  json["joints"] = Json::array();
+  for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
+    const Body& body = chain.bodies[i];
+    Json joint{{"name", body.joint.name},
+               {"kind", kind_name(body.joint)},
+               {"body", body.name},
+               {"parent", body.parent == 0 ? "world" : chain.bodies[std::size_t(body.parent)].name},
+               {"mass", body.inertia.mass}};
+    const std::string& coordinate = chain.coordinate_names[std::size_t(body.joint.v_index)];
+    if (body.joint.kind != JointKind::floating && coordinate != body.joint.name)
+      joint.update({{"follows", coordinate}, {"ratio", body.joint.ratio}, {"offset", body.joint.offset}});
+    json["joints"].push_back(joint);
+  }
+  json["lumped_links"] = int(chain.frames.size()) - int(chain.bodies.size());
+  json["algebra"] = chain.planar ? "planar" : "spatial";
+  json["why"] = chain.why_algebra;
+  json["forward_dynamics"] = forward_dynamics_algorithm(chain);
+  json["gravity"] = to_json(chain.gravity);
+  if (std::any_of(chain.bodies.begin(), chain.bodies.end(), [](const Body& b) { return b.joint.friction > 0; }))
+    json["friction"] = {{"law", "F tanh(qd / " + format_shortest(kFrictionSmoothing) + ")"},
+                        {"creeps_under_three_quarters", kFrictionSmoothing * std::atanh(0.75)}};
+  if (chain.end_effector >= 0) json["end_effector"] = chain.frames[std::size_t(chain.end_effector)].name;
+  json["ends"] = Json::array();
+  for (const int frame : chain.leaf_frames) json["ends"].push_back(chain.frames[std::size_t(frame)].name);
+  return json;
+}
+
+Json cost_report(const Scene& scene, const Simulation& simulation, int frames) {
+  // Counted, not guessed: adaptive methods have no other way. Nothing is sampled.
+  const Trajectory run = simulate(simulation, {}, [](double) { return interrupted(); });
+  throw_if_interrupted();
+  const auto of_layer = [&](const char* layer) {
+    return std::find(scene.draw.begin(), scene.draw.end(), layer) != scene.draw.end() ? frames : 0;
+  };
+  return {{"method", simulation.method->name},
+          {"order", simulation.options.order > 0 ? simulation.options.order : simulation.method->order},
+          {"status", to_string(run.status)},
+          {"steps", run.steps},
+          {"evaluations", run.evaluations},
+          {"frames", frames},
+          {"pixels_a_frame", scene.video.width * scene.video.height},
+          {"layers", scene.draw},
+          {"energies_computed", frames},
+          {"Lambda_computed", of_layer("ellipse")},
+          {"torques_computed", of_layer("torque")},
+          {"constraint_forces_computed", of_layer("constraint_force")},
+          {"M_computed", of_layer("mass_matrix")}};
+}
+
+// What a joint mimics: "-1 left + 0.2".
+std::string follows_text(const Json& joint) {
+  if (!joint.contains("follows")) return "";
+  const double ratio = joint["ratio"].get<double>(), offset = joint["offset"].get<double>();
+  std::string text = (ratio == 1 ? "" : format_shortest(ratio) + " ") + joint["follows"].get<std::string>();
+  if (offset != 0) text += (offset > 0 ? " + " : " - ") + format_shortest(std::abs(offset));
+  return text;
+}
+
+std::string words_of(const Json& list) {
+  std::string words;
+  for (const Json& word : list) words += (words.empty() ? "" : ", ") + word.get<std::string>();
+  return words;
+}
+
+void print_model(const Json& model) {
+  std::printf("model %s: %d freedoms; %s; forward dynamics: %s\n", model["name"].get<std::string>().c_str(),
+              model["freedoms"].get<int>(), model["why"].get<std::string>().c_str(),
+              model["forward_dynamics"].get<std::string>().c_str());
+  std::vector<std::vector<std::string>> table{{"joint", "kind", "moves", "on", "kg"}};
+  bool any_mimics = false;
+  for (const Json& joint : model["joints"]) {
+    table.push_back({joint["name"].get<std::string>(), joint["kind"].get<std::string>(),
+                     joint["body"].get<std::string>(), joint["parent"].get<std::string>(),
+                     joint["mass"].dump(), follows_text(joint)});
+    any_mimics |= joint.contains("follows");
+  }
+  table.front().emplace_back(any_mimics ? "mimics" : "");
+  if (!any_mimics)
+    for (std::vector<std::string>& row : table) row.pop_back();
+  std::fputs(table_text(table).c_str(), stdout);
+  if (model.contains("friction"))
+    std::printf("friction: %s, in which nothing sticks: pushed by 3/4 of its F a joint creeps at %s rad/s or m/s\n",
+                model["friction"]["law"].get<std::string>().c_str(),
+                format_significant(model["friction"]["creeps_under_three_quarters"].get<double>(), 2).c_str());
+  if (model.contains("end_effector"))
+    std::printf("end effector: %s\n", model["end_effector"].get<std::string>().c_str());
+  else
+    std::printf("end effector: none of %s; choose one with --end-effector NAME, of a scene with end_effector: NAME\n",
+                words_of(model["ends"]).c_str());
+}
+
+void print_candidates(const Choice& choice, const Accuracy& accuracy) {
+  std::vector<std::vector<std::string>> table{{"tried", "off by, " + accuracy.unit, "us", "evaluations", ""}};
+  for (const Choice::Candidate& one : choice.tried)
+    table.push_back({to_string(one.setting), format_significant(one.error, 2),
+                     format_significant(one.cost / 1000, 3), std::to_string(one.evaluations), one.trouble});
+  std::fputs(table_text(table).c_str(), stdout);
+}
+
+struct RunReport {
+  Json model, cost;
+};
+
+// `frames`: of the film.
+RunReport examine_run(const PreparedScene& prepared, int frames) {
+  RunReport report{model_report(prepared.simulation.chain),
+                   cost_report(prepared.scene, prepared.simulation, frames)};
+  if (!prepared.simulation.constraints.empty())
+    report.model["constraints"] = constraint_plan_report(prepared.simulation);
+  report.cost["shapes"] = report.cost["triangles"] = 0;
+  if (prepared.shapes) {
+    std::size_t triangles = 0;
+    for (const BodyShape& shape : prepared.shapes->shapes) triangles += shape.mesh->triangles.size() / 3;
+    report.cost["shapes"] = prepared.shapes->shapes.size();
+    report.cost["triangles"] = triangles;
+  }
+  if (prepared.choice) report.cost["auto"] = choice_report(*prepared.choice, prepared.scene.accuracy, true);
+  return report;
+}
+
+void print_run(const PreparedScene& prepared, const RunReport& report) {
+  print_model(report.model);
+  if (report.model.contains("constraints"))
+    std::printf("%s\n", constraint_plan_text(report.model["constraints"]).c_str());
+  const Json& cost = report.cost;
+  std::printf("%s: order %d, %ld steps, %ld evaluations of the dynamics, %d frames\n",
+              to_string(MethodSetting{prepared.simulation.method, prepared.simulation.options,
+                                      prepared.simulation.step})
+                  .c_str(),
+              cost["order"].get<int>(), cost["steps"].get<long>(), cost["evaluations"].get<long>(),
+              cost["frames"].get<int>());
+  if (prepared.choice) {
+    std::printf("%s\n", choice_text(*prepared.choice, prepared.scene.accuracy).c_str());
+    print_candidates(*prepared.choice, prepared.scene.accuracy);
+  }
+  std::printf("computed for the picture only: %d energies, %d Lambda", cost["energies_computed"].get<int>(),
+              cost["Lambda_computed"].get<int>());
+  for (const auto& [key, name] : {std::pair{"torques_computed", "joint torques"},
+                                  {"constraint_forces_computed", "constraint forces"},
+                                  {"M_computed", "M"}})
+    if (cost[key].get<int>() > 0) std::printf(", %d %s", cost[key].get<int>(), name);
+  std::puts("");
+  if (prepared.shapes)
+    std::printf("drawn as %ld shapes of the model, %ld triangles a frame\n", cost["shapes"].get<long>(),
+                cost["triangles"].get<long>());
+}
+
+void check_scene(const CheckOptions& options) {
+  const PreparedFilm film = load_film(options.file, overrides_of(options.common), true, options.common.quiet);
+  const int frames = clock_of(film).frame_count();
+  std::vector<RunReport> reports;
+  for (const PreparedScene& panel : film.panels) {
+    say_notices(panel, false);
+    reports.push_back(examine_run(panel, frames));
+  }
+  const std::string text = scene_text(film.scene);
+  const bool alone = reports.size() == 1;
+  if (options.common.json) {
+    Json json{{"scene", text}};
+    if (alone) json.update({{"model", reports[0].model}, {"cost", reports[0].cost}});
+    for (std::size_t i = 0; i < reports.size() && !alone; ++i)
+      json["panels"].push_back(
+          {{"title", film.panels[i].scene.title}, {"model", reports[i].model}, {"cost", reports[i].cost}});
+    std::puts(json.dump(2).c_str());
+    return;
+  }
+  std::printf("# %s with all defaults; paths from this folder\n%s\n", options.file.c_str(), text.c_str());
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    if (!alone)
+      std::printf("%spanel %d: %s\n", i > 0 ? "\n" : "", int(i) + 1, film.panels[i].scene.title.c_str());
+    print_run(film.panels[i], reports[i]);
+  }
+}
+
+void check_model(const CheckOptions& options) {
+  std::vector<std::string> honoured = mechanism_keys();
+  honoured.push_back("end_effector");
+  const ModelScene model = model_scene_of(options.file, overrides_of(options.common), "check", honoured);
+  const std::vector<Finding> findings = examine_model(options.file, model.options);
+  Json list = Json::array();
+  std::vector<Problem> errors;
+  for (const Finding& finding : findings) {
+    const std::string severity = to_string(finding.severity);
+    list.push_back({{"severity", severity},
+                    {"message", finding.message},
+                    {"file", finding.place.file},
+                    {"line", finding.place.line}});
+    if (finding.severity == Finding::Severity::error)
+      errors.push_back({finding.message, finding.place});
+    else if (!options.common.json)
+      std::printf("%s: %s\n", severity.c_str(), to_string(Problem{finding.message, finding.place}).c_str());
+  }
+  Json report{{"findings", list}};
+  if (errors.empty())
+    report["model"] = model_report(read_chain(options.file, model.options));
+  if (options.common.json)
+    std::puts(report.dump(2).c_str());
+  else if (errors.empty())
+    print_model(report["model"]);
+  if (!errors.empty()) throw Error(ExitCode::bad_input, errors);
+}
+
+}  // namespace
+
+void add_check_command(CommandLine& app) {
+  auto options = std::make_shared<CheckOptions>();
+  Command* command =
+      app.add_subcommand("check", "the effective scene with all defaults, or what a model holds");
+  command->add_option("file", options->file, "a scene (.yaml) or a model (.urdf)").required();
+  add_scene_options(*command, options->common);
+  add_json_option(*command, options->common);
+  command->footer("Example: chainreel check assets/scenes/rr_free.yaml --set method=rk4");
+  command->callback(
+      [options] { is_model_file(options->file) ? check_model(*options) : check_scene(*options); });
+}
+
+}  // namespace chainreel

@@ -1,0 +1,225 @@
+// chainreel ellipse MODEL --pose Q [--pose Q ...] -o FILE.png|.svg|.pdf|.csv, and other ways to name poses.
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/commands/ellipse_numbers.hpp"
+#include "app/film/model_scene.hpp"
+#include "app/film/pipeline.hpp"
+#include "app/report/figure.hpp"
+#include "core/error.hpp"
+#include "core/output_file.hpp"
+#include "draw/poses.hpp"
+#include "model/read_chain.hpp"
+
+namespace chainreel {
+namespace {
+
+struct EllipseOptions {
+  std::string model;
+  PoseSources sources;
+  std::string reading;  // "": the scene's, else mass
+  std::string shape;    // "": the scene's, else ellipsoid
+  std::string layout;   // "": superposed along a motion, else grid
+  bool joint_space = false;
+  std::string joints;  // "1,2"
+  std::string output;
+  std::string end_effector;
+  std::string title;
+  int width = 0, height = 0;  // 0: as the scene says
+  CommonOptions common;
+  const Command* command = nullptr;
+
+  // As the scene does, unless the command says otherwise.
+  EllipseReading read_as(const Motion& motion) const {
+    return reading_named(reading.empty() ? motion.ellipse.reading : reading);
+  }
+  // In the plane there is nothing to cut.
+  EllipseForm form(const Motion& motion) const {
+    const std::string named = shape.empty() ? motion.ellipse.shape : shape;
+    return {read_as(motion), named == "section" && !motion.chain.planar};
+  }
+};
+
+std::string output_of(const EllipseOptions& options) {
+  std::string output = options.output;
+  const std::string& named = options.model.empty() ? options.sources.along : options.model;
+  if (output.empty()) output = "out/" + std::filesystem::path(named).stem().string() + "_ellipse.png";
+  check_figure_path(output);
+  if (options.joint_space && output.ends_with(".csv"))
+    throw Error(ExitCode::usage,
+                "-o " + output + ": --joint-space is written as .png, .svg or .pdf; --json prints its numbers");
+  return output;
+}
+
+// Two joints, counted from 0.
+std::array<int, 2> joints_of(const Chain& chain, const std::string& text) {
+  if (chain.nv < 2) throw Error(ExitCode::usage, "--joint-space shows two joints; " + chain.name + " has one");
+  if (text.empty() && chain.nv > 2)
+    throw Error(ExitCode::usage, chain.name + " has " + std::to_string(chain.nv) +
+                                     " joints: choose the two that --joint-space is to show, like --joints 1,2");
+  const std::vector<double> numbers = text.empty() ? std::vector<double>{1, 2} : parse_list(text, "--joints");
+  const auto good = [&](double n) { return n == int(n) && n >= 1 && n <= chain.nv; };
+  if (numbers.size() != 2 || !good(numbers[0]) || !good(numbers[1]) || numbers[0] == numbers[1])
+    throw Error(ExitCode::usage, "--joints takes two different joints between 1 and " + std::to_string(chain.nv) +
+                                     ", like --joints 1,2; not '" + text + "'");
+  return {int(numbers[0]) - 1, int(numbers[1]) - 1};
+}
+
+// What is drawn, and how the scene, or what stands in its place, wants it to look.
+struct EllipseJob {
+  Motion motion;
+  PoseFigureOptions figure;
+};
+
+std::vector<std::string> model_overrides(const EllipseOptions& options) {
+  std::vector<std::string> overrides = overrides_of(options.common);
+  if (!options.end_effector.empty())
+    overrides.push_back("end_effector=" + Json(options.end_effector).dump());
+  return overrides;
+}
+
+EllipseJob job_of_scene(const EllipseOptions& options) {
+  if (!options.end_effector.empty())
+    throw Error(ExitCode::usage, "--along takes the scene's end effector: --set end_effector=" + options.end_effector);
+  if (!options.model.empty())
+    throw Error(ExitCode::usage, "--along takes the model of its scene: leave out " + options.model);
+  EllipseJob job{motion_of(options.sources, options.common), {}};
+  const Motion& motion = job.motion;
+  job.figure.text_scale = motion.text_scale;
+  job.figure.theme = &theme_named(motion.theme);
+  job.figure.camera = motion.camera;
+  job.figure.shapes = motion.shapes;
+  job.figure.width = motion.video.width;
+  job.figure.height = motion.video.height;
+  return job;
+}
+
+EllipseJob job_of_model(const EllipseOptions& options) {
+  if (options.model.empty()) throw Error(ExitCode::usage, "which model? Name a .urdf, or a scene by --along");
+  std::vector<std::string> honoured = picture_keys();
+  honoured.insert(honoured.end(), {"title", "ellipse"});
+  const ModelScene model = model_scene_of(options.model, model_overrides(options), "ellipse", honoured);
+  EllipseJob job{{read_chain(options.model, model.options), {}, model.scene.theme, model.scene.text_scale}, {}};
+  Motion& motion = job.motion;
+  require_end_effector(motion.chain);
+  motion.poses = gather_poses(motion.chain, options.sources);
+  motion.ellipse = model.scene.ellipse;
+  set_look(job.figure, model, motion.chain);
+  job.figure.title = model.scene.title;
+  return job;
+}
+
+// The chain and its poses, and all of the figure that the command names.
+EllipseJob job_of(const EllipseOptions& options) {
+  EllipseJob job = options.sources.along.empty() ? job_of_model(options) : job_of_scene(options);
+  const GatheredPoses& poses = job.motion.poses;
+  PoseFigureOptions& figure = job.figure;
+  if (!options.title.empty()) figure.title = options.title;
+  if (options.width > 0) figure.width = options.width;
+  if (options.height > 0) figure.height = options.height;
+  figure.reading = options.read_as(job.motion);
+  figure.layout = !options.layout.empty() ? options.layout : poses.t.empty() ? "grid" : "superposed";
+  figure.labels = poses.labels;
+  figure.path = poses.path;
+  figure.cell = poses.cell;
+  figure.section = options.form(job.motion).section;
+  return job;
+}
+
+void check_combination(const EllipseOptions& options) {
+  if (options.joint_space && (!options.reading.empty() || !options.layout.empty() || options.sources.field))
+    throw Error(ExitCode::usage, "--joint-space shows M(q) itself: leave out --reading, --layout and --field");
+  if (!options.joint_space && !options.joints.empty())
+    throw Error(ExitCode::usage, "--joints goes with --joint-space");
+  if (options.sources.field && !options.layout.empty())
+    throw Error(ExitCode::usage, "--field is one picture of the workspace: leave out --layout");
+}
+
+void run_ellipse(const EllipseOptions& options) {
+  check_combination(options);
+  const std::string output = output_of(options);
+  const EllipseJob job = job_of(options);
+  const Motion& motion = job.motion;
+  const PoseFigureOptions& figure = job.figure;
+  const Chain& chain = motion.chain;
+  const TipMass tip(chain, motion.constraints);
+  const GatheredPoses& poses = motion.poses;
+  if (options.joint_space && tip.is_constrained())
+    throw Error(ExitCode::usage,
+                "--joint-space shows M(q), which says of a constrained mechanism only what its cut chain would do: leave "
+                "one of the two out; `chainreel dynamics " + options.sources.along + " --at T` prints M, Jc and Lambda");
+  const ClipMemory memory = memory_of_figure(*options.command, figure.title, options.model, poses.q);
+  Json numbers;
+  if (options.joint_space) {
+    const std::array<int, 2> joints = joints_of(chain, options.joints);
+    const Fonts fonts;
+    write_picture(draw_joint_space_figure(chain, poses.q, joints, figure, fonts), figure.width,
+                  figure.height, fonts, output, options.common.force, memory);
+    numbers = joint_space_json(chain, poses, joints);
+  } else if (output.ends_with(".csv")) {
+    write_text_file(output, ellipse_csv(tip, poses, options.form(motion)), options.common.force);
+  } else {
+    const Fonts fonts;
+    write_picture(draw_ellipse_figure(tip, poses.q, figure, fonts), figure.width,
+                  figure.height, fonts, output, options.common.force, memory);
+  }
+  if (options.common.json) {
+    Json report{{"file", output}};
+    if (!options.joint_space) {
+      report["reading"] = to_string(options.read_as(motion));
+      report["shape"] = options.form(motion).section ? "section" : "ellipsoid";
+      report["unit"] = options.read_as(motion) == EllipseReading::energy ? "m/s" : "kg";
+      numbers = ellipse_json(tip, poses, options.form(motion));
+    }
+    report["poses"] = numbers;
+    std::puts(report.dump(2).c_str());
+  } else if (!options.common.quiet) {
+    std::printf("%s\n", output.c_str());
+  }
+}
+
+}  // namespace
+
+void add_ellipse_command(CommandLine& app) {
+  auto options = std::make_shared<EllipseOptions>();
+  Command* command = app.add_subcommand("ellipse", "a figure of the effective mass at chosen poses");
+  command->add_option("model", options->model, "a model (.urdf); not with --along");
+  PoseSources& sources = options->sources;
+  command->add_repeatable("--pose", sources.poses, "q of the chain: --pose 0,90deg (repeatable)");
+  command->add_option("--sweep", sources.sweep, "poses that differ in one coordinate: --sweep q2=0:180deg:9");
+  command->add_option("--along", sources.along, "poses along the motion of a scene (.yaml)");
+  command->add_flag("--field", sources.field, "a grid of points of the workspace, of planar chains of 2 or 3 joints");
+  command->add_option("--samples", sources.samples, "poses --along (default 6), points across the --field (default 12)")
+      .range(1, 200);
+  command->add_option("--elbow", sources.elbow, "of a --field: up, the elbow left of the way to the end, or down")
+      .one_of({"up", "down"});
+  command->add_option("--reading", options->reading,
+                      "mass: forces for unit accelerations (default); energy: velocities of equal kinetic energy; "
+                      "belt: mass felt along each direction")
+      .one_of(reading_names());
+  command->add_option("--layout", options->layout, "of the poses: grid, row, superposed")
+      .one_of(figure_layout_names());
+  command->add_flag("--joint-space", options->joint_space, "the unit circle of accelerations beside its image under M(q)");
+  command->add_option("--joints", options->joints, "the two joints of --joint-space: --joints 1,2");
+  command->add_option("-o,--output", options->output,
+                      "a .png, .svg, .pdf or .csv file (default out/NAME_ellipse.png)");
+  command->add_option("--end-effector", options->end_effector, "the link whose mass is felt");
+  command->add_option("--title", options->title, "above the figure");
+  add_scene_flags(*command, options->common.flags, kLookFlags);
+  add_scene_flags(*command, options->common.flags, kViewFlags);
+  command->add_option("--shape", options->shape, "of arms in space: ellipsoid, or section by the xy plane of the end effector")
+      .one_of({"ellipsoid", "section"});
+  command->add_option("--width", options->width, "pixels").range(16, 16384);
+  command->add_option("--height", options->height, "pixels").range(16, 16384);
+  add_scene_options(*command, options->common);
+  add_result_options(*command, options->common);
+  command->footer(
+      "Example: chainreel ellipse models/rr.urdf --pose 0,90deg --pose 0,150deg -o out/ellipse.png");
+  options->command = command;
+  command->callback([options] { run_ellipse(*options); });
+}
+
+}  // namespace chainreel

@@ -1,0 +1,214 @@
+#include "app/commands/ellipse_numbers.hpp"
+
+#include <algorithm>
+
+#include "app/film/automatic.hpp"
+#include "app/film/pipeline.hpp"
+#include "app/report/report.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "draw/chain.hpp"
+#include "draw/section.hpp"
+#include "dynamics/crba.hpp"
+#include "dynamics/inverse_kinematics.hpp"
+#include "dynamics/kinematics.hpp"
+#include "scene/quantity.hpp"
+#include "scene/sweep.hpp"
+
+namespace chainreel {
+namespace {
+
+Eigen::Vector3d point_of(const Chain& chain, Workspace& ws, const std::vector<double>& q) {
+  const std::vector<double> at_rest(std::size_t(chain.nv), 0.0);
+  compute_kinematics(chain, ws, q, at_rest);
+  return frame_position(chain, ws, chain.end_effector);
+}
+
+Json number_or_null(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+std::string number_or_inf(const std::optional<double>& value) {
+  return value ? format_exact(*value) : "inf";
+}
+
+// At the pose at which `mass` was taken.
+std::vector<MassAxis> drawn_axes(const Chain& chain, Workspace& ws, const std::vector<double>& q,
+                                 const EffectiveMass& mass, const EllipseForm& form) {
+  if (!form.section) return mass_axes(mass);
+  const std::vector<double> at_rest(std::size_t(chain.nv), 0.0);
+  compute_kinematics(chain, ws, q, at_rest);
+  return section_axes(mass, tip_plane(chain, ws), form.reading);
+}
+
+}  // namespace
+
+Json ellipse_json(const TipMass& tip, const GatheredPoses& poses, const EllipseForm& form) {
+  const Chain& chain = tip.chain();
+  Workspace ws(chain);
+  Json list = Json::array();
+  for (std::size_t i = 0; i < poses.q.size(); ++i) {
+    Json entry;
+    if (i < poses.t.size()) entry["t"] = poses.t[i];
+    entry["q"] = to_json(std::span<const double>(poses.q[i]));
+    const EffectiveMass mass = tip.at(ws, poses.q[i]);
+    entry["point"] = to_json(point_of(chain, ws, poses.q[i]));
+    add_effective_mass(entry, mass);
+    entry["eigenvalues"] = entry["semi_axes"] = Json::array();
+    for (const MassAxis& axis : mass_axes(mass)) entry["eigenvalues"].push_back(number_or_null(axis.mass));
+    for (const MassAxis& axis : drawn_axes(chain, ws, poses.q[i], mass, form))
+      entry["semi_axes"].push_back(number_or_null(semi_axis(axis, form.reading)));
+    list.push_back(entry);
+  }
+  return list;
+}
+
+std::string ellipse_csv(const TipMass& tip, const GatheredPoses& poses, const EllipseForm& form) {
+  const Chain& chain = tip.chain();
+  Workspace ws(chain);
+  const TaskBasis basis = task_basis(chain, Task::linear);
+  const std::size_t rows = basis.names.size();
+  std::string text = poses.t.empty() ? "" : "t,";
+  for (const std::string& name : position_names(chain)) text += "q." + name + ",";
+  text += "x,y,z";
+  for (std::size_t i = 0; i < rows; ++i)
+    for (std::size_t j = i; j < rows; ++j) text += ",Lambda_inv_" + basis.names[i] + basis.names[j];
+  for (std::size_t i = 0; i < rows; ++i) text += ",eigenvalue" + std::to_string(i + 1);
+  for (std::size_t i = 0; i < (form.section ? std::min<std::size_t>(rows, 2) : rows); ++i)
+    text += ",semi_axis" + std::to_string(i + 1) + "_" + to_string(form.reading);
+  text += "\n";
+  for (std::size_t k = 0; k < poses.q.size(); ++k) {
+    if (k < poses.t.size()) text += format_exact(poses.t[k]) + ",";
+    for (const double q : poses.q[k]) text += format_exact(q) + ",";
+    const EffectiveMass mass = tip.at(ws, poses.q[k]);
+    const Eigen::Vector3d point = point_of(chain, ws, poses.q[k]);
+    text += format_exact(point.x()) + "," + format_exact(point.y()) + "," + format_exact(point.z());
+    for (Eigen::Index i = 0; i < Eigen::Index(rows); ++i)
+      for (Eigen::Index j = i; j < Eigen::Index(rows); ++j) text += "," + format_exact(mass.Lambda_inv(i, j));
+    for (const MassAxis& axis : mass_axes(mass)) text += "," + number_or_inf(axis.mass);
+    for (const MassAxis& axis : drawn_axes(chain, ws, poses.q[k], mass, form))
+      text += "," + number_or_inf(semi_axis(axis, form.reading));
+    text += "\n";
+  }
+  return text;
+}
+
+Json joint_space_json(const Chain& chain, const GatheredPoses& poses, std::array<int, 2> joints) {
+  Workspace ws(chain);
+  Json list = Json::array();
+  for (const std::vector<double>& q : poses.q) {
+    compute_mass_matrix(chain, ws, q);
+    Eigen::MatrixXd part(2, 2);
+    for (Eigen::Index i = 0; i < 2; ++i)
+      for (Eigen::Index j = 0; j < 2; ++j) part(i, j) = ws.M(joints[std::size_t(i)], joints[std::size_t(j)]);
+    list.push_back({{"q", to_json(std::span<const double>(q))},
+                    {"joints", {joints[0] + 1, joints[1] + 1}},
+                    {"M", to_json(Eigen::MatrixXd(ws.M))},
+                    {"image", to_json(part)}});
+  }
+  return list;
+}
+
+namespace {
+
+constexpr int kPosesAlong = 6, kPointsAcross = 12;
+constexpr int kPathPoints = 400;  // at least, of a motion
+
+// q1, q2, ... or the name of a coordinate.
+std::size_t coordinate_of(const Chain& chain, const std::string& key) {
+  const std::vector<std::string> names = position_names(chain);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (key == names[i] || key == "q" + std::to_string(i + 1)) return i;
+  throw Error(ExitCode::usage, "--sweep " + key + ": " + chain.name + " has no such coordinate; it has q1 to q" +
+                                   std::to_string(names.size()));
+}
+
+GatheredPoses swept(const Chain& chain, const PoseSources& sources) {
+  if (sources.poses.size() > 1)
+    throw Error(ExitCode::usage, "--sweep starts from one --pose, not from several");
+  const std::vector<double> from =
+      sources.poses.empty() ? zero_configuration(chain) : parse_pose(chain, sources.poses[0], "--pose");
+  const Sweep sweep = parse_sweep(sources.sweep, "--sweep");
+  const std::size_t at = coordinate_of(chain, sweep.key);
+  GatheredPoses gathered;
+  for (const std::string& value : sweep.values) {
+    std::vector<double> q = from;
+    try {
+      q[at] = parse_quantity(value, {});
+    } catch (const Error& error) {
+      throw Error(ExitCode::usage, "--sweep " + sources.sweep + ": " + error.problems().front().message);
+    }
+    gathered.q.push_back(std::move(q));
+  }
+  return gathered;
+}
+
+GatheredPoses field_of(const Chain& chain, const PoseSources& sources) {
+  PointSolver solver(chain, sources.elbow == "down" ? Elbow::down : Elbow::up);
+  const int across = sources.samples > 0 ? sources.samples : kPointsAcross;
+  GatheredPoses gathered;
+  gathered.cell = 2 * solver.reach() / across;
+  for (int j = 0; j < across; ++j)
+    for (int i = 0; i < across; ++i) {
+      const auto place = [&](int k) { return gathered.cell * (k + 0.5) - solver.reach(); };
+      const auto q = solver.pose_at(solver.middle() + place(i) * solver.ex() + place(j) * solver.ey());
+      if (q) gathered.q.push_back(*q);
+    }
+  if (gathered.q.empty())
+    throw Error(ExitCode::usage, "--field found no point that " + chain.name +
+                                     " reaches within its joints' limits: take more --samples or the other --elbow");
+  return gathered;
+}
+
+}  // namespace
+
+GatheredPoses gather_poses(const Chain& chain, const PoseSources& sources) {
+  if (sources.field) {
+    if (!sources.sweep.empty() || !sources.poses.empty())
+      throw Error(ExitCode::usage, "--field finds its poses itself: leave out --pose and --sweep");
+    return field_of(chain, sources);
+  }
+  if (!sources.sweep.empty()) return swept(chain, sources);
+  if (sources.poses.empty())
+    throw Error(ExitCode::usage, "which poses? Give --pose 0,90deg, --sweep q2=0:180deg:9, --along SCENE or --field");
+  GatheredPoses gathered;
+  gathered.q = parse_poses(chain, sources.poses, "--pose");
+  return gathered;
+}
+
+Motion motion_of(const PoseSources& sources, const CommonOptions& common) {
+  if (!sources.sweep.empty() || !sources.poses.empty() || sources.field)
+    throw Error(ExitCode::usage, "--along takes its poses from the motion: leave out --pose, --sweep and --field");
+  const PreparedFilm film = load_film(sources.along, overrides_of(common), true, common.quiet);
+  require_single_run(film.scene);
+  say_notices(film.panels.front(), common.quiet);
+  const int count = sources.samples > 0 ? sources.samples : kPosesAlong;
+  if (count < 2) throw Error(ExitCode::usage, "--samples: a motion has at least two poses, its ends");
+  const int between = std::max(1, kPathPoints / (count - 1)), intervals = between * (count - 1);
+  std::vector<double> times;
+  for (int k = 0; k <= intervals; ++k) times.push_back(film.scene.duration * k / intervals);
+  const std::vector<Trajectory> runs = simulate_film(film, times);
+  require_expected_ends(film, runs);
+
+  const Trajectory& run = runs.front();
+  Motion motion{film.panels.front().simulation.chain, {}, film.scene.theme, film.scene.text_scale,
+                film.scene.camera, film.scene.ellipse, film.panels.front().shapes,
+                film.panels.front().simulation.constraints, film.scene.video};
+  const Chain& chain = motion.chain;
+  require_end_effector(chain);
+  Workspace ws(chain);
+  for (int k = 0; k < run.size(); ++k) {
+    compute_kinematics(chain, ws, run.q_at(k), run.qd_at(k));
+    motion.poses.path.push_back(frame_position(chain, ws, chain.end_effector));
+  }
+  for (int i = 0; i < count; ++i) {
+    const int k = int(std::int64_t(i) * (run.size() - 1) / (count - 1));
+    const auto q = run.q_at(k);
+    motion.poses.q.emplace_back(q.begin(), q.end());
+    motion.poses.t.push_back(run.t[std::size_t(k)]);
+    motion.poses.labels.push_back("t = " + format_significant(run.t[std::size_t(k)], 3) + " s");
+  }
+  return motion;
+}
+
+}  // namespace chainreel

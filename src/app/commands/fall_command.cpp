@@ -1,0 +1,167 @@
+// chainreel fall SCENE [--sweep KEY=..]: when a scene's model falls, against one of its keys.
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "app/command.hpp"
+#include "app/report/figure.hpp"
+#include "app/report/report.hpp"
+#include "app/signals.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "core/output_file.hpp"
+#include "scene/fall.hpp"
+
+namespace chainreel {
+namespace {
+
+struct FallOptions {
+  std::string scene;
+  std::string sweep;
+  std::string output;
+  int threads = 0;
+  CommonOptions common;
+};
+
+bool has_failed(const FallRow& row) {
+  return !is_complete(row.status);
+}
+
+std::string verdict(const FallTable& table, const FallRow& row) {
+  if (row.fall_time) return format_fixed(*row.fall_time, 4);
+  if (has_failed(row)) return row.trouble;
+  if (row.status == RunStatus::stopped) return "stopped: " + row.trouble;
+  const std::string within = format_quantity(table.duration, "s");
+  if (!table.has_foot) return "does not fall within " + within;
+  if (!row.tips) return "stands for " + within;
+  return std::string("tips over the ") + (row.over_toe ? "toe" : "heel") + " at " + format_fixed(*row.tips, 4) +
+         ", not down within " + within;
+}
+
+// The first time of each event, but of falls: they are what the table is about.
+std::vector<std::size_t> other_events(const FallTable& table) {
+  std::vector<std::size_t> others;
+  for (std::size_t i = 0; i < table.events.size(); ++i)
+    if (table.events[i].kind != EventKind::fall) others.push_back(i);
+  return others;
+}
+
+void print_table(const FallTable& table) {
+  const std::vector<std::size_t> others = other_events(table);
+  std::vector<std::vector<std::string>> rows{{table.sweep.key}};
+  for (const std::size_t i : others) rows[0].push_back(table.events[i].title() + ", s");
+  rows[0].push_back("falls at, s");
+  if (table.sweep.key.empty()) rows[0].erase(rows[0].begin());
+  for (const FallRow& row : table.rows) {
+    rows.emplace_back();
+    if (!table.sweep.key.empty()) {
+      const auto number = parse_number(row.value);
+      rows.back().push_back(number ? format_significant(*number, 6) : row.value);
+    }
+    for (const std::size_t i : others)
+      rows.back().push_back(row.first[i] ? format_fixed(*row.first[i], 4) : "never");
+    rows.back().push_back(verdict(table, row));
+  }
+  std::fputs(table_text(rows).c_str(), stdout);
+  std::printf("%s; %d threads\n", table.method.c_str(), table.threads);
+}
+
+Json optional_json(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json report_of(const std::string& scene, const FallTable& table) {
+  Json json{{"scene", scene}, {"duration", table.duration}, {"method", table.method}};
+  if (!table.sweep.key.empty()) json["key"] = table.sweep.key;
+  for (const EventEntry& event : table.events)
+    json["events"].push_back(
+        {{"name", event.title()}, {"kind", to_string(event.kind)}, {"when", event.when}});
+  json["rows"] = Json::array();
+  for (const FallRow& row : table.rows) {
+    Json one{{"status", to_string(row.status)}, {"end_time", row.end_time}};
+    if (!table.sweep.key.empty()) {
+      const auto number = parse_number(row.value);
+      one["value"] = number ? Json(*number) : Json(row.value);
+    }
+    one["fall_time"] = optional_json(row.fall_time);
+    one["ended_by"] =
+        row.ending_event < 0 ? Json(nullptr) : Json(table.events[std::size_t(row.ending_event)].title());
+    one["first"] = Json::array();
+    for (const std::optional<double>& time : row.first) one["first"].push_back(optional_json(time));
+    if (table.has_foot) {
+      one["stands"] = !row.tips && !row.fall_time && row.status == RunStatus::finished;
+      one["tips_at"] = optional_json(row.tips);
+      one["tips_over"] = row.tips ? Json(row.over_toe ? "toe" : "heel") : Json(nullptr);
+    }
+    if (!row.trouble.empty()) one["trouble"] = row.trouble;
+    json["rows"].push_back(one);
+  }
+  return json;
+}
+
+std::string quoted(const std::string& words) {
+  std::string text = "\"";
+  for (const char c : words) text += c == '"' ? "\"\"" : std::string(1, c);
+  return text + "\"";
+}
+
+// Numbers with all their digits; an empty field is what did not happen.
+std::string csv_of(const std::string& scene, const FallTable& table) {
+  const auto field = [](const std::optional<double>& value) { return value ? format_exact(*value) : ""; };
+  const bool swept = !table.sweep.key.empty();
+  std::string text = csv_facts(scene) + (swept ? table.sweep.key + "," : "") + "fall_time,status,end_time";
+  for (const EventEntry& event : table.events) text += "," + quoted(event.title());
+  text += "\n";
+  for (const FallRow& row : table.rows) {
+    if (swept) text += row.value + ",";
+    text += field(row.fall_time) + "," + to_string(row.status) + "," + format_exact(row.end_time);
+    for (const std::optional<double>& time : row.first) text += "," + field(time);
+    text += "\n";
+  }
+  return text;
+}
+
+void run_fall(const FallOptions& options) {
+  Sweep sweep;
+  sweep.values = {""};
+  if (!options.sweep.empty()) sweep = parse_sweep(options.sweep, "--sweep");
+  if (!options.output.empty() && !options.output.ends_with(".csv"))
+    throw Error(ExitCode::usage, "-o " + options.output + ": tables are written as .csv");
+  std::unique_ptr<OutputFile> file;
+  if (!options.output.empty()) file = std::make_unique<OutputFile>(options.output, options.common.force);
+  const int cores = std::max(1, int(std::thread::hardware_concurrency()));
+  const int threads = std::min(options.threads > 0 ? options.threads : cores, int(sweep.values.size()));
+  const FallTable table = run_fall_table(options.scene, overrides_of(options.common), sweep, threads,
+                                         [](double) { return interrupted(); });
+  throw_if_interrupted();
+  if (file) write_whole(*file, csv_of(options.scene, table));
+  if (options.common.json)
+    std::puts(report_of(options.scene, table).dump(2).c_str());
+  else if (!options.common.quiet || !file)
+    print_table(table);
+  if (file && !options.common.quiet && !options.common.json) std::printf("%s\n", options.output.c_str());
+  const auto failed = std::find_if(table.rows.begin(), table.rows.end(), has_failed);
+  if (failed == table.rows.end()) return;
+  const std::string setting = sweep.key.empty() ? "" : " at " + sweep.key + "=" + failed->value;
+  throw Error(ExitCode::numerical, "a run failed" + setting + ": " + failed->trouble, {options.scene});
+}
+
+}  // namespace
+
+void add_fall_command(CommandLine& app) {
+  auto options = std::make_shared<FallOptions>();
+  Command* command = app.add_subcommand("fall", "when a scene's model falls, against one of its keys");
+  command->add_option("scene", options->scene, "a scene file with an event of kind fall").required();
+  command->add_option("--sweep", options->sweep,
+                      "KEY=a,b,c or KEY=from:to:count, maybe with :log behind it, like torque.1=0:60:7");
+  command->add_option("-o,--output", options->output, "a .csv file");
+  command->add_option("--threads", options->threads, "default: all cores").range(1, 256);
+  add_scene_options(*command, options->common);
+  add_result_options(*command, options->common);
+  command->footer("Example: chainreel fall assets/scenes/humanoid_fall.yaml --sweep parameters.k=0:1200:7");
+  command->callback([options] { run_fall(*options); });
+}
+
+}  // namespace chainreel

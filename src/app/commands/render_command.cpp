@@ -1,0 +1,129 @@
+// chainreel render SCENE... [-o FILE]... | [-o DIR]
+
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/film/automatic.hpp"
+#include "app/film/pipeline.hpp"
+#include "app/film/render_film.hpp"
+#include "app/report/report.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "scene/quantity.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RenderOptions {
+  std::vector<std::string> scenes;
+  std::vector<std::string> outputs;
+  std::string at = "0";
+  std::vector<std::string> vary;
+  CommonOptions common;
+};
+
+std::vector<std::string> overrides_of(const RenderOptions& options) {
+  std::vector<std::string> overrides = overrides_of(options.common);
+  add_comparison(options.vary, overrides);
+  return overrides;
+}
+
+// Every scene is read before the first is rendered, so that bad input costs no time and loses nothing.
+std::vector<PreparedFilm> load_all(const RenderOptions& options) {
+  std::vector<PreparedFilm> films;
+  std::vector<Problem> problems;
+  ExitCode code = ExitCode::bad_input;
+  for (const std::string& scene : options.scenes) {
+    try {
+      films.push_back(load_film(scene, overrides_of(options), true, options.common.quiet));
+    } catch (const Error& error) {
+      code = error.code();
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw Error(code, std::move(problems));
+  return films;
+}
+
+std::vector<RenderJob> jobs_of(const RenderOptions& options, const std::vector<PreparedFilm>& films) {
+  std::vector<RenderJob> jobs;
+  std::map<std::string, std::string> taken;
+  for (std::size_t i = 0; i < films.size(); ++i) {
+    RenderJob job;
+    job.targets = targets_of(options.outputs, films.size(), films[i].scene);
+    job.at = parse_quantity(options.at, {});
+    job.overwrite = options.common.force;
+    job.quiet = options.common.quiet;
+    if (!(job.at >= 0 && job.at <= films[i].scene.duration))
+      throw Error(ExitCode::usage, "--at " + options.at + " lies outside the duration of " +
+                                       format_quantity(films[i].scene.duration, "s"));
+    for (const Target& target : job.targets) {
+      const auto [other, is_new] =
+          taken.emplace(fs::path(target.path).lexically_normal().string(), options.scenes[i]);
+      if (!is_new)
+        throw Error(ExitCode::usage, options.scenes[i] + " and " + other->second +
+                                         " would both be written to " + target.path +
+                                         ": render them one by one with -o");
+    }
+    jobs.push_back(std::move(job));
+  }
+  return jobs;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+void run_render(const RenderOptions& options) {
+  check_outputs(options.outputs, options.scenes.size());
+  const std::vector<PreparedFilm> films = load_all(options);
+  const std::vector<RenderJob> jobs = jobs_of(options, films);
+
+  Json reports = Json::array();
+  std::vector<std::vector<std::string>> table{{"scene", "frames", "film s", "taken s", "file"}};
+  for (std::size_t i = 0; i < films.size(); ++i) {
+    for (const PreparedScene& panel : films[i].panels) say_choice(panel, options.common.quiet);
+    const RenderResult result = render_film(films[i], jobs[i]);
+    reports.push_back(result.audit);
+    reports.back()["file"] = result.files.front();
+    reports.back()["files"] = result.files;
+    reports.back()["sidecars"] = result.sidecars;
+    table.push_back({films[i].scene.name, std::to_string(result.frames), format_fixed(result.film_seconds, 2),
+                     format_fixed(result.seconds.total, 2), joined(result.files)});
+  }
+  if (options.common.json)
+    std::puts(reports.dump(2).c_str());
+  else if (!options.common.quiet)
+    std::fputs(table_text(table).c_str(), stdout);
+}
+
+}  // namespace
+
+void add_render_command(CommandLine& app) {
+  auto options = std::make_shared<RenderOptions>();
+  Command* command = app.add_subcommand("render",
+                                         "render scenes to films, clips and pictures, each with its audit as "
+                                         "NAME.json and in words as NAME.txt");
+  command->add_option("scenes", options->scenes, "scene files").required();
+  command->add_repeatable("-o,--output", options->outputs,
+      "a .mp4, .webm, .mov, .gif, .apng, .png, .svg, .pdf or .csv file, or NAME_000000.png for a sequence "
+      "(repeatable: each frame is drawn once for all), or a folder (default out/NAME.mp4)");
+  for (const std::span<const SceneFlag> flags : {std::span<const SceneFlag>(kOutputFlags), {kLookFlags}, {kPageFlags}, {kViewFlags}})
+    add_scene_flags(*command, options->common.flags, flags);
+  command->add_option("--at", options->at, "instant that .png, .svg and .pdf show, in seconds (default 0)");
+  add_vary_option(*command, options->vary);
+  add_scene_options(*command, options->common);
+  add_result_options(*command, options->common);
+  command->footer(
+      "Example: chainreel render assets/scenes/rr_free.yaml -o out/rr.mp4 -o out/rr.gif --set duration=2");
+  command->callback([options] { run_render(*options); });
+}
+
+}  // namespace chainreel

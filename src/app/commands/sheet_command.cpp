@@ -1,0 +1,143 @@
+// chainreel sheet SCENE... -o FILE: one picture a scene, all on one page; .png, .svg or .pdf
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/film/moment.hpp"
+#include "app/film/pipeline.hpp"
+#include "app/report/figure.hpp"
+#include "app/report/report.hpp"
+#include "app/signals.hpp"
+#include "core/error.hpp"
+#include "draw/contact_sheet.hpp"
+#include "scene/quantity.hpp"
+
+namespace chainreel {
+namespace {
+
+struct SheetOptions {
+  std::vector<std::string> scenes;
+  std::string at;
+  std::string output = "out/sheet.png";
+  int columns = 0;
+  int width = 1920, height = 1080;
+  CommonOptions common;
+  const Command* command = nullptr;
+};
+
+// What a small picture shows: all that is drawn, without the words around it.
+void set_for_cell(Scene& scene, const std::string& theme, double text_scale) {
+  scene.video.height = 1000;
+  scene.video.width = int(std::lround(scene.video.height * kCellPageAspect));
+  scene.video.preset = "overlay";
+  scene.theme = theme;
+  scene.text_scale = text_scale;
+  scene.plot.clear();
+  std::erase(scene.draw, "mass_matrix");  // its numbers could not be read
+}
+
+ContactCell cell_of(const std::string& file, const SheetOptions& options, const std::string& theme,
+                    double text_scale, const Fonts& fonts) {
+  PreparedFilm film = load_film(file, overrides_of(options.common), true, options.common.quiet);
+  set_for_cell(film.scene, theme, text_scale);
+  for (PreparedScene& panel : film.panels) set_for_cell(panel.scene, theme, text_scale);
+  Moment moment = options.at.empty()
+                      ? telling_moment(film, fonts)
+                      : moment_at(film, std::min(parse_quantity(options.at, {}), film.scene.duration), fonts);
+  tell_warnings(film.scene.name, moment.memory.audit);
+  return {std::move(moment.picture), moment.title.empty() ? film.scene.name : moment.title};
+}
+
+// The problems of all scenes are told at once.
+std::vector<ContactCell> cells_of(const SheetOptions& options, const std::string& theme, double text_scale,
+                                  const Fonts& fonts) {
+  std::vector<ContactCell> cells;
+  std::vector<Problem> problems;
+  ExitCode code = ExitCode::bad_input;
+  for (const std::string& file : options.scenes) {
+    throw_if_interrupted();
+    try {
+      cells.push_back(cell_of(file, options, theme, text_scale, fonts));
+    } catch (const Error& error) {
+      if (error.code() == ExitCode::interrupted || error.code() == ExitCode::terminated) throw;
+      code = error.code();
+      for (Problem problem : error.problems()) {
+        if (problem.place.file.empty()) problem.place.file = file;
+        problems.push_back(std::move(problem));
+      }
+    }
+  }
+  if (!problems.empty()) throw Error(code, std::move(problems));
+  return cells;
+}
+
+// It shows no scene of its own but many: the command is remembered.
+ClipMemory memory_of_sheet(const Command& command, const std::vector<ContactCell>& cells) {
+  ClipMemory memory = memory_of_figure(command, "Contact sheet");
+  for (const ContactCell& cell : cells)
+    memory.description += (memory.description.empty() ? "" : "; ") + cell.title;
+  return memory;
+}
+
+// What a sheet decides for all its cells is not left to a scene's key, which would be passed over.
+void refuse_own_keys(const std::vector<std::string>& set) {
+  for (const std::string& text : set) {
+    const std::string key = text.substr(0, text.find_first_of(".="));
+    if (key == "theme" || key == "text_scale")
+      throw Error(ExitCode::usage, "--set " + text + ": a sheet has one look: take --" +
+                                       (key == "theme" ? "theme" : "text-scale"));
+    if (key == "video" || key == "plot")
+      throw Error(ExitCode::usage, "--set " + text + ": the pictures of a sheet have a size of their own and no plots: " +
+                                       "take --width, --height and --columns");
+  }
+}
+
+void run_sheet(const SheetOptions& options) {
+  refuse_own_keys(options.common.set);
+  check_picture_path(options.output);
+  if (!options.at.empty() && parse_quantity(options.at, {}) < 0)
+    throw Error(ExitCode::usage, "--at " + options.at + " lies before the start");
+  const std::string theme = theme_of(options.common.flags);
+  const Fonts fonts;
+  const ContactSheetLook look{double(options.width) / options.height, options.columns,
+                              text_scale_of(options.common.flags), &theme_named(theme), &fonts};
+  const ContactGrid grid = contact_grid(int(options.scenes.size()), look);
+  const std::vector<ContactCell> cells = cells_of(options, theme, text_scale_in(grid), fonts);
+  write_picture(draw_contact_sheet(grid, cells, look), options.width, options.height, fonts, options.output,
+                options.common.force, memory_of_sheet(*options.command, cells));
+  if (options.common.json)
+    std::puts(
+        Json{{"file", options.output}, {"columns", grid.columns}, {"lines", grid.lines}}.dump(2).c_str());
+  else if (!options.common.quiet)
+    std::printf("%s\n", options.output.c_str());
+}
+
+}  // namespace
+
+void add_sheet_command(CommandLine& app) {
+  auto options = std::make_shared<SheetOptions>();
+  Command* command =
+      app.add_subcommand("sheet", "a contact sheet: one picture of each scene, all on one page");
+  command->add_option("scenes", options->scenes, "scene files, up to 48").required();
+  command->add_option(
+      "--at", options->at,
+      "instant of every scene in seconds, or its end where that is earlier (default: the last "
+      "event of a scene, else its middle)");
+  command->add_option("-o,--output", options->output, "a .png, .svg or .pdf file (default out/sheet.png)");
+  command->add_option("--columns", options->columns, "default: as many as make the pictures largest")
+      .range(1, kMostCells);
+  command->add_option("--width", options->width, "pixels").range(16, 16384);
+  command->add_option("--height", options->height, "pixels").range(16, 16384);
+  add_scene_flags(*command, options->common.flags, kLookFlags);
+  add_scene_options(*command, options->common);
+  add_result_options(*command, options->common);
+  command->footer("Example: chainreel sheet assets/scenes/*.yaml -o out/sheet.png");
+  options->command = command;
+  command->callback([options] { run_sheet(*options); });
+}
+
+}  // namespace chainreel

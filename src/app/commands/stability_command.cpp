@@ -1,0 +1,273 @@
+// chainreel stability SCENE [--x KEY=.. --y KEY=..]: where the scene fails, and which method fails on it.
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "app/film/pipeline.hpp"
+#include "app/report/figure.hpp"
+#include "app/report/report.hpp"
+#include "app/signals.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "draw/stability_map.hpp"
+#include "scene/read_scene.hpp"
+#include "scene/stability_cells.hpp"
+#include "sim/audit.hpp"
+#include "sim/linear_modes.hpp"
+
+namespace chainreel {
+namespace {
+
+struct StabilityOptions {
+  std::string scene;
+  std::string x, y;
+  std::string methods;
+  int threads = 0;
+  FigureOptions figure;
+  CommonOptions common;
+};
+
+constexpr double kTableSteps[] = {0.1, 0.01, 0.001};
+constexpr double kTableTolerances[] = {1e-3, 1e-6, 1e-9};
+
+Axis axis_of(const Sweep& sweep) {
+  Axis axis;
+  axis.scale = sweep.logarithmic ? Scale::log : Scale::linear;
+  const auto& v = sweep.numbers;
+  // Cells are centred on their values: half a cell beyond the first and the last.
+  if (sweep.logarithmic) {
+    const double half = std::sqrt(v[1] / v[0]);
+    axis.low = v.front() / half;
+    axis.high = v.back() * half;
+  } else {
+    const double half = 0.5 * (v[1] - v[0]);
+    axis.low = v.front() - half;
+    axis.high = v.back() + half;
+  }
+  const std::string prefix = "parameters.";
+  axis.title = sweep.key == "step"             ? "step [s]"
+               : sweep.key.starts_with(prefix) ? sweep.key.substr(prefix.size())
+                                               : sweep.key;
+  return axis;
+}
+
+// Cells of one size: rising values at equal distances or factors.
+void check_axis(const Sweep& sweep, const std::string& option) {
+  const auto& v = sweep.numbers;
+  bool good = v.size() >= 2;
+  for (std::size_t k = 1; good && k < v.size(); ++k) {
+    const double even =
+        sweep.logarithmic ? v[0] * std::pow(v[1] / v[0], double(k)) : v[0] + double(k) * (v[1] - v[0]);
+    good = v[k] > v[k - 1] && std::abs(v[k] - even) <= 1e-6 * std::abs(v[k] - v[0]);
+  }
+  if (!good)
+    throw Error(ExitCode::usage,
+                option +
+                    " of a map takes a range of rising numbers: KEY=from:to:count, maybe with "
+                    ":log behind it");
+}
+
+constexpr const char* kTheory = "theory";
+
+void add_limits(const StabilityCells& cells, StabilityMap& map) {
+  const bool along_x = cells.x.key == "step";
+  const std::vector<double>& others = (along_x ? cells.y : cells.x).numbers;
+  MapBoundary line;
+  line.label = kTheory;
+  for (std::size_t i = 0; i < cells.boundary.size(); ++i) {
+    if (!cells.boundary[i] || !std::isfinite(*cells.boundary[i]) || *cells.boundary[i] <= 0) continue;
+    const double step = *cells.boundary[i];
+    line.points.push_back(along_x ? Point{step, others[i]} : Point{others[i], step});
+  }
+  if (line.points.size() >= 2) map.boundaries.push_back(line);
+}
+
+double value_at(const Axis& axis, double share) {
+  return axis.scale == Scale::log ? axis.low * std::pow(axis.high / axis.low, share)
+                                  : axis.low + share * (axis.high - axis.low);
+}
+
+// Between the cells that are stable by theory and those that are not, along their edges.
+void add_edges(const StabilityCells& cells, StabilityMap& map) {
+  std::vector<std::optional<bool>> stable;
+  for (const StabilityCell& cell : cells.cells) stable.push_back(cell.stable);
+  for (const auto& corners : edges_between(stable, map.nx, map.ny)) {
+    MapBoundary line;
+    if (map.boundaries.empty()) line.label = kTheory;
+    for (const Point& corner : corners)
+      line.points.push_back({value_at(map.x, corner.x / map.nx), value_at(map.y, corner.y / map.ny)});
+    map.boundaries.push_back(line);
+  }
+}
+
+StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
+  StabilityMap map;
+  map.title = "Where " + cells.method + " fails";
+  map.subtitle = scene.title.empty() ? scene.name : scene.title;
+  map.x = axis_of(cells.x);
+  map.y = axis_of(cells.y);
+  map.nx = int(cells.x.values.size());
+  map.ny = int(cells.y.values.size());
+  map.error_title = "largest |energy error| [J]";
+  for (const StabilityCell& cell : cells.cells) map.cells.push_back({cell.failed, cell.energy_error});
+  add_limits(cells, map);
+  add_edges(cells, map);
+  map.footer = "Each cell is a run of the scene's duration and of at least " + std::to_string(kLeastSteps) +
+               " steps; failed: no end, or an energy error above " + format_shortest(kFailedEnergy) +
+               " times the motion's largest kinetic energy.";
+  if (!map.boundaries.empty()) map.footer += " Theory: the limit of the motion linearised about the start.";
+  return map;
+}
+
+std::string csv_of(const std::string& scene, const StabilityCells& cells) {
+  std::string text = csv_facts(scene) + cells.x.key + "," + cells.y.key +
+                     ",status,failed,energy_error,energy_scale,trouble\n";
+  for (std::size_t iy = 0; iy < cells.y.values.size(); ++iy)
+    for (std::size_t ix = 0; ix < cells.x.values.size(); ++ix) {
+      const StabilityCell& cell = cells.at(ix, iy);
+      text += cells.x.values[ix] + "," + cells.y.values[iy] + "," + to_string(cell.status) + "," +
+              (cell.failed ? "1," : "0,") +
+              (std::isfinite(cell.energy_error) ? format_shortest(cell.energy_error) : "") + "," +
+              (std::isfinite(cell.energy_scale) ? format_shortest(cell.energy_scale) : "") + ",\"" +
+              cell.trouble + "\"\n";
+    }
+  return text;
+}
+
+void print_map_summary(const StabilityCells& cells) {
+  std::size_t failed = 0;
+  for (const StabilityCell& cell : cells.cells) failed += cell.failed;
+  std::printf(
+      "%s: %zu of %zu cells fail (no end, or an energy error above %s times the motion's); %d threads%s\n",
+      cells.method.c_str(), failed, cells.cells.size(), format_shortest(kFailedEnergy).c_str(), cells.threads,
+      cells.in_batches ? ", stepped in batches" : "");
+}
+
+void draw_map(const StabilityOptions& options, const std::string& output) {
+  const Sweep x = parse_sweep(options.x, "--x"), y = parse_sweep(options.y, "--y");
+  check_axis(x, "--x");
+  check_axis(y, "--y");
+  const std::vector<std::string> overrides = overrides_of(options.common);
+  const int threads = options.threads > 0 ? options.threads : int(std::thread::hardware_concurrency());
+  const StabilityCells cells =
+      run_stability_cells(options.scene, overrides, x, y, threads, [](double) { return interrupted(); });
+  throw_if_interrupted();
+  const Scene scene = read_scene(options.scene, overrides);
+  const Fonts fonts;
+  const ChartLook look = chart_look(options.figure, scene, fonts);
+  const auto files = write_figure(stability_map(map_of(scene, cells), look), csv_of(options.scene, cells),
+                                  options.figure, output, fonts, options.common.force);
+  if (options.common.quiet) return;
+  print_map_summary(cells);
+  for (const std::string& file : files) std::printf("%s\n", file.c_str());
+}
+
+std::string verdict(Simulation& simulation, const MethodSetting& setting) {
+  apply(setting, simulation);
+  const double end[] = {simulation.duration};
+  const Trajectory trajectory = simulate_audited(simulation, end, [](double) { return interrupted(); });
+  throw_if_interrupted();
+  if (trajectory.status != RunStatus::finished || trajectory.size() == 0)
+    return to_string(trajectory.status) + " at " + format_significant(trajectory.end_time, 3) + " s";
+  return format_significant(trajectory.energy_at_steps->largest_error, 2) + " J";
+}
+
+std::string limit_text(const std::optional<double>& limit) {
+  if (!limit) return "unknown";
+  return std::isfinite(*limit) ? format_significant(*limit, 4) : "none";
+}
+
+// "decays with 7063 /s", "swings with omega = 10 rad/s, damping ratio 0.05"
+std::string rate_text(const std::complex<double>& rate) {
+  const double size = std::abs(rate);
+  if (rate.imag() == 0)
+    return (rate.real() > 0 ? "grows with " : "decays with ") + format_significant(size, 6) + " /s";
+  std::string text = "swings with omega = " + format_significant(size, 6) + " rad/s";
+  if (rate.real() != 0) text += ", damping ratio " + format_significant(-rate.real() / size, 3);
+  return text;
+}
+
+void print_linearisation(const Linearisation& start) {
+  if (!start.trouble.empty()) return (void)std::printf("no limit can be told: %s\n", start.trouble.c_str());
+  std::printf("limits are those of the motion linearised about the start; its fastest part %s\n",
+              rate_text(start.rates.back()).c_str());
+  std::printf("none: stable at every step; 0: at no step; unknown: no limit was found\n");
+  if (!start.is_equilibrium)
+    std::printf("the start is no equilibrium (qd %s, qdd %s at most): elsewhere limits may differ\n",
+                format_significant(start.rate, 3).c_str(), format_significant(start.acceleration, 3).c_str());
+  const auto grows = std::find_if(start.rates.begin(), start.rates.end(),
+                                  [](const std::complex<double>& rate) { return rate.real() > 0; });
+  if (grows != start.rates.end())
+    std::printf("the motion itself is unstable there: a part of it %s; limits are those of the rest\n",
+                rate_text(*grows).c_str());
+}
+
+// "Who fails here": every method at three steps or tolerances.
+void print_methods(const StabilityOptions& options) {
+  PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false, options.common.quiet);
+  Simulation& simulation = prepared.simulation;
+  const Linearisation start = linearise(simulation);
+  std::vector<std::vector<std::string>> table{
+      {"method", "coarse", "middle", "fine", "limit of the step, s"}};
+  std::string left_out;
+  for (const Method* method : parse_methods(options.methods)) {
+    simulation.method = method;
+    try {
+      check_method(simulation);
+    } catch (const Error& error) {
+      left_out += "left out: " + error.problems().front().message + "\n";
+      continue;
+    }
+    std::vector<std::string> row{method->name};
+    for (std::size_t k = 0; k < 3; ++k)
+      row.push_back(verdict(simulation, method->adaptive ? MethodSetting{method, {kTableTolerances[k], 0}, 0}
+                                                         : MethodSetting{method, {}, kTableSteps[k]}));
+    row.push_back(limit_text(longest_stable_step(*method, start)));
+    table.push_back(row);
+  }
+  std::printf(
+      "Who fails here: the largest energy error with steps of 0.1, 0.01 and 0.001 s, or tolerances of "
+      "1e-3, 1e-6 and 1e-9\n");
+  std::fputs(table_text(table).c_str(), stdout);
+  std::fputs(left_out.c_str(), stdout);
+  print_linearisation(start);
+}
+
+void run_stability(const StabilityOptions& options) {
+  if (options.x.empty() != options.y.empty())
+    throw Error(ExitCode::usage, "a map needs both --x and --y; without them the methods are compared");
+  if (options.x.empty()) return print_methods(options);
+  std::string output = options.figure.output;
+  if (output.empty())
+    output = "out/" + std::filesystem::path(options.scene).stem().string() + "_stability.png";
+  check_figure_path(output);
+  draw_map(options, output);
+}
+
+}  // namespace
+
+void add_stability_command(CommandLine& app) {
+  auto options = std::make_shared<StabilityOptions>();
+  Command* command = app.add_subcommand(
+      "stability", "a map of where a scene fails over two of its keys, or which method does");
+  command->add_option("scene", options->scene, "a scene file").required();
+  command->add_option("--x", options->x, "KEY=from:to:count, maybe with :log behind it");
+  command->add_option("--y", options->y, "the same, upward");
+  command->add_option("--methods", options->methods, "of the table: rk4,taylor,.. (default all)");
+  command->add_option("--threads", options->threads, "default: all cores").range(1, 256);
+  add_figure_options(*command, options->figure, options->common, "out/NAME_stability.png");
+  add_scene_options(*command, options->common);
+  add_quiet_option(*command, options->common);
+  add_force_option(*command, options->common);
+  command->footer(
+      "Example: chainreel stability assets/scenes/pp_spring.yaml --set 'torque=[0, -k * y_G]'\n"
+      "         --set parameters.k=100 --x step=0.02:0.4:96 --y parameters.k=25:400:60");
+  command->callback([options] { run_stability(*options); });
+}
+
+}  // namespace chainreel

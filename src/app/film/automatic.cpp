@@ -1,0 +1,155 @@
+#include "app/film/automatic.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "app/film/progress.hpp"
+#include "app/signals.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "scene/prepare.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kWorthSaying = 100;  // times what was asked for: beyond that nobody wants it
+constexpr long kMostEvaluationsForEvents = 10'000'000;
+
+std::string microseconds(double ns) {
+  return ns < 1e9 ? format_significant(ns / 1000, 2) + " us" : format_significant(ns / 1e9, 2) + " s";
+}
+
+// Two digits, rounded up: a bound stays one.
+std::string bound_text(double x) {
+  if (!(x > 0)) return "0";
+  return format_significant(x + 0.49 * std::pow(10, std::floor(std::log10(x)) - 1), 2);
+}
+
+std::string price_text(const Choice& choice) {
+  std::string price = microseconds(choice.best.cost);
+  if (choice.counted_until) price += " until t = " + format_significant(*choice.counted_until, 4) + " s";
+  if (choice.cost_to_end) price += ", at that rate " + microseconds(*choice.cost_to_end) + " to the end";
+  return price;
+}
+
+Json candidate_report(const Choice::Candidate& candidate) {
+  Json json{{"setting", to_string(candidate.setting)},
+            {"error", std::isfinite(candidate.error) ? Json(candidate.error) : Json(nullptr)},
+            {"cost_ns", candidate.cost},
+            {"steps", candidate.steps},
+            {"evaluations", candidate.evaluations}};
+  if (!candidate.trouble.empty()) json["trouble"] = candidate.trouble;
+  return json;
+}
+
+std::string progress_text(const ChoiceProgress& now, double duration) {
+  return "choosing a method: " + now.doing + " at t = " + format_significant(now.t, 3) + " of " +
+         format_shortest(duration) + " s, behind " + std::to_string(now.runs) + " runs and " +
+         format_fixed(100 * now.spent, 0) + " % of the budget";
+}
+
+// Where the run ends by an event, s.
+std::optional<double> end_by_event(Simulation& simulation, std::span<const double> times) {
+  apply({&find_method("dop853"), {1e-10, 0}, 0}, simulation);
+  simulation.longest_step = times.size() > 1 ? times[1] - times[0] : 0;
+  simulation.most_evaluations = kMostEvaluationsForEvents;
+  const Trajectory run = simulate(simulation, {}, [](double) { return interrupted(); });
+  simulation.longest_step = 0;
+  simulation.most_evaluations = 0;
+  throw_if_interrupted();
+  return run.ending_event >= 0 ? std::optional(run.end_time) : std::nullopt;
+}
+
+}  // namespace
+
+void choose_automatically(PreparedScene& prepared, bool quiet) {
+  if (prepared.simulation.method) return;
+  Simulation& simulation = prepared.simulation;
+  const auto events = simulation.events;
+  const double duration = simulation.duration;
+  std::vector<double> times = frame_times(prepared.scene);
+  if (events) {
+    // What comes behind the event that ends the run is nobody's concern.
+    const auto end = end_by_event(simulation, times);
+    if (end && *end > 0) simulation.duration = *end;
+    while (times.size() > 1 && times.back() > simulation.duration) times.pop_back();
+    simulation.events = nullptr;
+  }
+  try {
+    prepared.choice = choose_with_progress(simulation, prepared.scene, times, quiet);
+  } catch (const Error& error) {
+    throw Error(error.code(), error.problems().front().message, prepared.scene.place_of("accuracy"));
+  }
+  simulation.events = events;
+  simulation.duration = duration;
+}
+
+Choice choose_with_progress(Simulation& simulation, const Scene& scene, std::span<const double> times, bool quiet) {
+  // Bars have no extent but their own.
+  simulation.outline =
+      scene.links == "plain" ? Outline{} : read_outline(scene.model, simulation.chain, model_options_of(scene));
+  Ticker ticker(quiet);
+  Choice choice = choose_method(simulation, scene.accuracy, times, [&](const ChoiceProgress& now) {
+    if (ticker.is_due()) ticker.say(scene.name + ": " + progress_text(now, simulation.duration));
+    return interrupted();
+  });
+  throw_if_interrupted();
+  return choice;
+}
+
+std::string choice_text(const Choice& choice, const Accuracy& accuracy) {
+  const std::string unit = " " + accuracy.unit;
+  const Choice::Candidate& best = choice.best;
+  std::string text = "auto: " + to_string(best.setting);
+  if (choice.is_met)
+    text += " is off by at most " + bound_text(best.error) + unit + " and costs some " + price_text(choice) + "; " +
+            std::to_string(choice.tried.size()) + " candidates";
+  else if (std::isfinite(best.error))
+    text += " is the most exact that was found, off by up to " + bound_text(best.error) + unit + " where " +
+            to_string(accuracy) + " was asked for";
+  else
+    text += " is taken, though nothing is known of its error";
+  if (choice.out_of_budget)
+    text += "; the search ended before all was tried, at its budget of " + microseconds(choice.budget) +
+            " of counted work: this is the best so far";
+  for (const std::string& remark : choice.remarks) text += "; " + remark;
+  if (!choice.holds_until) return text;
+  text += "; that holds until t = " + format_significant(*choice.holds_until, 4) + " s: " + choice.why_until;
+  if (choice.attainable && *choice.attainable > accuracy.value && *choice.attainable < kWorthSaying * accuracy.value)
+    text += "; to the end something can be promised from " + format_significant(*choice.attainable, 2) + unit + " on";
+  return text;
+}
+
+void say_notices(const PreparedScene& prepared, bool quiet) {
+  if (quiet) return;
+  for (const std::string& notice : prepared.scene.notices)
+    std::fprintf(stderr, "%s: %s\n", prepared.scene.name.c_str(), notice.c_str());
+}
+
+void say_choice(const PreparedScene& prepared, bool quiet) {
+  say_notices(prepared, quiet);
+  if (quiet || !prepared.choice) return;
+  std::fprintf(stderr, "%s: %s\n", prepared.scene.name.c_str(),
+               choice_text(*prepared.choice, prepared.scene.accuracy).c_str());
+}
+
+Json choice_report(const Choice& choice, const Accuracy& accuracy, bool tried) {
+  Json json = candidate_report(choice.best);
+  json["accuracy"] = to_string(accuracy);
+  json["is_met"] = choice.is_met;
+  json["holds_until"] = choice.holds_until ? Json(*choice.holds_until) : Json(nullptr);
+  if (choice.holds_until) json["why_until"] = choice.why_until;
+  if (choice.counted_until) json["counted_until"] = *choice.counted_until;
+  if (choice.cost_to_end) json["cost_to_end_ns"] = *choice.cost_to_end;
+  json["remarks"] = choice.remarks;
+  json["reference"] = choice.reference;
+  json["reference_uncertainty"] = choice.reference_uncertainty;
+  if (choice.attainable) json["attainable"] = *choice.attainable;
+  json["out_of_budget"] = choice.out_of_budget;
+  json["spent"] = choice.spent / choice.budget;
+  if (tried)
+    for (const Choice::Candidate& one : choice.tried) json["tried"].push_back(candidate_report(one));
+  return json;
+}
+
+}  // namespace chainreel

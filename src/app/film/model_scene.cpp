@@ -1,0 +1,62 @@
+#include "app/film/model_scene.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "draw/view.hpp"
+#include "scene/prepare.hpp"
+#include "scene/read_scene.hpp"
+
+namespace chainreel {
+namespace {
+
+bool is_honoured(const std::string& key, const std::vector<std::string>& honoured) {
+  return std::any_of(honoured.begin(), honoured.end(), [&](const std::string& known) {
+    return key == known || key.starts_with(known + ".");
+  });
+}
+
+}  // namespace
+
+const std::vector<std::string>& mechanism_keys() {
+  static const std::vector<std::string> keys{"gravity", "base", "friction", "massless", "packages"};
+  return keys;
+}
+
+const std::vector<std::string>& picture_keys() {
+  static const std::vector<std::string> keys{"gravity",    "base",   "friction", "massless", "packages",    "end_effector", "theme",
+                                             "text_scale", "camera", "links",    "mesh_up",  "video.width", "video.height"};
+  return keys;
+}
+
+ModelScene model_scene_of(const std::string& model, const std::vector<std::string>& overrides,
+                          const std::string& command, const std::vector<std::string>& honoured) {
+  ModelScene read{read_model_scene(model, overrides), {}};
+  std::vector<Problem> problems;
+  for (const std::string& text : overrides) {
+    if (is_honoured(text.substr(0, text.find('=')), honoured)) continue;
+    problems.push_back({"--set " + text + ": means nothing to `" + command + "` of the model " + model +
+                            "; of a scene's keys it takes " + joined(honoured) +
+                            ": write a scene with `model: ...` for the others",
+                        {}});
+  }
+  if (!problems.empty()) throw Error(ExitCode::usage, std::move(problems));
+  read.options = model_options_of(read.scene);
+  read.options.end_effector = read.scene.end_effector;
+  return read;
+}
+
+void set_look(PoseFigureOptions& figure, const ModelScene& model, const Chain& chain) {
+  const Scene& scene = model.scene;
+  figure.width = scene.video.width;
+  figure.height = scene.video.height;
+  figure.text_scale = scene.text_scale;
+  figure.theme = &theme_named(scene.theme);
+  figure.camera = scene.camera;
+  MeshShelf shelf;
+  const BodyLook look{scene.links, scene.mesh_up, is_oblique(chain, scene.camera), scene.place_of("links")};
+  figure.shapes = shapes_for(look, scene.model, chain, model.options, shelf);
+}
+
+}  // namespace chainreel

@@ -1,0 +1,42 @@
+// One film to all of its files: each frame is drawn and rasterised once and given to every sink.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/film/clip_memory.hpp"
+#include "app/film/pipeline.hpp"
+#include "app/film/target.hpp"
+
+namespace chainreel {
+
+struct RenderJob {
+  std::vector<Target> targets;
+  double at = 0;  // s, instant of the motion that stills show: the frame that stands there
+  bool overwrite = false;
+  bool quiet = false;
+};
+
+struct RenderResult {
+  std::vector<std::string> files;     // of the targets, in their order
+  std::vector<std::string> sidecars;  // NAME.json, NAME.txt, and maybe NAME.srt and NAME.tex
+  int frames = 0;                     // with those that are held
+  double film_seconds = 0;
+  FilmClock clock;
+  StageSeconds seconds;
+  Json audit;
+};
+
+// Nothing is begun before all files can be written; nothing bears its name before all are whole. A run that
+// failed leaves films and tables as far as they came under a .partial name, and throws.
+RenderResult render_film(const PreparedFilm& film, const RenderJob& job);
+
+// Of that many instants as were asked for, those that a film shows: it ends with the last of its runs.
+int frames_shown(const PreparedFilm& film, const std::vector<Trajectory>& runs, int frames);
+
+// What a film remembers: the effective scene, and the audit without what differs from one rendering to the
+// next.
+ClipMemory memory_of(const PreparedFilm& film, const Json& audit);
+
+}  // namespace chainreel

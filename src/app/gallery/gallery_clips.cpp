@@ -1,0 +1,173 @@
+#include "app/gallery/gallery_clips.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <set>
+
+#include "app/film/clip_memory.hpp"
+#include "app/signals.hpp"
+#include "core/error.hpp"
+#include "core/input_file.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kPosterWidth = 960;  // pixels
+
+struct ChartKind {
+  const char* ending;
+  const char* title;
+};
+constexpr std::array<ChartKind, 3> kChartKinds = {{{"_chart.png", "Speed against accuracy"},
+                                                   {"_energy.png", "Energy error over a long time"},
+                                                   {"_stability.png", "Where the step is too long"}}};
+
+bool is_film(const fs::path& path) {
+  return path.extension() == ".mp4" || path.extension() == ".webm";
+}
+
+// What a run that failed left behind, or what one still writes (NAME.PID.tmp.mp4), is no film to show, unless it is
+// asked for.
+bool is_partial(const fs::path& path) {
+  const fs::path mark = path.stem().extension();
+  return mark == ".partial" || mark == ".tmp";
+}
+
+void add_films_in(const fs::path& folder, std::vector<std::string>& found) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const fs::path& path = entry.path();
+    if (std::error_code code; !entry.is_regular_file(code) || !is_film(path) || is_partial(path)) continue;
+    std::error_code code;
+    if (path.extension() == ".webm" && fs::exists(fs::path(path).replace_extension(".mp4"), code)) continue;
+    found.push_back(path.string());
+  }
+}
+
+// Of a file beside a film: "" where there is none, or none that can be read.
+std::string read_text(const fs::path& path) {
+  constexpr std::uintmax_t kLargestText = std::uintmax_t(64) << 20;  // bytes
+  std::error_code code;
+  if (!fs::is_regular_file(path, code) || fs::file_size(path, code) > kLargestText) return "";
+  note_input(path.string());
+  return read_plain_file(path.string(), kLargestText);
+}
+
+// The first paragraph of NAME.txt.
+std::string words_beside(const fs::path& film) {
+  const std::string text = read_text(fs::path(film).replace_extension(".txt"));
+  return text.substr(0, text.find('\n'));
+}
+
+Json audit_beside(const fs::path& film) {
+  Json audit = parse_json(read_text(fs::path(film).replace_extension(".json")));
+  return audit.is_object() ? audit : Json();
+}
+
+// Title, words, scene and audit: of the film itself, else of the files beside it.
+void remember(GalleryClip& clip) {
+  ClipMemory memory;
+  try {
+    memory = recall(clip.path);
+  } catch (const Error& error) {
+    clip.why_no_scene = "it was not made by `chainreel render`, or what it said was taken out since";
+  }
+  clip.scene = memory.scene;
+  clip.audit = memory.audit.is_object() && !memory.audit.empty() ? memory.audit : audit_beside(clip.path);
+  // The audit's title says what the scene's leaves open: when it falls.
+  if (clip.audit.is_object() && clip.audit.value("title", Json()).is_string())
+    memory.title = clip.audit["title"];
+  clip.title = memory.title.empty() ? clip.name : memory.title;
+  clip.words = words_beside(clip.path);
+  if (clip.words.empty()) clip.words = memory.description;
+  if (clip.words.empty()) clip.words = "A film of which nothing is told.";
+  // The title stands above the words already.
+  const std::string prefix = clip.title + ": ";
+  if (clip.words.size() > prefix.size() && clip.words.starts_with(prefix)) clip.words.erase(0, prefix.size());
+  clip.words[0] = char(std::toupper(static_cast<unsigned char>(clip.words[0])));
+}
+
+// Of a chart's file name, the part that names its film; the kind by its ending.
+const ChartKind* kind_of(const std::string& name) {
+  for (const ChartKind& kind : kChartKinds)
+    if (name.ends_with(kind.ending)) return &kind;
+  return nullptr;
+}
+
+// A chart belongs to the film whose name it begins with, the longest of them: rr_free_long_chart.png to
+// rr_free_long rather than to rr_free.
+void add_charts(std::vector<GalleryClip>& clips) {
+  std::set<fs::path> folders;
+  for (const GalleryClip& clip : clips) folders.insert(fs::path(clip.path).parent_path());
+  for (const fs::path& folder : folders) {
+    std::set<fs::path> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder))
+      if (std::error_code code; kind_of(entry.path().filename().string()) && entry.is_regular_file(code))
+        files.insert(entry.path());
+    for (const fs::path& file : files) {
+      const std::string name = file.filename().string();
+      GalleryClip* owner = nullptr;
+      for (GalleryClip& clip : clips)
+        if (fs::path(clip.path).parent_path() == folder && name.starts_with(clip.name + "_") &&
+            (!owner || clip.name.size() > owner->name.size()))
+          owner = &clip;
+      if (owner) owner->charts.push_back({file.string(), kind_of(name)->title});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> find_clips(const std::vector<std::string>& paths) {
+  std::vector<std::string> found;
+  ProblemList problems;
+  for (const std::string& path : paths) {
+    std::error_code code;
+    if (fs::is_directory(path, code))
+      add_films_in(path, found);
+    else if (!fs::is_regular_file(path, code))
+      problems.add("there is no such file or folder", {path});
+    else if (!is_film(path))
+      problems.add("is no film for browsers: a gallery takes .mp4 and .webm", {path});
+    else
+      found.push_back(path);
+  }
+  problems.throw_if_any();
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  if (!found.empty()) return found;
+  std::string places;
+  for (const std::string& path : paths) places += (places.empty() ? "" : ", ") + path;
+  throw Error(ExitCode::bad_input, "there is no film (.mp4, .webm) here: render some first", {places});
+}
+
+std::vector<GalleryClip> read_clips(const std::vector<std::string>& paths) {
+  std::vector<GalleryClip> clips;
+  std::vector<Problem> problems;
+  for (const std::string& path : paths) {
+    throw_if_interrupted();
+    GalleryClip clip;
+    clip.path = path;
+    clip.name = fs::path(path).stem().string();
+    clip.type = fs::path(path).extension() == ".webm" ? "video/webm" : "video/mp4";
+    note_input(path);
+    try {
+      clip.start = read_film_start(path, kPosterWidth);
+      remember(clip);
+      clips.push_back(std::move(clip));
+    } catch (const Error& error) {
+      for (Problem problem : error.problems()) {
+        problem.message += "; render it again or move it away";
+        problems.push_back(std::move(problem));
+      }
+    }
+  }
+  if (!problems.empty()) throw Error(ExitCode::bad_input, std::move(problems));
+  add_charts(clips);
+  return clips;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,72 @@
+// chainreel gallery [FOLDER|FILM...] -o PAGE.html
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/gallery/gallery_page.hpp"
+#include "app/signals.hpp"
+#include "core/error.hpp"
+#include "core/output_file.hpp"
+
+namespace chainreel {
+namespace {
+
+struct GalleryOptions {
+  std::vector<std::string> paths{"out"};
+  std::string output = "out/index.html";
+  std::string title = "Films of robot chains";
+  bool json = false, quiet = false, force = false;
+};
+
+// Films lie in the page as data: URLs, whose length browsers limit, each in its own way.
+constexpr double kLongFilm = 20e6;  // bytes
+
+void tell_of_long_films(const std::vector<GalleryClip>& clips) {
+  for (const GalleryClip& clip : clips) {
+    const double bytes = double(std::filesystem::file_size(clip.path));
+    if (bytes <= kLongFilm) continue;
+    std::fprintf(stderr,
+                 "%s: has %.0f MB; some browsers do not play so long a film out of a page: render it with a "
+                 "smaller video.width or a higher video.crf\n",
+                 clip.path.c_str(), bytes / 1e6);
+  }
+}
+
+void run_gallery(const GalleryOptions& options) {
+  if (!options.output.ends_with(".html"))
+    throw Error(ExitCode::usage, "-o " + options.output + ": a gallery is written as .html");
+  const std::vector<GalleryClip> clips = read_clips(find_clips(options.paths));
+  OutputFile output(options.output, options.force);
+  std::ofstream stream(output.temporary_path(), std::ios::binary);
+  write_gallery(stream, clips, options.title);
+  stream.close();
+  if (!stream) throw Error(ExitCode::file, "could not be written whole: is the disk full?", {output.path()});
+  throw_if_interrupted();
+  output.commit();
+  if (!options.quiet) tell_of_long_films(clips);
+  if (options.json)
+    std::puts(Json{{"file", options.output}, {"films", clips.size()}}.dump(2).c_str());
+  else if (!options.quiet)
+    std::printf("%s\n", options.output.c_str());
+}
+
+}  // namespace
+
+void add_gallery_command(CommandLine& app) {
+  auto options = std::make_shared<GalleryOptions>();
+  Command* command = app.add_subcommand(
+      "gallery", "one page for browsers with films, their audits, charts and scenes, without a server");
+  command->add_option("paths", options->paths, "folders with films, or films: .mp4, .webm (default out)");
+  command->add_option("-o,--output", options->output, "a .html file (default out/index.html)");
+  command->add_option("--title", options->title, "of the page");
+  command->add_flag("--json", options->json, "print the result as JSON on standard output");
+  command->add_flag("--quiet", options->quiet, "no closing words");
+  command->add_flag("--force", options->force, "overwrite files outside a folder named out");
+  command->footer("Example: chainreel gallery out -o out/index.html");
+  command->callback([options] { run_gallery(*options); });
+}
+
+}  // namespace chainreel

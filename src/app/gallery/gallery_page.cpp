@@ -1,0 +1,229 @@
+#include "app/gallery/gallery_page.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+
+#include "app/gallery/page_template.hpp"
+#include "app/report/version.hpp"
+#include "app/signals.hpp"
+#include "core/base64.hpp"
+#include "core/format.hpp"
+#include "encode/png.hpp"
+
+namespace chainreel {
+namespace {
+
+Filler file_in_base64(const std::string& path) {
+  return [path](std::ostream& stream) { write_base64_of_file(stream, path); };
+}
+
+std::string table_rows(const std::vector<AuditRow>& rows) {
+  std::string html;
+  for (const AuditRow& row : rows) {
+    const bool head = row.name.empty();  // titles of the runs
+    html += head ? "<thead><tr><td></td>" : "<tr><th scope=\"row\">" + escape_html(row.name) + "</th>";
+    for (const std::string& value : row.values)
+      html += (head ? "<th scope=\"col\">" : "<td>") + escape_html(value) + (head ? "</th>" : "</td>");
+    html += head ? "</tr></thead>\n<tbody>\n" : "</tr>\n";
+  }
+  return html;
+}
+
+Filler audit_of(const Json& audit) {
+  if (!audit.is_object()) return markup("");
+  return markup(filled_page(embedded_page("audit.html"), {{"rows", markup(table_rows(audit_rows(audit)))},
+                                                          {"json", plain(audit.dump(2))}}));
+}
+
+// The pictures are read when it is their turn.
+Filler charts_of(const std::vector<GalleryChart>& charts) {
+  if (charts.empty()) return markup("");
+  return [&charts](std::ostream& stream) {
+    const Filler figures = [&charts](std::ostream& out) {
+      for (const GalleryChart& chart : charts)
+        fill_page(out, embedded_page("chart.html"),
+                  {{"title", plain(chart.title)},
+                   {"file", plain(std::filesystem::path(chart.path).filename().string())},
+                   {"picture", file_in_base64(chart.path)}});
+    };
+    const std::string count = charts.size() == 1 ? "Chart" : std::to_string(charts.size()) + " charts";
+    fill_page(stream, embedded_page("charts.html"), {{"summary", plain(count)}, {"figures", figures}});
+  };
+}
+
+Filler scene_of(const GalleryClip& clip, const std::string& id) {
+  if (clip.scene.empty())
+    return markup(filled_page(embedded_page("no_scene.html"), {{"reason", plain(clip.why_no_scene)}}));
+  return markup(
+      filled_page(embedded_page("scene.html"),
+                  {{"id", plain(id)}, {"file", plain(clip.name + ".yaml")}, {"text", plain(clip.scene)}}));
+}
+
+void write_card(std::ostream& stream, const GalleryClip& clip, const std::string& id) {
+  fill_page(stream, embedded_page("card.html"),
+            {{"id", plain(id)},
+             {"file", plain(std::filesystem::path(clip.path).filename().string())},
+             {"type", plain(clip.type)},
+             {"width", plain(std::to_string(clip.start.width))},
+             {"height", plain(std::to_string(clip.start.height))},
+             {"poster", markup(base64(png_bytes(clip.start.frame)))},
+             {"film", file_in_base64(clip.path)},
+             {"title", plain(clip.title)},
+             {"words", plain(clip.words)},
+             {"facts", plain(audit_facts(clip.audit, clip.start.seconds))},
+             {"audit", audit_of(clip.audit)},
+             {"charts", charts_of(clip.charts)},
+             {"scene", scene_of(clip, id)}});
+}
+
+}  // namespace
+
+void write_gallery(std::ostream& stream, const std::vector<GalleryClip>& clips, const std::string& title) {
+  double seconds = 0;
+  for (const GalleryClip& clip : clips) seconds += clip.start.seconds;
+  const std::string summary = (clips.size() == 1 ? "One film" : std::to_string(clips.size()) + " films") +
+                              ", " + format_fixed(seconds, 1) + " s together.";
+  const Filler cards = [&clips](std::ostream& out) {
+    for (std::size_t i = 0; i < clips.size(); ++i) {
+      throw_if_interrupted();
+      write_card(out, clips[i], "clip-" + std::to_string(i + 1));
+    }
+  };
+  fill_page(stream, embedded_page("gallery.html"),
+            {{"title", plain(title)},
+             {"generator", plain(std::string("chainreel ") + program_version())},
+             {"summary", plain(summary)},
+             {"style", markup(std::string(embedded_page("gallery.css")))},
+             {"script", markup(std::string(embedded_page("gallery.js")))},
+             {"cards", cards}});
+}
+
+namespace {
+
+constexpr int kErrorDigits = 2;
+
+std::string number_text(const Json& run, const char* key, int digits, const char* unit) {
+  if (!run.contains(key) || !run[key].is_number()) return "";
+  return format_significant(run[key].get<double>(), digits) + unit;
+}
+
+std::string word(const Json& run, const char* key) {
+  return run.contains(key) && run[key].is_string() ? run[key].get<std::string>() : "";
+}
+
+// Digit by digit, as whole numbers are.
+std::string count_text(const Json& run, const char* key) {
+  return run.contains(key) && run[key].is_number_integer() ? std::to_string(run[key].get<long>()) : "";
+}
+
+std::string energy_error(const Json& run) {
+  const std::string error = number_text(run, "audit_error", kErrorDigits, " J");
+  if (error.empty()) return "";
+  const std::string scale = number_text(run, "largest_kinetic_energy", 3, " J");
+  return scale.empty() ? error : error + " (kinetic energy up to " + scale + ")";
+}
+
+std::string method_words(const Json& run) {
+  std::string text = word(run, "method");
+  if (text.empty()) return "";
+  const std::string order = count_text(run, "order"), tolerance = number_text(run, "tolerance", 3, "");
+  const std::string step = number_text(run, "step", 6, " s");
+  if (!order.empty()) text += ", order " + order;
+  if (!tolerance.empty()) text += ", tolerance " + tolerance;
+  if (!step.empty()) text += ", step " + step;
+  return run.contains("auto") ? text + " (chosen automatically)" : text;
+}
+
+std::string status_words(const Json& run) {
+  std::string text = word(run, "status");
+  if (const std::string trouble = word(run, "trouble"); !trouble.empty()) text += ": " + trouble;
+  return text;
+}
+
+std::string event_words(const Json& run) {
+  if (!run.contains("events") || !run["events"].is_array()) return "";
+  std::string text;
+  for (const Json& event : run["events"]) {
+    const std::string at = number_text(event, "t", 6, " s");
+    if (!at.empty()) text += (text.empty() ? "" : "; ") + word(event, "name") + " at t = " + at;
+  }
+  return text;
+}
+
+std::string constraint_words(const Json& run) {
+  if (!run.contains("constraint_error") || !run["constraint_error"].is_object()) return "";
+  return number_text(run["constraint_error"], "position_error", kErrorDigits, " m");
+}
+
+struct Row {
+  const char* name;
+  std::function<std::string(const Json&)> value;
+};
+
+const std::vector<Row>& rows() {
+  static const std::vector<Row> all{
+      {"Energy error", &energy_error},
+      {"Method", &method_words},
+      {"Steps", [](const Json& run) { return count_text(run, "steps"); }},
+      {"Evaluations", [](const Json& run) { return count_text(run, "evaluations"); }},
+      {"Ended", &status_words},
+      {"Duration", [](const Json& run) { return number_text(run, "duration", 6, " s"); }},
+      {"Events", &event_words},
+      {"Distance from constraints", &constraint_words},
+      {"Frames", [](const Json& run) { return count_text(run, "frames"); }},
+      {"Model", [](const Json& run) { return word(run, "model"); }},
+      {"Trajectory SHA-256", [](const Json& run) { return word(run, "trajectory_sha256"); }},
+  };
+  return all;
+}
+
+// Each with what all of them share.
+std::vector<Json> runs_of(const Json& audit) {
+  if (!audit.contains("panels") || !audit["panels"].is_array()) return {audit};
+  std::vector<Json> runs;
+  for (const Json& panel : audit["panels"]) {
+    runs.push_back(audit);
+    runs.back().erase("panels");
+    if (panel.is_object()) runs.back().update(panel);
+  }
+  return runs;
+}
+
+}  // namespace
+
+std::vector<AuditRow> audit_rows(const Json& audit) {
+  const std::vector<Json> runs = runs_of(audit);
+  std::vector<AuditRow> table;
+  if (runs.size() > 1) {
+    table.push_back({"", {}});
+    for (const Json& run : runs) table.back().values.push_back(word(run, "title"));
+  }
+  for (const Row& row : rows()) {
+    AuditRow filled{row.name, {}};
+    for (const Json& run : runs) filled.values.push_back(row.value(run));
+    if (std::any_of(filled.values.begin(), filled.values.end(),
+                    [](const std::string& v) { return !v.empty(); }))
+      table.push_back(std::move(filled));
+  }
+  return table;
+}
+
+std::string audit_facts(const Json& audit, double film_seconds) {
+  std::vector<std::string> facts;
+  const std::vector<Json> runs = runs_of(audit.is_object() ? audit : Json::object());
+  if (runs.size() > 1) facts.push_back(std::to_string(runs.size()) + " panels");
+  if (runs.size() == 1) facts.push_back(word(runs.front(), "method"));
+  facts.push_back(format_fixed(film_seconds, 2) + " s");
+  const std::string frames = runs.empty() ? "" : count_text(runs.front(), "frames");
+  if (!frames.empty()) facts.push_back(frames + " frames");
+  const std::string error =
+      runs.size() == 1 ? number_text(runs.front(), "audit_error", kErrorDigits, " J") : "";
+  if (!error.empty()) facts.push_back("energy error " + error);
+  std::string text;
+  for (const std::string& fact : facts)
+    if (!fact.empty()) text += (text.empty() ? "" : " \u00B7 ") + fact;
+  return text;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,167 @@
+#include "app/report/alt_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "app/report/report.hpp"
+#include "core/format.hpp"
+#include "draw/speed_box.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kCaptionSeconds = 2;  // at most; the next event ends it
+
+struct Moment {
+  double t = 0;  // of the run, or of the film, s
+  std::string text;
+};
+
+std::string vector_text(const std::vector<double>& values) {
+  std::string text = "(";
+  for (std::size_t i = 0; i < values.size(); ++i)
+    text += (i > 0 ? ", " : "") + format_significant(values[i], 4);
+  return text + ")";
+}
+
+std::string torque_words(const Scene& scene) {
+  if (scene.control) return "a control of all joints";
+  std::string text;
+  bool acts = false;
+  for (const TorqueEntry& entry : scene.torque) {
+    text += (text.empty() ? "" : ", ") + (entry.control ? "a control" : entry.text);
+    acts = acts || entry.control || entry.text != "0";
+  }
+  return acts ? "torques (" + text + ")" : "no torques";
+}
+
+// `seconds`: how long the motion went on.
+std::string motion_words(const PreparedScene& panel, double seconds) {
+  const Scene& scene = panel.scene;
+  const Chain& chain = panel.simulation.chain;
+  const bool starts_at_rest =
+      std::all_of(scene.start.qd.begin(), scene.start.qd.end(), [](double qd) { return qd == 0; });
+  return "the chain " + chain.name + " with " + std::to_string(chain.nv) +
+         (chain.nv == 1 ? " freedom" : " freedoms") + " moves for " + format_significant(seconds, 4) + " s" +
+         " under " +
+         (chain.gravity.norm() > 0
+              ? "gravity of " + format_significant(chain.gravity.norm(), 4) + " m/s^2 and "
+              : "no gravity and ") +
+         torque_words(scene) + ", starting " + (starts_at_rest ? "at rest" : "in motion") +
+         " from q = " + vector_text(scene.start.q);
+}
+
+void add_moments(std::vector<Moment>& moments, const Json& run, const std::string& panel) {
+  const std::string where = panel.empty() ? "" : panel + ": ";
+  if (run.contains("events"))
+    for (const Json& event : run["events"])
+      moments.push_back({event["t"].get<double>(), where + event["name"].get<std::string>()});
+}
+
+void add_troubles(std::vector<Moment>& moments, const Json& run, const std::string& panel) {
+  const std::string where = panel.empty() ? "" : panel + ": ";
+  if (run.contains("limits_passed"))
+    for (const Json& limit : run["limits_passed"])
+      moments.push_back({limit["t"].get<double>(), where + "joint " + limit["joint"].get<std::string>() +
+                                                       " passes its limit of " +
+                                                       limit["quantity"].get<std::string>()});
+  if (run.contains("left_picture_at"))
+    moments.push_back({run["left_picture_at"].get<double>(), where + "the chain leaves the picture"});
+}
+
+using AddMoments = void (*)(std::vector<Moment>&, const Json&, const std::string&);
+
+void visit_runs(const Json& audit, std::vector<Moment>& moments, AddMoments add) {
+  if (!audit.contains("panels")) return add(moments, audit, "");
+  for (const Json& panel : audit["panels"]) add(moments, panel, panel["title"].get<std::string>());
+}
+
+void sort_by_time(std::vector<Moment>& moments) {
+  std::stable_sort(moments.begin(), moments.end(),
+                   [](const Moment& a, const Moment& b) { return a.t < b.t; });
+}
+
+std::string srt_time(double t) {
+  const long ms = std::lround(1000 * t);
+  char text[32];
+  std::snprintf(text, sizeof text, "%02ld:%02ld:%02ld,%03ld", ms / 3600000, ms / 60000 % 60, ms / 1000 % 60,
+                ms % 1000);
+  return text;
+}
+
+// "; not at its own speed: t = 1 s to 1.5 s at 0.25x"
+std::string speed_words(const Json& audit) {
+  std::string text;
+  if (audit.contains("slow_motion"))
+    for (const Json& one : audit["slow_motion"])
+      text += (text.empty() ? "; not at its own speed: t = " : ", t = ") +
+              format_significant(one["from"].get<double>(), 6) + " s to " +
+              format_significant(one["until"].get<double>(), 6) + " s at " + speed_text(one["speed"].get<double>());
+  return text;
+}
+
+}  // namespace
+
+std::string sentence_of(const PreparedFilm& film, const Json& audit) {
+  // The audit's title says what the scene's leaves open: when it falls.
+  std::string text = audit.value("title", film.scene.title);
+  if (text.empty()) text = film.scene.name;
+  const double seconds = audit.value("end_time", film.scene.duration);
+  const std::string motion = motion_words(film.panels.front(), seconds);
+  if (film.panels.size() == 1) return text + ": " + motion + ".";
+  const bool ghost = is_ghost_layout(film.scene);
+  text += ": " + std::to_string(film.panels.size()) +
+          (ghost ? " variants in one place (filled: " : " panels at one scale (");
+  for (std::size_t i = 0; i < film.panels.size(); ++i)
+    text += std::string(i == 0 ? "" : ghost && i == 1 ? "; in outline: " : "; ") + film.panels[i].scene.title;
+  return text + "); in the first, " + motion + ".";
+}
+
+std::string alt_text(const PreparedFilm& film, const Json& audit) {
+  const Scene& scene = film.scene;
+  std::string text = sentence_of(film, audit) + "\n\nScene: " + scene.name +
+                     "\nDuration: " + format_significant(audit["film_seconds"].get<double>(), 6) + " s, " +
+                     std::to_string(audit["frames"].get<int>()) + " frames";
+  const double first = scene.hold.first, last = scene.hold.last;
+  if (first > 0) text += "; the first is held for " + format_quantity(first, "s");
+  if (last > 0) text += "; the last is held for " + format_quantity(last, "s");
+  text += speed_words(audit) + "\nUnits: m, kg, s, N, N m, J, rad; times are those of the motion\n";
+  std::vector<Moment> moments;
+  visit_runs(audit, moments, &add_moments);
+  visit_runs(audit, moments, &add_troubles);
+  sort_by_time(moments);
+  text += moments.empty() ? "What happens: nothing is marked; the motion goes on to its end.\n"
+                          : "What happens:\n";
+  for (const Moment& moment : moments)
+    text += "  t = " + format_fixed(moment.t, 3) + " s: " + moment.text + "\n";
+  return text;
+}
+
+std::string captions(const PreparedFilm& film, const FilmClock& clock, const Json& audit) {
+  std::vector<Moment> moments;
+  visit_runs(audit, moments, &add_moments);
+  sort_by_time(moments);
+  const double start = held_first(film.scene), film_end = audit["film_seconds"].get<double>();
+  // An event behind the last frame's instant is told while that frame stands.
+  const double latest = film_end - frame_time(1, film.scene.video.fps);
+  for (Moment& moment : moments) moment.t = std::min(start + clock.film_time(moment.t), latest);
+  std::string text;
+  int number = 0;
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    // Events of one instant share a caption.
+    if (i > 0 && moments[i].t == moments[i - 1].t) continue;
+    std::string words;
+    std::size_t next = i;
+    for (; next < moments.size() && moments[next].t == moments[i].t; ++next)
+      words += moments[next].text + "\n";
+    double end = std::min(moments[i].t + kCaptionSeconds, film_end);
+    if (next < moments.size()) end = std::min(end, moments[next].t);
+    text += std::to_string(++number) + "\n" + srt_time(moments[i].t) + " --> " + srt_time(end) + "\n" + words +
+            "\n";
+  }
+  return text;
+}
+
+}  // namespace chainreel

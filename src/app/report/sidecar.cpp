@@ -1,0 +1,69 @@
+#include "app/report/sidecar.hpp"
+
+#include <filesystem>
+
+#include "app/film/clip_memory.hpp"
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "core/input_file.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kLargestText = std::uintmax_t(64) << 20;  // bytes
+
+// Null unless it is an audit of ours.
+Json audit_at(const fs::path& path) {
+  std::error_code code;
+  if (!fs::is_regular_file(path, code)) return nullptr;
+  const Json json = parse_json(read_plain_file(path.string(), kLargestText));
+  if (!json.is_object() || !json.contains("film_seconds") || !json.contains("versions")) return nullptr;
+  return json;
+}
+
+// Texts bear no mark that a reader would not see; older audits do not tell of them.
+bool is_known_text(const fs::path& path, const char* words_of_older_versions) {
+  const Json audit = audit_at(fs::path(path).replace_extension(".json"));
+  if (audit.is_null()) return false;
+  const std::string text = read_plain_file(path.string(), kLargestText);
+  const Json hashes = audit.value(kSidecarHashes, Json());
+  if (!hashes.is_object()) return text.find(words_of_older_versions) != std::string::npos;
+  return hashes.value(path.extension().string(), Json()) == Json(sha256_of(text));
+}
+
+bool is_own(const fs::path& path) {
+  const std::string ending = path.extension().string();
+  if (ending == ".json") return !audit_at(path).is_null();
+  if (ending == ".txt") return is_known_text(path, "times are those of the motion");
+  if (ending == ".srt") return is_known_text(path, " --> ");
+  if (ending == ".tex" || ending == ".csv") {
+    const std::string text = read_plain_file(path.string(), kLargestText).substr(0, 4096);
+    return ending == ".tex" ? text.starts_with("% \\usepackage{animate}")
+                            : text.starts_with("# ") && text.find("\n# revision: ") != std::string::npos;
+  }
+  const ClipMemory memory = recall(path.string());
+  return !memory.scene.empty() || !memory.figure.is_null();
+}
+
+}  // namespace
+
+bool is_own_sidecar(const std::string& path) {
+  try {
+    return is_own(path);
+  } catch (const Error&) {
+    return false;  // what cannot be read as ours
+  }
+}
+
+void require_own_sidecar(const std::string& path, bool overwrite) {
+  std::error_code code;
+  if (overwrite || !fs::exists(path, code) || is_own_sidecar(path)) return;
+  throw Error(ExitCode::file,
+              "lies where a file of this output belongs, and this program did not write it, or it has been changed "
+              "since: move it away, give another name with -o, or give --force to overwrite it",
+              {path});
+}
+
+}  // namespace chainreel

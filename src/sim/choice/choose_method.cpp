@@ -1,0 +1,289 @@
+#include "sim/choice/choose_method.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "core/scalar.hpp"
+#include "sim/choice/choice_reference.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kStepLadder[] = {0.2,  0.1,  0.05, 0.02, 0.01, 5e-3, 2e-3,
+                                  1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5};
+constexpr double kToleranceLadder[] = {1e-2, 1e-3, 1e-4,  1e-5,  1e-6,  1e-7,
+                                       1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13};
+constexpr int kOrders[] = {12, 20};
+constexpr double kShareOfCandidate = 0.1;  // of the budget, where nothing is exact enough yet
+// Where a part of the run decides, what is cheapest there may be dear behind: candidates are looked at up to this many
+// times its cost, and then run to the end with equal bounds, from this share of the budget on.
+constexpr double kSpread = 10;
+constexpr double kFirstBound = 1e-3;
+constexpr double kNextBound = 4;  // times the one before
+
+bool takes_the_chain(Simulation& simulation, const Method& method) {
+  simulation.method = &method;
+  try {
+    check_method(simulation);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+// Frames show them; what is between two frames is asked for by slow motion, captions and tables.
+std::vector<double> with_halves(std::span<const double> frames, double end) {
+  std::vector<double> times;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    times.push_back(frames[k]);
+    const double next = k + 1 < frames.size() ? frames[k + 1] : end;
+    if (next > frames[k]) times.push_back(0.5 * (frames[k] + next));
+  }
+  if (times.empty() || times.back() < end) times.push_back(end);
+  return times;
+}
+
+class Chooser {
+ public:
+  Chooser(Simulation& simulation, const Accuracy& accuracy, std::span<const double> frames,
+          const ChoiceWatch& watch, double budget)
+      : simulation_(simulation),
+        accuracy_(accuracy),
+        duration_(simulation.duration),
+        times_(with_halves(frames, duration_)),
+        runs_(simulation, budget, watch) {
+    for (const Method& method : methods())
+      if (takes_the_chain(simulation_, method)) methods_.push_back(&method);
+    // Adaptive ones first: what they cost bounds the search of all others.
+    std::stable_partition(methods_.begin(), methods_.end(), [](const Method* m) { return m->adaptive; });
+  }
+
+  Choice choose() {
+    check_accuracy(simulation_.chain, accuracy_);
+    reference_ = find_reference(runs_, accuracy_, times_);
+    if (!runs_.is_stopped()) look_through_methods();
+    simulation_.duration = duration_;
+    if (!choice_.best.setting.method) choice_.best.setting = {&find_method("dop853"), {1e-12, 0}, 0};
+    apply(choice_.best.setting, simulation_);
+    tell_of_reference();
+    return std::move(choice_);
+  }
+
+ private:
+  void look_through_methods() {
+    choice_.best.setting = reference_.setting;
+    choice_.best.error = kInfinity;
+    if (reference_.samples < 2) return;  // the start alone tells nothing
+    deviation_.emplace(simulation_, accuracy_, reference_.size);
+    shorten();
+    for (const Method* method : methods_) {
+      if (has_ended()) break;
+      if (method->adaptive)
+        try_tolerances(*method);
+      else
+        try_steps(*method);
+    }
+    // What is held until there by the reference alone is held by it.
+    if (!choice_.is_met && !has_ended()) try_one(reference_.setting);
+    if (is_shortened()) confirm();
+  }
+
+  // Behind what is known of the motion candidates cannot be told apart: they are run until there, the best to the end.
+  void shorten() {
+    samples_ = times_;
+    if (reference_.is_whole) return;
+    samples_.resize(std::size_t(reference_.samples));
+    if (samples_.back() > 0) simulation_.duration = samples_.back();
+  }
+
+  bool is_shortened() const { return samples_.size() < times_.size(); }
+
+  bool has_ended() const { return runs_.is_stopped() || runs_.is_spent(); }
+
+  // The largest of the deviations known, with what the reference itself may be off.
+  double error_of(const Trajectory& trajectory) {
+    if (trajectory.size() < reference_.samples) return kInfinity;
+    double largest = 0;
+    for (int k = 0; k < reference_.samples; ++k)
+      largest = std::max(largest,
+                         deviation_->at(trajectory, reference_.run, k) + reference_.uncertainty[std::size_t(k)]);
+    return largest;
+  }
+
+  // It came to the end, or to that of the motion itself.
+  bool ran(const Trajectory& trajectory) const {
+    return reference_.is_whole ? trajectory.status == reference_.run.status : is_complete(trajectory.status);
+  }
+
+  Choice::Candidate candidate_of(const MethodSetting& setting, const Trajectory& trajectory) {
+    Choice::Candidate candidate{setting,
+                                error_of(trajectory),
+                                runs_.cost_of(setting, trajectory),
+                                trajectory.steps,
+                                trajectory.evaluations,
+                                {}};
+    if (trajectory.status == RunStatus::out_of_budget)
+      candidate.trouble = choice_.is_met ? "given up: dearer than the best" : "given up: out of the budget";
+    else if (!ran(trajectory))
+      candidate.trouble = trajectory.trouble.empty() ? "does not end where the motion does" : trajectory.trouble;
+    return candidate;
+  }
+
+  enum class Verdict {
+    met,
+    not_met,
+    too_dear,  // and so is all that is finer
+    stopped,
+  };
+
+  // What costs more than the best can be left.
+  double ceiling() const {
+    const double most = kShareOfCandidate * runs_.budget();
+    if (!choice_.is_met) return most;
+    return is_shortened() ? std::min(most, kSpread * choice_.best.cost) : choice_.best.cost;
+  }
+
+  Verdict try_one(const MethodSetting& setting) {
+    const Trajectory trajectory = runs_.run(setting, samples_, ceiling());
+    if (runs_.is_stopped()) return Verdict::stopped;
+    const Choice::Candidate candidate = candidate_of(setting, trajectory);
+    const bool met = candidate.trouble.empty() && candidate.error <= accuracy_.value;
+    const bool better = met ? !choice_.is_met || candidate.cost < choice_.best.cost
+                            : !choice_.is_met && candidate.error < choice_.best.error;
+    if (better) {
+      choice_.best = candidate;
+      choice_.is_met = met;
+    }
+    choice_.tried.push_back(candidate);
+    if (trajectory.status == RunStatus::out_of_budget) {
+      left_out_ = true;
+      return Verdict::too_dear;
+    }
+    return met ? Verdict::met : Verdict::not_met;
+  }
+
+  // Of the candidates that hold until there the one that comes to the end of the whole run for the least. All have the
+  // same bound, and a larger one from round to round, until one comes to the end.
+  void confirm() {
+    choice_.counted_until = samples_.back();
+    simulation_.duration = duration_;
+    std::vector<Choice::Candidate> racers;
+    for (const Choice::Candidate& one : choice_.tried)
+      if (one.trouble.empty() && one.error <= accuracy_.value) racers.push_back(one);
+    std::stable_sort(racers.begin(), racers.end(),
+                     [](const auto& one, const auto& other) { return one.cost < other.cost; });
+    if (racers.empty()) return;
+    double bound = std::max(kFirstBound * runs_.budget(), kSpread * racers.front().cost);
+    std::optional<Choice::Candidate> winner;
+    while (!racers.empty() && !winner && !has_ended()) {
+      std::vector<Choice::Candidate> others;
+      for (const Choice::Candidate& one : racers) {
+        if (has_ended()) break;
+        const Trajectory whole = runs_.run(one.setting, times_, winner ? winner->cost : bound);
+        const Choice::Candidate run = candidate_of(one.setting, whole);
+        if (whole.status == RunStatus::out_of_budget) {
+          others.push_back(one);
+          keep_furthest(one, run, whole.end_time);
+        } else if (run.trouble.empty() && run.error <= accuracy_.value) {
+          winner = run;
+        }
+      }
+      racers = std::move(others);
+      bound *= kNextBound;
+    }
+    if (winner) {
+      choice_.best = *winner;
+      choice_.counted_until.reset();
+      choice_.cost_to_end.reset();
+    }
+  }
+
+  // The best as long as none comes to the end: who would cost the least there at the rate so far.
+  void keep_furthest(const Choice::Candidate& candidate, const Choice::Candidate& run, double end_time) {
+    const double cost_to_end = run.cost * duration_ / end_time;
+    const bool longer = to_string(candidate.setting) == to_string(choice_.best.setting);
+    if (!(end_time > samples_.back()) || (choice_.cost_to_end && !longer && cost_to_end >= *choice_.cost_to_end)) return;
+    choice_.best = run;
+    choice_.best.error = candidate.error;
+    choice_.best.trouble.clear();
+    choice_.counted_until = end_time;
+    choice_.cost_to_end = cost_to_end;
+  }
+
+  bool is_hopeless(double cost) const { return choice_.is_met && cost >= ceiling(); }
+
+  void try_steps(const Method& method) {
+    for (const double step : kStepLadder) {
+      if (step > simulation_.duration) continue;
+      const MethodSetting setting{&method, {0, 0}, step};
+      const double steps = simulation_.duration / step;
+      const double cost = runs_.cost_of(setting, steps, steps * std::max(1, method.evaluations_per_step));
+      if (is_hopeless(cost)) return;
+      if (cost > kShareOfCandidate * runs_.budget()) {
+        left_out_ = true;
+        return;
+      }
+      if (has_ended() || try_one(setting) != Verdict::not_met) return;
+    }
+  }
+
+  void try_tolerances(const Method& method) {
+    if (method.highest_order == 0) return try_tolerances(method, 0);
+    for (const int order : kOrders) try_tolerances(method, order);
+  }
+
+  void try_tolerances(const Method& method, int order) {
+    for (const double tolerance : kToleranceLadder) {
+      if (has_ended() || try_one({&method, {tolerance, order}, 0}) != Verdict::not_met) return;
+      if (is_hopeless(choice_.tried.back().cost)) return;
+    }
+  }
+
+  void tell_of_reference() {
+    choice_.reference = reference_.how;
+    tell_what_is_not_judged();
+    choice_.attainable = reference_.attainable;
+    // What was left out is dearer than a best one that is exact enough.
+    choice_.out_of_budget = runs_.is_spent() || (left_out_ && !choice_.is_met);
+    choice_.budget = runs_.budget();
+    choice_.spent = runs_.budget() - runs_.left();
+    for (const double apart : reference_.uncertainty)
+      choice_.reference_uncertainty = std::max(choice_.reference_uncertainty, apart);
+    if (reference_.is_whole) return;
+    choice_.holds_until = reference_.samples > 0 ? times_[std::size_t(reference_.samples) - 1] : 0;
+    choice_.why_until = reference_.why_no_further;
+  }
+
+  void tell_what_is_not_judged() {
+    if (const auto& links = simulation_.outline.unmeasured; !links.empty())
+      choice_.remarks.push_back("in place of meshes that cannot be read, of " + quoted_list(links) +
+                                ", boxes of the same mass and inertia are judged");
+    if (accuracy_.unit == "rad") return;
+    if (const auto names = unseen_freedoms(simulation_, reference_.run); !names.empty())
+      choice_.remarks.push_back(quoted_list(names) + (names.size() == 1 ? " moves" : " move") +
+                                " nothing that can be seen, and no error of that is judged: `accuracy: 1e-3 rad` does");
+  }
+
+  Simulation& simulation_;
+  Accuracy accuracy_;
+  double duration_;            // s, of the whole run
+  std::vector<double> times_;  // frames and what is between them
+  std::vector<double> samples_;  // of candidates' runs
+  CountedRuns runs_;
+  std::vector<const Method*> methods_;
+  ChoiceReference reference_;
+  std::optional<Deviation> deviation_;
+  bool left_out_ = false;  // something, for its price
+  Choice choice_;
+};
+
+}  // namespace
+
+Choice choose_method(Simulation& simulation, const Accuracy& accuracy, std::span<const double> times,
+                     const ChoiceWatch& watch, double budget) {
+  return Chooser(simulation, accuracy, times, watch, budget).choose();
+}
+
+}  // namespace chainreel

@@ -1,0 +1,249 @@
+#include "sim/drive/control.hpp"
+
+#include <algorithm>
+
+#include "core/csv.hpp"
+#include "dynamics/friction.hpp"
+#include "dynamics/rnea.hpp"
+#include "sim/drive/torque.hpp"
+
+namespace chainreel {
+namespace {
+
+class CsvTorque final : public TorqueLaw {
+ public:
+  explicit CsvTorque(TimeTable table) : table_(std::move(table)) {}
+
+  void evaluate(const Chain&, Workspace&, double t, ConstVec, ConstVec, Vec tau) override {
+    const std::vector<double>& times = table_.t;
+    const auto above = std::upper_bound(times.begin(), times.end(), t);
+    const auto next = std::size_t(above - times.begin());
+    const std::size_t last = times.size() - 1;
+    for (std::size_t i = 0; i < tau.size(); ++i) {
+      const std::vector<double>& y = table_.groups[0][i];
+      if (next == 0 || next > last)
+        tau[i] = y[next == 0 ? 0 : last];
+      else
+        tau[i] =
+            y[next - 1] + (t - times[next - 1]) / (times[next] - times[next - 1]) * (y[next] - y[next - 1]);
+    }
+  }
+  std::vector<double> breaks(double) const override { return table_.t; }
+
+ private:
+  TimeTable table_;
+};
+
+// Laws that compare the state with a reference motion.
+class ReferenceLaw : public TorqueLaw {
+ public:
+  ReferenceLaw(std::unique_ptr<Reference> reference, int n)
+      : reference_(std::move(reference)), q_(std::size_t(n)), qd_(q_), qdd_(q_) {}
+
+  std::vector<double> breaks(double end) const override { return reference_->breaks(end); }
+  void enter_piece(double t) override { reference_->enter_piece(t); }
+  void leave_pieces() override { reference_->leave_pieces(); }
+
+ protected:
+  void move_to(double t) { reference_->evaluate(t, q_, qd_, qdd_); }
+
+  std::unique_ptr<Reference> reference_;
+  std::vector<double> q_, qd_, qdd_;  // the reference's
+};
+
+class InverseTorque final : public ReferenceLaw {
+ public:
+  InverseTorque(const Chain& chain, std::unique_ptr<Reference> reference)
+      : ReferenceLaw(std::move(reference), chain.nv) {}
+
+  void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec, ConstVec, Vec tau) override {
+    move_to(t);
+    compute_inverse_dynamics(chain, ws, q_, qd_, qdd_);
+    compute_friction(chain, ws, qd_);
+    for (std::size_t i = 0; i < tau.size(); ++i) tau[i] = ws.tau[i] + ws.tau_f[i];
+  }
+};
+
+class PdTorque final : public ReferenceLaw {
+ public:
+  PdTorque(std::unique_ptr<Reference> reference, std::vector<double> kp, std::vector<double> kd)
+      : ReferenceLaw(std::move(reference), int(kp.size())), kp_(std::move(kp)), kd_(std::move(kd)) {}
+
+  void evaluate(const Chain&, Workspace&, double t, ConstVec q, ConstVec qd, Vec tau) override {
+    move_to(t);
+    for (std::size_t i = 0; i < tau.size(); ++i) tau[i] = kp_[i] * (q_[i] - q[i]) + kd_[i] * (qd_[i] - qd[i]);
+  }
+
+ private:
+  std::vector<double> kp_, kd_;
+};
+
+class ComputedTorque final : public ReferenceLaw {
+ public:
+  ComputedTorque(const Chain& chain, std::unique_ptr<Reference> reference, std::vector<double> kp,
+                 std::vector<double> kd)
+      : ReferenceLaw(std::move(reference), chain.nv), kp_(std::move(kp)), kd_(std::move(kd)) {}
+
+  void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) override {
+    move_to(t);
+    for (std::size_t i = 0; i < tau.size(); ++i)
+      qdd_[i] += kp_[i] * (q_[i] - q[i]) + kd_[i] * (qd_[i] - qd[i]);
+    compute_inverse_dynamics(chain, ws, q, qd, qdd_);
+    compute_friction(chain, ws, qd);
+    for (std::size_t i = 0; i < tau.size(); ++i) tau[i] = ws.tau[i] + ws.tau_f[i];
+  }
+
+ private:
+  std::vector<double> kp_, kd_;
+};
+
+class GravityCompensation final : public TorqueLaw {
+ public:
+  void evaluate(const Chain& chain, Workspace& ws, double, ConstVec q, ConstVec, Vec tau) override {
+    compute_gravity_torque(chain, ws, q);
+    std::copy(ws.tau_g.begin(), ws.tau_g.end(), tau.begin());
+  }
+};
+
+class SumOfTorques final : public TorqueLaw {
+ public:
+  SumOfTorques(std::vector<std::unique_ptr<TorqueLaw>> parts, int n)
+      : parts_(std::move(parts)), part_(std::size_t(n)) {}
+
+  void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) override {
+    std::fill(tau.begin(), tau.end(), 0.0);
+    for (const auto& part : parts_) {
+      part->evaluate(chain, ws, t, q, qd, part_);
+      for (std::size_t i = 0; i < tau.size(); ++i) tau[i] += part_[i];
+    }
+  }
+  std::vector<double> breaks(double end) const override {
+    std::vector<double> all;
+    for (const auto& part : parts_) {
+      const std::vector<double> some = part->breaks(end);
+      all.insert(all.end(), some.begin(), some.end());
+    }
+    return all;
+  }
+  void enter_piece(double t) override {
+    for (const auto& part : parts_) part->enter_piece(t);
+  }
+  void leave_pieces() override {
+    for (const auto& part : parts_) part->leave_pieces();
+  }
+
+ private:
+  std::vector<std::unique_ptr<TorqueLaw>> parts_;
+  std::vector<double> part_;
+};
+
+// A law that ends with its table.
+class WithinTable final : public TorqueLaw {
+ public:
+  WithinTable(std::unique_ptr<TorqueLaw> law, double from, double until)
+      : law_(std::move(law)), from_(from), until_(until) {}
+
+  void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) override {
+    if (piece_.value_or(is_within(t))) return law_->evaluate(chain, ws, t, q, qd, tau);
+    std::fill(tau.begin(), tau.end(), 0.0);
+  }
+  std::vector<double> breaks(double end) const override {
+    std::vector<double> all = law_->breaks(end);
+    all.insert(all.end(), {from_, until_});
+    return all;
+  }
+  void enter_piece(double t) override {
+    piece_ = is_within(t);
+    law_->enter_piece(t);
+  }
+  void leave_pieces() override {
+    piece_.reset();
+    law_->leave_pieces();
+  }
+
+ private:
+  bool is_within(double t) const { return t >= from_ && t <= until_; }
+
+  std::unique_ptr<TorqueLaw> law_;
+  double from_, until_;        // s
+  std::optional<bool> piece_;  // whether the piece that a run is in lies within
+};
+
+// `law` is driven by the table at `path`; where there is none it acts always.
+std::unique_ptr<TorqueLaw> within(std::unique_ptr<TorqueLaw> law, const std::string& path,
+                                  const std::optional<Outside>& outside, int n) {
+  if (path.empty() || outside != Outside::zero) return law;
+  const std::vector<double> t = read_time_table(path, {}, n).t;
+  return std::make_unique<WithinTable>(std::move(law), t.front(), t.back());
+}
+
+// One number for all freedoms, or one a freedom.
+template <class T>
+std::vector<T> spread(const std::vector<T>& given, int n, const std::string& key, const Place& place) {
+  if (given.size() == 1) return std::vector<T>(std::size_t(n), given.front());
+  if (given.size() == std::size_t(n)) return given;
+  throw Error(ExitCode::bad_input,
+              "'" + key + "' has " + std::to_string(given.size()) +
+                  " entries: give one for all, or one for each of the " + std::to_string(n) + " freedoms",
+              place);
+}
+
+std::unique_ptr<Reference> reference_of(const Chain& chain, const Feedback& feedback,
+                                        const Parameters& parameters, const Place& place) {
+  if (!feedback.trajectory.empty()) return make_table_reference(feedback.trajectory, chain.nv);
+  const auto entries = [&](const std::vector<Entry>& given, const char* key) {
+    return given.empty() ? given : spread(given, chain.nv, key, place);
+  };
+  const std::vector<Entry> q =
+      feedback.q.empty() ? std::vector<Entry>(std::size_t(chain.nv)) : entries(feedback.q, "q");
+  return make_expression_reference(q, entries(feedback.qd, "qd"), entries(feedback.qdd, "qdd"), parameters);
+}
+
+}  // namespace
+
+std::string to_string(Outside outside) {
+  return outside == Outside::hold ? "hold" : outside == Outside::zero ? "zero" : "refuse";
+}
+
+Outside outside_of(const std::string& name) {
+  for (const Outside one : {Outside::hold, Outside::zero, Outside::refuse})
+    if (to_string(one) == name) return one;
+  throw Error(ExitCode::bad_input, "'outside' must be hold, zero or refuse, not '" + name + "'");
+}
+
+std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& control,
+                                        const Parameters& parameters) {
+  if (chain.has_floating && (!control.inverse_of.empty() || control.pd || control.computed_torque))
+    throw Error(
+        ExitCode::bad_input,
+        "pd, computed_torque and inverse_of follow joint positions: a floating base has no such torque",
+        control.place);
+  std::vector<std::unique_ptr<TorqueLaw>> parts;
+  if (!control.csv.empty()) {
+    TimeTable table = read_time_table(control.csv, {"tau"}, chain.nv);
+    if (table.groups[0].empty())
+      throw Error(ExitCode::bad_input, "has no columns tau1 to tau" + std::to_string(chain.nv),
+                  {control.csv});
+    parts.push_back(within(std::make_unique<CsvTorque>(std::move(table)), control.csv, control.outside, chain.nv));
+  }
+  if (!control.inverse_of.empty())
+    parts.push_back(
+        within(std::make_unique<InverseTorque>(chain, make_table_reference(control.inverse_of, chain.nv)),
+               control.inverse_of, control.outside, chain.nv));
+  const auto gains = [&](const std::vector<double>& given, const char* key) {
+    return spread(given, chain.nv, key, control.place);
+  };
+  if (const auto& pd = control.pd)
+    parts.push_back(within(std::make_unique<PdTorque>(reference_of(chain, *pd, parameters, control.place),
+                                                      gains(pd->kp, "kp"), gains(pd->kd, "kd")),
+                           pd->trajectory, pd->outside, chain.nv));
+  if (const auto& ct = control.computed_torque)
+    parts.push_back(
+        within(std::make_unique<ComputedTorque>(chain, reference_of(chain, *ct, parameters, control.place),
+                                                gains(ct->kp, "kp"), gains(ct->kd, "kd")),
+               ct->trajectory, ct->outside, chain.nv));
+  if (control.gravity_compensation) parts.push_back(std::make_unique<GravityCompensation>());
+  return std::make_unique<SumOfTorques>(std::move(parts), chain.nv);
+}
+
+}  // namespace chainreel

@@ -1,0 +1,47 @@
+// What may drive the joints besides numbers and expressions; the parts that are given add up.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/drive/reference.hpp"
+
+namespace chainreel {
+
+class TorqueLaw;
+
+// What a table stands for at instants before its first row and behind its last one.
+enum class Outside {
+  hold,    // the row at that end: its torque, or its pose at rest
+  zero,    // no torque of its
+  refuse,  // nothing: the run must not be longer
+};
+std::string to_string(Outside outside);
+// Throws Error (bad input) that names the three.
+Outside outside_of(const std::string& name);
+
+// Feedback to a reference motion, given by expressions in t or by a CSV.
+struct Feedback {
+  std::vector<double> kp, kd;  // one a freedom, or one for all
+  std::vector<Entry> q, qd, qdd;
+  std::string trajectory;  // path of a CSV instead of q, qd, qdd; "": none
+  std::optional<Outside> outside{};  // of the CSV; absent: held, and said
+};
+
+struct Control {
+  std::string csv;                          // t,tau1..: linear between the rows
+  std::string inverse_of;                   // t,q1..: the torques that this motion takes
+  std::optional<Outside> outside{};         // of these two tables; absent: held, and said
+  std::optional<Feedback> pd;               // kp (q_ref - q) + kd (qd_ref - qd)
+  std::optional<Feedback> computed_torque;  // M (qdd_ref + kd (qd_ref - qd) + kp (q_ref - q)) + nle + tau_f
+  bool gravity_compensation = false;        // tau_g(q)
+  Place place;
+};
+
+// The law for the whole chain. Throws Error with what does not fit.
+std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& control,
+                                        const Parameters& parameters);
+
+}  // namespace chainreel

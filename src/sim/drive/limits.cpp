@@ -1,0 +1,89 @@
+#include "sim/drive/limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
+
+namespace chainreel {
+
+LimitPolicy limit_policy_of(const std::string& name) {
+  if (name == "report") return LimitPolicy::report;
+  if (name == "clamp") return LimitPolicy::clamp;
+  if (name == "stop") return LimitPolicy::stop;
+  const std::vector<std::string> names{"report", "clamp", "stop"};
+  throw Error(ExitCode::bad_input, "unknown limit policy '" + name + "':" + did_you_mean(name, names) +
+                                       " They are report, clamp, stop.");
+}
+
+std::string to_string(const LimitEvent& event) {
+  return "joint '" + event.joint + "' passed its " + event.quantity + " limit " +
+         format_significant(event.limit, 6) + " with " + format_significant(event.value, 6) +
+         " at t = " + format_significant(event.t, 6) + " s";
+}
+
+LimitWatch::LimitWatch(const Chain& chain) {
+  for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
+    const Joint& joint = chain.bodies[i].joint;
+    const JointLimit& limit = joint.limit;
+    const bool limited = std::isfinite(limit.lower) || std::isfinite(limit.upper) ||
+                         std::isfinite(limit.velocity) || std::isfinite(limit.effort);
+    if (limited && joint.kind != JointKind::floating) watched_.push_back({.joint = &joint});
+  }
+}
+
+bool LimitWatch::add(const Joint& joint, const char* quantity, double t, double value, double limit) {
+  events_.push_back({joint.name, quantity, t, value, limit});
+  return true;
+}
+
+bool LimitWatch::check_state(double t, ConstVec q, ConstVec qd) {
+  bool added = false;
+  for (Watched& one : watched_) {
+    const Joint& joint = *one.joint;
+    const JointLimit& limit = joint.limit;
+    const double value = joint.ratio * q[std::size_t(joint.q_index)] + joint.offset;
+    const double rate = joint.ratio * qd[std::size_t(joint.v_index)];
+    if (!one.position_passed && (value < limit.lower || value > limit.upper)) {
+      one.position_passed = true;
+      added = add(joint, "position", t, value, value < limit.lower ? limit.lower : limit.upper);
+    }
+    if (!one.velocity_passed && std::abs(rate) > limit.velocity) {
+      one.velocity_passed = true;
+      added = add(joint, "velocity", t, rate, limit.velocity);
+    }
+  }
+  return added;
+}
+
+// Of a joint that passes its effort; a mimic joint has no torque of its own.
+double* LimitWatch::excessive(const Watched& one, Vec tau) {
+  if (one.joint->ratio != 1 || one.joint->offset != 0) return nullptr;
+  double& torque = tau[std::size_t(one.joint->v_index)];
+  return std::abs(torque) > one.joint->limit.effort ? &torque : nullptr;
+}
+
+bool LimitWatch::check_effort(double t, Vec tau, bool clamp) {
+  bool added = false;
+  for (Watched& one : watched_) {
+    const double* const torque = excessive(one, tau);
+    if (!torque || one.effort_passed) continue;
+    one.effort_passed = true;
+    added = add(*one.joint, "effort", t, *torque, one.joint->limit.effort);
+  }
+  if (clamp) cut(tau);
+  return added;
+}
+
+void LimitWatch::cut(Vec tau) const {
+  for (const Watched& one : watched_)
+    if (double* const torque = excessive(one, tau)) *torque = std::copysign(one.joint->limit.effort, *torque);
+}
+
+bool LimitWatch::have_effort() const {
+  return std::any_of(watched_.begin(), watched_.end(),
+                     [](const Watched& one) { return std::isfinite(one.joint->limit.effort); });
+}
+
+}  // namespace chainreel

@@ -1,0 +1,57 @@
+// The motion that a controller is to follow: q, qd, qdd at each instant.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "sim/choice/probe.hpp"
+
+namespace chainreel {
+
+// A number or an expression of the scene, with the place where it stands.
+struct Entry {
+  std::string text = "0";
+  Place place;
+};
+
+class Reference {
+ public:
+  virtual ~Reference() = default;
+  virtual void evaluate(double t, Vec q, Vec qd, Vec qdd) const = 0;  // n numbers each; allocates nothing
+  // Where it bends or jumps, and the piece between two such instants: see TorqueLaw.
+  virtual std::vector<double> breaks(double) const { return {}; }
+  virtual void enter_piece(double) {}
+  virtual void leave_pieces() {}
+};
+
+// From expressions in t and the parameters, one a freedom. Empty `qd` and `qdd` are the derivatives of q,
+// exact by automatic differentiation. Throws Error with every problem of the entries.
+std::unique_ptr<Reference> make_expression_reference(const std::vector<Entry>& q,
+                                                     const std::vector<Entry>& qd,
+                                                     const std::vector<Entry>& qdd,
+                                                     const Parameters& parameters);
+
+// From a CSV with t,q1.. and maybe qd1.., qdd1..: cubic splines; what is absent is the spline's derivative.
+std::unique_ptr<Reference> make_table_reference(const std::string& path, int n);
+
+// Cubic spline through samples, second derivative continuous, not-a-knot ends (C. de Boor, A Practical Guide
+// to Splines, ch. IV): exact for cubics. Two samples give a line, three a parabola, one a constant. Outside
+// the samples the motion stands still at the end's value.
+
+class Spline {
+ public:
+  Spline() = default;
+  Spline(std::vector<double> t, std::vector<double> y);  // t rising, same length
+
+  struct Value {
+    double y = 0, yd = 0, ydd = 0;
+  };
+  Value at(double t) const;
+
+ private:
+  std::vector<double> t_, y_, curvature_;  // second derivatives at the samples
+};
+
+}  // namespace chainreel

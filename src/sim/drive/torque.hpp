@@ -1,0 +1,53 @@
+// Torque laws: what acts at the joints at each instant, N m for revolute and N for prismatic joints.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/error.hpp"
+#include "dynamics/kernels/taylor_planar.hpp"
+#include "sim/choice/probe.hpp"
+#include "sim/drive/control.hpp"
+
+namespace chainreel {
+
+class StateCorners;
+
+class TorqueLaw {
+ public:
+  virtual ~TorqueLaw() = default;
+  // Writes nv numbers for the chain that the law was made for. Allocates nothing; a value that cannot be had
+  // is written as NaN, which stops the run.
+  virtual void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) = 0;
+  virtual bool is_constant() const { return false; }  // then the work done is tau . (q - q(0)) exactly
+  virtual bool depends_on_velocity() const { return !is_constant(); }
+  // Instants up to `end` at which the torque has a kink or a jump, in any order: steps end there, so that
+  // methods keep their order. Throws Error (limit) where there are too many.
+  virtual std::vector<double> breaks(double) const { return {}; }
+  // From here on all evaluations are for steps between two breaks, around t: at the breaks themselves the law
+  // goes on as it is between them. `leave_pieces` ends that.
+  virtual void enter_piece(double) {}
+  virtual void leave_pieces() {}
+  // What the torque bends or jumps at where that depends on the state; null: nothing.
+  virtual StateCorners* corners() { return nullptr; }
+  // The law as polynomials in t plus multiples of q and qd, where it is one.
+  virtual std::optional<AffineTorque> affine() const { return {}; }
+  // The law with the digits of Quad; false where it has none.
+  virtual bool evaluate_in_quad(Quad, std::span<const Quad>, std::span<const Quad>, std::span<Quad>) const {
+    return false;
+  }
+};
+
+// One joint's entry as the scene wrote it: a number, an expression, or a control of this joint alone.
+struct TorqueEntry {
+  std::string text = "0";
+  Place place;
+  std::optional<Control> control;  // then `text` says nothing
+};
+
+// One entry per degree of freedom. Throws Error with every problem of the entries.
+std::unique_ptr<TorqueLaw> make_torque_law(const Chain& chain, const std::vector<TorqueEntry>& entries,
+                                           const Parameters& parameters, const NamedFrames& frames = {});
+
+}  // namespace chainreel

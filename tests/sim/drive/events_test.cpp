@@ -1,0 +1,229 @@
+// Instants of events against closed forms, and what a run does with them.
+
+#include "sim/drive/events.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "dynamics/crba.hpp"
+#include "dynamics/rnea.hpp"
+#include "sim/audit.hpp"
+#include "sim/runs.hpp"
+#include "support/allocation_count.hpp"
+#include "support/chains.hpp"
+
+namespace chainreel {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double g = 9.81;
+// Twice what the root finder promises, and the round-off of instants near 1 s.
+constexpr double kInstant = 3e-12;
+
+EventEntry event(const std::string& when, EventKind kind = EventKind::mark) {
+  return {when, kind, "", Crossing::either, {}};
+}
+
+void look_for(Simulation& run, const std::vector<EventEntry>& entries) {
+  run.events = make_events(run.chain, entries, {});
+}
+
+// PP with its second joint thrown upward: q2 = v t - g t^2 / 2, a polynomial that dense output has exactly.
+Simulation thrown(double v, double step, const std::vector<EventEntry>& entries, double duration = 1) {
+  Simulation run = run_of("pp", {"0", "0"}, duration, "rk4", step);
+  run.qd0[1] = v;
+  look_for(run, entries);
+  return run;
+}
+
+std::vector<double> times_of(const Simulation& run) {
+  return simulate(run, {}).events.t;
+}
+
+TEST(Events, FreeFallPassesAHeightWhenGalileoSays) {
+  const Trajectory run = simulate(thrown(0, 0.1, {event("q2 < -1")}), instants(1, 0.1));
+  ASSERT_EQ(run.events.size(), 1);
+  EXPECT_NEAR(run.events.t[0], std::sqrt(2 / g), kInstant);
+  EXPECT_NEAR(run.events.q_at(0)[1], -1, 10 * kInstant) << "it passes there with 4.4 m/s";
+  EXPECT_NEAR(run.events.qd_at(0)[1], -std::sqrt(2 * g), 10 * kInstant);
+  EXPECT_EQ(run.status, RunStatus::finished) << "a mark ends nothing";
+}
+
+double agm(double a, double b) {
+  for (int k = 0; k < 8; ++k) std::tie(a, b) = std::pair((a + b) / 2, std::sqrt(a * b));
+  return a;
+}
+
+class Pendulum : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Methods, Pendulum, ::testing::Values("dop853", "taylor", "radau5"),
+                         [](const auto& p) { return p.param; });
+
+TEST_P(Pendulum, PassesTheVerticalAfterQuartersOfItsPeriod) {
+  Simulation run = run_of("rr", {"0"}, 6);
+  run.chain = test::planar_serial_chain(1);
+  run.torque = make_torque_law(run.chain, {{"0", {}, {}}}, {});
+  run.q0 = {0};  // horizontal: an amplitude of 90 degrees
+  run.qd0 = {0};
+  run.method = &find_method(GetParam());
+  run.step = 0;
+  run.options.tolerance = GetParam() == "radau5" ? 1e-12 : 1e-14;
+  look_for(run, {event("q1 + pi/2")});
+  Workspace ws(run.chain);
+  compute_mass_matrix(run.chain, ws, run.q0);
+  compute_gravity_torque(run.chain, ws, run.q0);
+  // T/4 = sqrt(I / (m g l)) K(sin(90/2 deg)), K(k) = pi / (2 agm(1, sqrt(1 - k^2))).
+  const double quarter =
+      std::sqrt(ws.M(0, 0) / ws.tau_g[0]) * std::numbers::pi / (2 * agm(1, std::cos(std::numbers::pi / 4)));
+  const std::vector<double> times = times_of(run);
+  ASSERT_GE(times.size(), 3u);
+  for (std::size_t k = 0; k < times.size(); ++k)
+    EXPECT_NEAR(times[k], double(2 * k + 1) * quarter, 1e-9) << k;
+}
+
+TEST(Events, AreOnlyAsExactAsTheMethodsDenseOutput) {
+  Simulation run = run_of("rr", {"0", "0"}, 1, "explicit_euler", 0.01);
+  look_for(run, {event("q1 < -0.5")});
+  Simulation exact = run_of("rr", {"0", "0"}, 1, "dop853", 0);
+  exact.options.tolerance = 1e-13;
+  look_for(exact, {event("q1 < -0.5")});
+  EXPECT_GT(std::abs(times_of(run).at(0) - times_of(exact).at(0)), 1e-4) << "negative control";
+}
+
+TEST(Events, TwoInOneStepAreBothFoundWhereTheyLieInDifferentParts) {
+  // Up through 0.15 m and down again within a step of 0.5 s.
+  const std::vector<double> times = times_of(thrown(2, 0.5, {event("q2 - 0.15")}));
+  const double root = std::sqrt(4 - 2 * g * 0.15);
+  ASSERT_EQ(times.size(), 2u);
+  EXPECT_NEAR(times[0], (2 - root) / g, kInstant);
+  EXPECT_NEAR(times[1], (2 + root) / g, kInstant);
+}
+
+TEST(Events, WhatComesAndGoesWithinAPartIsNotSeen) {
+  // 0.2035 m is passed for 17 ms about the top: less than an eighth of 0.5 s, more than an eighth of 0.1 s.
+  EXPECT_EQ(times_of(thrown(2, 0.5, {event("q2 - 0.2035")})).size(), 0u);
+  EXPECT_EQ(times_of(thrown(2, 0.1, {event("q2 - 0.2035")})).size(), 2u);
+}
+
+TEST(Events, HaveADirection) {
+  EventEntry up = event("q2 - 0.15"), down = up;
+  up.direction = Crossing::rising;
+  down.direction = Crossing::falling;
+  const Trajectory run =
+      simulate(thrown(2, 0.1, {up, down, event("q2 > 0.15"), event("q2 <= 0.15"), event("q2 == 0.15")}), {});
+  const double root = std::sqrt(4 - 2 * g * 0.15), first = (2 - root) / g, second = (2 + root) / g;
+  std::vector<std::vector<double>> times(5);
+  for (int k = 0; k < run.events.size(); ++k)
+    times[std::size_t(run.events.event[std::size_t(k)])].push_back(run.events.t[std::size_t(k)]);
+  using ::testing::DoubleNear;
+  using ::testing::ElementsAre;
+  EXPECT_THAT(times[0], ElementsAre(DoubleNear(first, kInstant)));
+  EXPECT_THAT(times[1], ElementsAre(DoubleNear(second, kInstant)));
+  EXPECT_THAT(times[2], ElementsAre(DoubleNear(first, kInstant)));
+  EXPECT_THAT(times[3], ElementsAre(DoubleNear(second, kInstant)));
+  EXPECT_THAT(times[4], ElementsAre(DoubleNear(first, kInstant), DoubleNear(second, kInstant)));
+}
+
+TEST(Events, AtAStepsEndHappenOnce) {
+  for (const char* when : {"t - 0.5", "t >= 0.5", "t > 0.5", "t == 0.5"}) {
+    const std::vector<double> times = times_of(thrown(0, 0.125, {event(when)}));
+    ASSERT_EQ(times.size(), 1u) << when;
+    EXPECT_NEAR(times[0], 0.5, kInstant) << when;
+  }
+  EXPECT_EQ(times_of(thrown(0, 0.125, {event("t >= 1")})).size(), 1u) << "at the end of the run";
+  EXPECT_EQ(times_of(thrown(0, 0.125, {event("t > 1")})).size(), 0u) << "which is not behind it";
+}
+
+TEST(Events, ThatHoldAtTheBeginningWaitUntilTheyHaveBeenFalse) {
+  EXPECT_EQ(times_of(thrown(0, 0.1, {event("q2 < 1")})).size(), 0u);
+  EXPECT_EQ(times_of(thrown(0, 0.1, {event("q2")})).size(), 0u) << "zero at t = 0 is no crossing";
+  const std::vector<double> again = times_of(thrown(2, 0.1, {event("q2 < 0.1")}));
+  ASSERT_EQ(again.size(), 1u);
+  EXPECT_NEAR(again[0], (2 + std::sqrt(4 - 2 * g * 0.1)) / g, kInstant);
+}
+
+TEST(Events, JumpsAreLocatedLikeCrossings) {
+  const std::vector<double> times =
+      times_of(thrown(2, 0.25, {event("max(t > 0.3, q1 > 5) > 0"), event("2 * (q2 > 0.15) < 1")}));
+  ASSERT_EQ(times.size(), 2u);
+  EXPECT_NEAR(times[0], 0.3, kInstant);
+  EXPECT_NEAR(times[1], (2 + std::sqrt(4 - 2 * g * 0.15)) / g, kInstant);
+}
+
+TEST(StopEvent, EndsTheRunAtItsInstantAndTheAuditHolds) {
+  Simulation run = run_of("rr", {"-3 * qd1", "2 * sin(5 * t)"}, 5, "dop853", 0);
+  run.options.tolerance = 1e-12;
+  look_for(run, {event("q1 < -1"), event("q1 < -0.9", EventKind::stop), event("q1 < -0.8")});
+  const Trajectory trajectory = simulate(run, instants(5, 0.01));
+  EXPECT_EQ(trajectory.status, RunStatus::stopped);
+  EXPECT_EQ(trajectory.ending_event, 1);
+  ASSERT_EQ(trajectory.events.size(), 2) << "what would come later in the same step does not happen";
+  EXPECT_EQ(trajectory.events.event[0], 2);
+  EXPECT_EQ(trajectory.t.back(), trajectory.end_time);
+  EXPECT_EQ(trajectory.events.t.back(), trajectory.end_time);
+  EXPECT_NEAR(trajectory.q_at(trajectory.size() - 1)[0], -0.9, 1e-11);
+  EXPECT_EQ(trajectory.size(), int(trajectory.end_time / 0.01) + 2);
+  EXPECT_THAT(trajectory.trouble, HasSubstr("q1 < -0.9 at t = "));
+  // What this tolerance leaves of some 10 J over a second.
+  EXPECT_LT(audit_of(run, trajectory).largest_error, 1e-9);
+  EXPECT_GT(std::abs(trajectory.work.back()), 0.01) << "the torques do work";
+  const Trajectory steps = simulate_every_step(run);
+  EXPECT_EQ(steps.t.back(), trajectory.end_time);
+}
+
+TEST(MarkEvent, LeavesTheBitsOfTheRunAlone) {
+  for (const char* method : {"semi_implicit_euler", "rk4", "dop853", "taylor"}) {
+    Simulation run = run_of("rrr", {"1", "0", "-0.1 * qd3"}, 2, method, 0.01);
+    const Trajectory plain = simulate(run, instants(2, 0.03));
+    look_for(run, {event("y_G < -1"), event("q2 - 1")});
+    const Trajectory watched = simulate(run, instants(2, 0.03));
+    EXPECT_EQ(plain.q, watched.q) << method;
+    EXPECT_EQ(plain.qd, watched.qd) << method;
+    EXPECT_GE(watched.events.size(), 1) << method;
+  }
+}
+
+TEST(Events, AreLookedForWithoutAllocations) {
+  Simulation run = run_of("rrr", {"1", "0", "-0.1 * qd3"}, 20, "rk4", 0.0005);
+  look_for(run, {event("y_G < -100"), event("q2 - 100 * t - 100")});
+  long at_first = -1, at_last = 0;
+  simulate(run, {}, [&](double t) {
+    if (t > 0 && at_first < 0) at_first = allocation_count();
+    at_last = allocation_count();
+    return false;
+  });
+  EXPECT_EQ(at_last - at_first, 0);
+}
+
+TEST(Events, ThatAreNoNumberEndTheRunAndSaySo) {
+  const Trajectory run = simulate(thrown(2, 0.1, {event("log(0.1 - t) > 5")}), {});
+  EXPECT_EQ(run.status, RunStatus::event_not_finite);
+  EXPECT_THAT(run.trouble, HasSubstr("the event 'log(0.1 - t) > 5' is not a finite number at t = "));
+}
+
+std::string complaint(const EventEntry& entry) {
+  try {
+    const Chain chain = test::rr_chain();
+    make_events(chain, {entry}, {});
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Events, ThatCannotHappenAreRefused) {
+  EXPECT_THAT(complaint(event("1 < 2")), HasSubstr("reads nothing that changes"));
+  EXPECT_THAT(complaint(event("min(q1 > 1, q2 > 1)")), HasSubstr("write `min(q1 > 1, t > 2) > 0` for both"));
+  EXPECT_THAT(complaint(event("q1 != 1")), HasSubstr("name the instant with =="));
+  EventEntry twice = event("q1 > 1");
+  twice.direction = Crossing::rising;
+  EXPECT_THAT(complaint(twice), HasSubstr("leave out `direction`"));
+  EXPECT_EQ(complaint(event("min(q1 > 1, q2 > 1) > 0")), "");  // negative control
+}
+
+}  // namespace
+}  // namespace chainreel
