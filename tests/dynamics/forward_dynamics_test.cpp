@@ -124,6 +124,22 @@ TEST(ForwardDynamicsTest, FrictionOpposesMotionAndIsSubtracted) {
   EXPECT_NE(qdd, ws.qdd);
 }
 
+TEST(ForwardDynamicsTest, FrictionOfAJointThatFollowsReachesItsLeaderByItsRatio) {
+  // The follower turns at -2 x 1.5 rad/s: damping 0.5 and friction 3 resist with -4.5 there, and -2 times that here.
+  Chain chain = rr_chain();
+  Joint& follower = chain.bodies[2].joint;
+  follower.q_index = follower.v_index = 0;
+  follower.ratio = -2;
+  follower.offset = 0.3;
+  follower.damping = 0.5;
+  follower.friction = 3;
+  chain.bodies[1].joint.damping = 0.25;
+  chain.has_dissipation = chain.has_mimic = true;
+  chain.nq = chain.nv = 1;
+  EXPECT_EQ(friction_of(chain, std::vector<double>{1.5}), (std::vector<double>{0.25 * 1.5 + 9}));
+  EXPECT_EQ(friction_of(chain, std::vector<double>{-1.5}), (std::vector<double>{-0.25 * 1.5 - 9}));
+}
+
 TEST(ForwardDynamicsTest, SmoothedFrictionIsOddAndFollowsTanh) {
   Chain chain = rr_chain();
   chain.bodies[1].joint.friction = 1;

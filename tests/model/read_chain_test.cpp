@@ -108,6 +108,16 @@ TEST(ReadChain, ReadsEveryKindOfJoint) {
   EXPECT_EQ(joint_of(chain, "fly").kind, JointKind::floating);
 }
 
+TEST(ReadChain, AContinuousJointHasLimitsOfEffortAndVelocityAndNoneOfItsAngle) {
+  const Chain chain =
+      chain_from(robot_text(link_text("base") + moving("arm", "continuous", "base", "0 0 1",
+                                                       "<limit lower='-1' upper='1' effort='5' velocity='6'/>")));
+  const JointLimit& limit = joint_of(chain, "to_arm").limit;
+  EXPECT_EQ(limit.effort, 5);
+  EXPECT_EQ(limit.velocity, 6);
+  EXPECT_TRUE(std::isinf(limit.lower) && std::isinf(limit.upper));
+}
+
 TEST(ReadChain, APlanarJointIsThreeJointsWithMasslessBodiesBetween) {
   const Chain chain = read_chain(CHAINREEL_SOURCE "/tests/model/good/every_joint_kind.urdf");
   const int x = int(chain.bodies.size()) - 3;

@@ -29,7 +29,9 @@ LimitWatch::LimitWatch(const Chain& chain) {
     const JointLimit& limit = joint.limit;
     const bool limited = std::isfinite(limit.lower) || std::isfinite(limit.upper) ||
                          std::isfinite(limit.velocity) || std::isfinite(limit.effort);
-    if (limited && joint.kind != JointKind::floating) watched_.push_back({.joint = &joint});
+    if (!limited || joint.kind == JointKind::floating) continue;
+    const bool owns_freedom = chain.coordinate_names[std::size_t(joint.v_index)] == joint.name;
+    watched_.push_back({.joint = &joint, .has_torque = owns_freedom});
   }
 }
 
@@ -57,9 +59,9 @@ bool LimitWatch::check_state(double t, ConstVec q, ConstVec qd) {
   return added;
 }
 
-// Of a joint that passes its effort; a mimic joint has no torque of its own.
+// Of a joint that passes its effort.
 double* LimitWatch::excessive(const Watched& one, Vec tau) {
-  if (one.joint->ratio != 1 || one.joint->offset != 0) return nullptr;
+  if (!one.has_torque) return nullptr;
   double& torque = tau[std::size_t(one.joint->v_index)];
   return std::abs(torque) > one.joint->limit.effort ? &torque : nullptr;
 }

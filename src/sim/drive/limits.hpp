@@ -46,9 +46,10 @@ class LimitWatch {
  private:
   struct Watched {
     const Joint* joint = nullptr;
+    bool has_torque = true;  // of its own: not a mimic joint, which shares that of the joint it follows
     bool position_passed = false, velocity_passed = false, effort_passed = false;
   };
-  static double* excessive(const Watched& one, Vec tau);  // its torque; null: within its effort
+  static double* excessive(const Watched& one, Vec tau);  // its torque; null: within its effort, or none
   bool add(const Joint& joint, const char* quantity, double t, double value, double limit);
 
   std::vector<Watched> watched_;  // joints that have a limit

@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "model/read_chain.hpp"
 #include "sim/audit.hpp"
 #include "sim/runs.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace chainreel {
 namespace {
@@ -88,6 +90,73 @@ TEST(Limits, ClampTorquesAtTheEffortAndTheAuditFollows) {
   EXPECT_EQ(cut.limits[0].quantity, "effort");
   EXPECT_EQ(cut.limits[0].value, 10);
   EXPECT_LT(audit_of(clamped, cut).largest_error, 1e-10);
+}
+
+TEST(Limits, HoldOnBothSides) {
+  // Thrown upward with 5 m/s: through 1 m on the way up, through -6 m/s on the way down.
+  Simulation run = run_of("pp", {"0", "0"}, 1.5);
+  run.qd0[1] = 5;
+  JointLimit& limit = run.chain.bodies[2].joint.limit;
+  limit.lower = -1;
+  limit.upper = 1;
+  limit.velocity = 6;
+  const Trajectory trajectory = simulate(run, instants(1.5, 0.1));
+  ASSERT_EQ(trajectory.limits.size(), 2u);
+  EXPECT_EQ(trajectory.limits[0].quantity, "position");
+  EXPECT_EQ(trajectory.limits[0].limit, 1);
+  EXPECT_NEAR(trajectory.limits[0].t, (5 - std::sqrt(25 - 2 * 9.81)) / 9.81, 3e-12);
+  EXPECT_NEAR(trajectory.limits[0].value, 1, 1e-10);
+  EXPECT_EQ(trajectory.limits[1].quantity, "velocity");
+  EXPECT_NEAR(trajectory.limits[1].t, 11 / 9.81, 3e-12);
+  EXPECT_NEAR(trajectory.limits[1].value, -6, 1e-10);
+}
+
+TEST(Limits, ClampNegativeTorquesToNegativeOnes) {
+  Simulation run = run_of("pp", {"-10", "0"}, 1);
+  run.chain.bodies[1].joint.limit.effort = 4;
+  run.limit = LimitPolicy::clamp;
+  const Trajectory trajectory = simulate(run, instants(1, 1));
+  // x = f t^2 / (2 m) with both links on the first joint, 1 kg each.
+  EXPECT_NEAR(trajectory.q_at(1)[0], -1, 1e-12);
+  ASSERT_EQ(trajectory.limits.size(), 1u);
+  EXPECT_EQ(trajectory.limits[0].value, -10);
+  EXPECT_EQ(trajectory.limits[0].limit, 4);
+}
+
+// A slide that carries another, which follows it: 1 kg each, pushed without gravity.
+Simulation followed(const std::string& mimic) {
+  const auto slide = [](const std::string& name, const std::string& parent, const std::string& more) {
+    return "<link name='" + name + "'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/>" +
+           "</inertial></link><joint name='to_" + name + "' type='prismatic'><parent link='" + parent + "'/><child link='" +
+           name + "'/><axis xyz='1 0 0'/>" + more + "</joint>";
+  };
+  const TemporaryFolder folder;
+  Simulation run = run_of("pp", {}, 2);
+  run.chain = read_chain(folder.write(
+      "m.urdf", "<robot name='r'><link name='base'/>" + slide("a", "base", "<limit lower='-9' upper='9' effort='99' velocity='99'/>") +
+                    slide("b", "a", "<limit lower='-2' upper='2' effort='1' velocity='3'/><mimic joint='to_a' " + mimic + "/>") +
+                    "</robot>"));
+  run.chain.gravity.setZero();
+  run.q0 = run.qd0 = {0};
+  run.torque = make_torque_law(run.chain, {{"10", {}, {}}}, {});
+  return run;
+}
+
+TEST(Limits, OfAJointThatFollowsAreOnItsOwnMotionAndOnNoTorque) {
+  // b = 2 a + 0.5, so that a moves 1 kg and, three times as fast, another: 10 N give 1 m/s^2.
+  const Trajectory trajectory = simulate(followed("multiplier='2' offset='0.5'"), instants(2, 0.1));
+  ASSERT_EQ(trajectory.limits.size(), 2u) << "its effort of 1 N bounds nothing";
+  EXPECT_EQ(trajectory.limits[0].joint, "to_b");
+  EXPECT_EQ(trajectory.limits[0].quantity, "position");
+  EXPECT_NEAR(trajectory.limits[0].t, std::sqrt(1.5), 3e-12) << "t^2 + 0.5 = 2";
+  EXPECT_EQ(trajectory.limits[1].quantity, "velocity");
+  EXPECT_NEAR(trajectory.limits[1].t, 1.5, 3e-12) << "2 t = 3";
+  // One that moves just as the other has no torque either.
+  Simulation same = followed("");
+  same.limit = LimitPolicy::clamp;
+  const Trajectory equal = simulate(same, instants(1, 1));
+  EXPECT_NEAR(equal.q_at(1)[0], 10.0 / 5 / 2, 1e-12);
+  for (const LimitEvent& one : equal.limits) EXPECT_NE(one.quantity, "effort");
 }
 
 TEST(Limits, AreSilentWhereNothingIsPassed) {
