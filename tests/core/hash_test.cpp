@@ -6,6 +6,8 @@
 #include <array>
 #include <string_view>
 
+#include "support/temporary_folder.hpp"
+
 namespace chainreel {
 namespace {
 
@@ -33,6 +35,18 @@ TEST(Sha256, DoesNotDependOnThePieces) {
   Sha256 hash;
   for (const char* piece : {"a", "", "bc"}) hash.add(bytes_of(piece));
   EXPECT_EQ(hash.finish(), hash_of("abc"));
+}
+
+// Longer than what is read of it at once, and by one byte more or less than a whole number of such pieces.
+TEST(Sha256, OfAFileIsThatOfAllItsBytes) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(sha256_of_file(folder.write("million", std::string(1000000, 'a'))),
+            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+  for (const std::size_t size : {0, 1, 65535, 65536, 65537, 131072, 131073}) {
+    std::string text(size, 'x');
+    if (size > 0) text.back() = 'y';
+    EXPECT_EQ(sha256_of_file(folder.write("file", text)), hash_of(text)) << size;
+  }
 }
 
 TEST(Sha256, TakesDoublesAsLittleEndianBytes) {

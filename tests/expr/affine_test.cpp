@@ -47,7 +47,8 @@ TEST(AffineForm, IsRefusedWhereThereIsNone) {
   for (const char* text :
        {"q1*qd1",    "q1*t",   "t*q1",        "sin(q1)", "sin(t)", "q1^2",       "t^0.5",
         "t^-1",      "t^9",    "(t^5)*(t^4)", "1/t",     "q1/t",   "2^t",        "abs(t)",
-        "max(t, 1)", "q1 < 0", "x_G",         "0*x_G",   "q1/0",   "log(-1)*q1", "atan2(q1, 1)"})
+        "max(t, 1)", "q1 < 0", "x_G",         "0*x_G",   "q1/0",   "log(-1)*q1", "atan2(q1, 1)",
+        "(t + q1)*t", "t*(q1 - t)", "(t - q1)^2", "t/(t + q1)", "-(q1 + t)*t^2"})
     EXPECT_FALSE(form_of(text)) << text;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/hash.hpp"
 #include "sim/runs.hpp"
+#include "support/chains.hpp"
 
 namespace chainreel {
 namespace {
@@ -28,6 +29,33 @@ TEST(Audit, CountsTheWorkOfConstantTorques) {
 TEST(Audit, CountsTheWorkOfTorquesThatDependOnTheState) {
   // Simpson on each step adds h^4 of the power's fourth derivative: below the method's own error.
   EXPECT_LT(audit(run_of("rr", {"-0.5 * qd1", "3 * sin(5 * t) - y_G"}, 5)).largest_error, 1e-7);
+}
+
+// The work of a spring over a step is that of what the dense output shows: on a quintic its power is of degree nine.
+TEST(Audit, IntegratesThePowerOfASpringOverLongStepsToRoundOff) {
+  Simulation run = run_of("pp", {"-30 * q1", "0"}, 2, "rk4", 0.25);
+  run.chain.gravity.setZero();
+  run.q0[0] = 1;
+  const Trajectory trajectory = simulate(run, instants(2, 0.5));
+  for (int k = 1; k < trajectory.size(); ++k) {
+    const double q = trajectory.q_at(k)[0];
+    EXPECT_NEAR(trajectory.work[std::size_t(k)], 15 * (1 - q * q), 1e-13) << k;
+  }
+}
+
+// Long steps of a series: nodes as many as its degree asks for. What is left is the series' own tolerance.
+TEST(Audit, TakesAsManyNodesAsLongStepsOfHighOrderNeed) {
+  Simulation run = run_of("rr", {}, 4, "taylor", 0);
+  run.chain = test::planar_serial_chain(1);
+  run.chain.gravity.setZero();
+  run.torque = make_torque_law(run.chain, {{"-30 * q1", {}, {}}}, {});
+  run.q0 = {1};
+  run.qd0 = {0};
+  run.options.order = 24;
+  run.options.tolerance = 1e-12;
+  const Trajectory trajectory = simulate_audited(run, instants(4, 0.5));
+  EXPECT_LT(trajectory.steps, 100);
+  EXPECT_LT(trajectory.energy_at_steps->largest_error, 1e-11);
 }
 
 TEST(Audit, ShowsTheDriftOfTheLecturesMethodAndItsOrder) {

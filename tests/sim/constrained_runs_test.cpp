@@ -320,6 +320,26 @@ double largest_length_error(Stabilization stabilize, double duration) {
   return simulate(spinning_four_bar(stabilize, duration, 0.01), instants(duration, 0.05)).position_error;
 }
 
+// phi'' = -2 g phi' - g^2 phi from phi0 at rest is phi0 (1 + g t) e^(-g t), whatever the mechanism.
+TEST(ConstrainedRun, BaumgartesErrorsDieAwayWithTheGain) {
+  for (const double gain : {ConstraintPlan{}.gain, 25.0}) {
+    Simulation run = pen(0.4);
+    run.constraints.stabilize = Stabilization::baumgarte;
+    if (gain == 25) run.constraints.gain = gain;
+    run.q0[2] += 1e-3;
+    const Trajectory trajectory = simulate(run, std::vector<double>{0, 0.1, 0.2, 0.4});
+    const double g = gain == 25 ? 25 : 10;  // what a scene has that says nothing
+    const auto phi = [&](int k) {
+      const ConstVec q = trajectory.q_at(k);
+      return std::sin(q[0]) + std::sin(q[0] + q[1]) + std::sin(q[0] + q[1] + q[2]) - 0.5;
+    };
+    for (int k = 1; k < 4; ++k) {
+      const double t = trajectory.t[std::size_t(k)];
+      EXPECT_NEAR(phi(k) / phi(0), (1 + g * t) * std::exp(-g * t), 1e-7) << g << " at " << t;
+    }
+  }
+}
+
 TEST(ConstrainedRun, LengthsDriftWithTheSquareOfTimeUnlessHeld) {
   const double loose_20 = largest_length_error(Stabilization::none, 20);
   const double loose_80 = largest_length_error(Stabilization::none, 80);

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "sim/runs.hpp"
 #include "sim/choice/cost_table.hpp"
+#include "sim/choice/counted_runs.hpp"
 #include "sim/choice/deviation.hpp"
 #include "sim/choice/quad_reference.hpp"
 
@@ -303,6 +304,32 @@ TEST(CostTable, HasARowForEveryMethodAndGrowsWithTheRun) {
     EXPECT_GT(cost, 0) << method.name;
     EXPECT_NEAR(run_cost(chain, method, {}, 200, 200) / cost, 2, 1e-12) << method.name;
   }
+}
+
+// Evaluations under constraints and what follows each step have their price in the choice.
+TEST(CostTable, CountsConstraints) {
+  Simulation free = run_of("rrr", {"0", "0", "0"}, 1);
+  Simulation tied = run_of("rrr", {"0", "0", "0"}, 1), softly = run_of("rrr", {"0", "0", "0"}, 1);
+  tied.q0 = softly.q0 = {1.5, -1.5, -0.5};
+  tied.constraints.list = softly.constraints.list = {LineConstraint{"gripper", {0, 0.5, 0}, {1, 0, 0}}};
+  softly.constraints.stabilize = Stabilization::baumgarte;
+  const MethodSetting setting{&find_method("rk4"), {}, 0.01};
+  const auto cost = [&](Simulation& simulation, double steps, double evaluations) {
+    return CountedRuns(simulation, 1e9, {}).cost_of(setting, steps, evaluations);
+  };
+  EXPECT_EQ(cost(free, 10, 40), run_cost(free.chain, *setting.method, {}, 10, 40));
+  const ConstraintCost price = constraint_cost(tied.chain, tied.constraints);
+  // What an evaluation costs stands in the place of the free chain's.
+  EXPECT_DOUBLE_EQ(cost(tied, 0, 1) - cost(free, 0, 1), price.evaluation - forward_dynamics_cost(free.chain));
+  EXPECT_GT(cost(tied, 0, 1), cost(free, 0, 1));
+  EXPECT_DOUBLE_EQ(cost(tied, 1, 0) - cost(free, 1, 0), price.projection);
+  EXPECT_GT(cost(tied, 1, 0), 5 * cost(free, 1, 0));
+  EXPECT_EQ(cost(softly, 1, 0), cost(free, 1, 0)) << "nothing is projected";
+  EXPECT_GT(cost(softly, 0, 1), cost(tied, 0, 1)) << "without the kernel";
+  // And these are what is told of a choice.
+  const Choice choice = choose_method(tied, parse_accuracy("1e-4 m"), frames_until(1));
+  const Choice::Candidate& best = choice.best;
+  EXPECT_DOUBLE_EQ(best.cost, CountedRuns(tied, 1e9, {}).cost_of(best.setting, double(best.steps), double(best.evaluations)));
 }
 
 TEST(Deviation, MeasuresPlacesInMetresAndPixelsAndAnglesInRadians) {

@@ -172,6 +172,31 @@ TEST(CsvTorque, BreaksStepsAtItsKnotsSoThatRk4KeepsItsOrder) {
   EXPECT_LT(audit_of(run, trajectory).largest_error, 1e-11);
 }
 
+// Step lengths that suited the torques before a knot are forgotten there: from it on a run is the one that begins there.
+TEST(CsvTorque, BeginsAdaptiveMethodsAnewAtItsKnots) {
+  const TemporaryFolder folder;
+  Control control;
+  control.csv = folder.write("tau.csv", "t,tau1,tau2\n0,0,0\n0.5,6,-3\n8,6,-3\n");
+  for (const char* method : {"dop853", "radau5"}) {
+    const auto adaptive = [&](Simulation run) {
+      run.method = &find_method(method);
+      run.step = 0;
+      run.options.tolerance = 1e-5;
+      return run;
+    };
+    const Trajectory whole = simulate(adaptive(controlled("rr", control, 1.5)), instants(1.5, 0.5));
+    const Trajectory before = simulate(adaptive(controlled("rr", control, 0.5)), instants(0.5, 0.5));
+    Simulation rest = adaptive(run_of("rr", {"6", "-3"}, 1));
+    rest.q0 = {before.q_at(1)[0], before.q_at(1)[1]};
+    rest.qd0 = {before.qd_at(1)[0], before.qd_at(1)[1]};
+    const Trajectory behind = simulate(rest, instants(1, 0.5));
+    EXPECT_EQ(whole.steps, before.steps + behind.steps) << method;
+    // Times of steps are rounded elsewhere; a run that kept its step length is off by some 1e-6.
+    EXPECT_NEAR(last(whole, 0), last(behind, 0), 1e-11) << method;
+    EXPECT_NEAR(last(whole, 1), last(behind, 1), 1e-11) << method;
+  }
+}
+
 TEST(Control, SaysWhatIsWrongWithItsTable) {
   const TemporaryFolder folder;
   const Simulation run = run_of("rr", {"0", "0"}, 1);

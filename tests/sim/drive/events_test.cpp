@@ -109,6 +109,35 @@ TEST(Events, WhatComesAndGoesWithinAPartIsNotSeen) {
   EXPECT_EQ(times_of(thrown(2, 0.1, {event("q2 - 0.2035")})).size(), 2u);
 }
 
+TEST(Events, AtOneInstantComeInTheOrderOfTheScene) {
+  const EventEntry mark = event("q2 < -1"), stop = event("q2 < -1", EventKind::stop);
+  using ::testing::ElementsAre;
+  EXPECT_THAT(simulate(thrown(0, 0.1, {mark, stop, mark}), {}).events.event, ElementsAre(0, 1))
+      << "what stands behind a stop does not happen";
+  EXPECT_THAT(simulate(thrown(0, 0.1, {stop, mark}), {}).events.event, ElementsAre(0));
+  EXPECT_THAT(simulate(thrown(0, 0.5, {event("q2 < -1"), event("q2 < -0.9")}), {}).events.event, ElementsAre(1, 0))
+      << "within one part of a step, the earlier one first";
+}
+
+TEST(Events, HaveHappenedAtTheirInstantAndNotBeforeIt) {
+  for (int k = 0; k < 20; ++k) {
+    const std::string mark = std::to_string(0.1 + 0.047 * k);
+    const double height = std::stod(mark);
+    const Trajectory run = simulate(thrown(5, 0.3, {event("q2 > " + mark), event("qd2 < " + mark)}), {});
+    ASSERT_EQ(run.events.size(), 2) << mark;
+    for (int i = 0; i < 2; ++i) {
+      const auto at = std::size_t(i);
+      if (run.events.event[at] == 0) {
+        EXPECT_GT(run.events.q_at(i)[1], height) << k;
+        EXPECT_LT(run.events.q_at(i)[1] - height, 5 * kInstant) << k;
+      } else {
+        EXPECT_LT(run.events.qd_at(i)[1], height) << k;
+        EXPECT_GT(run.events.qd_at(i)[1] - height, -g * kInstant) << k;
+      }
+    }
+  }
+}
+
 TEST(Events, HaveADirection) {
   EventEntry up = event("q2 - 0.15"), down = up;
   up.direction = Crossing::rising;
