@@ -173,6 +173,35 @@ TEST_F(RrFilm, NamesItsEllipseAndItsScale) {
   EXPECT_GT(compared, 20);
 }
 
+// Bars between two ticks, with the words to their right.
+struct ScaleBar {
+  double length = 0;  // H
+  double value = 0;   // of the unit that is asked for
+};
+ScaleBar scale_bar(const Picture& page, Color color, const std::string& unit) {
+  ScaleBar bar;
+  for (const Capsule& c : test::all_of<Capsule>(page, [&](const Capsule& one) {
+         return one.paint.fill == color && one.a.y == one.b.y && one.radius == size::kScaleBar / 2;
+       }))
+    bar.length = std::max(bar.length, c.b.x - c.a.x);
+  for (const GlyphRun& run : test::all_of<GlyphRun>(page))
+    if (run.text.ends_with(" " + unit)) bar.value = std::stod(run.text);
+  return bar;
+}
+
+TEST_F(RrFilm, HasBarsAsLongAsTheirWordsSay) {
+  scene.draw.insert(scene.draw.end(), {"ellipse", "scale_bar"});
+  const Film film(scene, chain, run, run.size(), fonts());
+  const ScaleBar metres = scale_bar(film.static_layer(), light_theme().ink, "m");
+  EXPECT_GT(metres.value, 0);
+  EXPECT_NEAR(metres.length, metres.value * film.camera().scale, 1e-12);
+  EXPECT_LE(metres.length, 0.25 * film.scene_area(0).width());
+  EXPECT_GT(metres.length, 0.09 * film.scene_area(0).width()) << "the next of 1, 2, 5 would be beyond a quarter";
+  const ScaleBar masses = scale_bar(film.static_layer(), light_theme().ellipse, "kg");
+  EXPECT_GT(masses.value, 0);
+  EXPECT_NEAR(masses.length, masses.value * film.ellipse_scale().per_unit(), 1e-12);
+}
+
 TEST_F(RrFilm, IsNotSpoiltByTheWildEndOfADivergedRun) {
   const double scale = Film(scene, chain, run, run.size(), fonts()).camera().scale;
   const Chain pp = test::model("pp");

@@ -101,6 +101,17 @@ TEST_F(PanelFilm, HasOneScaleForAllEllipsesSmallerThanThatOfAWholePage) {
   EXPECT_GT(bar, 0.2 * alone);
 }
 
+TEST_F(PanelFilm, HasArrowsThatShrinkWithThePanelsSides) {
+  page.draw.push_back("velocity");
+  add("left", sliding);
+  const auto longest = [&] { return film().vector_scales().of(VectorKind::velocity).page_of_largest; };
+  EXPECT_NEAR(longest(), 0.20, 1e-12);
+  add("right", sliding);
+  EXPECT_NEAR(longest(), 0.20 / std::sqrt(2), 1e-12);
+  for (int i = 2; i < 4; ++i) add("more", sliding);
+  EXPECT_NEAR(longest(), 0.10, 1e-12);
+}
+
 TEST_F(PanelFilm, FitsTheUnionOfItsRuns) {
   add("small", [](double) { return std::vector<double>{0, 0.1}; });
   add("large", [](double t) { return std::vector<double>{0, 3 * std::sin(t)}; });

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <regex>
+#include <tuple>
 
 #include "core/error.hpp"
 #include "draw/body_shapes.hpp"
@@ -343,6 +344,38 @@ TEST_F(Space, PosesOfAModelAreSeenTheSameWay) {
   EXPECT_LT(solids[0].opacity, 0.5);  // an onion skin
   EXPECT_EQ(solids[1].opacity, 1);
   EXPECT_GT(solids[1].nearness, 0);
+}
+
+// A left hand is a right hand with a negative scale; stretched, normals stay across the surface.
+TEST_F(Space, MirroredShapesHaveTheirOutsideOutside) {
+  folder.write("wedge.obj",
+               "v 0 0 0\nv 1 0 -1\nv 0 1 0\nvn 0.6 0 0.8\nvn 0.8 0 0.6\nvn 0.7071068 0 0.7071068\nf 1//1 2//2 3//3\n");
+  for (const auto& [scale, across, normal] :
+       {std::tuple{"1 1 1", Vector3d(1, 0, 1), Vector3d(0.6, 0, 0.8)},
+        {"-1 1 1", Vector3d(-1, 0, 1), Vector3d(-0.6, 0, 0.8)},
+        {"-2 1 3", Vector3d(-3, 0, 2), Vector3d(-1.8, 0, 1.6)},
+        {"-1 -1 1", Vector3d(-1, 0, 1), Vector3d(-0.6, 0, 0.8)},
+        {"1 1 -1", Vector3d(1, 0, -1), Vector3d(0.6, 0, -0.8)}}) {
+    std::string text = kTwoAxes;
+    const std::string sphere = "<sphere radius=\"0.1\"/>";
+    text.replace(text.find(sphere), sphere.size(), std::string("<mesh filename=\"wedge.obj\" scale=\"") + scale + "\"/>");
+    const std::string model = folder.write("wedge.urdf", text);
+    MeshShelf shelf;
+    const auto all = shapes_for({"visual", "rviz", true, {}}, model, read_chain(model), {}, shelf);
+    const TriangleMesh& mesh = *all->shapes.at(2).mesh;
+    ASSERT_EQ(mesh.triangles.size(), 3u);
+    const auto corner = [&](std::size_t i) {
+      const auto& p = mesh.vertices[mesh.triangles[i]].position;
+      return Vector3d(p[0], p[1], p[2]);
+    };
+    const Vector3d turned = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+    EXPECT_LT((turned.normalized() - across.normalized()).norm(), 1e-6) << scale;
+    for (const auto& vertex : mesh.vertices) {
+      if (Vector3d(vertex.position[0], vertex.position[1], vertex.position[2]).norm() > 0) continue;
+      const Vector3d n(vertex.normal[0], vertex.normal[1], vertex.normal[2]);
+      EXPECT_LT((n - normal.normalized()).norm(), 1e-6) << scale;
+    }
+  }
 }
 
 TEST_F(Space, MeshesThatCannotBeReadAreNamedWithTheirLine) {

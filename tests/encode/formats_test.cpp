@@ -85,6 +85,7 @@ TEST_P(EveryFilm, DecodesToItsFramesInItsColours) {
   EXPECT_TRUE(facts.regular);
   for (const std::string& tag : {facts.primaries, facts.transfer, facts.matrix}) EXPECT_EQ(tag, "bt709");
   EXPECT_EQ(facts.range, "tv");
+  EXPECT_EQ(facts.alpha_mode, facts.pixel_format == "yuva420p" ? "1" : "");
   // 4:2:0 blurs the edge of the disc; the mean over the page stays small. Opacity is seen on black and on
   // white.
   for (const int grey : {0, 255}) {
@@ -254,6 +255,49 @@ TEST(Formats, AnApngIsExactAndSaysWhatItIs) {
   EXPECT_EQ(over(facts.last, 128).bgra, over(floating_disc(8), 128).bgra);
   EXPECT_EQ(read_png_text(path).at("chainreel_scene"), "\u03C4: [0, 0]\n");
   EXPECT_EQ(read_png(path).bgra, floating_disc(0).bgra);  // to a reader that knows no APNG
+}
+
+// Times that a clip plays, 0 for ever, as its file says: of an APNG the last number of its chunk acTL (PNG, third
+// edition, 11.3.6.1), of a GIF that of the extension NETSCAPE2.0.
+int plays_of(const std::string& path) {
+  const std::string bytes = read_whole_file(path);
+  const bool is_gif = bytes.starts_with("GIF");
+  const std::size_t at = bytes.find(is_gif ? "NETSCAPE2.0" : "acTL");
+  if (at == std::string::npos) return -1;
+  const auto byte = [&](std::size_t i) { return int(std::uint8_t(bytes.at(at + i))); };
+  return is_gif ? byte(13) + 256 * byte(14) : byte(11) + 256 * byte(10) + 65536 * byte(9);
+}
+
+TEST(Formats, SmallClipsPlayForEver) {
+  const TemporaryFolder folder;
+  const SmallClipSettings settings{.width = 64, .height = 64, .fps = {10, 1}};
+  GifWriter gif(folder.file("a.gif"), settings);
+  ApngWriter apng(folder.file("a.apng"), settings);
+  for (int k = 0; k < 3; ++k) {
+    gif.write(flat_picture(64, 64, pixel_of(0x101010u * unsigned(k))));
+    apng.write(flat_picture(64, 64, pixel_of(0x101010u * unsigned(k))));
+  }
+  gif.finish();
+  apng.finish();
+  EXPECT_EQ(plays_of(folder.file("a.gif")), 0);
+  EXPECT_EQ(plays_of(folder.file("a.apng")), 0);
+}
+
+// Quality that nobody names: the file is to the last byte that of 18 for H.264, of 28 for VP9.
+TEST(Formats, FilmsHaveTheQualityThatTheirDocumentationNames) {
+  const TemporaryFolder folder;
+  const auto film = [&](VideoCodec codec, std::optional<double> crf) {
+    const std::string path = folder.file(codec == VideoCodec::vp9 ? "a.webm" : "a.mp4");
+    VideoWriter writer(path, {.width = kWidth, .height = kHeight, .crf = crf, .codec = codec});
+    for (int k = 0; k < 3; ++k) writer.write(over(floating_disc(k), 255));
+    writer.finish();
+    return read_whole_file(path);
+  };
+  for (const auto& [codec, crf] : {std::pair{VideoCodec::h264, 18.0}, {VideoCodec::vp9, 28.0}}) {
+    const std::string unsaid = film(codec, {});
+    EXPECT_EQ(unsaid, film(codec, crf));
+    EXPECT_NE(unsaid, film(codec, crf + 4)) << "negative control";
+  }
 }
 
 TEST(Formats, ASequenceIsExact) {

@@ -144,6 +144,28 @@ TEST(Shapes, TranslucentFillsMixWithTheBackground) {
   EXPECT_EQ(image.at(64, 64).a, 255);
 }
 
+// A stroke lies half on its fill and half beside it, and what is translucent shows which.
+TEST(Shapes, FillsShineThroughTranslucentStrokes) {
+  const Paint paint = {color_of(0xFF0000), color_of(0x0000FF, 0.5), 8 * kPx};
+  const std::pair<Shape, const char*> shapes[] = {
+      {Capsule{at_px(40, 64), at_px(88, 64), 20 * kPx, paint}, "capsule"},
+      {Ellipse{at_px(64, 64), {44 * kPx, 0}, {0, 20 * kPx}, paint}, "ellipse"},
+      {rectangle(20, 44, 108, 84, paint), "polygon"},
+  };
+  for (const auto& [shape, name] : shapes) {
+    const Image image = draw_items({shape});
+    // The upper edge is at y = 44, the stroke reaches from 40 to 48; 8-bit rounding of colour and of opacity.
+    EXPECT_EQ(image.at(64, 50), (Pixel{255, 0, 0, 255})) << name;
+    const Pixel inside = image.at(64, 45), outside = image.at(64, 42);
+    EXPECT_NEAR(inside.r, 127.5, 1.5) << name;
+    EXPECT_EQ(inside.g, 0) << name;
+    EXPECT_NEAR(inside.b, 127.5, 1.5) << name;
+    EXPECT_NEAR(outside.r, 127.5, 1.5) << name;
+    EXPECT_NEAR(outside.g, 127.5, 1.5) << name;
+    EXPECT_EQ(outside.b, 255) << name;
+  }
+}
+
 TEST(Shapes, NoBackgroundShinesThroughBetweenFillAndStroke) {
   // Black over black must be black wherever both are, at every place of the edge between pixels.
   Places place;

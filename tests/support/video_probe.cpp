@@ -94,6 +94,8 @@ void describe(VideoFacts& facts, const AVFormatContext& input, const AVStream& s
   facts.transfer = text_or_unknown(av_color_transfer_name(parameters.color_trc));
   facts.matrix = text_or_unknown(av_color_space_name(parameters.color_space));
   facts.range = text_or_unknown(av_color_range_name(parameters.color_range));
+  const AVDictionaryEntry* alpha_mode = av_dict_get(stream.metadata, "alpha_mode", nullptr, 0);
+  if (alpha_mode != nullptr) facts.alpha_mode = alpha_mode->value;
 }
 
 // Takes every frame that the decoder has ready.

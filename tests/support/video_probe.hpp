@@ -29,6 +29,7 @@ struct VideoFacts {
   int frames = 0;                                  // counted by decoding
   std::string primaries, transfer, matrix, range;  // FFmpeg's names: "bt709", ..., "tv"
   bool index_first = false;                        // moov before mdat: plays before it is loaded whole
+  std::string alpha_mode;                          // the track's tag by which WebM's players find opacity
   bool regular = false;                            // frame k is shown at k / fps exactly, from 0 on
   std::vector<int> key_frames;                     // frames at which decoding can start
   Image first, middle, last;                       // middle: frame declared_frames / 2
