@@ -24,17 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-const std::vector<std::string> kCommands{"render",  "snapshot", "ellipse", "simulate", "dynamics",
-                                         "inverse", "init",     "check",   "doctor",   "sheet",    "gallery"};
-
-TEST(Help, HasAnExampleForEveryCommand) {
-  for (const std::string& command : kCommands) {
-    const ProgramResult result = run_program({command, "--help"});
-    EXPECT_EQ(result.status, 0);
-    EXPECT_THAT(result.out, HasSubstr("Example: chainreel " + command));
-  }
-}
-
 TEST(Usage, ErrorsAreExitTwo) {
   EXPECT_EQ(run_program({}).status, 2);
   EXPECT_EQ(run_program({"rendr"}).status, 2);
@@ -97,11 +86,26 @@ TEST(Progress, IsAPlainLineWhereThereIsNoTerminal) {
   EXPECT_THAT(result.err, testing::Not(HasSubstr("\r")));
 }
 
+// What a shell waits for, of the program whose number is $pid: that there is something in the folder $0, so that all is
+// read and checked and it is in the midst of writing; or that it has worked for 0.2 s of processor time, whatever the
+// clock says.
+const std::string kIsWriting = "ls -A \"$0\" | grep -q .";
+const std::string kIsAtWork = "test $(cut -d ' ' -f 14 /proc/$pid/stat) -ge 20";
+const std::string kInterrupt = "kill -INT $pid";
+
+// The program with `arguments`, interrupted as soon as `it_does` holds; its end is awaited.
+ProgramResult interrupted_when(const std::string& it_does, const TemporaryFolder& folder, const Words& arguments,
+                               const std::string& interrupt = kInterrupt) {
+  const std::string line = "\"$@\" & pid=$!; until " + it_does + "; do kill -0 $pid || break; sleep 0.01; done; " +
+                           interrupt + "; wait $pid";
+  return run_command(with({"sh", "-c", line, folder.path().string(), program_path()}, arguments));
+}
+
+const Words kLongRender{"render", "assets/scenes/rrr_torque.yaml", "--quiet", "--set", "duration=300", "-o"};
+
 TEST(Interrupt, LeavesNothingHalfWritten) {
   const TemporaryFolder folder;
-  const ProgramResult result = run_command({"timeout", "--signal=INT", "--preserve-status", "1",
-                                            program_path(), "render", "assets/scenes/rrr_torque.yaml", "-o",
-                                            folder.file("a.mp4"), "--quiet", "--set", "duration=300"});
+  const ProgramResult result = interrupted_when(kIsWriting, folder, with(kLongRender, {folder.file("a.mp4")}));
   EXPECT_EQ(result.status, 130) << result.err;
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
@@ -109,11 +113,8 @@ TEST(Interrupt, LeavesNothingHalfWritten) {
 // As `timeout` signals its child and then the group of both: one signal, come twice.
 TEST(Interrupt, ThatComesTwiceAtOnceLeavesNothingEither) {
   const TemporaryFolder folder;
-  const ProgramResult result = run_command(
-      {"sh", "-c",
-       "\"$0\" render assets/scenes/rrr_torque.yaml -o \"$1\" --quiet --set duration=300 & pid=$!; sleep 1; "
-       "kill -INT $pid; sleep 0.001; kill -INT $pid; wait $pid",
-       program_path(), folder.file("a.mp4")});
+  const ProgramResult result = interrupted_when(kIsWriting, folder, with(kLongRender, {folder.file("a.mp4")}),
+                                                kInterrupt + "; sleep 0.001; " + kInterrupt);
   EXPECT_EQ(result.status, 130) << result.err;
   EXPECT_THAT(result.err, HasSubstr("nothing half-written was kept"));
   EXPECT_TRUE(fs::is_empty(folder.path()));
@@ -146,7 +147,7 @@ TEST(Interrupt, BehindTheLastFrameKeepsNoPartialFilm) {
 }
 
 TEST(Interrupt, IsHeardByGalleryAndSheet) {
-  const TemporaryFolder folder, made;
+  const TemporaryFolder made;
   ASSERT_EQ(run_program({"render", "assets/scenes/rr_free.yaml", "--quiet", "-o", made.file("a.mp4"), "--set",
                          "duration=0.1", "--set", "video.width=320", "--set", "video.height=180"})
                 .status,
@@ -154,15 +155,14 @@ TEST(Interrupt, IsHeardByGalleryAndSheet) {
   // Some milliseconds each: it takes seconds to read them all.
   for (int i = 0; i < 3000; ++i)
     fs::create_symlink(made.path() / "a.mp4", made.path() / ("film_" + std::to_string(i) + ".mp4"));
-  std::vector<std::string> sheet{"sheet", "--width", "8000", "--height", "6000", "-o", folder.file("sheet.png")};
-  sheet.insert(sheet.end(), 48, "assets/scenes/rr_free.yaml");
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"gallery", made.path().string(), "-o", folder.file("page.html")}, sheet}) {
-    std::vector<std::string> command{"timeout", "--signal=INT", "--preserve-status", "0.5", program_path()};
-    command.insert(command.end(), words.begin(), words.end());
-    const ProgramResult result = run_command(command);
+  Words sheet{"sheet", "--width", "8000", "--height", "6000", "-o"};
+  const Words scenes(48, "assets/scenes/rr_free.yaml");
+  const TemporaryFolder page, picture;
+  for (const auto& [folder, words] : {std::pair{&page, Words{"gallery", made.path().string(), "-o", page.file("page.html")}},
+                                      {&picture, with(with(sheet, {picture.file("sheet.png")}), scenes)}}) {
+    const ProgramResult result = interrupted_when(kIsAtWork, *folder, words);
     EXPECT_EQ(result.status, 130) << words[0] << "\n" << result.err;
-    EXPECT_TRUE(fs::is_empty(folder.path())) << words[0];
+    EXPECT_TRUE(fs::is_empty(folder->path())) << words[0];
   }
 }
 

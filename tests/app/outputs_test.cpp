@@ -387,6 +387,12 @@ TEST(Outputs, WhatCannotBeWrittenIsSaidBeforeTheRun) {
               HasSubstr("unknown preset 'slide': did you mean 'slides'?"));
   EXPECT_THAT(trouble({"--preset", "overlay", "-o", folder.file("a.mp4")}),
               HasSubstr("a transparent background cannot be written there"));
+  // Of what would be a film without its background in part.
+  for (const char* name : {"a.gif", "a.mp4"}) {
+    const ProgramResult result = render({"--layout", "transparent", "-o", folder.file(name)});
+    EXPECT_EQ(result.status, 2) << name;
+    EXPECT_THAT(result.err, HasSubstr(std::string(name) + ": a transparent background cannot be written there"));
+  }
   EXPECT_THAT(trouble({"--crf", "60", "-o", folder.file("a.webm"), "-o", folder.file("a.mp4")}),
               HasSubstr("must be from 0 to 51"));
   EXPECT_THAT(trouble({"--crf", "64", "-o", folder.file("a.webm")}),

@@ -108,7 +108,7 @@ WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOp
 }
 
 std::string number_or_empty(double value) {
-  return std::isfinite(value) ? format_significant(value, 6) : "";
+  return std::isfinite(value) ? format_shortest(value) : "";
 }
 
 std::string csv_of(const std::string& scene, const Measured& measured) {

@@ -127,8 +127,8 @@ std::string csv_of(const std::string& scene, const std::vector<MethodRun>& runs)
   text += "method,t,energy_error\n";
   for (const MethodRun& run : runs)
     for (std::size_t k = 0; k < run.curve.t.size(); ++k)
-      text += run.curve.method + "," + format_significant(run.curve.t[k], 6) + "," +
-              format_significant(run.curve.error[k], 6) + "\n";
+      text += run.curve.method + "," + format_shortest(run.curve.t[k]) + "," +
+              format_shortest(run.curve.error[k]) + "\n";
   return text;
 }
 
