@@ -5,11 +5,11 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "core/error.hpp"
+#include "support/public_robots.hpp"
 
 namespace chainreel {
 namespace {
@@ -122,14 +122,11 @@ TEST_F(MeshExtents, AFileBeyondTheLimitIsRefusedUnread) {
 }
 
 TEST_F(MeshExtents, PublicRobotsAreReadInMetres) {
-  const char* folder = std::getenv("CHAINREEL_ROBOTS");
-  if (folder == nullptr) {
-    std::puts("CHAINREEL_ROBOTS names no folder of robots: nothing to read");
-    return;
-  }
+  const std::string folder = public_robots_folder();
+  if (folder.empty()) GTEST_SKIP() << kNoRobots;
   // A Panda's hand is some 20 cm wide; its visual mesh is Collada, its collision mesh STL.
-  const Box visual = mesh_extents(std::string(folder) + "/panda_description/meshes/visual/hand.dae");
-  const Box collision = mesh_extents(std::string(folder) + "/panda_description/meshes/collision/hand.stl");
+  const Box visual = mesh_extents(folder + "/panda_description/meshes/visual/hand.dae");
+  const Box collision = mesh_extents(folder + "/panda_description/meshes/collision/hand.stl");
   EXPECT_NEAR(visual.size()[1], 0.2, 0.02);
   EXPECT_NEAR(collision.size()[1], 0.2, 0.02);
 }

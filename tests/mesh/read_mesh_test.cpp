@@ -17,6 +17,7 @@
 #include "mesh/material_color.hpp"
 #include "mesh/primitives.hpp"
 #include "mesh_files.hpp"
+#include "support/public_robots.hpp"
 
 namespace chainreel {
 namespace {
@@ -88,6 +89,26 @@ TEST_F(ReadMesh, NormalsOfTheFileGoByTheInverseTranspose) {
   const Eigen::Vector3d expected[3] = {{0.2, 0, 0.8}, {0.8 / 3, 0, 0.6}, {1.0 / 3, 0, 1}};
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_LT((point_of(mesh.vertices[i].normal) - expected[i].normalized()).norm(), 1e-6) << i;
+}
+
+// Of a mirrored surface the outside stays outside: normals are mirrored with it, and never turned inwards.
+TEST_F(ReadMesh, NormalsOfAMirroredFileAreMirrored) {
+  const std::vector<Triangle> slope{{Eigen::Vector3d(0, 0, 0), {1, 0, -1}, {0, 1, 0}}};  // normal (1, 0, 1)
+  Collada with;
+  with.normals = "0.6 0 0.8  0.8 0 0.6  0.7071068 0 0.7071068";
+  with.open = "<node id=\"a\"><scale>-1 1 1</scale>";
+  const TriangleMesh mesh = read_mesh(file("s.dae", collada(slope, with)));
+  ASSERT_EQ(mesh.vertices.size(), 3U);
+  const auto corner = [&](std::size_t i) { return point_of(mesh.vertices[mesh.triangles.at(i)].position); };
+  const Eigen::Vector3d across = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+  EXPECT_LT((across - Eigen::Vector3d(-1, 0, 1)).norm(), 1e-6);
+  for (const auto& vertex : mesh.vertices) {
+    const Eigen::Vector3d p = point_of(vertex.position), n = point_of(vertex.normal);
+    const Eigen::Vector3d expected = p[0] < -0.5   ? Eigen::Vector3d(-0.8, 0, 0.6)
+                                     : p[1] > 0.5 ? Eigen::Vector3d(-1, 0, 1).normalized()
+                                                  : Eigen::Vector3d(-0.6, 0, 0.8);
+    EXPECT_LT((n - expected).norm(), 1e-6) << p.transpose();
+  }
 }
 
 TEST_F(ReadMesh, UpIsIgnoredAsInRvizOrBecomesZ) {
@@ -278,11 +299,8 @@ TEST_F(ReadMesh, AJpegIsReadToo) {
 }
 
 TEST_F(ReadMesh, PublicRobotsHaveTheirMeasures) {
-  const char* robots = std::getenv("CHAINREEL_ROBOTS");
-  if (robots == nullptr || *robots == '\0') {
-    std::puts("CHAINREEL_ROBOTS names no folder of robots: nothing to read");
-    return;
-  }
+  const std::string robots = public_robots_folder();
+  if (robots.empty()) GTEST_SKIP() << kNoRobots;
   int count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(robots)) {
     const std::string ending = entry.path().extension().string();

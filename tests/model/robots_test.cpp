@@ -2,10 +2,10 @@
 // are not part of the project; without them these tests say so and pass.
 #include <gmock/gmock.h>
 
-#include <cstdio>
 
 #include "model/doctor.hpp"
 #include "model_file.hpp"
+#include "support/public_robots.hpp"
 
 namespace chainreel {
 namespace {
@@ -34,18 +34,17 @@ const std::vector<Robot> kRobots{
 class PublicRobots : public ::testing::Test {
  protected:
   PublicRobots() {
-    const char* folder = std::getenv("CHAINREEL_ROBOTS");
-    if (folder == nullptr || *folder == '\0') {
-      std::puts("CHAINREEL_ROBOTS names no folder of robots: nothing to read");
-      return;
-    }
+    const std::string folder = public_robots_folder();
+    if (folder.empty()) return;
     folder_ = fs::absolute(folder).lexically_normal();
     if (folder_.filename().empty()) folder_ = folder_.parent_path();  // it ended in a slash
     // Their meshes are package://example-robot-data/robots/NAME/..., where robots is this folder.
     options_.packages["example-robot-data"] = folder_.parent_path().string();
   }
 
-  bool are_there() const { return !folder_.empty(); }
+  void SetUp() override {
+    if (folder_.empty()) GTEST_SKIP() << kNoRobots;
+  }
   std::string path(const char* file) const { return (folder_ / file).string(); }
 
   fs::path folder_;
@@ -53,7 +52,6 @@ class PublicRobots : public ::testing::Test {
 };
 
 TEST_F(PublicRobots, AllAreReadWithTheirMeshes) {
-  if (!are_there()) return;
   if (folder_.filename() != "robots") options_.meshes = false;
   for (const Robot& robot : kRobots) {
     SCOPED_TRACE(robot.file);
@@ -67,7 +65,6 @@ TEST_F(PublicRobots, AllAreReadWithTheirMeshes) {
 }
 
 TEST_F(PublicRobots, TheDoublePendulumMovesInTheYzPlane) {
-  if (!are_there()) return;
   const Chain chain = read_chain(path(kRobots[0].file), options_);
   ASSERT_TRUE(chain.planar);
   EXPECT_EQ(chain.why_algebra, "planar: all 2 revolute axes are parallel to x");
@@ -77,7 +74,6 @@ TEST_F(PublicRobots, TheDoublePendulumMovesInTheYzPlane) {
 }
 
 TEST_F(PublicRobots, ThePandasFingersShareACoordinate) {
-  if (!are_there()) return;
   const Chain chain = read_chain(path("panda_description/urdf/panda.urdf"), options_);
   EXPECT_TRUE(chain.has_mimic);
   EXPECT_EQ(chain.bodies.size(), 10u);
@@ -86,7 +82,6 @@ TEST_F(PublicRobots, ThePandasFingersShareACoordinate) {
 }
 
 TEST_F(PublicRobots, BoltFloatsWhenAskedTo) {
-  if (!are_there()) return;
   options_.floating_base = true;
   const Chain chain = read_chain(path("bolt_description/robots/bolt.urdf"), options_);
   EXPECT_EQ(chain.nq, 13);
@@ -94,7 +89,6 @@ TEST_F(PublicRobots, BoltFloatsWhenAskedTo) {
 }
 
 TEST_F(PublicRobots, TheDoctorFindsNoErrors) {
-  if (!are_there()) return;
   for (const Robot& robot : kRobots) {
     for (const Finding& finding : examine_model(path(robot.file), options_))
       EXPECT_NE(finding.severity, Finding::Severity::error) << robot.file << ": " << finding.message;
@@ -103,7 +97,6 @@ TEST_F(PublicRobots, TheDoctorFindsNoErrors) {
 
 // package://example-robot-data/robots/panda_description/..: the path goes through the folder that the URDF lies in.
 TEST_F(PublicRobots, WithoutTheirPackageTheMeshesAreFoundByTheirTailAndThatIsSaid) {
-  if (!are_there()) return;
   options_.packages.clear();
   int said = 0;
   for (const Finding& finding : examine_model(path("panda_description/urdf/panda.urdf"), options_)) {

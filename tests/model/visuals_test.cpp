@@ -2,12 +2,12 @@
 
 #include <gmock/gmock.h>
 
-#include <cstdio>
 #include <map>
 
 #include "mesh/mesh_extents.hpp"
 #include "mesh/read_mesh.hpp"
 #include "model_file.hpp"
+#include "support/public_robots.hpp"
 
 namespace chainreel {
 namespace {
@@ -164,11 +164,8 @@ TEST(Visuals, MeshesAreFoundAndScaled) {
 }
 
 TEST(Visuals, PublicRobotsHaveThemAll) {
-  const char* robots = std::getenv("CHAINREEL_ROBOTS");
-  if (robots == nullptr || *robots == '\0') {
-    std::puts("CHAINREEL_ROBOTS names no folder of robots: nothing to read");
-    return;
-  }
+  const std::string robots = public_robots_folder();
+  if (robots.empty()) GTEST_SKIP() << kNoRobots;
   namespace fs = std::filesystem;
   ModelOptions options;
   options.packages["example-robot-data"] = fs::absolute(robots).lexically_normal().parent_path().string();

@@ -16,6 +16,7 @@
 #include "sim/audit.hpp"
 #include "sim/simulate.hpp"
 #include "support/chains.hpp"
+#include "support/public_robots.hpp"
 
 namespace chainreel::peers {
 namespace {
@@ -76,11 +77,13 @@ TEST(FreeMotion, OfTheCommittedModelsKeepsTheirEnergy) {
 }
 
 TEST(FreeMotion, OfPublicRobotsKeepsTheirEnergy) {
+  if (public_robots().empty()) GTEST_SKIP() << kNoRobots;
   for (const std::string& path : public_robots())
     EXPECT_LT(audit_error(path, free_motion(read_frictionless(path))), kLargestError) << path;
 }
 
 TEST(FreeMotion, OfPublicRobotsThatHangOnNothingKeepsTheirEnergy) {
+  if (public_robots().empty()) GTEST_SKIP() << kNoRobots;
   for (const std::string& path : public_robots())
     EXPECT_LT(audit_error(path + ", floating", free_motion(read_frictionless(path, true))), kLargestError)
         << path;
@@ -88,6 +91,10 @@ TEST(FreeMotion, OfPublicRobotsThatHangOnNothingKeepsTheirEnergy) {
 
 TEST(FreeMotion, ErrorIsTheMethodsOwn) {
   expect_error_of_order_four("arm", free_motion(chainreel::test::arm_chain(3)));
+}
+
+TEST(FreeMotion, ErrorOfPublicRobotsIsTheMethodsOwn) {
+  if (public_robots().empty()) GTEST_SKIP() << kNoRobots;
   for (const std::string& path : public_robots())
     expect_error_of_order_four(path + ", upright", free_motion(read_frictionless(path), 0.3));
 }

@@ -1,13 +1,12 @@
 #include "peers/model_files.hpp"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 
 #include "model/read_chain.hpp"
 #include "support/chains.hpp"
+#include "support/public_robots.hpp"
 
 namespace chainreel::peers {
 
@@ -24,15 +23,10 @@ std::vector<std::string> committed_models() {
 }
 
 std::vector<std::string> public_robots() {
-  const char* folder = std::getenv("CHAINREEL_ROBOTS");
-  if (folder == nullptr || *folder == '\0') {
-    std::puts("CHAINREEL_ROBOTS names no folder of robots: none are tried");
-    return {};
-  }
-  if (!std::filesystem::is_directory(folder))
-    throw std::runtime_error(std::string("CHAINREEL_ROBOTS is no folder: ") + folder);
+  const std::string folder = public_robots_folder();
+  if (folder.empty()) return {};
   std::vector<std::string> robots = urdf_files_below(folder);
-  if (robots.empty()) throw std::runtime_error(std::string("no robots below ") + folder);
+  if (robots.empty()) throw std::runtime_error("no robots below " + folder);
   return robots;
 }
 

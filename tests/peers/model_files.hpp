@@ -13,7 +13,7 @@ namespace chainreel::peers {
 std::vector<std::string> urdf_files_below(const std::string& folder);
 
 std::vector<std::string> committed_models();
-// Empty, and a line is printed, where CHAINREEL_ROBOTS is unset. Throws std::runtime_error where it names no
+// Empty where CHAINREEL_ROBOTS is not set: tests are skipped then. Throws std::runtime_error where it names no
 // folder with robots.
 std::vector<std::string> public_robots();
 

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include "dynamics/kinematics.hpp"
 #include "model/read_chain.hpp"
 #include "sim/runs.hpp"
+#include "support/public_robots.hpp"
 
 namespace chainreel {
 namespace {
@@ -94,12 +94,9 @@ TEST(Linearise, PutsTheLimitOfAnArmUnderFeedbackWhereRunsDiverge) {
 }
 
 TEST(Linearise, FindsThePandasLimitUnderStiffFeedback) {
-  const char* robots = std::getenv("CHAINREEL_ROBOTS");
-  const std::string file = std::string(robots ? robots : "") + "/panda_description/urdf/panda.urdf";
-  if (!robots || !std::filesystem::exists(file)) {
-    std::puts("CHAINREEL_ROBOTS names no folder with the Panda: nothing to read");
-    return;
-  }
+  const std::string robots = public_robots_folder();
+  if (robots.empty()) GTEST_SKIP() << kNoRobots;
+  const std::string file = robots + "/panda_description/urdf/panda.urdf";
   ModelOptions options;
   options.end_effector = "panda_hand";
   options.meshes = false;
