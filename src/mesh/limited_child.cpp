@@ -24,7 +24,7 @@ void limit(decltype(RLIMIT_CPU) resource, rlim_t value) {
   rlimit current{};
   getrlimit(resource, &current);
   // A limit that is already lower stays.
-  current.rlim_cur = std::min(value, current.rlim_max);
+  current.rlim_cur = std::min({value, current.rlim_cur, current.rlim_max});
   setrlimit(resource, &current);
 }
 

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "mesh_files.hpp"
+
 namespace chainreel {
 namespace {
 
@@ -98,6 +100,10 @@ TEST(LimitedChild, MemoryEndsAtTheLimit) {
   const ChildResult greedy = run_in_limited_child(take(std::size_t(256) << 20), limits);
   EXPECT_FALSE(greedy.finished);
   EXPECT_EQ(greedy.trouble, "ran out of memory");
+  // What the program itself is held to holds for its child, too.
+  const LessMemory less(std::size_t(64) << 20);
+  EXPECT_EQ(run_in_limited_child(take(std::size_t(16) << 20)).reply, "x");
+  EXPECT_EQ(run_in_limited_child(take(std::size_t(256) << 20)).trouble, "ran out of memory");
 }
 
 }  // namespace

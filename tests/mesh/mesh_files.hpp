@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <Eigen/Core>
@@ -31,6 +32,25 @@ class MeshFolder : public testing::Test {
 
   const TemporaryFolder temporary_;
   const std::filesystem::path folder_ = temporary_.path();
+};
+
+// As long as it lives, the test and its children have no more than `more` bytes of address space beyond what is used.
+class LessMemory {
+ public:
+  explicit LessMemory(std::size_t more) {
+    getrlimit(RLIMIT_AS, &before_);
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    rlimit less = before_;
+    less.rlim_cur = rlim_t(pages) * rlim_t(sysconf(_SC_PAGESIZE)) + rlim_t(more);
+    setrlimit(RLIMIT_AS, &less);
+  }
+  ~LessMemory() { setrlimit(RLIMIT_AS, &before_); }
+  LessMemory(const LessMemory&) = delete;
+  LessMemory& operator=(const LessMemory&) = delete;
+
+ private:
+  rlimit before_{};
 };
 
 using Triangle = std::array<Eigen::Vector3d, 3>;
