@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <numbers>
+#include <optional>
 
 #include "app/command.hpp"
 #include "app/commands/ellipse_numbers.hpp"
@@ -23,19 +25,40 @@ namespace fs = std::filesystem;
 constexpr int kFrame = 72;
 constexpr double kRightAngle = std::numbers::pi / 2;
 
+// What a film shows, whatever it looks like.
+struct FilmRun {
+  PreparedFilm film;
+  FilmClock clock;
+  std::vector<double> times;
+  std::vector<Trajectory> runs;
+};
+
+FilmRun run_film(const std::string& scene, Words overrides, const Words& vary) {
+  add_comparison(vary, overrides);
+  FilmRun run{load_film("assets/scenes/" + scene + ".yaml", overrides), {}, {}, {}};
+  run.clock = clock_of(run.film);
+  run.times = run.clock.frame_times();
+  run.runs = simulate_film(run.film, run.times);
+  return run;
+}
+
+void set_look(Scene& scene, const PictureLook& look) {
+  scene.theme = look.theme;
+  scene.text_scale = look.text_scale;
+  scene.video.width = look.width;
+  scene.video.height = look.height;
+}
+
+// Its runs and the choice of their method are taken once, for all looks.
 AnyPicture frame_of(const std::string& name, const std::string& scene, const Words& more = {},
                     const Words& vary = {}) {
+  const auto known = std::make_shared<std::optional<FilmRun>>();
   return {name, [=](const PictureLook& look, const Fonts& fonts) {
-            Words overrides{"theme=" + look.theme, "text_scale=" + std::to_string(look.text_scale),
-                            "video.width=" + std::to_string(look.width),
-                            "video.height=" + std::to_string(look.height)};
-            overrides.insert(overrides.end(), more.begin(), more.end());
-            add_comparison(vary, overrides);
-            const PreparedFilm film = load_film("assets/scenes/" + scene + ".yaml", overrides);
-            const FilmClock clock = clock_of(film);
-            const std::vector<double> times = clock.frame_times();
-            const std::vector<Trajectory> runs = simulate_film(film, times);
-            const Film pictures = film_of(film, runs, times, int(times.size()), fonts, clock);
+            if (!*known) *known = run_film(scene, more, vary);
+            FilmRun& run = **known;
+            set_look(run.film.scene, look);
+            for (PreparedScene& panel : run.film.panels) set_look(panel.scene, look);
+            const Film pictures = film_of(run.film, run.runs, run.times, int(run.times.size()), fonts, run.clock);
             Picture picture = pictures.static_layer();
             picture.append(pictures.frame(std::min(kFrame, pictures.frame_count() - 1)));
             return picture;
