@@ -51,7 +51,7 @@ TEST_P(InTheDark, IsNotTheLightOne) {
 std::string theme_by(std::vector<std::string> words) {
   const TemporaryFolder folder;
   const std::string file = folder.file("a.png");
-  words.insert(words.end(), {"-o", file, "--quiet", "--width", "64", "--height", "36"});
+  words.insert(words.end(), {"-o", file, "--quiet", "--width", "320", "--height", "180"});
   const ProgramResult result = run_program(words);
   if (result.status != 0) return result.err;
   const Pixel corner = read_png(file).at(2, 2);
