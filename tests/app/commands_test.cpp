@@ -12,7 +12,7 @@
 #include <map>
 #include <sstream>
 
-#include "app/trajectory_csv.hpp"
+#include "app/report/trajectory_csv.hpp"
 #include "core/csv.hpp"
 #include "core/format.hpp"
 #include "core/json.hpp"
