@@ -12,14 +12,6 @@
 
 namespace chainreel {
 
-// Ways to forward dynamics.
-enum class Algorithm {
-  planar_kernel,     // kernel_planar.hpp: up to four joints that turn in one plane
-  spatial_kernel,    // kernel_spatial.hpp: up to 15 joints, turning or sliding
-  articulated_body,  // O(n)
-  mass_matrix,       // CRBA, RNEA and L D L^T: chains whose bodies share coordinates
-};
-Algorithm algorithm_of(const Chain& chain);
 
 // Writes nv numbers at qdd. Chosen once, when the workspace is made: a run then costs one indirect call.
 using ForwardDynamics = void (*)(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau,

@@ -1,5 +1,6 @@
 #include "dynamics/workspace.hpp"
 
+#include "dynamics/forward_dynamics.hpp"
 #include "dynamics/scratch.hpp"
 
 namespace chainreel {

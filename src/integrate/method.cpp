@@ -5,6 +5,14 @@
 #include "integrate/makers.hpp"
 
 namespace chainreel {
+namespace {
+
+// The Taylor method's step: four convolutions a joint and order, and a product with the inverse of M.
+double series_step(int n, int order) {
+  return 50 + n * order * (0.7 * order + 1.5 * n + 3);
+}
+
+}  // namespace
 
 const std::vector<Method>& methods() {
   static const std::vector<Method> rows{
@@ -12,12 +20,14 @@ const std::vector<Method>& methods() {
        .order = 1,
        .kind = "explicit",
        .evaluations_per_step = 1,
+       .price = {10, 2, 1, 30, 0},
        .source = "L. Euler, Institutionum calculi integralis I (1768), ch. 7",
        .make_stepper = make_explicit_euler},
       {.name = "semi_implicit_euler",
        .order = 1,
        .kind = "semi-implicit in (q, qd)",
        .evaluations_per_step = 1,
+       .price = {10, 2, 1, 30, 0},
        .source =
            "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), I.1.2; here in (q, qd)",
        .make_stepper = make_semi_implicit_euler},
@@ -25,6 +35,7 @@ const std::vector<Method>& methods() {
        .order = 4,
        .kind = "explicit",
        .evaluations_per_step = 4,
+       .price = {20, 6, 1, 15, 0},
        .source = "W. Kutta, Zeitschrift fuer Mathematik und Physik 46 (1901) 435-453",
        .make_stepper = make_rk4},
       {.name = "dop853",
@@ -33,6 +44,7 @@ const std::vector<Method>& methods() {
        .adaptive = true,
        .dense_order = 7,
        .evaluations_per_step = 12,
+       .price = {60, 40, 1, 20, 0},
        .source = "J. Dormand, P. Prince; E. Hairer, S. Norsett, G. Wanner, Solving Ordinary Differential "
                  "Equations I (1993), II.5, II.10",
        .make = make_dop853},
@@ -45,6 +57,7 @@ const std::vector<Method>& methods() {
        .highest_order = 30,
        .dense_order = 20,
        .evaluations_per_step = 1,
+       .price = Price(series_step),
        .source = "A. Jorba, M. Zou, Experimental Mathematics 14 (2005) 99-117",
        .make = make_taylor},
       {.name = "radau5",
@@ -53,6 +66,7 @@ const std::vector<Method>& methods() {
        .adaptive = true,
        .plain_coordinates = true,
        .evaluations_per_step = 0,
+       .price = {400, 170, 1, 30, 0},
        .source = "E. Hairer, G. Wanner, Solving Ordinary Differential Equations II (1996), IV.5, IV.8",
        .make = make_radau5},
       {.name = "symplectic_euler",
@@ -61,6 +75,7 @@ const std::vector<Method>& methods() {
        .form = Form::momenta,
        .symplectic = true,
        .evaluations_per_step = 0,
+       .price = {20, 10, 5, 10, 0},
        .source = "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), VI.3",
        .make = make_symplectic_euler},
       {.name = "verlet",
@@ -70,6 +85,7 @@ const std::vector<Method>& methods() {
        .symplectic = true,
        .reversible = true,
        .evaluations_per_step = 0,
+       .price = {20, 10, 8, 0, 0},
        .source = "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), VI.3",
        .make = make_verlet},
       {.name = "implicit_midpoint",
@@ -79,6 +95,7 @@ const std::vector<Method>& methods() {
        .symplectic = true,
        .reversible = true,
        .evaluations_per_step = 0,
+       .price = {40, 20, 5, 40, 0},
        .source = "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), II.1.3",
        .make = make_implicit_midpoint},
       {.name = "gauss4",
@@ -88,6 +105,7 @@ const std::vector<Method>& methods() {
        .symplectic = true,
        .reversible = true,
        .evaluations_per_step = 0,
+       .price = {60, 30, 5, 35, 0},
        .source = "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), II.1.3",
        .make = make_gauss4},
       {.name = "gauss6",
@@ -97,6 +115,7 @@ const std::vector<Method>& methods() {
        .symplectic = true,
        .reversible = true,
        .evaluations_per_step = 0,
+       .price = {60, 30, 5, 35, 0},
        .source = "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), II.1.3",
        .make = make_gauss6},
       {.name = "rattle2",
@@ -106,6 +125,7 @@ const std::vector<Method>& methods() {
        .symplectic = true,
        .reversible = true,
        .evaluations_per_step = 0,
+       .price = {20, 20, 0, 0, 55},
        .source = "H. Andersen, Journal of Computational Physics 52 (1983) 24-34; E. Hairer, C. Lubich, G. "
                  "Wanner, Geometric Numerical Integration (2006), VII.1.4",
        .make = make_rattle2},
@@ -116,6 +136,7 @@ const std::vector<Method>& methods() {
        .symplectic = true,
        .reversible = true,
        .evaluations_per_step = 0,
+       .price = {20, 20, 0, 0, 55},
        .source = "M. Suzuki, Physics Letters A 146 (1990) 319-323; E. Hairer, C. Lubich, G. Wanner, "
                  "Geometric Numerical Integration (2006), II.4, VII.1.4",
        .make = make_rattle4},
@@ -126,6 +147,7 @@ const std::vector<Method>& methods() {
        .symplectic = true,
        .reversible = true,
        .evaluations_per_step = 0,
+       .price = {20, 20, 0, 0, 55},
        .source = "W. Kahan, R.-C. Li, Mathematics of Computation 66 (1997) 1089-1099; E. Hairer, C. Lubich, "
                  "G. Wanner, Geometric Numerical Integration (2006), V.3.2, VII.1.4",
        .make = make_rattle6},
@@ -136,6 +158,7 @@ const std::vector<Method>& methods() {
        .symplectic = true,
        .reversible = true,
        .evaluations_per_step = 0,
+       .price = {20, 20, 0, 0, 55},
        .source = "W. Kahan, R.-C. Li, Mathematics of Computation 66 (1997) 1089-1099; E. Hairer, C. Lubich, "
                  "G. Wanner, Geometric Numerical Integration (2006), V.3.2, VII.1.4",
        .make = make_rattle8},
