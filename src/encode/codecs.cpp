@@ -72,27 +72,26 @@ AVDictionary* prores_options(AVCodecContext& context, const VideoSettings& setti
   return options;
 }
 
-struct EncoderRow {
-  const char* encoder;
-  AVDictionary* (*options)(AVCodecContext&, const VideoSettings&);
-};
-
-EncoderRow row_of(VideoCodec codec) {
-  switch (codec) {
-    case VideoCodec::h264:
-      return {"libx264", &h264_options};
-    case VideoCodec::vp9:
-      return {"libvpx-vp9", &vp9_options};
-    case VideoCodec::prores:
-      break;
-  }
-  return {"prores_ks", &prores_options};
-}
+constexpr CodecRow kH264{"libx264", &kMp4, 18, 51, false, false, h264_options};
+constexpr CodecRow kVp9{"libvpx-vp9", &kWebm, 28, 63, true, false, vp9_options};
+constexpr CodecRow kProres{"prores_ks", &kMov, {}, {}, true, true, prores_options};
 
 }  // namespace
 
+const CodecRow& row_of(VideoCodec codec) {
+  switch (codec) {
+    case VideoCodec::h264:
+      return kH264;
+    case VideoCodec::vp9:
+      return kVp9;
+    case VideoCodec::prores:
+      break;
+  }
+  return kProres;
+}
+
 CodecContextPtr open_encoder(const VideoSettings& settings) {
-  const EncoderRow row = row_of(settings.codec);
+  const CodecRow& row = row_of(settings.codec);
   CodecContextPtr context = make_context(row.encoder);
   context->width = settings.width;
   context->height = settings.height;
@@ -100,8 +99,8 @@ CodecContextPtr open_encoder(const VideoSettings& settings) {
   context->color_trc = AVCOL_TRC_BT709;
   context->colorspace = AVCOL_SPC_BT709;
   context->color_range = AVCOL_RANGE_MPEG;
-  if (settings.codec != VideoCodec::prores)
-    context->chroma_sample_location = AVCHROMA_LOC_CENTER;  // as yuv420.hpp computes it
+  if (!row.every_pixel)
+    context->chroma_sample_location = AVCHROMA_LOC_CENTER;  // as yuv.hpp computes it
   // One tick is one frame: frame k is shown from k * den / num on, exactly.
   context->time_base = {settings.fps.den, settings.fps.num};
   context->framerate = {settings.fps.num, settings.fps.den};

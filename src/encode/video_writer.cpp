@@ -6,7 +6,6 @@
 #include "core/format.hpp"
 #include "encode/bleed.hpp"
 #include "encode/codecs.hpp"
-#include "encode/muxer.hpp"
 #include "encode/yuv.hpp"
 
 namespace chainreel {
@@ -16,10 +15,6 @@ constexpr int kLargestSide = 16384;  // x264's own limit
 
 std::string size_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
-}
-
-const Container& container_of(VideoCodec codec) {
-  return codec == VideoCodec::h264 ? kMp4 : codec == VideoCodec::vp9 ? kWebm : kMov;
 }
 
 void copy_alpha(const Image& image, std::uint8_t* plane, int stride) {
@@ -32,7 +27,11 @@ void copy_alpha(const Image& image, std::uint8_t* plane, int stride) {
 }  // namespace
 
 double crf_of(const VideoSettings& settings) {
-  return settings.crf.value_or(settings.codec == VideoCodec::vp9 ? 28 : 18);
+  return settings.crf.value_or(row_of(settings.codec).crf.value_or(0));
+}
+
+bool has_crf(VideoCodec codec) {
+  return row_of(codec).worst_crf.has_value();
 }
 
 void require_even_sides(int width, int height) {
@@ -56,11 +55,11 @@ void require_settings(const VideoSettings& settings) {
     throw Error(ExitCode::usage, "a film needs a positive frame rate, not " +
                                      std::to_string(settings.fps.num) + "/" +
                                      std::to_string(settings.fps.den));
-  const double worst = settings.codec == VideoCodec::vp9 ? 63 : 51, crf = crf_of(settings);
-  if (!(crf >= 0 && crf <= worst))
-    throw Error(ExitCode::usage, "the quality (crf) must be from 0 to " + format_shortest(worst) + ", not " +
-                                     format_shortest(crf));
-  if (settings.alpha && settings.codec == VideoCodec::h264)
+  const CodecRow& row = row_of(settings.codec);
+  if (const double crf = crf_of(settings); row.worst_crf && !(crf >= 0 && crf <= *row.worst_crf))
+    throw Error(ExitCode::usage, "the quality (crf) must be from 0 to " + format_shortest(*row.worst_crf) +
+                                     ", not " + format_shortest(crf));
+  if (settings.alpha && !row.alpha)
     throw Error(ExitCode::usage, "MP4 with H.264 has no opacity: take .mov or .webm");
 }
 
@@ -72,11 +71,11 @@ struct VideoWriter::State {
 
   State(const std::string& path, const VideoSettings& s)
       : settings(s),
-        muxer(path, container_of(s.codec), open_encoder(s), s.tags),
+        muxer(path, *row_of(s.codec).container, open_encoder(s), s.tags),
         frame(allocate_frame(muxer.encoder())) {}
 
   void convert(const Image& image) {
-    if (settings.codec == VideoCodec::prores) {
+    if (row_of(settings.codec).every_pixel) {
       PlanesYuv444 planes;
       for (int i = 0; i < (settings.alpha ? 4 : 3); ++i) {
         planes.plane[i] = reinterpret_cast<std::uint16_t*>(frame->data[i]);

@@ -32,6 +32,7 @@ struct VideoSettings {
 
 // The quality that holds: the settings' own or the codec's.
 double crf_of(const VideoSettings& settings);
+bool has_crf(VideoCodec codec);
 
 // Throws Error (usage) with the two nearest legal sizes where a side is odd: 4:2:0 needs even sides.
 void require_even_sides(int width, int height);

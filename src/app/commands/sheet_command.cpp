@@ -98,7 +98,7 @@ void refuse_own_keys(const std::vector<std::string>& set) {
 
 void run_sheet(const SheetOptions& options) {
   refuse_own_keys(options.common.set);
-  check_picture_path(options.output);
+  picture_format_of(options.output);
   if (!options.at.empty() && parse_quantity(options.at, {}) < 0)
     throw Error(ExitCode::usage, "--at " + options.at + " lies before the start");
   const std::string theme = theme_of(options.common.flags);

@@ -33,7 +33,7 @@ struct SnapshotOptions {
 
 std::string default_output(const SnapshotOptions& options) {
   if (options.output.empty()) return "out/" + std::filesystem::path(options.file).stem().string() + ".png";
-  check_picture_path(options.output);
+  picture_format_of(options.output);
   return options.output;
 }
 

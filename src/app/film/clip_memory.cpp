@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 
+#include "app/film/formats.hpp"
 #include "core/error.hpp"
 #include "core/input_file.hpp"
-#include "encode/film_start.hpp"
-#include "encode/gif_comment.hpp"
-#include "encode/png.hpp"
 #include "picture/utf8.hpp"
 
 namespace chainreel {
@@ -87,17 +84,21 @@ Tags words_of(const std::string& text, const std::string& path) {
 }
 
 Tags tags_in(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  if (ending == ".png" || ending == ".apng") return read_png_text(path);
-  if (ending == ".svg") return words_of(svg_words(read_plain_file(path, kLargestPage), path), path);
-  if (ending == ".pdf") return words_of(pdf_words(read_plain_file(path, kLargestPage), path), path);
-  if (ending == ".mp4" || ending == ".mov" || ending == ".webm") return read_film_tags(path);
-  if (ending == ".gif") return read_gif_comment(path);
-  throw Error(ExitCode::bad_input, "only .mp4, .mov, .webm, .gif, .png, .apng, .svg and .pdf remember a scene",
-              {path});
+  if (const OutputFormat* format = find_output_format(path); format && format->read_tags)
+    return format->read_tags(path);
+  const auto remembers = [](const OutputFormat& row) { return row.read_tags != nullptr; };
+  throw Error(ExitCode::bad_input, "only " + endings_of(remembers, "and") + " remember a scene", {path});
 }
 
 }  // namespace
+
+Tags read_svg_words(const std::string& path) {
+  return words_of(svg_words(read_plain_file(path, kLargestPage), path), path);
+}
+
+Tags read_pdf_words(const std::string& path) {
+  return words_of(pdf_words(read_plain_file(path, kLargestPage), path), path);
+}
 
 Tags ClipMemory::tags() const {
   Tags tags;

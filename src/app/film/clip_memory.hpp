@@ -24,6 +24,9 @@ struct ClipMemory {
 // Reads it back; by the file's ending. Throws Error (exit 3) where the file is of no such kind or remembers
 // nothing.
 ClipMemory recall(const std::string& path);
+// The words of vector pages alone, which are read as a whole.
+Tags read_svg_words(const std::string& path);
+Tags read_pdf_words(const std::string& path);
 
 // "chainreel ellipse models/rr.urdf --pose 0,90deg": what a shell takes to make the figure again, but for -o.
 std::string command_line(const Json& figure);

@@ -10,10 +10,7 @@
 #include "core/format.hpp"
 #include "core/output_file.hpp"
 #include "draw/view.hpp"
-#include "encode/png.hpp"
 #include "render/canvas.hpp"
-#include "render/vector_cairo.hpp"
-#include "render/vector_svg.hpp"
 #include "scene/panels.hpp"
 #include "scene/prepare.hpp"
 #include "scene/read_scene.hpp"
@@ -214,20 +211,17 @@ Image rasterise(const Picture& picture, int width, int height, const Fonts& font
   return image;
 }
 
-void check_picture_path(const std::string& path) {
-  if (path.ends_with(".png") || path.ends_with(".svg") || path.ends_with(".pdf")) return;
-  throw Error(ExitCode::usage, "-o " + path + ": pictures are written as .png, .svg or .pdf");
+const OutputFormat& picture_format_of(const std::string& path) {
+  if (const OutputFormat* format = find_output_format(path, Shows::still)) return *format;
+  const auto is_picture = [](const OutputFormat& row) { return row.shows == Shows::still; };
+  throw Error(ExitCode::usage, "-o " + path + ": pictures are written as " + endings_of(is_picture, "or"));
 }
 
 void write_picture(const Picture& picture, int width, int height, const Fonts& fonts, const std::string& path,
                    bool overwrite, const ClipMemory& memory) {
   OutputFile output(path, overwrite);
-  if (path.ends_with(".svg"))
-    write_temporary(output, svg_text(picture, fonts, memory.page()));
-  else if (path.ends_with(".pdf"))
-    write_temporary(output, pdf_text(picture, fonts, memory.page()));
-  else
-    write_png(output.temporary_path(), rasterise(picture, width, height, fonts), memory.tags());
+  picture_format_of(path).write_still(
+      output, {[&] { return picture; }, [&] { return rasterise(picture, width, height, fonts); }, fonts}, memory);
   throw_if_interrupted();
   output.commit();
 }

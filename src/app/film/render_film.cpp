@@ -19,11 +19,7 @@
 #include "core/output_file.hpp"
 #include "core/output_folder.hpp"
 #include "encode/png.hpp"
-#include "encode/small_frames.hpp"
-#include "encode/video_writer.hpp"
 #include "render/canvas.hpp"
-#include "render/vector_cairo.hpp"
-#include "render/vector_svg.hpp"
 #include "scene/write_scene.hpp"
 
 namespace chainreel {
@@ -51,7 +47,7 @@ SequencePlace place_of_sequence(const std::string& path) {
 
 // What sidecars of a target are named after.
 std::string base_of(const Target& target) {
-  if (target.kind != TargetKind::sequence) return fs::path(target.path).replace_extension().string();
+  if (!target.format->is_sequence) return fs::path(target.path).replace_extension().string();
   SequencePlace place = place_of_sequence(target.path);
   while (place.stem.ends_with('_')) place.stem.pop_back();
   return (fs::path(place.folder) / (place.stem.empty() ? "frames" : place.stem)).string();
@@ -62,10 +58,10 @@ std::vector<Output> open_outputs(const RenderJob& job, std::size_t panels) {
   for (const Target& target : job.targets) {
     Output output{target, {}, {}, {}};
     if (target.is_implied) require_own_sidecar(target.path, job.overwrite);
-    if (target.kind == TargetKind::sequence) {
+    if (target.format->is_sequence) {
       const SequencePlace place = place_of_sequence(target.path);
       output.folder = std::make_unique<OutputFolder>(place.folder, place.stem, ".png", job.overwrite);
-    } else if (target.kind == TargetKind::csv) {
+    } else if (target.format->shows == Shows::table) {
       for (std::size_t i = 0; i < panels; ++i)
         output.files.push_back(
             std::make_unique<OutputFile>(panel_csv_path(target.path, i, panels == 1), job.overwrite));
@@ -78,36 +74,17 @@ std::vector<Output> open_outputs(const RenderJob& job, std::size_t panels) {
 }
 
 std::unique_ptr<FrameSink> sink_of(const Output& output, const Scene& scene, const Tags& tags) {
-  const Video& video = scene.video;
-  const bool alpha = is_transparent(scene);
-  const auto film = [&](VideoCodec codec) {
-    return std::make_unique<VideoWriter>(output.files.front()->temporary_path(),
-                                         VideoSettings{.width = video.width,
-                                                       .height = video.height,
-                                                       .fps = video.fps,
-                                                       .crf = video.crf,
-                                                       .codec = codec,
-                                                       .alpha = alpha,
-                                                       .tags = tags});
-  };
-  const SmallClipSettings small{video.width, video.height, video.fps, alpha, tags};
-  switch (output.target.kind) {
-    case TargetKind::mp4:
-      return film(VideoCodec::h264);
-    case TargetKind::webm:
-      return film(VideoCodec::vp9);
-    case TargetKind::mov:
-      return film(VideoCodec::prores);
-    case TargetKind::gif:
-      return std::make_unique<GifWriter>(output.files.front()->temporary_path(), small);
-    case TargetKind::apng:
-      return std::make_unique<ApngWriter>(output.files.front()->temporary_path(), small);
-    case TargetKind::sequence:
-      return std::make_unique<PngSequence>(output.folder->temporary_folder(),
-                                           place_of_sequence(output.target.path).stem, tags);
-    default:
-      return nullptr;
-  }
+  const OutputFormat& format = *output.target.format;
+  if (format.make_sink == nullptr) return nullptr;
+  const VideoSettings settings{.width = scene.video.width,
+                               .height = scene.video.height,
+                               .fps = scene.video.fps,
+                               .crf = scene.video.crf,
+                               .alpha = is_transparent(scene),
+                               .tags = tags};
+  return format.is_sequence ? format.make_sink(format, output.folder->temporary_folder(),
+                                               place_of_sequence(output.target.path).stem, settings)
+                            : format.make_sink(format, output.files.front()->temporary_path(), {}, settings);
 }
 
 // How often each frame is shown.
@@ -125,15 +102,15 @@ std::vector<double> with_end(std::vector<double> times, const PreparedFilm& film
   return times;
 }
 
-void write_still(const Output& output, const Film& film, int frame, const Image& image, const Fonts& fonts,
-                 const ClipMemory& memory) {
-  const OutputFile& file = *output.files.front();
-  if (output.target.kind == TargetKind::png) return write_png(file.temporary_path(), image, memory.tags());
+// The whole picture of a frame, for pages of shapes.
+Picture picture_of(const Film& film, int frame) {
   Picture picture = film.static_layer();
   picture.append(film.frame(frame));
-  const bool svg = output.target.kind == TargetKind::svg;
-  write_temporary(file,
-                  svg ? svg_text(picture, fonts, memory.page()) : pdf_text(picture, fonts, memory.page()));
+  return picture;
+}
+
+bool shows(const Output& output, Shows what) {
+  return output.target.format->shows == what;
 }
 
 // All frames that some output needs, each drawn and rasterised once.
@@ -141,11 +118,11 @@ void draw_film(const Film& film, const Scene& scene, const Fonts& fonts, std::ve
                const Schedule& schedule, int still, const ClipMemory& memory, bool quiet,
                StageSeconds& seconds) {
   Stopwatch watch;
-  const auto any = [&](bool (*is)(TargetKind)) {
-    return std::any_of(outputs.begin(), outputs.end(), [&](const Output& o) { return is(o.target.kind); });
+  const auto any = [&](Shows what) {
+    return std::any_of(outputs.begin(), outputs.end(), [&](const Output& output) { return shows(output, what); });
   };
-  const bool has_clips = any(&is_clip);
-  if (!has_clips && !any(&is_still)) return;
+  const bool has_clips = any(Shows::motion);
+  if (!has_clips && !any(Shows::still)) return;
   Canvas canvas(scene.video.width, scene.video.height, fonts);
   canvas.set_static_layer(film.static_layer());
   for (Output& output : outputs) output.sink = sink_of(output, scene, memory.tags());
@@ -163,7 +140,9 @@ void draw_film(const Film& film, const Scene& scene, const Fonts& fonts, std::ve
     for (Output& output : outputs) {
       if (output.sink)
         for (int i = 0; i < schedule.shown(k); ++i) output.sink->write(image);
-      if (k == still && is_still(output.target.kind)) write_still(output, film, k, image, fonts, memory);
+      if (k == still && shows(output, Shows::still))
+        output.target.format->write_still(
+            *output.files.front(), {[&] { return picture_of(film, k); }, [&] { return image; }, fonts}, memory);
     }
     seconds.encode += watch.lap();
     progress.update(k + 1);
@@ -178,14 +157,14 @@ void draw_film(const Film& film, const Scene& scene, const Fonts& fonts, std::ve
 void write_tables(const PreparedFilm& film, const std::vector<Trajectory>& runs,
                   std::vector<Output>& outputs) {
   for (Output& output : outputs)
-    if (output.target.kind == TargetKind::csv)
+    if (shows(output, Shows::table))
       for (std::size_t i = 0; i < runs.size(); ++i)
         write_temporary(*output.files[i], trajectory_csv(film.panels[i].simulation.chain, runs[i]));
 }
 
 void keep_partial(std::vector<Output>& outputs) {
   for (Output& output : outputs)
-    if (!is_still(output.target.kind))
+    if (!shows(output, Shows::still))
       for (auto& file : output.files) file->keep_as_partial();
 }
 
@@ -231,18 +210,18 @@ struct Sidecar {
 std::vector<Sidecar> open_sidecars(const RenderJob& job, const PreparedFilm& film) {
   std::vector<Sidecar> sidecars;
   const bool has_clips = std::any_of(job.targets.begin(), job.targets.end(),
-                                     [](const Target& target) { return is_clip(target.kind); });
+                                     [](const Target& target) { return target.format->shows == Shows::motion; });
   const bool has_events = std::any_of(film.panels.begin(), film.panels.end(),
                                       [](const PreparedScene& panel) { return !panel.scene.events.empty(); });
   std::set<std::string> seen;
   for (const Target& target : job.targets) {
-    if (has_clips && !is_clip(target.kind)) continue;
+    if (has_clips && target.format->shows != Shows::motion) continue;
     const std::string base = base_of(target);
     const auto open = [&](const char* ending, auto what) {
       require_own_sidecar(base + ending, job.overwrite);
       sidecars.push_back({std::make_unique<OutputFile>(base + ending, job.overwrite), what, target});
     };
-    if (target.kind == TargetKind::sequence) open(".tex", Sidecar::animate);
+    if (target.format->is_sequence) open(".tex", Sidecar::animate);
     if (!seen.insert(base).second || (!has_clips && seen.size() > 1)) continue;
     open(".json", Sidecar::audit);
     open(".txt", Sidecar::words);

@@ -1,39 +1,22 @@
 #include "app/film/target.hpp"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <map>
 
 #include "core/error.hpp"
-#include "encode/video_writer.hpp"
 
 namespace chainreel {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct EndingRow {
-  const char* ending;
-  TargetKind kind;
-};
-constexpr std::array<EndingRow, 9> kEndings = {{{".mp4", TargetKind::mp4},
-                                                {".webm", TargetKind::webm},
-                                                {".mov", TargetKind::mov},
-                                                {".gif", TargetKind::gif},
-                                                {".apng", TargetKind::apng},
-                                                {".png", TargetKind::png},
-                                                {".svg", TargetKind::svg},
-                                                {".pdf", TargetKind::pdf},
-                                                {".csv", TargetKind::csv}}};
-constexpr const char* kFirstOfSequence = "000000";
-
 // What a preset writes where no file is named: behind the scene's name.
 std::vector<std::string> files_of_preset(const std::string& preset, const std::string& name) {
   if (preset == "web") return {name + ".webm", name + ".png"};
   if (preset == "overlay") return {name + ".mov", name + ".webm"};
   if (preset == "doc") return {name + ".gif"};
-  if (preset == "frames") return {name + "_frames/" + name + "_" + kFirstOfSequence + ".png"};
+  if (preset == "frames") return {name + "_frames/" + name + "_000000.png"};
   if (preset == "still") return {name + ".png", name + ".svg", name + ".pdf"};
   return {name + ".mp4"};  // slides, and no preset
 }
@@ -44,20 +27,20 @@ bool names_folder(const std::string& output) {
 }
 
 void require_possible(const Target& target, const Scene& scene) {
-  if (is_transparent(scene) && (target.kind == TargetKind::mp4 || target.kind == TargetKind::gif))
+  const OutputFormat& format = *target.format;
+  const auto keeps_opacity = [](const OutputFormat& row) { return row.shows != Shows::table && row.keeps_opacity; };
+  if (is_transparent(scene) && !format.keeps_opacity)
     throw Error(ExitCode::usage,
-                target.path +
-                    ": a transparent background cannot be written there: take .mov, .webm, .apng, .png, "
-                    ".svg or .pdf",
+                target.path + ": a transparent background cannot be written there: take " +
+                    endings_of(keeps_opacity, "or"),
                 scene.place_of(scene.layout == "transparent" ? "layout" : "video.preset"));
-  if (!scene.video.crf) return;
+  if (!scene.video.crf || !format.codec || !has_crf(*format.codec)) return;
   try {
-    if (target.kind == TargetKind::mp4 || target.kind == TargetKind::webm)
-      require_settings({.width = scene.video.width,
-                        .height = scene.video.height,
-                        .fps = scene.video.fps,
-                        .crf = scene.video.crf,
-                        .codec = target.kind == TargetKind::mp4 ? VideoCodec::h264 : VideoCodec::vp9});
+    require_settings({.width = scene.video.width,
+                      .height = scene.video.height,
+                      .fps = scene.video.fps,
+                      .crf = scene.video.crf,
+                      .codec = *format.codec});
   } catch (const Error& error) {
     throw Error(ExitCode::usage, target.path + ": " + error.problems().front().message,
                 scene.place_of("video.crf"));
@@ -66,23 +49,10 @@ void require_possible(const Target& target, const Scene& scene) {
 
 }  // namespace
 
-bool is_clip(TargetKind kind) {
-  return kind <= TargetKind::sequence;
-}
-
-bool is_still(TargetKind kind) {
-  return kind == TargetKind::png || kind == TargetKind::svg || kind == TargetKind::pdf;
-}
-
 Target target_of(const std::string& path) {
-  const fs::path file(path);
-  if (file.extension() == ".png" && file.stem().string().ends_with(kFirstOfSequence))
-    return {TargetKind::sequence, path, false};
-  for (const EndingRow& row : kEndings)
-    if (file.extension() == row.ending) return {row.kind, path, false};
-  std::string endings;
-  for (const EndingRow& row : kEndings) endings += std::string(endings.empty() ? "" : ", ") + row.ending;
-  throw Error(ExitCode::usage, "-o " + path + ": no output has that ending; there are " + endings +
+  if (const OutputFormat* format = find_output_format(path)) return {format, path, false};
+  throw Error(ExitCode::usage, "-o " + path + ": no output has that ending; there are " +
+                                   endings_of([](const OutputFormat&) { return true; }, "and") +
                                    ", NAME_000000.png for a sequence of pictures, and folders/");
 }
 
@@ -115,7 +85,7 @@ std::vector<Target> targets_of(const std::vector<std::string>& outputs, std::siz
   std::vector<Target> targets;
   for (const std::string& path : paths) {
     targets.push_back(target_of(path));
-    targets.back().is_implied = paths != outputs && targets.back().kind != TargetKind::sequence;
+    targets.back().is_implied = paths != outputs && !targets.back().format->is_sequence;
     require_possible(targets.back(), scene);
   }
   std::map<std::string, int> seen;

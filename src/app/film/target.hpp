@@ -4,21 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "app/film/formats.hpp"
 #include "scene/scene.hpp"
 
 namespace chainreel {
 
-enum class TargetKind { mp4, webm, mov, gif, apng, sequence, png, svg, pdf, csv };
-
 struct Target {
-  TargetKind kind = TargetKind::mp4;
+  const OutputFormat* format = nullptr;
   std::string path;  // of a sequence, its first picture: FOLDER/NAME_000000.png
   bool is_implied = false;  // no -o names the file itself
 };
-
-// Shows motion: a film, a small clip or a sequence of pictures.
-bool is_clip(TargetKind kind);
-bool is_still(TargetKind kind);  // png, svg, pdf
 
 // By the path's ending; a .png whose name ends in 000000 is a sequence. Throws Error (usage) naming the
 // endings.

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "app/film/clip_memory.hpp"
+#include "app/film/formats.hpp"
 #include "app/signals.hpp"
 #include "core/error.hpp"
 #include "core/input_file.hpp"
@@ -26,8 +27,10 @@ constexpr std::array<ChartKind, 3> kChartKinds = {{{"_chart.png", "Speed against
                                                    {"_energy.png", "Energy error over a long time"},
                                                    {"_stability.png", "Where the step is too long"}}};
 
-bool is_film(const fs::path& path) {
-  return path.extension() == ".mp4" || path.extension() == ".webm";
+// "video/mp4", or "" of what browsers do not play.
+std::string browser_type_of(const fs::path& path) {
+  const OutputFormat* format = find_output_format(path.string());
+  return format ? format->browser_type : "";
 }
 
 // What a run that failed left behind, or what one still writes (NAME.PID.tmp.mp4), is no film to show, unless it is
@@ -40,7 +43,7 @@ bool is_partial(const fs::path& path) {
 void add_films_in(const fs::path& folder, std::vector<std::string>& found) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path& path = entry.path();
-    if (std::error_code code; !entry.is_regular_file(code) || !is_film(path) || is_partial(path)) continue;
+    if (std::error_code code; !entry.is_regular_file(code) || browser_type_of(path).empty() || is_partial(path)) continue;
     std::error_code code;
     if (path.extension() == ".webm" && fs::exists(fs::path(path).replace_extension(".mp4"), code)) continue;
     found.push_back(path.string());
@@ -130,7 +133,7 @@ std::vector<std::string> find_clips(const std::vector<std::string>& paths) {
       add_films_in(path, found);
     else if (!fs::is_regular_file(path, code))
       problems.add("there is no such file or folder", {path});
-    else if (!is_film(path))
+    else if (browser_type_of(path).empty())
       problems.add("is no film for browsers: a gallery takes .mp4 and .webm", {path});
     else
       found.push_back(path);
@@ -152,7 +155,7 @@ std::vector<GalleryClip> read_clips(const std::vector<std::string>& paths) {
     GalleryClip clip;
     clip.path = path;
     clip.name = fs::path(path).stem().string();
-    clip.type = fs::path(path).extension() == ".webm" ? "video/webm" : "video/mp4";
+    clip.type = browser_type_of(path);
     note_input(path);
     try {
       clip.start = read_film_start(path, kPosterWidth);

@@ -16,8 +16,6 @@
 namespace chainreel {
 namespace {
 
-constexpr std::array<const char*, 4> kEndings = {".png", ".svg", ".pdf", ".csv"};
-
 std::string version_text() {
   return std::string(program_version()) + ", " + program_revision();
 }
@@ -41,9 +39,9 @@ ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fon
 }
 
 void check_figure_path(const std::string& path) {
-  if (std::any_of(kEndings.begin(), kEndings.end(), [&](const char* end) { return path.ends_with(end); }))
-    return;
-  throw Error(ExitCode::usage, "-o " + path + ": charts are written as .png, .svg, .pdf or .csv");
+  if (find_output_format(path, Shows::still) || find_output_format(path, Shows::table)) return;
+  const auto is_chart = [](const OutputFormat& row) { return row.shows != Shows::motion; };
+  throw Error(ExitCode::usage, "-o " + path + ": charts are written as " + endings_of(is_chart, "or"));
 }
 
 std::vector<std::string> write_figure(const Picture& picture, const std::string& csv,

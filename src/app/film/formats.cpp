@@ -1,0 +1,97 @@
+#include "app/film/formats.hpp"
+
+#include <array>
+#include <filesystem>
+
+#include "core/format.hpp"
+#include "encode/film_start.hpp"
+#include "encode/gif_comment.hpp"
+#include "encode/png.hpp"
+#include "encode/small_frames.hpp"
+#include "render/vector_cairo.hpp"
+#include "render/vector_svg.hpp"
+
+namespace chainreel {
+namespace {
+
+std::unique_ptr<FrameSink> film(const OutputFormat& row, const std::string& place, const std::string&,
+                                VideoSettings settings) {
+  settings.codec = *row.codec;
+  return std::make_unique<VideoWriter>(place, settings);
+}
+
+template <class Writer>
+std::unique_ptr<FrameSink> small_clip(const OutputFormat&, const std::string& place, const std::string&,
+                                      VideoSettings s) {
+  return std::make_unique<Writer>(place, SmallClipSettings{s.width, s.height, s.fps, s.alpha, s.tags});
+}
+
+std::unique_ptr<FrameSink> sequence(const OutputFormat&, const std::string& place, const std::string& stem,
+                                    VideoSettings settings) {
+  return std::make_unique<PngSequence>(place, stem, settings.tags);
+}
+
+void write_png_still(const OutputFile& file, const StillView& view, const ClipMemory& memory) {
+  write_png(file.temporary_path(), view.image(), memory.tags());
+}
+
+void write_svg_still(const OutputFile& file, const StillView& view, const ClipMemory& memory) {
+  write_temporary(file, svg_text(view.picture(), view.fonts, memory.page()));
+}
+
+void write_pdf_still(const OutputFile& file, const StillView& view, const ClipMemory& memory) {
+  write_temporary(file, pdf_text(view.picture(), view.fonts, memory.page()));
+}
+
+// A sequence stands before single pictures, whose ending it has, too.
+constexpr std::array<OutputFormat, 10> kFormats = {{
+    {.ending = ".mp4",
+     .keeps_opacity = false,
+     .codec = VideoCodec::h264,
+     .browser_type = "video/mp4",
+     .make_sink = film,
+     .read_tags = read_film_tags},
+    {.ending = ".webm",
+     .codec = VideoCodec::vp9,
+     .browser_type = "video/webm",
+     .make_sink = film,
+     .read_tags = read_film_tags},
+    {.ending = ".mov", .codec = VideoCodec::prores, .make_sink = film, .read_tags = read_film_tags},
+    {.ending = ".gif",
+     .keeps_opacity = false,
+     .make_sink = small_clip<GifWriter>,
+     .read_tags = read_gif_comment},
+    {.ending = ".apng", .make_sink = small_clip<ApngWriter>, .read_tags = read_png_text},
+    {.ending = "000000.png", .is_sequence = true, .make_sink = sequence, .read_tags = read_png_text},
+    {.ending = ".png", .shows = Shows::still, .write_still = write_png_still, .read_tags = read_png_text},
+    {.ending = ".svg", .shows = Shows::still, .write_still = write_svg_still, .read_tags = read_svg_words},
+    {.ending = ".pdf", .shows = Shows::still, .write_still = write_pdf_still, .read_tags = read_pdf_words},
+    {.ending = ".csv", .shows = Shows::table},
+}};
+
+}  // namespace
+
+std::span<const OutputFormat> output_formats() {
+  return kFormats;
+}
+
+const OutputFormat* find_output_format(const std::string& path, std::optional<Shows> shows) {
+  const std::filesystem::path file(path);
+  for (const OutputFormat& row : kFormats)
+    if (shows.value_or(row.shows) == row.shows &&
+        (row.is_sequence ? path.ends_with(row.ending) : file.extension() == row.ending))
+      return &row;
+  return nullptr;
+}
+
+std::string endings_of(const std::function<bool(const OutputFormat&)>& is_wanted,
+                       const std::string& last_word) {
+  std::vector<std::string> endings;
+  for (const OutputFormat& row : kFormats)
+    if (!row.is_sequence && is_wanted(row)) endings.push_back(row.ending);
+  const std::string last = endings.back();
+  endings.pop_back();
+  return joined(endings) + (endings.empty() ? "" : " " + last_word + " ") + last;
+}
+
+}  // namespace chainreel
