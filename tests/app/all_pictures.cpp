@@ -8,7 +8,8 @@
 
 #include "app/command.hpp"
 #include "app/commands/ellipse_numbers.hpp"
-#include "app/film/pipeline.hpp"
+#include "app/film/prepared.hpp"
+#include "app/film/runs.hpp"
 #include "draw/chart_samples.hpp"
 #include "draw/film.hpp"
 #include "draw/poses.hpp"
@@ -25,21 +26,19 @@ namespace fs = std::filesystem;
 constexpr int kFrame = 72;
 constexpr double kRightAngle = std::numbers::pi / 2;
 
-// What a film shows, whatever it looks like.
+// What a film shows, whatever it looks like. Stays where it is made: the runs refer to their film.
 struct FilmRun {
+  explicit FilmRun(PreparedFilm prepared)
+      : film(std::move(prepared)), clock(clock_of(film)), runs(film, clock, clock.frame_times()) {}
+
   PreparedFilm film;
   FilmClock clock;
-  std::vector<double> times;
-  std::vector<Trajectory> runs;
+  Runs runs;
 };
 
-FilmRun run_film(const std::string& scene, Words overrides, const Words& vary) {
+std::shared_ptr<FilmRun> run_film(const std::string& scene, Words overrides, const Words& vary) {
   add_comparison(vary, overrides);
-  FilmRun run{load_film("assets/scenes/" + scene + ".yaml", overrides), {}, {}, {}};
-  run.clock = clock_of(run.film);
-  run.times = run.clock.frame_times();
-  run.runs = simulate_film(run.film, run.times);
-  return run;
+  return std::make_shared<FilmRun>(load_film("assets/scenes/" + scene + ".yaml", overrides));
 }
 
 void set_look(Scene& scene, const PictureLook& look) {
@@ -52,13 +51,13 @@ void set_look(Scene& scene, const PictureLook& look) {
 // Its runs and the choice of their method are taken once, for all looks.
 AnyPicture frame_of(const std::string& name, const std::string& scene, const Words& more = {},
                     const Words& vary = {}) {
-  const auto known = std::make_shared<std::optional<FilmRun>>();
+  const auto known = std::make_shared<std::shared_ptr<FilmRun>>();
   return {name, [=](const PictureLook& look, const Fonts& fonts) {
             if (!*known) *known = run_film(scene, more, vary);
             FilmRun& run = **known;
             set_look(run.film.scene, look);
             for (PreparedScene& panel : run.film.panels) set_look(panel.scene, look);
-            const Film pictures = film_of(run.film, run.runs, run.times, int(run.times.size()), fonts, run.clock);
+            const Film pictures = run.runs.pictures(run.clock.frame_count(), fonts);
             Picture picture = pictures.static_layer();
             picture.append(pictures.frame(std::min(kFrame, pictures.frame_count() - 1)));
             return picture;

@@ -10,7 +10,7 @@
 #include <cstdlib>
 
 #include "app/all_pictures.hpp"
-#include "app/film/pipeline.hpp"
+#include "app/film/picture_file.hpp"
 #include "app/print_pictures.hpp"
 #include "encode/png.hpp"
 #include "picture/theme.hpp"

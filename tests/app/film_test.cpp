@@ -7,7 +7,9 @@
 
 #include <filesystem>
 
-#include "app/film/pipeline.hpp"
+#include "app/film/prepared.hpp"
+#include "app/film/runs.hpp"
+#include "app/film/picture_file.hpp"
 #include "core/json.hpp"
 #include "support/picture_compare.hpp"
 #include "support/run_program.hpp"

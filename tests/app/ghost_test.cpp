@@ -5,7 +5,9 @@
 
 #include <set>
 
-#include "app/film/pipeline.hpp"
+#include "app/film/prepared.hpp"
+#include "app/film/runs.hpp"
+#include "app/film/picture_file.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "dynamics/kinematics.hpp"
@@ -28,8 +30,8 @@ struct Ghosts {
   explicit Ghosts(const std::vector<std::string>& overrides, const std::string& scene = kGhostScene)
       : prepared(load_film(scene, overrides)),
         times(frame_times(prepared.scene)),
-        runs(simulate_film(prepared, times)),
-        film(film_of(prepared, runs, times, int(times.size()), fonts)) {}
+        runs(prepared, {}, times),
+        film(runs.pictures(int(times.size()), fonts)) {}
 
   Image image(int k) const {
     Picture picture = film.static_layer();
@@ -68,7 +70,7 @@ struct Ghosts {
   Fonts fonts;
   PreparedFilm prepared;
   std::vector<double> times;
-  std::vector<Trajectory> runs;
+  Runs runs;
   Film film;
 };
 

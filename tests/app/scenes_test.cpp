@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/film/pipeline.hpp"
+#include "app/film/prepared.hpp"
+#include "app/film/runs.hpp"
+#include "app/film/picture_file.hpp"
 #include "draw/film.hpp"
 #include "dynamics/kinematics.hpp"
 #include "picture/theme.hpp"
@@ -33,8 +35,8 @@ class EveryScene : public ::testing::TestWithParam<std::string> {
       : prepared_(load_film("assets/scenes/" + GetParam() + ".yaml",
                             {"video.width=640", "video.height=360", "text_scale=1.5"})),
         times_(frame_times(prepared_.scene)),
-        runs_(simulate_film(prepared_, times_)),
-        film_(film_of(prepared_, runs_, times_, int(times_.size()), fonts_)) {}
+        runs_(prepared_, {}, times_),
+        film_(runs_.pictures(int(times_.size()), fonts_)) {}
 
   // The frame at 1.2 s: chaos has not begun anywhere.
   static constexpr int kFrame = 72;
@@ -72,7 +74,7 @@ class EveryScene : public ::testing::TestWithParam<std::string> {
   Fonts fonts_;
   PreparedFilm prepared_;
   std::vector<double> times_;
-  std::vector<Trajectory> runs_;
+  Runs runs_;
   Film film_;
 };
 
@@ -80,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(Assets, EveryScene, ::testing::ValuesIn(scene_names()),
                          [](const auto& p) { return p.param; });
 
 TEST_P(EveryScene, RunsToTheEndThatItExpects) {
-  EXPECT_NO_THROW(require_expected_ends(prepared_, runs_));
+  EXPECT_NO_THROW(runs_.require_expected_ends());
   EXPECT_EQ(film_.frame_count(), frame_count(prepared_.scene.duration, prepared_.scene.video.fps));
 }
 

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "app/film/pipeline.hpp"
+#include "app/film/prepared.hpp"
+#include "app/film/runs.hpp"
+#include "app/film/picture_file.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "encode/png.hpp"
@@ -218,8 +220,8 @@ TEST_F(SlowMotionFilm, LooksLikeItsGolden) {
     const FilmClock clock = clock_of(film);
     const std::vector<double> times = clock.frame_times();
     ASSERT_EQ(times.size(), 60u + 120u + 8u);  // 1 s, 2 s and an eighth of a second, which is 7.5 frames
-    const auto runs = simulate_film(film, times);
-    const Film pictures = film_of(film, runs, times, int(times.size()), fonts, clock);
+    const Runs runs(film, clock, times);
+    const Film pictures = runs.pictures(int(times.size()), fonts);
     const auto image = [&](int k) {
       Picture picture = pictures.static_layer();
       picture.append(pictures.frame(k));

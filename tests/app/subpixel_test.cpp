@@ -8,7 +8,9 @@
 #include <functional>
 #include <numbers>
 
-#include "app/film/pipeline.hpp"
+#include "app/film/prepared.hpp"
+#include "app/film/runs.hpp"
+#include "app/film/picture_file.hpp"
 #include "draw/film.hpp"
 #include "picture/theme.hpp"
 #include "support/fonts.hpp"
@@ -37,8 +39,8 @@ class Still {
         "assets/scenes/" + scene + ".yaml",
         {"start={q: [" + q + "]}", "torque=[0, 0]", "duration=1", "theme=" + theme, "draw=[" + layers + "]"});
     const std::vector<double> times = frame_times(film.scene);
-    const std::vector<Trajectory> runs = simulate_film(film, times);
-    const Film pictures = film_of(film, runs, times, int(times.size()), fonts());
+    const Runs runs(film, {}, times);
+    const Film pictures = runs.pictures(int(times.size()), fonts());
     Picture picture = pictures.static_layer();
     picture.append(pictures.frame(0));
     image_ = rasterise(picture, kWide, kHigh, fonts());

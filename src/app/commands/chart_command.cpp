@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "app/film/automatic.hpp"
-#include "app/film/pipeline.hpp"
+#include "app/film/prepared.hpp"
 #include "app/report/figure.hpp"
 #include "app/report/report.hpp"
 #include "app/signals.hpp"

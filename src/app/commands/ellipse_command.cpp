@@ -7,7 +7,7 @@
 #include "app/command.hpp"
 #include "app/commands/ellipse_numbers.hpp"
 #include "app/film/model_scene.hpp"
-#include "app/film/pipeline.hpp"
+#include "app/film/picture_file.hpp"
 #include "app/report/figure.hpp"
 #include "core/error.hpp"
 #include "core/output_file.hpp"

@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "app/film/automatic.hpp"
-#include "app/film/pipeline.hpp"
+#include "app/film/prepared.hpp"
+#include "app/film/runs.hpp"
 #include "app/report/report.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -187,10 +188,10 @@ Motion motion_of(const PoseSources& sources, const CommonOptions& common) {
   const int between = std::max(1, kPathPoints / (count - 1)), intervals = between * (count - 1);
   std::vector<double> times;
   for (int k = 0; k <= intervals; ++k) times.push_back(film.scene.duration * k / intervals);
-  const std::vector<Trajectory> runs = simulate_film(film, times);
-  require_expected_ends(film, runs);
+  const Runs runs(film, {}, times);
+  runs.require_expected_ends();
 
-  const Trajectory& run = runs.front();
+  const Trajectory& run = runs[0];
   Motion motion{film.panels.front().simulation.chain, {}, film.scene.theme, film.scene.text_scale,
                 film.scene.camera, film.scene.ellipse, film.panels.front().shapes,
                 film.panels.front().simulation.constraints, film.scene.video};

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "app/film/pipeline.hpp"
+#include "app/film/prepared.hpp"
 #include "app/report/figure.hpp"
 #include "app/report/report.hpp"
 #include "app/signals.hpp"

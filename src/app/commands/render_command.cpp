@@ -7,7 +7,8 @@
 
 #include "app/command.hpp"
 #include "app/film/automatic.hpp"
-#include "app/film/pipeline.hpp"
+#include "app/film/prepared.hpp"
+#include "app/film/runs.hpp"
 #include "app/film/render_film.hpp"
 #include "app/report/report.hpp"
 #include "core/error.hpp"

@@ -8,7 +8,9 @@
 
 #include "app/command.hpp"
 #include "app/film/moment.hpp"
-#include "app/film/pipeline.hpp"
+#include "app/film/prepared.hpp"
+#include "app/film/runs.hpp"
+#include "app/film/picture_file.hpp"
 #include "app/report/figure.hpp"
 #include "app/report/report.hpp"
 #include "app/signals.hpp"

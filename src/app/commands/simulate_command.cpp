@@ -7,7 +7,8 @@
 
 #include "app/command.hpp"
 #include "app/film/automatic.hpp"
-#include "app/film/pipeline.hpp"
+#include "app/film/prepared.hpp"
+#include "app/film/runs.hpp"
 #include "app/report/report.hpp"
 #include "app/report/trajectory_csv.hpp"
 #include "app/signals.hpp"

@@ -8,7 +8,7 @@
 #include <memory>
 #include <thread>
 
-#include "app/film/pipeline.hpp"
+#include "app/film/prepared.hpp"
 #include "app/report/figure.hpp"
 #include "app/report/report.hpp"
 #include "app/signals.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/film/pipeline.hpp"
+#include "app/film/prepared.hpp"
 #include "core/json.hpp"
 
 namespace chainreel {

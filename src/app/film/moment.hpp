@@ -2,7 +2,8 @@
 #pragma once
 
 #include "app/film/clip_memory.hpp"
-#include "app/film/pipeline.hpp"
+#include "app/film/prepared.hpp"
+#include "app/film/runs.hpp"
 
 namespace chainreel {
 

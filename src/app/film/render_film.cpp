@@ -95,13 +95,6 @@ struct Schedule {
   int shown(int k) const { return 1 + (k == 0 ? first : 0) + (k == frames - 1 ? last : 0); }
 };
 
-// The frames' instants, and the end of the motion for tables and the audit.
-std::vector<double> with_end(std::vector<double> times, const PreparedFilm& film) {
-  const double end = film.scene.duration;
-  if (times.back() < end - same_instant(film.panels.front().simulation)) times.push_back(end);
-  return times;
-}
-
 // The whole picture of a frame, for pages of shapes.
 Picture picture_of(const Film& film, int frame) {
   Picture picture = film.static_layer();
@@ -154,12 +147,11 @@ void draw_film(const Film& film, const Scene& scene, const Fonts& fonts, std::ve
   seconds.encode += watch.lap();
 }
 
-void write_tables(const PreparedFilm& film, const std::vector<Trajectory>& runs,
-                  std::vector<Output>& outputs) {
+void write_tables(const Runs& runs, std::vector<Output>& outputs) {
   for (Output& output : outputs)
     if (shows(output, Shows::table))
       for (std::size_t i = 0; i < runs.size(); ++i)
-        write_temporary(*output.files[i], trajectory_csv(film.panels[i].simulation.chain, runs[i]));
+        write_temporary(*output.files[i], trajectory_csv(runs.film().panels[i].simulation.chain, runs[i]));
 }
 
 void keep_partial(std::vector<Output>& outputs) {
@@ -169,7 +161,8 @@ void keep_partial(std::vector<Output>& outputs) {
 }
 
 // Runs that a limit stopped: no failure, but not what one may think either.
-void tell_of_stops(const PreparedFilm& film, const std::vector<Trajectory>& runs) {
+void tell_of_stops(const Runs& runs) {
+  const PreparedFilm& film = runs.film();
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (runs[i].trouble.empty() || !is_complete(runs[i].status)) continue;
     const std::string text = "stopped: " + runs[i].trouble;
@@ -179,11 +172,12 @@ void tell_of_stops(const PreparedFilm& film, const std::vector<Trajectory>& runs
 }
 
 // Slow motion about an event that never comes is none, which its author may want to know.
-void tell_of_missing_events(const PreparedFilm& film, const Trajectory& first) {
+void tell_of_missing_events(const Runs& runs) {
+  const PreparedFilm& film = runs.film();
   const std::vector<EventEntry>& events = film.panels.front().scene.events;
   for (const SlowMotionEntry& entry : film.scene.slow_motion) {
     const auto is_its = [&](int event) { return events[std::size_t(event)].title() == entry.event; };
-    const std::vector<int>& hits = first.events.event;
+    const std::vector<int>& hits = runs[0].events.event;
     if (!entry.event.empty() && std::none_of(hits.begin(), hits.end(), is_its))
       std::fprintf(stderr, "%s: no slow motion about '%s', which does not happen\n", film.scene.name.c_str(),
                    entry.event.c_str());
@@ -286,16 +280,6 @@ Json to_json(const StageSeconds& seconds) {
 
 }  // namespace
 
-// One that is to diverge is shown to stand still behind its end.
-int frames_shown(const PreparedFilm& film, const std::vector<Trajectory>& runs, int frames) {
-  int shown = 0;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const bool stands = runs[i].status == RunStatus::diverged && film.panels[i].scene.expect == "diverge";
-    shown = std::max(shown, stands ? frames : std::min(frames, runs[i].size()));
-  }
-  return shown;
-}
-
 ClipMemory memory_of(const PreparedFilm& film, const Json& audit) {
   return {film.scene.title, sentence_of(film, audit), scene_text(film.scene), audit};
 }
@@ -307,43 +291,41 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
 
   RenderResult result;
   Stopwatch total, watch;
-  const FilmClock clock = clock_of(film);
-  const std::vector<double> times = clock.frame_times();
-  const std::vector<Trajectory> runs = simulate_film(film, with_end(times, film));
+  const Runs runs(film);
   result.seconds.simulate = watch.lap();
-  if (std::any_of(runs.begin(), runs.end(), [](const Trajectory& run) { return run.size() == 0; }))
-    require_expected_ends(film, runs);
+  if (std::any_of(runs.list().begin(), runs.list().end(), [](const Trajectory& run) { return run.size() == 0; }))
+    runs.require_expected_ends();
 
   const Fonts fonts;
   const FrameRate fps = scene.video.fps;
-  const Schedule schedule{frames_shown(film, runs, int(times.size())), frame_count(scene.hold.first, fps),
+  const Schedule schedule{runs.frames_shown(runs.clock().frame_count()), frame_count(scene.hold.first, fps),
                           frame_count(scene.hold.last, fps)};
-  const Film pictures = film_of(film, runs, times, schedule.frames, fonts, clock);
+  const Film pictures = runs.pictures(schedule.frames, fonts);
   result.frames = schedule.total();
   result.film_seconds = frame_time(result.frames, fps);
-  result.clock = clock;
-  result.audit = film_report(film, runs, pictures, result.frames);
+  result.clock = runs.clock();
+  result.audit = film_report(runs, pictures, result.frames);
   if (schedule.first > 0 || schedule.last > 0)
     result.audit["held_frames"] = {{"first", schedule.first}, {"last", schedule.last}};
   result.seconds.draw += watch.lap();
 
-  const int still = std::clamp(clock.frame_at(job.at), 0, schedule.frames - 1);
+  const int still = std::clamp(runs.clock().frame_at(job.at), 0, schedule.frames - 1);
   draw_film(pictures, scene, fonts, outputs, schedule, still, memory_of(film, result.audit), job.quiet,
             result.seconds);
-  write_tables(film, runs, outputs);
+  write_tables(runs, outputs);
   result.seconds.total = total.lap();
   result.audit["seconds"] = to_json(result.seconds);
 
   try {
-    require_expected_ends(film, runs);
+    runs.require_expected_ends();
   } catch (const Error& error) {
     if (error.code() == ExitCode::numerical) keep_partial(outputs);  // a signal leaves nothing
     throw;
   }
   tell_warnings(scene.name, result.audit);
   if (!job.quiet) {
-    tell_of_stops(film, runs);
-    tell_of_missing_events(film, runs.front());
+    tell_of_stops(runs);
+    tell_of_missing_events(runs);
   }
   commit(outputs, result);
   write_sidecars(sidecars, film, result);

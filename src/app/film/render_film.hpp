@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/film/clip_memory.hpp"
-#include "app/film/pipeline.hpp"
+#include "app/film/runs.hpp"
 #include "app/film/target.hpp"
 
 namespace chainreel {
@@ -16,6 +16,10 @@ struct RenderJob {
   double at = 0;  // s, instant of the motion that stills show: the frame that stands there
   bool overwrite = false;
   bool quiet = false;
+};
+
+struct StageSeconds {
+  double simulate = 0, draw = 0, render = 0, encode = 0, total = 0;
 };
 
 struct RenderResult {
@@ -31,9 +35,6 @@ struct RenderResult {
 // Nothing is begun before all files can be written; nothing bears its name before all are whole. A run that
 // failed leaves films and tables as far as they came under a .partial name, and throws.
 RenderResult render_film(const PreparedFilm& film, const RenderJob& job);
-
-// Of that many instants as were asked for, those that a film shows: it ends with the last of its runs.
-int frames_shown(const PreparedFilm& film, const std::vector<Trajectory>& runs, int frames);
 
 // What a film remembers: the effective scene, and the audit without what differs from one rendering to the
 // next.

@@ -3,7 +3,8 @@
 
 #include <string>
 
-#include "app/film/pipeline.hpp"
+#include "app/film/prepared.hpp"
+#include "app/film/runs.hpp"
 
 namespace chainreel {
 

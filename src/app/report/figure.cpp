@@ -4,7 +4,7 @@
 #include <array>
 #include <filesystem>
 
-#include "app/film/pipeline.hpp"
+#include "app/film/picture_file.hpp"
 #include "app/report/sidecar.hpp"
 #include "app/report/version.hpp"
 #include "core/error.hpp"

@@ -184,8 +184,8 @@ Json slow_motion_report(const FilmClock& clock, const std::vector<Trajectory>& r
 
 }  // namespace
 
-Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, const Film& pictures,
-                 int frames) {
+Json film_report(const Runs& runs, const Film& pictures, int frames) {
+  const PreparedFilm& film = runs.film();
   const auto report_of = [&](std::size_t i) {
     Json json = run_report(film.panels[i], runs[i]);
     if (const auto left = pictures.panel(int(i)).left_at()) json["left_picture_at"] = *left;
@@ -212,7 +212,7 @@ Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, 
   json["width"] = scene.video.width;
   json["height"] = scene.video.height;
   json["film_seconds"] = frame_time(frames, fps);
-  if (!scene.slow_motion.empty()) json["slow_motion"] = slow_motion_report(pictures.clock(), runs, held_first(scene));
+  if (!scene.slow_motion.empty()) json["slow_motion"] = slow_motion_report(pictures.clock(), runs.list(), held_first(scene));
   for (const LibraryLine& line : library_versions()) json["versions"][line.name] = line.version;
   return json;
 }

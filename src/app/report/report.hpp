@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/film/pipeline.hpp"
+#include "app/film/prepared.hpp"
+#include "app/film/runs.hpp"
 #include "core/json.hpp"
 #include "dynamics/effective_mass.hpp"
 
@@ -40,7 +41,7 @@ double held_first(const Scene& scene);
 
 // The sidecar of a film: that of its run, or a list `panels` of them; and what the film is. The same from one run of
 // the program to the next. `frames`: of the whole film, with those that are held; `pictures` may be of one instant.
-Json film_report(const PreparedFilm& film, const std::vector<Trajectory>& runs, const Film& pictures, int frames);
+Json film_report(const Runs& runs, const Film& pictures, int frames);
 
 // A table with left-aligned words and right-aligned numbers; the first row is its head.
 std::string table_text(const std::vector<std::vector<std::string>>& rows);

@@ -1,0 +1,103 @@
+#include "app/film/prepared.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "app/film/automatic.hpp"
+#include "core/error.hpp"
+#include "draw/view.hpp"
+#include "render/canvas.hpp"
+#include "scene/panels.hpp"
+#include "scene/prepare.hpp"
+#include "scene/read_scene.hpp"
+
+namespace chainreel {
+
+namespace {
+
+// Default layers of the end effector where the model has none.
+void say_what_is_left_out(const std::vector<std::string>& wanted, const PreparedScene& prepared) {
+  std::string missing;
+  for (const std::string& layer : wanted)
+    if (std::find(prepared.scene.draw.begin(), prepared.scene.draw.end(), layer) == prepared.scene.draw.end())
+      missing += (missing.empty() ? "" : ", ") + layer;
+  if (!missing.empty())
+    std::fprintf(stderr, "note: %s: not drawn, as %s has several ends: choose one with `--set end_effector=NAME`\n",
+                 missing.c_str(), prepared.scene.model.c_str());
+}
+
+PreparedScene prepare_panel(Scene scene, bool meshes, bool quiet) {
+  PreparedScene prepared{std::move(scene), {}, {}, nullptr};
+  const std::vector<std::string> wanted = prepared.scene.draw;
+  prepared.simulation = prepare(prepared.scene, meshes);
+  if (!quiet) say_what_is_left_out(wanted, prepared);
+  choose_automatically(prepared, quiet);
+  return prepared;
+}
+
+// Every panel is prepared, so that all problems are told at once; what several panels share is told once.
+std::vector<PreparedScene> prepare_panels(const std::vector<Scene>& scenes, bool meshes, bool quiet) {
+  std::vector<PreparedScene> panels;
+  std::set<std::string> seen;
+  std::vector<Problem> problems;
+  ExitCode code = ExitCode::bad_input;
+  for (const Scene& scene : scenes) {
+    try {
+      panels.push_back(prepare_panel(scene, meshes, quiet));
+    } catch (const Error& error) {
+      code = error.code();
+      for (const Problem& problem : error.problems())
+        if (seen.insert(to_string(problem)).second) problems.push_back(problem);
+    }
+  }
+  if (!problems.empty()) throw Error(code, std::move(problems));
+  return panels;
+}
+
+void load_shapes(PreparedFilm& film) {
+  MeshShelf shelf;
+  for (PreparedScene& panel : film.panels) {
+    const Scene& scene = panel.scene;
+    const Chain& chain = panel.simulation.chain;
+    const BodyLook look{scene.links, scene.mesh_up, is_oblique(chain, film.scene.camera), scene.place_of("links")};
+    panel.shapes = shapes_for(look, scene.model, chain, model_options_of(scene), shelf);
+    if (panel.shapes) fill_by_several_threads();
+  }
+}
+
+}  // namespace
+
+PreparedFilm load_film(const std::string& path, const std::vector<std::string>& overrides, bool meshes, bool quiet) {
+  PreparedFilm film{read_scene(path, overrides), {}};
+  if (film.scene.compare.empty()) {
+    film.panels.push_back(prepare_panel(std::move(film.scene), meshes, quiet));
+    film.scene = film.panels.front().scene;
+    if (meshes) load_shapes(film);
+    return film;
+  }
+  film.panels = prepare_panels(film.scene.compare, meshes, quiet);
+  for (std::size_t i = 0; i < film.panels.size(); ++i) film.scene.compare[i] = film.panels[i].scene;
+  name_panels(film.scene.compare);
+  for (std::size_t i = 0; i < film.panels.size(); ++i)
+    film.panels[i].scene.title = film.scene.compare[i].title;
+  if (meshes) load_shapes(film);
+  return film;
+}
+
+PreparedScene load_scene(const std::string& path, const std::vector<std::string>& overrides, bool meshes,
+                         bool quiet) {
+  Scene scene = read_scene(path, overrides);
+  require_single_run(scene);
+  PreparedScene prepared = prepare_panel(std::move(scene), meshes, quiet);
+  prepared.simulation.events = nullptr;
+  return prepared;
+}
+
+std::vector<double> frame_times(const Scene& scene) {
+  std::vector<double> times(std::size_t(frame_count(scene.duration, scene.video.fps)));
+  for (std::size_t k = 0; k < times.size(); ++k) times[k] = frame_time(int(k), scene.video.fps);
+  return times;
+}
+
+}  // namespace chainreel

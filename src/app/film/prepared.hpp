@@ -1,0 +1,42 @@
+// Station two of a film: a scene (what is asked) becomes a prepared film (checked, its models loaded, its methods chosen),
+// from which every command that runs a scene starts.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "draw/body_shapes.hpp"
+#include "scene/scene.hpp"
+#include "sim/choice/choose_method.hpp"
+#include "sim/simulate.hpp"
+
+namespace chainreel {
+
+// A scene with everything resolved that a run needs.
+struct PreparedScene {
+  Scene scene;  // the effective one
+  Simulation simulation;
+  std::optional<Choice> choice;  // of `method: auto`
+  std::shared_ptr<const BodyShapes> shapes;  // drawn instead of bars; none where no picture is asked for
+};
+
+// A scene with its panels: one, itself, unless it compares several.
+struct PreparedFilm {
+  Scene scene;  // the effective one; its `compare` holds the panels' scenes
+  std::vector<PreparedScene> panels;
+};
+
+// `quiet`: says nothing while a method is chosen.
+PreparedFilm load_film(const std::string& path, const std::vector<std::string>& overrides, bool meshes = true,
+                       bool quiet = true);
+// For charts and tables of a single run, which compare whole durations: events do not act. Throws Error where
+// the scene compares several.
+PreparedScene load_scene(const std::string& path, const std::vector<std::string>& overrides,
+                         bool meshes = true, bool quiet = true);
+
+// 0, 1/fps, 2/fps, ...: one a frame of a film without slow motion.
+std::vector<double> frame_times(const Scene& scene);
+
+}  // namespace chainreel

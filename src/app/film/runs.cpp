@@ -1,0 +1,121 @@
+#include "app/film/runs.hpp"
+
+#include <algorithm>
+
+#include "app/signals.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+
+namespace chainreel {
+namespace {
+
+// The frames' instants, and the end of the motion for tables and the audit.
+std::vector<double> with_end(std::vector<double> times, const PreparedFilm& film) {
+  const double end = film.scene.duration;
+  if (times.back() < end - same_instant(film.panels.front().simulation)) times.push_back(end);
+  return times;
+}
+
+// Of the frames; where events ended all runs, the last frame stands at the last of them.
+std::vector<double> shown_times(const std::vector<Trajectory>& runs, const std::vector<double>& times,
+                                int frames) {
+  std::vector<double> shown(times.begin(), times.begin() + frames);
+  double end = 0;
+  for (const Trajectory& run : runs) {
+    if (run.ending_event < 0) return shown;
+    end = std::max(end, run.end_time);
+  }
+  for (double& time : shown) time = std::min(time, end);
+  return shown;
+}
+
+}  // namespace
+
+FilmClock clock_of(const PreparedFilm& film) {
+  const Scene& scene = film.scene;
+  const PreparedScene& first = film.panels.front();
+  EventHits hits;
+  if (std::any_of(scene.slow_motion.begin(), scene.slow_motion.end(),
+                  [](const SlowMotionEntry& entry) { return !entry.event.empty(); })) {
+    hits = simulate(first.simulation, {}, [](double) { return interrupted(); }).events;
+    throw_if_interrupted();
+  }
+  const FilmClock clock(scene.duration, scene.video.fps,
+                        stretches_of(scene.slow_motion, first.scene.events, hits));
+  if (clock.is_plain()) return clock;
+  const double frames = clock.film_seconds() * scene.video.fps.value();
+  if (frames > kMostFrames)
+    throw Error(ExitCode::limit, "slow motion makes a film of more than ten million frames",
+                scene.place_of("slow_motion"));
+  if (frames < 0.5)
+    throw Error(ExitCode::bad_input, "slow motion leaves less than half a frame: the film would be empty",
+                scene.place_of("slow_motion"));
+  return clock;
+}
+
+Runs::Runs(const PreparedFilm& film) : Runs(film, clock_of(film), {}) {}
+
+Runs::Runs(const PreparedFilm& film, FilmClock clock, std::vector<double> times)
+    : film_(film), clock_(std::move(clock)), times_(std::move(times)) {
+  if (times_.empty()) times_ = with_end(clock_.frame_times(), film);
+  for (const PreparedScene& panel : film.panels) {
+    list_.push_back(simulate_audited(panel.simulation, times_, [](double) { return interrupted(); }));
+    throw_if_interrupted();
+  }
+}
+
+int Runs::frames_shown(int frames) const {
+  int shown = 0;
+  for (std::size_t i = 0; i < list_.size(); ++i) {
+    const bool stands = list_[i].status == RunStatus::diverged && film_.panels[i].scene.expect == "diverge";
+    shown = std::max(shown, stands ? frames : std::min(frames, list_[i].size()));
+  }
+  return shown;
+}
+
+Film Runs::pictures(int frames, const Fonts& fonts) const {
+  std::vector<PanelRun> panels;
+  for (std::size_t i = 0; i < list_.size(); ++i)
+    panels.push_back({film_.panels[i].scene, film_.panels[i].simulation.chain, list_[i],
+                      &film_.panels[i].simulation, film_.panels[i].shapes.get()});
+  return Film(film_.scene, panels, shown_times(list_, times_, frames), fonts, clock_);
+}
+
+std::string in_panel(const Scene& scene, std::size_t i, const std::string& message) {
+  return "panel " + std::to_string(i + 1) + " (" + scene.title + "): " + message;
+}
+
+void require_expected_end(const Trajectory& trajectory, const Scene& scene) {
+  throw_if_interrupted();
+  if (scene.expect == "diverge") {
+    if (trajectory.status == RunStatus::diverged) return;
+    if (is_complete(trajectory.status))
+      throw Error(ExitCode::numerical,
+                  "the run was expected to diverge, but " + to_string(trajectory.status) +
+                      " at t = " + format_shortest(trajectory.end_time) + " s with " + method_text(scene),
+                  scene.place_of("expect"));
+  }
+  if (is_complete(trajectory.status)) return;
+  throw Error(ExitCode::numerical,
+              trajectory.trouble + " with " + method_text(scene) + ": try a smaller step or another method",
+              {scene.file});
+}
+
+void Runs::require_expected_ends(std::optional<int> frame) const {
+  std::vector<Problem> problems;
+  for (std::size_t i = 0; i < list_.size(); ++i) {
+    const Scene& scene = film_.panels[i].scene;
+    if (frame && *frame < list_[i].size() && scene.expect == "finish") continue;
+    try {
+      require_expected_end(list_[i], scene);
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::numerical) throw;  // a signal
+      const Problem& problem = error.problems().front();
+      problems.push_back(
+          {list_.size() == 1 ? problem.message : in_panel(scene, i, problem.message), problem.place});
+    }
+  }
+  if (!problems.empty()) throw Error(ExitCode::numerical, std::move(problems));
+}
+
+}  // namespace chainreel

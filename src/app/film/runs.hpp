@@ -1,0 +1,58 @@
+// Station three of a film: what the panels of a prepared film do, from which its pictures, tables and audits are made.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/film/prepared.hpp"
+#include "draw/film.hpp"
+#include "picture/text.hpp"
+#include "scene/film_clock.hpp"
+#include "sim/audit.hpp"
+
+namespace chainreel {
+
+// Which instant each frame shows. Slow motion about events follows those of the first panel, whose run is computed for
+// them. Throws Error (exit 7) where the film would be too long, (bad input) where it would be empty.
+FilmClock clock_of(const PreparedFilm& film);
+
+// A trajectory a panel, sampled at the same instants; the film must outlive them. Runs that fail are kept as far as they
+// came. The constructors throw what clock_of throws, and the signal's Error.
+class Runs {
+ public:
+  explicit Runs(const PreparedFilm& film);  // at its frames and at the end of its motion
+  Runs(const PreparedFilm& film, FilmClock clock, std::vector<double> times);
+
+  const PreparedFilm& film() const { return film_; }
+  const FilmClock& clock() const { return clock_; }
+  const std::vector<double>& times() const { return times_; }
+  const std::vector<Trajectory>& list() const { return list_; }
+  std::size_t size() const { return list_.size(); }
+  const Trajectory& operator[](std::size_t panel) const { return list_[panel]; }
+
+  // Of that many instants, those that a film shows: it ends with the last of its runs. One that is to diverge is shown to
+  // stand still behind its end.
+  int frames_shown(int frames) const;
+
+  // Throws Error (exit 5, or the signal's) where a panel did not come to the end that its scene expects; for a picture of
+  // one frame, of those alone that cannot show it or must diverge.
+  void require_expected_ends(std::optional<int> frame = {}) const;
+
+  // Station four: the pictures of the first `frames` instants.
+  Film pictures(int frames, const Fonts& fonts) const;
+
+ private:
+  const PreparedFilm& film_;
+  FilmClock clock_;
+  std::vector<double> times_;
+  std::vector<Trajectory> list_;
+};
+
+// The same for one run: it finished or was stopped by a limit, or diverged.
+void require_expected_end(const Trajectory& trajectory, const Scene& scene);
+
+// "panel 2 (rk4): message"
+std::string in_panel(const Scene& scene, std::size_t i, const std::string& message);
+
+}  // namespace chainreel
