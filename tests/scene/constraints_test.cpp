@@ -77,6 +77,17 @@ TEST_F(SceneConstraints, EveryKindIsReadAndWrittenBackTheSame) {
   EXPECT_EQ(again.constraints[7].closure, "axis");
 }
 
+TEST_F(SceneConstraints, SayHowDriftIsHeldOffAndAreProjectedOntoWhereTheySayNothing) {
+  const std::string pen = kPenStart + "constraints: [{line: {frame: gripper, point: [0, 0.5], direction: [1, 0]}}]\n";
+  const auto plan = [&](const std::string& more) { return ready(pen + more).constraints; };
+  EXPECT_EQ(plan("").stabilize, Stabilization::project);
+  EXPECT_EQ(plan("stabilize: project\n").stabilize, Stabilization::project);
+  EXPECT_EQ(plan("stabilize: none\n").stabilize, Stabilization::none);
+  EXPECT_EQ(plan("stabilize: baumgarte\n").stabilize, Stabilization::baumgarte);
+  EXPECT_EQ(plan("stabilize: baumgarte\n").gain, 10);
+  EXPECT_EQ(plan("stabilize: baumgarte\nbaumgarte: {gain: 25}\n").gain, 25);
+}
+
 TEST_F(SceneConstraints, PlacesOfTheWorldStandWhereFramesCould) {
   const Simulation one =
       ready(kPenStart + "constraints: [{close: {a: gripper, at: [0.8660254037844386, 0.5]}}]\n");

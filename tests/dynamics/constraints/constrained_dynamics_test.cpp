@@ -355,6 +355,29 @@ TEST(ConstrainedDynamicsTest, SingularPosesStayFinite) {
   EXPECT_NEAR(tied.cws.residual, 2, 8 * kRoundOff);
 }
 
+// Three rods of 1 m pinned 1 m from their origin: a parallelogram, which lies on one line at the change point. Coordinates
+// follow N theta, N = (1, -1, 1), so that N^T M N theta'' = N^T (tau - nle), however near that pose is.
+TEST(ConstrainedDynamicsTest, NearAChangePointAccelerationsAreThoseOfTheBranchThatTheMotionIsOn) {
+  const Eigen::Vector3d N(1, -1, 1);
+  for (const double off : {0.5, 1e-1, 1e-2, 1e-3, 1e-4}) {
+    Tied tied(rrr_chain(), {pin(1, 0)});
+    const double rate = 1.5;
+    const State s{{off, -off, off - std::numbers::pi}, {rate, -rate, rate}, {}, {1, 0.3, -0.2}};
+    EXPECT_EQ(tied.move(s), ConstraintStatus::regular) << off;
+    const Equations e = equations_of(tied, s);
+    const double expected = N.dot(e.free_force) / N.dot(e.M * N);
+    // The rows' round-off, which the distance from the singular pose magnifies.
+    EXPECT_LT((tied.qdd() - N * expected).cwiseAbs().maxCoeff(), 1e-13 / off) << off;
+  }
+  // At the change point one row moves nothing, and what its branches have in common is all that the other one says.
+  Tied tied(rrr_chain(), {pin(1, 0)});
+  const State s{{0, 0, -std::numbers::pi}, {1, -1, 1}, {}, {1, 0.3, -0.2}};
+  EXPECT_EQ(tied.move(s), ConstraintStatus::redundant);
+  EXPECT_EQ(tied.cws.rank, 1);
+  EXPECT_LT((tied.Jc() * tied.qdd() + tied.Jcd_qd()).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_LT(tied.qdd().cwiseAbs().maxCoeff(), 100);
+}
+
 TEST(ConstrainedDynamicsTest, WhatIsNoNumberIsReported) {
   Tied tied(rrr_chain(), {pin()});
   EXPECT_EQ(tied.move({{0.1, 0.2, 0.3}, {NAN, 0, 0}, {}, {0, 0, 0}}), ConstraintStatus::not_finite);

@@ -40,6 +40,27 @@ TEST(ConstrainedProjectionTest, FourBarAnglesFulfilFreudensteinsEquation) {
   EXPECT_GT(reached, 45);
 }
 
+// Beside the pose in which all links lie on one line a step of Newton's kind overshoots: it is halved until it gains.
+TEST(ConstrainedProjectionTest, LeadsBackBesideAChangePoint) {
+  Random random(703);
+  for (const double off : {1e-2, 1e-3, 1e-4}) {
+    Tied tied(rrr_chain(), {pin(1, 0)});
+    for (int k = 0; k < 20; ++k) {
+      std::vector<double> q{off, -off, off - std::numbers::pi};
+      const std::vector<double> before = q, error = random_vector(3, random, 0.1 * off);
+      for (std::size_t i = 0; i < 3; ++i) q[i] += error[i];
+      const Projection back = project(tied, q);
+      EXPECT_TRUE(back.reached) << off << " " << back.after;
+      EXPECT_LE(back.after, 64 * 4e-16);
+      for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(q[i], before[i], off) << "no farther away than the change point";
+      std::vector<double> qd{1, -1, 1.01};
+      project_velocities(tied.chain, tied.ws, tied.set, tied.cws, q, qd);
+      const Eigen::VectorXd rates = tied.Jc() * as_vector(qd);
+      EXPECT_LT(rates.cwiseAbs().maxCoeff(), 1e-14);
+    }
+  }
+}
+
 TEST(ConstrainedProjectionTest, SaysHowFarALineIsOutOfReach) {
   Tied tied(rrr_chain(), {pen_line(5)});
   std::vector<double> q{0.4, 0.3, 0.2};
