@@ -59,7 +59,7 @@ std::vector<Case> cases() {
        1},
       {"arm7", arm, {"0"}, 1},
       {"arm7_coupled", with_last_joint_coupled(arm), {"0"}, 1},
-      {"arm7_floating", read_chain("tests/bench/models/arm7.urdf", floating), {"sin(5*t)"}, 0.5},
+      {"arm7_floating", read_chain("tests/bench/models/arm7.urdf", floating), {"sin(5*t)"}, 0.25},
   };
 }
 
