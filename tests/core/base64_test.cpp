@@ -37,7 +37,15 @@ TEST(Base64, LongTextsHaveNoSeams) {
 
 TEST(Base64, OfAFileThatIsNotThereIsAnError) {
   std::ostringstream stream;
-  EXPECT_THROW(write_base64_of_file(stream, "/no/such/file"), Error);
+  const TemporaryFolder folder;  // which can be opened but not read
+  for (const std::string& path : {std::string("/no/such/file"), folder.path().string()}) {
+    try {
+      write_base64_of_file(stream, path);
+      FAIL() << path;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::bad_input) << path;
+    }
+  }
 }
 
 }  // namespace

@@ -63,6 +63,21 @@ TEST(Radau5Tableau, EstimatesNoErrorForAConstantRate) {
   EXPECT_NEAR(sum, -1, kRadauRoundOff);
 }
 
+// Rows in another order: in each column there is one number that can be a pivot.
+TEST(DenseLu, FindsTheOnlyPivotOfAColumn) {
+  constexpr std::size_t n = 5;
+  DenseLu<double> turned(n);
+  std::vector<double> b(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = (2 * i + 3) % n;
+    turned(i, j) = double(i + 2);
+    b[i] = double(i + 2) * double(j + 1);  // x = 1, 2, ..
+  }
+  turned.factor();
+  turned.solve(b);
+  for (std::size_t j = 0; j < n; ++j) EXPECT_NEAR(b[j], double(j + 1), 8 * 0x1p-52) << j;
+}
+
 TEST(DenseLu, SolvesWhatItHasFactored) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1, 1);

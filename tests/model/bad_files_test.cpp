@@ -86,6 +86,24 @@ TEST(BadFiles, AllProblemsOfAFileAreToldInItsOrder) {
   }
 }
 
+TEST(BadFiles, ShapesWithoutTheirMeasuresAreRefused) {
+  const auto refusal = [](const std::string& shape) {
+    const TemporaryFolder folder;
+    return refusal_of(folder.write("m.urdf", robot_text(link_text("base", "<visual><geometry>" + shape + "</geometry></visual>") +
+                                                        moving("arm", "continuous", "base"))));
+  };
+  for (const auto& [shape, missing] : {std::pair{"<box/>", "size"},
+                                       {"<box size='1 2'/>", "size"},
+                                       {"<sphere/>", "radius"},
+                                       {"<sphere radius='one'/>", "radius"},
+                                       {"<cylinder length='1'/>", "radius"},
+                                       {"<cylinder radius='1'/>", "length"},
+                                       {"<mesh/>", "names no file"}}) {
+    EXPECT_THAT(refusal(shape), testing::AllOf(testing::HasSubstr("m.urdf:2"), testing::HasSubstr(missing))) << shape;
+  }
+  EXPECT_EQ(refusal("<cylinder radius='1' length='1'/>"), "");  // negative control
+}
+
 TEST(BadFiles, OfVeryManyProblemsTheFirstAreToldAndTheRestCounted) {
   std::string links = link_text("base");
   for (int i = 0; i < 1000; ++i) links += link_text("base");

@@ -47,6 +47,18 @@ Rect box_of(const GlyphRun& run) {
 
 // --- ticks ---
 
+TEST(Axes, AreRoundedOutToWholeTicksOnBothSides) {
+  const Axis axis = rounded_out({.scale = Scale::linear, .low = -7.3, .high = 18.2});
+  EXPECT_DOUBLE_EQ(axis.low, -10);
+  EXPECT_DOUBLE_EQ(axis.high, 20);
+  const Axis small = rounded_out({.scale = Scale::linear, .low = 0.0031, .high = 0.0069});
+  EXPECT_DOUBLE_EQ(small.low, 0.003);
+  EXPECT_DOUBLE_EQ(small.high, 0.007);
+  const Axis decades = rounded_out({.scale = Scale::log, .low = 0.02, .high = 30});
+  EXPECT_DOUBLE_EQ(decades.low, 0.01);
+  EXPECT_DOUBLE_EQ(decades.high, 100);
+}
+
 TEST(Ticks, StepsAreOneTwoOrFive) {
   EXPECT_THAT(labels({Scale::linear, 0, 10}, 5), ElementsAre("0", "5", "10"));
   EXPECT_THAT(labels({Scale::linear, -1, 1}, 5), ElementsAre("\u22121.0", "\u22120.5", "0.0", "0.5", "1.0"));

@@ -61,6 +61,17 @@ TEST(Text, InkBoxIsThatOfTheOutline) {
   EXPECT_LT(line.box.y0, -0.1);  // g has a descender
 }
 
+// Whatever stands first: d rises highest, g goes lowest.
+TEST(Text, InkBoxHoldsEveryGlyph) {
+  const auto box = [](const char* text) { return lay_out_text(fonts(), text, label(1)).box; };
+  const Rect g = box("g"), d = box("d");
+  for (const char* text : {"gxd", "dxg", "xgd", "xdg", "gdx", "g d"}) {
+    EXPECT_EQ(box(text).y0, g.y0) << text;
+    EXPECT_EQ(box(text).y1, d.y1) << text;
+    EXPECT_GT(box(text).width(), g.width() + d.width() - kTextRoundOff) << text;
+  }
+}
+
 TEST(Text, FiguresAreTabular) {
   std::set<double> advances;
   for (const char* number : {"0.00", "1.11", "4.77", "7.41", "1.74"})
