@@ -9,6 +9,7 @@
 #include <fstream>
 #include <string>
 
+#include "core/error.hpp"
 #include "model/read_chain.hpp"
 
 namespace chainreel {
@@ -73,11 +74,12 @@ inline Chain chain_from(const std::string& text, const ModelOptions& options = {
   return read_chain(folder.write("model.urdf", text), options);
 }
 
-// What reading says, or "" where it succeeds.
+// What reading says, or "" where it succeeds. What is wrong with a file is bad input, or too much of it.
 inline std::string refusal_of(const std::string& path, const ModelOptions& options = {}) {
   try {
     read_chain(path, options);
   } catch (const Error& error) {
+    EXPECT_TRUE(error.code() == ExitCode::bad_input || error.code() == ExitCode::limit) << error.what();
     return error.what();
   }
   return "";
