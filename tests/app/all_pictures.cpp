@@ -11,8 +11,8 @@
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
 #include "draw/chart_samples.hpp"
-#include "draw/film.hpp"
-#include "draw/poses.hpp"
+#include "draw/figures/poses.hpp"
+#include "draw/film/film.hpp"
 #include "model/read_chain.hpp"
 
 namespace chainreel::test {

@@ -1,6 +1,6 @@
 // Films as files: what a decode finds is what the scene asked for and what the audit says.
 
-#include "draw/film.hpp"
+#include "draw/film/film.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

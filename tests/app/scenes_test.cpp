@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/film/picture_file.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
-#include "app/film/picture_file.hpp"
-#include "draw/film.hpp"
+#include "draw/film/film.hpp"
 #include "dynamics/kinematics.hpp"
 #include "picture/theme.hpp"
 #include "support/picture_compare.hpp"

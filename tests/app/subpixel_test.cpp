@@ -8,10 +8,10 @@
 #include <functional>
 #include <numbers>
 
+#include "app/film/picture_file.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
-#include "app/film/picture_file.hpp"
-#include "draw/film.hpp"
+#include "draw/film/film.hpp"
 #include "picture/theme.hpp"
 #include "support/fonts.hpp"
 

@@ -8,7 +8,7 @@
 #include "app/all_pictures.hpp"
 #include "app/ink.hpp"
 #include "app/print_pictures.hpp"
-#include "draw/sheet.hpp"
+#include "draw/page/sheet.hpp"
 #include "picture/theme.hpp"
 #include "support/fonts.hpp"
 

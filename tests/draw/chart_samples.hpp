@@ -1,9 +1,9 @@
 // Made-up measurements that look like real ones: slopes of the methods' orders, failures, a round-off floor.
 #pragma once
 
-#include "draw/chart.hpp"
-#include "draw/energy_chart.hpp"
-#include "draw/stability_map.hpp"
+#include "draw/charts/chart.hpp"
+#include "draw/charts/energy_chart.hpp"
+#include "draw/charts/stability_map.hpp"
 
 namespace chainreel::test {
 

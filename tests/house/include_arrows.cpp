@@ -40,8 +40,26 @@ std::string arrow_fault(const House& house, const std::string& folder, const std
   if (slash == std::string::npos) return "";
   const std::string target = header.substr(0, slash);
   if (!house.uses.contains(target)) return "\"" + header + "\" is not in a folder of the house";
-  if (reachable(house, folder).contains(target)) return "";
+  if (reachable(house.uses, folder).contains(target)) return "";
   return "\"" + header + "\": " + folder + " may not include " + target;
+}
+
+// The shelf on which room/shelf/file stands; "" for room/file.
+std::string shelf_of(const std::string& path) {
+  const std::size_t begin = path.find('/') + 1, end = path.find('/', begin);
+  return end == std::string::npos ? "" : path.substr(begin, end - begin);
+}
+
+// What is wrong with a "header" that stands in the room of the file `name`, or "".
+std::string shelf_fault(const House& house, const std::string& name, const std::string& header) {
+  const std::string room = name.substr(0, name.find('/'));
+  const auto shelves = house.shelves.find(room);
+  if (shelves == house.shelves.end() || !header.starts_with(room + "/")) return "";
+  const std::string from = shelf_of(name), to = shelf_of(header);
+  if (!shelves->second.contains(from)) return "";  // is told once, of the file
+  if (!shelves->second.contains(to)) return "\"" + header + "\" is on no shelf of " + room;
+  if (reachable(shelves->second, from).contains(to)) return "";
+  return "\"" + header + "\": within " + room + " " + from + " may not include " + to;
 }
 
 bool is_source(const fs::path& path) {
@@ -58,6 +76,9 @@ void check_file(const House& house, const fs::path& src, const fs::path& path, I
     report.faults.push_back(name.string() + ": " + folder + " is not a folder of the house");
     return;
   }
+  const auto shelves = house.shelves.find(folder);
+  if (shelves != house.shelves.end() && !shelves->second.contains(shelf_of(name.string())))
+    report.faults.push_back(name.string() + ": is on no shelf of " + folder);
   std::ifstream stream(path);
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
@@ -65,8 +86,9 @@ void check_file(const House& house, const fs::path& src, const fs::path& path, I
     if (!std::regex_search(line, match, include)) continue;
     ++report.includes;
     const std::string header = match[2];
-    const std::string fault =
+    std::string fault =
         match[1] == "<" ? library_fault(house, folder, header) : arrow_fault(house, folder, header);
+    if (fault.empty()) fault = shelf_fault(house, name.string(), header);
     if (!fault.empty()) report.faults.push_back(name.string() + ":" + std::to_string(number) + ": " + fault);
   }
 }
@@ -109,6 +131,8 @@ const House& house() {
                    {"cairo", {"render"}},
                    {"yaml-cpp/", {"scene"}},
                    {"CLI/", {"app"}}};
+    h.shelves["draw"] = {{"robot", {}},           {"page", {"robot"}},     {"layers", {"page"}},
+                         {"film", {"layers"}},    {"figures", {"layers"}}, {"charts", {"page"}}};
     // Eigen is the language of everything below scene.
     for (const auto& [folder, below] : h.uses)
       if (folder != "scene" && folder != "draw" && folder != "app") h.libraries["Eigen/"].insert(folder);
@@ -117,13 +141,13 @@ const House& house() {
   return instance;
 }
 
-std::set<std::string> reachable(const House& house, const std::string& folder) {
+std::set<std::string> reachable(const std::map<std::string, std::set<std::string>>& uses, const std::string& folder) {
   std::set<std::string> found = {folder};
   std::vector<std::string> open = {folder};
   while (!open.empty()) {
     const std::string next = open.back();
     open.pop_back();
-    for (const std::string& below : house.uses.at(next))
+    for (const std::string& below : uses.at(next))
       if (found.insert(below).second) open.push_back(below);
   }
   return found;

@@ -21,16 +21,20 @@ TEST(IncludeArrows, EveryFolderIncludesOnlyWhatStandsBelowIt) {
 }
 
 TEST(IncludeArrows, TheHouseHasNoCircle) {
-  for (const auto& [folder, below] : house().uses)
-    for (const std::string& target : below)
-      EXPECT_FALSE(reachable(house(), target).contains(folder)) << folder << " " << target;
+  const auto expect_no_circle = [](const std::map<std::string, std::set<std::string>>& uses) {
+    for (const auto& [folder, below] : uses)
+      for (const std::string& target : below)
+        EXPECT_FALSE(reachable(uses, target).contains(folder)) << folder << " " << target;
+  };
+  expect_no_circle(house().uses);
+  for (const auto& [room, shelves] : house().shelves) expect_no_circle(shelves);
 }
 
 TEST(IncludeArrows, PhysicsNeverSeesThePictureNorTheRendererPhysics) {
   for (const char* physics : {"model", "dynamics", "integrate", "sim"})
     for (const char* pictures : {"picture", "render", "draw", "encode"}) {
-      EXPECT_FALSE(reachable(house(), physics).contains(pictures)) << physics << " " << pictures;
-      EXPECT_FALSE(reachable(house(), pictures).contains(physics) && std::string(pictures) != "draw")
+      EXPECT_FALSE(reachable(house().uses, physics).contains(pictures)) << physics << " " << pictures;
+      EXPECT_FALSE(reachable(house().uses, pictures).contains(physics) && std::string(pictures) != "draw")
           << pictures;
     }
 }
@@ -52,19 +56,25 @@ TEST(IncludeArrows, EveryKindOfWrongIncludeIsFoundWithItsLine) {
              "#include \"core/good.hpp\"\n#include \"model/chain.hpp\"\n#include <Eigen/Core>\n");
   tree.write("core/up.hpp", "#pragma once\n#include \"sim/through.hpp\"\n");
   tree.write("render/physics.cpp", "  #  include \"dynamics/aba.hpp\"\n");
-  tree.write("draw/yaml.cpp", "#include <yaml-cpp/yaml.h>\n#include <Eigen/Core>\n");
+  tree.write("draw/page/yaml.cpp", "#include <yaml-cpp/yaml.h>\n#include <Eigen/Core>\n");
+  tree.write("draw/film/good.cpp", "#include \"draw/film/a.hpp\"\n#include \"draw/robot/b.hpp\"\n");
+  tree.write("draw/layers/up.cpp", "#include \"draw/film/panel.hpp\"\n#include \"draw/attic/c.hpp\"\n");
+  tree.write("draw/loose.cpp", "#include \"draw/film/panel.hpp\"\n");
   tree.write("app/new.cpp", "#include <boost/any.hpp>\n#include \"attic/old.hpp\"\n");
   tree.write("attic/old.cpp", "int x;\n");
   const IncludeReport report = check_includes(house(), tree.path());
-  EXPECT_EQ(report.files, 7);
+  EXPECT_EQ(report.files, 10);
   EXPECT_THAT(
       report.faults,
       ElementsAre(HasSubstr("app/new.cpp:1: <boost/any.hpp> has no place"),
                   HasSubstr("app/new.cpp:2: \"attic/old.hpp\" is not in a folder of the house"),
                   HasSubstr("attic/old.cpp: attic is not a folder of the house"),
                   HasSubstr("core/up.hpp:2: \"sim/through.hpp\": core may not include sim"),
-                  HasSubstr("draw/yaml.cpp:1: <yaml-cpp/yaml.h> may be included by scene alone"),
-                  HasSubstr("draw/yaml.cpp:2: <Eigen/Core> may be included by"),
+                  HasSubstr("draw/layers/up.cpp:1: \"draw/film/panel.hpp\": within draw layers may not include film"),
+                  HasSubstr("draw/layers/up.cpp:2: \"draw/attic/c.hpp\" is on no shelf of draw"),
+                  HasSubstr("draw/loose.cpp: is on no shelf of draw"),
+                  HasSubstr("draw/page/yaml.cpp:1: <yaml-cpp/yaml.h> may be included by scene alone"),
+                  HasSubstr("draw/page/yaml.cpp:2: <Eigen/Core> may be included by"),
                   HasSubstr("render/physics.cpp:1: \"dynamics/aba.hpp\": render may not include dynamics")));
 }
 

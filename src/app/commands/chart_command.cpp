@@ -12,7 +12,7 @@
 #include "app/signals.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "draw/chart.hpp"
+#include "draw/charts/chart.hpp"
 #include "sim/choice/work_precision.hpp"
 
 namespace chainreel {

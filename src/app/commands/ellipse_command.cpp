@@ -11,7 +11,7 @@
 #include "app/report/figure.hpp"
 #include "core/error.hpp"
 #include "core/output_file.hpp"
-#include "draw/poses.hpp"
+#include "draw/figures/poses.hpp"
 #include "model/read_chain.hpp"
 
 namespace chainreel {

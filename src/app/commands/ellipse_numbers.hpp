@@ -7,8 +7,8 @@
 
 #include "app/command.hpp"
 #include "core/json.hpp"
-#include "draw/body_shapes.hpp"
-#include "draw/ellipse.hpp"
+#include "draw/layers/ellipse.hpp"
+#include "draw/robot/body_shapes.hpp"
 #include "scene/scene.hpp"
 #include "sim/tip.hpp"
 

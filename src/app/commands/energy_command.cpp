@@ -11,7 +11,7 @@
 #include "app/signals.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "draw/energy_chart.hpp"
+#include "draw/charts/energy_chart.hpp"
 #include "sim/audit.hpp"
 #include "sim/choice/workload.hpp"
 

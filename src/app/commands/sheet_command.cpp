@@ -15,7 +15,7 @@
 #include "app/report/report.hpp"
 #include "app/signals.hpp"
 #include "core/error.hpp"
-#include "draw/contact_sheet.hpp"
+#include "draw/figures/contact_sheet.hpp"
 #include "scene/quantity.hpp"
 
 namespace chainreel {

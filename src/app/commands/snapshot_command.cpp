@@ -14,7 +14,7 @@
 #include "app/report/figure.hpp"
 #include "app/report/report.hpp"
 #include "core/error.hpp"
-#include "draw/poses.hpp"
+#include "draw/figures/poses.hpp"
 #include "model/read_chain.hpp"
 #include "scene/quantity.hpp"
 

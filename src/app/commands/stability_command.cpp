@@ -14,7 +14,7 @@
 #include "app/signals.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "draw/stability_map.hpp"
+#include "draw/charts/stability_map.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/stability_cells.hpp"
 #include "sim/audit.hpp"

@@ -4,7 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "draw/view.hpp"
+#include "draw/robot/view.hpp"
 #include "scene/prepare.hpp"
 #include "scene/read_scene.hpp"
 

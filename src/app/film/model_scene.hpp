@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "draw/poses.hpp"
+#include "draw/figures/poses.hpp"
 #include "model/read_chain.hpp"
 #include "scene/scene.hpp"
 

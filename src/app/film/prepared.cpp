@@ -6,7 +6,7 @@
 
 #include "app/film/automatic.hpp"
 #include "core/error.hpp"
-#include "draw/view.hpp"
+#include "draw/robot/view.hpp"
 #include "render/canvas.hpp"
 #include "scene/panels.hpp"
 #include "scene/prepare.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "draw/body_shapes.hpp"
+#include "draw/robot/body_shapes.hpp"
 #include "scene/scene.hpp"
 #include "sim/choice/choose_method.hpp"
 #include "sim/simulate.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/film/prepared.hpp"
-#include "draw/film.hpp"
+#include "draw/film/film.hpp"
 #include "picture/text.hpp"
 #include "scene/film_clock.hpp"
 #include "sim/audit.hpp"

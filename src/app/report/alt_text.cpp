@@ -7,7 +7,7 @@
 
 #include "app/report/report.hpp"
 #include "core/format.hpp"
-#include "draw/speed_box.hpp"
+#include "draw/film/speed_box.hpp"
 
 namespace chainreel {
 namespace {

@@ -7,7 +7,7 @@
 #include "app/command.hpp"
 #include "app/film/clip_memory.hpp"
 #include "core/frame_rate.hpp"
-#include "draw/chart_page.hpp"
+#include "draw/charts/chart_page.hpp"
 #include "integrate/method.hpp"
 #include "picture/picture.hpp"
 #include "picture/text.hpp"

@@ -1,0 +1,219 @@
+#include "draw/charts/chart.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace chainreel {
+namespace {
+
+// Of the page's width; where it is not enough for all panels, they share the labels of the last.
+constexpr double kMostForLabels = 0.30;
+constexpr double kZonePad = 0.012;
+constexpr double kWidestZone = 0.34;  // of the panel
+constexpr double kZoneOpacity = 0.14;
+constexpr const char* kZoneWords = "no double-precision method can be here";
+
+// The longest form that fits.
+std::string cost_title(ChartCost cost, double width, const PlotStyle& style) {
+  if (cost == ChartCost::seconds) return "time per run [s]";
+  const std::string whole = "evaluations of the dynamics";
+  const TextStyle text{Face::label, style.text(size::kAxis), style.theme->ink, Align::left};
+  return lay_out_text(*style.fonts, whole, text).advance <= width ? whole : "evaluations";
+}
+
+CurveStyle style_of(const WorkPrecision& data, std::size_t curve, const ChartLook& look) {
+  const int index = data.curves[curve].look;
+  return curve_style(index < 0 ? int(curve) : index, *look.theme, look.text_scale);
+}
+
+struct Range {
+  double low = HUGE_VAL, high = 0;
+  void see(double value) {
+    if (!(value > 0) || !std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  bool empty() const { return !(high > 0); }
+};
+
+Axis log_axis(Range range, const std::string& title) {
+  if (range.empty()) range = {0.1, 1};
+  return rounded_out({Scale::log, range.low, range.high, title});
+}
+
+Axis cost_axis(const WorkPrecision& data, ChartCost cost, double width, const PlotStyle& style) {
+  Range range;
+  for (const ChartCurve& curve : data.curves)
+    for (const ChartPoint& point : curve.points) range.see(cost_of(point, cost));
+  return log_axis(range, cost_title(cost, width, style));
+}
+
+Range errors_of(const WorkPrecision& data) {
+  Range range;
+  for (const ChartCurve& curve : data.curves)
+    for (const ChartPoint& point : curve.points)
+      if (!point.failed) range.see(point.error);
+  return range;
+}
+
+TextStyle small_text(const ChartLook& look, Align align) {
+  return {Face::label, look.plot_style().text(size::kTick), look.theme->muted, align};
+}
+
+double zone_width(const ChartLook& look) {
+  double widest = 0;
+  const TextStyle style = small_text(look, Align::center);
+  for (const std::string& word : wrapped(*look.fonts, kZoneWords, style, 0))
+    widest = std::max(widest, lay_out_text(*look.fonts, word, style).advance);
+  return widest + 2 * kZonePad;
+}
+
+bool any_failed(const WorkPrecision& data) {
+  return std::any_of(data.curves.begin(), data.curves.end(), [](const ChartCurve& curve) {
+    return std::any_of(curve.points.begin(), curve.points.end(),
+                       [](const ChartPoint& p) { return p.failed; });
+  });
+}
+
+// Left of the smallest error there is as much room as the words in the zone need; right of the largest a
+// decade for what failed.
+Axis error_axis(const WorkPrecision& data, double panel_width, const ChartLook& look) {
+  Axis axis = log_axis(errors_of(data), data.error_title);
+  if (any_failed(data)) axis.high *= 10;
+  if (!(data.floor > 0)) return axis;
+  axis.high = std::max(axis.high, rounded_out({Scale::log, data.floor, 10 * data.floor, ""}).high);
+  const double share = std::min(zone_width(look) / panel_width, kWidestZone);
+  const double floor = std::log10(data.floor), high = std::log10(axis.high);
+  axis.low = std::min(axis.low, std::pow(10.0, (floor - share * high) / (1 - share)));
+  return axis;
+}
+
+void draw_floor(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, const ChartLook& look) {
+  if (!(data.floor > frame.x.low)) return;
+  draw_zone(picture, frame, {frame.x.low, frame.y.low}, {data.floor, frame.y.high},
+            look.theme->base.faded(kZoneOpacity));
+}
+
+void draw_floor_words(Picture& picture, const PlotFrame& frame, const WorkPrecision& data,
+                      const ChartLook& look) {
+  if (!(data.floor > frame.x.low)) return;
+  const TextStyle style = small_text(look, Align::center);
+  const double right = std::min(frame.at_x(data.floor), frame.box.x1), left = frame.box.x0;
+  const double width = right - left - 2 * kZonePad * 0.99;
+  const auto lines = double(wrapped(*look.fonts, kZoneWords, style, width).size());
+  draw_paragraph(picture, *look.fonts, kZoneWords, style,
+                 {(left + right) / 2, frame.box.y0 + kZonePad + (lines - 0.7) * kLinePitch * style.size},
+                 width);
+}
+
+void draw_curves(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,
+                 const ChartLook& look) {
+  for (std::size_t i = 0; i < data.curves.size(); ++i) {
+    const CurveStyle style = style_of(data, i, look);
+    std::vector<Point> points;
+    for (const ChartPoint& point : data.curves[i].points) {
+      // No error at all is as good as the axis shows.
+      const double error = point.failed ? NAN : std::max(point.error, frame.x.low);
+      points.push_back({error, cost_of(point, cost)});
+      if (point.failed) draw_failure(picture, frame, cost_of(point, cost), style, look);
+    }
+    draw_curve(picture, frame, points, style, *look.theme);
+  }
+}
+
+std::vector<EndLabel> labels_of(const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,
+                                const ChartLook& look) {
+  std::vector<EndLabel> labels;
+  for (std::size_t i = 0; i < data.curves.size(); ++i) {
+    std::optional<Point> end;
+    for (const ChartPoint& point : data.curves[i].points) {
+      const Point p = {point.failed ? frame.x.high : std::clamp(point.error, frame.x.low, frame.x.high),
+                       cost_of(point, cost)};
+      if (frame.can_show(p) && (!end || frame.at(p).x > end->x)) end = frame.at(p);
+    }
+    if (end) labels.push_back({*end, data.curves[i].method, style_of(data, i, look)});
+  }
+  return labels;
+}
+
+// Panels from left to right; each but the last is followed by room for its labels where they are not shared.
+struct Columns {
+  std::vector<Rect> panels;
+  bool shared_labels = false;
+};
+
+Columns columns_of(const Rect& area, std::size_t count, double labels) {
+  Columns columns;
+  const double with_labels = labels + kLabelGap;
+  columns.shared_labels = double(count) * with_labels > kMostForLabels * area.width();
+  const double inner = columns.shared_labels ? size::kGutter : with_labels + size::kGutter;
+  const double width = (area.width() - with_labels - double(count - 1) * inner) / double(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double left = area.x0 + double(i) * (width + inner);
+    columns.panels.push_back({left, area.y0, left + width, area.y1});
+  }
+  return columns;
+}
+
+void draw_panel(Picture& picture, const Rect& area, const WorkPrecision& data, ChartCost cost,
+                bool with_labels, const ChartLook& look) {
+  const PlotStyle style = look.plot_style();
+  const Axis costs = cost_axis(data, cost, area.width(), style);
+  const double width =
+      lay_out_plot(area, log_axis(errors_of(data), data.error_title), costs, style).box.width();
+  const PlotFrame frame = lay_out_plot(area, error_axis(data, width, look), costs, style);
+  draw_floor(picture, frame, data, look);
+  draw_axes(picture, frame, style);
+  draw_floor_words(picture, frame, data, look);
+  draw_marks(picture, frame, data, cost, look);
+  if (with_labels)
+    draw_end_labels(picture, frame, labels_of(frame, data, cost, look), frame.box.x1 + kLabelGap, style);
+  draw_curves(picture, frame, data, cost, look);
+}
+
+// "3\u00D710\u207B\u00B9\u2074"
+std::string power_text(double value) {
+  static constexpr std::array<const char*, 10> kSuperscripts = {
+      "\u2070", "\u00B9", "\u00B2", "\u00B3", "\u2074", "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+  int exponent = int(std::floor(std::log10(value)));
+  long digit = std::lround(value / std::pow(10.0, exponent));
+  if (digit == 10) digit = 1, ++exponent;
+  std::string text = std::to_string(digit) + "\u00D710";
+  for (const char c : std::to_string(exponent))
+    text += c == '-' ? "\u207B" : kSuperscripts[std::size_t(c - '0')];
+  return text;
+}
+
+std::string footer_of(const WorkPrecision& data) {
+  std::string text;
+  const auto add = [&text](const std::string& part) {
+    text += (text.empty() || part.empty() ? "" : "; ") + part;
+  };
+  add(data.error_meaning);
+  if (data.floor > 0)
+    add("shaded: the problem's amplification times 2\u207B\u2075\u00B3 is " + power_text(data.floor));
+  if (data.reference_uncertainty > 0) add("reference known to " + power_text(data.reference_uncertainty));
+  add("triangles: slope of an order");
+  if (any_failed(data)) add("crosses at the right edge: failed runs");
+  add(data.machine);
+  return text;
+}
+
+}  // namespace
+
+Picture work_precision_chart(const WorkPrecision& data, std::span<const ChartCost> panels,
+                             const ChartLook& look) {
+  Picture picture;
+  const Rect area = draw_chart_page(picture, {data.title, data.subtitle, footer_of(data)}, look);
+  std::vector<std::string> methods;
+  for (const ChartCurve& curve : data.curves) methods.push_back(curve.method);
+  const Columns columns = columns_of(area, panels.size(), end_labels_width(methods, look.plot_style()));
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const bool with_labels = !columns.shared_labels || i + 1 == panels.size();
+    draw_panel(picture, columns.panels[i], data, panels[i], with_labels, look);
+  }
+  return picture;
+}
+
+}  // namespace chainreel

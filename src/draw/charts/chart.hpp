@@ -1,0 +1,71 @@
+// The work-precision diagram: what accuracy costs with each method. Error grows to the right, cost upward,
+// both on log axes, so that better is further down and to the left. The caller has measured everything;
+// nothing is computed here but where it goes on the page.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "draw/charts/chart_page.hpp"
+
+namespace chainreel {
+
+// One run: a rung of the ladder of steps or tolerances of a method.
+struct ChartPoint {
+  double error = 0;        // of the final state against the reference
+  double seconds = 0;      // median of the repetitions
+  double evaluations = 0;  // of the dynamics
+  bool failed = false;     // diverged or gave up: its cost is shown, its error is not
+  std::string label;       // "h = 1 ms"; not drawn, for files beside the picture
+};
+
+struct ChartCurve {
+  std::string method;
+  int order = 0;  // 0: no slope is expected
+  std::vector<ChartPoint> points;
+  int look = -1;  // of curve_style; -1: the place in the list
+};
+
+struct ChartChoice {
+  std::string method;
+  int point = 0;
+};
+
+struct WorkPrecision {
+  std::string title, subtitle;
+  std::string error_title = "final error";
+  std::string error_meaning;         // for the foot; "": nothing to add
+  double floor = 0;                  // the problem's amplification x 2^-53; 0: not known
+  double reference_uncertainty = 0;  // 0: not known
+  std::vector<ChartCurve> curves;
+  std::optional<ChartChoice> choice;  // of `auto`
+  std::string machine;                // processor, compiler, revision
+};
+
+enum class ChartCost { seconds, evaluations };
+
+// One panel for each cost, side by side.
+Picture work_precision_chart(const WorkPrecision& data, std::span<const ChartCost> panels,
+                             const ChartLook& look);
+
+// The least cost at which any curve reaches an error of at most `error`, read between neighbouring points of
+// a curve along straight lines of the log-log diagram; nothing where none gets there.
+std::optional<double> least_cost(const WorkPrecision& data, ChartCost cost, double error);
+
+// What a diagram draws beside its curves: guides, slopes, failures, the choice of `auto`. Internal.
+
+double cost_of(const ChartPoint& point, ChartCost cost);
+
+// What lies behind the curves: the least cost for each error and ten and a hundred times as much, a triangle
+// for each order whose slope some curve really shows, a ring around the choice of `auto`. Words and triangles
+// stand where no curve crosses them, or are left out; the word of the choice always stands.
+void draw_marks(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,
+                const ChartLook& look);
+
+// A failed run: the method's marker and a cross on the right edge, at its cost.
+void draw_failure(Picture& picture, const PlotFrame& frame, double cost, const CurveStyle& style,
+                  const ChartLook& look);
+
+}  // namespace chainreel

@@ -1,0 +1,293 @@
+// Slopes: with steps of size h a method of order p has error ~ h^p and cost ~ 1/h, so that log cost falls by
+// 1/p for each decade of error.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "draw/charts/chart.hpp"
+#include "picture/point.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr int kGuideSamples = 160;
+constexpr double kGuideOpacity = 0.75;
+constexpr double kTriangleRise = 0.042, kTriangleOffset = 0.014;
+constexpr double kLongestRun = 0.11;      // H
+constexpr double kSlopeAgreement = 0.25;  // of 1/p: more than times scatter, less than to the next order
+constexpr double kRing = 0.0185, kRingLine = 0.0035;
+constexpr double kFailureShift = 0.020, kFailureSize = 1.25;
+constexpr double kClearance = 0.009;  // half a marker and a little air
+
+struct LogPoint {
+  double error, cost;
+};
+
+// Points of one curve that did not fail, log10, in rising order of error.
+std::vector<LogPoint> good_points(const ChartCurve& curve, ChartCost cost) {
+  std::vector<LogPoint> points;
+  for (const ChartPoint& p : curve.points)
+    if (!p.failed && p.error > 0 && cost_of(p, cost) > 0 && std::isfinite(p.error))
+      points.push_back({std::log10(p.error), std::log10(cost_of(p, cost))});
+  std::sort(points.begin(), points.end(),
+            [](const LogPoint& a, const LogPoint& b) { return a.error < b.error; });
+  return points;
+}
+
+double least_log_cost(const WorkPrecision& data, ChartCost cost, double log_error) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const ChartCurve& curve : data.curves) {
+    const std::vector<LogPoint> points = good_points(curve, cost);
+    for (std::size_t i = 0; i < points.size() && points[i].error <= log_error; ++i) {
+      least = std::min(least, points[i].cost);
+      if (i + 1 == points.size() || points[i + 1].error <= log_error) continue;
+      const double t = (log_error - points[i].error) / (points[i + 1].error - points[i].error);
+      least = std::min(least, points[i].cost + t * (points[i + 1].cost - points[i].cost));
+    }
+  }
+  return least;
+}
+
+Point page_point(const PlotFrame& frame, const LogPoint& p) {
+  return frame.at({std::pow(10.0, p.error), std::pow(10.0, p.cost)});
+}
+
+constexpr int kNoCurve = -1;
+
+// What words and triangles keep clear of.
+struct Obstacles {
+  struct Line {
+    Point a, b;
+    int curve;
+  };
+  Rect inside;  // all must lie here
+  std::vector<Line> lines;
+  std::vector<Rect> boxes;
+
+  // `curve` may pass through.
+  bool is_free(const Rect& box, int curve = kNoCurve) const {
+    const Rect wide = widened(box, kClearance);
+    return holds(inside, box) &&
+           std::none_of(boxes.begin(), boxes.end(),
+                        [&](const Rect& other) { return overlap(other, wide); }) &&
+           std::none_of(lines.begin(), lines.end(), [&](Line line) {
+             return (curve == kNoCurve || line.curve != curve) && cut_segment(wide, line.a, line.b);
+           });
+  }
+};
+
+Obstacles obstacles_of(const PlotFrame& frame, const WorkPrecision& data, ChartCost cost) {
+  Obstacles obstacles{frame.box, {}, {}};
+  for (std::size_t k = 0; k < data.curves.size(); ++k) {
+    const std::vector<LogPoint> points = good_points(data.curves[k], cost);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const LogPoint& next = points[std::min(i + 1, points.size() - 1)];
+      obstacles.lines.push_back({page_point(frame, points[i]), page_point(frame, next), int(k)});
+    }
+    for (const ChartPoint& p : data.curves[k].points) {
+      if (!p.failed || !frame.can_show({frame.x.high, cost_of(p, cost)})) continue;
+      const Point edge = frame.at({frame.x.high, cost_of(p, cost)});
+      obstacles.lines.push_back({edge - Point{kFailureShift, 0}, edge, int(k)});
+    }
+  }
+  // Nothing is written into the zone but its own words.
+  if (data.floor > 0) obstacles.inside.x0 = std::max(frame.box.x0, frame.at_x(data.floor));
+  return obstacles;
+}
+
+// --- guides ---
+
+constexpr std::array<std::pair<double, const char*>, 3> kGuides = {
+    {{1, "the best"}, {10, "10\u00D7"}, {100, "100\u00D7"}}};
+
+std::vector<Point> best_curve(const PlotFrame& frame, const WorkPrecision& data, ChartCost cost) {
+  const double low = std::log10(frame.x.low), high = std::log10(frame.x.high);
+  std::vector<Point> best;
+  for (int i = 0; i <= kGuideSamples; ++i) {
+    const double log_error = low + i * (high - low) / kGuideSamples;
+    const double least = least_log_cost(data, cost, log_error);
+    if (std::isfinite(least)) best.push_back({std::pow(10.0, log_error), std::pow(10.0, least)});
+  }
+  return best;
+}
+
+void draw_guides(Picture& picture, const PlotFrame& frame, const std::vector<Point>& best,
+                 const ChartLook& look) {
+  const CurveStyle style{look.theme->base.faded(kGuideOpacity), size::kPlotLineSecondary, Dash::dotted,
+                         Marker::none};
+  for (const auto& [factor, words] : kGuides) {
+    std::vector<Point> curve = best;
+    for (Point& p : curve) p.y *= factor;
+    draw_curve(picture, frame, curve, style, *look.theme);
+  }
+}
+
+// Below the best, above the others; as far right as there is room.
+void draw_guide_words(Picture& picture, const PlotFrame& frame, const std::vector<Point>& best,
+                      Obstacles& obstacles, const ChartLook& look) {
+  const TextStyle text{Face::label, look.plot_style().text(size::kTick), look.theme->muted, Align::center};
+  for (const auto& [factor, words] : kGuides)
+    for (std::size_t i = 0; i + 1 < best.size(); ++i)
+      obstacles.lines.push_back({frame.at({best[i].x, factor * best[i].y}),
+                                 frame.at({best[i + 1].x, factor * best[i + 1].y}), kNoCurve});
+  for (const auto& [factor, words] : kGuides) {
+    const TextLine line = lay_out_text(*look.fonts, words, text);
+    for (std::size_t i = best.size(); i-- > 0;) {
+      const Point on_guide = frame.at({best[i].x, factor * best[i].y});
+      const Point at = on_guide + Point{0, factor == 1 ? -1.25 * text.size : 0.6 * text.size};
+      const Rect box = {at.x + line.box.x0, at.y, at.x + line.box.x1, at.y + text.size};
+      if (!obstacles.is_free(box)) continue;
+      draw_text(picture, line, at);
+      obstacles.boxes.push_back(box);
+      break;
+    }
+  }
+}
+
+// --- slopes ---
+
+bool shows_order(const LogPoint& a, const LogPoint& b, int order) {
+  if (order <= 0 || !(b.error > a.error)) return false;
+  const double slope = (a.cost - b.cost) / (b.error - a.error) * order;
+  return std::abs(slope - 1) < kSlopeAgreement;
+}
+
+// Beside the middle between two points of a curve; `side` is -1 below and left of it, 1 above and right.
+SlopeTriangle triangle_at(const PlotFrame& frame, const LogPoint& a, const LogPoint& b, int order,
+                          double side) {
+  const double per_decade_x = frame.box.width() / std::log10(frame.x.high / frame.x.low);
+  const double per_decade_y = frame.box.height() / std::log10(frame.y.high / frame.y.low);
+  double rise = kTriangleRise, run = rise * order * per_decade_x / per_decade_y;
+  const double shrink = std::min(1.0, kLongestRun / run);
+  rise *= shrink;
+  run *= shrink;
+  const double length = std::sqrt(run * run + rise * rise);
+  const Point away = (side * kTriangleOffset / length) * Point{rise, run};
+  const Point middle = page_point(frame, {(a.error + b.error) / 2, (a.cost + b.cost) / 2});
+  return {middle + away + Point{side * run / 2, side * rise / 2}, -side * run, -side * rise,
+          std::to_string(order)};
+}
+
+// The triangle's box with its number; `text` is the number's height.
+Rect box_of(const SlopeTriangle& triangle, double text) {
+  const Point c = triangle.corner;
+  Rect box = {std::min(c.x, c.x + triangle.run), std::min(c.y, c.y + triangle.rise),
+              std::max(c.x, c.x + triangle.run), std::max(c.y, c.y + triangle.rise)};
+  (triangle.rise > 0 ? box.y0 : box.y1) -= (triangle.rise > 0 ? 1 : -1) * text;
+  return box;
+}
+
+// Free of all other curves; its own may pass the corner of the box that the triangle leaves empty, but
+// neither the number nor the half-size square at the right angle.
+bool triangle_is_free(const SlopeTriangle& triangle, double text, const Obstacles& obstacles, int curve) {
+  const Point c = triangle.corner;
+  const auto between = [](Point a, Point b) {
+    return Rect{std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.x, b.x), std::max(a.y, b.y)};
+  };
+  const Rect square = between(c, c + Point{triangle.run / 2, triangle.rise / 2});
+  const Rect number = between(c, c + Point{triangle.run, triangle.rise > 0 ? -text : text});
+  return obstacles.is_free(box_of(triangle, text), curve) &&
+         obstacles.is_free(widened(square, -kClearance)) && obstacles.is_free(widened(number, -kClearance));
+}
+
+void draw_slopes(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,
+                 Obstacles& obstacles, const ChartLook& look) {
+  const PlotStyle style = look.plot_style();
+  const double text = 1.1 * style.text(size::kTick);
+  std::set<int> drawn;
+  for (std::size_t k = 0; k < data.curves.size(); ++k) {
+    const ChartCurve& curve = data.curves[k];
+    const std::vector<LogPoint> points = good_points(curve, cost);
+    for (std::size_t i = 0; i + 1 < points.size() && !drawn.contains(curve.order); ++i) {
+      if (!shows_order(points[i], points[i + 1], curve.order)) continue;
+      for (const double side : {-1.0, 1.0}) {
+        const SlopeTriangle triangle = triangle_at(frame, points[i], points[i + 1], curve.order, side);
+        if (!triangle_is_free(triangle, text, obstacles, int(k))) continue;
+        draw_slope_triangle(picture, triangle, style);
+        obstacles.boxes.push_back(box_of(triangle, text));
+        drawn.insert(curve.order);
+        break;
+      }
+    }
+  }
+}
+
+// --- the choice of `auto` ---
+
+std::optional<Point> chosen_point(const PlotFrame& frame, const WorkPrecision& data, ChartCost cost) {
+  if (!data.choice || data.choice->point < 0) return {};
+  for (const ChartCurve& curve : data.curves) {
+    if (curve.method != data.choice->method || std::size_t(data.choice->point) >= curve.points.size())
+      continue;
+    const ChartPoint& point = curve.points[std::size_t(data.choice->point)];
+    const Point place = {std::max(point.error, frame.x.low), cost_of(point, cost)};
+    if (!point.failed && frame.can_show(place)) return frame.at(place);
+  }
+  return {};
+}
+
+void draw_choice(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,
+                 Obstacles& obstacles, const ChartLook& look) {
+  const std::optional<Point> at = chosen_point(frame, data, cost);
+  if (!at) return;
+  picture.add(Ellipse{*at, {kRing, 0}, {0, kRing}, {{}, look.theme->ink, kRingLine}});
+  obstacles.boxes.push_back({at->x - kRing, at->y - kRing, at->x + kRing, at->y + kRing});
+  const double em = look.plot_style().text(size::kTick);
+  const TextLine word =
+      lay_out_text(*look.fonts, "auto", {Face::label_bold, em, look.theme->ink, Align::center});
+  const double half = word.advance / 2, gap = kRing + kClearance + 0.004;
+  const std::array<Point, 6> places = {{{0, -gap - 0.8 * em},
+                                        {0, gap + 0.1 * em},
+                                        {-gap - half, -gap - 0.4 * em},
+                                        {gap + half, gap - 0.4 * em},
+                                        {gap + half, -gap - 0.4 * em},
+                                        {-gap - half, gap - 0.4 * em}}};
+  Point best = *at + places[0];
+  for (const Point& place : places) {
+    const Point p = *at + place;
+    if (!obstacles.is_free({p.x - half, p.y, p.x + half, p.y + 0.75 * em})) continue;
+    best = p;
+    break;
+  }
+  draw_text(picture, word, best);
+  obstacles.boxes.push_back({best.x - half, best.y, best.x + half, best.y + em});
+}
+
+}  // namespace
+
+double cost_of(const ChartPoint& point, ChartCost cost) {
+  return cost == ChartCost::seconds ? point.seconds : point.evaluations;
+}
+
+std::optional<double> least_cost(const WorkPrecision& data, ChartCost cost, double error) {
+  if (!(error > 0)) return {};
+  const double least = least_log_cost(data, cost, std::log10(error));
+  if (!std::isfinite(least)) return {};
+  return std::pow(10.0, least);
+}
+
+void draw_marks(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,
+                const ChartLook& look) {
+  const std::vector<Point> best = best_curve(frame, data, cost);
+  draw_guides(picture, frame, best, look);
+  Obstacles obstacles = obstacles_of(frame, data, cost);
+  draw_choice(picture, frame, data, cost, obstacles, look);
+  draw_slopes(picture, frame, data, cost, obstacles, look);
+  draw_guide_words(picture, frame, best, obstacles, look);
+}
+
+void draw_failure(Picture& picture, const PlotFrame& frame, double cost, const CurveStyle& style,
+                  const ChartLook& look) {
+  const double y = frame.can_show({frame.x.high, cost})
+                       ? std::clamp(frame.at_y(cost), frame.box.y0, frame.box.y1)
+                       : frame.box.y1;  // it never came to an end
+  const Color background = look.theme->background;
+  draw_marker(picture, {frame.box.x1 - kFailureShift * style.marker_size / size::kMarker, y}, style.marker,
+              style.marker_size, style.color, background);
+  draw_marker(picture, {frame.box.x1, y}, Marker::cross, kFailureSize * style.marker_size, style.color,
+              background);
+}
+
+}  // namespace chainreel

@@ -1,0 +1,183 @@
+#include "draw/figures/caption.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/format.hpp"
+#include "draw/page/sheet.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kMatrixRow = 1.30;      // of the em, between rows of the matrix
+constexpr double kToMatrix = 1.75;     // of the em, between pose and matrix
+constexpr double kColumnGap = 0.9;      // of the em
+constexpr double kBracketGap = 0.38;    // of the em, between bracket and numbers
+constexpr double kBracketSerif = 0.16;  // of the em
+constexpr double kBracketLine = 0.0022;
+constexpr double kMathAxis = 0.25;  // of the em above the base line: where a matrix is centred
+// Lambda is the inverse of Lambda_inv: entries this far below its largest are what round-off left of a zero.
+constexpr double kSameWidth = 1e-9;
+
+std::string list_of(const std::vector<std::string>& entries) {
+  std::string list;
+  for (const std::string& entry : entries) list += (list.empty() ? "" : ", ") + entry;
+  return "(" + list + ")";
+}
+
+std::string degrees_notation(double angle) {
+  const double tenths = std::round(angle * 1800 / std::numbers::pi);
+  return format_shortest(tenths == 0 ? 0.0 : tenths / 10) + "\u00B0";
+}
+
+// A matrix in brackets with its name before and its unit behind it, laid out at one size.
+struct MatrixLine {
+  TextLine name, unit;
+  std::vector<std::vector<TextLine>> entries;
+  std::vector<double> column_width;
+  double em = 0, bracket_width = 0, width = 0;
+};
+
+MatrixLine lay_out_matrix(const Fonts& fonts, const std::vector<std::vector<std::string>>& notations,
+                          const TextStyle& style) {
+  MatrixLine matrix;
+  matrix.em = style.size;
+  matrix.name = lay_out_math(fonts, "Lambda =", style);
+  matrix.unit = lay_out_math(fonts, "\u2009kg", style);
+  matrix.column_width.assign(notations.empty() ? 0 : notations[0].size(), 0);
+  TextStyle centered = style;
+  centered.align = Align::center;
+  for (const std::vector<std::string>& row : notations) {
+    matrix.entries.emplace_back();
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      matrix.entries.back().push_back(lay_out_math(fonts, row[j], centered));
+      matrix.column_width[j] = std::max(matrix.column_width[j], matrix.entries.back().back().advance);
+    }
+  }
+  matrix.bracket_width =
+      2 * kBracketGap * matrix.em + kColumnGap * matrix.em * double(matrix.column_width.size() - 1);
+  for (const double width : matrix.column_width) matrix.bracket_width += width;
+  matrix.width =
+      matrix.name.advance + 0.4 * matrix.em + matrix.bracket_width + 0.25 * matrix.em + matrix.unit.advance;
+  return matrix;
+}
+
+void draw_bracket(Picture& picture, double x, double y0, double y1, double serif, Color color) {
+  const Paint paint{color, {}, 0};
+  picture.add(Capsule{{x, y0}, {x, y1}, kBracketLine / 2, paint});
+  picture.add(Capsule{{x, y0}, {x + serif, y0}, kBracketLine / 2, paint});
+  picture.add(Capsule{{x, y1}, {x + serif, y1}, kBracketLine / 2, paint});
+}
+
+// Centred about `middle`.
+void draw_matrix(Picture& picture, const MatrixLine& matrix, Point middle, Color color) {
+  const double em = matrix.em, rows = double(matrix.entries.size());
+  double x = middle.x - matrix.width / 2;
+  const double base = middle.y - kMathAxis * em;
+  draw_text(picture, matrix.name, {x, base});
+  x += matrix.name.advance + 0.4 * em;
+  const double half_height = rows * kMatrixRow * em / 2, serif = kBracketSerif * em;
+  draw_bracket(picture, x, middle.y - half_height, middle.y + half_height, serif, color);
+  draw_bracket(picture, x + matrix.bracket_width, middle.y - half_height, middle.y + half_height, -serif,
+               color);
+  for (std::size_t i = 0; i < matrix.entries.size(); ++i) {
+    const double row = base + ((rows - 1) / 2 - double(i)) * kMatrixRow * em;
+    double left = x + kBracketGap * em;
+    for (std::size_t j = 0; j < matrix.entries[i].size(); ++j) {
+      draw_text(picture, matrix.entries[i][j], {left + matrix.column_width[j] / 2, row});
+      left += matrix.column_width[j] + kColumnGap * em;
+    }
+  }
+  draw_text(picture, matrix.unit, {x + matrix.bracket_width + 0.25 * em, base});
+}
+
+}  // namespace
+
+std::vector<std::string> pose_notations(const Chain& chain, const std::vector<double>& q) {
+  std::vector<std::string> entries;
+  for (const double value : q) entries.push_back(number_notation(value, std::abs(value)));
+  for (const Body& body : chain.bodies) {
+    if (&body == &chain.bodies[0] || body.joint.kind == JointKind::floating) continue;
+    std::string& entry = entries[std::size_t(body.joint.q_index)];
+    const double value = q[std::size_t(body.joint.q_index)];
+    entry = body.joint.kind == JointKind::revolute ? degrees_notation(value)
+                                                   : number_notation(value, std::abs(value)) + " m";
+  }
+  const std::vector<std::string> ends{entries.empty() ? "" : entries.front(), "\u2026",
+                                      entries.empty() ? "" : entries.back()};
+  return {"q = " + list_of(entries), "q = " + list_of(ends)};
+}
+
+std::string number_notation(double value, double largest) {
+  if (std::abs(value) <= kSameWidth * largest) return "0";
+  // Without an exponent as long as that is short.
+  const double size = std::abs(value);
+  if (size >= 1e-3 && size < 1e3) return format_significant(value, 3);
+  if (size >= 1e3 && size < 1e4) return format_fixed(value, 0);
+  const double exponent = std::floor(std::log10(size));
+  const std::string mantissa = format_significant(value / std::pow(10, exponent), 3);
+  return mantissa + "e" + format_fixed(exponent, 0);
+}
+
+std::vector<std::vector<std::string>> matrix_notations(const Eigen::MatrixXd& Lambda) {
+  const double largest = Lambda.size() > 0 ? Lambda.cwiseAbs().maxCoeff() : 0;
+  std::vector<std::vector<std::string>> rows(std::size_t(Lambda.rows()));
+  for (Eigen::Index i = 0; i < Lambda.rows(); ++i) {
+    for (Eigen::Index j = 0; j < Lambda.cols(); ++j) {
+      rows[std::size_t(i)].push_back(number_notation(Lambda(i, j), largest));
+    }
+  }
+  return rows;
+}
+
+std::string singular_text(const EffectiveMass& effective) {
+  std::string text = "\u039B: infinite along";
+  const char* between = " ";
+  for (const Eigen::VectorXd& direction : effective.singular_directions) {
+    Eigen::Index leading = 0;
+    direction.cwiseAbs().maxCoeff(&leading);
+    // A direction and its opposite are the same: the larger component is shown positive.
+    const double sign = direction(leading) < 0 ? -1 : 1;
+    std::vector<std::string> entries;
+    for (const double component : direction) {
+      std::string entry = number_notation(sign * component, 1);
+      if (entry.starts_with('-')) entry.replace(0, 1, "\u2212");
+      entries.push_back(entry);
+    }
+    text += between + list_of(entries);
+    between = " and ";
+  }
+  return text;
+}
+
+double caption_height(int rows, double text_scale) {
+  return scaled(size::kAxis, text_scale) * (kToMatrix + std::max(rows, 1) * kMatrixRow + 0.5);
+}
+
+void draw_caption(Picture& picture, const Chain& chain, const std::vector<double>& q,
+                  const EffectiveMass& effective, const Rect& box, double text_scale, const Theme& theme,
+                  const Fonts& fonts) {
+  TextStyle style{Face::math, scaled(size::kAxis, text_scale), theme.ink, Align::center};
+  const double em = style.size, middle = (box.x0 + box.x1) / 2;
+  draw_text(picture, fit_math(fonts, pose_notations(chain, q), style, box.width(), text_scale),
+            {middle, box.y1 - 1.2 * em});
+  const double rest = box.y1 - kToMatrix * em;
+  if (!effective.Lambda) {
+    style.face = Face::label;
+    draw_text(picture, fit_text(fonts, singular_text(effective), style, box.width(), text_scale),
+              {middle, rest - 0.9 * em});
+    return;
+  }
+  style.align = Align::left;
+  const std::vector<std::vector<std::string>> notations = matrix_notations(*effective.Lambda);
+  MatrixLine matrix = lay_out_matrix(fonts, notations, style);
+  if (matrix.width > box.width()) {
+    style.size = std::max(kSmallestText, style.size * box.width() / matrix.width);
+    matrix = lay_out_matrix(fonts, notations, style);
+  }
+  draw_matrix(picture, matrix, {middle, rest - double(notations.size()) * kMatrixRow * em / 2 - 0.15 * em},
+              theme.ink);
+}
+
+}  // namespace chainreel

@@ -1,0 +1,165 @@
+#include "draw/figures/contact_sheet.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "draw/page/sheet.hpp"
+#include "picture/place_picture.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kBetweenColumns = 0.022;            // between columns, and below the titles of a row
+constexpr double kTitlePitch = 1.28;       // of the em
+constexpr double kTitleAir = 0.45;        // of the em, between a picture and its title
+constexpr double kAscent = 0.80;          // of the em
+constexpr double kSmallestPicture = 0.045;   // height of a picture that shows anything
+constexpr double kWideCell = 0.75;        // from this width on, titles have one line and their full size
+constexpr double kThinnestLine = 0.0011;  // 1.2 px of 1080
+constexpr double kLargestWords = 2;  // text_scale; beyond it words would hide what they name
+constexpr double kNoWords = 1e-3;    // text_scale of words, and of the room for them, that nobody sees
+constexpr double kScript = 0.7;      // of the em: indices are that small by themselves
+const std::string kEllipsis = "\u2026";
+
+// Heights that a grid of that many lines gives its pictures.
+struct Cut {
+  double width = 0, height = 0;  // of a picture
+  double caption = 0;            // below it
+  double text_size = 0;
+  int title_lines = 2;
+};
+
+Cut cut_page(int columns, int lines, const Rect& inside, double text_scale) {
+  Cut cut;
+  cut.width = (inside.width() - (columns - 1) * kBetweenColumns) / columns;
+  const bool wide = cut.width >= kWideCell;
+  cut.title_lines = wide ? 1 : 2;
+  cut.text_size = scaled(wide ? size::kAxis : kSmallestText, text_scale);
+  cut.caption = (kTitleAir + cut.title_lines * kTitlePitch) * cut.text_size;
+  const double room = (inside.height() - (lines - 1) * kBetweenColumns) / lines - cut.caption;
+  cut.height = std::min(cut.width / kCellAspect, room);
+  cut.width = cut.height * kCellAspect;
+  return cut;
+}
+
+int lines_of(int count, int columns) {
+  return (count + columns - 1) / columns;
+}
+
+// As few columns as any other choice that makes the pictures as large.
+int best_columns(int count, const Rect& inside, double text_scale) {
+  int best = 1;
+  double largest = 0;
+  for (int columns = 1; columns <= count; ++columns) {
+    const double height = cut_page(columns, lines_of(count, columns), inside, text_scale).height;
+    if (height <= largest * (1 + 1e-9)) continue;
+    largest = height;
+    best = columns;
+  }
+  return best;
+}
+
+TextLine title_line(const std::string& text, double size, const ContactSheetLook& look) {
+  return lay_out_text(*look.fonts, text, {Face::label, size, look.theme->ink});
+}
+
+// The longest beginning of a text, with an ellipsis behind it, that is no wider than `width`: whole words, or
+// a part of the only one.
+std::string shortened(const std::string& text, double size, double width, const ContactSheetLook& look) {
+  for (const bool whole_words : {true, false})
+    for (std::size_t end = text.size() - 1; end > 0; --end) {
+      const bool inside_character = (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80;
+      if (inside_character || (whole_words && text[end] != ' ')) continue;
+      const std::string cut = text.substr(0, end) + kEllipsis;
+      if (title_line(cut, size, look).advance <= width) return cut;
+    }
+  return kEllipsis;
+}
+
+// Greedy: as many words as fit into each line; what is left over is cut off in the last.
+std::vector<std::string> broken_title(const std::string& title, double size, double width, int most,
+                                      const ContactSheetLook& look) {
+  std::vector<std::string> lines;
+  std::istringstream words(title);
+  for (std::string word; words >> word;) {
+    const std::string longer = lines.empty() ? word : lines.back() + " " + word;
+    const bool fits = title_line(longer, size, look).advance <= width;
+    if (lines.empty() || (!fits && int(lines.size()) < most))
+      lines.push_back(word);
+    else
+      lines.back() = longer;
+  }
+  for (std::string& line : lines)
+    if (title_line(line, size, look).advance > width) line = shortened(line, size, width, look);
+  return lines;
+}
+
+void draw_frame(Picture& picture, const Rect& r, const Theme& theme) {
+  picture.add(Polygon{
+      {Point{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}, 4, {{}, theme.rule, size::kFrameLine}});
+}
+
+}  // namespace
+
+ContactGrid contact_grid(int count, const ContactSheetLook& look) {
+  if (count > kMostCells)
+    throw Error(ExitCode::usage, std::to_string(count) + " pictures are too many for a sheet: no more than " +
+                                     std::to_string(kMostCells) + " fit");
+  const Rect inside{size::kMargin, size::kMargin, look.aspect - size::kMargin, 1 - size::kMargin};
+  ContactGrid grid;
+  grid.columns =
+      look.columns > 0 ? std::min(look.columns, count) : best_columns(count, inside, look.text_scale);
+  grid.lines = lines_of(count, grid.columns);
+  const Cut cut = cut_page(grid.columns, grid.lines, inside, look.text_scale);
+  if (cut.height < kSmallestPicture)
+    throw Error(ExitCode::usage, std::to_string(count) + " pictures in " + std::to_string(grid.columns) +
+                                     " columns are too small on this page: choose other --columns, a larger "
+                                     "--height or a smaller --text-scale");
+  grid.text_size = cut.text_size;
+  grid.title_lines = cut.title_lines;
+  grid.smallest_text = scaled(kSmallestText, look.text_scale);
+
+  // The whole lies in the middle of the page; what is free between columns grows where the height decides, no
+  // further than three gaps.
+  const double free = inside.width() - grid.columns * cut.width;
+  const double gap = grid.columns > 1 ? std::min(free / (grid.columns - 1), 3 * kBetweenColumns) : 0;
+  const double left = (look.aspect - grid.columns * cut.width - (grid.columns - 1) * gap) / 2;
+  const double line = cut.height + cut.caption + kBetweenColumns;
+  const double top = inside.y1 - (inside.height() - grid.lines * line + kBetweenColumns) / 2;
+  for (int i = 0; i < count; ++i) {
+    const double x = left + (i % grid.columns) * (cut.width + gap);
+    const double y = top - (i / grid.columns) * line;
+    grid.pictures.push_back({x, y - cut.height, x + cut.width, y});
+    grid.titles.push_back({x, y - cut.height - cut.caption, x + cut.width, y - cut.height});
+  }
+  return grid;
+}
+
+double text_scale_in(const ContactGrid& grid) {
+  const double page_height = grid.pictures.front().height() / (1 - 2 * size::kMargin);
+  const double scale = grid.smallest_text / (size::kAxis * page_height);
+  return scale <= kLargestWords ? std::max(scale, 1.0) : kNoWords;
+}
+
+Picture draw_contact_sheet(const ContactGrid& grid, std::span<const ContactCell> cells,
+                           const ContactSheetLook& look) {
+  Picture sheet;
+  sheet.aspect = look.aspect;
+  sheet.background = look.theme->background;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Rect& title = grid.titles[i];
+    place_picture(sheet, cells[i].picture,
+                  {grid.pictures[i], kThinnestLine, kScript * grid.smallest_text, size::kMargin});
+    draw_frame(sheet, grid.pictures[i], *look.theme);
+    double y = title.y1 - (kTitleAir + kAscent) * grid.text_size;
+    for (const std::string& line :
+         broken_title(cells[i].title, grid.text_size, title.width(), grid.title_lines, look)) {
+      draw_text(sheet, title_line(line, grid.text_size, look), {title.x0, y});
+      y -= kTitlePitch * grid.text_size;
+    }
+  }
+  return sheet;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,242 @@
+// Small multiples: every panel has the same camera up to a shift and the same kilograms per length, so that
+// poses can be compared by eye.
+#include "draw/figures/ellipse_figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "draw/figures/caption.hpp"
+#include "draw/layers/ellipse.hpp"
+#include "draw/page/panel_grid.hpp"
+#include "draw/robot/chain.hpp"
+#include "draw/robot/chain_fit.hpp"
+#include "draw/robot/joints.hpp"
+#include "draw/robot/view.hpp"
+#include "dynamics/kinematics.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr int kMostAcross = 4;
+constexpr double kLabelInset = 0.014;
+// Of the shorter side of a panel: how long the bounded semi-axes (their median) are drawn.
+constexpr double kSmallerAxis = 0.14, kLargerAxis = 0.24;
+// Of an ordinary pose the largest mass is at most so many times the smallest one. Nearer to a singular pose it has no
+// bound, and to show it would make all ellipses needles: it is written where it leaves its panel.
+constexpr double kOrdinaryRatio = 32;
+constexpr int kBeltSamples = 64;
+
+// Panels of equal size, row by row from the top.
+std::vector<Rect> panels_of(const Rect& area, int count, int most_across) {
+  const int rows = (count + most_across - 1) / most_across, columns = (count + rows - 1) / rows;
+  const double width = (area.width() - (columns - 1) * size::kGutter) / columns;
+  const double height = (area.height() - (rows - 1) * size::kGutter) / rows;
+  std::vector<Rect> panels;
+  for (int i = 0; i < count; ++i) {
+    const double x = area.x0 + (i % columns) * (width + size::kGutter);
+    const double y = area.y1 - (i / columns) * (height + size::kGutter);
+    panels.push_back({x, y - height, x + width, y});
+  }
+  return panels;
+}
+
+Rect above_caption(const Rect& panel, double caption) {
+  return {panel.x0, panel.y0 + caption, panel.x1, panel.y1};
+}
+
+// What all panels share.
+struct Panels {
+  const Chain& chain;
+  const PoseFigureOptions& options;
+  const Fonts& fonts;
+  std::vector<Rect> places;
+  double caption = 0;  // height of the words below each scene
+  double marks = 1;
+  EllipseScale scale;
+  Skeleton skeleton;
+  Camera camera;  // of the first panel
+
+  Rect scene(std::size_t i) const { return above_caption(places[i], caption); }
+  double side() const { return std::min(scene(0).width(), scene(0).height()); }
+};
+
+void fit_panels(Panels& panels, const std::vector<Pose>& poses, Workspace& ws) {
+  panels.skeleton = skeleton_of(panels.chain);
+  for (const Pose& pose : poses) widen_rails(panels.skeleton, panels.chain, pose.q, kNoLimit);
+  const BodyShapes* shapes = panels.options.shapes.get();
+  const std::vector<double> at_rest(std::size_t(panels.chain.nv), 0.0);
+  const auto fit = [&](Camera& seen) {
+    ChainFit places(panels.chain, panels.skeleton, seen, panels.marks, shapes);
+    for (const Pose& pose : poses) {
+      compute_kinematics(panels.chain, ws, pose.q, at_rest);
+      places.add_pose(ws, kNoLimit);
+      places.add(tip_position(panels.chain, ws),
+                 room_of(pose.axes, seen.seen_at(tip_position(panels.chain, ws)), panels.scale, kLongestAxis * panels.side()));
+    }
+    fit_to(seen, places.box(), panels.scene(0), size::kFitMargin);
+  };
+  const MotionBox motion =
+      box_around(panels.chain, panels.skeleton, shapes, ws, configurations_of(poses));
+  panels.camera = aimed_camera(panels.chain, panels.options.camera, motion, panels.scene(0), fit);
+}
+
+void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose& pose, Workspace& ws) {
+  const Theme& theme = *panels.options.theme;
+  const Rect scene = panels.scene(i), first = panels.scene(0);
+  const int clip = int(picture.clips.size());
+  picture.clips.push_back(scene);
+  picture.add(
+      Polygon{{Point{scene.x0, scene.y0}, {scene.x1, scene.y0}, {scene.x1, scene.y1}, {scene.x0, scene.y1}},
+              4,
+              {{}, theme.rule, size::kFrameLine}});
+  Camera camera = panels.camera;
+  camera.origin = camera.origin + Point{scene.x0 - first.x0, scene.y0 - first.y0};
+  const std::vector<double> at_rest(std::size_t(panels.chain.nv), 0.0);
+  compute_kinematics(panels.chain, ws, pose.q, at_rest);
+  const ChainDrawing drawing{panels.chain, panels.skeleton, camera,
+                             look_of(panels.skeleton, camera, theme, 1, panels.marks),
+                             panels.options.shapes.get()};
+  const Point tip = camera.project(tip_position(panels.chain, ws));
+  draw_base(picture, drawing, clip);
+  draw_rails(picture, drawing, ws, clip);
+  draw_links(picture, drawing, ws, clip);
+  draw_mass_ellipse(picture, pose.axes, tip, camera.seen_at(tip_position(panels.chain, ws)),
+                    {&theme, &panels.fonts, panels.options.text_scale, panels.scale.per_unit(), scene,
+                     panels.options.reading},
+                    clip);
+  if (!drawing.shapes) draw_end_effector(picture, tip, drawing.look, clip);
+  if (i < panels.options.labels.size()) {
+    const TextStyle style{Face::label, scaled(size::kAxis, panels.options.text_scale), theme.ink, Align::left};
+    draw_text(picture,
+              fit_text(panels.fonts, panels.options.labels[i], style, scene.width() - 2 * kLabelInset,
+                       panels.options.text_scale),
+              {scene.x0 + kLabelInset, scene.y1 - kLabelInset - 0.75 * style.size}, clip);
+  }
+  draw_caption(picture, panels.chain, pose.q, pose.effective,
+               {scene.x0, panels.places[i].y0, scene.x1, scene.y0}, panels.options.text_scale, theme,
+               panels.fonts);
+}
+
+}  // namespace
+
+const std::vector<std::string>& figure_layout_names() {
+  static const std::vector<std::string> names{"grid", "row", "superposed"};
+  return names;
+}
+
+std::vector<Pose> poses_of(const TipMass& mass, const std::vector<std::vector<double>>& configurations,
+                           const PoseFigureOptions& options, Workspace& ws) {
+  const Chain& chain = mass.chain();
+  std::vector<Pose> poses;
+  for (const std::vector<double>& q : configurations) {
+    Pose pose{q, mass.at(ws, q), {}};
+    pose.axes = mass_axes(pose.effective);
+    if (options.section) {
+      const std::vector<double> at_rest(std::size_t(chain.nv), 0.0);
+      compute_kinematics(chain, ws, q, at_rest);
+      pose.axes = section_axes(pose.effective, tip_plane(chain, ws), options.reading);
+    }
+    poses.push_back(std::move(pose));
+  }
+  return poses;
+}
+
+std::vector<std::vector<double>> configurations_of(const std::vector<Pose>& poses) {
+  std::vector<std::vector<double>> configurations;
+  for (const Pose& pose : poses) configurations.push_back(pose.q);
+  return configurations;
+}
+
+bool is_ordinary(const std::vector<MassAxis>& axes) {
+  return !axes.empty() && axes.front().mass && axes.back().mass &&
+         *axes.front().mass <= kOrdinaryRatio * *axes.back().mass;
+}
+
+EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReading reading) {
+  std::vector<double> bounded;
+  for (const Pose& pose : poses) {
+    const auto length = bounded_semi_axis(pose.axes, reading);
+    if (length && *length > 0) bounded.push_back(*length);
+  }
+  if (bounded.empty()) return {1, 0.10, reading};
+  std::nth_element(bounded.begin(), bounded.begin() + std::ptrdiff_t(bounded.size() / 2), bounded.end());
+  const double median = bounded[bounded.size() / 2];
+  double longest = median;
+  for (const Pose& pose : poses) {
+    // Velocities of equal energy are bounded everywhere.
+    if (reading != EllipseReading::energy && !is_ordinary(pose.axes)) continue;
+    for (const MassAxis& axis : pose.axes) longest = std::max(longest, semi_axis(axis, reading).value_or(0));
+  }
+  const double usual = reading == EllipseReading::energy ? kLargerAxis : kSmallerAxis;
+  const double per_unit = room * std::min(usual / median, kLongestAxis / longest);
+  const double bar = round_length(kLongestBar / per_unit);
+  return {bar, bar * per_unit, reading};
+}
+
+Sheet sheet_of(const PoseFigureOptions& options, const EllipseScale& scale, const Fonts& fonts) {
+  SheetText text;
+  text.title = options.title;
+  text.bar = scale.label();
+  text.bar_length = scale.bar_length;
+  text.legend = ellipse_legend(options.reading, options.section);
+  if (options.cell > 0) text.legend += "; fading where longer than its cell";
+  return lay_out_sheet(text, double(options.width) / options.height, options.text_scale, *options.theme,
+                       fonts);
+}
+
+Room room_of(const std::vector<MassAxis>& axes, const Camera& camera, const EllipseScale& scale, double most) {
+  double x = 0, y = 0;
+  std::vector<Point> ends;  // of the semi-axes on the page, cut to `most`
+  for (const MassAxis& axis : axes) {
+    const auto length = semi_axis(axis, scale.reading);
+    const double drawn = length ? std::min(*length * scale.per_unit(), most) : 0;
+    ends.push_back(drawn * Point{camera.right.dot(axis.direction), camera.up.dot(axis.direction)});
+    x = std::hypot(x, ends.back().x);
+    y = std::hypot(y, ends.back().y);
+  }
+  if (scale.reading != EllipseReading::belt) return {x, x, y, y};
+  // Between the axes a belt lies outside of its ellipse: in the plane of its first and last axis at most.
+  const auto long_axis = axes.front().mass, short_axis = axes.back().mass;
+  for (int i = 0; long_axis && short_axis && i < kBeltSamples; ++i) {
+    const double a = i * 2 * std::numbers::pi / kBeltSamples, c = std::cos(a), s = std::sin(a);
+    const double r = std::min(scale.per_unit() / (c * c / *long_axis + s * s / *short_axis), most);
+    const Eigen::Vector3d p = r * (c * axes.front().direction + s * axes.back().direction);
+    x = std::max(x, std::abs(camera.right.dot(p)));
+    y = std::max(y, std::abs(camera.up.dot(p)));
+  }
+  return {x, x, y, y};
+}
+
+Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& configurations,
+                            const PoseFigureOptions& options, const Fonts& fonts) {
+  const Chain& chain = mass.chain();
+  if (configurations.empty()) throw Error(ExitCode::usage, "a figure needs at least one pose");
+  Workspace ws(chain);
+  const std::vector<Pose> poses = poses_of(mass, configurations, options, ws);
+  if (options.cell > 0 || options.layout == "superposed") return draw_superposed(chain, poses, options, fonts);
+  Panels panels{chain, options, fonts, {}, 0, 1, {}, {}, {}};
+  panels.caption = caption_height(int(poses[0].effective.basis.directions.size()), options.text_scale);
+  // The scale follows from the size of the panels: they are laid out with the longest bar and label that may
+  // come.
+  const int across = options.layout == "row" ? int(poses.size()) : kMostAcross;
+  panels.places = panels_of(sheet_of(options, {0.005, kLongestBar, options.reading}, fonts).scene,
+                            int(poses.size()), across);
+  if (!(panels.side() > 0.08))
+    throw Error(ExitCode::usage,
+                "too many poses for one page: draw several figures, or take --layout superposed");
+  panels.marks = marks_in(panels.scene(0));
+  panels.scale = scale_for(poses, panels.side(), options.reading);
+  fit_panels(panels, poses, ws);
+
+  Picture picture;
+  picture.aspect = double(options.width) / options.height;
+  picture.background = options.theme->background;
+  for (std::size_t i = 0; i < poses.size(); ++i) draw_panel(picture, panels, i, poses[i], ws);
+  draw_sheet(picture, sheet_of(options, panels.scale, fonts));
+  return picture;
+}
+
+}  // namespace chainreel

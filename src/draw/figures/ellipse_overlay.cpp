@@ -1,0 +1,237 @@
+// All poses in one place: onion skins below, ellipses above; or a field of ellipses over the workspace.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "draw/figures/caption.hpp"
+#include "draw/figures/ellipse_figure.hpp"
+#include "draw/page/mark_labels.hpp"
+#include "draw/page/scales.hpp"
+#include "draw/robot/chain.hpp"
+#include "draw/robot/chain_fit.hpp"
+#include "draw/robot/joints.hpp"
+#include "draw/robot/view.hpp"
+#include "dynamics/kinematics.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kPathLine = 0.0018, kPathOpacity = 0.35;
+constexpr int kFewPoses = 3;           // more share the room of so many
+constexpr double kLeastRoom = 0.4;     // of the page for an ellipse, however many there are
+constexpr double kInCell = 0.46;       // of a cell's side: the longest semi-axis that is drawn whole
+constexpr double kMostWhole = 0.7;     // of a field's ellipses have their long axes inside of their cells
+constexpr double kFadeOfCell = 0.25;   // of a cell's side
+constexpr double kCellOfFullLines = 0.2, kThinnestLines = 0.5;  // units of H; of the style guide's widths
+constexpr double kLabelOff = 0.022;  // units of H, from an end effector
+constexpr double kLabelAir = 0.008, kFarReach = 0.3;  // units of H: off a curve; longer curves are written on
+constexpr double kLabelFarthest = 5;  // heights of a label
+constexpr double kSmallestCell = 0.02;  // units of H: below, ellipses cannot be read
+
+// The pose whose ellipse is nearest to a circle.
+std::size_t roundest(const std::vector<Pose>& poses) {
+  const auto ratio = [](const Pose& pose) {
+    const auto longest = pose.axes.front().mass, shortest = pose.axes.back().mass;
+    return longest && shortest ? *shortest / *longest : 0;
+  };
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < poses.size(); ++i)
+    if (ratio(poses[i]) > ratio(poses[best])) best = i;
+  return best;
+}
+
+// Most of the long axes just fill their cells.
+EllipseScale field_scale(const std::vector<Pose>& poses, double cell, EllipseReading reading) {
+  std::vector<double> longest;
+  for (const Pose& pose : poses) {
+    double most = 0;
+    for (const MassAxis& axis : pose.axes)
+      most = std::max(most, semi_axis(axis, reading).value_or(std::numeric_limits<double>::infinity()));
+    longest.push_back(most);
+  }
+  const auto at = longest.begin() + std::ptrdiff_t(kMostWhole * double(longest.size() - 1));
+  std::nth_element(longest.begin(), at, longest.end());
+  double fits = *at;
+  if (!std::isfinite(fits) || !(fits > 0)) {
+    fits = 0;
+    for (const double length : longest) fits = std::isfinite(length) ? std::max(fits, length) : fits;
+    if (!(fits > 0)) fits = 1;
+  }
+  const double per_unit = kInCell * cell / fits;
+  const double bar = round_length(kLongestBar / per_unit);
+  return {bar, bar * per_unit, reading};
+}
+
+struct Overlay {
+  const Chain& chain;
+  const std::vector<Pose>& poses;
+  const PoseFigureOptions& options;
+  const Fonts& fonts;
+  Workspace ws;
+  Skeleton skeleton;
+  Camera camera;
+  EllipseScale scale;
+
+  Overlay(const Chain& c, const std::vector<Pose>& p, const PoseFigureOptions& o, const Fonts& f)
+      : chain(c), poses(p), options(o), fonts(f), ws(c), skeleton(skeleton_of(c)), camera(view_of(c, o.camera)) {
+    for (const Pose& pose : poses) widen_rails(skeleton, chain, pose.q, kNoLimit);
+  }
+
+  bool is_field() const { return options.cell > 0; }
+  void stand_in(const Pose& pose) {
+    const std::vector<double> at_rest(std::size_t(chain.nv), 0.0);
+    compute_kinematics(chain, ws, pose.q, at_rest);
+  }
+
+  void fit(const Rect& scene) {
+    const MotionBox motion =
+        box_around(chain, skeleton, options.shapes.get(), ws, configurations_of(poses));
+    camera = aimed_camera(chain, options.camera, motion, scene,
+                          [&](Camera& seen) { fit_camera(seen, scene); });
+  }
+
+  void fit_camera(Camera& seen, const Rect& scene) {
+    ChainFit box(chain, skeleton, seen, 1, options.shapes.get());
+    const double side = std::min(scene.width(), scene.height());
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      stand_in(poses[i]);
+      const Eigen::Vector3d tip = tip_position(chain, ws);
+      if (!is_field()) {
+        box.add_pose(ws, kNoLimit);
+        box.add(tip, room_of(poses[i].axes, seen.seen_at(tip), scale, kLongestAxis * side));
+        continue;
+      }
+      if (i == 0) box.add_pose(ws, kNoLimit);
+      for (const double sx : {-0.5, 0.5})
+        for (const double sy : {-0.5, 0.5})
+          box.add(tip + options.cell * (sx * seen.right + sy * seen.up), {});
+    }
+    for (const Eigen::Vector3d& place : options.path) box.add(place, {});
+    fit_to(seen, box.box(), scene, size::kFitMargin);
+  }
+
+  void draw_chain(Picture& picture, const Pose& pose, double strength) {
+    stand_in(pose);
+    const ChainDrawing drawing{chain, skeleton, camera, look_of(skeleton, camera, *options.theme, strength),
+                               options.shapes.get()};
+    draw_rails(picture, drawing, ws, kSceneClip);
+    draw_links(picture, drawing, ws, kSceneClip);
+  }
+
+  void draw_path(Picture& picture) const {
+    if (options.path.size() < 2) return;
+    Trail trail;
+    trail.color = options.theme->ink;
+    for (const Eigen::Vector3d& place : options.path)
+      trail.points.push_back({camera.project(place), kPathLine, kPathOpacity});
+    picture.add(std::move(trail), kSceneClip);
+  }
+
+  void draw_ellipse(Picture& picture, const Pose& pose, const Rect& scene) {
+    stand_in(pose);
+    const Point tip = camera.project(tip_position(chain, ws));
+    EllipseStyle style{options.theme, &fonts, options.text_scale, scale.per_unit(), scene, options.reading};
+    int clip = kSceneClip;
+    if (is_field()) {
+      const double side = options.cell * camera.scale, half = side / 2;
+      style.scene = {tip.x - half, tip.y - half, tip.x + half, tip.y + half};
+      style.fade = kFadeOfCell * side;
+      style.signs = false;
+      style.lines = std::clamp(side / kCellOfFullLines, kThinnestLines, 1.0);
+      clip = int(picture.clips.size());
+      picture.clips.push_back(style.scene);
+    }
+    draw_mass_ellipse(picture, pose.axes, tip, camera.seen_at(tip_position(chain, ws)), style, clip);
+  }
+
+  // Each pose by its name, or its q, off its end effector: away from the middle of them all.
+  void draw_labels(Picture& picture, const Rect& scene) {
+    std::vector<Point> tips;
+    Point mean;
+    for (const Pose& pose : poses) {
+      stand_in(pose);
+      tips.push_back(camera.project(tip_position(chain, ws)));
+      mean = mean + (1.0 / double(poses.size())) * tips.back();
+    }
+    MarkLabels labels;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const TextLine line = label_of(i);
+      const Point way = tips[i] - mean;
+      const double length = norm(way);
+      const Point out = length > kLabelOff ? (1 / length) * way : Point{0, 1};
+      const double half_width = line.box.width() / 2, half_height = line.box.height() / 2;
+      const double off = std::max(kLabelOff, reach_of(poses[i], out)) + kLabelAir + std::abs(out.x) * half_width +
+                         std::abs(out.y) * half_height;
+      const Point middle = tips[i] + off * out;
+      labels.add(line, {middle.x - half_width, middle.y - half_height, middle.x + half_width, middle.y + half_height},
+                 true);
+    }
+    labels.draw(picture, scene, options.theme->background, kSceneClip, kLabelFarthest);
+  }
+
+  // How far the curve of a pose goes that way; open ones are written on.
+  double reach_of(const Pose& pose, Point way) const {
+    double squared = 0;
+    for (const MassAxis& axis : pose.axes) {
+      const auto length = semi_axis(axis, options.reading);
+      if (!length || *length * scale.per_unit() > kFarReach) return 0;
+      const double along = camera.right.dot(axis.direction) * way.x + camera.up.dot(axis.direction) * way.y;
+      squared += std::pow(*length * scale.per_unit() * along, 2);
+    }
+    return std::sqrt(squared);
+  }
+
+  TextLine label_of(std::size_t i) const {
+    const TextStyle style{Face::label, scaled(size::kAxis, options.text_scale), options.theme->ink, Align::left};
+    if (i < options.labels.size()) return lay_out_text(fonts, options.labels[i], style);
+    return lay_out_math(fonts, pose_notations(chain, poses[i].q).front(), style);
+  }
+};
+
+}  // namespace
+
+Picture draw_superposed(const Chain& chain, const std::vector<Pose>& poses, const PoseFigureOptions& options,
+                        const Fonts& fonts) {
+  Overlay overlay(chain, poses, options, fonts);
+  const Rect room = sheet_of(options, {0.005, kLongestBar, options.reading}, fonts).scene;
+  const double share = std::max(kLeastRoom, std::min(1.0, std::sqrt(double(kFewPoses) / double(poses.size()))));
+  overlay.scale = scale_for(poses, share * std::min(room.width(), room.height()), options.reading);
+  overlay.fit(room);
+  if (overlay.is_field()) {
+    const double cell = options.cell * overlay.camera.scale;
+    if (cell < kSmallestCell)
+      throw Error(ExitCode::usage, "so many ellipses get too small to be read: take fewer --samples");
+    overlay.scale = field_scale(poses, cell, options.reading);
+  }
+  const Sheet sheet = sheet_of(options, overlay.scale, fonts);
+
+  Picture picture;
+  picture.aspect = sheet.aspect;
+  picture.background = options.theme->background;
+  picture.clips = {room};
+  overlay.draw_path(picture);
+  draw_base(picture,
+            {chain, overlay.skeleton, overlay.camera,
+             look_of(overlay.skeleton, overlay.camera, *options.theme), options.shapes.get()},
+            kSceneClip);
+  if (overlay.is_field())
+    overlay.draw_chain(picture, poses[roundest(poses)], kOnionSkin);
+  else
+    for (const Pose& pose : poses) overlay.draw_chain(picture, pose, kOnionSkin);
+  for (const Pose& pose : poses) overlay.draw_ellipse(picture, pose, room);
+  if (!overlay.is_field() && !options.shapes)
+    for (const Pose& pose : poses) {
+      overlay.stand_in(pose);
+      draw_end_effector(picture, overlay.camera.project(tip_position(chain, overlay.ws)),
+                        look_of(overlay.skeleton, overlay.camera, *options.theme), kSceneClip);
+    }
+  if (!overlay.is_field() && poses.size() > 1) overlay.draw_labels(picture, room);
+  Sheet inside = sheet;
+  inside.scene = room;
+  if (overlay.is_field()) draw_metre_bar(picture, overlay.camera, inside, fonts);
+  draw_sheet(picture, sheet);
+  return picture;
+}
+
+}  // namespace chainreel

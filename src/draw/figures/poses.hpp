@@ -1,0 +1,57 @@
+// Still figures of a chain at chosen poses.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "draw/layers/ellipse.hpp"
+#include "draw/robot/body_shapes.hpp"
+#include "model/chain.hpp"
+#include "picture/text.hpp"
+#include "picture/theme.hpp"
+#include "scene/scene.hpp"
+#include "sim/tip.hpp"
+
+namespace chainreel {
+
+inline constexpr double kOnionSkin = 0.25;  // opacity of all poses but the last
+inline constexpr int kSceneClip = 0;        // of a picture with one scene
+
+struct PoseFigureOptions {
+  std::string title;
+  int width = 1920;  // of the page, px: only their ratio counts
+  int height = 1080;
+  double text_scale = 1;
+  const Theme* theme = &light_theme();
+  CameraEntry camera;
+  std::shared_ptr<const BodyShapes> shapes;  // drawn instead of bars
+
+  // Of figures with ellipses.
+  EllipseReading reading = EllipseReading::mass;
+  bool section = false;               // by the xy plane of the end effector, instead of the ellipsoid
+  std::string layout = "grid";        // panels, at most four across; or row: all in one; or superposed: no panels
+  std::vector<std::string> labels;    // "t = 0.5 s", one a panel; may be empty
+  std::vector<Eigen::Vector3d> path;  // of the end effector, m: drawn below superposed poses
+  double cell = 0;  // m: above 0 the poses are a field, each ellipse in a square of this side about its point
+};
+const std::vector<std::string>& figure_layout_names();
+
+// The chain at every pose in one place: the last one in full, those before it as onion skins of 25 %.
+Picture draw_pose_figure(const Chain& chain, const std::vector<std::vector<double>>& poses,
+                         const PoseFigureOptions& options, const Fonts& fonts);
+
+// One panel a pose, all at the same scale: the chain, its effective-mass ellipse, and below them the pose and the
+// numbers of Lambda; at singular poses an open band and the direction of infinite mass. Superposed: every chain as an
+// onion skin of 25 %, every ellipse at full strength. A field: the chain where its ellipse is roundest alone.
+Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& poses,
+                            const PoseFigureOptions& options, const Fonts& fonts);
+
+// For each pose a row: the chain, the unit circle of accelerations of two joints, and its image under M(q) in the
+// space of their torques, the other joints not accelerating. `joints` from 0. Throws Error (usage) for more than three
+// poses.
+Picture draw_joint_space_figure(const Chain& chain, const std::vector<std::vector<double>>& poses,
+                                std::array<int, 2> joints, const PoseFigureOptions& options,
+                                const Fonts& fonts);
+
+}  // namespace chainreel

@@ -1,0 +1,175 @@
+#include "draw/film/plot_strip.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chainreel {
+namespace {
+
+constexpr double kTotalLine = 0.0045;
+constexpr double kPale = 0.25;   // of a curve that is still to come
+constexpr double kShareBelow = 0.30;  // of the page's height, right: of its width
+constexpr double kRight = 0.38;
+constexpr double kPlotLabelGap = 0.012;
+constexpr double kLeastSpan = 1e-9;  // of the size of the numbers: less is a constant
+constexpr double kRangeAir = 0.06;        // of the range, above and below
+constexpr const char* kTimeTitle = "t [s]";
+constexpr double kTimeGap = 0.02;
+
+// Curves are told apart by place, or by the run they belong to.
+CurveStyle style_of(const PlotCurves& plot, std::size_t curve, std::size_t run, std::size_t runs,
+                    const Theme& theme) {
+  CurveStyle style = curve_style(int(runs > 1 ? run : curve), theme);
+  style.marker = Marker::none;
+  if (runs > 1) {
+    if (runs == 2) style.color = run == 0 ? theme.side_a : theme.side_b;
+    style.dash = plot.curves.size() > 1 ? Dash(curve % 4) : Dash::solid;
+    return style;
+  }
+  if (curve < theme.curve.size()) style.color = theme.curve[curve];
+  if (plot.quantity == PlotQuantity::energy && curve + 1 == plot.curves.size())
+    return {theme.ink, kTotalLine, Dash::solid, Marker::none};
+  if (plot.quantity == PlotQuantity::lambda && plot.curves.size() == 1) style.color = theme.constraint;
+  return style;
+}
+
+// In comparisons of two the titles bear the colours of their curves.
+std::string label_of(const PlotCurves& plot, std::size_t curve, const StripRun& run, std::size_t runs) {
+  const std::string& name = plot.curves[curve].name;
+  if (runs <= 2) return runs == 1 || plot.curves.size() > 1 ? name : "";
+  return plot.curves.size() > 1 ? name + ", " + run.title : run.title;
+}
+
+// The range of what decides, or of everything where nothing does.
+Axis value_axis(const StripData& data) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const bool only_deciding : {true, false}) {
+    for (const StripCurve& curve : data.curves) {
+      if (only_deciding && !curve.decides) continue;
+      for (const Point& p : curve.points) {
+        if (!std::isfinite(p.y)) continue;
+        low = std::min(low, p.y);
+        high = std::max(high, p.y);
+      }
+    }
+    if (low <= high) break;
+  }
+  if (!(low <= high)) low = 0, high = 1;
+  const double size = std::max(std::abs(low), std::abs(high));
+  if (high - low <= kLeastSpan * size || size == 0) {
+    const double half = size > 0 ? 0.1 * size : 1;
+    low -= half;
+    high += half;
+  }
+  const double air = kRangeAir * (high - low);
+  return {data.angles ? Scale::angle : Scale::linear, low - air, high + air, data.title};
+}
+
+std::vector<std::string> labels_of(const StripData& data) {
+  std::vector<std::string> labels;
+  for (const StripCurve& curve : data.curves)
+    if (!curve.label.empty() && !curve.points.empty()) labels.push_back(curve.label);
+  return labels;
+}
+
+// At the end of the row of numbers, so that it takes no row of its own.
+TextStyle time_style(const PlotStyle& style, Align align) {
+  return {Face::label, style.text(size::kTick), style.theme->ink, align};
+}
+double time_width(const PlotStyle& style) {
+  return kTimeGap + lay_out_text(*style.fonts, kTimeTitle, time_style(style, Align::left)).advance;
+}
+
+void draw_part(Picture& picture, const PlotFrame& frame, std::span<const Point> points, CurveStyle style,
+               const Theme& theme, double opacity) {
+  style.color = style.color.faded(opacity);
+  draw_curve(picture, frame, points, style, theme);
+}
+
+}  // namespace
+
+PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
+    : data_(std::move(data)), style_(style) {
+  const std::vector<std::string> labels = labels_of(data_);
+  Rect inner = area;
+  inner.x1 -= std::max(time_width(style_), labels.empty() ? 0 : end_labels_width(labels, style_) + kPlotLabelGap);
+  const Axis time{Scale::linear, 0, data_.end > 0 ? data_.end : 1, ""};
+  frame_ = lay_out_plot(inner, time, value_axis(data_), style_);
+}
+
+void PlotStrip::draw_static(Picture& picture) const {
+  draw_axes(picture, frame_, style_);
+  std::vector<EndLabel> ends;
+  for (const StripCurve& curve : data_.curves) {
+    draw_part(picture, frame_, curve.points, curve.style, *style_.theme, kPale);
+    if (curve.label.empty() || curve.points.empty()) continue;
+    const Point end = frame_.at(curve.points.back());
+    ends.push_back({{end.x, std::clamp(end.y, frame_.box.y0, frame_.box.y1)}, curve.label, curve.style});
+  }
+  draw_end_labels(picture, frame_, ends, frame_.box.x1 + kPlotLabelGap, style_);
+  const TextStyle text = time_style(style_, Align::left);
+  draw_text(picture, lay_out_text(*style_.fonts, kTimeTitle, text),
+            {frame_.box.x1 + kTimeGap, tick_base_line(frame_, style_)});
+}
+
+void PlotStrip::draw_frame(Picture& picture, double t) const {
+  for (const StripCurve& curve : data_.curves) {
+    const auto end = std::upper_bound(curve.points.begin(), curve.points.end(), t,
+                                      [](double now, const Point& p) { return now < p.x; });
+    const auto count = std::size_t(end - curve.points.begin());
+    draw_part(picture, frame_, std::span(curve.points).first(count), curve.style, *style_.theme, 1);
+  }
+  draw_cursor(picture, frame_, std::clamp(t, frame_.x.low, frame_.x.high), style_.theme->ink);
+}
+
+StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double end, const Theme& theme) {
+  StripData data;
+  data.end = end;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const StripRun& run = runs[r];
+    if (i >= run.plots.size()) continue;
+    const PlotCurves& plot = run.plots[i];
+    data.title = plot.title;
+    data.angles = plot.angles;
+    // Of energies a comparison shows the sum alone.
+    const bool sum_alone = runs.size() > 1 && plot.quantity == PlotQuantity::energy;
+    PlotCurves shown = plot;
+    if (sum_alone) shown.curves = {plot.curves.back()};
+    for (std::size_t c = 0; c < shown.curves.size(); ++c) {
+      StripCurve curve{
+          label_of(shown, c, run, runs.size()), style_of(shown, c, r, runs.size(), theme), {}, !run.wild};
+      const std::vector<double>& y = shown.curves[c].y;
+      for (std::size_t k = 0; k < std::min(y.size(), run.times.size()); ++k)
+        curve.points.push_back({run.times[k], y[k]});
+      data.curves.push_back(std::move(curve));
+    }
+  }
+  return data;
+}
+
+PlotAreas plot_areas(const Rect& page, int count, PlotPlace place) {
+  PlotAreas areas{page, {}};
+  if (count == 0) return areas;
+  const double gap = size::kGutter;
+  Rect all = page;
+  if (place == PlotPlace::below) {
+    all.y1 = page.y0 + kShareBelow * page.height();
+    areas.scene.y0 = all.y1 + gap;
+    const double width = (all.width() - gap * (count - 1)) / count;
+    for (int i = 0; i < count; ++i) {
+      const double x0 = all.x0 + i * (width + gap);
+      areas.plots.push_back({x0, all.y0, x0 + width, all.y1});
+    }
+    return areas;
+  }
+  all.x0 = page.x1 - kRight * page.width();
+  areas.scene.x1 = all.x0 - gap;
+  const double height = (all.height() - gap * (count - 1)) / count;
+  for (int i = 0; i < count; ++i) {
+    const double y1 = all.y1 - i * (height + gap);
+    areas.plots.push_back({all.x0, y1 - height, all.x1, y1});
+  }
+  return areas;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,110 @@
+#include "draw/film/torque_label.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/format.hpp"
+
+namespace chainreel {
+namespace {
+
+std::string unit_of(const Chain& chain) {
+  bool revolute = false, prismatic = false;
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
+    const JointKind kind = chain.bodies[b].joint.kind;
+    revolute |= kind != JointKind::prismatic;
+    prismatic |= kind != JointKind::revolute;  // a floating joint has forces and torques
+  }
+  if (revolute == prismatic) return "";
+  return revolute ? " N m" : " N";
+}
+
+// Where the bracket that opens at `open` closes; the end where it does not.
+std::size_t closing(const std::string& text, std::size_t open) {
+  int depth = 0;
+  for (std::size_t i = open; i < text.size(); ++i) {
+    depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
+    if (depth == 0) return i;
+  }
+  return text.size();
+}
+
+bool is_word(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.';
+}
+
+// Behind the exponent that begins at `begin`: a bracket, or a sign and a word with the bracket that follows
+// it.
+std::size_t exponent_end(const std::string& text, std::size_t begin) {
+  std::size_t end = begin;
+  while (end < text.size() && (text[end] == '-' || text[end] == '+')) ++end;
+  while (end < text.size() && is_word(text[end])) ++end;
+  return end < text.size() && text[end] == '(' ? std::min(closing(text, end) + 1, text.size()) : end;
+}
+
+// As written, but for exponents: "2 ^ (t - 1)" is raised as a whole and its bracket falls away.
+std::string entry_notation(const std::string& text) {
+  std::string notation;
+  for (std::size_t i = 0; i < text.size();) {
+    if (text[i] != '^') {
+      notation += text[i++];
+      continue;
+    }
+    notation.erase(notation.find_last_not_of(' ') + 1);
+    const std::size_t begin = std::min(text.find_first_not_of(' ', i + 1), text.size());
+    const std::size_t end = exponent_end(text, begin);
+    const bool bracketed = begin < end && text[begin] == '(' && text[end - 1] == ')';
+    notation += "^{" + entry_notation(text.substr(begin + bracketed, end - begin - 2 * bracketed)) + "}";
+    i = end;
+  }
+  return notation;
+}
+
+// The first entries and the last one, `shown` in all.
+std::string list_of(const std::vector<std::string>& entries, std::size_t shown) {
+  std::string list;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (shown < entries.size() && i + 1 == shown) {
+      list += "\u2026, ";
+      i = entries.size() - 1;
+    }
+    list += entries[i] + (i + 1 < entries.size() ? ", " : "");
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string control_notation(const Control& control) {
+  std::string sum;
+  const auto add = [&](bool given, const char* term) {
+    if (given) sum += (sum.empty() ? "" : " + ") + std::string(term);
+  };
+  add(control.gravity_compensation, "tau_g(q)");
+  add(!control.csv.empty() || !control.inverse_of.empty(), "tau(t)");
+  add(control.pd.has_value(), "PD");
+  add(control.computed_torque.has_value(), "computed torque");
+  return sum.empty() ? "0" : sum;
+}
+
+std::vector<std::string> torque_notations(const Chain& chain, const std::vector<TorqueEntry>& torque,
+                                          const std::optional<Control>& control) {
+  if (control) return {"tau = " + control_notation(*control), "tau = tau(t, q, qd)"};
+  std::vector<std::string> entries;
+  for (const TorqueEntry& entry : torque) {
+    entries.push_back(entry.control ? control_notation(*entry.control) : entry_notation(entry.text));
+  }
+  if (entries.empty()) entries.assign(std::size_t(chain.nv), "0");
+  if (entries.empty()) return {};
+  if (entries.size() == 1 && parse_number(entries[0])) return {"tau = " + entries[0] + unit_of(chain)};
+  std::vector<std::string> forms;
+  for (std::size_t shown = entries.size(); shown >= 2; --shown) {
+    if (shown == entries.size() || shown <= 8)
+      forms.push_back("tau = (" + list_of(entries, shown) + ")" + unit_of(chain));
+  }
+  if (entries.size() == 1) forms.push_back("tau = (" + entries[0] + ")" + unit_of(chain));
+  forms.push_back("tau = tau(t, q, qd)");
+  return forms;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,287 @@
+#include "draw/layers/fading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/format.hpp"
+#include "draw/page/mark_labels.hpp"
+#include "draw/page/sheet.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kDash = 0.012, kGap = 0.008;
+
+}  // namespace
+
+std::optional<std::pair<double, double>> part_inside(const Rect& scene, Point p, Point q) {
+  double in = 0, out = 1;
+  const auto narrow = [&](double at, double way, double low, double high) {
+    if (std::abs(way) < kNoLength) {
+      if (at < low || at > high) out = -1;
+      return;
+    }
+    in = std::max(in, std::min((low - at) / way, (high - at) / way));
+    out = std::min(out, std::max((low - at) / way, (high - at) / way));
+  };
+  narrow(p.x, q.x - p.x, scene.x0, scene.x1);
+  narrow(p.y, q.y - p.y, scene.y0, scene.y1);
+  if (!(in < out)) return std::nullopt;
+  return std::pair{in, out};
+}
+
+double way_out(const Rect& scene, Point p, Point d) {
+  const auto to_edge = [](double x, double dx, double low, double high) {
+    if (std::abs(dx) < kNoLength) return std::numeric_limits<double>::infinity();
+    return ((dx > 0 ? high : low) - x) / dx;
+  };
+  return std::max(0.0,
+                  std::min(to_edge(p.x, d.x, scene.x0, scene.x1), to_edge(p.y, d.y, scene.y0, scene.y1)));
+}
+
+double excess_of(const Rect& scene, Point center, Point v) {
+  const double length = norm(v);
+  if (!(length > kNoLength)) return 0;
+  const Point d = (1 / length) * v;
+  const double farther = std::max(way_out(scene, center, d), way_out(scene, center, -1 * d));
+  return std::max(0.0, length - farther);
+}
+
+Polygon cut(const Polygon& polygon, Point through, Point inward) {
+  Polygon kept;
+  kept.paint = polygon.paint;
+  for (int i = 0; i < polygon.count; ++i) {
+    const Point p = polygon.corners[std::size_t(i)],
+                q = polygon.corners[std::size_t((i + 1) % polygon.count)];
+    const double at_p = dot(p - through, inward), at_q = dot(q - through, inward);
+    if (at_p >= 0) kept.corners[std::size_t(kept.count++)] = p;
+    if ((at_p >= 0) != (at_q >= 0)) {
+      kept.corners[std::size_t(kept.count++)] = p + (at_p / (at_p - at_q)) * (q - p);
+    }
+  }
+  return kept;
+}
+
+double Fade::opacity_at(Point p) const {
+  double opacity = 1;
+  for (const auto& [inside, stretch] : {std::pair{p.x - scene.x0, left},
+                                        {scene.x1 - p.x, right},
+                                        {p.y - scene.y0, bottom},
+                                        {scene.y1 - p.y, top}})
+    if (stretch > 0) opacity = std::min(opacity, std::clamp(inside / stretch, 0.0, 1.0));
+  return opacity;
+}
+
+Rect Fade::inset(double share) const {
+  return {scene.x0 + share * left, scene.y0 + share * bottom, scene.x1 - share * right, scene.y1 - share * top};
+}
+
+Fade fade_everywhere(const Rect& scene, double stretch) {
+  return {scene, stretch, stretch, stretch, stretch};
+}
+
+Fade fade_along(const Rect& scene, Point center, Point v, double most) {
+  Fade fade{scene};
+  const double excess = std::min(most, excess_of(scene, center, v));
+  if (!(excess > 0)) return fade;
+  for (const Point d : {unit(v), -1 * unit(v)}) {
+    const Point end = center + (way_out(scene, center, d) + excess) * d;
+    fade.left = std::max(fade.left, scene.x0 - end.x);
+    fade.right = std::max(fade.right, end.x - scene.x1);
+    fade.bottom = std::max(fade.bottom, scene.y0 - end.y);
+    fade.top = std::max(fade.top, end.y - scene.y1);
+  }
+  return fade;
+}
+
+Fade longer(const Fade& a, const Fade& b) {
+  return {a.scene, std::max(a.left, b.left), std::max(a.right, b.right), std::max(a.bottom, b.bottom),
+          std::max(a.top, b.top)};
+}
+
+void draw_outline(Picture& picture, const std::vector<Point>& points, double width, Color color, const Fade& fade,
+                  int clip) {
+  Trail trail;
+  trail.color = color;
+  const auto put_down = [&] {
+    if (trail.points.size() > 1) picture.add(trail, clip);
+    trail.points.clear();
+  };
+  if (!fade.any()) {
+    for (const Point p : points) trail.points.push_back({p, width, 1});
+    return put_down();
+  }
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const Point way = points[i + 1] - points[i];
+    const auto inside = part_inside(fade.scene, points[i], points[i + 1]);
+    if (!inside) {
+      put_down();
+      continue;
+    }
+    const auto [in, out] = *inside;
+    if (in > 0) put_down();
+    const int pieces = std::clamp(int((out - in) * norm(way) / kLongPiece), 1, 200);
+    for (int j = trail.points.empty() ? 0 : 1; j <= pieces; ++j) {
+      const Point p = points[i] + (in + (out - in) * j / pieces) * way;
+      trail.points.push_back({p, width, fade.opacity_at(p)});
+    }
+    if (out < 1) put_down();
+  }
+  put_down();
+}
+
+void fill_between(Picture& picture, const std::vector<Point>& upper, const std::vector<Point>& lower, Color color,
+                  const Fade& fade, int clip) {
+  const std::size_t n = upper.size();
+  for (std::size_t i = 0; i + 1 < n; ++i)
+    fill_piece(picture, {upper[i], upper[i + 1], lower[n - 2 - i], lower[n - 1 - i]}, color, fade, clip);
+}
+
+void fill_piece(Picture& picture, const std::array<Point, 4>& corners, Color color, const Fade& fade, int clip) {
+  Polygon piece;
+  for (const Point p : corners) {
+    const bool again = piece.count > 0 && norm(p - piece.corners[std::size_t(piece.count - 1)]) < kNoLength;
+    if (!again) piece.corners[std::size_t(piece.count++)] = p;
+  }
+  if (piece.count > 2 && norm(piece.corners[std::size_t(piece.count - 1)] - piece.corners[0]) < kNoLength)
+    --piece.count;
+  if (piece.count < 3) return;
+  if (!fade.any()) {
+    piece.paint.fill = color;
+    picture.add(piece, clip);
+    return;
+  }
+  // Frame by frame from the edge inwards, each a little stronger: pieces side by side, none over another.
+  const auto fill = [&](const Rect& r, double strength) {
+    if (!(r.x0 < r.x1 && r.y0 < r.y1)) return;
+    Polygon part = cut(cut(piece, {r.x0, r.y0}, {1, 0}), {r.x1, r.y1}, {-1, 0});
+    part = cut(cut(part, {r.x0, r.y0}, {0, 1}), {r.x1, r.y1}, {0, -1});
+    part.paint.fill = color.faded(strength);
+    if (part.count >= 3) picture.add(part, clip);
+  };
+  for (int i = 0; i < kFadeSteps; ++i) {
+    const Rect out = fade.inset(double(i) / kFadeSteps), in = fade.inset(double(i + 1) / kFadeSteps);
+    if (!(in.x0 < in.x1 && in.y0 < in.y1)) return;
+    const double strength = (i + 0.5) / kFadeSteps;
+    fill({out.x0, out.y0, in.x0, out.y1}, strength);
+    fill({in.x1, out.y0, out.x1, out.y1}, strength);
+    fill({in.x0, out.y0, in.x1, in.y0}, strength);
+    fill({in.x0, in.y1, in.x1, out.y1}, strength);
+  }
+  fill(fade.inset(1), 1);
+}
+
+void draw_axis(Picture& picture, Point center, Point v, bool dashed, double width, Color color, const Fade& fade,
+               int clip) {
+  const double length = norm(v);
+  if (!(length > kNoLength)) return;
+  const Point u = (1 / length) * v;
+  // As far as it can be seen.
+  const double reach = fade.any() ? std::min(length, kBeyond) : length;
+  if (!dashed) {
+    if (!fade.any()) return draw_line(picture, {center - reach * u, center + reach * u}, width, color, clip);
+    return draw_outline(picture, {center - reach * u, center + reach * u}, width, color, fade, clip);
+  }
+  // Symmetric about the middle, which is the middle of a dash.
+  const int half_count = int((reach - kDash / 2) / (kDash + kGap)) + 1;
+  for (int i = -half_count; i <= half_count; ++i) {
+    const double middle = i * (kDash + kGap);
+    const double from = std::max(middle - kDash / 2, -reach), to = std::min(middle + kDash / 2, reach);
+    const double opacity = fade.opacity_at(center + middle * u);
+    if (from < to && opacity > 0)
+      draw_line(picture, {center + from * u, center + to * u}, width, color.faded(opacity), clip);
+  }
+}
+
+namespace {
+
+constexpr double kSignAir = 0.008;       // units of H: about a sign
+constexpr double kAppearing = 0.02;  // units of H: an axis that leads out by so much has its length in full strength
+
+// The text with its middle as near to `at` as the scene allows.
+void put_near(Picture& picture, const TextLine& text, Point at, const EllipseStyle& style, int clip,
+              MarkLabels* labels) {
+  const Point half{text.box.width() / 2, text.box.height() / 2};
+  const Rect& scene = style.scene;
+  const Point middle{
+      std::clamp(at.x, std::min(scene.x0 + half.x, scene.x1), std::max(scene.x1 - half.x, scene.x0)),
+      std::clamp(at.y, std::min(scene.y0 + half.y, scene.y1), std::max(scene.y1 - half.y, scene.y0))};
+  if (labels != nullptr)
+    labels->add(text, {middle.x - half.x, middle.y - half.y, middle.x + half.x, middle.y + half.y}, false);
+  else
+    draw_text(picture, text, {middle.x - half.x - text.box.x0, middle.y - half.y - text.box.y0}, clip);
+}
+
+// Half of what a text takes along the unit vector d.
+double half_along(const TextLine& text, Point d) {
+  return std::abs(d.x) * text.box.width() / 2 + std::abs(d.y) * text.box.height() / 2;
+}
+
+void draw_along(Picture& picture, const TextLine& text, Point center, Point d, double half_width,
+                const EllipseStyle& style, int clip, MarkLabels* labels = nullptr) {
+  const double clear = half_along(text, d) + kSignAir, along = way_out(style.scene, center, d) - clear;
+  if (along > clear + size::kEndEffector) return put_near(picture, text, center + along * d, style, clip, labels);
+  // Too near to the edge: beside the band, on the side that has more room.
+  const Point side = normal_to(d), foot = center + std::max(along, 0.0) * d;
+  const bool left = way_out(style.scene, foot, side) > way_out(style.scene, foot, -1 * side);
+  put_near(picture, text, foot + ((left ? 1 : -1) * (half_width + half_along(text, side) + kSignAir)) * side, style,
+           clip, labels);
+}
+
+double strength_of_length(Point center, Point v, const EllipseStyle& style) {
+  return style.signs ? std::min(1.0, excess_of(style.scene, center, v) / kAppearing) : 0;
+}
+
+TextLine text_of_length(double length, double strength, const EllipseStyle& style) {
+  const std::string unit = style.reading == EllipseReading::energy ? " m/s" : " kg";
+  return lay_out_text(*style.fonts, format_significant(length, 3) + unit,
+                      {Face::label, scaled(size::kTick, style.text_scale), style.theme->ellipse.faded(strength),
+                       Align::left});
+}
+
+TextLine infinity(const EllipseStyle& style) {
+  return lay_out_text(*style.fonts, "\u221E",
+                      {Face::label, size::kSymbol * style.text_scale, style.theme->ellipse, Align::left});
+}
+
+Fade fade_before(const TextLine& text, double strength, Point center, Point v, const EllipseStyle& style) {
+  Fade fade = fade_along(style.scene, center, v, style.fade);
+  const Point d = unit(v);
+  const double taken = strength * (2 * half_along(text, d) + kSignAir);
+  // Only towards edges that the axis leaves through; one that it nearly misses comes in gradually.
+  const auto room = [&](double stretch, double along) { return std::min(taken * std::abs(along), 4 * stretch); };
+  fade.scene = {fade.scene.x0 + room(fade.left, d.x), fade.scene.y0 + room(fade.bottom, d.y),
+                fade.scene.x1 - room(fade.right, d.x), fade.scene.y1 - room(fade.top, d.y)};
+  return fade;
+}
+
+}  // namespace
+
+void draw_infinities(Picture& picture, Point center, Point d, double half_width, const EllipseStyle& style, int clip) {
+  if (!style.signs) return;
+  const TextLine sign = infinity(style);
+  draw_along(picture, sign, center, d, half_width, style, clip);
+  draw_along(picture, sign, center, -1 * d, half_width, style, clip);
+}
+
+void draw_length_along(Picture& picture, Point center, Point v, double length, double half_width,
+                       const EllipseStyle& style, int clip) {
+  const double strength = strength_of_length(center, v, style);
+  if (!(strength > 0)) return;
+  const TextLine text = text_of_length(length, strength, style);
+  draw_along(picture, text, center, unit(v), half_width, style, clip, style.labels);
+  draw_along(picture, text, center, -1 * unit(v), half_width, style, clip, style.labels);
+}
+
+Fade fade_before_length(Point center, Point v, double length, const EllipseStyle& style) {
+  const double strength = strength_of_length(center, v, style);
+  if (!(strength > 0)) return fade_along(style.scene, center, v, style.fade);
+  return fade_before(text_of_length(length, strength, style), strength, center, v, style);
+}
+
+Fade fade_before_infinity(Point center, Point d, const EllipseStyle& style) {
+  return fade_before(infinity(style), style.signs ? 1 : 0, center, 2 * kBeyond * d, style);
+}
+
+}  // namespace chainreel

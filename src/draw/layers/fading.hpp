@@ -1,0 +1,87 @@
+// Curves that lead out of their scene and fade towards its edge. Internal.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "draw/layers/ellipse.hpp"
+#include "draw/robot/joints.hpp"
+
+namespace chainreel {
+
+// On the page, axes shorter than this have no direction (an axis of an ellipsoid towards the viewer).
+inline constexpr double kNoLength = 1e-9;
+inline constexpr double kEllipseFill = 0.16;     // opacity
+inline constexpr double kSilhouetteFill = 0.12;  // of an ellipsoid
+inline constexpr int kFadeSteps = 16;  // of the fill; each changes it by 1 %, below what can be seen
+inline constexpr double kLongPiece = 0.02;  // units of H: fading lines change their opacity in steps of this length
+inline constexpr double kBeyond = 3;        // units of H: farther than any corner of a page from any place on it
+
+inline bool contains(const Rect& r, Point p) {
+  return p.x >= r.x0 && p.x <= r.x1 && p.y >= r.y0 && p.y <= r.y1;
+}
+
+// How far from p along the unit vector d the scene ends; 0 where p is outside and d leads away.
+double way_out(const Rect& scene, Point p, Point d);
+
+// How far the nearer end of the axis from center - v to center + v lies outside of the scene, units of H; 0 where one
+// end is inside, so that the length of the axis can be seen.
+double excess_of(const Rect& scene, Point center, Point v);
+
+// The parameters in [0, 1] between which the line from p to q is in the scene; absent where it misses it.
+std::optional<std::pair<double, double>> part_inside(const Rect& scene, Point p, Point q);
+
+// The part of a convex polygon where dot(p - through, inward) >= 0; one corner more at most.
+Polygon cut(const Polygon& polygon, Point through, Point inward);
+
+// Over which last stretch before each edge of `scene` things fade, units of H; 0: not at all.
+struct Fade {
+  Rect scene;
+  double left = 0, right = 0, bottom = 0, top = 0;
+
+  bool any() const { return left > 0 || right > 0 || bottom > 0 || top > 0; }
+  // 1 within the scene, 0 from an edge on that things fade towards.
+  double opacity_at(Point p) const;
+  Rect inset(double share) const;  // by this share of the stretches
+};
+Fade fade_everywhere(const Rect& scene, double stretch);
+// Towards the edges through which the axis from center - v to center + v leaves the scene at both of its ends, along
+// the axis over what it leads out and `most` at most: of a curve that grows beyond its scene ever more fades.
+Fade fade_along(const Rect& scene, Point center, Point v, double most);
+// The longer stretch of each edge.
+Fade longer(const Fade& a, const Fade& b);
+
+// A line through the points, fading; of one that fades only the part in the scene.
+void draw_outline(Picture& picture, const std::vector<Point>& points, double width, Color color, const Fade& fade,
+                  int clip);
+
+// The inside of a curve of two halves over the same places along its long axis: lower[n - 1 - i] lies opposite of
+// upper[i]. Convex pieces, each faded like the lines around it.
+void fill_between(Picture& picture, const std::vector<Point>& upper, const std::vector<Point>& lower, Color color,
+                  const Fade& fade, int clip);
+void fill_piece(Picture& picture, const std::array<Point, 4>& corners, Color color, const Fade& fade, int clip);
+
+// A line from center - v to center + v, fading; dashes are symmetric about the middle.
+void draw_axis(Picture& picture, Point center, Point v, bool dashed, double width, Color color, const Fade& fade,
+               int clip);
+
+// What stands at the ends of axes that lead out of the scene: an infinity sign where the mass is infinite, else the
+// length of the axis. Internal.
+
+// Infinity signs on the way from the centre along d and against it, off the end effector's disc; nothing where the
+// style wants none.
+void draw_infinities(Picture& picture, Point center, Point d, double half_width, const EllipseStyle& style, int clip);
+
+// "7.91 kg" where the axis from center - v to center + v, `length` in the unit of the reading, leaves the scene at both
+// of its ends: at each of them, stronger the further it leads out. Nothing where an end can be seen.
+void draw_length_along(Picture& picture, Point center, Point v, double length, double half_width,
+                       const EllipseStyle& style, int clip);
+
+// How the lines of such axes fade, to leave room for what is written at their ends.
+Fade fade_before_length(Point center, Point v, double length, const EllipseStyle& style);
+Fade fade_before_infinity(Point center, Point d, const EllipseStyle& style);
+
+}  // namespace chainreel

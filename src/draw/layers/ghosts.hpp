@@ -1,0 +1,28 @@
+// Onion skins: the chain as it stood at earlier instants, equally spaced in time, fainter with age.
+#pragma once
+
+#include <vector>
+
+#include "core/frame_rate.hpp"
+#include "draw/robot/joints.hpp"
+
+namespace chainreel {
+
+inline constexpr int kMostGhosts = 6;
+inline constexpr int kFilledGhosts = 3;  // those beyond are outlines only
+inline constexpr double kFaintestGhost = 0.10, kStrongestGhost = 0.35;
+inline constexpr double kGhostSeconds = 1.0;  // all of them together: what the trail covers, too
+
+// Frames between two ghosts: a whole number of them, so that the spacing is the same everywhere.
+int ghost_spacing(FrameRate fps);
+
+struct Ghost {
+  int frame = 0;
+  double strength = 0;  // of its colours
+  bool filled = true;
+};
+// From the oldest to the youngest. `times` of all frames: an instant that a snapshot has put between them
+// does not count.
+std::vector<Ghost> ghosts_at(const std::vector<double>& times, int frame, FrameRate fps);
+
+}  // namespace chainreel

@@ -1,0 +1,61 @@
+#include "draw/layers/ground_plane.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/page/scales.hpp"
+
+namespace chainreel {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kTouches = 0.02;  // of the motion's size: how far from the plane its lowest place may be
+constexpr double kGroundBeyond = 0.35;   // of the motion's reach, the grid goes on beyond it
+constexpr double kCells = 10;      // about, over the diameter
+constexpr double kLine = 0.0016;   // units of H
+constexpr double kShown = 0.9;     // opacity of the lines in the middle
+
+// Any two directions that span the plane, along the world's axes where these lie in it.
+std::array<Vector3d, 2> along(const Vector3d& up) {
+  const Vector3d near = std::abs(up.x()) < 0.9 ? Vector3d::UnitX() : Vector3d::UnitY();
+  const Vector3d first = (near - up.dot(near) * up).normalized();
+  return {first, up.cross(first)};
+}
+
+}  // namespace
+
+std::optional<GroundPlane> ground_under(const MotionBox& motion, const Camera& camera) {
+  if (motion.empty() || camera.toward_viewer.dot(motion.up()) < 0) return std::nullopt;
+  if (!(std::abs(motion.lowest()) <= kTouches * motion.size())) return std::nullopt;
+  GroundPlane ground;
+  ground.up = motion.up();
+  ground.middle = motion.middle() - ground.up.dot(motion.middle()) * ground.up;
+  ground.radius = (1 + kGroundBeyond) * std::max(motion.width(), motion.size() / 2) / 2;
+  ground.spacing = round_length(2 * ground.radius / kCells);
+  return ground;
+}
+
+void draw_ground_plane(Picture& picture, const GroundPlane& ground, const Camera& camera, const Theme& theme,
+                       int clip) {
+  const std::array<Vector3d, 2> axes = along(ground.up);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vector3d &line = axes[i], &step = axes[1 - i];
+    const double middle = ground.middle.dot(step);
+    const auto first = std::ceil((middle - ground.radius) / ground.spacing);
+    for (double k = first; k * ground.spacing <= middle + ground.radius; ++k) {
+      const double off = k * ground.spacing - middle;
+      const double half = std::sqrt(std::max(0.0, ground.radius * ground.radius - off * off));
+      const double shown = kShown * (1 - std::pow(off / ground.radius, 2));
+      const Vector3d nearest = ground.middle + off * step;
+      const Point m = camera.project(nearest);
+      for (const double side : {-1.0, 1.0}) {
+        const Point end = camera.project(nearest + side * half * line);
+        if (!std::isfinite(m.x + m.y + end.x + end.y)) continue;
+        picture.add(Capsule{m, end, kLine / 2, {theme.rule, {}, 0}, shown, 0}, clip);
+      }
+    }
+  }
+}
+
+}  // namespace chainreel

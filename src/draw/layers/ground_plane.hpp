@@ -1,0 +1,27 @@
+// The ground under a robot in space: a grid that fades out, drawn where the robot stands on it.
+#pragma once
+
+#include <optional>
+
+#include "draw/robot/fit.hpp"
+#include "picture/camera.hpp"
+#include "picture/theme.hpp"
+
+namespace chainreel {
+
+// The plane through the world's origin, normal to the motion's up.
+struct GroundPlane {
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // on the plane, below the motion
+  double radius = 1;                                 // m, where the grid has faded out
+  double spacing = 0.1;                              // m: 1, 2 or 5 times a power of ten
+};
+
+// Nothing where the motion does not come down to the plane, or goes through it, or where the camera sees it
+// from below.
+std::optional<GroundPlane> ground_under(const MotionBox& motion, const Camera& camera);
+
+void draw_ground_plane(Picture& picture, const GroundPlane& ground, const Camera& camera, const Theme& theme,
+                       int clip);
+
+}  // namespace chainreel

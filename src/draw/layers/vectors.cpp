@@ -1,0 +1,201 @@
+#include "draw/layers/vectors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "draw/page/arrow.hpp"
+#include "draw/page/sheet.hpp"
+#include "draw/robot/joints.hpp"
+
+namespace chainreel {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kVectorLabelGap = 0.010;  // between an arrow's tip or an arc and its label, units of H
+constexpr double kRoomStep = 0.01;   // units of H: rooms are rounded up to multiples, to have few kinds
+
+Rect with(const Rect& a, const Rect& b) {
+  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
+Point on_page(const Vector3d& direction, const Camera& camera) {
+  return {camera.right.dot(direction), camera.up.dot(direction)};
+}
+
+// The circle of an arc about `axis`, radius 1: its top as seen on the page, and a quarter turn on.
+struct Circle {
+  Vector3d top, quarter;
+};
+Circle circle_about(const Vector3d& axis, const Camera& camera) {
+  Vector3d top = camera.up - camera.up.dot(axis) * axis;
+  if (top.norm() < 1e-6) top = -camera.toward_viewer;
+  top.normalize();
+  return {top, axis.cross(top)};
+}
+
+}  // namespace
+
+void VectorPeaks::add(const WorldVector& vector) {
+  const double magnitude = vector.value.norm();
+  double& most = largest[std::size_t(vector.kind)];
+  if (std::isfinite(magnitude)) most = std::max(most, magnitude);
+}
+
+void VectorPeaks::add(const VectorPeaks& other) {
+  for (std::size_t i = 0; i < largest.size(); ++i) largest[i] = std::max(largest[i], other.largest[i]);
+}
+
+VectorScale VectorScales::of(VectorKind kind) const {
+  if (kind == VectorKind::torque) return {peaks.of(kind), kWidestTurn * std::numbers::pi / 180};
+  return {peaks.of(kind), shrink * size::kLongestArrow};
+}
+
+Color color_of(VectorKind kind, const Theme& theme) {
+  switch (kind) {
+    case VectorKind::velocity:
+      return theme.velocity;
+    case VectorKind::weight:
+      return theme.force;
+    case VectorKind::constraint:
+      return theme.constraint;
+    default:
+      return theme.torque;
+  }
+}
+
+std::string name_of(VectorKind kind) {
+  switch (kind) {
+    case VectorKind::torque:
+      return "torque";
+    case VectorKind::joint_force:
+      return "joint force";
+    case VectorKind::velocity:
+      return "velocity";
+    case VectorKind::weight:
+      return "weight";
+    case VectorKind::constraint:
+      return "constraint force";
+  }
+  return "";
+}
+
+std::string unit_of(VectorKind kind) {
+  return kind == VectorKind::torque ? "N m" : kind == VectorKind::velocity ? "m/s" : "N";
+}
+
+VectorPen::VectorPen(const Theme& theme, const Fonts& fonts, double text_scale, const VectorScales& scales,
+                     double marks)
+    : theme_(&theme), fonts_(&fonts), text_scale_(text_scale), scales_(scales), marks_(marks) {}
+
+const TextLine& VectorPen::label(const WorldVector& vector) const {
+  const auto key = std::pair{vector.kind, vector.label};
+  const auto known = labels_.find(key);
+  if (known != labels_.end()) return known->second;
+  const TextStyle style{Face::math, scaled(size::kSymbol * std::sqrt(marks_), text_scale_),
+                        color_of(vector.kind, *theme_), Align::left};
+  return labels_.emplace(key, lay_out_math(*fonts_, vector.label, style)).first->second;
+}
+
+// The ink of a label that stands off `near` along the unit vector `direction`.
+Rect VectorPen::label_box(const TextLine& label, Point near, Point direction) const {
+  const double half_width = label.box.width() / 2, half_height = label.box.height() / 2;
+  const double reach = std::abs(direction.x) * half_width + std::abs(direction.y) * half_height;
+  const Point middle = near + (reach + kVectorLabelGap) * direction;
+  return {middle.x - half_width, middle.y - half_height, middle.x + half_width, middle.y + half_height};
+}
+
+VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera& camera) const {
+  const VectorScale scale = scales_.of(vector.kind);
+  const double magnitude = vector.value.norm();
+  double length = scale.on_page(magnitude);
+  Straight arrow;
+  arrow.cut = length > scales_.shrink * size::kArrowCut * (1 + 1e-12);
+  if (arrow.cut) length = scales_.shrink * size::kArrowCut;
+  if (!(magnitude > 0) || !std::isfinite(magnitude)) return arrow;
+  const Camera seen = camera.seen_at(vector.place);
+  arrow.v = (length / magnitude) * on_page(vector.value, seen);
+  const Point rail = on_page(vector.rail, seen);
+  if (norm(rail) > 0) {
+    // On the side where there is no ground.
+    Point side = normal_to(unit(rail));
+    if (side.y < -1e-9 || (std::abs(side.y) <= 1e-9 && side.x < 0)) side = -1 * side;
+    arrow.shift = (marks_ * size::kBesideRail) * side;
+  }
+  return arrow;
+}
+
+Rect VectorPen::extent(const WorldVector& vector, const Camera& camera) const {
+  const TextLine& text = label(vector);
+  if (vector.kind == VectorKind::torque) {
+    const double r = marks_ * (size::kTorqueArc + size::kArrowHeadWidth / 2);
+    return with({-r, -r, r, r}, label_box(text, {0, r}, {0, 1}));
+  }
+  const Straight arrow = straight(vector, camera);
+  if (norm(arrow.v) < size::kShortestArrow) return {};
+  const double half = marks_ * size::kArrowHeadWidth / 2;
+  const Point tail = arrow.shift, tip = arrow.shift + arrow.v;
+  const Rect shaft{std::min(tail.x, tip.x) - half, std::min(tail.y, tip.y) - half,
+                   std::max(tail.x, tip.x) + half, std::max(tail.y, tip.y) + half};
+  if (vector.label.empty()) return shaft;
+  return with(shaft, label_box(text, tip, unit(arrow.v)));
+}
+
+void VectorPen::add_to(FitBox& box, std::map<int, int>& kinds, const WorldVector& vector,
+                       const Camera& camera) const {
+  const Rect r = extent(vector, camera);
+  const Point place = camera.flat(vector.place);
+  const std::array<double, 4> sides{-r.x0, r.x1, -r.y0, r.y1};
+  for (int side = 0; side < 4; ++side) {
+    const int steps = int(std::ceil(sides[std::size_t(side)] / kRoomStep));
+    if (steps <= 0) continue;
+    const auto [known, is_new] = kinds.emplace(4 * steps + side, 0);
+    if (is_new) {
+      Room room;
+      (side == 0 ? room.left : side == 1 ? room.right : side == 2 ? room.down : room.up) = steps * kRoomStep;
+      known->second = box.add_kind(room);
+    }
+    box.add(known->second, place);
+  }
+}
+
+void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const Camera& camera,
+                            int clip, MarkLabels& labels) const {
+  const Point center = camera.project(vector.place);
+  const double radius = marks_ * size::kTorqueArc;
+  const Camera seen = camera.seen_at(vector.place);
+  const Circle circle = circle_about(vector.axis, seen);
+  const Point u = radius * on_page(circle.top, seen), w = radius * on_page(circle.quarter, seen);
+  const VectorScale scale = scales_.of(vector.kind);
+  const double value = vector.value.dot(vector.axis);
+  ArrowStyle style{color_of(vector.kind, *theme_), marks_, false, false};
+  if (!(std::abs(value) >= kRingBelow * scale.largest) || scale.largest == 0) {
+    draw_ring(picture, center, u, w, style.color, clip);
+  } else {
+    style.cut = std::abs(value) > scale.largest * (1 + 1e-12);
+    const double turn = style.cut ? scale.page_of_largest : scale.on_page(std::abs(value));
+    draw_turn(picture, center, u, w, value > 0 ? turn : -turn, style, clip);
+  }
+  const TextLine& text = label(vector);
+  const double off = radius + marks_ * size::kArrowHeadWidth / 2;
+  labels.add(text, label_box(text, center + Point{0, off}, {0, 1}), true);
+}
+
+void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& camera, int clip,
+                     MarkLabels& labels) const {
+  const Point place = camera.project(vector.place);
+  if (!std::isfinite(place.x) || !std::isfinite(place.y)) return;
+  if (vector.kind == VectorKind::torque) return draw_torque(picture, vector, camera, clip, labels);
+  const Straight arrow = straight(vector, camera);
+  if (norm(arrow.v) < size::kShortestArrow) return;
+  const Point tail = place + arrow.shift;
+  draw_arrow(picture, tail, arrow.v,
+             {color_of(vector.kind, *theme_), marks_, vector.kind == VectorKind::constraint, arrow.cut},
+             clip);
+  if (vector.label.empty()) return;
+  const TextLine& text = label(vector);
+  labels.add(text, label_box(text, tail + arrow.v, unit(arrow.v)), true);
+}
+
+}  // namespace chainreel

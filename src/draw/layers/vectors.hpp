@@ -1,0 +1,98 @@
+// Vectors over a chain: torques as arcs, forces and velocities as arrows. Each kind has one scale a clip,
+// fixed from the largest magnitude that the clip has: that one measures 0.20 H, or turns by 300 degrees.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "draw/page/mark_labels.hpp"
+#include "draw/robot/fit.hpp"
+#include "picture/camera.hpp"
+#include "picture/text.hpp"
+#include "picture/theme.hpp"
+
+namespace chainreel {
+
+enum class VectorKind { torque, joint_force, velocity, weight, constraint };
+inline constexpr std::array<VectorKind, 5> kVectorKinds{VectorKind::torque, VectorKind::joint_force,
+                                                        VectorKind::velocity, VectorKind::weight,
+                                                        VectorKind::constraint};
+
+// What is to be shown at one instant, in W.
+struct WorldVector {
+  VectorKind kind = VectorKind::velocity;
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  // m: where it acts
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();  // N, N m or m/s; of a torque: along the axis of its sense
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();   // of a torque, unit, so that one of zero has a ring
+  Eigen::Vector3d rail = Eigen::Vector3d::Zero();   // of a joint force, unit: it is drawn beside its rail
+  std::string label{};                              // a symbol in math notation
+};
+
+// The largest magnitudes of a clip, by kind; 0: none.
+struct VectorPeaks {
+  std::array<double, kVectorKinds.size()> largest{};
+
+  void add(const WorldVector& vector);
+  void add(const VectorPeaks& other);
+  double of(VectorKind kind) const { return largest[std::size_t(kind)]; }
+};
+
+// What an arrow on the page is worth.
+struct VectorScale {
+  double largest = 0;          // N, N m, m/s; 0: nothing of this kind is to be drawn
+  double page_of_largest = 0;  // its length, units of H; for torques the angle, rad
+
+  double on_page(double magnitude) const { return largest > 0 ? magnitude / largest * page_of_largest : 0; }
+};
+struct VectorScales {
+  VectorPeaks peaks;
+  double shrink = 1;  // of all lengths; below 1 where panels share a page
+
+  VectorScale of(VectorKind kind) const;
+};
+inline constexpr double kWidestTurn = 300;  // degrees
+// Below this fraction of the largest one a torque is a ring.
+inline constexpr double kRingBelow = 0.01;
+
+Color color_of(VectorKind kind, const Theme& theme);
+// "torque", "N m": what the legend says.
+std::string name_of(VectorKind kind);
+std::string unit_of(VectorKind kind);
+
+// Draws vectors and tells what room they take, both from the same measures. Not shared between threads.
+class VectorPen {
+ public:
+  VectorPen(const Theme& theme, const Fonts& fonts, double text_scale, const VectorScales& scales,
+            double marks);
+
+  // Adds the place of a vector to `box` with the room that it and its label take; kinds are made as needed.
+  void add_to(FitBox& box, std::map<int, int>& kinds, const WorldVector& vector, const Camera& camera) const;
+  // What it covers on the page, label included, about the projection of its place; empty if it is not drawn.
+  Rect extent(const WorldVector& vector, const Camera& camera) const;
+  // Its label goes to `labels`, which are drawn over all vectors.
+  void draw(Picture& picture, const WorldVector& vector, const Camera& camera, int clip, MarkLabels& labels) const;
+
+  const VectorScales& scales() const { return scales_; }
+
+ private:
+  struct Straight {
+    Point shift, v;  // of the tail from the place; units of H
+    bool cut = false;
+  };
+  Straight straight(const WorldVector& vector, const Camera& camera) const;
+  const TextLine& label(const WorldVector& vector) const;
+  Rect label_box(const TextLine& label, Point near, Point direction) const;
+  void draw_torque(Picture& picture, const WorldVector& vector, const Camera& camera, int clip,
+                   MarkLabels& labels) const;
+
+  const Theme* theme_;
+  const Fonts* fonts_;
+  double text_scale_;
+  VectorScales scales_;
+  double marks_;
+  mutable std::map<std::pair<VectorKind, std::string>, TextLine> labels_;
+};
+
+}  // namespace chainreel

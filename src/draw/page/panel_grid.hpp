@@ -1,0 +1,33 @@
+// Panels of equal size in rows, each with a row for its title above and one for a note below its scene.
+#pragma once
+
+#include <vector>
+
+#include "draw/page/sheet.hpp"
+#include "draw/robot/fit.hpp"
+
+namespace chainreel {
+
+struct PanelCell {
+  Rect title;  // empty where panels have none
+  Rect scene;
+  Rect note;
+};
+
+// What every cell keeps free around its scene, units of H.
+struct PanelRows {
+  double title = 0;
+  double note = 0;
+};
+
+// Row by row from the top, `columns` in a row.
+std::vector<PanelCell> panel_cells(const Rect& area, int count, int columns, const PanelRows& rows);
+
+// The arrangement in which what is in `box`, the same for all panels, is largest.
+std::vector<PanelCell> best_cells(const Rect& area, int count, const PanelRows& rows, const FitBox& box);
+
+// Size of the marks of joints and ground in a panel this large, or in one of these: 1 for one that fills the page.
+double marks_in(const Rect& scene);
+double marks_in(const std::vector<PanelCell>& cells);
+
+}  // namespace chainreel

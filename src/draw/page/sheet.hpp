@@ -1,0 +1,82 @@
+// The page around the scene: title and torques above, legend, scale and time below, and the room that is left
+// between them. Bands grow with text_scale and with the lines that they need, so that nothing is cut or
+// overlaps.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "draw/page/scales.hpp"
+#include "picture/picture.hpp"
+#include "picture/text.hpp"
+#include "picture/theme.hpp"
+
+namespace chainreel {
+
+// Nothing is written smaller than this, in units of H.
+inline constexpr double kSmallestText = size::kTick;
+
+inline constexpr double kRoundOff = 1e-12;  // a text that just fills its row fits
+
+// What a page says. Empty texts are left out, and bands without a text, too.
+struct SheetText {
+  std::string title;
+  std::vector<std::string> torque;  // math notation; the first form that fits is taken
+  std::string equation;             // math notation, a line of its own where it does not fit beside others
+  std::vector<SymbolColor> symbols;  // of the equation
+  std::string longest_time;         // of the running time: room is kept for it at the lower right
+  double beside_time = 0;           // units of H that are kept free left of the running time
+  std::string bar;                  // beside the scale bar of the ellipse
+  double bar_length = 0;            // units of H
+  std::string legend;               // may be broken behind ": "
+  std::vector<ScaleEntry> scales;   // of vectors, in rows above or beside the time
+  Place title_place;                // for the message about a title that does not fit
+};
+
+struct PlacedText {
+  TextLine line;
+  Point anchor;
+};
+
+struct PlacedEntry {
+  EntryLine line;
+  Point left;
+};
+
+struct Sheet {
+  double aspect = 16.0 / 9.0;
+  double text_scale = 1;
+  const Theme* theme = nullptr;
+  Rect scene;  // what is left for the chain
+  std::vector<PlacedText> texts;
+  std::optional<Point> bar;  // left end of the scale bar
+  double bar_length = 0;
+  std::vector<PlacedEntry> scales;
+  Point time_anchor;  // right end of its base line
+  Point time_left;    // ... and where what stands beside it ends
+};
+
+Sheet lay_out_sheet(const SheetText& text, double aspect, double text_scale, const Theme& theme,
+                    const Fonts& fonts);
+
+// Everything on the sheet but the running time.
+void draw_sheet(Picture& picture, const Sheet& sheet);
+void draw_time(Picture& picture, const Sheet& sheet, double t, const Fonts& fonts, int decimals = 2);
+
+// "t = 1.24 s"
+std::string time_text(double t, int decimals = 2);
+
+// A text size of the style guide at this text_scale.
+double scaled(double size, double text_scale);
+
+// The line at its style's size, or smaller where it is wider than `width`, down to the smallest size times
+// text_scale. The caller looks whether it fits now.
+TextLine fit_text(const Fonts& fonts, const std::string& text, TextStyle style, double width,
+                  double text_scale);
+// The same for the first of several math notations that can be read and fits.
+TextLine fit_math(const Fonts& fonts, const std::vector<std::string>& forms, TextStyle style, double width,
+                  double text_scale, const std::vector<SymbolColor>& symbols = {});
+
+}  // namespace chainreel

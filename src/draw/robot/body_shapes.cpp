@@ -1,0 +1,191 @@
+#include "draw/robot/body_shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "mesh/primitives.hpp"
+
+namespace chainreel {
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d position(const TriangleMesh::Vertex& vertex) {
+  return {vertex.position[0], vertex.position[1], vertex.position[2]};
+}
+
+// Sizes along the axes; normals go with the cofactors, and a mirror turns triangles inside out.
+void stretch(TriangleMesh& mesh, const Vector3d& scale) {
+  const double sense = scale.prod() < 0 ? -1 : 1;
+  const Vector3d cofactors = sense * Vector3d(scale[1] * scale[2], scale[2] * scale[0], scale[0] * scale[1]);
+  for (TriangleMesh::Vertex& vertex : mesh.vertices) {
+    Vector3d n;
+    for (int i = 0; i < 3; ++i) {
+      const auto at = std::size_t(i);
+      vertex.position[at] = float(scale[i] * vertex.position[at]);
+      n[i] = vertex.normal[at] * cofactors[i];
+    }
+    if (n.norm() > 0) n.normalize();
+    for (int i = 0; i < 3; ++i) vertex.normal[std::size_t(i)] = float(n[i]);
+  }
+  if (sense < 0)
+    for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3)
+      std::swap(mesh.triangles[t], mesh.triangles[t + 1]);
+}
+
+// 26 directions: faces, edges and corners of a cube. Between two of them a smooth body reaches out hardly
+// farther.
+std::vector<Vector3d> corners_of(const TriangleMesh& mesh) {
+  std::set<std::size_t> farthest;
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) {
+        if (x == 0 && y == 0 && z == 0) continue;
+        const Vector3d direction(x, y, z);
+        std::size_t best = 0;
+        double most = -HUGE_VAL;
+        for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+          const double reach = direction.dot(position(mesh.vertices[v]));
+          if (reach > most) most = reach, best = v;
+        }
+        if (!mesh.vertices.empty()) farthest.insert(best);
+      }
+  std::vector<Vector3d> corners;
+  for (const std::size_t v : farthest) corners.push_back(position(mesh.vertices[v]));
+  return corners;
+}
+
+void require_finite(const TriangleMesh& mesh, const Visual& visual) {
+  for (const TriangleMesh::Vertex& vertex : mesh.vertices)
+    for (const float x : vertex.position)
+      if (!std::isfinite(x))
+        throw Error(ExitCode::bad_input, "is too large once it is scaled", {visual.mesh_file});
+}
+
+TriangleMesh read(const Visual& visual, MeshUp up) {
+  switch (visual.kind) {
+    case VisualKind::box:
+      return box_mesh(visual.size);
+    case VisualKind::cylinder:
+      return cylinder_mesh(visual.size[0], visual.size[2]);
+    case VisualKind::sphere:
+      return sphere_mesh(visual.size[0]);
+    default: {
+      TriangleMesh mesh = read_mesh(visual.mesh_file, up);
+      stretch(mesh, visual.mesh_scale);
+      require_finite(mesh, visual);
+      return mesh;
+    }
+  }
+}
+
+// Shapes that are the same triangles share them.
+std::string key_of(const Visual& visual, MeshUp up) {
+  std::string key = visual.mesh_file + "|" + std::to_string(int(up)) + "|" + std::to_string(int(visual.kind));
+  const Vector3d& numbers = visual.kind == VisualKind::mesh ? visual.mesh_scale : visual.size;
+  for (const double number : {numbers[0], numbers[1], numbers[2]}) key += "|" + format_exact(number);
+  return key;
+}
+
+// Rows of the matrix from coordinates of a frame with this pose in W to those of the camera.
+std::array<double, 12> to_view(const Camera& camera, const Eigen::Affine3d& X_WM) {
+  std::array<double, 12> rows{};
+  const std::array<Vector3d, 3> axes{camera.right, camera.up, camera.toward_viewer};
+  for (std::size_t r = 0; r < 3; ++r) {
+    const Eigen::RowVector3d row = axes[r].transpose() * X_WM.linear();
+    for (int c = 0; c < 3; ++c) rows[4 * r + std::size_t(c)] = row[c];
+    rows[4 * r + 3] = axes[r].dot(X_WM.translation() - camera.focus);
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::shared_ptr<const TriangleMesh> MeshShelf::mesh_of(const Visual& visual, MeshUp up) {
+  std::shared_ptr<const TriangleMesh>& mesh = known_[key_of(visual, up)];
+  if (!mesh) mesh = std::make_shared<const TriangleMesh>(read(visual, up));
+  return mesh;
+}
+
+BodyShapes load_body_shapes(const std::vector<Visual>& visuals, MeshUp up, MeshShelf& shelf) {
+  BodyShapes result;
+  std::vector<Problem> problems;
+  ExitCode code = ExitCode::bad_input;
+  for (const Visual& visual : visuals) {
+    BodyShape shape{visual.body, visual.X_BV, nullptr, std::nullopt, {}};
+    try {
+      shape.mesh = shelf.mesh_of(visual, up);
+    } catch (const Error& error) {
+      if (problems.empty()) code = error.code();
+      for (const Problem& problem : error.problems())
+        problems.push_back({"link '" + visual.link + "': " + to_string(problem), visual.place});
+      continue;
+    }
+    for (const Vector3d& corner : corners_of(*shape.mesh)) shape.corners.push_back(visual.X_BV * corner);
+    if (visual.color) {
+      const auto& [r, g, b, a] = *visual.color;
+      shape.color = Color{r, g, b, a / 255.0};
+    }
+    result.shapes.push_back(std::move(shape));
+  }
+  if (!problems.empty()) throw Error(code, std::move(problems));
+  return result;
+}
+
+std::shared_ptr<const BodyShapes> shapes_for(const BodyLook& look, const std::string& model,
+                                             const Chain& chain, const ModelOptions& options,
+                                             MeshShelf& shelf) {
+  if (look.links == "plain" || (look.links == "auto" && !look.is_oblique)) return nullptr;
+  const bool collision = look.links == "collision";
+  const std::vector<Visual> visuals =
+      read_visuals(model, chain, options, collision ? ShapesOf::collision : ShapesOf::visual);
+  const bool any_moves =
+      std::any_of(visuals.begin(), visuals.end(), [](const Visual& visual) { return visual.body > 0; });
+  if (look.links == "auto" && !any_moves) return nullptr;
+  if (visuals.empty())
+    throw Error(
+        ExitCode::bad_input,
+        "'links' is " + look.links + ", but the model has no <" + look.links + ">: take auto or plain",
+        look.place);
+  const MeshUp up = look.mesh_up == "file" ? MeshUp::file : MeshUp::rviz;
+  return std::make_shared<const BodyShapes>(load_body_shapes(visuals, up, shelf));
+}
+
+Rect extent_of(const BodyShape& shape, const Workspace& ws, const Camera& camera) {
+  Rect all{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (const Vector3d& corner : shape.corners) {
+    const Point p = camera.project(pose_of(ws, shape.body) * corner);
+    all = {std::min(all.x0, p.x), std::min(all.y0, p.y), std::max(all.x1, p.x), std::max(all.y1, p.y)};
+  }
+  return all;
+}
+
+Solids solids_seen_by(const Camera& camera) {
+  Solids solids;
+  solids.origin = camera.origin;
+  solids.scale = camera.scale;
+  solids.nearness = camera.nearness;
+  return solids;
+}
+
+void add_bodies(Solids& solids, const BodyShapes& shapes, const Workspace& ws, const Camera& camera) {
+  for (const BodyShape& shape : shapes.shapes) {
+    const Eigen::Affine3d X_WM(pose_of(ws, shape.body) * shape.X_BM);
+    solids.parts.push_back({shape.mesh, to_view(camera, X_WM), shape.color});
+  }
+}
+
+void add_shadows(Solids& solids, const BodyShapes& shapes, const Workspace& ws, const Camera& camera,
+                 const Vector3d& up) {
+  Eigen::Affine3d onto_ground = Eigen::Affine3d::Identity();
+  onto_ground.linear() -= up * up.transpose();
+  for (const BodyShape& shape : shapes.shapes) {
+    const Eigen::Affine3d X_WM(pose_of(ws, shape.body) * shape.X_BM);
+    solids.parts.push_back({shape.mesh, to_view(camera, onto_ground * X_WM), std::nullopt});
+  }
+}
+
+}  // namespace chainreel

@@ -1,0 +1,79 @@
+// A robot as its model's visual shapes show it.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "draw/robot/skeleton.hpp"
+#include "dynamics/workspace.hpp"
+#include "mesh/read_mesh.hpp"
+#include "model/visuals.hpp"
+#include "picture/camera.hpp"
+
+namespace chainreel {
+
+struct BodyShape {
+  int body = 0;  // index into Chain::bodies; 0: fixed to the world
+  Eigen::Isometry3d X_BM =
+      Eigen::Isometry3d::Identity();  // pose of the mesh, which has its scale, in its body
+  std::shared_ptr<const TriangleMesh> mesh;
+  std::optional<Color> color;  // instead of the mesh's own
+  std::vector<Eigen::Vector3d>
+      corners;  // in the body's frame: vertices that lie farthest out in many directions
+};
+
+struct BodyShapes {
+  std::vector<BodyShape> shapes;
+};
+
+// Meshes that were read, so that several panels read each file once.
+class MeshShelf {
+ public:
+  // With the scale of the visual. Throws Error where the file cannot be read.
+  std::shared_ptr<const TriangleMesh> mesh_of(const Visual& visual, MeshUp up);
+
+ private:
+  std::map<std::string, std::shared_ptr<const TriangleMesh>> known_;
+};
+
+// The meshes of all shapes; URDF scales are applied, and a material of the model stands
+// before the colours of a file, as in RViz. Throws Error naming the <visual>'s line where a file cannot be
+// read.
+BodyShapes load_body_shapes(const std::vector<Visual>& visuals, MeshUp up, MeshShelf& shelf);
+
+// How a scene, or a command, wants its robots drawn.
+struct BodyLook {
+  std::string links =
+      "auto";  // plain: bars; visual: the model's shapes; auto: these where the view is oblique
+  std::string mesh_up = "rviz";  // or file
+  bool is_oblique = true;
+  Place place;  // of `links`
+};
+
+// None for bars, nor with auto where nothing that moves has a shape. Throws Error as above, and where
+// `visual` finds none.
+std::shared_ptr<const BodyShapes> shapes_for(const BodyLook& look, const std::string& model,
+                                             const Chain& chain, const ModelOptions& options,
+                                             MeshShelf& shelf);
+
+// Calls add(place in W) for all corners after compute_kinematics.
+template <class Add>
+void for_each_corner(const BodyShapes& shapes, const Workspace& ws, Add add) {
+  for (const BodyShape& shape : shapes.shapes)
+    for (const Eigen::Vector3d& corner : shape.corners)
+      add(Eigen::Vector3d(pose_of(ws, shape.body) * corner));
+}
+// Of one on the page.
+Rect extent_of(const BodyShape& shape, const Workspace& ws, const Camera& camera);
+
+// Bodies as `camera` sees them, still without parts.
+Solids solids_seen_by(const Camera& camera);
+// The parts of all bodies as they stand after compute_kinematics.
+void add_bodies(Solids& solids, const BodyShapes& shapes, const Workspace& ws, const Camera& camera);
+// What they throw on the plane through the world's origin with normal `up` under a light right above.
+void add_shadows(Solids& solids, const BodyShapes& shapes, const Workspace& ws, const Camera& camera,
+                 const Eigen::Vector3d& up);
+
+}  // namespace chainreel

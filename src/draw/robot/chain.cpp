@@ -1,0 +1,268 @@
+#include "draw/robot/chain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "draw/robot/fit.hpp"
+#include "draw/robot/joints.hpp"
+#include "dynamics/kinematics.hpp"
+
+namespace chainreel {
+namespace {
+
+using Eigen::Vector3d;
+
+// Shapes that are sorted as one: a link, or a joint with all its parts.
+struct Part {
+  double depth = 0;
+  Picture shapes;
+};
+
+constexpr double kBodyOutline = 0.0015;  // of body shapes, units of H: their light shows their form
+// Opacity of the black of a shadow, on a white page and on a dark one.
+constexpr double kShadow = 0.15, kShadowOnDark = 0.5;
+
+// Seen along the normal of the plane in which all motion stays.
+bool is_face_on(const ChainDrawing& drawing) {
+  if (!drawing.chain.planar) return false;
+  return std::abs(drawing.camera.toward_viewer.dot(drawing.chain.planar->plane.normal)) > 1 - 1e-9;
+}
+
+Color link_color(const ChainDrawing& drawing, int body) {
+  const int index = drawing.skeleton.color[std::size_t(body)];
+  return drawing.look.theme->link[std::size_t(std::max(index, 0)) % drawing.look.theme->link.size()];
+}
+
+PageLine rail_on_page(const ChainDrawing& drawing, const Workspace& ws, const Rail& rail) {
+  return {drawing.camera.project(rail_point(drawing.chain, ws, rail.body, rail.lower)),
+          drawing.camera.project(rail_point(drawing.chain, ws, rail.body, rail.upper))};
+}
+
+// Which way the rail runs on the page, also where it has no length.
+Point rail_direction(const ChainDrawing& drawing, const Workspace& ws, int body) {
+  const Joint& joint = drawing.chain.bodies[std::size_t(body)].joint;
+  const int parent = drawing.chain.bodies[std::size_t(body)].parent;
+  const Vector3d axis = pose_of(ws, parent).linear() * (joint.X_PJ.linear() * joint.axis);
+  return unit(drawing.camera.project_vector(axis, pose_of(ws, body).translation()));
+}
+
+// A rail without length gets one that only says which way it runs.
+PageLine with_direction(PageLine way, Point direction) {
+  constexpr double kSpeck = 1e-6;
+  if (norm(way.b - way.a) > kSpeck) return way;
+  return {way.a - kSpeck * direction, way.b + kSpeck * direction};
+}
+
+void draw_rail_of(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, const Rail& rail,
+                  int clip) {
+  const PageLine way =
+      with_direction(rail_on_page(drawing, ws, rail), rail_direction(drawing, ws, rail.body));
+  if (!is_drawable(way.a) || !is_drawable(way.b)) return;
+  const int parent = drawing.chain.bodies[std::size_t(rail.body)].parent;
+  const PageLine line = with_overhang(way, rail.carrier, drawing.look);
+  if (parent == 0) draw_rail_ground(picture, line, drawing.look, clip);
+  const Color fill = parent == 0 ? tinted(drawing.look.theme->base, 0.25, drawing.look)
+                                 : tinted(link_color(drawing, parent), 0.4, drawing.look);
+  draw_rail(picture, line, drawing.look.filled ? fill : Color{}, drawing.look, clip);
+}
+
+void draw_carriage_of(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, const Rail& rail,
+                      int clip) {
+  const Point center = drawing.camera.project(pose_of(ws, rail.body).translation());
+  if (!is_drawable(center)) return;
+  draw_carriage(picture, center, rail_direction(drawing, ws, rail.body), rail.carrier,
+                filling(link_color(drawing, rail.body), drawing.look), drawing.look, clip);
+}
+
+void draw_link(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, const LinkSegment& link,
+               int clip) {
+  const Eigen::Isometry3d X_WB = pose_of(ws, link.body);
+  const Point a = drawing.camera.project(X_WB * link.from), b = drawing.camera.project(X_WB * link.to);
+  if (!is_drawable(a) || !is_drawable(b)) return;
+  const ChainLook& look = drawing.look;
+  const Color fill = filling(link_color(drawing, link.body), look), ink = toned(look.theme->ink, look);
+  picture.add(Capsule{a, b, look.link_width / 2, {fill, ink, look.stroke * size::kLinkOutline}}, clip);
+  if (drawing.skeleton.color[std::size_t(link.body)] < int(look.theme->link.size()) || !look.filled) return;
+  // From the fifth link on the colours repeat: a hatch tells them apart.
+  const Point along = unit(b - a);
+  const Point stroke = (0.36 * look.link_width) * (along + normal_to(along));
+  const double length = norm(b - a), spacing = size::kGroundSpacing;
+  for (double s = spacing; s < length - spacing / 2; s += spacing) {
+    const Point middle = a + s * along;
+    draw_line(picture, {middle - stroke, middle + stroke}, size::kGroundHatch, ink, clip);
+  }
+}
+
+// What is fixed between the root link and a joint, and the ground mark.
+void draw_foot(Picture& picture, const ChainDrawing& drawing, const Body& body, int clip) {
+  const Vector3d root = root_place(drawing.chain), place = body.joint.X_PJ.translation();
+  const Point foot = drawing.camera.project(root), joint = drawing.camera.project(place);
+  const ChainLook& look = drawing.look;
+  if (hangs_on_root(drawing.chain, drawing.skeleton, body)) {
+    if (body.joint.kind == JointKind::revolute) draw_pin(picture, joint, look, clip);
+    return;
+  }
+  const Point side = (look.link_width / 2) * normal_to(unit(joint - foot));
+  picture.add(
+      Polygon{{foot + side, joint + side, joint - side, foot - side},
+              4,
+              {tinted(look.theme->base, 0.35, look), toned(look.theme->base, look), size::kLinkOutline}},
+      clip);
+  const Point half{look.marks * size::kGroundLength / 2, 0};
+  draw_ground(picture, {foot - half, foot + half}, {0, -1}, look, clip);
+}
+
+void draw_bodies(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip) {
+  Solids solids = solids_seen_by(drawing.camera);
+  add_bodies(solids, *drawing.shapes, ws, drawing.camera);
+  solids.opacity = drawing.look.strength;
+  solids.outline = drawing.look.theme->ink;
+  solids.outline_width = kBodyOutline;
+  picture.add(std::move(solids), clip);
+}
+
+}  // namespace
+
+void draw_shadow(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip) {
+  if (!drawing.shapes) return;
+  Solids shadow = solids_seen_by(drawing.camera);
+  add_shadows(shadow, *drawing.shapes, ws, drawing.camera, up_of(drawing.chain));
+  shadow.is_shadow = true;
+  const bool on_dark = drawing.look.theme->background.g < 128;
+  shadow.outline = color_of(0x000000, on_dark ? kShadowOnDark : kShadow);
+  picture.add(std::move(shadow), clip);
+}
+
+void draw_base(Picture& picture, const ChainDrawing& drawing, int clip) {
+  if (drawing.shapes) return;
+  const Workspace at_rest(drawing.chain);  // rails fixed to the world do not ask for a pose
+  for (const Body& body : drawing.chain.bodies) {
+    if (&body == &drawing.chain.bodies[0] || body.parent != 0) continue;
+    if (body.joint.kind != JointKind::floating) draw_foot(picture, drawing, body, clip);
+  }
+  for (const Rail& rail : drawing.skeleton.rails) {
+    if (drawing.chain.bodies[std::size_t(rail.body)].parent == 0) {
+      draw_rail_of(picture, drawing, at_rest, rail, clip);
+    }
+  }
+}
+
+void draw_rails(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip) {
+  if (drawing.shapes) return;
+  for (const Rail& rail : drawing.skeleton.rails) {
+    if (drawing.chain.bodies[std::size_t(rail.body)].parent != 0)
+      draw_rail_of(picture, drawing, ws, rail, clip);
+    if (rail.carrier) draw_carriage_of(picture, drawing, ws, rail, clip);
+  }
+}
+
+void draw_links(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip) {
+  if (drawing.shapes) {
+    draw_bodies(picture, drawing, ws, clip);
+    return;
+  }
+  const std::vector<LinkSegment>& links = drawing.skeleton.links;
+  const std::vector<Rail>& rails = drawing.skeleton.rails;
+  std::vector<Part> parts;
+  const auto part_at = [&](double depth) -> Picture& {
+    parts.push_back({depth, {}});
+    return parts.back().shapes;
+  };
+  std::size_t link = 0, rail = 0;
+  for (int b = 1; b < int(drawing.chain.bodies.size()); ++b) {
+    for (; link < links.size() && links[link].body == b; ++link) {
+      // A link is as far as its farther end, so that the joint where it begins or ends lies above it.
+      const Eigen::Isometry3d X_WB = pose_of(ws, b);
+      const double depth = std::min(drawing.camera.depth(X_WB * links[link].from),
+                                    drawing.camera.depth(X_WB * links[link].to));
+      draw_link(part_at(depth), drawing, ws, links[link], clip);
+    }
+    const Vector3d origin = pose_of(ws, b).translation();
+    const Point center = drawing.camera.project(origin);
+    if (drawing.chain.bodies[std::size_t(b)].joint.kind == JointKind::revolute && is_drawable(center)) {
+      draw_revolute(part_at(drawing.camera.depth(origin)), center, drawing.look, clip);
+    }
+    if (rail < rails.size() && rails[rail].body == b) {
+      if (!rails[rail].carrier) {
+        draw_carriage_of(part_at(drawing.camera.depth(origin)), drawing, ws, rails[rail], clip);
+      }
+      ++rail;
+    }
+  }
+  if (!is_face_on(drawing)) {
+    std::stable_sort(parts.begin(), parts.end(),
+                     [](const Part& a, const Part& b) { return a.depth < b.depth; });
+  }
+  for (Part& part : parts) {
+    std::move(part.shapes.items.begin(), part.shapes.items.end(), std::back_inserter(picture.items));
+  }
+}
+
+Vector3d root_place(const Chain& chain) {
+  if (chain.frames.empty() || chain.frames[0].body != 0) return Vector3d::Zero();
+  return chain.frames[0].X_BF.translation();
+}
+
+bool hangs_on_root(const Chain& chain, const Skeleton& skeleton, const Body& body) {
+  return (body.joint.X_PJ.translation() - root_place(chain)).norm() <= 1e-3 * skeleton.reach;
+}
+
+Vector3d tip_position(const Chain& chain, const Workspace& ws) {
+  return frame_position(chain, ws, chain.end_effector);
+}
+
+Eigen::Matrix<double, 3, 2> tip_plane(const Chain& chain, const Workspace& ws) {
+  const Frame& tip = chain.frames[std::size_t(chain.end_effector)];
+  return (pose_of(ws, tip.body).linear() * tip.X_BF.linear()).leftCols<2>();
+}
+
+namespace {
+
+const Frame& frame_named(const Chain& chain, const std::string& name) {
+  return chain.frames[std::size_t(find_frame(chain, name))];
+}
+
+bool is_on_ground(const Chain& chain, const std::string& name) {
+  return frame_named(chain, name).body == 0;
+}
+
+// The frame that marks where the constraint closes a loop; "" where it closes none with a joint.
+std::string closing_frame(const Chain& chain, const Constraint& constraint) {
+  if (const auto* point = std::get_if<PointConstraint>(&constraint)) return point->frame;
+  const auto* close = std::get_if<CloseConstraint>(&constraint);
+  if (!close || close->kind == Closure::weld) return {};
+  return is_on_ground(chain, close->a) ? close->b : close->a;
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> closure_pins(const Chain& chain, const ConstraintPlan& plan) {
+  std::vector<Eigen::Vector3d> pins;
+  for (const Constraint& constraint : plan.list) {
+    if (const auto* point = std::get_if<PointConstraint>(&constraint)) pins.push_back(point->at);
+    const auto* close = std::get_if<CloseConstraint>(&constraint);
+    if (!close || close->kind == Closure::weld) continue;
+    for (const std::string& name : {close->a, close->b})
+      if (is_on_ground(chain, name)) pins.push_back(frame_named(chain, name).X_BF.translation());
+  }
+  return pins;
+}
+
+void draw_closure_pins(Picture& picture, const ChainDrawing& drawing, const ConstraintPlan& plan, int clip) {
+  for (const Eigen::Vector3d& pin : closure_pins(drawing.chain, plan))
+    draw_pin(picture, drawing.camera.project(pin), drawing.look, clip);
+}
+
+void draw_closure_joints(Picture& picture, const ChainDrawing& drawing, const Workspace& ws,
+                         const ConstraintPlan& plan, int clip) {
+  for (const Constraint& constraint : plan.list) {
+    const std::string name = closing_frame(drawing.chain, constraint);
+    if (name.empty()) continue;
+    const Frame& frame = frame_named(drawing.chain, name);
+    draw_revolute(picture, drawing.camera.project(pose_of(ws, frame.body) * frame.X_BF.translation()),
+                  drawing.look, clip);
+  }
+}
+
+}  // namespace chainreel

@@ -1,0 +1,53 @@
+// A chain at one instant as shapes: what stands on the ground, links, joints.
+#pragma once
+
+#include <vector>
+
+#include "draw/robot/body_shapes.hpp"
+#include "draw/robot/joints.hpp"
+#include "sim/constraint_plan.hpp"
+
+namespace chainreel {
+
+// Everything but the pose; references must outlive it.
+struct ChainDrawing {
+  const Chain& chain;
+  const Skeleton& skeleton;
+  const Camera& camera;
+  ChainLook look;
+  const BodyShapes* shapes = nullptr;  // drawn instead of bars, joints and ground marks
+};
+
+// Ground, fixed parts and the rails fixed to them: the same at every pose.
+void draw_base(Picture& picture, const ChainDrawing& drawing, int clip);
+// The rails that the chain carries, with the carriages below them, after compute_kinematics: what lies under
+// a trail.
+void draw_rails(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip);
+// Body shapes, or links and joints; along the chain, in space from far to near. Without the end effector's disc, which is to
+// lie above what is drawn later.
+void draw_links(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip);
+
+// What the body shapes throw on the plane through the world's origin under a light right above; nothing without them.
+void draw_shadow(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip);
+
+// The root link's origin, where what is fixed to the world begins.
+Eigen::Vector3d root_place(const Chain& chain);
+// Whether what the body hangs on is right at the root link: else a fixed part leads there.
+bool hangs_on_root(const Chain& chain, const Skeleton& skeleton, const Body& body);
+
+// World position of the end effector after compute_kinematics.
+Eigen::Vector3d tip_position(const Chain& chain, const Workspace& ws);
+// ... and the x and y axes of its frame in W.
+Eigen::Matrix<double, 3, 2> tip_plane(const Chain& chain, const Workspace& ws);
+
+// The joints at which constraints close loops, which the chain's own tree does not hold.
+
+// Places of the world at which a loop is closed on the ground, or a frame pinned to it.
+std::vector<Eigen::Vector3d> closure_pins(const Chain& chain, const ConstraintPlan& plan);
+// The ground below these.
+void draw_closure_pins(Picture& picture, const ChainDrawing& drawing, const ConstraintPlan& plan, int clip);
+// The joints themselves, after compute_kinematics.
+void draw_closure_joints(Picture& picture, const ChainDrawing& drawing, const Workspace& ws,
+                         const ConstraintPlan& plan, int clip);
+
+}  // namespace chainreel

@@ -1,0 +1,92 @@
+// Half sizes are given on the page, places in metres, so the box in metres depends on the scale s that it
+// decides: with w metres between the places and c page units of room, s (w + c / s)(1 + 2 margin) = A. The
+// iteration s <- A / ((w + c / s)(1 + 2 margin)) shrinks its error by c (1 + 2 margin) / A a pass, a tenth or
+// so.
+#include "draw/robot/fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chainreel {
+namespace {
+
+constexpr int kPasses = 60;  // to the last bit also where the room takes half of the area
+
+Room room_at(const Room& room, double scale) {
+  if (room.metres < 0) return room;
+  const double bound = room.metres * scale + room.beyond;
+  return {std::min(room.left, bound), std::min(room.right, bound), std::min(room.down, bound),
+          std::min(room.up, bound)};
+}
+
+}  // namespace
+
+int FitBox::add_kind(const Room& room) {
+  kinds_.push_back({room, false, {}});
+  return int(kinds_.size()) - 1;
+}
+
+void FitBox::add(int kind, Point place_m) {
+  if (!std::isfinite(place_m.x) || !std::isfinite(place_m.y)) return;
+  Kind& k = kinds_[std::size_t(kind)];
+  if (!k.used) k.places = {place_m.x, place_m.y, place_m.x, place_m.y};
+  k.used = true;
+  k.places = {std::min(k.places.x0, place_m.x), std::min(k.places.y0, place_m.y),
+              std::max(k.places.x1, place_m.x), std::max(k.places.y1, place_m.y)};
+}
+
+void FitBox::add(const FitBox& other) {
+  kinds_.insert(kinds_.end(), other.kinds_.begin(), other.kinds_.end());
+}
+
+bool FitBox::empty() const {
+  return std::none_of(kinds_.begin(), kinds_.end(), [](const Kind& kind) { return kind.used; });
+}
+
+Rect FitBox::box(double scale) const {
+  bool first = true;
+  Rect all;
+  for (const Kind& kind : kinds_) {
+    if (!kind.used) continue;
+    const Room room = room_at(kind.room, scale);
+    const Rect r{kind.places.x0 - room.left / scale, kind.places.y0 - room.down / scale,
+                 kind.places.x1 + room.right / scale, kind.places.y1 + room.up / scale};
+    all = first ? r
+                : Rect{std::min(all.x0, r.x0), std::min(all.y0, r.y0), std::max(all.x1, r.x1),
+                       std::max(all.y1, r.y1)};
+    first = false;
+  }
+  return all;
+}
+
+void fit_to(Camera& camera, const FitBox& box, const Rect& area, double margin) {
+  // Without any extent in metres there is nothing to scale by: one metre is shown.
+  const Rect bare = box.box(std::numeric_limits<double>::infinity());
+  if (box.empty() || std::max(bare.width(), bare.height()) <= 0) {
+    fit(camera, {bare.x0 - 0.5, bare.y0 - 0.5, bare.x1 + 0.5, bare.y1 + 0.5}, area, margin);
+    return;
+  }
+  fit(camera, bare, area, margin);
+  for (int pass = 0; pass < kPasses; ++pass) fit(camera, box.box(camera.scale), area, margin);
+}
+
+using Eigen::Vector3d;
+
+Vector3d up_of(const Chain& chain) {
+  return chain.gravity.norm() > 1e-9 ? Vector3d(-chain.gravity.normalized()) : Vector3d(Vector3d::UnitZ());
+}
+
+MotionBox::MotionBox(const Vector3d& up) : up_(up) {
+  const Vector3d near = std::abs(up.x()) < 0.9 ? Vector3d::UnitX() : Vector3d::UnitY();
+  const Vector3d first = (near - up.dot(near) * up).normalized();
+  upright_ << first.transpose(), up.cross(first).transpose(), up.transpose();
+}
+
+std::array<Vector3d, 8> MotionBox::corners() const {
+  std::array<Vector3d, 8> corners;
+  for (int i = 0; i < 8; ++i)
+    corners[std::size_t(i)] = upright_.transpose() * box_.corner(Eigen::AlignedBox3d::CornerType(i));
+  return corners;
+}
+
+}  // namespace chainreel

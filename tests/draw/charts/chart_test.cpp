@@ -1,0 +1,267 @@
+// Charts: every measurement is where it belongs, words are on the page, and the pictures are the goldens.
+#include "draw/charts/chart.hpp"
+
+#include <gmock/gmock.h>
+
+#include <array>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "draw/chart_samples.hpp"
+#include "draw/shapes.hpp"
+#include "render/canvas.hpp"
+#include "support/fonts.hpp"
+#include "support/picture_compare.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using namespace test;
+
+ChartLook look_of(const Theme& theme, double text_scale = 1) {
+  return {16.0 / 9.0, text_scale, &theme, &fonts()};
+}
+
+constexpr std::array kBoth = {ChartCost::seconds, ChartCost::evaluations};
+constexpr std::array kSeconds = {ChartCost::seconds};
+
+Image drawn(const Picture& picture) {
+  Canvas canvas(640, 360, fonts());
+  Image image;
+  canvas.draw(picture, image);
+  return image;
+}
+
+// As for all goldens: text and edges may fall otherwise on the pixels with other versions of the libraries.
+constexpr PictureTolerance kGolden = {.max = 24, .mean = 0.05};
+
+bool says(const Picture& picture, const std::string& words) {
+  for (const GlyphRun& run : all_of<GlyphRun>(picture))
+    if (run.text.find(words) != std::string::npos) return true;
+  return false;
+}
+
+void expect_words_on_page(const Picture& picture) {
+  for (const GlyphRun& run : all_of<GlyphRun>(picture)) {
+    if (run.glyphs.empty()) continue;
+    EXPECT_GE(run.size, 0.7 * size::kTick - 1e-12) << run.text;  // scripts are 70 % of the smallest text
+    EXPECT_GE(run.origin.x, 0.9 * size::kMargin) << run.text;
+    // The last pen is at most an em left of the end of the run.
+    EXPECT_LE(run.origin.x + run.glyphs.back().x, picture.aspect - 0.9 * size::kMargin) << run.text;
+    EXPECT_GE(run.origin.y, 0.5 * size::kMargin) << run.text;
+    EXPECT_LE(run.origin.y + 0.73 * run.size, 1) << run.text;
+  }
+}
+
+TEST(Chart, IsAsItWasLookedAt) {
+  EXPECT_TRUE(matches_golden(
+      drawn(work_precision_chart(sample_work_precision(), kSeconds, look_of(light_theme(), 1.5))),
+      "chart_light", kGolden));
+  EXPECT_TRUE(
+      matches_golden(drawn(work_precision_chart(sample_work_precision(), kBoth, look_of(dark_theme()))),
+                     "chart_dark", kGolden));
+  EXPECT_TRUE(matches_golden(drawn(energy_chart(sample_energy(), look_of(light_theme(), 1.5))),
+                             "energy_chart", kGolden));
+  EXPECT_TRUE(matches_golden(drawn(stability_map(sample_map(120, 80), look_of(light_theme(), 1.5))),
+                             "stability_map", kGolden));
+}
+
+TEST(Chart, AllWordsAreOnThePageAtEverySize) {
+  for (const Theme* theme : {&light_theme(), &dark_theme()})
+    for (const double scale : {1.0, 1.5}) {
+      const ChartLook look = look_of(*theme, scale);
+      expect_words_on_page(work_precision_chart(sample_work_precision(), kBoth, look));
+      expect_words_on_page(energy_chart(sample_energy(), look));
+      expect_words_on_page(stability_map(sample_map(20, 10), look));
+    }
+}
+
+TEST(Chart, NamesEveryMethodAndWhatItShows) {
+  const WorkPrecision data = sample_work_precision();
+  const Picture picture = work_precision_chart(data, kBoth, look_of(light_theme()));
+  for (const ChartCurve& curve : data.curves) EXPECT_TRUE(says(picture, curve.method)) << curve.method;
+  for (const char* words : {"time per run [s]", "evaluations of the dynamics", "final error [rad]", "auto",
+                            "double-", "2\u00D710\u207B\u00B2\u2074", "failed", "revision 1a2b3c4"})
+    EXPECT_TRUE(says(picture, words)) << words;
+  WorkPrecision less = data;
+  less.choice.reset();
+  less.floor = 0;
+  const Picture without = work_precision_chart(less, kBoth, look_of(light_theme()));
+  EXPECT_FALSE(says(without, "auto"));
+  EXPECT_FALSE(says(without, "double-"));
+}
+
+// A method whose marker is a disc, so that its points can be counted.
+WorkPrecision one_curve(int failed) {
+  WorkPrecision data;
+  ChartCurve curve{"rk4", 4, {}, 0};
+  for (int i = 0; i < 6; ++i)
+    curve.points.push_back({std::pow(10.0, -2 * i), 1e-4 * std::pow(3.16, i), 1e3, i < failed, ""});
+  data.curves.push_back(curve);
+  return data;
+}
+
+std::vector<Ellipse> discs(const Picture& picture) {
+  const Color color = curve_style(0, light_theme()).color;
+  return all_of<Ellipse>(picture, [&](const Ellipse& e) { return e.paint.fill == color; });
+}
+
+TEST(Chart, DrawsEveryRungOfTheLadder) {
+  // One more is the key beside the label.
+  EXPECT_EQ(discs(work_precision_chart(one_curve(0), kSeconds, look_of(light_theme()))).size(), 7u);
+  EXPECT_EQ(discs(work_precision_chart(one_curve(2), kSeconds, look_of(light_theme()))).size(), 7u);
+}
+
+TEST(Chart, FailedRunsStandAtTheRightEdge) {
+  const Picture none = work_precision_chart(one_curve(0), kSeconds, look_of(light_theme()));
+  const Picture picture = work_precision_chart(one_curve(2), kSeconds, look_of(light_theme()));
+  EXPECT_FALSE(says(none, "failed"));
+  EXPECT_TRUE(says(picture, "failed"));
+  std::vector<double> xs;
+  for (const Ellipse& disc : discs(picture)) xs.push_back(disc.center.x);
+  std::sort(xs.begin(), xs.end());
+  // Four points, the two failures at one x a decade further, the key.
+  EXPECT_DOUBLE_EQ(xs[4], xs[5]);
+  EXPECT_GT(xs[4] - xs[3], 0.01);
+}
+
+TEST(Chart, TheChoiceIsCircledWhereItIs) {
+  WorkPrecision data = one_curve(0);
+  data.choice = ChartChoice{"rk4", 3};
+  const Picture picture = work_precision_chart(data, kSeconds, look_of(light_theme()));
+  const auto rings = all_of<Ellipse>(picture, [](const Ellipse& e) { return e.paint.fill.a == 0; });
+  ASSERT_EQ(rings.size(), 1u);
+  const auto points = discs(picture);
+  EXPECT_TRUE(std::any_of(points.begin(), points.end(),
+                          [&](const Ellipse& e) { return distance(e.center, rings[0].center) < 1e-12; }));
+  data.choice = ChartChoice{"unknown", 3};
+  EXPECT_TRUE(
+      all_of<Ellipse>(work_precision_chart(data, kSeconds, look_of(light_theme())), [](const Ellipse& e) {
+        return e.paint.fill.a == 0;
+      }).empty());
+}
+
+TEST(Chart, LeastCostIsThatOfTheBestMethodAtEachError) {
+  WorkPrecision data;
+  data.curves = {{"a", 1, {{1e-2, 1, 0, false, ""}, {1e-4, 100, 0, false, ""}}, -1},
+                 {"b", 4, {{1e-1, 5, 0, false, ""}, {1e-9, 50, 0, false, ""}}, -1},
+                 {"c", 4, {{1e-12, 1e-3, 0, true, ""}}, -1}};
+  EXPECT_NEAR(*least_cost(data, ChartCost::seconds, 1e-2), 1, 1e-12);
+  EXPECT_NEAR(*least_cost(data, ChartCost::seconds, std::pow(10, -2.5)), std::sqrt(10.0), 1e-9);  // along a
+  EXPECT_NEAR(*least_cost(data, ChartCost::seconds, 1e-5), 5 * std::sqrt(10.0), 1e-9);  // halfway along b
+  EXPECT_NEAR(*least_cost(data, ChartCost::seconds, 1), 1, 1e-12);
+  EXPECT_FALSE(least_cost(data, ChartCost::seconds, 1e-10));  // a failed run counts for nothing
+}
+
+TEST(Chart, SlopesAreShownOnlyWhereACurveHasThem) {
+  const auto triangles = [](const WorkPrecision& data) {
+    const Color color = light_theme().muted.faded(0.12);
+    return all_of<Polygon>(work_precision_chart(data, kSeconds, look_of(light_theme())),
+                           [&](const Polygon& p) { return p.paint.fill == color; });
+  };
+  WorkPrecision data = one_curve(0);  // costs grow by sqrt(10) for two decades: order 4
+  ASSERT_EQ(triangles(data).size(), 1u);
+  data.curves[0].order = 2;
+  EXPECT_TRUE(triangles(data).empty());
+}
+
+TEST(Chart, StandsTheWorstInput) {
+  WorkPrecision data;
+  data.title = "Nothing";
+  EXPECT_TRUE(all_finite(work_precision_chart(data, kBoth, look_of(light_theme()))));
+  data = one_curve(6);
+  data.floor = 1e-5;
+  data.curves[0].points.push_back({0, 0, 0, false, ""});
+  data.curves[0].points.push_back({HUGE_VAL, NAN, -1, false, ""});
+  EXPECT_TRUE(all_finite(work_precision_chart(data, kBoth, look_of(light_theme()))));
+  EXPECT_TRUE(all_finite(energy_chart({}, look_of(light_theme()))));
+  EnergyChart energy;
+  energy.curves.push_back({"a", {0, 1, 2}, {0, 0, HUGE_VAL}, "diverged", -1});
+  EXPECT_TRUE(all_finite(energy_chart(energy, look_of(dark_theme()))));
+}
+
+// --- energy ---
+
+TEST(EnergyChart, CrestsAreTheLargestOfEachPart) {
+  EnergyCurve curve{"a", {}, {}, "", -1};
+  for (int i = 1; i <= 10000; ++i) {
+    curve.t.push_back(i * 0.01);
+    curve.error.push_back((i % 7 == 0 ? -1 : 0.01) * i);
+  }
+  const auto found = crests(curve, 1, 20);
+  ASSERT_EQ(found.size(), 20u);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double end = std::pow(100.0, (i + 1) / 20.0);   // of its part
+    EXPECT_NEAR(found[i].y, 100 * end, 7.0 + 1e-9) << i;  // the last multiple of seven before it
+    EXPECT_NEAR(found[i].y, 100 * found[i].x, 1e-9);
+  }
+  EXPECT_TRUE(crests({"none", {}, {}, "", -1}, 1, 20).empty());
+}
+
+TEST(EnergyChart, SaysWhichRunsEndedEarly) {
+  const Picture picture = energy_chart(sample_energy(), look_of(light_theme()));
+  EXPECT_TRUE(says(picture, "explicit_euler (diverged)"));
+  EXPECT_TRUE(says(picture, "|energy error| [J]"));
+  EXPECT_FALSE(says(picture, "verlet ("));
+}
+
+// --- stability ---
+
+TEST(StabilityMap, ColoursCellsByErrorAndHatchesFailures) {
+  const StabilityMap data = sample_map(12, 8);
+  const Picture picture = stability_map(data, look_of(light_theme()));
+  const auto cells = all_of<Cells>(picture, [](const Cells& c) { return c.nx == 12; });
+  ASSERT_EQ(cells.size(), 1u);
+  int failed = 0;
+  for (std::size_t i = 0; i < data.cells.size(); ++i) {
+    EXPECT_EQ(cells[0].colors[i] == light_theme().grid, data.cells[i].failed) << i;
+    failed += data.cells[i].failed;
+  }
+  ASSERT_GT(failed, 10);
+  const auto hatch =
+      all_of<Capsule>(picture, [](const Capsule& c) { return c.paint.fill == light_theme().base; });
+  EXPECT_GT(hatch.size(), 10u);
+  EXPECT_TRUE(says(picture, "failed"));
+
+  StabilityMap stable = data;
+  for (MapCell& cell : stable.cells) cell.failed = false;
+  EXPECT_FALSE(says(stability_map(stable, look_of(light_theme())), "failed"));
+}
+
+TEST(StabilityMap, ItsColoursGetLighterStepByStep) {
+  const auto light = [](double share) {
+    const Color c = map_color(share);
+    return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
+  };
+  for (int i = 0; i < 50; ++i) EXPECT_LT(light(i / 50.0), light((i + 1) / 50.0)) << i;
+  EXPECT_EQ(map_color(-3), map_color(0));
+  EXPECT_EQ(map_color(NAN), map_color(0));
+  EXPECT_EQ(map_color(7), map_color(1));
+}
+
+TEST(StabilityMap, AWrongNumberOfCellsIsAnError) {
+  StabilityMap data = sample_map(4, 3);
+  data.cells.pop_back();
+  EXPECT_THROW(stability_map(data, look_of(light_theme())), Error);
+}
+
+// Of cells that know: a corner of two, a hole, and one that does not know.
+TEST(EdgesBetween, RunAlongTheSidesOfCellsThatDiffer) {
+  const std::optional<bool> yes = true, no = false, unknown;
+  const auto corner = edges_between({yes, yes, no, yes, no, no}, 3, 2);
+  ASSERT_EQ(corner.size(), 1u);
+  ASSERT_EQ(corner[0].size(), 4u);
+  const Point ends[] = {corner[0].front(), corner[0].back()};
+  EXPECT_EQ(ends[0].x + ends[1].x, 3);
+  EXPECT_EQ(ends[0].y + ends[1].y, 2);
+  const auto hole = edges_between({yes, yes, yes, yes, no, yes, yes, yes, yes}, 3, 3);
+  ASSERT_EQ(hole.size(), 1u);
+  EXPECT_EQ(hole[0].size(), 5u);
+  EXPECT_TRUE(edges_between({yes, unknown, no}, 3, 1).empty());
+  EXPECT_TRUE(edges_between({yes, yes, yes, yes}, 2, 2).empty());
+}
+
+}  // namespace
+}  // namespace chainreel

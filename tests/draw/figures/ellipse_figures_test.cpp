@@ -1,0 +1,183 @@
+// Figures of many poses: superposed, in a row, over the workspace, and in joint space. Oracle: forward kinematics and
+// eigenvectors, taken to the page by the camera that two known places of the chain give away.
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "core/error.hpp"
+#include "draw/chains.hpp"
+#include "draw/figures/ellipse_figure.hpp"
+#include "draw/figures/poses.hpp"
+#include "draw/shapes.hpp"
+#include "dynamics/crba.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kOneDegree = std::numbers::pi / 180;
+const std::vector<std::vector<double>> kPoses{{0, 90 * kOneDegree}, {0.4, 150 * kOneDegree}, {1, 60 * kOneDegree}};
+
+bool is_mass_ellipse(const Ellipse& e) {
+  return e.paint.stroke == light_theme().ellipse && e.paint.fill.a > 0;
+}
+
+Point tip_of_rr(const std::vector<double>& q) {
+  return {std::cos(q[0]) + std::cos(q[0] + q[1]), std::sin(q[0]) + std::sin(q[0] + q[1])};
+}
+
+PoseFigureOptions with_layout(const std::string& layout) {
+  PoseFigureOptions options;
+  options.layout = layout;
+  return options;
+}
+
+// Ellipses stand at the tips: one camera takes all tips of unit links to the page, to a thousandth of a pixel at 1080.
+TEST(Superposed, HasEveryEllipseAtItsTipWithItsOwnAxes) {
+  const Picture picture =
+      draw_ellipse_figure(TipMass(test::model("rr")), kPoses, with_layout("superposed"), fonts());
+  const auto ellipses = test::all_of<Ellipse>(picture, is_mass_ellipse);
+  ASSERT_EQ(ellipses.size(), 3u);
+  const Point a = tip_of_rr(kPoses[0]), b = tip_of_rr(kPoses[1]), c = tip_of_rr(kPoses[2]);
+  const double scale = test::distance(ellipses[0].center, ellipses[1].center) / test::distance(a, b);
+  const Point expected = ellipses[0].center + scale * (c - a);
+  EXPECT_LT(test::distance(ellipses[2].center, expected), 1e-3 / 1080);
+  // Lambda = diag(1, 2) at the first pose; 5 kg along (-sqrt 3, 1) / 2, turned by 0.4 rad, at the second.
+  const double per_kg = test::length(ellipses[0].v);
+  EXPECT_NEAR(std::abs(ellipses[0].u.y), 2 * per_kg, 1e-12);
+  EXPECT_NEAR(test::length(ellipses[1].u), 5 * per_kg, 1e-12);
+  const double angle = 150 * kOneDegree + 0.4;
+  EXPECT_NEAR(std::abs(ellipses[1].u.x * std::cos(angle) + ellipses[1].u.y * std::sin(angle)), 5 * per_kg, 1e-12);
+}
+
+TEST(Superposed, ShowsChainsAsOnionSkinsAndEllipsesInFull) {
+  const Picture picture =
+      draw_ellipse_figure(TipMass(test::model("rr")), kPoses, with_layout("superposed"), fonts());
+  const auto links = test::all_of<Capsule>(
+      picture, [](const Capsule& c) { return c.paint.stroke_width == size::kLinkOutline && c.paint.fill.a == 1; });
+  ASSERT_EQ(links.size(), 6u);
+  for (const Capsule& link : links) EXPECT_FALSE(link.paint.fill == light_theme().link[0]);
+  for (const Ellipse& e : test::all_of<Ellipse>(picture, is_mass_ellipse))
+    EXPECT_TRUE(e.paint.stroke == light_theme().ellipse);
+}
+
+TEST(EllipseFigure, PutsAllPosesIntoOneRowWhereItIsToldTo) {
+  const std::vector<std::vector<double>> six(6, kPoses[0]);
+  const auto rows = [&](const std::string& layout) {
+    std::vector<double> bottoms;
+    for (const Rect& r : draw_ellipse_figure(TipMass(test::model("rr")), six, with_layout(layout), fonts()).clips)
+      if (std::none_of(bottoms.begin(), bottoms.end(), [&](double y) { return std::abs(y - r.y0) < 1e-9; }))
+        bottoms.push_back(r.y0);
+    return bottoms.size();
+  };
+  EXPECT_EQ(rows("row"), 1u);
+  EXPECT_EQ(rows("grid"), 2u);
+}
+
+// Far from singular poses the ratio of largest and smallest mass is below 32: then all ellipses are whole on every page.
+TEST(EllipseFigure, HasWholeEllipsesOfAllOrdinaryPosesOnEveryPage) {
+  struct Case {
+    std::string model;
+    std::vector<std::vector<double>> poses;
+  };
+  const std::vector<Case> cases{
+      {"rrr", {{0, 0.6, 0.6}, {0.3, 2.2, 0.4}, {1, 0.4, -1.8}, {0.2, 2.5, -2.5}}},
+      {"rr", {{0, 15 * kOneDegree}, {0.4, 150 * kOneDegree}, {1, 60 * kOneDegree}, {0, 3 * kOneDegree}}},
+  };
+  for (const auto& [model, poses] : cases)
+    for (const auto& [width, height] : {std::pair{1000, 1000}, {1920, 1080}, {1080, 1920}})
+      for (const char* layout : {"grid", "row", "superposed"}) {
+        PoseFigureOptions options = with_layout(layout);
+        options.width = width;
+        options.height = height;
+        const Chain chain = test::model(model);
+        const TipMass mass(chain);
+        Workspace ws(chain);
+        std::size_t ordinary = 0;
+        for (const Pose& pose : poses_of(mass, poses, options, ws)) ordinary += is_ordinary(pose.axes) ? 1 : 0;
+        EXPECT_GE(ordinary, 2u) << model;
+        const Picture picture = draw_ellipse_figure(mass, poses, options, fonts());
+        EXPECT_GE(test::all_of<Ellipse>(picture, is_mass_ellipse).size(), ordinary) << model << " " << layout << width;
+        EXPECT_THAT(test::words_of(picture), testing::Not(testing::HasSubstr("\u221E")));
+      }
+}
+
+TEST(EllipseFigure, HasAllReadings) {
+  for (const EllipseReading reading : {EllipseReading::mass, EllipseReading::energy, EllipseReading::belt})
+    for (const char* layout : {"grid", "superposed"}) {
+      PoseFigureOptions options = with_layout(layout);
+      options.reading = reading;
+      std::vector<std::vector<double>> poses = kPoses;
+      poses.push_back({0, 0});
+      const Picture picture = draw_ellipse_figure(TipMass(test::model("rr")), poses, options, fonts());
+      EXPECT_TRUE(test::all_finite(picture));
+      const std::string words = test::words_of(picture);
+      EXPECT_THAT(words, testing::HasSubstr(ellipse_legend(reading).substr(0, 12)));
+      EXPECT_THAT(words, testing::HasSubstr(reading == EllipseReading::energy ? " m/s" : " kg"));
+      const bool infinite = words.find("\u221E") != std::string::npos;
+      EXPECT_EQ(infinite, reading != EllipseReading::energy) << to_string(reading) << " " << layout;
+    }
+}
+
+TEST(Field, KeepsEachEllipseInItsCell) {
+  PoseFigureOptions options;
+  options.cell = 0.4;
+  // A stretched chain among them: an open ellipse.
+  std::vector<std::vector<double>> poses{{0, 0}};
+  for (const double q2 : {0.8, 1.2, 1.6, 2.0}) poses.push_back({-0.5, q2});
+  const Picture picture = draw_ellipse_figure(TipMass(test::model("rr")), poses, options, fonts());
+  // The whole scene, and a cell for each.
+  ASSERT_EQ(picture.clips.size(), 6u);
+  const double side = picture.clips[1].width();
+  for (std::size_t i = 1; i < picture.clips.size(); ++i) {
+    EXPECT_NEAR(picture.clips[i].width(), side, 1e-12);
+    EXPECT_NEAR(picture.clips[i].height(), side, 1e-12);
+    const Point moved = test::middle_of(picture.clips[i]) - test::middle_of(picture.clips[1]);
+    const Point expected = (side / 0.4) * (tip_of_rr(poses[i - 1]) - tip_of_rr(poses[0]));
+    EXPECT_LT(test::distance(moved, expected), 1e-3 / 1080);
+  }
+  for (const Item& item : picture.items)
+    if (const auto* e = std::get_if<Ellipse>(&item.shape); e && is_mass_ellipse(*e)) {
+      EXPECT_TRUE(test::is_inside(picture.clips[std::size_t(item.clip)], e->center + e->u, 1e-9));
+      EXPECT_LT(test::length(e->u), side / std::sqrt(2.0));
+    }
+  EXPECT_THAT(test::words_of(picture), testing::Not(testing::HasSubstr("\u221E")));
+  EXPECT_THAT(test::words_of(picture), testing::HasSubstr("fading where longer than its cell"));
+}
+
+TEST(JointSpace, ShowsTheImageOfTheUnitCircle) {
+  // M = [[3, 1], [1, 1]] at (0, 90 deg): eigenvalues 2 +- sqrt 2.
+  const Picture picture =
+      draw_joint_space_figure(test::model("rr"), {{0, 90 * kOneDegree}}, {0, 1}, {}, fonts());
+  const auto ellipses = test::all_of<Ellipse>(picture, is_mass_ellipse);
+  ASSERT_EQ(ellipses.size(), 2u);
+  const double radius = test::length(ellipses[0].u);
+  EXPECT_NEAR(test::length(ellipses[0].v), radius, 1e-12);
+  const double ratio = test::length(ellipses[1].u) / test::length(ellipses[1].v);
+  EXPECT_NEAR(ratio, (2 + std::sqrt(2.0)) / (2 - std::sqrt(2.0)), 1e-10);
+  // Its long axis is the eigenvector (1, sqrt 2 - 1).
+  EXPECT_NEAR(std::abs(ellipses[1].u.y / ellipses[1].u.x), std::sqrt(2.0) - 1, 1e-10);
+  const std::string words = test::words_of(picture);
+  EXPECT_THAT(words, testing::HasSubstr("acceleration 1 [rad/s\u00B2]"));
+  EXPECT_THAT(words, testing::HasSubstr("torque 2 [N m]"));
+}
+
+TEST(JointSpace, OfSlidesHasTheirUnits) {
+  const std::string words = test::words_of(
+      draw_joint_space_figure(test::model("pp"), {{0, 0}}, {0, 1}, {}, fonts()));
+  EXPECT_THAT(words, testing::HasSubstr("acceleration 1 [m/s\u00B2]"));
+  EXPECT_THAT(words, testing::HasSubstr("force 1 [N]"));
+}
+
+// Negative control: another pair of joints of RRR, another image.
+TEST(JointSpace, TakesTheJointsThatAreNamed) {
+  const auto ratio = [](std::array<int, 2> joints) {
+    const auto ellipses = test::all_of<Ellipse>(
+        draw_joint_space_figure(test::model("rrr"), {{0, 1, 1}}, joints, {}, fonts()), is_mass_ellipse);
+    return test::length(ellipses.at(1).u) / test::length(ellipses.at(1).v);
+  };
+  EXPECT_GT(std::abs(ratio({0, 1}) - ratio({1, 2})), 0.1);
+  EXPECT_THROW(draw_joint_space_figure(test::model("rr"), std::vector<std::vector<double>>(4, {0, 1}), {0, 1}, {}, fonts()), Error);
+}
+
+}  // namespace
+}  // namespace chainreel

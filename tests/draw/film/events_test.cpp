@@ -1,0 +1,69 @@
+// What films say of events, and the foot with what the ground answers.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "draw/film/film.hpp"
+#include "draw/shapes.hpp"
+#include "scene/prepare.hpp"
+#include "scene/read_scene.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::HasSubstr;
+
+class FallingHuman : public ::testing::Test {
+ protected:
+  FallingHuman()
+      : scene_(read_scene("assets/scenes/humanoid_fall.yaml")), simulation_(prepare(scene_, false)) {
+    for (int k = 0; k < 120; ++k) times_.push_back(k / 60.0);
+    run_ = simulate(simulation_, times_);
+  }
+
+  Film film(const Simulation* simulation) {
+    return {scene_, {{scene_, simulation_.chain, run_, simulation}}, times_, fonts_};
+  }
+
+  Scene scene_;
+  Simulation simulation_;
+  std::vector<double> times_;
+  Trajectory run_;
+  Fonts fonts_;
+};
+
+TEST_F(FallingHuman, IsNotedFromTheInstantOn) {
+  const Film film = this->film(&simulation_);
+  ASSERT_EQ(run_.events.size(), 2);
+  for (int k = 0; k < run_.size(); ++k) {
+    const std::string note = film.panel(0).note(k);
+    const double t = run_.t[std::size_t(k)];
+    EXPECT_EQ(note.empty(), t < run_.events.t[0]) << t;
+    EXPECT_EQ(note.find("hip at knee height") != std::string::npos, t >= run_.events.t[1]) << t;
+  }
+  EXPECT_EQ(film.panel(0).note(119),
+            "centre of pressure leaves the foot at t = 1.53 s;  hip at knee height at t = 1.65 s");
+  EXPECT_EQ(film.panel(0).title(), "A standing human falls in 1.65 s");
+}
+
+TEST_F(FallingHuman, IsNotNotedOnNothing) {
+  EXPECT_THAT(test::words_of(film(&simulation_).frame(119)), HasSubstr("hip at knee height"));
+  scene_.layout = "transparent";
+  const Film film = this->film(&simulation_);
+  EXPECT_EQ(test::words_of(film.static_layer()) + test::words_of(film.frame(119)), "");
+  const double height = film.scene_area().height();
+  scene_.events.clear();
+  EXPECT_DOUBLE_EQ(height, this->film(&simulation_).scene_area().height()) << "no row is kept for it";
+}
+
+TEST_F(FallingHuman, HasAnArrowWhereTheGroundPushes) {
+  const auto shapes = [&](const Simulation* simulation, int k) {
+    return film(simulation).frame(k).items.size();
+  };
+  EXPECT_GT(shapes(&simulation_, 60), shapes(nullptr, 60)) << "negative control: nothing to compute it from";
+  // At the end the fixed foot is pulled down: no ground does that.
+  EXPECT_EQ(shapes(&simulation_, run_.size() - 1), shapes(nullptr, run_.size() - 1));
+}
+
+}  // namespace
+}  // namespace chainreel

@@ -1,0 +1,299 @@
+// Films of several panels: one camera and one scale, words above and below, and runs that leave the picture.
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "draw/chains.hpp"
+#include "draw/film/film.hpp"
+#include "draw/shapes.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::vector<double> sliding(double t) {
+  return {0, std::cos(3 * t)};
+}
+// Grows by e each third of a second.
+std::vector<double> growing(double t) {
+  return {0, std::exp(3 * t) * std::cos(9 * t)};
+}
+
+class PanelFilm : public ::testing::Test {
+ protected:
+  PanelFilm() {
+    page.title = "Whole";
+    page.file = "scenes/test.yaml";
+    page.layout = "compare";
+  }
+
+  // A run of PP with its panel's title; a wild one diverges at its last sample.
+  void add(const std::string& title, const std::function<std::vector<double>(double)>& q, bool wild = false,
+           int frames = kFrames) {
+    scenes.push_back(std::make_unique<Scene>(page));
+    scenes.back()->title = title;
+    runs.push_back(std::make_unique<Trajectory>(test::run_of(q, frames)));
+    if (wild) runs.back()->status = RunStatus::diverged;
+    if (scenes.size() > 2) page.layout = "grid";
+  }
+
+  Film film() const {
+    std::vector<PanelRun> panels;
+    for (std::size_t i = 0; i < runs.size(); ++i) panels.push_back({*scenes[i], chain, *runs[i]});
+    std::vector<double> times;
+    for (int k = 0; k < kFrames; ++k) times.push_back(frame_time(k, {}));
+    return Film(page, panels, times, fonts());
+  }
+
+  static std::vector<Ellipse> grippers(const Picture& picture) {
+    return test::all_of<Ellipse>(picture, [](const Ellipse& e) {
+      return e.paint.fill == light_theme().ink && e.paint.stroke_width == 0 &&
+             test::length(e.u) < 0.6 * size::kEndEffector;
+    });
+  }
+
+  static constexpr int kFrames = 120;
+  Chain chain = test::model("pp");
+  Scene page;
+  std::vector<std::unique_ptr<Scene>> scenes;
+  std::vector<std::unique_ptr<Trajectory>> runs;
+};
+
+TEST_F(PanelFilm, ShowsEveryRunAtTheSameScaleInPanelsOfTheSameSize) {
+  add("left", sliding);
+  add("right", [](double t) { return std::vector<double>{0.5 * t, 0.2}; });
+  const Film both = film();
+  const Rect &a = both.scene_area(0), &b = both.scene_area(1);
+  EXPECT_NEAR(a.width(), b.width(), 1e-12);
+  EXPECT_EQ(a.y0, b.y0);
+  EXPECT_EQ(a.y1, b.y1);
+  EXPECT_NEAR(b.x0 - a.x1, size::kGutter, 1e-12);
+  EXPECT_EQ(both.camera(0).scale, both.camera(1).scale);
+  // The same place of the world lies at the same place of each panel.
+  const Eigen::Vector3d place(0.3, 0.4, 0);
+  const Point in_a = both.camera(0).project(place) - Point{a.x0, a.y0};
+  const Point in_b = both.camera(1).project(place) - Point{b.x0, b.y0};
+  EXPECT_LT(test::distance(in_a, in_b), 1e-12);
+}
+
+TEST_F(PanelFilm, ShowsEachGripperWhereItsOwnRunHasIt) {
+  add("left", sliding);
+  add("right", [](double t) { return std::vector<double>{0.5 * t, 0.2}; });
+  const Film both = film();
+  const std::vector<Ellipse> discs = grippers(both.frame(50));
+  ASSERT_EQ(discs.size(), 2u);
+  const double t = 50 / 60.0;
+  EXPECT_LT(test::distance(discs[0].center, both.camera(0).project({0, std::cos(3 * t), 0})), 1e-12);
+  EXPECT_LT(test::distance(discs[1].center, both.camera(1).project({0.5 * t, 0.2, 0})), 1e-12);
+  EXPECT_GT(test::distance(discs[1].center, both.camera(0).project({0.5 * t, 0.2, 0})), 0.1);  // control
+}
+
+TEST_F(PanelFilm, HasOneScaleForAllEllipsesSmallerThanThatOfAWholePage) {
+  page.draw.push_back("ellipse");
+  add("left", sliding);
+  const double alone = film().ellipse_scale().per_unit();
+  for (int i = 1; i < 4; ++i) add("more", sliding);
+  const double bar = film().ellipse_scale().per_unit();
+  // Half of it, rounded to a bar of 1, 2 or 5 x 10^n kg.
+  EXPECT_LT(bar, 0.8 * alone);
+  EXPECT_GT(bar, 0.2 * alone);
+}
+
+TEST_F(PanelFilm, HasArrowsThatShrinkWithThePanelsSides) {
+  page.draw.push_back("velocity");
+  add("left", sliding);
+  const auto longest = [&] { return film().vector_scales().of(VectorKind::velocity).page_of_largest; };
+  EXPECT_NEAR(longest(), 0.20, 1e-12);
+  add("right", sliding);
+  EXPECT_NEAR(longest(), 0.20 / std::sqrt(2), 1e-12);
+  for (int i = 2; i < 4; ++i) add("more", sliding);
+  EXPECT_NEAR(longest(), 0.10, 1e-12);
+}
+
+TEST_F(PanelFilm, FitsTheUnionOfItsRuns) {
+  add("small", [](double) { return std::vector<double>{0, 0.1}; });
+  add("large", [](double t) { return std::vector<double>{0, 3 * std::sin(t)}; });
+  const double both = film().camera().scale;
+  runs[1] = std::make_unique<Trajectory>(*runs[0]);
+  EXPECT_GT(film().camera().scale, 2 * both);
+}
+
+TEST_F(PanelFilm, LeavesARunThatDivergesOutOfTheFit) {
+  add("calm", sliding);
+  add("calm, too", sliding);
+  const double calm = film().camera().scale;
+  runs.pop_back();
+  scenes.pop_back();
+  add("wild", growing, true);
+  const Film with_wild = film();
+  // The row for the note below the panels takes a part of their height, and that is all.
+  EXPECT_LT(with_wild.camera().scale, calm);
+  EXPECT_GT(with_wild.camera().scale, 0.85 * calm);
+  runs[1]->status = RunStatus::finished;  // negative control: now it counts
+  EXPECT_LT(film().camera().scale, 0.1 * calm);
+}
+
+TEST_F(PanelFilm, ARunThatLeavesThePictureStandsStillAndSaysWhen) {
+  add("calm", sliding);
+  add("wild", growing, true);
+  const Film both = film();
+  const Rect& area = both.scene_area(1);
+  // The first frame at which the slider, half a carriage long on both sides, is not all inside: from the
+  // formula.
+  const double half = size::kCarriageLength / 2;
+  int left = 0;
+  while (test::is_inside(area, both.camera(1).project({0, growing(left / 60.0)[1], 0}), -half)) ++left;
+  ASSERT_GT(left, 2);
+  ASSERT_LT(left, kFrames - 10);
+  EXPECT_THAT(test::words_of(both.frame(left - 1)), Not(HasSubstr("left the picture")));
+  const std::string note = "left the picture at " + time_text(left / 60.0);
+  EXPECT_THAT(test::words_of(both.frame(left)), HasSubstr(note));
+  EXPECT_THAT(test::words_of(both.frame(kFrames - 1)), HasSubstr(note));
+  EXPECT_EQ(both.panel(1).left_at(), left / 60.0);
+  EXPECT_FALSE(both.panel(0).left_at());
+  // It stands still where it was last inside, while the other goes on.
+  const auto last_inside = grippers(both.frame(left - 1)), later = grippers(both.frame(left + 8));
+  ASSERT_EQ(later.size(), 2u);
+  EXPECT_EQ(later[1].center.y, last_inside[1].center.y);
+  EXPECT_TRUE(test::is_inside(area, later[1].center));
+  EXPECT_NE(later[0].center.y, last_inside[0].center.y);
+}
+
+TEST_F(PanelFilm, ARunThatEndsInsideThePictureIsDatedByItsEnd) {
+  add("calm", sliding);
+  add("wild", sliding, true, 40);
+  runs[1]->end_time = 0.66;
+  EXPECT_THAT(test::words_of(film().frame(40)), HasSubstr("left the picture at t = 0.66 s"));
+  runs[1]->status = RunStatus::not_converged;
+  EXPECT_THAT(test::words_of(film().frame(40)), HasSubstr("ended at t = 0.66 s"));
+  EXPECT_THAT(test::words_of(film().frame(39)), Not(HasSubstr("ended")));
+}
+
+TEST_F(PanelFilm, WhereAllDivergeTheCameraHoldsThemAll) {
+  add("wild", growing, true);
+  add("wild, too", growing, true);
+  const Film both = film();
+  EXPECT_TRUE(test::all_finite(both.frame(kFrames - 1)));
+  EXPECT_THAT(test::words_of(both.frame(kFrames - 1)), HasSubstr("left the picture"));
+}
+
+TEST_F(PanelFilm, AloneStandsStillOnlyWhereItIsToDiverge) {
+  add("", sliding, true, 40);
+  scenes[0]->expect = page.expect = "diverge";
+  EXPECT_THAT(test::words_of(film().frame(60)), HasSubstr("left the picture"));
+  EXPECT_THAT(test::words_of(film().frame(60)), HasSubstr("t = 1.00 s"));
+  scenes[0]->expect = page.expect = "finish";
+  EXPECT_THAT(test::words_of(film().frame(60)), Not(HasSubstr("left the picture")));
+}
+
+TEST_F(PanelFilm, HasOneTitleOneTimeAndATitleForEachPanelInTheColourOfItsSide) {
+  add("left", sliding);
+  add("right", sliding);
+  const Film both = film();
+  const std::string words = test::words_of(both.static_layer());
+  for (const char* title : {"Whole", "left", "right"}) EXPECT_THAT(words, HasSubstr(title));
+  EXPECT_EQ(test::words_of(both.frame(30)), "t = 0.50 s");
+  for (const GlyphRun& run : test::all_of<GlyphRun>(both.static_layer())) {
+    if (run.text == "left") {
+      EXPECT_EQ(run.color, light_theme().side_a);
+    }
+    if (run.text == "right") {
+      EXPECT_EQ(run.color, light_theme().side_b);
+    }
+    if (run.text == "Whole") {
+      EXPECT_EQ(run.color, light_theme().ink);
+    }
+  }
+}
+
+TEST_F(PanelFilm, WritesAllPanelTitlesAtOneSize) {
+  add("left", sliding);
+  add("a title that is so long that it has to be smaller", sliding);
+  std::vector<double> sizes;
+  for (const GlyphRun& run : test::all_of<GlyphRun>(film().static_layer()))
+    if (run.color == light_theme().side_a || run.color == light_theme().side_b) sizes.push_back(run.size);
+  ASSERT_EQ(sizes.size(), 2u);
+  EXPECT_EQ(sizes[0], sizes[1]);
+  EXPECT_LT(sizes[0], size::kSymbol);
+}
+
+TEST_F(PanelFilm, SaysTheTorqueOnlyWhereAllPanelsHaveTheSame) {
+  add("left", sliding);
+  add("right", sliding);
+  const auto torque_of = [](Scene& scene, const std::string& second) {
+    scene.torque = {{"7", {}, {}}, {second, {}, {}}};
+  };
+  torque_of(*scenes[0], "8");
+  torque_of(*scenes[1], "8");
+  EXPECT_THAT(test::words_of(film().static_layer()), HasSubstr("7"));
+  torque_of(*scenes[1], "9");
+  EXPECT_THAT(test::words_of(film().static_layer()), Not(HasSubstr("7")));
+}
+
+TEST_F(PanelFilm, KeepsEverythingThatMovesInsideItsPanelAndWordsOutside) {
+  for (int i = 0; i < 5; ++i) add("panel", sliding);
+  const Film five = film();
+  for (const Picture& picture : {five.static_layer(), five.frame(70)}) {
+    ASSERT_EQ(picture.clips.size(), 5u);
+    for (const Item& item : picture.items) {
+      if (item.clip < 0) continue;
+      const Rect& clip = picture.clips[std::size_t(item.clip)];
+      if (const auto* c = std::get_if<Capsule>(&item.shape)) {
+        EXPECT_TRUE(test::is_inside(clip, c->a) && test::is_inside(clip, c->b));
+      }
+      if (const auto* e = std::get_if<Ellipse>(&item.shape)) {
+        EXPECT_TRUE(test::is_inside(clip, e->center));
+      }
+    }
+  }
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < i; ++j) EXPECT_FALSE(test::overlap(five.scene_area(i), five.scene_area(j)));
+}
+
+TEST_F(PanelFilm, BlamesThePanelWhoseTitleDoesNotFit) {
+  add("left", sliding);
+  add(std::string(120, 'm'), sliding);
+  scenes[1]->places["title"] = {"scenes/test.yaml", 7, 5};
+  try {
+    film();
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::StartsWith("scenes/test.yaml:7:5: the title of panel 2"));
+  }
+}
+
+TEST(PanelGrid, TakesTheArrangementInWhichThingsAreLargest) {
+  const auto box_of = [](double width, double height) {
+    FitBox box;
+    const int kind = box.add_kind({});
+    box.add(kind, {0, 0});
+    box.add(kind, {width, height});
+    return box;
+  };
+  const Rect area{0, 0, 1.6, 0.8};
+  const auto columns = [&](double width, double height, int count) {
+    const std::vector<PanelCell> cells = best_cells(area, count, {}, box_of(width, height));
+    int n = 0;
+    while (n < count && cells[std::size_t(n)].scene.y0 == cells[0].scene.y0) ++n;
+    return n;
+  };
+  EXPECT_EQ(columns(1, 3, 4), 4);  // tall things stand side by side
+  EXPECT_EQ(columns(3, 1, 4), 2);
+  EXPECT_EQ(columns(9, 1, 4), 1);  // flat ones lie above each other
+  EXPECT_EQ(columns(1, 1, 12), 4);
+  EXPECT_TRUE(best_cells({0, 0, 0.2, 0.2}, 12, {}, box_of(1, 1)).empty());
+}
+
+TEST(PanelGrid, OfOnePanelIsTheWholeArea) {
+  const Rect area{0.045, 0.1, 1.7, 0.9};
+  const Rect scene = panel_cells(area, 1, 1, {}).at(0).scene;
+  EXPECT_EQ(scene.x0, area.x0);
+  EXPECT_EQ(scene.x1, area.x1);
+  EXPECT_EQ(scene.y0, area.y0);
+  EXPECT_EQ(scene.y1, area.y1);
+}
+
+}  // namespace
+}  // namespace chainreel

@@ -1,0 +1,91 @@
+// Plots beside the scene of a clip.
+#include "draw/film/plot_strip.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace chainreel {
+namespace {
+
+StripRun run_of(const std::string& title, bool wild, const std::vector<double>& y) {
+  PlotCurves plot;
+  plot.title = "height [m]";
+  plot.curves.push_back({"", y});
+  StripRun run{title, wild, {}, {plot}};
+  for (std::size_t k = 0; k < y.size(); ++k) run.times.push_back(double(k));
+  return run;
+}
+
+PlotStyle style_of(const Fonts& fonts) {
+  return {&fonts, &light_theme(), 1};
+}
+
+constexpr Rect kStripArea{0.1, 0.1, 1.6, 0.4};
+
+double right_end(const Picture& picture, Color color) {
+  double right = 0;
+  for (const Item& item : picture.items)
+    if (const auto* trail = std::get_if<Trail>(&item.shape))
+      if (trail->color == color)
+        for (const TrailPoint& point : trail->points) right = std::max(right, point.p.x);
+  return right;
+}
+
+TEST(PlotStrip, DrawsThePastInFullAndTheFuturePale) {
+  const Fonts fonts;
+  const PlotStrip strip(strip_data({run_of("a", false, {0, 1, 2, 3, 4})}, 0, 4, light_theme()), kStripArea,
+                        style_of(fonts));
+  Picture still, moving;
+  strip.draw_static(still);
+  strip.draw_frame(moving, 2);
+  const Color full = light_theme().curve[0];
+  const double width = size::kPlotLine;
+  EXPECT_NEAR(right_end(moving, full), strip.frame().at_x(2), width);
+  EXPECT_NEAR(right_end(still, full.faded(0.25)), strip.frame().at_x(4), width);
+  EXPECT_EQ(right_end(still, full), 0);
+}
+
+TEST(PlotStrip, RunsThatWentWildDoNotDecideOnTheAxis) {
+  const Fonts fonts;
+  const auto tame = run_of("a", false, {0, 1, 2}), wild = run_of("b", true, {0, 50, 1e8});
+  const PlotStrip strip(strip_data({tame, wild}, 0, 2, light_theme()), kStripArea, style_of(fonts));
+  EXPECT_LT(strip.frame().y.high, 3);
+  const PlotStrip alone(strip_data({wild}, 0, 2, light_theme()), kStripArea, style_of(fonts));
+  EXPECT_GT(alone.frame().y.high, 1e7);
+}
+
+TEST(PlotStrip, TwoRunsBearTheColoursOfTheirTitlesMoreAreNamed) {
+  const auto a = run_of("left", false, {0, 1}), b = run_of("right", false, {1, 0}),
+             c = run_of("third", false, {0, 0});
+  const StripData two = strip_data({a, b}, 0, 1, light_theme());
+  EXPECT_EQ(two.curves[0].style.color, light_theme().side_a);
+  EXPECT_EQ(two.curves[1].style.color, light_theme().side_b);
+  EXPECT_EQ(two.curves[0].label, "");
+  const StripData three = strip_data({a, b, c}, 0, 1, light_theme());
+  EXPECT_EQ(three.curves[2].label, "third");
+}
+
+TEST(PlotStrip, PlotsAndSceneShareThePageWithoutOverlap) {
+  const Rect page{0.05, 0.1, 1.7, 0.9};
+  const PlotAreas below = plot_areas(page, 2, PlotPlace::below);
+  EXPECT_LT(below.plots[0].y1, below.scene.y0);
+  EXPECT_LT(below.plots[0].x1, below.plots[1].x0);
+  EXPECT_NEAR(below.plots[0].height(), 0.30 * page.height(), 1e-12);
+  const PlotAreas right = plot_areas(page, 3, PlotPlace::right);
+  EXPECT_LT(right.scene.x1, right.plots[0].x0);
+  EXPECT_GT(right.plots[0].y0, right.plots[1].y1);
+  EXPECT_NEAR(right.plots[0].width(), 0.38 * page.width(), 1e-12);
+  EXPECT_EQ(plot_areas(page, 0, PlotPlace::below).scene.y0, page.y0);
+}
+
+TEST(PlotStrip, WhatIsConstantOrNoNumberStillHasAnAxis) {
+  const Fonts fonts;
+  for (const std::vector<double>& y : {std::vector<double>{5, 5, 5}, {0, 0, 0}, {NAN, NAN}}) {
+    const PlotStrip strip(strip_data({run_of("a", false, y)}, 0, 2, light_theme()), kStripArea, style_of(fonts));
+    EXPECT_GT(strip.frame().y.high, strip.frame().y.low);
+  }
+}
+
+}  // namespace
+}  // namespace chainreel

@@ -1,0 +1,78 @@
+#include "draw/film/torque_label.hpp"
+
+#include <gmock/gmock.h>
+
+#include "draw/chains.hpp"
+
+namespace chainreel {
+namespace {
+
+std::string label(const std::string& model, const std::vector<std::string>& entries) {
+  std::vector<TorqueEntry> torque;
+  for (const std::string& text : entries) torque.emplace_back().text = text;
+  return torque_notations(test::model(model), torque).front();
+}
+
+TEST(TorqueLabel, SaysWhatActsAsTheLectureWritesIt) {
+  EXPECT_EQ(label("rrr", {"10", "10", "10"}), "tau = (10, 10, 10) N m");
+  EXPECT_EQ(label("rr", {"0", "0"}), "tau = (0, 0) N m");
+}
+
+TEST(TorqueLabel, ShowsExpressionsAsWritten) {
+  EXPECT_EQ(label("pp", {"0", "-100 * y_G"}), "tau = (0, -100 * y_G) N");
+}
+
+TEST(TorqueLabel, RaisesExponentsAsAWhole) {
+  EXPECT_EQ(label("pp", {"t ^ 2", "2 ^ (t - (1 + q1))"}), "tau = (t^{2}, 2^{t - (1 + q1)}) N");
+  EXPECT_EQ(label("pp", {"2 ^ -1 * t", "2^cos(t) + 1"}), "tau = (2^{-1} * t, 2^{cos(t)} + 1) N");
+  EXPECT_NO_THROW(lay_out_math(fonts(), label("pp", {"min(t, 2) ^ 2", "3 ^ (-t) * x_G"}), {}));
+}
+
+TEST(TorqueLabel, WithoutEntriesSaysThatNothingActs) {
+  EXPECT_EQ(label("rrr", {}), "tau = (0, 0, 0) N m");
+}
+
+TEST(TorqueLabel, OfOneJointNeedsNoBracketsAroundANumber) {
+  EXPECT_EQ(label("p", {"9.81"}), "tau = 9.81 N");
+  EXPECT_EQ(label("p", {"-k * q1"}), "tau = (-k * q1) N");
+}
+
+TEST(TorqueLabel, HasNoUnitWhereForcesAndTorquesMix) {
+  Chain chain = test::model("rr");
+  chain.bodies[2].joint.kind = JointKind::prismatic;
+  EXPECT_EQ(torque_notations(chain, {}).front(), "tau = (0, 0)");
+}
+
+TEST(TorqueLabel, NamesWhatAControlDoes) {
+  Control control;
+  control.gravity_compensation = true;
+  control.pd.emplace();
+  EXPECT_EQ(control_notation(control), "tau_g(q) + PD");
+  EXPECT_NO_THROW(lay_out_math(fonts(), "tau = " + control_notation(control), {}));
+  Control from_file;
+  from_file.csv = "tau.csv";
+  EXPECT_EQ(control_notation(from_file), "tau(t)");
+  Control computed;
+  computed.computed_torque.emplace();
+  EXPECT_EQ(control_notation(computed), "computed torque");
+  EXPECT_EQ(control_notation({}), "0");
+  // For the whole chain, and for one joint beside a number.
+  EXPECT_EQ(torque_notations(test::model("rr"), {}, control).front(), "tau = tau_g(q) + PD");
+  std::vector<TorqueEntry> torque(2);
+  torque[0].control = computed;
+  EXPECT_EQ(torque_notations(test::model("rr"), torque).front(), "tau = (computed torque, 0) N m");
+}
+
+TEST(TorqueLabel, OffersEverShorterForms) {
+  Chain chain = test::model("rrr");
+  std::vector<TorqueEntry> torque;
+  for (int i = 1; i <= 12; ++i) torque.emplace_back().text = std::to_string(i);
+  const std::vector<std::string> forms = torque_notations(chain, torque);
+  EXPECT_THAT(forms.front(), testing::HasSubstr("1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12)"));
+  EXPECT_THAT(forms, testing::Contains("tau = (1, 2, \u2026, 12) N m"));
+  EXPECT_EQ(forms.back(), "tau = tau(t, q, qd)");
+  for (const std::string& form : forms) EXPECT_NO_THROW(lay_out_math(fonts(), form, {})) << form;
+}
+
+}  // namespace
+}  // namespace chainreel

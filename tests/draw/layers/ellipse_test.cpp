@@ -1,0 +1,257 @@
+// The oracle is the closed form of RR with L1 = L2 = 1 m, m1 = m2 = 1 kg: at theta = (0, 90 deg) Lambda =
+// diag(1, 2), at (0, 150 deg) Lambda = [[4, -sqrt 3], [-sqrt 3, 2]], with eigenvalues 5 and 1 along (-sqrt 3,
+// 1) / 2 and (1, sqrt 3) / 2.
+#include "draw/layers/ellipse.hpp"
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "core/format.hpp"
+#include "draw/chains.hpp"
+#include "draw/shapes.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+// M and J of unit links, an inverse and an eigenproblem: some hundred roundings of numbers up to 5.
+constexpr double kEllipseRoundOff = 1e-12;
+
+struct DrawnEllipse {
+  std::vector<MassAxis> axes;
+  Picture picture;
+  EllipseStyle style;
+  Camera camera;
+  Point center{0.8, 0.5};
+
+  explicit DrawnEllipse(const std::vector<double>& q, double per_kg = 0.05, Point at = {0.8, 0.5}) : center(at) {
+    const Chain chain = test::model("rr");
+    Workspace ws(chain);
+    axes = mass_axes(effective_mass_of(chain, ws, q, chain.end_effector, Task::linear));
+    style = {&light_theme(), &fonts(), 1, per_kg, {0.045, 0.11, 1.73, 0.87}};
+    draw_mass_ellipse(picture, axes, center, camera, style, -1);
+  }
+
+  std::string words() const { return test::words_of(picture); }
+  // Lines along the open direction: fading at one end.
+  std::vector<Capsule> fading() const {
+    return test::all_of<Capsule>(picture, [](const Capsule& c) { return c.alpha_b == 0; });
+  }
+};
+
+TEST(Ellipse, HasTheEigenvaluesOfLambdaAsSemiAxes) {
+  const DrawnEllipse bent({0, 150 * kDegree});
+  const auto ellipses = test::all_of<Ellipse>(bent.picture);
+  ASSERT_EQ(ellipses.size(), 1u);
+  const Ellipse& e = ellipses[0];
+  EXPECT_LT(test::distance(e.center, bent.center), kEllipseRoundOff);
+  EXPECT_NEAR(test::length(e.u), 5 * 0.05, kEllipseRoundOff);
+  EXPECT_NEAR(test::length(e.v), 1 * 0.05, kEllipseRoundOff);
+  const double s = std::sqrt(3.0) / 2;
+  EXPECT_NEAR(std::abs(e.u.x * -s + e.u.y * 0.5), 5 * 0.05, kEllipseRoundOff);
+  EXPECT_NEAR(std::abs(e.v.x * 0.5 + e.v.y * s), 1 * 0.05, kEllipseRoundOff);
+  EXPECT_EQ(e.paint.stroke_width, size::kEllipseLine);
+  EXPECT_NEAR(e.paint.fill.a, 0.16, 1e-12);
+  EXPECT_EQ(bent.words(), "");
+}
+
+// Negative control: another pose has another ellipse, with the axes of its own Lambda = diag(1, 2).
+TEST(Ellipse, FollowsThePose) {
+  const Ellipse e = test::all_of<Ellipse>(DrawnEllipse({0, 90 * kDegree}).picture).at(0);
+  EXPECT_NEAR(std::abs(e.u.y), 2 * 0.05, kEllipseRoundOff);
+  EXPECT_NEAR(std::abs(e.v.x), 1 * 0.05, kEllipseRoundOff);
+  EXPECT_GT(std::abs(test::length(e.u) - 5 * 0.05), 0.1);
+}
+
+TEST(Ellipse, ShowsTheMajorAxisSolidAndTheMinorOneDashed) {
+  const DrawnEllipse bent({0, 150 * kDegree});
+  const auto lines = test::all_of<Capsule>(bent.picture);
+  double longest = 0, minor = 0;
+  for (const Capsule& line : lines) {
+    EXPECT_DOUBLE_EQ(2 * line.radius, size::kEllipseAxis);
+    longest = std::max(longest, test::distance(line.a, line.b));
+    if (test::distance(line.a, line.b) < 0.1) minor += test::distance(line.a, line.b);
+  }
+  EXPECT_NEAR(longest, 2 * 5 * 0.05, kEllipseRoundOff);
+  EXPECT_GT(minor, 0.4 * 2 * 0.05);
+  EXPECT_LT(minor, 0.9 * 2 * 0.05);
+}
+
+TEST(Ellipse, IsAnOpenBandAtASingularPose) {
+  const DrawnEllipse stretched({0, 0});
+  EXPECT_TRUE(test::all_of<Ellipse>(stretched.picture).empty());
+  EXPECT_EQ(stretched.words(), "\u221E\u221E");
+  EXPECT_TRUE(test::all_finite(stretched.picture));
+  // The mass across is 1 / (J M^-1 J^T)_yy. With J = [[0, 0], [2, 1]], M = [[5, 2], [2, 1]]: (2, 1) M^-1 (2,
+  // 1)^T = 1.
+  const auto lines = stretched.fading();
+  ASSERT_EQ(lines.size(), 4u);
+  for (const Capsule& line : lines) {
+    EXPECT_NEAR(std::abs(line.a.y - 0.5), 1 * 0.05, kEllipseRoundOff);
+    EXPECT_NEAR(line.a.y, line.b.y, kEllipseRoundOff);
+    EXPECT_EQ(line.alpha_a, 1);
+    EXPECT_NEAR(test::distance(line.a, line.b), size::kEllipseFade, kEllipseRoundOff);
+    EXPECT_NEAR(std::min(std::abs(line.b.x - stretched.style.scene.x0),
+                         std::abs(line.b.x - stretched.style.scene.x1)),
+                0, kEllipseRoundOff);
+  }
+}
+
+TEST(Ellipse, FillsTheBandBetweenItsLinesAndFadesItBeforeTheEdge) {
+  const DrawnEllipse stretched({0.6, 0});
+  const Point along{std::cos(0.6), std::sin(0.6)}, across{-along.y, along.x};
+  const auto layers = test::all_of<Polygon>(stretched.picture);
+  double opacity = 1;
+  for (const Polygon& layer : layers) {
+    opacity *= 1 - layer.paint.fill.a;
+    for (int i = 0; i < layer.count; ++i) {
+      const Point p = layer.corners[std::size_t(i)], r = p - stretched.center;
+      EXPECT_LE(std::abs(r.x * across.x + r.y * across.y), 0.05 + kEllipseRoundOff);
+      EXPECT_TRUE(test::is_inside(stretched.style.scene, p));
+    }
+  }
+  EXPECT_NEAR(1 - opacity, 0.16, kEllipseRoundOff);
+  EXPECT_GT(layers.size(), 10u);
+}
+
+TEST(Ellipse, NearlySingularIsStillNeverANumberThatWasCut) {
+  // lambda_max is 4e6 kg here and would end far outside: the band is open, and its width is the minor axis.
+  const DrawnEllipse nearly({0, 1e-3});
+  EXPECT_TRUE(test::all_of<Ellipse>(nearly.picture).empty());
+  EXPECT_EQ(nearly.words(), "\u221E\u221E");
+}
+
+// RR near its stretched pose, but regular: of Lambda_inv the smaller eigenvalue is 1e-4 of the larger one or more.
+TEST(Ellipse, HasNoInfinitySignWhereJIsRegular) {
+  for (const EllipseReading reading : {EllipseReading::mass, EllipseReading::belt})
+    for (const double angle : {2.0, 5.0, 20.0, 178.0}) {
+      DrawnEllipse regular({0.3, angle * kDegree}, 0.3);
+      regular.style.reading = reading;
+      regular.picture = {};
+      draw_mass_ellipse(regular.picture, regular.axes, regular.center, regular.camera, regular.style, -1);
+      ASSERT_TRUE(regular.axes[0].mass);
+      EXPECT_TRUE(test::all_of<Ellipse>(regular.picture).empty()) << "it is too large for the scene";
+      EXPECT_TRUE(test::all_finite(regular.picture));
+      // Its mass, at both ends of the axis that is cut.
+      const std::string mass = format_significant(*regular.axes[0].mass, 3) + " kg";
+      EXPECT_EQ(regular.words(), mass + mass) << angle;
+      // The curve fades: nothing of it is there at the edge that the axis leaves through.
+      double least = 1;
+      for (const Trail& trail : test::all_of<Trail>(regular.picture))
+        for (const TrailPoint& point : trail.points) {
+          EXPECT_TRUE(test::is_inside(regular.style.scene, point.p, 1e-9));
+          least = std::min(least, point.alpha);
+        }
+      EXPECT_LT(least, 1e-6);
+    }
+}
+
+// As the axis grows beyond the edge, the curve fades over no more than it leads out, and the mass comes in gradually:
+// between two frames of a film nothing flashes.
+TEST(Ellipse, FadesGraduallyAsItOutgrowsItsScene) {
+  const double reach = 0.8 - 0.045;  // of the centre from the left edge, the farther one is at 1.73 - 0.8 = 0.93
+  EXPECT_LT(reach, 0.93);
+  for (const double excess : {0.001, 0.01, 0.05, 0.3}) {
+    const std::vector<MassAxis> axes{{1, Eigen::Vector3d::UnitX()}, {0.1, Eigen::Vector3d::UnitY()}};
+    const EllipseStyle style{&light_theme(), &fonts(), 1, 0.93 + excess, {0.045, 0.11, 1.73, 0.87}};
+    Picture picture;
+    draw_mass_ellipse(picture, axes, {0.8, 0.5}, {}, style, -1);
+    const double stretch = std::min(excess, size::kEllipseFade);
+    double outermost = 0;
+    for (const Trail& trail : test::all_of<Trail>(picture)) {
+      if (trail.points.front().width != size::kEllipseLine) continue;  // the axis ends before its mass
+      for (const TrailPoint& point : trail.points) {
+        const double inside = std::min(point.p.x - style.scene.x0, style.scene.x1 - point.p.x);
+        EXPECT_NEAR(point.alpha, std::clamp(inside / stretch, 0.0, 1.0), 1e-9);
+        outermost = std::max(outermost, point.p.x);
+      }
+    }
+    EXPECT_NEAR(outermost, style.scene.x1, 1e-9);
+    const auto words = test::all_of<GlyphRun>(picture);
+    ASSERT_EQ(words.size(), 2u);
+    EXPECT_EQ(words[0].text, "1 kg");
+    EXPECT_NEAR(words[0].color.a, std::min(1.0, excess / 0.02), 1e-9);
+  }
+  // Just inside, it is whole.
+  Picture whole;
+  draw_mass_ellipse(whole, {{1, Eigen::Vector3d::UnitX()}, {0.1, Eigen::Vector3d::UnitY()}}, {0.8, 0.5}, {},
+                    {&light_theme(), &fonts(), 1, 0.9299, {0.045, 0.11, 1.73, 0.87}}, -1);
+  EXPECT_EQ(test::all_of<Ellipse>(whole).size(), 1u);
+  EXPECT_EQ(test::words_of(whole), "");
+}
+
+TEST(Ellipse, IsOnlyClippedWhereOneEndOfAnAxisStaysInTheScene) {
+  // The tip near the right edge: the major axis leaves there, its other end shows its length.
+  const DrawnEllipse at_edge({0, 150 * kDegree}, 0.05, {1.70, 0.5});
+  EXPECT_EQ(test::all_of<Ellipse>(at_edge.picture).size(), 1u);
+  // At ten times the scale both ends are outside.
+  const DrawnEllipse large({0, 150 * kDegree}, 0.5, {0.8, 0.5});
+  EXPECT_TRUE(test::all_of<Ellipse>(large.picture).empty());
+}
+
+TEST(Ellipse, KeepsInfinitySignsInsideTheSceneWhereverTheTipIs) {
+  for (const Point tip : {Point{0.05, 0.12}, {1.72, 0.86}, {0.8, 0.86}, {1.70, 0.5}}) {
+    const DrawnEllipse stretched({0, 0}, 0.05, tip);
+    int signs = 0;
+    for (const GlyphRun& run : test::all_of<GlyphRun>(stretched.picture)) {
+      const TextLine sign =
+          lay_out_text(fonts(), run.text, {run.face, run.size, run.color, Align::left});
+      // The run's origin is its left end.
+      EXPECT_TRUE(test::is_inside(stretched.style.scene, test::shifted(sign.box, run.origin)));
+      ++signs;
+    }
+    EXPECT_EQ(signs, 2);
+  }
+}
+
+TEST(Ellipse, OfAPointThatCannotMoveIsInfiniteEverywhere) {
+  EffectiveMass stuck;
+  stuck.basis = {{"x", "y"}, {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()}};
+  stuck.mobility = Eigen::VectorXd::Zero(2);
+  stuck.directions = Eigen::MatrixXd::Identity(2, 2);
+  const auto axes = mass_axes(stuck);
+  EXPECT_FALSE(axes.at(0).mass || axes.at(1).mass);
+  EXPECT_FALSE(bounded_semi_axis(axes, EllipseReading::mass));
+  Picture picture;
+  draw_mass_ellipse(picture, axes, {0.8, 0.5}, {}, {&light_theme(), &fonts(), 1, 0.1, {0, 0, 1.7, 1}},
+                    -1);
+  EXPECT_EQ(test::words_of(picture), "\u221E\u221E");
+}
+
+TEST(Ellipse, InSpaceIsTheSilhouetteOfTheEllipsoid) {
+  const std::vector<MassAxis> axes{
+      {3, Eigen::Vector3d::UnitX()}, {2, Eigen::Vector3d::UnitY()}, {1, Eigen::Vector3d::UnitZ()}};
+  Camera camera;  // looks along -z first
+  const EllipseStyle style{&light_theme(), &fonts(), 1, 0.1, {0, 0, 1.7, 1}};
+  Picture front;
+  draw_mass_ellipse(front, axes, {0.8, 0.5}, camera, style, -1);
+  EXPECT_NEAR(test::length(test::all_of<Ellipse>(front).at(0).u), 0.3, kEllipseRoundOff);
+  EXPECT_NEAR(test::length(test::all_of<Ellipse>(front).at(0).v), 0.2, kEllipseRoundOff);
+  // From 45 degrees between y and z the silhouette is sqrt((2^2 + 1^2) / 2) high.
+  const double c = std::sqrt(0.5);
+  camera.up = {0, c, c};
+  camera.toward_viewer = {0, -c, c};
+  Picture oblique;
+  draw_mass_ellipse(oblique, axes, {0.8, 0.5}, camera, style, -1);
+  EXPECT_NEAR(test::length(test::all_of<Ellipse>(oblique).at(0).v), 0.1 * std::sqrt(2.5), kEllipseRoundOff);
+  // And the principal ellipses, but for the one that is seen from its edge.
+  EXPECT_EQ(test::all_of<Ellipse>(oblique).size(), 3u);
+}
+
+TEST(EllipseScale, DrawsARoundMassNearTheMedianAsTheBar) {
+  EXPECT_EQ(ellipse_scale({0.9, 1.0, 40}, 0.1).bar, 1);
+  EXPECT_EQ(ellipse_scale({0.013}, 0.1).bar, 0.01);
+  EXPECT_EQ(ellipse_scale({1.8, 2.4, 2.2}, 0.1).bar, 2);
+  EXPECT_EQ(ellipse_scale({8}, 0.1).bar, 10);
+  EXPECT_EQ(ellipse_scale({300, std::numeric_limits<double>::infinity()}, 0.1).bar, 200);
+  EXPECT_EQ(ellipse_scale({}, 0.1).bar, 1);
+  // Whatever the median, its axis is drawn within a factor sqrt(2.5) of the bar: half way between 2 and 5.
+  for (double m = 0.01; m < 100; m *= 1.1) {
+    const double drawn = m * ellipse_scale({m}, 0.1).per_unit() / 0.1;
+    EXPECT_LT(std::max(drawn, 1 / drawn), std::sqrt(2.5) + 1e-12) << m;
+  }
+}
+
+}  // namespace
+}  // namespace chainreel

@@ -1,0 +1,587 @@
+// Layers over the chain: every vector is where and as long as the physics says, and nothing overlaps the
+// words.
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "draw/chains.hpp"
+#include "draw/film/film.hpp"
+#include "draw/layers/acting.hpp"
+#include "draw/layers/ghosts.hpp"
+#include "draw/page/arrow.hpp"
+#include "draw/shapes.hpp"
+#include "dynamics/kinematics.hpp"
+#include "picture/point.hpp"
+#include "render/canvas.hpp"
+#include "support/picture_compare.hpp"
+
+namespace chainreel {
+namespace {
+
+using Eigen::Vector3d;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr double kLayersRoundOff = 1e-9;  // of places that are sums of a few numbers of size 1
+// The runs have their rates from central differences over 1e-5 s: wrong by h^2/6 q''' ~ 1e-9.
+constexpr double kRate = 1e-8;
+
+// A straight arrow as it is drawn: a shaft and a head.
+struct SeenArrow {
+  Point tail, tip;
+  Point v() const { return tip - tail; }
+};
+
+std::vector<Polygon> heads(const Picture& picture, Color color) {
+  return test::all_of<Polygon>(picture,
+                               [&](const Polygon& p) { return p.count == 3 && p.paint.fill == color; });
+}
+
+// Arrows inside scenes (clipped) or in the foot (not). The first shaft before a head begins at its tail.
+std::vector<SeenArrow> arrows(const Picture& picture, Color color, bool in_scene = true) {
+  std::vector<SeenArrow> found;
+  std::optional<Point> tail;
+  for (const Item& item : picture.items) {
+    if ((item.clip >= 0) != in_scene) continue;
+    if (const auto* shaft = std::get_if<Capsule>(&item.shape)) {
+      if (shaft->paint.fill == color && !tail) tail = shaft->a;
+    }
+    if (const auto* head = std::get_if<Polygon>(&item.shape)) {
+      if (head->count != 3 || head->paint.fill != color || !tail) continue;
+      found.push_back({*tail, head->corners[0]});
+      tail.reset();
+    }
+  }
+  return found;
+}
+
+std::vector<Arc> arcs(const Picture& picture, Color color) {
+  std::vector<Arc> found;
+  for (const Item& item : picture.items) {
+    const auto* arc = std::get_if<Arc>(&item.shape);
+    if (arc && item.clip >= 0 && arc->color == color) found.push_back(*arc);
+  }
+  return found;
+}
+
+// How far the first arc turns, up to the tip of the head that follows it, counter-clockwise positive.
+std::vector<double> turns(const Picture& picture, Color color) {
+  std::vector<double> found;
+  const Arc* arc = nullptr;
+  for (const Item& item : picture.items) {
+    if (item.clip < 0) continue;
+    if (const auto* a = std::get_if<Arc>(&item.shape); a && a->color == color) arc = a;
+    const auto* head = std::get_if<Polygon>(&item.shape);
+    if (!arc || !head || head->paint.fill != color) continue;
+    const Point tip = head->corners[0] - arc->center;
+    const double end = arc->start + arc->sweep;  // inside of the head
+    found.push_back(arc->sweep + std::remainder(std::atan2(tip.y, tip.x) - end, 2 * std::numbers::pi));
+    arc = nullptr;
+  }
+  return found;
+}
+
+class LayerFilm : public ::testing::Test {
+ protected:
+  LayerFilm() {
+    scene.title = "Layers";
+    scene.file = "scenes/test.yaml";
+  }
+
+  void make(const std::string& name, const std::vector<std::string>& torque,
+            const std::function<std::vector<double>(double)>& motion, int frames = 300) {
+    simulation.chain = test::model(name);
+    std::vector<TorqueEntry> entries;
+    for (const std::string& text : torque) entries.push_back({text, {}, {}});
+    simulation.torque = make_torque_law(simulation.chain, entries, {});
+    scene.torque = std::move(entries);
+    run = test::run_of(motion, frames);
+  }
+  void make_rr() { make("rr", {"10*sin(2*t)", "-3"}, test::swing); }
+
+  Film film() const {
+    return Film(scene, {{scene, simulation.chain, run, &simulation}}, run.t, fonts());
+  }
+  void draw(const std::vector<std::string>& more) {
+    scene.draw.insert(scene.draw.end(), more.begin(), more.end());
+  }
+
+  const Theme& light = light_theme();
+  Scene scene;
+  Simulation simulation;
+  Trajectory run;
+};
+
+Vector3d rr_velocity(double t) {
+  const double h = 1e-6;
+  const auto tip = [](double s) {
+    const auto q = test::swing(s);
+    return Vector3d(std::cos(q[0]) + std::cos(q[0] + q[1]), std::sin(q[0]) + std::sin(q[0] + q[1]), 0);
+  };
+  return (tip(t + h) - tip(t - h)) / (2 * h);
+}
+
+TEST_F(LayerFilm, VelocityIsAsLongAsItsShareOfTheFastestAndBeginsAtTheTip) {
+  make_rr();
+  draw({"velocity"});
+  const Film pictures = film();
+  double fastest = 0;
+  for (const double t : run.t) fastest = std::max(fastest, rr_velocity(t).norm());
+  EXPECT_NEAR(pictures.vector_scales().of(VectorKind::velocity).largest, fastest, 1e-7);
+  double longest = 0;
+  int seen = 0;
+  for (int k = 0; k < run.size(); ++k) {
+    const Vector3d v = rr_velocity(run.t[std::size_t(k)]);
+    const auto drawn = arrows(pictures.frame(k), light.velocity);
+    if (0.20 * v.norm() / fastest < 0.012 - 1e-6) {
+      EXPECT_TRUE(drawn.empty()) << k;
+    }
+    if (0.20 * v.norm() / fastest < 0.012 + 1e-6) continue;
+    ASSERT_EQ(drawn.size(), 1u) << k;
+    const auto q = test::swing(run.t[std::size_t(k)]);
+    const Point tip = pictures.camera().project(
+        {std::cos(q[0]) + std::cos(q[0] + q[1]), std::sin(q[0]) + std::sin(q[0] + q[1]), 0});
+    EXPECT_LT(test::distance(drawn[0].tail, tip), kLayersRoundOff);
+    const double per_unit = 0.20 / fastest;
+    EXPECT_LT(test::distance(drawn[0].v(), {per_unit * v.x(), per_unit * v.y()}), kRate) << k;
+    longest = std::max(longest, test::length(drawn[0].v()));
+    ++seen;
+  }
+  EXPECT_GT(seen, 250);
+  EXPECT_NEAR(longest, 0.20, kRate);
+  // Negative control: a frame on, it is another vector.
+  EXPECT_GT(test::distance(arrows(pictures.frame(60), light.velocity).at(0).v(),
+                           arrows(pictures.frame(61), light.velocity).at(0).v()),
+            1e-4);
+}
+
+TEST_F(LayerFilm, WeightsHangAtTheCentresOfMassAndGoWithTheMasses) {
+  make_rr();
+  simulation.chain.bodies[2].inertia.mass = 0.4;
+  draw({"gravity"});
+  const Film pictures = film();
+  for (const int k : {0, 100, 299}) {
+    const auto q = test::swing(run.t[std::size_t(k)]);
+    const auto drawn = arrows(pictures.frame(k), light.force);
+    ASSERT_EQ(drawn.size(), 2u);
+    const Vector3d first(std::cos(q[0]), std::sin(q[0]), 0);
+    const Vector3d second = first + Vector3d(std::cos(q[0] + q[1]), std::sin(q[0] + q[1]), 0);
+    EXPECT_LT(test::distance(drawn[0].tail, pictures.camera().project(first)), kLayersRoundOff);
+    EXPECT_LT(test::distance(drawn[1].tail, pictures.camera().project(second)), kLayersRoundOff);
+    EXPECT_LT(test::distance(drawn[0].v(), {0, -0.20}), kLayersRoundOff);
+    EXPECT_LT(test::distance(drawn[1].v(), {0, -0.08}), kLayersRoundOff);
+  }
+}
+
+TEST_F(LayerFilm, TorquesTurnInTheirSenseByTheirShareOfThreeHundredDegrees) {
+  make_rr();
+  draw({"torque"});
+  const Film pictures = film();
+  double largest = 3;
+  for (const double t : run.t) largest = std::max(largest, std::abs(10 * std::sin(2 * t)));
+  for (int k = 1; k < run.size(); ++k) {
+    const double t = run.t[std::size_t(k)], tau = 10 * std::sin(2 * t);
+    if (std::abs(tau) < 0.02 * largest) continue;
+    const Picture picture = pictures.frame(k);
+    const auto drawn = turns(picture, light.torque);
+    ASSERT_EQ(drawn.size(), 2u) << k;
+    const double full = 300 * std::numbers::pi / 180;
+    EXPECT_NEAR(drawn[0], full * tau / largest, kLayersRoundOff) << k;
+    EXPECT_NEAR(drawn[1], full * -3 / largest, kLayersRoundOff) << k;
+    const auto places = arcs(picture, light.torque);
+    const auto q = test::swing(t);
+    EXPECT_LT(test::distance(places[0].center, pictures.camera().project(Vector3d::Zero())), kLayersRoundOff);
+    EXPECT_LT(
+        test::distance(places[1].center, pictures.camera().project({std::cos(q[0]), std::sin(q[0]), 0})),
+        kLayersRoundOff);
+    EXPECT_NEAR(places[0].radius, 0.058, kLayersRoundOff);
+  }
+}
+
+TEST_F(LayerFilm, ATorqueOfNextToNothingIsARing) {
+  make("rr", {"10*(t > 1)", "0.05"}, test::swing);
+  draw({"torque"});
+  const Film pictures = film();
+  for (const int k : {0, 200}) {
+    const auto drawn = arcs(pictures.frame(k), light.torque);
+    ASSERT_EQ(drawn.size(), 2u);
+    EXPECT_EQ(heads(pictures.frame(k), light.torque).size(), k == 0 ? 0u : 1u);
+    EXPECT_NEAR(std::abs(drawn[1].sweep), 2 * std::numbers::pi, kLayersRoundOff);
+  }
+}
+
+TEST_F(LayerFilm, ForcesOfSlidersRunBesideTheirRails) {
+  make(
+      "pp", {"4", "-2*cos(t)"},
+      [](double t) {
+        return std::vector<double>{t, std::sin(t)};
+      },
+      120);
+  draw({"torque"});
+  const Film pictures = film();
+  for (const int k : {0, 60}) {
+    const double t = run.t[std::size_t(k)];
+    const auto drawn = arrows(pictures.frame(k), light.torque);
+    ASSERT_EQ(drawn.size(), 2u);
+    Workspace ws(simulation.chain);
+    compute_kinematics(simulation.chain, ws, run.q_at(k), run.qd_at(k));
+    const Vector3d axes[] = {ws.X_WB[1].linear() * simulation.chain.bodies[1].joint.axis,
+                             ws.X_WB[2].linear() * simulation.chain.bodies[2].joint.axis};
+    const double forces[] = {4, -2 * std::cos(t)};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Point along{axes[i].x(), axes[i].y()};
+      EXPECT_LT(test::distance(drawn[i].v(), (0.20 * forces[i] / 4) * along), kLayersRoundOff);
+      const Point off = drawn[i].tail - pictures.camera().project(ws.X_WB[i + 1].translation());
+      EXPECT_NEAR(test::length(off), 0.034, kLayersRoundOff);
+      EXPECT_NEAR(off.x * along.x + off.y * along.y, 0, kLayersRoundOff);
+    }
+  }
+}
+
+TEST_F(LayerFilm, ConstraintForceIsDashedAndActsOnTheRobot) {
+  make(
+      "pp", {"0", "0"},
+      [](double t) {
+        return std::vector<double>{t, 0};
+      },
+      120);
+  // On a line along x: the multiplier is the force along y that the slider exerts on it.
+  simulation.constraints.list = {
+      LineConstraint{simulation.chain.frames[std::size_t(simulation.chain.end_effector)].name,
+                     Vector3d::Zero(), Vector3d::UnitX()}};
+  run.rows = 1;
+  for (int k = 0; k < run.size(); ++k) run.lambda.push_back(k < 60 ? 8 : -4);
+  draw({"constraint_force", "equation"});
+  const Film pictures = film();
+  const std::vector<Reaction> reactions = reactions_along(simulation, run).at(0);
+  ASSERT_EQ(reactions.size(), 1u);
+  EXPECT_NEAR(reactions[0].force.norm(), 8, kLayersRoundOff);
+  for (const int k : {0, 100}) {
+    const Picture picture = pictures.frame(k);
+    const auto drawn = arrows(picture, light.constraint);
+    ASSERT_EQ(drawn.size(), 1u);
+    const Vector3d force = reactions_along(simulation, run).at(std::size_t(k)).at(0).force;
+    // The first dash begins a radius of its round end behind the tail.
+    EXPECT_NEAR(test::length(drawn[0].v()), 0.20 * force.norm() / 8 - 0.003, kLayersRoundOff);
+    EXPECT_GT(drawn[0].v().y * force.y(), 0);
+    const auto dashes =
+        test::all_of<Capsule>(picture, [&](const Capsule& c) { return c.paint.fill == light.constraint; });
+    EXPECT_GT(dashes.size(), 3u);
+    for (const Capsule& dash : dashes) EXPECT_LE(test::distance(dash.a, dash.b) + 0.006, 0.012 + kLayersRoundOff);
+  }
+  EXPECT_THAT(test::words_of(pictures.static_layer()), HasSubstr("\U0001D706"));  // lambda
+}
+
+TEST(VectorPen, CutsWhatTheScaleCannotShowAndSaysSo) {
+  VectorScales scales;
+  scales.peaks.largest[std::size_t(VectorKind::velocity)] = 2;
+  const VectorPen pen(light_theme(), fonts(), 1, scales, 1);
+  for (const double value : {1.0, 2.4, 2.6, 1e9}) {
+    WorldVector v;
+    v.value = {value, 0, 0};
+    v.label = "v";
+    Picture picture;
+    MarkLabels labels;
+    pen.draw(picture, v, Camera{}, 0, labels);
+    const auto drawn = arrows(picture, light_theme().velocity);
+    ASSERT_EQ(drawn.size(), 1u);
+    EXPECT_NEAR(drawn[0].v().x, std::min(0.1 * value, 0.25), kLayersRoundOff);
+    EXPECT_EQ(heads(picture, light_theme().velocity).size(), value > 2.5 ? 2u : 1u);
+  }
+}
+
+TEST(VectorPen, TurnsInSpaceLieOnTheCircleAsTheCameraSeesIt) {
+  VectorScales scales;
+  scales.peaks.largest[std::size_t(VectorKind::torque)] = 1;
+  const VectorPen pen(light_theme(), fonts(), 1, scales, 1);
+  Camera camera;  // along -z
+  WorldVector v;
+  v.kind = VectorKind::torque;
+  v.axis = Vector3d(1, 0, 1).normalized();
+  v.value = v.axis;
+  v.label = "tau_1";
+  Picture picture;
+  MarkLabels labels;
+  pen.draw(picture, v, camera, 0, labels);
+  const auto paths = test::all_of<Trail>(picture);
+  ASSERT_EQ(paths.size(), 1u);
+  for (const TrailPoint& p : paths[0].points) {
+    // On the plane across the axis z = -x: the circle has depth -x where the page shows x.
+    EXPECT_NEAR(std::sqrt(2 * p.p.x * p.p.x + p.p.y * p.p.y), 0.058, kLayersRoundOff);
+  }
+}
+
+TEST_F(LayerFilm, ThePrintedScaleIsTheOneThatIsDrawn) {
+  make_rr();
+  draw({"velocity", "gravity", "torque", "legend"});
+  const Film pictures = film();
+  const Picture page = pictures.static_layer();
+  const std::string words = test::words_of(page);
+  EXPECT_THAT(words, HasSubstr("torque"));
+  EXPECT_THAT(words, HasSubstr("velocity"));
+  EXPECT_THAT(words, HasSubstr("weight"));
+  for (const ScaleEntry& entry :
+       scale_entries(pictures.vector_scales(), {VectorKind::velocity, VectorKind::weight}, false, light)) {
+    EXPECT_THAT(words, HasSubstr(entry.text));
+    const auto marks = arrows(page, entry.color, false);
+    ASSERT_EQ(marks.size(), 1u);
+    const double value = std::stod(entry.text);  // "5 m/s"
+    const VectorKind kind = entry.color == light.velocity ? VectorKind::velocity : VectorKind::weight;
+    const double largest = kind == VectorKind::velocity ? pictures.vector_scales().of(kind).largest : 9.81;
+    EXPECT_NEAR(test::length(marks[0].v()) / value, 0.20 / largest, kLayersRoundOff);
+    EXPECT_LE(value, largest);
+    EXPECT_GT(value, 0.4 * largest);
+  }
+  // Without the legend the numbers stay and the names go.
+  scene.draw.pop_back();
+  const std::string bare = test::words_of(film().static_layer());
+  EXPECT_THAT(bare, HasSubstr("m/s"));
+  EXPECT_THAT(bare, Not(HasSubstr("velocity")));
+}
+
+TEST_F(LayerFilm, TheCameraHoldsEveryVectorOfTheClip) {
+  make_rr();
+  const double bare = film().camera().scale;
+  draw({"velocity", "gravity", "torque"});
+  const Film pictures = film();
+  EXPECT_LT(pictures.camera().scale, bare);
+  double nearest = 1;
+  for (int k = 0; k < run.size(); ++k) {
+    const Picture picture = pictures.frame(k);
+    for (const Color color : {light.velocity, light.force, light.torque}) {
+      for (const Polygon& head : heads(picture, color)) {
+        for (int i = 0; i < 3; ++i) {
+          const Point p = head.corners[std::size_t(i)];
+          const Rect& area = pictures.scene_area();
+          EXPECT_TRUE(test::is_inside(area, p)) << k;
+          nearest = std::min({nearest, p.x - area.x0, area.x1 - p.x, p.y - area.y0, area.y1 - p.y});
+        }
+      }
+    }
+  }
+  // Not by leaving the page empty: some vector comes near to the margin around the fitted box, a label
+  // between.
+  EXPECT_LT(nearest, 0.16);
+}
+
+TEST_F(LayerFilm, CentreOfMassIsTheMeanOfTheMasses) {
+  make_rr();
+  simulation.chain.bodies[2].inertia.mass = 3;
+  draw({"com"});
+  const Film pictures = film();
+  for (const int k : {0, 77}) {
+    const auto q = test::swing(run.t[std::size_t(k)]);
+    const Vector3d first(std::cos(q[0]), std::sin(q[0]), 0);
+    const Vector3d second = first + Vector3d(std::cos(q[0] + q[1]), std::sin(q[0] + q[1]), 0);
+    const Point mean = pictures.camera().project((first + 3 * second) / 4);
+    const auto quarters =
+        test::all_of<Polygon>(pictures.frame(k), [](const Polygon& p) { return p.count == 8; });
+    ASSERT_EQ(quarters.size(), 2u);
+    for (const Polygon& quarter : quarters) EXPECT_LT(test::distance(quarter.corners[0], mean), kLayersRoundOff);
+  }
+}
+
+TEST_F(LayerFilm, FramesHaveTheAxesOfTheirLinks) {
+  make_rr();
+  draw({"frames"});
+  const Film pictures = film();
+  const int k = 50;
+  const auto q = test::swing(run.t[std::size_t(k)]);
+  const Picture picture = pictures.frame(k);
+  const auto x_tips = heads(picture, light.axis[0]), y_tips = heads(picture, light.axis[1]);
+  ASSERT_EQ(x_tips.size(), 3u);  // two links and the gripper
+  ASSERT_EQ(y_tips.size(), 3u);
+  const double angle = q[0] + q[1];
+  const Point joint = pictures.camera().project({std::cos(q[0]), std::sin(q[0]), 0});
+  EXPECT_LT(test::distance(x_tips[1].corners[0] - joint, {0.075 * std::cos(angle), 0.075 * std::sin(angle)}),
+            kLayersRoundOff);
+  EXPECT_LT(test::distance(y_tips[1].corners[0] - joint, {-0.075 * std::sin(angle), 0.075 * std::cos(angle)}),
+            kLayersRoundOff);
+  // z looks at the viewer: rings with dots. Letters say which is which, and only y has a tick.
+  const auto rings =
+      test::all_of<Ellipse>(picture, [&](const Ellipse& e) { return e.paint.stroke == light.axis[2]; });
+  EXPECT_EQ(rings.size(), 3u);
+  const auto lines = [&](int axis) {
+    return test::all_of<Capsule>(
+               picture, [&](const Capsule& c) { return c.paint.fill == light.axis[std::size_t(axis)]; })
+        .size();
+  };
+  EXPECT_EQ(lines(0), 3u);
+  EXPECT_EQ(lines(1), 6u);
+}
+
+TEST(Ghosts, AreEquallySpacedAndFadeWithAge) {
+  std::vector<double> times;
+  for (int k = 0; k < 200; ++k) times.push_back(frame_time(k, {50, 1}));
+  EXPECT_EQ(ghost_spacing({50, 1}), 8);
+  const auto all = ghosts_at(times, 100, {50, 1});
+  ASSERT_EQ(all.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(all[i].frame, 100 - 8 * int(6 - i));
+    EXPECT_EQ(all[i].filled, i >= 3);
+  }
+  EXPECT_NEAR(all.front().strength, 0.10, 1e-12);
+  EXPECT_NEAR(all.back().strength, 0.35, 1e-12);
+  EXPECT_TRUE(ghosts_at(times, 7, {50, 1}).empty());
+  EXPECT_EQ(ghosts_at(times, 16, {50, 1}).size(), 2u);
+  // An instant of a snapshot between the frames shifts no ghost by more than it must.
+  times.insert(times.begin() + 90, 1.795);
+  EXPECT_EQ(ghosts_at(times, 101, {50, 1}).back().frame, 93);
+}
+
+TEST_F(LayerFilm, GhostsStandWhereTheChainStood) {
+  make_rr();
+  draw({"ghosts"});
+  const Film pictures = film();
+  const auto is_link = [](const Capsule& c) { return c.paint.stroke_width > 0; };
+  const auto now = test::all_of<Capsule>(pictures.frame(200), is_link);
+  ASSERT_EQ(now.size(), 14u);  // six ghosts and the chain, two links each
+  for (int age = 1; age <= 6; ++age) {
+    const auto then = test::all_of<Capsule>(pictures.frame(200 - 10 * age), is_link);
+    EXPECT_LT(test::distance(now[std::size_t(12 - 2 * age)].b, then[then.size() - 2].b), kLayersRoundOff);
+    EXPECT_EQ(now[std::size_t(12 - 2 * age)].paint.fill.a > 0, age <= 3);
+  }
+}
+
+TEST_F(LayerFilm, MassMatrixShowsTheNumbersOfTheClosedFormInACornerThatStaysFree) {
+  make_rr();
+  draw({"mass_matrix", "velocity", "torque"});
+  const Film pictures = film();
+  const Picture at = pictures.frame(90);
+  const auto maps = test::all_of<Cells>(at);
+  ASSERT_EQ(maps.size(), 1u);
+  const double c = std::cos(test::swing(run.t[90])[1]);
+  const std::string words = test::words_of(at);
+  for (const double entry : {3 + 2 * c, 1 + c, 1.0}) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2f", entry);
+    EXPECT_THAT(words, HasSubstr(text));
+  }
+  // Row by row from below: M21, M22, M11, M12. The strongest colour is that of the largest entry.
+  EXPECT_EQ(maps[0].colors[0], maps[0].colors[3]);
+  EXPECT_EQ(maps[0].rect.x1 <= pictures.scene_area().x1 + 1e-12, true);
+  for (int k = 0; k < run.size(); ++k) {
+    for (const Item& item : pictures.frame(k).items) {
+      const auto* link = std::get_if<Capsule>(&item.shape);
+      if (!link || item.clip < 0) continue;
+      Point a = link->a, b = link->b;
+      EXPECT_FALSE(cut_segment(widened(maps[0].rect, link->radius), a, b)) << k;
+    }
+  }
+}
+
+TEST_F(LayerFilm, AMassMatrixThatFindsNoCornerStandsBesideTheScene) {
+  // A full turn of both links leaves no corner: the square of side 4 m fills the page's height.
+  make(
+      "rr", {"0", "0"},
+      [](double t) {
+        return std::vector<double>{2 * t, 0};
+      },
+      240);
+  scene.video.width = scene.video.height = 400;
+  scene.draw = {"chain"};
+  const double without = film().camera().scale;
+  draw({"mass_matrix"});
+  const Film pictures = film();
+  EXPECT_LT(pictures.camera().scale, without);
+  EXPECT_GT(test::all_of<Cells>(pictures.frame(0)).at(0).rect.x0, pictures.scene_area().x1);
+}
+
+TEST_F(LayerFilm, MassesKeepTheirSignAndTheirScale) {
+  const MassMap map(2, "kg m^2", 4, light, fonts(), 1);
+  EXPECT_EQ(map.number(-1.234), "\u22121.23");
+  EXPECT_EQ(map.number(-0.001), "0.00");
+  EXPECT_EQ(map.color_at(0), light.background);
+  const Color below = map.color_at(-4), above = map.color_at(4);
+  EXPECT_GT(below.b, below.r);
+  EXPECT_GT(above.r, above.b);
+  EXPECT_EQ(map.color_at(8), above);
+  EXPECT_EQ(mass_unit(test::model("pp")), "kg");
+  EXPECT_EQ(mass_unit(test::model("rr")), "kg m^2");
+}
+
+TEST_F(LayerFilm, TheEquationTakesTheColoursOfItsVectors) {
+  make_rr();
+  draw({"equation"});
+  const auto tau_color = [&] {
+    for (const GlyphRun& glyphs : test::all_of<GlyphRun>(film().static_layer()))
+      if (glyphs.text == "\U0001D70F" && glyphs.color != light.ink) return glyphs.color;
+    return light.ink;
+  };
+  EXPECT_THAT(test::words_of(film().static_layer()), HasSubstr("\U0001D40C("));
+  EXPECT_EQ(tau_color(), light.ink);
+  draw({"torque"});
+  EXPECT_EQ(tau_color(), light.torque);
+}
+
+TEST_F(LayerFilm, TorquesNeedTheirSimulation) {
+  make_rr();
+  draw({"torque"});
+  EXPECT_THROW(Film(scene, simulation.chain, run, run.size(), fonts()), std::logic_error);
+}
+
+TEST_F(LayerFilm, DarkPicturesHaveNoLightThemesColours) {
+  make_rr();
+  scene.theme = "dark";
+  draw({"velocity", "gravity", "torque", "com", "frames", "ghosts", "ellipse", "legend", "mass_matrix",
+        "equation", "scale_bar"});
+  const Film pictures = film();
+  Picture picture = pictures.static_layer();
+  picture.append(pictures.frame(100));
+  EXPECT_EQ(picture.background, dark_theme().background);
+  for (const GlyphRun& glyphs : test::all_of<GlyphRun>(picture))
+    EXPECT_NE(glyphs.color, light.ink) << glyphs.text;
+  for (const Capsule& capsule : test::all_of<Capsule>(picture)) {
+    EXPECT_NE(capsule.paint.fill, light.ink);
+    EXPECT_NE(capsule.paint.stroke, light.ink);
+  }
+  EXPECT_FALSE(arrows(picture, dark_theme().velocity).empty());
+  EXPECT_TRUE(arrows(picture, light.velocity).empty());
+}
+
+// Pictures at 640x360, as the pictures of scenes are.
+class LayerGolden : public LayerFilm {
+ protected:
+  void expect_golden(const std::string& name) {
+    scene.text_scale = 1.5;
+    scene.video.width = 640, scene.video.height = 360, scene.video.fps = {};
+    for (const char* theme : {"light", "dark"}) {
+      scene.theme = theme;
+      const Film pictures = film();
+      Picture picture = pictures.static_layer();
+      picture.append(pictures.frame(72));
+      Canvas canvas(640, 360, fonts());
+      Image image;
+      canvas.draw(picture, image);
+      EXPECT_TRUE(matches_golden(image, name + "_" + theme, {.max = 24, .mean = 0.05}));
+    }
+  }
+};
+
+TEST_F(LayerGolden, RrWithAllThatActsOnIt) {
+  make_rr();
+  scene.title = "All that acts on an RR";
+  scene.draw = {"chain",    "trail",   "ghosts", "com",  "torque",
+                "velocity", "gravity", "legend", "time", "title"};
+  expect_golden("layers_rr");
+}
+
+TEST_F(LayerGolden, PpWithForcesAndItsMassMatrix) {
+  make(
+      "pp", {"4", "-2*cos(3*t)"},
+      [](double t) {
+        return std::vector<double>{0.8 * t, 0.5 * std::sin(3 * t)};
+      },
+      120);
+  scene.title = "Forces of sliders";
+  scene.draw = {"chain",    "frames", "torque", "velocity", "mass_matrix",
+                "equation", "legend", "time",   "title"};
+  expect_golden("layers_pp");
+}
+
+}  // namespace
+}  // namespace chainreel

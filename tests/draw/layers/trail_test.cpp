@@ -1,0 +1,107 @@
+#include "draw/layers/trail.hpp"
+
+#include <gtest/gtest.h>
+
+#include "draw/shapes.hpp"
+#include "picture/theme.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kOmega = 2.0;  // rad/s
+
+// A circle on the page, sampled at 60 frames a second.
+TipPath circle(int frames) {
+  TipPath path;
+  for (int k = 0; k < frames; ++k) {
+    const double t = k / 60.0, c = std::cos(kOmega * t), s = std::sin(kOmega * t);
+    path.add(t, {0.8 + 0.3 * c, 0.5 + 0.3 * s}, {-0.3 * kOmega * s, 0.3 * kOmega * c});
+  }
+  return path;
+}
+
+Point on_circle(double t) {
+  return {0.8 + 0.3 * std::cos(kOmega * t), 0.5 + 0.3 * std::sin(kOmega * t)};
+}
+
+TEST(Trail, GoesBackOneSecondAndNoFurther) {
+  const TipPath path = circle(200);
+  Picture picture;
+  draw_trail(picture, path, 150, light_theme().curve[1], -1);
+  const auto trails = test::all_of<Trail>(picture);
+  ASSERT_EQ(trails.size(), 1u);
+  const auto& points = trails[0].points;
+  // Between frames the cubic misses the circle by (h omega)^4 / 384 of its radius: 1e-9.
+  EXPECT_LT(test::distance(points.front().p, on_circle(150 / 60.0 - 1)), 1e-8);
+  EXPECT_LT(test::distance(points.back().p, on_circle(150 / 60.0)), 1e-8);
+  for (const TrailPoint& p : points) EXPECT_NEAR(test::distance(p.p, {0.8, 0.5}), 0.3, 1e-8);
+}
+
+TEST(Trail, ThinsAndFadesFromHeadToEnd) {
+  const TipPath path = circle(200);
+  Picture picture;
+  draw_trail(picture, path, 150, light_theme().curve[1], -1);
+  const auto points = test::all_of<Trail>(picture).at(0).points;
+  EXPECT_DOUBLE_EQ(points.back().width, size::kTrailHead);
+  EXPECT_DOUBLE_EQ(points.back().alpha, kTrailOpacity);
+  EXPECT_NEAR(points.front().width, size::kTrailTail, 1e-12);
+  EXPECT_NEAR(points.front().alpha, 0, 1e-12);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    EXPECT_GT(points[i].width, points[i - 1].width);
+    EXPECT_GT(points[i].alpha, points[i - 1].alpha);
+  }
+}
+
+TEST(Trail, HasDotsAtWholeTenthsOfASecondThatStandStill) {
+  const TipPath path = circle(200);
+  const auto dots_at = [&](int k) {
+    Picture picture;
+    draw_trail(picture, path, k, light_theme().curve[1], -1);
+    return test::all_of<Ellipse>(picture);
+  };
+  const auto dots = dots_at(150);  // t = 2.5 s: dots at 1.6 .. 2.5 s, the one at 1.5 s has faded
+  ASSERT_EQ(dots.size(), 10u);
+  for (std::size_t i = 0; i < dots.size(); ++i) {
+    EXPECT_LT(test::distance(dots[i].center, on_circle(1.6 + 0.1 * double(i))), 1e-8);
+    EXPECT_DOUBLE_EQ(test::length(dots[i].u), size::kTrailDot / 2);
+  }
+  EXPECT_LT(test::distance(dots_at(151).at(0).center, dots[0].center), 1e-12);
+}
+
+TEST(Trail, IsShorterAtTheBeginningAndAbsentAtTheStart) {
+  const TipPath path = circle(40);
+  Picture start, early;
+  draw_trail(start, path, 0, light_theme().curve[0], -1);
+  EXPECT_TRUE(start.items.empty());
+  draw_trail(early, path, 30, light_theme().curve[0], -1);
+  EXPECT_LT(test::distance(test::all_of<Trail>(early).at(0).points.front().p, on_circle(0)), 1e-12);
+}
+
+TEST(Trail, NeverCrossesAGap) {
+  TipPath path;
+  for (int k = 0; k < 60; ++k) {
+    const bool wild = k == 20;
+    path.add(k / 60.0, {wild ? 1e9 : 0.5 + 0.005 * k, wild ? std::nan("") : 0.5}, {0.3, 0});
+  }
+  Picture picture;
+  draw_trail(picture, path, 50, light_theme().curve[0], -1);
+  const auto points = test::all_of<Trail>(picture).at(0).points;
+  EXPECT_NEAR(points.front().p.x, 0.5 + 0.005 * 21, 1e-12);
+  EXPECT_TRUE(test::all_finite(picture));
+  Picture at_gap;
+  draw_trail(at_gap, path, 20, light_theme().curve[0], -1);
+  EXPECT_TRUE(at_gap.items.empty());
+}
+
+// Negative control: the check above does see a trail that is too long.
+TEST(Trail, OfATwiceAsFastClockWouldReachTwiceAsFarBack) {
+  TipPath path;
+  for (int k = 0; k < 200; ++k) path.add(k / 120.0, on_circle(k / 60.0), {});
+  Picture picture;
+  draw_trail(picture, path, 150, light_theme().curve[1], -1);
+  EXPECT_GT(test::distance(test::all_of<Trail>(picture).at(0).points.front().p, on_circle(150 / 60.0 - 1)),
+            0.1);
+}
+
+}  // namespace
+}  // namespace chainreel

@@ -1,0 +1,102 @@
+#include "draw/robot/fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "draw/shapes.hpp"
+
+namespace chainreel {
+namespace {
+
+const Rect kFitArea{0.045, 0.11, 1.73, 0.87};
+constexpr double kMargin = 0.06;
+// The iteration ends at the last bits of numbers near 1.
+constexpr double kConverged = 1e-13;
+
+Rect page_box(const Camera& camera, const Rect& box_m) {
+  const Point low = camera.project({box_m.x0, box_m.y0, 0}), high = camera.project({box_m.x1, box_m.y1, 0});
+  return {low.x, low.y, high.x, high.y};
+}
+
+TEST(Fit, FillsTheAreaInOneDirectionAndIsCentredInBoth) {
+  FitBox box;
+  const int joint = box.add_kind(room_around(0.02)), tip = box.add_kind({0.01, 0.03, 0.1, 0.005});
+  box.add(joint, {0, 0});
+  box.add(joint, {1.7, -0.9});
+  box.add(tip, {2.2, 0.4});
+  Camera camera;
+  fit_to(camera, box, kFitArea, kMargin);
+
+  const Rect page = page_box(camera, box.box(camera.scale));
+  const double wide = page.width() * (1 + 2 * kMargin) / kFitArea.width();
+  const double high = page.height() * (1 + 2 * kMargin) / kFitArea.height();
+  EXPECT_NEAR(std::max(wide, high), 1, kConverged);
+  EXPECT_LT(std::min(wide, high), 1);
+  EXPECT_NEAR(page.x0 - kFitArea.x0, kFitArea.x1 - page.x1, kConverged);
+  EXPECT_NEAR(page.y0 - kFitArea.y0, kFitArea.y1 - page.y1, kConverged);
+}
+
+TEST(Fit, KeepsEveryPlaceWithItsRoomInside) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> metres(-3, 3), room(0, 0.08);
+  for (int trial = 0; trial < 50; ++trial) {
+    FitBox box;
+    std::vector<std::pair<Point, double>> places;
+    for (int i = 0; i < 6; ++i) {
+      const double radius = room(random);
+      const int kind = box.add_kind(room_around(radius));
+      places.push_back({{metres(random), metres(random)}, radius});
+      box.add(kind, places.back().first);
+    }
+    Camera camera;
+    fit_to(camera, box, kFitArea, kMargin);
+    for (const auto& [place, radius] : places) {
+      const Point p = camera.project({place.x, place.y, 0});
+      EXPECT_TRUE(test::is_inside(kFitArea, Rect{p.x - radius, p.y - radius, p.x + radius, p.y + radius}));
+    }
+  }
+}
+
+TEST(Fit, TakesTheSmallerOfRoomOnThePageAndRoomInMetres) {
+  FitBox box;
+  Room link = room_around(0.02);
+  link.metres = 0.05;
+  link.beyond = 0.001;
+  const int kind = box.add_kind(link);
+  box.add(kind, {0, 0});
+  box.add(kind, {1, 0});
+  EXPECT_NEAR(box.box(0.1).width(), 1 + 2 * 0.06, 1e-15);  // 0.05 m and a thousandth are 0.006 on the page
+  EXPECT_NEAR(box.box(1.0).width(), 1 + 2 * 0.02, 1e-15);  // 0.05 m would be 0.05: the page's bound holds
+}
+
+TEST(Fit, ShowsOneMetreWhereNothingHasAnExtent) {
+  FitBox box;
+  box.add(box.add_kind(room_around(0.03)), {5, 5});
+  Camera camera;
+  fit_to(camera, box, kFitArea, 0);
+  EXPECT_NEAR(camera.scale, kFitArea.height(), kConverged);
+  const Point p = camera.project({5, 5, 0});
+  EXPECT_NEAR(test::distance(p, test::middle_of(kFitArea)), 0, kConverged);
+}
+
+// Negative control: a fit that forgot one place would not see it.
+TEST(Fit, ChangesWhenAPlaceOutsideIsAddedAndNotWhenItIsInside) {
+  FitBox box;
+  const int kind = box.add_kind(room_around(0.02));
+  box.add(kind, {0, 0});
+  box.add(kind, {1, 1});
+  Camera camera;
+  fit_to(camera, box, kFitArea, kMargin);
+  const double scale = camera.scale;
+  box.add(kind, {0.5, 0.5});
+  box.add(kind, {std::nan(""), 3});  // passed over
+  fit_to(camera, box, kFitArea, kMargin);
+  EXPECT_EQ(camera.scale, scale);
+  box.add(kind, {0.5, 1.5});
+  fit_to(camera, box, kFitArea, kMargin);
+  EXPECT_LT(camera.scale, 0.8 * scale);
+}
+
+}  // namespace
+}  // namespace chainreel
