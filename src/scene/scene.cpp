@@ -1,16 +1,36 @@
 #include "scene/scene.hpp"
 
+#include <algorithm>
+
 #include "core/format.hpp"
 
 namespace chainreel {
 
 const std::vector<std::string>& layer_names() {
-  static const std::vector<std::string> names{
-      "chain",       "trail",    "ghosts", "frames",           "com",
-      "torque",      "velocity", "gravity", "constraint_force", "ellipse",
-      "mass_matrix", "equation", "time",   "title",            "torque_label",
-      "scale_bar",   "legend",   "ground", "shadow"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const LayerRow& layer : kLayerRows)
+      if (*layer.name && std::find(all.begin(), all.end(), layer.name) == all.end()) all.emplace_back(layer.name);
+    return all;
+  }();
   return names;
+}
+
+const std::vector<std::string>& default_layers() {
+  static const std::vector<std::string> names = [] {
+    std::map<int, std::string> by_place;
+    for (const LayerRow& layer : kLayerRows)
+      if (layer.by_default > 0) by_place[layer.by_default] = layer.name;
+    std::vector<std::string> all;
+    for (const auto& [place, name] : by_place) all.push_back(name);
+    return all;
+  }();
+  return names;
+}
+
+bool layer_needs(const std::string& name, LayerNeeds needs) {
+  return std::any_of(std::begin(kLayerRows), std::end(kLayerRows),
+                     [&](const LayerRow& layer) { return layer.name == name && layer.needs == needs; });
 }
 
 const std::vector<std::string>& reading_names() {
@@ -28,6 +48,10 @@ const std::vector<std::string>& layout_names() {
 const std::vector<std::string>& preset_names() {
   static const std::vector<std::string> names{"slides", "web", "overlay", "doc", "frames", "still"};
   return names;
+}
+
+bool is_ghost_layout(const Scene& page) {
+  return page.layout == "ghost";
 }
 
 bool is_transparent(const Scene& scene) {

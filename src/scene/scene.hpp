@@ -9,6 +9,7 @@
 
 #include "core/frame_rate.hpp"
 #include "scene/constraint_entry.hpp"
+#include "scene/layers.hpp"
 #include "sim/choice/accuracy.hpp"
 #include "sim/constraint_plan.hpp"
 #include "sim/drive/events.hpp"
@@ -85,7 +86,7 @@ struct Scene {
   std::optional<int> order;                    // of methods with several
   Accuracy accuracy;                           // of `method: auto`
   std::string expect = "finish";               // or diverge: what the run is to do
-  std::vector<std::string> draw{"chain", "trail", "time", "title", "torque_label", "ground"};
+  std::vector<std::string> draw = default_layers();  // what is drawn: see scene/layers
   std::string links = "auto";   // plain bars, or the model's visual or collision shapes; auto: visual in space
   std::string mesh_up = "rviz";  // whose up of Collada files: rviz (theirs is not heeded), or file
   EllipseEntry ellipse;
@@ -115,14 +116,14 @@ void require_single_run(const Scene& scene);
 // "rk4, step 0.001 s", "dop853, tolerance 1e-9".
 std::string method_text(const Scene& scene);
 
-// The layers that `draw:` may name.
-const std::vector<std::string>& layer_names();
 const std::vector<std::string>& reading_names();
 const std::vector<std::string>& layout_names();
 const std::vector<std::string>& preset_names();
 
 // Drawn on nothing, without words above and below: layout `transparent` or preset `overlay`.
 bool is_transparent(const Scene& scene);
+// Panels in one place: the first in full, the others over it in outline.
+bool is_ghost_layout(const Scene& page);
 const std::vector<std::string>& theme_names();
 
 }  // namespace chainreel

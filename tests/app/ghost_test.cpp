@@ -133,7 +133,7 @@ TEST(GhostLayout, TellsThreeOutlinesApartByLettersAndColours) {
     EXPECT_THAT(words, HasSubstr(key));
   std::set<std::uint32_t> colors;
   for (int i = 0; i < 4; ++i) {
-    const Color c = variant_color(i, 4, light_theme());
+    const Color c = variant_of(i, 4, light_theme()).color;
     colors.insert(std::uint32_t(c.r) << 16 | std::uint32_t(c.g) << 8 | c.b);
   }
   EXPECT_EQ(colors.size(), 4u);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "picture/picture.hpp"
+#include "picture/theme.hpp"
 
 namespace chainreel::test {
 
@@ -64,6 +65,19 @@ inline std::string words_of(const Picture& picture) {
   std::string words;
   for (const GlyphRun& run : all_of<GlyphRun>(picture)) words += run.text;
   return words;
+}
+
+// Units of H for 1 kg, or m/s, as the scale bar of ellipses in the page's foot says.
+inline double per_unit_of_bar(const Picture& page) {
+  double worth = 0, length = 0;
+  for (const GlyphRun& run : all_of<GlyphRun>(page))
+    if (run.text.ends_with(" kg") || run.text.ends_with(" m/s")) worth = std::stod(run.text);
+  for (const Item& item : page.items) {
+    const auto* line = std::get_if<Capsule>(&item.shape);
+    if (line && item.clip < 0 && line->paint.fill == light_theme().ellipse)
+      length = std::max(length, distance(line->a, line->b));
+  }
+  return length / worth;
 }
 
 // No coordinate or size in the picture is NaN or infinite.

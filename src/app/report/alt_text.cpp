@@ -7,7 +7,7 @@
 
 #include "app/report/report.hpp"
 #include "core/format.hpp"
-#include "draw/film/speed_box.hpp"
+#include "draw/layers/speed_box.hpp"
 
 namespace chainreel {
 namespace {

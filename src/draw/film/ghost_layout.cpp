@@ -4,7 +4,6 @@
 
 #include "core/error.hpp"
 #include "draw/page/sheet.hpp"
-#include "picture/plot.hpp"
 
 namespace chainreel {
 namespace {
@@ -17,60 +16,40 @@ constexpr double kKeyDescent = 0.50;    // of the em, from the lower end of a ro
 
 }  // namespace
 
-bool is_ghost_layout(const Scene& page) {
-  return page.layout == "ghost";
-}
-
-Layers outline_layers(const Layers& layers) {
-  Layers few;
-  few.chain = layers.chain;
-  few.trail = layers.trail;
-  return few;
-}
-
-Color variant_color(int i, int count, const Theme& theme) {
-  if (count == 2) return i == 0 ? theme.side_a : theme.side_b;
-  return curve_style(i, theme).color;
-}
-
-std::string variant_letter(int i, int count) {
-  return i > 0 && count > 2 ? std::string(1, char('A' + i)) : "";
-}
-
-std::vector<PanelCell> ghost_cells(const Rect& area, const PanelRows& rows, const std::vector<Panel>& panels) {
+std::vector<PanelCell> ghost_cells(const Rect& area, const PanelRows& rows, const std::vector<StagedRun>& motions) {
   PanelRows all = rows;
   all.note = 0;
-  for (const Panel& panel : panels) all.note += panel.may_have_notes() ? rows.note : 0;
-  std::vector<PanelCell> cells(panels.size(), panel_cells(area, 1, 1, all).front());
+  for (const StagedRun& motion : motions) all.note += motion.may_have_notes() ? rows.note : 0;
+  std::vector<PanelCell> cells(motions.size(), panel_cells(area, 1, 1, all).front());
   double top = cells.front().scene.y0;
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    if (!panels[i].may_have_notes()) continue;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    if (!motions[i].may_have_notes()) continue;
     cells[i].note.y1 = top;
     cells[i].note.y0 = top -= rows.note;
   }
   return cells;
 }
 
-GhostKey::GhostKey(const std::vector<Panel>& panels, double width, double text_scale, const Theme& theme,
-                   const Fonts& fonts)
-    : theme_(&theme), text_size_(scaled(size::kAxis, text_scale)) {
-  const int count = int(panels.size());
+GhostKey::GhostKey(const Stage& stage, double width)
+    : theme_(&stage.theme), text_size_(scaled(size::kAxis, stage.page.text_scale)) {
+  const int count = int(stage.motions.size());
   double x = 0;
   for (int i = 0; i < count; ++i) {
-    const Panel& panel = panels[std::size_t(i)];
+    const StagedRun& motion = stage.motions[std::size_t(i)];
+    const Variant& variant = *motion.variant();
     Entry entry;
     entry.filled = i == 0;
-    entry.color = variant_color(i, count, theme);
-    const std::string letter = variant_letter(i, count);
-    const std::string title = (letter.empty() ? "" : letter + ": ") + panel.title();
+    entry.color = variant.color;
+    const std::string title = (variant.letter.empty() ? "" : variant.letter + ": ") + motion.title();
     const double room = width - kMarkLength - size::kMarkToText;
     entry.line =
-        fit_text(fonts, title, {Face::label_bold, text_size_, entry.color, Align::left}, room, text_scale);
+        fit_text(stage.fonts, title, {Face::label_bold, text_size_, entry.color, Align::left}, room,
+                 stage.page.text_scale);
     if (entry.line.advance > room + kRoundOff)
       throw Error(ExitCode::bad_input,
                   "the title of panel " + std::to_string(i + 1) +
                       " does not fit on the page: give the panel a short `title:`",
-                  panel.scene().place_of("title"));
+                  motion.scene().place_of("title"));
     const double taken = kMarkLength + size::kMarkToText + entry.line.advance;
     if (x > 0 && x + taken > width) {
       x = 0;

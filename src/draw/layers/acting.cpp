@@ -1,12 +1,16 @@
-#include "draw/layers/acting.hpp"
-
+// What acts on a chain and moves it, as the layers `gravity`, `torque`, `velocity` and `constraint_force` show it:
+// vectors at the places where they act, each kind at one scale over the whole film.
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
 #include <stdexcept>
 
-#include "core/format.hpp"
-#include "draw/page/sheet.hpp"
-#include "draw/robot/skeleton.hpp"
+#include "draw/layers/layer.hpp"
+#include "draw/layers/vectors.hpp"
 #include "dynamics/kinematics.hpp"
+#include "picture/point.hpp"
+#include "sim/drive/torques_along.hpp"
 
 namespace chainreel {
 namespace {
@@ -16,21 +20,102 @@ using Eigen::Vector3d;
 constexpr int kMostLabels =
     4;  // of weights: more of them would hide the chain, and the legend says what they are
 
-}  // namespace
+// The vectors of a motion at sample k, after compute_kinematics there.
+using VectorsAt = std::function<std::vector<WorldVector>(const StagedRun& motion, const Workspace& ws, int k)>;
+// The kinds of vectors that there are of a chain.
+using KindsOf = std::function<std::vector<VectorKind>(const Chain& chain)>;
 
-Acting::Acting(const Chain& chain, const Simulation* simulation, const Trajectory& trajectory,
-               const ActingLayers& layers)
-    : chain_(&chain), layers_(layers) {
-  if ((layers.torque || layers.constraint_force) && simulation == nullptr)
-    throw std::logic_error("torques are drawn of a run whose simulation is known");
-  if (layers.torque) tau_ = torques_along(*simulation, trajectory);
-  if (layers.constraint_force) reactions_ = reactions_along(*simulation, trajectory);
+class VectorLayer : public Layer {
+ public:
+  VectorLayer(const Stage& stage, VectorsAt vectors_at, KindsOf kinds_of)
+      : stage_(&stage),
+        vectors_at_(std::move(vectors_at)),
+        kinds_of_(std::move(kinds_of)),
+        scales_(scales_of(stage, vectors_at_)),
+        pen_(stage.theme, stage.fonts, stage.page.text_scale, scales_) {}
+
+  // What the first panel shows stands first.
+  void write(SheetText& text) const override {
+    std::vector<VectorKind> shown;
+    for (std::size_t i = 0; i < stage_->motions.size(); ++i)
+      for (const VectorKind kind : kinds_of_(stage_->motions[i].chain())) {
+        if (std::find(shown.begin(), shown.end(), kind) != shown.end()) continue;
+        shown.push_back(kind);
+        for (ScaleEntry& entry : scale_entries(scales_, {kind}, stage_->shows("legend"), stage_->theme)) {
+          entry.order = int(i * kVectorKinds.size()) + int(kind);
+          text.scales.push_back(std::move(entry));
+        }
+      }
+  }
+
+  void measure(const Sight& sight, FitBox& box) const override {
+    for (const WorldVector& vector : vectors_at_(sight.motion, sight.ws, sight.k))
+      pen_.add_to(box, vector, sight.camera, sight.marks);
+  }
+
+  bool covers(const Sight& sight, const Rect& part, bool) const override {
+    for (const WorldVector& vector : vectors_at_(sight.motion, sight.ws, sight.k)) {
+      const Rect extent = pen_.extent(vector, sight.camera, sight.marks);
+      const Point place = sight.camera.project(vector.place);
+      if (overlap(part, {extent.x0 + place.x, extent.y0 + place.y, extent.x1 + place.x, extent.y1 + place.y}))
+        return true;
+    }
+    return false;
+  }
+
+  void draw(Picture& picture, const Shot& shot) const override {
+    const Panel& panel = shot.panel;
+    for (const WorldVector& vector : vectors_at_(panel.motion(), shot.ws, shot.k))
+      pen_.draw(picture, vector, panel.camera(), panel.marks(), panel.clip(), shot.labels);
+  }
+
+ private:
+  // Runs that diverge do not decide on it, unless all do: their arrows are cut.
+  static VectorScales scales_of(const Stage& stage, const VectorsAt& vectors_at) {
+    VectorScales scales;
+    scales.shrink = 1 / std::sqrt(double(stage.full_panels()));
+    for (std::size_t i = 0; i < stage.full_panels(); ++i) {
+      const StagedRun& motion = stage.motions[i];
+      const Chain& chain = motion.chain();
+      if (!motion.counts() && stage.full_panels() > 1) continue;
+      for (int k = 0; k < motion.samples(); ++k) {
+        const Workspace& ws = motion.pose_at(k);
+        // Where a run goes wild its forces say nothing.
+        if (chain.end_effector >= 0 && !(tip_position(chain, ws).norm() <= motion.limit())) break;
+        for (const WorldVector& vector : vectors_at(motion, ws, k)) scales.peaks.add(vector);
+      }
+    }
+    return scales;
+  }
+
+  const Stage* stage_;
+  VectorsAt vectors_at_;
+  KindsOf kinds_of_;
+  VectorScales scales_;
+  VectorPen pen_;
+};
+
+std::vector<WorldVector> weights_at(const Chain& chain, const Workspace& ws) {
+  std::vector<WorldVector> vectors;
+  int heavy = 0;
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b) heavy += chain.bodies[b].inertia.mass > 0 ? 1 : 0;
+  int number = 0;
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
+    const Inertia& inertia = chain.bodies[b].inertia;
+    if (!(inertia.mass > 0)) continue;
+    ++number;
+    const std::string label = heavy <= kMostLabels ? "m_{" + std::to_string(number) + "} g" : "";
+    vectors.push_back({VectorKind::weight, pose_of(ws, int(b)) * inertia.com, inertia.mass * chain.gravity,
+                       Vector3d::Zero(), Vector3d::Zero(), label});
+  }
+  return vectors;
 }
 
-void Acting::add_torques(std::vector<WorldVector>& vectors, const Workspace& ws, int k) const {
-  const double* tau = tau_.data() + std::size_t(k) * std::size_t(chain_->nv);
-  for (std::size_t b = 1; b < chain_->bodies.size(); ++b) {
-    const Joint& joint = chain_->bodies[b].joint;
+// `tau`: nv numbers.
+std::vector<WorldVector> torques_at(const Chain& chain, const Workspace& ws, const double* tau) {
+  std::vector<WorldVector> vectors;
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
+    const Joint& joint = chain.bodies[b].joint;
     const Eigen::Isometry3d X_WB = pose_of(ws, int(b));
     const Vector3d place = X_WB.translation();
     const double* own = tau + joint.v_index;
@@ -52,84 +137,86 @@ void Acting::add_torques(std::vector<WorldVector>& vectors, const Workspace& ws,
     else
       vectors.push_back({VectorKind::joint_force, place, *own * axis, Vector3d::Zero(), axis, label});
   }
+  return vectors;
 }
 
-void Acting::add_weights(std::vector<WorldVector>& vectors, const Workspace& ws) const {
-  int heavy = 0;
-  for (std::size_t b = 1; b < chain_->bodies.size(); ++b) heavy += chain_->bodies[b].inertia.mass > 0 ? 1 : 0;
-  int number = 0;
-  for (std::size_t b = 1; b < chain_->bodies.size(); ++b) {
-    const Inertia& inertia = chain_->bodies[b].inertia;
-    if (!(inertia.mass > 0)) continue;
-    ++number;
-    const std::string label = heavy <= kMostLabels ? "m_{" + std::to_string(number) + "} g" : "";
-    vectors.push_back({VectorKind::weight, pose_of(ws, int(b)) * inertia.com, inertia.mass * chain_->gravity,
-                       Vector3d::Zero(), Vector3d::Zero(), label});
-  }
+std::vector<WorldVector> velocity_at(const Chain& chain, const Workspace& ws) {
+  return {{VectorKind::velocity, frame_position(chain, ws, chain.end_effector),
+           frame_velocity(chain, ws, chain.end_effector), Vector3d::Zero(), Vector3d::Zero(), "v"}};
 }
 
-std::vector<WorldVector> Acting::at(const Workspace& ws, int k) const {
+std::vector<WorldVector> reactions_at(const Chain& chain, const Workspace& ws,
+                                      const std::vector<Reaction>& reactions) {
   std::vector<WorldVector> vectors;
-  const Vector3d none = Vector3d::Zero();
-  if (layers_.gravity) add_weights(vectors, ws);
-  if (layers_.torque) add_torques(vectors, ws, k);
-  if (layers_.velocity)
-    vectors.push_back({VectorKind::velocity, frame_position(*chain_, ws, chain_->end_effector),
-                       frame_velocity(*chain_, ws, chain_->end_effector), none, none, "v"});
-  if (reactions_.empty()) return vectors;
-  const std::vector<Reaction>& reactions = reactions_[std::size_t(k)];
   for (std::size_t i = 0; i < reactions.size(); ++i)
-    vectors.push_back({VectorKind::constraint, frame_position(*chain_, ws, reactions[i].frame),
-                       reactions[i].force, none, none,
+    vectors.push_back({VectorKind::constraint, frame_position(chain, ws, reactions[i].frame), reactions[i].force,
+                       Vector3d::Zero(), Vector3d::Zero(),
                        reactions.size() == 1 ? "f_c" : "f_{c" + std::to_string(i + 1) + "}"});
   return vectors;
 }
 
-std::vector<ScaleEntry> scale_entries(const VectorScales& scales, const std::vector<VectorKind>& shown,
-                                      bool named, const Theme& theme) {
-  std::vector<ScaleEntry> entries;
-  for (const VectorKind kind : shown) {
-    const VectorScale scale = scales.of(kind);
-    const std::string name = named ? name_of(kind) + " " : "";
-    const auto mark = kind == VectorKind::torque       ? ScaleEntry::Mark::turn
-                      : kind == VectorKind::constraint ? ScaleEntry::Mark::dashed_arrow
-                                                       : ScaleEntry::Mark::arrow;
-    if (scale.largest > 0) {
-      const double value = round_length(scale.largest);
-      entries.push_back({mark, scale.on_page(value), color_of(kind, theme),
-                         name + format_shortest(value) + "\u2009" + unit_of(kind)});
-    } else if (kind == VectorKind::torque) {
-      // Rings are drawn where nothing acts; arrows are not.
-      entries.push_back({mark, 0, color_of(kind, theme), name + "0"});
-    }
-  }
-  return entries;
-}
-
-std::vector<VectorKind> kinds_shown(const Chain& chain, const ActingLayers& layers) {
+std::vector<VectorKind> kinds_of_torque(const Chain& chain) {
   bool turns = false, slides = false;
   for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
     turns |= chain.bodies[b].joint.kind == JointKind::revolute;
     slides |= chain.bodies[b].joint.kind == JointKind::prismatic;
   }
   std::vector<VectorKind> kinds;
-  if (layers.torque && turns) kinds.push_back(VectorKind::torque);
-  if (layers.torque && slides) kinds.push_back(VectorKind::joint_force);
-  if (layers.velocity) kinds.push_back(VectorKind::velocity);
-  if (layers.gravity) kinds.push_back(VectorKind::weight);
-  if (layers.constraint_force) kinds.push_back(VectorKind::constraint);
+  if (turns) kinds.push_back(VectorKind::torque);
+  if (slides) kinds.push_back(VectorKind::joint_force);
   return kinds;
 }
 
-std::string equation_of_motion(bool constrained) {
-  return constrained ? "M(q) qdd + h(q, qd) + J_c^T lambda = tau" : "M(q) qdd + h(q, qd) = tau";
+KindsOf always(VectorKind kind) {
+  return [kind](const Chain&) { return std::vector<VectorKind>{kind}; };
 }
 
-std::vector<SymbolColor> equation_colors(const ActingLayers& layers, const Theme& theme) {
-  std::vector<SymbolColor> colors;
-  if (layers.torque) colors.push_back({"tau", theme.torque});
-  if (layers.constraint_force) colors.push_back({"lambda", theme.constraint});
-  return colors;
+// What `compute` gives for the runs that are drawn in full, once each.
+template <class Value, class Compute>
+std::map<const StagedRun*, Value> along_runs(const Stage& stage, Compute compute) {
+  std::map<const StagedRun*, Value> values;
+  for (const StagedRun& motion : stage.motions) {
+    if (motion.is_outlined()) continue;
+    if (motion.simulation() == nullptr)
+      throw std::logic_error("torques are drawn of a run whose simulation is known");
+    values.emplace(&motion, compute(*motion.simulation(), motion.trajectory()));
+  }
+  return values;
+}
+
+}  // namespace
+
+std::unique_ptr<const Layer> make_layer_gravity(const Stage& stage) {
+  return std::make_unique<VectorLayer>(
+      stage, [](const StagedRun& motion, const Workspace& ws, int) { return weights_at(motion.chain(), ws); },
+      always(VectorKind::weight));
+}
+
+std::unique_ptr<const Layer> make_layer_torque(const Stage& stage) {
+  return std::make_unique<VectorLayer>(
+      stage,
+      [tau = along_runs<std::vector<double>>(stage, torques_along)](const StagedRun& motion, const Workspace& ws, int k) {
+        return torques_at(motion.chain(), ws, tau.at(&motion).data() + std::size_t(k) * std::size_t(motion.chain().nv));
+      },
+      kinds_of_torque);
+}
+
+std::unique_ptr<const Layer> make_layer_velocity(const Stage& stage) {
+  return std::make_unique<VectorLayer>(
+      stage, [](const StagedRun& motion, const Workspace& ws, int) { return velocity_at(motion.chain(), ws); },
+      always(VectorKind::velocity));
+}
+
+std::unique_ptr<const Layer> make_layer_constraint_force(const Stage& stage) {
+  return std::make_unique<VectorLayer>(
+      stage,
+      [forces = along_runs<std::vector<std::vector<Reaction>>>(stage, reactions_along)](
+          const StagedRun& motion, const Workspace& ws, int k) {
+        const std::vector<std::vector<Reaction>>& own = forces.at(&motion);
+        return own.empty() ? std::vector<WorldVector>{}
+                           : reactions_at(motion.chain(), ws, own[std::size_t(k)]);
+      },
+      always(VectorKind::constraint));
 }
 
 }  // namespace chainreel

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "draw/layers/layer.hpp"
 #include "draw/page/scales.hpp"
+#include "draw/robot/chain.hpp"
+#include "draw/robot/view.hpp"
 
 namespace chainreel {
 namespace {
@@ -56,6 +59,51 @@ void draw_ground_plane(Picture& picture, const GroundPlane& ground, const Camera
       }
     }
   }
+}
+
+namespace {
+
+// The ground below all runs of the stage; none where the view is flat.
+class OnGround : public Layer {
+ public:
+  explicit OnGround(const Stage& stage) : stage_(&stage) {}
+
+ protected:
+  const Theme& theme() const { return stage_->theme; }
+  std::optional<GroundPlane> ground_of(const Panel& panel) const {
+    if (!is_oblique(stage_->motions.front().chain(), stage_->page.camera)) return std::nullopt;
+    return ground_under(*stage_->space, panel.camera());
+  }
+
+ private:
+  const Stage* stage_;
+};
+
+class GroundLayer : public OnGround {
+ public:
+  using OnGround::OnGround;
+  void draw_once(Picture& picture, const Panel& panel) const override {
+    if (const auto ground = ground_of(panel))
+      draw_ground_plane(picture, *ground, panel.camera(), theme(), panel.clip());
+  }
+};
+
+class ShadowLayer : public OnGround {
+ public:
+  using OnGround::OnGround;
+  void draw(Picture& picture, const Shot& shot) const override {
+    if (ground_of(shot.panel)) draw_shadow(picture, shot.panel.drawing(), shot.ws, shot.panel.clip());
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Layer> make_layer_ground(const Stage& stage) {
+  return std::make_unique<GroundLayer>(stage);
+}
+
+std::unique_ptr<const Layer> make_layer_shadow(const Stage& stage) {
+  return std::make_unique<ShadowLayer>(stage);
 }
 
 }  // namespace chainreel

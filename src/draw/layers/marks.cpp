@@ -1,11 +1,12 @@
-#include "draw/layers/marks.hpp"
-
+// Marks that say where something is: axes of frames and the centre of mass.
+#include <array>
 #include <cmath>
 #include <numbers>
 
-#include "draw/page/sheet.hpp"
+#include "draw/layers/layer.hpp"
 #include "draw/robot/joints.hpp"
 #include "dynamics/kinematics.hpp"
+#include "picture/point.hpp"
 
 namespace chainreel {
 namespace {
@@ -20,40 +21,66 @@ constexpr double kShortestAxis = 0.30;  // of its length: shorter on the page, i
 constexpr double kAxisRing = 0.011;         // radius
 constexpr double kHeadWidth = 0.75;     // of the head's length, as arrows have it
 
-}  // namespace
+// x solid, y with one cross tick, z with two, letters at the tips. An axis that points at the viewer is a ring with a
+// dot, one that points away a ring with a cross.
+class FrameAxes : public Layer {
+ public:
+  explicit FrameAxes(const Stage& stage) : theme_(&stage.theme) {
+    const char* const names[] = {"x", "y", "z"};
+    for (std::size_t i = 0; i < 3; ++i)
+      letters_[i] = lay_out_math(stage.fonts, names[i],
+                                 {Face::math, scaled(size::kTick, stage.page.text_scale), theme_->axis[i], Align::left});
+  }
 
-FrameAxes::FrameAxes(const Chain& chain, const Theme& theme, const Fonts& fonts, double text_scale,
-                     double marks)
-    : chain_(&chain), theme_(&theme), marks_(marks) {
-  const char* const names[] = {"x", "y", "z"};
-  for (std::size_t i = 0; i < 3; ++i)
-    letters_[i] = lay_out_math(fonts, names[i],
-                               {Face::math, scaled(size::kTick, text_scale), theme.axis[i], Align::left});
-  if (chain.end_effector < 0) return;
-  const Frame& tip = chain.frames[std::size_t(chain.end_effector)];
-  at_tip_ = tip.body == 0 || tip.X_BF.translation().norm() > 0;
-}
+  void measure(const Sight& sight, FitBox& box) const override {
+    for (const Eigen::Isometry3d& X_WF : poses(sight.motion.chain(), sight.ws))
+      box.add(room_around(reach(sight.marks)), sight.camera.flat(X_WF.translation()));
+  }
 
-std::vector<Eigen::Isometry3d> FrameAxes::poses(const Workspace& ws) const {
-  std::vector<Eigen::Isometry3d> all;
-  for (std::size_t b = 1; b < chain_->bodies.size(); ++b) all.push_back(pose_of(ws, int(b)));
-  if (at_tip_) all.push_back(frame_pose(*chain_, ws, chain_->end_effector));
-  return all;
-}
+  bool covers(const Sight& sight, const Rect& part, bool) const override {
+    for (const Eigen::Isometry3d& X_WF : poses(sight.motion.chain(), sight.ws)) {
+      Point a = sight.camera.project(X_WF.translation()), b = a;
+      if (cut_segment(widened(part, reach(sight.marks)), a, b)) return true;
+    }
+    return false;
+  }
 
-double FrameAxes::reach() const {
-  double letter = 0;
-  for (const TextLine& line : letters_) letter = std::max({letter, line.box.width(), line.box.height()});
-  return marks_ * size::kAxisLength + kLetterGap + letter;
-}
+  void draw(Picture& picture, const Shot& shot) const override;
 
-void FrameAxes::draw_axis(Picture& picture, Point origin, Point v, double away, int axis, int clip,
+ private:
+  // Every moving link has axes, and the end effector where that is elsewhere: their poses in W.
+  static std::vector<Eigen::Isometry3d> poses(const Chain& chain, const Workspace& ws) {
+    std::vector<Eigen::Isometry3d> all;
+    for (std::size_t b = 1; b < chain.bodies.size(); ++b) all.push_back(pose_of(ws, int(b)));
+    if (chain.end_effector < 0) return all;
+    const Frame& tip = chain.frames[std::size_t(chain.end_effector)];
+    if (tip.body == 0 || tip.X_BF.translation().norm() > 0) all.push_back(frame_pose(chain, ws, chain.end_effector));
+    return all;
+  }
+
+  // How far from a frame's origin its axes and letters reach, units of H.
+  double reach(double marks) const {
+    double letter = 0;
+    for (const TextLine& line : letters_) letter = std::max({letter, line.box.width(), line.box.height()});
+    return marks * size::kAxisLength + kLetterGap + letter;
+  }
+
+  void draw_axis(Picture& picture, const Panel& panel, Point origin, Point v, double away, int axis,
+                 MarkLabels& labels) const;
+
+  const Theme* theme_;
+  std::array<TextLine, 3> letters_;
+};
+
+void FrameAxes::draw_axis(Picture& picture, const Panel& panel, Point origin, Point v, double away, int axis,
                           MarkLabels& labels) const {
+  const double marks = panel.marks();
+  const int clip = panel.clip();
   const Color color = theme_->axis[std::size_t(axis)];
-  const double width = marks_ * size::kAxisShaft;
+  const double width = marks * size::kAxisShaft;
   Point along{-std::numbers::sqrt2 / 2, -std::numbers::sqrt2 / 2}, tip = origin;
-  if (norm(v) < kShortestAxis * marks_ * size::kAxisLength) {
-    const double r = marks_ * kAxisRing;
+  if (norm(v) < kShortestAxis * marks * size::kAxisLength) {
+    const double r = marks * kAxisRing;
     picture.add(Ellipse{origin, {r, 0}, {0, r}, {theme_->background, color, width / 2}}, clip);
     if (away < 0) {
       picture.add(Ellipse{origin, {width / 2, 0}, {0, width / 2}, {color, {}, 0}}, clip);
@@ -66,15 +93,15 @@ void FrameAxes::draw_axis(Picture& picture, Point origin, Point v, double away, 
   } else {
     along = unit(v);
     tip = origin + v;
-    const double head = std::min(marks_ * size::kAxisHead, 0.7 * norm(v));
+    const double head = std::min(marks * size::kAxisHead, 0.7 * norm(v));
     const Point base = tip - head * along, side = normal_to(along);
     draw_line(picture, {origin, base + 0.2 * head * along}, width, color, clip);
     const Point half = (kHeadWidth * head / 2) * side;
     picture.add(Polygon{{tip, base + half, base - half}, 3, {color, {}, 0}}, clip);
     for (int tick = 0; tick < axis; ++tick) {
       const Point middle =
-          origin + (0.5 + 0.5 * marks_ * kTickPitch / norm(v) * (2 * tick - axis + 1)) * v;
-      const Point reach = (marks_ * kTick / 2) * side;
+          origin + (0.5 + 0.5 * marks * kTickPitch / norm(v) * (2 * tick - axis + 1)) * v;
+      const Point reach = (marks * kTick / 2) * side;
       draw_line(picture, {middle - reach, middle + reach}, width / 2, color, clip);
     }
   }
@@ -84,26 +111,27 @@ void FrameAxes::draw_axis(Picture& picture, Point origin, Point v, double away, 
   labels.add(letter, {middle.x - half.x, middle.y - half.y, middle.x + half.x, middle.y + half.y}, false);
 }
 
-void FrameAxes::draw(Picture& picture, const Camera& camera, const Workspace& ws, int clip,
-                     MarkLabels& labels) const {
-  for (const Eigen::Isometry3d& X_WF : poses(ws)) {
-    const Point origin = camera.project(X_WF.translation());
+void FrameAxes::draw(Picture& picture, const Shot& shot) const {
+  const Panel& panel = shot.panel;
+  const double length = panel.marks() * size::kAxisLength;
+  for (const Eigen::Isometry3d& X_WF : poses(panel.chain(), shot.ws)) {
+    const Point origin = panel.camera().project(X_WF.translation());
     if (!std::isfinite(origin.x) || !std::isfinite(origin.y)) continue;
-    const Camera seen = camera.seen_at(X_WF.translation());
+    const Camera seen = panel.camera().seen_at(X_WF.translation());
     // Axes that point away from the viewer first.
     for (const bool away : {true, false}) {
       for (int axis = 0; axis < 3; ++axis) {
         const Vector3d direction = X_WF.linear().col(axis);
         const double depth = -seen.toward_viewer.dot(direction);
         if ((depth > 0) != away) continue;
-        const double length = marks_ * size::kAxisLength;
-        draw_axis(picture, origin, {length * seen.right.dot(direction), length * seen.up.dot(direction)},
-                  depth, axis, clip, labels);
+        draw_axis(picture, panel, origin, {length * seen.right.dot(direction), length * seen.up.dot(direction)},
+                  depth, axis, shot.labels);
       }
     }
   }
 }
 
+// The centre of mass of the whole chain after compute_kinematics; the origin where nothing has mass.
 Vector3d center_of_mass(const Chain& chain, const Workspace& ws) {
   Vector3d moment = Vector3d::Zero();
   double mass = 0;
@@ -114,6 +142,58 @@ Vector3d center_of_mass(const Chain& chain, const Workspace& ws) {
   }
   if (mass > 0) moment /= mass;
   return moment;
+}
+
+class CenterOfMass : public Layer {
+ public:
+  explicit CenterOfMass(const Stage& stage) : is_named_(stage.shows("legend")), ink_(stage.theme.ink) {}
+
+  void write(SheetText& text) const override {
+    if (is_named_)
+      text.scales.push_back({ScaleEntry::Mark::center_of_mass, 0, ink_, "centre of mass", kAfterScales});
+  }
+
+  void measure(const Sight& sight, FitBox& box) const override {
+    box.add(room_around(sight.marks * size::kCenterOfMass / 2),
+            sight.camera.flat(center_of_mass(sight.motion.chain(), sight.ws)));
+  }
+
+  void draw(Picture& picture, const Shot& shot) const override {
+    const Panel& panel = shot.panel;
+    draw_center_of_mass(picture, panel.camera().project(center_of_mass(panel.chain(), shot.ws)), panel.look(),
+                        panel.clip());
+  }
+
+ private:
+  bool is_named_;
+  Color ink_;
+};
+
+// The words of all marks, over them.
+class WordsOfMarks : public Layer {
+ public:
+  explicit WordsOfMarks(const Stage& stage) : background_(stage.theme.background) {}
+
+  void draw(Picture& picture, const Shot& shot) const override {
+    shot.labels.draw(picture, shot.panel.area(), background_, shot.panel.clip());
+  }
+
+ private:
+  Color background_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Layer> make_layer_frames(const Stage& stage) {
+  return std::make_unique<FrameAxes>(stage);
+}
+
+std::unique_ptr<const Layer> make_layer_com(const Stage& stage) {
+  return std::make_unique<CenterOfMass>(stage);
+}
+
+std::unique_ptr<const Layer> make_layer_mark_labels(const Stage& stage) {
+  return std::make_unique<WordsOfMarks>(stage);
 }
 
 }  // namespace chainreel

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/format.hpp"
+#include "draw/layers/layer.hpp"
 #include "draw/page/sheet.hpp"
 
 namespace chainreel {
@@ -114,6 +116,54 @@ void MassMap::draw(Picture& picture, const Eigen::MatrixXd& M, Point corner) con
   const TextStyle middle{Face::label, text_size_, theme_->ink, Align::center};
   draw_text(picture, lay_out_text(*fonts_, "0", middle), {(map.x0 + map.x1) / 2, base});
   draw_text(picture, upper_, {map.x1 - upper_.advance, base});
+}
+
+namespace {
+
+class MassMatrixLayer : public Layer {
+ public:
+  explicit MassMatrixLayer(const Stage& stage) {
+    double largest = 0;
+    for (const StagedRun& motion : stage.motions) largest = std::max(largest, largest_entry(motion));
+    for (const StagedRun& motion : stage.motions)
+      maps_.try_emplace(&motion, motion.chain().nv, mass_unit(motion.chain()), largest, stage.theme, stage.fonts,
+                        stage.page.text_scale);
+  }
+
+  std::optional<Point> room_beside(const StagedRun& motion) const override {
+    const MassMap& map = maps_.at(&motion);
+    return Point{map.width(), map.height()};
+  }
+
+  std::string no_room() const override { return "M(q) leaves no room for the chain: draw without mass_matrix"; }
+
+  void draw(Picture& picture, const Shot& shot) const override {
+    const StagedRun& motion = shot.panel.motion();
+    Workspace ws(motion.chain());
+    compute_mass_matrix(motion.chain(), ws, motion.trajectory().q_at(shot.k));
+    maps_.at(&motion).draw(picture, ws.M, shot.corner);
+  }
+
+ private:
+  // The largest |M_ij| at some of the frames.
+  static double largest_entry(const StagedRun& motion) {
+    double largest = 0;
+    Workspace ws(motion.chain());
+    for (const int k : some_of(motion.samples())) {
+      compute_mass_matrix(motion.chain(), ws, motion.trajectory().q_at(k));
+      const double entry = ws.M.cwiseAbs().maxCoeff();
+      if (std::isfinite(entry)) largest = std::max(largest, entry);
+    }
+    return largest;
+  }
+
+  std::map<const StagedRun*, MassMap> maps_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Layer> make_layer_mass_matrix(const Stage& stage) {
+  return std::make_unique<MassMatrixLayer>(stage);
 }
 
 }  // namespace chainreel

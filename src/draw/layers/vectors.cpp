@@ -4,9 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/format.hpp"
 #include "draw/page/arrow.hpp"
 #include "draw/page/sheet.hpp"
 #include "draw/robot/joints.hpp"
+#include "picture/point.hpp"
 
 namespace chainreel {
 namespace {
@@ -15,10 +17,6 @@ using Eigen::Vector3d;
 
 constexpr double kVectorLabelGap = 0.010;  // between an arrow's tip or an arc and its label, units of H
 constexpr double kRoomStep = 0.01;   // units of H: rooms are rounded up to multiples, to have few kinds
-
-Rect with(const Rect& a, const Rect& b) {
-  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
-}
 
 Point on_page(const Vector3d& direction, const Camera& camera) {
   return {camera.right.dot(direction), camera.up.dot(direction)};
@@ -33,6 +31,14 @@ Circle circle_about(const Vector3d& axis, const Camera& camera) {
   if (top.norm() < 1e-6) top = -camera.toward_viewer;
   top.normalize();
   return {top, axis.cross(top)};
+}
+
+// The ink of a label that stands off `near` along the unit vector `direction`.
+Rect label_box(const TextLine& label, Point near, Point direction) {
+  const double half_width = label.box.width() / 2, half_height = label.box.height() / 2;
+  const double reach = std::abs(direction.x) * half_width + std::abs(direction.y) * half_height;
+  const Point middle = near + (reach + kVectorLabelGap) * direction;
+  return {middle.x - half_width, middle.y - half_height, middle.x + half_width, middle.y + half_height};
 }
 
 }  // namespace
@@ -85,28 +91,40 @@ std::string unit_of(VectorKind kind) {
   return kind == VectorKind::torque ? "N m" : kind == VectorKind::velocity ? "m/s" : "N";
 }
 
-VectorPen::VectorPen(const Theme& theme, const Fonts& fonts, double text_scale, const VectorScales& scales,
-                     double marks)
-    : theme_(&theme), fonts_(&fonts), text_scale_(text_scale), scales_(scales), marks_(marks) {}
+std::vector<ScaleEntry> scale_entries(const VectorScales& scales, const std::vector<VectorKind>& shown,
+                                      bool named, const Theme& theme) {
+  std::vector<ScaleEntry> entries;
+  for (const VectorKind kind : shown) {
+    const VectorScale scale = scales.of(kind);
+    const std::string name = named ? name_of(kind) + " " : "";
+    const auto mark = kind == VectorKind::torque       ? ScaleEntry::Mark::turn
+                      : kind == VectorKind::constraint ? ScaleEntry::Mark::dashed_arrow
+                                                       : ScaleEntry::Mark::arrow;
+    if (scale.largest > 0) {
+      const double value = round_length(scale.largest);
+      entries.push_back({mark, scale.on_page(value), color_of(kind, theme),
+                         name + format_shortest(value) + "\u2009" + unit_of(kind)});
+    } else if (kind == VectorKind::torque) {
+      // Rings are drawn where nothing acts; arrows are not.
+      entries.push_back({mark, 0, color_of(kind, theme), name + "0"});
+    }
+  }
+  return entries;
+}
 
-const TextLine& VectorPen::label(const WorldVector& vector) const {
-  const auto key = std::pair{vector.kind, vector.label};
+VectorPen::VectorPen(const Theme& theme, const Fonts& fonts, double text_scale, const VectorScales& scales)
+    : theme_(&theme), fonts_(&fonts), text_scale_(text_scale), scales_(scales) {}
+
+const TextLine& VectorPen::label(const WorldVector& vector, double marks) const {
+  const auto key = std::tuple{vector.kind, vector.label, marks};
   const auto known = labels_.find(key);
   if (known != labels_.end()) return known->second;
-  const TextStyle style{Face::math, scaled(size::kSymbol * std::sqrt(marks_), text_scale_),
+  const TextStyle style{Face::math, scaled(size::kSymbol * std::sqrt(marks), text_scale_),
                         color_of(vector.kind, *theme_), Align::left};
   return labels_.emplace(key, lay_out_math(*fonts_, vector.label, style)).first->second;
 }
 
-// The ink of a label that stands off `near` along the unit vector `direction`.
-Rect VectorPen::label_box(const TextLine& label, Point near, Point direction) const {
-  const double half_width = label.box.width() / 2, half_height = label.box.height() / 2;
-  const double reach = std::abs(direction.x) * half_width + std::abs(direction.y) * half_height;
-  const Point middle = near + (reach + kVectorLabelGap) * direction;
-  return {middle.x - half_width, middle.y - half_height, middle.x + half_width, middle.y + half_height};
-}
-
-VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera& camera) const {
+VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera& camera, double marks) const {
   const VectorScale scale = scales_.of(vector.kind);
   const double magnitude = vector.value.norm();
   double length = scale.on_page(magnitude);
@@ -121,55 +139,50 @@ VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera&
     // On the side where there is no ground.
     Point side = normal_to(unit(rail));
     if (side.y < -1e-9 || (std::abs(side.y) <= 1e-9 && side.x < 0)) side = -1 * side;
-    arrow.shift = (marks_ * size::kBesideRail) * side;
+    arrow.shift = (marks * size::kBesideRail) * side;
   }
   return arrow;
 }
 
-Rect VectorPen::extent(const WorldVector& vector, const Camera& camera) const {
-  const TextLine& text = label(vector);
+Rect VectorPen::extent(const WorldVector& vector, const Camera& camera, double marks) const {
+  const TextLine& text = label(vector, marks);
   if (vector.kind == VectorKind::torque) {
-    const double r = marks_ * (size::kTorqueArc + size::kArrowHeadWidth / 2);
-    return with({-r, -r, r, r}, label_box(text, {0, r}, {0, 1}));
+    const double r = marks * (size::kTorqueArc + size::kArrowHeadWidth / 2);
+    return around({-r, -r, r, r}, label_box(text, {0, r}, {0, 1}));
   }
-  const Straight arrow = straight(vector, camera);
+  const Straight arrow = straight(vector, camera, marks);
   if (norm(arrow.v) < size::kShortestArrow) return {};
-  const double half = marks_ * size::kArrowHeadWidth / 2;
+  const double half = marks * size::kArrowHeadWidth / 2;
   const Point tail = arrow.shift, tip = arrow.shift + arrow.v;
   const Rect shaft{std::min(tail.x, tip.x) - half, std::min(tail.y, tip.y) - half,
                    std::max(tail.x, tip.x) + half, std::max(tail.y, tip.y) + half};
   if (vector.label.empty()) return shaft;
-  return with(shaft, label_box(text, tip, unit(arrow.v)));
+  return around(shaft, label_box(text, tip, unit(arrow.v)));
 }
 
-void VectorPen::add_to(FitBox& box, std::map<int, int>& kinds, const WorldVector& vector,
-                       const Camera& camera) const {
-  const Rect r = extent(vector, camera);
+void VectorPen::add_to(FitBox& box, const WorldVector& vector, const Camera& camera, double marks) const {
+  const Rect r = extent(vector, camera, marks);
   const Point place = camera.flat(vector.place);
   const std::array<double, 4> sides{-r.x0, r.x1, -r.y0, r.y1};
   for (int side = 0; side < 4; ++side) {
     const int steps = int(std::ceil(sides[std::size_t(side)] / kRoomStep));
     if (steps <= 0) continue;
-    const auto [known, is_new] = kinds.emplace(4 * steps + side, 0);
-    if (is_new) {
-      Room room;
-      (side == 0 ? room.left : side == 1 ? room.right : side == 2 ? room.down : room.up) = steps * kRoomStep;
-      known->second = box.add_kind(room);
-    }
-    box.add(known->second, place);
+    Room room;
+    (side == 0 ? room.left : side == 1 ? room.right : side == 2 ? room.down : room.up) = steps * kRoomStep;
+    box.add(room, place);
   }
 }
 
-void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const Camera& camera,
+void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const Camera& camera, double marks,
                             int clip, MarkLabels& labels) const {
   const Point center = camera.project(vector.place);
-  const double radius = marks_ * size::kTorqueArc;
+  const double radius = marks * size::kTorqueArc;
   const Camera seen = camera.seen_at(vector.place);
   const Circle circle = circle_about(vector.axis, seen);
   const Point u = radius * on_page(circle.top, seen), w = radius * on_page(circle.quarter, seen);
   const VectorScale scale = scales_.of(vector.kind);
   const double value = vector.value.dot(vector.axis);
-  ArrowStyle style{color_of(vector.kind, *theme_), marks_, false, false};
+  ArrowStyle style{color_of(vector.kind, *theme_), marks, false, false};
   if (!(std::abs(value) >= kRingBelow * scale.largest) || scale.largest == 0) {
     draw_ring(picture, center, u, w, style.color, clip);
   } else {
@@ -177,24 +190,24 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
     const double turn = style.cut ? scale.page_of_largest : scale.on_page(std::abs(value));
     draw_turn(picture, center, u, w, value > 0 ? turn : -turn, style, clip);
   }
-  const TextLine& text = label(vector);
-  const double off = radius + marks_ * size::kArrowHeadWidth / 2;
+  const TextLine& text = label(vector, marks);
+  const double off = radius + marks * size::kArrowHeadWidth / 2;
   labels.add(text, label_box(text, center + Point{0, off}, {0, 1}), true);
 }
 
-void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& camera, int clip,
+void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& camera, double marks, int clip,
                      MarkLabels& labels) const {
   const Point place = camera.project(vector.place);
   if (!std::isfinite(place.x) || !std::isfinite(place.y)) return;
-  if (vector.kind == VectorKind::torque) return draw_torque(picture, vector, camera, clip, labels);
-  const Straight arrow = straight(vector, camera);
+  if (vector.kind == VectorKind::torque) return draw_torque(picture, vector, camera, marks, clip, labels);
+  const Straight arrow = straight(vector, camera, marks);
   if (norm(arrow.v) < size::kShortestArrow) return;
   const Point tail = place + arrow.shift;
   draw_arrow(picture, tail, arrow.v,
-             {color_of(vector.kind, *theme_), marks_, vector.kind == VectorKind::constraint, arrow.cut},
+             {color_of(vector.kind, *theme_), marks, vector.kind == VectorKind::constraint, arrow.cut},
              clip);
   if (vector.label.empty()) return;
-  const TextLine& text = label(vector);
+  const TextLine& text = label(vector, marks);
   labels.add(text, label_box(text, tail + arrow.v, unit(arrow.v)), true);
 }
 

@@ -5,9 +5,11 @@
 #include <array>
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "draw/page/mark_labels.hpp"
+#include "draw/page/scales.hpp"
 #include "draw/robot/fit.hpp"
 #include "picture/camera.hpp"
 #include "picture/text.hpp"
@@ -61,38 +63,40 @@ Color color_of(VectorKind kind, const Theme& theme);
 std::string name_of(VectorKind kind);
 std::string unit_of(VectorKind kind);
 
-// Draws vectors and tells what room they take, both from the same measures. Not shared between threads.
+// One entry a kind of vector that is shown, each with a mark of 1, 2 or 5 x 10^n: the scale is printed
+// whenever the layer is on. `named`: the legend is on, and says what each one is.
+std::vector<ScaleEntry> scale_entries(const VectorScales& scales, const std::vector<VectorKind>& shown,
+                                      bool named, const Theme& theme);
+
+// Draws vectors and tells what room they take, both from the same measures. `marks`: as in ChainLook. Not shared
+// between threads.
 class VectorPen {
  public:
-  VectorPen(const Theme& theme, const Fonts& fonts, double text_scale, const VectorScales& scales,
-            double marks);
+  VectorPen(const Theme& theme, const Fonts& fonts, double text_scale, const VectorScales& scales);
 
-  // Adds the place of a vector to `box` with the room that it and its label take; kinds are made as needed.
-  void add_to(FitBox& box, std::map<int, int>& kinds, const WorldVector& vector, const Camera& camera) const;
+  // Adds the place of a vector to `box` with the room that it and its label take.
+  void add_to(FitBox& box, const WorldVector& vector, const Camera& camera, double marks) const;
   // What it covers on the page, label included, about the projection of its place; empty if it is not drawn.
-  Rect extent(const WorldVector& vector, const Camera& camera) const;
+  Rect extent(const WorldVector& vector, const Camera& camera, double marks) const;
   // Its label goes to `labels`, which are drawn over all vectors.
-  void draw(Picture& picture, const WorldVector& vector, const Camera& camera, int clip, MarkLabels& labels) const;
-
-  const VectorScales& scales() const { return scales_; }
+  void draw(Picture& picture, const WorldVector& vector, const Camera& camera, double marks, int clip,
+            MarkLabels& labels) const;
 
  private:
   struct Straight {
     Point shift, v;  // of the tail from the place; units of H
     bool cut = false;
   };
-  Straight straight(const WorldVector& vector, const Camera& camera) const;
-  const TextLine& label(const WorldVector& vector) const;
-  Rect label_box(const TextLine& label, Point near, Point direction) const;
-  void draw_torque(Picture& picture, const WorldVector& vector, const Camera& camera, int clip,
+  Straight straight(const WorldVector& vector, const Camera& camera, double marks) const;
+  const TextLine& label(const WorldVector& vector, double marks) const;
+  void draw_torque(Picture& picture, const WorldVector& vector, const Camera& camera, double marks, int clip,
                    MarkLabels& labels) const;
 
   const Theme* theme_;
   const Fonts* fonts_;
   double text_scale_;
   VectorScales scales_;
-  double marks_;
-  mutable std::map<std::pair<VectorKind, std::string>, TextLine> labels_;
+  mutable std::map<std::tuple<VectorKind, std::string, double>, TextLine> labels_;
 };
 
 }  // namespace chainreel

@@ -18,7 +18,10 @@ struct ScaleEntry {
   double measure = 0;  // units of H; of a turn rad, 0: the ring of a torque that is zero
   Color color;
   std::string text;  // "weight 10 N"
+  int order = 0;     // entries stand by it, from left to right
 };
+// Entries behind those of vectors, and behind all that have a measure.
+inline constexpr int kAfterVectors = 1000, kAfterScales = 2000;
 
 // Laid out in one row; `width` of mark, gap and words.
 struct EntryLine {

@@ -32,6 +32,7 @@ struct SheetText {
   double bar_length = 0;            // units of H
   std::string legend;               // may be broken behind ": "
   std::vector<ScaleEntry> scales;   // of vectors, in rows above or beside the time
+  bool with_panel_titles = false;   // where several panels share the page each has one of its own
   Place title_place;                // for the message about a title that does not fit
 };
 

@@ -7,6 +7,7 @@
 #include "draw/robot/chain.hpp"
 #include "draw/robot/joints.hpp"
 #include "dynamics/kinematics.hpp"
+#include "picture/point.hpp"
 
 namespace chainreel {
 
@@ -16,28 +17,19 @@ ChainFit::ChainFit(const Chain& chain, const Skeleton& skeleton, const Camera& c
                    const BodyShapes* shapes)
     : chain_(chain), skeleton_(skeleton), camera_(camera), marks_(marks), shapes_(shapes) {
   const double outline = size::kLinkOutline / 2;
-  Room link = room_around(size::kLinkWidth / 2 + outline);
-  link.metres = kLinkWidthOfShortest * skeleton.shortest_link / 2;
-  link.beyond = outline;
-  link_ = box_.add_kind(link);
-  joint_ = box_.add_kind(room_around((marks * size::kJointDisc + size::kJointOutline) / 2));
-  tip_ = box_.add_kind(room_around(marks * size::kEndEffector / 2));
+  link_ = room_around(size::kLinkWidth / 2 + outline);
+  link_.metres = kLinkWidthOfShortest * skeleton.shortest_link / 2;
+  link_.beyond = outline;
+  joint_ = room_around((marks * size::kJointDisc + size::kJointOutline) / 2);
+  tip_ = room_around(marks * size::kEndEffector / 2);
   for (const Rail& rail : skeleton.rails) {
     // It may run any way: its end's farthest corner, below which there may be ground.
     const bool fixed = chain.bodies[std::size_t(rail.body)].parent == 0;
     const double across = fixed ? rail_ground_depth() : (size::kRailGap + size::kRailLine) / 2;
-    rail_.push_back(box_.add_kind(room_around(marks * std::hypot(rail_overhang(rail.carrier), across))));
+    rail_.push_back(room_around(marks * std::hypot(rail_overhang(rail.carrier), across)));
   }
-  corner_ = box_.add_kind(room_around(outline));
+  corner_ = room_around(outline);
   add_base();
-}
-
-void ChainFit::add_to(int kind, const Vector3d& place) {
-  box_.add(kind, camera_.flat(place));
-}
-
-void ChainFit::add(const Vector3d& place, const Room& room) {
-  add_to(box_.add_kind(room), place);
 }
 
 void ChainFit::add_base() {
@@ -58,21 +50,45 @@ bool ChainFit::add_pose(const Workspace& ws, double limit) {
     if (!(pose_of(ws, b).translation().norm() <= limit)) return false;  // NaN, too
   }
   for (const LinkSegment& link : skeleton_.links) {
-    add_to(link_, pose_of(ws, link.body) * link.from);
-    add_to(link_, pose_of(ws, link.body) * link.to);
+    add(pose_of(ws, link.body) * link.from, link_);
+    add(pose_of(ws, link.body) * link.to, link_);
   }
   for (int b = 1; b < bodies; ++b) {
     if (chain_.bodies[std::size_t(b)].joint.kind == JointKind::revolute)
-      add_to(joint_, pose_of(ws, b).translation());
+      add(pose_of(ws, b).translation(), joint_);
   }
   for (std::size_t i = 0; i < skeleton_.rails.size(); ++i) {
     const Rail& rail = skeleton_.rails[i];
-    add_to(rail_[i], rail_point(chain_, ws, rail.body, rail.lower));
-    add_to(rail_[i], rail_point(chain_, ws, rail.body, rail.upper));
+    add(rail_point(chain_, ws, rail.body, rail.lower), rail_[i]);
+    add(rail_point(chain_, ws, rail.body, rail.upper), rail_[i]);
   }
-  if (chain_.end_effector >= 0) add_to(tip_, tip_position(chain_, ws));
-  if (shapes_) for_each_corner(*shapes_, ws, [&](const Vector3d& corner) { add_to(corner_, corner); });
+  if (chain_.end_effector >= 0) add(tip_position(chain_, ws), tip_);
+  if (shapes_) for_each_corner(*shapes_, ws, [&](const Vector3d& corner) { add(corner, corner_); });
   return true;
+}
+
+bool covers(const Chain& chain, const Skeleton& skeleton, const BodyShapes* shapes, const Workspace& ws,
+            const Camera& camera, const Rect& part) {
+  const auto near = [&](const Vector3d& from, const Vector3d& to, double radius) {
+    Point a = camera.project(from), b = camera.project(to);
+    return cut_segment(widened(part, radius), a, b);
+  };
+  for (const LinkSegment& link : skeleton.links) {
+    const Eigen::Isometry3d X_WB = pose_of(ws, link.body);
+    if (near(X_WB * link.from, X_WB * link.to, size::kLinkWidth / 2)) return true;
+  }
+  if (shapes)
+    for (const BodyShape& shape : shapes->shapes)
+      if (overlap(part, extent_of(shape, ws, camera))) return true;
+  for (const Rail& rail : skeleton.rails)
+    if (near(rail_point(chain, ws, rail.body, rail.lower), rail_point(chain, ws, rail.body, rail.upper),
+             rail_overhang(rail.carrier)))
+      return true;
+  const Vector3d root = root_place(chain);
+  if (near(root, root, size::kGroundLength / 2)) return true;
+  if (chain.end_effector < 0) return false;
+  const Vector3d tip = tip_position(chain, ws);
+  return near(tip, tip, kLargestMark);
 }
 
 void extend(MotionBox& box, const Chain& chain, const Skeleton& skeleton, const BodyShapes* shapes,

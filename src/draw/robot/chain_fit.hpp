@@ -18,12 +18,11 @@ class ChainFit {
   // Poses with a place farther than `limit` from the base are passed over (runs that diverged): false.
   bool add_pose(const Workspace& ws, double limit);
   // Further places with room of their own.
-  void add(const Eigen::Vector3d& place, const Room& room);
+  void add(const Eigen::Vector3d& place, const Room& room) { box_.add(room, camera_.flat(place)); }
   const FitBox& box() const { return box_; }
 
  private:
   void add_base();
-  void add_to(int kind, const Eigen::Vector3d& place);
 
   const Chain& chain_;
   const Skeleton& skeleton_;
@@ -31,9 +30,13 @@ class ChainFit {
   double marks_;
   const BodyShapes* shapes_;
   FitBox box_;
-  int link_, joint_, tip_, corner_;
-  std::vector<int> rail_;  // one a rail
+  Room link_, joint_, tip_, corner_;
+  std::vector<Room> rail_;  // one a rail
 };
+
+// Whether any of a chain as it stands comes into this part of the page.
+bool covers(const Chain& chain, const Skeleton& skeleton, const BodyShapes* shapes, const Workspace& ws,
+            const Camera& camera, const Rect& part);
 
 // Lets the box in W hold the chain as it stands, but places farther than `limit` from the origin.
 void extend(MotionBox& box, const Chain& chain, const Skeleton& skeleton, const BodyShapes* shapes,

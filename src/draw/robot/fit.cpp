@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "picture/point.hpp"
 
 namespace chainreel {
 namespace {
@@ -21,39 +24,28 @@ Room room_at(const Room& room, double scale) {
 
 }  // namespace
 
-int FitBox::add_kind(const Room& room) {
-  kinds_.push_back({room, false, {}});
-  return int(kinds_.size()) - 1;
-}
-
-void FitBox::add(int kind, Point place_m) {
+void FitBox::add(const Room& room, Point place_m) {
   if (!std::isfinite(place_m.x) || !std::isfinite(place_m.y)) return;
-  Kind& k = kinds_[std::size_t(kind)];
-  if (!k.used) k.places = {place_m.x, place_m.y, place_m.x, place_m.y};
-  k.used = true;
-  k.places = {std::min(k.places.x0, place_m.x), std::min(k.places.y0, place_m.y),
-              std::max(k.places.x1, place_m.x), std::max(k.places.y1, place_m.y)};
+  const Rect place{place_m.x, place_m.y, place_m.x, place_m.y};
+  const auto [known, is_new] = places_.emplace(room, place);
+  if (!is_new) known->second = around(known->second, place);
 }
 
 void FitBox::add(const FitBox& other) {
-  kinds_.insert(kinds_.end(), other.kinds_.begin(), other.kinds_.end());
-}
-
-bool FitBox::empty() const {
-  return std::none_of(kinds_.begin(), kinds_.end(), [](const Kind& kind) { return kind.used; });
+  for (const auto& [room, places] : other.places_) {
+    const auto [known, is_new] = places_.emplace(room, places);
+    if (!is_new) known->second = around(known->second, places);
+  }
 }
 
 Rect FitBox::box(double scale) const {
   bool first = true;
   Rect all;
-  for (const Kind& kind : kinds_) {
-    if (!kind.used) continue;
-    const Room room = room_at(kind.room, scale);
-    const Rect r{kind.places.x0 - room.left / scale, kind.places.y0 - room.down / scale,
-                 kind.places.x1 + room.right / scale, kind.places.y1 + room.up / scale};
-    all = first ? r
-                : Rect{std::min(all.x0, r.x0), std::min(all.y0, r.y0), std::max(all.x1, r.x1),
-                       std::max(all.y1, r.y1)};
+  for (const auto& [any_scale, places] : places_) {
+    const Room room = room_at(any_scale, scale);
+    const Rect r{places.x0 - room.left / scale, places.y0 - room.down / scale, places.x1 + room.right / scale,
+                 places.y1 + room.up / scale};
+    all = first ? r : around(all, r);
     first = false;
   }
   return all;

@@ -3,7 +3,8 @@
 #pragma once
 
 #include <array>
-#include <vector>
+#include <compare>
+#include <map>
 
 #include "model/chain.hpp"
 #include "picture/camera.hpp"
@@ -16,33 +17,28 @@ struct Room {
   double left = 0, right = 0, down = 0, up = 0;  // units of H
   double metres = -1;                            // negative: no such bound
   double beyond = 0;                             // units of H
+
+  auto operator<=>(const Room&) const = default;
 };
 
 inline Room room_around(double radius) {
   return {radius, radius, radius, radius};
 }
 
-// Grows over all frames of a clip; one box per kind of thing, so that its size never depends on the clip's
-// length.
+// Grows over all frames of a clip; places that need the same room share one box, so that its size never depends on
+// the clip's length.
 class FitBox {
  public:
-  int add_kind(const Room& room);
-  void add(int kind,
-           Point place_m);  // along the camera's right and up, m; places that are not finite are passed over
-
+  // `place_m`: along the camera's right and up, m. Places that are not finite are passed over.
+  void add(const Room& room, Point place_m);
   void add(const FitBox& other);  // everything that it holds
 
-  bool empty() const;
+  bool empty() const { return places_.empty(); }
   // The whole in metres when one metre measures `scale`.
   Rect box(double scale) const;
 
  private:
-  struct Kind {
-    Room room;
-    bool used = false;
-    Rect places;
-  };
-  std::vector<Kind> kinds_;
+  std::map<Room, Rect> places_;
 };
 
 // Scale and origin of the camera such that everything, margins included, just fills `area`.

@@ -72,6 +72,7 @@ inline constexpr double kPinHeight = 0.038;  // from a joint on the ground down 
 inline constexpr double kPinWidth = 0.052;
 inline constexpr double kCarrierLength =
     0.118;                                 // of a carriage with a rail of its own: seen on both sides of that
+inline constexpr double kLargestMark = size::kCarriageLength / 2;  // around a place of the chain, half of its size
 inline constexpr double kRailEnd = 0.018;  // of a rail beyond the outermost end of its carriage
 
 constexpr double carriage_length(bool carrier) {

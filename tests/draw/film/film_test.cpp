@@ -164,7 +164,7 @@ TEST_F(RrFilm, NamesItsEllipseAndItsScale) {
       // det Lambda = det M / det J^2 = 1 / (1 - c^2) * ... : M = [[3 + 2c, 1 + c], [1 + c, 1]], det = 2 - c^2
       // - ...
       const double det_M = (3 + 2 * c) - (1 + c) * (1 + c), det_J2 = 1 - c * c;
-      const double per_kg = film.ellipse_scale().per_unit();
+      const double per_kg = test::per_unit_of_bar(film.static_layer());
       EXPECT_NEAR(test::length(e.u) * test::length(e.v) / (per_kg * per_kg), det_M / det_J2,
                   1e-9 * det_M / det_J2);
       ++compared;

@@ -93,9 +93,9 @@ TEST_F(PanelFilm, ShowsEachGripperWhereItsOwnRunHasIt) {
 TEST_F(PanelFilm, HasOneScaleForAllEllipsesSmallerThanThatOfAWholePage) {
   page.draw.push_back("ellipse");
   add("left", sliding);
-  const double alone = film().ellipse_scale().per_unit();
+  const double alone = test::per_unit_of_bar(film().static_layer());
   for (int i = 1; i < 4; ++i) add("more", sliding);
-  const double bar = film().ellipse_scale().per_unit();
+  const double bar = test::per_unit_of_bar(film().static_layer());
   // Half of it, rounded to a bar of 1, 2 or 5 x 10^n kg.
   EXPECT_LT(bar, 0.8 * alone);
   EXPECT_GT(bar, 0.2 * alone);
@@ -267,9 +267,8 @@ TEST_F(PanelFilm, BlamesThePanelWhoseTitleDoesNotFit) {
 TEST(PanelGrid, TakesTheArrangementInWhichThingsAreLargest) {
   const auto box_of = [](double width, double height) {
     FitBox box;
-    const int kind = box.add_kind({});
-    box.add(kind, {0, 0});
-    box.add(kind, {width, height});
+    box.add({}, {0, 0});
+    box.add({}, {width, height});
     return box;
   };
   const Rect area{0, 0, 1.6, 0.8};

@@ -1,4 +1,4 @@
-#include "draw/layers/trail.hpp"
+#include "draw/layers/past.hpp"
 
 #include <gtest/gtest.h>
 

@@ -21,7 +21,7 @@ Rect page_box(const Camera& camera, const Rect& box_m) {
 
 TEST(Fit, FillsTheAreaInOneDirectionAndIsCentredInBoth) {
   FitBox box;
-  const int joint = box.add_kind(room_around(0.02)), tip = box.add_kind({0.01, 0.03, 0.1, 0.005});
+  const Room joint = room_around(0.02), tip{0.01, 0.03, 0.1, 0.005};
   box.add(joint, {0, 0});
   box.add(joint, {1.7, -0.9});
   box.add(tip, {2.2, 0.4});
@@ -45,7 +45,7 @@ TEST(Fit, KeepsEveryPlaceWithItsRoomInside) {
     std::vector<std::pair<Point, double>> places;
     for (int i = 0; i < 6; ++i) {
       const double radius = room(random);
-      const int kind = box.add_kind(room_around(radius));
+      const Room kind = room_around(radius);
       places.push_back({{metres(random), metres(random)}, radius});
       box.add(kind, places.back().first);
     }
@@ -63,16 +63,15 @@ TEST(Fit, TakesTheSmallerOfRoomOnThePageAndRoomInMetres) {
   Room link = room_around(0.02);
   link.metres = 0.05;
   link.beyond = 0.001;
-  const int kind = box.add_kind(link);
-  box.add(kind, {0, 0});
-  box.add(kind, {1, 0});
+  box.add(link, {0, 0});
+  box.add(link, {1, 0});
   EXPECT_NEAR(box.box(0.1).width(), 1 + 2 * 0.06, 1e-15);  // 0.05 m and a thousandth are 0.006 on the page
   EXPECT_NEAR(box.box(1.0).width(), 1 + 2 * 0.02, 1e-15);  // 0.05 m would be 0.05: the page's bound holds
 }
 
 TEST(Fit, ShowsOneMetreWhereNothingHasAnExtent) {
   FitBox box;
-  box.add(box.add_kind(room_around(0.03)), {5, 5});
+  box.add(room_around(0.03), {5, 5});
   Camera camera;
   fit_to(camera, box, kFitArea, 0);
   EXPECT_NEAR(camera.scale, kFitArea.height(), kConverged);
@@ -83,7 +82,7 @@ TEST(Fit, ShowsOneMetreWhereNothingHasAnExtent) {
 // Negative control: a fit that forgot one place would not see it.
 TEST(Fit, ChangesWhenAPlaceOutsideIsAddedAndNotWhenItIsInside) {
   FitBox box;
-  const int kind = box.add_kind(room_around(0.02));
+  const Room kind = room_around(0.02);
   box.add(kind, {0, 0});
   box.add(kind, {1, 1});
   Camera camera;

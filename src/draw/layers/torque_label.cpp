@@ -1,9 +1,10 @@
-#include "draw/film/torque_label.hpp"
+#include "draw/layers/torque_label.hpp"
 
 #include <algorithm>
 #include <cctype>
 
 #include "core/format.hpp"
+#include "draw/layers/layer.hpp"
 
 namespace chainreel {
 namespace {
@@ -105,6 +106,34 @@ std::vector<std::string> torque_notations(const Chain& chain, const std::vector<
   if (entries.size() == 1) forms.push_back("tau = (" + entries[0] + ")" + unit_of(chain));
   forms.push_back("tau = tau(t, q, qd)");
   return forms;
+}
+
+namespace {
+
+class TorqueLabel : public Layer {
+ public:
+  explicit TorqueLabel(const Stage& stage) : forms_(common_torque(stage)) {}
+  void write(SheetText& text) const override { text.torque = forms_; }
+
+ private:
+  // What acts at the joints of all panels; nothing where they differ, since then their titles say it.
+  static std::vector<std::string> common_torque(const Stage& stage) {
+    const auto notations = [](const StagedRun& motion) {
+      return torque_notations(motion.chain(), motion.scene().torque, motion.scene().control);
+    };
+    const std::vector<std::string> first = notations(stage.motions.front());
+    const bool same = std::all_of(stage.motions.begin(), stage.motions.end(),
+                                  [&](const StagedRun& motion) { return notations(motion) == first; });
+    return same ? first : std::vector<std::string>{};
+  }
+
+  std::vector<std::string> forms_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Layer> make_layer_torque_label(const Stage& stage) {
+  return std::make_unique<TorqueLabel>(stage);
 }
 
 }  // namespace chainreel

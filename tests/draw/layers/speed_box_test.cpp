@@ -4,6 +4,7 @@
 
 #include "draw/chains.hpp"
 #include "draw/film/film.hpp"
+#include "draw/layers/speed_box.hpp"
 #include "draw/shapes.hpp"
 
 namespace chainreel {

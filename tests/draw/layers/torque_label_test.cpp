@@ -1,4 +1,4 @@
-#include "draw/film/torque_label.hpp"
+#include "draw/layers/torque_label.hpp"
 
 #include <gmock/gmock.h>
 

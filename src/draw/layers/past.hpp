@@ -1,13 +1,21 @@
-// Onion skins: the chain as it stood at earlier instants, equally spaced in time, fainter with age.
+// What was: the way of the end effector behind it, and the chain as it stood at earlier instants.
 #pragma once
 
 #include <vector>
 
 #include "core/frame_rate.hpp"
-#include "draw/robot/joints.hpp"
+#include "draw/page/panel.hpp"
 
 namespace chainreel {
 
+// The trail: the last second, thinner and fainter with age, with dots every 0.1 s.
+inline constexpr double kTrailSeconds = 1.0;
+inline constexpr int kTrailDotsPerSecond = 10;
+inline constexpr double kTrailOpacity = 0.7;
+// The trail as it stands at frame k.
+void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip);
+
+// Onion skins: the chain at earlier instants, equally spaced in time, fainter with age.
 inline constexpr int kMostGhosts = 6;
 inline constexpr int kFilledGhosts = 3;  // those beyond are outlines only
 inline constexpr double kFaintestGhost = 0.10, kStrongestGhost = 0.35;

@@ -1,0 +1,108 @@
+#include "draw/film/film_sheet.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kTitleRow = 1.55;  // of the em: a panel's title or note with the air around it
+
+SheetText words_of(const Stage& stage, const Layers& layers) {
+  SheetText text;
+  if (is_transparent(stage.page)) return text;  // nothing above or below the scene
+  text.title_place = stage.page.place_of("title");
+  for (const auto& layer : layers) layer->write(text);
+  std::stable_sort(text.scales.begin(), text.scales.end(),
+                   [](const ScaleEntry& a, const ScaleEntry& b) { return a.order < b.order; });
+  return text;
+}
+
+bool has_notes(const Stage& stage) {
+  return !is_transparent(stage.page) &&
+         std::any_of(stage.motions.begin(), stage.motions.end(),
+                     [](const StagedRun& motion) { return motion.may_have_notes(); });
+}
+
+// What the plots of the page show of a run; its simulation must be there.
+StripRun strip_run(const StagedRun& motion) {
+  const Trajectory& run = motion.trajectory();
+  StripRun strip{motion.title(), motion.is_wild(), {}, {}};
+  strip.times.assign(run.t.begin(), run.t.begin() + motion.samples());
+  if (motion.simulation()) strip.plots = plot_curves(*motion.simulation(), run, motion.samples());
+  return strip;
+}
+
+// The size at which every panel's title fits, if it is not too small to read.
+double title_size(const Stage& stage, const std::vector<PanelCell>& cells) {
+  const double full = scaled(size::kSymbol, stage.page.text_scale);
+  double common = full;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const TextLine line =
+        lay_out_text(stage.fonts, stage.motions[i].title(), {Face::label_bold, full, stage.theme.ink});
+    if (line.advance > 0) common = std::min(common, full * cells[i].title.width() / line.advance);
+  }
+  return std::max(common, std::min(full, scaled(kSmallestText, stage.page.text_scale)));
+}
+
+}  // namespace
+
+FilmSheet::FilmSheet(const Stage& stage, const Layers& layers) {
+  const Scene& page = stage.page;
+  const SheetText text = words_of(stage, layers);
+  const double aspect = double(page.video.width) / page.video.height;
+  sheet = lay_out_sheet(text, aspect, page.text_scale, stage.theme, stage.fonts);
+  if (!page.plot.empty() && !is_transparent(page)) lay_out_plots(stage);
+  has_panel_titles = text.with_panel_titles && stage.has_cells();
+  if (has_panel_titles) rows.title = kTitleRow * scaled(size::kSymbol, page.text_scale);
+  if (text.with_panel_titles && stage.is_ghost()) {
+    key.emplace(stage, sheet.scene.width());
+    rows.title = key->height();
+  }
+  if (has_notes(stage)) rows.note = kTitleRow * scaled(size::kAxis, page.text_scale);
+}
+
+// One plot below the scene, more beside it, unless the layout says otherwise; below several panels.
+void FilmSheet::lay_out_plots(const Stage& stage) {
+  const Scene& page = stage.page;
+  std::vector<StripRun> runs;
+  for (const StagedRun& motion : stage.motions) runs.push_back(strip_run(motion));
+  const int count = int(page.plot.size());
+  const bool right = !stage.is_comparison() && page.layout != "scene-below" &&
+                     (count > 1 || page.layout == "scene-right");
+  const PlotAreas areas = plot_areas(sheet.scene, count, right ? PlotPlace::right : PlotPlace::below);
+  sheet.scene = areas.scene;
+  const PlotStyle style{&stage.fonts, &stage.theme, page.text_scale};
+  for (std::size_t i = 0; i < areas.plots.size(); ++i)
+    plots.emplace_back(strip_data(runs, i, stage.times.back(), stage.theme), areas.plots[i], style);
+  if (!right) return;
+  double x0 = sheet.scene.x1, x1 = sheet.aspect;
+  for (const PlotStrip& plot : plots) {
+    x0 = std::max(x0, plot.frame().box.x0);
+    x1 = std::min(x1, plot.frame().box.x1);
+  }
+  for (PlotStrip& plot : plots) plot.narrow_to(x0, x1);
+}
+
+std::vector<PlacedText> FilmSheet::panel_titles(const Stage& stage, const std::vector<PanelCell>& cells) const {
+  std::vector<PlacedText> titles;
+  if (!has_panel_titles) return titles;
+  const Theme& theme = stage.theme;
+  const bool two_sides = cells.size() == 2;
+  const double text_size = title_size(stage, cells);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Rect& row = cells[i].title;
+    const Color color = !two_sides ? theme.ink : i == 0 ? theme.side_a : theme.side_b;
+    TextLine line = lay_out_text(stage.fonts, stage.motions[i].title(), {Face::label_bold, text_size, color});
+    if (line.advance > row.width() + kRoundOff)
+      throw Error(ExitCode::bad_input,
+                  "the title of panel " + std::to_string(i + 1) +
+                      " does not fit above it: give the panel a short `title:`",
+                  stage.motions[i].scene().place_of("title"));
+    titles.push_back({std::move(line), {row.x0, row.y0 + kTitleDescent * text_size}});
+  }
+  return titles;
+}
+
+}  // namespace chainreel

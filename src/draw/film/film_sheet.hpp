@@ -1,0 +1,35 @@
+// What a film says and plots around its scenes, and the room that this leaves them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "draw/film/ghost_layout.hpp"
+#include "draw/film/plot_strip.hpp"
+#include "draw/layers/layer.hpp"
+#include "draw/page/panel_grid.hpp"
+#include "draw/page/sheet.hpp"
+
+namespace chainreel {
+
+// Of the em, from the lower end of a panel's row of words up to its base line.
+inline constexpr double kTitleDescent = 0.40;
+
+struct FilmSheet {
+  // Throws Error (bad input) where the words leave no room.
+  FilmSheet(const Stage& stage, const Layers& layers);
+
+  Sheet sheet;  // its scene is what is left for all panels
+  std::vector<PlotStrip> plots;
+  std::optional<GhostKey> key;  // of layout `ghost`
+  PanelRows rows;               // that panels keep free for words of their own
+  bool has_panel_titles = false;
+
+  // The titles of panels in cells of their own. Throws Error (bad input) where one does not fit.
+  std::vector<PlacedText> panel_titles(const Stage& stage, const std::vector<PanelCell>& cells) const;
+
+ private:
+  void lay_out_plots(const Stage& stage);
+};
+
+}  // namespace chainreel

@@ -1,0 +1,154 @@
+#include "draw/film/film_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "draw/robot/chain_fit.hpp"
+#include "draw/robot/joints.hpp"
+#include "draw/robot/view.hpp"
+#include "picture/point.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kLargestAside = 0.6;  // of a panel's width may be taken by what stands beside its scene
+constexpr double kAir = 0.010;         // around a part of the page that is left free
+
+// What a camera with these axes must hold of a motion: the chain, and what layers draw over it. Wild ones count with
+// their start, unless all are.
+FitBox fit_box(const StagedRun& motion, const Layers& layers, const Camera& view, double marks) {
+  ChainFit fit(motion.chain(), motion.skeleton(), view, marks, motion.shapes());
+  FitBox over;
+  if (motion.is_constrained()) {
+    const double half = marks * size::kGroundLength / 2;
+    for (const Eigen::Vector3d& place : closure_pins(motion.chain(), motion.simulation()->constraints))
+      over.add({half, half, marks * pin_depth(), 0}, view.flat(place));
+  }
+  for (int k = 0; k < motion.counted(); ++k) {
+    const Workspace& ws = motion.pose_at(k);
+    if (!fit.add_pose(ws, motion.limit())) continue;
+    for (const auto& layer : layers)
+      if (layer->is_of(motion)) layer->measure({motion, ws, k, view, marks}, over);
+  }
+  over.add(fit.box());
+  return over;
+}
+
+FitBox fit_box(const Stage& stage, const Layers& layers, const Camera& view, double marks) {
+  FitBox box;
+  for (const StagedRun& motion : stage.motions) box.add(fit_box(motion, layers, view, marks));
+  return box;
+}
+
+// What is to be seen just fills `area`, or what the scene says.
+void fit_to_area(Camera& camera, const Stage& stage, const FitBox& box, const Rect& area) {
+  if (!fit_as_told(camera, stage.page.camera, area)) fit_to(camera, box, area, size::kFitMargin);
+}
+
+std::vector<PanelCell> cells_of(const Stage& stage, const FilmSheet& sheet, const FitBox& box) {
+  const int count = int(stage.motions.size());
+  const Rect& area = sheet.sheet.scene;
+  const std::vector<PanelCell> cells =
+      stage.is_ghost()                  ? ghost_cells(area, sheet.rows, stage.motions)
+      : stage.page.layout == "compare" ? panel_cells(area, count, count, sheet.rows)
+                                        : best_cells(area, count, sheet.rows, box);
+  if (cells.empty())
+    throw Error(ExitCode::bad_input,
+                "the panels get too small on this page: compare fewer, or lower text_scale",
+                stage.page.place_of("compare"));
+  return cells;
+}
+
+// A corner of the panels' scenes; the same one in all of them.
+struct Corner {
+  bool right = true, top = true;
+
+  Point lower_left(const Rect& scene, Point room, double inset) const {
+    return {right ? scene.x1 - inset - room.x : scene.x0 + inset,
+            top ? scene.y1 - inset - room.y : scene.y0 + inset};
+  }
+  bool is_lower_left() const { return !right && !top; }
+};
+constexpr Corner kCorners[] = {{true, true}, {false, true}, {true, false}, {false, false}};
+
+// Nothing of the chain and of the layers over it ever comes into this part of the page.
+bool is_free(const Rect& part, const StagedRun& motion, const Layers& layers, const Camera& camera, double marks,
+             const Corner& corner) {
+  const Rect with_air = widened(part, kAir);
+  for (int k = 0; k < (motion.is_wild() ? 1 : motion.samples()); ++k) {
+    const Sight sight{motion, motion.pose_at(k), k, camera, marks};
+    if (covers(motion.chain(), motion.skeleton(), motion.shapes(), sight.ws, camera, with_air)) return false;
+    for (const auto& layer : layers)
+      if (layer->is_of(motion) && layer->covers(sight, with_air, corner.is_lower_left())) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+FilmView::FilmView(const Stage& stage, const Layers& layers, const FilmSheet& sheet) {
+  place_camera(stage, layers, sheet);
+  place_rooms(stage, layers);
+}
+
+Camera FilmView::camera_of(std::size_t panel) const {
+  const Rect &from = cells.front().scene, &to = cells[panel].scene;
+  Camera shifted = camera;
+  shifted.origin = camera.origin + Point{to.x0 - from.x0, to.y0 - from.y0};
+  return shifted;
+}
+
+void FilmView::place_camera(const Stage& stage, const Layers& layers, const FilmSheet& sheet) {
+  const Chain& chain = stage.motions.front().chain();
+  const CameraEntry& entry = stage.page.camera;
+  camera = view_of(chain, entry);
+  box_ = fit_box(stage, layers, camera, 1);
+  cells = cells_of(stage, sheet, box_);
+  marks = stage.is_ghost() ? 1 : marks_in(cells);
+  const Rect& first = cells.front().scene;
+  if (has_eye(chain, entry))
+    place_eye(
+        camera, *stage.space, entry, first.height(),
+        [&](Camera& seen) { fit_to_area(seen, stage, fit_box(stage, layers, seen, marks), first); },
+        stage.page.place_of("camera.distance"));
+  if (marks != 1 || camera.nearness > 0) box_ = fit_box(stage, layers, camera, marks);
+  fit_to_area(camera, stage, box_, first);
+}
+
+// In a corner that nothing ever comes into; else right of the scenes, which become narrower.
+void FilmView::place_rooms(const Stage& stage, const Layers& layers) {
+  const std::vector<StagedRun>& motions = stage.motions;
+  corners_.assign(layers.size(), std::vector<Point>(motions.size()));
+  const double inset = stage.has_cells() ? kBarInset : 0;
+  const auto stands_in = [&](std::size_t layer, const Corner& corner) {
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      const Rect& scene = cells[i].scene;
+      const Point room = *layers[layer]->room_beside(motions[i]);
+      const Point at = corners_[layer][i] = corner.lower_left(scene, room, inset);
+      if (!(at.x >= scene.x0 && at.y >= scene.y0 &&
+            is_free({at.x, at.y, at.x + room.x, at.y + room.y}, motions[i], layers, camera_of(i), marks, corner)))
+        return false;
+    }
+    return true;
+  };
+  for (std::size_t l = 0; l < layers.size(); ++l) {
+    if (!layers[l]->room_beside(motions.front())) continue;
+    if (std::any_of(std::begin(kCorners), std::end(kCorners),
+                    [&](const Corner& corner) { return stands_in(l, corner); }))
+      continue;
+    double width = 0;
+    for (const StagedRun& motion : motions) width = std::max(width, layers[l]->room_beside(motion)->x);
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      Rect& scene = cells[i].scene;
+      const Point room = *layers[l]->room_beside(motions[i]);
+      corners_[l][i] = {scene.x1 - inset - width, scene.y1 - inset - room.y};
+      if (width + size::kGutter > kLargestAside * scene.width() || room.y > scene.height())
+        throw Error(ExitCode::bad_input, layers[l]->no_room(), stage.page.place_of("draw"));
+      scene.x1 -= inset + width + size::kGutter;
+    }
+    fit_to_area(camera, stage, box_, cells.front().scene);
+  }
+}
+
+}  // namespace chainreel

@@ -1,0 +1,35 @@
+// Where the panels of a film lie, and the one camera that sees all of them.
+#pragma once
+
+#include <vector>
+
+#include "draw/film/film_sheet.hpp"
+#include "draw/layers/layer.hpp"
+#include "draw/page/panel_grid.hpp"
+
+namespace chainreel {
+
+inline constexpr double kBarInset = 0.014;  // of what stands in a corner of a panel from its frame
+
+struct FilmView {
+  // Throws Error (bad input) where there is no room for the panels, or for what stands beside their scenes.
+  FilmView(const Stage& stage, const Layers& layers, const FilmSheet& sheet);
+
+  Camera camera;  // of the first panel
+  std::vector<PanelCell> cells;
+  double marks = 1;  // size of marks, as in ChainLook
+
+  // All panels see the same part of the world at the same place of their cells.
+  Camera camera_of(std::size_t panel) const;
+  // Lower left of the room that a layer asked for in or beside the scene of a panel.
+  Point corner(std::size_t layer, std::size_t panel) const { return corners_[layer][panel]; }
+
+ private:
+  void place_camera(const Stage& stage, const Layers& layers, const FilmSheet& sheet);
+  void place_rooms(const Stage& stage, const Layers& layers);
+
+  FitBox box_;  // that the camera holds
+  std::vector<std::vector<Point>> corners_;  // by layer and panel
+};
+
+}  // namespace chainreel

@@ -1,0 +1,128 @@
+// A foot on the ground and what the ground answers: an arrow from the centre of pressure, as long as the
+// force. Beyond the foot, where no ground could push, it is dashed; where the ground had to pull, there is
+// none.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/format.hpp"
+#include "draw/layers/layer.hpp"
+#include "draw/page/arrow.hpp"
+#include "draw/page/sheet.hpp"
+#include "draw/robot/joints.hpp"
+#include "dynamics/forward_dynamics.hpp"
+#include "dynamics/ground_reaction.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kWeightArrow = 0.22;  // units of H: as long is the force that bears the weight
+constexpr double kFarthest = 3;        // lengths of the foot: beyond, the arrow tells nothing
+constexpr double kGroundBesideFoot = 2.5;  // lengths of the foot, on each side
+
+double weight_of(const Chain& chain) {
+  double mass = 0;
+  for (const Body& body : chain.bodies) mass += body.inertia.mass;
+  return mass * chain.gravity.norm();
+}
+
+// A run's foot, and what the ground answers at its samples.
+struct FootRun {
+  struct Push {
+    double place = 0;                                 // centre of pressure, m along the ground
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();  // in weights
+  };
+
+  explicit FootRun(const StagedRun& motion);
+  Eigen::Vector3d on_ground(double place) const { return place * ground.along + foot.height * ground.up; }
+
+  double weight = 0;  // N
+  Foot foot;
+  GroundAxes ground;
+  std::vector<Eigen::Vector3d> ankles;  // joints on the world
+  std::vector<Push> pushes;             // a sample
+};
+
+FootRun::FootRun(const StagedRun& motion)
+    : weight(weight_of(motion.chain())),
+      foot(*motion.simulation()->events->foot),
+      ground(motion.simulation()->events->ground) {
+  const Chain& chain = motion.chain();
+  const Trajectory& trajectory = motion.trajectory();
+  for (const Body& body : chain.bodies)
+    if (&body != &chain.bodies[0] && body.parent == 0) ankles.push_back(body.joint.X_PJ.translation());
+  Workspace ws(chain);
+  std::vector<double> tau(std::size_t(chain.nv));
+  for (int k = 0; k < motion.samples(); ++k) {
+    const auto q = trajectory.q_at(k), qd = trajectory.qd_at(k);
+    motion.simulation()->torque->evaluate(chain, ws, trajectory.t[std::size_t(k)], q, qd, tau);
+    compute_forward_dynamics(chain, ws, q, qd, tau);
+    const std::vector<double> qdd = ws.qdd;
+    const Wrench wrench = compute_ground_reaction(chain, ws, q, qd, qdd);
+    pushes.push_back({center_of_pressure(chain, ws, ground, foot.height, q, qd, qdd), wrench.force / weight});
+  }
+}
+
+class FootLayer : public Layer {
+ public:
+  explicit FootLayer(const Stage& stage) : theme_(&stage.theme) {
+    for (const StagedRun& motion : stage.motions)
+      if (is_of(motion) && motion.has_foot()) runs_.emplace(&motion, motion);
+    const auto first = runs_.find(&stage.motions.front());
+    if (first != runs_.end()) weight_ = first->second.weight;
+  }
+
+  void write(SheetText& text) const override {
+    constexpr double kShare = 0.3;  // of the weight, at most
+    if (!weight_) return;
+    const double force = round_length(kShare * *weight_);
+    text.scales.push_back({ScaleEntry::Mark::arrow, kWeightArrow * force / *weight_, theme_->constraint,
+                           "ground reaction " + format_shortest(force) + " N", kAfterVectors});
+  }
+
+  void draw_once(Picture& picture, const Panel& panel) const override {
+    const auto known = runs_.find(&panel.motion());
+    if (known == runs_.end()) return;
+    const FootRun& run = known->second;
+    const ChainLook& look = panel.look();
+    const auto at = [&](double place) { return panel.camera().project(run.on_ground(place)); };
+    const double beyond = kGroundBesideFoot * (run.foot.toe - run.foot.heel);
+    const Point left = at(run.foot.heel - beyond), right = at(run.foot.toe + beyond);
+    draw_ground(picture, left.x < right.x ? PageLine{left, right} : PageLine{right, left}, {0, -1}, look,
+                panel.clip());
+    const Point heel = at(run.foot.heel), toe = at(run.foot.toe);
+    const Paint paint{tinted(look.theme->base, 0.35, look), toned(look.theme->base, look), size::kLinkOutline};
+    for (const Eigen::Vector3d& ankle : run.ankles)
+      picture.add(Polygon{{heel, toe, panel.camera().project(ankle)}, 3, paint}, panel.clip());
+  }
+
+  void draw(Picture& picture, const Shot& shot) const override {
+    const Panel& panel = shot.panel;
+    const auto known = runs_.find(&panel.motion());
+    if (known == runs_.end()) return;
+    const FootRun& run = known->second;
+    const FootRun::Push& push = run.pushes[std::size_t(std::clamp(shot.k, 0, int(run.pushes.size()) - 1))];
+    const double middle = (run.foot.heel + run.foot.toe) / 2;
+    // A ground cannot pull; false for what is no number, too.
+    if (!(push.force.dot(run.ground.up) > 0)) return;
+    if (!(std::abs(push.place - middle) < kFarthest * (run.foot.toe - run.foot.heel))) return;
+    const Camera& camera = panel.camera();
+    const Point force = (kWeightArrow / camera.scale) * camera.project_vector(push.force, camera.focus);
+    const bool stands = push.place >= run.foot.heel && push.place <= run.foot.toe;
+    draw_arrow(picture, camera.project(run.on_ground(push.place)), force,
+               {panel.look().theme->constraint, panel.look().marks, !stands, false}, panel.clip());
+  }
+
+ private:
+  const Theme* theme_;
+  std::map<const StagedRun*, FootRun> runs_;
+  std::optional<double> weight_;  // N, of the first run
+};
+
+}  // namespace
+
+std::unique_ptr<const Layer> make_layer_foot(const Stage& stage) {
+  return std::make_unique<FootLayer>(stage);
+}
+
+}  // namespace chainreel

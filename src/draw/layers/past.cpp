@@ -1,0 +1,116 @@
+#include "draw/layers/past.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/layers/layer.hpp"
+#include "draw/robot/joints.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kPiece =
+    0.006;  // H: a piece this long of a turn of radius 0.03 H misses it by a sixth of a pixel
+constexpr int kMostPieces = 24;  // between two frames
+
+// 1 at the head, 0 at the end of the trail.
+double freshness(double age) {
+  return std::clamp(1 - age / kTrailSeconds, 0.0, 1.0);
+}
+
+TrailPoint trail_point(const TipPath& path, double t, double now) {
+  const double fresh = freshness(now - t);
+  return {path.at(t), size::kTrailTail + fresh * (size::kTrailHead - size::kTrailTail),
+          kTrailOpacity * fresh};
+}
+
+class TrailLayer : public Layer {
+ public:
+  explicit TrailLayer(const Stage& stage) : theme_(&stage.theme) {}
+
+  void draw(Picture& picture, const Shot& shot) const override {
+    draw_trail(picture, shot.panel.tip(), shot.k, color_of(shot.panel.motion()), shot.panel.clip());
+  }
+
+ private:
+  Color color_of(const StagedRun& motion) const {
+    if (motion.variant()) return motion.variant()->color;
+    return theme_->curve[std::size_t(std::max(motion.chain().nv, 1) - 1) % theme_->curve.size()];
+  }
+
+  const Theme* theme_;
+};
+
+class GhostsLayer : public Layer {
+ public:
+  void draw(Picture& picture, const Shot& shot) const override {
+    const Panel& panel = shot.panel;
+    for (const Ghost& ghost : ghosts_at(panel.motion().trajectory().t, shot.k, panel.scene().video.fps)) {
+      const Workspace& then = panel.motion().pose_at(ghost.frame);
+      ChainLook look = panel.look();
+      look.strength = ghost.strength;
+      look.filled = ghost.filled;
+      const ChainDrawing drawing = panel.drawing(look);
+      draw_rails(picture, drawing, then, panel.clip());
+      draw_links(picture, drawing, then, panel.clip());
+    }
+    panel.motion().pose_at(shot.k);  // as it stands for what lies above
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Layer> make_layer_trail(const Stage& stage) {
+  return std::make_unique<TrailLayer>(stage);
+}
+
+std::unique_ptr<const Layer> make_layer_ghosts(const Stage&) {
+  return std::make_unique<GhostsLayer>();
+}
+
+void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip) {
+  const double now = path.time(k);
+  const double since = path.gapless_since(k, now - kTrailSeconds);
+  if (!(since < now)) return;
+  Trail trail;
+  trail.color = color;
+  for (int i = path.frame_at(since); i < k; ++i) {
+    const double from = std::max(since, path.time(i)), to = path.time(i + 1);
+    const int pieces = path.pieces(i, kPiece, kMostPieces);
+    for (int j = 0; j < pieces; ++j)
+      trail.points.push_back(trail_point(path, from + j * ((to - from) / pieces), now));
+  }
+  trail.points.push_back(trail_point(path, now, now));
+  picture.add(std::move(trail), clip);
+
+  // The dots stand still while the trail moves on: they belong to whole tenths of a second of the film.
+  const double r = size::kTrailDot / 2;
+  for (int i = int(std::ceil(since * kTrailDotsPerSecond)); double(i) / kTrailDotsPerSecond <= now; ++i) {
+    const TrailPoint at = trail_point(path, double(i) / kTrailDotsPerSecond, now);
+    if (at.alpha > 0) picture.add(Ellipse{at.p, {r, 0}, {0, r}, {color.faded(at.alpha), {}, 0}}, clip);
+  }
+}
+
+int ghost_spacing(FrameRate fps) {
+  return std::max(1, int(std::lround(fps.value() * kGhostSeconds / kMostGhosts)));
+}
+
+std::vector<Ghost> ghosts_at(const std::vector<double>& times, int frame, FrameRate fps) {
+  const double spacing = frame_time(ghost_spacing(fps), fps), half_frame = 0.5 / fps.value();
+  std::vector<Ghost> ghosts;
+  for (int age = kMostGhosts; age >= 1; --age) {
+    const double t = times[std::size_t(frame)] - age * spacing;
+    if (t < times.front() - 1e-9) continue;
+    const auto after = std::lower_bound(times.begin(), times.end(), t - half_frame / 2);
+    int nearest = int(after - times.begin());
+    while (nearest + 1 < frame &&
+           std::abs(times[std::size_t(nearest) + 1] - t) < std::abs(times[std::size_t(nearest)] - t))
+      ++nearest;
+    const double fade = double(age - 1) / (kMostGhosts - 1);
+    ghosts.push_back(
+        {nearest, kStrongestGhost + fade * (kFaintestGhost - kStrongestGhost), age <= kFilledGhosts});
+  }
+  return ghosts;
+}
+
+}  // namespace chainreel

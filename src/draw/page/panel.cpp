@@ -1,0 +1,141 @@
+#include "draw/page/panel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/page/sheet.hpp"
+#include "draw/robot/joints.hpp"
+#include "dynamics/kinematics.hpp"
+
+namespace chainreel {
+
+void TipPath::add(double t, Point place, Point speed) {
+  const bool gap = !(is_drawable(place) && std::isfinite(speed.x) &&
+                     std::isfinite(speed.y));
+  t_.push_back(t);
+  place_.push_back(gap ? Point{} : place);
+  speed_.push_back(gap ? Point{} : speed);
+  gap_.push_back(gap);
+}
+
+Point TipPath::at(double t) const {
+  if (t >= t_.back()) return place_.back();
+  const std::size_t i = std::size_t(frame_at(t));
+  const double h = t_[i + 1] - t_[i], s = (t - t_[i]) / h;
+  const double s2 = s * s, s3 = s2 * s;
+  return (2 * s3 - 3 * s2 + 1) * place_[i] + ((s3 - 2 * s2 + s) * h) * speed_[i] +
+         (3 * s2 - 2 * s3) * place_[i + 1] + ((s3 - s2) * h) * speed_[i + 1];
+}
+
+int TipPath::frame_at(double t) const {
+  return std::max(0, int(std::upper_bound(t_.begin(), t_.end(), t) - t_.begin()) - 1);
+}
+
+int TipPath::pieces(int k, double length, int most) const {
+  const std::size_t i = std::size_t(k);
+  // A turn between two frames shows in the speeds, not in the distance.
+  const double way = std::max(norm(place_[i + 1] - place_[i]),
+                              std::max(norm(speed_[i]), norm(speed_[i + 1])) * (t_[i + 1] - t_[i]));
+  return int(std::clamp(std::ceil(way / length), 1.0, double(most)));
+}
+
+double TipPath::gapless_since(int k, double t) const {
+  for (int i = k; i >= 0; --i) {
+    if (i < k && t_[std::size_t(i) + 1] - t_[std::size_t(i)] > kLongestTrailStep + 1e-9) return t_[std::size_t(i) + 1];
+    if (gap_[std::size_t(i)]) return i == k ? t_[std::size_t(k)] : t_[std::size_t(i) + 1];
+    if (t_[std::size_t(i)] <= t) return t;
+  }
+  return t_.front();
+}
+
+Panel::Panel(const StagedRun& motion, const PanelView& view, const Theme& theme, std::span<const Panel> over)
+    : motion_(&motion),
+      view_(view),
+      skeleton_(motion.skeleton()),
+      look_(look_of(skeleton_, view_.camera, theme, 1, view_.marks)),
+      last_(motion.samples() - 1) {
+  if (motion.may_freeze()) {
+    find_last_inside();
+    motion.let_rails_reach(skeleton_, last_ + 1);
+  }
+  for (const Panel& other : over)
+    for (Rail& rail : skeleton_.rails)
+      for (const Rail& its : other.skeleton_.rails) {
+        if (its.body != rail.body || !its.used || !rail.used) continue;
+        rail.lower = std::min(rail.lower, its.lower);
+        rail.upper = std::max(rail.upper, its.upper);
+      }
+  follow_tip();
+}
+
+ChainDrawing Panel::drawing(const ChainLook& look) const {
+  return {chain(), skeleton_, view_.camera, look, motion_->shapes()};
+}
+
+bool Panel::is_inside(const Workspace& ws) const {
+  const double edge = look_.marks * kLargestMark;
+  const auto holds = [&](const Eigen::Vector3d& place) {
+    const Point p = camera().project(place);
+    // False for NaN, too.
+    return p.x - edge >= area().x0 && p.x + edge <= area().x1 && p.y - edge >= area().y0 &&
+           p.y + edge <= area().y1;
+  };
+  for (int b = 1; b < int(chain().bodies.size()); ++b) {
+    if (!holds(pose_of(ws, b).translation())) return false;
+  }
+  for (const LinkSegment& link : skeleton_.links) {
+    if (!holds(pose_of(ws, link.body) * link.from) || !holds(pose_of(ws, link.body) * link.to)) return false;
+  }
+  return chain().end_effector < 0 || holds(tip_position(chain(), ws));
+}
+
+void Panel::find_last_inside() {
+  for (int k = 0; k < motion_->samples(); ++k) {
+    if (is_inside(motion_->pose_at(k))) continue;
+    left_ = true;
+    last_ = std::max(0, k - 1);
+    return;
+  }
+}
+
+void Panel::follow_tip() {
+  if (chain().end_effector < 0) return;
+  for (int k = 0; k <= last_; ++k) {
+    const Workspace& ws = motion_->pose_at(k);
+    const Eigen::Vector3d tip = tip_position(chain(), ws);
+    tip_.add(motion_->trajectory().t[std::size_t(k)], camera().project(tip),
+             camera().project_vector(frame_velocity(chain(), ws, chain().end_effector), tip));
+  }
+}
+
+std::optional<double> Panel::left_at() const {
+  if (!motion_->may_freeze()) return std::nullopt;
+  const Trajectory& run = motion_->trajectory();
+  if (!left_) return run.end_time;
+  return run.t[std::size_t(std::min(last_ + 1, motion_->samples() - 1))];
+}
+
+// The last events up to this frame, as many as a line holds.
+std::string Panel::event_note(int k) const {
+  constexpr int kInALine = 2;
+  const Trajectory& run = motion_->trajectory();
+  const EventHits& hits = run.events;
+  const auto begin = hits.t.begin();
+  const auto end =
+      k < run.size() ? std::upper_bound(begin, hits.t.end(), run.t[std::size_t(k)]) : hits.t.end();
+  std::string text;
+  for (int i = std::max(0, int(end - begin) - kInALine); i < int(end - begin); ++i) {
+    const EventEntry& event = scene().events[std::size_t(hits.event[std::size_t(i)])];
+    text += (text.empty() ? "" : ";  ") + event.title() + " at " + time_text(hits.t[std::size_t(i)]);
+  }
+  return text;
+}
+
+std::string Panel::note(int k) const {
+  const std::optional<double> left = left_at();
+  if (!left || k <= last_) return event_note(k);
+  const bool gone = left_ || motion_->trajectory().status == RunStatus::diverged;
+  return (gone ? "left the picture at " : "ended at ") + time_text(*left);
+}
+
+}  // namespace chainreel

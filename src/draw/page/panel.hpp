@@ -1,0 +1,90 @@
+// One run in its part of the page.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "draw/page/stage.hpp"
+#include "draw/robot/chain.hpp"
+
+namespace chainreel {
+
+// Frames further apart, where a film shows the motion much faster than it was, do not say how it went between them.
+inline constexpr double kLongestTrailStep = 0.1;  // s
+
+// Where the end effector was on the page and how fast it moved there, at the frames.
+class TipPath {
+ public:
+  // `speed` in page units a second. A place off the page by far, or not finite, is a gap: no trail crosses
+  // it.
+  void add(double t, Point place, Point speed);
+
+  int size() const { return int(t_.size()); }
+  double time(int k) const { return t_[std::size_t(k)]; }
+  Point place(int k) const { return place_[std::size_t(k)]; }
+  // Between the frames: the cubic that has their places and speeds. `t` within the path.
+  Point at(double t) const;
+  int frame_at(double t) const;  // the last one not after t
+  // Into how many straight pieces the way from frame k to the next one is to be cut for none to be longer
+  // than `length`.
+  int pieces(int k, double length, int most) const;
+  // The frame after which no gap lies before frame k, not earlier than `t`.
+  double gapless_since(int k, double t) const;
+
+ private:
+  std::vector<double> t_;
+  std::vector<Point> place_, speed_;
+  std::vector<bool> gap_;
+};
+
+// A part of the page and what is seen in it.
+struct PanelView {
+  Camera camera;
+  Rect area;
+  int clip = 0;      // index of `area` in the pictures to come
+  double marks = 1;  // size of marks, as in ChainLook
+};
+
+// A motion as a camera sees it: until when it is in the picture, and where its end effector goes on the page.
+class Panel {
+ public:
+  // Rails become as long as those of the panels `over` it, whose motion they show, too.
+  Panel(const StagedRun& motion, const PanelView& view, const Theme& theme, std::span<const Panel> over = {});
+
+  const StagedRun& motion() const { return *motion_; }
+  const Chain& chain() const { return motion_->chain(); }
+  const Scene& scene() const { return motion_->scene(); }
+  const Camera& camera() const { return view_.camera; }
+  const Rect& area() const { return view_.area; }
+  int clip() const { return view_.clip; }
+  double marks() const { return view_.marks; }
+  const TipPath& tip() const { return tip_; }
+  int last() const { return last_; }  // frame that is drawn
+  const ChainLook& look() const { return look_; }
+  ChainDrawing drawing(const ChainLook& look) const;
+  ChainDrawing drawing() const { return drawing(look_); }
+
+  // "left the picture at t = 1.24 s" from that frame on, or what happened last: "elbow straight at t = 1.24 s".
+  std::string note(int k) const;
+  std::string title() const { return motion_->title(); }
+  // The instant at which the panel stood still.
+  std::optional<double> left_at() const;
+
+ private:
+  void find_last_inside();
+  bool is_inside(const Workspace& ws) const;
+  void follow_tip();
+  std::string event_note(int k) const;
+
+  const StagedRun* motion_;
+  PanelView view_;
+  Skeleton skeleton_;
+  ChainLook look_;
+  TipPath tip_;
+  int last_;
+  bool left_ = false;  // the chain left the picture before the run ended
+};
+
+}  // namespace chainreel

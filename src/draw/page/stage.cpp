@@ -1,0 +1,110 @@
+#include "draw/page/stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "draw/robot/chain_fit.hpp"
+#include "draw/robot/view.hpp"
+#include "dynamics/kinematics.hpp"
+#include "picture/plot.hpp"
+#include "scene/fall.hpp"
+#include "scene/layers.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kWild =
+    100;  // lengths of the chain: beyond, a run that did not finish is left out of the fit
+constexpr int kScaleSamples = 200;  // of a clip decide on the scale of what it shows
+
+}  // namespace
+
+Variant variant_of(int i, int count, const Theme& theme) {
+  const Color color = count == 2 ? (i == 0 ? theme.side_a : theme.side_b) : curve_style(i, theme).color;
+  return {color, i > 0 && count > 2 ? std::string(1, char('A' + i)) : "", i > 0};
+}
+
+std::vector<int> some_of(int samples) {
+  std::vector<int> some;
+  const int count = std::min(samples, kScaleSamples);
+  for (int i = 0; i < count; ++i) some.push_back(int(std::int64_t(i) * samples / count));
+  return some;
+}
+
+StagedRun::StagedRun(const PanelRun& run, int samples, bool counts, bool freezes, std::optional<Variant> variant)
+    : run_(run),
+      samples_(samples),
+      counts_(counts),
+      freezes_(freezes),
+      variant_(std::move(variant)),
+      skeleton_(skeleton_of(run.chain)),
+      ws_(std::make_unique<Workspace>(run.chain)) {
+  // A run that finished is drawn wherever it went: a free fall may be long.
+  limit_ = run.trajectory.status == RunStatus::finished ? std::numeric_limits<double>::max()
+                                                        : kWild * skeleton_.reach;
+  let_rails_reach(skeleton_, counted());
+}
+
+std::string StagedRun::title() const {
+  return title_of(run_.scene, run_.trajectory);
+}
+
+bool StagedRun::is_wild() const {
+  return !is_complete(run_.trajectory.status);
+}
+
+void StagedRun::let_rails_reach(Skeleton& skeleton, int samples) const {
+  for (int k = 0; k < samples; ++k) widen_rails(skeleton, run_.chain, run_.trajectory.q_at(k), limit_);
+}
+
+const Workspace& StagedRun::pose_at(int k) const {
+  if (k != posed_) compute_kinematics(run_.chain, *ws_, run_.trajectory.q_at(k), run_.trajectory.qd_at(k));
+  posed_ = k;
+  return *ws_;
+}
+
+void StagedRun::extend(MotionBox& box) const {
+  for (const int k : some_of(counted()))
+    chainreel::extend(box, run_.chain, skeleton_, run_.shapes, pose_at(k), limit_);
+}
+
+Stage::Stage(const Scene& page, const std::vector<PanelRun>& runs, std::vector<double> shown, const Fonts& fonts,
+             FilmClock clock)
+    : page(page), fonts(fonts), theme(theme_named(page.theme)), times(std::move(shown)), clock(std::move(clock)) {
+  const int count = int(runs.size());
+  const bool ghost = count > 1 && is_ghost_layout(page);
+  const auto is_good = [](const PanelRun& run) { return is_complete(run.trajectory.status); };
+  const bool any_good = std::any_of(runs.begin(), runs.end(), is_good);
+  for (int i = 0; i < count; ++i) {
+    const PanelRun& run = runs[std::size_t(i)];
+    const int samples = std::min(int(times.size()), run.trajectory.size());
+    if (samples < 1)
+      throw Error(ExitCode::bad_input, "a film needs at least one frame", page.place_of("duration"));
+    motions.emplace_back(run, samples, is_good(run) || !any_good, count > 1 || run.scene.expect == "diverge",
+                         ghost ? std::optional(variant_of(i, count, theme)) : std::nullopt);
+  }
+  const Chain& first = motions.front().chain();
+  if (!is_oblique(first, page.camera) && !has_eye(first, page.camera)) return;
+  space.emplace(up_of(first));
+  for (const StagedRun& motion : motions)
+    if (motion.counts()) motion.extend(*space);
+}
+
+bool Stage::is_ghost() const {
+  return is_comparison() && motions.back().is_outlined();
+}
+
+bool Stage::shows(const LayerRow& layer) const {
+  if (is_transparent(page) && layer.needs == LayerNeeds::words) return false;
+  const auto& named = page.draw;
+  return *layer.name == 0 || std::find(named.begin(), named.end(), layer.name) != named.end();
+}
+
+bool Stage::shows(std::string_view name) const {
+  return std::any_of(std::begin(kLayerRows), std::end(kLayerRows),
+                     [&](const LayerRow& layer) { return layer.name == name && shows(layer); });
+}
+
+}  // namespace chainreel

@@ -1,0 +1,111 @@
+// What a film shows, before anyone knows from where: the motions of its runs, and what all of them share.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "draw/robot/body_shapes.hpp"
+#include "draw/robot/fit.hpp"
+#include "picture/text.hpp"
+#include "picture/theme.hpp"
+#include "scene/film_clock.hpp"
+#include "scene/layers.hpp"
+#include "scene/scene.hpp"
+#include "sim/simulate.hpp"
+
+namespace chainreel {
+
+// References must outlive what is drawn from them.
+struct PanelRun {
+  const Scene& scene;
+  const Chain& chain;
+  const Trajectory& trajectory;
+  const Simulation* simulation = nullptr;  // needed where torques or constraint forces are shown
+  const BodyShapes* shapes = nullptr;      // drawn instead of bars
+};
+
+// Layout `ghost`: how a run is told apart from the others in the same place.
+struct Variant {
+  Color color;          // of its trail, and of its outline
+  std::string letter;   // at the end of its chain, or ""
+  bool outlined = false;  // drawn over the first, without ground and marks
+};
+
+// Variant i of `count`: in the colour that its plots have, too, with a letter where there are several outlines.
+Variant variant_of(int i, int count, const Theme& theme);
+
+// One run's chain at each of its frames. Not shared between threads: poses use one workspace.
+class StagedRun {
+ public:
+  // The first `samples` samples of the run are its frames. `counts`: the camera must hold all of it, not only its
+  // start. `freezes`: where the run comes to no good end it stands still before it leaves its part of the page.
+  StagedRun(const PanelRun& run, int samples, bool counts, bool freezes, std::optional<Variant> variant);
+
+  const Scene& scene() const { return run_.scene; }
+  const Chain& chain() const { return run_.chain; }
+  const Trajectory& trajectory() const { return run_.trajectory; }
+  const Simulation* simulation() const { return run_.simulation; }
+  const BodyShapes* shapes() const { return run_.shapes; }
+  bool is_constrained() const { return run_.simulation && !run_.simulation->constraints.empty(); }
+  bool has_foot() const { return run_.simulation && run_.simulation->events && run_.simulation->events->foot; }
+  std::string title() const;  // of the scene, with what it says of this run
+  const std::optional<Variant>& variant() const { return variant_; }
+  bool is_outlined() const { return variant_ && variant_->outlined; }
+
+  int samples() const { return samples_; }
+  int counted() const { return counts_ ? samples_ : 1; }  // that the camera must hold
+  bool counts() const { return counts_; }
+  bool is_wild() const;  // the run did not come to an end that it should have
+  bool may_freeze() const { return freezes_ && is_wild(); }
+  bool may_have_notes() const { return may_freeze() || !run_.scene.events.empty(); }
+  double limit() const { return limit_; }  // m; places beyond it belong to a run that diverged
+
+  // Rails reach as far as the counted samples use them.
+  const Skeleton& skeleton() const { return skeleton_; }
+  void let_rails_reach(Skeleton& skeleton, int samples) const;
+
+  // The chain as it stands at sample k, with its rates; good until the next call.
+  const Workspace& pose_at(int k) const;
+  // Lets the box hold some of the counted poses.
+  void extend(MotionBox& box) const;
+
+ private:
+  PanelRun run_;
+  int samples_;
+  bool counts_, freezes_;
+  std::optional<Variant> variant_;
+  double limit_ = 0;
+  Skeleton skeleton_;
+  std::unique_ptr<Workspace> ws_;
+  mutable int posed_ = -1;  // where the workspace stands
+};
+
+// Some of the samples of a clip, equally spaced: enough to decide on the scale of what all of them show.
+std::vector<int> some_of(int samples);
+
+struct Stage {
+  // `page` says what all panels share. Sample k of each trajectory is its frame k, shown at times[k]; the clock says
+  // how fast the motion passes there. Throws Error (bad input) where there is no frame.
+  Stage(const Scene& page, const std::vector<PanelRun>& runs, std::vector<double> times, const Fonts& fonts,
+        FilmClock clock);
+
+  const Scene& page;
+  const Fonts& fonts;
+  const Theme& theme;
+  std::vector<double> times;
+  FilmClock clock;
+  std::vector<StagedRun> motions;
+  std::optional<MotionBox> space;  // around all that counts, where it takes an eye or a ground in space
+
+  bool is_comparison() const { return motions.size() > 1; }
+  bool is_ghost() const;  // all in one place, all but the first in outline
+  bool has_cells() const { return is_comparison() && !is_ghost(); }
+  std::size_t full_panels() const { return is_ghost() ? 1 : motions.size(); }
+  bool shows(const LayerRow& layer) const;    // the page names it, or it is always there, and nothing forbids it
+  bool shows(std::string_view name) const;    // the same of the layers of a name
+};
+
+}  // namespace chainreel
