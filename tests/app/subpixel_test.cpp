@@ -12,6 +12,7 @@
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
 #include "draw/film/film.hpp"
+#include "draw/shapes.hpp"
 #include "picture/theme.hpp"
 #include "support/fonts.hpp"
 
@@ -46,7 +47,7 @@ class Still {
     image_ = rasterise(picture, kWide, kHigh, fonts());
     origin_ = pictures.camera().origin;
     scale_ = pictures.camera().scale;
-    per_kg_ = pictures.ellipse_scale().per_unit();
+    per_kg_ = test::per_unit_of_bar(pictures.static_layer(), theme_);
     area_ = pictures.scene_area();
   }
 

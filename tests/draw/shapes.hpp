@@ -68,13 +68,13 @@ inline std::string words_of(const Picture& picture) {
 }
 
 // Units of H for 1 kg, or m/s, as the scale bar of ellipses in the page's foot says.
-inline double per_unit_of_bar(const Picture& page) {
+inline double per_unit_of_bar(const Picture& page, const Theme& theme = light_theme()) {
   double worth = 0, length = 0;
   for (const GlyphRun& run : all_of<GlyphRun>(page))
     if (run.text.ends_with(" kg") || run.text.ends_with(" m/s")) worth = std::stod(run.text);
   for (const Item& item : page.items) {
     const auto* line = std::get_if<Capsule>(&item.shape);
-    if (line && item.clip < 0 && line->paint.fill == light_theme().ellipse)
+    if (line && item.clip < 0 && line->paint.fill == theme.ellipse)
       length = std::max(length, distance(line->a, line->b));
   }
   return length / worth;

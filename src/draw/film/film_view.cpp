@@ -61,7 +61,7 @@ std::vector<PanelCell> cells_of(const Stage& stage, const FilmSheet& sheet, cons
 }
 
 // A corner of the panels' scenes; the same one in all of them.
-struct Corner {
+struct SceneCorner {
   bool right = true, top = true;
 
   Point lower_left(const Rect& scene, Point room, double inset) const {
@@ -70,11 +70,11 @@ struct Corner {
   }
   bool is_lower_left() const { return !right && !top; }
 };
-constexpr Corner kCorners[] = {{true, true}, {false, true}, {true, false}, {false, false}};
+constexpr SceneCorner kCorners[] = {{true, true}, {false, true}, {true, false}, {false, false}};
 
 // Nothing of the chain and of the layers over it ever comes into this part of the page.
 bool is_free(const Rect& part, const StagedRun& motion, const Layers& layers, const Camera& camera, double marks,
-             const Corner& corner) {
+             const SceneCorner& corner) {
   const Rect with_air = widened(part, kAir);
   for (int k = 0; k < (motion.is_wild() ? 1 : motion.samples()); ++k) {
     const Sight sight{motion, motion.pose_at(k), k, camera, marks};
@@ -121,7 +121,7 @@ void FilmView::place_rooms(const Stage& stage, const Layers& layers) {
   const std::vector<StagedRun>& motions = stage.motions;
   corners_.assign(layers.size(), std::vector<Point>(motions.size()));
   const double inset = stage.has_cells() ? kBarInset : 0;
-  const auto stands_in = [&](std::size_t layer, const Corner& corner) {
+  const auto stands_in = [&](std::size_t layer, const SceneCorner& corner) {
     for (std::size_t i = 0; i < motions.size(); ++i) {
       const Rect& scene = cells[i].scene;
       const Point room = *layers[layer]->room_beside(motions[i]);
@@ -135,7 +135,7 @@ void FilmView::place_rooms(const Stage& stage, const Layers& layers) {
   for (std::size_t l = 0; l < layers.size(); ++l) {
     if (!layers[l]->room_beside(motions.front())) continue;
     if (std::any_of(std::begin(kCorners), std::end(kCorners),
-                    [&](const Corner& corner) { return stands_in(l, corner); }))
+                    [&](const SceneCorner& corner) { return stands_in(l, corner); }))
       continue;
     double width = 0;
     for (const StagedRun& motion : motions) width = std::max(width, layers[l]->room_beside(motion)->x);

@@ -18,6 +18,7 @@
 #include "dynamics/kinematics.hpp"
 #include "picture/point.hpp"
 #include "render/canvas.hpp"
+#include "sim/drive/torques_along.hpp"
 #include "support/picture_compare.hpp"
 
 namespace chainreel {
@@ -279,14 +280,14 @@ TEST_F(LayerFilm, ConstraintForceIsDashedAndActsOnTheRobot) {
 TEST(VectorPen, CutsWhatTheScaleCannotShowAndSaysSo) {
   VectorScales scales;
   scales.peaks.largest[std::size_t(VectorKind::velocity)] = 2;
-  const VectorPen pen(light_theme(), fonts(), 1, scales, 1);
+  const VectorPen pen(light_theme(), fonts(), 1, scales);
   for (const double value : {1.0, 2.4, 2.6, 1e9}) {
     WorldVector v;
     v.value = {value, 0, 0};
     v.label = "v";
     Picture picture;
     MarkLabels labels;
-    pen.draw(picture, v, Camera{}, 0, labels);
+    pen.draw(picture, v, Camera{}, 1, 0, labels);
     const auto drawn = arrows(picture, light_theme().velocity);
     ASSERT_EQ(drawn.size(), 1u);
     EXPECT_NEAR(drawn[0].v().x, std::min(0.1 * value, 0.25), kLayersRoundOff);
@@ -297,7 +298,7 @@ TEST(VectorPen, CutsWhatTheScaleCannotShowAndSaysSo) {
 TEST(VectorPen, TurnsInSpaceLieOnTheCircleAsTheCameraSeesIt) {
   VectorScales scales;
   scales.peaks.largest[std::size_t(VectorKind::torque)] = 1;
-  const VectorPen pen(light_theme(), fonts(), 1, scales, 1);
+  const VectorPen pen(light_theme(), fonts(), 1, scales);
   Camera camera;  // along -z
   WorldVector v;
   v.kind = VectorKind::torque;
@@ -306,7 +307,7 @@ TEST(VectorPen, TurnsInSpaceLieOnTheCircleAsTheCameraSeesIt) {
   v.label = "tau_1";
   Picture picture;
   MarkLabels labels;
-  pen.draw(picture, v, camera, 0, labels);
+  pen.draw(picture, v, camera, 1, 0, labels);
   const auto paths = test::all_of<Trail>(picture);
   ASSERT_EQ(paths.size(), 1u);
   for (const TrailPoint& p : paths[0].points) {
