@@ -104,7 +104,23 @@ TEST_F(PanelFilm, HasOneScaleForAllEllipsesSmallerThanThatOfAWholePage) {
 TEST_F(PanelFilm, HasArrowsThatShrinkWithThePanelsSides) {
   page.draw.push_back("velocity");
   add("left", sliding);
-  const auto longest = [&] { return film().vector_scales().of(VectorKind::velocity).page_of_largest; };
+  // From the tail of a shaft to the tip of the head that is drawn behind it.
+  const auto longest = [&] {
+    double most = 0;
+    const Film pictures = film();
+    for (int k = 0; k < kFrames; ++k) {
+      Point tail;
+      for (const Item& item : pictures.frame(k).items) {
+        if (item.clip < 0) continue;
+        const auto* shaft = std::get_if<Capsule>(&item.shape);
+        if (shaft && shaft->paint.fill == light_theme().velocity) tail = shaft->a;
+        const auto* head = std::get_if<Polygon>(&item.shape);
+        if (head && head->paint.fill == light_theme().velocity)
+          most = std::max(most, test::distance(tail, head->corners[0]));
+      }
+    }
+    return most;
+  };
   EXPECT_NEAR(longest(), 0.20, 1e-12);
   add("right", sliding);
   EXPECT_NEAR(longest(), 0.20 / std::sqrt(2), 1e-12);
