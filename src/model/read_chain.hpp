@@ -24,6 +24,7 @@ struct ModelOptions {
   std::string end_effector;
   bool meshes = true;                           // for pictures: mesh files must be found
   std::map<std::string, std::string> packages;  // package:// name -> folder
+  friend bool operator==(const ModelOptions&, const ModelOptions&) = default;
 };
 
 // Throws Error with every problem of the file. Meshes are not looked at: only pictures that show them need them.

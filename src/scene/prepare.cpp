@@ -164,11 +164,25 @@ ModelOptions model_options_of(const Scene& scene) {
   return options;
 }
 
+const Chain& LastChain::read(const std::string& path, const ModelOptions& options) {
+  if (!chain_ || path != path_ || !(options == options_)) {
+    chain_ = read_chain(path, options);
+    path_ = path;
+    options_ = options;
+  }
+  return *chain_;
+}
+
 Simulation prepare(Scene& scene, bool meshes) {
+  LastChain none;
+  return prepare(scene, meshes, none);
+}
+
+Simulation prepare(Scene& scene, bool meshes, LastChain& last) {
   ModelOptions options = model_options_of(scene);
   options.meshes = meshes;
   Simulation simulation;
-  simulation.chain = read_chain(scene.model, options);
+  simulation.chain = last.read(scene.model, options);
   choose_end_effector(scene, simulation.chain);
   const Chain& chain = simulation.chain;
   scene.gravity = chain.gravity;

@@ -311,6 +311,26 @@ Scene read_scene(const std::string& path, const std::vector<std::string>& overri
   return read_either(load_yaml(path, parse_overrides(overrides)));
 }
 
+SceneFile::SceneFile(const std::string& path) : path_(path) {}
+
+SceneFile::~SceneFile() = default;
+
+Scene SceneFile::read(const std::vector<std::string>& overrides) {
+  constexpr int kMostReads = 1000;  // values that were replaced stay in the document's memory
+  const std::vector<Override> wanted = parse_overrides(overrides);
+  const auto same_key = [](const Override& a, const Override& b) { return a.key == b.key; };
+  const bool fits = document_ && ++reads_ < kMostReads &&
+                    std::equal(wanted.begin(), wanted.end(), document_->overrides.begin(), document_->overrides.end(),
+                               same_key);
+  if (fits) {
+    replace_overrides(*document_, wanted);
+  } else {
+    document_ = std::make_unique<YamlDocument>(load_yaml(path_, wanted));
+    reads_ = 0;
+  }
+  return read_either(*document_);
+}
+
 Scene read_model_scene(const std::string& model, const std::vector<std::string>& overrides) {
   if (!std::filesystem::is_regular_file(model))
     throw Error(ExitCode::bad_input, "there is no such model file", {model});

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <mutex>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -102,14 +104,34 @@ class CellRuns {
     std::vector<std::string> settings = overrides_;
     settings.push_back(result_.x.setting(at.x));
     settings.push_back(result_.y.setting(at.y));
-    Scene scene = read_scene(scene_, settings);
+    const auto reader = take_reader();
+    Scene scene = reader->file.read(settings);
     require_single_run(scene);
     if (scene.method == "auto")
       throw Error(ExitCode::bad_input,
                   "a stability map needs a method of its own: auto would choose another one in every cell; "
                   "name one, like --set method=rk4",
                   scene.place_of("method"));
-    return prepare(scene, false);
+    return prepare(scene, false, reader->last);
+  }
+
+  // A file and a model that are read already.
+  struct Reader {
+    SceneFile file;
+    LastChain last{};
+  };
+
+  // Given back to the others when its holder lets go of it.
+  std::shared_ptr<Reader> take_reader() const {
+    const auto give_back = [this](Reader* reader) {
+      const std::lock_guard lock(readers_lock_);
+      readers_.emplace_back(reader);
+    };
+    const std::lock_guard lock(readers_lock_);
+    if (readers_.empty()) return {new Reader{SceneFile(scene_)}, give_back};
+    Reader* reader = readers_.back().release();
+    readers_.pop_back();
+    return {reader, give_back};
   }
 
   // All cells by the first one's mechanism, with the steps and tolerances of their own.
@@ -251,6 +273,8 @@ class CellRuns {
 
   std::string scene_;
   std::vector<std::string> overrides_;
+  mutable std::mutex readers_lock_;
+  mutable std::vector<std::unique_ptr<Reader>> readers_;
   int threads_;
   StopRequest stop_;
   StabilityCells result_;

@@ -205,12 +205,18 @@ YamlDocument yaml_document_of(const std::string& text, const std::string& path,
   if (!document.root.IsMap())
     throw Error(ExitCode::bad_input,
                 "holds no scene: write `model: ...` and what else it needs, or see `chainreel init`", {path});
+  replace_overrides(document, overrides);
+  return document;
+}
+
+void replace_overrides(YamlDocument& document, const std::vector<Override>& overrides) {
+  document.overrides = overrides;
+  document.origins.clear();
   for (const Override& one : overrides) {
     const Place place{name_of(one), 0, 0};
     apply(document.root, one.key, {one.key, parse(one.value, name_of(one)), place});
     document.origins.push_back({one.key, place});
   }
-  return document;
 }
 
 YamlDocument load_yaml(const std::string& path, const std::vector<Override>& overrides) {

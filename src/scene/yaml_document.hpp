@@ -47,6 +47,8 @@ YamlDocument load_yaml(const std::string& path, const std::vector<Override>& ove
 // The same of a text that stands in no file; `file` is where paths start and what errors name.
 YamlDocument yaml_document_of(const std::string& text, const std::string& file,
                               const std::vector<Override>& overrides);
+// Puts other values in the place of those that the document was read with: the same keys in the same order.
+void replace_overrides(YamlDocument& document, const std::vector<Override>& overrides);
 
 // Keys of the whole picture, which no single panel of a comparison can have.
 const std::vector<std::string>& page_keys();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <set>
 
 #include "scene/quantity.hpp"
 #include "scene/write_scene.hpp"
@@ -200,6 +201,29 @@ TEST(Quantity, ReadsDegreesAndConstants) {
   EXPECT_EQ(parse_quantity(" 1e3 ", {}), 1000);
   for (const char* bad : {"", "deg", "1,5", "nan", ".inf", "1/0", "90 degrees", "t"})
     EXPECT_THROW(parse_quantity(bad, {}), Error) << bad;
+}
+
+// A file whose text is parsed once gives what one that is read anew gives: other values of the same keys, other keys, and
+// good values behind a bad one.
+TEST(SceneFile, ReadsLikeAFreshFileEachTime) {
+  const std::string path = "assets/scenes/rr_torque.yaml";
+  SceneFile file(path);
+  std::vector<std::string> seen;
+  for (const std::vector<std::string>& set : std::vector<std::vector<std::string>>{
+           {"torque.1=1", "start.q.2=0.5"},
+           {"torque.1=2", "start.q.2=0.25"},
+           {"torque=[3, 4]", "torque.2=5"},
+           {"torque=[6, 7]", "torque.2=8"},
+           {"video.preset=web"},
+           {"video.preset=slides"},
+           {}}) {
+    const std::string text = scene_text(file.read(set));
+    EXPECT_EQ(text, scene_text(read_scene(path, set)));
+    seen.push_back(text);
+  }
+  EXPECT_EQ(std::set<std::string>(seen.begin(), seen.end()).size(), seen.size());
+  EXPECT_THROW(file.read({"duration=-1"}), Error);
+  EXPECT_EQ(file.read({"duration=2"}).duration, 2);
 }
 
 }  // namespace
