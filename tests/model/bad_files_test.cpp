@@ -92,12 +92,12 @@ TEST(BadFiles, ShapesWithoutTheirMeasuresAreRefused) {
     return refusal_of(folder.write("m.urdf", robot_text(link_text("base", "<visual><geometry>" + shape + "</geometry></visual>") +
                                                         moving("arm", "continuous", "base"))));
   };
-  for (const auto& [shape, missing] : {std::pair{"<box/>", "size"},
-                                       {"<box size='1 2'/>", "size"},
-                                       {"<sphere/>", "radius"},
-                                       {"<sphere radius='one'/>", "radius"},
-                                       {"<cylinder length='1'/>", "radius"},
-                                       {"<cylinder radius='1'/>", "length"},
+  for (const auto& [shape, missing] : {std::pair{"<box/>", "<box size> is missing"},
+                                       {"<box size='1 2'/>", "<box size>"},
+                                       {"<sphere/>", "<sphere radius> is missing"},
+                                       {"<sphere radius='one'/>", "<sphere radius>"},
+                                       {"<cylinder length='1'/>", "<cylinder radius> is missing"},
+                                       {"<cylinder radius='1'/>", "<cylinder length> is missing"},
                                        {"<mesh/>", "names no file"}}) {
     EXPECT_THAT(refusal(shape), testing::AllOf(testing::HasSubstr("m.urdf:2"), testing::HasSubstr(missing))) << shape;
   }
