@@ -16,7 +16,7 @@ MeshBounds bounds_of(const TriangleMesh& mesh);
 // All numbers are finite and all parts have a mesh. Whether its indices are right is seen when it is drawn.
 bool is_drawable(const Solids& solids);
 
-// Of everything in front of the eye; the two depths are view coordinates z.
+// The bounds of everything in front of the eye; the two depths are view coordinates z.
 struct SolidBounds {
   Rect page;  // with the outline
   double nearest = 0, farthest = 0;

@@ -52,7 +52,7 @@ struct SlowMotionEntry {
   double speed = 1;   // 0.25: four times slower
 };
 
-// How the layer `ellipse` reads the effective mass: see draw/ellipse.hpp.
+// How the layer `ellipse` reads the effective mass: see draw/layers/ellipse.hpp.
 struct EllipseEntry {
   std::string reading = "mass";     // or energy, belt
   std::string shape = "ellipsoid";  // in space; or section: by the xy plane of the end effector

@@ -7,7 +7,7 @@
 namespace chainreel {
 namespace {
 
-// Of the page's width; where it is not enough for all panels, they share the labels of the last.
+// A share of the page's width; where it is not enough for all panels, they share the labels of the last.
 constexpr double kMostForLabels = 0.30;
 constexpr double kZonePad = 0.012;
 constexpr double kWidestZone = 0.34;  // of the panel

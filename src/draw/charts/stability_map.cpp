@@ -184,15 +184,15 @@ std::vector<std::vector<Point>> edges_between(const std::vector<std::optional<bo
     const auto &a = cells[std::size_t(ya * nx + xa)], &b = cells[std::size_t(yb * nx + xb)];
     return a && b && *a != *b;
   };
-  using Corner = std::pair<int, int>;
-  std::multimap<Corner, Corner> edges;  // both ways
-  const auto add = [&](Corner a, Corner b) { edges.emplace(a, b), edges.emplace(b, a); };
+  using GridCorner = std::pair<int, int>;
+  std::multimap<GridCorner, GridCorner> edges;  // both ways
+  const auto add = [&](GridCorner a, GridCorner b) { edges.emplace(a, b), edges.emplace(b, a); };
   for (int y = 0; y < ny; ++y)
     for (int x = 0; x < nx; ++x) {
       if (x > 0 && differ(x - 1, y, x, y)) add({x, y}, {x, y + 1});
       if (y > 0 && differ(x, y - 1, x, y)) add({x, y}, {x + 1, y});
     }
-  const auto take = [&](Corner a, Corner b) {
+  const auto take = [&](GridCorner a, GridCorner b) {
     auto [begin, end] = edges.equal_range(a);
     edges.erase(std::find_if(begin, end, [&](const auto& edge) { return edge.second == b; }));
   };
@@ -201,10 +201,10 @@ std::vector<std::vector<Point>> edges_between(const std::vector<std::optional<bo
     // From an end of a line where there is one; closed lines from anywhere.
     auto first = std::find_if(edges.begin(), edges.end(),
                               [&](const auto& edge) { return edges.count(edge.first) % 2 == 1; });
-    Corner at = (first == edges.end() ? edges.begin() : first)->first;
+    GridCorner at = (first == edges.end() ? edges.begin() : first)->first;
     std::vector<Point> line{{double(at.first), double(at.second)}};
     for (auto next = edges.find(at); next != edges.end(); next = edges.find(at)) {
-      const Corner to = next->second;
+      const GridCorner to = next->second;
       take(at, to), take(to, at);
       at = to;
       line.push_back({double(at.first), double(at.second)});

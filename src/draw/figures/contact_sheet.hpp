@@ -13,7 +13,7 @@ namespace chainreel {
 
 inline constexpr int kMostCells = 48;
 inline constexpr double kCellAspect = 16.0 / 9.0;  // of each picture
-// Of the page that a picture is drawn on: its outer margin is cut off.
+// The page that a picture is drawn on is larger: its outer margin is cut off.
 inline constexpr double kCellPageAspect = kCellAspect * (1 - 2 * size::kMargin) + 2 * size::kMargin;
 
 struct ContactSheetLook {

@@ -22,9 +22,9 @@ namespace {
 
 constexpr int kMostAcross = 4;
 constexpr double kLabelInset = 0.014;
-// Of the shorter side of a panel: how long the bounded semi-axes (their median) are drawn.
+// How long the bounded semi-axes (their median) are drawn, as a share of the shorter side of a panel.
 constexpr double kSmallerAxis = 0.14, kLargerAxis = 0.24;
-// Of an ordinary pose the largest mass is at most so many times the smallest one. Nearer to a singular pose it has no
+// In an ordinary pose the largest mass is at most so many times the smallest one. Nearer to a singular pose it has no
 // bound, and to show it would make all ellipses needles: it is written where it leaves its panel.
 constexpr double kOrdinaryRatio = 32;
 constexpr int kBeltSamples = 64;

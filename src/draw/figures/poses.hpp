@@ -27,7 +27,7 @@ struct PoseFigureOptions {
   CameraEntry camera;
   std::shared_ptr<const BodyShapes> shapes;  // drawn instead of bars
 
-  // Of figures with ellipses.
+  // For figures with ellipses:
   EllipseReading reading = EllipseReading::mass;
   bool section = false;               // by the xy plane of the end effector, instead of the ellipsoid
   std::string layout = "grid";        // panels, at most four across; or row: all in one; or superposed: no panels

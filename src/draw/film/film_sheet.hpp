@@ -12,7 +12,7 @@
 
 namespace chainreel {
 
-// Of the em, from the lower end of a panel's row of words up to its base line.
+// From the lower end of a panel's row of words up to its base line, of the em.
 inline constexpr double kTitleDescent = 0.40;
 
 struct FilmSheet {

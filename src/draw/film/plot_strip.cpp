@@ -131,7 +131,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
     const PlotCurves& plot = run.plots[i];
     data.title = plot.title;
     data.angles = plot.angles;
-    // Of energies a comparison shows the sum alone.
+    // A comparison shows the sum of energies alone.
     const bool sum_alone = runs.size() > 1 && plot.quantity == PlotQuantity::energy;
     PlotCurves shown = plot;
     if (sum_alone) shown.curves = {plot.curves.back()};

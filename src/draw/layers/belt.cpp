@@ -88,7 +88,7 @@ double seen_reach(double ee, double en, double nn, double most) {
   return farthest;
 }
 
-// Of the surface 1 / (u^T A u) with A in 1/kg, as the camera sees it.
+// Draws the surface 1 / (u^T A u) with A in 1/kg, as the camera sees it.
 void draw_surface(Picture& picture, const Eigen::Matrix3d& A, Point center, const Camera& camera,
                   const Fade& fade, const EllipseStyle& style, int clip) {
   const Eigen::Vector3d n = camera.toward_viewer;

@@ -10,7 +10,6 @@ namespace chainreel {
 namespace {
 
 constexpr double kOutlineHalo = 1.8;  // times an outline's width: sets it off from what is filled below
-constexpr double kOutlineAway = 1.4 * size::kLinkOutline;  // of outlines of links, outside the edges of filled ones
 constexpr double kWiderJoint = 1.3, kWiderRail = 1.15, kWiderTip = 1.8;
 constexpr double kStoodStill = 0.4;    // strength of a run that left the picture
 constexpr double kLetterTurn = 0.75;   // rad

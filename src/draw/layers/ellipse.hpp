@@ -32,7 +32,7 @@ namespace chainreel {
 class MarkLabels;
 
 enum class EllipseReading { mass, energy, belt };
-// Of "mass", "energy" or "belt"; any other word is mass.
+// The reading called "mass", "energy" or "belt"; any other word is mass.
 EllipseReading reading_named(std::string_view name);
 std::string to_string(EllipseReading reading);
 

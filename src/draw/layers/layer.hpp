@@ -53,7 +53,7 @@ class Layer {
 
   // Measure: what the camera must hold of it, beside the chain itself.
   virtual void measure(const Sight&, FitBox&) const {}
-  // Width and height of a part of each scene in a corner, or beside it, that it needs for itself.
+  // Width and height of a part of each scene in a corner, or beside it, that it needs for itself. One layer of a film.
   virtual std::optional<Point> room_beside(const StagedRun&) const { return std::nullopt; }
   virtual std::string no_room() const { return ""; }  // what to say where it leaves none to the chain
   // Covers: whether any of it comes into this part of the page, which may be at the lower left of its scene.
@@ -64,7 +64,7 @@ class Layer {
   virtual void draw_page_once(Picture&, const SharedPage&) const {}
   // Draw a frame.
   virtual void draw(Picture&, const Shot&) const {}
-  virtual void draw_page(Picture&, const SharedPage&, int k) const {}
+  virtual void draw_page(Picture&, const SharedPage&, int) const {}
 };
 
 using Layers = std::vector<std::unique_ptr<const Layer>>;

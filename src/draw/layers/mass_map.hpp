@@ -27,7 +27,7 @@ class MassMap {
   double height() const { return height_; }
   // `corner`: lower left.
   void draw(Picture& picture, const Eigen::MatrixXd& M, Point corner) const;
-  // Of an entry; M_ij = 0 has the background's colour.
+  // The colour of an entry; M_ij = 0 has the background's.
   Color color_at(double entry) const;
   std::string number(double entry) const;
 

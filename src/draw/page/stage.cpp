@@ -70,9 +70,13 @@ void StagedRun::extend(MotionBox& box) const {
     chainreel::extend(box, run_.chain, skeleton_, run_.shapes, pose_at(k), limit_);
 }
 
-Stage::Stage(const Scene& page, const std::vector<PanelRun>& runs, std::vector<double> shown, const Fonts& fonts,
-             FilmClock clock)
-    : page(page), fonts(fonts), theme(theme_named(page.theme)), times(std::move(shown)), clock(std::move(clock)) {
+Stage::Stage(const Scene& shown_page, const std::vector<PanelRun>& runs, std::vector<double> shown_times,
+             const Fonts& all_fonts, FilmClock film_clock)
+    : page(shown_page),
+      fonts(all_fonts),
+      theme(theme_named(page.theme)),
+      times(std::move(shown_times)),
+      clock(std::move(film_clock)) {
   const int count = int(runs.size());
   const bool ghost = count > 1 && is_ghost_layout(page);
   const auto is_good = [](const PanelRun& run) { return is_complete(run.trajectory.status); };

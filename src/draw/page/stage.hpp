@@ -27,6 +27,9 @@ struct PanelRun {
   const BodyShapes* shapes = nullptr;      // drawn instead of bars
 };
 
+// Outlines of links lie this far outside the edges of filled ones, units of H.
+inline constexpr double kOutlineAway = 1.4 * size::kLinkOutline;
+
 // Layout `ghost`: how a run is told apart from the others in the same place.
 struct Variant {
   Color color;          // of its trail, and of its outline

@@ -65,7 +65,7 @@ void for_each_corner(const BodyShapes& shapes, const Workspace& ws, Add add) {
     for (const Eigen::Vector3d& corner : shape.corners)
       add(Eigen::Vector3d(pose_of(ws, shape.body) * corner));
 }
-// Of one on the page.
+// What the corners of one take up on the page.
 Rect extent_of(const BodyShape& shape, const Workspace& ws, const Camera& camera);
 
 // Bodies as `camera` sees them, still without parts.

@@ -55,7 +55,7 @@ inline Color toned(Color color, const ChainLook& look) {
   return {mix(back.r, color.r), mix(back.g, color.g), mix(back.b, color.b), color.a};
 }
 
-// Of the inside of a body: none where only outlines are drawn.
+// The colour of the inside of a body: none where only outlines are drawn.
 inline Color filling(Color color, const ChainLook& look) {
   return look.filled ? toned(color, look) : Color{};
 }
@@ -78,7 +78,7 @@ inline constexpr double kRailEnd = 0.018;  // of a rail beyond the outermost end
 constexpr double carriage_length(bool carrier) {
   return carrier ? kCarrierLength : size::kCarriageLength;
 }
-// Of a rail beyond the outermost middle of its carriage.
+// How far a rail goes on beyond the outermost middle of its carriage.
 constexpr double rail_overhang(bool carrier) {
   return carriage_length(carrier) / 2 + kRailEnd;
 }
