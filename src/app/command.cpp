@@ -19,7 +19,7 @@ void add_scene_options(Command& command, CommonOptions& options) {
   command.add_repeatable("--package", options.package,
                  "where package://NAME lies: --package NAME=folder (repeatable)");
   command.add_option("--base", options.base, "how the root link is held")
-      .one_of({"fixed", "floating"});
+      .one_of(words_of(names_of(RootLink{})));
 }
 
 void add_json_option(Command& command, CommonOptions& options) {
@@ -151,8 +151,9 @@ bool is_model_file(const std::string& path) {
   return ending == ".urdf" || ending == ".xml";
 }
 
-void add_scene_flags(Command& command, FlagValues& values, std::span<const SceneFlag> flags) {
-  for (const SceneFlag& one : flags) command.add_option(one.flag, values[one.key], one.help);
+void add_scene_flags(Command& command, FlagValues& values, FlagGroup group) {
+  for (const SceneKey& key : scene_keys())
+    if (key.flags == group) command.add_option(key.flag, values[key.name], key.name + ": " + short_help(key));
 }
 
 void add_overrides(const FlagValues& values, std::vector<std::string>& overrides) {
@@ -169,20 +170,20 @@ std::string given(const FlagValues& values, const std::string& key) {
 
 }  // namespace
 
-std::string theme_of(const FlagValues& values) {
+ThemeName theme_of(const FlagValues& values) {
   const std::string name = given(values, "theme");
   if (name.empty()) return Scene{}.theme;
-  if (std::find(theme_names().begin(), theme_names().end(), name) == theme_names().end())
-    throw Error(ExitCode::usage, "--theme takes light or dark, not '" + name + "'");
-  return name;
+  if (const auto theme = value_named<ThemeName>(name)) return *theme;
+  throw Error(ExitCode::usage, "--theme takes " + alternatives(names_of(ThemeName{})) + ", not '" + name + "'");
 }
 
 double text_scale_of(const FlagValues& values) {
   const std::string text = given(values, "text_scale");
   if (text.empty()) return Scene{}.text_scale;
+  const Range range = find_key("text_scale")->range;
   const auto scale = parse_number(text);
-  if (!scale || !(*scale >= 0.5 && *scale <= 3))
-    throw Error(ExitCode::usage, "--text-scale takes a number between 0.5 and 3, not '" + text + "'");
+  if (!scale || !range.holds(*scale))
+    throw Error(ExitCode::usage, "--text-scale takes a number " + range_text(range, "") + ", not '" + text + "'");
   return *scale;
 }
 

@@ -139,6 +139,11 @@ bool parse_reply(const std::string& reply, TriangleMesh& mesh) {
 
 }  // namespace
 
+std::span<const Name> names_of(MeshUp) {
+  static constexpr Name names[] = {{"rviz", "nobody's: as their numbers stand"}, {"file", "Collada's own up becomes z"}};
+  return names;
+}
+
 TriangleMesh read_mesh(const std::string& path, MeshUp up) {
   ChildLimits limits;
   limits.reply = 1 + reply_size({3 * kMostTriangles, kMostTriangles, 0});

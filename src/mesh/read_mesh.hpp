@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/names.hpp"
 #include "core/triangle_mesh.hpp"
 
 namespace chainreel {
@@ -11,6 +12,7 @@ namespace chainreel {
 // written; `file` turns them so that the direction that the file calls up is z. STL and OBJ call nothing up:
 // they are taken as written either way.
 enum class MeshUp { rviz, file };
+std::span<const Name> names_of(MeshUp);
 
 // STL, OBJ or DAE, by the file's ending: all nodes placed, Collada's unit applied, without `scale` of a URDF.
 // Lines, points and triangles without area are left out.

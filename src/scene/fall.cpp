@@ -27,7 +27,7 @@ Scene read_one(const std::string& path, const std::vector<std::string>& override
                 "has no event of kind `fall`, so nothing says when it has fallen: add one like "
                 "events: [{when: \"y_G < 0.5\", kind: fall, name: lies}]",
                 scene.place_of("events"));
-  if (scene.method == "auto") {
+  if (scene.chooses_method()) {
     scene.method = "dop853";
     scene.tolerance = 1e-10;
   }

@@ -24,7 +24,8 @@ bool Fields::has(const std::string& key) {
 }
 
 void Fields::problem_at(const std::string& key, const std::string& message) {
-  problems().add(message, place_of(find(key), key));
+  const YAML::Node node = find(key);
+  problems().add(message, node.IsDefined() ? place_of(node, key) : Place{document_->file, 0, 0});
 }
 
 YAML::Node Fields::find(const std::string& key) {
@@ -57,50 +58,81 @@ std::optional<double> Fields::number(const YAML::Node& node, const std::string& 
   }
 }
 
-void Fields::read(const std::string& key, std::string& value) {
+bool Fields::read(const std::string& key, std::string& value) {
   const YAML::Node node = find(key);
-  if (!node.IsDefined()) return;
-  if (const auto text = scalar(node, key, "text")) value = *text;
+  if (!node.IsDefined()) return false;
+  const auto text = scalar(node, key, "text");
+  if (text) value = *text;
+  return text.has_value();
 }
 
-void Fields::read(const std::string& key, double& value) {
+bool Fields::read(const std::string& key, double& value) {
   const YAML::Node node = find(key);
-  if (!node.IsDefined()) return;
-  if (const auto one = number(node, key)) value = *one;
-}
-
-void Fields::read(const std::string& key, int& value) {
-  const YAML::Node node = find(key);
-  if (!node.IsDefined()) return;
+  if (!node.IsDefined()) return false;
   const auto one = number(node, key);
-  if (!one) return;
-  if (*one != std::floor(*one) || std::abs(*one) > 1e9)
-    problems_->add("'" + path(key) + "' must be a whole number", place_of(node, key));
-  else
+  if (one) value = *one;
+  return one.has_value();
+}
+
+bool Fields::read(const std::string& key, int& value) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return false;
+  const auto one = number(node, key);
+  if (!one) return false;
+  const bool is_whole = *one == std::floor(*one) && std::abs(*one) <= 1e9;
+  if (is_whole)
     value = int(*one);
-}
-
-void Fields::read(const std::string& key, bool& value) {
-  const YAML::Node node = find(key);
-  if (!node.IsDefined()) return;
-  const auto text = scalar(node, key, "true or false");
-  if (!text) return;
-  if (*text != "true" && *text != "false")
-    problems_->add("'" + path(key) + "' must be true or false", place_of(node, key));
   else
-    value = *text == "true";
+    problems_->add("'" + path(key) + "' must be a whole number", place_of(node, key));
+  return is_whole;
 }
 
-void Fields::read_path(const std::string& key, std::string& value) {
-  read(key, value);
-  if (!value.empty()) value = beside(document_->file, value);
-}
-
-void Fields::read(const std::string& key, FrameRate& value) {
+bool Fields::read(const std::string& key, bool& value) {
   const YAML::Node node = find(key);
-  if (!node.IsDefined()) return;
+  if (!node.IsDefined()) return false;
+  const auto text = scalar(node, key, "true or false");
+  if (!text) return false;
+  const bool is_truth = *text == "true" || *text == "false";
+  if (is_truth)
+    value = *text == "true";
+  else
+    problems_->add("'" + path(key) + "' must be true or false", place_of(node, key));
+  return is_truth;
+}
+
+bool Fields::read_path(const std::string& key, std::string& value) {
+  if (!read(key, value)) return false;
+  if (!value.empty()) value = beside(document_->file, value);
+  return true;
+}
+
+std::optional<std::size_t> Fields::read_word(const std::string& key, std::span<const Name> words) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return std::nullopt;
+  const auto text = scalar(node, key, "a word: " + alternatives(words));
+  if (!text) return std::nullopt;
+  const std::optional<std::size_t> index = index_of_name(words, *text);
+  if (!index) problems_->add("'" + path(key) + "' " + misnamed(words, *text), place_of(node, key));
+  return index;
+}
+
+bool Fields::read(const std::string& key, Accuracy& value) {
+  std::string text;
+  if (!has(key) || !read(key, text)) return false;
+  try {
+    value = parse_accuracy(text);
+    return true;
+  } catch (const Error& error) {
+    problem_at(key, "'" + path(key) + "': " + error.problems().front().message);
+    return false;
+  }
+}
+
+bool Fields::read(const std::string& key, FrameRate& value) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return false;
   const auto text = scalar(node, key, "frames per second, like 60 or 30000/1001");
-  if (!text) return;
+  if (!text) return false;
   const std::size_t slash = text->find('/');
   const auto num = parse_number(text->substr(0, slash));
   const auto den =
@@ -109,48 +141,58 @@ void Fields::read(const std::string& key, FrameRate& value) {
   const double scale = num && *num != std::floor(*num) ? 1000 : 1;
   const bool good = num && den && *num > 0 && *den >= 1 && *den <= 1e5 && *num * scale <= 1e6 &&
                     *den == std::floor(*den) && *num * scale == std::round(*num * scale);
-  if (!good)
-    problems_->add("'" + path(key) + "' must be a rate like 60, 29.97 or 30000/1001", place_of(node, key));
-  else
+  if (good)
     value = {int(*num * scale), int(*den * scale)};
+  else
+    problems_->add("'" + path(key) + "' must be a rate like 60, 29.97 or 30000/1001", place_of(node, key));
+  return good;
 }
 
-void Fields::read(const std::string& key, std::vector<double>& value) {
+bool Fields::read(const std::string& key, std::vector<double>& value) {
   const YAML::Node node = find(key);
-  if (!node.IsDefined()) return;
+  if (!node.IsDefined()) return false;
   if (!node.IsSequence()) {
     problems_->add("'" + path(key) + "' must be a list of numbers: [0, 90deg]", place_of(node, key));
-    return;
+    return false;
   }
   value.clear();
   for (std::size_t i = 0; i < node.size(); ++i)
     if (const auto one = number(node[i], key + "." + std::to_string(i + 1))) value.push_back(*one);
+  return value.size() == node.size();
 }
 
-void Fields::read(const std::string& key, std::optional<Eigen::Vector3d>& value) {
+bool Fields::read(const std::string& key, Eigen::Vector3d& value) {
   const YAML::Node node = find(key);
-  if (!node.IsDefined()) return;
+  if (!node.IsDefined()) return false;
+  if (!node.IsSequence() || node.size() != 3) {
+    problems_->add("'" + path(key) + "' must be three numbers, world x y z: [0, -9.81, 0]", place_of(node, key));
+    return false;
+  }
   std::vector<double> numbers;
-  if (node.IsSequence() && node.size() == 3)
-    for (std::size_t i = 0; i < 3; ++i)
-      if (const auto one = number(node[i], key + "." + std::to_string(i + 1))) numbers.push_back(*one);
-  if (!node.IsSequence() || node.size() != 3)
-    problems_->add("'" + path(key) + "' must be three numbers, world x y z: [0, -9.81, 0]",
-                   place_of(node, key));
-  else if (numbers.size() == 3)
-    value = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
+  if (!read(key, numbers)) return false;
+  value = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
+  return true;
 }
 
-void Fields::read(const std::string& key, std::vector<std::string>& value) {
+bool Fields::read(const std::string& key, std::vector<std::string>& value) {
   const YAML::Node node = find(key);
-  if (!node.IsDefined()) return;
+  if (!node.IsDefined()) return false;
   if (!node.IsSequence()) {
     problems_->add("'" + path(key) + "' must be a list of names: [chain, trail]", place_of(node, key));
-    return;
+    return false;
   }
   value.clear();
   for (std::size_t i = 0; i < node.size(); ++i)
     if (const auto one = scalar(node[i], key + "." + std::to_string(i + 1), "a name")) value.push_back(*one);
+  return value.size() == node.size();
+}
+
+std::optional<Fields> Fields::section(const std::string& key, const std::string& what_it_holds) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return std::nullopt;
+  if (node.IsMap()) return Fields(*document_, node, path(key), *problems_);
+  problems_->add("'" + path(key) + "' must hold " + what_it_holds, place_of(node, key));
+  return std::nullopt;
 }
 
 void Fields::finish() {

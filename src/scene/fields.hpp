@@ -4,10 +4,12 @@
 
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/frame_rate.hpp"
+#include "core/names.hpp"
 #include "scene/scene.hpp"
 #include "scene/yaml_document.hpp"
 
@@ -29,16 +31,34 @@ class Fields {
   void problem_at(const std::string& key, const std::string& message);
   std::string path(const std::string& key) const { return prefix_.empty() ? key : prefix_ + "." + key; }
 
-  // Each leaves `value` alone where the key is absent.
-  void read(const std::string& key, std::string& value);
-  void read(const std::string& key, double& value);
-  void read(const std::string& key, int& value);
-  void read(const std::string& key, bool& value);
-  void read(const std::string& key, FrameRate& value);
-  void read(const std::string& key, std::vector<double>& value);  // numbers, `90deg`, `pi/2`
-  void read(const std::string& key, std::optional<Eigen::Vector3d>& value);
-  void read(const std::string& key, std::vector<std::string>& value);
-  void read_path(const std::string& key, std::string& value);  // relative to the scene file
+  // Each leaves `value` alone where the key is absent or wrong, and then returns false.
+  bool read(const std::string& key, std::string& value);
+  bool read(const std::string& key, double& value);
+  bool read(const std::string& key, int& value);
+  bool read(const std::string& key, bool& value);
+  bool read(const std::string& key, FrameRate& value);
+  bool read(const std::string& key, Accuracy& value);
+  bool read(const std::string& key, std::vector<double>& value);  // numbers, `90deg`, `pi/2`
+  bool read(const std::string& key, Eigen::Vector3d& value);
+  bool read(const std::string& key, std::vector<std::string>& value);
+  bool read_path(const std::string& key, std::string& value);  // relative to the scene file
+  std::optional<std::size_t> read_word(const std::string& key, std::span<const Name> words);  // its index
+  template <Named Enum>
+  bool read(const std::string& key, Enum& value) {
+    const std::optional<std::size_t> index = read_word(key, names_of(Enum{}));
+    if (index) value = Enum(*index);
+    return index.has_value();
+  }
+  // Null counts as absent, so that `--set step=null` takes a key away.
+  template <class T>
+  bool read(const std::string& key, std::optional<T>& value) {
+    T one{};
+    if (!has(key) || !read(key, one)) return false;
+    value = one;
+    return true;
+  }
+  // The mapping below a key; none where it is absent, or no mapping, which is a problem that says what it holds.
+  std::optional<Fields> section(const std::string& key, const std::string& what_it_holds);
 
   // Unknown keys are problems that name the nearest known one.
   void finish();

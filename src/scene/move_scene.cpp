@@ -3,20 +3,17 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <map>
 
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "scene/keys.hpp"
 
 namespace chainreel {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Keys whose value is a path, wherever they stand; all below `packages` are.
-constexpr std::array<const char*, 4> kPathKeys = {"model", "csv", "inverse_of", "trajectory"};
 
 struct Scalar {
   std::string value;
@@ -38,7 +35,7 @@ void find_paths(const YAML::Node& node, bool is_path, Found& found) {
         for (const auto& package : pair.second) find_paths(package.second, true, found);
         continue;
       }
-      const bool named = std::find(kPathKeys.begin(), kPathKeys.end(), key) != kPathKeys.end();
+      const bool named = std::find(path_keys().begin(), path_keys().end(), key) != path_keys().end();
       find_paths(pair.second, named && pair.second.IsScalar(), found);
     }
   }

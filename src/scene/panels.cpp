@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/format.hpp"
+#include "scene/keys.hpp"
 #include "scene/write_scene.hpp"
 
 namespace chainreel {
@@ -37,22 +38,18 @@ std::string rounded(const std::string& text) {
 }
 
 std::string words_of(const SceneEntry& entry) {
+  const SceneKey& key = *find_key(entry.key);
+  if (key.form == KeyText::Form::path) return std::filesystem::path(entry.text).stem().string();
   const std::string value = in_words(entry.text);
-  if (entry.key == "method") return value;
-  if (entry.key == "model") return std::filesystem::path(entry.text).stem().string();
-  if (entry.key == "step") return "step " + value + " s";
-  if (entry.key == "tolerance" || entry.key == "order" || entry.key == "accuracy")
-    return entry.key + " " + value;
-  if (entry.key == "torque") return "\u03C4 = " + value;
-  if (entry.key == "start.q") return "q(0) = " + value;
-  if (entry.key == "start.qd") return "qd(0) = " + value;
-  return entry.key.substr(entry.key.find('.') + 1) + " = " + value;
+  if (key.caption.empty()) return entry.key.substr(entry.key.find('.') + 1) + " = " + value;
+  std::string words = key.caption;
+  return words.replace(words.find('@'), 1, value);
 }
 
 std::string title_of(const Scene& panel, const std::vector<SceneEntry>& shared) {
   std::string title;
   for (const SceneEntry& entry : entries_of(panel)) {
-    if (entry.key == "expect" || std::find(shared.begin(), shared.end(), entry) != shared.end()) continue;
+    if (!find_key(entry.key)->is_captioned || std::find(shared.begin(), shared.end(), entry) != shared.end()) continue;
     title += (title.empty() ? "" : ", ") + words_of(entry);
   }
   return title;

@@ -157,7 +157,7 @@ void set_method(Scene& scene, Simulation& simulation) {
 ModelOptions model_options_of(const Scene& scene) {
   ModelOptions options;
   options.gravity = scene.gravity;
-  options.floating_base = scene.base == "floating";
+  options.floating_base = scene.base == RootLink::floating;
   options.friction = scene.friction;
   options.massless = scene.massless;
   options.packages = scene.packages;
@@ -204,8 +204,8 @@ Simulation prepare(Scene& scene, bool meshes, LastChain& last) {
   simulation.torque = scene.control ? make_control(chain, *scene.control, scene.parameters)
                                     : make_torque_law(chain, scene.torque, scene.parameters, frames);
   prepare_constraints(scene, simulation);
-  if (scene.method != "auto") set_method(scene, simulation);
-  simulation.limit = limit_policy_of(scene.limit);
+  if (!scene.chooses_method()) set_method(scene, simulation);
+  simulation.limit = scene.limit;
   simulation.duration = scene.duration;
   const int rows = constraint_rows(simulation);
   simulation.events = events_of(scene, simulation, frames, rows);

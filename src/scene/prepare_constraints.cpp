@@ -27,7 +27,7 @@ class PlanMaker {
 
   ConstraintPlan make() {
     ConstraintPlan plan;
-    plan.stabilize = stabilization_of(scene_.stabilize);
+    plan.stabilize = scene_.stabilize;
     plan.gain = scene_.baumgarte_gain;
     for (const ConstraintEntry& entry : scene_.constraints) {
       place_ = entry.place;
@@ -65,8 +65,8 @@ class PlanMaker {
   Eigen::Vector3d place_of(const ConstraintEntry& entry) {
     // The world's origin, unless a link has that name.
     if (entry.b == "world") return Eigen::Vector3d::Zero();
-    return world(entry.at,
-                 entry.kind + (entry.kind == "line" || entry.kind == "plane" ? ": 'point'" : ": 'at'"));
+    const bool lies_on = entry.kind == ConstraintKind::line || entry.kind == ConstraintKind::plane;
+    return world(entry.at, to_string(entry.kind) + (lies_on ? ": 'point'" : ": 'at'"));
   }
 
   bool ends_at_place(const ConstraintEntry& entry) const {
@@ -74,23 +74,28 @@ class PlanMaker {
   }
 
   Constraint constraint_of(const ConstraintEntry& entry) {
-    const std::string& kind = entry.kind;
-    if (kind == "line")
-      return LineConstraint{entry.a, place_of(entry), world(entry.direction, "line: 'direction'")};
-    if (kind == "plane")
-      return PlaneConstraint{entry.a, place_of(entry), world(entry.direction, "plane: 'normal'")};
-    if (kind == "point") return PointConstraint{entry.a, place_of(entry)};
-    if (kind == "distance") {
-      if (ends_at_place(entry)) return DistanceConstraint{entry.a, "", entry.value, place_of(entry)};
-      return DistanceConstraint{entry.a, entry.b, entry.value, {}};
+    switch (entry.kind) {
+      case ConstraintKind::line:
+        return LineConstraint{entry.a, place_of(entry), world(entry.direction, "line: 'direction'")};
+      case ConstraintKind::plane:
+        return PlaneConstraint{entry.a, place_of(entry), world(entry.direction, "plane: 'normal'")};
+      case ConstraintKind::point:
+        return PointConstraint{entry.a, place_of(entry)};
+      case ConstraintKind::distance:
+        if (ends_at_place(entry)) return DistanceConstraint{entry.a, "", entry.value, place_of(entry)};
+        return DistanceConstraint{entry.a, entry.b, entry.value, {}};
+      case ConstraintKind::close:
+        return closure_of(entry);
+      case ConstraintKind::curve:
+        return CurveConstraint{
+            entry.a,
+            std::make_shared<ExpressionCurve>(entry.x, entry.y, scene_.parameters, entry.s, entry.place),
+            entry.s};
+      case ConstraintKind::joint:
+        return JointConstraint{entry.a, entry.value};
+      case ConstraintKind::linear:
+        break;
     }
-    if (kind == "close") return closure_of(entry);
-    if (kind == "curve")
-      return CurveConstraint{
-          entry.a,
-          std::make_shared<ExpressionCurve>(entry.x, entry.y, scene_.parameters, entry.s, entry.place),
-          entry.s};
-    if (kind == "joint") return JointConstraint{entry.a, entry.value};
     LinearConstraint linear;
     for (const auto& [name, coefficient] : entry.coefficients) linear.terms.push_back({name, coefficient});
     linear.value = entry.value;
@@ -100,10 +105,8 @@ class PlanMaker {
   Constraint closure_of(const ConstraintEntry& entry) {
     if (ends_at_place(entry)) return PointConstraint{entry.a, place_of(entry)};
     CloseConstraint close{entry.a, entry.b};
-    if (entry.closure == "weld") close.kind = Closure::weld;
-    if (entry.closure != "axis") return close;
-    close.kind = Closure::axis;
-    if (!entry.direction.empty()) close.axis = world(entry.direction, "close: 'axis'");
+    close.kind = entry.closure;
+    if (entry.closure == Closure::axis && !entry.direction.empty()) close.axis = world(entry.direction, "close: 'axis'");
     return close;
   }
 

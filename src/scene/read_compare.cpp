@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "core/format.hpp"
+#include "scene/keys.hpp"
+#include "scene/own_keys.hpp"
 
 namespace chainreel {
 namespace {
 
 constexpr std::size_t kFewestPanels = 2, kMostPanels = 12;
-constexpr std::size_t kMostInGhost = 4;  // outlines that one can still tell apart
 
 // Keeps the problems of several readers, those that more than one of them found only once.
 class Collected {
@@ -57,36 +57,6 @@ void check_list(Fields& page, const YAML::Node& list) {
 
 bool is_comparison(const YamlDocument& document) {
   return document.root["compare"].IsDefined();
-}
-
-void read_layout(Fields& fields, Scene& scene) {
-  const YAML::Node node = fields.find("layout");
-  const std::size_t panels = std::max<std::size_t>(1, scene.compare.size());
-  scene.layout = panels == 1 ? "scene" : panels == 2 ? "compare" : "grid";
-  if (!node.IsDefined()) return;
-  std::string layout;
-  fields.read("layout", layout);
-  if (layout.empty()) return;
-  const Place place = fields.place_of(node, "layout");
-  const std::vector<std::string>& known = layout_names();
-  if (std::find(known.begin(), known.end(), layout) == known.end())
-    fields.problems().add("unknown layout '" + layout + "':" + did_you_mean(layout, known) +
-                              " There are scene, scene-below, scene-right, transparent, compare, grid and ghost.",
-                          place);
-  else if ((layout == "compare" || layout == "grid" || layout == "ghost") != (panels > 1))
-    fields.problems().add(panels == 1 ? "layout '" + layout + "' needs `compare:` with its panels"
-                                      : "layout '" + layout + "' shows one panel: take compare, grid or ghost",
-                          place);
-  else if (layout == "compare" && panels != 2)
-    fields.problems().add("layout 'compare' shows two panels, not " + std::to_string(panels) + ": take grid",
-                          place);
-  else if (layout == "ghost" && panels > kMostInGhost)
-    fields.problems().add("layout 'ghost' draws up to " + std::to_string(kMostInGhost) +
-                              " variants over one another, not " + std::to_string(panels) +
-                              ": compare fewer, or take grid",
-                          place);
-  else
-    scene.layout = layout;
 }
 
 Scene read_comparison(const YamlDocument& document, const PanelReader& read_panel) {

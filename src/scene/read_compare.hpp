@@ -15,7 +15,4 @@ using PanelReader = std::function<Scene(const YamlDocument& document)>;
 // The whole scene with its panels in Scene::compare. Throws Error with the problems of all panels, each once.
 Scene read_comparison(const YamlDocument& document, const PanelReader& read_panel);
 
-// The layout, which must go with the number of panels that the scene already holds.
-void read_layout(Fields& fields, Scene& scene);
-
 }  // namespace chainreel

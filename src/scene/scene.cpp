@@ -1,6 +1,8 @@
 #include "scene/scene.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 
 #include "core/format.hpp"
 
@@ -33,34 +35,12 @@ bool layer_needs(const std::string& name, LayerNeeds needs) {
                      [&](const LayerRow& layer) { return layer.name == name && layer.needs == needs; });
 }
 
-const std::vector<std::string>& reading_names() {
-  static const std::vector<std::string> names{"mass", "energy", "belt"};
-  return names;
-}
-
-const std::vector<std::string>& layout_names() {
-  static const std::vector<std::string> names{"scene",       "scene-below", "scene-right",
-                                              "transparent", "compare",     "grid",
-                                              "ghost"};
-  return names;
-}
-
-const std::vector<std::string>& preset_names() {
-  static const std::vector<std::string> names{"slides", "web", "overlay", "doc", "frames", "still"};
-  return names;
-}
-
 bool is_ghost_layout(const Scene& page) {
-  return page.layout == "ghost";
+  return page.layout == PageLayout::ghost;
 }
 
 bool is_transparent(const Scene& scene) {
-  return scene.layout == "transparent" || scene.video.preset == "overlay";
-}
-
-const std::vector<std::string>& theme_names() {
-  static const std::vector<std::string> names{"light", "dark"};
-  return names;
+  return scene.layout == PageLayout::transparent || scene.video.preset == Preset::overlay;
 }
 
 Place Scene::place_of(const std::string& key) const {
@@ -81,7 +61,7 @@ std::string method_text(const Scene& scene) {
   if (scene.order) text += ", order " + std::to_string(*scene.order);
   if (scene.step) text += ", step " + format_shortest(*scene.step) + " s";
   if (scene.tolerance) text += ", tolerance " + format_shortest(*scene.tolerance);
-  if (scene.method == "auto") text += ", accuracy " + to_string(scene.accuracy);
+  if (scene.chooses_method()) text += ", accuracy " + to_string(scene.accuracy);
   return text;
 }
 

@@ -1,4 +1,4 @@
-// A scene is a struct written in YAML: key = member name, in this order, defaults here and nowhere else.
+// A scene is a struct written in YAML. Defaults stand here and nowhere else; keys.cpp holds a row a key.
 #pragma once
 
 #include <array>
@@ -8,11 +8,14 @@
 #include <vector>
 
 #include "core/frame_rate.hpp"
+#include "mesh/read_mesh.hpp"
 #include "scene/constraint_entry.hpp"
 #include "scene/layers.hpp"
+#include "scene/words.hpp"
 #include "sim/choice/accuracy.hpp"
 #include "sim/constraint_plan.hpp"
 #include "sim/drive/events.hpp"
+#include "sim/drive/limits.hpp"
 #include "sim/drive/torque.hpp"
 #include "sim/plots.hpp"
 
@@ -27,7 +30,7 @@ struct Video {
   int width = 1920;
   int height = 1080;
   FrameRate fps;
-  std::string preset;         // of the outputs: slides, web, overlay, doc, frames, still; "": by their endings
+  std::optional<Preset> preset;  // of the outputs; absent: by their endings
   std::optional<double> crf;  // of films, 0 best; absent: 18 for H.264, 28 for VP9
 };
 
@@ -52,27 +55,26 @@ struct SlowMotionEntry {
   double speed = 1;   // 0.25: four times slower
 };
 
-// How the layer `ellipse` reads the effective mass: see draw/layers/ellipse.hpp.
 struct EllipseEntry {
-  std::string reading = "mass";     // or energy, belt
-  std::string shape = "ellipsoid";  // in space; or section: by the xy plane of the end effector
+  EllipseReading reading = EllipseReading::mass;
+  EllipseShape shape = EllipseShape::ellipsoid;
 };
 
 struct Scene {
   std::string title;
   std::string model;                       // path, as found from the working folder
   std::optional<Eigen::Vector3d> gravity;  // m/s^2; absent: by the plane of the chain
-  std::string base = "fixed";              // or floating: the root link hangs on a floating joint
+  RootLink base = RootLink::fixed;
   bool friction = true;                    // the model's joint damping and friction act
   std::optional<double> massless;  // kg given to moving links without inertia; absent: they are an error
-  std::string limit = "report";    // of joints: or clamp (effort), stop (the run)
+  LimitPolicy limit = LimitPolicy::report;
   std::map<std::string, std::string> packages;  // package:// name -> folder
   StartState start;
   std::vector<TorqueEntry> torque;  // one a degree of freedom; empty: none acts, or `control` does
   std::optional<Control> control;   // `torque:` as a mapping: for the whole chain
   Parameters parameters;
   std::vector<ConstraintEntry> constraints;
-  std::string stabilize = "project";  // against drift: or baumgarte, none
+  Stabilization stabilize = Stabilization::project;  // against drift
   double baumgarte_gain = 10;         // 1/s; `baumgarte: {gain: 10}`
   std::vector<ContactEntry> contact_force;  // forces to press on constraints with
   std::string end_effector;                    // "": link `gripper`, else the only leaf
@@ -85,17 +87,17 @@ struct Scene {
   std::optional<double> tolerance;             // of adaptive methods; absent: 1e-9, unless they have a step
   std::optional<int> order;                    // of methods with several
   Accuracy accuracy;                           // of `method: auto`
-  std::string expect = "finish";               // or diverge: what the run is to do
+  Outcome expect = Outcome::finish;
   std::vector<std::string> draw = default_layers();  // what is drawn: see scene/layers
-  std::string links = "auto";   // plain bars, or the model's visual or collision shapes; auto: visual in space
-  std::string mesh_up = "rviz";  // whose up of Collada files: rviz (theirs is not heeded), or file
+  LinkShapes links = LinkShapes::automatic;
+  MeshUp mesh_up = MeshUp::rviz;
   EllipseEntry ellipse;
   CameraEntry camera;
   std::vector<PlotEntry> plot;  // beside or below the scene, at most three
-  std::string layout = "scene";  // of the page: or scene-below, scene-right with plots; compare, grid, ghost for panels
+  PageLayout layout = PageLayout::scene;
   std::vector<Scene>
       compare;            // the panels, each the scene with its changes; empty: the scene is the only one
-  std::string theme = "light";  // or dark
+  ThemeName theme = ThemeName::light;
   double text_scale = 1;  // for clips used smaller than drawn
   Video video;
   std::vector<SlowMotionEntry> slow_motion;
@@ -108,6 +110,8 @@ struct Scene {
 
   // For errors found later: the key's place, or the file where the scene left it out.
   Place place_of(const std::string& key) const;
+
+  bool chooses_method() const { return method == "auto"; }
 };
 
 // Throws Error (bad input) where the scene compares several runs.
@@ -116,14 +120,9 @@ void require_single_run(const Scene& scene);
 // "rk4, step 0.001 s", "dop853, tolerance 1e-9".
 std::string method_text(const Scene& scene);
 
-const std::vector<std::string>& reading_names();
-const std::vector<std::string>& layout_names();
-const std::vector<std::string>& preset_names();
-
 // Drawn on nothing, without words above and below: layout `transparent` or preset `overlay`.
 bool is_transparent(const Scene& scene);
 // Panels in one place: the first in full, the others over it in outline.
 bool is_ghost_layout(const Scene& page);
-const std::vector<std::string>& theme_names();
 
 }  // namespace chainreel

@@ -107,7 +107,7 @@ class CellRuns {
     const auto reader = take_reader();
     Scene scene = reader->file.read(settings);
     require_single_run(scene);
-    if (scene.method == "auto")
+    if (scene.chooses_method())
       throw Error(ExitCode::bad_input,
                   "a stability map needs a method of its own: auto would choose another one in every cell; "
                   "name one, like --set method=rk4",

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "scene/keys.hpp"
 
 namespace chainreel {
 
@@ -13,14 +13,7 @@ namespace chainreel {
 // stands at the top, and each entry of `compare:` holds the rest of its panel.
 std::string scene_text(const Scene& scene);
 
-// A key, dotted below `start`, `parameters` and the like, and its value in one line of YAML.
-struct SceneEntry {
-  std::string key;
-  std::string text;
-  friend bool operator==(const SceneEntry&, const SceneEntry&) = default;
-};
-
-// What a panel can have for itself, in the order of the struct; without its title.
+// What a panel can have for itself, in the order of the table; without its title.
 std::vector<SceneEntry> entries_of(const Scene& scene);
 // Those entries that all panels have, with the same value.
 std::vector<SceneEntry> shared_entries(const std::vector<Scene>& panels);

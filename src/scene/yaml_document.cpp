@@ -223,12 +223,6 @@ YamlDocument load_yaml(const std::string& path, const std::vector<Override>& ove
   return yaml_document_of(read_text(path), path, overrides);
 }
 
-const std::vector<std::string>& page_keys() {
-  static const std::vector<std::string> keys{"duration", "draw",  "ellipse", "plot",    "layout", "compare",     "camera",
-                                             "theme",    "text_scale", "video", "slow_motion", "hold"};
-  return keys;
-}
-
 YamlDocument panel_document(const YamlDocument& whole, std::size_t index) {
   // Read anew: nodes are shared, and a change in one panel must not reach the others.
   YamlDocument panel = yaml_document_of(whole.text, whole.file, whole.overrides);

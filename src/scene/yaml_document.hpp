@@ -50,9 +50,6 @@ YamlDocument yaml_document_of(const std::string& text, const std::string& file,
 // Puts other values in the place of those that the document was read with: the same keys in the same order.
 void replace_overrides(YamlDocument& document, const std::vector<Override>& overrides);
 
-// Keys of the whole picture, which no single panel of a comparison can have.
-const std::vector<std::string>& page_keys();
-
 // The document that entry `index` (from 0) of `compare:` stands for: the file's keys without `title`,
 // `layout` and `compare`, changed by the entry's own, which may be dotted. The entry is a mapping.
 YamlDocument panel_document(const YamlDocument& whole, std::size_t index);

@@ -6,22 +6,11 @@
 
 namespace chainreel {
 
-std::string to_string(Stabilization stabilize) {
-  switch (stabilize) {
-    case Stabilization::none:
-      return "none";
-    case Stabilization::baumgarte:
-      return "baumgarte";
-    case Stabilization::project:
-      return "project";
-  }
-  return {};
-}
-
-Stabilization stabilization_of(const std::string& name) {
-  for (const Stabilization one : {Stabilization::none, Stabilization::baumgarte, Stabilization::project})
-    if (to_string(one) == name) return one;
-  throw Error(ExitCode::bad_input, "'stabilize' must be project, baumgarte or none, not '" + name + "'");
+std::span<const Name> names_of(Stabilization) {
+  static constexpr Name names[] = {{"project", "after each step, back onto the constraints"},
+                                   {"baumgarte", "errors are driven to die away, with `baumgarte: {gain: ..}`"},
+                                   {"none", "errors of the steps add up"}};
+  return names;
 }
 
 ExpressionCurve::ExpressionCurve(const std::string& x, const std::string& y, const Parameters& parameters,

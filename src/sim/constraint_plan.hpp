@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/names.hpp"
 #include "expr/expression.hpp"
 #include "model/constraint.hpp"
 #include "sim/choice/probe.hpp"
@@ -15,14 +16,11 @@ namespace chainreel {
 // The equations of motion hold d^2 phi / dt^2 = 0 alone; errors of each step add up to phi ~ t^2 unless
 // something holds them.
 enum class Stabilization {
-  none,
-  baumgarte,  // d^2 phi/dt^2 = -2 g dphi/dt - g^2 phi: J. Baumgarte, Comput. Meth. Appl. Mech. Eng. 1 (1972)
   project,    // after each step, positions and velocities back onto the constraints
+  baumgarte,  // d^2 phi/dt^2 = -2 g dphi/dt - g^2 phi: J. Baumgarte, Comput. Meth. Appl. Mech. Eng. 1 (1972)
+  none,
 };
-
-std::string to_string(Stabilization stabilize);
-// Throws Error (bad input) that names the three.
-Stabilization stabilization_of(const std::string& name);
+std::span<const Name> names_of(Stabilization);
 
 // The robot is to press with `force` (N, W) on constraint `constraint` (from 0), whatever it does besides.
 struct ContactForce {

@@ -59,9 +59,7 @@ std::string title_of(PlotQuantity quantity, const Chain& chain) {
 
 void add_plot(PlotSet& plots, const PlotEntry& entry, const Chain& chain, int rows) {
   PlotSet::Plot plot;
-  const auto& names = plot_quantities();
-  const auto named = std::find(names.begin(), names.end(), entry.value);
-  plot.quantity = PlotQuantity(named - names.begin());
+  plot.quantity = value_named<PlotQuantity>(entry.value).value_or(PlotQuantity::expression);
   plot.title = entry.title.empty() ? title_of(plot.quantity, chain) : entry.title;
   if (plot.quantity == PlotQuantity::lambda && rows == 0)
     throw Error(ExitCode::bad_input, "there is no lambda to plot: the scene has no constraints", entry.place);
@@ -161,8 +159,13 @@ PlotCurves curves_of(const PlotSet::Plot& plot, const Simulation& simulation, co
 
 }  // namespace
 
-const std::vector<std::string>& plot_quantities() {
-  static const std::vector<std::string> names{"energy", "energy_error", "q", "qd", "tau", "lambda"};
+std::span<const Name> names_of(PlotQuantity) {
+  static constexpr Name names[] = {{"energy", "kinetic, potential and their sum, J"},
+                                   {"energy_error", "what the work of the torques does not explain, J"},
+                                   {"q", "of each joint, rad or m"},
+                                   {"qd", "of each joint, rad/s or m/s"},
+                                   {"tau", "as the run felt them, N m or N"},
+                                   {"lambda", "of each row of the constraints"}};
   return names;
 }
 

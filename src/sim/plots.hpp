@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "expr/expression.hpp"
 #include "sim/choice/probe.hpp"
 #include "sim/drive/events.hpp"
@@ -49,8 +50,8 @@ struct PlotSet {
   GroundAxes ground;
 };
 
-// Names of the quantities.
-const std::vector<std::string>& plot_quantities();
+// Of all but `expression`, which has no name.
+std::span<const Name> names_of(PlotQuantity);
 
 // Null where there are none. `rows` of the constraints. Throws Error with every problem.
 std::shared_ptr<const PlotSet> make_plots(const Chain& chain, const std::vector<PlotEntry>& entries,

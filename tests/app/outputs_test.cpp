@@ -384,7 +384,7 @@ TEST(Outputs, WhatCannotBeWrittenIsSaidBeforeTheRun) {
   EXPECT_THAT(trouble({"-o", folder.file("x") + "/", "-o", folder.file("a.mp4")}),
               HasSubstr("either one folder or files"));
   EXPECT_THAT(trouble({"--preset", "slide", "-o", folder.file("a.mp4")}),
-              HasSubstr("unknown preset 'slide': did you mean 'slides'?"));
+              HasSubstr("'video.preset' must be slides, web, overlay, doc, frames or still, not 'slide': did you mean 'slides'?"));
   EXPECT_THAT(trouble({"--preset", "overlay", "-o", folder.file("a.mp4")}),
               HasSubstr("a transparent background cannot be written there"));
   // Of what would be a film without its background in part.

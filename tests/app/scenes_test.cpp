@@ -64,7 +64,7 @@ class EveryScene : public ::testing::TestWithParam<std::string> {
   std::vector<int> moving_panels(int frame) const {
     std::vector<int> panels;
     // Where panels lie over one another the first alone has its end effector filled.
-    const int count = prepared_.scene.layout == "ghost" ? 1 : film_.panel_count();
+    const int count = prepared_.scene.layout == PageLayout::ghost ? 1 : film_.panel_count();
     for (int i = 0; i < count; ++i)
       if (const auto left = film_.panel(i).left_at(); !left || times_[std::size_t(frame)] < *left)
         panels.push_back(i);

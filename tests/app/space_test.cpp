@@ -58,8 +58,8 @@ TEST_F(OnTheCommandLine, FlagsThatMakeNoSenseAreRefused) {
   EXPECT_THAT(error({"--azimuth", "35"}),
               HasSubstr("'camera.azimuth' must lie between -360deg and 360deg; a number without"));
   EXPECT_THAT(error({"--elevation", "120deg"}), HasSubstr("'camera.elevation' must lie between -90deg and 90deg"));
-  EXPECT_THAT(error({"--distance", "0"}), HasSubstr("'camera.distance' must be metres above 0, or parallel"));
-  EXPECT_THAT(error({"--distance", "1e300"}), HasSubstr("'camera.distance' must be metres"));
+  EXPECT_THAT(error({"--distance", "0"}), HasSubstr("'camera.distance' must be above 0 and up to 1e6 m, or parallel"));
+  EXPECT_THAT(error({"--distance", "1e300"}), HasSubstr("'camera.distance' must be above 0"));
   EXPECT_THAT(error({"--fit", "[1, 0, 0, 1]"}), HasSubstr("'camera.fit' must grow from left to right"));
   EXPECT_THAT(error({"--fit", "1,0,0,1"}), HasSubstr("'camera.fit' must be motion, or the part that is shown"));
   EXPECT_THAT(error({"--links", "meshes"}),

@@ -20,8 +20,8 @@ TEST_F(CameraKeys, AreReadWithTheirUnits) {
   const Scene scene = read(
       "links: visual\nmesh_up: file\n"
       "camera: {azimuth: -40deg, elevation: 0.25, distance: 3, fit: [-1, -0.5, 2, 1.5]}\n");
-  EXPECT_EQ(scene.links, "visual");
-  EXPECT_EQ(scene.mesh_up, "file");
+  EXPECT_EQ(scene.links, LinkShapes::visual);
+  EXPECT_EQ(scene.mesh_up, MeshUp::file);
   EXPECT_DOUBLE_EQ(*scene.camera.azimuth, -40 * std::numbers::pi / 180);
   EXPECT_EQ(*scene.camera.elevation, 0.25);
   EXPECT_EQ(*scene.camera.distance, 3);
@@ -31,8 +31,8 @@ TEST_F(CameraKeys, AreReadWithTheirUnits) {
 TEST_F(CameraKeys, LeaveTheViewToTheFilmWhereTheyAreAbsent) {
   const Scene scene = read("camera: {fit: motion}\n");
   EXPECT_FALSE(scene.camera.azimuth || scene.camera.elevation || scene.camera.distance || scene.camera.fit);
-  EXPECT_EQ(scene.links, "auto");
-  EXPECT_EQ(scene.mesh_up, "rviz");
+  EXPECT_EQ(scene.links, LinkShapes::automatic);
+  EXPECT_EQ(scene.mesh_up, MeshUp::rviz);
 }
 
 TEST_F(CameraKeys, KnowParallelRays) {
@@ -61,10 +61,10 @@ TEST_F(CameraKeys, OfPanelsComeBackAsTheyWereWritten) {
       read("compare: [{links: plain}, {links: visual, mesh_up: file}]\ncamera: {azimuth: 0.5}\n");
   const Scene again = read_scene(folder_.write("again.yaml", scene_text(scene)), {});
   ASSERT_EQ(again.compare.size(), 2u);
-  EXPECT_EQ(again.compare[0].links, "plain");
-  EXPECT_EQ(again.compare[1].links, "visual");
-  EXPECT_EQ(again.compare[0].mesh_up, "rviz");
-  EXPECT_EQ(again.compare[1].mesh_up, "file");
+  EXPECT_EQ(again.compare[0].links, LinkShapes::plain);
+  EXPECT_EQ(again.compare[1].links, LinkShapes::visual);
+  EXPECT_EQ(again.compare[0].mesh_up, MeshUp::rviz);
+  EXPECT_EQ(again.compare[1].mesh_up, MeshUp::file);
   EXPECT_EQ(again.camera.azimuth, 0.5);
   EXPECT_THAT(error("compare: [{camera: {azimuth: 0}}, {}]\n"),
               HasSubstr("'camera' belongs to the whole picture"));
@@ -74,8 +74,8 @@ TEST_F(CameraKeys, ThatMakeNoSenseAreErrorsWithTheirPlaces) {
   EXPECT_THAT(error("camera: left\n"), HasSubstr("one.yaml:2:9: 'camera' must hold azimuth"));
   EXPECT_THAT(error("camera: {azimuth: 40}\n"), HasSubstr("without deg is in radians"));
   EXPECT_THAT(error("camera: {elevation: 100deg}\n"), HasSubstr("between -90deg and 90deg"));
-  EXPECT_THAT(error("camera: {distance: 0}\n"), HasSubstr("one.yaml:2:20: 'camera.distance' must be metres"));
-  EXPECT_THAT(error("camera: {distance: -2}\n"), HasSubstr("above 0, or parallel"));
+  EXPECT_THAT(error("camera: {distance: 0}\n"), HasSubstr("one.yaml:2:20: 'camera.distance' must be above 0"));
+  EXPECT_THAT(error("camera: {distance: -2}\n"), HasSubstr(", or parallel"));
   EXPECT_THAT(error("camera: {fit: all}\n"), HasSubstr("fit: [left, bottom, right, top]"));
   EXPECT_THAT(error("camera: {fit: [0, 0, 1]}\n"), HasSubstr("fit: [left, bottom, right, top]"));
   EXPECT_THAT(error("camera: {fit: [1, 0, 0, 1]}\n"), HasSubstr("must grow from left to right"));

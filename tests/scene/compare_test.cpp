@@ -53,22 +53,22 @@ TEST_F(CompareScene, GivesEachPanelTheSceneWithItsOwnChanges) {
   EXPECT_EQ(b.parameters[0].second, 5);
   EXPECT_TRUE(a.start.q.empty());
   EXPECT_EQ(b.start.q.size(), 2u);
-  EXPECT_EQ(a.expect, "finish");
-  EXPECT_EQ(b.expect, "diverge");
+  EXPECT_EQ(a.expect, Outcome::finish);
+  EXPECT_EQ(b.expect, Outcome::diverge);
   EXPECT_EQ(a.duration, 3);
-  EXPECT_EQ(scene.layout, "compare");
+  EXPECT_EQ(scene.layout, PageLayout::compare);
 }
 
 TEST_F(CompareScene, OfOnePanelIsAPlainScene) {
   EXPECT_TRUE(read("").compare.empty());
-  EXPECT_EQ(read("").layout, "scene");
-  EXPECT_EQ(read("expect: diverge\n").expect, "diverge");
+  EXPECT_EQ(read("").layout, PageLayout::scene);
+  EXPECT_EQ(read("expect: diverge\n").expect, Outcome::diverge);
 }
 
 TEST_F(CompareScene, ChoosesTheLayoutByTheNumberOfPanels) {
-  EXPECT_EQ(read("compare: [{}, {}]\n").layout, "compare");
-  EXPECT_EQ(read("compare: [{}, {}, {}]\n").layout, "grid");
-  EXPECT_EQ(read("compare: [{}, {}]\nlayout: grid\n").layout, "grid");
+  EXPECT_EQ(read("compare: [{}, {}]\n").layout, PageLayout::compare);
+  EXPECT_EQ(read("compare: [{}, {}, {}]\n").layout, PageLayout::grid);
+  EXPECT_EQ(read("compare: [{}, {}]\nlayout: grid\n").layout, PageLayout::grid);
   EXPECT_THAT(error("compare: [{}, {}, {}]\nlayout: compare\n"), HasSubstr("shows two panels, not 3"));
   EXPECT_THAT(error("compare: [{}, {}]\nlayout: scene\n"), HasSubstr("shows one panel"));
   EXPECT_THAT(error("layout: grid\n"), HasSubstr("needs `compare:`"));
@@ -150,7 +150,7 @@ TEST_F(CompareScene, ReadsWhatItWrites) {
     EXPECT_EQ(again.compare[i].title, expected.title);
   }
   EXPECT_EQ(again.title, "Two");
-  EXPECT_EQ(again.layout, "compare");
+  EXPECT_EQ(again.layout, PageLayout::compare);
   // What the panels share is written once.
   const std::string text = scene_text(scene);
   EXPECT_EQ(text.find("torque:"), text.rfind("torque:"));

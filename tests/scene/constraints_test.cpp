@@ -74,7 +74,7 @@ TEST_F(SceneConstraints, EveryKindIsReadAndWrittenBackTheSame) {
   ASSERT_EQ(again.constraints.size(), 12u);
   EXPECT_EQ(again.constraints[9].y, scene.constraints[9].y);
   EXPECT_EQ(again.constraints[11].coefficients, scene.constraints[11].coefficients);
-  EXPECT_EQ(again.constraints[7].closure, "axis");
+  EXPECT_EQ(again.constraints[7].closure, Closure::axis);
 }
 
 TEST_F(SceneConstraints, SayHowDriftIsHeldOffAndAreProjectedOntoWhereTheySayNothing) {

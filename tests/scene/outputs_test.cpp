@@ -16,7 +16,7 @@ class SceneOutputs : public WrittenScenes {};
 
 TEST_F(SceneOutputs, AreReadAndWritten) {
   const Scene plain = read("");
-  EXPECT_EQ(plain.video.preset, "");
+  EXPECT_FALSE(plain.video.preset);
   EXPECT_FALSE(plain.video.crf);
   EXPECT_EQ(plain.hold.first, 0);
   EXPECT_FALSE(is_transparent(plain));
@@ -24,7 +24,7 @@ TEST_F(SceneOutputs, AreReadAndWritten) {
   EXPECT_TRUE(is_transparent(scene));
   scene.model = "rr.urdf";
   const Scene again = read_scene(folder_.write("again.yaml", scene_text(scene)));
-  EXPECT_EQ(again.video.preset, "overlay");
+  EXPECT_EQ(again.video.preset, Preset::overlay);
   EXPECT_EQ(again.video.crf, 20.5);
   EXPECT_EQ(again.hold.first, 0.5);
   EXPECT_EQ(again.hold.last, 2);
@@ -32,8 +32,8 @@ TEST_F(SceneOutputs, AreReadAndWritten) {
 }
 
 TEST_F(SceneOutputs, SayWhatIsWrong) {
-  EXPECT_THAT(error("video: {preset: slide}\n"), HasSubstr("unknown preset 'slide': did you mean 'slides'?"));
-  EXPECT_THAT(error("video: {preset: \"\"}\n"), HasSubstr("unknown preset"));
+  EXPECT_THAT(error("video: {preset: slide}\n"), HasSubstr("or still, not 'slide': did you mean 'slides'?"));
+  EXPECT_THAT(error("video: {preset: \"\"}\n"), HasSubstr("or still, not ''"));
   EXPECT_THAT(error("video: {crf: -1}\n"), HasSubstr("'video.crf' must lie between 0"));
   EXPECT_THAT(error("hold: 1\n"), HasSubstr("hold: {first: 1, last: 2}"));
   EXPECT_THAT(error("hold: {last: -1}\n"), HasSubstr("'hold.last' must lie between 0 and 3600 s"));

@@ -59,7 +59,7 @@ TEST_F(ReadScene, ReadsEveryKey) {
   EXPECT_EQ(scene.step, 0.01);
   EXPECT_THAT(scene.draw, ElementsAre("chain", "time"));
   EXPECT_EQ(scene.text_scale, 1.5);
-  EXPECT_EQ(scene.theme, "dark");
+  EXPECT_EQ(scene.theme, ThemeName::dark);
   EXPECT_EQ(scene.video.fps, (FrameRate{30000, 1001}));
 }
 
@@ -72,8 +72,8 @@ TEST_F(ReadScene, EditsTheDefaultLayersByPlusAndMinus) {
 }
 
 TEST_F(ReadScene, KnowsHowTheEllipseIsRead) {
-  EXPECT_EQ(read("").ellipse.reading, "mass");
-  EXPECT_EQ(read("ellipse: {reading: belt}").ellipse.reading, "belt");
+  EXPECT_EQ(read("").ellipse.reading, EllipseReading::mass);
+  EXPECT_EQ(read("ellipse: {reading: belt}").ellipse.reading, EllipseReading::belt);
   EXPECT_THAT(error("ellipse: {reading: tensor}"), HasSubstr("must be mass, energy or belt, not 'tensor'"));
   EXPECT_THAT(error("ellipse: belt"), HasSubstr("ellipse: {reading: belt}"));
   EXPECT_THAT(error("ellipse: {axes: 2}"), HasSubstr("unknown key 'ellipse.axes'"));
@@ -134,10 +134,10 @@ TEST_F(ReadScene, ReadsControlsForTheWholeChainAndForOneJoint) {
   EXPECT_THAT(whole.control->pd->kd, ElementsAre(8, 9));
   EXPECT_EQ(whole.control->pd->q[0].text, "sin(t)");
   EXPECT_EQ(whole.control->csv, folder_.file("push.csv"));
-  EXPECT_EQ(whole.base, "floating");
+  EXPECT_EQ(whole.base, RootLink::floating);
   EXPECT_FALSE(whole.friction);
   EXPECT_EQ(whole.massless, 1e-6);
-  EXPECT_EQ(whole.limit, "clamp");
+  EXPECT_EQ(whole.limit, LimitPolicy::clamp);
   EXPECT_EQ(whole.packages.at("robot"), folder_.file("parts"));
 
   const Scene one = read("torque: [1, {computed_torque: {kp: 1, kd: 2, trajectory: q.csv}}]\n");
@@ -150,11 +150,11 @@ TEST_F(ReadScene, SaysWhatIsWrongWithAControl) {
   EXPECT_THAT(error("torque: {pdd: {}}\n"), HasSubstr("unknown key 'torque.pdd': did you mean 'pd'?"));
   EXPECT_THAT(error("torque: {pd: {kp: 1, kq: 2}}\n"), HasSubstr("unknown key 'torque.pd.kq'"));
   EXPECT_THAT(error("torque: {pd: {q: [0, 0], trajectory: a.csv}}\n"), HasSubstr("not from both"));
-  EXPECT_THAT(error("torque: {csv: a.csv, outside: repeat}\n"), HasSubstr("'outside' must be hold, zero or refuse, not 'repeat'"));
+  EXPECT_THAT(error("torque: {csv: a.csv, outside: repeat}\n"), HasSubstr("'torque.outside' must be hold, zero or refuse, not 'repeat'"));
   EXPECT_THAT(error("torque: {gravity_compensation: true, outside: zero}\n"), HasSubstr("there is no csv or inverse_of"));
   EXPECT_THAT(error("torque: {pd: {q: [0, 0], outside: zero}}\n"), HasSubstr("there is no trajectory"));
   EXPECT_THAT(error("base: flying\n"), HasSubstr("'base' must be fixed or floating"));
-  EXPECT_THAT(error("limit: halt\n"), HasSubstr("unknown limit policy 'halt'"));
+  EXPECT_THAT(error("limit: halt\n"), HasSubstr("'limit' must be report, clamp or stop, not 'halt'"));
   EXPECT_THAT(error("massless: -1\n"), HasSubstr("above 0 kg"));
   EXPECT_THAT(error("friction: maybe\n"), HasSubstr("true or false"));
 }
@@ -169,7 +169,7 @@ TEST_F(ReadScene, WritesControlsThatReadBackTheSame) {
   EXPECT_EQ(again.control->pd->q[0].text, "sin(t)");
   EXPECT_EQ(again.control->pd->qd.size(), 2u);
   EXPECT_TRUE(again.control->gravity_compensation);
-  EXPECT_EQ(again.limit, "stop");
+  EXPECT_EQ(again.limit, LimitPolicy::stop);
 }
 
 TEST_F(ReadScene, WritesWhatTablesAreTakenForBeyondTheirRows) {

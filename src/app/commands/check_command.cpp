@@ -138,7 +138,7 @@ void print_model(const Json& model) {
 }
 
 void print_candidates(const Choice& choice, const Accuracy& accuracy) {
-  std::vector<std::vector<std::string>> table{{"tried", "off by, " + accuracy.unit, "us", "evaluations", ""}};
+  std::vector<std::vector<std::string>> table{{"tried", "off by, " + to_string(accuracy.unit), "us", "evaluations", ""}};
   for (const Choice::Candidate& one : choice.tried)
     table.push_back({to_string(one.setting), format_significant(one.error, 2),
                      format_significant(one.cost / 1000, 3), std::to_string(one.evaluations), one.trouble});
@@ -221,7 +221,7 @@ void check_scene(const CheckOptions& options) {
 }
 
 void check_model(const CheckOptions& options) {
-  std::vector<std::string> honoured = mechanism_keys();
+  std::vector<std::string> honoured = keys_of_models(OfModel::mechanism);
   honoured.push_back("end_effector");
   const ModelScene model = model_scene_of(options.file, overrides_of(options.common), "check", honoured);
   const std::vector<Finding> findings = examine_model(options.file, model.options);

@@ -54,7 +54,7 @@ std::vector<std::string> overrides_of(const DynamicsOptions& options) {
 }
 
 Chain load_chain(const DynamicsOptions& options) {
-  std::vector<std::string> honoured = mechanism_keys();
+  std::vector<std::string> honoured = keys_of_models(OfModel::mechanism);
   honoured.push_back("end_effector");
   ModelScene model = model_scene_of(options.file, overrides_of(options), "dynamics", honoured);
   model.options.meshes = false;

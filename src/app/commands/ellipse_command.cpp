@@ -34,12 +34,12 @@ struct EllipseOptions {
 
   // As the scene does, unless the command says otherwise.
   EllipseReading read_as(const Motion& motion) const {
-    return reading_named(reading.empty() ? motion.ellipse.reading : reading);
+    return value_named<EllipseReading>(reading).value_or(motion.ellipse.reading);
   }
   // In the plane there is nothing to cut.
   EllipseForm form(const Motion& motion) const {
-    const std::string named = shape.empty() ? motion.ellipse.shape : shape;
-    return {read_as(motion), named == "section" && !motion.chain.planar};
+    const EllipseShape shown = value_named<EllipseShape>(shape).value_or(motion.ellipse.shape);
+    return {read_as(motion), shown == EllipseShape::section && !motion.chain.planar};
   }
 };
 
@@ -89,7 +89,7 @@ EllipseJob job_of_scene(const EllipseOptions& options) {
   EllipseJob job{motion_of(options.sources, options.common), {}};
   const Motion& motion = job.motion;
   job.figure.text_scale = motion.text_scale;
-  job.figure.theme = &theme_named(motion.theme);
+  job.figure.theme = &theme_named(to_string(motion.theme));
   job.figure.camera = motion.camera;
   job.figure.shapes = motion.shapes;
   job.figure.width = motion.video.width;
@@ -99,7 +99,7 @@ EllipseJob job_of_scene(const EllipseOptions& options) {
 
 EllipseJob job_of_model(const EllipseOptions& options) {
   if (options.model.empty()) throw Error(ExitCode::usage, "which model? Name a .urdf, or a scene by --along");
-  std::vector<std::string> honoured = picture_keys();
+  std::vector<std::string> honoured = keys_of_models(OfModel::picture);
   honoured.insert(honoured.end(), {"title", "ellipse"});
   const ModelScene model = model_scene_of(options.model, model_overrides(options), "ellipse", honoured);
   EllipseJob job{{read_chain(options.model, model.options), {}, model.scene.theme, model.scene.text_scale}, {}};
@@ -199,7 +199,7 @@ void add_ellipse_command(CommandLine& app) {
   command->add_option("--reading", options->reading,
                       "mass: forces for unit accelerations (default); energy: velocities of equal kinetic energy; "
                       "belt: mass felt along each direction")
-      .one_of(reading_names());
+      .one_of(words_of(names_of(EllipseReading{})));
   command->add_option("--layout", options->layout, "of the poses: grid, row, superposed")
       .one_of(figure_layout_names());
   command->add_flag("--joint-space", options->joint_space, "the unit circle of accelerations beside its image under M(q)");
@@ -208,10 +208,10 @@ void add_ellipse_command(CommandLine& app) {
                       "a .png, .svg, .pdf or .csv file (default out/NAME_ellipse.png)");
   command->add_option("--end-effector", options->end_effector, "the link whose mass is felt");
   command->add_option("--title", options->title, "above the figure");
-  add_scene_flags(*command, options->common.flags, kLookFlags);
-  add_scene_flags(*command, options->common.flags, kViewFlags);
+  add_scene_flags(*command, options->common.flags, FlagGroup::look);
+  add_scene_flags(*command, options->common.flags, FlagGroup::view);
   command->add_option("--shape", options->shape, "of arms in space: ellipsoid, or section by the xy plane of the end effector")
-      .one_of({"ellipsoid", "section"});
+      .one_of(words_of(names_of(EllipseShape{})));
   command->add_option("--width", options->width, "pixels").range(16, 16384);
   command->add_option("--height", options->height, "pixels").range(16, 16384);
   add_scene_options(*command, options->common);

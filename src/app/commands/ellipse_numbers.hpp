@@ -40,7 +40,7 @@ GatheredPoses gather_poses(const Chain& chain, const PoseSources& sources);
 struct Motion {
   Chain chain;
   GatheredPoses poses;
-  std::string theme;  // of the page, the scene's
+  ThemeName theme = ThemeName::light;
   double text_scale = 1;
   CameraEntry camera = {};  // of a scene
   EllipseEntry ellipse = {};

@@ -37,7 +37,7 @@ Mechanism load_mechanism(const InverseOptions& options) {
   std::vector<std::string> overrides = overrides_of(options.common);
   if (!options.gravity.empty()) overrides.push_back(gravity_override(options.gravity));
   if (is_model_file(options.file)) {
-    ModelScene model = model_scene_of(options.file, overrides, "inverse", mechanism_keys());
+    ModelScene model = model_scene_of(options.file, overrides, "inverse", keys_of_models(OfModel::mechanism));
     model.options.meshes = false;
     return {read_chain(options.file, model.options), {}};
   }

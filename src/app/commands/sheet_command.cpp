@@ -32,17 +32,17 @@ struct SheetOptions {
 };
 
 // What a small picture shows: all that is drawn, without the words around it.
-void set_for_cell(Scene& scene, const std::string& theme, double text_scale) {
+void set_for_cell(Scene& scene, ThemeName theme, double text_scale) {
   scene.video.height = 1000;
   scene.video.width = int(std::lround(scene.video.height * kCellPageAspect));
-  scene.video.preset = "overlay";
+  scene.video.preset = Preset::overlay;
   scene.theme = theme;
   scene.text_scale = text_scale;
   scene.plot.clear();
   std::erase(scene.draw, "mass_matrix");  // its numbers could not be read
 }
 
-ContactCell cell_of(const std::string& file, const SheetOptions& options, const std::string& theme,
+ContactCell cell_of(const std::string& file, const SheetOptions& options, ThemeName theme,
                     double text_scale, const Fonts& fonts) {
   PreparedFilm film = load_film(file, overrides_of(options.common), true, options.common.quiet);
   set_for_cell(film.scene, theme, text_scale);
@@ -55,7 +55,7 @@ ContactCell cell_of(const std::string& file, const SheetOptions& options, const 
 }
 
 // The problems of all scenes are told at once.
-std::vector<ContactCell> cells_of(const SheetOptions& options, const std::string& theme, double text_scale,
+std::vector<ContactCell> cells_of(const SheetOptions& options, ThemeName theme, double text_scale,
                                   const Fonts& fonts) {
   std::vector<ContactCell> cells;
   std::vector<Problem> problems;
@@ -103,10 +103,10 @@ void run_sheet(const SheetOptions& options) {
   picture_format_of(options.output);
   if (!options.at.empty() && parse_quantity(options.at, {}) < 0)
     throw Error(ExitCode::usage, "--at " + options.at + " lies before the start");
-  const std::string theme = theme_of(options.common.flags);
+  const ThemeName theme = theme_of(options.common.flags);
   const Fonts fonts;
   const ContactSheetLook look{double(options.width) / options.height, options.columns,
-                              text_scale_of(options.common.flags), &theme_named(theme), &fonts};
+                              text_scale_of(options.common.flags), &theme_named(to_string(theme)), &fonts};
   const ContactGrid grid = contact_grid(int(options.scenes.size()), look);
   const std::vector<ContactCell> cells = cells_of(options, theme, text_scale_in(grid), fonts);
   write_picture(draw_contact_sheet(grid, cells, look), options.width, options.height, fonts, options.output,
@@ -134,7 +134,7 @@ void add_sheet_command(CommandLine& app) {
       .range(1, kMostCells);
   command->add_option("--width", options->width, "pixels").range(16, 16384);
   command->add_option("--height", options->height, "pixels").range(16, 16384);
-  add_scene_flags(*command, options->common.flags, kLookFlags);
+  add_scene_flags(*command, options->common.flags, FlagGroup::look);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
   command->footer("Example: chainreel sheet assets/scenes/*.yaml -o out/sheet.png");

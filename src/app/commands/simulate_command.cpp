@@ -49,7 +49,7 @@ Json simulate_panel(const PreparedScene& prepared, const std::string& output,
   const Trajectory trajectory = run_scene(prepared, options.every_step);
   throw_if_interrupted();
   const std::string text = trajectory_csv(prepared.simulation.chain, trajectory);
-  const bool as_expected = is_complete(trajectory.status) || prepared.scene.expect == "diverge";
+  const bool as_expected = is_complete(trajectory.status) || prepared.scene.expect == Outcome::diverge;
   if (to_stdout) {
     std::fwrite(text.data(), 1, text.size(), stdout);
   } else if (as_expected) {

@@ -68,7 +68,7 @@ void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
 void snapshot_model(const SnapshotOptions& options, const std::string& output) {
   if (!options.at.empty() || !options.vary.empty())
     throw Error(ExitCode::usage, "--at and --vary go with a scene; a model stands still at --pose");
-  const ModelScene model = model_scene_of(options.file, overrides_of(options), "snapshot", picture_keys());
+  const ModelScene model = model_scene_of(options.file, overrides_of(options), "snapshot", keys_of_models(OfModel::picture));
   const Chain chain = read_chain(options.file, model.options);
   std::vector<std::vector<double>> poses = parse_poses(chain, options.poses, "--pose");
   if (poses.empty()) poses.push_back(zero_configuration(chain));
@@ -109,9 +109,9 @@ void add_snapshot_command(CommandLine& app) {
                       "the link that is marked, where there are several ends");
   command->add_option("--width", options->width, "pixels").range(16, 16384);
   command->add_option("--height", options->height, "pixels").range(16, 16384);
-  add_scene_flags(*command, options->common.flags, kLookFlags);
-  add_scene_flags(*command, options->common.flags, kPageFlags);
-  add_scene_flags(*command, options->common.flags, kViewFlags);
+  add_scene_flags(*command, options->common.flags, FlagGroup::look);
+  add_scene_flags(*command, options->common.flags, FlagGroup::page);
+  add_scene_flags(*command, options->common.flags, FlagGroup::view);
   add_vary_option(*command, options->vary);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);

@@ -87,7 +87,7 @@ void choose_automatically(PreparedScene& prepared, bool quiet) {
 Choice choose_with_progress(Simulation& simulation, const Scene& scene, std::span<const double> times, bool quiet) {
   // Bars have no extent but their own.
   simulation.outline =
-      scene.links == "plain" ? Outline{} : read_outline(scene.model, simulation.chain, model_options_of(scene));
+      scene.links == LinkShapes::plain ? Outline{} : read_outline(scene.model, simulation.chain, model_options_of(scene));
   Ticker ticker(quiet);
   Choice choice = choose_method(simulation, scene.accuracy, times, [&](const ChoiceProgress& now) {
     if (ticker.is_due()) ticker.say(scene.name + ": " + progress_text(now, simulation.duration));
@@ -98,7 +98,7 @@ Choice choose_with_progress(Simulation& simulation, const Scene& scene, std::spa
 }
 
 std::string choice_text(const Choice& choice, const Accuracy& accuracy) {
-  const std::string unit = " " + accuracy.unit;
+  const std::string unit = " " + to_string(accuracy.unit);
   const Choice::Candidate& best = choice.best;
   std::string text = "auto: " + to_string(best.setting);
   if (choice.is_met)

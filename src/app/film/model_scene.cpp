@@ -19,17 +19,6 @@ bool is_honoured(const std::string& key, const std::vector<std::string>& honoure
 
 }  // namespace
 
-const std::vector<std::string>& mechanism_keys() {
-  static const std::vector<std::string> keys{"gravity", "base", "friction", "massless", "packages"};
-  return keys;
-}
-
-const std::vector<std::string>& picture_keys() {
-  static const std::vector<std::string> keys{"gravity",    "base",   "friction", "massless", "packages",    "end_effector", "theme",
-                                             "text_scale", "camera", "links",    "mesh_up",  "video.width", "video.height"};
-  return keys;
-}
-
 ModelScene model_scene_of(const std::string& model, const std::vector<std::string>& overrides,
                           const std::string& command, const std::vector<std::string>& honoured) {
   ModelScene read{read_model_scene(model, overrides), {}};
@@ -52,7 +41,7 @@ void set_look(PoseFigureOptions& figure, const ModelScene& model, const Chain& c
   figure.width = scene.video.width;
   figure.height = scene.video.height;
   figure.text_scale = scene.text_scale;
-  figure.theme = &theme_named(scene.theme);
+  figure.theme = &theme_named(to_string(scene.theme));
   figure.camera = scene.camera;
   MeshShelf shelf;
   const BodyLook look{scene.links, scene.mesh_up, is_oblique(chain, scene.camera), scene.place_of("links")};

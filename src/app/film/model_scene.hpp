@@ -18,12 +18,7 @@ struct ModelScene {
   ModelOptions options;  // as the scene wants its model read
 };
 
-// What of a scene says how its model is read: gravity, base, friction, massless, packages.
-const std::vector<std::string>& mechanism_keys();
-// ... and how pictures of it look: end_effector, theme, text_scale, camera, links, mesh_up, video.width, video.height.
-const std::vector<std::string>& picture_keys();
-
-// `overrides` as of overrides_of; those below `honoured` keys are good. Throws Error of what is wrong with a key or its
+// `overrides` as of overrides_of; those below `honoured` keys are good, see keys_of_models. Throws Error of what is wrong with a key or its
 // value, and (usage) naming what `command` of a model takes where it is another.
 ModelScene model_scene_of(const std::string& model, const std::vector<std::string>& overrides,
                           const std::string& command, const std::vector<std::string>& honoured);

@@ -27,7 +27,7 @@ Moment moment_of(const Runs& runs, int frame, std::optional<double> added, const
   const PreparedFilm& film = runs.film();
   runs.require_expected_ends(frame);
   int frames = int(runs.times().size());
-  if (runs.size() == 1 && film.scene.expect == "finish") frames = std::min(frames, runs[0].size());
+  if (runs.size() == 1 && film.scene.expect == Outcome::finish) frames = std::min(frames, runs[0].size());
   const Film pictures = runs.pictures(frames, fonts);
   Moment moment;
   moment.at = runs.times()[std::size_t(frame)];

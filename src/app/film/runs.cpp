@@ -67,7 +67,7 @@ Runs::Runs(const PreparedFilm& film, FilmClock clock, std::vector<double> times)
 int Runs::frames_shown(int frames) const {
   int shown = 0;
   for (std::size_t i = 0; i < list_.size(); ++i) {
-    const bool stands = list_[i].status == RunStatus::diverged && film_.panels[i].scene.expect == "diverge";
+    const bool stands = list_[i].status == RunStatus::diverged && film_.panels[i].scene.expect == Outcome::diverge;
     shown = std::max(shown, stands ? frames : std::min(frames, list_[i].size()));
   }
   return shown;
@@ -87,7 +87,7 @@ std::string in_panel(const Scene& scene, std::size_t i, const std::string& messa
 
 void require_expected_end(const Trajectory& trajectory, const Scene& scene) {
   throw_if_interrupted();
-  if (scene.expect == "diverge") {
+  if (scene.expect == Outcome::diverge) {
     if (trajectory.status == RunStatus::diverged) return;
     if (is_complete(trajectory.status))
       throw Error(ExitCode::numerical,
@@ -105,7 +105,7 @@ void Runs::require_expected_ends(std::optional<int> frame) const {
   std::vector<Problem> problems;
   for (std::size_t i = 0; i < list_.size(); ++i) {
     const Scene& scene = film_.panels[i].scene;
-    if (frame && *frame < list_[i].size() && scene.expect == "finish") continue;
+    if (frame && *frame < list_[i].size() && scene.expect == Outcome::finish) continue;
     try {
       require_expected_end(list_[i], scene);
     } catch (const Error& error) {

@@ -12,13 +12,22 @@ namespace {
 namespace fs = std::filesystem;
 
 // What a preset writes where no file is named: behind the scene's name.
-std::vector<std::string> files_of_preset(const std::string& preset, const std::string& name) {
-  if (preset == "web") return {name + ".webm", name + ".png"};
-  if (preset == "overlay") return {name + ".mov", name + ".webm"};
-  if (preset == "doc") return {name + ".gif"};
-  if (preset == "frames") return {name + "_frames/" + name + "_000000.png"};
-  if (preset == "still") return {name + ".png", name + ".svg", name + ".pdf"};
-  return {name + ".mp4"};  // slides, and no preset
+std::vector<std::string> files_of_preset(Preset preset, const std::string& name) {
+  switch (preset) {
+    case Preset::web:
+      return {name + ".webm", name + ".png"};
+    case Preset::overlay:
+      return {name + ".mov", name + ".webm"};
+    case Preset::doc:
+      return {name + ".gif"};
+    case Preset::frames:
+      return {name + "_frames/" + name + "_000000.png"};
+    case Preset::still:
+      return {name + ".png", name + ".svg", name + ".pdf"};
+    case Preset::slides:
+      break;
+  }
+  return {name + ".mp4"};
 }
 
 bool names_folder(const std::string& output) {
@@ -33,7 +42,7 @@ void require_possible(const Target& target, const Scene& scene) {
     throw Error(ExitCode::usage,
                 target.path + ": a transparent background cannot be written there: take " +
                     endings_of(keeps_opacity, "or"),
-                scene.place_of(scene.layout == "transparent" ? "layout" : "video.preset"));
+                scene.place_of(scene.layout == PageLayout::transparent ? "layout" : "video.preset"));
   if (!scene.video.crf || !format.codec || !has_crf(*format.codec)) return;
   try {
     require_settings({.width = scene.video.width,
@@ -77,9 +86,9 @@ std::vector<Target> targets_of(const std::vector<std::string>& outputs, std::siz
   std::vector<std::string> paths = outputs;
   if (outputs.empty() || names_folder(outputs.front())) {
     const fs::path folder = outputs.empty() ? fs::path("out") : fs::path(outputs.front());
-    paths = files_of_preset(scene.video.preset, scene.name);
+    paths = files_of_preset(scene.video.preset.value_or(Preset::slides), scene.name);
     for (std::string& path : paths) path = (folder / path).string();
-    if (is_transparent(scene) && scene.video.preset.empty())
+    if (is_transparent(scene) && !scene.video.preset)
       paths = {(folder / (scene.name + ".mov")).string()};
   }
   std::vector<Target> targets;

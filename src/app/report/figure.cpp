@@ -30,12 +30,12 @@ void add_figure_options(Command& command, FigureOptions& options, CommonOptions&
                          "written as CSV beside the picture");
   command.add_option("--width", options.width, "pixels").range(16, 16384);
   command.add_option("--height", options.height, "pixels").range(16, 16384);
-  add_scene_flags(command, common.flags, kLookFlags);
+  add_scene_flags(command, common.flags, FlagGroup::look);
   options.command = &command;
 }
 
 ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fonts& fonts) {
-  return {double(options.width) / options.height, scene.text_scale, &theme_named(scene.theme), &fonts};
+  return {double(options.width) / options.height, scene.text_scale, &theme_named(to_string(scene.theme)), &fonts};
 }
 
 void check_figure_path(const std::string& path) {

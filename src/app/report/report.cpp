@@ -74,7 +74,7 @@ namespace {
 // A run that is to diverge is no motion that anyone takes for true.
 void add_warnings(Json& json, const PreparedScene& prepared, const Trajectory& trajectory, const Audit& audit) {
   json["warnings"] = Json::array();
-  if (prepared.scene.expect == "diverge") return;
+  if (prepared.scene.expect == Outcome::diverge) return;
   const auto chosen_by = prepared.choice ? std::optional(prepared.scene.accuracy) : std::nullopt;
   for (const Doubt& doubt : doubts_of(prepared.simulation, trajectory, audit, chosen_by))
     json["warnings"].push_back(
@@ -112,7 +112,7 @@ Json run_report(const PreparedScene& prepared, const Trajectory& trajectory) {
   json["model"] = scene.model;
   json["model_sha256"] = sha256_of_file(scene.model);
   json["status"] = to_string(trajectory.status);
-  if (scene.expect != "finish") json["expect"] = scene.expect;
+  if (scene.expect != Outcome::finish) json["expect"] = to_string(scene.expect);
   if (!trajectory.trouble.empty()) json["trouble"] = trajectory.trouble;
   const Simulation& simulation = prepared.simulation;
   json["method"] = simulation.method->name;
@@ -198,7 +198,7 @@ Json film_report(const Runs& runs, const Film& pictures, int frames) {
   } else {
     json = {{"scene", scene.file},
             {"title", scene.title},
-            {"layout", scene.layout},
+            {"layout", to_string(scene.layout)},
             {"duration", scene.duration}};
     for (std::size_t i = 0; i < runs.size(); ++i) {
       json["panels"].push_back(report_of(i));

@@ -69,8 +69,8 @@ void FilmSheet::lay_out_plots(const Stage& stage) {
   std::vector<StripRun> runs;
   for (const StagedRun& motion : stage.motions) runs.push_back(strip_run(motion));
   const int count = int(page.plot.size());
-  const bool right = !stage.is_comparison() && page.layout != "scene-below" &&
-                     (count > 1 || page.layout == "scene-right");
+  const bool right = !stage.is_comparison() && page.layout != PageLayout::scene_below &&
+                     (count > 1 || page.layout == PageLayout::scene_right);
   const PlotAreas areas = plot_areas(sheet.scene, count, right ? PlotPlace::right : PlotPlace::below);
   sheet.scene = areas.scene;
   const PlotStyle style{&stage.fonts, &stage.theme, page.text_scale};

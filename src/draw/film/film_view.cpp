@@ -51,7 +51,7 @@ std::vector<PanelCell> cells_of(const Stage& stage, const FilmSheet& sheet, cons
   const Rect& area = sheet.sheet.scene;
   const std::vector<PanelCell> cells =
       stage.is_ghost()                  ? ghost_cells(area, sheet.rows, stage.motions)
-      : stage.page.layout == "compare" ? panel_cells(area, count, count, sheet.rows)
+      : stage.page.layout == PageLayout::compare ? panel_cells(area, count, count, sheet.rows)
                                         : best_cells(area, count, sheet.rows, box);
   if (cells.empty())
     throw Error(ExitCode::bad_input,

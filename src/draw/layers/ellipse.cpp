@@ -166,16 +166,6 @@ void draw_open(Picture& picture, const std::vector<PageAxis>& axes, Point center
 
 }  // namespace
 
-EllipseReading reading_named(std::string_view name) {
-  return name == "energy" ? EllipseReading::energy
-         : name == "belt" ? EllipseReading::belt
-                          : EllipseReading::mass;
-}
-
-std::string to_string(EllipseReading reading) {
-  return reading == EllipseReading::energy ? "energy" : reading == EllipseReading::belt ? "belt" : "mass";
-}
-
 std::string ellipse_legend(EllipseReading reading, bool section) {
   const std::string cut = section ? ", cut at the tool" : "";
   switch (reading) {

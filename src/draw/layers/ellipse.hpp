@@ -18,7 +18,6 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "dynamics/effective_mass.hpp"
@@ -26,15 +25,11 @@
 #include "picture/picture.hpp"
 #include "picture/text.hpp"
 #include "picture/theme.hpp"
+#include "scene/words.hpp"
 
 namespace chainreel {
 
 class MarkLabels;
-
-enum class EllipseReading { mass, energy, belt };
-// The reading called "mass", "energy" or "belt"; any other word is mass.
-EllipseReading reading_named(std::string_view name);
-std::string to_string(EllipseReading reading);
 
 // What the curve is, in the words of a legend; may be broken behind ": ".
 std::string ellipse_legend(EllipseReading reading, bool section = false);

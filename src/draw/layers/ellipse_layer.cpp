@@ -15,8 +15,8 @@ class EllipseLayer : public Layer {
  public:
   explicit EllipseLayer(const Stage& stage)
       : stage_(&stage),
-        reading_(reading_named(stage.page.ellipse.reading)),
-        is_section_(stage.page.ellipse.shape == "section") {
+        reading_(stage.page.ellipse.reading),
+        is_section_(stage.page.ellipse.shape == EllipseShape::section) {
     for (const StagedRun& motion : stage.motions)
       if (is_of(motion)) masses_.emplace(&motion, motion);
     // Panels share the page, so their sides shrink with the root of their number.

@@ -74,7 +74,7 @@ Stage::Stage(const Scene& shown_page, const std::vector<PanelRun>& runs, std::ve
              const Fonts& all_fonts, FilmClock film_clock)
     : page(shown_page),
       fonts(all_fonts),
-      theme(theme_named(page.theme)),
+      theme(theme_named(to_string(page.theme))),
       times(std::move(shown_times)),
       clock(std::move(film_clock)) {
   const int count = int(runs.size());
@@ -86,7 +86,7 @@ Stage::Stage(const Scene& shown_page, const std::vector<PanelRun>& runs, std::ve
     const int samples = std::min(int(times.size()), run.trajectory.size());
     if (samples < 1)
       throw Error(ExitCode::bad_input, "a film needs at least one frame", page.place_of("duration"));
-    motions.emplace_back(run, samples, is_good(run) || !any_good, count > 1 || run.scene.expect == "diverge",
+    motions.emplace_back(run, samples, is_good(run) || !any_good, count > 1 || run.scene.expect == Outcome::diverge,
                          ghost ? std::optional(variant_of(i, count, theme)) : std::nullopt);
   }
   const Chain& first = motions.front().chain();

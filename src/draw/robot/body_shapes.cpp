@@ -138,20 +138,19 @@ BodyShapes load_body_shapes(const std::vector<Visual>& visuals, MeshUp up, MeshS
 std::shared_ptr<const BodyShapes> shapes_for(const BodyLook& look, const std::string& model,
                                              const Chain& chain, const ModelOptions& options,
                                              MeshShelf& shelf) {
-  if (look.links == "plain" || (look.links == "auto" && !look.is_oblique)) return nullptr;
-  const bool collision = look.links == "collision";
+  if (look.links == LinkShapes::plain || (look.links == LinkShapes::automatic && !look.is_oblique)) return nullptr;
+  const bool collision = look.links == LinkShapes::collision;
   const std::vector<Visual> visuals =
       read_visuals(model, chain, options, collision ? ShapesOf::collision : ShapesOf::visual);
   const bool any_moves =
       std::any_of(visuals.begin(), visuals.end(), [](const Visual& visual) { return visual.body > 0; });
-  if (look.links == "auto" && !any_moves) return nullptr;
+  if (look.links == LinkShapes::automatic && !any_moves) return nullptr;
   if (visuals.empty())
     throw Error(
         ExitCode::bad_input,
-        "'links' is " + look.links + ", but the model has no <" + look.links + ">: take auto or plain",
+        "'links' is " + to_string(look.links) + ", but the model has no <" + to_string(look.links) + ">: take auto or plain",
         look.place);
-  const MeshUp up = look.mesh_up == "file" ? MeshUp::file : MeshUp::rviz;
-  return std::make_shared<const BodyShapes>(load_body_shapes(visuals, up, shelf));
+  return std::make_shared<const BodyShapes>(load_body_shapes(visuals, look.mesh_up, shelf));
 }
 
 Rect extent_of(const BodyShape& shape, const Workspace& ws, const Camera& camera) {

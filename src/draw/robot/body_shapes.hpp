@@ -11,6 +11,7 @@
 #include "mesh/read_mesh.hpp"
 #include "model/visuals.hpp"
 #include "picture/camera.hpp"
+#include "scene/words.hpp"
 
 namespace chainreel {
 
@@ -45,9 +46,8 @@ BodyShapes load_body_shapes(const std::vector<Visual>& visuals, MeshUp up, MeshS
 
 // How a scene, or a command, wants its robots drawn.
 struct BodyLook {
-  std::string links =
-      "auto";  // plain: bars; visual: the model's shapes; auto: these where the view is oblique
-  std::string mesh_up = "rviz";  // or file
+  LinkShapes links = LinkShapes::automatic;
+  MeshUp mesh_up = MeshUp::rviz;
   bool is_oblique = true;
   Place place;  // of `links`
 };

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "core/names.hpp"
+
 namespace chainreel {
 
 // `value` in units of
@@ -10,9 +12,12 @@ namespace chainreel {
 //   m         the same places
 //   rad       angles of turning joints and of floating bases; ways of sliders and bases over the diagonal of the motion
 //   relative  the same places as px, in units of the diagonal of the box in which they move
+enum class AccuracyUnit { px, m, rad, relative };
+std::span<const Name> names_of(AccuracyUnit);
+
 struct Accuracy {
   double value = 0.1;
-  std::string unit = "px";
+  AccuracyUnit unit = AccuracyUnit::px;
 };
 
 // "0.1 px", "1e-3 m", "0.01 rad", "1e-6 relative" (the last word may be left out). Throws Error (bad input).

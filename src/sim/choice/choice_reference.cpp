@@ -122,8 +122,8 @@ class Finder {
     if (accuracy_.value >= rounding) return;
     throw Error(ExitCode::numerical,
                 "'accuracy': " + to_string(accuracy_) + " is below what doubles hold: the rounding of what is drawn "
-                    "comes to " + format_significant(rounding, 2) + " " + accuracy_.unit + " here. Ask for at least " +
-                    format_significant(100 * rounding, 2) + " " + accuracy_.unit);
+                    "comes to " + format_significant(rounding, 2) + " " + to_string(accuracy_.unit) + " here. Ask for at least " +
+                    format_significant(100 * rounding, 2) + " " + to_string(accuracy_.unit));
   }
 
   // Whether both go the same way until the same end. It may be that of the run alone: a failure is no whole one.
@@ -164,7 +164,7 @@ class Finder {
 
   std::string parting_text(const MethodSetting& a, const MethodSetting& b, int k, double apart) const {
     return "at t = " + format_significant(times_[std::size_t(k)], 4) + " s two references, " + to_string(a) + " and " +
-           to_string(b) + ", lie " + format_significant(apart, 2) + " " + accuracy_.unit +
+           to_string(b) + ", lie " + format_significant(apart, 2) + " " + to_string(accuracy_.unit) +
            " apart, and which of them is right is not known";
   }
 
@@ -273,7 +273,7 @@ class Finder {
     std::string text = "'accuracy': " + to_string(accuracy_) + " cannot be promised for a single frame: " +
                        reference.why_no_further + ". ";
     text += reference.attainable && *reference.attainable > accuracy_.value
-                ? "Ask for " + format_significant(2 * *reference.attainable, 1) + " " + accuracy_.unit +
+                ? "Ask for " + format_significant(2 * *reference.attainable, 1) + " " + to_string(accuracy_.unit) +
                       " or more, or name a method"
                 : "Ask for less, or name a method";
     throw Error(ExitCode::numerical, text);

@@ -260,7 +260,7 @@ class Chooser {
     if (const auto& links = simulation_.outline.unmeasured; !links.empty())
       choice_.remarks.push_back("in place of meshes that cannot be read, of " + quoted_list(links) +
                                 ", boxes of the same mass and inertia are judged");
-    if (accuracy_.unit == "rad") return;
+    if (accuracy_.unit == AccuracyUnit::rad) return;
     if (const auto names = unseen_freedoms(simulation_, reference_.run); !names.empty())
       choice_.remarks.push_back(quoted_list(names) + (names.size() == 1 ? " moves" : " move") +
                                 " nothing that can be seen, and no error of that is judged: `accuracy: 1e-3 rad` does");

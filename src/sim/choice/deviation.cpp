@@ -77,7 +77,7 @@ MotionSize motion_size(const Simulation& simulation, const Trajectory& trajector
 }
 
 void check_accuracy(const Chain& chain, const Accuracy& accuracy) {
-  if (accuracy.unit != "rad") return;
+  if (accuracy.unit != AccuracyUnit::rad) return;
   if (std::any_of(chain.bodies.begin() + 1, chain.bodies.end(), [](const Body& body) { return turns(body.joint); }))
     return;
   throw Error(ExitCode::bad_input, "'accuracy': " + to_string(accuracy) +
@@ -87,14 +87,14 @@ void check_accuracy(const Chain& chain, const Accuracy& accuracy) {
 Deviation::Deviation(const Simulation& simulation, const Accuracy& accuracy, const MotionSize& size)
     : chain_(simulation.chain),
       points_(simulation),
-      is_angle_(accuracy.unit == "rad"),
+      is_angle_(accuracy.unit == AccuracyUnit::rad),
       diagonal_(size.bodies.diagonal),
       ws_(chain_),
       zeros_(std::size_t(chain_.nv)),
       zero_(zero_configuration(chain_)) {
   check_accuracy(chain_, accuracy);
-  if (accuracy.unit == "px") unit_of_bars_ = size.bars.metres_per_px, unit_of_bodies_ = size.bodies.metres_per_px;
-  if (accuracy.unit == "relative") unit_of_bars_ = size.bars.diagonal, unit_of_bodies_ = size.bodies.diagonal;
+  if (accuracy.unit == AccuracyUnit::px) unit_of_bars_ = size.bars.metres_per_px, unit_of_bodies_ = size.bodies.metres_per_px;
+  if (accuracy.unit == AccuracyUnit::relative) unit_of_bars_ = size.bars.diagonal, unit_of_bodies_ = size.bodies.diagonal;
 }
 
 double Deviation::angle_apart(ConstVec a, ConstVec b) const {

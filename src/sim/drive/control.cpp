@@ -201,14 +201,11 @@ std::unique_ptr<Reference> reference_of(const Chain& chain, const Feedback& feed
 
 }  // namespace
 
-std::string to_string(Outside outside) {
-  return outside == Outside::hold ? "hold" : outside == Outside::zero ? "zero" : "refuse";
-}
-
-Outside outside_of(const std::string& name) {
-  for (const Outside one : {Outside::hold, Outside::zero, Outside::refuse})
-    if (to_string(one) == name) return one;
-  throw Error(ExitCode::bad_input, "'outside' must be hold, zero or refuse, not '" + name + "'");
+std::span<const Name> names_of(Outside) {
+  static constexpr Name names[] = {{"hold", "the row at that end: its torque, or its pose at rest"},
+                                   {"zero", "no torque"},
+                                   {"refuse", "nothing: the run must not be longer"}};
+  return names;
 }
 
 std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& control,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/names.hpp"
 #include "sim/drive/reference.hpp"
 
 namespace chainreel {
@@ -18,9 +19,7 @@ enum class Outside {
   zero,    // no torque of its
   refuse,  // nothing: the run must not be longer
 };
-std::string to_string(Outside outside);
-// Throws Error (bad input) that names the three.
-Outside outside_of(const std::string& name);
+std::span<const Name> names_of(Outside);
 
 // Feedback to a reference motion, given by expressions in t or by a CSV.
 struct Feedback {

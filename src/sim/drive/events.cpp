@@ -11,25 +11,6 @@
 namespace chainreel {
 namespace {
 
-template <class Value, std::size_t count>
-Value find_named(const std::pair<const char*, Value> (&rows)[count], const std::string& name,
-                 const std::string& what) {
-  std::vector<std::string> names;
-  std::string list;
-  for (const auto& [known, value] : rows) {
-    if (name == known) return value;
-    names.push_back(known);
-    list += (list.empty() ? "" : ", ") + names.back();
-  }
-  throw Error(ExitCode::bad_input,
-              "unknown " + what + " '" + name + "':" + did_you_mean(name, names) + " They are " + list + ".");
-}
-
-constexpr std::pair<const char*, EventKind> kKinds[] = {
-    {"mark", EventKind::mark}, {"stop", EventKind::stop}, {"fall", EventKind::fall}};
-constexpr std::pair<const char*, Crossing> kCrossings[] = {
-    {"either", Crossing::either}, {"rising", Crossing::rising}, {"falling", Crossing::falling}};
-
 Event::Test test_of(const Expression& when, const EventEntry& entry) {
   const std::optional<Operation> comparison = when.comparison();
   const auto refuse = [&](const std::string& why) -> Event::Test {
@@ -65,20 +46,16 @@ void add_event(EventSet& events, const Chain& chain, const EventEntry& entry) {
 
 }  // namespace
 
-EventKind event_kind_of(const std::string& name) {
-  return find_named(kKinds, name, "kind of event");
+std::span<const Name> names_of(EventKind) {
+  static constexpr Name names[] = {{"mark", "written into the audit and below the film"},
+                                   {"stop", "and ends the run"},
+                                   {"fall", "and counts as a fall"}};
+  return names;
 }
 
-Crossing crossing_of(const std::string& name) {
-  return find_named(kCrossings, name, "direction of an event");
-}
-
-std::string to_string(EventKind kind) {
-  return kKinds[std::size_t(kind)].first;
-}
-
-std::string to_string(Crossing crossing) {
-  return kCrossings[std::size_t(crossing)].first;
+std::span<const Name> names_of(Crossing) {
+  static constexpr Name names[] = {{"either", "whichever way"}, {"rising", "from below zero"}, {"falling", "from above"}};
+  return names;
 }
 
 std::vector<std::string> foot_names() {

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "dynamics/workspace.hpp"
 #include "expr/expression.hpp"
 #include "integrate/integrator.hpp"
@@ -60,11 +61,8 @@ enum class EventKind {
 };
 enum class Crossing { either, rising, falling };
 
-// By name; throw Error naming the nearest one.
-EventKind event_kind_of(const std::string& name);
-Crossing crossing_of(const std::string& name);
-std::string to_string(EventKind kind);
-std::string to_string(Crossing crossing);
+std::span<const Name> names_of(EventKind);
+std::span<const Name> names_of(Crossing);
 
 inline bool ends_the_run(EventKind kind) {
   return kind != EventKind::mark;

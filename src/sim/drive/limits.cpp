@@ -8,13 +8,11 @@
 
 namespace chainreel {
 
-LimitPolicy limit_policy_of(const std::string& name) {
-  if (name == "report") return LimitPolicy::report;
-  if (name == "clamp") return LimitPolicy::clamp;
-  if (name == "stop") return LimitPolicy::stop;
-  const std::vector<std::string> names{"report", "clamp", "stop"};
-  throw Error(ExitCode::bad_input, "unknown limit policy '" + name + "':" + did_you_mean(name, names) +
-                                       " They are report, clamp, stop.");
+std::span<const Name> names_of(LimitPolicy) {
+  static constexpr Name names[] = {{"report", "said in the audit"},
+                                   {"clamp", "and torques are cut at the joint's effort"},
+                                   {"stop", "and the run ends where one is passed"}};
+  return names;
 }
 
 std::string to_string(const LimitEvent& event) {

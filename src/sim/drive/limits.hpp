@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/names.hpp"
 #include "dynamics/workspace.hpp"
 #include "model/chain.hpp"
 
@@ -15,8 +16,7 @@ enum class LimitPolicy {
   stop,    // and end the run where one is passed
 };
 
-// The policies by name; throws Error naming the nearest one.
-LimitPolicy limit_policy_of(const std::string& name);
+std::span<const Name> names_of(LimitPolicy);
 
 // The first time that a joint passed one of its limits.
 struct LimitEvent {

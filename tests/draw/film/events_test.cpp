@@ -48,7 +48,7 @@ TEST_F(FallingHuman, IsNotedFromTheInstantOn) {
 
 TEST_F(FallingHuman, IsNotNotedOnNothing) {
   EXPECT_THAT(test::words_of(film(&simulation_).frame(119)), HasSubstr("hip at knee height"));
-  scene_.layout = "transparent";
+  scene_.layout = PageLayout::transparent;
   const Film film = this->film(&simulation_);
   EXPECT_EQ(test::words_of(film.static_layer()) + test::words_of(film.frame(119)), "");
   const double height = film.scene_area().height();

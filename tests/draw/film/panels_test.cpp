@@ -26,7 +26,7 @@ class PanelFilm : public ::testing::Test {
   PanelFilm() {
     page.title = "Whole";
     page.file = "scenes/test.yaml";
-    page.layout = "compare";
+    page.layout = PageLayout::compare;
   }
 
   // A run of PP with its panel's title; a wild one diverges at its last sample.
@@ -36,7 +36,7 @@ class PanelFilm : public ::testing::Test {
     scenes.back()->title = title;
     runs.push_back(std::make_unique<Trajectory>(test::run_of(q, frames)));
     if (wild) runs.back()->status = RunStatus::diverged;
-    if (scenes.size() > 2) page.layout = "grid";
+    if (scenes.size() > 2) page.layout = PageLayout::grid;
   }
 
   Film film() const {
@@ -197,10 +197,10 @@ TEST_F(PanelFilm, WhereAllDivergeTheCameraHoldsThemAll) {
 
 TEST_F(PanelFilm, AloneStandsStillOnlyWhereItIsToDiverge) {
   add("", sliding, true, 40);
-  scenes[0]->expect = page.expect = "diverge";
+  scenes[0]->expect = page.expect = Outcome::diverge;
   EXPECT_THAT(test::words_of(film().frame(60)), HasSubstr("left the picture"));
   EXPECT_THAT(test::words_of(film().frame(60)), HasSubstr("t = 1.00 s"));
-  scenes[0]->expect = page.expect = "finish";
+  scenes[0]->expect = page.expect = Outcome::finish;
   EXPECT_THAT(test::words_of(film().frame(60)), Not(HasSubstr("left the picture")));
 }
 

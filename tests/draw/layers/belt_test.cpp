@@ -189,7 +189,7 @@ TEST(Readings, AreNamedAndHaveTheirUnits) {
   EXPECT_EQ(ellipse_scale({2.1}, 0.1, EllipseReading::belt).label(), "2 kg");
   EXPECT_EQ(ellipse_scale({0.5}, 0.1, EllipseReading::energy).label(), "0.5 m/s");
   for (const EllipseReading reading : {EllipseReading::mass, EllipseReading::energy, EllipseReading::belt})
-    EXPECT_EQ(reading_named(to_string(reading)), reading);
+    EXPECT_EQ(value_named<EllipseReading>(to_string(reading)), reading);
 }
 
 }  // namespace

@@ -531,7 +531,7 @@ TEST_F(LayerFilm, TorquesNeedTheirSimulation) {
 
 TEST_F(LayerFilm, DarkPicturesHaveNoLightThemesColours) {
   make_rr();
-  scene.theme = "dark";
+  scene.theme = ThemeName::dark;
   draw({"velocity", "gravity", "torque", "com", "frames", "ghosts", "ellipse", "legend", "mass_matrix",
         "equation", "scale_bar"});
   const Film pictures = film();
@@ -554,7 +554,7 @@ class LayerGolden : public LayerFilm {
   void expect_golden(const std::string& name) {
     scene.text_scale = 1.5;
     scene.video.width = 640, scene.video.height = 360, scene.video.fps = {};
-    for (const char* theme : {"light", "dark"}) {
+    for (const ThemeName theme : {ThemeName::light, ThemeName::dark}) {
       scene.theme = theme;
       const Film pictures = film();
       Picture picture = pictures.static_layer();
@@ -562,7 +562,7 @@ class LayerGolden : public LayerFilm {
       Canvas canvas(640, 360, fonts());
       Image image;
       canvas.draw(picture, image);
-      EXPECT_TRUE(matches_golden(image, name + "_" + theme, {.max = 24, .mean = 0.05}));
+      EXPECT_TRUE(matches_golden(image, name + "_" + to_string(theme), {.max = 24, .mean = 0.05}));
     }
   }
 };

@@ -115,7 +115,7 @@ TEST_F(SlowRr, KeepsTheRunningTimeInItsPlaceBesideTheBox) {
 TEST_F(SlowRr, HasABoxWithoutTheTimeButNoneOnNothing) {
   scene.draw = {"chain", "title"};
   EXPECT_EQ(boxes(film().frame(31)).size(), 1u);
-  scene.layout = "transparent";
+  scene.layout = PageLayout::transparent;
   EXPECT_TRUE(boxes(film().frame(31)).empty());
 }
 

@@ -114,7 +114,7 @@ Outcome outcome_of(const CorneredScene& scene) {
   for (int k = 0; k < 60 * scene.duration; ++k) frames.push_back(k / 60.0);
   Simulation run = run_of(scene.model, scene.torque, scene.duration);
   run.q0 = scene.q0, run.qd0 = scene.qd0;
-  const Accuracy accuracy{0.1, "px"};
+  const Accuracy accuracy{0.1, AccuracyUnit::px};
   const Choice choice = choose_method(run, accuracy, frames);
   for (int k = 0; k <= 120 * scene.duration; ++k)
     if (!choice.holds_until || k / 120.0 <= *choice.holds_until) promised.push_back(k / 120.0);

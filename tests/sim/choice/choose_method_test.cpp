@@ -56,7 +56,7 @@ TEST(ChooseMethod, MeetsWhatIsAskedInEveryUnit) {
 
 TEST(ChooseMethod, TakesTheCheapestThatWasTriedAndExactEnough) {
   Simulation simulation = run_of("rr", {"0", "0"}, 3);
-  const Choice choice = choose_method(simulation, {0.1, "px"}, frames_until(3));
+  const Choice choice = choose_method(simulation, {0.1, AccuracyUnit::px}, frames_until(3));
   int exact = 0, methods_tried = 0;
   const Method* last = nullptr;
   for (const Choice::Candidate& one : choice.tried) {
@@ -74,7 +74,7 @@ TEST(ChooseMethod, MoreAccuracyCostsMore) {
   double cost = 0;
   for (const double px : {10.0, 0.1, 1e-3, 1e-6}) {
     Simulation simulation = run_of("rr", {"0", "0"}, 3);
-    const Choice choice = choose_method(simulation, {px, "px"}, frames_until(3));
+    const Choice choice = choose_method(simulation, {px, AccuracyUnit::px}, frames_until(3));
     EXPECT_GT(choice.best.cost, cost) << px;
     cost = choice.best.cost;
   }
@@ -83,7 +83,7 @@ TEST(ChooseMethod, MoreAccuracyCostsMore) {
 TEST(ChooseMethod, SaysUntilWhenAChaoticMotionCanBeKnown) {
   // RRR with (10, 10, 10) magnifies errors 8e7 times in 2 s and goes on to do so.
   Simulation simulation = run_of("rrr", {"10", "10", "10"}, 5);
-  const Choice choice = choose_method(simulation, {0.1, "px"}, frames_until(5));
+  const Choice choice = choose_method(simulation, {0.1, AccuracyUnit::px}, frames_until(5));
   ASSERT_TRUE(choice.holds_until);
   EXPECT_GT(*choice.holds_until, 1.5);
   EXPECT_LT(*choice.holds_until, 4);
@@ -101,7 +101,8 @@ std::string message_of(Simulation& simulation, const Accuracy& accuracy, double 
 
 // Places of an RR are some metres from the origin: doubles hold them to 4e-16 m.
 TEST(ChooseMethod, RefusesWhatDoublesDoNotHoldAndSaysWhatCanBeHad) {
-  for (const Accuracy& accuracy : {Accuracy{1e-16, "m"}, {1e-14, "px"}, {1e-17, "rad"}, {1e-17, "relative"}}) {
+  for (const Accuracy& accuracy : {Accuracy{1e-16, AccuracyUnit::m}, {1e-14, AccuracyUnit::px}, {1e-17, AccuracyUnit::rad},
+                                  {1e-17, AccuracyUnit::relative}}) {
     Simulation simulation = run_of("rr", {"0", "0"}, 3);
     EXPECT_THAT(message_of(simulation, accuracy, 3), AllOf(HasSubstr("below what doubles hold"), HasSubstr("Ask for")))
         << to_string(accuracy);
@@ -114,7 +115,7 @@ TEST(ChooseMethod, PromisesToTheEndWhereQuadruplePrecisionConfirmsIt) {
   Simulation simulation = run_of("rr", {"0", "0"}, 12);
   simulation.q0 = {1.57079632, 0};
   const std::vector<double> times = frames_until(12);
-  const Choice choice = choose_method(simulation, {0.001, "px"}, times);
+  const Choice choice = choose_method(simulation, {0.001, AccuracyUnit::px}, times);
   EXPECT_TRUE(choice.is_met);
   EXPECT_FALSE(choice.holds_until) << *choice.holds_until << choice.why_until;
   EXPECT_LE(choice.best.error, 0.001);
@@ -125,7 +126,7 @@ TEST(ChooseMethod, PromisesToTheEndWhereQuadruplePrecisionConfirmsIt) {
   const Trajectory run = simulate(simulation, std::vector<double>{12});
   Trajectory exact = run;
   exact.q = quads->q;
-  Deviation deviation(simulation, {0.001, "px"}, motion_size(simulation, simulate(simulation, times)));
+  Deviation deviation(simulation, {0.001, AccuracyUnit::px}, motion_size(simulation, simulate(simulation, times)));
   EXPECT_LE(deviation.at(run, exact, 0), 0.001);
 }
 
@@ -133,7 +134,7 @@ TEST(ChooseMethod, PromisesToTheEndWhereQuadruplePrecisionConfirmsIt) {
 // part.
 TEST(ChooseMethod, FindsHowLongDoublesHoldAMotion) {
   Simulation simulation = run_of("rr", {"0", "0"}, 60);
-  const Choice choice = choose_method(simulation, {0.1, "px"}, frames_until(60));
+  const Choice choice = choose_method(simulation, {0.1, AccuracyUnit::px}, frames_until(60));
   EXPECT_TRUE(choice.is_met);
   ASSERT_TRUE(choice.holds_until);
   EXPECT_GT(*choice.holds_until, 26.45);
@@ -147,7 +148,7 @@ TEST(ChooseMethod, FindsHowLongDoublesHoldAMotion) {
   const Trajectory run = simulate(simulation, end);
   Trajectory exact = run;
   exact.q = quads->q;
-  Deviation deviation(simulation, {0.1, "px"}, motion_size(simulation, simulate(simulation, frames_until(25))));
+  Deviation deviation(simulation, {0.1, AccuracyUnit::px}, motion_size(simulation, simulate(simulation, frames_until(25))));
   EXPECT_LE(deviation.at(run, exact, 0), 0.1);
 }
 
@@ -155,7 +156,7 @@ TEST(ChooseMethod, FindsHowLongDoublesHoldAMotion) {
 // below 1e-8 m.
 double error_of_pieces(Simulation& simulation, const std::vector<double>& tau1, const std::vector<double>& from,
                        const std::vector<double>& times) {
-  const Accuracy accuracy{1, "px"};
+  const Accuracy accuracy{1, AccuracyUnit::px};
   Trajectory exact;
   exact.nq = simulation.chain.nq;
   exact.nv = simulation.chain.nv;
@@ -199,7 +200,7 @@ TEST(ChooseMethod, KeepsItsPromiseWithPushesThatBeginAndEndAtOnce) {
                            Push{"60*(t>1)*(t<1.02)", {down, 0}, {0, 60, 0}, {0, 1, 1.02}}}) {
     Simulation simulation = run_of("rr", {push.torque, "0"}, 4);
     simulation.q0 = push.q0;
-    const Choice choice = choose_method(simulation, {0.1, "px"}, times);
+    const Choice choice = choose_method(simulation, {0.1, AccuracyUnit::px}, times);
     std::vector<double> judged;
     for (const double t : times)
       if (!choice.holds_until || t <= *choice.holds_until) judged.push_back(t);
@@ -214,7 +215,7 @@ TEST(ChooseMethod, KeepsItsPromiseWithPushesThatBeginAndEndAtOnce) {
 TEST(ChooseMethod, EndsWithTheBestSoFarWhereItsBudgetEnds) {
   for (const char* torque : {"0", "-1e12*q1"}) {
     Simulation simulation = run_of("rr", {torque, "0"}, 20);
-    const Choice choice = choose_method(simulation, {1e-4, "px"}, frames_until(20), {}, 5e5);
+    const Choice choice = choose_method(simulation, {1e-4, AccuracyUnit::px}, frames_until(20), {}, 5e5);
     EXPECT_TRUE(choice.out_of_budget || choice.holds_until) << torque;
     EXPECT_TRUE(choice.best.setting.method) << torque;
     EXPECT_LT(choice.spent, 1.5 * choice.budget) << torque;
@@ -227,7 +228,7 @@ TEST(ChooseMethod, ChoosesTheSameAgain) {
   std::string before;
   for (int k = 0; k < 2; ++k) {
     Simulation simulation = run_of("rr", {"5*sin(3*t)", "0"}, 2);
-    const Choice choice = choose_method(simulation, {0.01, "px"}, frames_until(2));
+    const Choice choice = choose_method(simulation, {0.01, AccuracyUnit::px}, frames_until(2));
     const std::string now = to_string(choice.best.setting) + " " + std::to_string(choice.spent);
     EXPECT_TRUE(k == 0 || now == before) << now << " " << before;
     before = now;
@@ -237,7 +238,7 @@ TEST(ChooseMethod, ChoosesTheSameAgain) {
 TEST(ChooseMethod, TellsWhatItDoesAndStopsWhenAsked) {
   Simulation simulation = run_of("rr", {"0", "0"}, 60);
   int asked = 0;
-  const Choice choice = choose_method(simulation, {0.1, "px"}, frames_until(60), [&](const ChoiceProgress& now) {
+  const Choice choice = choose_method(simulation, {0.1, AccuracyUnit::px}, frames_until(60), [&](const ChoiceProgress& now) {
     EXPECT_FALSE(now.doing.empty());
     return ++asked == 5;
   });
@@ -248,7 +249,7 @@ TEST(ChooseMethod, TellsWhatItDoesAndStopsWhenAsked) {
 TEST(ChooseMethod, PricesTheWholeRunWhereAPartDecides) {
   Simulation simulation = run_of("rr", {"-1e9*(q1-1)", "-1e5*qd2+5*sin(100*t)"}, 30);
   const std::vector<double> times = frames_until(30);
-  const Choice choice = choose_method(simulation, {0.1, "px"}, times, {}, 1e8);
+  const Choice choice = choose_method(simulation, {0.1, AccuracyUnit::px}, times, {}, 1e8);
   EXPECT_TRUE(choice.is_met);
   ASSERT_TRUE(choice.holds_until);
   EXPECT_LT(*choice.holds_until, 1);
@@ -261,7 +262,7 @@ TEST(ChooseMethod, PricesTheWholeRunWhereAPartDecides) {
 // A finite-time end: the torque grows without bounds, no run comes further, and nothing is said of what is behind.
 TEST(ChooseMethod, SaysWhereNoReferenceGoesFurther) {
   Simulation simulation = run_of("rr", {"1/(1.0001-t)^2", "0"}, 3);
-  const Choice choice = choose_method(simulation, {0.1, "px"}, frames_until(3), {}, 2e8);
+  const Choice choice = choose_method(simulation, {0.1, AccuracyUnit::px}, frames_until(3), {}, 2e8);
   ASSERT_TRUE(choice.holds_until);
   EXPECT_LE(*choice.holds_until, 1.0001);
   EXPECT_FALSE(choice.why_until.empty());
@@ -271,12 +272,12 @@ TEST(ChooseMethod, SaysWhereNoReferenceGoesFurther) {
 TEST(ChooseMethod, SaysUntilWhenAMotionThatFailsHolds) {
   Simulation bouncing = run_of("pp", {"-5*((q1>0)-(q1<0)) - ((qd1>0)-(qd1<0))", "0"}, 10);
   bouncing.q0[0] = 0.3;
-  Choice choice = choose_method(bouncing, {0.1, "px"}, frames_until(10));
+  Choice choice = choose_method(bouncing, {0.1, AccuracyUnit::px}, frames_until(10));
   ASSERT_TRUE(choice.holds_until);
   EXPECT_LT(*choice.holds_until, 5);
   EXPECT_THAT(choice.why_until, AllOf(HasSubstr("the motion itself ends"), HasSubstr("to and fro")));
   Simulation infinite = run_of("rr", {"log(abs(t-1))*10", "0"}, 3);
-  choice = choose_method(infinite, {0.1, "px"}, frames_until(3));
+  choice = choose_method(infinite, {0.1, AccuracyUnit::px}, frames_until(3));
   ASSERT_TRUE(choice.holds_until);
   EXPECT_LE(*choice.holds_until, 1);
 }
@@ -284,14 +285,14 @@ TEST(ChooseMethod, SaysUntilWhenAMotionThatFailsHolds) {
 // Negative control: what no method can reach is not said to be met.
 TEST(ChooseMethod, AdmitsWhereNothingIsExactEnough) {
   Simulation simulation = run_of("rr", {"0", "0"}, 12);
-  const Choice choice = choose_method(simulation, {3e-15, "relative"}, frames_until(12));
+  const Choice choice = choose_method(simulation, {3e-15, AccuracyUnit::relative}, frames_until(12));
   EXPECT_TRUE(!choice.is_met || choice.holds_until);
   EXPECT_EQ(choice.holds_until.has_value(), !choice.why_until.empty());
 }
 
 TEST(Accuracy, ReadsWhatItWritesAndRefusesTheRest) {
   for (const char* text : {"0.1 px", "0.001 m", "0.01 rad"}) EXPECT_EQ(to_string(parse_accuracy(text)), text);
-  EXPECT_EQ(parse_accuracy("1e-6").unit, "relative");
+  EXPECT_EQ(parse_accuracy("1e-6").unit, AccuracyUnit::relative);
   for (const char* text : {"", "px", "0 px", "-1 m", "1 mm", "1e-6 relative and more", "nan px",
                            "1e-13 px", "1e-16", "1e-16 rad"})
     EXPECT_THROW(parse_accuracy(text), Error) << text;
@@ -340,14 +341,14 @@ TEST(Deviation, MeasuresPlacesInMetresAndPixelsAndAnglesInRadians) {
   b.q[2 * k + 1] += 0.01;  // the elbow: the tip moves 1 m away from it
   const MotionSize size = motion_size(simulation, a);
   const auto apart = [&](const char* unit) {
-    return Deviation(simulation, {1, unit}, size).at(a, b, k);
+    return Deviation(simulation, {1, *value_named<AccuracyUnit>(unit)}, size).at(a, b, k);
   };
   EXPECT_NEAR(apart("rad"), 0.01, 1e-15);
   // The chord of the angle over an arm of 1 m, with the rounding of some sines.
   EXPECT_NEAR(apart("m"), 2 * std::sin(0.005), 1e-14);
   EXPECT_NEAR(apart("px"), apart("m") / size.bars.metres_per_px, 1e-10);
   EXPECT_NEAR(apart("relative"), apart("m") / size.bars.diagonal, 1e-14);
-  EXPECT_EQ(Deviation(simulation, {1, "m"}, size).at(a, b, k + 1), 0);
+  EXPECT_EQ(Deviation(simulation, {1, AccuracyUnit::m}, size).at(a, b, k + 1), 0);
   b.q[2 * k] = std::nan("");
   EXPECT_TRUE(std::isinf(apart("px")));
 }

@@ -89,7 +89,7 @@ TEST(SeenPoints, HoldTheFarEndOfABarWithoutATip) {
     RowLink bar = kBar;
     if (!has_shape) bar.box.setZero();
     Simulation run = row_of({bar}, {"3*sin(2*t) - 0.3*qd1"}, 5);
-    const Choice choice = choose_method(run, {0.1, "px"}, frames_at_60(5));
+    const Choice choice = choose_method(run, {0.1, AccuracyUnit::px}, frames_at_60(5));
     EXPECT_TRUE(choice.is_met);
     EXPECT_GT(choice.best.error, 1e-6);
     const auto [chosen, exact] = chosen_and_exact(run);
@@ -102,7 +102,7 @@ TEST(SeenPoints, HoldTheFarEndOfABarWithoutATip) {
 TEST(SeenPoints, HoldTheRimOfAWheel) {
   const RowLink wheel{JointKind::revolute, 0.5, {0, 0, 0}, {0.001, 0.001, 0.002}, {4, 0.1, 0.02}, {1, 0, 0}};
   Simulation run = row_of({kBar, wheel}, {"0", "0.3*cos(20*t)"}, 5);
-  choose_method(run, {0.1, "px"}, frames_at_60(5));
+  choose_method(run, {0.1, AccuracyUnit::px}, frames_at_60(5));
   const auto [chosen, exact] = chosen_and_exact(run);
   EXPECT_LT(largest_difference(chosen, exact, 1), 0.1 * 6.1 * 1.12 / 1080 / 2);
 }
@@ -114,7 +114,7 @@ TEST(SeenPoints, HoldTheOrientationOfABodyThatTumblesOnThePlace) {
     run.qd0 = {0, 0, 0, 0.01, 10, 0.01};
     choose_method(run, parse_accuracy(accuracy), frames_at_60(10));
     const auto [chosen, exact] = chosen_and_exact(run);
-    Deviation angle(run, {1, "rad"}, motion_size(run, exact));
+    Deviation angle(run, {1, AccuracyUnit::rad}, motion_size(run, exact));
     // 0.1 px of a picture 1.14 m high, 0.57 m from the middle; 10 % for the judge.
     EXPECT_LT(angle.largest(chosen, exact, exact.size()), accuracy[0] == '0' ? 2.3e-4 : 1.1e-3) << accuracy;
     EXPECT_GT(angle.largest(chosen, exact, exact.size()), 0);
@@ -170,24 +170,24 @@ TEST(Deviation, InRadJudgesSlidersAndBasesByTheSizeOfTheMotion) {
   MotionSize size;
   size.bodies.diagonal = 4;
   b.q = {0.1, 0};
-  EXPECT_NEAR(Deviation(run, {1, "rad"}, size).at(a, b, 0), 0.025, 1e-15);
+  EXPECT_NEAR(Deviation(run, {1, AccuracyUnit::rad}, size).at(a, b, 0), 0.025, 1e-15);
   b.q = {0.1, 0.2};
-  EXPECT_NEAR(Deviation(run, {1, "rad"}, size).at(a, b, 0), 0.2, 1e-15);
+  EXPECT_NEAR(Deviation(run, {1, AccuracyUnit::rad}, size).at(a, b, 0), 0.2, 1e-15);
   RowLink floating = kBar;
   floating.kind = JointKind::floating;
   Simulation base = row_of({floating}, {}, 1);
   a.nq = b.nq = 7;
   a.q = {0, 0, 0, 0, 0, 0, 1};
   b.q = {0, 0, 0, 0, 0, -std::sin(0.15), -std::cos(0.15)};  // the same turn as its negative
-  EXPECT_NEAR(Deviation(base, {1, "rad"}, size).at(a, b, 0), 0.3, 1e-15);
+  EXPECT_NEAR(Deviation(base, {1, AccuracyUnit::rad}, size).at(a, b, 0), 0.3, 1e-15);
   b.q = {2, 0, 0, 0, 0, 0, 1};
-  EXPECT_NEAR(Deviation(base, {1, "rad"}, size).at(a, b, 0), 0.5, 1e-15);
+  EXPECT_NEAR(Deviation(base, {1, AccuracyUnit::rad}, size).at(a, b, 0), 0.5, 1e-15);
 }
 
 TEST(ChooseMethod, RefusesRadiansWhereNothingTurns) {
   Simulation run = run_of("pp", {"0", "-100*y_G"}, 1);
   try {
-    choose_method(run, {1e-6, "rad"}, frames_at_60(1));
+    choose_method(run, {1e-6, AccuracyUnit::rad}, frames_at_60(1));
     FAIL() << "angles of a chain of sliders were promised";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_input);

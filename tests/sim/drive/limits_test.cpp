@@ -164,9 +164,9 @@ TEST(Limits, AreSilentWhereNothingIsPassed) {
 }
 
 TEST(LimitPolicy, NamesTheNearestOne) {
-  EXPECT_EQ(limit_policy_of("clamp"), LimitPolicy::clamp);
+  EXPECT_EQ(require_named<LimitPolicy>("'limit'", "clamp"), LimitPolicy::clamp);
   try {
-    limit_policy_of("clmp");
+    require_named<LimitPolicy>("'limit'", "clmp");
     FAIL() << "an unknown policy was accepted";
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("did you mean 'clamp'?"));

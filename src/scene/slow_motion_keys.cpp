@@ -1,10 +1,9 @@
-#include "scene/read_slow_motion.hpp"
-
+// The key slow_motion.
 #include <algorithm>
 #include <cmath>
 
-#include "core/format.hpp"
 #include "scene/film_clock.hpp"
+#include "scene/own_keys.hpp"
 #include "scene/quantity.hpp"
 
 namespace chainreel {
@@ -132,6 +131,36 @@ void check_length(Fields& fields, const YAML::Node& node, const Scene& scene) {
 }
 
 }  // namespace
+
+KeyText told_slow_motion() {
+  using Form = KeyText::Form;
+  return told_list("slow_motion",
+                   told_record("",
+                               {told("event", Form::text, "a name of `events:`; `from` and `until` are seconds from its "
+                                                          "instants on, before it with a minus"),
+                                told("from", Form::number, "the first instant").in("s").required(),
+                                told("until", Form::number, "the last instant").in("s").required(),
+                                told("speed", Form::number, "0.25 is four times slower, 4 four times faster")
+                                    .within({kSlowest, kFastest})
+                                    .required()},
+                               "a stretch"),
+                   "stretches of the motion that the film shows slower, or faster");
+}
+
+std::string slow_motion_text(const Scene& scene) {
+  if (scene.slow_motion.empty()) return "";
+  return flow_text([&](YAML::Emitter& out) {
+    out << YAML::Flow << YAML::BeginSeq;
+    for (const SlowMotionEntry& one : scene.slow_motion) {
+      out << YAML::Flow << YAML::BeginMap;
+      if (!one.event.empty()) out << YAML::Key << "event" << YAML::Value << YAML::DoubleQuoted << one.event;
+      for (const auto& [key, value] : {std::pair{"from", one.from}, {"until", one.until}, {"speed", one.speed}})
+        out << YAML::Key << key << YAML::Value << format_shortest(value);
+      out << YAML::EndMap;
+    }
+    out << YAML::EndSeq;
+  });
+}
 
 void read_slow_motion(Fields& fields, Scene& scene) {
   const YAML::Node node = fields.find("slow_motion");

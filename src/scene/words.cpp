@@ -1,0 +1,91 @@
+#include "scene/words.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr Name kRootLinks[] = {{"fixed", "to the world"}, {"floating", "on a floating joint"}};
+constexpr Name kOutcomes[] = {{"finish", "come to its end"},
+                              {"diverge", "blow up: the picture then stands still, and the exit code is 0"}};
+constexpr Name kLinkShapes[] = {{"auto", "visual in space and where the view is oblique, else plain"},
+                                {"plain", "bars from joint to joint"},
+                                {"visual", "the model's <visual> shapes"},
+                                {"collision", "the model's <collision> shapes"}};
+constexpr Name kReadings[] = {{"mass", "forces for unit accelerations; semi-axes in kg"},
+                              {"energy", "velocities of a kinetic energy of 0.5 J; semi-axes in m/s"},
+                              {"belt", "the mass felt along each direction, kg"}};
+constexpr Name kEllipseShapes[] = {{"ellipsoid", "whole"},
+                                   {"section", "cut by the xy plane of the end effector"}};
+constexpr Name kLayouts[] = {{"scene", "the scene, plots beside it where there are two or three"},
+                             {"scene-below", "plots below the scene"},
+                             {"scene-right", "plots beside the scene"},
+                             {"transparent", "the motion alone on nothing, for overlays"},
+                             {"compare", "two panels side by side"},
+                             {"grid", "up to twelve panels"},
+                             {"ghost", "two to four variants over one another, all but the first in outline"}};
+constexpr Name kThemes[] = {{"light", "on white"}, {"dark", "for dark slides"}};
+constexpr Name kPresets[] = {{"slides", "NAME.mp4"},
+                             {"web", "NAME.webm and its first frame"},
+                             {"overlay", "NAME.mov and NAME.webm, transparent"},
+                             {"doc", "NAME.gif"},
+                             {"frames", "a folder of PNG files"},
+                             {"still", "one frame as PNG, SVG and PDF"}};
+constexpr Name kLayers[] = {
+    {"chain", "the mechanism"},
+    {"trail", "the last second of the end effector's way, a dot every 0.1 s"},
+    {"ghosts", "the chain at six earlier instants of the last second, fainter with age, the older half as outlines"},
+    {"frames", "axes of the links' frames (y has one cross tick, z two)"},
+    {"com", "the centre of mass of the whole chain"},
+    {"torque", "arcs at revolute joints, arrows beside the rails of sliders; a ring where next to nothing acts"},
+    {"velocity", "velocity of the end effector"},
+    {"gravity", "the weight of each link at its centre of mass"},
+    {"constraint_force", "dashed: what constraints exert on the robot"},
+    {"ellipse", "the effective mass of the end effector, as `ellipse:` says"},
+    {"mass_matrix", "M(q) as a live heat map, with numbers up to 4 x 4"},
+    {"equation", "the equation of motion, symbols in the colours of their vectors"},
+    {"time", "the time below the scene, and the speed where it is not 1"},
+    {"title", "the title above it"},
+    {"torque_label", "the torques in words"},
+    {"scale_bar", "one metre, or a round part of it"},
+    {"legend", "the names of vectors and of the ellipse"},
+    {"ground", "seen obliquely: a grid on the ground where the robot stands on it"},
+    {"shadow", "seen obliquely: what a light from above leaves dark"}};
+
+}  // namespace
+
+std::span<const Name> names_of(RootLink) {
+  return kRootLinks;
+}
+
+std::span<const Name> names_of(Outcome) {
+  return kOutcomes;
+}
+
+std::span<const Name> names_of(LinkShapes) {
+  return kLinkShapes;
+}
+
+std::span<const Name> names_of(EllipseReading) {
+  return kReadings;
+}
+
+std::span<const Name> names_of(EllipseShape) {
+  return kEllipseShapes;
+}
+
+std::span<const Name> names_of(PageLayout) {
+  return kLayouts;
+}
+
+std::span<const Name> names_of(ThemeName) {
+  return kThemes;
+}
+
+std::span<const Name> names_of(Preset) {
+  return kPresets;
+}
+
+std::span<const Name> layer_meanings() {
+  return kLayers;
+}
+
+}  // namespace chainreel
