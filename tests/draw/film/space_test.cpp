@@ -55,9 +55,9 @@ class Space : public ::testing::Test {
  protected:
   Space() : path(folder.write("two_axes.urdf", kTwoAxes)), chain(read_chain(path)) {}
 
-  std::shared_ptr<const BodyShapes> shapes(const std::string& links = "visual") {
+  std::shared_ptr<const BodyShapes> shapes(LinkShapes links = LinkShapes::visual) {
     MeshShelf shelf;
-    return shapes_for({links, "rviz", true, {path}}, path, chain, {}, shelf);
+    return shapes_for({links, MeshUp::rviz, true, {path}}, path, chain, {}, shelf);
   }
   Scene scene() const {
     Scene scene;
@@ -221,17 +221,17 @@ TEST(Camera, DerivesItsProjection) {
 }
 
 TEST_F(Space, LinksSayWhatIsDrawn) {
-  EXPECT_EQ(shapes("plain"), nullptr);
-  EXPECT_NE(shapes("auto"), nullptr);
+  EXPECT_EQ(shapes(LinkShapes::plain), nullptr);
+  EXPECT_NE(shapes(LinkShapes::automatic), nullptr);
   MeshShelf shelf;
   // Planar chains seen along their normal keep their bars.
-  EXPECT_EQ(shapes_for({"auto", "rviz", false, {}}, path, chain, {}, shelf), nullptr);
+  EXPECT_EQ(shapes_for({LinkShapes::automatic, MeshUp::rviz, false, {}}, path, chain, {}, shelf), nullptr);
   const std::string bare_path =
       folder.write("bare.urdf", std::regex_replace(kTwoAxes, std::regex("<visual>[^]*?</visual>"), ""));
   const Chain bare = read_chain(bare_path);
-  EXPECT_EQ(shapes_for({"auto", "rviz", true, {}}, bare_path, bare, {}, shelf), nullptr);
+  EXPECT_EQ(shapes_for({LinkShapes::automatic, MeshUp::rviz, true, {}}, bare_path, bare, {}, shelf), nullptr);
   try {
-    shapes_for({"visual", "rviz", true, {"s.yaml", 3, 8}}, bare_path, bare, {}, shelf);
+    shapes_for({LinkShapes::visual, MeshUp::rviz, true, {"s.yaml", 3, 8}}, bare_path, bare, {}, shelf);
     FAIL() << "a model without shapes was drawn by them";
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("no <visual>: take auto or plain"));
@@ -386,7 +386,7 @@ TEST_F(Space, MeshesThatCannotBeReadAreNamedWithTheirLine) {
   const std::string model = folder.write("broken.urdf", text);
   MeshShelf shelf;
   try {
-    shapes_for({"visual", "rviz", true, {}}, model, read_chain(model), {}, shelf);
+    shapes_for({LinkShapes::visual, MeshUp::rviz, true, {}}, model, read_chain(model), {}, shelf);
     FAIL() << "a broken mesh was drawn";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_input);
