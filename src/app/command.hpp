@@ -89,5 +89,8 @@ void add_stability_command(CommandLine& app);
 void add_fall_command(CommandLine& app);
 void add_sheet_command(CommandLine& app);
 void add_gallery_command(CommandLine& app);
+void add_schema_command(CommandLine& app);
+// It tells of all commands that are there when it runs.
+void add_help_command(CommandLine& app);
 
 }  // namespace chainreel

@@ -125,6 +125,13 @@ Command* CommandLine::add_subcommand(const std::string& name, const std::string&
   return &parser_->commands.emplace_back(parser_->app.add_subcommand(name, about));
 }
 
+std::vector<CommandLine::CommandText> CommandLine::texts() const {
+  std::vector<CommandText> texts;
+  for (const CLI::App* one : parser_->app.get_subcommands([](const CLI::App*) { return true; }))
+    texts.push_back({one->get_name(), one->get_description(), one->help(parser_->app.get_name())});
+  return texts;
+}
+
 int CommandLine::run(int argc, char** argv) {
   try {
     parser_->app.parse(argc, argv);

@@ -55,6 +55,13 @@ class CommandLine {
   ~CommandLine();
 
   Command* add_subcommand(const std::string& name, const std::string& about);
+
+  struct CommandText {
+    std::string name, about, help;
+  };
+  // Of all subcommands, in the order in which they were added.
+  std::vector<CommandText> texts() const;
+
   // Runs the subcommand. Returns the exit code; what the callback throws passes through.
   int run(int argc, char** argv);
 

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "app/command.hpp"
+#include "app/guide/reference.hpp"
 #include "app/report/version.hpp"
 #include "app/signals.hpp"
 #include "app/streams.hpp"
@@ -16,10 +17,9 @@ int run(int argc, char** argv) {
   CommandLine app(
       "chainreel", "chainreel: from a scene file to a film of a robot chain moving under given torques.",
       program_version(),
-      "Exit codes: 0 good, 1 a comparison failed, 2 usage, 3 bad input, 4 no renderer or codec, 5 numerical "
-      "failure,\n"
-      "6 file or disk, 7 a limit exceeded, 129, 130, 131 and 143 signals.\n"
-      "Example: chainreel render assets/scenes/rr_free.yaml");
+      "Exit codes: " + exit_code_words() +
+          ".\nWhat scenes may say, methods, constraints, outputs: chainreel help\n"
+          "Example: chainreel render assets/scenes/rr_free.yaml");
   add_render_command(app);
   add_snapshot_command(app);
   add_ellipse_command(app);
@@ -37,6 +37,8 @@ int run(int argc, char** argv) {
   add_fall_command(app);
   add_sheet_command(app);
   add_gallery_command(app);
+  add_schema_command(app);
+  add_help_command(app);
   return app.run(argc, argv);
 }
 

@@ -14,6 +14,7 @@
 #include <charconv>
 
 #include "expr/expression.hpp"
+#include "expr/functions.hpp"
 
 namespace chainreel {
 namespace {
@@ -23,16 +24,22 @@ constexpr std::size_t kMaxText = 10000;
 struct Function {
   std::string_view name;
   Operation operation;
-  int arguments;
+  Name told;
+  int arguments = 1;
   bool or_more = false;
 };
 
 constexpr std::array kFunctions = {
-    Function{"sin", Operation::sine, 1},          Function{"cos", Operation::cosine, 1},
-    Function{"tan", Operation::tangent, 1},       Function{"sqrt", Operation::square_root, 1},
-    Function{"exp", Operation::exponential, 1},   Function{"log", Operation::logarithm, 1},
-    Function{"abs", Operation::absolute, 1},      Function{"atan2", Operation::arc_tangent2, 2},
-    Function{"min", Operation::minimum, 2, true}, Function{"max", Operation::maximum, 2, true},
+    Function{"sin", Operation::sine, {"sin(x)", "sine"}},
+    Function{"cos", Operation::cosine, {"cos(x)", "cosine"}},
+    Function{"tan", Operation::tangent, {"tan(x)", "tangent"}},
+    Function{"sqrt", Operation::square_root, {"sqrt(x)", "square root"}},
+    Function{"exp", Operation::exponential, {"exp(x)", "e to the power of x"}},
+    Function{"log", Operation::logarithm, {"log(x)", "natural logarithm"}},
+    Function{"abs", Operation::absolute, {"abs(x)", "without its sign"}},
+    Function{"atan2", Operation::arc_tangent2, {"atan2(y, x)", "the angle of the place (x, y)"}, 2},
+    Function{"min", Operation::minimum, {"min(a, b, ..)", "the least"}, 2, true},
+    Function{"max", Operation::maximum, {"max(a, b, ..)", "the largest"}, 2, true},
 };
 
 const Function* find_function(std::string_view name) {
@@ -363,6 +370,12 @@ Expression Expression::parse(std::string_view text, std::span<const std::string>
   used.erase(std::unique(used.begin(), used.end()), used.end());
   if (used.empty()) expression.constant_ = expression.evaluate(std::span<const double>());
   return expression;
+}
+
+std::vector<Name> expression_functions() {
+  std::vector<Name> list;
+  for (const Function& function : kFunctions) list.push_back(function.told);
+  return list;
 }
 
 bool is_reserved_name(std::string_view name) {

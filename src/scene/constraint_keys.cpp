@@ -196,7 +196,9 @@ KeyText told_kind(const Kind& kind) {
     part.is_required = member.need == Member::Need::required;
     parts.push_back(std::move(part));
   }
-  return told_record(kind.name.name, std::move(parts), kind.name.meaning);
+  KeyText text = told_record(kind.name.name, std::move(parts), kind.name.meaning);
+  text.example = kind.example;
+  return text;
 }
 
 void read_constraint(Fields& fields, const YAML::Node& node, const std::string& key, Scene& scene) {

@@ -50,6 +50,11 @@ KeyText told_of(const std::optional<T>&) {
   return told_of(T{});
 }
 
+template <class T>
+inline constexpr bool is_optional = false;
+template <class T>
+inline constexpr bool is_optional<std::optional<T>> = true;
+
 // The number that a range is of, where the value is one.
 template <class T>
 std::optional<double> number_in(const T& value) {
@@ -127,6 +132,7 @@ class KeyRow {
     static_cast<KeyText&>(key_) = told_of(T{});
     key_.name = name;
     key_.help = help;
+    key_.takes_null = std::is_same_v<T, Accuracy> || is_optional<T>;
     key_.read = [get](const SceneKey& key, Fields& fields, Scene& scene) {
       if (!fields.find(key.leaf()).IsDefined()) return;
       T& value = get(scene);

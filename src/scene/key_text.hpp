@@ -47,6 +47,7 @@ struct KeyText {
   std::span<const Name> words;
   std::vector<KeyText> parts;
   bool is_required = false;  // of a part: without it the record says nothing
+  std::string example;       // in one line of YAML
 
   KeyText in(std::string its_unit) &&;
   KeyText within(Range its_range) &&;

@@ -71,8 +71,11 @@ std::vector<Chapter> chapters() {
             .caption("\u03C4 = @"),
         Row(told_parameters(), read_parameters, write_parameters).example("parameters: {k: 100}")}},
       {"Constraints",
-       {Row(told_constraints(), read_constraints, constraints_text).absent("none"),
+       {Row(told_constraints(), read_constraints, constraints_text)
+            .example("constraints: [{line: {frame: gripper, point: [0, 0.5], direction: [1, 0]}}]")
+            .absent("none"),
         Row("stabilize", &Scene::stabilize, "what holds places and rates on the constraints against drift")
+            .example("stabilize: baumgarte")
             .where(has_constraints),
         Row::section("baumgarte", "baumgarte: {gain: 10}", "with `stabilize: baumgarte`"),
         Row("baumgarte.gain", &Scene::baumgarte_gain, "how fast errors die away")
@@ -98,6 +101,7 @@ std::vector<Chapter> chapters() {
             .absent("none")}},
       {"The method",
        {Row("method", &Scene::method, "`auto`, the cheapest that keeps `accuracy`, or a row of `chainreel methods`")
+            .example("method: dop853")
             .caption("@"),
         Row("step", &Scene::step, "of time")
             .in("s")
@@ -108,6 +112,7 @@ std::vector<Chapter> chapters() {
             .at_least(kLeastTolerance)
             .hint("; no step can meet less than the rounding of doubles")
             .absent("1e-9, unless they have a step")
+            .example("tolerance: 1e-10")
             .caption("tolerance @"),
         Row("order", &Scene::order, "of methods with several: taylor, see `chainreel methods`")
             .absent("the method's own")
@@ -118,18 +123,19 @@ std::vector<Chapter> chapters() {
         Row("expect", &Scene::expect, "what the run is to do").no_caption()}},
       {"The robot's looks",
        {Row("links", &Scene::links, "bars, or the model's shapes")
+            .example("links: plain")
             .flag(FlagGroup::view, "--links")
             .of_model(OfModel::picture),
         Row("mesh_up", &Scene::mesh_up, "whose up Collada meshes follow")
             .flag(FlagGroup::view, "--mesh-up")
             .of_model(OfModel::picture)}},
       {"The picture",
-       {Row("duration", &Scene::duration, "of the motion").in("s").above(0).of_page(),
+       {Row("duration", &Scene::duration, "of the motion").in("s").above(0).example("duration: 5").of_page(),
         Row(told_draw(), read_draw, draw_text).example("draw: [+ellipse, -trail]").of_page(),
         Row::section("ellipse", "ellipse: {reading: belt}", "how the layer `ellipse` shows the effective mass").of_page(),
         Row("ellipse.reading", &Scene::ellipse, &EllipseEntry::reading, "what the curve is").of_page(),
         Row("ellipse.shape", &Scene::ellipse, &EllipseEntry::shape, "of arms in space").of_page(),
-        Row::section("camera", "camera: {azimuth: 35deg, elevation: 20deg}", "where the picture is seen from")
+        Row::section("camera", "camera: {azimuth: 35deg, elevation: 20deg, fit: [-0.5, 0, 1.5, 1.2]}", "where the picture is seen from")
             .of_page()
             .of_model(OfModel::picture),
         Row("camera.azimuth", &Scene::camera, &CameraEntry::azimuth, "about the vertical")
@@ -155,7 +161,6 @@ std::vector<Chapter> chapters() {
             .of_page()
             .flag(FlagGroup::view, "--distance"),
         Row(told_fit(), read_fit, fit_text)
-            .example("camera: {fit: [-0.5, 0, 1.5, 1.2]}")
             .absent("motion")
             .of_page()
             .flag(FlagGroup::view, "--fit"),

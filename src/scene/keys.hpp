@@ -43,11 +43,11 @@ struct SceneKey : KeyText {
   std::string absent;    // what holds where the key is left out, where that is no value of its own
   std::string hint;      // behind the message about a value out of range
   std::string infinity;  // the word for a number without end
-  std::string example;   // what a mapping or list looks like
   std::string caption;   // in titles of panels: "step @ s"; "": "name = @"
   bool is_captioned = true;
 
   bool is_section = false;
+  bool takes_null = false;  // which says that the key is absent
 
   Read read;    // from the mapping that holds the key; none of a section
   Write write;  // adds nothing where the scene leaves it out

@@ -39,7 +39,9 @@ KeyText told_plot() {
                                                    "a plot with a title of its own")},
                        "a plot");
   };
-  return told_either("plot", {value(""), told_list("", entry(), "up to three plots")},
+  std::vector<KeyText> forms = entry().parts;
+  forms.push_back(told_list("", entry(), "up to three plots"));
+  return told_either("plot", std::move(forms),
                      "plots below or beside the scene, up to three");
 }
 

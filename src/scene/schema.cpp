@@ -8,8 +8,6 @@
 namespace chainreel {
 namespace {
 
-using Form = KeyText::Form;
-
 // Numbers may also be written as constant expressions, which stand in a file as text; any scalar is a text.
 const Json kNumberOrText = Json::array({"number", "string"});
 const Json kAnyScalar = Json::array({"string", "number", "boolean"});
@@ -27,28 +25,28 @@ Json record_of(const std::vector<KeyText>& parts) {
 
 Json form_of(const KeyText& text) {
   switch (text.form) {
-    case Form::number:
+    case KeyText::Form::number:
       return {{"type", kNumberOrText}};
-    case Form::whole:
+    case KeyText::Form::whole:
       return {{"type", "integer"}};
-    case Form::truth:
+    case KeyText::Form::truth:
       return {{"type", "boolean"}};
-    case Form::text:
-    case Form::path:
+    case KeyText::Form::text:
+    case KeyText::Form::path:
       return {{"type", kAnyScalar}};
-    case Form::word:
+    case KeyText::Form::word:
       return {{"enum", words_of(text.words)}};
-    case Form::rate:
-    case Form::accuracy:
-    case Form::expression:
+    case KeyText::Form::rate:
+    case KeyText::Form::accuracy:
+    case KeyText::Form::expression:
       return {{"type", kNumberOrText}};
-    case Form::list:
+    case KeyText::Form::list:
       return {{"type", "array"}, {"items", schema_of(text.parts[0])}};
-    case Form::mapping:
+    case KeyText::Form::mapping:
       return {{"type", "object"}, {"additionalProperties", schema_of(text.parts[0])}};
-    case Form::record:
+    case KeyText::Form::record:
       return record_of(text.parts);
-    case Form::either:
+    case KeyText::Form::either:
       break;
   }
   Json json;
@@ -60,7 +58,7 @@ Json form_of(const KeyText& text) {
 std::string description_of(const KeyText& text) {
   std::string words = text.help;
   const std::string range = range_text(text.range, text.unit);
-  if (!text.unit.empty()) words += (words.empty() ? "" : ", ") + text.unit;
+  if (!text.unit.empty() && !range.ends_with(text.unit)) words += (words.empty() ? "" : ", ") + text.unit;
   if (!range.empty()) words += (words.empty() ? "" : ", ") + range;
   return words;
 }
@@ -77,8 +75,15 @@ Json schema_of_key(const SceneKey& key) {
   Json json = schema_of(key);
   std::string& words = json["description"].get_ref<std::string&>();
   const std::string held = key.absent.empty() ? key.text(key, Scene{}) : key.absent;
-  if (!held.empty()) words += "; where it is left out: " + held;
+  if (!held.empty() && !key.is_required) words += "; where it is left out: " + held;
   if (!key.infinity.empty()) words += "; or " + key.infinity;
+  if (key.takes_null) {
+    if (json.contains("enum")) json["enum"].push_back(nullptr);
+    if (json.contains("type")) {
+      if (!json["type"].is_array()) json["type"] = Json::array({json["type"]});
+      json["type"].push_back("null");
+    }
+  }
   if (!key.example.empty()) json["examples"].push_back(key.example);
   return json;
 }

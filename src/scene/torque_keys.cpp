@@ -153,10 +153,9 @@ KeyText told_control(const char* name) {
 KeyText told_torque() {
   using Form = KeyText::Form;
   return told_either("torque",
-                     {told_list("", told_either("", {told("", Form::expression, ""), told_control("")}, ""),
-                                "a number, an expression or a control a joint"),
-                      told_control("")},
-                     "N m or N, of each joint; none where it is left out");
+                     {told_control(""), told_list("", told_either("", {told("", Form::expression, ""), told_control("")}, ""),
+                                                  "a number, an expression or a control a joint")},
+                     "what drives the joints, N m or N");
 }
 
 void read_torque(Fields& fields, Scene& scene) {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/guide/reference.hpp"
 #include "app/report/report.hpp"
 #include "core/json.hpp"
 #include "integrate/method.hpp"
@@ -11,30 +12,11 @@
 namespace chainreel {
 namespace {
 
-std::string order_text(const Method& method) {
-  if (method.highest_order == 0) return std::to_string(method.order);
-  return std::to_string(method.lowest_order) + "-" + std::to_string(method.highest_order);
-}
-
-std::string form_name(Form form) {
-  switch (form) {
-    case Form::second_order:
-      return "q, qd";
-    case Form::momenta:
-      return "q, p";
-    case Form::series:
-      return "series";
-    case Form::linked_points:
-      return "points";
-  }
-  return "";
-}
-
 Json to_json(const Method& method) {
   Json json{{"name", method.name},
             {"order", method.order},
             {"kind", method.kind},
-            {"state", form_name(method.form)},
+            {"state", state_words(method)},
             {"dense_order", method.dense_order},
             {"adaptive", method.adaptive},
             {"symplectic", method.symplectic},
@@ -49,8 +31,8 @@ void run_methods(const CommonOptions& options) {
   std::vector<std::vector<std::string>> table{{"name", "order", "dense", "state", "step", "kind", "source"}};
   for (const Method& method : methods()) {
     list.push_back(to_json(method));
-    table.push_back({method.name, order_text(method), std::to_string(method.dense_order),
-                     form_name(method.form), method.adaptive ? "adaptive or fixed" : "fixed", method.kind,
+    table.push_back({method.name, order_words(method), std::to_string(method.dense_order),
+                     state_words(method), method.adaptive ? "adaptive or fixed" : "fixed", method.kind,
                      method.source});
   }
   std::fputs(options.json ? (list.dump(2) + "\n").c_str() : table_text(table).c_str(), stdout);

@@ -29,6 +29,7 @@ enum class Shows { motion, still, table };
 
 struct OutputFormat {
   const char* ending;  // ".mp4"; of a sequence, how the name of its first picture ends
+  const char* told;    // half a sentence for people
   Shows shows = Shows::motion;
   bool is_sequence = false;           // a folder of pictures
   bool keeps_opacity = true;          // of a transparent page

@@ -1,0 +1,88 @@
+// chainreel help [TOPIC]: the reference, page by page.
+
+#include <cstdio>
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/guide/markdown.hpp"
+#include "app/guide/reference.hpp"
+#include "core/error.hpp"
+#include "core/json.hpp"
+
+namespace chainreel {
+namespace {
+
+struct HelpOptions {
+  std::string topic;
+  CommonOptions common;
+};
+
+std::string commands_page(const CommandLine& app) {
+  std::vector<std::vector<std::string>> table{{"command", "what it is for"}};
+  std::string texts;
+  for (const CommandLine::CommandText& command : app.texts()) {
+    table.push_back({code(command.name), command.about});
+    texts += "\n## " + command.name + "\n\n" + code_block("text", command.help);
+  }
+  return "# Commands\n\n" + markdown_table(table) + texts;
+}
+
+void list_topics(const std::vector<GuidePage>& pages, bool json) {
+  Json list = Json::array();
+  std::vector<std::vector<std::string>> table{{"topic", "what it tells"}};
+  for (const GuidePage& page : pages) {
+    table.push_back({page.topic, page.about});
+    list.push_back({{"topic", page.topic}, {"about", page.about}});
+  }
+  if (json)
+    std::puts(list.dump(2).c_str());
+  else
+    std::fputs((markdown_table(table) + "\nchainreel help TOPIC prints one of them, or how a command is called.\n").c_str(),
+               stdout);
+}
+
+void run_help(const HelpOptions& options, const CommandLine& app) {
+  const std::vector<GuidePage> pages = guide_pages(app);
+  if (options.topic.empty()) return list_topics(pages, options.common.json);
+  std::vector<std::string> known;
+  const auto tell = [&](const std::string& text) {
+    if (options.common.json)
+      std::puts(Json{{"topic", options.topic}, {"text", text}}.dump(2).c_str());
+    else
+      std::fputs(text.c_str(), stdout);
+  };
+  for (const GuidePage& page : pages) {
+    if (page.topic == options.topic) return tell(page.text());
+    known.push_back(page.topic);
+  }
+  for (const CommandLine::CommandText& command : app.texts()) {
+    if (command.name == options.topic) return tell(command.help);
+    known.push_back(command.name);
+  }
+  throw Error(ExitCode::usage, "there is no help on '" + options.topic + "':" + did_you_mean(options.topic, known) +
+                                   " `chainreel help` lists the topics");
+}
+
+}  // namespace
+
+std::vector<GuidePage> guide_pages(const CommandLine& app) {
+  return {{"scene", "every key of a scene: its values, unit, range and default", scene_page},
+          {"layers", "what a picture may show", layers_page},
+          {"expressions", "names, operators and functions", expressions_page},
+          {"constraints", "what ties a mechanism beyond its joints", constraints_page},
+          {"methods", "the integrators, and how exact a run is", methods_page},
+          {"outputs", "kinds of files, and presets", outputs_page},
+          {"commands", "every command with its options", [&app] { return commands_page(app); }},
+          {"exit-codes", "what the program's status says", exit_codes_page}};
+}
+
+void add_help_command(CommandLine& app) {
+  auto options = std::make_shared<HelpOptions>();
+  Command* command = app.add_subcommand("help", "the reference: scene, methods, constraints, outputs, ..");
+  command->add_option("topic", options->topic, "a topic or a command; without it the topics are listed");
+  add_json_option(*command, options->common);
+  command->footer("Example: chainreel help scene");
+  command->callback([options, &app] { run_help(*options, app); });
+}
+
+}  // namespace chainreel

@@ -1,0 +1,40 @@
+// The reference: pages that are made of the tables and registries which drive the program. `chainreel help TOPIC` prints
+// them; assets/guide holds the same texts.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/command_line.hpp"
+#include "integrate/method.hpp"
+
+namespace chainreel {
+
+struct GuidePage {
+  std::string topic;  // "scene"; the file is scene.md
+  std::string about;  // half a sentence
+  std::function<std::string()> text;
+};
+
+// `app` must outlive them.
+std::vector<GuidePage> guide_pages(const CommandLine& app);
+
+// --- the pages: reference_scene.cpp
+std::string scene_page();
+std::string constraints_page();
+std::string layers_page();
+// --- reference_runs.cpp
+std::string methods_page();
+std::string expressions_page();
+std::string outputs_page();
+std::string exit_codes_page();
+
+// "12-30", "4".
+std::string order_words(const Method& method);
+// What the method moves: "q, qd".
+std::string state_words(const Method& method);
+// "0 good, 1 a comparison failed, ..".
+std::string exit_code_words();
+
+}  // namespace chainreel

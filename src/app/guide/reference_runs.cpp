@@ -1,0 +1,125 @@
+// Pages made of the registries of methods, functions, outputs and exit codes.
+#include "app/guide/markdown.hpp"
+#include "app/guide/reference.hpp"
+#include "app/film/formats.hpp"
+#include "core/error.hpp"
+#include "expr/functions.hpp"
+#include "scene/keys.hpp"
+
+namespace chainreel {
+namespace {
+
+struct ExitRow {
+  ExitCode code;
+  const char* meaning;
+};
+constexpr ExitRow kExits[] = {{ExitCode::good, "good"},
+                              {ExitCode::comparison_failed, "a comparison failed"},
+                              {ExitCode::usage, "usage"},
+                              {ExitCode::bad_input, "bad input"},
+                              {ExitCode::no_renderer, "no renderer or codec"},
+                              {ExitCode::numerical, "numerical failure"},
+                              {ExitCode::file, "file or disk"},
+                              {ExitCode::limit, "a limit exceeded"}};
+
+std::string table_of(const char* what, std::span<const Name> names) {
+  std::vector<std::vector<std::string>> table{{what, "what it is"}};
+  for (const Name& one : names) table.push_back({code(one.name), one.meaning});
+  return markdown_table(table);
+}
+
+}  // namespace
+
+std::string order_words(const Method& method) {
+  if (method.highest_order == 0) return std::to_string(method.order);
+  return std::to_string(method.lowest_order) + "-" + std::to_string(method.highest_order);
+}
+
+std::string state_words(const Method& method) {
+  switch (method.form) {
+    case Form::second_order:
+      return "q, qd";
+    case Form::momenta:
+      return "q, p";
+    case Form::series:
+      return "series";
+    case Form::linked_points:
+      return "points";
+  }
+  return "";
+}
+
+std::string exit_code_words() {
+  std::string words;
+  for (const ExitRow& row : kExits)
+    words += (words.empty() ? "" : ", ") + std::to_string(int(row.code)) + " " + row.meaning;
+  return words + ", 129, 130, 131 and 143 signals";
+}
+
+std::string methods_page() {
+  std::vector<std::vector<std::string>> table{
+      {"method", "order", "of dense output", "state", "step", "symplectic", "reversible", "kind", "source"}};
+  for (const Method& method : methods())
+    table.push_back({code(method.name), order_words(method), std::to_string(method.dense_order), state_words(method),
+                     method.adaptive ? "`tolerance:` or `step:`" : "`step:`", method.symplectic ? "yes" : "",
+                     method.reversible ? "yes" : "", method.kind, method.source});
+  const SceneKey &step = *find_key("step"), &tolerance = *find_key("tolerance");
+  return "# Methods\n\n"
+         "`method: auto`, the default, takes the cheapest method and step that keep `accuracy:` at every point that can be\n"
+         "seen, in every frame and halfway between. Any other is named, with a step or a tolerance:\n\n" +
+         code_block("yaml", "method: dop853\ntolerance: 1e-11\n") + "\n" +
+         "- `step`, where it is left out: " + step.absent + ".\n- `tolerance`, where it is left out: " + tolerance.absent +
+         ".\n- `order` of methods with several is 12 to 30 by the table; where it is left out: " + find_key("order")->absent +
+         ".\n\n" + markdown_table(table) + "\nThe units of `accuracy`:\n\n" +
+         table_of("unit", names_of(AccuracyUnit{})) + "\n" +
+         code_block("yaml", "method: auto\naccuracy: 1e-3 m\n") +
+         "\nWhat `expect:` says of a run:\n\n" + table_of("word", names_of(Outcome{}));
+}
+
+std::string expressions_page() {
+  static constexpr Name variables[] = {
+      {"t", "time, s"},
+      {"q1 q2 ..", "joint positions, rad or m; of a floating base x y z and the quaternion's x y z w"},
+      {"qd1 qd2 ..", "joint rates; of a floating base its twist in its own axes, linear then angular"},
+      {"x_G y_G z_G", "place of the end effector in the world, m"},
+      {"xd_G yd_G zd_G", "its velocity, m/s"},
+      {"x_H .. zd_H", "the same of each name H of `frames:`"},
+      {"k", "each name of `parameters:`"},
+      {"lambda1 ..", "multipliers of the constraints' rows, N or N m; in events and plots"},
+      {"cop heel toe", "with a `foot:`: the centre of pressure and the foot's ends, m along the ground; in events and plots"},
+      {"s", "in a constraint's curve: the way along it"},
+      {"pi", "3.14159.."}};
+  static constexpr Name operators[] = {{"+ - * /", ""},
+                                       {"^", "power; binds to the right"},
+                                       {"< <= > >= == !=", "1 where it holds, else 0"},
+                                       {"( )", ""}};
+  return "# Expressions\n\n"
+         "Torques, references, events and plots may be expressions. They are in SI units and radians: `* pi / 180`, not `deg`.\n"
+         "Where a torque has corners (comparisons, abs, min, max), steps end at them.\n\n" +
+         table_of("name", variables) + "\n" + table_of("operator", operators) + "\n" +
+         table_of("function", expression_functions()) + "\n" +
+         code_block("yaml", "parameters: {k: 80, F: 0.5}\ntorque: [-k * (q1 - sin(2 * t)), -F * max(-1, min(1, qd2 / 0.01))]\n"
+                            "events: [{when: \"y_G < 0.2\", kind: mark, name: low}]\nplot: [energy, \"x_G - 1\"]\n");
+}
+
+std::string outputs_page() {
+  std::vector<Name> endings;
+  for (const OutputFormat& row : output_formats()) endings.push_back({row.ending, row.told});
+  return "# What can be written\n\n"
+         "`-o` names a file by its ending, or a folder, and may stand several times: each frame is drawn once for all.\n"
+         "Without it, `video.preset` decides.\n\n" +
+         table_of("ending", endings) + "\n" + table_of("preset", names_of(Preset{})) + "\n" +
+         code_block("yaml", "video: {width: 1280, height: 720, fps: 50, preset: web, crf: 24}\n") +
+         "\nBeside a film lies NAME.json, its audit, and NAME.txt, its words. What a command does not overwrite without\n"
+         "`--force`: files outside of a folder named `out`.\n\n" +
+         code_block("sh", "build/chainreel render assets/scenes/rr_free.yaml -o out/rr.webm -o out/rr.gif\n");
+}
+
+std::string exit_codes_page() {
+  std::vector<std::vector<std::string>> table{{"code", "what it says"}};
+  for (const ExitRow& row : kExits) table.push_back({std::to_string(int(row.code)), row.meaning});
+  table.push_back({"129, 130, 131, 143", "ended by SIGHUP, SIGINT, SIGQUIT, SIGTERM: what was begun is taken away"});
+  return "# Exit codes\n\n" + markdown_table(table);
+}
+
+}  // namespace chainreel

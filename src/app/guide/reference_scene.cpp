@@ -1,0 +1,200 @@
+// Pages made of the table of keys.
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "app/guide/markdown.hpp"
+#include "app/guide/reference.hpp"
+#include "core/format.hpp"
+#include "scene/keys.hpp"
+
+namespace chainreel {
+namespace {
+
+
+
+std::string words_text(std::span<const Name> words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " or ") + code(words[i].name);
+  return text;
+}
+
+std::string value_cell(const KeyText& text);
+
+// Told in the row of a table: nothing hangs below it.
+bool is_short(const KeyText& text) {
+  if (text.form == KeyText::Form::list) return is_short(text.parts[0]) && text.parts[0].form != KeyText::Form::word;
+  if (text.form == KeyText::Form::either) return std::all_of(text.parts.begin(), text.parts.end(), is_short);
+  return text.form != KeyText::Form::record;
+}
+
+// What may be written as the value, in a few words.
+std::string value_words(const KeyText& text) {
+  switch (text.form) {
+    case KeyText::Form::number:
+      return "number";
+    case KeyText::Form::whole:
+      return "whole number";
+    case KeyText::Form::truth:
+      return "`true` or `false`";
+    case KeyText::Form::text:
+      return "text";
+    case KeyText::Form::path:
+      return "path";
+    case KeyText::Form::word:
+      return words_text(text.words);
+    case KeyText::Form::rate:
+      return "rate";
+    case KeyText::Form::accuracy:
+      return "number and unit";
+    case KeyText::Form::expression:
+      return "expression";
+    case KeyText::Form::list:
+      return is_short(text) ? "list of " + value_cell(text.parts[0]) + "s" : "list, see below";
+    case KeyText::Form::mapping:
+      return "names, each with a " + value_words(text.parts[0]);
+    case KeyText::Form::record:
+      return "see below";
+    case KeyText::Form::either:
+      break;
+  }
+  if (!is_short(text)) return "see below";
+  std::string words;
+  for (const KeyText& part : text.parts) words += (words.empty() ? "" : ", or ") + value_cell(part);
+  return words;
+}
+
+// "number, s", "number, above 0 s".
+std::string value_cell(const KeyText& text) {
+  std::string cell = value_words(text);
+  const std::string range = range_text(text.range, text.unit);
+  if (!text.unit.empty() && !range.ends_with(text.unit)) cell += ", " + text.unit;
+  return cell + (range.empty() ? "" : ", " + range);
+}
+
+std::string default_cell(const SceneKey& key) {
+  if (key.is_required) return "needed";
+  if (!key.absent.empty()) return key.absent;
+  return code(key.text(key, Scene{}));
+}
+
+// What hangs below a key, as a list in a list. Keys that stand there a second time are not told again.
+class Tree {
+ public:
+  void add(const KeyText& text, int depth) {
+    if (is_short(text)) return line(text, depth, value_cell(text));
+    if (text.form == KeyText::Form::list) {
+      line(text, depth, "a list, each entry");
+      return add(text.parts[0], depth + 1);
+    }
+    if (text.form == KeyText::Form::either) {
+      line(text, depth, "one of");
+      for (const KeyText& part : text.parts) add(part, depth + 1);
+      return;
+    }
+    std::string names;
+    for (const KeyText& part : text.parts) names += part.name + " ";
+    const bool is_new = names.empty() || told_.insert(names).second;
+    line(text, depth, is_new ? "keys" : "the same keys");
+    if (!is_new) return;
+    for (const KeyText& part : text.parts) add(part, depth + 1);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  void line(const KeyText& text, int depth, const std::string& value) {
+    text_ += std::string(std::size_t(2 * depth), ' ') + "- ";
+    if (!text.name.empty()) text_ += code(text.name) + (text.is_required ? " (needed): " : ": ");
+    text_ += value + (text.help.empty() ? "" : ": " + text.help) + "\n";
+  }
+
+  std::string text_;
+  std::set<std::string> told_;
+};
+
+std::string meanings_of(const SceneKey& key) {
+  std::string text;
+  for (const Name& word : key.words) text += "- " + code(word.name) + ": " + word.meaning + "\n";
+  return text;
+}
+
+std::vector<std::string> chapters() {
+  std::vector<std::string> names;
+  for (const SceneKey& key : scene_keys())
+    if (names.empty() || names.back() != key.chapter) names.push_back(key.chapter);
+  return names;
+}
+
+std::string chapter_text(const std::string& chapter) {
+  std::vector<std::vector<std::string>> table{{"key", "value", "left out", "what it is"}};
+  std::string details, examples;
+  for (const SceneKey& key : scene_keys()) {
+    if (key.chapter != chapter) continue;
+    if (!key.example.empty()) examples += key.example + "\n";
+    if (key.is_section) continue;
+    const std::string where = key.of == KeyOf::page ? "" : " *";
+    table.push_back({code(key.name) + where, value_cell(key), default_cell(key), key.help});
+    if (!key.words.empty())
+      details += "\n" + code(key.name) + ":\n\n" + meanings_of(key);
+    else if (key.name == "draw")
+      details += "\nThe layers of " + code(key.name) + " are on the page `layers`.\n";
+    else if (key.name == "constraints")
+      details += "\nThe kinds of " + code(key.name) + " are on the page `constraints`.\n";
+    else if (!is_short(key)) {
+      Tree tree;
+      tree.add(key, 0);
+      details += "\n" + tree.text();
+    }
+  }
+  return "\n## " + chapter + "\n\n" + markdown_table(table) + details +
+         (examples.empty() ? "" : "\n" + code_block("yaml", examples));
+}
+
+}  // namespace
+
+std::string scene_page() {
+  std::string text =
+      "# Keys of a scene\n\n"
+      "A scene is a YAML file. Each key may also be given on the command line: `--set video.width=640`; some have flags of\n"
+      "their own. Numbers are in SI units and radians, or constant expressions: `90deg`, `pi/2`, `1e-3`. Paths are relative\n"
+      "to the scene file. A key with * may differ from panel to panel of a comparison; the others belong to the whole\n"
+      "picture. `chainreel check SCENE` prints a scene with every key; `chainreel schema` prints a JSON Schema for editors.\n";
+  for (const std::string& chapter : chapters()) text += chapter_text(chapter);
+  return text;
+}
+
+std::string constraints_page() {
+  std::string text =
+      "# Constraints\n\n"
+      "A URDF knows trees alone; `constraints:` is a list of what ties the mechanism further. Two numbers lie in the plane of\n"
+      "motion, three are world x y z. The equations tau = M qdd + nle + J_c^T lambda are solved where rows repeat each other,\n"
+      "too. A start a little beside is moved, and that is said; one out of reach is refused with the distance.\n";
+  for (const KeyText& alternative : find_key("constraints")->parts[0].parts) {
+    const KeyText& kind = alternative.parts[0];
+    text += "\n## " + kind.name + "\n\n" + static_cast<char>(std::toupper(kind.help[0])) + kind.help.substr(1) + ".\n\n";
+    std::vector<std::vector<std::string>> table{{"key", "value", "what it is"}};
+    for (const KeyText& part : kind.parts) {
+      table.push_back({code(part.name) + (part.is_required ? "" : " (may be left out)"), value_cell(part), part.help});
+    }
+    text += markdown_table(table) + "\n" + code_block("yaml", "constraints: [" + kind.example + "]");
+  }
+  text += chapter_text(find_key("constraints")->chapter);
+  return text;
+}
+
+std::string layers_page() {
+  std::vector<std::vector<std::string>> table{{"layer", "shows"}};
+  for (const Name& layer : layer_names()) table.push_back({code(layer.name), layer.meaning});
+  const SceneKey& draw = *find_key("draw");
+  return "# Layers of a picture\n\n"
+         "`draw:` names what is shown. A list replaces the default one, " +
+         code(draw.text(draw, Scene{})) +
+         ";\nentries `+name` and `-name` edit it. Vectors of one kind share one scale over the whole clip, set by the largest of\n"
+         "them; it is printed whenever they are shown.\n\n" +
+         markdown_table(table) + "\n" + code_block("yaml", draw.example) +
+         "\nHow `ellipse` reads the effective mass:\n\n" + meanings_of(*find_key("ellipse.reading")) +
+         "\n" + code_block("yaml", find_key("ellipse")->example);
+}
+
+}  // namespace chainreel

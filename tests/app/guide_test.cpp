@@ -1,0 +1,161 @@
+// The reference and the pages for people: what lies in assets/guide is what the program says, and its examples run.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "core/json.hpp"
+#include "expr/expression.hpp"
+#include "scene/keys.hpp"
+#include "scene/read_scene.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+std::string guide_output(std::vector<std::string> words) {
+  words.insert(words.begin(), "help");
+  const ProgramResult result = run_program(words);
+  EXPECT_EQ(result.status, 0) << result.err;
+  return result.out;
+}
+
+std::vector<std::string> guide_topics() {
+  std::vector<std::string> topics;
+  for (const Json& one : parse_json(guide_output({"--json"}))) topics.push_back(one["topic"].get<std::string>());
+  return topics;
+}
+
+// A block of a page between fences, and where it stands.
+struct GuideBlock {
+  std::string page, language, text;
+};
+
+std::vector<GuideBlock> guide_blocks(const std::string& language) {
+  std::vector<GuideBlock> blocks;
+  std::vector<fs::path> pages{"README.md"};
+  for (const auto& entry : fs::directory_iterator("assets/guide"))
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  for (const fs::path& page : pages) {
+    std::istringstream text(read_whole_file(page.string()));
+    bool inside = false;
+    for (std::string line; std::getline(text, line);) {
+      if (!line.starts_with("```")) {
+        if (inside) blocks.back().text += line + "\n";
+        continue;
+      }
+      inside = !inside;
+      if (inside) blocks.push_back({page.string(), line.substr(3), ""});
+    }
+    EXPECT_FALSE(inside) << page << ": a fence is left open";
+  }
+  std::erase_if(blocks, [&](const GuideBlock& block) { return block.language != language; });
+  return blocks;
+}
+
+// `CHAINREEL_UPDATE_GOLDEN=1` writes the pages anew.
+TEST(Guide, PagesAreWhatTheProgramSays) {
+  const std::vector<std::string> topics = guide_topics();
+  EXPECT_THAT(topics, testing::IsSupersetOf({"scene", "methods", "constraints", "outputs"}));
+  for (const std::string& topic : topics) {
+    const std::string path = "assets/guide/" + topic + ".md", text = guide_output({topic});
+    if (std::getenv("CHAINREEL_UPDATE_GOLDEN")) std::ofstream(path) << text;
+    EXPECT_TRUE(fs::exists(path) && read_whole_file(path) == text)
+        << path << " is old: write it by `chainreel help " << topic << " > " << path
+        << "`, or all by this test with CHAINREEL_UPDATE_GOLDEN=1";
+  }
+}
+
+TEST(Guide, TellsOfEveryKeyWithItsUnitRangeAndDefault) {
+  const std::string page = guide_output({"scene"});
+  for (const SceneKey& key : scene_keys()) {
+    if (key.is_section) continue;
+    const std::size_t row = page.find("| `" + key.name + "`");
+    ASSERT_NE(row, std::string::npos) << key.name;
+    const std::string line = page.substr(row, page.find('\n', row) - row);
+    EXPECT_THAT(line, HasSubstr(key.unit));
+    EXPECT_THAT(line, HasSubstr(range_text(key.range, key.unit)));
+    EXPECT_THAT(line, HasSubstr(key.absent.empty() ? key.text(key, Scene{}) : key.absent));
+    EXPECT_THAT(line, HasSubstr(key.help));
+    for (const Name& word : key.words) EXPECT_THAT(line, HasSubstr(std::string("`") + word.name + "`"));
+  }
+}
+
+// Fragments of scenes are completed by a model and what they presuppose.
+TEST(Guide, ExamplesOfScenesAreRead) {
+  const std::vector<GuideBlock> blocks = guide_blocks("yaml");
+  EXPECT_GE(blocks.size(), 15u);
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path() / "assets");
+  fs::create_directory_symlink(fs::absolute("models"), folder.path() / "models");
+  fs::create_directory_symlink(fs::absolute("assets/scenes"), folder.path() / "assets/scenes");
+  fs::create_directory(folder.path() / "assets/mine");
+  for (const GuideBlock& block : blocks) {
+    const bool is_whole = block.text.find("model:") != std::string::npos;
+    const std::string path = (folder.path() / "assets/mine/scene.yaml").string();
+    std::ofstream(path) << (is_whole ? "" : "model: ../../models/rr.urdf\n") << block.text;
+    try {
+      read_scene(path);
+    } catch (const Error& error) {
+      ADD_FAILURE() << block.page << ":\n" << block.text << error.what();
+    }
+  }
+}
+
+TEST(Guide, CommandsRun) {
+  const TemporaryFolder folder;
+  for (const char* part : {"assets", "models"})
+    fs::create_directory_symlink(fs::absolute(part), folder.path() / part);
+  fs::create_directory_symlink(fs::path(program_path()).parent_path(), folder.path() / "build");
+  int commands = 0;
+  for (const GuideBlock& block : guide_blocks("sh")) {
+    std::istringstream lines(block.text);
+    for (std::string line; std::getline(lines, line);) {
+      if (!line.starts_with("build/chainreel ")) continue;
+      if (line.find(" render ") != std::string::npos)
+        line += " --set duration=0.2 --set video.width=320 --set video.height=180";
+      const ProgramResult result = run_command({"sh", "-c", line}, {.folder = folder.path().string()});
+      EXPECT_EQ(result.status, 0) << block.page << ": " << line << "\n" << result.err;
+      ++commands;
+    }
+  }
+  EXPECT_GE(commands, 8);
+}
+
+TEST(Guide, LinksLeadSomewhere) {
+  static const std::regex link(R"(\]\(([^)#]+)\))");
+  for (const auto& entry : fs::directory_iterator("assets/guide")) {
+    if (entry.path().extension() != ".md") continue;
+    const std::string text = read_whole_file(entry.path().string());
+    for (std::sregex_iterator at(text.begin(), text.end(), link), end; at != end; ++at)
+      if (!(*at)[1].str().starts_with("http"))
+        EXPECT_TRUE(fs::exists(entry.path().parent_path() / (*at)[1].str())) << entry.path() << ": " << (*at)[1];
+  }
+}
+
+TEST(Help, OnACommandIsItsOwn) {
+  EXPECT_EQ(guide_output({"render"}), run_program({"render", "--help"}).out);
+  const ProgramResult wrong = run_program({"help", "scenes"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("did you mean 'scene'?"));
+}
+
+TEST(Help, ToldNamesAreThoseThatExpressionsKnow) {
+  const std::string page = guide_output({"expressions"});
+  for (const char* function : {"sin", "atan2", "max"}) {
+    EXPECT_THAT(page, HasSubstr(std::string("`") + function + "("));
+    EXPECT_TRUE(is_reserved_name(function));
+  }
+}
+
+}  // namespace
+}  // namespace chainreel
