@@ -166,18 +166,6 @@ TEST(Interrupt, IsHeardByGalleryAndSheet) {
   }
 }
 
-// Lines of the README's shell blocks that call the program, with small pictures.
-std::vector<std::string> readme_commands() {
-  std::vector<std::string> commands;
-  std::istringstream text(read_whole_file("README.md"));
-  bool shell = false;
-  for (std::string line; std::getline(text, line);) {
-    if (line.starts_with("```")) shell = line == "```sh";
-    if (shell && line.starts_with("build/chainreel ")) commands.push_back(line.substr(0, line.find("  #")));
-  }
-  return commands;
-}
-
 // What a page for people shows must be there, and be small enough to load at once.
 TEST(Readme, PicturesAreThereAndTheFirstIsTheSheetOfAllScenes) {
   const std::string text = read_whole_file("README.md");
@@ -209,25 +197,6 @@ TEST(Readme, SheetShowsEveryScene) {
     ++scenes;
   }
   EXPECT_EQ(std::count(words.begin(), words.end(), ';') + 1, scenes) << remedy;
-}
-
-TEST(Readme, CommandsRun) {
-  const std::vector<std::string> commands = readme_commands();
-  EXPECT_GE(commands.size(), 5u);
-  const TemporaryFolder folder;
-  for (const char* part : {"assets", "models", "build"}) {
-    const fs::path target =
-        std::string(part) == "build" ? fs::path(program_path()).parent_path() : fs::absolute(part);
-    fs::create_directory_symlink(target, folder.path() / part);
-  }
-  for (const std::string& command : commands) {
-    std::string line = command;
-    if (line.find(" render ") != std::string::npos)
-      line += " --set duration=0.2 --set video.width=320 --set video.height=180";
-    const ProgramResult result = run_command({"sh", "-c", line}, {.folder = folder.path().string()});
-    EXPECT_EQ(result.status, 0) << command << "\n" << result.err;
-  }
-  for (const char* made : {"out/sheet.png", "out/index.html"}) EXPECT_TRUE(fs::exists(folder.path() / made)) << made;
 }
 
 }  // namespace

@@ -69,8 +69,7 @@ std::string methods_page() {
          "seen, in every frame and halfway between. Any other is named, with a step or a tolerance:\n\n" +
          code_block("yaml", "method: dop853\ntolerance: 1e-11\n") + "\n" +
          "- `step`, where it is left out: " + step.absent + ".\n- `tolerance`, where it is left out: " + tolerance.absent +
-         ".\n- `order` of methods with several is 12 to 30 by the table; where it is left out: " + find_key("order")->absent +
-         ".\n\n" + markdown_table(table) + "\nThe units of `accuracy`:\n\n" +
+         ".\n- `order` of methods with several, see the table; where it is left out: " + find_key("order")->absent + ".\n\n" + markdown_table(table) + "\nThe units of `accuracy`:\n\n" +
          table_of("unit", names_of(AccuracyUnit{})) + "\n" +
          code_block("yaml", "method: auto\naccuracy: 1e-3 m\n") +
          "\nWhat `expect:` says of a run:\n\n" + table_of("word", names_of(Outcome{}));
