@@ -180,7 +180,7 @@ ThemeName theme_of(const FlagValues& values) {
 double text_scale_of(const FlagValues& values) {
   const std::string text = given(values, "text_scale");
   if (text.empty()) return Scene{}.text_scale;
-  const Range range = find_key("text_scale")->range;
+  const KeyRange range = find_key("text_scale")->range;
   const auto scale = parse_number(text);
   if (!scale || !range.holds(*scale))
     throw Error(ExitCode::usage, "--text-scale takes a number " + range_text(range, "") + ", not '" + text + "'");

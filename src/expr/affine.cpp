@@ -50,7 +50,7 @@ class Affine {
     return *this;
   }
 
-  // Of two polynomials.
+  // The product of two polynomials in t.
   static std::optional<Affine> product(const Affine& a, const Affine& b) {
     if (a.degree() + b.degree() > std::size_t(kHighestPowerOfTime)) return {};
     Affine result(T(0), a.form_.weights.size());

@@ -151,7 +151,7 @@ CorneredProgram part_of(const CorneredProgram& program, std::size_t begin, std::
   return part;
 }
 
-// Of a power: one whose exponent is a whole number has no corner.
+// Whether a power may have a corner: one whose exponent is a whole number has none.
 bool may_bend(const CorneredProgram& program, std::size_t middle, std::size_t end) {
   if (end - middle != 1) return true;
   const Instruction& exponent = program.instructions[middle];

@@ -20,7 +20,7 @@ struct Course {
   Range value, slope;
 };
 
-// Of programs over the same variables, all of which but t are constants.
+// The courses of programs over the same variables, all of which but t are constants.
 class Courses {
  public:
   explicit Courses(std::span<const VariableUse> uses) : uses_(uses) {}

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kCells = 1024;   // of the duration
 constexpr double kTall = 0.1;  // of the largest value: what a pulse reaches
-// Of its height, where it begins and ends: long steps that end there feel less of it than of what is within.
+// The share of its height at which a pulse begins and ends: long steps that end there feel less of it than of what is within.
 constexpr double kFoot = 1e-9;
 constexpr int kParts = 32;          // that it is divided into
 constexpr int kMostPieces = 512;    // looked at within a cell

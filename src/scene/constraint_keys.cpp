@@ -68,9 +68,9 @@ void write_closure(YAML::Emitter& out, const ConstraintEntry& entry) {
 
 std::vector<KeyText> tell_closure() {
   return {told_either("axis",
-                      {told("", KeyText::Form::truth, ""), told_list("", told("", KeyText::Form::number, ""), "")},
+                      {told("", KeyForm::truth, ""), told_list("", told("", KeyForm::number, ""), "")},
                       "they turn against each other about one axis alone: true, the frames' z, or its direction"),
-          told("weld", KeyText::Form::truth, "they do not turn against each other")};
+          told("weld", KeyForm::truth, "they do not turn against each other")};
 }
 
 void read_coefficients(Fields& fields, ConstraintEntry& entry) {
@@ -98,7 +98,7 @@ void write_coefficients(YAML::Emitter& out, const ConstraintEntry& entry) {
 }
 
 std::vector<KeyText> tell_coefficients() {
-  return {told_mapping("coefficients", told("", KeyText::Form::number, ""), "joints and their factors").required()};
+  return {told_mapping("coefficients", told("", KeyForm::number, ""), "joints and their factors").required()};
 }
 
 const std::vector<Kind>& kinds() {
@@ -179,7 +179,6 @@ void write_member(YAML::Emitter& out, const ConstraintEntry& entry, const Member
 }
 
 KeyText told_kind(const Kind& kind) {
-  using Form = KeyText::Form;
   std::vector<KeyText> parts;
   for (const Member& member : kind.members) {
     if (const auto* hand = std::get_if<ByHand>(&member.value)) {
@@ -187,10 +186,10 @@ KeyText told_kind(const Kind& kind) {
       continue;
     }
     KeyText part = member.value.index() == 1
-                       ? told_list(member.key, told("", Form::number, ""), member.help)
-                       : told(member.key, member.value.index() == 2 ? Form::number
-                                          : member.is_expression    ? Form::expression
-                                                                    : Form::text,
+                       ? told_list(member.key, told("", KeyForm::number, ""), member.help)
+                       : told(member.key, member.value.index() == 2 ? KeyForm::number
+                                          : member.is_expression    ? KeyForm::expression
+                                                                    : KeyForm::text,
                               member.help);
     part.unit = member.unit;
     part.is_required = member.need == Member::Need::required;
@@ -297,10 +296,9 @@ std::string constraints_text(const Scene& scene) {
 }
 
 KeyText told_contact_force() {
-  using Form = KeyText::Form;
   KeyText one = told_record(
-      "", {told("constraint", Form::whole, "its number in the list, from 1; 1 where it is left out").within({1}),
-           told_list("force", told("", Form::number, ""), "of the robot on it").in("N").required()},
+      "", {told("constraint", KeyForm::whole, "its number in the list, from 1; 1 where it is left out").within({1}),
+           told_list("force", told("", KeyForm::number, ""), "of the robot on it").in("N").required()},
       "");
   return told_either("contact_force", {one, told_list("", one, "")}, "forces to press with on constraints");
 }

@@ -23,14 +23,13 @@ EventEntry read_event(Fields& fields, const YAML::Node& node, const std::string&
 }  // namespace
 
 KeyText told_events() {
-  using Form = KeyText::Form;
   return told_list("events",
                    told_record("",
-                               {told("when", Form::expression,
+                               {told("when", KeyForm::expression,
                                      "`y_H < 0.5`: when this becomes true; `q1 - pi/2`: when it becomes zero")
                                     .required(),
                                 told_word("kind", names_of(EventKind{}), "what comes of it; mark where it is left out"),
-                                told("name", Form::text, "by which films and `slow_motion` call it; else `when` itself"),
+                                told("name", KeyForm::text, "by which films and `slow_motion` call it; else `when` itself"),
                                 told_word("direction", names_of(Crossing{}),
                                           "of an expression that is no comparison; either where it is left out")},
                                "an event"),

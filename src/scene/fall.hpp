@@ -29,7 +29,7 @@ struct FallRow {
   std::vector<std::optional<double>> first;  // the first time of each event, s
   std::string trouble;
 
-  // Of a scene with a foot: when the centre of pressure first left it, s, over toe or heel. From then on a flat foot
+  // When the centre of pressure first left the scene's foot, s, over toe or heel. From then on a flat foot
   // on the ground would tip, which the model's, fixed to the world, does not.
   std::optional<double> tips;
   bool over_toe = false;

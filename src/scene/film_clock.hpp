@@ -44,7 +44,7 @@ class FilmClock {
 
   double film_time(double t) const;  // when the film is at instant t of the motion, s
   double speed_at(double t) const;   // a stretch holds from its first instant on, and no more at its last
-  // Of the motion between two frames where they are closest, s.
+  // How much of the motion lies between the two frames that are closest in it, s.
   double shortest_step() const;
 
  private:

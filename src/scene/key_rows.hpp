@@ -33,12 +33,12 @@ std::string text_of(const std::optional<T>& value) {
 }
 
 // What is told of a value of this type.
-inline KeyText told_of(const std::string&) { return told("", KeyText::Form::text, ""); }
-inline KeyText told_of(bool) { return told("", KeyText::Form::truth, ""); }
-inline KeyText told_of(int) { return told("", KeyText::Form::whole, ""); }
-inline KeyText told_of(double) { return told("", KeyText::Form::number, ""); }
-inline KeyText told_of(FrameRate) { return told("", KeyText::Form::rate, ""); }
-inline KeyText told_of(const Accuracy&) { return told("", KeyText::Form::accuracy, ""); }
+inline KeyText told_of(const std::string&) { return told("", KeyForm::text, ""); }
+inline KeyText told_of(bool) { return told("", KeyForm::truth, ""); }
+inline KeyText told_of(int) { return told("", KeyForm::whole, ""); }
+inline KeyText told_of(double) { return told("", KeyForm::number, ""); }
+inline KeyText told_of(FrameRate) { return told("", KeyForm::rate, ""); }
+inline KeyText told_of(const Accuracy&) { return told("", KeyForm::accuracy, ""); }
 inline KeyText told_of(const std::vector<double>&) { return told_list("", told_of(0.0), ""); }
 inline KeyText told_of(const Eigen::Vector3d&) { return told_list("", told_of(0.0), ""); }
 template <Named Enum>

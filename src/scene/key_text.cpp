@@ -23,7 +23,7 @@ KeyText KeyText::in(std::string its_unit) && {
   return std::move(*this);
 }
 
-KeyText KeyText::within(Range its_range) && {
+KeyText KeyText::within(KeyRange its_range) && {
   range = its_range;
   return std::move(*this);
 }
@@ -33,7 +33,7 @@ KeyText KeyText::required() && {
   return std::move(*this);
 }
 
-KeyText told(std::string name, KeyText::Form form, std::string help) {
+KeyText told(std::string name, KeyForm form, std::string help) {
   KeyText text;
   text.name = std::move(name);
   text.form = form;
@@ -42,36 +42,36 @@ KeyText told(std::string name, KeyText::Form form, std::string help) {
 }
 
 KeyText told_word(std::string name, std::span<const Name> words, std::string help) {
-  KeyText text = told(std::move(name), KeyText::Form::word, std::move(help));
+  KeyText text = told(std::move(name), KeyForm::word, std::move(help));
   text.words = words;
   return text;
 }
 
 KeyText told_list(std::string name, KeyText item, std::string help) {
-  KeyText text = told(std::move(name), KeyText::Form::list, std::move(help));
+  KeyText text = told(std::move(name), KeyForm::list, std::move(help));
   text.parts.push_back(std::move(item));
   return text;
 }
 
 KeyText told_mapping(std::string name, KeyText value, std::string help) {
-  KeyText text = told(std::move(name), KeyText::Form::mapping, std::move(help));
+  KeyText text = told(std::move(name), KeyForm::mapping, std::move(help));
   text.parts.push_back(std::move(value));
   return text;
 }
 
 KeyText told_record(std::string name, std::vector<KeyText> parts, std::string help) {
-  KeyText text = told(std::move(name), KeyText::Form::record, std::move(help));
+  KeyText text = told(std::move(name), KeyForm::record, std::move(help));
   text.parts = std::move(parts);
   return text;
 }
 
 KeyText told_either(std::string name, std::vector<KeyText> parts, std::string help) {
-  KeyText text = told(std::move(name), KeyText::Form::either, std::move(help));
+  KeyText text = told(std::move(name), KeyForm::either, std::move(help));
   text.parts = std::move(parts);
   return text;
 }
 
-std::string range_text(const Range& range, const std::string& unit) {
+std::string range_text(const KeyRange& range, const std::string& unit) {
   const std::string behind = unit.empty() || unit == "rad" ? "" : " " + unit;
   if (range.is_all()) return "";
   const std::string least = bound_text(range.least, unit), most = bound_text(range.most, unit);

@@ -229,7 +229,7 @@ std::vector<SceneKey> table() {
 
 // Names of what holds a path, however deep; a mapping's have none.
 void collect_paths(const KeyText& text, std::vector<std::string>& names) {
-  if (text.form == KeyText::Form::path && !text.name.empty() &&
+  if (text.form == KeyForm::path && !text.name.empty() &&
       std::find(names.begin(), names.end(), text.name) == names.end())
     names.push_back(text.name);
   for (const KeyText& part : text.parts) collect_paths(part, names);

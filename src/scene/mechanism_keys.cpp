@@ -8,7 +8,7 @@
 namespace chainreel {
 
 KeyText told_model() {
-  return told("model", KeyText::Form::path, "the mechanism, a URDF file").required();
+  return told("model", KeyForm::path, "the mechanism, a URDF file").required();
 }
 
 void read_model(Fields& fields, Scene& scene) {
@@ -25,7 +25,7 @@ std::string model_text(const Scene& scene) {
 }
 
 KeyText told_packages() {
-  return told_mapping("packages", told("", KeyText::Form::path, "its folder"), "where package://NAME of the model lies");
+  return told_mapping("packages", told("", KeyForm::path, "its folder"), "where package://NAME of the model lies");
 }
 
 void read_packages(Fields& fields, Scene& scene) {
@@ -42,7 +42,7 @@ void write_packages(const Scene& scene, std::vector<SceneEntry>& entries) {
 }
 
 KeyText told_parameters() {
-  return told_mapping("parameters", told("", KeyText::Form::number, "its value"), "names that expressions may read");
+  return told_mapping("parameters", told("", KeyForm::number, "its value"), "names that expressions may read");
 }
 
 void read_parameters(Fields& fields, Scene& scene) {
@@ -67,7 +67,7 @@ void write_parameters(const Scene& scene, std::vector<SceneEntry>& entries) {
 }
 
 KeyText told_frames() {
-  return told_mapping("frames", told("", KeyText::Form::text, "a link, or a joint for the link behind it"),
+  return told_mapping("frames", told("", KeyForm::text, "a link, or a joint for the link behind it"),
                       "names by which expressions read places: with H, x_H y_H z_H xd_H yd_H zd_H");
 }
 

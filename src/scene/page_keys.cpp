@@ -74,7 +74,7 @@ std::string draw_text(const Scene& scene) {
 KeyText told_fit() {
   static constexpr Name motion[] = {{"motion", "all of it"}};
   return told_either("camera.fit",
-                     {told_word("", motion, ""), told_list("", told("", KeyText::Form::number, ""),
+                     {told_word("", motion, ""), told_list("", told("", KeyForm::number, ""),
                                                            "left, bottom, right, top: m right and up of the world's origin")},
                      "the part that is shown: motion, or [left, bottom, right, top] in metres")
       .in("m");

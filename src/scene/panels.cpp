@@ -39,7 +39,7 @@ std::string rounded(const std::string& text) {
 
 std::string words_of(const SceneEntry& entry) {
   const SceneKey& key = *find_key(entry.key);
-  if (key.form == KeyText::Form::path) return std::filesystem::path(entry.text).stem().string();
+  if (key.form == KeyForm::path) return std::filesystem::path(entry.text).stem().string();
   const std::string value = in_words(entry.text);
   if (key.caption.empty()) return entry.key.substr(entry.key.find('.') + 1) + " = " + value;
   std::string words = key.caption;

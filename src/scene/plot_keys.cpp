@@ -29,12 +29,12 @@ PlotEntry read_entry(Fields& fields, const YAML::Node& node, const std::string& 
 
 KeyText told_plot() {
   const auto value = [](const char* name) {
-    return told(name, KeyText::Form::expression,
+    return told(name, KeyForm::expression,
                 "a quantity or an expression; the quantities are " + joined(words_of(names_of(PlotQuantity{}))));
   };
   const auto entry = [&] {
     return told_either("", {value(""), told_record("", {value("value").required(),
-                                                        told("title", KeyText::Form::text,
+                                                        told("title", KeyForm::text,
                                                              "of the axis, its unit in brackets")},
                                                    "a plot with a title of its own")},
                        "a plot");

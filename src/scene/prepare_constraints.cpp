@@ -18,7 +18,7 @@ namespace {
 constexpr double kFarthestMove = 0.5;  // of a coordinate, rad or m
 // Less is the rounding of a start that was written with all its digits.
 constexpr double kNoteworthy = 1e-9;  // m or rad, and per second
-// Of a force: less is the rounding of a direction.
+// A share of a force: less than it is the rounding of a direction.
 constexpr double kBorne = 1e-9;
 
 class PlanMaker {

@@ -25,28 +25,28 @@ Json record_of(const std::vector<KeyText>& parts) {
 
 Json form_of(const KeyText& text) {
   switch (text.form) {
-    case KeyText::Form::number:
+    case KeyForm::number:
       return {{"type", kNumberOrText}};
-    case KeyText::Form::whole:
+    case KeyForm::whole:
       return {{"type", "integer"}};
-    case KeyText::Form::truth:
+    case KeyForm::truth:
       return {{"type", "boolean"}};
-    case KeyText::Form::text:
-    case KeyText::Form::path:
+    case KeyForm::text:
+    case KeyForm::path:
       return {{"type", kAnyScalar}};
-    case KeyText::Form::word:
+    case KeyForm::word:
       return {{"enum", words_of(text.words)}};
-    case KeyText::Form::rate:
-    case KeyText::Form::accuracy:
-    case KeyText::Form::expression:
+    case KeyForm::rate:
+    case KeyForm::accuracy:
+    case KeyForm::expression:
       return {{"type", kNumberOrText}};
-    case KeyText::Form::list:
+    case KeyForm::list:
       return {{"type", "array"}, {"items", schema_of(text.parts[0])}};
-    case KeyText::Form::mapping:
+    case KeyForm::mapping:
       return {{"type", "object"}, {"additionalProperties", schema_of(text.parts[0])}};
-    case KeyText::Form::record:
+    case KeyForm::record:
       return record_of(text.parts);
-    case KeyText::Form::either:
+    case KeyForm::either:
       break;
   }
   Json json;

@@ -133,14 +133,13 @@ void check_length(Fields& fields, const YAML::Node& node, const Scene& scene) {
 }  // namespace
 
 KeyText told_slow_motion() {
-  using Form = KeyText::Form;
   return told_list("slow_motion",
                    told_record("",
-                               {told("event", Form::text, "a name of `events:`; `from` and `until` are seconds from its "
+                               {told("event", KeyForm::text, "a name of `events:`; `from` and `until` are seconds from its "
                                                           "instants on, before it with a minus"),
-                                told("from", Form::number, "the first instant").in("s").required(),
-                                told("until", Form::number, "the last instant").in("s").required(),
-                                told("speed", Form::number, "0.25 is four times slower, 4 four times faster")
+                                told("from", KeyForm::number, "the first instant").in("s").required(),
+                                told("until", KeyForm::number, "the last instant").in("s").required(),
+                                told("speed", KeyForm::number, "0.25 is four times slower, 4 four times faster")
                                     .within({kSlowest, kFastest})
                                     .required()},
                                "a stretch"),

@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kInstants = 100;
 constexpr double kMostCells = 1e6;  // more than a page has room for
-// Of all energies that were added up: less is rounding, whatever the motion.
+// A share of all energies that were added up: less than it is rounding, whatever the motion.
 constexpr double kRounding = 1e-9;
 
 // What was seen of a run's energy.

@@ -117,13 +117,12 @@ void emit_control(YAML::Emitter& out, const Control& control) {
 }
 
 KeyText told_feedback(const char* name, const char* help) {
-  using Form = KeyText::Form;
   const auto gain = [](const char* key, const char* what) {
-    return told_either(key, {told("", Form::number, "for all"), told_list("", told("", Form::number, ""), "one a freedom")},
+    return told_either(key, {told("", KeyForm::number, "for all"), told_list("", told("", KeyForm::number, ""), "one a freedom")},
                        what);
   };
   const auto course = [](const char* key, const char* what) {
-    return told_either(key, {told("", Form::expression, ""), told_list("", told("", Form::expression, ""), "one a freedom")},
+    return told_either(key, {told("", KeyForm::expression, ""), told_list("", told("", KeyForm::expression, ""), "one a freedom")},
                        what);
   };
   return told_record(name,
@@ -131,29 +130,27 @@ KeyText told_feedback(const char* name, const char* help) {
                       course("q", "the motion to follow, expressions in t; its derivatives are taken exactly"),
                       course("qd", "its rates, where they are not the derivatives"),
                       course("qdd", "its accelerations, likewise"),
-                      told("trajectory", Form::path, "a table with t,q1.. and maybe qd1.., qdd1.. in the place of q"),
+                      told("trajectory", KeyForm::path, "a table with t,q1.. and maybe qd1.., qdd1.. in the place of q"),
                       told_word("outside", names_of(Outside{}), "what the table is taken for beyond its rows")},
                      help);
 }
 
 KeyText told_control(const char* name) {
-  using Form = KeyText::Form;
   return told_record(name,
-                     {told("csv", Form::path, "a table with t,tau1..; linear between its rows, where steps end"),
-                      told("inverse_of", Form::path, "a table with t,q1..: the torques that this motion takes"),
+                     {told("csv", KeyForm::path, "a table with t,tau1..; linear between its rows, where steps end"),
+                      told("inverse_of", KeyForm::path, "a table with t,q1..: the torques that this motion takes"),
                       told_word("outside", names_of(Outside{}), "what these tables are taken for beyond their rows"),
                       told_feedback("pd", "kp (q_ref - q) + kd (qd_ref - qd)"),
                       told_feedback("computed_torque", "M (qdd_ref + kd (qd_ref - qd) + kp (q_ref - q)) + nle + tau_f"),
-                      told("gravity_compensation", Form::truth, "tau_g(q)")},
+                      told("gravity_compensation", KeyForm::truth, "tau_g(q)")},
                      "what drives the whole chain, or one joint; its parts add up");
 }
 
 }  // namespace
 
 KeyText told_torque() {
-  using Form = KeyText::Form;
   return told_either("torque",
-                     {told_control(""), told_list("", told_either("", {told("", Form::expression, ""), told_control("")}, ""),
+                     {told_control(""), told_list("", told_either("", {told("", KeyForm::expression, ""), told_control("")}, ""),
                                                   "a number, an expression or a control a joint")},
                      "what drives the joints, N m or N");
 }

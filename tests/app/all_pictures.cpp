@@ -42,7 +42,7 @@ std::shared_ptr<FilmRun> run_film(const std::string& scene, Words overrides, con
 }
 
 void set_look(Scene& scene, const PictureLook& look) {
-  scene.theme = look.theme;
+  scene.theme = *value_named<ThemeName>(look.theme);
   scene.text_scale = look.text_scale;
   scene.video.width = look.width;
   scene.video.height = look.height;

@@ -81,6 +81,8 @@ class EveryCommand : public ::testing::Test {
         {"check", {{kScene}, ""}},
         {"doctor", {{}, ""}},
         {"methods", {{}, ""}},
+        {"schema", {{}, ""}},
+        {"help", {{}, ""}},
         {"chart",
          {with({"assets/scenes/rr_free.yaml", "--methods", "rk4", "--runs", "1", "--longest", "0.001"},
                kShort),

@@ -92,7 +92,9 @@ TEST(Guide, TellsOfEveryKeyWithItsUnitRangeAndDefault) {
     const std::string line = page.substr(row, page.find('\n', row) - row);
     EXPECT_THAT(line, HasSubstr(key.unit));
     EXPECT_THAT(line, HasSubstr(range_text(key.range, key.unit)));
-    EXPECT_THAT(line, HasSubstr(key.absent.empty() ? key.text(key, Scene{}) : key.absent));
+    EXPECT_THAT(line, HasSubstr(key.is_required       ? "needed"
+                                : key.absent.empty() ? key.text(key, Scene{})
+                                                     : key.absent));
     EXPECT_THAT(line, HasSubstr(key.help));
     for (const Name& word : key.words) EXPECT_THAT(line, HasSubstr(std::string("`") + word.name + "`"));
   }

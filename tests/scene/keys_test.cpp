@@ -14,7 +14,6 @@
 namespace chainreel {
 namespace {
 
-using Form = KeyText::Form;
 using testing::HasSubstr;
 
 class Keys : public WrittenScenes {
@@ -51,7 +50,7 @@ TEST_F(Keys, StandOnceEachWithAMeaning) {
 
 TEST_F(Keys, OfWordsTakeEachOfThemAndWriteItBack) {
   for (const SceneKey& key : scene_keys()) {
-    if (key.form != Form::word || key.name == "layout") continue;
+    if (key.form != KeyForm::word || key.name == "layout") continue;
     for (const Name& word : key.words) {
       const std::string text = key.text(key, read("", with(key, word.name)));
       EXPECT_EQ(text, word.name) << key.name;
@@ -63,12 +62,12 @@ TEST_F(Keys, OfWordsTakeEachOfThemAndWriteItBack) {
 TEST_F(Keys, TakeNumbersUpToTheEndsOfTheirRangesAndNoFurther) {
   int ends = 0;
   for (const SceneKey& key : scene_keys()) {
-    if (key.form != Form::number && key.form != Form::whole) continue;
+    if (key.form != KeyForm::number && key.form != KeyForm::whole) continue;
     for (const double end : {key.range.least, key.range.most}) {
       if (!std::isfinite(end)) continue;
       ++ends;
       const double away = end == key.range.least ? -1 : 1;
-      const double beyond = key.form == Form::whole ? end + away : end + away * std::max(std::abs(end), 1.0) * 1e-3;
+      const double beyond = key.form == KeyForm::whole ? end + away : end + away * std::max(std::abs(end), 1.0) * 1e-3;
       const std::string refusal = error("", with(key, format_exact(beyond)));
       EXPECT_THAT(refusal, HasSubstr("'" + key.name + "' must")) << beyond;
       EXPECT_THAT(refusal, HasSubstr(range_text(key.range, key.unit)));

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "core/output_file.hpp"
+#include "scene/keys.hpp"
 
 namespace chainreel {
 namespace {
@@ -25,6 +26,17 @@ std::string with_name(std::string text, const std::string& name) {
   return text;
 }
 
+// Each "#@key" becomes what the table of keys says of it: "# of the motion, s".
+std::string with_comments(std::string text) {
+  const std::string mark = "#@";
+  for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at)) {
+    const std::size_t end = text.find('\n', at);
+    const SceneKey& key = *find_key(text.substr(at + mark.size(), end - at - mark.size()));
+    text.replace(at, end - at, "# " + key.help + (key.unit.empty() ? "" : ", " + key.unit));
+  }
+  return text;
+}
+
 void run_init(const InitOptions& options) {
   std::filesystem::path base(options.name);
   if (base.extension() == ".yaml" || base.extension() == ".urdf") base.replace_extension();
@@ -35,7 +47,7 @@ void run_init(const InitOptions& options) {
   OutputFile scene(base.string() + ".yaml", options.common.force);
   OutputFile model(base.string() + ".urdf", options.common.force);
   write_whole(model, with_name(kStarterModel, name));
-  write_whole(scene, with_name(kStarterScene, name));
+  write_whole(scene, with_name(with_comments(kStarterScene), name));
   if (options.common.json)
     std::puts(Json{{"files", {scene.path(), model.path()}}}.dump(2).c_str());
   else if (!options.common.quiet)

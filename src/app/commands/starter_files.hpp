@@ -1,23 +1,24 @@
-// The texts that `chainreel init` writes; @NAME@ stands for the name that the user chose.
+// The texts that `chainreel init` writes; @NAME@ stands for the name that the user chose, and behind #@ stands a key whose
+// meaning and unit the table of keys says.
 #pragma once
 
 namespace chainreel {
 
-inline constexpr char kStarterScene[] = R"(# A scene: what moves, what drives it, and what the film shows.
+inline constexpr char kStarterScene[] = R"(# A scene: what moves, what drives it, and what the film shows. All keys: chainreel help scene
 title: "@NAME@"
-model: @NAME@.urdf            # relative to this file
-gravity: [0, -9.81, 0]        # m/s^2 in world x (right), y (up), z (to the viewer)
+model: @NAME@.urdf            #@model
+gravity: [0, -9.81, 0]        #@gravity
 start:
-  q: [-60deg, 40deg]          # one number a joint; radians, or degrees with deg
-  qd: [0, 0]                  # rad/s
-parameters: {k: 0.2}          # names that expressions may use
-torque:                       # one number or expression a joint, N m
+  q: [-60deg, 40deg]          #@start.q
+  qd: [0, 0]                  #@start.qd
+parameters: {k: 0.2}          #@parameters
+torque:                       #@torque
   - 0
   - -k * qd2                  # t, q1.., qd1.., x_G y_G z_G, xd_G yd_G zd_G, the parameters
-duration: 5                   # s
-method: auto                  # the cheapest within `accuracy:`, or a row of `chainreel methods`
-accuracy: 0.1 px              # or m, rad, relative
-draw: [+ellipse, +legend]     # edits the default layers: chain, trail, time, title, torque_label
+duration: 5                   #@duration
+method: auto                  #@method
+accuracy: 0.1 px              #@accuracy
+draw: [+ellipse, +legend]     #@draw
 video: {width: 1280, height: 720, fps: 60}
 )";
 

@@ -24,39 +24,39 @@ std::string value_cell(const KeyText& text);
 
 // Told in the row of a table: nothing hangs below it.
 bool is_short(const KeyText& text) {
-  if (text.form == KeyText::Form::list) return is_short(text.parts[0]) && text.parts[0].form != KeyText::Form::word;
-  if (text.form == KeyText::Form::either) return std::all_of(text.parts.begin(), text.parts.end(), is_short);
-  return text.form != KeyText::Form::record;
+  if (text.form == KeyForm::list) return is_short(text.parts[0]) && text.parts[0].form != KeyForm::word;
+  if (text.form == KeyForm::either) return std::all_of(text.parts.begin(), text.parts.end(), is_short);
+  return text.form != KeyForm::record;
 }
 
 // What may be written as the value, in a few words.
 std::string value_words(const KeyText& text) {
   switch (text.form) {
-    case KeyText::Form::number:
+    case KeyForm::number:
       return "number";
-    case KeyText::Form::whole:
+    case KeyForm::whole:
       return "whole number";
-    case KeyText::Form::truth:
+    case KeyForm::truth:
       return "`true` or `false`";
-    case KeyText::Form::text:
+    case KeyForm::text:
       return "text";
-    case KeyText::Form::path:
+    case KeyForm::path:
       return "path";
-    case KeyText::Form::word:
+    case KeyForm::word:
       return words_text(text.words);
-    case KeyText::Form::rate:
+    case KeyForm::rate:
       return "rate";
-    case KeyText::Form::accuracy:
+    case KeyForm::accuracy:
       return "number and unit";
-    case KeyText::Form::expression:
+    case KeyForm::expression:
       return "expression";
-    case KeyText::Form::list:
+    case KeyForm::list:
       return is_short(text) ? "list of " + value_cell(text.parts[0]) + "s" : "list, see below";
-    case KeyText::Form::mapping:
+    case KeyForm::mapping:
       return "names, each with a " + value_words(text.parts[0]);
-    case KeyText::Form::record:
+    case KeyForm::record:
       return "see below";
-    case KeyText::Form::either:
+    case KeyForm::either:
       break;
   }
   if (!is_short(text)) return "see below";
@@ -84,11 +84,11 @@ class Tree {
  public:
   void add(const KeyText& text, int depth) {
     if (is_short(text)) return line(text, depth, value_cell(text));
-    if (text.form == KeyText::Form::list) {
+    if (text.form == KeyForm::list) {
       line(text, depth, "a list, each entry");
       return add(text.parts[0], depth + 1);
     }
-    if (text.form == KeyText::Form::either) {
+    if (text.form == KeyForm::either) {
       line(text, depth, "one of");
       for (const KeyText& part : text.parts) add(part, depth + 1);
       return;
@@ -185,7 +185,7 @@ std::string constraints_page() {
 
 std::string layers_page() {
   std::vector<std::vector<std::string>> table{{"layer", "shows"}};
-  for (const Name& layer : layer_names()) table.push_back({code(layer.name), layer.meaning});
+  for (const Name& layer : layer_meanings()) table.push_back({code(layer.name), layer.meaning});
   const SceneKey& draw = *find_key("draw");
   return "# Layers of a picture\n\n"
          "`draw:` names what is shown. A list replaces the default one, " +

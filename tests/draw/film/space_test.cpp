@@ -361,7 +361,7 @@ TEST_F(Space, MirroredShapesHaveTheirOutsideOutside) {
     text.replace(text.find(sphere), sphere.size(), std::string("<mesh filename=\"wedge.obj\" scale=\"") + scale + "\"/>");
     const std::string model = folder.write("wedge.urdf", text);
     MeshShelf shelf;
-    const auto all = shapes_for({"visual", "rviz", true, {}}, model, read_chain(model), {}, shelf);
+    const auto all = shapes_for({LinkShapes::visual, MeshUp::rviz, true, {}}, model, read_chain(model), {}, shelf);
     const TriangleMesh& mesh = *all->shapes.at(2).mesh;
     ASSERT_EQ(mesh.triangles.size(), 3u);
     const auto corner = [&](std::size_t i) {
