@@ -104,9 +104,7 @@ std::shared_ptr<const EventSet> events_of(const Scene& scene, const Simulation& 
 
 // Layers of the end effector. Who names them asks for one; of the default ones those are left out that need it.
 void require_end_effector_of_layers(Scene& scene, const Chain& chain) {
-  const auto needs_one = [](const std::string& layer) {
-    return layer == "trail" || layer == "ellipse" || layer == "velocity";
-  };
+  const auto needs_one = [](const std::string& layer) { return layer_needs(layer, LayerNeeds::end_effector); };
   const auto first = std::find_if(scene.draw.begin(), scene.draw.end(), needs_one);
   if (first == scene.draw.end()) return;
   if (scene.places.contains("draw")) {
