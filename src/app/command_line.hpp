@@ -59,7 +59,7 @@ class CommandLine {
   struct CommandText {
     std::string name, about, help;
   };
-  // Of all subcommands, in the order in which they were added.
+  // What all subcommands say of themselves, in the order in which they were added.
   std::vector<CommandText> texts() const;
 
   // Runs the subcommand. Returns the exit code; what the callback throws passes through.

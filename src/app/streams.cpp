@@ -26,7 +26,7 @@ struct Guard {
   int trouble = 0;          // errno of what was not taken
 };
 
-// Of the bytes of lines that are too long, only the first.
+// Keeps only the first bytes of lines that are too long.
 std::string without_long_lines(Guard& guard, const std::string& text) {
   if (guard.longest_line == 0) return text;
   std::string result;

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kPiece = 3 * 16384;             // of three bytes each group of four letters is made
 constexpr std::size_t kLetters = kPiece / 3 * 4 + 1;  // with the zero that OpenSSL sets behind them
 
-// Of no more than kPiece bytes; fewer only at the end.
+// Takes at most kPiece bytes; fewer only at the end.
 std::string_view encode(std::string_view bytes, std::array<unsigned char, kLetters>& letters) {
   const int count = EVP_EncodeBlock(letters.data(), reinterpret_cast<const unsigned char*>(bytes.data()),
                                     int(bytes.size()));

@@ -11,11 +11,11 @@ struct SymmetricEigen {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;
 };
-// Of a symmetric A; its lower triangle is read. The sign of a vector is free: its largest number is positive, the first
+// A is symmetric; its lower triangle is read. The sign of a vector is free: its largest number is positive, the first
 // of those that tie.
 SymmetricEigen eigen_of_symmetric(const Eigen::MatrixXd& A);
 
-// Of any square A.
+// A is square.
 Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& A);
 
 // Columns of length 1 at right angles that A sends to zero. Rows count as dependent below `threshold` of the largest.
@@ -24,7 +24,7 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& A, double threshold);
 Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 // A^T B A, symmetric to the last bit as B is meant to be.
 Eigen::MatrixXd congruence(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
-// Of a square, regular A.
+// A is square and regular.
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& A);
 // The shortest x of those that bring A x nearest to b.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);

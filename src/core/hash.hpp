@@ -27,7 +27,8 @@ class Sha256 {
 
 std::string sha256_of(std::string_view text);
 
-// Of a plain file's bytes. Throws Error (exit 3) where it cannot be read, (exit 7) where it is larger than any input.
+// The hash of a plain file's bytes. Throws Error (exit 3) where it cannot be read, (exit 7) where it is
+// larger than any input.
 std::string sha256_of_file(const std::string& path);
 
 }  // namespace chainreel

@@ -65,7 +65,7 @@ std::string noted_input(const std::string& path) {
   const std::lock_guard lock(inputs().mutex);
   const auto found = inputs().names.find({facts.st_dev, facts.st_ino});
   if (found == inputs().names.end()) return "";
-  // Of an input that is gone, another file may have the number.
+  // Another file may have the number of an input that is gone.
   struct stat input = {};
   const bool is_there = stat(found->second.c_str(), &input) == 0;
   return is_there && input.st_dev == facts.st_dev && input.st_ino == facts.st_ino ? found->second : "";

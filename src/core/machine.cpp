@@ -45,7 +45,7 @@ double number_in(const std::string& path) {
   return stream >> number ? number : kUnlimited;
 }
 
-// Of this process: its whole address space, and its data.
+// What this process has taken: its whole address space, or its data.
 double taken(int column) {
   std::ifstream stream("/proc/self/statm");
   double pages = 0;

@@ -24,7 +24,7 @@ class LocalCoordinates {
   // The base is where q is. x there: nv numbers.
   void move_to(ConstVec q, Vec x);
 
-  // Of x, nv numbers, all that follow: the configuration; v = D x' and back; x'' = (D x')' and back solved for x''.
+  // All that follow take x, nv numbers: the configuration; v = D x' and back; x'' = (D x')' and back solved for x''.
   void place(ConstVec x, Vec q) const;
   void to_velocity(ConstVec x, ConstVec x_dot, Vec v) const;
   void to_rate(ConstVec x, ConstVec v, Vec x_dot) const;

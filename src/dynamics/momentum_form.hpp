@@ -29,7 +29,7 @@ class MomentumForm {
 
  private:
   bool is_new(ConstVec q);
-  // Of the planar kernel with n joints, unrolled.
+  // The form of the planar kernel with n joints, unrolled.
   template <std::size_t n>
   void place_kernel(ConstVec q);
   template <std::size_t n>

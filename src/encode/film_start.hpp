@@ -16,7 +16,7 @@ struct FilmStart {
   Image frame;                // opaque, scaled down to at most the width that was asked for
 };
 
-// Of MP4, MOV or WebM. Throws Error (exit 3) where the file is no such film or its first frame cannot be
+// Reads MP4, MOV or WebM. Throws Error (exit 3) where the file is no such film or its first frame cannot be
 // decoded.
 FilmStart read_film_start(const std::string& path, int widest);
 

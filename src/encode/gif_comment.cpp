@@ -15,7 +15,7 @@ constexpr char kExtension = 0x21, kComment = char(0xFE), kImage = 0x2C, kTrailer
 constexpr std::size_t kBlock = 255;                 // bytes of a data sub-block, at most
 constexpr std::size_t kHead = 13, kImageHead = 10;  // with the logical screen; from the separator on
 
-// Of a table whose presence and size the packed byte of its head tells.
+// The bytes of a table whose presence and size the packed byte of its head tells.
 std::size_t color_table(char packed) {
   const auto bits = std::uint8_t(packed);
   return bits & 0x80 ? std::size_t(3) << ((bits & 7) + 1) : 0;

@@ -52,7 +52,7 @@ struct LibraryVersion {
 // The libraries that were found at run time, which are not always those that were compiled against.
 std::vector<LibraryVersion> encode_library_versions();
 
-// Of the encoders that the program cares for, those that are there.
+// The encoders that are there, of those that the program cares for.
 std::vector<std::string> available_encoders();
 
 }  // namespace chainreel

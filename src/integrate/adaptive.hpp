@@ -53,7 +53,7 @@ class StepControl {
   bool accept(double h, double error);
   // Where the attempt has no result at all: the next is `factor` times as long.
   void reject(double h, double factor);
-  // Of a method to which an equal step is worth more than a somewhat longer one.
+  // For a method to which an equal step is worth more than a somewhat longer one.
   void set_step(double h) { h_ = h; }
   double step() const { return h_; }
 

@@ -51,7 +51,7 @@ double lagrange(std::span<const double> nodes, std::size_t j, double x) {
   return product;
 }
 
-// Of that polynomial from 0 to x, exactly: its degree is below 6.
+// The integral of that polynomial from 0 to x, exactly: its degree is below 6.
 double lagrange_integral(std::span<const double> nodes, std::size_t j, double x) {
   double sum = 0;
   for (std::size_t k = 0; k < kGauss6.stages; ++k)

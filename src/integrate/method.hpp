@@ -36,7 +36,7 @@ class Price {
                   double evaluation_and_freedom)
       : step_(step), step_and_freedom_(step_and_freedom), accelerations_(accelerations), evaluation_(evaluation),
         evaluation_and_freedom_(evaluation_and_freedom) {}
-  // Of methods whose step depends on its order, and whose evaluations are part of it.
+  // For methods whose step depends on its order, and whose evaluations are part of it.
   constexpr explicit Price(double (*step)(int n, int order)) : step_of_order_(step) {}
 
   double of(double steps, double evaluations, int n, int order, double acceleration) const {

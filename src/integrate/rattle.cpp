@@ -50,7 +50,7 @@ std::vector<double> composition(const HalfComposition& half) {
 }
 
 constexpr int kMostIterations = 30;
-// Of the square of a link's length, that an iteration may leave: a millionth of round-off.
+// What an iteration may leave of the square of a link's length: a millionth of round-off.
 constexpr double kLeft = 1e-22;
 constexpr double kRoundOff = 0x1p-53;
 

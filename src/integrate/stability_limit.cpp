@@ -18,7 +18,7 @@ constexpr double kNoRate = 3e-5, kNoRealPart = 1e-9;
 double growth_of_a_mode(double y) {
   return 1e-9 * std::min(1.0, y * y) + 1e-14;
 }
-// Of the whole step's eigenvalues: a double one is known to the root of rounding.
+// By the whole step's eigenvalues: a double one is known to the root of rounding.
 double growth_of_a_step(double y) {
   return 1e-7 * std::sqrt(std::min(1.0, y));
 }
@@ -198,7 +198,7 @@ struct LinearSystem final : SecondOrder {
   const LinearMotion& motion;
 };
 
-// Of unit mass. With any other constant mass the momenta are a linear map of these, and so are the steps.
+// The momenta of unit mass. With any other constant mass the momenta are a linear map of these, and so are the steps.
 struct LinearMomenta final : Momenta {
   explicit LinearMomenta(LinearSystem& given) : system(given) {}
   int n() const override { return system.nv(); }

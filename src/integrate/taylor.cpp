@@ -137,7 +137,7 @@ class Taylor final : public Integrator {
     double q = 0, q_rest = 0, v = 0, v_rest = 0, vd = 0;
     double q_weight = 0, v_weight = 0;  // 1 / (1 + |q|), 1 / (1 + |v|)
   };
-  // Of order k: h^k, k h^(k-1), k (k-1) h^(k-2).
+  // Row k: h^k, k h^(k-1), k (k-1) h^(k-2).
   struct Weights {
     double q = 1, v = 0, vd = 0;
   };
@@ -179,7 +179,7 @@ class Taylor final : public Integrator {
     const std::size_t last = std::size_t(last_);
     weights_[1] = {h, 1, 0};
     for (std::size_t k = 2; k <= last; ++k) {
-      // Of halves: a short chain of products, and less rounding.
+      // A product of halves: a short chain of products, and less rounding.
       const double lower = weights_[(k - 1) / 2].q * weights_[k - 1 - (k - 1) / 2].q;
       weights_[k] = {lower * h, double(k) * lower, 0};
       weights_[k].vd = double(k) * weights_[k - 1].v;

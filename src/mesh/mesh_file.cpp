@@ -98,7 +98,7 @@ std::string read_mesh_file(const std::string& path, const std::function<MeshRepl
 }
 
 void prepare(Assimp::Importer& importer, const std::string& path) {
-  // Of the 48 readers only three are needed, and every other one is a way in for a hostile file.
+  // Only three of the 48 readers are needed, and every other one is a way in for a hostile file.
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     const std::string endings = importer.GetImporterInfo(i)->mFileExtensions;
     const bool is_wanted = endings == "stl" || endings == "obj" || endings.starts_with("dae");

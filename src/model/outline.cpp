@@ -27,7 +27,7 @@ void add_sphere(double radius, const Eigen::Isometry3d& X_BS, std::vector<Vector
     for (const double side : {-radius, radius}) points.push_back(X_BS * Vector3d(side * Vector3d::Unit(axis)));
 }
 
-// Of many points those that lie farthest in the 26 directions of a cube's faces, edges and corners.
+// Those of many points that lie farthest in the 26 directions of a cube's faces, edges and corners.
 std::vector<Vector3d> farthest_of(const std::vector<Vector3d>& points) {
   if (points.size() <= kFewPoints) return points;
   std::vector<bool> kept(points.size(), false);

@@ -17,8 +17,9 @@ struct Outline {
   std::vector<std::string> unmeasured;  // moving links with a mesh that was not found or cannot be read
 };
 
-// Of the <visual>s, of links without any the <collision>s; meshes count with the box around their vertices. `chain` was
-// read from the same file with the same options. Throws Error where the file cannot be read; never for a mesh.
+// Takes the <visual>s, of links without any the <collision>s; meshes count with the box around their
+// vertices. `chain` was read from the same file with the same options. Throws Error where the file cannot be
+// read; never for a mesh.
 Outline read_outline(const std::string& path, const Chain& chain, const ModelOptions& options);
 
 }  // namespace chainreel

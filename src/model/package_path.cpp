@@ -14,7 +14,7 @@ namespace chainreel {
 namespace fs = std::filesystem;
 namespace {
 
-// Of a package's own folders, in search of one that stands deeper.
+// How deep a package's own folders are searched for one that stands deeper, and how many are looked at.
 constexpr int kDeepest = 3, kMostLookedAt = 5000;
 
 // The <name> of a package.xml, or "" where it has none or is broken: another place may still be right.

@@ -103,7 +103,7 @@ std::string in_one_sentence(const std::vector<std::string>& words) {
   return text;
 }
 
-// Of a floating body: the axes of its frame that nothing resists, else the one motion that its inertia leaves free.
+// For a floating body: the axes of its frame that nothing resists, else the one motion that its inertia leaves free.
 void describe_floating(const Articulated& body, Unresisted& result) {
   std::vector<std::string> turns, slides;
   Vector6 scale = Vector6::Ones();

@@ -151,7 +151,7 @@ using tinyxml2::XMLElement;
 
 constexpr std::size_t kLongestName = 64;  // longer ones are not repeated in messages
 
-// Of every tag that is read.
+// The attributes of every tag that is read.
 const std::map<std::string, std::vector<std::string>>& attributes_of_tags() {
   static const std::map<std::string, std::vector<std::string>> known{
       {"link", {"name"}},

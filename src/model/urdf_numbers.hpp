@@ -23,7 +23,7 @@ class UrdfNumbers {
   explicit UrdfNumbers(UrdfProblems& problems) : problems_(problems) {}
 
   enum class Need { required, optional };
-  // Of mass, length and inertia; a limit may be any finite number ("as strong as you like").
+  // Mass, length and inertia are physical; a limit may be any finite number ("as strong as you like").
   enum class Range { physical, any };
 
   // The number in `attribute`; nothing where it is absent or wrong (then a problem is noted). `owner` opens

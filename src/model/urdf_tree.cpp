@@ -127,7 +127,7 @@ int followed_joint(const UrdfFile& file, const NameIndex& index, const UrdfJoint
 void connect_links(CheckedUrdf& urdf, UrdfProblems& problems) {
   UrdfFile& file = urdf.file;
   const NameIndex index = index_of_names(file.links);
-  // Of links without a name or with the same one only the first can be found: the others would seem to be
+  // Only the first of links without a name or with the same one can be found: the others would seem to be
   // lost.
   bool all_known = !file.links.empty() && index.size() == file.links.size() && !index.contains("");
   for (std::size_t j = 0; j < file.joints.size(); ++j) {

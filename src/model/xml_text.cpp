@@ -41,7 +41,7 @@ class XmlScanner {
     }
   }
 
-  // Of the last tag: attributes, counted by their quotes, and characters.
+  // What the last tag had: attributes, counted by their quotes, and characters.
   int attributes() const { return attributes_; }
   std::size_t length() const { return at_ - tag_begin_; }
   int line() const {

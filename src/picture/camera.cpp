@@ -9,7 +9,7 @@
 namespace chainreel {
 namespace {
 
-// Of the way from `focus` to the eye: nearer points have no picture.
+// A share of the way from `focus` to the eye: nearer points have no picture.
 constexpr double kBesideTheEye = 1e-3;
 
 }  // namespace

@@ -18,7 +18,7 @@ struct Placer {
     const Point low = (*this)(Point{r.x0, r.y0}), high = (*this)(Point{r.x1, r.y1});
     return {low.x, low.y, high.x, high.y};
   }
-  // Of lines: none where there was none.
+  // The width of a line: none where there was none.
   double width(double w) const { return w > 0 ? std::max(scale * w, thinnest) : 0; }
   Paint operator()(Paint paint) const {
     paint.stroke_width = width(paint.stroke_width);

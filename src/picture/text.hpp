@@ -32,7 +32,7 @@ class Fonts {
   std::unique_ptr<State> state_;
 };
 
-// Of capitals and figures, of the em: half of it above its base line is the middle of a row.
+// The height of capitals and figures, a share of the em: half of it above its base line is the middle of a row.
 inline constexpr double kCapHeight = 0.73;
 
 enum class Align { left, center, right };

@@ -9,7 +9,7 @@
 namespace chainreel {
 namespace {
 
-// Of an acceleration, relative to 1 + the rows' own at qdd = 0: what rows contradict each other by where they
+// An acceleration, relative to 1 + the rows' own at qdd = 0: what rows contradict each other by where they
 // truly do. Stages of a step lie a little off the constraints, where dependent rows need not agree exactly.
 constexpr double kUnmet = 1e-6;
 

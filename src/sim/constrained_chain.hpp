@@ -20,7 +20,7 @@ class ConstrainedChain {
   bool presses() const { return !contact_forces_.empty(); }
 
   void accelerate(Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau, Vec qdd);
-  // Of the last acceleration: rows numbers.
+  // The multipliers of the last acceleration: rows numbers.
   ConstVec lambda() const { return cws_.lambda; }
 
   // Adds to tau the joint torques that bring the multipliers of the pressed constraints to what they are to

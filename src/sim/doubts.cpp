@@ -32,7 +32,7 @@ double round_down(double x) {
   return decade;
 }
 
-// Of a choice.
+// What makes a choice finer.
 std::string finer_choice(const Accuracy& accuracy, double factor) {
   const std::string named = "--set method=dop853 --set tolerance=1e-12 --set accuracy=null";
   const double tighter = round_down(accuracy.value * std::clamp(factor, kLeastTightening, kTightening));

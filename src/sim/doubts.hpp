@@ -10,11 +10,11 @@
 
 namespace chainreel {
 
-// Of the Audit's energy_moved: an audit error beyond it is told.
+// A share of the Audit's energy_moved: an audit error beyond it is told.
 inline constexpr double kDoubtfulEnergy = 0.01;
 // m or rad, off a constraint.
 inline constexpr double kDoubtfulConstraint = 1e-3;
-// Of a freedom's largest rate in the run: what one step may differ by from two of half its length.
+// A share of a freedom's largest rate in the run: what one step may differ by from two of half its length.
 inline constexpr double kDoubtfulStep = 0.1;
 
 struct Doubt {

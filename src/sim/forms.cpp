@@ -67,7 +67,7 @@ void ChainChart::leave(std::span<const double> x, std::span<const double> x_dot,
 
 namespace {
 
-// Of a chain all of whose joints slide: what slides turns nothing.
+// All joints slide: what slides turns nothing.
 bool has_constant_mass_matrix(const Chain& chain) {
   return std::all_of(chain.bodies.begin() + 1, chain.bodies.end(),
                      [](const Body& body) { return body.joint.kind == JointKind::prismatic; });

@@ -19,7 +19,7 @@ struct Instant {
   std::vector<double> tau;  // as the run feels it: with what presses on constraints, cut by the limit policy; N m or N
   std::vector<double> qdd;  // nv
 
-  // Of the constraints, a row each; empty where there are none.
+  // The names of the constraints' rows; empty where there are none.
   std::vector<std::string> rows;
   std::vector<double> phi;     // m or rad
   Eigen::MatrixXd Jc;          // rows x nv

@@ -12,12 +12,12 @@
 namespace chainreel {
 
 struct Linearisation {
-  // Of small deviations from the start at t = 0, along what constraints leave free; nothing where `trouble`
-  // says why there is none.
+  // The motion of small deviations from the start at t = 0, along what constraints leave free; nothing where
+  // `trouble` says why there is none.
   std::optional<LinearMotion> motion;
   std::string trouble;
   std::vector<std::complex<double>> rates;  // lambda of exp(lambda t), 1/s, as rates_of has them
-  // Of the start itself: the largest |qd| and |qdd|. Where one of them is not zero the start is no
+  // What the start itself has: the largest |qd| and |qdd|. Where one of them is not zero the start is no
   // equilibrium, and what holds there need not hold later.
   double rate = 0, acceleration = 0;
   bool is_equilibrium = true;

@@ -80,7 +80,7 @@ std::vector<std::string> numbered(const std::string& stem, int count) {
   return names;
 }
 
-// Of a table with a row a sample.
+// The curves of a table with a row a sample.
 PlotCurves columns(const std::vector<double>& table, const std::vector<std::string>& names, int samples) {
   PlotCurves plot;
   for (std::size_t i = 0; i < names.size(); ++i) {

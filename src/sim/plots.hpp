@@ -50,7 +50,7 @@ struct PlotSet {
   GroundAxes ground;
 };
 
-// Of all but `expression`, which has no name.
+// The names of all but `expression`, which has none.
 std::span<const Name> names_of(PlotQuantity);
 
 // Null where there are none. `rows` of the constraints. Throws Error with every problem.

@@ -13,7 +13,7 @@ namespace chainreel {
 
 class TipMass {
  public:
-  // Of a chain without constraints. The chain must outlive it.
+  // For a chain without constraints. The chain must outlive it.
   explicit TipMass(const Chain& chain);
   // Throws Error where the constraints do not fit the chain.
   TipMass(const Chain& chain, const ConstraintPlan& constraints);

@@ -141,7 +141,7 @@ void add_energies(Json& json, const Chain& chain, Workspace& ws, const State& st
   }
 }
 
-// Of the mechanism without its constraints; with Lambda of the tip under them.
+// Numbers of the mechanism without its constraints, but Lambda of the tip under them.
 Json report(const TipMass& tip, const State& state, const DynamicsOptions& options) {
   const Chain& chain = tip.chain();
   Workspace ws(chain);

@@ -11,7 +11,8 @@
 namespace chainreel {
 namespace {
 
-// Of the whole film as `render` shows it. `added`: an instant among those of the runs that is none of its frames.
+// How many the whole film has as `render` shows it. `added`: an instant among those of the runs that is none
+// of its frames.
 int frames_of_film(const Runs& runs, std::optional<double> added) {
   double end = 0;
   for (const Trajectory& run : runs.list()) end = std::max(end, run.end_time);

@@ -16,7 +16,7 @@ std::vector<double> with_end(std::vector<double> times, const PreparedFilm& film
   return times;
 }
 
-// Of the frames; where events ended all runs, the last frame stands at the last of them.
+// The instants of the frames; where events ended all runs, the last frame stands at the last of them.
 std::vector<double> shown_times(const std::vector<Trajectory>& runs, const std::vector<double>& times,
                                 int frames) {
   std::vector<double> shown(times.begin(), times.begin() + frames);

@@ -31,8 +31,8 @@ class Runs {
   std::size_t size() const { return list_.size(); }
   const Trajectory& operator[](std::size_t panel) const { return list_[panel]; }
 
-  // Of that many instants, those that a film shows: it ends with the last of its runs. One that is to diverge is shown to
-  // stand still behind its end.
+  // How many of that many instants a film shows: it ends with the last of its runs. One that is to diverge is shown
+  // to stand still behind its end.
   int frames_shown(int frames) const;
 
   // Throws Error (exit 5, or the signal's) where a panel did not come to the end that its scene expects; for a picture of

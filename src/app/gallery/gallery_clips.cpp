@@ -50,7 +50,7 @@ void add_films_in(const fs::path& folder, std::vector<std::string>& found) {
   }
 }
 
-// Of a file beside a film: "" where there is none, or none that can be read.
+// The text of a file beside a film; "" where there is none, or none that can be read.
 std::string read_text(const fs::path& path) {
   constexpr std::uintmax_t kLargestText = std::uintmax_t(64) << 20;  // bytes
   std::error_code code;
@@ -93,7 +93,7 @@ void remember(GalleryClip& clip) {
   clip.words[0] = char(std::toupper(static_cast<unsigned char>(clip.words[0])));
 }
 
-// Of a chart's file name, the part that names its film; the kind by its ending.
+// The kind of a chart by the ending of its file's name, whose other part names its film.
 const ChartKind* kind_of(const std::string& name) {
   for (const ChartKind& kind : kChartKinds)
     if (name.ends_with(kind.ending)) return &kind;

@@ -21,7 +21,7 @@ struct AuditRow {
   std::vector<std::string> values;  // one a run; "" where a run has none
 };
 
-// Of a film's audit: a row a number, a column a run. The first row holds the runs' titles where there are
+// The table of a film's audit: a row a number, a column a run. The first row holds the runs' titles where there are
 // several. Values of an unexpected kind are left out.
 std::vector<AuditRow> audit_rows(const Json& audit);
 

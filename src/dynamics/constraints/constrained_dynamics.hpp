@@ -20,7 +20,7 @@
 namespace chainreel {
 
 struct ConstrainedOptions {
-  // Of |Jc qdd + Jcd_qd|, relative to 1 + the sum of the sizes of its parts: 45 round-offs.
+  // The largest |Jc qdd + Jcd_qd|, relative to 1 + the sum of the sizes of its parts: 45 round-offs.
   double tolerance = 1e-14;
   int most_passes = 30;
   // g of J. Baumgarte (Comput. Meth. Appl. Mech. Eng. 1 (1972)), 1/s: above zero rows are to have the

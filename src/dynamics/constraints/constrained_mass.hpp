@@ -12,7 +12,7 @@
 
 namespace chainreel {
 
-// Of more freedoms the dense factor, whose cost grows with their cube, gives way to the articulated inertias.
+// Above so many freedoms the dense factor, whose cost grows with their cube, gives way to the articulated inertias.
 inline constexpr int kDenseFreedoms = 16;
 bool takes_dense_mass_matrix(const Chain& chain);
 

@@ -13,7 +13,7 @@ namespace chainreel {
 
 namespace {
 
-// Of the numbers phi is made of: metres of a chain, radians of a turn.
+// The round-off of the numbers phi is made of: metres of a chain, radians of a turn.
 constexpr double kPositionRoundOff = 4e-16;
 constexpr int kMostPasses = 60;
 

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Of the part of a unit vector that lies in the plane: less is the round-off of a vector along the normal.
+// The least part of a unit vector that lies in the plane: less is the round-off of a vector along the normal.
 constexpr double kAcross = 1e-9;
 
 // Two unit vectors that make a right-handed basis with n; axes of the world where n is one.

@@ -144,7 +144,7 @@ inline void solve(PlanarBlock& block, int column, Lanes (&A)[n][n], Lanes (&x)[n
   }
 }
 
-// Of numbers along the joints' own axes.
+// From numbers along the joints' own axes to numbers along the plane's.
 template <bool kTurned>
 inline Lanes along_normal(PlanarBlock& block, int column, int i, const Lanes& x) {
   if constexpr (kTurned) {

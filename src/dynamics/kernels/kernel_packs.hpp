@@ -17,7 +17,7 @@ struct alignas(32) SinCosTable {
 };
 extern const SinCosTable kSinCosTable;
 
-// Of n angles, one by one: the way for lanes with rare angles.
+// Takes n angles one by one: the way for lanes with rare angles.
 void sin_cos_of_each(const double* x, int n, double* s, double* c);
 
 namespace {
@@ -127,7 +127,7 @@ template <class Pack>
   return sin_cos_of_common(x.lo, s.lo, c.lo) && sin_cos_of_common(x.hi, s.hi, c.hi);
 }
 
-// Of any angles, by the scalar function.
+// Takes any angles, by the scalar function.
 inline void sin_cos_of_any(const Pack2& x, Pack2& s, Pack2& c) {
   double angles[2] = {x[0], x[1]}, sines[2], cosines[2];
   sin_cos_of_each(angles, 2, sines, cosines);

@@ -39,7 +39,7 @@ inline void solve(const PlanarKernel& kernel, double (&A)[n][n], double (&x)[n])
   }
 }
 
-// Of a number along the joint's own axis.
+// From a number along the joint's own axis to one along the plane's.
 template <bool kTurned>
 inline double along_normal(const PlanarKernel& kernel, int i, double x) {
   return kTurned ? x * kernel.sign[std::size_t(i)] : x;

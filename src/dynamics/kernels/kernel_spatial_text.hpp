@@ -45,7 +45,7 @@ struct Moving {
   Vector o, w, v, a_w, a_v;
 };
 
-// Of a body, then of all that it carries.
+// What a body has, then what all have that it carries.
 struct Carried {
   Matrix I;  // about O
   Vector h;  // mass times centre of mass

@@ -10,8 +10,9 @@
 namespace chainreel {
 namespace {
 
-// Of the budget, for one run. What methods may do between the samples is bounded: steps of this part of the distance of
-// samples see what comes and goes within it. The second reference's steps end elsewhere.
+// The share of the budget that one run may take. What methods may do between the samples is bounded: steps of
+// this part of the distance of samples see what comes and goes within it. The second reference's steps end
+// elsewhere.
 constexpr double kShareOfRun = 0.12;
 constexpr double kReferenceStep = 0.5, kOtherStep = 0.31;
 constexpr int kEvaluationsOfStep = 12;  // of dop853

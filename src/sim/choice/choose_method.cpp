@@ -164,8 +164,8 @@ class Chooser {
     return met ? Verdict::met : Verdict::not_met;
   }
 
-  // Of the candidates that hold until there the one that comes to the end of the whole run for the least. All have the
-  // same bound, and a larger one from round to round, until one comes to the end.
+  // Takes, of the candidates that hold until there, the one that comes to the end of the whole run for the
+  // least. All have the same bound, and a larger one from round to round, until one comes to the end.
   void confirm() {
     choice_.counted_until = samples_.back();
     simulation_.duration = duration_;

@@ -12,7 +12,7 @@ namespace chainreel {
 // ns of one forward dynamics on the machine that the table was measured on.
 double forward_dynamics_cost(const Chain& chain);
 
-// Of one evaluation under constraints, and of what is done after a step, ns.
+// The price of one evaluation under constraints, and of what is done after a step, ns.
 struct ConstraintCost {
   double evaluation, projection;
 };

@@ -165,7 +165,7 @@ bool spans_space(const std::vector<Vector3d>& points) {
   return !box.isEmpty() && box.sizes().minCoeff() > 0;
 }
 
-// Of the uniform box with this mass and inertia: along a principal axis i half as long as
+// The corners of the uniform box with this mass and inertia: along a principal axis i half as long as
 // sqrt(3 (I_j + I_k - I_i) / (2 m)). Files that give moments about one axis only make it flat.
 std::vector<Vector3d> corners_of_equal_box(const Inertia& inertia) {
   if (!(inertia.mass > 0)) return {};

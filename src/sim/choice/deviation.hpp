@@ -13,10 +13,10 @@ namespace chainreel {
 
 // The points of a chain by which a viewer tells one run from another.
 
-// Of every moving body: its joint, its centre of mass, and corners around what can be seen of it. The displacement of a
-// rigid body is largest at a corner of any hull around it, so that nothing within moves further. A body without an
-// outline counts as the uniform box of its mass and inertia; one that has none of either shows its joint alone. Besides
-// the ends of links and the end effector.
+// What can be seen of every moving body: its joint, its centre of mass, and corners around what can be seen
+// of it. The displacement of a rigid body is largest at a corner of any hull around it, so that nothing
+// within moves further. A body without an outline counts as the uniform box of its mass and inertia; one that
+// has none of either shows its joint alone. Besides the ends of links and the end effector.
 class SeenPoints {
  public:
   explicit SeenPoints(const Simulation& simulation);

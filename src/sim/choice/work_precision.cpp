@@ -153,8 +153,8 @@ double apart(const std::vector<double>& a, const std::vector<double>& b) {
   return largest;
 }
 
-// Of errors of a start coordinate or rate, one by one; the largest. Rotations of a floating base are left
-// alone.
+// By how much errors of a start coordinate or rate grow, one by one; the largest. Rotations of a floating
+// base are left alone.
 double amplification_of(Simulation& simulation, const MethodSetting& setting, const EndState& end) {
   double largest = 1;
   for (std::vector<double>* start : {&simulation.q0, &simulation.qd0}) {

@@ -20,7 +20,7 @@ namespace chainreel {
 
 class CornerWatch {
  public:
-  // Of a system whose law has such corners. `straight` looks for crossings on straight lines between the ends
+  // For a system whose law has such corners. `straight` looks for crossings on straight lines between the ends
   // of a step: for methods of low order, whose velocities change so; dense output may swing more than the
   // method does.
   CornerWatch(ChainSystem& system, double duration, bool straight);

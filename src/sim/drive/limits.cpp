@@ -57,7 +57,7 @@ bool LimitWatch::check_state(double t, ConstVec q, ConstVec qd) {
   return added;
 }
 
-// Of a joint that passes its effort.
+// The torque of a joint that passes its effort; null of one that does not.
 double* LimitWatch::excessive(const Watched& one, Vec tau) {
   if (!one.has_torque) return nullptr;
   double& torque = tau[std::size_t(one.joint->v_index)];
