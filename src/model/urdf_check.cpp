@@ -7,6 +7,7 @@
 #include <map>
 #include <span>
 
+#include "core/format.hpp"
 #include "model/urdf_numbers.hpp"
 
 namespace chainreel {
@@ -224,11 +225,23 @@ class Checker {
     result_.file.materials.push_back(check_material(element, "material '" + name + "'"));
   }
 
+  void require_length(double value, const XMLElement& shape, const std::string& attribute, const std::string& owner) {
+    if (value < 0)
+      problems_.add(shape.GetLineNum(), owner + ": the " + attribute + " of its <" + shape.Name() + "> is negative (" +
+                                            format_shortest(value) + "): a shape is at least as large as nothing");
+  }
+
   void check_geometry(XMLElement& shape, const std::string& owner) {
     const std::string tag = shape.Name();
-    if (tag == "box") numbers_.three(shape, "size", owner, Need::required);
-    if (tag == "sphere" || tag == "cylinder") numbers_.one(shape, "radius", owner, Need::required);
-    if (tag == "cylinder") numbers_.one(shape, "length", owner, Need::required);
+    if (tag == "box")
+      if (const auto size = numbers_.three(shape, "size", owner, Need::required))
+        require_length(size->minCoeff(), shape, "size", owner);
+    if (tag == "sphere" || tag == "cylinder")
+      if (const auto radius = numbers_.one(shape, "radius", owner, Need::required))
+        require_length(*radius, shape, "radius", owner);
+    if (tag == "cylinder")
+      if (const auto length = numbers_.one(shape, "length", owner, Need::required))
+        require_length(*length, shape, "length", owner);
     if (tag == "mesh") {
       numbers_.three(shape, "scale", owner, Need::optional);
       const char* file = shape.Attribute("filename");

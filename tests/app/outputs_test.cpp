@@ -417,6 +417,19 @@ TEST(Outputs, WhatCannotBeWrittenIsSaidBeforeTheRun) {
   EXPECT_THAT(names_in(folder.path() / "seq"), Not(Contains("b_000007.png")));
 }
 
+TEST(Outputs, AQualityThatNoFileHasIsSaid) {
+  const TemporaryFolder folder;
+  const auto said = [&](const std::string& file) {
+    const ProgramResult result =
+        run_program({"render", "assets/scenes/rr_free.yaml", "--crf", "30", "--set", "duration=0.1", "--set",
+                     "video.width=160", "--set", "video.height=90", "-o", folder.file(file)});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.err;
+  };
+  EXPECT_THAT(said("a.mov"), HasSubstr("video.crf does nothing"));
+  EXPECT_THAT(said("b.mp4"), Not(HasSubstr("video.crf")));
+}
+
 TEST(Outputs, EventsAreCaptions) {
   const TemporaryFolder folder;
   const ProgramResult result =

@@ -98,6 +98,10 @@ TEST(BadFiles, ShapesWithoutTheirMeasuresAreRefused) {
                                        {"<sphere radius='one'/>", "<sphere radius>"},
                                        {"<cylinder length='1'/>", "<cylinder radius> is missing"},
                                        {"<cylinder radius='1'/>", "<cylinder length> is missing"},
+                                       {"<box size='1 -2 3'/>", "the size of its <box> is negative (-2)"},
+                                       {"<sphere radius='-1'/>", "the radius of its <sphere> is negative (-1)"},
+                                       {"<cylinder radius='-1' length='1'/>", "the radius of its <cylinder>"},
+                                       {"<cylinder radius='1' length='-1'/>", "the length of its <cylinder>"},
                                        {"<mesh/>", "names no file"}}) {
     EXPECT_THAT(refusal(shape), testing::AllOf(testing::HasSubstr("m.urdf:2"), testing::HasSubstr(missing))) << shape;
   }

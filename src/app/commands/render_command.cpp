@@ -1,5 +1,6 @@
 // chainreel render SCENE... [-o FILE]... | [-o DIR]
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -82,6 +83,14 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+// A quality that none of the files has is not what its author thinks.
+void tell_of_unused_quality(const RenderJob& job, const Scene& scene) {
+  const auto has_quality = [](const Target& target) { return target.format->codec && has_crf(*target.format->codec); };
+  if (scene.video.crf && std::none_of(job.targets.begin(), job.targets.end(), has_quality))
+    std::fprintf(stderr, "note: %s: video.crf does nothing: none of the files has a quality to choose; .mp4 and .webm do\n",
+                 scene.name.c_str());
+}
+
 void run_render(const RenderOptions& options) {
   check_outputs(options.outputs, options.scenes.size());
   const std::vector<PreparedFilm> films = load_all(options);
@@ -91,6 +100,7 @@ void run_render(const RenderOptions& options) {
   std::vector<std::vector<std::string>> table{{"scene", "frames", "film s", "taken s", "file"}};
   for (std::size_t i = 0; i < films.size(); ++i) {
     for (const PreparedScene& panel : films[i].panels) say_choice(panel, options.common.quiet);
+    if (!options.common.quiet) tell_of_unused_quality(jobs[i], films[i].scene);
     const RenderResult result = render_film(films[i], jobs[i]);
     reports.push_back(result.audit);
     reports.back()["file"] = result.files.front();
