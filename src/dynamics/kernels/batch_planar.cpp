@@ -118,32 +118,6 @@ inline void couple(PlanarBlock& block, int column, const Lanes (&s)[n], const La
   }
 }
 
-// x <- A^-1 x.
-template <int n>
-inline void solve(PlanarBlock& block, int column, Lanes (&A)[n][n], Lanes (&x)[n]) {
-  Lanes D_inv[n];
-  D_inv[0] = at(block.A_11_inv, column);
-#pragma GCC unroll 4
-  for (int k = 0; k < n - 2; ++k) {
-    if (k > 0) D_inv[k] = 1.0 / A[k][k];
-#pragma GCC unroll 4
-    for (int i = k + 1; i < n; ++i) {
-      const Lanes factor = A[i][k] * D_inv[k];
-#pragma GCC unroll 4
-      for (int j = k + 1; j <= i; ++j) A[i][j] -= factor * A[j][k];
-      x[i] -= factor * x[k];
-    }
-  }
-  if constexpr (n == 1) {
-    x[0] *= D_inv[0];
-  } else {
-    constexpr int a = n - 2, b = n - 1;
-    const Lanes squares = n == 2 ? at(block.A_11_A_22, column) : A[a][a] * A[b][b];
-    const Lanes det_inv = 1.0 / (squares - A[b][a] * A[b][a]);
-    substitute_back<n>(A, D_inv, det_inv, x);
-  }
-}
-
 // From numbers along the joints' own axes to numbers along the plane's.
 template <bool kTurned>
 inline Lanes along_normal(PlanarBlock& block, int column, int i, const Lanes& x) {
@@ -176,15 +150,9 @@ inline void step_lanes(PlanarBlock& block, int column) {
     if constexpr (!kAlongX) pull -= at(block.pull_s[i], column) * s[i];
     x[i] = at(block.Q[i], column) + pull;
   }
-#pragma GCC unroll 4
-  for (int i = 0; i < n; ++i) {
-#pragma GCC unroll 4
-    for (int j = i + 1; j < n; ++j) {
-      x[i] += slope[j][i] * (rate[j] * rate[j]);
-      x[j] -= slope[j][i] * (rate[i] * rate[i]);
-    }
-  }
-  solve<n>(block, column, A, x);
+  add_rate_terms<n>(slope, rate, x);
+  const Lanes one = {1, 1};
+  solve_small<n>(one, at(block.A_11_inv, column), at(block.A_11_A_22, column), A, x);
 
   const Lanes h = at(block.h, column);
 #pragma GCC unroll 4

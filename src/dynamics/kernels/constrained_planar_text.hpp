@@ -5,6 +5,7 @@
 #include "dynamics/constraints/constrained_workspace.hpp"
 #include "dynamics/kernels/constrained_kernel.hpp"
 #include "dynamics/kernels/kernel_planar_text.hpp"
+#include "dynamics/kernels/row_inverse_text.hpp"
 #include "dynamics/kernels/small_solve.hpp"
 
 namespace chainreel {
@@ -111,12 +112,8 @@ template <int n, int m, Angles kAngles = Angles::common>
                                               ConstVec qd, ConstVec tau, double* qdd, double tolerance) {
   using Pack = PackOf<n>;
   const PlanarKernel& kernel = ws.scratch->planar_kernel;
-  double angle[n], rate[n];  // absolute
-  for (int i = 0; i < n; ++i) {
-    angle[i] = along_normal<true>(kernel, i, q[i]);
-    rate[i] = along_normal<true>(kernel, i, qd[i]);
-    if (i > 0) angle[i] += angle[i - 1], rate[i] += rate[i - 1];
-  }
+  double angle[n], rate[n];
+  make_absolute<n, true>(kernel, q, qd, angle, rate);
   Pack phi, s, c;
   fill_lanes<n>(angle, phi);
   if constexpr (kAngles == Angles::any) {
@@ -132,18 +129,12 @@ template <int n, int m, Angles kAngles = Angles::common>
 
   Eliminated<n> A;
   double x[n];
+  take_torques<n, true>(kernel, tau, pull, x);
   for (int i = 0; i < n; ++i) {
     A.A[i][i] = kernel.A_ii[std::size_t(i)];
-    const double handed_on = i + 1 < n ? along_normal<true>(kernel, i + 1, tau[i + 1]) : 0;
-    x[i] = (along_normal<true>(kernel, i, tau[i]) - handed_on) + pull[i];
+    for (int j = i + 1; j < n; ++j) A.A[j][i] = couplings.A[j][i];
   }
-  for (int i = 0; i < n; ++i) {
-    for (int j = i + 1; j < n; ++j) {
-      A.A[j][i] = couplings.A[j][i];
-      x[i] += couplings.slope[j][i] * (rate[j] * rate[j]);
-      x[j] -= couplings.slope[j][i] * (rate[i] * rate[i]);
-    }
-  }
+  add_rate_terms<n>(couplings.slope, rate, x);
   A.factor(kernel);
   A.eliminate(x);
   double F[m][n], G[m][m], lambda[m];

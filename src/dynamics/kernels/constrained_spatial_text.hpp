@@ -5,7 +5,7 @@
 #include "dynamics/constraints/constrained_workspace.hpp"
 #include "dynamics/kernels/constrained_kernel.hpp"
 #include "dynamics/kernels/kernel_spatial_text.hpp"
-#include "dynamics/kernels/small_solve.hpp"
+#include "dynamics/kernels/row_inverse_text.hpp"
 
 namespace chainreel {
 namespace {

@@ -12,37 +12,31 @@ namespace {
 template <int n>
 using PackOf = std::conditional_t<n <= 2, Pack2, Pack4>;
 
-// x <- A^-1 x of a symmetric positive definite matrix, lower half. The joints from the first on are
-// eliminated until two are left; these take Cramer's rule: one division instead of two in a row.
-template <int n>
-inline void solve(const PlanarKernel& kernel, double (&A)[n][n], double (&x)[n]) {
-  double D_inv[n];
-  D_inv[0] = kernel.A_11_inv;
-#pragma GCC unroll 4
-  for (int k = 0; k < n - 2; ++k) {
-    if (k > 0) D_inv[k] = kSinCosTable.one[0] / A[k][k];
-#pragma GCC unroll 4
-    for (int i = k + 1; i < n; ++i) {
-      const double factor = A[i][k] * D_inv[k];
-#pragma GCC unroll 4
-      for (int j = k + 1; j <= i; ++j) A[i][j] -= factor * A[j][k];
-      x[i] -= factor * x[k];
-    }
-  }
-  if constexpr (n == 1) {
-    x[0] *= D_inv[0];
-  } else {
-    constexpr int a = n - 2, b = n - 1;
-    const double squares = n == 2 ? kernel.A_11_A_22 : A[a][a] * A[b][b];
-    const double det_inv = kSinCosTable.one[0] / (squares - A[b][a] * A[b][a]);
-    substitute_back<n>(A, D_inv, det_inv, x);
-  }
-}
-
 // From a number along the joint's own axis to one along the plane's.
 template <bool kTurned>
 inline double along_normal(const PlanarKernel& kernel, int i, double x) {
   return kTurned ? x * kernel.sign[std::size_t(i)] : x;
+}
+
+// Angles and rates of the links against the world.
+template <int n, bool kTurned>
+[[gnu::always_inline]] inline void make_absolute(const PlanarKernel& kernel, ConstVec q, ConstVec qd,
+                                                 double (&angle)[n], double (&rate)[n]) {
+  for (int i = 0; i < n; ++i) {
+    angle[i] = along_normal<kTurned>(kernel, i, q[i]);
+    rate[i] = along_normal<kTurned>(kernel, i, qd[i]);
+    if (i > 0) angle[i] += angle[i - 1], rate[i] += rate[i - 1];
+  }
+}
+
+// Torques on the links: a joint's own less what it hands on, and gravity's pull.
+template <int n, bool kTurned>
+[[gnu::always_inline]] inline void take_torques(const PlanarKernel& kernel, ConstVec tau, const PackOf<n>& pull,
+                                                double (&x)[n]) {
+  for (int i = 0; i < n; ++i) {
+    const double handed_on = i + 1 < n ? along_normal<kTurned>(kernel, i + 1, tau[i + 1]) : 0;
+    x[i] = (along_normal<kTurned>(kernel, i, tau[i]) - handed_on) + pull[i];
+  }
 }
 
 // Lanes without a joint repeat the last angle.
@@ -94,12 +88,8 @@ template <int n, bool kAlongX, bool kTurned, Angles kAngles = Angles::common>
                                          ConstVec tau, double* qdd) {
   using Pack = PackOf<n>;
   const PlanarKernel& kernel = ws.scratch->planar_kernel;
-  double angle[n], rate[n];  // absolute
-  for (int i = 0; i < n; ++i) {
-    angle[i] = along_normal<kTurned>(kernel, i, q[i]);
-    rate[i] = along_normal<kTurned>(kernel, i, qd[i]);
-    if (i > 0) angle[i] += angle[i - 1], rate[i] += rate[i - 1];
-  }
+  double angle[n], rate[n];
+  make_absolute<n, kTurned>(kernel, q, qd, angle, rate);
 
   Pack phi, s, c;
   fill_lanes<n>(angle, phi);
@@ -115,18 +105,10 @@ template <int n, bool kAlongX, bool kTurned, Angles kAngles = Angles::common>
 
   auto& A = couplings.A;
   double x[n];
-  for (int i = 0; i < n; ++i) {
-    A[i][i] = kernel.A_ii[std::size_t(i)];
-    const double handed_on = i + 1 < n ? along_normal<kTurned>(kernel, i + 1, tau[i + 1]) : 0;
-    x[i] = (along_normal<kTurned>(kernel, i, tau[i]) - handed_on) + pull[i];
-  }
-  for (int i = 0; i < n; ++i) {
-    for (int j = i + 1; j < n; ++j) {
-      x[i] += couplings.slope[j][i] * (rate[j] * rate[j]);
-      x[j] -= couplings.slope[j][i] * (rate[i] * rate[i]);
-    }
-  }
-  solve(kernel, A, x);
+  take_torques<n, kTurned>(kernel, tau, pull, x);
+  for (int i = 0; i < n; ++i) A[i][i] = kernel.A_ii[std::size_t(i)];
+  add_rate_terms<n>(couplings.slope, rate, x);
+  solve_small<n>(kSinCosTable.one[0], kernel.A_11_inv, kernel.A_11_A_22, A, x);
   for (int i = n - 1; i >= 0; --i) {
     qdd[i] = along_normal<kTurned>(kernel, i, i == 0 ? x[0] : x[i] - x[i - 1]);
   }

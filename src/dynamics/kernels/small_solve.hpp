@@ -1,65 +1,11 @@
-// What the kernels for constrained chains in the plane and in space share: private to the files that include
-// it, as dynamics/kernels/kernel_packs.hpp is.
+// What the kernels of planar chains share, one chain at a time (Number a double) or a batch (a vector of them): all
+// unrolled, in one order of operations, so that each gives the same bits.
 #pragma once
 
-#include "dynamics/constraints/constrained_workspace.hpp"
-#include "dynamics/kernels/kernel_packs.hpp"
-
 namespace chainreel {
-namespace {
 
-// The few rows' own system; false where some row depends on the others.
-template <int m>
-struct RowInverse {
-  double L[m][m], D[m], D_inv[m];
-
-  [[gnu::always_inline]] inline bool factor(const double (&G)[m][m]) {
-    double largest = G[0][0];
-    for (int i = 1; i < m; ++i) largest = largest > G[i][i] ? largest : G[i][i];
-    bool regular = true;
-    for (int i = 0; i < m; ++i) {
-      double d = G[i][i];
-      for (int j = 0; j < i; ++j) {
-        double w = G[i][j];
-        for (int k = 0; k < j; ++k) w -= L[i][k] * L[j][k] * D[k];
-        L[i][j] = w * D_inv[j];
-        d -= w * L[i][j];
-      }
-      D[i] = d;
-      D_inv[i] = kSinCosTable.one[0] / d;
-      regular &= G[i][i] > RowSolver::kZeroRow * largest && d > RowSolver::kDependent * G[i][i];
-    }
-    return regular;
-  }
-  [[gnu::always_inline]] inline void solve(double (&x)[m]) const {
-    for (int i = 0; i < m; ++i)
-      for (int k = 0; k < i; ++k) x[i] -= L[i][k] * x[k];
-    for (int i = m - 1; i >= 0; --i) {
-      x[i] *= D_inv[i];
-      for (int k = i + 1; k < m; ++k) x[i] -= L[k][i] * x[k];
-    }
-  }
-};
-
-// Multipliers of the different rows to those of the set: rows asked for several times share theirs.
-template <int m>
-[[gnu::always_inline]] inline void hand_out(ConstrainedWorkspace& cws, double (&lambda)[m]) {
-  const ConstrainedKernel& own = cws.kernel;
-  if (!own.doubled) {
-    for (int k = 0; k < m; ++k) cws.lambda[std::size_t(k)] = lambda[k];
-    return;
-  }
-  for (int k = 0; k < m; ++k) lambda[k] *= own.share[std::size_t(k)];
-  for (std::size_t i = 0; i < own.group.size(); ++i) cws.lambda[i] = lambda[own.group[i]];
-}
-
-}  // namespace
-
-// The end of a small solution, unrolled.
-
-// The last part of x <- A^-1 x: Cramer's rule for the two joints that are left, whose determinant is given,
-// then the others backwards. Shared by the planar kernel, the constrained one and
-// batches, whose numbers are vectors.
+// The last part of x <- A^-1 x: Cramer's rule for the two joints that are left, whose determinant is given, then the
+// others backwards.
 template <int n, class Number>
 [[gnu::always_inline]] inline void substitute_back(const Number (&A)[n][n], const Number (&D_inv)[n],
                                                    const Number& det_inv, Number (&x)[n]) {
@@ -73,6 +19,48 @@ template <int n, class Number>
 #pragma GCC unroll 4
     for (int i = k + 1; i < n; ++i) x[k] -= A[i][k] * x[i];
     x[k] *= D_inv[k];
+  }
+}
+
+// x <- A^-1 x of a symmetric positive definite matrix, lower half, which is lost. The joints from the first on are
+// eliminated until two are left; these take Cramer's rule: one division instead of two in a row. 1/A_11 is known, and of
+// two joints A_11 A_22; `one` is 1.
+template <int n, class Number>
+[[gnu::always_inline]] inline void solve_small(const Number& one, const Number& A_11_inv, const Number& A_11_A_22,
+                                               Number (&A)[n][n], Number (&x)[n]) {
+  Number D_inv[n];
+  D_inv[0] = A_11_inv;
+#pragma GCC unroll 4
+  for (int k = 0; k < n - 2; ++k) {
+    if (k > 0) D_inv[k] = one / A[k][k];
+#pragma GCC unroll 4
+    for (int i = k + 1; i < n; ++i) {
+      const Number factor = A[i][k] * D_inv[k];
+#pragma GCC unroll 4
+      for (int j = k + 1; j <= i; ++j) A[i][j] -= factor * A[j][k];
+      x[i] -= factor * x[k];
+    }
+  }
+  if constexpr (n == 1) {
+    x[0] *= D_inv[0];
+  } else {
+    constexpr int a = n - 2, b = n - 1;
+    const Number squares = n == 2 ? A_11_A_22 : A[a][a] * A[b][b];
+    const Number det_inv = one / (squares - A[b][a] * A[b][a]);
+    substitute_back<n>(A, D_inv, det_inv, x);
+  }
+}
+
+// Adds what the couplings' slopes make of the absolute rates.
+template <int n, class Number>
+[[gnu::always_inline]] inline void add_rate_terms(const Number (&slope)[n][n], const Number (&rate)[n], Number (&x)[n]) {
+#pragma GCC unroll 4
+  for (int i = 0; i < n; ++i) {
+#pragma GCC unroll 4
+    for (int j = i + 1; j < n; ++j) {
+      x[i] += slope[j][i] * (rate[j] * rate[j]);
+      x[j] -= slope[j][i] * (rate[i] * rate[i]);
+    }
   }
 }
 
