@@ -3,11 +3,10 @@
 #include <filesystem>
 #include <new>
 
-#include "app/command.hpp"
+#include "app/cli/command.hpp"
+#include "app/cli/streams.hpp"
 #include "app/guide/reference.hpp"
 #include "app/report/version.hpp"
-#include "app/signals.hpp"
-#include "app/streams.hpp"
 #include "core/error.hpp"
 
 namespace {

@@ -3,6 +3,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <utility>
 
 namespace chainreel {
 namespace {
@@ -59,6 +62,99 @@ std::optional<double> parse_number(std::string_view text) {
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+namespace {
+
+// Bytes that a character has by its first one; 0 where none begins so.
+std::size_t length_by(unsigned char first) {
+  if (first < 0x80) return 1;
+  if (first >= 0xC2 && first < 0xE0) return 2;
+  if (first >= 0xE0 && first < 0xF0) return 3;
+  if (first >= 0xF0 && first < 0xF5) return 4;
+  return 0;
+}
+
+struct Character {
+  std::size_t length = 0;  // bytes; 0: no UTF-8 begins here
+  std::uint32_t code = 0;
+  bool is_cut = false;  // good so far, but the text ends within
+};
+
+Character character_at(std::string_view text) {
+  constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
+  const auto first = static_cast<unsigned char>(text[0]);
+  Character result{length_by(first), first, false};
+  if (result.length < 2) return result;
+  result.code = first & (0xFFU >> (result.length + 1));
+  for (std::size_t i = 1; i < result.length; ++i) {
+    if (i == text.size()) return {0, first, true};
+    const auto next = static_cast<unsigned char>(text[i]);
+    if ((next & 0xC0) != 0x80) return {0, first, false};
+    result.code = (result.code << 6) | (next & 0x3FU);
+  }
+  const bool is_surrogate = result.code >= 0xD800 && result.code < 0xE000;
+  if (result.code < kLeast[result.length] || result.code > 0x10FFFF || is_surrogate) return {0, first, false};
+  return result;
+}
+
+bool is_an_order(std::uint32_t code) {
+  if (code == '\n' || code == '\t') return false;
+  if (code < 0x20 || (code >= 0x7F && code < 0xA0)) return true;
+  return code == 0x061C || code == 0x200E || code == 0x200F || (code >= 0x2028 && code <= 0x202E) ||
+         (code >= 0x2066 && code <= 0x2069) || code == 0xFEFF;
+}
+
+std::string escaped(std::uint32_t code) {
+  char text[8];
+  std::snprintf(text, sizeof text, "\\u%04x", unsigned(code & 0xFFFF));
+  return text;
+}
+
+// Appends what can be shown of the text; returns how many bytes at its end are a character without its end.
+std::size_t append_printable(std::string_view text, std::string& result) {
+  while (!text.empty()) {
+    const Character character = character_at(text);
+    if (character.is_cut) return text.size();
+    const std::size_t length = character.length > 0 ? character.length : 1;
+    if (character.length == 0 || is_an_order(character.code))
+      result += escaped(character.code);
+    else
+      result += text.substr(0, length);
+    text.remove_prefix(length);
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::string PrintableStream::next(std::string_view piece) {
+  std::string text = std::exchange(waiting_, {});
+  text += piece;
+  std::string result;
+  result.reserve(text.size());
+  const std::size_t left = append_printable(text, result);
+  waiting_ = text.substr(text.size() - left);
+  return result;
+}
+
+std::string PrintableStream::end() {
+  std::string result;
+  for (const char c : std::exchange(waiting_, {})) result += escaped(static_cast<unsigned char>(c));
+  return result;
+}
+
+std::string printable(std::string_view text) {
+  PrintableStream stream;
+  std::string result = stream.next(text);
+  return result + stream.end();
+}
+
+std::string shortened(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return std::string(text);
+  std::size_t end = most;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return std::string(text.substr(0, end)) + ".. (" + std::to_string(text.size() - end) + " bytes more)";
 }
 
 }  // namespace chainreel

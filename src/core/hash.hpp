@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <iosfwd>
 #include <memory>
 #include <span>
 #include <string>
@@ -30,5 +31,12 @@ std::string sha256_of(std::string_view text);
 // The hash of a plain file's bytes. Throws Error (exit 3) where it cannot be read, (exit 7) where it is
 // larger than any input.
 std::string sha256_of_file(const std::string& path);
+
+// Bytes as text that any page may hold: base64 (RFC 4648, section 4), without line breaks.
+
+std::string base64(std::string_view bytes);
+
+// A file's bytes, piece by piece. Throws Error (exit 3) where it cannot be read.
+void write_base64_of_file(std::ostream& stream, const std::string& path);
 
 }  // namespace chainreel

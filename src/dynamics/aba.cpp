@@ -9,10 +9,9 @@
 //
 // A floating joint hands no inertia on, and exactly its tau as force: IA a_i = tau - pA gives its
 // acceleration.
-#include "dynamics/aba.hpp"
-
 #include <cassert>
 
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/recursions.hpp"
 #include "dynamics/scratch.hpp"
 

@@ -6,10 +6,9 @@
 // systems, J. Comput. Nonlinear Dynam. 16(9), 2021.) B V is V x* I V, so that C qd is what it should be; I' = V x* I - I V x
 // and the last term is skew, so that Mdot - 2 C is; for joints of one freedom it is the matrix of Christoffel's symbols.
 // Summed from the leaves on, each pair of a body and one of its ancestors is met once: O(n d) for depth d.
-#include "dynamics/coriolis.hpp"
-
 #include <vector>
 
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/kinematics.hpp"
 
 namespace chainreel {

@@ -7,10 +7,9 @@
 // The parts are added for each pair of bodies, so that bodies which share a coordinate (mimic) come out
 // right: a pair of different bodies with the same coordinate adds to its diagonal twice, as (i, j) and as (j,
 // i).
-#include "dynamics/crba.hpp"
-
 #include <algorithm>
 
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/recursions.hpp"
 #include "dynamics/scratch.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "core/dense.hpp"
 #include "dynamics/algebra.hpp"
-#include "dynamics/crba.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/recursions.hpp"
 #include "dynamics/scratch.hpp"
 

@@ -1,6 +1,6 @@
 #include "dynamics/workspace.hpp"
 
-#include "dynamics/forward_dynamics.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/scratch.hpp"
 
 namespace chainreel {

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "core/scalar.hpp"
 #include "expr/program.hpp"
 
@@ -59,5 +60,10 @@ class Expression {
 bool is_reserved_name(std::string_view name);
 // A letter or underscore, then letters, digits and underscores; other names cannot stand in an expression.
 bool is_variable_name(std::string_view name);
+
+// The functions that expressions know, as they are told to people.
+
+// "atan2(y, x)" and what it is.
+std::vector<Name> expression_functions();
 
 }  // namespace chainreel

@@ -14,7 +14,6 @@
 #include <charconv>
 
 #include "expr/expression.hpp"
-#include "expr/functions.hpp"
 
 namespace chainreel {
 namespace {

@@ -126,4 +126,10 @@ std::vector<int> depth_first_links(const UrdfFile& file);
 // size).
 UrdfFile read_urdf_file(const std::string& path);
 
+// The second look at a URDF file: urdfdom reads masses, inertias, placements, axes, limits and shapes.
+
+// `plain` is the text that check_urdf prepared, without problems. Throws Error with urdfdom's own words where
+// it refuses what the check let through.
+void read_urdf_values(const std::string& plain, UrdfFile& file);
+
 }  // namespace chainreel

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <unordered_map>
 
 #include "mesh/material_color.hpp"
+#include "mesh/mesh_extents.hpp"
 #include "model/package_path.hpp"
 #include "model/urdf_file.hpp"
 #include "model/urdf_problems.hpp"
@@ -144,6 +146,111 @@ std::map<std::string, std::string> find_meshes(const UrdfFile& file, const Model
   }
   problems.throw_if_any();
   return paths;
+}
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::size_t kFewPoints = 16;  // that are all kept
+
+void add_corners(const Vector3d& lower, const Vector3d& upper, const Eigen::Isometry3d& X_BS,
+                 std::vector<Vector3d>& points) {
+  for (int i = 0; i < 8; ++i)
+    points.push_back(X_BS * Vector3d(i & 1 ? upper.x() : lower.x(), i & 2 ? upper.y() : lower.y(),
+                                     i & 4 ? upper.z() : lower.z()));
+}
+
+void add_sphere(double radius, const Eigen::Isometry3d& X_BS, std::vector<Vector3d>& points) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-radius, radius}) points.push_back(X_BS * Vector3d(side * Vector3d::Unit(axis)));
+}
+
+// Those of many points that lie farthest in the 26 directions of a cube's faces, edges and corners.
+std::vector<Vector3d> farthest_of(const std::vector<Vector3d>& points) {
+  if (points.size() <= kFewPoints) return points;
+  std::vector<bool> kept(points.size(), false);
+  for (int i = 0; i < 27; ++i) {
+    const Vector3d direction(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    if (direction.isZero(0)) continue;
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < points.size(); ++k)
+      if (direction.dot(points[k]) > direction.dot(points[best])) best = k;
+    kept[best] = true;
+  }
+  std::vector<Vector3d> farthest;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (kept[k]) farthest.push_back(points[k]);
+  return farthest;
+}
+
+class Measure {
+ public:
+  Measure(const UrdfFile& file, const ModelOptions& options) : finder_(file.path, options.packages) {}
+
+  // False where a mesh cannot be measured.
+  bool add(const UrdfShape& shape, const Eigen::Isometry3d& X_BL, std::vector<Vector3d>& points) {
+    const Eigen::Isometry3d X_BS = X_BL * isometry_of(shape.origin);
+    const Vector3d& size = shape.size;
+    switch (shape.kind) {
+      case UrdfShapeKind::box:
+        add_corners(-size / 2, size / 2, X_BS, points);
+        return true;
+      case UrdfShapeKind::cylinder: {
+        const Vector3d half(size[0], size[0], size[2] / 2);
+        add_corners(-half, half, X_BS, points);
+        return true;
+      }
+      case UrdfShapeKind::sphere:
+        add_sphere(size[0], X_BS, points);
+        return true;
+      case UrdfShapeKind::mesh:
+        break;
+    }
+    const std::optional<Box>& box = mesh_box(shape.mesh_file);
+    if (!box) return false;
+    add_corners(box->lower.cwiseProduct(shape.mesh_scale), box->upper.cwiseProduct(shape.mesh_scale), X_BS, points);
+    return true;
+  }
+
+ private:
+  const std::optional<Box>& mesh_box(const std::string& name) {
+    const auto [known, is_new] = boxes_.try_emplace(name);
+    if (!is_new) return known->second;
+    const FoundFile& found = finder_.find(name);
+    if (found.path.empty()) return known->second;
+    try {
+      known->second = mesh_extents(found.path);
+    } catch (const Error&) {
+      // Pictures that show it will say what is wrong with it.
+    }
+    return known->second;
+  }
+
+  FileFinder finder_;
+  std::map<std::string, std::optional<Box>> boxes_;  // by the name as written
+};
+
+}  // namespace
+
+Outline read_outline(const std::string& path, const Chain& chain, const ModelOptions& options) {
+  const UrdfFile file = read_urdf_file(path);
+  std::unordered_map<std::string, const Frame*> frames;
+  for (const Frame& frame : chain.frames) frames.emplace(frame.name, &frame);
+  Measure measure(file, options);
+  Outline outline;
+  outline.points.resize(chain.bodies.size());
+  for (const UrdfLink& link : file.links) {
+    const auto found = frames.find(link.name);
+    if (found == frames.end() || found->second->body == 0) continue;
+    const Frame& frame = *found->second;
+    bool is_whole = true;
+    for (const UrdfShape& shape : link.visuals.empty() ? link.collisions : link.visuals)
+      is_whole &= measure.add(shape, frame.X_BF, outline.points[std::size_t(frame.body)]);
+    if (!is_whole) outline.unmeasured.push_back(link.name);
+  }
+  for (std::vector<Vector3d>& points : outline.points) points = farthest_of(points);
+  return outline;
 }
 
 }  // namespace chainreel

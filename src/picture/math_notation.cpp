@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "picture/utf8.hpp"
+#include "picture/text.hpp"
 
 namespace chainreel {
 namespace {

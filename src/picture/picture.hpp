@@ -7,15 +7,52 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "picture/color.hpp"
+#include "core/triangle_mesh.hpp"
 #include "picture/point.hpp"
-#include "picture/solids.hpp"
 
 namespace chainreel {
+
+struct Color {
+  std::uint8_t r = 0, g = 0, b = 0;
+  double a = 0;  // opacity 0 to 1; 0 draws nothing
+
+  Color faded(double opacity) const { return {r, g, b, a * opacity}; }
+  friend bool operator==(const Color&, const Color&) = default;
+};
+
+// From 0xRRGGBB, opaque unless said.
+constexpr Color color_of(std::uint32_t rgb, double a = 1) {
+  return {std::uint8_t(rgb >> 16), std::uint8_t(rgb >> 8), std::uint8_t(rgb), a};
+}
+
+// Bodies in space as one shape of a picture: the renderer lights them, lets them hide one another and puts
+// the result down like any flat shape.
+
+// View coordinates: x right, y up, z towards the viewer, m, from the point that the camera looks at.
+struct Solid {
+  std::shared_ptr<const TriangleMesh> mesh;
+  std::array<double, 12>
+      to_view{};  // rows of the 3x4 matrix from the mesh's coordinates; a pose, scales are the mesh's own
+  std::optional<Color> color;  // instead of the mesh's own
+};
+
+struct Solids {
+  std::vector<Solid> parts;
+  // A point (x, y, z) of the view stands on the page at origin + scale / (1 - z nearness) (x, y).
+  Point origin;
+  double scale = 1;     // units of H per metre where z = 0
+  double nearness = 0;  // 1/m: of the eye from z = 0; 0: parallel rays
+  double opacity = 1;   // of the whole
+  Color outline;        // around the whole; a = 0: none
+  double outline_width = 0;
+  bool is_shadow = false;  // one flat colour instead of light: that of `outline`, which then is no line
+};
 
 // Fill the inside, then a stroke centred on the edge.
 struct Paint {

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "picture/picture.hpp"
@@ -74,5 +75,11 @@ TextLine lay_out_math(const Fonts& fonts, const std::string& notation, const Tex
 
 // Moves a laid-out line to the anchor and appends it to the picture.
 void draw_text(Picture& picture, const TextLine& line, Point anchor, int clip = -1);
+
+// UTF-8 to characters and back.
+
+// Throws Error (exit 3) where the bytes are not well-formed UTF-8 (overlong forms and surrogates included).
+std::u32string decode_utf8(std::string_view utf8);
+std::string encode_utf8(std::u32string_view text);
 
 }  // namespace chainreel

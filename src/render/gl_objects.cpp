@@ -2,9 +2,10 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <string>
 
 #include "core/error.hpp"
-#include "render/shader_source.hpp"
 
 namespace chainreel {
 
@@ -151,6 +152,12 @@ void PrimitiveProgram::draw(int first_instance, int count) const {
                             reinterpret_cast<const void*>(std::uintptr_t(offset)));
   }
   gl_.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(count));
+}
+
+std::string_view shader_source(std::string_view name) {
+  for (const EmbeddedShader& shader : std::span(kEmbeddedShaders, std::size_t(kEmbeddedShaderCount)))
+    if (shader.name == name) return shader.source;
+  throw Error(ExitCode::no_renderer, "shader " + std::string(name) + " is not part of this build");
 }
 
 }  // namespace chainreel

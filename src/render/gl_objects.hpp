@@ -54,4 +54,17 @@ class PrimitiveProgram {
   GLuint program_ = 0, vertex_array_ = 0, buffer_ = 0;
 };
 
+// The texts of shaders/, embedded when the program is built.
+
+struct EmbeddedShader {
+  std::string_view name;  // "capsule.vert"
+  std::string_view source;
+};
+
+extern const EmbeddedShader kEmbeddedShaders[];
+extern const int kEmbeddedShaderCount;
+
+// Throws Error (exit 4) for a name that is not embedded.
+std::string_view shader_source(std::string_view name);
+
 }  // namespace chainreel

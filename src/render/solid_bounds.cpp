@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace chainreel {
 namespace {
@@ -60,6 +63,108 @@ std::optional<SolidBounds> bounds_of(const Solids& solids, const std::vector<Mes
   const double around = solids.is_shadow ? 0 : solids.outline_width;
   all.page = {all.page.x0 - around, all.page.y0 - around, all.page.x1 + around, all.page.y1 + around};
   return all;
+}
+
+namespace {
+
+// For each vertex the number of its place.
+std::vector<std::uint32_t> places_of(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> order(mesh.vertices.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return mesh.vertices[a].position < mesh.vertices[b].position;
+  });
+  std::vector<std::uint32_t> place(order.size());
+  std::uint32_t last = 0;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (mesh.vertices[order[i]].position != mesh.vertices[order[i - 1]].position) ++last;
+    place[order[i]] = last;
+  }
+  return place;
+}
+
+// Sets that are joined step by step.
+class Parts {
+ public:
+  explicit Parts(std::size_t count) : above_(count) { std::iota(above_.begin(), above_.end(), 0u); }
+  std::uint32_t of(std::uint32_t i) {
+    while (above_[i] != i) i = above_[i] = above_[above_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) { above_[of(a)] = of(b); }
+
+ private:
+  std::vector<std::uint32_t> above_;
+};
+
+struct Edge {
+  std::uint64_t ends = 0;  // the lower place first
+  int sense = 0;           // 1: run along from the lower place
+  std::uint32_t triangle = 0;
+};
+
+std::vector<Edge> edges_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& place) {
+  std::vector<Edge> edges;
+  for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint64_t a = place[mesh.triangles[t + k]], b = place[mesh.triangles[t + (k + 1) % 3]];
+      if (a != b)
+        edges.push_back({std::min(a, b) << 32 | std::max(a, b), a < b ? 1 : -1, std::uint32_t(t / 3)});
+    }
+  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.ends < b.ends; });
+  return edges;
+}
+
+// Six times the volume between a triangle and the origin.
+double six_volumes(const TriangleMesh& mesh, std::size_t triangle) {
+  const auto at = [&](std::size_t k) { return mesh.vertices[mesh.triangles[3 * triangle + k]].position; };
+  const auto a = at(0), b = at(1), c = at(2);
+  return a[0] * (double(b[1]) * c[2] - double(b[2]) * c[1]) +
+         a[1] * (double(b[2]) * c[0] - double(b[0]) * c[2]) +
+         a[2] * (double(b[0]) * c[1] - double(b[1]) * c[0]);
+}
+
+}  // namespace
+
+SortedTriangles closed_parts_first(const TriangleMesh& mesh) {
+  const std::size_t count = mesh.triangles.size() / 3;
+  const std::vector<Edge> edges = edges_of(mesh, places_of(mesh));
+  Parts parts(count);
+  std::vector<std::uint32_t> torn;  // triangles at edges that do not join two
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t end = i;
+    int sense = 0;
+    for (; end < edges.size() && edges[end].ends == edges[i].ends; ++end) {
+      sense += edges[end].sense;
+      parts.join(edges[i].triangle, edges[end].triangle);
+    }
+    if (end - i != 2 || sense != 0) torn.push_back(edges[i].triangle);
+    i = end;
+  }
+  std::vector<double> volume(count, 0.0);
+  for (std::size_t t = 0; t < count; ++t) volume[parts.of(std::uint32_t(t))] += six_volumes(mesh, t);
+  for (const std::uint32_t t : torn) volume[parts.of(t)] = -1;
+
+  const auto is_opaque = [&](std::size_t t) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (mesh.vertices[mesh.triangles[3 * t + k]].color[3] < 255) return false;
+    return true;
+  };
+  enum Group { closed, open, translucent };
+  std::vector<Group> group(count);
+  for (std::size_t t = 0; t < count; ++t)
+    group[t] = !is_opaque(t) ? translucent : volume[parts.of(std::uint32_t(t))] > 0 ? closed : open;
+
+  SortedTriangles sorted;
+  for (const Group wanted : {closed, open, translucent}) {
+    for (std::size_t t = 0; t < count; ++t)
+      if (group[t] == wanted)
+        sorted.indices.insert(sorted.indices.end(), mesh.triangles.begin() + std::ptrdiff_t(3 * t),
+                              mesh.triangles.begin() + std::ptrdiff_t(3 * t + 3));
+    if (wanted == closed) sorted.closed = sorted.indices.size() / 3;
+    if (wanted == open) sorted.opaque = sorted.indices.size() / 3;
+  }
+  return sorted;
 }
 
 }  // namespace chainreel

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "core/triangle_mesh.hpp"
 #include "picture/picture.hpp"
 
 namespace chainreel {
@@ -23,5 +24,19 @@ struct SolidBounds {
 };
 // Nothing where there is nothing to see. `bounds` are those of the parts' meshes, in their order.
 std::optional<SolidBounds> bounds_of(const Solids& solids, const std::vector<MeshBounds>& bounds);
+
+// Which parts of a mesh bound a volume, so that triangles that turn away from the viewer are never seen.
+
+// The triangles in another order.
+struct SortedTriangles {
+  std::vector<std::uint32_t> indices;  // three a triangle
+  std::size_t closed = 0;              // so many of them, at the front, are opaque and belong to closed parts
+  std::size_t opaque = 0;              // ... are opaque; the others let something through
+};
+
+// A part is what hangs together by edges, with vertices at the same place counted as one. It is closed where
+// every edge joins just two triangles that run along it in opposite directions, and the volume inside is
+// positive.
+SortedTriangles closed_parts_first(const TriangleMesh& mesh);
 
 }  // namespace chainreel

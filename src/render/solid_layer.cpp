@@ -5,15 +5,15 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "render/closed_surface.hpp"
 #include "render/gl_objects.hpp"
+#include "render/solid_bounds.hpp"
 
 namespace chainreel {
 namespace {
 
 constexpr int kFinePage = 540;  // px of height: smaller pages take more samples a pixel, since they cost less
 constexpr double kDepthMargin = 0.01;
-constexpr double kFringe = 2;  // px around bodies that may be touched: outlines are a pixel wide at least
+constexpr double kBodyFringe = 2;  // px around bodies that may be touched: outlines are a pixel wide at least
 
 int samples_for(int width, int height, int largest) {
   const int wanted = height <= kFinePage ? 4 : 2;
@@ -190,8 +190,8 @@ void SolidLayer::touch_tiles(const Solids& solids, const std::vector<MeshBounds>
     const std::optional<SolidBounds> bounds = bounds_of(part, {boxes[i]});
     if (!bounds) continue;
     const Rect& r = bounds->page;
-    touched_.mark_box(height_ * r.x0 - kFringe, height_ * (1 - r.y1) - kFringe, height_ * r.x1 + kFringe,
-                      height_ * (1 - r.y0) + kFringe);
+    touched_.mark_box(height_ * r.x0 - kBodyFringe, height_ * (1 - r.y1) - kBodyFringe, height_ * r.x1 + kBodyFringe,
+                      height_ * (1 - r.y0) + kBodyFringe);
   }
   touched_.boxes(clip, tiles_);
 }

@@ -1,9 +1,9 @@
-#include "render/vector_cairo.hpp"
-
 #include <cairo-ft.h>
 #include <cairo-pdf.h>
 #include <cairo.h>
 #include <ft2build.h>
+
+#include "render/vector_shapes.hpp"
 #include FT_FREETYPE_H
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "picture/utf8.hpp"
+#include "picture/text.hpp"
 #include "render/solid_image.hpp"
 
 namespace chainreel {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "picture/utf8.hpp"
+#include "picture/text.hpp"
 #include "render/solid_bounds.hpp"
 
 namespace chainreel {

@@ -5,6 +5,9 @@
 #include <vector>
 
 #include "picture/picture.hpp"
+#include "picture/text.hpp"
+
+typedef struct _cairo cairo_t;  // of <cairo.h>, which no other floor sees
 
 namespace chainreel {
 
@@ -33,5 +36,23 @@ struct GlyphCluster {
   std::u32string text;
 };
 std::vector<GlyphCluster> clusters_of(const GlyphRun& run);
+
+// Shapes by Cairo: the same list as for the canvas, on any of Cairo's surfaces.
+
+// Background and shapes; `height` of the page in the units of the surface, upper left corner at the origin.
+// Throws Error (exit 4) where Cairo fails.
+void paint_with_cairo(cairo_t* cairo, const Picture& picture, const Fonts& fonts, double height);
+
+// A page of one picture with selectable text; the bytes of a PDF file. Equal pictures give equal bytes: it
+// bears no time.
+std::string pdf_text(const Picture& picture, const Fonts& fonts, const VectorPage& page);
+
+// Shapes as SVG with selectable text.
+//
+// Text is <text> with a position for every character; each face is embedded as the part of it that the page
+// uses, so a browser shows the very glyphs of the other outputs. Programs that read no embedded fonts
+// (librsvg, Inkscape) take the family behind it: DejaVu Sans, Latin Modern Math.
+
+std::string svg_text(const Picture& picture, const Fonts& fonts, const VectorPage& page);
 
 }  // namespace chainreel

@@ -1,5 +1,3 @@
-#include "render/vector_svg.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,9 +7,10 @@
 #include <set>
 
 #include "core/format.hpp"
-#include "picture/font_subset.hpp"
-#include "picture/utf8.hpp"
+#include "picture/fonts.hpp"
+#include "picture/text.hpp"
 #include "render/solid_image.hpp"
+#include "render/vector_shapes.hpp"
 
 namespace chainreel {
 namespace {

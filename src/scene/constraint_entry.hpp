@@ -1,32 +1,78 @@
-// Constraints as a scene writes them. Which numbers mean what depends on the chain: two are along the plane
-// in which it moves, three are world x y z.
+// Constraints as a scene writes them: a struct a kind, its members by the names of their keys. Which numbers
+// mean what depends on the chain: two are along the plane in which it moves, three are world x y z.
 #pragma once
 
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/names.hpp"
 #include "model/constraint.hpp"
 
 namespace chainreel {
 
-// In the order of the alternatives of Constraint.
-enum class ConstraintKind { line, plane, point, distance, close, curve, joint, linear };
-std::span<const Name> names_of(ConstraintKind);
+class ConstraintKind;  // its keys and what they mean: scene/keys/constraints/kind.hpp
+
+struct LineEntry {
+  static const ConstraintKind& kind();
+  std::string frame;
+  std::vector<double> point, direction;
+};
+
+struct PlaneEntry {
+  static const ConstraintKind& kind();
+  std::string frame;
+  std::vector<double> point, normal;
+};
+
+struct PointEntry {
+  static const ConstraintKind& kind();
+  std::string frame;
+  std::vector<double> at;
+};
+
+// `b` names a frame, or `at` a place in its stead.
+struct DistanceEntry {
+  static const ConstraintKind& kind();
+  std::string a, b;
+  std::vector<double> at;
+  double length = 0;  // m
+};
+
+struct CloseEntry {
+  static const ConstraintKind& kind();
+  std::string a, b;
+  std::vector<double> at;
+  Closure closure = Closure::point;
+  std::vector<double> axis;  // of Closure::axis; empty: z
+};
+
+struct CurveEntry {
+  static const ConstraintKind& kind();
+  std::string frame;
+  std::string x, y;  // expressions in s
+  double s = 0;      // where along the curve its foot point is sought first
+};
+
+struct JointEntry {
+  static const ConstraintKind& kind();
+  std::string name;
+  double value = 0;  // rad or m
+};
+
+struct LinearEntry {
+  static const ConstraintKind& kind();
+  std::vector<std::pair<std::string, double>> coefficients;
+  double value = 0;
+};
+
+// A kind more: its struct here, and a file of its own in scene/keys/constraints.
+using ConstraintForm = std::variant<LineEntry, PlaneEntry, PointEntry, DistanceEntry, CloseEntry, CurveEntry,
+                                    JointEntry, LinearEntry>;
 
 struct ConstraintEntry {
-  ConstraintKind kind = ConstraintKind::point;
-  std::string a;                  // the frame, the first of two frames, or the joint
-  std::string b;                  // the second frame; empty: `at` says the place
-  std::vector<double> at;         // a point of the line or plane; where the frame or the rod's end is to be
-  std::vector<double> direction;  // of a line; a plane's normal; a closure's axis, empty: z
-  double value = 0;               // of a joint, a sum; a rod's length, m
-  Closure closure = Closure::point;
-  std::string x, y;               // of a curve: expressions in s
-  double s = 0;                   // where along the curve its foot point is sought first
-  std::vector<std::pair<std::string, double>> coefficients;
+  ConstraintForm form;
   Place place;
 };
 

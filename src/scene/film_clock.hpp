@@ -11,7 +11,7 @@
 
 #include "core/frame_rate.hpp"
 #include "scene/scene.hpp"
-#include "sim/trajectory.hpp"
+#include "sim/system/trajectory.hpp"
 
 namespace chainreel {
 

@@ -1,8 +1,11 @@
 // What a picture is made of: the layers that `draw:` names, in one list.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
+
+#include "core/names.hpp"
 
 namespace chainreel {
 
@@ -14,50 +17,54 @@ enum class LayerNeeds {
 };
 
 // In painter's order, what lies below first: the layer, its name in `draw:`, its place among those that are drawn by
-// default (0: it is not), and what it needs. Several that lie at several depths may have one name. Those without a
-// name are always there. Layer x is made by make_layer_x, which src/draw/layers has.
-#define CHAINREEL_LAYERS(ROW)                                    \
-  ROW(ground, "ground", 6, nothing)                              \
-  ROW(chain_base, "chain", 1, nothing)                           \
-  ROW(ghosts, "ghosts", 0, nothing)                              \
-  ROW(shadow, "shadow", 0, nothing)                              \
-  ROW(chain_rails, "chain", 0, nothing)                          \
-  ROW(trail, "trail", 2, end_effector)                           \
-  ROW(chain_links, "chain", 0, nothing)                          \
-  ROW(ellipse, "ellipse", 0, end_effector)                       \
-  ROW(foot, "chain", 0, nothing)                                 \
-  ROW(frames, "frames", 0, nothing)                              \
-  ROW(com, "com", 0, nothing)                                    \
-  ROW(gravity, "gravity", 0, nothing)                            \
-  ROW(torque, "torque", 0, nothing)                              \
-  ROW(velocity, "velocity", 0, end_effector)                     \
-  ROW(constraint_force, "constraint_force", 0, nothing)          \
-  ROW(mark_labels, "", 0, nothing)                               \
-  ROW(chain_tip, "chain", 0, nothing)                            \
-  ROW(mass_matrix, "mass_matrix", 0, nothing)                    \
-  ROW(outlined_trail, "trail", 0, end_effector)                  \
-  ROW(outlined_chain, "chain", 0, nothing)                       \
-  ROW(title, "title", 4, words)                                  \
-  ROW(torque_label, "torque_label", 5, words)                    \
-  ROW(equation, "equation", 0, words)                            \
-  ROW(legend, "legend", 0, words)                                \
-  ROW(scale_bar, "scale_bar", 0, words)                          \
-  ROW(time, "time", 3, words)                                    \
-  ROW(speed, "", 0, words)
+// default (0: it is not), what it needs, and what the name means. Several that lie at several depths may have one name,
+// of which the first says what it means. Those without a name are always there. Layer x is made by make_layer_x, which
+// src/draw/layers has.
+#define CHAINREEL_LAYERS(ROW)                                                                               \
+  ROW(ground, "ground", 6, nothing, "seen obliquely: a grid on the ground where the robot stands on it")    \
+  ROW(chain_base, "chain", 1, nothing, "the mechanism")                                                     \
+  ROW(ghosts, "ghosts", 0, nothing,                                                                         \
+      "the chain at six earlier instants of the last second, fainter with age, the older half as outlines") \
+  ROW(shadow, "shadow", 0, nothing, "seen obliquely: what a light from above leaves dark")                  \
+  ROW(chain_rails, "chain", 0, nothing, "")                                                                 \
+  ROW(trail, "trail", 2, end_effector, "the last second of the end effector's way, a dot every 0.1 s")      \
+  ROW(chain_links, "chain", 0, nothing, "")                                                                 \
+  ROW(ellipse, "ellipse", 0, end_effector, "the effective mass of the end effector, as `ellipse:` says")    \
+  ROW(foot, "chain", 0, nothing, "")                                                                        \
+  ROW(frames, "frames", 0, nothing, "axes of the links' frames (y has one cross tick, z two)")              \
+  ROW(com, "com", 0, nothing, "the centre of mass of the whole chain")                                      \
+  ROW(gravity, "gravity", 0, nothing, "the weight of each link at its centre of mass")                      \
+  ROW(torque, "torque", 0, nothing,                                                                         \
+      "arcs at revolute joints, arrows beside the rails of sliders; a ring where next to nothing acts")     \
+  ROW(velocity, "velocity", 0, end_effector, "velocity of the end effector")                                \
+  ROW(constraint_force, "constraint_force", 0, nothing, "dashed: what constraints exert on the robot")      \
+  ROW(mark_labels, "", 0, nothing, "")                                                                      \
+  ROW(chain_tip, "chain", 0, nothing, "")                                                                   \
+  ROW(mass_matrix, "mass_matrix", 0, nothing, "M(q) as a live heat map, with numbers up to 4 x 4")          \
+  ROW(outlined_trail, "trail", 0, end_effector, "")                                                         \
+  ROW(outlined_chain, "chain", 0, nothing, "")                                                              \
+  ROW(title, "title", 4, words, "the title above it")                                                       \
+  ROW(torque_label, "torque_label", 5, words, "the torques in words")                                       \
+  ROW(equation, "equation", 0, words, "the equation of motion, symbols in the colours of their vectors")    \
+  ROW(legend, "legend", 0, words, "the names of vectors and of the ellipse")                                \
+  ROW(scale_bar, "scale_bar", 0, words, "one metre, or a round part of it")                                 \
+  ROW(time, "time", 3, words, "the time below the scene, and the speed where it is not 1")                  \
+  ROW(speed, "", 0, words, "")
 
 struct LayerRow {
   const char* name;
   int by_default;
   LayerNeeds needs;
+  const char* meaning;
 };
 inline constexpr LayerRow kLayerRows[] = {
-#define CHAINREEL_LAYER_ROW(layer, name, by_default, needs) {name, by_default, LayerNeeds::needs},
+#define CHAINREEL_LAYER_ROW(layer, name, by_default, needs, meaning) {name, by_default, LayerNeeds::needs, meaning},
     CHAINREEL_LAYERS(CHAINREEL_LAYER_ROW)
 #undef CHAINREEL_LAYER_ROW
 };
 
-// The layers that `draw:` may name, each once.
-const std::vector<std::string>& layer_names();
+// The layers that `draw:` may name, each once, and what they are; first those that are drawn by default.
+std::span<const Name> layer_names();
 // Those that are drawn where a scene names none.
 const std::vector<std::string>& default_layers();
 // Whether a layer of this name has this need.

@@ -8,11 +8,15 @@
 
 namespace chainreel {
 
-const std::vector<std::string>& layer_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const LayerRow& layer : kLayerRows)
-      if (*layer.name && std::find(all.begin(), all.end(), layer.name) == all.end()) all.emplace_back(layer.name);
+std::span<const Name> layer_names() {
+  static const std::vector<Name> names = [] {
+    std::vector<LayerRow> rows(std::begin(kLayerRows), std::end(kLayerRows));
+    std::erase_if(rows, [](const LayerRow& layer) { return !*layer.meaning; });
+    std::stable_sort(rows.begin(), rows.end(), [](const LayerRow& a, const LayerRow& b) {
+      return a.by_default > 0 && (b.by_default == 0 || a.by_default < b.by_default);
+    });
+    std::vector<Name> all;
+    for (const LayerRow& layer : rows) all.push_back({layer.name, layer.meaning});
     return all;
   }();
   return names;

@@ -12,12 +12,12 @@
 #include "scene/constraint_entry.hpp"
 #include "scene/layers.hpp"
 #include "scene/words.hpp"
-#include "sim/choice/accuracy.hpp"
-#include "sim/constraint_plan.hpp"
-#include "sim/drive/events.hpp"
+#include "sim/accuracy.hpp"
 #include "sim/drive/limits.hpp"
 #include "sim/drive/torque.hpp"
 #include "sim/plots.hpp"
+#include "sim/system/constraint_plan.hpp"
+#include "sim/watch/events.hpp"
 
 namespace chainreel {
 

@@ -29,26 +29,6 @@ constexpr Name kPresets[] = {{"slides", "NAME.mp4"},
                              {"doc", "NAME.gif"},
                              {"frames", "a folder of PNG files"},
                              {"still", "one frame as PNG, SVG and PDF"}};
-constexpr Name kLayers[] = {
-    {"chain", "the mechanism"},
-    {"trail", "the last second of the end effector's way, a dot every 0.1 s"},
-    {"ghosts", "the chain at six earlier instants of the last second, fainter with age, the older half as outlines"},
-    {"frames", "axes of the links' frames (y has one cross tick, z two)"},
-    {"com", "the centre of mass of the whole chain"},
-    {"torque", "arcs at revolute joints, arrows beside the rails of sliders; a ring where next to nothing acts"},
-    {"velocity", "velocity of the end effector"},
-    {"gravity", "the weight of each link at its centre of mass"},
-    {"constraint_force", "dashed: what constraints exert on the robot"},
-    {"ellipse", "the effective mass of the end effector, as `ellipse:` says"},
-    {"mass_matrix", "M(q) as a live heat map, with numbers up to 4 x 4"},
-    {"equation", "the equation of motion, symbols in the colours of their vectors"},
-    {"time", "the time below the scene, and the speed where it is not 1"},
-    {"title", "the title above it"},
-    {"torque_label", "the torques in words"},
-    {"scale_bar", "one metre, or a round part of it"},
-    {"legend", "the names of vectors and of the ellipse"},
-    {"ground", "seen obliquely: a grid on the ground where the robot stands on it"},
-    {"shadow", "seen obliquely: what a light from above leaves dark"}};
 
 }  // namespace
 
@@ -82,10 +62,6 @@ std::span<const Name> names_of(ThemeName) {
 
 std::span<const Name> names_of(Preset) {
   return kPresets;
-}
-
-std::span<const Name> layer_meanings() {
-  return kLayers;
 }
 
 }  // namespace chainreel

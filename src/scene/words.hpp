@@ -30,7 +30,5 @@ std::span<const Name> names_of(PageLayout);
 std::span<const Name> names_of(ThemeName);
 std::span<const Name> names_of(Preset);
 
-// The layers that `draw:` may name (scene/layers), each with what it shows.
-std::span<const Name> layer_meanings();
 
 }  // namespace chainreel

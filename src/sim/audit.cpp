@@ -6,7 +6,6 @@
 
 #include "core/hash.hpp"
 #include "dynamics/energy.hpp"
-#include "sim/choice/choose_method.hpp"
 
 namespace chainreel {
 namespace {

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "integrate/method.hpp"
-#include "sim/chain_system.hpp"
+#include "sim/system/chain_system.hpp"
 
 namespace chainreel {
 namespace {

@@ -6,8 +6,8 @@
 #include <variant>
 
 #include "core/format.hpp"
-#include "sim/chain_system.hpp"
-#include "sim/forms.hpp"
+#include "sim/system/chain_system.hpp"
+#include "sim/system/forms.hpp"
 
 namespace chainreel {
 namespace {

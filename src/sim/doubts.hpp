@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/accuracy.hpp"
 #include "sim/audit.hpp"
-#include "sim/choice/accuracy.hpp"
 
 namespace chainreel {
 

@@ -1,7 +1,7 @@
 #include "sim/instant.hpp"
 
 #include "dynamics/constraints/constrained_dynamics.hpp"
-#include "sim/chain_system.hpp"
+#include "sim/system/chain_system.hpp"
 
 namespace chainreel {
 
@@ -29,6 +29,20 @@ Instant instant_of(const Simulation& simulation, double t, ConstVec q, ConstVec 
     instant.forces.push_back(contact_force(chain, set, cws, k, cws.lambda));
   }
   return instant;
+}
+
+TipMass::TipMass(const Chain& chain) : chain_(&chain) {}
+
+TipMass::TipMass(const Chain& chain, const ConstraintPlan& constraints) : chain_(&chain) {
+  if (constraints.empty()) return;
+  set_ = std::make_unique<ConstraintSet>(chain, constraints.list);
+  cws_ = std::make_unique<ConstrainedWorkspace>(chain, *set_);
+}
+
+EffectiveMass TipMass::at(Workspace& ws, ConstVec q, Task task) const {
+  const int frame = chain_->end_effector;
+  if (!set_) return effective_mass_of(*chain_, ws, q, frame, task);
+  return constrained_effective_mass_of(*chain_, ws, *set_, *cws_, q, frame, task);
 }
 
 }  // namespace chainreel

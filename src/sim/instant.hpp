@@ -6,12 +6,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
+#include "dynamics/constraints/constrained_mass.hpp"
 #include "dynamics/workspace.hpp"
 #include "sim/simulate.hpp"
+#include "sim/system/constraint_plan.hpp"
 
 namespace chainreel {
 
@@ -34,5 +38,28 @@ struct Instant {
 
 // At t in the state q, qd, which lie on the constraints.
 Instant instant_of(const Simulation& simulation, double t, ConstVec q, ConstVec qd);
+
+// The effective mass at a chain's end effector: under the run's constraints, where it has some. All that shows it,
+// films, figures and tables, takes it from here.
+
+class TipMass {
+ public:
+  // For a chain without constraints. The chain must outlive it.
+  explicit TipMass(const Chain& chain);
+  // Throws Error where the constraints do not fit the chain.
+  TipMass(const Chain& chain, const ConstraintPlan& constraints);
+
+  const Chain& chain() const { return *chain_; }
+  bool is_constrained() const { return set_ != nullptr; }
+
+  // `q` on the constraints. Throws nothing; the chain has an end effector.
+  EffectiveMass at(Workspace& ws, ConstVec q) const { return at(ws, q, Task::linear); }
+  EffectiveMass at(Workspace& ws, ConstVec q, Task task) const;
+
+ private:
+  const Chain* chain_;
+  std::unique_ptr<ConstraintSet> set_;  // null: none
+  std::unique_ptr<ConstrainedWorkspace> cws_;
+};
 
 }  // namespace chainreel

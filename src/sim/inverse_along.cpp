@@ -9,8 +9,8 @@
 #include "core/format.hpp"
 #include "dynamics/constraints/constrained_dynamics.hpp"
 #include "dynamics/constraints/constraint_rows.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
-#include "dynamics/rnea.hpp"
 #include "sim/drive/reference.hpp"
 
 namespace chainreel {

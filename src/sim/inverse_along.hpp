@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "model/chain.hpp"
-#include "sim/constraint_plan.hpp"
+#include "sim/system/constraint_plan.hpp"
 
 namespace chainreel {
 

@@ -6,7 +6,7 @@
 #include "core/dense.hpp"
 #include "dynamics/constraints/constraint_rows.hpp"
 #include "integrate/stability_limit.hpp"
-#include "sim/chain_system.hpp"
+#include "sim/system/chain_system.hpp"
 
 namespace chainreel {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "dynamics/energy.hpp"
 #include "sim/audit.hpp"
-#include "sim/chain_system.hpp"
-#include "sim/drive/torques_along.hpp"
-#include "sim/tip.hpp"
+#include "sim/drive/probe.hpp"
+#include "sim/system/chain_system.hpp"
+#include "sim/torques_along.hpp"
 
 namespace chainreel {
 namespace {

@@ -10,9 +10,9 @@
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "expr/expression.hpp"
-#include "sim/choice/probe.hpp"
-#include "sim/drive/events.hpp"
-#include "sim/trajectory.hpp"
+#include "sim/drive/probe.hpp"
+#include "sim/system/trajectory.hpp"
+#include "sim/watch/events.hpp"
 
 namespace chainreel {
 

@@ -8,13 +8,14 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/machine.hpp"
-#include "sim/chain_system.hpp"
-#include "sim/choice/workload.hpp"
-#include "sim/drive/corner_watch.hpp"
-#include "sim/drive/events.hpp"
-#include "sim/drive/limit_search.hpp"
-#include "sim/forms.hpp"
+#include "sim/drive/limits.hpp"
 #include "sim/step_grid.hpp"
+#include "sim/system/chain_system.hpp"
+#include "sim/system/forms.hpp"
+#include "sim/watch/corner_watch.hpp"
+#include "sim/watch/events.hpp"
+#include "sim/watch/limit_search.hpp"
+#include "sim/workload.hpp"
 
 namespace chainreel {
 namespace {
@@ -428,6 +429,15 @@ std::string to_string(RunStatus status) {
 
 double same_instant(const Simulation& simulation) {
   return kSameInstant * (simulation.step > 0 ? simulation.step : simulation.duration);
+}
+
+ChainSystem::ChainSystem(const Simulation& simulation)
+    : ChainSystem(simulation.chain, *simulation.torque, simulation.limit, simulation.constraints) {}
+
+void apply(const MethodSetting& setting, Simulation& simulation) {
+  simulation.method = setting.method;
+  simulation.options = setting.options;
+  simulation.step = setting.step;
 }
 
 void check_method(const Simulation& simulation) {

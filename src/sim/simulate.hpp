@@ -8,13 +8,13 @@
 
 #include "integrate/method.hpp"
 #include "model/chain.hpp"
-#include "model/outline.hpp"
-#include "sim/constraint_plan.hpp"
-#include "sim/drive/events.hpp"
+#include "model/visuals.hpp"
 #include "sim/drive/limits.hpp"
 #include "sim/drive/torque.hpp"
 #include "sim/plots.hpp"
-#include "sim/trajectory.hpp"
+#include "sim/system/constraint_plan.hpp"
+#include "sim/system/trajectory.hpp"
+#include "sim/watch/events.hpp"
 
 namespace chainreel {
 
@@ -36,6 +36,15 @@ struct Simulation {
   std::shared_ptr<const PlotSet> plots;  // null: none; of no matter to the run
   Outline outline;                       // of what pictures show, for who judges by the eye; of no matter to the run
 };
+
+// How a run is stepped.
+struct MethodSetting {
+  const Method* method = nullptr;
+  MethodOptions options;
+  double step = 0;  // s; 0: by the tolerance
+};
+
+void apply(const MethodSetting& setting, Simulation& simulation);
 
 // Two instants closer than this are one, s.
 double same_instant(const Simulation& simulation);

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/choice/workload.hpp"
 #include "sim/simulate.hpp"
+#include "sim/workload.hpp"
 
 namespace chainreel {
 

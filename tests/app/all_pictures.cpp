@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "app/command.hpp"
+#include "app/cli/command.hpp"
 #include "app/commands/ellipse_numbers.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"

@@ -10,12 +10,11 @@
 #include <cstdlib>
 
 #include "app/all_pictures.hpp"
-#include "app/film/picture_file.hpp"
+#include "app/film/target.hpp"
 #include "app/print_pictures.hpp"
 #include "encode/png.hpp"
 #include "picture/theme.hpp"
-#include "render/vector_cairo.hpp"
-#include "render/vector_svg.hpp"
+#include "render/vector_shapes.hpp"
 #include "support/fonts.hpp"
 #include "support/picture_compare.hpp"
 #include "support/run_program.hpp"

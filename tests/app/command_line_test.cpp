@@ -11,10 +11,10 @@
 #include <regex>
 #include <sstream>
 
-#include "app/signals.hpp"
+#include "app/cli/streams.hpp"
 #include "core/json.hpp"
 #include "encode/png.hpp"
-#include "scene/read_scene.hpp"
+#include "scene/text/read_scene.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "app/all_pictures.hpp"
-#include "app/film/picture_file.hpp"
+#include "app/film/target.hpp"
 #include "encode/png.hpp"
 #include "picture/theme.hpp"
 #include "support/picture_compare.hpp"

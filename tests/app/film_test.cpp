@@ -9,7 +9,7 @@
 
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
-#include "app/film/picture_file.hpp"
+#include "app/film/target.hpp"
 #include "core/json.hpp"
 #include "support/picture_compare.hpp"
 #include "support/run_program.hpp"

@@ -9,7 +9,7 @@
 
 #include "app/gallery/gallery_page.hpp"
 #include "app/gallery/page_template.hpp"
-#include "core/base64.hpp"
+#include "core/hash.hpp"
 #include "encode/film_start.hpp"
 #include "encode/png.hpp"
 #include "encode/video_writer.hpp"

@@ -7,7 +7,7 @@
 
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
-#include "app/film/picture_file.hpp"
+#include "app/film/target.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "dynamics/kinematics.hpp"

@@ -12,8 +12,8 @@
 
 #include "core/json.hpp"
 #include "expr/expression.hpp"
-#include "scene/keys.hpp"
-#include "scene/read_scene.hpp"
+#include "scene/keys/keys.hpp"
+#include "scene/text/read_scene.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
 

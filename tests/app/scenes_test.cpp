@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/film/picture_file.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
+#include "app/film/target.hpp"
 #include "draw/film/film.hpp"
 #include "dynamics/kinematics.hpp"
 #include "picture/theme.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "app/film/moment.hpp"
+#include "app/commands/moment.hpp"
 #include "core/json.hpp"
 #include "encode/png.hpp"
 #include "support/picture_compare.hpp"

@@ -8,9 +8,9 @@
 #include <functional>
 #include <numbers>
 
-#include "app/film/picture_file.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
+#include "app/film/target.hpp"
 #include "draw/film/film.hpp"
 #include "draw/shapes.hpp"
 #include "picture/theme.hpp"

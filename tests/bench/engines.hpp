@@ -16,10 +16,10 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/forward_dynamics.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "integrate/method.hpp"
 #include "peers/mujoco_chain.hpp"
-#include "sim/chain_system.hpp"
+#include "sim/system/chain_system.hpp"
 #include "support/chains.hpp"
 
 namespace chainreel::bench {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bench/chains.hpp"
-#include "dynamics/forward_dynamics.hpp"
+#include "dynamics/equation_of_motion.hpp"
 
 namespace chainreel::bench {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/chain_system.hpp"
 #include "sim/simulate.hpp"
+#include "sim/system/chain_system.hpp"
 
 namespace chainreel::bench {
 

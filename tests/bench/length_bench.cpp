@@ -12,7 +12,7 @@
 
 #include "bench/results.hpp"
 #include "core/format.hpp"
-#include "dynamics/aba.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "support/chains.hpp"
 
 namespace chainreel::bench {

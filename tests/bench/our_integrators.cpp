@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "bench/integrator_engines.hpp"
-#include "sim/forms.hpp"
+#include "sim/system/forms.hpp"
 
 namespace chainreel::bench {
 namespace {

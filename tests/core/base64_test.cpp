@@ -1,11 +1,10 @@
 // The vectors of RFC 4648, section 10, and texts longer than one piece.
-#include "core/base64.hpp"
-
 #include <gtest/gtest.h>
 
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace chainreel {

@@ -1,5 +1,3 @@
-#include "core/output_folder.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +5,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
+#include "core/output_file.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace chainreel {

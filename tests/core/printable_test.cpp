@@ -1,6 +1,6 @@
-#include "core/printable.hpp"
-
 #include <gtest/gtest.h>
+
+#include "core/format.hpp"
 
 namespace chainreel {
 namespace {

@@ -10,7 +10,7 @@
 #include "model/planar.hpp"
 #include "model/read_chain.hpp"
 #include "picture/text.hpp"
-#include "sim/trajectory.hpp"
+#include "sim/system/trajectory.hpp"
 #include "support/fonts.hpp"
 
 namespace chainreel::test {

@@ -2,11 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/compare.hpp"
-#include "dynamics/crba.hpp"
-#include "dynamics/forward_dynamics.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/kinematics.hpp"
 #include "dynamics/recursions.hpp"
-#include "dynamics/rnea.hpp"
 #include "support/chains.hpp"
 
 namespace chainreel::test {

@@ -1,13 +1,10 @@
 // The loop of a run allocates nothing.
 #include <gtest/gtest.h>
 
-#include "dynamics/aba.hpp"
-#include "dynamics/crba.hpp"
 #include "dynamics/energy.hpp"
-#include "dynamics/forward_dynamics.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
 #include "dynamics/kinematics.hpp"
-#include "dynamics/rnea.hpp"
 #include "support/allocation_count.hpp"
 #include "support/chains.hpp"
 

@@ -11,10 +11,8 @@
 #include <cmath>
 
 #include "dynamics/compare.hpp"
-#include "dynamics/crba.hpp"
-#include "dynamics/forward_dynamics.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/kinematics.hpp"
-#include "dynamics/rnea.hpp"
 #include "support/chains.hpp"
 
 namespace chainreel::test {

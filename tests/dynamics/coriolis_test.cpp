@@ -1,11 +1,8 @@
-#include "dynamics/coriolis.hpp"
-
 #include <gtest/gtest.h>
 
 #include "dynamics/compare.hpp"
-#include "dynamics/crba.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/kinematics.hpp"
-#include "dynamics/rnea.hpp"
 #include "support/chains.hpp"
 
 namespace chainreel::test {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "dynamics/compare.hpp"
-#include "dynamics/crba.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "support/chains.hpp"
 
 namespace chainreel::test {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/compare.hpp"
-#include "dynamics/forward_dynamics.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
 #include "dynamics/kinematics.hpp"
 #include "support/chains.hpp"

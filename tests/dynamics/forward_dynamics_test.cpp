@@ -1,14 +1,10 @@
-#include "dynamics/forward_dynamics.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
 
-#include "dynamics/aba.hpp"
 #include "dynamics/compare.hpp"
-#include "dynamics/crba.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
-#include "dynamics/rnea.hpp"
 #include "support/chains.hpp"
 
 namespace chainreel::test {

@@ -4,9 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/compare.hpp"
-#include "dynamics/crba.hpp"
-#include "dynamics/forward_dynamics.hpp"
-#include "dynamics/rnea.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "support/chains.hpp"
 
 namespace chainreel::test {

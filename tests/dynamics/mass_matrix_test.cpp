@@ -3,9 +3,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "dynamics/compare.hpp"
-#include "dynamics/crba.hpp"
 #include "dynamics/energy.hpp"
-#include "dynamics/rnea.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "support/chains.hpp"
 
 namespace chainreel::test {

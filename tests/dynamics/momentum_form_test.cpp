@@ -5,11 +5,8 @@
 #include <cmath>
 
 #include "dynamics/compare.hpp"
-#include "dynamics/coriolis.hpp"
-#include "dynamics/crba.hpp"
 #include "dynamics/energy.hpp"
-#include "dynamics/forward_dynamics.hpp"
-#include "dynamics/rnea.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "support/allocation_count.hpp"
 #include "support/chains.hpp"
 

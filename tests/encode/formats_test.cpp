@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "encode/bleed.hpp"
 #include "encode/film_start.hpp"
-#include "encode/gif_comment.hpp"
+#include "encode/gif_writer.hpp"
 #include "encode/palette.hpp"
 #include "encode/png.hpp"
 #include "encode/small_frames.hpp"

@@ -131,8 +131,19 @@ const House& house() {
                    {"cairo", {"render"}},
                    {"yaml-cpp/", {"scene"}},
                    {"CLI/", {"app"}}};
-    h.shelves["draw"] = {{"robot", {}},           {"page", {"robot"}},     {"layers", {"page"}},
-                         {"film", {"layers"}},    {"figures", {"layers"}}, {"charts", {"page"}}};
+    // "" are the files that stand in the room itself.
+    h.shelves["draw"] = {{"robot", {}},        {"page", {"robot"}},     {"layers", {"page"}},
+                         {"film", {"layers"}}, {"figures", {"layers"}}, {"charts", {"page"}}};
+    h.shelves["sim"] = {
+        {"drive", {}}, {"system", {"drive"}}, {"watch", {"system"}}, {"", {"watch"}}, {"choice", {""}}};
+    h.shelves["scene"] = {{"", {}}, {"keys", {""}}, {"text", {"keys"}}, {"run", {"text"}}};
+    h.shelves["app"] = {{"cli", {}},
+                        {"film", {"cli"}},
+                        {"report", {"film"}},
+                        {"guide", {"film"}},
+                        {"gallery", {"report"}},
+                        {"commands", {"report", "guide", "gallery"}},
+                        {"", {"commands"}}};
     // Eigen is the language of everything below scene.
     for (const auto& [folder, below] : h.uses)
       if (folder != "scene" && folder != "draw" && folder != "app") h.libraries["Eigen/"].insert(folder);

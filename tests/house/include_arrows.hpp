@@ -28,7 +28,7 @@ std::set<std::string> reachable(const std::map<std::string, std::set<std::string
 struct IncludeReport {
   int files = 0;
   int includes = 0;
-  std::vector<std::string> faults;  // "sim/probe.cpp:7: ..."
+  std::vector<std::string> faults;  // "sim/audit.cpp:7: ..."
 };
 
 IncludeReport check_includes(const House& house, const std::filesystem::path& src);

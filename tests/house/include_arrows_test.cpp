@@ -55,7 +55,7 @@ TEST(IncludeArrows, EveryKindOfWrongIncludeIsFoundWithItsLine) {
   tree.write("sim/through.cpp",
              "#include \"core/good.hpp\"\n#include \"model/chain.hpp\"\n#include <Eigen/Core>\n");
   tree.write("core/up.hpp", "#pragma once\n#include \"sim/through.hpp\"\n");
-  tree.write("render/physics.cpp", "  #  include \"dynamics/aba.hpp\"\n");
+  tree.write("render/physics.cpp", "  #  include \"dynamics/energy.hpp\"\n");
   tree.write("draw/page/yaml.cpp", "#include <yaml-cpp/yaml.h>\n#include <Eigen/Core>\n");
   tree.write("draw/film/good.cpp", "#include \"draw/film/a.hpp\"\n#include \"draw/robot/b.hpp\"\n");
   tree.write("draw/layers/up.cpp", "#include \"draw/film/panel.hpp\"\n#include \"draw/attic/c.hpp\"\n");
@@ -75,7 +75,7 @@ TEST(IncludeArrows, EveryKindOfWrongIncludeIsFoundWithItsLine) {
                   HasSubstr("draw/loose.cpp: is on no shelf of draw"),
                   HasSubstr("draw/page/yaml.cpp:1: <yaml-cpp/yaml.h> may be included by scene alone"),
                   HasSubstr("draw/page/yaml.cpp:2: <Eigen/Core> may be included by"),
-                  HasSubstr("render/physics.cpp:1: \"dynamics/aba.hpp\": render may not include dynamics")));
+                  HasSubstr("render/physics.cpp:1: \"dynamics/energy.hpp\": render may not include dynamics")));
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
-#include "model/outline.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "model/visuals.hpp"
 #include "model_file.hpp"
 
 namespace chainreel {

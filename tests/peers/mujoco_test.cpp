@@ -13,8 +13,7 @@
 #include <limits>
 
 #include "dynamics/compare.hpp"
-#include "dynamics/crba.hpp"
-#include "dynamics/forward_dynamics.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "peers/mjcf.hpp"
 #include "peers/model_files.hpp"
 #include "peers/mujoco_chain.hpp"

@@ -6,7 +6,6 @@
 #include "core/error.hpp"
 #include "picture/math_notation.hpp"
 #include "picture/text.hpp"
-#include "picture/utf8.hpp"
 #include "support/fonts.hpp"
 
 namespace chainreel {

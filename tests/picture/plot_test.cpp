@@ -9,7 +9,7 @@
 #include <set>
 
 #include "picture/color_vision.hpp"
-#include "picture/font_subset.hpp"
+#include "picture/fonts.hpp"
 #include "picture/plot_hatch.hpp"
 #include "picture/point.hpp"
 #include "support/fonts.hpp"

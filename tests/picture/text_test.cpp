@@ -12,7 +12,6 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "picture/utf8.hpp"
 #include "support/fonts.hpp"
 
 namespace chainreel {

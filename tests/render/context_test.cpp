@@ -7,7 +7,6 @@
 #include "core/error.hpp"
 #include "render/gl_context.hpp"
 #include "render/gl_objects.hpp"
-#include "render/shader_source.hpp"
 
 namespace chainreel {
 namespace {

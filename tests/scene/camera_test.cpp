@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/read_scene.hpp"
-#include "scene/write_scene.hpp"
+#include "scene/text/read_scene.hpp"
+#include "scene/text/write_scene.hpp"
 #include "written_scenes.hpp"
 
 namespace chainreel {

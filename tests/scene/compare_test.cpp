@@ -3,10 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scene/panels.hpp"
-#include "scene/prepare.hpp"
-#include "scene/read_scene.hpp"
-#include "scene/write_scene.hpp"
+#include "scene/run/prepare.hpp"
+#include "scene/text/panels.hpp"
+#include "scene/text/read_scene.hpp"
+#include "scene/text/write_scene.hpp"
 #include "written_scenes.hpp"
 
 namespace chainreel {

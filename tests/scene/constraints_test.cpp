@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/constraints/constraint_set.hpp"
-#include "scene/prepare.hpp"
-#include "scene/read_scene.hpp"
-#include "scene/write_scene.hpp"
+#include "scene/run/prepare.hpp"
+#include "scene/text/read_scene.hpp"
+#include "scene/text/write_scene.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace chainreel {
@@ -14,6 +14,11 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+
+template <class Form>
+const Form& form_of(const Scene& scene, std::size_t k) {
+  return std::get<Form>(scene.constraints.at(k).form);
+}
 
 class SceneConstraints : public ::testing::Test {
  protected:
@@ -64,17 +69,17 @@ TEST_F(SceneConstraints, EveryKindIsReadAndWrittenBackTheSame) {
       "contact_force: [{constraint: 1, force: [0, -5]}, {constraint: 3, force: [1, 2, 0]}]\n";
   const Scene scene = read(text);
   ASSERT_EQ(scene.constraints.size(), 12u);
-  EXPECT_EQ(scene.constraints[3].b, "base");
-  EXPECT_EQ(scene.constraints[9].y, "max(r, 2) * sin(s)");
+  EXPECT_EQ(form_of<DistanceEntry>(scene, 3).b, "base");
+  EXPECT_EQ(form_of<CurveEntry>(scene, 9).y, "max(r, 2) * sin(s)");
   EXPECT_EQ(scene.baumgarte_gain, 20);
   EXPECT_EQ(scene.contact_force[1].force, (std::vector<double>{1, 2, 0}));
   const std::string written = scene_text(scene);
   const Scene again = read_scene(folder_.write("two.yaml", written));
   EXPECT_EQ(scene_text(again), written);
   ASSERT_EQ(again.constraints.size(), 12u);
-  EXPECT_EQ(again.constraints[9].y, scene.constraints[9].y);
-  EXPECT_EQ(again.constraints[11].coefficients, scene.constraints[11].coefficients);
-  EXPECT_EQ(again.constraints[7].closure, Closure::axis);
+  EXPECT_EQ(form_of<CurveEntry>(again, 9).y, form_of<CurveEntry>(scene, 9).y);
+  EXPECT_EQ(form_of<LinearEntry>(again, 11).coefficients, form_of<LinearEntry>(scene, 11).coefficients);
+  EXPECT_EQ(form_of<CloseEntry>(again, 7).closure, Closure::axis);
 }
 
 TEST_F(SceneConstraints, SayHowDriftIsHeldOffAndAreProjectedOntoWhereTheySayNothing) {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "scene/fall.hpp"
-#include "scene/prepare.hpp"
-#include "scene/write_scene.hpp"
+#include "scene/run/fall.hpp"
+#include "scene/run/prepare.hpp"
+#include "scene/text/write_scene.hpp"
 #include "written_scenes.hpp"
 
 namespace chainreel {

@@ -1,5 +1,5 @@
 // The table of keys: what holds for every row.
-#include "scene/keys.hpp"
+#include "scene/keys/keys.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <set>
 
 #include "core/format.hpp"
-#include "scene/write_scene.hpp"
+#include "scene/text/write_scene.hpp"
 #include "written_scenes.hpp"
 
 namespace chainreel {

@@ -1,11 +1,9 @@
 // What tables say of a scene's start and of its duration.
-#include "scene/prepare_tables.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scene/prepare.hpp"
-#include "scene/read_scene.hpp"
+#include "scene/run/prepare.hpp"
+#include "scene/text/read_scene.hpp"
 #include "sim/simulate.hpp"
 #include "support/temporary_folder.hpp"
 

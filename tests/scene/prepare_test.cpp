@@ -1,11 +1,11 @@
-#include "scene/prepare.hpp"
+#include "scene/run/prepare.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "scene/read_scene.hpp"
+#include "scene/text/read_scene.hpp"
 
 namespace chainreel {
 namespace {

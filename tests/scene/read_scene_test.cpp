@@ -1,4 +1,4 @@
-#include "scene/read_scene.hpp"
+#include "scene/text/read_scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "scene/quantity.hpp"
-#include "scene/write_scene.hpp"
+#include "scene/text/write_scene.hpp"
 #include "written_scenes.hpp"
 
 namespace chainreel {

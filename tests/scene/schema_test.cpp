@@ -1,5 +1,5 @@
 // The JSON Schema of scenes: what the program takes it takes, and the commonest mistakes it refuses.
-#include "scene/schema.hpp"
+#include "scene/keys/schema.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,9 +9,9 @@
 #include <regex>
 
 #include "core/format.hpp"
-#include "scene/keys.hpp"
-#include "scene/read_scene.hpp"
-#include "scene/write_scene.hpp"
+#include "scene/keys/keys.hpp"
+#include "scene/text/read_scene.hpp"
+#include "scene/text/write_scene.hpp"
 
 namespace chainreel {
 namespace {

@@ -4,8 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/film_clock.hpp"
-#include "scene/move_scene.hpp"
-#include "scene/write_scene.hpp"
+#include "scene/text/write_scene.hpp"
 #include "written_scenes.hpp"
 
 namespace chainreel {

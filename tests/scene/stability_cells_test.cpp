@@ -1,12 +1,12 @@
-#include "scene/stability_cells.hpp"
+#include "scene/run/stability_cells.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "core/error.hpp"
-#include "scene/prepare.hpp"
-#include "scene/read_scene.hpp"
+#include "scene/run/prepare.hpp"
+#include "scene/text/read_scene.hpp"
 #include "sim/audit.hpp"
 
 namespace chainreel {

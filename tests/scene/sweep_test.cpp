@@ -1,4 +1,4 @@
-#include "scene/sweep.hpp"
+#include "scene/run/sweep.hpp"
 
 #include <gmock/gmock.h>
 

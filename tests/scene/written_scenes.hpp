@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "scene/read_scene.hpp"
+#include "scene/text/read_scene.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace chainreel {

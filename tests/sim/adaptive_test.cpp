@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "sim/chain_system.hpp"
 #include "sim/runs.hpp"
+#include "sim/system/chain_system.hpp"
 #include "support/allocation_count.hpp"
 
 namespace chainreel {

@@ -12,15 +12,14 @@
 
 #include "dynamics/constraints/constrained_dynamics.hpp"
 #include "dynamics/constraints/constraint_rows.hpp"
-#include "dynamics/crba.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/kinematics.hpp"
-#include "dynamics/rnea.hpp"
 #include "model/read_chain.hpp"
 #include "sim/audit.hpp"
-#include "sim/constrained_chain.hpp"
-#include "sim/constraint_plan.hpp"
-#include "sim/drive/torques_along.hpp"
 #include "sim/runs.hpp"
+#include "sim/system/constrained_chain.hpp"
+#include "sim/system/constraint_plan.hpp"
+#include "sim/torques_along.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace chainreel {

@@ -8,13 +8,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/crba.hpp"
 #include "dynamics/energy.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
-#include "dynamics/rnea.hpp"
-#include "sim/constrained_chain.hpp"
 #include "sim/runs.hpp"
-#include "sim/tip.hpp"
+#include "sim/system/constrained_chain.hpp"
 
 namespace chainreel {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "core/error.hpp"
 #include "dynamics/energy.hpp"
-#include "sim/chain_system.hpp"
-#include "sim/forms.hpp"
 #include "sim/runs.hpp"
+#include "sim/system/chain_system.hpp"
+#include "sim/system/forms.hpp"
 #include "support/chains.hpp"
 
 namespace chainreel {

@@ -6,9 +6,9 @@
 
 #include "core/error.hpp"
 #include "sim/audit.hpp"
-#include "sim/chain_series.hpp"
 #include "sim/runs.hpp"
 #include "sim/simulate.hpp"
+#include "sim/system/chain_system.hpp"
 
 namespace chainreel {
 namespace {

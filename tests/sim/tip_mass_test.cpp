@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sim/tip.hpp"
+#include "sim/instant.hpp"
 #include "support/chains.hpp"
 
 namespace chainreel::test {

@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/cli/streams.hpp"
+#include "app/commands/figure.hpp"
 #include "app/film/automatic.hpp"
 #include "app/film/prepared.hpp"
-#include "app/report/figure.hpp"
 #include "app/report/report.hpp"
-#include "app/signals.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/charts/chart.hpp"

@@ -5,22 +5,21 @@
 #include <cstdio>
 #include <memory>
 
-#include "app/command.hpp"
+#include "app/cli/command.hpp"
+#include "app/cli/streams.hpp"
 #include "app/film/automatic.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
-#include "app/report/constraint_report.hpp"
 #include "app/report/report.hpp"
-#include "app/signals.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "dynamics/forward_dynamics.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
 #include "integrate/method.hpp"
 #include "model/doctor.hpp"
 #include "model/read_chain.hpp"
-#include "scene/write_scene.hpp"
+#include "scene/text/write_scene.hpp"
 
 namespace chainreel {
 namespace {

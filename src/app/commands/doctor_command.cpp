@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "app/command.hpp"
+#include "app/cli/command.hpp"
 #include "app/report/report.hpp"
 #include "core/error.hpp"
 #include "encode/libav.hpp"

@@ -5,27 +5,23 @@
 #include <cstdio>
 #include <memory>
 
-#include "app/command.hpp"
+#include "app/cli/command.hpp"
+#include "app/cli/streams.hpp"
 #include "app/film/automatic.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
 #include "app/report/report.hpp"
-#include "app/signals.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "dynamics/coriolis.hpp"
-#include "dynamics/crba.hpp"
 #include "dynamics/energy.hpp"
-#include "dynamics/forward_dynamics.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
 #include "dynamics/kinematics.hpp"
 #include "dynamics/lagrange.hpp"
-#include "dynamics/rnea.hpp"
 #include "model/read_chain.hpp"
 #include "scene/quantity.hpp"
 #include "sim/instant.hpp"
-#include "sim/tip.hpp"
 
 namespace chainreel {
 namespace {

@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/command.hpp"
+#include "app/cli/command.hpp"
 #include "app/commands/ellipse_numbers.hpp"
+#include "app/commands/figure.hpp"
 #include "app/film/model_scene.hpp"
-#include "app/film/picture_file.hpp"
-#include "app/report/figure.hpp"
+#include "app/film/target.hpp"
 #include "core/error.hpp"
 #include "core/output_file.hpp"
 #include "draw/figures/poses.hpp"

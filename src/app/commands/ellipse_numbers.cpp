@@ -10,11 +10,11 @@
 #include "core/format.hpp"
 #include "draw/layers/ellipse.hpp"
 #include "draw/robot/chain.hpp"
-#include "dynamics/crba.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/inverse_kinematics.hpp"
 #include "dynamics/kinematics.hpp"
 #include "scene/quantity.hpp"
-#include "scene/sweep.hpp"
+#include "scene/run/sweep.hpp"
 
 namespace chainreel {
 namespace {

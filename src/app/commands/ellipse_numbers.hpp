@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "app/command.hpp"
+#include "app/cli/command.hpp"
 #include "core/json.hpp"
 #include "draw/layers/ellipse.hpp"
 #include "draw/robot/body_shapes.hpp"
 #include "scene/scene.hpp"
-#include "sim/tip.hpp"
+#include "sim/instant.hpp"
 
 namespace chainreel {
 

@@ -5,15 +5,15 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/cli/streams.hpp"
+#include "app/commands/figure.hpp"
 #include "app/film/prepared.hpp"
-#include "app/report/figure.hpp"
 #include "app/report/report.hpp"
-#include "app/signals.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/charts/energy_chart.hpp"
 #include "sim/audit.hpp"
-#include "sim/choice/workload.hpp"
+#include "sim/workload.hpp"
 
 namespace chainreel {
 namespace {

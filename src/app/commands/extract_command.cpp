@@ -4,14 +4,14 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/command.hpp"
+#include "app/cli/command.hpp"
 #include "app/film/clip_memory.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/input_file.hpp"
 #include "core/output_file.hpp"
 #include "model/xml_text.hpp"
-#include "scene/move_scene.hpp"
+#include "scene/text/write_scene.hpp"
 
 namespace chainreel {
 namespace {

@@ -5,14 +5,14 @@
 #include <memory>
 #include <thread>
 
-#include "app/command.hpp"
-#include "app/report/figure.hpp"
+#include "app/cli/command.hpp"
+#include "app/cli/streams.hpp"
+#include "app/commands/figure.hpp"
 #include "app/report/report.hpp"
-#include "app/signals.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/output_file.hpp"
-#include "scene/fall.hpp"
+#include "scene/run/fall.hpp"
 
 namespace chainreel {
 namespace {

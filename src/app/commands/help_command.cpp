@@ -1,13 +1,12 @@
 // chainreel help [TOPIC]: the reference, page by page.
-
 #include <cstdio>
 #include <memory>
 
-#include "app/command.hpp"
-#include "app/guide/markdown.hpp"
+#include "app/cli/command.hpp"
 #include "app/guide/reference.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "scene/keys/schema.hpp"
 
 namespace chainreel {
 namespace {
@@ -83,6 +82,17 @@ void add_help_command(CommandLine& app) {
   add_json_option(*command, options->common);
   command->footer("Example: chainreel help scene");
   command->callback([options, &app] { run_help(*options, app); });
+}
+
+// chainreel schema: the keys of a scene as a JSON Schema, for editors.
+
+void add_schema_command(CommandLine& app) {
+  Command* command = app.add_subcommand("schema", "a JSON Schema of scene files, for completion in editors");
+  command->footer(
+      "Into a file, and with the first line of a scene, editors with a YAML server complete and check it:\n"
+      "# yaml-language-server: $schema=scene.schema.json\n"
+      "Example: chainreel schema > scene.schema.json");
+  command->callback([] { std::puts(scene_schema().dump(2).c_str()); });
 }
 
 }  // namespace chainreel

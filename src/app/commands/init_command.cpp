@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/command.hpp"
+#include "app/cli/command.hpp"
 #include "app/commands/starter_files.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "core/output_file.hpp"
-#include "scene/keys.hpp"
+#include "scene/keys/keys.hpp"
 
 namespace chainreel {
 namespace {

@@ -4,15 +4,15 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/command.hpp"
+#include "app/cli/command.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/report/report.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/output_file.hpp"
-#include "scene/prepare.hpp"
-#include "scene/read_scene.hpp"
+#include "scene/run/prepare.hpp"
+#include "scene/text/read_scene.hpp"
 #include "sim/drive/reference.hpp"
 #include "sim/inverse_along.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "app/command.hpp"
+#include "app/cli/command.hpp"
 #include "app/guide/reference.hpp"
 #include "app/report/report.hpp"
 #include "core/json.hpp"

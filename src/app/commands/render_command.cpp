@@ -6,11 +6,11 @@
 #include <map>
 #include <memory>
 
-#include "app/command.hpp"
+#include "app/cli/command.hpp"
+#include "app/commands/render_film.hpp"
 #include "app/film/automatic.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
-#include "app/film/render_film.hpp"
 #include "app/report/report.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"

@@ -6,14 +6,14 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/command.hpp"
-#include "app/film/moment.hpp"
+#include "app/cli/command.hpp"
+#include "app/cli/streams.hpp"
+#include "app/commands/figure.hpp"
+#include "app/commands/moment.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
-#include "app/film/picture_file.hpp"
-#include "app/report/figure.hpp"
+#include "app/film/target.hpp"
 #include "app/report/report.hpp"
-#include "app/signals.hpp"
 #include "core/error.hpp"
 #include "draw/figures/contact_sheet.hpp"
 #include "scene/quantity.hpp"

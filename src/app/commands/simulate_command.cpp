@@ -5,13 +5,13 @@
 #include <memory>
 #include <numeric>
 
-#include "app/command.hpp"
+#include "app/cli/command.hpp"
+#include "app/cli/streams.hpp"
 #include "app/film/automatic.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
 #include "app/report/report.hpp"
 #include "app/report/trajectory_csv.hpp"
-#include "app/signals.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/output_file.hpp"

@@ -8,15 +8,15 @@
 #include <memory>
 #include <thread>
 
+#include "app/cli/streams.hpp"
+#include "app/commands/figure.hpp"
 #include "app/film/prepared.hpp"
-#include "app/report/figure.hpp"
 #include "app/report/report.hpp"
-#include "app/signals.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/charts/stability_map.hpp"
-#include "scene/read_scene.hpp"
-#include "scene/stability_cells.hpp"
+#include "scene/run/stability_cells.hpp"
+#include "scene/text/read_scene.hpp"
 #include "sim/audit.hpp"
 #include "sim/linear_modes.hpp"
 

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/cli/streams.hpp"
 #include "app/film/progress.hpp"
-#include "app/signals.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "scene/prepare.hpp"
+#include "scene/run/prepare.hpp"
 
 namespace chainreel {
 namespace {

@@ -6,7 +6,7 @@
 #include "app/film/formats.hpp"
 #include "core/error.hpp"
 #include "core/input_file.hpp"
-#include "picture/utf8.hpp"
+#include "picture/text.hpp"
 
 namespace chainreel {
 namespace {

@@ -5,11 +5,10 @@
 
 #include "core/format.hpp"
 #include "encode/film_start.hpp"
-#include "encode/gif_comment.hpp"
+#include "encode/gif_writer.hpp"
 #include "encode/png.hpp"
 #include "encode/small_frames.hpp"
-#include "render/vector_cairo.hpp"
-#include "render/vector_svg.hpp"
+#include "render/vector_shapes.hpp"
 
 namespace chainreel {
 namespace {

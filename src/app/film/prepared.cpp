@@ -8,9 +8,9 @@
 #include "core/error.hpp"
 #include "draw/robot/view.hpp"
 #include "render/canvas.hpp"
-#include "scene/panels.hpp"
-#include "scene/prepare.hpp"
-#include "scene/read_scene.hpp"
+#include "scene/run/prepare.hpp"
+#include "scene/text/panels.hpp"
+#include "scene/text/read_scene.hpp"
 
 namespace chainreel {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "core/printable.hpp"
+#include "core/format.hpp"
 
 namespace chainreel {
 namespace {

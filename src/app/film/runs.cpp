@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/signals.hpp"
+#include "app/cli/streams.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 

@@ -4,7 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "app/film/clip_memory.hpp"
 #include "app/film/formats.hpp"
+#include "core/image.hpp"
+#include "picture/picture.hpp"
+#include "picture/text.hpp"
 #include "scene/scene.hpp"
 
 namespace chainreel {
@@ -30,5 +34,16 @@ std::vector<Target> targets_of(const std::vector<std::string>& outputs, std::siz
 // Every path that these targets write, sequences by their folder and stem: where two are the same, something
 // would be lost.
 std::vector<std::string> paths_of(const std::vector<Target>& targets);
+
+// One picture as pixels, and as a file.
+
+// One picture as pixels.
+Image rasterise(const Picture& picture, int width, int height, const Fonts& fonts);
+// Throws Error (usage) unless the path's ending is a picture's.
+const OutputFormat& picture_format_of(const std::string& path);
+// ... and as a file that appears whole or not at all: .png, .svg or .pdf. Vector pages have the proportions of the
+// pixels, and a height that suits a sheet of paper.
+void write_picture(const Picture& picture, int width, int height, const Fonts& fonts, const std::string& path,
+                   bool overwrite, const ClipMemory& memory = {});
 
 }  // namespace chainreel

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <set>
 
+#include "app/cli/streams.hpp"
 #include "app/film/clip_memory.hpp"
 #include "app/film/formats.hpp"
-#include "app/signals.hpp"
 #include "core/error.hpp"
 #include "core/input_file.hpp"
 

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <memory>
 
-#include "app/command.hpp"
+#include "app/cli/command.hpp"
+#include "app/cli/streams.hpp"
 #include "app/gallery/gallery_page.hpp"
-#include "app/signals.hpp"
 #include "core/error.hpp"
 #include "core/output_file.hpp"
 

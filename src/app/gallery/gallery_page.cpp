@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <functional>
 
+#include "app/cli/streams.hpp"
 #include "app/gallery/page_template.hpp"
 #include "app/report/version.hpp"
-#include "app/signals.hpp"
-#include "core/base64.hpp"
 #include "core/format.hpp"
+#include "core/hash.hpp"
 #include "encode/png.hpp"
 
 namespace chainreel {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/command_line.hpp"
+#include "app/cli/command_line.hpp"
 #include "integrate/method.hpp"
 
 namespace chainreel {
@@ -36,5 +36,12 @@ std::string order_words(const Method& method);
 std::string state_words(const Method& method);
 // "0 good, 1 a comparison failed, ..".
 std::string exit_code_words();
+
+// Markdown that reads well in a terminal, too.
+
+// A table whose columns are as wide as their longest cell; the first row is its head. `|` in cells is escaped.
+std::string markdown_table(const std::vector<std::vector<std::string>>& rows);
+std::string code(const std::string& text);                                // `text`, "" of nothing
+std::string code_block(const std::string& language, const std::string& text);
 
 }  // namespace chainreel

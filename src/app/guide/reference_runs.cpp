@@ -1,10 +1,9 @@
 // Pages made of the registries of methods, functions, outputs and exit codes.
-#include "app/guide/markdown.hpp"
-#include "app/guide/reference.hpp"
 #include "app/film/formats.hpp"
+#include "app/guide/reference.hpp"
 #include "core/error.hpp"
-#include "expr/functions.hpp"
-#include "scene/keys.hpp"
+#include "expr/expression.hpp"
+#include "scene/keys/keys.hpp"
 
 namespace chainreel {
 namespace {

@@ -3,10 +3,9 @@
 #include <cctype>
 #include <set>
 
-#include "app/guide/markdown.hpp"
 #include "app/guide/reference.hpp"
 #include "core/format.hpp"
-#include "scene/keys.hpp"
+#include "scene/keys/keys.hpp"
 
 namespace chainreel {
 namespace {
@@ -185,7 +184,7 @@ std::string constraints_page() {
 
 std::string layers_page() {
   std::vector<std::vector<std::string>> table{{"layer", "shows"}};
-  for (const Name& layer : layer_meanings()) table.push_back({code(layer.name), layer.meaning});
+  for (const Name& layer : layer_names()) table.push_back({code(layer.name), layer.meaning});
   const SceneKey& draw = *find_key("draw");
   return "# Layers of a picture\n\n"
          "`draw:` names what is shown. A list replaces the default one, " +

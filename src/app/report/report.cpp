@@ -1,16 +1,19 @@
 #include "app/report/report.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "app/film/automatic.hpp"
-#include "app/report/constraint_report.hpp"
 #include "app/report/version.hpp"
 #include "core/format.hpp"
 #include "core/hash.hpp"
+#include "dynamics/constraints/constrained_dynamics.hpp"
+#include "dynamics/constraints/constraint_rows.hpp"
 #include "encode/libav.hpp"
 #include "render/canvas.hpp"
-#include "scene/fall.hpp"
+#include "scene/run/fall.hpp"
+#include "sim/cost_table.hpp"
 #include "sim/doubts.hpp"
 
 namespace chainreel {
@@ -234,6 +237,83 @@ std::string table_text(const std::vector<std::vector<std::string>>& rows) {
     }
   }
   return text;
+}
+
+namespace {
+
+std::string algorithm_of(const Chain& chain, const ConstrainedWorkspace& cws, bool by_kernel) {
+  if (!by_kernel) return "general: M^-1 Jc^T, then the rows' own system";
+  return std::string(chain.planar ? "planar, unrolled in absolute angles" : "spatial, unrolled") +
+         (cws.kernel.doubled ? ", equal rows once" : "");
+}
+
+// The largest of each row's multiplier over the run.
+std::vector<double> largest_multipliers(const Trajectory& trajectory) {
+  std::vector<double> largest(std::size_t(trajectory.rows));
+  for (int k = 0; k < trajectory.size(); ++k) {
+    const auto lambda = trajectory.lambda_at(k);
+    for (std::size_t i = 0; i < largest.size(); ++i) largest[i] = std::max(largest[i], std::fabs(lambda[i]));
+  }
+  return largest;
+}
+
+}  // namespace
+
+Json constraint_plan_report(const Simulation& simulation) {
+  const ConstraintPlan& plan = simulation.constraints;
+  const ConstraintSet set(simulation.chain, plan.list);
+  const ConstrainedWorkspace cws(simulation.chain, set);
+  Json json;
+  for (const Constraint& constraint : plan.list) json["names"].push_back(name_of(constraint));
+  json["rows"] = set.row_names();
+  const bool by_kernel = cws.kernel.run != nullptr && plan.stabilize != Stabilization::baumgarte;
+  json["dynamics"] = algorithm_of(simulation.chain, cws, by_kernel);
+  json["stabilize"] = to_string(plan.stabilize);
+  if (plan.stabilize == Stabilization::baumgarte) json["gain"] = plan.gain;
+  const ConstraintCost cost = constraint_cost(simulation.chain, plan);
+  json["evaluation_ns"] = cost.evaluation;
+  json["projection_ns"] = cost.projection;
+  return json;
+}
+
+std::string constraint_plan_text(const Json& report) {
+  std::string names;
+  for (const Json& name : report["names"]) names += (names.empty() ? "" : ", ") + name.get<std::string>();
+  const std::size_t rows = report["rows"].size();
+  std::string text = "constraints: " + names + " (" + std::to_string(rows) + (rows == 1 ? " row" : " rows") +
+                     "); " + report["dynamics"].get<std::string>() + ", some " +
+                     format_significant(report["evaluation_ns"].get<double>(), 2) +
+                     " ns; stabilize: " + report["stabilize"].get<std::string>();
+  if (report.contains("gain")) text += ", gain " + format_shortest(report["gain"].get<double>()) + " 1/s";
+  const double projection = report["projection_ns"].get<double>();
+  if (projection > 0) text += ", some " + format_significant(projection / 1000, 2) + " us a step";
+  return text;
+}
+
+Json constraint_run_report(const Simulation& simulation, const Trajectory& trajectory) {
+  const Chain& chain = simulation.chain;
+  const ConstraintSet set(chain, simulation.constraints.list);
+  Json json{{"stabilize", to_string(simulation.constraints.stabilize)},
+            {"position_error", trajectory.position_error},
+            {"velocity_error", trajectory.velocity_error},
+            {"rows", Json::array()}};
+  const std::vector<double> largest = largest_multipliers(trajectory);
+  for (std::size_t i = 0; i < largest.size(); ++i)
+    json["rows"].push_back({{"name", set.row_names()[i]}, {"largest_lambda", largest[i]}});
+  if (trajectory.size() == 0) return json;
+  Workspace ws(chain);
+  ConstrainedWorkspace cws(chain, set);
+  const auto forces_at = [&](int sample) {
+    compute_constraints(chain, ws, set, cws, trajectory.q_at(sample), trajectory.qd_at(sample));
+    Json forces;
+    for (std::size_t k = 0; k < set.constraints().size(); ++k)
+      forces.push_back({{"constraint", name_of(set.constraints()[k])},
+                        {"force", to_json(contact_force(chain, set, cws, k, trajectory.lambda_at(sample)))}});
+    return forces;
+  };
+  json["force_at_start"] = forces_at(0);
+  json["force_at_end"] = forces_at(trajectory.size() - 1);
+  return json;
 }
 
 }  // namespace chainreel

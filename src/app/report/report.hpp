@@ -9,6 +9,7 @@
 #include "app/film/runs.hpp"
 #include "core/json.hpp"
 #include "dynamics/effective_mass.hpp"
+#include "sim/simulate.hpp"
 
 namespace chainreel {
 
@@ -45,5 +46,15 @@ Json film_report(const Runs& runs, const Film& pictures, int frames);
 
 // A table with left-aligned words and right-aligned numbers; the first row is its head.
 std::string table_text(const std::vector<std::vector<std::string>>& rows);
+
+// What `check` and the reports of runs say about constraints.
+
+// Their names, rows, algorithm, stabilization and price; for a scene without constraints nothing is to be
+// said.
+Json constraint_plan_report(const Simulation& simulation);
+std::string constraint_plan_text(const Json& report);
+
+// How near the run stayed, and the force at each constraint's frame.
+Json constraint_run_report(const Simulation& simulation, const Trajectory& trajectory);
 
 }  // namespace chainreel

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "model/chain.hpp"
-#include "sim/trajectory.hpp"
+#include "sim/system/trajectory.hpp"
 
 namespace chainreel {
 

@@ -13,7 +13,7 @@
 #include "draw/robot/chain_fit.hpp"
 #include "draw/robot/joints.hpp"
 #include "draw/robot/view.hpp"
-#include "dynamics/crba.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/kinematics.hpp"
 #include "picture/plot.hpp"
 

@@ -11,7 +11,7 @@
 #include "picture/text.hpp"
 #include "picture/theme.hpp"
 #include "scene/scene.hpp"
-#include "sim/tip.hpp"
+#include "sim/instant.hpp"
 
 namespace chainreel {
 

@@ -10,7 +10,7 @@
 #include "draw/layers/vectors.hpp"
 #include "dynamics/kinematics.hpp"
 #include "picture/point.hpp"
-#include "sim/drive/torques_along.hpp"
+#include "sim/torques_along.hpp"
 
 namespace chainreel {
 namespace {

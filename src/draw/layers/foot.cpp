@@ -10,8 +10,7 @@
 #include "draw/page/arrow.hpp"
 #include "draw/page/sheet.hpp"
 #include "draw/robot/joints.hpp"
-#include "dynamics/forward_dynamics.hpp"
-#include "dynamics/ground_reaction.hpp"
+#include "dynamics/equation_of_motion.hpp"
 
 namespace chainreel {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "dynamics/crba.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "model/chain.hpp"
 #include "picture/picture.hpp"
 #include "picture/text.hpp"

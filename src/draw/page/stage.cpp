@@ -9,8 +9,8 @@
 #include "draw/robot/view.hpp"
 #include "dynamics/kinematics.hpp"
 #include "picture/plot.hpp"
-#include "scene/fall.hpp"
 #include "scene/layers.hpp"
+#include "scene/run/fall.hpp"
 
 namespace chainreel {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "draw/robot/body_shapes.hpp"
 #include "draw/robot/joints.hpp"
-#include "sim/constraint_plan.hpp"
+#include "sim/system/constraint_plan.hpp"
 
 namespace chainreel {
 

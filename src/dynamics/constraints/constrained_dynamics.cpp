@@ -6,9 +6,9 @@
 #include "core/scalar.hpp"
 #include "dynamics/constraints/constrained_mass.hpp"
 #include "dynamics/constraints/constraint_rows.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
 #include "dynamics/recursions.hpp"
-#include "dynamics/rnea.hpp"
 #include "dynamics/scratch.hpp"
 
 namespace chainreel {

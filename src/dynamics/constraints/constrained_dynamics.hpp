@@ -43,7 +43,7 @@ ConstraintStatus compute_constrained_dynamics(const Chain& chain, Workspace& ws,
                                               ConstVec tau, const ConstrainedOptions& options = {});
 
 // Inverse dynamics with multipliers, and multipliers as forces: tau = M qdd + nle + Jc^T lambda. (K. Lynch,
-// F. Park, Modern Robotics, 2017, ch. 8.7 and 11.5.) Joint friction is apart, as in dynamics/rnea.hpp.
+// F. Park, Modern Robotics, 2017, ch. 8.7 and 11.5.) Joint friction is apart, as in dynamics/equation_of_motion.hpp.
 
 // ws.tau that moves the chain with qdd while it presses on its constraints with lambda. qdd must keep the
 // constraints if the motion is to be that one.

@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "sim/choice/quad_series.hpp"
+#include "sim/choice/quad_reference.hpp"
 
 namespace chainreel {
 namespace {

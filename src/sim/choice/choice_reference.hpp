@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/choice/accuracy.hpp"
+#include "sim/accuracy.hpp"
 #include "sim/choice/counted_runs.hpp"
 #include "sim/choice/deviation.hpp"
 

@@ -19,12 +19,6 @@ ConstraintCost price_of_constraints(const Simulation& simulation) {
 
 }  // namespace
 
-void apply(const MethodSetting& setting, Simulation& simulation) {
-  simulation.method = setting.method;
-  simulation.options = setting.options;
-  simulation.step = setting.step;
-}
-
 std::string to_string(const MethodSetting& setting) {
   std::string text = setting.method->name;
   if (setting.options.order > 0) text += ", order " + std::to_string(setting.options.order);

@@ -6,18 +6,10 @@
 #include <span>
 #include <string>
 
-#include "sim/choice/cost_table.hpp"
+#include "sim/cost_table.hpp"
 #include "sim/simulate.hpp"
 
 namespace chainreel {
-
-struct MethodSetting {
-  const Method* method = nullptr;
-  MethodOptions options;
-  double step = 0;  // s; 0: by the tolerance
-};
-
-void apply(const MethodSetting& setting, Simulation& simulation);
 
 // "taylor, order 16, tolerance 1e-6".
 std::string to_string(const MethodSetting& setting);

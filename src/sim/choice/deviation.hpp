@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "dynamics/workspace.hpp"
-#include "sim/choice/accuracy.hpp"
+#include "sim/accuracy.hpp"
 #include "sim/simulate.hpp"
-#include "sim/trajectory.hpp"
+#include "sim/system/trajectory.hpp"
 
 namespace chainreel {
 

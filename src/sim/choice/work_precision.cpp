@@ -9,9 +9,9 @@
 #include "core/error.hpp"
 #include "core/scalar.hpp"
 #include "sim/audit.hpp"
-#include "sim/chain_system.hpp"
-#include "sim/choice/cost_table.hpp"
 #include "sim/choice/quad_reference.hpp"
+#include "sim/cost_table.hpp"
+#include "sim/system/chain_system.hpp"
 
 namespace chainreel {
 namespace {

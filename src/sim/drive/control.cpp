@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/csv.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
-#include "dynamics/rnea.hpp"
 #include "sim/drive/torque.hpp"
 
 namespace chainreel {

@@ -8,6 +8,7 @@
 #include "core/scalar.hpp"
 #include "expr/corners.hpp"
 #include "expr/instants.hpp"
+#include "expr/pulses.hpp"
 
 namespace chainreel {
 namespace {

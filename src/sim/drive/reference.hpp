@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "sim/choice/probe.hpp"
+#include "sim/drive/probe.hpp"
 
 namespace chainreel {
 

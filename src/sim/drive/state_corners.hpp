@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "expr/corners.hpp"
-#include "sim/choice/probe.hpp"
+#include "sim/drive/probe.hpp"
 
 namespace chainreel {
 

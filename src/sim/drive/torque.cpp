@@ -5,10 +5,12 @@
 #include <limits>
 
 #include "core/format.hpp"
+#include "expr/corners.hpp"
 #include "expr/expression.hpp"
+#include "expr/instants.hpp"
+#include "expr/pulses.hpp"
 #include "model/read_chain.hpp"
-#include "sim/drive/expression_torque.hpp"
-#include "sim/tip.hpp"
+#include "sim/drive/state_corners.hpp"
 
 namespace chainreel {
 namespace {
@@ -138,6 +140,132 @@ std::unique_ptr<TorqueLaw> make_torque_law(const Chain& chain, const std::vector
   if (!has_controls) return plain;
   mixed->set_rest(std::move(plain));
   return mixed;
+}
+
+namespace {
+
+class ExpressionTorque final : public TorqueLaw {
+ public:
+  ExpressionTorque(Probe probe, std::vector<Expression> entries)
+      : probe_(std::move(probe)), entries_(std::move(entries)), corners_(uses_for_corners()) {
+    for (const Expression& entry : entries_) {
+      programs_.push_back(corners_.add(entry));
+      for (int slot : entry.used_variables()) {
+        needs_kinematics_ |= probe_.is_kinematic(slot);
+        depends_on_velocity_ |= probe_.is_velocity(slot);
+      }
+    }
+    sides_.assign(std::size_t(corners_.count()), kAsWritten);
+    if (corners_.count() > 0) state_corners_.emplace(corners_, sides_, probe_);
+    has_corners_ = std::any_of(programs_.begin(), programs_.end(),
+                               [](const CorneredProgram& one) { return one.has_corners(); });
+  }
+
+  void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) override {
+    probe_.set(chain, ws, t, q, qd, needs_kinematics_);
+    if (!has_corners_) {
+      for (std::size_t i = 0; i < entries_.size(); ++i) tau[i] = entries_[i].evaluate(probe_.values());
+      return;
+    }
+    for (std::size_t i = 0; i < programs_.size(); ++i)
+      tau[i] = chainreel::evaluate<double>(programs_[i], probe_.values(), sides_);
+  }
+
+  std::vector<double> breaks(double end) const override {
+    if (end == end_of_breaks_) return breaks_;
+    breaks_ = instants_of(corners_, end);
+    const std::vector<double> pulses = pulses_of(programs_, corners_, breaks_, end);
+    breaks_.insert(breaks_.end(), pulses.begin(), pulses.end());
+    end_of_breaks_ = end;
+    return breaks_;
+  }
+  void enter_piece(double t) override { set_sides_of_time(corners_, t, sides_); }
+  void leave_pieces() override { std::fill(sides_.begin(), sides_.end(), kAsWritten); }
+  StateCorners* corners() override {
+    return state_corners_ && state_corners_->count() > 0 ? &*state_corners_ : nullptr;
+  }
+  bool depends_on_velocity() const override { return depends_on_velocity_; }
+
+  std::optional<AffineTorque> affine() const override {
+    const std::size_t n = entries_.size();
+    if (!has_coordinate_a_freedom()) return {};
+    AffineTorque torque{{}, std::vector<Quad>(n * n), std::vector<Quad>(n * n)};
+    const std::vector<VariableUse> uses = variable_uses();
+    for (std::size_t i = 0; i < n; ++i) {
+      auto form = affine_form_of<Quad>(entries_[i], uses);
+      if (!form) return {};
+      torque.powers.push_back(std::move(form->powers));
+      std::copy_n(form->weights.begin() + 1, n, torque.K.begin() + std::ptrdiff_t(i * n));
+      std::copy_n(form->weights.begin() + 1 + std::ptrdiff_t(n), n, torque.D.begin() + std::ptrdiff_t(i * n));
+    }
+    return torque;
+  }
+
+  bool evaluate_in_quad(Quad t, std::span<const Quad> q, std::span<const Quad> qd,
+                        std::span<Quad> tau) const override {
+    if (needs_kinematics_ || corners_.count() > 0) return false;  // methods in quads know no corners
+    std::vector<Quad> values(probe_.values().begin(), probe_.values().end());
+    values[0] = t;
+    std::copy(qd.begin(), qd.end(), std::copy(q.begin(), q.end(), values.begin() + 1));
+    for (std::size_t i = 0; i < entries_.size(); ++i)
+      tau[i] = entries_[i].evaluate(std::span<const Quad>(values));
+    return true;
+  }
+
+ private:
+  // False with floating joints, whose rates are no derivatives of their coordinates.
+  bool has_coordinate_a_freedom() const { return probe_.is_kinematic(int(1 + 2 * entries_.size())); }
+
+  // Time, then coordinates and rates, then the end effector, then parameters.
+  std::vector<VariableUse> variable_uses() const {
+    std::vector<VariableUse> uses;
+    for (std::size_t slot = 0; slot < probe_.values().size(); ++slot) {
+      if (slot == 0)
+        uses.push_back({VariableRole::time, 0});
+      else if (slot <= 2 * entries_.size())
+        uses.push_back({VariableRole::linear, 0});
+      else if (probe_.is_kinematic(int(slot)))
+        uses.push_back({VariableRole::other, 0});
+      else
+        uses.push_back({VariableRole::constant, probe_.values()[slot]});
+    }
+    return uses;
+  }
+
+  // Coordinates, rates and frames change with the motion; they stand before the parameters.
+  std::vector<VariableUse> uses_for_corners() const {
+    std::vector<VariableUse> uses(probe_.values().size());
+    bool before_frames = true;
+    for (std::size_t slot = 0; slot < uses.size(); ++slot) {
+      const bool kinematic = probe_.is_kinematic(int(slot));
+      before_frames = before_frames && !kinematic;
+      if (slot == 0)
+        uses[slot] = {VariableRole::time, 0};
+      else if (before_frames || kinematic)
+        uses[slot] = {VariableRole::linear, 0};
+      else
+        uses[slot] = {VariableRole::constant, probe_.values()[slot]};
+    }
+    return uses;
+  }
+
+  Probe probe_;
+  std::vector<Expression> entries_;
+  Corners corners_;
+  std::vector<CorneredProgram> programs_;  // of the entries
+  std::vector<double> sides_;              // of the corners
+  std::optional<StateCorners> state_corners_;
+  mutable std::vector<double> breaks_;  // until end_of_breaks_, in s; many runs ask for the same
+  mutable double end_of_breaks_ = -1;
+  bool has_corners_ = false;  // with sides; else the entries are evaluated as they stand
+  bool needs_kinematics_ = false;
+  bool depends_on_velocity_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<TorqueLaw> make_expression_torque(Probe probe, std::vector<Expression> entries) {
+  return std::make_unique<ExpressionTorque>(std::move(probe), std::move(entries));
 }
 
 }  // namespace chainreel

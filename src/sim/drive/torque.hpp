@@ -7,8 +7,9 @@
 
 #include "core/error.hpp"
 #include "dynamics/kernels/taylor_planar.hpp"
-#include "sim/choice/probe.hpp"
+#include "expr/expression.hpp"
 #include "sim/drive/control.hpp"
+#include "sim/drive/probe.hpp"
 
 namespace chainreel {
 
@@ -49,5 +50,10 @@ struct TorqueEntry {
 // One entry per degree of freedom. Throws Error with every problem of the entries.
 std::unique_ptr<TorqueLaw> make_torque_law(const Chain& chain, const std::vector<TorqueEntry>& entries,
                                            const Parameters& parameters, const NamedFrames& frames = {});
+
+// Torques that are expressions of time, state, end effector and parameters.
+
+// One entry a freedom, parsed with the probe's names.
+std::unique_ptr<TorqueLaw> make_expression_torque(Probe probe, std::vector<Expression> entries);
 
 }  // namespace chainreel

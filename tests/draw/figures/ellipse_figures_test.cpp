@@ -9,7 +9,7 @@
 #include "draw/figures/ellipse_figure.hpp"
 #include "draw/figures/poses.hpp"
 #include "draw/shapes.hpp"
-#include "dynamics/crba.hpp"
+#include "dynamics/equation_of_motion.hpp"
 
 namespace chainreel {
 namespace {

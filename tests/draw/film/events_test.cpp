@@ -5,8 +5,8 @@
 
 #include "draw/film/film.hpp"
 #include "draw/shapes.hpp"
-#include "scene/prepare.hpp"
-#include "scene/read_scene.hpp"
+#include "scene/run/prepare.hpp"
+#include "scene/text/read_scene.hpp"
 
 namespace chainreel {
 namespace {

@@ -18,7 +18,7 @@
 #include "dynamics/kinematics.hpp"
 #include "picture/point.hpp"
 #include "render/canvas.hpp"
-#include "sim/drive/torques_along.hpp"
+#include "sim/torques_along.hpp"
 #include "support/picture_compare.hpp"
 
 namespace chainreel {

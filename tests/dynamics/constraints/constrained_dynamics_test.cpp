@@ -6,10 +6,8 @@
 #include <Eigen/Dense>
 
 #include "dynamics/constraints/constrained_cases.hpp"
-#include "dynamics/crba.hpp"
-#include "dynamics/forward_dynamics.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
-#include "dynamics/rnea.hpp"
 #include "support/allocation_count.hpp"
 
 namespace chainreel::test {

@@ -7,7 +7,7 @@
 #include "dynamics/constraints/constrained_dynamics.hpp"
 #include "dynamics/constraints/constrained_mass.hpp"
 #include "dynamics/constraints/constraint_projection.hpp"
-#include "dynamics/crba.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/kinematics.hpp"
 
 namespace chainreel::test {

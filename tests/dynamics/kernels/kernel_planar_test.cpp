@@ -6,10 +6,8 @@
 #include <limits>
 
 #include "core/scalar.hpp"
-#include "dynamics/aba.hpp"
 #include "dynamics/compare.hpp"
-#include "dynamics/crba.hpp"
-#include "dynamics/forward_dynamics.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/kernels/kernels.hpp"
 #include "support/chains.hpp"
 

@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "dynamics/aba.hpp"
 #include "dynamics/compare.hpp"
-#include "dynamics/crba.hpp"
-#include "dynamics/forward_dynamics.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/kernels/kernels.hpp"
 #include "support/chains.hpp"
 

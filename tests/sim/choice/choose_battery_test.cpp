@@ -9,10 +9,10 @@
 #include <map>
 
 #include "core/error.hpp"
-#include "dynamics/forward_dynamics.hpp"
-#include "sim/runs.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "sim/choice/choose_method.hpp"
 #include "sim/choice/deviation.hpp"
+#include "sim/runs.hpp"
 #include "support/battery.hpp"
 
 namespace chainreel {

@@ -7,11 +7,11 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "sim/runs.hpp"
-#include "sim/choice/cost_table.hpp"
 #include "sim/choice/counted_runs.hpp"
 #include "sim/choice/deviation.hpp"
 #include "sim/choice/quad_reference.hpp"
+#include "sim/cost_table.hpp"
+#include "sim/runs.hpp"
 
 namespace chainreel {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "core/error.hpp"
 #include "sim/audit.hpp"
-#include "sim/drive/torques_along.hpp"
 #include "sim/runs.hpp"
+#include "sim/torques_along.hpp"
 #include "support/battery.hpp"
 
 namespace chainreel {

@@ -1,6 +1,6 @@
 // Instants of events against closed forms, and what a run does with them.
 
-#include "sim/drive/events.hpp"
+#include "sim/watch/events.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "dynamics/crba.hpp"
-#include "dynamics/rnea.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "sim/audit.hpp"
 #include "sim/runs.hpp"
 #include "support/allocation_count.hpp"

@@ -8,10 +8,9 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "dynamics/energy.hpp"
-#include "dynamics/forward_dynamics.hpp"
-#include "dynamics/ground_reaction.hpp"
-#include "sim/drive/events.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "sim/runs.hpp"
+#include "sim/watch/events.hpp"
 #include "support/chains.hpp"
 
 namespace chainreel {

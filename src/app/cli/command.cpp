@@ -1,0 +1,190 @@
+#include "app/cli/command.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "core/json.hpp"
+#include "model/chain.hpp"
+#include "scene/quantity.hpp"
+#include "scene/run/sweep.hpp"
+#include "scene/scene.hpp"
+
+namespace chainreel {
+
+void add_scene_options(Command& command, CommonOptions& options) {
+  command.add_repeatable("--set", options.set, "override a scene key: --set video.width=640 (repeatable)");
+  command.add_repeatable("--package", options.package,
+                 "where package://NAME lies: --package NAME=folder (repeatable)");
+  command.add_option("--base", options.base, "how the root link is held")
+      .one_of(words_of(names_of(RootLink{})));
+}
+
+void add_json_option(Command& command, CommonOptions& options) {
+  command.add_flag("--json", options.json, "print the result as JSON on standard output");
+}
+
+void add_quiet_option(Command& command, CommonOptions& options) {
+  command.add_flag("--quiet", options.quiet, "no progress, no closing words");
+}
+
+void add_force_option(Command& command, CommonOptions& options) {
+  command.add_flag("--force", options.force, "overwrite files outside a folder named out");
+}
+
+void add_result_options(Command& command, CommonOptions& options) {
+  add_json_option(command, options);
+  add_quiet_option(command, options);
+  add_force_option(command, options);
+}
+
+namespace {
+
+constexpr std::size_t kMostPanels = 12;
+
+// name=folder; folders are relative to where the program runs.
+std::pair<std::string, std::string> parse_package(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw Error(ExitCode::usage, "--package takes name=folder, not '" + text + "'");
+  std::error_code code;
+  const std::filesystem::path folder = std::filesystem::absolute(text.substr(equals + 1), code);
+  if (code) throw Error(ExitCode::usage, "--package " + text + ": " + code.message());
+  return {text.substr(0, equals), folder.string()};
+}
+
+}  // namespace
+
+std::vector<std::string> overrides_of(const CommonOptions& options) {
+  std::vector<std::string> overrides = options.set;
+  if (!options.base.empty()) overrides.push_back("base=" + options.base);
+  for (const std::string& text : options.package) {
+    const auto [name, folder] = parse_package(text);
+    overrides.push_back("packages." + name + "=" + Json(folder).dump());  // a JSON text is YAML too
+  }
+  add_overrides(options.flags, overrides);
+  return overrides;
+}
+
+void add_vary_option(Command& command, std::vector<std::string>& vary) {
+  command.add_repeatable("--vary", vary,
+                 "show variants of the scene side by side: KEY=a,b,c or KEY=from:to:count, like "
+                 "method=explicit_euler,rk4,taylor");
+}
+
+void add_comparison(const std::vector<std::string>& vary, std::vector<std::string>& overrides) {
+  if (vary.empty()) return;
+  std::vector<std::string> panels{""};
+  for (const std::string& text : vary) {
+    const Sweep sweep = parse_sweep(text, "--vary");
+    std::vector<std::string> finer;
+    for (const std::string& panel : panels)
+      for (const std::string& value : sweep.values)
+        finer.push_back(panel + (panel.empty() ? "" : ", ") + Json(sweep.key).dump() + ": " + value);
+    panels = std::move(finer);
+  }
+  if (panels.size() > kMostPanels)
+    throw Error(ExitCode::usage, "--vary makes " + std::to_string(panels.size()) + " panels; no more than " +
+                                     std::to_string(kMostPanels) + " fit a page: give fewer values");
+  std::string list;
+  for (const std::string& panel : panels) list += (list.empty() ? "{" : ", {") + panel + "}";
+  overrides.push_back("compare=[" + list + "]");
+}
+
+std::vector<double> parse_list(const std::string& text, const std::string& what) {
+  std::vector<double> values;
+  std::stringstream stream(text);
+  for (std::string entry; std::getline(stream, entry, ',');) {
+    try {
+      values.push_back(parse_quantity(entry, {}));
+    } catch (const Error& error) {
+      throw Error(ExitCode::usage, what + " " + text + ": " + error.problems().front().message);
+    }
+  }
+  return values;
+}
+
+namespace {
+
+std::vector<double> parse_counted(std::size_t count, const Chain& chain, const std::string& text,
+                                  const std::string& what) {
+  std::vector<double> values = parse_list(text, what);
+  if (values.size() != count)
+    throw Error(ExitCode::usage, what + " " + text + " has " + std::to_string(values.size()) +
+                                     " numbers, but " + chain.name + " needs " + std::to_string(count));
+  return values;
+}
+
+}  // namespace
+
+std::vector<double> parse_pose(const Chain& chain, const std::string& text, const std::string& what) {
+  if (text.empty()) return zero_configuration(chain);
+  std::vector<double> q = parse_counted(std::size_t(chain.nq), chain, text, what);
+  if (const std::string trouble = trouble_of_pose(chain, q); !trouble.empty())
+    throw Error(ExitCode::usage, what + " " + text + ": " + trouble);
+  return q;
+}
+
+std::vector<std::vector<double>> parse_poses(const Chain& chain, const std::vector<std::string>& texts,
+                                             const std::string& what) {
+  std::vector<std::vector<double>> poses;
+  for (const std::string& text : texts) poses.push_back(parse_pose(chain, text, what));
+  return poses;
+}
+
+std::vector<double> parse_freedoms(const Chain& chain, const std::string& text, const std::string& what) {
+  if (text.empty()) return std::vector<double>(std::size_t(chain.nv));
+  return parse_counted(std::size_t(chain.nv), chain, text, what);
+}
+
+std::string gravity_override(const std::string& text) {
+  const std::vector<double> g = parse_list(text, "--gravity");
+  if (g.size() != 3)
+    throw Error(ExitCode::usage, "--gravity takes three numbers, world x,y,z: --gravity 0,-9.81,0");
+  return "gravity=[" + format_exact(g[0]) + ", " + format_exact(g[1]) + ", " + format_exact(g[2]) + "]";
+}
+
+bool is_model_file(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  return ending == ".urdf" || ending == ".xml";
+}
+
+void add_scene_flags(Command& command, FlagValues& values, FlagGroup group) {
+  for (const SceneKey& key : scene_keys())
+    if (key.flags == group) command.add_option(key.flag, values[key.name], key.name + ": " + short_help(key));
+}
+
+void add_overrides(const FlagValues& values, std::vector<std::string>& overrides) {
+  for (const auto& [key, value] : values)
+    if (!value.empty()) overrides.push_back(key + "=" + value);
+}
+
+namespace {
+
+std::string given(const FlagValues& values, const std::string& key) {
+  const auto found = values.find(key);
+  return found == values.end() ? "" : found->second;
+}
+
+}  // namespace
+
+ThemeName theme_of(const FlagValues& values) {
+  const std::string name = given(values, "theme");
+  if (name.empty()) return Scene{}.theme;
+  if (const auto theme = value_named<ThemeName>(name)) return *theme;
+  throw Error(ExitCode::usage, "--theme takes " + alternatives(names_of(ThemeName{})) + ", not '" + name + "'");
+}
+
+double text_scale_of(const FlagValues& values) {
+  const std::string text = given(values, "text_scale");
+  if (text.empty()) return Scene{}.text_scale;
+  const KeyRange range = find_key("text_scale")->range;
+  const auto scale = parse_number(text);
+  if (!scale || !range.holds(*scale))
+    throw Error(ExitCode::usage, "--text-scale takes a number " + range_text(range, "") + ", not '" + text + "'");
+  return *scale;
+}
+
+}  // namespace chainreel

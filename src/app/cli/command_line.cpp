@@ -1,0 +1,149 @@
+#include "app/cli/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <deque>
+#include <sstream>
+
+#include "core/error.hpp"
+
+namespace chainreel {
+namespace {
+
+CLI::Option* option_of(void* pointer) {
+  return static_cast<CLI::Option*>(pointer);
+}
+
+CLI::App* app_of(void* pointer) {
+  return static_cast<CLI::App*>(pointer);
+}
+
+template <class Target>
+Option add_to(void* command, const std::string& name, Target& target, const std::string& help) {
+  return Option(app_of(command)->add_option(name, target, help));
+}
+
+}  // namespace
+
+Option Option::required() {
+  option_of(option_)->required();
+  return *this;
+}
+
+Option Option::range(int least, int most) {
+  option_of(option_)->check(CLI::Range(least, most));
+  return *this;
+}
+
+Option Option::positive() {
+  option_of(option_)->check(CLI::PositiveNumber);
+  return *this;
+}
+
+Option Option::one_of(std::vector<std::string> words) {
+  option_of(option_)->check(CLI::IsMember(std::move(words)));
+  return *this;
+}
+
+Option Option::show_default() {
+  option_of(option_)->capture_default_str();
+  return *this;
+}
+
+Option Command::add_option(const std::string& name, std::string& target, const std::string& help) {
+  return add_to(command_, name, target, help);
+}
+
+Option Command::add_option(const std::string& name, int& target, const std::string& help) {
+  return add_to(command_, name, target, help);
+}
+
+Option Command::add_option(const std::string& name, double& target, const std::string& help) {
+  return add_to(command_, name, target, help);
+}
+
+Option Command::add_option(const std::string& name, std::vector<std::string>& target, const std::string& help) {
+  return add_to(command_, name, target, help);
+}
+
+Option Command::add_repeatable(const std::string& name, std::vector<std::string>& target,
+                               const std::string& help) {
+  return Option(app_of(command_)
+                    ->add_option(name, target, help)
+                    ->type_size(1)
+                    ->expected(1)
+                    ->allow_extra_args(false)
+                    ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
+}
+
+Option Command::add_flag(const std::string& name, bool& target, const std::string& help) {
+  return Option(app_of(command_)->add_flag(name, target, help));
+}
+
+void Command::footer(const std::string& text) {
+  app_of(command_)->footer(text);
+}
+
+void Command::callback(std::function<void()> run) {
+  app_of(command_)->callback(std::move(run));
+}
+
+std::vector<std::string> Command::words() const {
+  const CLI::App& app = *app_of(command_);
+  std::vector<std::string> words{app.get_name()};
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string name = option->get_single_name();
+    if (option->count() == 0 || name == "output" || name == "force" || name == "quiet" || name == "json") continue;
+    const bool is_flag = option->get_items_expected_max() == 0;
+    for (const std::string& value : is_flag ? std::vector<std::string>{""} : option->results()) {
+      if (!option->get_positional()) words.push_back("--" + name);
+      if (!is_flag) words.push_back(value);
+    }
+  }
+  return words;
+}
+
+struct CommandLine::Parser {
+  CLI::App app;
+  std::deque<Command> commands;  // their addresses stay
+
+  explicit Parser(const std::string& about) : app(about) {}
+};
+
+CommandLine::CommandLine(const std::string& name, const std::string& about, const std::string& version,
+                         const std::string& footer)
+    : parser_(std::make_unique<Parser>(about)) {
+  parser_->app.name(name);
+  parser_->app.require_subcommand(1);
+  parser_->app.set_version_flag("--version", version);
+  parser_->app.footer(footer);
+}
+
+CommandLine::~CommandLine() = default;
+
+Command* CommandLine::add_subcommand(const std::string& name, const std::string& about) {
+  return &parser_->commands.emplace_back(parser_->app.add_subcommand(name, about));
+}
+
+std::vector<CommandLine::CommandText> CommandLine::texts() const {
+  std::vector<CommandText> texts;
+  for (const CLI::App* one : parser_->app.get_subcommands([](const CLI::App*) { return true; }))
+    texts.push_back({one->get_name(), one->get_description(), one->help(parser_->app.get_name())});
+  return texts;
+}
+
+int CommandLine::run(int argc, char** argv) {
+  try {
+    parser_->app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // By way of the C streams, which are guarded; CLI11 would write to those of C++.
+    std::ostringstream out, err;
+    const int status = parser_->app.exit(error, out, err);
+    std::fputs(out.str().c_str(), stdout);
+    std::fputs(err.str().c_str(), stderr);
+    return status == 0 ? int(ExitCode::good) : int(ExitCode::usage);
+  }
+  return int(ExitCode::good);
+}
+
+}  // namespace chainreel

@@ -1,0 +1,183 @@
+#include "app/cli/streams.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "core/temporary_file.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr std::size_t kLongestMessage = 1000;  // bytes: a dozen lines
+constexpr std::size_t kMostProblems = 40;
+
+struct Guard {
+  int file = -1;
+  std::size_t longest_line = 0;  // bytes; 0: any
+  PrintableStream text{};
+  std::size_t line = 0;     // bytes of the line so far
+  int trouble = 0;          // errno of what was not taken
+};
+
+// Keeps only the first bytes of lines that are too long.
+std::string without_long_lines(Guard& guard, const std::string& text) {
+  if (guard.longest_line == 0) return text;
+  std::string result;
+  for (const char c : text) {
+    if (c == '\n') {
+      if (guard.line > guard.longest_line)
+        result += ".. (" + std::to_string(guard.line - guard.longest_line) + " bytes more)";
+      guard.line = 0;
+    } else if (++guard.line > guard.longest_line) {
+      continue;
+    }
+    result += c;
+  }
+  return result;
+}
+
+bool write_all(Guard& guard, const std::string& text) {
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t count = write(guard.file, text.data() + done, text.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) {
+      guard.trouble = errno;
+      return false;
+    }
+    done += std::size_t(count);
+  }
+  return true;
+}
+
+ssize_t write_guarded(void* cookie, const char* bytes, size_t count) {
+  Guard& guard = *static_cast<Guard*>(cookie);
+  // After a loss nothing more is tried: the reader would get a text with a hole.
+  if (guard.trouble != 0) return 0;
+  return write_all(guard, without_long_lines(guard, guard.text.next({bytes, count}))) ? ssize_t(count) : 0;
+}
+
+Guard& guard_of(int file) {
+  static std::array<Guard, 2> guards{{{STDOUT_FILENO, 0}, {STDERR_FILENO, kLongestMessage + 200}}};
+  return guards[file == STDOUT_FILENO ? 0 : 1];
+}
+
+std::FILE* guarded(int file, int buffering) {
+  cookie_io_functions_t functions = {};
+  functions.write = write_guarded;
+  std::FILE* stream = fopencookie(&guard_of(file), "w", functions);
+  if (stream != nullptr) std::setvbuf(stream, nullptr, buffering, 0);
+  return stream;
+}
+
+// Opened the wrong way round: whoever writes is told so.
+void hold_if_closed(int file) {
+  if (fcntl(file, F_GETFD) != -1 || errno != EBADF) return;
+  const int held = open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  if (held >= 0 && held != file) {
+    dup2(held, file);
+    close(held);
+  }
+}
+
+}  // namespace
+
+void guard_streams() {
+  for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) hold_if_closed(file);
+  if (std::FILE* out = guarded(STDOUT_FILENO, isatty(STDOUT_FILENO) == 1 ? _IOLBF : _IOFBF)) stdout = out;
+  if (std::FILE* err = guarded(STDERR_FILENO, _IOLBF)) stderr = err;
+}
+
+void print_error(const Error& error) {
+  const std::vector<Problem>& problems = error.problems();
+  for (std::size_t i = 0; i < problems.size() && i < kMostProblems; ++i)
+    std::fprintf(stderr, "%s\n", shortened(with_final_names(to_string(problems[i])), kLongestMessage).c_str());
+  if (problems.size() > kMostProblems)
+    std::fprintf(stderr, ".. and %zu more problems\n", problems.size() - kMostProblems);
+}
+
+bool flush_standard_output() {
+  Guard& guard = guard_of(STDOUT_FILENO);
+  const bool flushed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && guard.trouble == 0;
+  if (flushed && write_all(guard, guard.text.end())) return true;
+  std::fprintf(stderr, "standard output did not take all that was printed (%s)\n", std::strerror(guard.trouble));
+  return false;
+}
+
+namespace {
+
+// Who sends a signal to a program and then to its group (timeout, a shell) means one.
+constexpr double kOneAndTheSame = 0.5;  // s
+
+struct Ending {
+  int signal;
+  const char* word;
+  bool may_be_ignored;
+};
+constexpr std::array<Ending, 4> kEndings = {{{SIGINT, "interrupted", false},
+                                             {SIGTERM, "terminated", false},
+                                             {SIGHUP, "the terminal was closed", true},
+                                             {SIGQUIT, "told to quit", true}}};
+
+std::atomic<int> received = 0;
+std::atomic<double> first_time = 0;  // s, of the monotonic clock
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<double>::is_always_lock_free);
+
+double now() {
+  timespec time = {};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
+
+// Calls nothing but what a handler may. A second signal that is another one ends the program at once.
+void remember(int signal) {
+  const int saved = errno;
+  if (received == 0) {
+    first_time = now();
+    received = signal;
+  } else if (now() - first_time > kOneAndTheSame) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);  // comes when this handler returns
+  }
+  errno = saved;
+}
+
+}  // namespace
+
+void install_signal_handlers() {
+  struct sigaction action = {};
+  action.sa_handler = remember;
+  sigemptyset(&action.sa_mask);
+  for (const Ending& ending : kEndings) sigaddset(&action.sa_mask, ending.signal);  // none interrupts another's handler
+  for (const Ending& ending : kEndings) {
+    // Who started the program with one of them ignored (nohup) wants it to go on.
+    struct sigaction before = {};
+    if (ending.may_be_ignored && sigaction(ending.signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
+    sigaction(ending.signal, &action, nullptr);
+  }
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+bool interrupted() {
+  return received != 0;
+}
+
+void throw_if_interrupted() {
+  const int signal = received;
+  for (const Ending& ending : kEndings)
+    if (ending.signal == signal)
+      throw Error(ExitCode(128 + signal), std::string(ending.word) + ": nothing half-written was kept");
+}
+
+}  // namespace chainreel

@@ -1,0 +1,28 @@
+// Standard output and error as this program uses them.
+#pragma once
+
+#include "core/error.hpp"
+
+namespace chainreel {
+
+// From now on whatever is printed is fit for a terminal (core/printable), and no line of standard error is longer than
+// some lines of a terminal. Streams that the caller closed are held by ones that take nothing, so that no file of ours
+// gets their number. To be called first.
+void guard_streams();
+
+// Every problem on standard error: each some lines long at most, temporary files under their final names.
+void print_error(const Error& error);
+
+// Hands on what was printed. False, with words on standard error, where not all of it was taken.
+bool flush_standard_output();
+
+// Signals that ask the program to end: a flag that the long loops look at, so that temporary files are removed on the
+// way out. A pipe without a reader and a file that may not grow are errors of the write that meets them, no signals.
+
+void install_signal_handlers();
+bool interrupted();
+// Throws Error once a signal has come, with 128 and its number for an exit code: 129 SIGHUP, 130 SIGINT, 131 SIGQUIT,
+// 143 SIGTERM.
+void throw_if_interrupted();
+
+}  // namespace chainreel

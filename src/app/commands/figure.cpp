@@ -1,0 +1,109 @@
+#include "app/commands/figure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "app/film/target.hpp"
+#include "app/report/sidecar.hpp"
+#include "app/report/version.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "core/hash.hpp"
+#include "core/machine.hpp"
+#include "core/output_file.hpp"
+
+namespace chainreel {
+namespace {
+
+std::string version_text() {
+  return std::string(program_version()) + ", " + program_revision();
+}
+
+}  // namespace
+
+void add_figure_options(Command& command, FigureOptions& options, CommonOptions& common,
+                        const std::string& default_output) {
+  command.add_option("-o,--output", options.output,
+                     "a .png, .svg, .pdf or .csv file (default " + default_output +
+                         "); the numbers are "
+                         "written as CSV beside the picture");
+  command.add_option("--width", options.width, "pixels").range(16, 16384);
+  command.add_option("--height", options.height, "pixels").range(16, 16384);
+  add_scene_flags(command, common.flags, FlagGroup::look);
+  options.command = &command;
+}
+
+ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fonts& fonts) {
+  return {double(options.width) / options.height, scene.text_scale, &theme_named(to_string(scene.theme)), &fonts};
+}
+
+void check_figure_path(const std::string& path) {
+  if (find_output_format(path, Shows::still) || find_output_format(path, Shows::table)) return;
+  const auto is_chart = [](const OutputFormat& row) { return row.shows != Shows::motion; };
+  throw Error(ExitCode::usage, "-o " + path + ": charts are written as " + endings_of(is_chart, "or"));
+}
+
+std::vector<std::string> write_figure(const Picture& picture, const std::string& csv,
+                                      const FigureOptions& options, const std::string& path,
+                                      const Fonts& fonts, bool overwrite) {
+  const std::string table = std::filesystem::path(path).replace_extension(".csv").string();
+  if (path != table) require_own_sidecar(table, overwrite);
+  write_text_file(table, csv, overwrite);
+  if (path == table) return {table};
+  write_picture(picture, options.width, options.height, fonts, path, overwrite,
+                memory_of_figure(*options.command, std::filesystem::path(path).stem().string()));
+  return {path, table};
+}
+
+ClipMemory memory_of_figure(const Command& command, const std::string& title) {
+  return {title, {}, {}, {}, {{"arguments", command.words()}}};
+}
+
+ClipMemory memory_of_figure(const Command& command, const std::string& title, const std::string& model,
+                            const std::vector<std::vector<double>>& poses) {
+  ClipMemory memory = memory_of_figure(command, title);
+  memory.figure["poses"] = poses;
+  if (model.empty()) return memory;
+  memory.figure["model"] = model;
+  memory.figure["model_sha256"] = sha256_of_file(model);
+  return memory;
+}
+
+std::vector<const Method*> parse_methods(const std::string& text) {
+  std::vector<const Method*> chosen;
+  if (text.empty())
+    for (const Method& method : methods()) chosen.push_back(&method);
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    try {
+      chosen.push_back(&find_method(text.substr(begin, end - begin)));
+    } catch (const Error& error) {
+      throw Error(ExitCode::usage, "--methods: " + error.problems().front().message);
+    }
+    begin = end + 1;
+  }
+  return chosen;
+}
+
+double parse_seconds(const std::string& text, const std::string& option) {
+  std::string number = text;
+  if (number.ends_with('s')) number.pop_back();
+  while (number.ends_with(' ')) number.pop_back();
+  const auto value = parse_number(number);
+  if (!value || !(*value > 0))
+    throw Error(ExitCode::usage, option + " takes seconds above 0, like 1000s; not '" + text + "'");
+  return *value;
+}
+
+std::string csv_facts(const std::string& scene) {
+  return "# scene: " + scene + "\n# machine: " + processor_name() + "\n# system: " + system_name() +
+         "\n# compiler: " + compiler_name() + "\n# revision: " + version_text() + "\n";
+}
+
+std::string machine_line() {
+  return processor_name() + "; " + compiler_name() + "; chainreel " + version_text();
+}
+
+}  // namespace chainreel

@@ -1,0 +1,55 @@
+// Charts as files: what several commands that draw one share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/cli/command.hpp"
+#include "app/film/clip_memory.hpp"
+#include "core/frame_rate.hpp"
+#include "draw/charts/chart_page.hpp"
+#include "integrate/method.hpp"
+#include "picture/picture.hpp"
+#include "picture/text.hpp"
+#include "scene/scene.hpp"
+
+namespace chainreel {
+
+struct FigureOptions {
+  std::string output;
+  int width = 1920, height = 1080;
+  const Command* command = nullptr;  // what it was given is remembered by the picture
+};
+
+// With the flags --theme and --text-scale: a chart has the look of its scene unless they say otherwise.
+void add_figure_options(Command& command, FigureOptions& options, CommonOptions& common,
+                        const std::string& default_output);
+
+// Throws Error (usage) unless the ending is .png, .svg, .pdf or .csv.
+void check_figure_path(const std::string& path);
+
+ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fonts& fonts);
+
+// The picture as the path's ending says, and the numbers as CSV beside it: out/x.png and out/x.csv. Where the
+// path ends in .csv, the numbers alone. Returns what was written.
+std::vector<std::string> write_figure(const Picture& picture, const std::string& csv,
+                                      const FigureOptions& options, const std::string& path,
+                                      const Fonts& fonts, bool overwrite);
+
+// What a figure remembers that shows no scene: the words that made it, and the model and its poses where there are.
+ClipMemory memory_of_figure(const Command& command, const std::string& title);
+ClipMemory memory_of_figure(const Command& command, const std::string& title, const std::string& model,
+                            const std::vector<std::vector<double>>& poses);
+
+// "rk4,taylor": rows of the registry; "" is all of them.
+std::vector<const Method*> parse_methods(const std::string& text);
+
+// "1000s", "1000 s" or "1000": seconds. Throws Error (usage) naming the option.
+double parse_seconds(const std::string& text, const std::string& option);
+
+// Lines that begin with #: machine, compiler, version, scene.
+std::string csv_facts(const std::string& scene);
+// "Xeon 2.80GHz; g++ 12.2.0; chainreel 0.1.0, 1a2b3c4": for the foot of a chart.
+std::string machine_line();
+
+}  // namespace chainreel

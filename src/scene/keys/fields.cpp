@@ -1,0 +1,210 @@
+#include "scene/keys/fields.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/format.hpp"
+#include "scene/quantity.hpp"
+
+namespace chainreel {
+
+std::string beside(const std::string& scene, const std::string& named) {
+  const std::filesystem::path target(named);
+  if (target.is_absolute()) return named;
+  return (std::filesystem::path(scene).parent_path() / target).lexically_normal().string();
+}
+
+Fields::Fields(const YamlDocument& document, const YAML::Node& map, std::string prefix, ProblemList& problems)
+    : document_(&document), map_(map), prefix_(std::move(prefix)), problems_(&problems) {}
+
+bool Fields::has(const std::string& key) {
+  const YAML::Node node = find(key);
+  return node.IsDefined() && !node.IsNull();
+}
+
+void Fields::problem_at(const std::string& key, const std::string& message) {
+  const YAML::Node node = find(key);
+  problems().add(message, node.IsDefined() ? place_of(node, key) : Place{document_->file, 0, 0});
+}
+
+YAML::Node Fields::find(const std::string& key) {
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
+  for (const auto& pair : map_)
+    if (pair.first.Scalar() == key) return pair.second;
+  return YAML::Node(YAML::NodeType::Undefined);
+}
+
+Place Fields::place_of(const YAML::Node& node, const std::string& key) const {
+  return document_->place_of(node, path(key));
+}
+
+std::optional<std::string> Fields::scalar(const YAML::Node& node, const std::string& key,
+                                          const std::string& wanted) {
+  if (node.IsScalar()) return node.Scalar();
+  problems_->add("'" + path(key) + "' must be " + wanted, place_of(node, key));
+  return std::nullopt;
+}
+
+std::optional<double> Fields::number(const YAML::Node& node, const std::string& key) {
+  const std::optional<std::string> text = scalar(node, key, "a number");
+  if (!text) return std::nullopt;
+  try {
+    return parse_quantity(*text, place_of(node, key));
+  } catch (const Error& error) {
+    for (const Problem& problem : error.problems())
+      problems_->add("'" + path(key) + "': " + problem.message, problem.place);
+    return std::nullopt;
+  }
+}
+
+bool Fields::read(const std::string& key, std::string& value) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return false;
+  const auto text = scalar(node, key, "text");
+  if (text) value = *text;
+  return text.has_value();
+}
+
+bool Fields::read(const std::string& key, double& value) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return false;
+  const auto one = number(node, key);
+  if (one) value = *one;
+  return one.has_value();
+}
+
+bool Fields::read(const std::string& key, int& value) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return false;
+  const auto one = number(node, key);
+  if (!one) return false;
+  const bool is_whole = *one == std::floor(*one) && std::abs(*one) <= 1e9;
+  if (is_whole)
+    value = int(*one);
+  else
+    problems_->add("'" + path(key) + "' must be a whole number", place_of(node, key));
+  return is_whole;
+}
+
+bool Fields::read(const std::string& key, bool& value) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return false;
+  const auto text = scalar(node, key, "true or false");
+  if (!text) return false;
+  const bool is_truth = *text == "true" || *text == "false";
+  if (is_truth)
+    value = *text == "true";
+  else
+    problems_->add("'" + path(key) + "' must be true or false", place_of(node, key));
+  return is_truth;
+}
+
+bool Fields::read_path(const std::string& key, std::string& value) {
+  if (!read(key, value)) return false;
+  if (!value.empty()) value = beside(document_->file, value);
+  return true;
+}
+
+std::optional<std::size_t> Fields::read_word(const std::string& key, std::span<const Name> words) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return std::nullopt;
+  const auto text = scalar(node, key, "a word: " + alternatives(words));
+  if (!text) return std::nullopt;
+  const std::optional<std::size_t> index = index_of_name(words, *text);
+  if (!index) problems_->add("'" + path(key) + "' " + misnamed(words, *text), place_of(node, key));
+  return index;
+}
+
+bool Fields::read(const std::string& key, Accuracy& value) {
+  std::string text;
+  if (!has(key) || !read(key, text)) return false;
+  try {
+    value = parse_accuracy(text);
+    return true;
+  } catch (const Error& error) {
+    problem_at(key, "'" + path(key) + "': " + error.problems().front().message);
+    return false;
+  }
+}
+
+bool Fields::read(const std::string& key, FrameRate& value) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return false;
+  const auto text = scalar(node, key, "frames per second, like 60 or 30000/1001");
+  if (!text) return false;
+  const std::size_t slash = text->find('/');
+  const auto num = parse_number(text->substr(0, slash));
+  const auto den =
+      slash == std::string::npos ? std::optional<double>(1) : parse_number(text->substr(slash + 1));
+  // A decimal rate is kept to a thousandth: 23.976 is 23976/1000.
+  const double scale = num && *num != std::floor(*num) ? 1000 : 1;
+  const bool good = num && den && *num > 0 && *den >= 1 && *den <= 1e5 && *num * scale <= 1e6 &&
+                    *den == std::floor(*den) && *num * scale == std::round(*num * scale);
+  if (good)
+    value = {int(*num * scale), int(*den * scale)};
+  else
+    problems_->add("'" + path(key) + "' must be a rate like 60, 29.97 or 30000/1001", place_of(node, key));
+  return good;
+}
+
+bool Fields::read(const std::string& key, std::vector<double>& value) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return false;
+  if (!node.IsSequence()) {
+    problems_->add("'" + path(key) + "' must be a list of numbers: [0, 90deg]", place_of(node, key));
+    return false;
+  }
+  value.clear();
+  for (std::size_t i = 0; i < node.size(); ++i)
+    if (const auto one = number(node[i], key + "." + std::to_string(i + 1))) value.push_back(*one);
+  return value.size() == node.size();
+}
+
+bool Fields::read(const std::string& key, Eigen::Vector3d& value) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return false;
+  if (!node.IsSequence() || node.size() != 3) {
+    problems_->add("'" + path(key) + "' must be three numbers, world x y z: [0, -9.81, 0]", place_of(node, key));
+    return false;
+  }
+  std::vector<double> numbers;
+  if (!read(key, numbers)) return false;
+  value = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
+  return true;
+}
+
+bool Fields::read(const std::string& key, std::vector<std::string>& value) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return false;
+  if (!node.IsSequence()) {
+    problems_->add("'" + path(key) + "' must be a list of names: [chain, trail]", place_of(node, key));
+    return false;
+  }
+  value.clear();
+  for (std::size_t i = 0; i < node.size(); ++i)
+    if (const auto one = scalar(node[i], key + "." + std::to_string(i + 1), "a name")) value.push_back(*one);
+  return value.size() == node.size();
+}
+
+std::optional<Fields> Fields::section(const std::string& key, const std::string& what_it_holds) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return std::nullopt;
+  if (node.IsMap()) return Fields(*document_, node, path(key), *problems_);
+  problems_->add("'" + path(key) + "' must hold " + what_it_holds, place_of(node, key));
+  return std::nullopt;
+}
+
+void Fields::finish() {
+  for (const auto& pair : map_) {
+    const std::string& key = pair.first.Scalar();
+    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    std::string known;
+    for (const std::string& one : known_) known += (known.empty() ? "" : ", ") + one;
+    problems_->add(
+        "unknown key '" + path(key) + "':" + did_you_mean(key, known_) + " The keys here are " + known + ".",
+        place_of(pair.first, key));
+  }
+}
+
+}  // namespace chainreel

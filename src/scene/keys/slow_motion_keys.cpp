@@ -1,0 +1,187 @@
+// The key slow_motion.
+#include <algorithm>
+#include <cmath>
+
+#include "scene/film_clock.hpp"
+#include "scene/keys/own_keys.hpp"
+#include "scene/quantity.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr const char* kExample = "{from: 1s, until: 1.5s, speed: 0.25}";
+
+// One entry of the list; `key` is its dotted path.
+class StretchReader {
+ public:
+  StretchReader(Fields& fields, const YAML::Node& node, const std::string& key)
+      : inner_(fields.document(), node, key, fields.problems()),
+        key_(key),
+        place_(fields.place_of(node, key)) {}
+
+  // False where something is wrong that has been told.
+  bool read(const Scene& scene, SlowMotionEntry& entry) {
+    inner_.read("event", entry.event);
+    const bool complete =
+        read_seconds("from", entry.from) & read_seconds("until", entry.until) & read_speed(entry.speed);
+    inner_.finish();
+    if (!complete || !knows_event(scene, entry)) return false;
+    return entry.event.empty() ? check_instants(scene, entry) : check_span(entry);
+  }
+
+ private:
+  bool complain(const std::string& message, const std::string& key) {
+    inner_.problems().add("'" + key_ + "." + key + "' " + message, inner_.place_of(inner_.find(key), key));
+    return false;
+  }
+
+  bool has(const std::string& key) {
+    const YAML::Node node = inner_.find(key);
+    if (node.IsDefined() && node.IsScalar()) return true;
+    inner_.problems().add("'" + key_ + "' needs `" + key + "`: " + kExample, place_);
+    return false;
+  }
+
+  // `1.5`, `1.5s` or `1.5 s`.
+  bool read_seconds(const std::string& key, double& value) {
+    if (!has(key)) return false;
+    std::string text = inner_.find(key).Scalar();
+    if (text.ends_with('s')) text.pop_back();
+    try {
+      value = parse_quantity(text, {});
+    } catch (const Error&) {
+      return complain("is '" + inner_.find(key).Scalar() + "', but seconds are wanted, like 1.5s", key);
+    }
+    return true;
+  }
+
+  bool read_speed(double& speed) {
+    if (!has("speed")) return false;
+    inner_.read("speed", speed);
+    if (speed >= kSlowest && speed <= kFastest) return true;
+    return complain("must lie between " + format_shortest(kSlowest) + " and " + format_shortest(kFastest) +
+                        ": 0.25 is four times slower, 4 four times faster",
+                    "speed");
+  }
+
+  bool knows_event(const Scene& scene, const SlowMotionEntry& entry) {
+    if (entry.event.empty()) return true;
+    std::vector<std::string> names;
+    for (const EventEntry& event : scene.events) names.push_back(event.title());
+    if (std::find(names.begin(), names.end(), entry.event) != names.end()) return true;
+    return complain(
+        "names '" + entry.event + "', but " +
+            (names.empty() ? "the scene has no 'events'" : "no entry of 'events' has that name:") +
+            did_you_mean(entry.event, names) + (names.empty() ? "" : " There are " + quoted_list(names) + "."),
+        "event");
+  }
+
+  bool check_span(const SlowMotionEntry& entry) {
+    if (entry.from < entry.until) return true;
+    return complain("must lie before `until`: " + format_shortest(entry.from) + " s is not before " +
+                        format_shortest(entry.until) + " s",
+                    "from");
+  }
+
+  bool check_instants(const Scene& scene, const SlowMotionEntry& entry) {
+    if (!check_span(entry)) return false;
+    if (entry.from < 0)
+      return complain("must not lie before 0 s; seconds before an event go with `event: NAME`", "from");
+    if (entry.from < scene.duration) return true;
+    return complain("lies at or behind the end of the motion, " + format_shortest(scene.duration) + " s",
+                    "from");
+  }
+
+  Fields inner_;
+  std::string key_;
+  Place place_;
+};
+
+std::string span_text(const SlowMotionEntry& entry) {
+  return format_shortest(entry.from) + " to " + format_shortest(entry.until) + " s";
+}
+
+// At an instant of the motion two speeds make no sense; around events the slower one holds.
+void refuse_overlaps(Fields& fields, const YAML::Node& node, const Scene& scene) {
+  std::vector<SlowMotionEntry> instants;
+  for (const SlowMotionEntry& entry : scene.slow_motion)
+    if (entry.event.empty()) instants.push_back(entry);
+  std::sort(instants.begin(), instants.end(),
+            [](const SlowMotionEntry& a, const SlowMotionEntry& b) { return a.from < b.from; });
+  for (std::size_t i = 0; i + 1 < instants.size(); ++i)
+    if (instants[i + 1].from < instants[i].until)
+      fields.problems().add("stretches of 'slow_motion' overlap: " + span_text(instants[i]) + " and " +
+                                span_text(instants[i + 1]) + "; let one end where the next begins",
+                            fields.place_of(node, "slow_motion"));
+}
+
+// What can be said before the run, which alone knows its events.
+void check_length(Fields& fields, const YAML::Node& node, const Scene& scene) {
+  if (!(scene.duration > 0)) return;  // told elsewhere
+  const FilmClock clock(scene.duration, scene.video.fps, stretches_of(scene.slow_motion, scene.events, {}));
+  const double frames = clock.film_seconds() * scene.video.fps.value();
+  const bool follows_events = std::any_of(scene.slow_motion.begin(), scene.slow_motion.end(),
+                                          [](const SlowMotionEntry& entry) { return !entry.event.empty(); });
+  if (frames > kMostFrames)
+    fields.problems().add("'slow_motion' makes a film of more than ten million frames",
+                          fields.place_of(node, "slow_motion"));
+  else if (frames < 0.5 && !follows_events)
+    fields.problems().add("'slow_motion' leaves less than half a frame: the film would be empty",
+                          fields.place_of(node, "slow_motion"));
+}
+
+}  // namespace
+
+KeyText told_slow_motion() {
+  return told_list("slow_motion",
+                   told_record("",
+                               {told("event", KeyForm::text, "a name of `events:`; `from` and `until` are seconds from its "
+                                                          "instants on, before it with a minus"),
+                                told("from", KeyForm::number, "the first instant").in("s").required(),
+                                told("until", KeyForm::number, "the last instant").in("s").required(),
+                                told("speed", KeyForm::number, "0.25 is four times slower, 4 four times faster")
+                                    .within({kSlowest, kFastest})
+                                    .required()},
+                               "a stretch"),
+                   "stretches of the motion that the film shows slower, or faster");
+}
+
+std::string slow_motion_text(const Scene& scene) {
+  if (scene.slow_motion.empty()) return "";
+  return flow_text([&](YAML::Emitter& out) {
+    out << YAML::Flow << YAML::BeginSeq;
+    for (const SlowMotionEntry& one : scene.slow_motion) {
+      out << YAML::Flow << YAML::BeginMap;
+      if (!one.event.empty()) out << YAML::Key << "event" << YAML::Value << YAML::DoubleQuoted << one.event;
+      for (const auto& [key, value] : {std::pair{"from", one.from}, {"until", one.until}, {"speed", one.speed}})
+        out << YAML::Key << key << YAML::Value << format_shortest(value);
+      out << YAML::EndMap;
+    }
+    out << YAML::EndSeq;
+  });
+}
+
+void read_slow_motion(Fields& fields, Scene& scene) {
+  const YAML::Node node = fields.find("slow_motion");
+  if (!node.IsDefined() || node.IsNull()) return;
+  if (!node.IsSequence()) {
+    fields.problems().add(std::string("'slow_motion' must be a list of stretches: [") + kExample +
+                              ", {event: NAME, from: -0.2s, until: 0.3s, speed: 0.1}]",
+                          fields.place_of(node, "slow_motion"));
+    return;
+  }
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const std::string key = "slow_motion." + std::to_string(i + 1);
+    SlowMotionEntry entry;
+    if (!node[i].IsMap())
+      fields.problems().add("'" + key + "' must be a stretch like " + kExample,
+                            fields.place_of(node[i], key));
+    else if (StretchReader(fields, node[i], key).read(scene, entry))
+      scene.slow_motion.push_back(entry);
+  }
+  if (scene.slow_motion.size() < node.size()) return;
+  refuse_overlaps(fields, node, scene);
+  check_length(fields, node, scene);
+}
+
+}  // namespace chainreel

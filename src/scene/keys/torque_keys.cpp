@@ -1,0 +1,199 @@
+// The key torque: numbers, expressions and controls.
+#include "scene/keys/own_keys.hpp"
+
+namespace chainreel {
+namespace {
+
+// One number, or a list with one a freedom.
+std::vector<double> read_gains(Fields& fields, const std::string& key) {
+  std::vector<double> gains;
+  const YAML::Node node = fields.find(key);
+  if (!node.IsDefined()) return {0};
+  if (node.IsSequence()) {
+    fields.read(key, gains);
+    return gains;
+  }
+  double gain = 0;
+  fields.read(key, gain);
+  return {gain};
+}
+
+// One expression, or a list with one a freedom.
+std::vector<Entry> read_entries(Fields& fields, const std::string& key) {
+  const YAML::Node node = fields.find(key);
+  if (!node.IsDefined()) return {};
+  std::vector<Entry> entries;
+  if (node.IsScalar()) entries.push_back({node.Scalar(), fields.place_of(node, key)});
+  if (node.IsSequence())
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      const std::string name = key + "." + std::to_string(i + 1);
+      if (node[i].IsScalar()) entries.push_back({node[i].Scalar(), fields.place_of(node[i], name)});
+    }
+  if (entries.empty() || (node.IsSequence() && entries.size() != node.size()))
+    fields.problems().add(
+        "'" + fields.path(key) + "' must be an expression in t, or a list with one a freedom",
+        fields.place_of(node, key));
+  return entries;
+}
+
+// What a table stands for beyond its rows; `has_table`: there is one.
+std::optional<Outside> read_outside(Fields& fields, bool has_table, const std::string& tables) {
+  std::optional<Outside> outside;
+  if (!has_table && fields.has("outside"))
+    fields.problem_at("outside", "'" + fields.path("outside") + "' says what a table is taken for beyond its rows, and there is no " +
+                                     tables + ": leave it out");
+  fields.read("outside", outside);
+  return outside;
+}
+
+std::optional<Feedback> read_feedback(Fields& fields, const std::string& key) {
+  const YAML::Node node = fields.find(key);
+  if (!node.IsDefined()) return std::nullopt;
+  if (!node.IsMap()) {
+    fields.problems().add("'" + fields.path(key) + "' must hold kp, kd and q: {kp: 100, kd: 10, q: [0, 1]}",
+                          fields.place_of(node, key));
+    return std::nullopt;
+  }
+  Fields inner(fields.document(), node, fields.path(key), fields.problems());
+  Feedback feedback;
+  feedback.kp = read_gains(inner, "kp");
+  feedback.kd = read_gains(inner, "kd");
+  feedback.q = read_entries(inner, "q");
+  feedback.qd = read_entries(inner, "qd");
+  feedback.qdd = read_entries(inner, "qdd");
+  inner.read_path("trajectory", feedback.trajectory);
+  if (!feedback.trajectory.empty() && !(feedback.q.empty() && feedback.qd.empty() && feedback.qdd.empty()))
+    fields.problems().add(
+        "'" + fields.path(key) + "' takes its motion from trajectory or from q, qd, qdd, not from both",
+        fields.place_of(node, key));
+  feedback.outside = read_outside(inner, !feedback.trajectory.empty(), "trajectory");
+  inner.finish();
+  return feedback;
+}
+
+Control read_control(Fields& fields, const YAML::Node& node, const std::string& key) {
+  Fields inner(fields.document(), node, fields.path(key), fields.problems());
+  Control control;
+  control.place = fields.place_of(node, key);
+  inner.read_path("csv", control.csv);
+  inner.read_path("inverse_of", control.inverse_of);
+  control.outside = read_outside(inner, !control.csv.empty() || !control.inverse_of.empty(), "csv or inverse_of");
+  control.pd = read_feedback(inner, "pd");
+  control.computed_torque = read_feedback(inner, "computed_torque");
+  inner.read("gravity_compensation", control.gravity_compensation);
+  inner.finish();
+  return control;
+}
+
+void emit_feedback(YAML::Emitter& out, const std::string& key, const std::optional<Feedback>& feedback) {
+  if (!feedback) return;
+  out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginMap;
+  out << YAML::Key << "kp" << YAML::Value;
+  emit_numbers(out, feedback->kp);
+  out << YAML::Key << "kd" << YAML::Value;
+  emit_numbers(out, feedback->kd);
+  const auto entries = [&](const char* name, const std::vector<Entry>& list) {
+    if (list.empty()) return;
+    out << YAML::Key << name << YAML::Value;
+    emit_list(out, list, [](const Entry& entry) { return entry.text; });
+  };
+  entries("q", feedback->q);
+  entries("qd", feedback->qd);
+  entries("qdd", feedback->qdd);
+  if (!feedback->trajectory.empty()) out << YAML::Key << "trajectory" << YAML::Value << feedback->trajectory;
+  if (feedback->outside) out << YAML::Key << "outside" << YAML::Value << to_string(*feedback->outside);
+  out << YAML::EndMap;
+}
+
+void emit_control(YAML::Emitter& out, const Control& control) {
+  out << YAML::Flow << YAML::BeginMap;
+  if (!control.csv.empty()) out << YAML::Key << "csv" << YAML::Value << control.csv;
+  if (!control.inverse_of.empty()) out << YAML::Key << "inverse_of" << YAML::Value << control.inverse_of;
+  if (control.outside) out << YAML::Key << "outside" << YAML::Value << to_string(*control.outside);
+  emit_feedback(out, "pd", control.pd);
+  emit_feedback(out, "computed_torque", control.computed_torque);
+  if (control.gravity_compensation) out << YAML::Key << "gravity_compensation" << YAML::Value << true;
+  out << YAML::EndMap;
+}
+
+KeyText told_feedback(const char* name, const char* help) {
+  const auto gain = [](const char* key, const char* what) {
+    return told_either(key, {told("", KeyForm::number, "for all"), told_list("", told("", KeyForm::number, ""), "one a freedom")},
+                       what);
+  };
+  const auto course = [](const char* key, const char* what) {
+    return told_either(key, {told("", KeyForm::expression, ""), told_list("", told("", KeyForm::expression, ""), "one a freedom")},
+                       what);
+  };
+  return told_record(name,
+                     {gain("kp", "gain of places; 0 where it is left out"), gain("kd", "gain of rates"),
+                      course("q", "the motion to follow, expressions in t; its derivatives are taken exactly"),
+                      course("qd", "its rates, where they are not the derivatives"),
+                      course("qdd", "its accelerations, likewise"),
+                      told("trajectory", KeyForm::path, "a table with t,q1.. and maybe qd1.., qdd1.. in the place of q"),
+                      told_word("outside", names_of(Outside{}), "what the table is taken for beyond its rows")},
+                     help);
+}
+
+KeyText told_control(const char* name) {
+  return told_record(name,
+                     {told("csv", KeyForm::path, "a table with t,tau1..; linear between its rows, where steps end"),
+                      told("inverse_of", KeyForm::path, "a table with t,q1..: the torques that this motion takes"),
+                      told_word("outside", names_of(Outside{}), "what these tables are taken for beyond their rows"),
+                      told_feedback("pd", "kp (q_ref - q) + kd (qd_ref - qd)"),
+                      told_feedback("computed_torque", "M (qdd_ref + kd (qd_ref - qd) + kp (q_ref - q)) + nle + tau_f"),
+                      told("gravity_compensation", KeyForm::truth, "tau_g(q)")},
+                     "what drives the whole chain, or one joint; its parts add up");
+}
+
+}  // namespace
+
+KeyText told_torque() {
+  return told_either("torque",
+                     {told_control(""), told_list("", told_either("", {told("", KeyForm::expression, ""), told_control("")}, ""),
+                                                  "a number, an expression or a control a joint")},
+                     "what drives the joints, N m or N");
+}
+
+void read_torque(Fields& fields, Scene& scene) {
+  const YAML::Node node = fields.find("torque");
+  if (!node.IsDefined()) return;
+  if (node.IsMap()) {
+    scene.control = read_control(fields, node, "torque");
+    return;
+  }
+  if (!node.IsSequence()) {
+    fields.problems().add(
+        "'torque' must be a list with a number or an expression a joint: [0, -100 * y_G], or a control like "
+        "{pd: {kp: 100, kd: 10, q: [0, 1]}}",
+        fields.place_of(node, "torque"));
+    return;
+  }
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const std::string key = "torque." + std::to_string(i + 1);
+    const Place place = fields.place_of(node[i], key);
+    if (node[i].IsScalar())
+      scene.torque.push_back({node[i].Scalar(), place, {}});
+    else if (node[i].IsMap())
+      scene.torque.push_back({"control", place, read_control(fields, node[i], key)});
+    else
+      fields.problems().add(
+          "'torque' entry " + std::to_string(i + 1) + " must be a number, an expression or a control", place);
+  }
+}
+
+std::string torque_text(const Scene& scene) {
+  return flow_text([&](YAML::Emitter& out) {
+    if (scene.control) return emit_control(out, *scene.control);
+    out << YAML::Flow << YAML::BeginSeq;
+    for (const TorqueEntry& entry : scene.torque) {
+      if (entry.control)
+        emit_control(out, *entry.control);
+      else
+        out << entry.text;
+    }
+    out << YAML::EndSeq;
+  });
+}
+
+}  // namespace chainreel

@@ -1,0 +1,135 @@
+#include "scene/run/fall.hpp"
+
+#include <algorithm>
+
+#include "core/format.hpp"
+#include "scene/run/prepare.hpp"
+#include "scene/run/sweep.hpp"
+#include "scene/text/read_scene.hpp"
+#include "sim/system/chain_system.hpp"
+#include "sim/workload.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr const char* kFallInTitle = "{fall}";
+
+bool has_fall(const Scene& scene) {
+  return std::any_of(scene.events.begin(), scene.events.end(),
+                     [](const EventEntry& event) { return event.kind == EventKind::fall; });
+}
+
+Scene read_one(const std::string& path, const std::vector<std::string>& overrides) {
+  Scene scene = read_scene(path, overrides);
+  require_single_run(scene);
+  if (!has_fall(scene))
+    throw Error(ExitCode::bad_input,
+                "has no event of kind `fall`, so nothing says when it has fallen: add one like "
+                "events: [{when: \"y_G < 0.5\", kind: fall, name: lies}]",
+                scene.place_of("events"));
+  if (scene.chooses_method()) {
+    scene.method = "dop853";
+    scene.tolerance = 1e-10;
+  }
+  return scene;
+}
+
+// By an angle, so that a ground that bears nothing, where the pressure is infinitely far away, is none without number.
+constexpr const char* kPressureLeavesTheFoot = "atan2(max(heel - cop, cop - toe), 1) > 0";
+
+double pressure_at(const Simulation& simulation, const Foot& foot, double t, ConstVec q, ConstVec qd) {
+  const Chain& chain = simulation.chain;
+  ChainSystem system(chain, *simulation.torque, simulation.limit, simulation.constraints);
+  std::vector<double> qdd(qd.size());
+  system.acceleration(t, q, qd, qdd);
+  Workspace ws(chain);
+  return center_of_pressure(chain, ws, ground_axes(chain), foot.height, q, qd, qdd);
+}
+
+// `event`: the one that watches the pressure; it waits where it holds from the start.
+void find_tipping(FallRow& row, const Simulation& simulation, const Foot& foot, const Trajectory& run, int event) {
+  const double at_start = pressure_at(simulation, foot, 0, simulation.q0, simulation.qd0);
+  if (!(at_start >= foot.heel && at_start <= foot.toe)) {
+    row.tips = 0;
+    row.over_toe = at_start > foot.toe;
+    return;
+  }
+  for (int k = 0; k < run.events.size(); ++k) {
+    if (run.events.event[std::size_t(k)] != event) continue;
+    const double t = run.events.t[std::size_t(k)];
+    row.tips = t;
+    const double place = pressure_at(simulation, foot, t, run.events.q_at(k), run.events.qd_at(k));
+    row.over_toe = place > 0.5 * (foot.heel + foot.toe);
+    return;
+  }
+}
+
+FallRow run_row(Scene scene, const StopRequest& stop) {
+  const std::size_t events = scene.events.size();
+  if (scene.foot) scene.events.push_back({.when = kPressureLeavesTheFoot, .name = {}, .place = {}});
+  const Simulation simulation = prepare(scene, false);
+  const double end[] = {simulation.duration};
+  const Trajectory run = simulate(simulation, end, stop);
+  FallRow row;
+  row.status = run.status;
+  row.end_time = run.end_time;
+  row.fall_time = fall_time_of(scene, run);
+  row.ending_event = run.ending_event;
+  row.trouble = run.trouble;
+  row.first.resize(scene.events.size());
+  if (scene.foot) find_tipping(row, simulation, *scene.foot, run, int(events));
+  for (int k = run.events.size() - 1; k >= 0; --k)
+    row.first[std::size_t(run.events.event[std::size_t(k)])] = run.events.t[std::size_t(k)];
+  row.first.resize(events);
+  return row;
+}
+
+}  // namespace
+
+std::optional<double> fall_time_of(const Scene& scene, const Trajectory& trajectory) {
+  if (trajectory.ending_event < 0) return {};
+  const EventEntry& event = scene.events[std::size_t(trajectory.ending_event)];
+  return event.kind == EventKind::fall ? std::optional(trajectory.end_time) : std::nullopt;
+}
+
+std::string fall_time_text(const Scene& scene, const Trajectory& trajectory) {
+  const std::optional<double> time = fall_time_of(scene, trajectory);
+  return time ? format_fixed(*time, 2) + " s"
+              : "more than " + format_significant(trajectory.end_time, 3) + " s";
+}
+
+std::string title_of(const Scene& scene, const Trajectory& trajectory) {
+  std::string title = scene.title;
+  const std::size_t place = title.find(kFallInTitle);
+  if (place == std::string::npos || !has_fall(scene)) return title;
+  return title.replace(place, std::string(kFallInTitle).size(), fall_time_text(scene, trajectory));
+}
+
+FallTable run_fall_table(const std::string& scene, const std::vector<std::string>& overrides,
+                         const Sweep& sweep, int threads, const StopRequest& stop) {
+  FallTable table;
+  table.sweep = sweep;
+  table.threads = threads;
+  table.rows.resize(sweep.values.size());
+  const auto settings = [&](std::size_t k) {
+    std::vector<std::string> all = overrides;
+    if (!sweep.key.empty()) all.push_back(sweep.setting(k));
+    return all;
+  };
+  // The first row's scene alone: one that cannot be read says so once.
+  const Scene first = read_one(scene, settings(0));
+  table.events = first.events;
+  table.duration = first.duration;
+  table.has_foot = first.foot.has_value();
+  table.method = method_text(first);
+  Scene counted = first;
+  require_possible(prepare(counted, false), double(table.rows.size()));
+  for_each_index(table.rows.size(), threads, [&](std::size_t k) {
+    if (stop && stop(0)) return;
+    table.rows[k] = run_row(read_one(scene, settings(k)), stop);
+    table.rows[k].value = sweep.values[k];
+  });
+  return table;
+}
+
+}  // namespace chainreel

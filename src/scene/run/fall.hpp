@@ -1,0 +1,54 @@
+// When does it fall? A run's first `fall` event, and how it depends on a key of the scene.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/run/sweep.hpp"
+#include "scene/scene.hpp"
+#include "sim/simulate.hpp"
+
+namespace chainreel {
+
+// The instant at which an event of kind `fall` ended the run, s.
+std::optional<double> fall_time_of(const Scene& scene, const Trajectory& trajectory);
+
+// "0.83 s", or "more than 5 s" of a run that did not fall.
+std::string fall_time_text(const Scene& scene, const Trajectory& trajectory);
+
+// The title, `{fall}` in it replaced by that text.
+std::string title_of(const Scene& scene, const Trajectory& trajectory);
+
+struct FallRow {
+  std::string value;  // of the key
+  RunStatus status = RunStatus::finished;
+  double end_time = 0;                       // s
+  std::optional<double> fall_time;           // s
+  int ending_event = -1;                     // index into FallTable::events
+  std::vector<std::optional<double>> first;  // the first time of each event, s
+  std::string trouble;
+
+  // When the centre of pressure first left the scene's foot, s, over toe or heel. From then on a flat foot
+  // on the ground would tip, which the model's, fixed to the world, does not.
+  std::optional<double> tips;
+  bool over_toe = false;
+};
+
+struct FallTable {
+  Sweep sweep;
+  std::vector<EventEntry> events;  // of the scene
+  double duration = 0;             // s
+  bool has_foot = false;
+  std::string method;
+  int threads = 1;
+  std::vector<FallRow> rows;
+};
+
+// A run for each value, on `threads` threads. `method: auto` means dop853 with a tolerance of 1e-10 here: the
+// same for all rows. Throws what reading or preparing a row's scene throws, and Error (bad input) where the
+// scene has no event of kind `fall`.
+FallTable run_fall_table(const std::string& scene, const std::vector<std::string>& overrides,
+                         const Sweep& sweep, int threads, const StopRequest& stop = {});
+
+}  // namespace chainreel

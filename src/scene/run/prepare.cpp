@@ -1,0 +1,212 @@
+#include "scene/run/prepare.hpp"
+
+#include <algorithm>
+
+#include "expr/expression.hpp"
+#include "model/chain.hpp"
+#include "model/read_chain.hpp"
+#include "sim/system/constrained_chain.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kDefaultStep = 0.001;  // s
+constexpr double kDefaultTolerance = 1e-9;
+
+// Fills what is absent and refuses what has the wrong length.
+void check_length(std::vector<double>& values, const std::vector<double>& absent, const std::string& key,
+                  const Scene& scene, ProblemList& problems) {
+  if (values.empty()) {
+    values = absent;
+  } else if (values.size() != absent.size()) {
+    problems.add("'" + key + "' has " + std::to_string(values.size()) + " numbers, but the model " +
+                     scene.model + " needs " + std::to_string(absent.size()),
+                 scene.place_of(key));
+  }
+}
+
+void check_torque(Scene& scene, const Chain& chain, ProblemList& problems) {
+  if (scene.control) return;
+  if (scene.torque.empty()) scene.torque.resize(std::size_t(chain.nv));
+  if (scene.torque.size() == std::size_t(chain.nv)) return;
+  std::string joints;
+  for (const std::string& name : chain.coordinate_names) joints += (joints.empty() ? "" : ", ") + name;
+  problems.add("'torque' has " + std::to_string(scene.torque.size()) + " entries, but the model " +
+                   scene.model + " has " + std::to_string(chain.nv) + " freedoms (" + joints +
+                   "); an entry that holds a comma must be quoted, and decimals take a point",
+               scene.place_of("torque"));
+}
+
+std::string list_of(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+  return list;
+}
+
+// A parameter must be a name that expressions can read and that means nothing else there.
+void check_parameters(const Scene& scene, const Chain& chain, const NamedFrames& frames,
+                      ProblemList& problems) {
+  const int rows = 6 * int(scene.constraints.size());  // the most there can be
+  std::vector<std::string> taken = Probe(chain, {}, rows, frames).names();
+  if (scene.foot)
+    for (const std::string& name : foot_names()) taken.push_back(name);
+  for (const auto& [name, value] : scene.parameters) {
+    if (!is_variable_name(name) || is_reserved_name(name) ||
+        std::find(taken.begin(), taken.end(), name) != taken.end())
+      problems.add(
+          "'" + name +
+              "' cannot name a parameter: take letters, digits and _, and no name that expressions know",
+          scene.place_of("parameters." + name));
+  }
+}
+
+// Links by their names, else joints by theirs: the frame of the link behind the joint.
+NamedFrames find_frames(const Scene& scene, const Chain& chain, ProblemList& problems) {
+  NamedFrames frames;
+  for (const auto& [name, wanted] : scene.frames) {
+    std::vector<std::string> known;
+    for (const Frame& frame : chain.frames) known.push_back(frame.name);
+    int index = find_frame(chain, wanted);
+    for (const Body& body : chain.bodies) {
+      if (&body == &chain.bodies[0]) continue;
+      known.push_back(body.joint.name);
+      if (index < 0 && body.joint.name == wanted) index = find_frame(chain, body.name);
+    }
+    if (index >= 0)
+      frames.push_back({name, index});
+    else
+      problems.add("'frames." + name + "' names no link and no moving joint of " + scene.model + ": '" +
+                       wanted + "';" + did_you_mean(wanted, known) + " They are " + list_of(known) + ".",
+                   scene.place_of("frames." + name));
+  }
+  return frames;
+}
+
+int constraint_rows(const Simulation& simulation) {
+  const ConstraintPlan& plan = simulation.constraints;
+  return plan.empty() ? 0 : ConstrainedChain(simulation.chain, plan).set().rows();
+}
+
+std::shared_ptr<const EventSet> events_of(const Scene& scene, const Simulation& simulation,
+                                          const NamedFrames& frames, int rows) {
+  const Chain& chain = simulation.chain;
+  try {
+    return make_events(chain, scene.events, scene.parameters, frames, scene.foot, rows);
+  } catch (const Error& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems)
+      if (problem.place.file.empty()) problem.place = scene.place_of("foot");
+    throw Error(error.code(), std::move(problems));
+  }
+}
+
+// Layers of the end effector. Who names them asks for one; of the default ones those are left out that need it.
+void require_end_effector_of_layers(Scene& scene, const Chain& chain) {
+  const auto needs_one = [](const std::string& layer) { return layer_needs(layer, LayerNeeds::end_effector); };
+  const auto first = std::find_if(scene.draw.begin(), scene.draw.end(), needs_one);
+  if (first == scene.draw.end()) return;
+  if (scene.places.contains("draw")) {
+    try {
+      require_end_effector(chain);
+    } catch (const Error& error) {
+      throw Error(error.code(),
+                  "the layer '" + *first + "' is of the end effector: " + error.problems().front().message +
+                      "; or leave it out with draw: [-" + *first + "]",
+                  scene.place_of("draw"));
+    }
+  }
+  std::erase_if(scene.draw, needs_one);
+}
+
+void choose_end_effector(Scene& scene, Chain& chain) {
+  if (!scene.end_effector.empty()) {
+    chain.end_effector = find_frame(chain, scene.end_effector);
+    std::vector<std::string> links;
+    for (const Frame& frame : chain.frames) links.push_back(frame.name);
+    if (chain.end_effector < 0)
+      throw Error(ExitCode::bad_input,
+                  "'end_effector' names no link of " + scene.model + ": '" + scene.end_effector + "';" +
+                      did_you_mean(scene.end_effector, links),
+                  scene.place_of("end_effector"));
+  }
+  if (chain.end_effector < 0) require_end_effector_of_layers(scene, chain);
+}
+
+// Fills in what the scene left to the method.
+void set_method(Scene& scene, Simulation& simulation) {
+  const Method& method = find_method(scene.method);
+  if (!scene.step && !method.adaptive) scene.step = kDefaultStep;
+  if (!scene.step && !scene.tolerance) scene.tolerance = kDefaultTolerance;
+  if (!scene.order && method.highest_order > 0) scene.order = method.order;
+  simulation.method = &method;
+  simulation.step = scene.step.value_or(0);
+  simulation.options = {scene.tolerance.value_or(0), scene.order.value_or(0)};
+  try {
+    check_method(simulation);
+  } catch (const Error& error) {
+    throw Error(error.code(), error.problems().front().message, scene.place_of("method"));
+  }
+}
+
+}  // namespace
+
+ModelOptions model_options_of(const Scene& scene) {
+  ModelOptions options;
+  options.gravity = scene.gravity;
+  options.floating_base = scene.base == RootLink::floating;
+  options.friction = scene.friction;
+  options.massless = scene.massless;
+  options.packages = scene.packages;
+  return options;
+}
+
+const Chain& LastChain::read(const std::string& path, const ModelOptions& options) {
+  if (!chain_ || path != path_ || !(options == options_)) {
+    chain_ = read_chain(path, options);
+    path_ = path;
+    options_ = options;
+  }
+  return *chain_;
+}
+
+Simulation prepare(Scene& scene, bool meshes) {
+  LastChain none;
+  return prepare(scene, meshes, none);
+}
+
+Simulation prepare(Scene& scene, bool meshes, LastChain& last) {
+  ModelOptions options = model_options_of(scene);
+  options.meshes = meshes;
+  Simulation simulation;
+  simulation.chain = last.read(scene.model, options);
+  choose_end_effector(scene, simulation.chain);
+  const Chain& chain = simulation.chain;
+  scene.gravity = chain.gravity;
+  if (chain.end_effector >= 0) scene.end_effector = chain.frames[std::size_t(chain.end_effector)].name;
+
+  prepare_tables(scene, chain);
+  ProblemList problems;
+  check_length(scene.start.q, zero_configuration(chain), "start.q", scene, problems);
+  check_length(scene.start.qd, std::vector<double>(std::size_t(chain.nv)), "start.qd", scene, problems);
+  check_torque(scene, chain, problems);
+  const NamedFrames frames = find_frames(scene, chain, problems);
+  check_parameters(scene, chain, frames, problems);
+  problems.throw_if_any();
+  if (const std::string trouble = trouble_of_pose(chain, scene.start.q); !trouble.empty())
+    throw Error(ExitCode::bad_input, "start.q: " + trouble, scene.place_of("start.q"));
+
+  simulation.q0 = scene.start.q;
+  simulation.qd0 = scene.start.qd;
+  simulation.torque = scene.control ? make_control(chain, *scene.control, scene.parameters)
+                                    : make_torque_law(chain, scene.torque, scene.parameters, frames);
+  prepare_constraints(scene, simulation);
+  if (!scene.chooses_method()) set_method(scene, simulation);
+  simulation.limit = scene.limit;
+  simulation.duration = scene.duration;
+  const int rows = constraint_rows(simulation);
+  simulation.events = events_of(scene, simulation, frames, rows);
+  simulation.plots = make_plots(chain, scene.plot, scene.parameters, frames, scene.foot, rows);
+  return simulation;
+}
+
+}  // namespace chainreel

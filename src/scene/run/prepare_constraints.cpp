@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "core/format.hpp"
+#include "dynamics/constraints/constrained_dynamics.hpp"
+#include "dynamics/constraints/constraint_projection.hpp"
+#include "dynamics/constraints/constraint_rows.hpp"
+#include "scene/keys/constraints/kind.hpp"
+#include "scene/run/prepare.hpp"
+#include "sim/system/constraint_plan.hpp"
+
+namespace chainreel {
+namespace {
+
+// A start further off than this is more likely another pose than meant.
+constexpr double kFarthestMove = 0.5;  // of a coordinate, rad or m
+// Less is the rounding of a start that was written with all its digits.
+constexpr double kNoteworthy = 1e-9;  // m or rad, and per second
+// A share of a force: less than it is the rounding of a direction.
+constexpr double kBorne = 1e-9;
+
+// The constraints of a scene as the chain knows them. Throws Error with all that is wrong with them.
+ConstraintPlan plan_of(const Scene& scene, const Chain& chain) {
+  ProblemList problems;
+  ConstraintResolver resolver(scene, chain, problems);
+  ConstraintPlan plan;
+  plan.stabilize = scene.stabilize;
+  plan.gain = scene.baumgarte_gain;
+  for (const ConstraintEntry& entry : scene.constraints) {
+    resolver.begin(entry.place);
+    try {
+      Constraint constraint = kind_of(entry.form).resolve(entry.form, resolver);
+      ConstraintSet(chain, {constraint});
+      plan.list.push_back(std::move(constraint));
+    } catch (const Error& error) {
+      for (const Problem& problem : error.problems())
+        problems.add(problem.message, problem.place.file.empty() ? entry.place : problem.place);
+    }
+  }
+  for (const ContactEntry& entry : scene.contact_force) {
+    resolver.begin(entry.place);
+    plan.contact_forces.push_back(
+        {std::size_t(entry.constraint) - 1, resolver.world(entry.force, "'contact_force.force'")});
+  }
+  problems.throw_if_any();
+  return plan;
+}
+
+// Why no pose fulfils all constraints: one of them that none fulfils, or that they contradict each other.
+[[noreturn]] void refuse_unreachable(const Scene& scene, const Simulation& simulation,
+                                     const ConstraintSet& all, const Projection& together) {
+  const Chain& chain = simulation.chain;
+  Workspace ws(chain);
+  ProblemList problems;
+  for (std::size_t k = 0; k < simulation.constraints.list.size(); ++k) {
+    const ConstraintSet one(chain, {simulation.constraints.list[k]});
+    ConstrainedWorkspace cws(chain, one);
+    std::vector<double> q = simulation.q0;
+    const Projection alone = project_positions(chain, ws, one, cws, q);
+    if (alone.reached) continue;
+    problems.add("constraint '" + name_of(simulation.constraints.list[k]) +
+                     "' is out of reach: the nearest pose that was found leaves it " +
+                     format_significant(alone.after, 3) + " away; move it, or start elsewhere",
+                 scene.constraints[k].place);
+  }
+  problems.throw_if_any();
+  std::size_t k = 0;
+  while (all.first_row(k + 1) <= together.worst_row) ++k;
+  throw Error(
+      ExitCode::bad_input,
+      "the constraints contradict each other, or their closure is out of reach: each can be met, but the "
+      "nearest pose to all leaves '" +
+          all.row_names()[std::size_t(together.worst_row)] + "' " + format_significant(together.after, 3) +
+          " away; change a length or place, or leave one out",
+      scene.constraints[k].place);
+}
+
+// What a constraint cannot bear of the force that it is to be pressed with is left out, and said; one that bears no
+// force at a frame is refused. After compute_constraints at the start.
+void look_at_contact_forces(Scene& scene, const Simulation& simulation, const ConstraintSet& set,
+                            const ConstrainedWorkspace& cws) {
+  ProblemList problems;
+  std::vector<double> lambda(std::size_t(set.rows()));
+  const std::vector<ContactForce>& contacts = simulation.constraints.contact_forces;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const ContactForce& contact = contacts[i];
+    const std::string name = name_of(simulation.constraints.list[contact.constraint]);
+    multipliers_of_force(simulation.chain, set, cws, contact.constraint, contact.force, lambda);
+    const Eigen::Vector3d borne = contact_force(simulation.chain, set, cws, contact.constraint, lambda);
+    const auto numbers = [](const Eigen::Vector3d& f) { return bracketed({f.x(), f.y(), f.z()}) + " N"; };
+    if (contact.force.norm() > 0 && borne.norm() <= kBorne * contact.force.norm())
+      problems.add("'" + name + "' bears nothing of a contact_force of " + numbers(contact.force) +
+                       " at the start: press along what it holds, or another constraint",
+                   scene.contact_force[i].place);
+    else if ((borne - contact.force).norm() > kBorne * contact.force.norm())
+      scene.notices.push_back("of the contact_force of " + numbers(contact.force) + ", '" + name + "' bears " +
+                              numbers(borne) + " at the start; the rest is left out");
+  }
+  problems.throw_if_any();
+}
+
+}  // namespace
+
+void prepare_constraints(Scene& scene, Simulation& simulation) {
+  const Chain& chain = simulation.chain;
+  simulation.constraints = plan_of(scene, chain);
+  if (simulation.constraints.empty()) return;
+  const ConstraintSet set(chain, simulation.constraints.list);
+  ConstrainedWorkspace cws(chain, set);
+  Workspace ws(chain);
+  std::vector<double> q = simulation.q0, qd = simulation.qd0;
+  const Projection way = project_positions(chain, ws, set, cws, q);
+  const Place start =
+      scene.place_of("start.q").line > 0 ? scene.place_of("start.q") : scene.place_of("constraints");
+  if (!way.reached) refuse_unreachable(scene, simulation, set, way);
+  if (const int row = reversed_row(ws, set); row >= 0)
+    throw Error(ExitCode::bad_input,
+                "the start holds '" + set.row_names()[std::size_t(row)] +
+                    "' the wrong way round, half a turn off: start nearer to the pose that is meant",
+                start);
+  double moved = 0;
+  for (std::size_t i = 0; i < q.size(); ++i) moved = std::max(moved, std::fabs(q[i] - simulation.q0[i]));
+  if (moved > kFarthestMove)
+    throw Error(ExitCode::bad_input,
+                "the start is " + format_significant(way.before, 3) + " off '" +
+                    set.row_names()[std::size_t(way.worst_row)] +
+                    "'; the pose found on the constraints is far from it, by " +
+                    format_significant(moved, 3) + " in a coordinate: write `start: {q: " + bracketed(q) +
+                    "}` if it is meant",
+                start);
+  const double rate = project_velocities(chain, ws, set, cws, q, qd);
+  if (way.before > kNoteworthy)
+    scene.notices.push_back("the start was " + format_significant(way.before, 3) + " off '" +
+                            set.row_names()[std::size_t(way.worst_row)] +
+                            "' and was moved to q = " + bracketed(q));
+  if (rate > kNoteworthy)
+    scene.notices.push_back("the start's rates left the constraints by " + format_significant(rate, 3) +
+                            " a second and were changed to qd = " + bracketed(qd));
+  simulation.q0 = scene.start.q = q;
+  simulation.qd0 = scene.start.qd = qd;
+  compute_constraints(chain, ws, set, cws, q, qd);
+  look_at_contact_forces(scene, simulation, set, cws);
+}
+
+}  // namespace chainreel

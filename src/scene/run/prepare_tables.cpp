@@ -1,0 +1,109 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/csv.hpp"
+#include "core/format.hpp"
+#include "dynamics/kinematics.hpp"
+#include "scene/run/prepare.hpp"
+#include "sim/drive/reference.hpp"
+
+namespace chainreel {
+namespace {
+
+// Less is rounding, of an instant as a share of the duration, of a coordinate in rad or m.
+constexpr double kSame = 1e-9;
+
+struct NamedControl {
+  const Control* control;
+  std::size_t first, end;  // the freedoms that it drives
+};
+
+std::vector<NamedControl> controls_of(const Scene& scene, const Chain& chain) {
+  std::vector<NamedControl> controls;
+  if (scene.control) controls.push_back({&*scene.control, 0, std::size_t(chain.nv)});
+  for (std::size_t i = 0; i < scene.torque.size(); ++i)
+    if (scene.torque[i].control) controls.push_back({&*scene.torque[i].control, i, i + 1});
+  return controls;
+}
+
+// What a table is taken for beyond its ends.
+void look_at_span(Scene& scene, const Chain& chain, const std::string& path, const std::optional<Outside>& outside,
+                  const std::string& what, const Place& place) {
+  if (path.empty() || outside == Outside::hold || outside == Outside::zero) return;
+  const std::vector<double> t = read_time_table(path, {}, chain.nv).t;
+  const bool late = t.front() > kSame * scene.duration, early = t.back() < (1 - kSame) * scene.duration;
+  if (!late && !early) return;
+  const std::string span = "the table " + path + " speaks of " + format_shortest(t.front()) + " to " +
+                           format_shortest(t.back()) + " s, but the run of 0 to " + format_shortest(scene.duration) + " s";
+  if (outside == Outside::refuse)
+    throw Error(ExitCode::bad_input,
+                span + ", and `outside: refuse` stands there: take another duration or table, or outside: hold or zero",
+                place);
+  const std::string end = late && early ? "before and behind it" : late ? "before it" : "behind it";
+  const std::string notice =
+      span + "; " + end + " " + what + " held: write `outside: hold` if it is meant, or zero, or refuse";
+  if (std::find(scene.notices.begin(), scene.notices.end(), notice) == scene.notices.end())
+    scene.notices.push_back(notice);
+}
+
+void look_at_spans(Scene& scene, const Chain& chain) {
+  for (const NamedControl& one : controls_of(scene, chain)) {
+    const Control& control = *one.control;
+    const std::string torque = "the torque of its nearest row is", pose = "the pose of its nearest row is";
+    look_at_span(scene, chain, control.csv, control.outside, torque, control.place);
+    look_at_span(scene, chain, control.inverse_of, control.outside, pose, control.place);
+    for (const std::optional<Feedback>& feedback : {control.pd, control.computed_torque})
+      if (feedback) look_at_span(scene, chain, feedback->trajectory, feedback->outside, pose, control.place);
+  }
+}
+
+// The state of the motions that give the torques, where there are any; of joints without one as it is.
+bool take_motion(const Scene& scene, const Chain& chain, std::vector<double>& q, std::vector<double>& qd,
+                 std::string& path) {
+  bool found = false;
+  for (const NamedControl& one : controls_of(scene, chain)) {
+    if (one.control->inverse_of.empty()) continue;
+    found = true;
+    path = one.control->inverse_of;
+    std::vector<double> at(std::size_t(chain.nv)), rate(at), acceleration(at);
+    make_table_reference(path, chain.nv)->evaluate(0, at, rate, acceleration);
+    for (std::size_t i = one.first; i < one.end; ++i) {
+      q[i] = at[i];
+      qd[i] = rate[i];
+    }
+  }
+  return found;
+}
+
+double farthest(const std::vector<double>& a, const std::vector<double>& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) most = std::max(most, std::fabs(a[i] - b[i]));
+  return most;
+}
+
+void take_start(Scene& scene, const Chain& chain) {
+  if (chain.has_floating || chain.nq != chain.nv) return;
+  std::vector<double> q = zero_configuration(chain), qd(std::size_t(chain.nv));
+  const std::vector<double> zero = q;
+  std::string path;
+  if (!take_motion(scene, chain, q, qd, path)) return;
+  const bool takes_q = scene.start.q.empty(), takes_qd = scene.start.qd.empty();
+  if (takes_q) scene.start.q = q;
+  if (takes_qd) scene.start.qd = qd;
+  const double away = farthest(scene.start.q, q), faster = farthest(scene.start.qd, qd);
+  if (away > kSame || faster > kSame)
+    scene.notices.push_back("the start differs from that of the motion " + path + " by " + format_significant(away, 3) +
+                            " in a coordinate and " + format_significant(faster, 3) +
+                            " in a rate: the torques of that motion lead elsewhere from here");
+  else if ((takes_q && farthest(q, zero) > kSame) || (takes_qd && farthest(qd, std::vector<double>(qd.size())) > kSame))
+    scene.notices.push_back("starts as the motion " + path + " does: q = " + bracketed(q) + ", qd = " + bracketed(qd));
+}
+
+}  // namespace
+
+void prepare_tables(Scene& scene, const Chain& chain) {
+  take_start(scene, chain);
+  look_at_spans(scene, chain);
+}
+
+}  // namespace chainreel

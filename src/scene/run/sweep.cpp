@@ -1,0 +1,109 @@
+#include "scene/run/sweep.hpp"
+
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "scene/quantity.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr int kMostValues = 10000;
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (;;) {
+    const std::size_t end = text.find(separator, begin);
+    parts.push_back(text.substr(begin, end - begin));
+    if (end == std::string::npos) return parts;
+    begin = end + 1;
+  }
+}
+
+[[noreturn]] void refuse(const std::string& text, const std::string& option, const std::string& why) {
+  throw Error(ExitCode::usage, option +
+                                   " takes KEY=a,b,c or KEY=from:to:count, maybe with :log behind it, like " +
+                                   option + " step=1e-4:0.1:30:log; '" + text + "' " + why);
+}
+
+double number_in(const std::string& part, const std::string& text, const std::string& option) {
+  try {
+    return parse_quantity(part, {});
+  } catch (const Error&) {
+    refuse(text, option, "holds '" + part + "', which is no number");
+  }
+}
+
+void fill_range(Sweep& sweep, const std::vector<std::string>& parts, const std::string& text,
+                const std::string& option) {
+  sweep.logarithmic = parts.size() == 4;
+  if (parts.size() < 3 || parts.size() > 4 || (sweep.logarithmic && parts[3] != "log"))
+    refuse(text, option, "is no range");
+  const double from = number_in(parts[0], text, option), to = number_in(parts[1], text, option);
+  const auto count = parse_number(parts[2]);
+  if (!count || *count != std::floor(*count) || *count < 2 || *count > kMostValues)
+    refuse(text, option, "needs a count between 2 and " + std::to_string(kMostValues));
+  if (sweep.logarithmic && !(from > 0 && to > 0))
+    refuse(text, option, "needs ends above 0 for equal factors");
+  const int n = int(*count);
+  for (int k = 0; k < n; ++k) {
+    const double s = double(k) / (n - 1);
+    double value = sweep.logarithmic ? from * std::pow(to / from, s) : from + s * (to - from);
+    if (k == n - 1) value = to;
+    sweep.numbers.push_back(value);
+    sweep.values.push_back(format_exact(value));
+  }
+}
+
+}  // namespace
+
+Sweep parse_sweep(const std::string& text, const std::string& option) {
+  Sweep sweep;
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+    refuse(text, option, "names no key or no values");
+  sweep.key = text.substr(0, equals);
+  const std::string list = text.substr(equals + 1);
+  if (list.find(':') != std::string::npos) {
+    fill_range(sweep, split(list, ':'), text, option);
+    return sweep;
+  }
+  sweep.values = split(list, ',');
+  for (const std::string& value : sweep.values) {
+    if (value.empty()) refuse(text, option, "has an empty value");
+    const auto number = parse_number(value);
+    if (number) sweep.numbers.push_back(*number);
+  }
+  if (sweep.numbers.size() != sweep.values.size()) sweep.numbers.clear();
+  return sweep;
+}
+
+void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& run) {
+  std::atomic<std::size_t> next = 0;
+  std::exception_ptr problem;
+  std::mutex lock;
+  const auto work = [&] {
+    try {
+      for (std::size_t i = next++; i < count; i = next++) run(i);
+    } catch (...) {
+      const std::lock_guard guard(lock);
+      if (!problem) problem = std::current_exception();
+      next = count;
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (int k = 1; k < threads; ++k) others.emplace_back(work);
+    work();
+  }
+  if (problem) std::rethrow_exception(problem);
+}
+
+}  // namespace chainreel

@@ -1,0 +1,91 @@
+#include "scene/text/read_compare.hpp"
+
+#include <algorithm>
+
+#include "scene/keys/keys.hpp"
+#include "scene/keys/own_keys.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr std::size_t kFewestPanels = 2, kMostPanels = 12;
+
+// Keeps the problems of several readers, those that more than one of them found only once.
+class Collected {
+ public:
+  void add(const Error& error) {
+    for (const Problem& problem : error.problems())
+      if (seen_.insert(to_string(problem)).second) problems_.push_back(problem);
+  }
+  void throw_if_any() const {
+    if (!problems_.empty()) throw Error(ExitCode::bad_input, problems_);
+  }
+
+ private:
+  std::set<std::string> seen_;
+  std::vector<Problem> problems_;
+};
+
+// What can be said of the list before any panel is read.
+void check_list(Fields& page, const YAML::Node& list) {
+  if (!list.IsSequence() || list.size() < kFewestPanels || list.size() > kMostPanels) {
+    page.problems().add(
+        "'compare' must be a list of 2 to 12 panels, each with the keys that it changes: compare: [{method: "
+        "explicit_euler}, {method: rk4}]",
+        page.place_of(list, "compare"));
+    return;
+  }
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string key = "compare." + std::to_string(i + 1);
+    if (!list[i].IsMap()) {
+      page.problems().add("panel " + std::to_string(i + 1) +
+                              " must hold the keys that it changes, like {method: rk4}, or {} for none",
+                          page.place_of(list[i], key));
+      continue;
+    }
+    for (const auto& pair : list[i]) {
+      const std::string name = pair.first.Scalar(), first = name.substr(0, name.find('.'));
+      const std::vector<std::string>& shared = page_keys();
+      if (std::find(shared.begin(), shared.end(), first) != shared.end())
+        page.problems().add("'" + first + "' belongs to the whole picture: write it beside 'compare'",
+                            page.document().place_of(pair.first, key + "." + name));
+    }
+  }
+}
+
+}  // namespace
+
+bool is_comparison(const YamlDocument& document) {
+  return document.root["compare"].IsDefined();
+}
+
+Scene read_comparison(const YamlDocument& document, const PanelReader& read_panel) {
+  ProblemList own;
+  Fields page(document, document.root, "", own);
+  const YAML::Node list = page.find("compare");
+  check_list(page, list);
+  own.throw_if_any();
+
+  Collected collected;
+  std::vector<Scene> panels;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    try {
+      panels.push_back(read_panel(panel_document(document, i)));
+    } catch (const Error& error) {
+      collected.add(error);
+    }
+  }
+  collected.throw_if_any();
+
+  // What the page shares is the same in all panels.
+  Scene scene = panels.front();
+  scene.title.clear();
+  page.read("title", scene.title);
+  scene.places = document.places();
+  scene.compare = std::move(panels);
+  read_layout(page, scene);
+  own.throw_if_any();
+  return scene;
+}
+
+}  // namespace chainreel

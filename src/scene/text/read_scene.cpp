@@ -1,0 +1,99 @@
+#include "scene/text/read_scene.hpp"
+
+#include <filesystem>
+
+#include "core/json.hpp"
+#include "scene/keys/keys.hpp"
+#include "scene/keys/own_keys.hpp"
+#include "scene/text/read_compare.hpp"
+
+namespace chainreel {
+namespace {
+
+// "azimuth, elevation, distance, fit: camera: {azimuth: 35deg}"
+std::string contents_of(const SceneKey& section) {
+  std::vector<std::string> leaves;
+  for (const SceneKey& key : scene_keys())
+    if (key.section() == section.name) leaves.push_back(key.leaf());
+  return joined(leaves) + ": " + section.example;
+}
+
+// Row by row; those below a section follow it.
+void read_keys(Fields& fields, Scene& scene) {
+  std::optional<Fields> section;
+  const auto leave_section = [&] {
+    if (section) section->finish();
+    section.reset();
+  };
+  for (const SceneKey& key : scene_keys()) {
+    if (key.section().empty()) leave_section();
+    if (key.is_section)
+      section = fields.section(key.name, contents_of(key));
+    else if (key.section().empty())
+      key.read(key, fields, scene);
+    else if (section)
+      key.read(key, *section, scene);
+  }
+  leave_section();
+}
+
+// A scene of one panel.
+Scene read_document(const YamlDocument& document) {
+  Scene scene;
+  scene.file = document.file;
+  scene.name = std::filesystem::path(document.file).stem().string();
+  ProblemList problems;
+  Fields fields(document, document.root, "", problems);
+  read_keys(fields, scene);
+  check_together(fields, scene);
+  fields.finish();
+  problems.throw_if_any();
+  scene.places = document.places();
+  return scene;
+}
+
+Scene read_either(const YamlDocument& document) {
+  return is_comparison(document) ? read_comparison(document, &read_document) : read_document(document);
+}
+
+std::vector<Override> parse_overrides(const std::vector<std::string>& texts) {
+  std::vector<Override> parsed;
+  for (const std::string& text : texts) parsed.push_back(parse_override(text));
+  return parsed;
+}
+
+}  // namespace
+
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  return read_either(load_yaml(path, parse_overrides(overrides)));
+}
+
+SceneFile::SceneFile(const std::string& path) : path_(path) {}
+
+SceneFile::~SceneFile() = default;
+
+Scene SceneFile::read(const std::vector<std::string>& overrides) {
+  constexpr int kMostReads = 1000;  // values that were replaced stay in the document's memory
+  const std::vector<Override> wanted = parse_overrides(overrides);
+  const auto same_key = [](const Override& a, const Override& b) { return a.key == b.key; };
+  const bool fits = document_ && ++reads_ < kMostReads &&
+                    std::equal(wanted.begin(), wanted.end(), document_->overrides.begin(), document_->overrides.end(),
+                               same_key);
+  if (fits) {
+    replace_overrides(*document_, wanted);
+  } else {
+    document_ = std::make_unique<YamlDocument>(load_yaml(path_, wanted));
+    reads_ = 0;
+  }
+  return read_either(*document_);
+}
+
+Scene read_model_scene(const std::string& model, const std::vector<std::string>& overrides) {
+  if (!std::filesystem::is_regular_file(model))
+    throw Error(ExitCode::bad_input, "there is no such model file", {model});
+  // A JSON text is YAML too.
+  const std::string text = "model: " + Json(std::filesystem::path(model).filename().string()).dump();
+  return read_either(yaml_document_of(text, model, parse_overrides(overrides)));
+}
+
+}  // namespace chainreel

@@ -1,0 +1,55 @@
+#include "sim/system/constraint_plan.hpp"
+
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace chainreel {
+
+std::span<const Name> names_of(Stabilization) {
+  static constexpr Name names[] = {{"project", "after each step, back onto the constraints"},
+                                   {"baumgarte", "errors are driven to die away, with `baumgarte: {gain: ..}`"},
+                                   {"none", "errors of the steps add up"}};
+  return names;
+}
+
+ExpressionCurve::ExpressionCurve(const std::string& x, const std::string& y, const Parameters& parameters,
+                                 double s, const chainreel::Place& place) {
+  std::vector<std::string> names{"s"};
+  values_.emplace_back();
+  for (const auto& [name, value] : parameters) {
+    if (name == "s")
+      throw Error(ExitCode::bad_input, "a curve's own parameter is s: rename the other", place);
+    names.push_back(name);
+    values_.emplace_back(value);
+  }
+  ProblemList problems;
+  for (const auto& [axis, text] : {std::pair("x", x), std::pair("y", y)}) {
+    try {
+      entries_.push_back(Expression::parse(text, names, place));
+    } catch (const Error& error) {
+      problems.add("curve, " + std::string(axis) + ": " + error.problems().front().message, place);
+    }
+  }
+  problems.throw_if_any();
+  const PlaneCurve::Place here = at(s);
+  if (!here.c.allFinite() || !here.c1.allFinite() || !here.c2.allFinite() || !(here.c1.norm() > 0))
+    throw Error(ExitCode::bad_input,
+                "the curve has no place, tangent or curvature at s = " + std::to_string(s) +
+                    ": it must be smooth, and move with s; `s:` says where to begin",
+                place);
+}
+
+PlaneCurve::Place ExpressionCurve::at(double s) const {
+  values_[0] = {Dual<double>(s, 1), Dual<double>(1, 0)};
+  PlaneCurve::Place place;
+  for (int k = 0; k < 2; ++k) {
+    const auto c = entries_[std::size_t(k)].evaluate(std::span<const Dual<Dual<double>>>(values_));
+    place.c[k] = c.re.re;
+    place.c1[k] = c.re.du;
+    place.c2[k] = c.du.du;
+  }
+  return place;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,69 @@
+#include "sim/torques_along.hpp"
+
+#include <algorithm>
+
+#include "dynamics/constraints/constrained_dynamics.hpp"
+#include "dynamics/constraints/constraint_rows.hpp"
+
+namespace chainreel {
+namespace {
+
+// The frame at which a constraint holds the robot; "" for conditions on coordinates.
+struct HeldFrame {
+  std::string operator()(const DistanceConstraint& c) const { return c.a; }
+  std::string operator()(const CloseConstraint& c) const { return c.a; }
+  std::string operator()(const JointConstraint&) const { return ""; }
+  std::string operator()(const LinearConstraint&) const { return ""; }
+  template <class C>
+  std::string operator()(const C& c) const {
+    return c.frame;
+  }
+};
+
+}  // namespace
+
+void hold_as_then(ChainSystem& system, const Simulation& simulation, const Trajectory& trajectory, double t) {
+  const auto& holds = trajectory.holds;
+  const auto found = std::find_if(holds.begin(), holds.end(),
+                                  [t](const auto& one) { return one.begin <= t && t <= one.end; });
+  if (found == holds.end() && system.held().empty()) return;
+  simulation.torque->leave_pieces();
+  system.hold(found == holds.end() ? std::vector<int>() : found->corners);
+}
+
+std::vector<double> torques_along(const Simulation& simulation, const Trajectory& trajectory) {
+  ChainSystem system(simulation);
+  std::vector<double> torques;
+  torques.reserve(std::size_t(trajectory.size()) * std::size_t(simulation.chain.nv));
+  for (int k = 0; k < trajectory.size(); ++k) {
+    const double t = trajectory.t[std::size_t(k)];
+    hold_as_then(system, simulation, trajectory, t);
+    const ConstVec tau = system.torque(t, trajectory.q_at(k), trajectory.qd_at(k));
+    torques.insert(torques.end(), tau.begin(), tau.end());
+  }
+  simulation.torque->leave_pieces();
+  return torques;
+}
+
+std::vector<std::vector<Reaction>> reactions_along(const Simulation& simulation,
+                                                   const Trajectory& trajectory) {
+  if (simulation.constraints.empty() || trajectory.rows == 0) return {};
+  const Chain& chain = simulation.chain;
+  const ConstraintSet set(chain, simulation.constraints.list);
+  ConstrainedWorkspace cws(chain, set);
+  Workspace ws(chain);
+  std::vector<std::vector<Reaction>> reactions(std::size_t(trajectory.size()));
+  for (int k = 0; k < trajectory.size(); ++k) {
+    compute_constraints(chain, ws, set, cws, trajectory.q_at(k), trajectory.qd_at(k));
+    for (std::size_t c = 0; c < set.constraints().size(); ++c) {
+      const std::string frame = std::visit(HeldFrame{}, set.constraints()[c]);
+      if (frame.empty()) continue;
+      // The multipliers are what the robot exerts on its surroundings; the reaction is the opposite.
+      reactions[std::size_t(k)].push_back(
+          {find_frame(chain, frame), -contact_force(chain, set, cws, c, trajectory.lambda_at(k))});
+    }
+  }
+  return reactions;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,30 @@
+// What acts and presses along a run: the trajectory holds the motion alone, so that runs cost no more than
+// they must; outputs that show forces take them from here, at the instants that they show.
+#pragma once
+
+#include <vector>
+
+#include "sim/simulate.hpp"
+#include "sim/system/chain_system.hpp"
+
+namespace chainreel {
+
+// Corners of the torques that the run held at zero at that instant are held in `system`, too; no others are.
+void hold_as_then(ChainSystem& system, const Simulation& simulation, const Trajectory& trajectory, double t);
+
+// The joint torques at each sample, nv numbers each (N m or N), as the run felt them: with those that press on
+// constraints, cut where the limit policy says so, friction left out.
+std::vector<double> torques_along(const Simulation& simulation, const Trajectory& trajectory);
+
+// The force on the robot (N, W) at the place where a constraint holds it.
+struct Reaction {
+  int frame = 0;  // index into chain.frames: its origin is the place
+  Eigen::Vector3d force;
+};
+
+// The reactions at each sample: of every constraint that holds a frame, in the order of the scene; of those
+// that tie two frames, at the first one. Empty where nothing is constrained.
+std::vector<std::vector<Reaction>> reactions_along(const Simulation& simulation,
+                                                   const Trajectory& trajectory);
+
+}  // namespace chainreel

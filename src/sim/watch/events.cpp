@@ -1,0 +1,246 @@
+#include "sim/watch/events.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "dynamics/equation_of_motion.hpp"
+#include "sim/drive/probe.hpp"
+#include "sim/watch/first_instant.hpp"
+
+namespace chainreel {
+namespace {
+
+Event::Test test_of(const Expression& when, const EventEntry& entry) {
+  const std::optional<Operation> comparison = when.comparison();
+  const auto refuse = [&](const std::string& why) -> Event::Test {
+    throw Error(ExitCode::bad_input, "the event `" + entry.when + "` " + why, entry.place);
+  };
+  if (when.used_variables().empty()) return refuse("reads nothing that changes, so it can never happen");
+  if (!comparison && when.compares_inside())
+    return refuse(
+        "is 1 or 0 and never crosses zero: write `min(q1 > 1, t > 2) > 0` for both, max for one of them");
+  if (comparison && *comparison != Operation::equal && entry.direction != Crossing::either)
+    return refuse("is a comparison, which says its direction itself: leave out `direction`");
+  if (comparison == Operation::less) return Event::Test::below;
+  if (comparison == Operation::less_equal) return Event::Test::at_or_below;
+  if (comparison == Operation::greater) return Event::Test::above;
+  if (comparison == Operation::greater_equal) return Event::Test::at_or_above;
+  if (comparison == Operation::not_equal)
+    return refuse("holds nearly always: name the instant with == or with the difference of the two sides");
+  return entry.direction == Crossing::rising    ? Event::Test::at_or_above
+         : entry.direction == Crossing::falling ? Event::Test::at_or_below
+                                                : Event::Test::changes_side;
+}
+
+void add_event(EventSet& events, const Chain& chain, const EventEntry& entry) {
+  const Expression when = Expression::parse(entry.when, events.probe.names(), entry.place);
+  events.list.push_back({entry.title(), entry.kind, when.difference(), test_of(when, entry)});
+  for (const int slot : when.used_variables()) {
+    require_frame_of(chain, events.probe, slot, entry.place);
+    events.needs_kinematics |= events.probe.is_kinematic(slot);
+    events.needs_multipliers |= events.probe.is_multiplier(slot);
+    if (events.foot && events.probe.names()[std::size_t(slot)] == "cop") events.cop_slot = slot;
+  }
+}
+
+}  // namespace
+
+std::span<const Name> names_of(EventKind) {
+  static constexpr Name names[] = {{"mark", "written into the audit and below the film"},
+                                   {"stop", "and ends the run"},
+                                   {"fall", "and counts as a fall"}};
+  return names;
+}
+
+std::span<const Name> names_of(Crossing) {
+  static constexpr Name names[] = {{"either", "whichever way"}, {"rising", "from below zero"}, {"falling", "from above"}};
+  return names;
+}
+
+std::vector<std::string> foot_names() {
+  return {"cop", "heel", "toe"};
+}
+
+std::shared_ptr<const EventSet> make_events(const Chain& chain, const std::vector<EventEntry>& entries,
+                                            const Parameters& parameters, const NamedFrames& frames,
+                                            const std::optional<Foot>& foot, int rows) {
+  if (entries.empty() && !foot) return nullptr;
+  Parameters known = parameters;
+  GroundAxes ground;
+  if (foot) {
+    if (rows > 0)
+      throw Error(ExitCode::bad_input, "a foot goes without constraints: they would carry part of the robot");
+    ground = ground_axes(chain);
+    known.insert(known.end(), {{"cop", 0.0}, {"heel", foot->heel}, {"toe", foot->toe}});
+  }
+  auto events =
+      std::make_shared<EventSet>(EventSet{Probe(chain, known, rows, frames), {}, false, false, foot, ground});
+  ProblemList problems;
+  for (const EventEntry& entry : entries) {
+    try {
+      add_event(*events, chain, entry);
+    } catch (const Error& error) {
+      for (const Problem& problem : error.problems()) problems.add(problem.message, problem.place);
+    }
+  }
+  problems.throw_if_any();
+  return events;
+}
+
+namespace {
+
+constexpr double kNegligible = 1e-6;  // of a unit vector: far above round-off of the axes of a file
+
+}  // namespace
+
+GroundAxes ground_axes(const Chain& chain) {
+  if (!chain.planar || chain.has_floating)
+    throw Error(ExitCode::bad_input,
+                "a foot needs a chain that moves in one plane on a fixed base; here " + chain.why_algebra);
+  const Eigen::Vector3d& normal = chain.planar->plane.normal;
+  const Eigen::Vector3d up = -(chain.gravity - chain.gravity.dot(normal) * normal);
+  if (!(up.norm() > kNegligible * (1 + chain.gravity.norm())))
+    throw Error(ExitCode::bad_input,
+                "a foot needs gravity in the plane of the chain: nothing presses it down");
+  GroundAxes axes;
+  axes.up = up.normalized();
+  axes.along = axes.up.cross(normal).normalized();
+  const double rightward = std::abs(axes.along.x()) > kNegligible ? axes.along.x() : axes.along.y();
+  if (rightward < 0) axes.along = -axes.along;
+  return axes;
+}
+
+double center_of_pressure(const Chain& chain, Workspace& ws, const GroundAxes& axes, double height,
+                          ConstVec q, ConstVec qd, ConstVec qdd) {
+  const Wrench on_robot = compute_ground_reaction(chain, ws, q, qd, qdd);
+  const double moment = axes.along.cross(axes.up).dot(on_robot.moment);
+  return (moment + height * on_robot.force.dot(axes.along)) / on_robot.force.dot(axes.up);
+}
+
+namespace {
+
+constexpr std::size_t kUsualHits = 64;  // room for as many is made before the run
+
+int sign_of(double x) {
+  return (x > 0) - (x < 0);
+}
+
+bool holds(Event::Test test, double value) {
+  switch (test) {
+    case Event::Test::above:
+      return value > 0;
+    case Event::Test::at_or_above:
+      return value >= 0;
+    case Event::Test::below:
+      return value < 0;
+    case Event::Test::at_or_below:
+      return value <= 0;
+    case Event::Test::changes_side:
+      return false;
+  }
+  return false;
+}
+
+}  // namespace
+
+EventWatch::EventWatch(const EventSet& events, ChainSystem& system)
+    : events_(events),
+      system_(system),
+      ws_(system.chain()),
+      probe_(events.probe),
+      before_(events.list.size()),
+      now_(events.list.size()),
+      q_(std::size_t(system.nq())),
+      qd_(std::size_t(system.nv())),
+      qdd_(std::size_t(system.nv())) {
+  pending_.reserve(events.list.size());
+}
+
+void EventWatch::set_probe(double t, ConstVec q, ConstVec qd) {
+  const Chain& chain = system_.chain();
+  probe_.set(chain, ws_, t, q, qd, events_.needs_kinematics);
+  if (events_.needs_multipliers) {
+    ConstrainedChain& constrained = *system_.constrained();
+    constrained.look(system_.workspace(), q, qd, system_.torque(t, q, qd));
+    probe_.set_multipliers(constrained.lambda());
+  }
+  if (events_.cop_slot < 0) return;
+  system_.acceleration(t, q, qd, qdd_);
+  probe_.set_value(events_.cop_slot,
+                   center_of_pressure(chain, ws_, events_.ground, events_.foot->height, q, qd, qdd_));
+}
+
+bool EventWatch::read(double t, ConstVec q, ConstVec qd) {
+  set_probe(t, q, qd);
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    now_[i] = events_.list[i].value.evaluate(probe_.values());
+    if (std::isfinite(now_[i])) continue;
+    bad_ = int(i);
+    return false;
+  }
+  return true;
+}
+
+bool EventWatch::start(double t, ConstVec q, ConstVec qd) {
+  if (!read(t, q, qd)) return false;
+  for (std::size_t i = 0; i < now_.size(); ++i)
+    before_[i] = {now_[i], holds(events_.list[i].test, now_[i]), sign_of(now_[i])};
+  return true;
+}
+
+bool EventWatch::happens(const Event& event, const State& before, double value) {
+  if (event.test != Event::Test::changes_side) return !before.holds && holds(event.test, value);
+  return before.side != 0 && sign_of(value) != before.side;
+}
+
+double EventWatch::value_at(Integrator& integrator, const Event& event, double t) {
+  integrator.interpolate(t, q_, qd_);
+  set_probe(t, q_, qd_);
+  return event.value.evaluate(probe_.values());
+}
+
+// The first instant found at which the event has happened; within the tolerance before it, it had not.
+double EventWatch::locate(Integrator& integrator, std::size_t i, double a, double b) {
+  const Event& event = events_.list[i];
+  return first_instant(
+      {a, before_[i].value}, {b, now_[i]}, [&](double t) { return value_at(integrator, event, t); },
+      [&](double value) { return happens(event, before_[i], value); });
+}
+
+void EventWatch::record(Integrator& integrator, const Pending& hit, EventHits& hits) {
+  if (hits.t.empty()) hits.reserve(kUsualHits, q_.size(), qd_.size());
+  if (hit.t == integrator.time())
+    hits.add(hit.event, hit.t, integrator.q(), integrator.v());
+  else {
+    integrator.interpolate(hit.t, q_, qd_);
+    hits.add(hit.event, hit.t, q_, qd_);
+  }
+}
+
+bool EventWatch::check_step(Integrator& integrator, EventHits& hits) {
+  const double begin = integrator.begin_time(), end = integrator.time();
+  const auto instant = [&](int look) { return begin + (end - begin) * look / kLooksPerStep; };
+  for (int look = 1; look <= kLooksPerStep; ++look) {
+    const bool last = look == kLooksPerStep;
+    const double t = last ? end : instant(look);
+    if (!last) integrator.interpolate(t, q_, qd_);
+    if (!(last ? read(t, integrator.q(), integrator.v()) : read(t, q_, qd_))) return false;
+    pending_.clear();
+    for (std::size_t i = 0; i < now_.size(); ++i)
+      if (happens(events_.list[i], before_[i], now_[i]))
+        pending_.push_back({int(i), locate(integrator, i, instant(look - 1), t)});
+    std::sort(pending_.begin(), pending_.end(),
+              [](const Pending& x, const Pending& y) { return x.t != y.t ? x.t < y.t : x.event < y.event; });
+    for (const Pending& hit : pending_) {
+      record(integrator, hit, hits);
+      ended_ = ends_the_run(events_.list[std::size_t(hit.event)].kind);
+      if (ended_) return true;
+    }
+    for (std::size_t i = 0; i < now_.size(); ++i)
+      before_[i] = {now_[i], holds(events_.list[i].test, now_[i]), sign_of(now_[i])};
+  }
+  return true;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,155 @@
+// What a run looks out for: expressions whose zero crossing is located on the method's dense output.
+//
+// `y_H < 0.5`   the instant at which this becomes true; so with > <= >=. One that holds already at t = 0 does
+//               not happen before it has been false.
+// `q1 - pi/2`   the instant at which this becomes zero or changes its sign, whichever way; `q1 == pi/2` is
+// the
+//               same. With a direction: when it has risen to zero, or fallen to it.
+//
+// Each step is looked at in kLooksPerStep equal parts. An event is found where the expression differs between
+// the ends of a part; one that comes and goes within a part is not seen. Jumps are located like crossings,
+// and so are poles. The instant is exact to kInstantTolerance on the dense output, whose own error is the
+// method's: see Method::dense_order.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/names.hpp"
+#include "dynamics/workspace.hpp"
+#include "expr/expression.hpp"
+#include "integrate/integrator.hpp"
+#include "sim/drive/probe.hpp"
+#include "sim/system/chain_system.hpp"
+#include "sim/system/trajectory.hpp"
+#include "sim/watch/first_instant.hpp"
+
+namespace chainreel {
+
+// A foot that stands on the ground, fixed to the world, and the centre of pressure below it. A flat foot on
+// the ground can stand only as long as that lies below it; beyond, it would tip about its heel or toe.
+
+// Places along the ground, whose direction in the chain's plane is at right angles to gravity; positive
+// towards +x, or, in a plane without x, towards +y. World numbers, m.
+struct Foot {
+  double heel = 0;
+  double toe = 0;
+  double height = 0;  // of the ground, against gravity
+};
+
+struct GroundAxes {
+  Eigen::Vector3d along, up;  // in W
+};
+// Throws Error (bad input) for chains that move out of one plane or float, and where no gravity acts in it.
+GroundAxes ground_axes(const Chain& chain);
+
+// The place on the ground, m along it, where what the ground exerts on the robot has no moment: with force F
+// and moment n about the world's origin (n + height F_along) / F_up. Infinite or no number where the ground
+// bears nothing. The motion is the chain's own under some torque.
+double center_of_pressure(const Chain& chain, Workspace& ws, const GroundAxes& axes, double height,
+                          ConstVec q, ConstVec qd, ConstVec qdd);
+
+inline constexpr int kLooksPerStep = 8;
+
+enum class EventKind {
+  mark,  // is recorded
+  stop,  // and ends the run
+  fall,  // and counts as a fall
+};
+enum class Crossing { either, rising, falling };
+
+std::span<const Name> names_of(EventKind);
+std::span<const Name> names_of(Crossing);
+
+inline bool ends_the_run(EventKind kind) {
+  return kind != EventKind::mark;
+}
+
+// An event as the scene wrote it.
+struct EventEntry {
+  std::string when;
+  EventKind kind = EventKind::mark;
+  std::string name;                       // "": `when` is its name
+  Crossing direction = Crossing::either;  // of an expression that is no comparison
+  Place place;                            // of `when`
+  const std::string& title() const { return name.empty() ? when : name; }
+};
+
+struct Event {
+  enum class Test { above, at_or_above, below, at_or_below, changes_side };  // of the value against zero
+  std::string name;
+  EventKind kind = EventKind::mark;
+  Expression value;
+  Test test = Test::changes_side;
+};
+
+// The events of a scene, ready for any number of runs.
+struct EventSet {
+  Probe probe;
+  std::vector<Event> list;
+  bool needs_kinematics = false;
+  bool needs_multipliers = false;
+  std::optional<Foot> foot;
+  GroundAxes ground;
+  int cop_slot = -1;  // of the probe, where an event reads it
+};
+
+// What events may read beyond torques where there is a foot: cop, heel, toe.
+std::vector<std::string> foot_names();
+
+// Null where there are neither. Throws Error with every problem.
+std::shared_ptr<const EventSet> make_events(const Chain& chain, const std::vector<EventEntry>& entries,
+                                            const Parameters& parameters, const NamedFrames& frames = {},
+                                            const std::optional<Foot>& foot = {}, int rows = 0);
+
+// The events of one run in progress.
+
+class EventWatch {
+ public:
+  // References must outlive it.
+  EventWatch(const EventSet& events, ChainSystem& system);
+
+  // Where the run begins: what holds here does not happen until it has been false. False where an event's
+  // value is no finite number, here and in check_step.
+  bool start(double t, ConstVec q, ConstVec qd);
+  // After a step: looks through it, up to the first event that ends the run. What happens is added to `hits`,
+  // in the order of time; allocates only there.
+  bool check_step(Integrator& integrator, EventHits& hits);
+
+  bool has_ended() const { return ended_; }  // by an event: the last of the hits
+  int bad_event() const { return bad_; }     // the one whose value was no finite number
+
+ private:
+  struct State {
+    double value = 0;
+    bool holds = false;  // what the event's test asks
+    int side = 0;        // sign of the value, for Test::changes_side
+  };
+  struct Pending {
+    int event;
+    double t;
+  };
+
+  bool read(double t, ConstVec q, ConstVec qd);  // all values into now_
+  void set_probe(double t, ConstVec q, ConstVec qd);
+  double value_at(Integrator& integrator, const Event& event, double t);
+  double locate(Integrator& integrator, std::size_t event, double begin, double end);
+  static bool happens(const Event& event, const State& before, double value);
+  void record(Integrator& integrator, const Pending& hit, EventHits& hits);
+
+  const EventSet& events_;
+  ChainSystem& system_;
+  Workspace ws_;
+  Probe probe_;
+  std::vector<State> before_;
+  std::vector<double> now_;
+  std::vector<Pending> pending_;
+  std::vector<double> q_, qd_, qdd_;
+  bool ended_ = false;
+  int bad_ = -1;
+};
+
+}  // namespace chainreel
