@@ -1,6 +1,7 @@
 #include "integrate/method.hpp"
 
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "integrate/in_chart.hpp"
 #include "integrate/makers.hpp"
 
@@ -172,10 +173,8 @@ const Method& find_method(const std::string& name) {
     if (method.name == name) return method;
     names.push_back(method.name);
   }
-  std::string known;
-  for (const std::string& one : names) known += (known.empty() ? "" : ", ") + one;
   throw Error(ExitCode::bad_input, "unknown method '" + name + "':" + did_you_mean(name, names) +
-                                       " The methods are " + known + ".");
+                                       " The methods are " + joined(names) + ".");
 }
 
 std::unique_ptr<Integrator> make_integrator(const Method& method, const Forms& forms,

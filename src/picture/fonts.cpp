@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "core/hash.hpp"
 #include "picture/shaping.hpp"
 #include "picture/text.hpp"
@@ -47,14 +48,12 @@ const std::vector<std::string> kFontFolders = {"/usr/share/fonts/truetype/dejavu
                                                "/usr/local/share/fonts"};
 
 std::string find_font_file(const FaceFile& wanted, const std::vector<std::string>& folders) {
-  std::string searched;
   for (const std::string& folder : folders) {
     const auto path = std::filesystem::path(folder) / wanted.file;
     std::error_code ignored;
     if (std::filesystem::is_regular_file(path, ignored)) return path.string();
-    searched += (searched.empty() ? "" : ", ") + folder;
   }
-  throw Error(ExitCode::no_renderer, std::string("font file ") + wanted.file + " not found in " + searched +
+  throw Error(ExitCode::no_renderer, std::string("font file ") + wanted.file + " not found in " + joined(folders) +
                                          "; install the Debian package " + wanted.package);
 }
 

@@ -144,13 +144,13 @@ void print_candidates(const Choice& choice, const Accuracy& accuracy) {
   std::fputs(table_text(table).c_str(), stdout);
 }
 
-struct RunReport {
+struct ExaminedRun {
   Json model, cost;
 };
 
 // `frames`: of the film.
-RunReport examine_run(const PreparedScene& prepared, int frames) {
-  RunReport report{model_report(prepared.simulation.chain),
+ExaminedRun examine_run(const PreparedScene& prepared, int frames) {
+  ExaminedRun report{model_report(prepared.simulation.chain),
                    cost_report(prepared.scene, prepared.simulation, frames)};
   if (!prepared.simulation.constraints.empty())
     report.model["constraints"] = constraint_plan_report(prepared.simulation);
@@ -165,7 +165,7 @@ RunReport examine_run(const PreparedScene& prepared, int frames) {
   return report;
 }
 
-void print_run(const PreparedScene& prepared, const RunReport& report) {
+void print_run(const PreparedScene& prepared, const ExaminedRun& report) {
   print_model(report.model);
   if (report.model.contains("constraints"))
     std::printf("%s\n", constraint_plan_text(report.model["constraints"]).c_str());
@@ -195,7 +195,7 @@ void print_run(const PreparedScene& prepared, const RunReport& report) {
 void check_scene(const CheckOptions& options) {
   const PreparedFilm film = load_film(options.file, overrides_of(options.common), true, options.common.quiet);
   const int frames = clock_of(film).frame_count();
-  std::vector<RunReport> reports;
+  std::vector<ExaminedRun> reports;
   for (const PreparedScene& panel : film.panels) {
     say_notices(panel, false);
     reports.push_back(examine_run(panel, frames));

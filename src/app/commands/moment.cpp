@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "app/commands/render_film.hpp"
-#include "app/report/report.hpp"
+#include "app/report/run_report.hpp"
 #include "scene/run/fall.hpp"
 
 namespace chainreel {
@@ -35,9 +35,10 @@ Moment moment_of(const Runs& runs, int frame, std::optional<double> added, const
   moment.picture = pictures.static_layer();
   moment.picture.append(pictures.frame(frame));
   moment.title = runs.size() == 1 ? title_of(film.panels.front().scene, runs[0]) : film.scene.title;
-  Json audit = film_report(runs, pictures, frames_of_film(runs, added));
-  audit["at"] = moment.at;
-  moment.memory = memory_of(film, audit);
+  const FilmReport report = film_report(runs, pictures, frames_of_film(runs, added));
+  moment.memory = memory_of(report);
+  moment.memory.audit["at"] = moment.at;
+  moment.warnings = warning_lines(report);
   return moment;
 }
 

@@ -1,6 +1,9 @@
 // One picture out of the film of a scene: same camera, same scales, whatever the instant.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "app/film/clip_memory.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
@@ -12,6 +15,7 @@ struct Moment {
   Picture picture;
   std::string title;  // of the page, with what it says of the run
   ClipMemory memory;
+  std::vector<std::string> warnings;  // what speaks against the runs
 };
 
 // Throws Error (exit 5) where a run does not come that far or does not end as the scene expects; what fails

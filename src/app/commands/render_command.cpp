@@ -77,12 +77,6 @@ std::vector<RenderJob> jobs_of(const RenderOptions& options, const std::vector<P
   return jobs;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
 // A quality that none of the files has is not what its author thinks.
 void tell_of_unused_quality(const RenderJob& job, const Scene& scene) {
   const auto has_quality = [](const Target& target) { return target.format->codec && has_crf(*target.format->codec); };
@@ -107,7 +101,7 @@ void run_render(const RenderOptions& options) {
     reports.back()["files"] = result.files;
     reports.back()["sidecars"] = result.sidecars;
     table.push_back({films[i].scene.name, std::to_string(result.frames), format_fixed(result.film_seconds, 2),
-                     format_fixed(result.seconds.total, 2), joined(result.files)});
+                     format_fixed(result.seconds.total, 2), joined(result.files, " ")});
   }
   if (options.common.json)
     std::puts(reports.dump(2).c_str());

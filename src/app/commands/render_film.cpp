@@ -223,25 +223,25 @@ std::vector<Sidecar> open_sidecars(const RenderJob& job, const PreparedFilm& fil
   return sidecars;
 }
 
-std::string sidecar_text(const Sidecar& sidecar, const PreparedFilm& film, const RenderResult& result) {
+std::string sidecar_text(const Sidecar& sidecar, const FilmReport& report) {
   switch (sidecar.what) {
     case Sidecar::words:
-      return alt_text(film, result.audit);
+      return alt_text(report);
     case Sidecar::captions:
-      return captions(film, result.clock, result.audit);
+      return captions(report);
     case Sidecar::audit:
     case Sidecar::animate:
       break;
   }
-  return animate_snippet(sidecar.target, result.frames, film.scene.video.fps);
+  return animate_snippet(sidecar.target, report.frames, report.film().scene.video.fps);
 }
 
 // Texts first: each audit tells of those beside it.
-void write_sidecars(std::vector<Sidecar>& sidecars, const PreparedFilm& film, RenderResult& result) {
+void write_sidecars(std::vector<Sidecar>& sidecars, const FilmReport& report, RenderResult& result) {
   std::map<fs::path, Json> hashes;  // by NAME.json
   for (Sidecar& sidecar : sidecars) {
     if (sidecar.what == Sidecar::audit) continue;
-    const std::string text = sidecar_text(sidecar, film, result);
+    const std::string text = sidecar_text(sidecar, report);
     if (text.empty()) continue;  // no event came
     write_whole(*sidecar.file, text);
     const fs::path path(sidecar.file->path());
@@ -279,8 +279,9 @@ Json to_json(const StageSeconds& seconds) {
 
 }  // namespace
 
-ClipMemory memory_of(const PreparedFilm& film, const Json& audit) {
-  return {film.scene.title, sentence_of(film, audit), scene_text(film.scene), audit};
+ClipMemory memory_of(const FilmReport& report) {
+  const Scene& scene = report.film().scene;
+  return {scene.title, sentence_of(report), scene_text(scene), to_json(report)};
 }
 
 RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
@@ -302,17 +303,18 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
   const Film pictures = runs.pictures(schedule.frames, fonts);
   result.frames = schedule.total();
   result.film_seconds = frame_time(result.frames, fps);
-  result.clock = runs.clock();
-  result.audit = film_report(runs, pictures, result.frames);
+  const FilmReport report = film_report(runs, pictures, result.frames);
+  ClipMemory memory = memory_of(report);
   if (schedule.first > 0 || schedule.last > 0)
-    result.audit["held_frames"] = {{"first", schedule.first}, {"last", schedule.last}};
+    memory.audit["held_frames"] = {{"first", schedule.first}, {"last", schedule.last}};
   result.seconds.draw += watch.lap();
 
   const int still = std::clamp(runs.clock().frame_at(job.at), 0, schedule.frames - 1);
-  draw_film(pictures, scene, fonts, outputs, schedule, still, memory_of(film, result.audit), job.quiet,
+  draw_film(pictures, scene, fonts, outputs, schedule, still, memory, job.quiet,
             result.seconds);
   write_tables(runs, outputs);
   result.seconds.total = total.lap();
+  result.audit = memory.audit;
   result.audit["seconds"] = to_json(result.seconds);
 
   try {
@@ -321,13 +323,13 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
     if (error.code() == ExitCode::numerical) keep_partial(outputs);  // a signal leaves nothing
     throw;
   }
-  tell_warnings(scene.name, result.audit);
+  tell_warnings(warning_lines(report));
   if (!job.quiet) {
     tell_of_stops(runs);
     tell_of_missing_events(runs);
   }
   commit(outputs, result);
-  write_sidecars(sidecars, film, result);
+  write_sidecars(sidecars, report, result);
   return result;
 }
 

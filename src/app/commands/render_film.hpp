@@ -8,6 +8,7 @@
 #include "app/film/clip_memory.hpp"
 #include "app/film/runs.hpp"
 #include "app/film/target.hpp"
+#include "app/report/run_report.hpp"
 
 namespace chainreel {
 
@@ -27,7 +28,6 @@ struct RenderResult {
   std::vector<std::string> sidecars;  // NAME.json, NAME.txt, and maybe NAME.srt and NAME.tex
   int frames = 0;                     // with those that are held
   double film_seconds = 0;
-  FilmClock clock;
   StageSeconds seconds;
   Json audit;
 };
@@ -38,6 +38,6 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job);
 
 // What a film remembers: the effective scene, and the audit without what differs from one rendering to the
 // next.
-ClipMemory memory_of(const PreparedFilm& film, const Json& audit);
+ClipMemory memory_of(const FilmReport& report);
 
 }  // namespace chainreel

@@ -14,6 +14,7 @@
 #include "app/film/runs.hpp"
 #include "app/film/target.hpp"
 #include "app/report/report.hpp"
+#include "app/report/run_report.hpp"
 #include "core/error.hpp"
 #include "draw/figures/contact_sheet.hpp"
 #include "scene/quantity.hpp"
@@ -50,7 +51,7 @@ ContactCell cell_of(const std::string& file, const SheetOptions& options, ThemeN
   Moment moment = options.at.empty()
                       ? telling_moment(film, fonts)
                       : moment_at(film, std::min(parse_quantity(options.at, {}), film.scene.duration), fonts);
-  tell_warnings(film.scene.name, moment.memory.audit);
+  tell_warnings(moment.warnings);
   return {std::move(moment.picture), moment.title.empty() ? film.scene.name : moment.title};
 }
 

@@ -11,6 +11,7 @@
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
 #include "app/report/report.hpp"
+#include "app/report/run_report.hpp"
 #include "app/report/trajectory_csv.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -58,9 +59,9 @@ Json simulate_panel(const PreparedScene& prepared, const std::string& output,
     write_partial(*file, text);
   }
   require_expected_end(trajectory, prepared.scene);
-  Json report = run_report(prepared, trajectory);
-  const std::string& title = prepared.scene.title;
-  tell_warnings(prepared.scene.name + (alone ? "" : ", '" + title + "'"), report);
+  const RunReport run = run_report(prepared, trajectory);
+  tell_warnings(warning_lines(prepared.scene.name + (alone ? "" : ", '" + prepared.scene.title + "'"), run));
+  Json report = to_json(run);
   report["rows"] = trajectory.size();
   report["file"] = output;
   return report;

@@ -13,6 +13,7 @@
 #include "app/film/runs.hpp"
 #include "app/film/target.hpp"
 #include "app/report/report.hpp"
+#include "app/report/run_report.hpp"
 #include "core/error.hpp"
 #include "draw/figures/poses.hpp"
 #include "model/read_chain.hpp"
@@ -61,7 +62,7 @@ void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
                                      format_quantity(film.scene.duration, "s"));
   const Fonts fonts;
   const Moment shown = moment_at(film, at, fonts);
-  tell_warnings(film.scene.name, shown.memory.audit);
+  tell_warnings(shown.warnings);
   write_picture(shown.picture, video.width, video.height, fonts, output, options.common.force, shown.memory);
 }
 

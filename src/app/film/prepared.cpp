@@ -6,6 +6,7 @@
 
 #include "app/film/automatic.hpp"
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "draw/robot/view.hpp"
 #include "render/canvas.hpp"
 #include "scene/run/prepare.hpp"
@@ -18,13 +19,13 @@ namespace {
 
 // Default layers of the end effector where the model has none.
 void say_what_is_left_out(const std::vector<std::string>& wanted, const PreparedScene& prepared) {
-  std::string missing;
+  std::vector<std::string> missing;
   for (const std::string& layer : wanted)
     if (std::find(prepared.scene.draw.begin(), prepared.scene.draw.end(), layer) == prepared.scene.draw.end())
-      missing += (missing.empty() ? "" : ", ") + layer;
+      missing.push_back(layer);
   if (!missing.empty())
     std::fprintf(stderr, "note: %s: not drawn, as %s has several ends: choose one with `--set end_effector=NAME`\n",
-                 missing.c_str(), prepared.scene.model.c_str());
+                 joined(missing).c_str(), prepared.scene.model.c_str());
 }
 
 PreparedScene prepare_panel(Scene scene, bool meshes, bool quiet) {

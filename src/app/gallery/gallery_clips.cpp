@@ -10,6 +10,7 @@
 #include "app/film/clip_memory.hpp"
 #include "app/film/formats.hpp"
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "core/input_file.hpp"
 
 namespace chainreel {
@@ -142,9 +143,7 @@ std::vector<std::string> find_clips(const std::vector<std::string>& paths) {
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   if (!found.empty()) return found;
-  std::string places;
-  for (const std::string& path : paths) places += (places.empty() ? "" : ", ") + path;
-  throw Error(ExitCode::bad_input, "there is no film (.mp4, .webm) here: render some first", {places});
+  throw Error(ExitCode::bad_input, "there is no film (.mp4, .webm) here: render some first", {joined(paths)});
 }
 
 std::vector<GalleryClip> read_clips(const std::vector<std::string>& paths) {

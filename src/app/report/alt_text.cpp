@@ -53,29 +53,23 @@ std::string motion_words(const PreparedScene& panel, double seconds) {
          " from q = " + vector_text(scene.start.q);
 }
 
-void add_moments(std::vector<Moment>& moments, const Json& run, const std::string& panel) {
-  const std::string where = panel.empty() ? "" : panel + ": ";
-  if (run.contains("events"))
-    for (const Json& event : run["events"])
-      moments.push_back({event["t"].get<double>(), where + event["name"].get<std::string>()});
+void add_events(std::vector<Moment>& moments, const RunReport& run, const std::string& where) {
+  const EventHits& hits = run.trajectory.events;
+  for (int k = 0; k < hits.size(); ++k) {
+    const EventEntry& event = run.prepared.scene.events[std::size_t(hits.event[std::size_t(k)])];
+    moments.push_back({hits.t[std::size_t(k)], where + event.title()});
+  }
 }
 
-void add_troubles(std::vector<Moment>& moments, const Json& run, const std::string& panel) {
-  const std::string where = panel.empty() ? "" : panel + ": ";
-  if (run.contains("limits_passed"))
-    for (const Json& limit : run["limits_passed"])
-      moments.push_back({limit["t"].get<double>(), where + "joint " + limit["joint"].get<std::string>() +
-                                                       " passes its limit of " +
-                                                       limit["quantity"].get<std::string>()});
-  if (run.contains("left_picture_at"))
-    moments.push_back({run["left_picture_at"].get<double>(), where + "the chain leaves the picture"});
+void add_troubles(std::vector<Moment>& moments, const RunReport& run, const std::string& where) {
+  for (const LimitEvent& limit : run.trajectory.limits)
+    moments.push_back({limit.t, where + "joint " + limit.joint + " passes its limit of " + limit.quantity});
+  if (run.left_picture_at) moments.push_back({*run.left_picture_at, where + "the chain leaves the picture"});
 }
 
-using AddMoments = void (*)(std::vector<Moment>&, const Json&, const std::string&);
-
-void visit_runs(const Json& audit, std::vector<Moment>& moments, AddMoments add) {
-  if (!audit.contains("panels")) return add(moments, audit, "");
-  for (const Json& panel : audit["panels"]) add(moments, panel, panel["title"].get<std::string>());
+// "rk4: " of one panel of several.
+std::string where_of(const FilmReport& report, const RunReport& run) {
+  return report.panels.size() == 1 ? "" : title_of(run) + ": ";
 }
 
 void sort_by_time(std::vector<Moment>& moments) {
@@ -92,24 +86,21 @@ std::string srt_time(double t) {
 }
 
 // "; not at its own speed: t = 1 s to 1.5 s at 0.25x"
-std::string speed_words(const Json& audit) {
-  std::string text;
-  if (audit.contains("slow_motion"))
-    for (const Json& one : audit["slow_motion"])
-      text += (text.empty() ? "; not at its own speed: t = " : ", t = ") +
-              format_significant(one["from"].get<double>(), 6) + " s to " +
-              format_significant(one["until"].get<double>(), 6) + " s at " + speed_text(one["speed"].get<double>());
-  return text;
+std::string speed_words(const FilmReport& report) {
+  std::vector<std::string> stretches;
+  for (const Stretch& one : report.slow_motion)
+    stretches.push_back("t = " + format_significant(one.from, 6) + " s to " + format_significant(one.until, 6) +
+                        " s at " + speed_text(one.speed));
+  return stretches.empty() ? "" : "; not at its own speed: " + joined(stretches);
 }
 
 }  // namespace
 
-std::string sentence_of(const PreparedFilm& film, const Json& audit) {
-  // The audit's title says what the scene's leaves open: when it falls.
-  std::string text = audit.value("title", film.scene.title);
+std::string sentence_of(const FilmReport& report) {
+  const PreparedFilm& film = report.film();
+  std::string text = film.panels.size() == 1 ? title_of(report.panels.front()) : film.scene.title;
   if (text.empty()) text = film.scene.name;
-  const double seconds = audit.value("end_time", film.scene.duration);
-  const std::string motion = motion_words(film.panels.front(), seconds);
+  const std::string motion = motion_words(film.panels.front(), report.runs[0].end_time);
   if (film.panels.size() == 1) return text + ": " + motion + ".";
   const bool ghost = is_ghost_layout(film.scene);
   text += ": " + std::to_string(film.panels.size()) +
@@ -119,18 +110,18 @@ std::string sentence_of(const PreparedFilm& film, const Json& audit) {
   return text + "); in the first, " + motion + ".";
 }
 
-std::string alt_text(const PreparedFilm& film, const Json& audit) {
-  const Scene& scene = film.scene;
-  std::string text = sentence_of(film, audit) + "\n\nScene: " + scene.name +
-                     "\nDuration: " + format_significant(audit["film_seconds"].get<double>(), 6) + " s, " +
-                     std::to_string(audit["frames"].get<int>()) + " frames";
+std::string alt_text(const FilmReport& report) {
+  const Scene& scene = report.film().scene;
+  std::string text = sentence_of(report) + "\n\nScene: " + scene.name +
+                     "\nDuration: " + format_significant(report.film_seconds(), 6) + " s, " +
+                     std::to_string(report.frames) + " frames";
   const double first = scene.hold.first, last = scene.hold.last;
   if (first > 0) text += "; the first is held for " + format_quantity(first, "s");
   if (last > 0) text += "; the last is held for " + format_quantity(last, "s");
-  text += speed_words(audit) + "\nUnits: m, kg, s, N, N m, J, rad; times are those of the motion\n";
+  text += speed_words(report) + "\nUnits: m, kg, s, N, N m, J, rad; times are those of the motion\n";
   std::vector<Moment> moments;
-  visit_runs(audit, moments, &add_moments);
-  visit_runs(audit, moments, &add_troubles);
+  for (const RunReport& run : report.panels) add_events(moments, run, where_of(report, run));
+  for (const RunReport& run : report.panels) add_troubles(moments, run, where_of(report, run));
   sort_by_time(moments);
   text += moments.empty() ? "What happens: nothing is marked; the motion goes on to its end.\n"
                           : "What happens:\n";
@@ -139,14 +130,15 @@ std::string alt_text(const PreparedFilm& film, const Json& audit) {
   return text;
 }
 
-std::string captions(const PreparedFilm& film, const FilmClock& clock, const Json& audit) {
+std::string captions(const FilmReport& report) {
+  const Scene& scene = report.film().scene;
   std::vector<Moment> moments;
-  visit_runs(audit, moments, &add_moments);
+  for (const RunReport& run : report.panels) add_events(moments, run, where_of(report, run));
   sort_by_time(moments);
-  const double start = held_first(film.scene), film_end = audit["film_seconds"].get<double>();
+  const double start = held_first(scene), film_end = report.film_seconds();
   // An event behind the last frame's instant is told while that frame stands.
-  const double latest = film_end - frame_time(1, film.scene.video.fps);
-  for (Moment& moment : moments) moment.t = std::min(start + clock.film_time(moment.t), latest);
+  const double latest = film_end - frame_time(1, scene.video.fps);
+  for (Moment& moment : moments) moment.t = std::min(start + report.clock.film_time(moment.t), latest);
   std::string text;
   int number = 0;
   for (std::size_t i = 0; i < moments.size(); ++i) {

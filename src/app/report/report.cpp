@@ -4,17 +4,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/film/automatic.hpp"
 #include "app/report/version.hpp"
 #include "core/format.hpp"
-#include "core/hash.hpp"
 #include "dynamics/constraints/constrained_dynamics.hpp"
 #include "dynamics/constraints/constraint_rows.hpp"
 #include "encode/libav.hpp"
-#include "render/canvas.hpp"
-#include "scene/run/fall.hpp"
 #include "sim/cost_table.hpp"
-#include "sim/doubts.hpp"
 
 namespace chainreel {
 
@@ -70,154 +65,6 @@ std::vector<LibraryLine> library_versions() {
   for (const LibraryVersion& library : encode_library_versions())
     lines.push_back({library.name, library.version});
   return lines;
-}
-
-namespace {
-
-// A run that is to diverge is no motion that anyone takes for true.
-void add_warnings(Json& json, const PreparedScene& prepared, const Trajectory& trajectory, const Audit& audit) {
-  json["warnings"] = Json::array();
-  if (prepared.scene.expect == Outcome::diverge) return;
-  const auto chosen_by = prepared.choice ? std::optional(prepared.scene.accuracy) : std::nullopt;
-  for (const Doubt& doubt : doubts_of(prepared.simulation, trajectory, audit, chosen_by))
-    json["warnings"].push_back(
-        {{"kind", doubt.kind}, {"amount", doubt.amount}, {"what", doubt.words}, {"remedy", doubt.remedy}});
-}
-
-// What happened when, and whether it fell; nothing of a scene without events.
-void add_events(Json& json, const Scene& scene, const Trajectory& trajectory) {
-  if (scene.events.empty()) return;
-  json["events"] = Json::array();
-  const EventHits& hits = trajectory.events;
-  for (int k = 0; k < hits.size(); ++k) {
-    const EventEntry& event = scene.events[std::size_t(hits.event[std::size_t(k)])];
-    json["events"].push_back({{"name", event.title()},
-                              {"kind", to_string(event.kind)},
-                              {"t", hits.t[std::size_t(k)]},
-                              {"q", to_json(hits.q_at(k))},
-                              {"qd", to_json(hits.qd_at(k))}});
-  }
-  const bool may_fall = std::any_of(scene.events.begin(), scene.events.end(),
-                                    [](const EventEntry& event) { return event.kind == EventKind::fall; });
-  const std::optional<double> time = fall_time_of(scene, trajectory);
-  if (may_fall) json["fall_time"] = time ? Json(*time) : Json(nullptr);
-  json["end_time"] = trajectory.end_time;
-}
-
-}  // namespace
-
-Json run_report(const PreparedScene& prepared, const Trajectory& trajectory) {
-  const Audit audit = audit_of(prepared.simulation, trajectory);
-  const Scene& scene = prepared.scene;
-  Json json;
-  json["scene"] = scene.file;
-  json["title"] = title_of(scene, trajectory);
-  json["model"] = scene.model;
-  json["model_sha256"] = sha256_of_file(scene.model);
-  json["status"] = to_string(trajectory.status);
-  if (scene.expect != Outcome::finish) json["expect"] = to_string(scene.expect);
-  if (!trajectory.trouble.empty()) json["trouble"] = trajectory.trouble;
-  const Simulation& simulation = prepared.simulation;
-  json["method"] = simulation.method->name;
-  json["step"] = simulation.step > 0 ? Json(simulation.step) : Json(nullptr);
-  if (simulation.options.tolerance > 0) json["tolerance"] = simulation.options.tolerance;
-  if (simulation.options.order > 0) json["order"] = simulation.options.order;
-  if (prepared.choice) json["auto"] = choice_report(*prepared.choice, scene.accuracy, false);
-  json["steps"] = trajectory.steps;
-  json["evaluations"] = trajectory.evaluations;
-  json["duration"] = scene.duration;
-  json["energy_start"] = audit.energy_start;
-  json["largest_kinetic_energy"] = audit.largest_kinetic;
-  // Samples at every step are their own audit.
-  const auto& steps = trajectory.energy_at_steps;
-  json["audit_error"] = steps ? steps->largest_error : audit.largest_error;
-  json["audit_error_time"] = steps ? steps->time : audit.largest_error_time;
-  if (steps) {
-    json["audit_error_of_frames"] = audit.largest_error;
-    json["audit_error_of_frames_time"] = audit.largest_error_time;
-  }
-  json["energy_moved"] = audit.energy_moved;
-  add_warnings(json, prepared, trajectory, audit);
-  if (trajectory.rows > 0) json["constraint_error"] = constraint_run_report(simulation, trajectory);
-  json["limits_passed"] = Json::array();
-  for (const LimitEvent& event : trajectory.limits) {
-    json["limits_passed"].push_back({{"joint", event.joint},
-                                     {"quantity", event.quantity},
-                                     {"t", event.t},
-                                     {"value", event.value},
-                                     {"limit", event.limit}});
-  }
-  add_events(json, scene, trajectory);
-  json["trajectory_sha256"] = audit.sha256;
-  return json;
-}
-
-void tell_warnings(const std::string& name, const Json& report) {
-  const auto tell = [&](const Json& run, const std::string& who) {
-    for (const Json& one : run["warnings"])
-      std::fprintf(stderr, "WARNING: %s: %s; take %s\n", who.c_str(), one["what"].get<std::string>().c_str(),
-                   one["remedy"].get<std::string>().c_str());
-  };
-  if (!report.contains("panels")) return tell(report, name);
-  for (const Json& panel : report["panels"]) tell(panel, name + ", '" + panel["title"].get<std::string>() + "'");
-}
-
-double held_first(const Scene& scene) {
-  return frame_time(frame_count(scene.hold.first, scene.video.fps), scene.video.fps);
-}
-
-namespace {
-
-// As far as the motion went. `held`: film seconds before it begins.
-Json slow_motion_report(const FilmClock& clock, const std::vector<Trajectory>& runs, double held) {
-  double end = 0;
-  for (const Trajectory& run : runs) end = std::max(end, run.end_time);
-  Json list = Json::array();
-  for (const Stretch& one : clock.stretches()) {
-    if (one.from >= end) break;
-    const double until = std::min(one.until, end);
-    list.push_back({{"from", one.from},
-                    {"until", until},
-                    {"speed", one.speed},
-                    {"film_from", held + clock.film_time(one.from)},
-                    {"film_until", held + clock.film_time(until)}});
-  }
-  return list;
-}
-
-}  // namespace
-
-Json film_report(const Runs& runs, const Film& pictures, int frames) {
-  const PreparedFilm& film = runs.film();
-  const auto report_of = [&](std::size_t i) {
-    Json json = run_report(film.panels[i], runs[i]);
-    if (const auto left = pictures.panel(int(i)).left_at()) json["left_picture_at"] = *left;
-    return json;
-  };
-  const Scene& scene = film.scene;
-  Json json;
-  if (runs.size() == 1) {
-    json = report_of(0);
-  } else {
-    json = {{"scene", scene.file},
-            {"title", scene.title},
-            {"layout", to_string(scene.layout)},
-            {"duration", scene.duration}};
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      json["panels"].push_back(report_of(i));
-      for (const char* shared : {"scene", "duration"}) json["panels"].back().erase(shared);
-      if (is_ghost_layout(scene)) json["panels"].back()["look"] = i == 0 ? "filled" : "outline";
-    }
-  }
-  const FrameRate fps = scene.video.fps;
-  json["frames"] = frames;
-  json["fps"] = fps.den == 1 ? Json(fps.num) : Json(std::to_string(fps.num) + "/" + std::to_string(fps.den));
-  json["width"] = scene.video.width;
-  json["height"] = scene.video.height;
-  json["film_seconds"] = frame_time(frames, fps);
-  if (!scene.slow_motion.empty()) json["slow_motion"] = slow_motion_report(pictures.clock(), runs.list(), held_first(scene));
-  for (const LibraryLine& line : library_versions()) json["versions"][line.name] = line.version;
-  return json;
 }
 
 std::string table_text(const std::vector<std::vector<std::string>>& rows) {

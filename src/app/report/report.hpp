@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "app/film/prepared.hpp"
-#include "app/film/runs.hpp"
 #include "core/json.hpp"
 #include "dynamics/effective_mass.hpp"
 #include "sim/simulate.hpp"
@@ -30,19 +28,6 @@ struct LibraryLine {
   std::string version;
 };
 std::vector<LibraryLine> library_versions();
-
-// What was run and whether it can be trusted: method, step, status, energy error, hash.
-Json run_report(const PreparedScene& prepared, const Trajectory& trajectory);
-
-// One line on standard error for each of the report's warnings, and of its panels'. Said even where all is to be quiet.
-void tell_warnings(const std::string& name, const Json& report);
-
-// For how long the first frame is held: whole frames, s.
-double held_first(const Scene& scene);
-
-// The sidecar of a film: that of its run, or a list `panels` of them; and what the film is. The same from one run of
-// the program to the next. `frames`: of the whole film, with those that are held; `pictures` may be of one instant.
-Json film_report(const Runs& runs, const Film& pictures, int frames);
 
 // A table with left-aligned words and right-aligned numbers; the first row is its head.
 std::string table_text(const std::vector<std::vector<std::string>>& rows);

@@ -21,9 +21,7 @@ constexpr double kMathAxis = 0.25;  // of the em above the base line: where a ma
 constexpr double kSameWidth = 1e-9;
 
 std::string list_of(const std::vector<std::string>& entries) {
-  std::string list;
-  for (const std::string& entry : entries) list += (list.empty() ? "" : ", ") + entry;
-  return "(" + list + ")";
+  return "(" + joined(entries) + ")";
 }
 
 std::string degrees_notation(double angle) {

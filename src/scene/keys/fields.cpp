@@ -199,10 +199,8 @@ void Fields::finish() {
   for (const auto& pair : map_) {
     const std::string& key = pair.first.Scalar();
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-    std::string known;
-    for (const std::string& one : known_) known += (known.empty() ? "" : ", ") + one;
     problems_->add(
-        "unknown key '" + path(key) + "':" + did_you_mean(key, known_) + " The keys here are " + known + ".",
+        "unknown key '" + path(key) + "':" + did_you_mean(key, known_) + " The keys here are " + joined(known_) + ".",
         place_of(pair.first, key));
   }
 }

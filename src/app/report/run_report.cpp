@@ -1,0 +1,177 @@
+#include "app/report/run_report.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/film/automatic.hpp"
+#include "app/report/report.hpp"
+#include "core/hash.hpp"
+#include "render/canvas.hpp"
+#include "scene/run/fall.hpp"
+
+namespace chainreel {
+
+namespace {
+
+// A run that is to diverge is no motion that anyone takes for true.
+std::vector<Doubt> warnings_of(const PreparedScene& prepared, const Trajectory& trajectory, const Audit& audit) {
+  if (prepared.scene.expect == Outcome::diverge) return {};
+  const auto chosen_by = prepared.choice ? std::optional(prepared.scene.accuracy) : std::nullopt;
+  return doubts_of(prepared.simulation, trajectory, audit, chosen_by);
+}
+
+// What happened when, and whether it fell; nothing of a scene without events.
+void add_events(Json& json, const Scene& scene, const Trajectory& trajectory) {
+  if (scene.events.empty()) return;
+  json["events"] = Json::array();
+  const EventHits& hits = trajectory.events;
+  for (int k = 0; k < hits.size(); ++k) {
+    const EventEntry& event = scene.events[std::size_t(hits.event[std::size_t(k)])];
+    json["events"].push_back({{"name", event.title()},
+                              {"kind", to_string(event.kind)},
+                              {"t", hits.t[std::size_t(k)]},
+                              {"q", to_json(hits.q_at(k))},
+                              {"qd", to_json(hits.qd_at(k))}});
+  }
+  const bool may_fall = std::any_of(scene.events.begin(), scene.events.end(),
+                                    [](const EventEntry& event) { return event.kind == EventKind::fall; });
+  const std::optional<double> time = fall_time_of(scene, trajectory);
+  if (may_fall) json["fall_time"] = time ? Json(*time) : Json(nullptr);
+  json["end_time"] = trajectory.end_time;
+}
+
+}  // namespace
+
+RunReport run_report(const PreparedScene& prepared, const Trajectory& trajectory) {
+  RunReport report{prepared, trajectory, audit_of(prepared.simulation, trajectory), {}, {}};
+  report.warnings = warnings_of(prepared, trajectory, report.audit);
+  return report;
+}
+
+std::string title_of(const RunReport& run) {
+  return title_of(run.prepared.scene, run.trajectory);
+}
+
+Json to_json(const RunReport& report) {
+  const auto& [prepared, trajectory, audit, warnings, left_picture_at] = report;
+  const Scene& scene = prepared.scene;
+  Json json;
+  json["scene"] = scene.file;
+  json["title"] = title_of(report);
+  json["model"] = scene.model;
+  json["model_sha256"] = sha256_of_file(scene.model);
+  json["status"] = to_string(trajectory.status);
+  if (scene.expect != Outcome::finish) json["expect"] = to_string(scene.expect);
+  if (!trajectory.trouble.empty()) json["trouble"] = trajectory.trouble;
+  const Simulation& simulation = prepared.simulation;
+  json["method"] = simulation.method->name;
+  json["step"] = simulation.step > 0 ? Json(simulation.step) : Json(nullptr);
+  if (simulation.options.tolerance > 0) json["tolerance"] = simulation.options.tolerance;
+  if (simulation.options.order > 0) json["order"] = simulation.options.order;
+  if (prepared.choice) json["auto"] = choice_report(*prepared.choice, scene.accuracy, false);
+  json["steps"] = trajectory.steps;
+  json["evaluations"] = trajectory.evaluations;
+  json["duration"] = scene.duration;
+  json["energy_start"] = audit.energy_start;
+  json["largest_kinetic_energy"] = audit.largest_kinetic;
+  // Samples at every step are their own audit.
+  const auto& steps = trajectory.energy_at_steps;
+  json["audit_error"] = steps ? steps->largest_error : audit.largest_error;
+  json["audit_error_time"] = steps ? steps->time : audit.largest_error_time;
+  if (steps) {
+    json["audit_error_of_frames"] = audit.largest_error;
+    json["audit_error_of_frames_time"] = audit.largest_error_time;
+  }
+  json["energy_moved"] = audit.energy_moved;
+  json["warnings"] = Json::array();
+  for (const Doubt& doubt : warnings)
+    json["warnings"].push_back(
+        {{"kind", doubt.kind}, {"amount", doubt.amount}, {"what", doubt.words}, {"remedy", doubt.remedy}});
+  if (trajectory.rows > 0) json["constraint_error"] = constraint_run_report(simulation, trajectory);
+  json["limits_passed"] = Json::array();
+  for (const LimitEvent& event : trajectory.limits) {
+    json["limits_passed"].push_back({{"joint", event.joint},
+                                     {"quantity", event.quantity},
+                                     {"t", event.t},
+                                     {"value", event.value},
+                                     {"limit", event.limit}});
+  }
+  add_events(json, scene, trajectory);
+  json["trajectory_sha256"] = audit.sha256;
+  if (left_picture_at) json["left_picture_at"] = *left_picture_at;
+  return json;
+}
+
+void tell_warnings(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) std::fprintf(stderr, "WARNING: %s\n", line.c_str());
+}
+
+std::vector<std::string> warning_lines(const std::string& name, const RunReport& report) {
+  std::vector<std::string> lines;
+  for (const Doubt& doubt : report.warnings) lines.push_back(name + ": " + doubt.words + "; take " + doubt.remedy);
+  return lines;
+}
+
+std::vector<std::string> warning_lines(const FilmReport& report) {
+  const std::string& name = report.film().scene.name;
+  if (report.panels.size() == 1) return warning_lines(name, report.panels.front());
+  std::vector<std::string> lines;
+  for (const RunReport& panel : report.panels)
+    for (std::string& line : warning_lines(name + ", '" + title_of(panel) + "'", panel)) lines.push_back(std::move(line));
+  return lines;
+}
+
+double held_first(const Scene& scene) {
+  return frame_time(frame_count(scene.hold.first, scene.video.fps), scene.video.fps);
+}
+
+FilmReport film_report(const Runs& runs, const Film& pictures, int frames) {
+  FilmReport report{runs, {}, frames, pictures.clock(), {}};
+  double end = 0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    report.panels.push_back(run_report(runs.film().panels[i], runs[i]));
+    report.panels.back().left_picture_at = pictures.panel(int(i)).left_at();
+    end = std::max(end, runs[i].end_time);
+  }
+  for (const Stretch& one : report.clock.stretches())
+    if (one.from < end) report.slow_motion.push_back({one.from, std::min(one.until, end), one.speed});
+  return report;
+}
+
+Json to_json(const FilmReport& report) {
+  const Scene& scene = report.film().scene;
+  Json json;
+  if (report.panels.size() == 1) {
+    json = to_json(report.panels.front());
+  } else {
+    json = {{"scene", scene.file},
+            {"title", scene.title},
+            {"layout", to_string(scene.layout)},
+            {"duration", scene.duration}};
+    for (const RunReport& panel : report.panels) {
+      json["panels"].push_back(to_json(panel));
+      for (const char* shared : {"scene", "duration"}) json["panels"].back().erase(shared);
+      if (is_ghost_layout(scene)) json["panels"].back()["look"] = &panel == &report.panels.front() ? "filled" : "outline";
+    }
+  }
+  const FrameRate fps = scene.video.fps;
+  json["frames"] = report.frames;
+  json["fps"] = fps.den == 1 ? Json(fps.num) : Json(std::to_string(fps.num) + "/" + std::to_string(fps.den));
+  json["width"] = scene.video.width;
+  json["height"] = scene.video.height;
+  json["film_seconds"] = report.film_seconds();
+  if (!scene.slow_motion.empty()) {
+    const double held = held_first(scene);
+    json["slow_motion"] = Json::array();
+    for (const Stretch& one : report.slow_motion)
+      json["slow_motion"].push_back({{"from", one.from},
+                                     {"until", one.until},
+                                     {"speed", one.speed},
+                                     {"film_from", held + report.clock.film_time(one.from)},
+                                     {"film_until", held + report.clock.film_time(one.until)}});
+  }
+  for (const LibraryLine& line : library_versions()) json["versions"][line.name] = line.version;
+  return json;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,54 @@
+// What was run, and whether it can be trusted: of one run and of a film. Audits (JSON), alternative texts, captions and
+// warnings are made of these.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/film/prepared.hpp"
+#include "app/film/runs.hpp"
+#include "core/frame_rate.hpp"
+#include "core/json.hpp"
+#include "sim/audit.hpp"
+#include "sim/doubts.hpp"
+
+namespace chainreel {
+
+// What it refers to must outlive it.
+struct RunReport {
+  const PreparedScene& prepared;
+  const Trajectory& trajectory;
+  Audit audit;
+  std::vector<Doubt> warnings;             // none of a run that is to diverge
+  std::optional<double> left_picture_at;  // s
+};
+RunReport run_report(const PreparedScene& prepared, const Trajectory& trajectory);
+std::string title_of(const RunReport& run);  // the scene's, with what it leaves open: when it falls
+Json to_json(const RunReport& report);
+
+struct FilmReport {
+  const Runs& runs;
+  std::vector<RunReport> panels;
+  int frames = 0;  // of the whole film, with those that are held
+  FilmClock clock;
+  std::vector<Stretch> slow_motion;  // as far as the motion went
+
+  const PreparedFilm& film() const { return runs.film(); }
+  double film_seconds() const { return frame_time(frames, film().scene.video.fps); }
+};
+// `pictures` may be of one instant.
+FilmReport film_report(const Runs& runs, const Film& pictures, int frames);
+// The same from one run of the program to the next.
+Json to_json(const FilmReport& report);
+
+// What speaks against runs, a line each.
+std::vector<std::string> warning_lines(const std::string& name, const RunReport& report);
+std::vector<std::string> warning_lines(const FilmReport& report);
+// On standard error. Said even where all is to be quiet.
+void tell_warnings(const std::vector<std::string>& lines);
+
+// For how long the first frame is held: whole frames, s.
+double held_first(const Scene& scene);
+
+}  // namespace chainreel
