@@ -99,6 +99,7 @@ const House& house() {
   static const House instance = [] {
     House h;
     h.uses = {{"core", {}},
+              {"compare", {"core"}},
               {"expr", {"core"}},
               {"mesh", {"core"}},
               {"integrate", {"core"}},
@@ -110,7 +111,7 @@ const House& house() {
               {"sim", {"dynamics", "integrate", "expr"}},
               {"scene", {"sim"}},
               {"draw", {"scene", "picture"}},
-              {"app", {"draw", "render", "encode"}}};
+              {"app", {"draw", "render", "encode", "compare"}}};
     h.libraries = {{"nlohmann/", {"core"}},
                    {"openssl/", {"core"}},
                    {"assimp/", {"mesh"}},

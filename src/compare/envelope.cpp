@@ -1,0 +1,109 @@
+#include "compare/envelope.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <vector>
+
+namespace chainreel {
+namespace {
+
+constexpr int kRounding = 1;  // of 255
+
+// Means over 3 x 3 pixels; the picture's border goes on beyond it.
+Image means_of(const Image& image) {
+  Image means(image.width, image.height);
+  const std::size_t stride = std::size_t(4) * std::size_t(image.width);
+  std::vector<int> sums(stride);
+  for (int y = 0; y < image.height; ++y) {
+    const std::uint8_t* above = &image.bgra[std::size_t(std::max(y - 1, 0)) * stride];
+    const std::uint8_t* here = &image.bgra[std::size_t(y) * stride];
+    const std::uint8_t* below = &image.bgra[std::size_t(std::min(y + 1, image.height - 1)) * stride];
+    for (std::size_t i = 0; i < stride; ++i) sums[i] = above[i] + here[i] + below[i];
+    std::uint8_t* target = &means.bgra[std::size_t(y) * stride];
+    for (std::size_t i = 0; i < stride; ++i) {
+      const int left = sums[i >= 4 ? i - 4 : i], right = sums[i + 4 < stride ? i + 4 : i];
+      target[i] = std::uint8_t((left + sums[i] + right + 4) / 9);
+    }
+  }
+  return means;
+}
+
+// The lowest and highest values, half a pixel's way from `middle` on to each of `ends`, of what is nowhere
+// steeper than the steepest of these ways.
+void bound(const Image& middle, std::span<const Image> ends, Image& low, Image& high) {
+  low = high = middle;
+  if (ends.empty()) return;
+  std::vector<std::uint8_t> lowest = ends[0].bgra, highest = ends[0].bgra;  // of the ends
+  for (const Image& end : ends.subspan(1))
+    for (std::size_t i = 0; i < lowest.size(); ++i) {
+      lowest[i] = std::min(lowest[i], end.bgra[i]);
+      highest[i] = std::max(highest[i], end.bgra[i]);
+    }
+  for (std::size_t i = 0; i < middle.bgra.size(); ++i) {
+    const int here = middle.bgra[i], rise = std::max(highest[i] - here, here - lowest[i]);
+    low.bgra[i] = std::uint8_t(std::max((here + lowest[i] - rise) / 2, 0));
+    high.bgra[i] = std::uint8_t(std::min((here + highest[i] + rise + 1) / 2, 255));
+  }
+}
+
+// The picture half way to its neighbours at (dx, dy).
+Image half_way(const Image& image, int dx, int dy) {
+  Image between(image.width, image.height);
+  for (int y = 0; y < image.height; ++y) {
+    const int from_y = std::clamp(y + dy, 0, image.height - 1);
+    for (int x = 0; x < image.width; ++x) {
+      const std::size_t here = std::size_t(4) * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
+      const std::size_t there = std::size_t(4) * (std::size_t(from_y) * std::size_t(image.width) +
+                                                  std::size_t(std::clamp(x + dx, 0, image.width - 1)));
+      for (std::size_t c = 0; c < 4; ++c)
+        between.bgra[here + c] = std::uint8_t((image.bgra[here + c] + image.bgra[there + c] + 1) / 2);
+    }
+  }
+  return between;
+}
+
+}  // namespace
+
+Envelope envelope_of(const Image& drawn, std::span<const Image> moved) {
+  Envelope envelope;
+  bound(drawn, moved, envelope.low, envelope.high);
+  std::vector<Image> means;
+  for (const Image& image : moved) means.push_back(means_of(image));
+  bound(means_of(drawn), means, envelope.mean_low, envelope.mean_high);
+  return envelope;
+}
+
+Envelope envelope_of(const Image& drawn) {
+  const Image moved[4] = {half_way(drawn, 1, 0), half_way(drawn, -1, 0), half_way(drawn, 0, 1),
+                          half_way(drawn, 0, -1)};
+  return envelope_of(drawn, moved);
+}
+
+bool is_within(const Envelope& envelope, const Image& actual, int x, int y) {
+  const auto place = [&](int column, int row) {
+    return std::size_t(4) * (std::size_t(row) * std::size_t(actual.width) + std::size_t(column));
+  };
+  const std::size_t here = place(x, y);
+  for (std::size_t c = 0; c < 4; ++c) {
+    const int value = actual.bgra[here + c];
+    if (value < envelope.low.bgra[here + c] - kRounding || value > envelope.high.bgra[here + c] + kRounding)
+      return false;
+  }
+  for (std::size_t c = 0; c < 4; ++c) {
+    int sum = 0, lowest = 255, highest = 0;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const std::size_t i =
+            c + place(std::clamp(x + dx, 0, actual.width - 1), std::clamp(y + dy, 0, actual.height - 1));
+        sum += actual.bgra[i];
+        lowest = std::min<int>(lowest, envelope.low.bgra[i]);
+        highest = std::max<int>(highest, envelope.high.bgra[i]);
+      }
+    const int mean = (sum + 4) / 9, slack = kRounding + (highest - lowest) / 8;
+    if (mean < envelope.mean_low.bgra[here + c] - slack || mean > envelope.mean_high.bgra[here + c] + slack)
+      return false;
+  }
+  return true;
+}
+
+}  // namespace chainreel
