@@ -200,11 +200,9 @@ std::map<std::string, Place> YamlDocument::places() const {
 }
 
 YamlDocument yaml_document_of(const std::string& text, const std::string& path,
-                              const std::vector<Override>& overrides) {
+                              const std::vector<Override>& overrides, const std::string& lacking) {
   YamlDocument document{parse(text, path), path, text, overrides, {}};
-  if (!document.root.IsMap())
-    throw Error(ExitCode::bad_input,
-                "holds no scene: write `model: ...` and what else it needs, or see `chainreel init`", {path});
+  if (!document.root.IsMap()) throw Error(ExitCode::bad_input, lacking, {path});
   replace_overrides(document, overrides);
   return document;
 }
@@ -219,8 +217,8 @@ void replace_overrides(YamlDocument& document, const std::vector<Override>& over
   }
 }
 
-YamlDocument load_yaml(const std::string& path, const std::vector<Override>& overrides) {
-  return yaml_document_of(read_text(path), path, overrides);
+YamlDocument load_yaml(const std::string& path, const std::vector<Override>& overrides, const std::string& lacking) {
+  return yaml_document_of(read_text(path), path, overrides, lacking);
 }
 
 YamlDocument panel_document(const YamlDocument& whole, std::size_t index) {

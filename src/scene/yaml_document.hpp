@@ -43,10 +43,14 @@ struct YamlDocument {
   std::map<std::string, Place> places() const;
 };
 
-YamlDocument load_yaml(const std::string& path, const std::vector<Override>& overrides);
+inline constexpr const char* kNoScene = "holds no scene: write `model: ...` and what else it needs, or see `chainreel init`";
+
+// `lacking`: what is said of a file without keys.
+YamlDocument load_yaml(const std::string& path, const std::vector<Override>& overrides,
+                       const std::string& lacking = kNoScene);
 // The same of a text that stands in no file; `file` is where paths start and what errors name.
 YamlDocument yaml_document_of(const std::string& text, const std::string& file,
-                              const std::vector<Override>& overrides);
+                              const std::vector<Override>& overrides, const std::string& lacking = kNoScene);
 // Puts other values in the place of those that the document was read with: the same keys in the same order.
 void replace_overrides(YamlDocument& document, const std::vector<Override>& overrides);
 

@@ -1,0 +1,78 @@
+#include "scene/text/asked_instant.hpp"
+
+#include <algorithm>
+
+#include "core/format.hpp"
+#include "scene/quantity.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr const char* kForms = "write seconds, like 1.2s, or `event NAME`";
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
+  return first == std::string::npos ? "" : text.substr(first, last + 1 - first);
+}
+
+// Of all panels, each once.
+std::vector<std::string> events_of(const Scene& scene) {
+  std::vector<std::string> names;
+  const auto add = [&](const Scene& panel) {
+    for (const EventEntry& event : panel.events)
+      if (std::find(names.begin(), names.end(), event.title()) == names.end()) names.push_back(event.title());
+  };
+  if (scene.compare.empty()) add(scene);
+  for (const Scene& panel : scene.compare) add(panel);
+  return names;
+}
+
+}  // namespace
+
+std::string AskedInstant::name() const {
+  return event.empty() ? format_shortest(at) + "s" : event;
+}
+
+AskedInstant parse_asked_instant(const std::string& text, const Place& place) {
+  AskedInstant asked;
+  asked.text = trimmed(text);
+  const std::string word = "event";
+  if (asked.text == word || asked.text.starts_with(word + " ")) {
+    asked.event = trimmed(asked.text.substr(word.size()));
+    if (asked.event.empty())
+      throw Error(ExitCode::bad_input, std::string("`event` names no event: ") + kForms, place);
+    return asked;
+  }
+  std::string number = asked.text;
+  // Behind a digit it is the unit; elsewhere it belongs to a word.
+  const std::size_t before =
+      number.ends_with('s') ? number.find_last_not_of(' ', number.size() - 2) : std::string::npos;
+  if (before != std::string::npos && std::string("0123456789.)").find(number[before]) != std::string::npos)
+    number.resize(before + 1);
+  try {
+    if (number.ends_with("deg")) throw Error(ExitCode::bad_input, "degrees");
+    asked.at = parse_quantity(number, place) + 0.0;  // no -0
+  } catch (const Error&) {
+    throw Error(ExitCode::bad_input, "'" + shortened(asked.text, 80) + "' is no instant: " + kForms, place);
+  }
+  if (asked.at < 0)
+    throw Error(ExitCode::bad_input, "'" + asked.text + "' lies before the start: an instant is 0 or later",
+                place);
+  return asked;
+}
+
+std::string trouble_of_instant(const AskedInstant& asked, const Scene& scene) {
+  if (asked.event.empty()) {
+    if (asked.at <= scene.duration) return "";
+    return asked.text + " lies behind the end of " + scene.file + ", whose duration is " +
+           format_shortest(scene.duration) + " s: take an earlier instant";
+  }
+  const std::vector<std::string> names = events_of(scene);
+  if (std::find(names.begin(), names.end(), asked.event) != names.end()) return "";
+  if (names.empty())
+    return scene.file + " looks out for no event, so none is '" + asked.event + "': add it to its `events:`";
+  return scene.file + " has no event '" + asked.event + "':" + did_you_mean(asked.event, names) + " It has " +
+         quoted_list(names) + ".";
+}
+
+}  // namespace chainreel

@@ -1,0 +1,25 @@
+// An instant of a scene as people ask for one: `1.2s`, `0`, `event touch`.
+#pragma once
+
+#include <string>
+
+#include "scene/scene.hpp"
+
+namespace chainreel {
+
+struct AskedInstant {
+  double at = 0;      // s, where no event is meant
+  std::string event;  // the first time that the event of this name happens
+  std::string text;   // as it was written
+  // "1.2s" or the event's name: one for an instant, however it was written.
+  std::string name() const;
+};
+
+// Throws Error at `place`.
+AskedInstant parse_asked_instant(const std::string& text, const Place& place);
+
+// What keeps the scene from having that instant, with its remedy: it is over by then, or looks out for no
+// such event; "" where only the run can tell.
+std::string trouble_of_instant(const AskedInstant& asked, const Scene& scene);
+
+}  // namespace chainreel

@@ -1,0 +1,465 @@
+#include "scene/text/suite.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "core/format.hpp"
+#include "core/json.hpp"
+#include "model/read_chain.hpp"
+#include "scene/keys/fields.hpp"
+#include "scene/keys/keys.hpp"
+#include "scene/text/asked_instant.hpp"
+#include "scene/text/picture_names.hpp"
+#include "scene/text/read_scene.hpp"
+#include "scene/text/suite_poses.hpp"
+#include "scene/text/suite_settings.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kDefaultFile = "snapshots.yaml";
+constexpr std::size_t kMostPictures = 10'000;
+
+enum class PhysicsAlone { fail, note };
+constexpr Name kPhysicsAlone[] = {{"fail", "other physics behind the same pixels is a failure"},
+                                  {"note", "it is said, no more"}};
+
+// Keys of scenes that a suite may set for all its pictures; sections with all that is in them.
+const std::vector<std::string> kLookKeys{"base",    "massless", "packages", "end_effector", "links",
+                                         "mesh_up", "camera",   "theme",    "text_scale"};
+
+struct Source {
+  std::string file;   // as found from the working folder
+  std::string label;  // in names of pictures
+  bool is_model = false;
+  Place place;
+};
+
+void add_problems(const Error& error, ProblemList& problems) {
+  for (const Problem& problem : error.problems()) problems.add(problem.message, problem.place);
+}
+
+bool is_yaml(const fs::path& path) {
+  return path.extension() == ".yaml" || path.extension() == ".yml";
+}
+
+// The names of several sources differ: by their stems, else by their paths.
+void name_sources(std::vector<Source>& sources, const std::string& suite) {
+  std::map<std::string, int> count;
+  for (Source& source : sources) {
+    source.label = fs::path(source.file).stem().string();
+    ++count[source.label];
+  }
+  for (Source& source : sources)
+    if (count[source.label] > 1) {
+      const fs::path from =
+          fs::path(source.file).lexically_relative(fs::path(suite).parent_path().lexically_normal());
+      source.label =
+          fs::path(from.empty() ? fs::path(source.file) : from).replace_extension().generic_string();
+    }
+}
+
+class SuiteReader {
+ public:
+  explicit SuiteReader(const std::string& path)
+      : document_(
+            load_yaml(path, {}, "holds no suite: write `model: my_robot.urdf` and `poses: {home: [0, 0]}`")),
+        root_(document_, document_.root, "", problems_) {
+    suite_.file = path;
+    suite_.name = fs::path(path).stem().string();
+  }
+
+  Suite read() {
+    refuse_scene();
+    read_sources("model", true);
+    read_sources("scene", false);
+    name_sources(sources_, suite_.file);
+    read_poses();
+    read_instants();
+    read_look();
+    read_suite_settings(root_, common_);
+    PhysicsAlone physics = PhysicsAlone::fail;
+    if (const auto index = root_.read_word("physics", kPhysicsAlone)) physics = PhysicsAlone(*index);
+    suite_.physics_alone_fails = physics == PhysicsAlone::fail;
+    read_own_settings();
+    root_.finish();
+    check_together();
+    make_pictures();
+    problems_.throw_if_any();
+    return std::move(suite_);
+  }
+
+ private:
+  // A scene in a suite's place is one mistake, not an unknown key for each of its lines.
+  void refuse_scene() {
+    std::vector<std::string> own{"model",     "poses", "at",       "scene",  "size",
+                                 "tolerance", "masks", "pictures", "physics"};
+    for (const auto& pair : document_.root) {
+      const std::string& key = pair.first.Scalar();
+      if (std::find(own.begin(), own.end(), key) != own.end()) continue;
+      if (std::find(kLookKeys.begin(), kLookKeys.end(), key) != kLookKeys.end() || !find_key(key)) continue;
+      throw Error(ExitCode::bad_input,
+                  "'" + key + "' is a key of a scene: a suite names scenes, write a " +
+                      std::string(kDefaultFile) +
+                      " with `scene: " + fs::path(suite_.file).filename().string() + "` and `at: [0, 1.2s]`",
+                  document_.place_of(pair.first, key));
+    }
+  }
+
+  // One text or a list of texts, each with its place.
+  std::vector<std::pair<std::string, Place>> texts_of(const YAML::Node& node, const std::string& key,
+                                                      const std::string& like) {
+    std::vector<std::pair<std::string, Place>> texts;
+    const auto add = [&](const YAML::Node& one) {
+      if (one.IsScalar() && !one.Scalar().empty())
+        texts.emplace_back(one.Scalar(), document_.place_of(one, key));
+      else
+        problems_.add("'" + key + "' must be one or a list: " + like, document_.place_of(one, key));
+    };
+    if (!node.IsSequence())
+      add(node);
+    else if (node.size() == 0)
+      problems_.add("'" + key + "' is an empty list: " + like, document_.place_of(node, key));
+    else
+      for (const YAML::Node& one : node) add(one);
+    return texts;
+  }
+
+  void read_sources(const std::string& key, bool is_model) {
+    if (!root_.has(key)) return;
+    const std::string like = is_model ? "model: my_robot.urdf" : "scene: [swing.yaml, fall.yaml]";
+    for (const auto& [named, place] : texts_of(root_.find(key), key, like)) {
+      const Source source{beside(suite_.file, named), "", is_model, place};
+      if (is_yaml(source.file) == is_model) {
+        problems_.add("'" + named +
+                          (is_model ? "' is no model: name scenes under `scene:`"
+                                    : "' is no scene: name models under `model:`"),
+                      place);
+      } else if (std::error_code ignored; !fs::is_regular_file(source.file, ignored)) {
+        problems_.add("there is no file '" + named + "' (looked for " + source.file +
+                          "):" + nearest_file(source.file) + " Paths are relative to the suite's file.",
+                      place);
+      } else {
+        sources_.push_back(source);
+      }
+    }
+  }
+
+  static std::string nearest_file(const std::string& wanted) {
+    std::vector<std::string> names;
+    std::error_code ignored;
+    const fs::path folder = fs::path(wanted).parent_path();
+    for (const auto& entry : fs::directory_iterator(folder.empty() ? fs::path(".") : folder, ignored))
+      if (names.size() < 1000) names.push_back(entry.path().filename().string());
+    return did_you_mean(fs::path(wanted).filename().string(), names);
+  }
+
+  void read_poses() {
+    if (!root_.has("poses")) return;
+    const YAML::Node node = root_.find("poses");
+    const Place place = document_.place_of(node, "poses");
+    if (!node.IsMap() || node.size() == 0)
+      return problems_.add(
+          "'poses' must hold names and poses: poses: {home: [0, 0, 0], reach: {elbow: -90deg}}", place);
+    Fields fields(document_, node, "poses", problems_);
+    for (const auto& pair : node) {
+      const std::string& name = pair.first.Scalar();
+      if (name == "srdf")
+        for (const auto& [named, where] : texts_of(pair.second, "poses.srdf", "srdf: my_robot.srdf"))
+          read_states(named, where);
+      else
+        read_pose(fields, name, pair.second, document_.place_of(pair.first, "poses." + name));
+    }
+  }
+
+  void read_states(const std::string& named, const Place& place) {
+    const std::string path = beside(suite_.file, named);
+    try {
+      srdfs_.push_back({read_srdf(path), place, poses_.size(), 0});
+      for (WrittenPose& pose : poses_of(srdfs_.back().file)) poses_.push_back(std::move(pose));
+      srdfs_.back().end = poses_.size();
+    } catch (const Error& error) {
+      add_problems(error, problems_);
+    }
+  }
+
+  void read_pose(Fields& poses, const std::string& name, const YAML::Node& node, const Place& place) {
+    WrittenPose pose{name, place, {}, {}, node.IsMap(), false};
+    bool is_good = true;
+    if (node.IsSequence()) {
+      is_good = poses.read(name, pose.numbers);
+    } else if (node.IsMap()) {
+      Fields joints(document_, node, poses.path(name), problems_);
+      for (const auto& pair : node) {
+        const std::string& joint = pair.first.Scalar();
+        WrittenValue value{joint, {}, document_.place_of(pair.first, joints.path(joint))};
+        double one = 0;
+        if (pair.second.IsSequence()) {
+          is_good = joints.read(joint, value.values) && is_good;
+        } else {
+          is_good = joints.read(joint, one) && is_good;
+          value.values = {one};
+        }
+        pose.joints.push_back(std::move(value));
+      }
+    } else {
+      is_good = false;
+      problems_.add(
+          "pose '" + name + "' must be a list of numbers, [0, 90deg], or joints with theirs, {elbow: 90deg}",
+          place);
+    }
+    if (is_good) poses_.push_back(std::move(pose));
+  }
+
+  void read_instants() {
+    if (!root_.has("at")) return;
+    for (const auto& [text, place] : texts_of(root_.find("at"), "at", "at: [0, 1.2s, event touch]")) try {
+        instants_.emplace_back(parse_asked_instant(text, place), place);
+      } catch (const Error& error) {
+        add_problems(error, problems_);
+      }
+  }
+
+  // Keys of scenes are read and written by their rows.
+  void read_look() {
+    look_.file = suite_.file;
+    std::optional<Fields> section;
+    for (const SceneKey& key : scene_keys()) {
+      if (key.section().empty() && section) {
+        section->finish();
+        section.reset();
+      }
+      const std::string top = key.section().empty() ? key.name : key.section();
+      if (std::find(kLookKeys.begin(), kLookKeys.end(), top) == kLookKeys.end()) continue;
+      if (key.is_section) {
+        section = root_.section(key.name, "keys: " + key.example);
+        continue;
+      }
+      Fields* fields = key.section().empty() ? &root_ : section ? &*section : nullptr;
+      if (fields == nullptr || !fields->has(key.leaf())) continue;
+      key.read(key, *fields, look_);
+      std::vector<SceneEntry> entries;
+      key.write(key, look_, entries);
+      for (const SceneEntry& entry : entries)
+        if (entry.key != "camera.fit" && !entry.key.starts_with("packages."))
+          suite_.overrides.push_back(entry.key + "=" + entry.text);
+    }
+    if (section) section->finish();
+    suite_.fit = look_.camera.fit;
+    // Overrides are read beside each scene or model, wherever that is.
+    for (const auto& [name, folder] : look_.packages)
+      suite_.overrides.push_back("packages." + name + "=" +
+                                 Json(fs::absolute(folder).lexically_normal().string()).dump());
+  }
+
+  void read_own_settings() {
+    if (!root_.has("pictures")) return;
+    std::optional<Fields> pictures =
+        root_.section("pictures", "names of pictures: pictures: {home: {masks: [[0, 0, 80, 20]]}}");
+    if (!pictures) return;
+    for (const auto& pair : root_.find("pictures")) {
+      const std::string& name = pair.first.Scalar();
+      std::optional<Fields> fields =
+          pictures->section(name, "what the picture has for itself: tolerance, masks, size");
+      if (!fields) continue;
+      SuiteSettings& own = own_[name];
+      own.place = pictures->place_of(pair.first, name);
+      read_suite_settings(*fields, own);
+      fields->finish();
+    }
+  }
+
+  void check_together() {
+    const auto names_a = [&](bool model) {
+      return std::any_of(sources_.begin(), sources_.end(),
+                         [&](const Source& source) { return source.is_model == model; });
+    };
+    if (!root_.has("model") && !root_.has("scene"))
+      problems_.add("the suite names nothing to show: write `model: my_robot.urdf` or `scene: swing.yaml`",
+                    {suite_.file});
+    if (root_.has("poses") && !root_.has("model"))
+      root_.problem_at("poses", "'poses' goes with `model:`; a scene takes `at: [0, 1.2s]`");
+    if (root_.has("at") && !root_.has("scene"))
+      root_.problem_at("at", "'at' goes with `scene:`; a model takes `poses: {home: [0, 0]}`");
+    if (root_.has("base") && !names_a(true))
+      root_.problem_at("base", "'base' goes with `model:`; a scene has its own");
+  }
+
+  void make_pictures() {
+    for (const Source& source : sources_) {
+      if (source.is_model)
+        make_poses(source);
+      else
+        make_instants(source);
+      if (suite_.pictures.size() > kMostPictures)
+        throw Error(ExitCode::limit,
+                    "makes more than " + std::to_string(kMostPictures) + " pictures: split it",
+                    {suite_.file});
+    }
+    for (const Srdf& srdf : srdfs_)
+      if (!srdf.is_used && problems_.empty())
+        problems_.add(srdf.file.path + " is of the robot '" + srdf.file.robot +
+                          "', which no model of the suite is: " + joined(robots_) +
+                          ". Give its <robot> one of these names.",
+                      srdf.place);
+    for (const auto& [name, own] : own_)
+      if (!used_own_.contains(name) && problems_.empty()) {
+        std::vector<std::string> names;
+        for (const SuitePicture& picture : suite_.pictures) names.push_back(picture.name);
+        problems_.add("there is no picture '" + name + "':" + did_you_mean(name, names) + " There are " +
+                          shortened(joined(names), 400) + ".",
+                      own.place);
+      }
+  }
+
+  // Whether a pose is meant for this robot: of an SRDF, where several models are shown, by the name in both.
+  bool is_for(std::size_t pose, const std::string& robot) {
+    for (Srdf& srdf : srdfs_)
+      if (pose >= srdf.begin && pose < srdf.end) {
+        const auto models =
+            std::count_if(sources_.begin(), sources_.end(), [](const Source& one) { return one.is_model; });
+        const bool is_meant = models == 1 || srdf.file.robot == robot;
+        srdf.is_used = srdf.is_used || is_meant;
+        return is_meant;
+      }
+    return true;
+  }
+
+  void make_poses(const Source& source) try {
+    ModelOptions options;
+    options.floating_base = look_.base == RootLink::floating;
+    options.massless = look_.massless;
+    options.packages = look_.packages;
+    options.end_effector = look_.end_effector;
+    const UrdfFile file = read_urdf_file(source.file);
+    const Chain chain = chain_of(file, options);
+    robots_.push_back(source.file + " is '" + file.name + "'");
+    if (!root_.has("poses")) add(source, "", source.place).q = resting_pose(chain);
+    for (std::size_t i = 0; i < poses_.size(); ++i) {
+      if (!is_for(i, file.name)) continue;
+      if (const auto q = pose_of(poses_[i], file, chain, problems_))
+        add(source, poses_[i].name, poses_[i].place).q = *q;
+    }
+  } catch (const Error& error) {
+    add_problems(error, problems_);
+  }
+
+  void make_instants(const Source& source) try {
+    const Scene scene = read_scene(source.file, suite_.overrides);
+    if (!root_.has("at")) add(source, "", source.place).telling = true;
+    for (const auto& [asked, place] : instants_) {
+      if (const std::string trouble = trouble_of_instant(asked, scene); !trouble.empty()) {
+        problems_.add(trouble, place);
+        continue;
+      }
+      SuitePicture& picture = add(source, asked.name(), place);
+      picture.at = asked.at;
+      picture.event = asked.event;
+      picture.pose = asked.text;
+    }
+  } catch (const Error& error) {
+    add_problems(error, problems_);
+  }
+
+  SuitePicture& add(const Source& source, const std::string& pose, const Place& place) {
+    SuitePicture picture;
+    picture.name = file_name_of(pose.empty()           ? source.label
+                                : sources_.size() == 1 ? pose
+                                                       : source.label + "_" + pose);
+    picture.source = source.file;
+    picture.is_model = source.is_model;
+    picture.pose = pose;
+    picture.place = place;
+    apply(common_, picture);
+    if (const auto own = own_.find(picture.name); own != own_.end()) {
+      apply(own->second, picture);
+      used_own_.insert(picture.name);
+    }
+    check_masks(picture, problems_);
+    names_.add(picture.name, place, problems_);
+    suite_.pictures.push_back(std::move(picture));
+    return suite_.pictures.back();
+  }
+
+  struct Srdf {
+    SrdfFile file;
+    Place place;
+    std::size_t begin, end;  // of its poses
+    bool is_used = false;
+  };
+
+  ProblemList problems_;
+  YamlDocument document_;
+  Fields root_;
+  Suite suite_;
+  Scene look_;  // what of a scene the suite sets
+  std::vector<Source> sources_;
+  std::vector<WrittenPose> poses_;
+  std::vector<Srdf> srdfs_;
+  std::vector<std::string> robots_;
+  std::vector<std::pair<AskedInstant, Place>> instants_;
+  SuiteSettings common_;
+  std::map<std::string, SuiteSettings> own_;  // by names of pictures
+  std::set<std::string> used_own_;
+  PictureNames names_;
+};
+
+// The scenes and models of a folder, not of those in it, by their names.
+Suite suite_of_folder(const std::string& path) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(path)) {
+    const fs::path& file = entry.path();
+    const bool is_shown = is_yaml(file) || file.extension() == ".urdf";
+    if (is_shown && entry.is_regular_file() && file.filename().string().front() != '.') files.push_back(file);
+  }
+  std::sort(files.begin(), files.end());
+  Suite suite;
+  suite.file = path;
+  suite.name =
+      fs::path(fs::absolute(path).lexically_normal().string() + "/").parent_path().filename().string();
+  if (files.empty())
+    throw Error(ExitCode::bad_input,
+                "holds no scene (.yaml), no model (.urdf) and no " + std::string(kDefaultFile), {path});
+  ProblemList problems;
+  PictureNames names;
+  for (const fs::path& file : files) try {
+      SuitePicture picture;
+      picture.name = file_name_of(file.stem().string());
+      picture.source = file.lexically_normal().string();
+      picture.is_model = !is_yaml(file);
+      picture.telling = !picture.is_model;
+      picture.place = {picture.source};
+      if (picture.is_model)
+        picture.q = resting_pose(read_chain(picture.source));
+      else
+        read_scene(picture.source);
+      names.add(picture.name, picture.place, problems);
+      suite.pictures.push_back(std::move(picture));
+    } catch (const Error& error) {
+      add_problems(error, problems);
+    }
+  problems.throw_if_any();
+  return suite;
+}
+
+}  // namespace
+
+Suite read_suite(const std::string& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) {
+    const fs::path inside = fs::path(path) / kDefaultFile;
+    return fs::is_regular_file(inside, ignored) ? SuiteReader(inside.string()).read() : suite_of_folder(path);
+  }
+  if (fs::exists(path, ignored) && !is_yaml(path))
+    throw Error(ExitCode::bad_input,
+                "is no suite: write a " + std::string(kDefaultFile) +
+                    ", for example with `model: " + fs::path(path).filename().string() + "`",
+                {path});
+  return SuiteReader(path).read();
+}
+
+}  // namespace chainreel
