@@ -25,15 +25,15 @@ std::string remedy_for(const std::string& name, const std::vector<Named>& items,
   return near.empty() ? otherwise : near;
 }
 
-std::string quoted(const std::string& name) {
+std::string quoted_name(const std::string& name) {
   return "'" + name + "'";
 }
 
 // 'a', 'b', 'c' and 7 more
-std::string first_quoted(const std::vector<std::string>& names) {
+std::string first_names(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 5;
   std::string text;
-  for (std::size_t i = 0; i < names.size() && i < kMost; ++i) text += (i == 0 ? "" : ", ") + quoted(names[i]);
+  for (std::size_t i = 0; i < names.size() && i < kMost; ++i) text += (i == 0 ? "" : ", ") + quoted_name(names[i]);
   if (names.size() > kMost) text += " and " + std::to_string(names.size() - kMost) + " more";
   return text;
 }
@@ -44,7 +44,7 @@ int find_link(const UrdfFile& file, const NameIndex& index, const UrdfJoint& joi
   if (name.empty()) return -1;  // noted before
   const auto found = index.find(name);
   if (found != index.end()) return found->second;
-  problems.add(joint.line, "joint " + quoted(joint.name) + " names the " + role + " link " + quoted(name) +
+  problems.add(joint.line, "joint " + quoted_name(joint.name) + " names the " + role + " link " + quoted_name(name) +
                                ", which does not exist:" +
                                remedy_for(name, file.links, problems, " add a <link> of that name"));
   return -1;
@@ -59,7 +59,7 @@ void find_root(UrdfFile& file, UrdfProblems& problems) {
   }
   if (roots.size() > 1) {
     problems.add(file.links[std::size_t(file.root)].line,
-                 "the model has " + std::to_string(roots.size()) + " roots, " + first_quoted(roots) +
+                 "the model has " + std::to_string(roots.size()) + " roots, " + first_names(roots) +
                      ": every link but one must be the child of a joint");
   }
 }
@@ -87,7 +87,7 @@ void find_loops(const UrdfFile& file, UrdfProblems& problems) {
   }
   if (lost.empty()) return;
   problems.add(
-      line, "the links " + first_quoted(lost) +
+      line, "the links " + first_names(lost) +
                 " form a loop that hangs on nothing: a URDF is a tree, so remove the joint that closes it");
 }
 
@@ -101,7 +101,7 @@ int followed_joint(const UrdfFile& file, const NameIndex& index, const UrdfJoint
                    UrdfProblems& problems) {
   if (joint.mimic->joint.empty()) return -1;  // noted before
   const auto fail = [&](const std::string& message) {
-    problems.add(joint.mimic->line, "joint " + quoted(joint.name) + message);
+    problems.add(joint.mimic->line, "joint " + quoted_name(joint.name) + message);
     return -1;
   };
   if (!has_one_freedom(joint.type)) {
@@ -110,13 +110,13 @@ int followed_joint(const UrdfFile& file, const NameIndex& index, const UrdfJoint
   }
   const auto found = index.find(joint.mimic->joint);
   if (found == index.end()) {
-    return fail(" mimics " + quoted(joint.mimic->joint) + ", which does not exist:" +
+    return fail(" mimics " + quoted_name(joint.mimic->joint) + ", which does not exist:" +
                 remedy_for(joint.mimic->joint, file.joints, problems, " name a joint of this file"));
   }
   const UrdfJoint& followed = file.joints[std::size_t(found->second)];
   if (&followed == &joint) return fail(" mimics itself: name the joint that it follows");
   if (!has_one_freedom(followed.type)) {
-    return fail(" mimics " + quoted(followed.name) + ", which is " + to_string(followed.type) +
+    return fail(" mimics " + quoted_name(followed.name) + ", which is " + to_string(followed.type) +
                 ": follow a revolute, continuous or prismatic joint");
   }
   return found->second;
@@ -139,7 +139,7 @@ void connect_links(CheckedUrdf& urdf, UrdfProblems& problems) {
       continue;
     }
     if (joint.parent == joint.child) {
-      problems.add(joint.line, "joint " + quoted(joint.name) + " joins link " + quoted(urdf.child_names[j]) +
+      problems.add(joint.line, "joint " + quoted_name(joint.name) + " joins link " + quoted_name(urdf.child_names[j]) +
                                    " to itself: name another parent");
       all_known = false;
       continue;
@@ -147,9 +147,9 @@ void connect_links(CheckedUrdf& urdf, UrdfProblems& problems) {
     UrdfLink& child = file.links[std::size_t(joint.child)];
     if (child.parent_joint >= 0) {
       const UrdfJoint& other = file.joints[std::size_t(child.parent_joint)];
-      problems.add(joint.line, "link " + quoted(child.name) + " is the child of two joints, " +
-                                   quoted(other.name) + " (line " + std::to_string(other.line) + ") and " +
-                                   quoted(joint.name) + ": a link hangs on one");
+      problems.add(joint.line, "link " + quoted_name(child.name) + " is the child of two joints, " +
+                                   quoted_name(other.name) + " (line " + std::to_string(other.line) + ") and " +
+                                   quoted_name(joint.name) + ": a link hangs on one");
       all_known = false;
       continue;
     }
@@ -176,7 +176,7 @@ void check_mimics(const UrdfFile& file, UrdfProblems& problems) {
       if (seen == start + 1) {
         const UrdfJoint& joint = file.joints[std::size_t(at)];
         problems.add(joint.mimic->line,
-                     "joint " + quoted(joint.name) +
+                     "joint " + quoted_name(joint.name) +
                          " closes a ring of mimic joints that only follow each other: one of them "
                          "must be free");
       }

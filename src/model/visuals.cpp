@@ -1,22 +1,18 @@
 #include "model/visuals.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 #include <unordered_map>
 
-#include "mesh/material_color.hpp"
 #include "mesh/mesh_extents.hpp"
+#include "model/materials.hpp"
 #include "model/package_path.hpp"
 #include "model/urdf_file.hpp"
 #include "model/urdf_problems.hpp"
 
 namespace chainreel {
 namespace {
-
-using Color = std::array<std::uint8_t, 4>;
 
 VisualKind kind_of(UrdfShapeKind kind) {
   switch (kind) {
@@ -31,61 +27,6 @@ VisualKind kind_of(UrdfShapeKind kind) {
   }
   return VisualKind::box;
 }
-
-// What materials look like. A name is explained by the robot's <material>, else by the first link that says
-// more than the name; a <visual> that says something itself means that.
-class Materials {
- public:
-  Materials(const UrdfFile& file, const ModelOptions& options) : finder_(file.path, options.packages) {
-    for (const UrdfMaterial& material : file.materials) remember(material);
-    for (const UrdfLink& link : file.links)
-      for (const UrdfShape& shape : link.visuals)
-        if (shape.material) remember(*shape.material);
-  }
-
-  std::optional<Color> color_of(const UrdfMaterial& material, const std::string& link,
-                                UrdfProblems& problems) {
-    if (material.says_something()) return look_of(material);
-    if (material.name.empty()) return std::nullopt;
-    const auto known = known_.find(material.name);
-    if (known != known_.end()) return look_of(known->second);
-    if (without_file_.contains(material.name)) return std::nullopt;
-    const std::string near = problems.is_full() ? "" : near_name(material.name, names_);
-    problems.add(material.line, "link '" + link + "' names the material '" + material.name +
-                                    "', which has no colour anywhere:" +
-                                    (near.empty() ? " write <color rgba=\"0.5 0.5 0.5 1\"/> in it" : near));
-    return std::nullopt;
-  }
-
- private:
-  void remember(const UrdfMaterial& material) {
-    if (material.has_empty_texture) without_file_.insert(material.name);
-    if (material.name.empty() || !material.says_something()) return;
-    if (known_.emplace(material.name, material).second) names_.push_back(material.name);
-  }
-
-  // A texture is the mean of its image, and opaque unless there is a colour, too.
-  std::optional<Color> look_of(const UrdfMaterial& material) {
-    std::optional<Color> color;
-    if (material.rgba) {
-      color.emplace();
-      for (std::size_t i = 0; i < 4; ++i) (*color)[i] = std::uint8_t(std::lround(255 * (*material.rgba)[i]));
-    }
-    if (material.texture.empty()) return color;
-    const auto [mean, is_new] = means_.try_emplace(material.texture);
-    if (is_new) mean->second = read_mean_color(finder_.find(material.texture).path);
-    if (!mean->second) return color;
-    if (!color) color = Color{0, 0, 0, 255};
-    std::copy(mean->second->begin(), mean->second->end(), color->begin());
-    return color;
-  }
-
-  FileFinder finder_;
-  std::map<std::string, std::optional<std::array<std::uint8_t, 3>>> means_;  // of textures, by name
-  std::unordered_map<std::string, UrdfMaterial> known_;
-  std::vector<std::string> names_;  // in the file's order
-  std::set<std::string> without_file_;  // names of materials that are a texture without a file
-};
 
 }  // namespace
 

@@ -143,7 +143,8 @@ const House& house() {
                         {"report", {"film"}},
                         {"guide", {"film"}},
                         {"gallery", {"report"}},
-                        {"commands", {"report", "guide", "gallery"}},
+                        {"verify", {"report"}},
+                        {"commands", {"report", "guide", "gallery", "verify"}},
                         {"", {"commands"}}};
     // Eigen is the language of everything below scene.
     for (const auto& [folder, below] : h.uses)

@@ -1,0 +1,335 @@
+#include "app/verify/physics_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "core/change_words.hpp"
+#include "core/csv.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "core/hash.hpp"
+#include "model/model_difference.hpp"
+#include "scene/keys/keys.hpp"
+#include "scene/run/prepare.hpp"
+#include "scene/text/write_scene.hpp"
+#include "sim/trajectory_difference.hpp"
+
+namespace chainreel {
+namespace {
+
+std::string file_name(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+// Where files lie and what the model's is called is of no matter, what they say is told of themselves; how films are packed
+// no picture shows.
+bool is_recorded(const SceneKey& key) {
+  return key.name != "model" && key.name != "packages" && key.name != "title" && key.flags != FlagGroup::output && key.section() != "hold";
+}
+
+// Of the tables that drive a scene: their names as they stand in its keys, and a hash of their numbers.
+class Tables {
+ public:
+  void take(Control& control) {
+    take(control.csv);
+    take(control.inverse_of);
+    if (control.pd) take(control.pd->trajectory);
+    if (control.computed_torque) take(control.computed_torque->trajectory);
+  }
+  Json hashes() { return std::move(hashes_); }
+
+ private:
+  // Names alone stay in the key.
+  void take(std::string& path) {
+    if (path.empty()) return;
+    const Table table = read_csv(path);
+    Sha256 hash;
+    for (std::size_t i = 0; i < table.names.size(); ++i) {
+      hash.add(std::as_bytes(std::span(table.names[i].data(), table.names[i].size())));
+      hash.add(std::span<const double>(table.columns[i]));
+    }
+    path = file_name(path);
+    hashes_[path] = hash.finish();
+  }
+
+  Json hashes_ = Json::object();
+};
+
+Json keys_of(Scene scene, KeyOf of, Tables& tables) {
+  if (scene.control) tables.take(*scene.control);
+  for (TorqueEntry& entry : scene.torque)
+    if (entry.control) tables.take(*entry.control);
+  std::vector<SceneEntry> entries;
+  for (const SceneKey& key : scene_keys())
+    if (key.of == of && is_recorded(key)) key.write(key, scene, entries);
+  Json json = Json::object();
+  for (const SceneEntry& entry : entries) json[entry.key] = entry.text;
+  return json;
+}
+
+Json json_of(const std::vector<SampledNumber>& numbers) {
+  Json json = Json::array();
+  for (const SampledNumber& number : numbers) json.push_back({number.label, number.unit});
+  return json;
+}
+
+Json trajectory_record(const PreparedScene& panel, const Trajectory& trajectory) {
+  const Audit audit = audit_of(panel.simulation, trajectory);
+  SampledTrajectory run = sampled(panel.simulation.chain, trajectory);
+  Json events = Json::array();
+  for (int k = 0; k < trajectory.events.size(); ++k) {
+    const EventEntry& event = panel.scene.events[std::size_t(trajectory.events.event[std::size_t(k)])];
+    events.push_back({event.title(), trajectory.events.t[std::size_t(k)]});
+  }
+  return {{"sha256", audit.sha256},
+          {"status", run.status},
+          {"end_time", run.end_time},
+          {"events", events},
+          {"q_numbers", json_of(run.q_numbers)},
+          {"qd_numbers", json_of(run.qd_numbers)},
+          {"t", run.t},
+          {"q", run.q},
+          {"qd", run.qd}};
+}
+
+// Numbers that are none are null in JSON.
+std::vector<double> numbers_of(const Json& json) {
+  std::vector<double> numbers;
+  numbers.reserve(json.size());
+  for (const Json& one : json)
+    numbers.push_back(one.is_null() ? std::numeric_limits<double>::quiet_NaN() : one.get<double>());
+  return numbers;
+}
+
+std::vector<SampledNumber> sampled_numbers_of(const Json& json) {
+  std::vector<SampledNumber> numbers;
+  for (const Json& one : json) numbers.push_back({one.at(0).get<std::string>(), one.at(1).get<std::string>()});
+  return numbers;
+}
+
+SampledTrajectory trajectory_of(const Json& json) {
+  SampledTrajectory run;
+  run.q_numbers = sampled_numbers_of(json.at("q_numbers"));
+  run.qd_numbers = sampled_numbers_of(json.at("qd_numbers"));
+  run.t = numbers_of(json.at("t"));
+  run.q = numbers_of(json.at("q"));
+  run.qd = numbers_of(json.at("qd"));
+  if (run.q.size() != run.t.size() * run.q_numbers.size() || run.qd.size() != run.t.size() * run.qd_numbers.size())
+    throw Error(ExitCode::bad_input, "is no record of runs: its samples are incomplete");
+  for (const Json& event : json.at("events"))
+    run.events.push_back({event.at(0).get<std::string>(), event.at(1).get<double>()});
+  run.status = json.at("status").get<std::string>();
+  run.end_time = json.at("end_time").get<double>();
+  return run;
+}
+
+Json method_record(const PreparedScene& panel) {
+  const Simulation& simulation = panel.simulation;
+  Json json{{"name", simulation.method->name}, {"step", simulation.step}};
+  if (simulation.options.tolerance > 0) json["tolerance"] = simulation.options.tolerance;
+  if (simulation.options.order > 0) json["order"] = simulation.options.order;
+  return json;
+}
+
+std::string method_words(const Json& method) {
+  std::string words = method.at("name").get<std::string>();
+  if (const double step = method.at("step").get<double>(); step > 0) words += ", step " + format_shortest(step) + " s";
+  if (method.contains("tolerance")) words += ", tolerance " + format_shortest(method["tolerance"].get<double>());
+  if (method.contains("order")) words += ", order " + std::to_string(method["order"].get<int>());
+  return words;
+}
+
+// Keys that a motion depends on; those of the whole picture but for its length do not act on it.
+bool moves(const std::string& key) {
+  const SceneKey* row = find_key(key);
+  if (row == nullptr || row->name == "duration") return true;
+  return row->of == KeyOf::panel && row->chapter != "The robot's looks" && row->name != "expect";
+}
+
+struct Changes {
+  std::vector<std::string> causes;  // of other motions
+  std::vector<std::string> looks;
+};
+
+void add_key_changes(const Json& before, const Json& after, Changes& changes) {
+  const auto text = [](const Json& keys, const std::string& key) {
+    return keys.contains(key) ? keys[key].get<std::string>() : std::string();
+  };
+  const auto add = [&](const std::string& key) {
+    for (std::string& words : key_changes(key, text(before, key), text(after, key)))
+      (moves(key) ? changes.causes : changes.looks).push_back(std::move(words));
+  };
+  for (const auto& [key, value] : after.items()) add(key);
+  for (const auto& [key, value] : before.items())
+    if (!after.contains(key)) add(key);
+}
+
+// A model's file under another name is told by what differs in it; how it was read, by the scene's keys.
+void add_model_changes(const Json& before, const Json& after, Changes& changes) {
+  if (before == after) return;
+  for (ModelDifference& one : differences(model_description_of(before), model_description_of(after))) {
+    if (one.change == ModelChange::reading) continue;
+    (one.change == ModelChange::looks ? changes.looks : changes.causes).push_back(std::move(one.words));
+  }
+}
+
+void add_table_changes(const Json& before, const Json& after, Changes& changes) {
+  for (const auto& [name, hash] : after.items())
+    if (before.contains(name) && before[name] != hash) changes.causes.push_back("torque: the numbers in table " + name + " differ");
+}
+
+// What happened otherwise, first in one sentence with its cause where there is but one.
+std::vector<std::string> told(const TrajectoryDifference& difference, const Json& before, const Json& after, Changes changes) {
+  std::vector<std::string> sentences;
+  std::string motion = freedom_words(difference);
+  const bool has_other_bits = before.at("t") == after.at("t") && before.at("sha256") != after.at("sha256");
+  if (motion.empty() && has_other_bits && changes.causes.empty() && difference.others.empty())
+    motion = "the trajectory differs in its last digits, or between the samples that are kept";
+  if (motion.empty() || changes.causes.size() != 1) {
+    sentences = std::move(changes.causes);
+    if (!motion.empty()) sentences.push_back(std::move(motion));
+  } else {
+    sentences.push_back(motion + ": " + changes.causes.front());
+  }
+  sentences.insert(sentences.end(), difference.others.begin(), difference.others.end());
+  sentences.insert(sentences.end(), changes.looks.begin(), changes.looks.end());
+  return sentences;
+}
+
+std::vector<std::string> explain_panels(const Json& before, const Json& after, const Json& of_before, const Json& of_after) {
+  Changes changes;
+  add_key_changes(before.at("keys"), after.at("keys"), changes);
+  add_table_changes(before.at("tables"), after.at("tables"), changes);
+  add_model_changes(of_before.at("models").at(before.at("model").get<std::size_t>()),
+                    of_after.at("models").at(after.at("model").get<std::size_t>()), changes);
+  const std::string old = method_words(before.at("method")), now = method_words(after.at("method"));
+  const Json &run_before = before.at("trajectory"), &run_after = after.at("trajectory");
+  // Chosen otherwise, for a reason that may stand above.
+  if (old != now && before.at("keys") == after.at("keys"))
+    changes.causes.push_back("method chosen by auto: " + change_text(old, now));
+  if (run_before == run_after) return told({}, run_before, run_after, std::move(changes));
+  return told(difference_of(trajectory_of(run_before), trajectory_of(run_after)), run_before, run_after, std::move(changes));
+}
+
+// What all panels say is said once.
+std::vector<std::string> joined_panels(const std::vector<std::vector<std::string>>& panels, const Json& titles) {
+  std::vector<std::string> sentences;
+  if (panels.empty()) return sentences;
+  if (panels.size() == 1) return panels.front();
+  const auto all_say = [&](const std::string& words) {
+    return std::all_of(panels.begin(), panels.end(), [&](const std::vector<std::string>& panel) {
+      return std::find(panel.begin(), panel.end(), words) != panel.end();
+    });
+  };
+  for (const std::string& words : panels.front())
+    if (all_say(words)) sentences.push_back(words);
+  for (std::size_t i = 0; i < panels.size(); ++i)
+    for (const std::string& words : panels[i])
+      if (!all_say(words))
+        sentences.push_back("panel " + std::to_string(i + 1) + " (" + titles.at(i).at("title").get<std::string>() + "): " + words);
+  return sentences;
+}
+
+std::vector<std::string> explained(const Json& before, const Json& after) {
+  const Json &old = before.at("panels"), &now = after.at("panels");
+  std::vector<std::string> sentences;
+  if (old.size() != now.size()) {
+    sentences.push_back("compare: panels " + change_text(std::to_string(old.size()), std::to_string(now.size())));
+  } else {
+    std::vector<std::vector<std::string>> panels;
+    for (std::size_t i = 0; i < now.size(); ++i) panels.push_back(explain_panels(old[i], now[i], before, after));
+    sentences = joined_panels(panels, now);
+    for (std::size_t i = 0; now.size() > 1 && i < now.size(); ++i)
+      if (old[i].at("title") != now[i].at("title"))
+        sentences.push_back("panel " + std::to_string(i + 1) + ": title " +
+                            change_text(old[i]["title"].get<std::string>(), now[i]["title"].get<std::string>()));
+  }
+  Changes page;
+  add_key_changes(before.at("page"), after.at("page"), page);
+  sentences.insert(sentences.end(), page.causes.begin(), page.causes.end());
+  sentences.insert(sentences.end(), page.looks.begin(), page.looks.end());
+  return sentences;
+}
+
+}  // namespace
+
+Json model_record(const std::string& urdf, const ModelOptions& options, DescribeCollisions collisions) {
+  return to_json(describe_model(urdf, options, collisions));
+}
+
+Json run_record(const PreparedFilm& film, const Runs& runs) {
+  Json models = Json::array(), panels = Json::array();
+  Tables page_tables;
+  Json page = keys_of(film.scene, KeyOf::page, page_tables);
+  page["title"] = film.scene.title;
+  for (std::size_t i = 0; i < film.panels.size(); ++i) {
+    const PreparedScene& panel = film.panels[i];
+    const bool shows_collisions = panel.scene.links == LinkShapes::collision;
+    ModelOptions options = model_options_of(panel.scene);
+    options.meshes = panel.shapes != nullptr;
+    const Json model = model_record(panel.scene.model, options,
+                                    shows_collisions ? DescribeCollisions::all : DescribeCollisions::where_seen);
+    const auto known = std::find(models.begin(), models.end(), model);
+    const auto index = std::size_t(known - models.begin());
+    if (known == models.end()) models.push_back(model);
+    Tables tables;
+    Json keys = keys_of(panel.scene, KeyOf::panel, tables);
+    panels.push_back({{"title", panel.scene.title},
+                      {"keys", std::move(keys)},
+                      {"tables", tables.hashes()},
+                      {"model", index},
+                      {"method", method_record(panel)},
+                      {"trajectory", trajectory_record(panel, runs[i])}});
+  }
+  return {{"page", page}, {"panels", panels}, {"models", models}};
+}
+
+std::vector<std::string> explain_models(const Json& before, const Json& after) {
+  std::vector<std::string> sentences;
+  if (before == after) return sentences;
+  for (ModelDifference& one : differences(model_description_of(before), model_description_of(after)))
+    sentences.push_back(std::move(one.words));
+  return sentences;
+}
+
+std::vector<std::string> explain_runs(const Json& before, const Json& after) {
+  if (before == after) return {};
+  try {
+    return explained(before, after);
+  } catch (const Json::exception& error) {
+    throw Error(ExitCode::bad_input, std::string("is no record of runs: ") + error.what());
+  }
+}
+
+std::vector<std::string> explain_poses(const std::vector<double>& before, const std::vector<double>& after,
+                                       const std::vector<std::string>& coordinate_names, const Json& model) {
+  if (before.size() != after.size())
+    return {"pose: " + change_text(std::to_string(before.size()), std::to_string(after.size())) + " numbers"};
+  const std::vector<DescribedCoordinate> coordinates =
+      model.is_null() ? std::vector<DescribedCoordinate>{} : model_description_of(model).coordinates;
+  std::vector<std::string> changes;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    if (before[i] == after[i]) continue;
+    const std::string name = i < coordinate_names.size() ? coordinate_names[i] : "q" + std::to_string(i + 1);
+    const std::string unit = i < coordinates.size() ? coordinates[i].unit : "";
+    if (unit != "rad") {
+      changes.push_back(name + " " + change_text(before[i], after[i], unit));
+      continue;
+    }
+    // As few digits as tell the two apart, since 90 deg are no short number of radians.
+    const double old = before[i] * 180 / std::numbers::pi, now = after[i] * 180 / std::numbers::pi;
+    int digits = 4;
+    while (digits < 17 && (format_significant(old, digits) == format_significant(now, digits) ||
+                           std::abs(parse_number(format_significant(now, digits)).value_or(0) - now) > 0.02 * std::abs(now - old)))
+      ++digits;
+    changes.push_back(name + " " + change_text(format_significant(old, digits), format_significant(now, digits)) + " deg");
+  }
+  if (changes.empty()) return {};
+  return {"pose: " + joined(changes)};
+}
+
+}  // namespace chainreel

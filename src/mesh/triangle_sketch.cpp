@@ -1,0 +1,200 @@
+#include "mesh/triangle_sketch.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace chainreel {
+namespace {
+
+// Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014; the finaliser.
+std::uint64_t mixed(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31);
+}
+
+std::uint64_t with(std::uint64_t hash, std::uint64_t more) {
+  return mixed(hash + 0x9e3779b97f4a7c15ULL + more);
+}
+
+std::uint64_t hash_of_place(const TriangleMesh::Vertex& vertex) {
+  std::uint64_t hash = 0;
+  for (const float x : vertex.position) hash = with(hash, std::bit_cast<std::uint32_t>(x == 0 ? 0.0F : x));
+  return hash;
+}
+
+struct TriangleHash {
+  std::uint64_t shape, colors;
+};
+
+// From the corner with the least hash on, so that it does not matter with which of them a file begins.
+TriangleHash hash_of(const TriangleMesh& mesh, std::size_t first, const std::vector<std::uint64_t>& places) {
+  std::array<std::uint32_t, 3> corners{};
+  std::copy_n(mesh.triangles.begin() + std::ptrdiff_t(first), 3, corners.begin());
+  const auto least = std::min_element(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return places[a] < places[b];
+  });
+  std::rotate(corners.begin(), least, corners.end());
+  TriangleHash hash{1, 2};
+  for (const std::uint32_t corner : corners) {
+    hash.shape = with(hash.shape, places[corner]);
+    hash.colors = with(with(hash.colors, places[corner]), std::bit_cast<std::uint32_t>(mesh.vertices[corner].color));
+  }
+  return hash;
+}
+
+std::uint32_t short_of(std::uint64_t hash) {
+  return std::uint32_t(hash >> 32);
+}
+
+void add_boxes(const TriangleMesh& mesh, TriangleSketch& sketch) {
+  if (mesh.triangles.empty()) return;
+  sketch.lower = sketch.upper = mesh.vertices[mesh.triangles.front()].position;
+  for (const std::uint32_t corner : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      sketch.lower[i] = std::min(sketch.lower[i], mesh.vertices[corner].position[i]);
+      sketch.upper[i] = std::max(sketch.upper[i], mesh.vertices[corner].position[i]);
+    }
+}
+
+// How many values two sorted lists do not have in common, each as often as it stands there.
+struct Unshared {
+  std::size_t gone = 0, come = 0;
+};
+Unshared unshared_of(const std::vector<std::uint32_t>& before, const std::vector<std::uint32_t>& after) {
+  Unshared unshared;
+  std::size_t i = 0, k = 0;
+  while (i < before.size() && k < after.size()) {
+    if (before[i] == after[k])
+      ++i, ++k;
+    else if (before[i] < after[k])
+      ++unshared.gone, ++i;
+    else
+      ++unshared.come, ++k;
+  }
+  unshared.gone += before.size() - i;
+  unshared.come += after.size() - k;
+  return unshared;
+}
+
+std::vector<std::uint32_t> thinned(const std::vector<std::uint32_t>& sample, int thinning) {
+  std::vector<std::uint32_t> kept;
+  for (const std::uint32_t hash : sample)
+    if (std::countr_zero(hash) >= thinning) kept.push_back(hash);
+  return kept;
+}
+
+}  // namespace
+
+TriangleSketch sketch_of(const TriangleMesh& mesh) {
+  std::vector<std::uint64_t> places;
+  places.reserve(mesh.vertices.size());
+  for (const TriangleMesh::Vertex& vertex : mesh.vertices) places.push_back(hash_of_place(vertex));
+  TriangleSketch sketch;
+  sketch.triangles = mesh.triangles.size() / 3;
+  sketch.buckets.assign(TriangleSketch::kBuckets, 0);
+  for (std::size_t first = 0; first + 2 < mesh.triangles.size(); first += 3) {
+    const TriangleHash hash = hash_of(mesh, first, places);
+    sketch.shape += hash.shape;
+    sketch.colors += hash.colors;
+    sketch.buckets[hash.shape % TriangleSketch::kBuckets] += short_of(hash.shape);
+    if (std::countr_zero(short_of(hash.shape)) < sketch.thinning) continue;
+    sketch.sample.push_back(short_of(hash.shape));
+    while (sketch.sample.size() > TriangleSketch::kLargestSample) sketch.sample = thinned(sketch.sample, ++sketch.thinning);
+  }
+  std::sort(sketch.sample.begin(), sketch.sample.end());
+  if (sketch.thinning == 0) sketch.buckets.clear();  // the sample knows all
+  add_boxes(mesh, sketch);
+  return sketch;
+}
+
+TriangleDifference difference_of(const TriangleSketch& before, const TriangleSketch& after) {
+  TriangleDifference difference;
+  if (before.triangles == after.triangles && before.shape == after.shape) return difference;
+  const double more = double(after.triangles) - double(before.triangles);
+  const int thinning = std::max(before.thinning, after.thinning);
+  double changes = 0;  // gone and come
+  const bool by_buckets = before.buckets.size() == TriangleSketch::kBuckets && after.buckets.size() == before.buckets.size();
+  std::size_t changed = 0;
+  for (std::size_t i = 0; by_buckets && i < before.buckets.size(); ++i) changed += before.buckets[i] != after.buckets[i];
+  if (by_buckets && changed < TriangleSketch::kBuckets * 3 / 4) {
+    // So many balls in so many urns leave that many empty.
+    changes = -double(TriangleSketch::kBuckets) * std::log1p(-double(changed) / double(TriangleSketch::kBuckets));
+    if (changed <= 2) changes = double(changed);
+    difference.is_counted = changed <= 2;
+  } else {
+    const Unshared unshared = unshared_of(thinned(before.sample, thinning), thinned(after.sample, thinning));
+    changes = std::ldexp(double(unshared.gone + unshared.come), thinning);
+    difference.is_counted = thinning == 0;
+  }
+  changes = std::max({changes, std::abs(more), 1.0});
+  difference.gone = std::min((changes - more) / 2, double(before.triangles));
+  difference.come = std::min((changes + more) / 2, double(after.triangles));
+  const double all = double(std::max(before.triangles, after.triangles));
+  difference.share = std::max(difference.gone, difference.come) / std::max(all, 1.0);
+  return difference;
+}
+
+namespace {
+
+template <class Number>
+std::string hex(Number value) {
+  std::string text(2 * sizeof(Number), '0');
+  for (std::size_t i = text.size(); i-- > 0; value >>= 4) text[i] = "0123456789abcdef"[value & 15];
+  return text;
+}
+
+template <class Number>
+Number from_hex(std::string_view text) {
+  Number value = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+  if (code != std::errc() || end != text.data() + text.size()) throw std::invalid_argument("no hexadecimal number");
+  return value;
+}
+
+std::string hex_of(const std::vector<std::uint32_t>& values) {
+  std::string text;
+  for (const std::uint32_t value : values) text += hex(value);
+  return text;
+}
+
+std::vector<std::uint32_t> values_of(const std::string& text) {
+  std::vector<std::uint32_t> values;
+  for (std::size_t i = 0; i < text.size(); i += 8) values.push_back(from_hex<std::uint32_t>(std::string_view(text).substr(i, 8)));
+  return values;
+}
+
+}  // namespace
+
+Json to_json(const TriangleSketch& sketch) {
+  Json json{{"triangles", sketch.triangles},
+            {"shape", hex(sketch.shape)},
+            {"colors", hex(sketch.colors)},
+            {"lower", sketch.lower},
+            {"upper", sketch.upper}};
+  if (!sketch.buckets.empty()) json["buckets"] = hex_of(sketch.buckets);
+  json["thinning"] = sketch.thinning;
+  json["sample"] = hex_of(sketch.sample);
+  return json;
+}
+
+TriangleSketch triangle_sketch_of(const Json& json) {
+  TriangleSketch sketch;
+  sketch.triangles = json.at("triangles").get<std::size_t>();
+  sketch.shape = from_hex<std::uint64_t>(json.at("shape").get<std::string>());
+  sketch.colors = from_hex<std::uint64_t>(json.at("colors").get<std::string>());
+  sketch.lower = json.at("lower").get<std::array<float, 3>>();
+  sketch.upper = json.at("upper").get<std::array<float, 3>>();
+  if (json.contains("buckets")) sketch.buckets = values_of(json.at("buckets").get<std::string>());
+  sketch.thinning = json.at("thinning").get<int>();
+  if (sketch.thinning < 0 || sketch.thinning > 32) throw std::invalid_argument("no sample of triangles");
+  sketch.sample = values_of(json.at("sample").get<std::string>());
+  return sketch;
+}
+
+}  // namespace chainreel

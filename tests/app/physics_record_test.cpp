@@ -1,0 +1,165 @@
+// What stands behind pictures, and what is said of two states of it.
+
+#include "app/verify/physics_record.hpp"
+
+#include <gmock/gmock.h>
+
+#include <regex>
+
+#include "app/verify/key_difference.hpp"
+#include "core/error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+constexpr char kRr[] = CHAINREEL_SOURCE_FOLDER "/models/rr.urdf";
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  if (at == std::string::npos) throw std::runtime_error("'" + from + "' is not in the text");
+  return text.replace(at, from.size(), to);
+}
+
+Json record_of(const std::string& scene, const std::vector<std::string>& overrides = {}) {
+  const PreparedFilm film = load_film(scene, overrides, false);
+  return run_record(film, Runs(film));
+}
+
+constexpr char kScene[] =
+    "model: rr.urdf\nduration: 1\nmethod: rk4\nstep: 0.01\ntorque: [1, \"-2 * qd2\"]\nvideo: {fps: 30}\n";
+
+struct Workshop {
+  TemporaryFolder folder;
+  std::string scene;
+  Workshop() {
+    folder.write("rr.urdf", read_whole_file(kRr));
+    scene = folder.write("scene.yaml", kScene);
+  }
+  // What is said where the scene is changed by an override, or the model by a replacement.
+  std::vector<std::string> after(const std::vector<std::string>& overrides) const {
+    return explain_runs(record_of(scene), record_of(scene, overrides));
+  }
+  std::vector<std::string> after_model(const std::string& from, const std::string& to) const {
+    const Json before = record_of(scene);
+    const std::string text = read_whole_file(kRr);
+    folder.write("rr.urdf", with(text, from, to));
+    const Json now = record_of(scene);
+    folder.write("rr.urdf", text);
+    return explain_runs(before, now);
+  }
+};
+
+TEST(PhysicsRecord, IsTheSameInAnyFolderAndWithAnyLineEndings) {
+  const Workshop here, there;
+  const std::string first = record_of(here.scene).dump();
+  EXPECT_EQ(first, record_of(there.scene).dump());
+  for (const char* name : {"rr.urdf", "scene.yaml"}) {
+    const std::string text = read_whole_file(there.folder.file(name));
+    there.folder.write(name, std::regex_replace(text, std::regex("\n"), "\r\n"));
+  }
+  EXPECT_EQ(first, record_of(there.scene).dump());
+  // Found from another working folder, its paths look otherwise.
+  const std::string relative = std::filesystem::relative(here.scene).string();
+  EXPECT_EQ(first, record_of(relative).dump());
+  EXPECT_THAT(first, testing::Not(HasSubstr(here.folder.path().filename().string())));
+  EXPECT_LT(first.size(), 100'000U);
+  EXPECT_THAT(explain_runs(Json::parse(first), record_of(here.scene)), IsEmpty());
+}
+
+TEST(PhysicsRecord, TellsAMotionTogetherWithItsOneCause) {
+  const Workshop shop;
+  EXPECT_THAT(shop.after({"method=explicit_euler"}),
+              ElementsAre(AllOf(StartsWith("q"), HasSubstr(" differs by "), HasSubstr(" from t = 0.03"), HasSubstr("(largest "),
+                                HasSubstr(": method rk4 -> explicit_euler"))));
+  EXPECT_THAT(shop.after({"torque.1=1.01"}), ElementsAre(AllOf(HasSubstr("differs by"), HasSubstr(": torque.1 1 -> 1.01"))));
+  EXPECT_THAT(shop.after_model("<mass value=\"1\"/>", "<mass value=\"1.01\"/>"),
+              ElementsAre(AllOf(StartsWith("q"), HasSubstr(": link link1: mass 1 -> 1.01 kg, URDF line 20"))));
+  // Several causes stand by themselves, before what comes of them.
+  EXPECT_THAT(shop.after({"torque.1=1.01", "start.q=[0.001, 0]"}),
+              ElementsAre("start.q.1 0 -> 0.001", "torque.1 1 -> 1.01",
+                          AllOf(HasSubstr("q1 (joint1) differs by 0.001 rad from t = 0 s on"), HasSubstr("and so does 1 more"))));
+}
+
+TEST(PhysicsRecord, TellsKeysThatMoveNothing) {
+  const Workshop shop;
+  EXPECT_THAT(shop.after({"theme=dark"}), ElementsAre("theme light -> dark"));
+  EXPECT_THAT(shop.after({"camera.azimuth=10deg"}), ElementsAre(StartsWith("camera.azimuth: left out -> 0.17")));
+  EXPECT_THAT(shop.after({"video.fps=60"}), ElementsAre("video.fps 30 -> 60"));
+  EXPECT_THAT(shop.after({"duration=2"}),
+              ElementsAre("the run finished at t = 1 s -> finished at t = 2 s", "duration 1 -> 2"));
+  EXPECT_THAT(shop.after_model("rgba=\"0.337", "rgba=\"0.353"),
+              ElementsAre(AllOf(HasSubstr("link link1: visual 1 (cylinder) colour 86 180 233 255 -> 90 180 233 255 of 255"),
+                                HasSubstr("material sky")),
+                          HasSubstr("link link1: visual 2 (sphere) colour")));
+  // How a film is packed is no part of a picture, nor is where a model lies.
+  EXPECT_THAT(shop.after({"video.preset=web", "hold.last=2"}), IsEmpty());
+}
+
+TEST(PhysicsRecord, NamesTheTableWhoseNumbersChanged) {
+  const Workshop shop;
+  shop.folder.write("tau.csv", "t,tau1,tau2\n0,1,0\n1,1,0\n");
+  const std::vector<std::string> drive = {"torque={csv: tau.csv}"};
+  const Json before = record_of(shop.scene, drive);
+  shop.folder.write("tau.csv", "t,tau1,tau2\r\n0,1.0,0\r\n1,1,0\r\n");
+  EXPECT_EQ(before.dump(), record_of(shop.scene, drive).dump());
+  shop.folder.write("tau.csv", "t,tau1,tau2\n0,1,0\n1,1.1,0\n");
+  EXPECT_THAT(explain_runs(before, record_of(shop.scene, drive)),
+              ElementsAre(AllOf(StartsWith("q1 (joint1) differs by"), HasSubstr("the numbers in table tau.csv differ"))));
+}
+
+TEST(PhysicsRecord, SaysWhatOnePanelHasAlone) {
+  const Workshop shop;
+  const std::string page = "compare=[{method: rk4}, {method: semi_implicit_euler}]";
+  const Json before = record_of(shop.scene, {page});
+  EXPECT_THAT(explain_runs(before, record_of(shop.scene, {page, "theme=dark"})), ElementsAre("theme light -> dark"));
+  EXPECT_THAT(explain_runs(before, record_of(shop.scene, {"compare=[{method: rk4}, {method: symplectic_euler}]"})),
+              testing::Contains(AllOf(StartsWith("panel 2 ("), HasSubstr("method semi_implicit_euler -> symplectic_euler"))));
+  EXPECT_THAT(explain_runs(before, record_of(shop.scene)), testing::Contains("compare: panels 2 -> 1"));
+}
+
+TEST(PhysicsRecord, RefusesWhatIsNone) {
+  const Workshop shop;
+  const Json good = record_of(shop.scene);
+  Json cut = good;
+  cut["panels"][0]["trajectory"]["q"].erase(0);
+  Json empty = good;
+  empty["models"] = Json::array();
+  Json words = good;
+  words["panels"][0]["trajectory"]["q"] = "x";
+  for (const Json& bad : {Json(), Json::array(), Json{{"panels", 3}}, cut, empty, words})
+    EXPECT_THROW(explain_runs(good, bad), Error) << bad.dump().substr(0, 200);
+  EXPECT_THROW(explain_models(good["models"][0], Json::object()), Error);
+}
+
+TEST(KeyDifference, GoesDownToTheEntryThatDiffers) {
+  EXPECT_THAT(key_changes("method", "rk4", "dop853"), ElementsAre("method rk4 -> dop853"));
+  EXPECT_THAT(key_changes("step", "", "0.01"), ElementsAre("step: left out -> 0.01"));
+  EXPECT_THAT(key_changes("torque", "[0, \"max(0, q1)\"]", "[0, \"max(1, q1)\"]"),
+              ElementsAre("torque.2: \"max(0, q1)\" -> \"max(1, q1)\""));
+  EXPECT_THAT(key_changes("torque", "{pd: {kp: [1, 2], kd: [3]}}", "{pd: {kp: [1, 4], kd: [3]}, csv: a.csv}"),
+              ElementsAre("torque.pd.kp.2 2 -> 4", "torque.csv: left out -> a.csv"));
+  EXPECT_THAT(key_changes("start.q", "[1]", "[1, 2]"), ElementsAre("start.q: [1] -> [1, 2]"));
+  EXPECT_THAT(key_changes("a", "[1, 2]", "[1,  2]"), ElementsAre("a: [1, 2] -> [1,  2]"));  // never silent
+}
+
+TEST(Poses, AreToldByJointsInTheUnitsThatTheyHave) {
+  const Json model = model_record(CHAINREEL_SOURCE_FOLDER "/models/pp.urdf", {});
+  EXPECT_THAT(explain_poses({0, 1}, {0, 1.5}, {"slide1", "slide2"}, model), ElementsAre("pose: slide2 1 -> 1.5 m"));
+  const Json arm = model_record(kRr, {});
+  EXPECT_THAT(explain_poses({0, 1.5707963267948966}, {0, 1.5718435243461}, {"joint1", "joint2"}, arm),
+              ElementsAre("pose: joint2 90 -> 90.06 deg"));
+  EXPECT_THAT(explain_poses({0, 1.5}, {0, 1.5 + 1e-13}, {"joint1", "joint2"}, arm), ElementsAre(StartsWith("pose: joint2 85.9436692696")));
+  EXPECT_THAT(explain_poses({0, 1.5}, {0, 1.6}, {"joint1", "joint2"}), ElementsAre("pose: joint2 1.5 -> 1.6"));
+  EXPECT_THAT(explain_poses({0, 1.5}, {0, 1.5}, {"joint1", "joint2"}, arm), IsEmpty());
+  EXPECT_THAT(explain_poses({0}, {0, 1.5}, {"joint1", "joint2"}), ElementsAre("pose: 1 -> 2 numbers"));
+}
+
+}  // namespace
+}  // namespace chainreel
