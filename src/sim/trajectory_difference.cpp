@@ -204,7 +204,7 @@ std::string freedom_words(const TrajectoryDifference& difference) {
   if (first.largest_time != first.first_time)
     words += " (largest " + amount(first.largest, first.unit) + " at " + time_text(first.largest_time) + ")";
   const std::size_t more = difference.freedoms.size() - 1;
-  if (more > 0) words += " and so do" + std::string(more > 1 ? "" : "es") + " " + std::to_string(more) + " more";
+  if (more > 0) words += more > 1 ? ", as do " + std::to_string(more) + " others" : ", as does 1 other";
   return words;
 }
 
