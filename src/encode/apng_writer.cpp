@@ -71,7 +71,7 @@ void ApngWriter::write(const Image& full) {
   State& s = *state_;
   if (!s.small.takes_next()) return;
   const Image& image = s.small.shrink(full);
-  check_libav(av_frame_make_writable(s.frame.get()), ExitCode::limit, "no memory left for a frame");
+  check_libav(libav().av_frame_make_writable(s.frame.get()), ExitCode::limit, "no memory left for a frame");
   const int channels = s.settings.alpha ? 4 : 3;
   for (int y = 0; y < image.height; ++y) {
     const std::uint8_t* from = &image.bgra[std::size_t(4) * std::size_t(image.width) * std::size_t(y)];

@@ -17,11 +17,11 @@ constexpr double kGopSeconds = 2;
 constexpr int kProresQuantiser = 4;  // a fixed one; the decoded picture is within 2/255 in flat areas
 
 CodecContextPtr make_context(const char* name) {
-  const AVCodec* codec = avcodec_find_encoder_by_name(name);
+  const AVCodec* codec = libav().avcodec_find_encoder_by_name(name);
   if (codec == nullptr)
     throw Error(ExitCode::no_renderer, std::string("FFmpeg's libavcodec has no encoder ") + name +
                                            ": install Debian's libavcodec59");
-  CodecContextPtr context(check_allocated(avcodec_alloc_context3(codec), "the encoder"));
+  CodecContextPtr context(check_allocated(libav().avcodec_alloc_context3(codec), "the encoder"));
   context->sample_aspect_ratio = {1, 1};
   context->flags |= AV_CODEC_FLAG_BITEXACT | AV_CODEC_FLAG_GLOBAL_HEADER;
   return context;
@@ -39,11 +39,11 @@ AVDictionary* h264_options(AVCodecContext& context, const VideoSettings& setting
   context.pix_fmt = AV_PIX_FMT_YUV420P;
   set_gop(context, settings.fps);
   AVDictionary* options = nullptr;
-  av_dict_set(&options, "preset", "veryfast", 0);
-  av_dict_set(&options, "profile", "high", 0);
-  av_dict_set(&options, "crf", format_shortest(crf_of(settings)).c_str(), 0);
+  libav().av_dict_set(&options, "preset", "veryfast", 0);
+  libav().av_dict_set(&options, "profile", "high", 0);
+  libav().av_dict_set(&options, "crf", format_shortest(crf_of(settings)).c_str(), 0);
   // cpu-independent: the same bytes whichever instruction set x264 finds.
-  av_dict_set(&options, "x264-params", "scenecut=0:open-gop=0:force-cfr=1:cpu-independent=1", 0);
+  libav().av_dict_set(&options, "x264-params", "scenecut=0:open-gop=0:force-cfr=1:cpu-independent=1", 0);
   return options;
 }
 
@@ -52,13 +52,13 @@ AVDictionary* vp9_options(AVCodecContext& context, const VideoSettings& settings
   context.bit_rate = 0;  // constant quality
   set_gop(context, settings.fps);
   AVDictionary* options = nullptr;
-  av_dict_set(&options, "crf", format_shortest(crf_of(settings)).c_str(), 0);
-  av_dict_set(&options, "deadline", "good", 0);
-  av_dict_set(&options, "cpu-used", "4", 0);
-  av_dict_set(&options, "row-mt", "1", 0);
-  av_dict_set(&options, "tile-columns", "2", 0);
+  libav().av_dict_set(&options, "crf", format_shortest(crf_of(settings)).c_str(), 0);
+  libav().av_dict_set(&options, "deadline", "good", 0);
+  libav().av_dict_set(&options, "cpu-used", "4", 0);
+  libav().av_dict_set(&options, "row-mt", "1", 0);
+  libav().av_dict_set(&options, "tile-columns", "2", 0);
   // Frames that are never shown have no opacity beside them: libvpx cannot have both.
-  if (settings.alpha) av_dict_set(&options, "auto-alt-ref", "0", 0);
+  if (settings.alpha) libav().av_dict_set(&options, "auto-alt-ref", "0", 0);
   return options;
 }
 
@@ -67,8 +67,8 @@ AVDictionary* prores_options(AVCodecContext& context, const VideoSettings& setti
   context.flags |= AV_CODEC_FLAG_QSCALE;
   context.global_quality = kProresQuantiser * FF_QP2LAMBDA;
   AVDictionary* options = nullptr;
-  av_dict_set(&options, "profile", "4444", 0);
-  av_dict_set(&options, "alpha_bits", settings.alpha ? "16" : "0", 0);
+  libav().av_dict_set(&options, "profile", "4444", 0);
+  libav().av_dict_set(&options, "alpha_bits", settings.alpha ? "16" : "0", 0);
   return options;
 }
 
@@ -107,8 +107,8 @@ CodecContextPtr open_encoder(const VideoSettings& settings) {
   context->thread_count = kEncoderThreads;
 
   AVDictionary* options = row.options(*context, settings);
-  const int code = avcodec_open2(context.get(), context->codec, &options);
-  av_dict_free(&options);
+  const int code = libav().avcodec_open2(context.get(), context->codec, &options);
+  libav().av_dict_free(&options);
   check_libav(code, ExitCode::no_renderer,
               std::string(row.encoder) + " refuses a film of " + std::to_string(settings.width) + "x" +
                   std::to_string(settings.height) + " at " + std::to_string(settings.fps.num) + "/" +
@@ -126,13 +126,13 @@ CodecContextPtr open_small_encoder(const char* name, AVPixelFormat format, int w
   context->framerate = av_inv_q(frame_time);
   context->thread_count = 1;
   check_libav(
-      avcodec_open2(context.get(), context->codec, nullptr), ExitCode::no_renderer,
+      libav().avcodec_open2(context.get(), context->codec, nullptr), ExitCode::no_renderer,
       std::string(name) + " refuses a clip of " + std::to_string(width) + "x" + std::to_string(height));
   return context;
 }
 
 FramePtr allocate_frame(const AVCodecContext& encoder) {
-  FramePtr frame(check_allocated(av_frame_alloc(), "a frame"));
+  FramePtr frame(check_allocated(libav().av_frame_alloc(), "a frame"));
   frame->format = encoder.pix_fmt;
   frame->width = encoder.width;
   frame->height = encoder.height;
@@ -140,7 +140,7 @@ FramePtr allocate_frame(const AVCodecContext& encoder) {
   frame->color_trc = encoder.color_trc;
   frame->colorspace = encoder.colorspace;
   frame->color_range = encoder.color_range;
-  check_libav(av_frame_get_buffer(frame.get(), 0), ExitCode::limit, "no memory left for a frame");
+  check_libav(libav().av_frame_get_buffer(frame.get(), 0), ExitCode::limit, "no memory left for a frame");
   return frame;
 }
 

@@ -47,19 +47,19 @@ struct FileReader {
 
 void free_stream(AVIOContext* stream) {
   if (stream == nullptr) return;
-  av_freep(&stream->buffer);
-  avio_context_free(&stream);
+  libav().av_freep(&stream->buffer);
+  libav().avio_context_free(&stream);
 }
 
 // Muxers open the file a second time to move the index before the frames.
 int open_reader(AVFormatContext* format, AVIOContext** stream, const char*, int flags, AVDictionary**) {
   if ((flags & AVIO_FLAG_WRITE) != 0) return AVERROR(ENOSYS);
-  auto* buffer = static_cast<unsigned char*>(av_malloc(kBuffer));
+  auto* buffer = static_cast<unsigned char*>(libav().av_malloc(kBuffer));
   auto reader = std::make_unique<FileReader>(FileReader{*static_cast<const int*>(format->opaque)});
   *stream = buffer == nullptr ? nullptr
-                              : avio_alloc_context(buffer, kBuffer, 0, reader.get(), &FileReader::read, nullptr, &FileReader::seek);
+                              : libav().avio_alloc_context(buffer, kBuffer, 0, reader.get(), &FileReader::read, nullptr, &FileReader::seek);
   if (*stream == nullptr) {
-    av_free(buffer);
+    libav().av_free(buffer);
     return AVERROR(ENOMEM);
   }
   reader.release();  // close_reader takes it back
@@ -81,10 +81,10 @@ FilmFile::FilmFile(const std::string& path)
     throw Error(ExitCode::file,
                 std::string("the film cannot be written here (") + std::strerror(errno) + "); choose another place with -o",
                 {path});
-  auto* buffer = static_cast<unsigned char*>(av_malloc(kBuffer));
-  if (buffer != nullptr) stream_ = avio_alloc_context(buffer, kBuffer, 1, this, nullptr, &write, &seek);
+  auto* buffer = static_cast<unsigned char*>(libav().av_malloc(kBuffer));
+  if (buffer != nullptr) stream_ = libav().avio_alloc_context(buffer, kBuffer, 1, this, nullptr, &write, &seek);
   if (stream_ != nullptr) return;
-  av_free(buffer);
+  libav().av_free(buffer);
   ::close(file_);
   throw Error(ExitCode::limit, "no memory left for the film's file");
 }
@@ -126,7 +126,7 @@ std::int64_t FilmFile::seek(void* self, std::int64_t offset, int whence) {
 }
 
 int FilmFile::close() {
-  avio_flush(stream_);
+  libav().avio_flush(stream_);
   if (trouble_ == 0 && stream_->error < 0) trouble_ = -stream_->error;
   const int file = file_;
   file_ = -1;

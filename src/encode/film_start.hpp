@@ -23,7 +23,7 @@ FilmStart read_film_start(const std::string& path, int widest);
 // Films that are read back. Only encode includes this.
 
 struct CloseFilmInput {
-  void operator()(AVFormatContext* p) const { avformat_close_input(&p); }
+  void operator()(AVFormatContext* p) const { libav().avformat_close_input(&p); }
 };
 using FilmInputPtr = std::unique_ptr<AVFormatContext, CloseFilmInput>;
 

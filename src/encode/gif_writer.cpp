@@ -78,7 +78,7 @@ void GifWriter::finish() {
   Image image(s.small.width(), s.small.height());
   for (const std::vector<Bytef>& bytes : s.frames) {
     unpack(bytes, image);
-    check_libav(av_frame_make_writable(frame.get()), ExitCode::limit, "no memory left for a frame");
+    check_libav(libav().av_frame_make_writable(frame.get()), ExitCode::limit, "no memory left for a frame");
     // Entries that are left over are transparent: the encoder takes one for "as before".
     std::memset(frame->data[1], 0, AVPALETTE_SIZE);
     for (std::size_t i = 0; i < map.palette().size(); ++i) {

@@ -6,11 +6,8 @@
 #include <cstdarg>
 #include <mutex>
 #include <utility>
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libavutil/avutil.h>
-}
+
+#include "encode/library_versions.hpp"
 
 namespace chainreel {
 namespace {
@@ -32,7 +29,7 @@ void keep_error_lines(void* context, int level, const char* format, va_list argu
   if (level > AV_LOG_ERROR) return;
   std::array<char, 1024> line{};
   int print_prefix = 0;  // it holds an address, which differs from run to run
-  av_log_format_line2(context, level, format, arguments, line.data(), static_cast<int>(line.size()),
+  libav().av_log_format_line2(context, level, format, arguments, line.data(), static_cast<int>(line.size()),
                       &print_prefix);
   const std::lock_guard lock(log().mutex);
   if (log().lines.size() < kLongestLog) log().lines += line.data();
@@ -51,7 +48,7 @@ std::string take_log() {
 
 void capture_libav_log() {
   static const bool installed = [] {
-    av_log_set_callback(keep_error_lines);
+    libav().av_log_set_callback(keep_error_lines);
     return true;
   }();
   static_cast<void>(installed);
@@ -61,7 +58,7 @@ void capture_libav_log() {
 int check_libav(int code, ExitCode exit_code, const std::string& what, const std::string& path) {
   if (code >= 0) return code;
   std::array<char, AV_ERROR_MAX_STRING_SIZE> reason{};
-  av_strerror(code, reason.data(), reason.size());
+  libav().av_strerror(code, reason.data(), reason.size());
   const std::string said = take_log();
   throw Error(exit_code, what + ": " + reason.data() + (said.empty() ? "" : " (" + said + ")"), {path});
 }
@@ -77,18 +74,19 @@ constexpr std::array kEncoders = {"libx264", "libvpx-vp9", "prores_ks", "gif", "
 
 }  // namespace
 
-std::vector<LibraryVersion> encode_library_versions() {
-  return {{"FFmpeg", av_version_info()},
-          {"libavcodec", version_text(avcodec_version())},
-          {"libavformat", version_text(avformat_version())},
-          {"libavutil", version_text(avutil_version())},
+std::vector<LibraryVersion> encode_library_versions(Writes writes) {
+  if (writes == Writes::pictures) return {{"libpng", png_get_libpng_ver(nullptr)}};
+  return {{"FFmpeg", libav().av_version_info()},
+          {"libavcodec", version_text(libav().avcodec_version())},
+          {"libavformat", version_text(libav().avformat_version())},
+          {"libavutil", version_text(libav().avutil_version())},
           {"libpng", png_get_libpng_ver(nullptr)}};
 }
 
 std::vector<std::string> available_encoders() {
   std::vector<std::string> found;
   for (const char* name : kEncoders)
-    if (avcodec_find_encoder_by_name(name) != nullptr) found.emplace_back(name);
+    if (libav().avcodec_find_encoder_by_name(name) != nullptr) found.emplace_back(name);
   return found;
 }
 

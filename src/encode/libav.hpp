@@ -2,28 +2,23 @@
 // reason inside an Error. Only writers of films and readers of films in the tests include this.
 #pragma once
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libavutil/opt.h>
-#include <libavutil/pixdesc.h>
-}
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
+#include "encode/libav_functions.hpp"
 
 namespace chainreel {
 
 struct FreeCodecContext {
-  void operator()(AVCodecContext* p) const { avcodec_free_context(&p); }
+  void operator()(AVCodecContext* p) const { libav().avcodec_free_context(&p); }
 };
 struct FreeFrame {
-  void operator()(AVFrame* p) const { av_frame_free(&p); }
+  void operator()(AVFrame* p) const { libav().av_frame_free(&p); }
 };
 struct FreePacket {
-  void operator()(AVPacket* p) const { av_packet_free(&p); }
+  void operator()(AVPacket* p) const { libav().av_packet_free(&p); }
 };
 using CodecContextPtr = std::unique_ptr<AVCodecContext, FreeCodecContext>;
 using FramePtr = std::unique_ptr<AVFrame, FreeFrame>;
@@ -41,18 +36,5 @@ T* check_allocated(T* pointer, const char* what) {
   if (pointer == nullptr) throw Error(ExitCode::limit, std::string("no memory left for ") + what);
   return pointer;
 }
-
-// What the encoding libraries on this machine are and can do: for `doctor` and the audit beside a film.
-
-struct LibraryVersion {
-  std::string name;
-  std::string version;
-};
-
-// The libraries that were found at run time, which are not always those that were compiled against.
-std::vector<LibraryVersion> encode_library_versions();
-
-// The encoders that are there, of those that the program cares for.
-std::vector<std::string> available_encoders();
 
 }  // namespace chainreel

@@ -19,7 +19,7 @@ std::int64_t ticks_of(AVRational fps) {
 
 Muxer::Muxer(std::string path, const Container& container, CodecContextPtr encoder, const Tags& tags)
     : path_(std::move(path)), encoder_(std::move(encoder)) {
-  packet_.reset(check_allocated(av_packet_alloc(), "a packet"));
+  packet_.reset(check_allocated(libav().av_packet_alloc(), "a packet"));
   try {
     open_file(container, tags);
   } catch (...) {
@@ -31,18 +31,18 @@ Muxer::Muxer(std::string path, const Container& container, CodecContextPtr encod
 void Muxer::open_file(const Container& container, const Tags& tags) {
   const std::string url = "file:" + path_;  // or "a:b.mp4" would be taken for a protocol
   AVFormatContext* raw = nullptr;
-  check_libav(avformat_alloc_output_context2(&raw, nullptr, container.format, url.c_str()),
+  check_libav(libav().avformat_alloc_output_context2(&raw, nullptr, container.format, url.c_str()),
               ExitCode::no_renderer, std::string("FFmpeg's libavformat cannot write ") + container.name);
   format_.reset(raw);
   raw->flags |= AVFMT_FLAG_BITEXACT;  // no creation time, no version of the library
-  stream_ = check_allocated(avformat_new_stream(raw, nullptr), "the film's track");
+  stream_ = check_allocated(libav().avformat_new_stream(raw, nullptr), "the film's track");
   stream_->time_base = encoder_->time_base;
   stream_->avg_frame_rate = encoder_->framerate;
-  check_libav(avcodec_parameters_from_context(stream_->codecpar, encoder_.get()), ExitCode::limit,
+  check_libav(libav().avcodec_parameters_from_context(stream_->codecpar, encoder_.get()), ExitCode::limit,
               "no memory left for the film's track");
   // By this tag WebM's players find the opacity beside the pictures.
-  if (encoder_->pix_fmt == AV_PIX_FMT_YUVA420P) av_dict_set(&stream_->metadata, "alpha_mode", "1", 0);
-  for (const auto& [key, value] : tags) av_dict_set(&raw->metadata, key.c_str(), value.c_str(), 0);
+  if (encoder_->pix_fmt == AV_PIX_FMT_YUVA420P) libav().av_dict_set(&stream_->metadata, "alpha_mode", "1", 0);
+  for (const auto& [key, value] : tags) libav().av_dict_set(&raw->metadata, key.c_str(), value.c_str(), 0);
   file_ = std::make_unique<FilmFile>(path_);
   file_->attach(*raw);
 
@@ -51,20 +51,20 @@ void Muxer::open_file(const Container& container, const Tags& tags) {
     // Times are exact: movie and track both count in the track's ticks. Tags of any name need the second
     // flag.
     const std::int64_t ticks = ticks_of(encoder_->framerate);
-    av_dict_set(&options, "movflags", tags.empty() ? "+faststart" : "+faststart+use_metadata_tags", 0);
-    av_dict_set_int(&options, "video_track_timescale", ticks, 0);
-    av_dict_set_int(&options, "movie_timescale", ticks, 0);
+    libav().av_dict_set(&options, "movflags", tags.empty() ? "+faststart" : "+faststart+use_metadata_tags", 0);
+    libav().av_dict_set_int(&options, "video_track_timescale", ticks, 0);
+    libav().av_dict_set_int(&options, "movie_timescale", ticks, 0);
   }
-  if (std::string_view(container.format) == "apng") av_dict_set(&options, "plays", "0", 0);  // for ever
-  const int code = avformat_write_header(raw, &options);
-  av_dict_free(&options);
+  if (std::string_view(container.format) == "apng") libav().av_dict_set(&options, "plays", "0", 0);  // for ever
+  const int code = libav().avformat_write_header(raw, &options);
+  libav().av_dict_free(&options);
   check_file(code);
 }
 
 Muxer::~Muxer() {
   if (finished_) return;
   // libavformat's GIF muxer lets go of the packet that it holds back at the end of the file only.
-  if (!ended_ && encoder_->codec_id == AV_CODEC_ID_GIF) av_write_trailer(format_.get());
+  if (!ended_ && encoder_->codec_id == AV_CODEC_ID_GIF) libav().av_write_trailer(format_.get());
   format_.reset();
   file_.reset();
   std::error_code ignored;
@@ -74,16 +74,16 @@ Muxer::~Muxer() {
 // Gives the encoder a frame, or with nullptr the end, and writes every packet that is ready.
 void Muxer::send(const AVFrame* frame) {
   const std::string failed = std::string(encoder_->codec->name) + " failed";
-  check_libav(avcodec_send_frame(encoder_.get(), frame), ExitCode::no_renderer, failed, path_);
+  check_libav(libav().avcodec_send_frame(encoder_.get(), frame), ExitCode::no_renderer, failed, path_);
   for (;;) {
-    const int code = avcodec_receive_packet(encoder_.get(), packet_.get());
+    const int code = libav().avcodec_receive_packet(encoder_.get(), packet_.get());
     if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return;
     check_libav(code, ExitCode::no_renderer, failed, path_);
     packet_->duration = 1;  // encoders leave it open; without it the last frame would have no length
     packet_->stream_index = stream_->index;
-    av_packet_rescale_ts(packet_.get(), encoder_->time_base, stream_->time_base);
-    check_file(av_write_frame(format_.get(), packet_.get()));
-    av_packet_unref(packet_.get());
+    libav().av_packet_rescale_ts(packet_.get(), encoder_->time_base, stream_->time_base);
+    check_file(libav().av_write_frame(format_.get(), packet_.get()));
+    libav().av_packet_unref(packet_.get());
   }
 }
 
@@ -98,10 +98,10 @@ void Muxer::finish() {
     throw Error(ExitCode::bad_input, "the film has no frame: its duration is shorter than half a frame",
                 {path_});
   send(nullptr);
-  avio_flush(format_->pb);
+  libav().avio_flush(format_->pb);
   check_file(format_->pb->error);  // before the index is moved to the front of data that is not there
   ended_ = true;
-  check_file(av_write_trailer(format_.get()));
+  check_file(libav().av_write_trailer(format_.get()));
   format_.reset();
   check_file(file_->close());
   finished_ = true;

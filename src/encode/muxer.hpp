@@ -11,7 +11,7 @@
 namespace chainreel {
 
 struct CloseFormat {
-  void operator()(AVFormatContext* format) const { avformat_free_context(format); }
+  void operator()(AVFormatContext* format) const { libav().avformat_free_context(format); }
 };
 using FormatPtr = std::unique_ptr<AVFormatContext, CloseFormat>;
 

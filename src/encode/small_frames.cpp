@@ -1,9 +1,5 @@
 #include "encode/small_frames.hpp"
 
-extern "C" {
-#include <libswscale/swscale.h>
-}
-
 #include <algorithm>
 #include <cmath>
 
@@ -25,7 +21,7 @@ SmallFrames::SmallFrames(int width, int height, FrameRate fps)
   fps_.den *= int(every_);
   if (width_ == width) return;
   scaler_ = check_allocated(
-      sws_getContext(width, height, AV_PIX_FMT_BGRA, width_, height_, AV_PIX_FMT_BGRA,
+      libav().sws_getContext(width, height, AV_PIX_FMT_BGRA, width_, height_, AV_PIX_FMT_BGRA,
                      SWS_AREA | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_FULL_CHR_H_INP | SWS_BITEXACT,
                      nullptr, nullptr, nullptr),
       "the scaler");
@@ -33,7 +29,7 @@ SmallFrames::SmallFrames(int width, int height, FrameRate fps)
 }
 
 SmallFrames::~SmallFrames() {
-  sws_freeContext(scaler_);
+  libav().sws_freeContext(scaler_);
 }
 
 const Image& SmallFrames::shrink(const Image& frame) {
@@ -47,7 +43,7 @@ const Image& SmallFrames::shrink(const Image& frame) {
   const std::uint8_t* source[4] = {from->bgra.data(), nullptr, nullptr, nullptr};
   std::uint8_t* target[4] = {small_.bgra.data(), nullptr, nullptr, nullptr};
   const int source_stride[4] = {4 * full_width_, 0, 0, 0}, target_stride[4] = {4 * width_, 0, 0, 0};
-  sws_scale(scaler_, source, source_stride, 0, full_height_, target, target_stride);
+  libav().sws_scale(scaler_, source, source_stride, 0, full_height_, target, target_stride);
   return small_;
 }
 

@@ -109,7 +109,7 @@ void VideoWriter::write(const Image& image) {
                                      " does not fit a film of " +
                                      size_text(s.settings.width, s.settings.height));
   // The encoder may still hold the last frame: then its pixels are not ours to change.
-  check_libav(av_frame_make_writable(s.frame.get()), ExitCode::limit, "no memory left for a frame");
+  check_libav(libav().av_frame_make_writable(s.frame.get()), ExitCode::limit, "no memory left for a frame");
   if (s.settings.alpha) {
     s.bled = image;
     bleed_colors(s.bled);

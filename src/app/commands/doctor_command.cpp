@@ -8,7 +8,7 @@
 #include "app/cli/command.hpp"
 #include "app/report/report.hpp"
 #include "core/error.hpp"
-#include "encode/libav.hpp"
+#include "encode/library_versions.hpp"
 #include "picture/text.hpp"
 #include "render/canvas.hpp"
 

@@ -35,7 +35,8 @@ Moment moment_of(const Runs& runs, int frame, std::optional<double> added, const
   moment.picture = pictures.static_layer();
   moment.picture.append(pictures.frame(frame));
   moment.title = runs.size() == 1 ? title_of(film.panels.front().scene, runs[0]) : film.scene.title;
-  const FilmReport report = film_report(runs, pictures, frames_of_film(runs, added));
+  FilmReport report = film_report(runs, pictures, frames_of_film(runs, added));
+  report.writes = Writes::pictures;
   moment.memory = memory_of(report);
   moment.memory.audit["at"] = moment.at;
   moment.warnings = warning_lines(report);

@@ -8,7 +8,6 @@
 #include "core/format.hpp"
 #include "dynamics/constraints/constrained_dynamics.hpp"
 #include "dynamics/constraints/constraint_rows.hpp"
-#include "encode/libav.hpp"
 #include "sim/cost_table.hpp"
 
 namespace chainreel {
@@ -60,9 +59,9 @@ std::string matrix_text(const Eigen::MatrixXd& matrix, int digits) {
   return text + "]";
 }
 
-std::vector<LibraryLine> library_versions() {
+std::vector<LibraryLine> library_versions(Writes writes) {
   std::vector<LibraryLine> lines{{"chainreel", program_version()}};
-  for (const LibraryVersion& library : encode_library_versions())
+  for (const LibraryVersion& library : encode_library_versions(writes))
     lines.push_back({library.name, library.version});
   return lines;
 }

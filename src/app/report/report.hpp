@@ -7,6 +7,7 @@
 
 #include "core/json.hpp"
 #include "dynamics/effective_mass.hpp"
+#include "encode/library_versions.hpp"
 #include "sim/simulate.hpp"
 
 namespace chainreel {
@@ -27,7 +28,7 @@ struct LibraryLine {
   std::string name;
   std::string version;
 };
-std::vector<LibraryLine> library_versions();
+std::vector<LibraryLine> library_versions(Writes writes = Writes::films);
 
 // A table with left-aligned words and right-aligned numbers; the first row is its head.
 std::string table_text(const std::vector<std::vector<std::string>>& rows);

@@ -126,7 +126,7 @@ double held_first(const Scene& scene) {
 }
 
 FilmReport film_report(const Runs& runs, const Film& pictures, int frames) {
-  FilmReport report{runs, {}, frames, pictures.clock(), {}};
+  FilmReport report{runs, {}, frames, pictures.clock(), {}, Writes::films};
   double end = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     report.panels.push_back(run_report(runs.film().panels[i], runs[i]));
@@ -170,7 +170,7 @@ Json to_json(const FilmReport& report) {
                                      {"film_from", held + report.clock.film_time(one.from)},
                                      {"film_until", held + report.clock.film_time(one.until)}});
   }
-  for (const LibraryLine& line : library_versions()) json["versions"][line.name] = line.version;
+  for (const LibraryLine& line : library_versions(report.writes)) json["versions"][line.name] = line.version;
   return json;
 }
 

@@ -10,6 +10,7 @@
 #include "app/film/runs.hpp"
 #include "core/frame_rate.hpp"
 #include "core/json.hpp"
+#include "encode/library_versions.hpp"
 #include "sim/audit.hpp"
 #include "sim/doubts.hpp"
 
@@ -33,6 +34,7 @@ struct FilmReport {
   int frames = 0;  // of the whole film, with those that are held
   FilmClock clock;
   std::vector<Stretch> slow_motion;  // as far as the motion went
+  Writes writes = Writes::films;     // a single picture of it, or all
 
   const PreparedFilm& film() const { return runs.film(); }
   double film_seconds() const { return frame_time(frames, film().scene.video.fps); }

@@ -1,0 +1,50 @@
+#include "encode/libav_functions.hpp"
+
+#include <dlfcn.h>
+
+#include <string>
+
+#include "core/error.hpp"
+
+namespace chainreel {
+namespace {
+
+// Of the version whose headers the program was compiled with: structures differ between them.
+void* open_library(const std::string& name, int version) {
+  const std::string file = "lib" + name + ".so." + std::to_string(version);
+  void* const library = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  if (library == nullptr)
+    throw Error(ExitCode::no_renderer, std::string("no films: ") + dlerror() +
+                                           "; install the Debian package lib" + name +
+                                           std::to_string(version));
+  return library;
+}
+
+LibavFunctions load_functions() {
+  LibavFunctions functions;
+  void* library = nullptr;
+#define CHAINREEL_LIBAV_LOAD(name)                                                    \
+  functions.name = reinterpret_cast<decltype(functions.name)>(dlsym(library, #name)); \
+  if (functions.name == nullptr)                                                      \
+    throw Error(ExitCode::no_renderer,                                                \
+                "FFmpeg's libraries have no function " #name ": install Debian's ffmpeg 5 or newer");
+  library = open_library("avutil", LIBAVUTIL_VERSION_MAJOR);
+  CHAINREEL_LIBAV_UTIL(CHAINREEL_LIBAV_LOAD)
+  library = open_library("avcodec", LIBAVCODEC_VERSION_MAJOR);
+  CHAINREEL_LIBAV_CODEC(CHAINREEL_LIBAV_LOAD)
+  library = open_library("avformat", LIBAVFORMAT_VERSION_MAJOR);
+  CHAINREEL_LIBAV_FORMAT(CHAINREEL_LIBAV_LOAD)
+  library = open_library("swscale", LIBSWSCALE_VERSION_MAJOR);
+  CHAINREEL_LIBAV_SCALE(CHAINREEL_LIBAV_LOAD)
+#undef CHAINREEL_LIBAV_LOAD
+  return functions;
+}
+
+}  // namespace
+
+const LibavFunctions& libav() {
+  static const LibavFunctions functions = load_functions();
+  return functions;
+}
+
+}  // namespace chainreel
