@@ -128,8 +128,12 @@ TriangleDifference difference_of(const TriangleSketch& before, const TriangleSke
     if (changed <= 2) changes = double(changed);
     difference.is_counted = changed <= 2;
   } else {
-    const Unshared unshared = unshared_of(thinned(before.sample, thinning), thinned(after.sample, thinning));
-    changes = std::ldexp(double(unshared.gone + unshared.come), thinning);
+    const std::vector<std::uint32_t> old = thinned(before.sample, thinning), now = thinned(after.sample, thinning);
+    const Unshared unshared = unshared_of(old, now);
+    const auto scaled = [](std::size_t count, std::size_t sample, std::size_t all) {
+      return sample == 0 ? 0 : double(all) * double(count) / double(sample);
+    };
+    changes = scaled(unshared.gone, old.size(), before.triangles) + scaled(unshared.come, now.size(), after.triangles);
     difference.is_counted = thinning == 0;
   }
   changes = std::max({changes, std::abs(more), 1.0});
