@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 #include "compare/flip.hpp"
 #include "compare/judged_pixels.hpp"
@@ -59,6 +60,34 @@ std::vector<bool> masked_pixels(const std::vector<PixelBox>& masks, int width, i
   return masked;
 }
 
+Image part_of(const Image& image, const PixelBox& box) {
+  Image part(box.width, box.height);
+  const std::size_t bytes = std::size_t(4) * std::size_t(box.width);
+  for (int y = 0; y < box.height; ++y)
+    std::memcpy(&part.bgra[std::size_t(y) * bytes],
+                pixel(image, std::size_t(box.y + y) * std::size_t(image.width) + std::size_t(box.x)), bytes);
+  return part;
+}
+
+// The envelope of a tile, from each pixel's neighbours.
+class NearEnvelope {
+ public:
+  NearEnvelope(const Image& expected, const Image& actual, const PixelBox& tile)
+      : left_(std::max(tile.x - kAround, 0)), top_(std::max(tile.y - kAround, 0)) {
+    const PixelBox box = {left_, top_, std::min(tile.x + tile.width + kAround, expected.width) - left_,
+                          std::min(tile.y + tile.height + kAround, expected.height) - top_};
+    actual_ = part_of(actual, box);
+    envelope_ = envelope_of(part_of(expected, box));
+  }
+  bool holds(int x, int y) const { return is_within(envelope_, actual_, x - left_, y - top_); }
+
+ private:
+  static constexpr int kAround = 2;  // so far around a pixel its envelope looks
+  int left_, top_;
+  Image actual_;
+  Envelope envelope_;
+};
+
 // The pixels that differ tile by tile, and the errors around them.
 class Tiles {
  public:
@@ -103,24 +132,31 @@ JudgedPixels::JudgedPixels(const Image& expected, const Image& actual, const Ima
   kinds.assign(std::size_t(width) * std::size_t(height), equal);
   Tiles tiles(width, height);
   bool any = false, forgiven = false;
-  for (int y = 0; y < height; ++y)
-    for (int from = 0; from < width; from += kTile) {
-      const std::size_t first = std::size_t(y) * std::size_t(width) + std::size_t(from);
-      const int to = std::min(from + kTile, width);
-      if (std::memcmp(pixel(expected, first), pixel(actual, first),
-                      std::size_t(4) * std::size_t(to - from)) == 0)
-        continue;
-      for (int x = from; x < to; ++x) {
-        const std::size_t i = first + std::size_t(x - from);
-        if (std::memcmp(pixel(expected, i), pixel(actual, i), 4) == 0) continue;
-        kinds[i] = !hidden.empty() && hidden[i]                                ? masked
-                   : envelope != nullptr && is_within(*envelope, actual, x, y) ? at_edge
-                                                                               : other;
-        if (kinds[i] == other) {
-          tiles.add(x, y);
-          any = true;
-        } else {
-          forgiven = true;
+  for (int top = 0; top < height; top += kTile)
+    for (int left = 0; left < width; left += kTile) {
+      const PixelBox tile = {left, top, std::min(kTile, width - left), std::min(kTile, height - top)};
+      std::optional<NearEnvelope> near;
+      for (int y = top; y < top + tile.height; ++y) {
+        const std::size_t row = std::size_t(y) * std::size_t(width);
+        if (std::memcmp(pixel(expected, row + std::size_t(left)), pixel(actual, row + std::size_t(left)),
+                        std::size_t(4) * std::size_t(tile.width)) == 0)
+          continue;
+        for (int x = left; x < left + tile.width; ++x) {
+          const std::size_t i = row + std::size_t(x);
+          if (std::memcmp(pixel(expected, i), pixel(actual, i), 4) == 0) continue;
+          const auto is_at_edge = [&] {
+            if (envelope != nullptr) return is_within(*envelope, actual, x, y);
+            if (!tolerance.forgive_edges) return false;
+            if (!near) near.emplace(expected, actual, tile);
+            return near->holds(x, y);
+          };
+          kinds[i] = !hidden.empty() && hidden[i] ? masked : is_at_edge() ? at_edge : other;
+          if (kinds[i] == other) {
+            tiles.add(x, y);
+            any = true;
+          } else {
+            forgiven = true;
+          }
         }
       }
     }

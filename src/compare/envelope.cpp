@@ -46,18 +46,23 @@ void bound(const Image& middle, std::span<const Image> ends, Image& low, Image& 
   }
 }
 
-// The picture half way to its neighbours at (dx, dy).
+// `count` bytes half way between `a` and `b`.
+void average(const std::uint8_t* a, const std::uint8_t* b, std::size_t count, std::uint8_t* target) {
+  for (std::size_t i = 0; i < count; ++i) target[i] = std::uint8_t((a[i] + b[i] + 1) / 2);
+}
+
+// The picture half way to its neighbours at (dx, dy), one of them -1 or 1 and the other 0; at the border
+// there is none.
 Image half_way(const Image& image, int dx, int dy) {
-  Image between(image.width, image.height);
-  for (int y = 0; y < image.height; ++y) {
-    const int from_y = std::clamp(y + dy, 0, image.height - 1);
-    for (int x = 0; x < image.width; ++x) {
-      const std::size_t here = std::size_t(4) * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
-      const std::size_t there = std::size_t(4) * (std::size_t(from_y) * std::size_t(image.width) +
-                                                  std::size_t(std::clamp(x + dx, 0, image.width - 1)));
-      for (std::size_t c = 0; c < 4; ++c)
-        between.bgra[here + c] = std::uint8_t((image.bgra[here + c] + image.bgra[there + c] + 1) / 2);
-    }
+  Image between = image;
+  const std::size_t stride = std::size_t(4) * std::size_t(image.width);
+  for (int y = std::max(-dy, 0); y < image.height - std::max(dy, 0); ++y) {
+    const std::uint8_t* here = &image.bgra[std::size_t(y) * stride];
+    const std::uint8_t* there = &image.bgra[std::size_t(y + dy) * stride];
+    std::uint8_t* target = &between.bgra[std::size_t(y) * stride];
+    if (dx == 0) average(here, there, stride, target);
+    if (dx > 0) average(here, here + 4, stride - 4, target);
+    if (dx < 0) average(here + 4, here, stride - 4, target + 4);
   }
   return between;
 }

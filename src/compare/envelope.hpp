@@ -20,8 +20,8 @@ struct Envelope {
 // pixel, since a thin stroke may have its peak there. All are of one size.
 Envelope envelope_of(const Image& drawn, std::span<const Image> moved);
 
-// Without shapes: half way to each pixel's neighbours. That is less than half a pixel's move of a sharp edge, some
-// quarter of a pixel's.
+// Without shapes: half way to each pixel's neighbours. That is less than half a pixel's move of a sharp edge,
+// some quarter of a pixel's.
 Envelope envelope_of(const Image& drawn);
 
 // Whether `actual` may have this pixel by anti-aliasing alone, to 1/255; its surroundings by an eighth of

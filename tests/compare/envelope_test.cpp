@@ -90,6 +90,19 @@ TEST(Envelope, WithoutShapesIsHalfWayToTheNeighbours) {
   EXPECT_GT(compare_images(expected, ring(kX + 1, kY, kRadius, 3), {}, &envelope).beyond, 20);
 }
 
+// Tiles of 64 pixels are a matter of speed: the ring lies across four of them.
+TEST(Envelope, OfNeighboursIsTheSameTileByTile) {
+  const Image expected = ring(64.3, 63.8, 40, 1, 130), actual = ring(64.6, 63.7, 40, 1, 130);
+  const Envelope whole = envelope_of(expected);
+  const ImageDifference d = compare_images(expected, actual, {}, &whole);
+  const ImageDifference by_tiles = compare_images(expected, actual, {.forgive_edges = true});
+  EXPECT_EQ(by_tiles.at_edges, d.at_edges);
+  EXPECT_EQ(by_tiles.beyond, d.beyond);
+  EXPECT_EQ(by_tiles.worst, d.worst);
+  EXPECT_GT(d.at_edges, 100);
+  EXPECT_EQ(compare_images(expected, actual, {}).at_edges, 0);
+}
+
 TEST(Envelope, IsThePictureAloneWhereNothingChanges) {
   const Image flat = plain(9, 9, {10, 20, 30, 255});
   const Envelope envelope = envelope_of(flat);
