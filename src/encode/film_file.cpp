@@ -19,7 +19,9 @@ std::int64_t moved(int file, std::int64_t position, std::int64_t offset, int whe
   if (fstat(file, &facts) != 0) return AVERROR(errno);
   whence &= ~AVSEEK_FORCE;
   if (whence == AVSEEK_SIZE) return facts.st_size;
-  const std::int64_t from = whence == SEEK_SET ? 0 : whence == SEEK_CUR ? position : std::int64_t(facts.st_size);
+  const std::int64_t from = whence == SEEK_SET   ? 0
+                            : whence == SEEK_CUR ? position
+                                                 : std::int64_t(facts.st_size);
   return from + offset >= 0 ? from + offset : AVERROR(EINVAL);
 }
 
@@ -57,7 +59,8 @@ int open_reader(AVFormatContext* format, AVIOContext** stream, const char*, int 
   auto* buffer = static_cast<unsigned char*>(libav().av_malloc(kBuffer));
   auto reader = std::make_unique<FileReader>(FileReader{*static_cast<const int*>(format->opaque)});
   *stream = buffer == nullptr ? nullptr
-                              : libav().avio_alloc_context(buffer, kBuffer, 0, reader.get(), &FileReader::read, nullptr, &FileReader::seek);
+                              : libav().avio_alloc_context(buffer, kBuffer, 0, reader.get(),
+                                                           &FileReader::read, nullptr, &FileReader::seek);
   if (*stream == nullptr) {
     libav().av_free(buffer);
     return AVERROR(ENOMEM);
@@ -79,10 +82,12 @@ FilmFile::FilmFile(const std::string& path)
     : path_(path), file_(open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
   if (file_ < 0)
     throw Error(ExitCode::file,
-                std::string("the film cannot be written here (") + std::strerror(errno) + "); choose another place with -o",
+                std::string("the film cannot be written here (") + std::strerror(errno) +
+                    "); choose another place with -o",
                 {path});
   auto* buffer = static_cast<unsigned char*>(libav().av_malloc(kBuffer));
-  if (buffer != nullptr) stream_ = libav().avio_alloc_context(buffer, kBuffer, 1, this, nullptr, &write, &seek);
+  if (buffer != nullptr)
+    stream_ = libav().avio_alloc_context(buffer, kBuffer, 1, this, nullptr, &write, &seek);
   if (stream_ != nullptr) return;
   libav().av_free(buffer);
   ::close(file_);

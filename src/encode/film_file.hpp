@@ -1,5 +1,5 @@
-// The file that a muxer writes. FFmpeg's own asks the system to move a file's position and, where that fails, goes on
-// writing at the wrong place; here every piece is written at its place, and the first failure stays.
+// The file that a muxer writes. FFmpeg's own asks the system to move a file's position and, where that fails,
+// goes on writing at the wrong place; here every piece is written at its place, and the first failure stays.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@ namespace chainreel {
 
 class FilmFile {
  public:
-  // Makes or empties the file. Throws Error (exit 6) where it cannot be written, (exit 7) where memory is short.
+  // Makes or empties the file. Throws Error (exit 6) where it cannot be written, (exit 7) where memory is
+  // short.
   explicit FilmFile(const std::string& path);
   ~FilmFile();
   FilmFile(const FilmFile&) = delete;
@@ -20,7 +21,8 @@ class FilmFile {
 
   // From now on the muxer writes here, and reads here where it moves what it wrote. This outlives it.
   void attach(AVFormatContext& format);
-  // All has been handed over, and the file is closed. A negative code of FFmpeg's where something failed on the way.
+  // All has been handed over, and the file is closed. A negative code of FFmpeg's where something failed on
+  // the way.
   int close();
 
  private:

@@ -1,12 +1,10 @@
 // How a film begins: its first frame, as a still that stands for the film, and its measures.
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "core/image.hpp"
 #include "encode/frame_sink.hpp"
-#include "encode/libav.hpp"
 
 namespace chainreel {
 
@@ -19,16 +17,6 @@ struct FilmStart {
 // Reads MP4, MOV or WebM. Throws Error (exit 3) where the file is no such film or its first frame cannot be
 // decoded.
 FilmStart read_film_start(const std::string& path, int widest);
-
-// Films that are read back. Only encode includes this.
-
-struct CloseFilmInput {
-  void operator()(AVFormatContext* p) const { libav().avformat_close_input(&p); }
-};
-using FilmInputPtr = std::unique_ptr<AVFormatContext, CloseFilmInput>;
-
-// MP4, MOV or WebM. Throws Error (exit 3) for any other file.
-FilmInputPtr open_film(const std::string& path);
 
 // What a film says of itself, read from MP4, MOV and WebM.
 

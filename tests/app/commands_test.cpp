@@ -75,6 +75,7 @@ class EveryCommand : public ::testing::Test {
         {"ellipse", {with({"models/rr.urdf", "--pose", "0.1,1"}, kSmallFigure), ".csv"}},
         {"simulate", {with({kScene}, kShort), ".csv"}},
         {"extract", {{clip}, ".yaml"}},
+        {"compare", {{clip, clip}, ".png"}},
         {"dynamics", {{"models/rr.urdf", "--q", "0.1,1"}, ""}},
         {"inverse", {{"models/rr.urdf", "--trajectory", inputs_->file("q.csv")}, ".csv"}},
         {"init", {{}, ".yaml", true}},

@@ -77,6 +77,7 @@ void add_snapshot_command(CommandLine& app);
 void add_ellipse_command(CommandLine& app);
 void add_simulate_command(CommandLine& app);
 void add_extract_command(CommandLine& app);
+void add_compare_command(CommandLine& app);
 void add_dynamics_command(CommandLine& app);
 void add_inverse_command(CommandLine& app);
 void add_init_command(CommandLine& app);

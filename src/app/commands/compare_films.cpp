@@ -1,0 +1,172 @@
+// Two films, frame by frame.
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "app/commands/comparison.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "core/input_file.hpp"
+#include "core/output_file.hpp"
+#include "encode/film_reader.hpp"
+#include "encode/png.hpp"
+
+namespace chainreel {
+namespace {
+
+// A frame that is told of, and the pictures that it is in both films.
+struct ToldFrame {
+  int index = 0;
+  ImageDifference difference;
+  Image before, after;
+};
+
+struct FilmDifference {
+  int frames[2] = {0, 0};
+  double fps[2], seconds[2];
+  int unequal = 0, beyond = 0;  // frames
+  std::optional<ToldFrame> first, worst;
+  std::vector<double> errors;  // the worst of each frame that both have; 1 where sizes differ
+  std::vector<bool> failed;    // and whether it is beyond the tolerance
+};
+
+bool is_worse(const ImageDifference& a, const ImageDifference& b) {
+  if (a.same_size != b.same_size) return !a.same_size;
+  return a.beyond != b.beyond ? a.beyond > b.beyond : a.worst > b.worst;
+}
+
+FilmReader open(const std::string& path) {
+  require_plain_file(path, kLargestInput * 64);
+  note_input(path);
+  return FilmReader(path);
+}
+
+FilmDifference difference_of(const CompareOptions& options) {
+  FilmReader readers[2] = {open(options.before), open(options.after)};
+  FilmDifference found;
+  for (int i = 0; i < 2; ++i) {
+    found.fps[i] = readers[i].fps();
+    found.seconds[i] = readers[i].seconds();
+  }
+  Image images[2];
+  for (;;) {
+    bool there[2];
+    for (int i = 0; i < 2; ++i)
+      if ((there[i] = readers[i].next(images[i]))) ++found.frames[i];
+    if (!there[0] && !there[1]) break;
+    if (!there[0] || !there[1]) continue;  // the longer one is counted to its end
+    const ImageDifference difference = compare_images(images[0], images[1], options.tolerance);
+    const bool fails = !difference.passes(options.tolerance);
+    found.errors.push_back(difference.same_size ? difference.worst : 1);
+    found.failed.push_back(fails);
+    if (difference.is_equal()) continue;
+    ++found.unequal;
+    if (fails) ++found.beyond;
+    const ToldFrame frame{found.frames[0] - 1, difference, images[0], images[1]};
+    if (!found.first) found.first = frame;
+    if (!found.worst || is_worse(difference, found.worst->difference)) found.worst = frame;
+  }
+  for (int i = 0; i < 2; ++i)
+    if (found.frames[i] == 0)
+      throw Error(ExitCode::bad_input, "holds no frame that can be decoded",
+                  {i == 0 ? options.before : options.after});
+  return found;
+}
+
+// Errors over time, from left to right; of films with more frames than columns, each column its worst.
+Image strip_of(const FilmDifference& found, double tolerance) {
+  constexpr int kWidest = 1600, kHeight = 80;
+  const int count = int(found.errors.size()), wide = std::max(1, std::min(8, kWidest / count));
+  const int columns = std::min(count, kWidest);
+  Image strip(columns * wide, kHeight);
+  const auto row_of = [&](double error) { return kHeight - 1 - int(std::lround(error * (kHeight - 1))); };
+  for (int column = 0; column < columns; ++column) {
+    const std::size_t from = std::size_t(column) * found.errors.size() / std::size_t(columns);
+    const std::size_t to = std::size_t(column + 1) * found.errors.size() / std::size_t(columns);
+    double worst = 0;
+    bool fails = false;
+    for (std::size_t i = from; i < to; ++i) {
+      worst = std::max(worst, found.errors[i]);
+      fails = fails || found.failed[i];
+    }
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = column * wide; x < (column + 1) * wide; ++x) {
+        const bool bar = worst > 0 && y >= row_of(worst), line = y == row_of(tolerance);
+        const Pixel color = bar && fails ? Pixel{183, 55, 121}
+                            : bar        ? Pixel{150, 200, 235}
+                            : line       ? Pixel{120, 120, 120}
+                                         : Pixel{245, 245, 245};
+        std::uint8_t* p =
+            &strip.bgra[std::size_t(4) * (std::size_t(y) * std::size_t(strip.width) + std::size_t(x))];
+        p[0] = color.b;
+        p[1] = color.g;
+        p[2] = color.r;
+        p[3] = 255;
+      }
+  }
+  return strip;
+}
+
+Json report_of(const ToldFrame& frame) {
+  Json json = report_of(frame.difference, frame.before, frame.after);
+  json["frame"] = frame.index;
+  return json;
+}
+
+}  // namespace
+
+Comparison compare_films(const CompareOptions& options) {
+  const FilmDifference found = difference_of(options);
+  Comparison result;
+  const bool same_length = found.frames[0] == found.frames[1], same_rate = found.fps[0] == found.fps[1];
+  result.equal = found.unequal == 0 && same_length && same_rate;
+  result.passes = found.beyond == 0 && same_length && same_rate;
+  const int both = std::min(found.frames[0], found.frames[1]);
+  if (!same_length)
+    result.words.push_back("frames: " + std::to_string(found.frames[0]) + " -> " +
+                           std::to_string(found.frames[1]));
+  if (!same_rate)
+    result.words.push_back("frames a second: " + format_significant(found.fps[0], 6) + " -> " +
+                           format_significant(found.fps[1], 6));
+  if (found.unequal == 0) {
+    result.words.push_back("all " + std::to_string(both) + " frames that both have are equal");
+  } else {
+    result.words.push_back(std::to_string(found.unequal) + " of " + std::to_string(both) +
+                           " frames are unequal, " + std::to_string(found.beyond) + " beyond the tolerance");
+    for (const auto& [name, frame] :
+         {std::pair("the first", &*found.first), std::pair("the worst", &*found.worst)})
+      result.words.push_back(std::string(name) + ", frame " + std::to_string(frame->index) + ": " +
+                             told(frame->difference, frame->before, frame->after, options.tolerance));
+  }
+  result.report = {{"frames", {found.frames[0], found.frames[1]}},
+                   {"fps", {found.fps[0], found.fps[1]}},
+                   {"seconds", {found.seconds[0], found.seconds[1]}},
+                   {"unequal_frames", found.unequal},
+                   {"frames_beyond", found.beyond},
+                   {"errors", found.errors}};
+  if (found.first)
+    result.report.update({{"first", report_of(*found.first)}, {"worst", report_of(*found.worst)}});
+  const std::vector<std::string> remembered = explain_memories(options.before, options.after);
+  result.words.insert(result.words.end(), remembered.begin(), remembered.end());
+  result.report["explained"] = remembered;
+  if (!options.output.empty()) {
+    Image before, after;
+    if (found.worst) {
+      before = found.worst->before;
+      after = found.worst->after;
+    } else {
+      open(options.before).next(before);
+      open(options.after).next(after);
+    }
+    write_difference(options, before, after, options.output);
+  }
+  if (!options.strip.empty()) {
+    OutputFile file(options.strip, options.common.force);
+    write_png(file.temporary_path(), strip_of(found, options.tolerance.error));
+    file.commit();
+  }
+  return result;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,126 @@
+#include "app/commands/comparison.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+
+#include "app/film/clip_memory.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "core/output_file.hpp"
+#include "encode/png.hpp"
+#include "scene/text/scene_difference.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr int kGap = 8;  // pixels between pictures that stand side by side
+
+std::string size_of(const Image& image) {
+  return std::to_string(image.width) + "x" + std::to_string(image.height);
+}
+
+std::string counted(long count, const char* one, const char* more) {
+  return std::to_string(count) + " " + (count == 1 ? one : more);
+}
+
+Image side_by_side(const std::vector<const Image*>& images) {
+  int width = kGap * (int(images.size()) - 1), height = 0;
+  for (const Image* image : images) {
+    width += image->width;
+    height = std::max(height, image->height);
+  }
+  Image page(width, height);
+  std::size_t left = 0;
+  for (const Image* image : images) {
+    const std::size_t bytes = std::size_t(4) * std::size_t(image->width);
+    for (int y = 0; y < image->height; ++y)
+      std::memcpy(&page.bgra[std::size_t(4) * (std::size_t(y) * std::size_t(width) + left)],
+                  &image->bgra[std::size_t(y) * bytes], bytes);
+    left += std::size_t(image->width + kGap);
+  }
+  return page;
+}
+
+// Empty where the file remembers nothing, or something that cannot be read.
+std::optional<ClipMemory> memory_of(const std::string& path) {
+  try {
+    return recall(path);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::string told(const ImageDifference& d, const Image& before, const Image& after,
+                 const ImageTolerance& tolerance) {
+  if (!d.same_size) return "sizes differ: " + size_of(before) + " and " + size_of(after);
+  if (d.is_equal()) return "equal";
+  std::string text = counted(d.unequal, "pixel is", "pixels are") + " unequal";
+  if (d.at_edges > 0)
+    text += ", " + std::to_string(d.at_edges) + " of them at edges as anti-aliasing may make them";
+  text += "; " + (d.beyond == 0 ? "none is" : counted(d.beyond, "is", "are")) + " beyond the error " +
+          format_shortest(tolerance.error);
+  if (tolerance.pixels > 0) text += " (" + std::to_string(tolerance.pixels) + " may)";
+  text += ", worst " + format_significant(d.worst, 3) + ", mean " + format_significant(d.mean, 3) + ", in " +
+          std::to_string(d.box.width) + "x" + std::to_string(d.box.height) + " at " +
+          std::to_string(d.box.x) + " " + std::to_string(d.box.y);
+  return text;
+}
+
+Json report_of(const ImageDifference& d, const Image& before, const Image& after) {
+  if (!d.same_size)
+    return {{"same_size", false}, {"sizes", {{before.width, before.height}, {after.width, after.height}}}};
+  return {{"same_size", true},
+          {"unequal", d.unequal},
+          {"at_edges", d.at_edges},
+          {"beyond", d.beyond},
+          {"worst", d.worst},
+          {"mean", d.mean},
+          {"box", {d.box.x, d.box.y, d.box.width, d.box.height}}};
+}
+
+void write_difference(const CompareOptions& options, const Image& before, const Image& after,
+                      const std::string& path) {
+  const Image difference = difference_picture(before, after, options.tolerance);
+  OutputFile file(path, options.common.force);
+  if (difference.bgra.empty())
+    write_png(file.temporary_path(), side_by_side({&before, &after}));
+  else if (options.side_by_side)
+    write_png(file.temporary_path(), side_by_side({&before, &after, &difference}));
+  else
+    write_png(file.temporary_path(), difference);
+  file.commit();
+}
+
+std::vector<std::string> explain_memories(const std::string& before, const std::string& after) {
+  const std::optional<ClipMemory> old = memory_of(before), now = memory_of(after);
+  if (!old && !now) return {};
+  if (!old || !now)
+    return {"only " + (old ? before : after) +
+            " remembers what it shows: there is nothing to explain the pixels by"};
+  if (old->figure.is_null() != now->figure.is_null()) return {"one shows a scene, the other is a figure"};
+  std::vector<std::string> sentences;
+  if (!old->figure.is_null()) {
+    const std::string command = command_line(old->figure), other = command_line(now->figure);
+    if (command != other) sentences.push_back("command: " + command + " -> " + other);
+  } else {
+    try {
+      sentences = explain_scene_texts(old->scene, now->scene);
+    } catch (const Error& error) {
+      sentences.push_back(std::string("what one of them remembers cannot be read as a scene: ") +
+                          error.what());
+    }
+  }
+  const Json& facts = old->figure.is_null() ? old->audit : old->figure;
+  const Json& other_facts = now->figure.is_null() ? now->audit : now->figure;
+  for (const auto& [key, told] :
+       {std::pair("model_sha256", "the model file is another one, by its hash"),
+        std::pair("trajectory_sha256", "the motion is another one, by its hash"),
+        std::pair("versions", "versions of the program or its libraries are others")})
+    if (facts.value(key, Json()) != other_facts.value(key, Json())) sentences.push_back(told);
+  return sentences;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,51 @@
+// What `compare` finds out about two things, and what each kind of thing takes to be compared. To add a kind:
+// a function here, its file, and a row in compare_command.cpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/cli/command.hpp"
+#include "compare/compare_images.hpp"
+#include "core/json.hpp"
+
+namespace chainreel {
+
+struct CompareOptions {
+  std::string before, after;
+  std::string output;  // difference picture; of folders, a folder for them; "": none
+  std::string strip;   // of films: their errors over time; "": none
+  ImageTolerance tolerance{.forgive_edges = true};
+  bool count_edges = false;
+  bool side_by_side = false;
+  CommonOptions common;
+};
+
+struct Comparison {
+  bool equal = true;               // in all that was looked at
+  bool passes = true;              // equal, or within the tolerance
+  std::vector<std::string> words;  // what to say, a line each
+  Json report = Json::object();
+};
+
+// Each throws Error where an input cannot be read (exit 3) or a picture not written (exit 6).
+Comparison compare_picture_files(const CompareOptions& options);
+Comparison compare_folders(const CompareOptions& options);
+Comparison compare_films(const CompareOptions& options);
+Comparison compare_models(const CompareOptions& options);
+Comparison compare_trajectories(const CompareOptions& options);
+
+// What two pictures differ in, in words ("equal", "sizes differ: ..") and as JSON.
+std::string told(const ImageDifference& difference, const Image& before, const Image& after,
+                 const ImageTolerance& tolerance);
+Json report_of(const ImageDifference& difference, const Image& before, const Image& after);
+
+// Writes what shows the difference: alone, or beside both. Pictures of two sizes have none but stand side by
+// side.
+void write_difference(const CompareOptions& options, const Image& before, const Image& after,
+                      const std::string& path);
+
+// What the two files remember differently, of scenes key by key. Nothing where neither remembers anything.
+std::vector<std::string> explain_memories(const std::string& before, const std::string& after);
+
+}  // namespace chainreel

@@ -1,0 +1,20 @@
+#include "encode/film_input.hpp"
+
+namespace chainreel {
+
+FilmInputPtr open_film(const std::string& path, FilmKinds kinds) {
+  capture_libav_log();
+  AVDictionary* options = nullptr;
+  // A file that plays a list must not open others.
+  libav().av_dict_set(&options, "protocol_whitelist", "file", 0);
+  std::string formats = "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm";
+  if (kinds == FilmKinds::films_and_small_clips) formats += ",gif,apng";
+  libav().av_dict_set(&options, "format_whitelist", formats.c_str(), 0);
+  AVFormatContext* input = nullptr;
+  const int code = libav().avformat_open_input(&input, ("file:" + path).c_str(), nullptr, &options);
+  libav().av_dict_free(&options);
+  check_libav(code, ExitCode::bad_input, "is no film that can be read", path);
+  return FilmInputPtr(input);
+}
+
+}  // namespace chainreel

@@ -1,0 +1,33 @@
+// Films read back frame by frame: MP4, MOV, WebM, GIF and APNG.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/image.hpp"
+
+namespace chainreel {
+
+class FilmReader {
+ public:
+  // Throws Error (exit 3) where the file is no such film or cannot be decoded here; without `small_clips` GIF
+  // and APNG are no films.
+  explicit FilmReader(const std::string& path, bool small_clips = true);
+  ~FilmReader();
+  FilmReader(FilmReader&&) noexcept;
+
+  double seconds() const;  // of the film, as its file says; 0 where it does not
+  double fps() const;      // frames a second, as its file says; 0 where it does not
+  int width() const;       // of the last frame, pixels
+  int height() const;
+
+  // The next frame as a player would show it, with its opacity; where it is wider than `widest`, scaled down
+  // to that. False behind the last. Throws Error (exit 3) where a frame cannot be decoded.
+  bool next(Image& image, int widest = 1 << 20);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace chainreel
