@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "mesh/read_mesh.hpp"
+
 namespace chainreel {
 namespace {
 
@@ -32,20 +34,38 @@ struct TriangleHash {
   std::uint64_t shape, colors;
 };
 
+using TurnedCorners = std::array<std::uint32_t, 3>;
+
 // From the corner with the least hash on, so that it does not matter with which of them a file begins.
-TriangleHash hash_of(const TriangleMesh& mesh, std::size_t first, const std::vector<std::uint64_t>& places) {
-  std::array<std::uint32_t, 3> corners{};
+TurnedCorners corners_of(const TriangleMesh& mesh, std::size_t first, const std::vector<std::uint64_t>& places) {
+  TurnedCorners corners{};
   std::copy_n(mesh.triangles.begin() + std::ptrdiff_t(first), 3, corners.begin());
   const auto least = std::min_element(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
     return places[a] < places[b];
   });
   std::rotate(corners.begin(), least, corners.end());
+  return corners;
+}
+
+TriangleHash hash_of(const TriangleMesh& mesh, const TurnedCorners& corners, const std::vector<std::uint64_t>& places) {
   TriangleHash hash{1, 2};
   for (const std::uint32_t corner : corners) {
     hash.shape = with(hash.shape, places[corner]);
     hash.colors = with(with(hash.colors, places[corner]), std::bit_cast<std::uint32_t>(mesh.vertices[corner].color));
   }
   return hash;
+}
+
+void add_normals(const TriangleMesh& mesh, const TurnedCorners& corners, std::uint64_t hash, std::array<double, 4>& sums) {
+  for (const std::uint32_t corner : corners) {
+    hash = mixed(hash + 1);
+    std::uint64_t signs = hash;
+    for (double& sum : sums)
+      for (const float component : mesh.vertices[corner].normal) {
+        sum += signs & 1 ? double(component) : -double(component);
+        signs >>= 1;
+      }
+  }
 }
 
 std::uint32_t short_of(std::uint64_t hash) {
@@ -99,7 +119,9 @@ TriangleSketch sketch_of(const TriangleMesh& mesh) {
   sketch.triangles = mesh.triangles.size() / 3;
   sketch.buckets.assign(TriangleSketch::kBuckets, 0);
   for (std::size_t first = 0; first + 2 < mesh.triangles.size(); first += 3) {
-    const TriangleHash hash = hash_of(mesh, first, places);
+    const TurnedCorners corners = corners_of(mesh, first, places);
+    const TriangleHash hash = hash_of(mesh, corners, places);
+    add_normals(mesh, corners, hash.shape, sketch.normals);
     sketch.shape += hash.shape;
     sketch.colors += hash.colors;
     sketch.buckets[hash.shape % TriangleSketch::kBuckets] += short_of(hash.shape);
@@ -111,6 +133,20 @@ TriangleSketch sketch_of(const TriangleMesh& mesh) {
   if (sketch.thinning == 0) sketch.buckets.clear();  // the sample knows all
   add_boxes(mesh, sketch);
   return sketch;
+}
+
+bool has_same_normals(const TriangleSketch& a, const TriangleSketch& b) {
+  // Of floats, the errors of so many summands under signs by lot, several times.
+  const double tolerance = 1e-6 * std::sqrt(1 + 9 * double(a.triangles));
+  for (std::size_t i = 0; i < a.normals.size(); ++i)
+    if (!(std::abs(a.normals[i] - b.normals[i]) <= tolerance)) return false;
+  return true;
+}
+
+bool operator==(const TriangleSketch& a, const TriangleSketch& b) {
+  return a.triangles == b.triangles && a.shape == b.shape && a.colors == b.colors && a.lower == b.lower &&
+         a.upper == b.upper && a.buckets == b.buckets && a.thinning == b.thinning && a.sample == b.sample &&
+         has_same_normals(a, b);
 }
 
 TriangleDifference difference_of(const TriangleSketch& before, const TriangleSketch& after) {
@@ -179,6 +215,7 @@ Json to_json(const TriangleSketch& sketch) {
   Json json{{"triangles", sketch.triangles},
             {"shape", hex(sketch.shape)},
             {"colors", hex(sketch.colors)},
+            {"normals", sketch.normals},
             {"lower", sketch.lower},
             {"upper", sketch.upper}};
   if (!sketch.buckets.empty()) json["buckets"] = hex_of(sketch.buckets);
@@ -190,8 +227,10 @@ Json to_json(const TriangleSketch& sketch) {
 TriangleSketch triangle_sketch_of(const Json& json) {
   TriangleSketch sketch;
   sketch.triangles = json.at("triangles").get<std::size_t>();
+  if (sketch.triangles > kMostTriangles) throw std::invalid_argument("no number of triangles");
   sketch.shape = from_hex<std::uint64_t>(json.at("shape").get<std::string>());
   sketch.colors = from_hex<std::uint64_t>(json.at("colors").get<std::string>());
+  sketch.normals = json.at("normals").get<std::array<double, 4>>();
   sketch.lower = json.at("lower").get<std::array<float, 3>>();
   sketch.upper = json.at("upper").get<std::array<float, 3>>();
   if (json.contains("buckets")) sketch.buckets = values_of(json.at("buckets").get<std::string>());

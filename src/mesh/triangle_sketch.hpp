@@ -20,6 +20,9 @@ struct TriangleSketch {
   // Sums modulo 2^64 over all triangles of their hashes: by the places of their vertices, in their turning sense; and of
   // their colours besides.
   std::uint64_t shape = 0, colors = 0;
+  // Sums of the components of all normals under signs by lot, which their triangle's hash decides: two surfaces of one
+  // shape are shaded alike where these agree but for round-off (normals are sums over neighbours in the file's order).
+  std::array<double, 4> normals{};
   std::array<float, 3> lower{}, upper{};  // of the box around it, m
   // Of meshes with more triangles than a sample holds: sums of the hashes, triangle by triangle in the bucket that its hash
   // names. A bucket tells of a change in it, so that few changes are counted nearly one by one.
@@ -28,8 +31,11 @@ struct TriangleSketch {
   int thinning = 0;
   std::vector<std::uint32_t> sample;
 
-  friend bool operator==(const TriangleSketch&, const TriangleSketch&) = default;
 };
+
+// Round-off of normals is no difference.
+bool operator==(const TriangleSketch& a, const TriangleSketch& b);
+bool has_same_normals(const TriangleSketch& a, const TriangleSketch& b);
 
 TriangleSketch sketch_of(const TriangleMesh& mesh);
 

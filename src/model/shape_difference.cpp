@@ -55,7 +55,8 @@ std::string triangles_words(const TriangleSketch& before, const TriangleSketch& 
   const TriangleDifference difference = difference_of(before, after);
   const std::string all = " of its " + std::to_string(std::max(before.triangles, after.triangles)) + " triangles";
   const auto count = [](double number) { return std::to_string(long(std::lround(number))); };
-  if (difference.gone == 0 && difference.come == 0) return "colours of its triangles differ";
+  if (difference.gone == 0 && difference.come == 0)
+    return before.colors != after.colors ? "the same triangles in other colours" : "the same triangles with other normals, which are shaded otherwise";
   if (difference.share > 0.9999) return "all" + all + " differ" + box_words(before, after);
   if (difference.is_counted && difference.come == 0) return count(difference.gone) + all + " gone" + box_words(before, after);
   if (difference.is_counted && difference.gone == 0) return count(difference.come) + all + " added" + box_words(before, after);

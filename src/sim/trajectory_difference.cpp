@@ -188,9 +188,11 @@ TrajectoryDifference difference_of(const SampledTrajectory& before, const Sample
       difference.others.push_back("the runs are sampled at other instants and share " + std::to_string(instants.size()));
   }
   compare_events(before, after, difference.others);
-  if (before.status != after.status || !is_same_time(before.end_time, after.end_time))
-    difference.others.push_back("the run " + change_text(before.status + " at t = " + format_shortest(before.end_time) + " s",
-                                                         after.status + " at t = " + format_shortest(after.end_time) + " s"));
+  const auto end = [](const SampledTrajectory& run) { return "t = " + format_shortest(run.end_time) + " s"; };
+  if (before.status != after.status)
+    difference.others.push_back("the run: " + change_text(before.status + " at " + end(before), after.status + " at " + end(after)));
+  else if (!is_same_time(before.end_time, after.end_time))
+    difference.others.push_back("the run ends at " + change_text(end(before), end(after)));
   return difference;
 }
 

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <random>
 #include <regex>
 
 #include "app/verify/key_difference.hpp"
@@ -93,7 +94,7 @@ TEST(PhysicsRecord, TellsKeysThatMoveNothing) {
   EXPECT_THAT(shop.after({"camera.azimuth=10deg"}), ElementsAre(StartsWith("camera.azimuth: left out -> 0.17")));
   EXPECT_THAT(shop.after({"video.fps=60"}), ElementsAre("video.fps 30 -> 60"));
   EXPECT_THAT(shop.after({"duration=2"}),
-              ElementsAre("the run finished at t = 1 s -> finished at t = 2 s", "duration 1 -> 2"));
+              ElementsAre("the run ends at t = 1 s -> t = 2 s", "duration 1 -> 2"));
   EXPECT_THAT(shop.after_model("rgba=\"0.337", "rgba=\"0.353"),
               ElementsAre(AllOf(HasSubstr("link link1: visual 1 (cylinder) colour 86 180 233 255 -> 90 180 233 255 of 255"),
                                 HasSubstr("material sky")),
@@ -136,6 +137,40 @@ TEST(PhysicsRecord, RefusesWhatIsNone) {
   for (const Json& bad : {Json(), Json::array(), Json{{"panels", 3}}, cut, empty, words})
     EXPECT_THROW(explain_runs(good, bad), Error) << bad.dump().substr(0, 200);
   EXPECT_THROW(explain_models(good["models"][0], Json::object()), Error);
+}
+
+// Records lie in files that anyone may touch.
+TEST(PhysicsRecord, SpoiltByLotIsRefusedOrTold) {
+  const Workshop shop;
+  const Json good = record_of(shop.scene);
+  std::mt19937 lot(5);
+  int refused = 0, told = 0;
+  for (int round = 0; round < 600; ++round) {
+    Json bad = good;
+    Json* node = &bad;
+    for (int depth = 0; node->is_structured() && !node->empty() && (depth < 2 || lot() % 4 != 0); ++depth) {
+      auto child = node->begin();
+      std::advance(child, lot() % node->size());
+      node = &*child;
+    }
+    switch (lot() % 6) {
+      case 0: *node = nullptr; break;
+      case 1: *node = -7; break;
+      case 2: *node = 1e300; break;
+      case 3: *node = "x"; break;
+      case 4: *node = Json::array(); break;
+      default: *node = Json::object(); break;
+    }
+    try {
+      told += !explain_runs(good, bad).empty();
+      explain_runs(bad, good);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::bad_input);
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 100);
+  EXPECT_GT(told, 20);
 }
 
 TEST(KeyDifference, GoesDownToTheEntryThatDiffers) {

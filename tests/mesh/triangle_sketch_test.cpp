@@ -16,6 +16,7 @@ TriangleMesh sheet(int n) {
     for (int k = 0; k <= n; ++k) {
       TriangleMesh::Vertex vertex;
       vertex.position = {float(i) / float(n), float(k) / float(n), float(0.1 * std::sin(0.7 * i) * std::cos(0.3 * k))};
+      vertex.normal = {float(std::sin(i)), float(std::cos(k)), float(0.1 * i)};
       vertex.color = {255, 255, 255, 255};
       mesh.vertices.push_back(vertex);
     }
@@ -112,6 +113,18 @@ TEST(TriangleSketch, KeepsColoursApartFromShape) {
   const TriangleSketch after = sketch_of(mesh);
   EXPECT_EQ(before.shape, after.shape);
   EXPECT_NE(before.colors, after.colors);
+}
+
+TEST(TriangleSketch, TellsOtherNormalsFromTheirRoundOff) {
+  for (const int n : {2, 20, 100}) {
+    TriangleMesh mesh = sheet(n);
+    const TriangleSketch before = sketch_of(mesh);
+    for (TriangleMesh::Vertex& vertex : mesh.vertices) vertex.normal[0] *= 1 + 1e-7F;
+    EXPECT_EQ(before, sketch_of(mesh)) << n;
+    mesh.vertices[4].normal[1] += 0.01F;
+    EXPECT_FALSE(before == sketch_of(mesh)) << n;
+    EXPECT_EQ(before.shape, sketch_of(mesh).shape);
+  }
 }
 
 TEST(TriangleSketch, IsReadBackFromASmallJson) {

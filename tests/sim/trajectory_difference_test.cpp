@@ -75,7 +75,7 @@ TEST(TrajectoryDifference, ComparesRunsOfOtherLengthsAndRatesOverSharedInstants)
   short_run.t.resize(501), short_run.q.resize(1002), short_run.qd.resize(1002);
   short_run.status = "stopped", short_run.end_time = 5;
   EXPECT_THAT(words_of(swing(), short_run),
-              ElementsAre(HasSubstr("from t = 0.81 s on (largest 0.084 rad at t = 5 s)"), "the run finished at t = 10 s -> stopped at t = 5 s"));
+              ElementsAre(HasSubstr("from t = 0.81 s on (largest 0.084 rad at t = 5 s)"), "the run: finished at t = 10 s -> stopped at t = 5 s"));
   for (std::size_t k = 0; k < rare.size(); ++k) rare.t[k] += 0.005;
   EXPECT_THAT(words_of(swing(), rare), ElementsAre("the runs are sampled at other instants and share 0"));
   EXPECT_EQ(difference_of(swing(), short_run).instants, 501);

@@ -77,6 +77,13 @@ Json json_of(const std::vector<SampledNumber>& numbers) {
   return json;
 }
 
+// What is no number is null, as JSON has it.
+Json json_of(const std::vector<double>& numbers) {
+  Json json = Json::array();
+  for (const double number : numbers) json.push_back(std::isfinite(number) ? Json(number) : Json(nullptr));
+  return json;
+}
+
 Json trajectory_record(const PreparedScene& panel, const Trajectory& trajectory) {
   const Audit audit = audit_of(panel.simulation, trajectory);
   SampledTrajectory run = sampled(panel.simulation.chain, trajectory);
@@ -91,12 +98,11 @@ Json trajectory_record(const PreparedScene& panel, const Trajectory& trajectory)
           {"events", events},
           {"q_numbers", json_of(run.q_numbers)},
           {"qd_numbers", json_of(run.qd_numbers)},
-          {"t", run.t},
-          {"q", run.q},
-          {"qd", run.qd}};
+          {"t", json_of(run.t)},
+          {"q", json_of(run.q)},
+          {"qd", json_of(run.qd)}};
 }
 
-// Numbers that are none are null in JSON.
 std::vector<double> numbers_of(const Json& json) {
   std::vector<double> numbers;
   numbers.reserve(json.size());
@@ -182,6 +188,21 @@ void add_table_changes(const Json& before, const Json& after, Changes& changes) 
     if (before.contains(name) && before[name] != hash) changes.causes.push_back("torque: the numbers in table " + name + " differ");
 }
 
+// How a panel's model was read.
+struct ModelReading {
+  std::string path;
+  ModelOptions options;
+  DescribeCollisions collisions;
+  friend bool operator==(const ModelReading&, const ModelReading&) = default;
+};
+ModelReading reading_of(const PreparedScene& panel) {
+  const bool shows_collisions = panel.scene.links == LinkShapes::collision;
+  ModelReading reading{panel.scene.model, model_options_of(panel.scene),
+                       shows_collisions ? DescribeCollisions::all : DescribeCollisions::where_seen};
+  reading.options.meshes = panel.shapes != nullptr;  // of bars no picture shows them
+  return reading;
+}
+
 // What happened otherwise, first in one sentence with its cause where there is but one.
 std::vector<std::string> told(const TrajectoryDifference& difference, const Json& before, const Json& after, Changes changes) {
   std::vector<std::string> sentences;
@@ -208,11 +229,16 @@ std::vector<std::string> explain_panels(const Json& before, const Json& after, c
                     of_after.at("models").at(after.at("model").get<std::size_t>()), changes);
   const std::string old = method_words(before.at("method")), now = method_words(after.at("method"));
   const Json &run_before = before.at("trajectory"), &run_after = after.at("trajectory");
-  // Chosen otherwise, for a reason that may stand above.
-  if (old != now && before.at("keys") == after.at("keys"))
-    changes.causes.push_back("method chosen by auto: " + change_text(old, now));
-  if (run_before == run_after) return told({}, run_before, run_after, std::move(changes));
-  return told(difference_of(trajectory_of(run_before), trajectory_of(run_after)), run_before, run_after, std::move(changes));
+  TrajectoryDifference difference;
+  if (run_before != run_after) difference = difference_of(trajectory_of(run_before), trajectory_of(run_after));
+  // Of another model or torque `auto` may take another method, which then is no cause of its own.
+  if (const std::string chosen = "method chosen by auto: " + change_text(old, now); old != now && before.at("keys") == after.at("keys")) {
+    if (changes.causes.empty())
+      changes.causes.push_back(chosen);
+    else
+      difference.others.push_back(chosen);
+  }
+  return told(difference, run_before, run_after, std::move(changes));
 }
 
 // What all panels say is said once.
@@ -266,16 +292,15 @@ Json run_record(const PreparedFilm& film, const Runs& runs) {
   Tables page_tables;
   Json page = keys_of(film.scene, KeyOf::page, page_tables);
   page["title"] = film.scene.title;
+  std::vector<ModelReading> read;  // of `models`: panels that share one read its meshes once
   for (std::size_t i = 0; i < film.panels.size(); ++i) {
     const PreparedScene& panel = film.panels[i];
-    const bool shows_collisions = panel.scene.links == LinkShapes::collision;
-    ModelOptions options = model_options_of(panel.scene);
-    options.meshes = panel.shapes != nullptr;
-    const Json model = model_record(panel.scene.model, options,
-                                    shows_collisions ? DescribeCollisions::all : DescribeCollisions::where_seen);
-    const auto known = std::find(models.begin(), models.end(), model);
-    const auto index = std::size_t(known - models.begin());
-    if (known == models.end()) models.push_back(model);
+    const ModelReading reading = reading_of(panel);
+    const auto index = std::size_t(std::find(read.begin(), read.end(), reading) - read.begin());
+    if (index == read.size()) {
+      read.push_back(reading);
+      models.push_back(model_record(reading.path, reading.options, reading.collisions));
+    }
     Tables tables;
     Json keys = keys_of(panel.scene, KeyOf::panel, tables);
     panels.push_back({{"title", panel.scene.title},
