@@ -12,7 +12,14 @@ std::string change_text(const std::string& before, const std::string& after) {
 }
 
 std::string change_text(double before, double after, const std::string& unit) {
-  return change_text(format_shortest(before), format_shortest(after)) + (unit.empty() ? "" : " " + unit);
+  const double most = 0.02 * std::abs(after - before);  // that rounding may take away
+  const auto rounds = [&](double value, int digits) {
+    return !(std::abs(parse_number(format_significant(value, digits)).value_or(0) - value) <= most);
+  };
+  int digits = 6;
+  while (digits < 17 && (rounds(before, digits) || rounds(after, digits))) ++digits;
+  const auto text = [&](double value) { return digits < 17 ? format_significant(value, digits) : format_shortest(value); };
+  return change_text(text(before), text(after)) + (unit.empty() ? "" : " " + unit);
 }
 
 std::string length_text(double metres) {

@@ -101,6 +101,10 @@ class ModelComparison {
   void compare_names() {
     if (before_.name != after_.name)
       tell(ModelChange::looks, "model: renamed from " + before_.name + " to " + after_.name);
+    const auto kept = std::count_if(match_.joints.begin(), match_.joints.end(), [](int joint) { return joint >= 0; });
+    if (2 * std::size_t(kept) < std::max(before_.joints.size(), after_.joints.size()))
+      tell(ModelChange::structure, "another robot: " + std::to_string(kept) + " of its " + std::to_string(after_.joints.size()) +
+                                       " joints were there before");
     compare_names("link", before_.links, after_.links, match_.links, match_.links_of);
     compare_names("joint", before_.joints, after_.joints, match_.joints, match_.joints_of);
     if (link_now(before_.root) != after_.links[std::size_t(after_.root)].name)

@@ -1,5 +1,6 @@
 #include "model/model_match.hpp"
 
+#include <algorithm>
 #include <unordered_map>
 
 namespace chainreel {
@@ -43,7 +44,9 @@ class Matcher {
   ModelMatch run() {
     match_by_name(before_.links, after_.links, match_.links, match_.links_of);
     match_by_name(before_.joints, after_.joints, match_.joints, match_.joints_of);
-    if (before_.root >= 0 && after_.root >= 0) match_links(before_.root, after_.root);
+    // Of two robots that have nothing in common none is the other's root under another name.
+    const bool have_something = std::any_of(match_.links.begin(), match_.links.end(), [](int link) { return link >= 0; });
+    if (have_something || is_alike(before_.root, after_.root)) match_links(before_.root, after_.root);
     // A link that is found lets others be found below it. Of files with very many other links nobody asks for names.
     for (int looks = 0; looks < kMostRenamed && match_one_more_link(); ++looks) {
     }

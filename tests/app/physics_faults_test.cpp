@@ -160,7 +160,7 @@ constexpr SceneFault kSceneFaults[] = {
     {"rr_torque", "torque.2=0.99", "torque.2 1 -> 0.99"},
     {"rr_torque", "method=symplectic_euler", "method semi_implicit_euler -> symplectic_euler"},
     {"rr_torque", "method=rk4", "method semi_implicit_euler -> rk4"},
-    {"rr_torque", "step=0.0005", "step 0.001 -> 5e-04"},
+    {"rr_torque", "step=0.0005", "step 0.001 -> 0.0005"},
     {"rr_torque", "gravity=[0, -9.8, 0]", "gravity.2 -9.81 -> -9.8"},
     {"rr_torque", "start.q=[1e-3, 0]", "start.q.1 0 -> 0.001"},
     {"rr_torque", "start.qd=[0, 1e-3]", "start.qd.2 0 -> 0.001"},
@@ -171,7 +171,7 @@ constexpr SceneFault kSceneFaults[] = {
     {"pp_spring", "start.q.2=1.001", "start.q.2 1 -> 1.001"},
     {"humanoid_fall", "parameters.tau=25.25", "parameters.tau 25 -> 25.25"},
     {"humanoid_fall", "parameters.k=1", "parameters.k 0 -> 1"},
-    {"humanoid_fall", "start.q.1=-0.0533", "start.q.1 -0.05235987755982988 -> -0.0533"},
+    {"humanoid_fall", "start.q.1=-0.0533", "start.q.1 -0.0523599 -> -0.0533"},
     {"four_bar", "torque.1=12.12 - 2 * qd1", "torque.1"},
     {"slider_crank", "torque.1=8.08 - qd1", "torque.1"},
 };

@@ -82,6 +82,9 @@ TEST(PhysicsRecord, TellsAMotionTogetherWithItsOneCause) {
   EXPECT_THAT(shop.after({"torque.1=1.01"}), ElementsAre(AllOf(HasSubstr("differs by"), HasSubstr(": torque.1 1 -> 1.01"))));
   EXPECT_THAT(shop.after_model("<mass value=\"1\"/>", "<mass value=\"1.01\"/>"),
               ElementsAre(AllOf(StartsWith("q"), HasSubstr(": link link1: mass 1 -> 1.01 kg, URDF line 17"))));
+  // What a method brings with it is no second cause.
+  EXPECT_THAT(shop.after({"method=dop853", "step=null"}),
+              ElementsAre(HasSubstr(": method rk4 -> dop853 (tolerance: left out -> 1e-09, step: 0.01 -> left out)")));
   // Several causes stand by themselves, before what comes of them.
   EXPECT_THAT(shop.after({"torque.1=1.01", "start.q=[0.001, 0]"}),
               ElementsAre("start.q.1 0 -> 0.001", "torque.1 1 -> 1.01",
@@ -180,7 +183,12 @@ TEST(KeyDifference, GoesDownToTheEntryThatDiffers) {
               ElementsAre("torque.2: \"max(0, q1)\" -> \"max(1, q1)\""));
   EXPECT_THAT(key_changes("torque", "{pd: {kp: [1, 2], kd: [3]}}", "{pd: {kp: [1, 4], kd: [3]}, csv: a.csv}"),
               ElementsAre("torque.pd.kp.2 2 -> 4", "torque.csv: left out -> a.csv"));
-  EXPECT_THAT(key_changes("start.q", "[1]", "[1, 2]"), ElementsAre("start.q: [1] -> [1, 2]"));
+  EXPECT_THAT(key_changes("start.q", "[1]", "[1, 2]"), ElementsAre("start.q: with 2"));
+  EXPECT_THAT(key_changes("draw", "[chain, trail, time]", "[chain, ellipse]"), ElementsAre("draw: without trail, without time, with ellipse"));
+  EXPECT_THAT(key_changes("draw", "[]", "[chain]"), ElementsAre("draw [] -> [chain]"));
+  EXPECT_THAT(key_changes("draw", "[a, a]", "[a]"), ElementsAre("draw: [a, a] -> [a]"));
+  EXPECT_THAT(key_changes("start.q", "[1.5707963267948966]", "[1.5705227719643442]"), ElementsAre("start.q.1 1.5708 -> 1.57052"));
+  EXPECT_THAT(key_changes("step", "1", "1.0"), ElementsAre("step 1 -> 1.0"));
   EXPECT_THAT(key_changes("a", "[1, 2]", "[1,  2]"), ElementsAre("a: [1, 2] -> [1,  2]"));  // never silent
 }
 
@@ -190,7 +198,7 @@ TEST(Poses, AreToldByJointsInTheUnitsThatTheyHave) {
   const Json arm = model_record(kRr, {});
   EXPECT_THAT(explain_poses({0, 1.5707963267948966}, {0, 1.5718435243461}, {"joint1", "joint2"}, arm),
               ElementsAre("pose: joint2 90 -> 90.06 deg"));
-  EXPECT_THAT(explain_poses({0, 1.5}, {0, 1.5 + 1e-13}, {"joint1", "joint2"}, arm), ElementsAre(StartsWith("pose: joint2 85.9436692696")));
+  EXPECT_THAT(explain_poses({0, 1.5}, {0, 1.5 + 1e-13}, {"joint1", "joint2"}, arm), ElementsAre("pose: joint2 85.9436692696235 -> 85.9436692696292 deg"));
   EXPECT_THAT(explain_poses({0, 1.5}, {0, 1.6}, {"joint1", "joint2"}), ElementsAre("pose: joint2 1.5 -> 1.6"));
   EXPECT_THAT(explain_poses({0, 1.5}, {0, 1.5}, {"joint1", "joint2"}, arm), IsEmpty());
   EXPECT_THAT(explain_poses({0}, {0, 1.5}, {"joint1", "joint2"}), ElementsAre("pose: 1 -> 2 numbers"));

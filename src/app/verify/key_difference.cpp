@@ -1,10 +1,12 @@
 #include "app/verify/key_difference.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "core/change_words.hpp"
+#include "core/format.hpp"
 
 namespace chainreel {
 namespace {
@@ -76,6 +78,18 @@ std::string shown(const std::string& value) {
   return value.empty() ? "left out" : value;
 }
 
+// "draw: without trail, with ellipse"; "" where both hold the same in another order.
+std::string members_text(const std::vector<std::string>& before, const std::vector<std::string>& after) {
+  std::vector<std::string> changes;
+  const auto add = [&](const char* word, const std::vector<std::string>& these, const std::vector<std::string>& those) {
+    for (const std::string& one : these)
+      if (std::find(those.begin(), those.end(), one) == those.end()) changes.push_back(word + one);
+  };
+  add("without ", before, after);
+  add("with ", after, before);
+  return joined(changes);
+}
+
 bool is_word(const std::string& value) {
   return value.find_first_of(" ,:") == std::string::npos;
 }
@@ -89,11 +103,21 @@ void add_changes(const std::string& key, const std::string& before, const std::s
       for (std::size_t i = 0; i < now.size(); ++i) add_changes(key + "." + std::to_string(i + 1), old[i], now[i], changes);
       return;
     }
+    const std::string members = members_text(old, now);
+    if (!members.empty() && !old.empty() && !now.empty()) {
+      changes.push_back(key + ": " + members);
+      return;
+    }
   } else if (is_in(before, '{', '}') && is_in(after, '{', '}')) {
     const Members old = members_of(before), now = members_of(after);
     for (const auto& [name, value] : old) add_changes(key + "." + name, value, value_in(now, name), changes);
     for (const auto& [name, value] : now)
       if (value_in(old, name).empty()) add_changes(key + "." + name, "", value, changes);
+    return;
+  }
+  const std::optional<double> old = parse_number(before), now = parse_number(after);
+  if (old && now && *old != *now) {
+    changes.push_back(key + " " + change_text(*old, *now, ""));
     return;
   }
   const bool are_words = is_word(before) && is_word(after) && !before.empty() && !after.empty();

@@ -161,6 +161,22 @@ struct Changes {
   std::vector<std::string> looks;
 };
 
+// Another method has another step or tolerance, which is no second cause.
+void join_method(std::vector<std::string>& causes) {
+  const auto tells = [](const std::string& words, std::initializer_list<const char*> keys) {
+    return std::any_of(keys.begin(), keys.end(), [&](const std::string& key) {
+      return words.starts_with(key + " ") || words.starts_with(key + ": ");
+    });
+  };
+  const auto method = std::find_if(causes.begin(), causes.end(), [&](const std::string& words) { return tells(words, {"method"}); });
+  if (method == causes.end()) return;
+  std::vector<std::string> more;
+  for (const std::string& words : causes)
+    if (tells(words, {"step", "tolerance", "order", "accuracy"})) more.push_back(words);
+  if (!more.empty()) *method += " (" + joined(more) + ")";
+  std::erase_if(causes, [&](const std::string& words) { return std::find(more.begin(), more.end(), words) != more.end(); });
+}
+
 void add_key_changes(const Json& before, const Json& after, Changes& changes) {
   const auto text = [](const Json& keys, const std::string& key) {
     return keys.contains(key) ? keys[key].get<std::string>() : std::string();
@@ -227,6 +243,11 @@ std::vector<std::string> explain_panels(const Json& before, const Json& after, c
   add_table_changes(before.at("tables"), after.at("tables"), changes);
   add_model_changes(of_before.at("models").at(before.at("model").get<std::size_t>()),
                     of_after.at("models").at(after.at("model").get<std::size_t>()), changes);
+  join_method(changes.causes);
+  // A start on constraints is brought onto them, so that it moves with them and with the model.
+  if (after.at("keys").contains("constraints"))
+    std::stable_partition(changes.causes.begin(), changes.causes.end(),
+                          [](const std::string& words) { return !words.starts_with("start."); });
   const std::string old = method_words(before.at("method")), now = method_words(after.at("method"));
   const Json &run_before = before.at("trajectory"), &run_after = after.at("trajectory");
   TrajectoryDifference difference;
@@ -345,13 +366,8 @@ std::vector<std::string> explain_poses(const std::vector<double>& before, const 
       changes.push_back(name + " " + change_text(before[i], after[i], unit));
       continue;
     }
-    // As few digits as tell the two apart, since 90 deg are no short number of radians.
-    const double old = before[i] * 180 / std::numbers::pi, now = after[i] * 180 / std::numbers::pi;
-    int digits = 4;
-    while (digits < 17 && (format_significant(old, digits) == format_significant(now, digits) ||
-                           std::abs(parse_number(format_significant(now, digits)).value_or(0) - now) > 0.02 * std::abs(now - old)))
-      ++digits;
-    changes.push_back(name + " " + change_text(format_significant(old, digits), format_significant(now, digits)) + " deg");
+    constexpr double kDegrees = 180 / std::numbers::pi;
+    changes.push_back(name + " " + change_text(kDegrees * before[i], kDegrees * after[i], "deg"));
   }
   if (changes.empty()) return {};
   return {"pose: " + joined(changes)};
