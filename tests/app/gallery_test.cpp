@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "app/gallery/gallery_page.hpp"
-#include "app/gallery/page_template.hpp"
+#include "app/report/page_template.hpp"
 #include "core/hash.hpp"
 #include "encode/film_start.hpp"
 #include "encode/png.hpp"

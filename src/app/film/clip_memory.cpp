@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "app/cli/shell_word.hpp"
 #include "app/film/formats.hpp"
 #include "core/error.hpp"
 #include "core/input_file.hpp"
@@ -156,14 +157,7 @@ ClipMemory recall(const std::string& path) {
 std::string command_line(const Json& figure) {
   std::string line = "chainreel";
   for (const Json& word : figure.at("arguments")) {
-    std::string text = word.is_string() ? word.get<std::string>() : word.dump();
-    const bool plain = !text.empty() && text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                                               "0123456789_-+=./,:@%") == std::string::npos;
-    if (!plain) {
-      replace_all(text, "'", "'\\''");
-      text = "'" + text + "'";
-    }
-    line += " " + text;
+    line += " " + shell_word(word.is_string() ? word.get<std::string>() : word.dump());
   }
   return line;
 }

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "app/cli/streams.hpp"
-#include "app/gallery/page_template.hpp"
+#include "app/report/page_template.hpp"
 #include "app/report/version.hpp"
 #include "core/format.hpp"
 #include "core/hash.hpp"

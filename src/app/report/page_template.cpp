@@ -1,4 +1,4 @@
-#include "app/gallery/page_template.hpp"
+#include "app/report/page_template.hpp"
 
 #include <span>
 #include <sstream>
