@@ -162,7 +162,7 @@ TEST(Compare, SaysWhichKeysOfTheScenesDiffer) {
   const std::string b = picture(folder, "b.png", square_at(12), scene("dop853"));
   const std::string silent = picture(folder, "c.png", square_at(12));
   EXPECT_EQ(report({a, b})["explained"],
-            (Json{"method: rk4 -> dop853", "the motion is another one, by its hash"}));
+            (Json{"method rk4 -> dop853", "the motion is another one, by its hash"}));
   EXPECT_EQ(report({a, a})["explained"], Json::array());
   EXPECT_THAT(report({a, silent})["explained"][0].get<std::string>(), HasSubstr("only " + a + " remembers"));
   EXPECT_EQ(report({silent, silent})["explained"], Json::array());

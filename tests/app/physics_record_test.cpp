@@ -7,7 +7,6 @@
 #include <random>
 #include <regex>
 
-#include "app/verify/key_difference.hpp"
 #include "core/error.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -174,22 +173,6 @@ TEST(PhysicsRecord, SpoiltByLotIsRefusedOrTold) {
   }
   EXPECT_GT(refused, 100);
   EXPECT_GT(told, 20);
-}
-
-TEST(KeyDifference, GoesDownToTheEntryThatDiffers) {
-  EXPECT_THAT(key_changes("method", "rk4", "dop853"), ElementsAre("method rk4 -> dop853"));
-  EXPECT_THAT(key_changes("step", "", "0.01"), ElementsAre("step: left out -> 0.01"));
-  EXPECT_THAT(key_changes("torque", "[0, \"max(0, q1)\"]", "[0, \"max(1, q1)\"]"),
-              ElementsAre("torque.2: \"max(0, q1)\" -> \"max(1, q1)\""));
-  EXPECT_THAT(key_changes("torque", "{pd: {kp: [1, 2], kd: [3]}}", "{pd: {kp: [1, 4], kd: [3]}, csv: a.csv}"),
-              ElementsAre("torque.pd.kp.2 2 -> 4", "torque.csv: left out -> a.csv"));
-  EXPECT_THAT(key_changes("start.q", "[1]", "[1, 2]"), ElementsAre("start.q: with 2"));
-  EXPECT_THAT(key_changes("draw", "[chain, trail, time]", "[chain, ellipse]"), ElementsAre("draw: without trail, without time, with ellipse"));
-  EXPECT_THAT(key_changes("draw", "[]", "[chain]"), ElementsAre("draw [] -> [chain]"));
-  EXPECT_THAT(key_changes("draw", "[a, a]", "[a]"), ElementsAre("draw: [a, a] -> [a]"));
-  EXPECT_THAT(key_changes("start.q", "[1.5707963267948966]", "[1.5705227719643442]"), ElementsAre("start.q.1 1.5708 -> 1.57052"));
-  EXPECT_THAT(key_changes("step", "1", "1.0"), ElementsAre("step 1 -> 1.0"));
-  EXPECT_THAT(key_changes("a", "[1, 2]", "[1,  2]"), ElementsAre("a: [1, 2] -> [1,  2]"));  // never silent
 }
 
 TEST(Poses, AreToldByJointsInTheUnitsThatTheyHave) {

@@ -15,7 +15,7 @@
 #include "model/model_difference.hpp"
 #include "scene/keys/keys.hpp"
 #include "scene/run/prepare.hpp"
-#include "scene/text/write_scene.hpp"
+#include "scene/text/scene_difference.hpp"
 #include "sim/trajectory_difference.hpp"
 
 namespace chainreel {
