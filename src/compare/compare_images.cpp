@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <optional>
+#include <stdexcept>
 
 #include "compare/flip.hpp"
 #include "compare/judged_pixels.hpp"
@@ -127,6 +128,8 @@ class Tiles {
 JudgedPixels::JudgedPixels(const Image& expected, const Image& actual, const ImageTolerance& tolerance,
                            const Envelope* envelope) {
   const int width = expected.width, height = expected.height;
+  if (envelope != nullptr && (envelope->low.width != width || envelope->low.height != height))
+    throw std::logic_error("the envelope is that of a picture of another size");
   if (expected.bgra == actual.bgra) return;
   const std::vector<bool> hidden = masked_pixels(tolerance.masks, width, height);
   kinds.assign(std::size_t(width) * std::size_t(height), equal);
@@ -193,7 +196,7 @@ ImageDifference compare_images(const Image& expected, const Image& actual, const
     }
     const double error = judged.errors[i];
     difference.worst = std::max(difference.worst, error);
-    if (error > tolerance.error) {
+    if (!(error <= tolerance.error)) {  // a tolerance that is no number allows nothing
       ++difference.beyond;
       beyond.add(x, y);
     }

@@ -13,8 +13,8 @@
 namespace chainreel {
 
 struct ImageTolerance {
-  double error = 0.1;           // a pixel counts as different where its error (0 to 1) is beyond this ..
-  int pixels = 0;               // .. and so many may
+  double error = 0.1;             // a pixel counts as different where its error (0 to 1) is beyond this ..
+  int pixels = 0;                 // .. and so many may
   std::vector<PixelBox> masks{};  // not looked at; they may reach out of the picture
   // Where there is no envelope, that of each pixel's neighbours is taken (`envelope_of` without shapes).
   bool forgive_edges = false;

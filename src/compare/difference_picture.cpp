@@ -57,7 +57,7 @@ Image difference_picture(const Image& expected, const Image& actual, const Image
         color = kAtEdge;
       } else if (!judged.kinds.empty() && judged.kinds[i] == JudgedPixels::other) {
         const double error = judged.errors[i];
-        color = mix(color, color_of_error(error), error > tolerance.error ? 1.0 : 0.4);
+        color = mix(color, color_of_error(error), error <= tolerance.error ? 0.4 : 1.0);
       }
       for (int c = 0; c < 3; ++c)
         picture.bgra[4 * i + std::size_t(c)] = std::uint8_t(std::lround(color[2 - c]));

@@ -1,7 +1,7 @@
 #include "compare/envelope.hpp"
 
 #include <algorithm>
-#include <cstdlib>
+#include <stdexcept>
 #include <vector>
 
 namespace chainreel {
@@ -70,6 +70,9 @@ Image half_way(const Image& image, int dx, int dy) {
 }  // namespace
 
 Envelope envelope_of(const Image& drawn, std::span<const Image> moved) {
+  for (const Image& image : moved)
+    if (image.width != drawn.width || image.height != drawn.height)
+      throw std::logic_error("a picture and its moved shapes have one size");
   Envelope envelope;
   bound(drawn, moved, envelope.low, envelope.high);
   std::vector<Image> means;

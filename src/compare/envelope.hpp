@@ -17,7 +17,8 @@ struct Envelope {
 
 // From one rendering and others whose shapes are moved by half a pixel; four, to each side, stand for all
 // moves with |dx| + |dy| <= 0.5. Between them values are taken to be as steep as the renderings show at the
-// pixel, since a thin stroke may have its peak there. All are of one size.
+// pixel, since a thin stroke may have its peak there. All are of one size, else
+// std::logic_error is thrown.
 Envelope envelope_of(const Image& drawn, std::span<const Image> moved);
 
 // Without shapes: half way to each pixel's neighbours. That is less than half a pixel's move of a sharp edge,

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <stdexcept>
+
 #include "compare/flip.hpp"
 #include "compare/test_images.hpp"
 
@@ -115,6 +118,29 @@ TEST(CompareImages, ColoursOfTransparentPixelsAreUnequalButNotSeen) {
   EXPECT_EQ(d.unequal, 25);
   EXPECT_EQ(d.worst, 0);
   EXPECT_TRUE(d.passes({}));
+}
+
+TEST(CompareImages, PicturesMayBeAsSmallAsTheyLike) {
+  for (const auto& [width, height] : {std::pair(1, 1), {1, 70}, {70, 1}, {2, 2}, {65, 3}}) {
+    const Image expected = plain(width, height, kWhite), actual = plain(width, height, kRed);
+    EXPECT_EQ(compare_images(expected, actual, {}).beyond, width * height);
+    EXPECT_EQ(compare_images(expected, actual, {.forgive_edges = true}).beyond, width * height)
+        << "paper that has no edge has nothing to forgive";
+    EXPECT_EQ(difference_picture(expected, actual, {.forgive_edges = true}).width, width);
+  }
+  EXPECT_TRUE(compare_images(Image(), Image(), {.forgive_edges = true}).is_equal());
+}
+
+TEST(CompareImages, AToleranceThatIsNoNumberAllowsNothing) {
+  const Image expected = plain(9, 9, kWhite), actual = plain(9, 9, {254, 255, 255, 255});
+  EXPECT_EQ(compare_images(expected, actual, {.error = std::nan("")}).beyond, 81);
+}
+
+TEST(CompareImages, AnEnvelopeOfAnotherSizeIsRefused) {
+  const Image image = plain(9, 9, kWhite), other = plain(9, 9, kRed), small = plain(8, 9, kWhite);
+  const Envelope envelope = envelope_of(small);
+  EXPECT_THROW(compare_images(image, other, {}, &envelope), std::logic_error);
+  EXPECT_THROW(envelope_of(image, std::span(&small, 1)), std::logic_error);
 }
 
 TEST(CompareImages, IsSymmetricWithoutAnEnvelope) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "app/cli/streams.hpp"
 #include "app/commands/comparison.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -51,6 +52,7 @@ FilmDifference difference_of(const CompareOptions& options) {
   }
   Image images[2];
   for (;;) {
+    throw_if_interrupted();
     bool there[2];
     for (int i = 0; i < 2; ++i)
       if ((there[i] = readers[i].next(images[i]))) ++found.frames[i];
@@ -63,9 +65,12 @@ FilmDifference difference_of(const CompareOptions& options) {
     if (difference.is_equal()) continue;
     ++found.unequal;
     if (fails) ++found.beyond;
-    const ToldFrame frame{found.frames[0] - 1, difference, images[0], images[1]};
-    if (!found.first) found.first = frame;
-    if (!found.worst || is_worse(difference, found.worst->difference)) found.worst = frame;
+    const bool is_worst = !found.worst || is_worse(difference, found.worst->difference);
+    if (!found.first || is_worst) {
+      const ToldFrame frame{found.frames[0] - 1, difference, images[0], images[1]};
+      if (!found.first) found.first = frame;
+      if (is_worst) found.worst = frame;
+    }
   }
   for (int i = 0; i < 2; ++i)
     if (found.frames[i] == 0)

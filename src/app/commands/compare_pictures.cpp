@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "app/cli/streams.hpp"
 #include "app/commands/comparison.hpp"
 #include "core/error.hpp"
 #include "core/input_file.hpp"
@@ -63,6 +64,7 @@ Comparison compare_folders(const CompareOptions& options) {
   found.report["pictures"] = Json::array();
   std::map<std::string, int> counts;
   for (const std::string& name : all) {
+    throw_if_interrupted();
     Json entry{{"name", name}};
     std::string state;
     std::vector<std::string> words;
