@@ -178,9 +178,10 @@ class ModelComparison {
       const std::optional<double> old = limit.value(before), now = limit.value(after);
       const std::string unit = is_linear ? limit.linear : limit.angular;
       const int line = after.limit.given ? after.limit.line : after.line;
-      const auto text = [](const std::optional<double>& value) { return value ? format_shortest(*value) : "none"; };
+      const auto text = [&](const std::optional<double>& value) { return value ? format_shortest(*value) + " " + unit : "none"; };
       if (old != now)
-        tell(ModelChange::resistance, joint + limit.name + " " + change_text(text(old), text(now)) + " " + unit, line);
+        tell(ModelChange::resistance,
+             joint + limit.name + " " + (old && now ? change_text(*old, *now, unit) : change_text(text(old), text(now))), line);
     }
   }
 

@@ -172,6 +172,17 @@ SampledTrajectory sampled(const Chain& chain, const Trajectory& trajectory, int 
   return result;
 }
 
+void join_rotations(std::vector<SampledNumber>& numbers) {
+  constexpr const char* kParts[] = {".qx", ".qy", ".qz", ".qw"};
+  for (std::size_t i = 0; i + 3 < numbers.size(); ++i) {
+    if (!numbers[i].label.ends_with(kParts[0])) continue;
+    const std::string name = numbers[i].label.substr(0, numbers[i].label.size() - 3);
+    bool are_one = true;
+    for (std::size_t k = 1; k < 4; ++k) are_one &= numbers[i + k].label == name + kParts[k];
+    for (std::size_t k = 0; are_one && k < 4; ++k) numbers[i + k] = {"rotation of " + name, kQuaternion};
+  }
+}
+
 TrajectoryDifference difference_of(const SampledTrajectory& before, const SampledTrajectory& after) {
   TrajectoryDifference difference;
   const Instants instants = shared_instants(before.t, after.t);

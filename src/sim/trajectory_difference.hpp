@@ -35,6 +35,9 @@ struct SampledTrajectory {
 // Every 2^n-th sample, so that runs of other lengths share instants, at most `most`, and the last one. Without events.
 SampledTrajectory sampled(const Chain& chain, const Trajectory& trajectory, int most = 200);
 
+// Of numbers that have names alone: NAME.qx NAME.qy NAME.qz NAME.qw, as position_names has them, become one rotation.
+void join_rotations(std::vector<SampledNumber>& numbers);
+
 struct FreedomDifference {
   std::string label, unit;
   double first_time = 0;    // s: the first instant that both have at which they are apart by more than the tolerance

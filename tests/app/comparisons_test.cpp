@@ -284,6 +284,11 @@ TEST(Compare, ModelsAreComparedInWords) {
   const Json json = report({"models/rr.urdf", heavier});
   EXPECT_EQ(json["status"], 1);
   EXPECT_THAT(json["explained"][0].get<std::string>(), HasSubstr("mass 1 -> 11 kg"));
+  // Of collisions, too, which no picture shows.
+  text = read_whole_file("models/rr.urdf");
+  text.insert(text.find("<link name=\"link1\">") + 19, "<collision><geometry><sphere radius='1'/></geometry></collision>");
+  EXPECT_THAT(report({"models/rr.urdf", folder.write("b.urdf", text)})["explained"].dump(),
+              HasSubstr("link link1: collision 1 (sphere) added"));
   EXPECT_EQ(compared({"models/rr.urdf", heavier, "-o", folder.file("d.png")}).status, 2) << "has no picture";
   EXPECT_EQ(compared({"models/rr.urdf", heavier, "--set", "method=rk4"}).status, 2);
 }
@@ -304,6 +309,17 @@ TEST(Compare, TrajectoriesAreComparedInWords) {
   EXPECT_EQ(compared({a, folder.write("d.csv", "x,y\n0,0\n")}).status, 3);
   EXPECT_EQ(compared({a, folder.write("e.csv", "t,q1\n0,0\n0,0\n")}).status, 3);
   EXPECT_EQ(compared({a, folder.write("f.csv", "t,mass\n0,0\n")}).status, 3);
+}
+
+TEST(Compare, TrajectoriesOfFloatingBasesAreComparedByTheirRotation) {
+  const TemporaryFolder folder;
+  const std::string head = "t,q.b.qx,q.b.qy,q.b.qz,q.b.qw\n0,0,0,0,1\n";
+  const std::string a = folder.write("a.csv", head + "1,0,0,0.6,0.8\n"), b = folder.write("b.csv", head + "1,0,0,-0.6,-0.8\n");
+  EXPECT_EQ(report({a, b})["explained"], Json::array()) << "either sign means the same";
+  const std::string c = folder.write("c.csv", head + "1,0,0,0.8,0.6\n");
+  EXPECT_EQ(report({a, c})["explained"][0], "rotation of q.b differs by 0.57 rad from t = 1 s on");
+  const std::string named = folder.write("d.csv", "t,q1\n0,0\n1,2\n"), other = folder.write("e.csv", "t,q.a\n0,0\n1,2\n");
+  EXPECT_EQ(report({named, other})["explained"], Json::array({"columns q1 -> q.a"}));
 }
 
 TEST(Compare, WhatCannotBeComparedIsUsageAndWhatIsSpoiltBadInput) {

@@ -117,6 +117,20 @@ TEST(PhysicsRecord, NamesTheTableWhoseNumbersChanged) {
               ElementsAre(AllOf(StartsWith("q2 (joint2) differs by"), HasSubstr(": torque: the numbers in table tau.csv differ"))));
 }
 
+// Start and motion of a closed loop move with the lengths of its links.
+TEST(PhysicsRecord, TakesAStartOnConstraintsAlongWithItsCause) {
+  const TemporaryFolder folder;
+  const std::string text = read_whole_file(CHAINREEL_SOURCE_FOLDER "/models/four_bar.urdf");
+  folder.write("models/four_bar.urdf", text);
+  const std::string scene =
+      folder.write("assets/scenes/four_bar.yaml", read_whole_file(CHAINREEL_SOURCE_FOLDER "/assets/scenes/four_bar.yaml"));
+  const std::vector<std::string> quick = {"duration=0.2", "method=rk4", "step=0.005"};
+  const Json before = record_of(scene, quick);
+  folder.write("models/four_bar.urdf", with(text, "<origin xyz=\"1.2 0 0\"/>", "<origin xyz=\"1.201 0 0\"/>"));
+  EXPECT_THAT(explain_runs(before, record_of(scene, quick)),
+              ElementsAre(HasSubstr(": joint coupler_pin: origin moved by 1 mm"), StartsWith("the start on the constraints: start.q.1 3.14159 -> ")));
+}
+
 TEST(PhysicsRecord, SaysWhatOnePanelHasAlone) {
   const Workshop shop;
   const std::string page = "compare=[{method: rk4}, {method: semi_implicit_euler}]";

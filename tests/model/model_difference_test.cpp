@@ -92,7 +92,7 @@ TEST(ModelDifference, TellsJoints) {
   EXPECT_THAT(after("velocity=\"6\"/></joint>\n  <joint name=\"joint5\"", "velocity=\"6\"/><dynamics damping=\"0.1\" friction=\"0.2\"/></joint>\n  <joint name=\"joint5\""),
               ElementsAre(StartsWith("joint joint4: damping 0 -> 0.1 N m s/rad"), StartsWith("joint joint4: friction 0 -> 0.2 N m")));
   EXPECT_THAT(after("<joint name=\"joint4\" type=\"revolute\">", "<joint name=\"joint4\" type=\"continuous\">"),
-              ElementsAre(StartsWith("joint joint4: type revolute -> continuous"), HasSubstr("lower limit -3.1 -> none"), HasSubstr("upper limit")));
+              ElementsAre(StartsWith("joint joint4: type revolute -> continuous"), HasSubstr("lower limit -3.1 rad -> none"), HasSubstr("upper limit")));
   EXPECT_THAT(after("<axis xyz=\"0 1 0\"/><limit lower=\"-2.6\"", "<axis xyz=\"0 1 0\"/><mimic joint=\"joint2\" multiplier=\"2\"/><limit lower=\"-2.6\""),
               Contains(StartsWith("joint joint3: follows joint joint2 now (mimic)")));
 }

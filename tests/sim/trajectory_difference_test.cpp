@@ -113,6 +113,16 @@ TEST(TrajectoryDifference, ComparesRotationsByTheirAngle) {
   EXPECT_THAT(words_of(before, after), ElementsAre("rotation of base differs by 0.01 rad from t = 1 s on"));
 }
 
+TEST(TrajectoryDifference, FindsRotationsByTheirNames) {
+  std::vector<SampledNumber> numbers;
+  for (const char* name : {"q.base.x", "q.base.qx", "q.base.qy", "q.base.qz", "q.base.qw", "q.a.qx", "q.b.qy", "q.b.qz"}) numbers.push_back({name, ""});
+  join_rotations(numbers);
+  std::vector<std::string> labels;
+  for (const SampledNumber& number : numbers) labels.push_back(number.label);
+  const std::string turn = "rotation of q.base";
+  EXPECT_THAT(labels, ElementsAre("q.base.x", turn, turn, turn, turn, "q.a.qx", "q.b.qy", "q.b.qz"));
+}
+
 TEST(TrajectoryDifference, KeepsEverySomeSamplesAndTheLast) {
   const Chain chain = read_chain(CHAINREEL_SOURCE_FOLDER "/models/rr.urdf");
   for (const int count : {1, 2, 199, 200, 201, 601, 5000}) {

@@ -3,6 +3,7 @@
 #include "app/commands/comparison.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/verify/physics_record.hpp"
+#include "core/change_words.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -44,8 +45,16 @@ SampledTrajectory trajectory_in(const std::string& path) {
     for (const std::size_t column : positions) trajectory.q.push_back(table.columns[column][row]);
     for (const std::size_t column : rates) trajectory.qd.push_back(table.columns[column][row]);
   }
-  if (table.rows() > 0) trajectory.end_time = trajectory.t.back();
+  trajectory.end_time = trajectory.t.back();
+  join_rotations(trajectory.q_numbers);
   return trajectory;
+}
+
+std::vector<std::string> names_of(const SampledTrajectory& trajectory) {
+  std::vector<std::string> names;
+  for (const std::vector<SampledNumber>* numbers : {&trajectory.q_numbers, &trajectory.qd_numbers})
+    for (const SampledNumber& number : *numbers) names.push_back(number.label);
+  return names;
 }
 
 Comparison said(std::vector<std::string> words) {
@@ -66,7 +75,7 @@ Comparison compare_models(const CompareOptions& options) {
   for (const int i : {0, 1}) {
     const std::string& path = i == 0 ? options.before : options.after;
     note_input(path);
-    records[i] = model_record(path, model_scene_of(path, overrides, "compare", honoured).options);
+    records[i] = model_record(path, model_scene_of(path, overrides, "compare", honoured).options, DescribeCollisions::all);
   }
   return said(explain_models(records[0], records[1]));
 }
@@ -75,6 +84,9 @@ Comparison compare_trajectories(const CompareOptions& options) {
   const SampledTrajectory before = trajectory_in(options.before), after = trajectory_in(options.after);
   const TrajectoryDifference difference = difference_of(before, after);
   std::vector<std::string> words = difference.others;
+  const std::vector<std::string> old_names = names_of(before), names = names_of(after);
+  if (old_names != names && old_names.size() == names.size())  // compared in their order
+    words.push_back("columns " + change_text(joined(old_names), joined(names)));
   if (const std::string parted = freedom_words(difference); !parted.empty())
     words.insert(words.begin(), parted);
   Comparison found = said(words);

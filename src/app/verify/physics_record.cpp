@@ -177,6 +177,15 @@ void join_method(std::vector<std::string>& causes) {
   std::erase_if(causes, [&](const std::string& words) { return std::find(more.begin(), more.end(), words) != more.end(); });
 }
 
+// A start is brought onto the constraints, so that it moves with them and with the model: then it is no cause of its own.
+void take_start_along(std::vector<std::string>& causes, std::vector<std::string>& consequences) {
+  const auto starts = std::stable_partition(causes.begin(), causes.end(),
+                                            [](const std::string& words) { return !words.starts_with("start."); });
+  if (starts == causes.begin() || starts == causes.end()) return;
+  consequences.push_back("the start on the constraints: " + joined({starts, causes.end()}));
+  causes.erase(starts, causes.end());
+}
+
 void add_key_changes(const Json& before, const Json& after, Changes& changes) {
   const auto text = [](const Json& keys, const std::string& key) {
     return keys.contains(key) ? keys[key].get<std::string>() : std::string();
@@ -244,14 +253,11 @@ std::vector<std::string> explain_panels(const Json& before, const Json& after, c
   add_model_changes(of_before.at("models").at(before.at("model").get<std::size_t>()),
                     of_after.at("models").at(after.at("model").get<std::size_t>()), changes);
   join_method(changes.causes);
-  // A start on constraints is brought onto them, so that it moves with them and with the model.
-  if (after.at("keys").contains("constraints"))
-    std::stable_partition(changes.causes.begin(), changes.causes.end(),
-                          [](const std::string& words) { return !words.starts_with("start."); });
   const std::string old = method_words(before.at("method")), now = method_words(after.at("method"));
   const Json &run_before = before.at("trajectory"), &run_after = after.at("trajectory");
   TrajectoryDifference difference;
   if (run_before != run_after) difference = difference_of(trajectory_of(run_before), trajectory_of(run_after));
+  if (after.at("keys").contains("constraints")) take_start_along(changes.causes, difference.others);
   // Of another model or torque `auto` may take another method, which then is no cause of its own.
   if (const std::string chosen = "method chosen by auto: " + change_text(old, now); old != now && before.at("keys") == after.at("keys")) {
     if (changes.causes.empty())
