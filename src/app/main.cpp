@@ -37,6 +37,7 @@ int run(int argc, char** argv) {
   add_fall_command(app);
   add_sheet_command(app);
   add_gallery_command(app);
+  add_verify_command(app);
   add_schema_command(app);
   add_help_command(app);
   return app.run(argc, argv);

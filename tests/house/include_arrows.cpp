@@ -10,9 +10,9 @@ namespace {
 
 // POSIX, the compiler and the processor: open to every folder.
 const std::set<std::string> kSystemHeaders = {
-    "cpuid.h",        "dlfcn.h",    "emmintrin.h", "fcntl.h",    "immintrin.h", "poll.h",
+    "cpuid.h",        "dlfcn.h",    "emmintrin.h", "fcntl.h",    "fnmatch.h",    "immintrin.h", "poll.h",
     "pthread.h",      "quadmath.h", "sched.h",     "signal.h",   "spawn.h",     "sys/mman.h",
-    "sys/file.h",     "sys/random.h", "sys/resource.h", "sys/stat.h", "sys/types.h", "sys/wait.h", "unistd.h"};
+    "linux/fs.h",     "sys/file.h", "sys/syscall.h", "sys/random.h", "sys/resource.h", "sys/stat.h", "sys/types.h", "sys/wait.h", "unistd.h"};
 
 bool is_standard_or_system(const std::string& header) {
   return header.find_first_of("./") == std::string::npos || kSystemHeaders.contains(header);
@@ -126,7 +126,7 @@ const House& house() {
                    {"libimagequant.h", {"encode"}},
                    {"urdf_", {"model"}},
                    {"console_bridge/", {"model"}},
-                   {"tinyxml2.h", {"model"}},
+                   {"tinyxml2.h", {"app", "model"}},
                    {"GL/", {"render"}},
                    {"EGL/", {"render"}},
                    {"cairo", {"render"}},

@@ -90,6 +90,7 @@ void add_stability_command(CommandLine& app);
 void add_fall_command(CommandLine& app);
 void add_sheet_command(CommandLine& app);
 void add_gallery_command(CommandLine& app);
+void add_verify_command(CommandLine& app);
 void add_schema_command(CommandLine& app);
 // It tells of all commands that are there when it runs.
 void add_help_command(CommandLine& app);

@@ -50,6 +50,10 @@ Option Option::show_default() {
   return *this;
 }
 
+bool Option::given() const {
+  return option_of(option_)->count() > 0;
+}
+
 Option Command::add_option(const std::string& name, std::string& target, const std::string& help) {
   return add_to(command_, name, target, help);
 }
@@ -74,6 +78,10 @@ Option Command::add_repeatable(const std::string& name, std::vector<std::string>
                     ->expected(1)
                     ->allow_extra_args(false)
                     ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
+}
+
+Option Command::add_names(const std::string& name, std::vector<std::string>& target, const std::string& help) {
+  return Option(app_of(command_)->add_option(name, target, help)->expected(0, CLI::detail::expected_max_vector_size));
 }
 
 Option Command::add_flag(const std::string& name, bool& target, const std::string& help) {

@@ -19,6 +19,7 @@ class Option {
   Option positive();
   Option one_of(std::vector<std::string> words);
   Option show_default();  // in the help
+  bool given() const;     // on the command line; to be asked when it was parsed
 
  private:
   void* option_;
@@ -36,6 +37,8 @@ class Command {
   Option add_option(const std::string& name, std::vector<std::string>& target, const std::string& help);
   // Takes one argument each time it stands there, and never swallows what follows.
   Option add_repeatable(const std::string& name, std::vector<std::string>& target, const std::string& help);
+  // Takes as many arguments as follow it, none among them.
+  Option add_names(const std::string& name, std::vector<std::string>& target, const std::string& help);
   Option add_flag(const std::string& name, bool& target, const std::string& help);
   void footer(const std::string& text);
   void callback(std::function<void()> run);

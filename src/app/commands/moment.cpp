@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "app/commands/render_film.hpp"
+#include "app/report/alt_text.hpp"
 #include "app/report/run_report.hpp"
 #include "scene/run/fall.hpp"
 

@@ -279,11 +279,6 @@ Json to_json(const StageSeconds& seconds) {
 
 }  // namespace
 
-ClipMemory memory_of(const FilmReport& report) {
-  const Scene& scene = report.film().scene;
-  return {scene.title, sentence_of(report), scene_text(scene), to_json(report)};
-}
-
 RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
   const Scene& scene = film.scene;
   std::vector<Output> outputs = open_outputs(job, film.panels.size());

@@ -36,8 +36,4 @@ struct RenderResult {
 // failed leaves films and tables as far as they came under a .partial name, and throws.
 RenderResult render_film(const PreparedFilm& film, const RenderJob& job);
 
-// What a film remembers: the effective scene, and the audit without what differs from one rendering to the
-// next.
-ClipMemory memory_of(const FilmReport& report);
-
 }  // namespace chainreel

@@ -8,6 +8,7 @@
 #include "app/report/report.hpp"
 #include "core/format.hpp"
 #include "draw/layers/speed_box.hpp"
+#include "scene/text/write_scene.hpp"
 
 namespace chainreel {
 namespace {
@@ -95,6 +96,11 @@ std::string speed_words(const FilmReport& report) {
 }
 
 }  // namespace
+
+ClipMemory memory_of(const FilmReport& report) {
+  const Scene& scene = report.film().scene;
+  return {scene.title, sentence_of(report), scene_text(scene), to_json(report)};
+}
 
 std::string sentence_of(const FilmReport& report) {
   const PreparedFilm& film = report.film();

@@ -3,9 +3,14 @@
 
 #include <string>
 
+#include "app/film/clip_memory.hpp"
 #include "app/report/run_report.hpp"
 
 namespace chainreel {
+
+// What a film remembers: the effective scene, and the audit without what differs from one rendering to the
+// next.
+ClipMemory memory_of(const FilmReport& report);
 
 // One sentence: what moves, for how long, under what.
 std::string sentence_of(const FilmReport& report);

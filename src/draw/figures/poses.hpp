@@ -41,6 +41,13 @@ const std::vector<std::string>& figure_layout_names();
 Picture draw_pose_figure(const Chain& chain, const std::vector<std::vector<double>>& poses,
                          const PoseFigureOptions& options, const Fonts& fonts);
 
+// The part of the world that such a figure shows, as `camera: fit` has it: left, bottom, right, top, m.
+std::array<double, 4> fit_of_poses(const Chain& chain, const std::vector<std::vector<double>>& poses,
+                                   const PoseFigureOptions& options, const Fonts& fonts);
+// Whether a figure of this pose, by the camera of the options, cuts something off.
+bool leaves_page(const Chain& chain, const std::vector<double>& q, const PoseFigureOptions& options,
+                 const Fonts& fonts);
+
 // One panel a pose, all at the same scale: the chain, its effective-mass ellipse, and below them the pose and the
 // numbers of Lambda; at singular poses an open band and the direction of infinite mass. Superposed: every chain as an
 // onion skin of 25 %, every ellipse at full strength. A field: the chain where its ellipse is roundest alone.

@@ -139,6 +139,12 @@ bool fit_as_told(Camera& camera, const CameraEntry& entry, const Rect& area) {
   return true;
 }
 
+std::array<double, 4> part_shown(const Camera& camera, const Rect& area) {
+  const double x = camera.right.dot(camera.focus), y = camera.up.dot(camera.focus);
+  return {(area.x0 - camera.origin.x) / camera.scale + x, (area.y0 - camera.origin.y) / camera.scale + y,
+          (area.x1 - camera.origin.x) / camera.scale + x, (area.y1 - camera.origin.y) / camera.scale + y};
+}
+
 Camera aimed_camera(const Chain& chain, const CameraEntry& entry, const MotionBox& motion, const Rect& area,
                     const std::function<void(Camera&)>& fit) {
   Camera camera = view_of(chain, entry);

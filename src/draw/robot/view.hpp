@@ -1,6 +1,7 @@
 // Which way the camera looks at a chain.
 #pragma once
 
+#include <array>
 #include <functional>
 
 #include "draw/robot/fit.hpp"
@@ -30,6 +31,9 @@ void place_eye(Camera& camera, const MotionBox& motion, const CameraEntry& entry
 
 // Scale and origin as `fit` of the entry says; false where it says nothing.
 bool fit_as_told(Camera& camera, const CameraEntry& entry, const Rect& area);
+
+// What of the world lies in this part of the page, as the entry's `fit` has it.
+std::array<double, 4> part_shown(const Camera& camera, const Rect& area);
 
 // The camera of a figure: view_of, with an eye where it has one, and fitted to `area`.
 Camera aimed_camera(const Chain& chain, const CameraEntry& entry, const MotionBox& motion, const Rect& area,

@@ -1,0 +1,302 @@
+// chainreel verify SUITE: pictures of models and scenes against those that were accepted.
+
+#include <fnmatch.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <thread>
+
+#include "app/cli/command.hpp"
+#include "app/cli/streams.hpp"
+#include "app/film/progress.hpp"
+#include "app/report/report.hpp"
+#include "app/verify/baselines.hpp"
+#include "app/verify/shots.hpp"
+#include "app/verify/verdict.hpp"
+#include "app/verify/verify_report.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "core/output_file.hpp"
+#include "encode/png.hpp"
+#include "scene/run/sweep.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct VerifyOptions {
+  std::string suite;
+  std::vector<std::string> accept;  // empty: all that are chosen
+  std::optional<Option> accept_option;
+  bool accepts = false;
+  bool refit = false;
+  bool prune = false;
+  std::string missing = "fail";
+  std::vector<std::string> filters;
+  int jobs = 0;  // all cores
+  std::string junit, markdown, output;
+  CommonOptions common;
+};
+
+bool matches(const SuitePicture& picture, const std::vector<std::string>& filters) {
+  return filters.empty() || std::any_of(filters.begin(), filters.end(), [&](const std::string& filter) {
+           return fnmatch(filter.c_str(), picture.name.c_str(), 0) == 0;
+         });
+}
+
+std::vector<const SuitePicture*> chosen_pictures(const Suite& suite, const VerifyOptions& options) {
+  std::vector<const SuitePicture*> chosen;
+  std::vector<std::string> names;
+  for (const SuitePicture& picture : suite.pictures) {
+    names.push_back(picture.name);
+    if (matches(picture, options.filters)) chosen.push_back(&picture);
+  }
+  std::vector<Problem> problems;
+  for (const std::string& name : options.accept)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      problems.push_back({"--accept " + name + ": the suite has no such picture:" +
+                              did_you_mean(name, names) + " It has " + shortened(joined(names), 500),
+                          {}});
+  if (!problems.empty()) throw Error(ExitCode::usage, std::move(problems));
+  if (chosen.empty())
+    throw Error(ExitCode::usage,
+                "--filter " + joined(options.filters) +
+                    " matches none of the suite's pictures: " + shortened(joined(names), 500));
+  return chosen;
+}
+
+bool is_accepted(const VerifyOptions& options, const SuitePicture& picture) {
+  if (!options.accepts) return false;
+  return options.accept.empty() ||
+         std::find(options.accept.begin(), options.accept.end(), picture.name) != options.accept.end();
+}
+
+std::vector<std::string> words_of(const Error& error) {
+  std::vector<std::string> words;
+  for (const Problem& problem : error.problems()) words.push_back(to_string(problem));
+  return words;
+}
+
+// Verdicts of pictures as they come, one line each; on a terminal those that passed leave no line.
+class Teller {
+ public:
+  Teller(int total, const VerifyOptions& options)
+      : quiet_(options.common.quiet || options.common.json),
+        progress_("verify", total, quiet_ || !isatty(2)),
+        terminal_(isatty(1)) {}
+
+  void tell(const PictureVerdict& verdict) {
+    const std::lock_guard lock(mutex_);
+    progress_.update(++done_);
+    if (quiet_ || (terminal_ && verdict.passes && verdict.state == PictureState::same)) return;
+    std::printf("%-8s  %s\n", to_string(verdict.state).c_str(), verdict.name.c_str());
+    if (verdict.state != PictureState::same && verdict.state != PictureState::accepted)
+      for (const std::string& words : verdict.words) std::printf("          %s\n", words.c_str());
+    std::fflush(stdout);
+  }
+
+ private:
+  bool quiet_;
+  Progress progress_;
+  bool terminal_;
+  int done_ = 0;
+  std::mutex mutex_;
+};
+
+// What is drawn for one picture, and what it comes to.
+struct Outcome {
+  PictureVerdict verdict;
+  std::unique_ptr<SuiteShot> accepted;
+};
+
+class Verification {
+ public:
+  Verification(const Suite& suite, const VerifyOptions& options, const Baselines& baselines,
+               const Cameras& cameras)
+      : suite_(suite), options_(options), baselines_(baselines), cameras_(cameras) {}
+
+  // By several threads, a few pictures of one source at a time: what they share is loaded once a thread.
+  std::vector<Outcome> run(const std::vector<const SuitePicture*>& pictures) {
+    std::vector<std::pair<std::size_t, std::size_t>> pieces;
+    const std::size_t longest = std::max<std::size_t>(
+        1, (pictures.size() + std::size_t(options_.jobs) - 1) / std::size_t(options_.jobs));
+    for (std::size_t i = 0; i < pictures.size();) {
+      std::size_t end = i + 1;
+      while (end < pictures.size() && end - i < longest && pictures[end]->source == pictures[i]->source)
+        ++end;
+      pieces.emplace_back(i, end);
+      i = end;
+    }
+    std::vector<Outcome> outcomes(pictures.size());
+    Teller teller(int(pictures.size()), options_);
+    for_each_index(pieces.size(), options_.jobs, [&](std::size_t piece) {
+      Studio studio(suite_, cameras_);
+      for (std::size_t i = pieces[piece].first; i < pieces[piece].second; ++i) {
+        throw_if_interrupted();
+        outcomes[i] = outcome_of(*pictures[i], studio);
+        teller.tell(outcomes[i].verdict);
+      }
+    });
+    return outcomes;
+  }
+
+ private:
+  Outcome outcome_of(const SuitePicture& picture, Studio& studio) {
+    SuiteShot shot;
+    try {
+      shot = studio.shoot(picture);
+    } catch (const Error& error) {
+      if (error.code() == ExitCode::interrupted || error.code() == ExitCode::terminated) throw;
+      return {without(PictureState::failed, suite_, picture, words_of(error)), nullptr};
+    }
+    const bool is_new = !baselines_.has(picture.name);
+    if (is_accepted(options_, picture) || (is_new && options_.missing == "write"))
+      return {without(PictureState::accepted, suite_, picture, {}),
+              std::make_unique<SuiteShot>(std::move(shot))};
+    if (is_new) {
+      PictureVerdict verdict =
+          without(PictureState::missing, suite_, picture,
+                  {"there is no baseline: look at the picture, then --accept " + picture.name +
+                   ", or take all that are missing with --missing write"});
+      verdict.actual_png = png_bytes(shot.image);
+      return {std::move(verdict), nullptr};
+    }
+    try {
+      return {judge(suite_, picture, shot, baselines_.read(picture.name), studio), nullptr};
+    } catch (const Error& error) {
+      PictureVerdict verdict = without(PictureState::baseline, suite_, picture, words_of(error));
+      verdict.actual_png = png_bytes(shot.image);
+      return {std::move(verdict), nullptr};
+    }
+  }
+
+  const Suite& suite_;
+  const VerifyOptions& options_;
+  const Baselines& baselines_;
+  const Cameras& cameras_;
+};
+
+// A picture that is new while another one is gone may be that one under another name, or at another instant.
+void tell_of_former_names(SuiteResult& result) {
+  if (result.unused.empty()) return;
+  for (PictureVerdict& one : result.pictures)
+    if (one.state == PictureState::missing)
+      one.words.push_back("there are baselines whose pictures are gone: " +
+                          shortened(joined(result.unused), 200));
+}
+
+std::vector<std::string> unused_baselines(const Suite& suite, const Baselines& baselines) {
+  std::set<std::string> names = baselines.names();
+  for (const SuitePicture& picture : suite.pictures) names.erase(picture.name);
+  return {names.begin(), names.end()};
+}
+
+// What is accepted and pruned, in one go.
+void update(const Suite& suite, const VerifyOptions& options, const Baselines& baselines,
+            const Cameras& cameras, const std::vector<Outcome>& outcomes, SuiteResult& result) {
+  const bool accepts = std::any_of(outcomes.begin(), outcomes.end(),
+                                   [](const Outcome& one) { return one.accepted != nullptr; });
+  if (!accepts && !(options.prune && !result.unused.empty())) return;
+  BaselineUpdate change(suite, baselines);
+  for (const Outcome& one : outcomes)
+    if (one.accepted) change.set(one.verdict.name, *one.accepted);
+  if (options.prune)
+    for (const std::string& name : result.unused) change.remove(name);
+  change.set_cameras(cameras);
+  change.commit();
+  if (options.prune) std::swap(result.pruned, result.unused);
+}
+
+// Pictures of what failed, for who has no report.
+void write_pictures(const std::string& folder, const SuiteResult& result, bool overwrite) {
+  for (const PictureVerdict& one : result.pictures) {
+    if (one.passes) continue;
+    const auto write = [&](const char* what, const std::string& png) {
+      if (!png.empty()) write_text_file((fs::path(folder) / (one.name + what)).string(), png, overwrite);
+    };
+    write(".expected.png", one.expected_png);
+    write(".actual.png", one.actual_png);
+    write(".difference.png", one.difference_png);
+  }
+}
+
+void write_reports(const VerifyOptions& options, const SuiteResult& result) {
+  const bool overwrite = options.common.force;
+  if (!options.junit.empty()) write_text_file(options.junit, junit_text(result), overwrite);
+  if (!options.markdown.empty()) write_text_file(options.markdown, markdown_text(result), overwrite);
+  if (!options.output.empty()) write_pictures(options.output, result, overwrite);
+}
+
+void tell_result(const VerifyOptions& options, const SuiteResult& result) {
+  if (options.common.json) {
+    std::puts(to_json(result).dump(2).c_str());
+    return;
+  }
+  if (options.common.quiet) return;
+  for (const std::string& name : result.unused)
+    std::printf("unused    %s: no picture of the suite has this name; --prune removes it\n", name.c_str());
+  for (const std::string& name : result.pruned) std::printf("pruned    %s\n", name.c_str());
+  if (result.failed() == 0) std::printf("%s\n", summary_of(result).c_str());
+  if (result.failed() > result.count(PictureState::failed))
+    std::printf("to take what is drawn now: %s\n", accept_command(result).c_str());
+}
+
+void run_verify(VerifyOptions options) {
+  options.accepts = options.accept_option->given();
+  std::erase(options.accept, "");
+  if (options.jobs == 0) options.jobs = std::max(1, int(std::thread::hardware_concurrency()));
+  if (options.refit && !options.accepts)
+    throw Error(ExitCode::usage, "--refit goes with --accept: a new camera makes all pictures new");
+  const Suite suite = read_suite(options.suite);
+  const std::vector<const SuitePicture*> chosen = chosen_pictures(suite, options);
+  const bool writes = options.accepts || options.prune || options.missing == "write";
+  const SuiteLock lock(suite, writes ? SuiteLock::For::writing : SuiteLock::For::reading);
+  const Baselines baselines(suite);
+  const Cameras cameras = cameras_of(suite, options.refit ? Cameras{} : baselines.cameras());
+  const std::vector<Outcome> outcomes = Verification(suite, options, baselines, cameras).run(chosen);
+  throw_if_interrupted();
+  SuiteResult result{options.suite, baselines.folder(), {}, unused_baselines(suite, baselines), {}};
+  for (const Outcome& one : outcomes) result.pictures.push_back(one.verdict);
+  tell_of_former_names(result);
+  update(suite, options, baselines, cameras, outcomes, result);
+  write_reports(options, result);
+  tell_result(options, result);
+  if (result.failed() > 0) throw Error(ExitCode::comparison_failed, summary_of(result), {options.suite});
+}
+
+}  // namespace
+
+void add_verify_command(CommandLine& app) {
+  auto options = std::make_shared<VerifyOptions>();
+  Command* command = app.add_subcommand("verify", "pictures of a suite against those that were accepted");
+  command->add_option("suite", options->suite, "a suite (.yaml), or a folder of scenes or models").required();
+  options->accept_option =
+      command->add_names("--accept", options->accept,
+                         "take what is drawn now as baselines: of the pictures named behind it, else of all");
+  command->add_flag("--refit", options->refit, "with --accept: the cameras that fit what is drawn now");
+  command
+      ->add_option("--missing", options->missing, "what to do with a picture without baseline: fail or write")
+      .one_of({"fail", "write"})
+      .show_default();
+  command->add_flag("--prune", options->prune, "remove baselines of pictures that the suite no longer has");
+  command->add_repeatable("--filter", options->filters,
+                          "only pictures whose names match, like 'home*' (repeatable)");
+  command->add_option("--jobs", options->jobs, "threads (default: all cores)").range(1, 256);
+  command->add_option("--junit", options->junit, "results as JUnit XML");
+  command->add_option("--markdown", options->markdown, "a summary as Markdown");
+  command->add_option(
+      "-o,--output", options->output,
+      "a folder for the pictures of what failed: NAME.expected.png, NAME.actual.png, NAME.difference.png");
+  add_result_options(*command, options->common);
+  command->footer("Example: chainreel verify arm.yaml --junit out/junit.xml --markdown out/summary.md");
+  command->callback([options] { run_verify(*options); });
+}
+
+}  // namespace chainreel

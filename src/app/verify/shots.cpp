@@ -1,0 +1,336 @@
+#include "app/verify/shots.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "app/film/model_scene.hpp"
+#include "app/film/prepared.hpp"
+#include "app/film/runs.hpp"
+#include "app/report/alt_text.hpp"
+#include "app/report/version.hpp"
+#include "app/verify/physics_record.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "core/hash.hpp"
+#include "draw/figures/poses.hpp"
+#include "draw/robot/view.hpp"
+#include "picture/place_picture.hpp"
+#include "scene/keys/keys.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<const SuitePicture*> pictures_of(const Suite& suite, const std::string& source) {
+  std::vector<const SuitePicture*> all;
+  for (const SuitePicture& picture : suite.pictures)
+    if (picture.source == source) all.push_back(&picture);
+  return all;
+}
+
+std::string fit_override(const std::array<double, 4>& part) {
+  std::string text = "camera.fit=[";
+  for (std::size_t i = 0; i < part.size(); ++i) text += (i > 0 ? ", " : "") + format_exact(part[i]);
+  return text + "]";
+}
+
+// Keys of the suite, and the camera that its baselines have; a suite's own `fit` is among its keys.
+std::vector<std::string> overrides_for(const Suite& suite, const std::array<double, 4>* part) {
+  std::vector<std::string> overrides = suite.overrides;
+  if (suite.fit)
+    overrides.push_back(fit_override(*suite.fit));
+  else if (part)
+    overrides.push_back(fit_override(*part));
+  return overrides;
+}
+
+Json page_of(const Fonts& fonts, ThemeName theme, const RendererInfo& renderer) {
+  Json page{{"theme", to_string(theme)}, {"program", program_version()}};
+  page["renderer"] = renderer.backend + ", " + renderer.renderer + ", " + renderer.version;
+  for (const Face face : {Face::label, Face::label_bold, Face::math})
+    page["fonts"][fs::path(fonts.file(face)).filename().string()] = fonts.sha256(face);
+  return page;
+}
+
+}  // namespace
+
+// A model or a scene with all that its pictures share.
+class Studio::Source {
+ public:
+  explicit Source(std::string path) : path_(std::move(path)) {}
+  virtual ~Source() = default;
+  const std::string& path() const { return path_; }
+
+  virtual SuiteShot draw(const SuitePicture& picture, const Fonts& fonts) = 0;
+  virtual std::array<double, 4> fitted(const Fonts& fonts) = 0;
+
+ private:
+  std::string path_;
+};
+
+// A model at poses.
+class Studio::ModelSource : public Source {
+ public:
+  ModelSource(const Suite& suite, const std::string& path, const std::array<double, 4>* part)
+      : Source(path),
+        pictures_(pictures_of(suite, path)),
+        is_pinned_(part || suite.fit),
+        model_(model_scene_of(path, overrides_for(suite, part), "verify", keys_of_models(OfModel::picture))),
+        chain_(read_chain(path, model_.options)),
+        record_(model_record(path, model_.options)),
+        name_(source_name(suite, path)) {
+    set_look(figure_, model_, chain_);
+  }
+
+  SuiteShot draw(const SuitePicture& picture, const Fonts& fonts) override {
+    const PoseFigureOptions options = options_for(picture);
+    SuiteShot shot;
+    shot.width = options.width;
+    shot.height = options.height;
+    shot.picture = draw_pose_figure(chain_, {picture.q}, options, fonts);
+    shot.leaves_camera = is_pinned_ && leaves_page(chain_, picture.q, options, fonts);
+    shot.physics = {
+        {"source", name_}, {"names", position_names(chain_)}, {"q", picture.q}, {"model", record_}};
+    shot.page = {{"theme", to_string(model_.scene.theme)}};
+    shot.memory.title = chain_.name;
+    std::vector<std::string> numbers;
+    for (const double q : picture.q) numbers.push_back(format_shortest(q));
+    shot.memory.figure = {{"arguments", {"snapshot", name_, "--pose=" + joined(numbers, ",")}},
+                          {"poses", {picture.q}},
+                          {"model", name_},
+                          {"model_sha256", sha256_of_file(path())}};
+    return shot;
+  }
+
+  std::array<double, 4> fitted(const Fonts& fonts) override {
+    std::vector<std::vector<double>> poses;
+    for (const SuitePicture* picture : pictures_) poses.push_back(picture->q);
+    return fit_of_poses(chain_, poses, options_for(*pictures_.front()), fonts);
+  }
+
+ private:
+  PoseFigureOptions options_for(const SuitePicture& picture) const {
+    PoseFigureOptions options = figure_;
+    if (picture.width > 0) options.width = picture.width;
+    if (picture.height > 0) options.height = picture.height;
+    return options;
+  }
+
+  std::vector<const SuitePicture*> pictures_;
+  bool is_pinned_;
+  ModelScene model_;
+  Chain chain_;
+  Json record_;
+  std::string name_;
+  PoseFigureOptions figure_;
+};
+
+// A scene at instants. Its runs are computed once, and once more where pictures show instants between the
+// frames.
+class Studio::SceneSource : public Source {
+ public:
+  SceneSource(const Suite& suite, const std::string& path, const std::array<double, 4>* part)
+      : Source(path),
+        pictures_(pictures_of(suite, path)),
+        film_(load_film(path, overrides_for(suite, part))),
+        clock_(clock_of(film_)),
+        plain_(film_, clock_, clock_.frame_times()),
+        record_(run_record(film_, plain_)),
+        name_(source_name(suite, path)) {
+    std::vector<double> times = clock_.frame_times();
+    const std::size_t frames = times.size();
+    for (const SuitePicture* picture : pictures_) {
+      try {
+        add_instant(times, instant_of(*picture));
+      } catch (const Error&) {
+        // It is told when that picture is drawn; the others have their instants.
+      }
+    }
+    if (times.size() == frames) return;
+    further_ = std::make_unique<Runs>(film_, clock_, std::move(times));
+    runs_ = further_.get();
+  }
+
+  SuiteShot draw(const SuitePicture& picture, const Fonts& fonts) override {
+    const double at = instant_of(picture);
+    const int frame = frame_of(at);
+    runs_->require_expected_ends(frame);
+    const Film& film = film_for(picture, fonts);
+    const FilmReport report = film_report(*runs_, film, clock_.frame_count());
+    SuiteShot shot;
+    shot.width = film_.scene.video.width;
+    shot.height = film_.scene.video.height;
+    shot.picture = film.static_layer();
+    shot.picture.append(film.frame(frame));
+    shot.memory = memory_of(report);
+    shot.memory.audit["at"] = at;
+    shot.physics = {{"source", name_}, {"t", at}, {"run", record_}};
+    shot.page = {{"theme", to_string(film_.scene.theme)}};
+    for (const RunReport& run : report.panels)
+      shot.leaves_camera = shot.leaves_camera || (run.left_picture_at && *run.left_picture_at <= at);
+    return shot;
+  }
+
+  std::array<double, 4> fitted(const Fonts& fonts) override {
+    const Film& film = film_for(*pictures_.front(), fonts);
+    return part_shown(film.camera(), film.scene_area());
+  }
+
+ private:
+  bool same(double a, double b) const {
+    return std::abs(a - b) <= same_instant(film_.panels.front().simulation);
+  }
+
+  // Events by their names, else by what they say.
+  double instant_of(const SuitePicture& picture) const {
+    if (picture.telling) return telling_instant();
+    if (picture.event.empty()) {
+      if (picture.at <= film_.scene.duration) return picture.at;
+      throw Error(ExitCode::bad_input,
+                  "at " + format_shortest(picture.at) + " s lies behind the scene's duration of " +
+                      format_shortest(film_.scene.duration) + " s",
+                  picture.place);
+    }
+    for (std::size_t i = 0; i < plain_.size(); ++i) {
+      const EventHits& hits = plain_[i].events;
+      for (int k = 0; k < hits.size(); ++k)
+        if (film_.panels[i].scene.events[std::size_t(hits.event[std::size_t(k)])].title() == picture.event)
+          return hits.t[std::size_t(k)];
+    }
+    throw Error(ExitCode::bad_input,
+                "event '" + picture.event + "' does not happen in " + path() + ": " + known_events(),
+                picture.place);
+  }
+
+  std::string known_events() const {
+    std::vector<std::string> names;
+    for (const PreparedScene& panel : film_.panels)
+      for (const EventEntry& event : panel.scene.events) names.push_back(event.title());
+    return names.empty() ? "it has no events" : "its events are " + joined(names);
+  }
+
+  // The last event, else the middle of the longest run.
+  double telling_instant() const {
+    double last = -1;
+    int samples = 0;
+    for (const Trajectory& run : plain_.list()) {
+      for (const double t : run.events.t) last = std::max(last, t);
+      samples = std::max(samples, run.size());
+    }
+    return last >= 0 ? last : plain_.times()[std::size_t(samples / 2)];
+  }
+
+  void add_instant(std::vector<double>& times, double at) const {
+    const auto place = std::lower_bound(times.begin(), times.end(), at);
+    if (place != times.end() && same(*place, at)) return;
+    if (place != times.begin() && same(*(place - 1), at)) return;
+    times.insert(place, at);
+  }
+
+  int frame_of(double at) const {
+    const std::vector<double>& times = runs_->times();
+    int nearest = 0;
+    for (std::size_t k = 1; k < times.size(); ++k)
+      if (std::abs(times[k] - at) < std::abs(times[std::size_t(nearest)] - at)) nearest = int(k);
+    return nearest;
+  }
+
+  const Film& film_for(const SuitePicture& picture, const Fonts& fonts) {
+    Video& video = film_.scene.video;
+    const int width = picture.width > 0 ? picture.width : width_,
+              height = picture.height > 0 ? picture.height : height_;
+    if (pages_ && video.width == width && video.height == height) return *pages_;
+    video.width = width;
+    video.height = height;
+    const bool ends = runs_->size() == 1 && film_.scene.expect == Outcome::finish;
+    const int frames = int(runs_->times().size());
+    pages_ =
+        std::make_unique<Film>(runs_->pictures(ends ? std::min(frames, (*runs_)[0].size()) : frames, fonts));
+    return *pages_;
+  }
+
+  std::vector<const SuitePicture*> pictures_;
+  PreparedFilm film_;
+  int width_ = film_.scene.video.width, height_ = film_.scene.video.height;
+  FilmClock clock_;
+  Runs plain_;
+  Json record_;
+  std::string name_;
+  std::unique_ptr<Runs> further_;  // where pictures show instants between the frames
+  const Runs* runs_ = &plain_;
+  std::unique_ptr<Film> pages_;  // of the last size
+};
+
+Studio::Studio(const Suite& suite, const Cameras& cameras) : suite_(suite), cameras_(cameras) {}
+Studio::~Studio() = default;
+
+Studio::Source& Studio::source_of(const std::string& path) {
+  if (source_ && source_->path() == path) return *source_;
+  source_ = nullptr;
+  const auto known = cameras_.find(source_name(suite_, path));
+  const std::array<double, 4>* part = known == cameras_.end() ? nullptr : &known->second;
+  const bool is_model = pictures_of(suite_, path).front()->is_model;
+  if (is_model)
+    source_ = std::make_unique<ModelSource>(suite_, path, part);
+  else
+    source_ = std::make_unique<SceneSource>(suite_, path, part);
+  return *source_;
+}
+
+SuiteShot Studio::shoot(const SuitePicture& picture) {
+  SuiteShot shot = source_of(picture.source).draw(picture, fonts_);
+  shot.image = rasterise(shot.picture, shot.width, shot.height);
+  const std::string theme = shot.page["theme"];
+  shot.page = page_of(fonts_, *value_named<ThemeName>(theme), canvas_->info());
+  return shot;
+}
+
+Image Studio::moved(const SuiteShot& shot, double right, double up) {
+  Picture picture;
+  picture.aspect = shot.picture.aspect;
+  picture.background = shot.picture.background;
+  const double x = right / shot.height, y = up / shot.height;
+  place_picture(picture, shot.picture, {{x, y, shot.picture.aspect + x, 1 + y}});
+  return rasterise(picture, shot.width, shot.height);
+}
+
+std::array<double, 4> Studio::fitted(const std::string& source) {
+  return source_of(source).fitted(fonts_);
+}
+
+Image Studio::rasterise(const Picture& picture, int width, int height) {
+  if (!canvas_ || canvas_width_ != width || canvas_height_ != height) {
+    canvas_ = nullptr;
+    canvas_ = std::make_unique<Canvas>(width, height, fonts_);
+    canvas_width_ = width;
+    canvas_height_ = height;
+  }
+  Image image;
+  canvas_->draw(picture, image);
+  return image;
+}
+
+std::string source_name(const Suite& suite, const std::string& source) {
+  const fs::path folder = fs::is_directory(suite.file) ? fs::path(suite.file) : fs::path(suite.file).parent_path();
+  const fs::path from = fs::absolute(folder.empty() ? "." : folder).lexically_normal();
+  const fs::path name = fs::absolute(source).lexically_normal().lexically_relative(from);
+  return name.empty() ? source : name.generic_string();
+}
+
+Cameras cameras_of(const Suite& suite, Cameras known) {
+  if (suite.fit) return {};
+  const Cameras none;
+  Studio studio(suite, none);
+  Cameras cameras;
+  for (const SuitePicture& picture : suite.pictures) {
+    const std::string name = source_name(suite, picture.source);
+    if (cameras.contains(name)) continue;
+    const auto found = known.find(name);
+    cameras[name] = found != known.end() ? found->second : studio.fitted(picture.source);
+  }
+  return cameras;
+}
+
+}  // namespace chainreel

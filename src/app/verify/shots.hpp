@@ -1,0 +1,74 @@
+// The pictures of a suite as the program draws them now, each with the physics behind it.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/film/clip_memory.hpp"
+#include "core/image.hpp"
+#include "core/json.hpp"
+#include "picture/picture.hpp"
+#include "picture/text.hpp"
+#include "render/canvas.hpp"
+#include "scene/text/suite.hpp"
+
+namespace chainreel {
+
+struct SuiteShot {
+  Picture picture;
+  int width = 0, height = 0;  // px
+  Image image;
+  ClipMemory memory;
+  // {source, model, names, q}, or {source, t, run}: `model` and `run` are records
+  // (app/verify/physics_record).
+  Json physics;
+  Json page;  // all else that pixels depend on: theme, fonts, renderer, program
+  bool leaves_camera =
+      false;  // the suite's camera, which was fitted to what the baselines show, cuts something off
+};
+
+// Which part of the world the pictures of each source show, by the source's path as the suite's folder sees
+// it: left, bottom, right, top in m, over all pictures of it. Sources and pictures that have a camera of
+// their own are left out.
+using Cameras = std::map<std::string, std::array<double, 4>>;
+
+// Draws pictures of a suite, those of one source the fastest one after the other. For one thread.
+class Studio {
+ public:
+  // Both must outlive it.
+  Studio(const Suite& suite, const Cameras& cameras);
+  ~Studio();
+  Studio(const Studio&) = delete;
+  Studio& operator=(const Studio&) = delete;
+
+  // Throws Error where a model, a scene or its run is at fault.
+  SuiteShot shoot(const SuitePicture& picture);
+  // The same picture with all its shapes moved, px to the right and up.
+  Image moved(const SuiteShot& shot, double right, double up);
+  // What a source's pictures show where nothing but what they hold decides.
+  std::array<double, 4> fitted(const std::string& source);
+
+ private:
+  class Source;
+  class ModelSource;
+  class SceneSource;
+  Source& source_of(const std::string& path);
+  Image rasterise(const Picture& picture, int width, int height);
+
+  const Suite& suite_;
+  const Cameras& cameras_;
+  Fonts fonts_;
+  std::unique_ptr<Source> source_;  // the last one
+  std::unique_ptr<Canvas> canvas_;  // the last one
+  int canvas_width_ = 0, canvas_height_ = 0;
+};
+
+// `source` as the suite's folder sees it: the same wherever the folder lies.
+std::string source_name(const Suite& suite, const std::string& source);
+
+// With what `known` lacks fitted anew.
+Cameras cameras_of(const Suite& suite, Cameras known);
+
+}  // namespace chainreel

@@ -1,0 +1,172 @@
+#include "app/verify/verdict.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "app/verify/physics_record.hpp"
+#include "app/verify/shapes_there.hpp"
+#include "core/format.hpp"
+#include "encode/png.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr Name kStates[] = {{"same", "physics and pixels are those of the baseline"},
+                            {"rendered", "the same physics; pixels differ within the tolerance"},
+                            {"pixels", "the same physics, other pixels"},
+                            {"physics", "other physics, the same pixels"},
+                            {"changed", "other physics and other pixels"},
+                            {"size", "another size than the baseline"},
+                            {"missing", "there is no baseline"},
+                            {"baseline", "the baseline cannot be used"},
+                            {"failed", "the picture cannot be drawn"},
+                            {"accepted", "taken as the new baseline"}};
+
+// Half a pixel: how far anti-aliasing may see an edge from where it lies.
+constexpr std::array<std::array<double, 2>, 4> kHalves = {{{0.5, 0}, {-0.5, 0}, {0, 0.5}, {0, -0.5}}};
+
+Envelope envelope_of(const SuiteShot& shot, Studio& studio) {
+  std::vector<Image> moved;
+  for (const auto& [right, up] : kHalves) moved.push_back(studio.moved(shot, right, up));
+  return envelope_of(shot.image, moved);
+}
+
+ImageTolerance tolerance_of(const SuitePicture& picture) {
+  ImageTolerance tolerance{picture.tolerance.error, picture.tolerance.pixels, {}};
+  for (const auto& [x, y, width, height] : picture.masks) tolerance.masks.push_back({x, y, width, height});
+  return tolerance;
+}
+
+std::string place_text(const Place& place) {
+  return place.line > 0 ? place.file + ":" + std::to_string(place.line) : place.file;
+}
+
+std::string tolerance_text(const SuitePicture& picture) {
+  const SuiteTolerance& tolerance = picture.tolerance;
+  return "error " + format_shortest(tolerance.error) + ", " + std::to_string(tolerance.pixels) + " pixels" +
+         (tolerance.is_default ? " (default)" : " (" + place_text(tolerance.place) + ")");
+}
+
+// Physics that differ, the cause first.
+std::vector<std::string> physics_words(const Json& before, const Json& now) {
+  if (before == now) return {};
+  std::vector<std::string> words;
+  const auto add = [&](std::vector<std::string> more) {
+    for (std::string& one : more) words.push_back(std::move(one));
+  };
+  if (before.value("source", Json()) != now.value("source", Json()))
+    words.push_back("source: " + before.value("source", Json("none")).dump() + " -> " + now["source"].dump());
+  if (before.contains("model") && now.contains("model")) {
+    add(explain_models(before["model"], now["model"]));
+    const auto names = now["names"].get<std::vector<std::string>>();
+    if (before.value("names", Json()) == now["names"])
+      add(explain_poses(before["q"].get<std::vector<double>>(), now["q"].get<std::vector<double>>(), names,
+                        now["model"]));
+  } else if (before.contains("run") && now.contains("run")) {
+    if (before["t"] != now["t"])
+      words.push_back("instant: t = " + format_shortest(before["t"].get<double>()) + " s -> " +
+                      format_shortest(now["t"].get<double>()) + " s");
+    add(explain_runs(before["run"], now["run"]));
+  } else {
+    words.push_back("it was a picture of a model and is one of a scene, or the other way round");
+  }
+  return words;
+}
+
+// All else that pixels depend on.
+std::vector<std::string> page_words(const Json& before, const Json& now) {
+  std::vector<std::string> words;
+  const auto text = [](const Json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+  };
+  for (const char* key : {"theme", "program", "renderer"})
+    if (before.value(key, Json()) != now.value(key, Json()))
+      words.push_back(std::string(key) + ": " + text(before.value(key, Json("unknown"))) + " -> " +
+                      text(now.value(key, Json("unknown"))));
+  const Json fonts_before = before.value("fonts", Json::object()), fonts = now.value("fonts", Json::object());
+  for (const auto& [file, hash] : fonts.items())
+    if (fonts_before.value(file, Json()) != hash)
+      words.push_back(
+          "font " + file +
+          (fonts_before.contains(file) ? ": another version of the file" : ": was not used before"));
+  return words;
+}
+
+std::string pixel_words(const ImageDifference& difference) {
+  if (difference.is_equal()) return "the same pixels";
+  const PixelBox& box = difference.box;
+  return std::to_string(difference.unequal) + " pixels differ: " + std::to_string(difference.at_edges) +
+         " by anti-aliasing, " + std::to_string(difference.beyond) + " beyond the tolerance (largest error " +
+         format_significant(difference.worst, 3) + ") in " + std::to_string(box.width) + " x " +
+         std::to_string(box.height) + " at " + std::to_string(box.x) + ", " + std::to_string(box.y);
+}
+
+}  // namespace
+
+std::span<const Name> names_of(PictureState) {
+  return kStates;
+}
+
+PictureVerdict without(PictureState state, const Suite& suite, const SuitePicture& picture,
+                       std::vector<std::string> why) {
+  PictureVerdict verdict;
+  verdict.name = picture.name;
+  verdict.source = source_name(suite, picture.source);
+  verdict.state = state;
+  verdict.passes = state == PictureState::accepted;
+  verdict.words = std::move(why);
+  verdict.tolerance = tolerance_text(picture);
+  return verdict;
+}
+
+PictureVerdict judge(const Suite& suite, const SuitePicture& picture, const SuiteShot& shot,
+                     const Baseline& baseline, Studio& studio) {
+  PictureVerdict verdict = without(PictureState::same, suite, picture, {});
+  const ImageTolerance tolerance = tolerance_of(picture);
+  verdict.words = physics_words(baseline.physics, shot.physics);
+  const bool same_physics = verdict.words.empty();
+  verdict.difference = compare_images(baseline.image, shot.image, tolerance);
+  if (!verdict.difference.is_equal() && verdict.difference.same_size) {
+    // The shapes are those of what is drawn now: it says where the baseline's pixels may lie.
+    const Envelope envelope = envelope_of(shot, studio);
+    verdict.difference = compare_images(shot.image, baseline.image, tolerance, &envelope);
+    verdict.difference_png = png_bytes(difference_picture(shot.image, baseline.image, tolerance, &envelope));
+  }
+  const ImageDifference& difference = verdict.difference;
+  // One renderer gives one picture; what differs by less than an eye sees has a cause all the same. Who sets
+  // a tolerance means it.
+  const bool same_page = baseline.page == shot.page, is_exact = same_page && picture.tolerance.is_default;
+  const bool same_pixels = difference.is_equal(),
+             near = is_exact ? same_pixels : difference.passes(tolerance);
+  if (!difference.same_size) {
+    verdict.state = PictureState::size;
+    verdict.words.insert(verdict.words.begin(),
+                         "the baseline has " + std::to_string(baseline.image.width) + " x " +
+                             std::to_string(baseline.image.height) + " pixels, the picture " +
+                             std::to_string(shot.image.width) + " x " + std::to_string(shot.image.height));
+  } else if (same_physics) {
+    verdict.state = same_pixels ? PictureState::same : near ? PictureState::rendered : PictureState::pixels;
+  } else {
+    verdict.state = same_pixels ? PictureState::physics : PictureState::changed;
+  }
+  const bool same_enough = same_physics || !suite.physics_alone_fails;
+  verdict.passes = difference.same_size && same_enough && near;
+  if (verdict.state == PictureState::same) return verdict;
+  for (std::string& words : page_words(baseline.page, shot.page)) verdict.words.push_back(std::move(words));
+  if (difference.same_size) verdict.words.push_back(pixel_words(difference));
+  if (same_physics && is_exact && !same_pixels)
+    verdict.words.push_back(
+        "program, renderer and fonts are those of the baseline, which so can only have been other than "
+        "what was drawn, or the machine is at fault");
+  if (difference.same_size && !same_pixels)
+    verdict.words.push_back("there: " + shapes_there(shot.picture, shot.height, difference.box));
+  if (shot.leaves_camera)
+    verdict.words.push_back(
+        "it is cut off at the edge of the camera that the baselines were accepted with: "
+        "--accept --refit takes a camera that holds it");
+  verdict.expected_png = baseline.png;
+  verdict.actual_png = png_bytes(shot.image);
+  return verdict;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,128 @@
+#include "app/verify/verify_report.hpp"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/format.hpp"
+
+namespace chainreel {
+namespace {
+
+std::string plain(const PictureState state) {
+  return to_string(state);
+}
+
+// As a shell takes it.
+std::string shell_word(const std::string& word) {
+  const bool is_plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
+    return std::isalnum(c) || std::string("_-./,=:@+").find(char(c)) != std::string::npos;
+  });
+  if (is_plain) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+// Words of others must not become markup.
+std::string markdown_words(const std::string& words) {
+  std::string text;
+  for (const char c : words) {
+    if (c == '\n' || c == '\r')
+      text += ' ';
+    else if (std::string("\\`*_{}[]<>|#&").find(c) != std::string::npos)
+      text += std::string("\\") + c;
+    else
+      text += c;
+  }
+  return text;
+}
+
+}  // namespace
+
+int SuiteResult::failed() const {
+  return int(
+      std::count_if(pictures.begin(), pictures.end(), [](const PictureVerdict& one) { return !one.passes; }));
+}
+
+int SuiteResult::count(PictureState state) const {
+  return int(std::count_if(pictures.begin(), pictures.end(),
+                           [&](const PictureVerdict& one) { return one.state == state; }));
+}
+
+std::string accept_command(const SuiteResult& result) {
+  std::string command = "chainreel verify " + shell_word(result.suite) + " --accept";
+  for (const PictureVerdict& one : result.pictures)
+    if (!one.passes && one.state != PictureState::failed) command += " " + shell_word(one.name);
+  return command;
+}
+
+std::string summary_of(const SuiteResult& result) {
+  const int failed = result.failed(), all = int(result.pictures.size());
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < names_of(PictureState{}).size(); ++i)
+    if (const int count = result.count(PictureState(i)); count > 0)
+      parts.push_back(std::to_string(count) + " " + to_string(PictureState(i)));
+  return (failed == 0 ? std::to_string(all) + (all == 1 ? " picture passed" : " pictures passed")
+                      : std::to_string(failed) + " of " + std::to_string(all) + " pictures failed") +
+         ": " + joined(parts);
+}
+
+Json to_json(const SuiteResult& result) {
+  Json json{{"suite", result.suite},     {"baselines", result.baselines}, {"passed", result.failed() == 0},
+            {"failed", result.failed()}, {"pictures", Json::array()},     {"unused", result.unused},
+            {"pruned", result.pruned}};
+  for (const PictureVerdict& one : result.pictures) {
+    Json picture{{"name", one.name},     {"source", one.source}, {"state", plain(one.state)},
+                 {"passed", one.passes}, {"words", one.words},   {"tolerance", one.tolerance}};
+    const ImageDifference& d = one.difference;
+    picture["pixels"] = {{"unequal", d.unequal}, {"at_edges", d.at_edges},
+                         {"beyond", d.beyond},   {"worst", d.worst},
+                         {"mean", d.mean},       {"box", {d.box.x, d.box.y, d.box.width, d.box.height}}};
+    json["pictures"].push_back(std::move(picture));
+  }
+  if (result.failed() > 0) json["accept"] = accept_command(result);
+  return json;
+}
+
+std::string junit_text(const SuiteResult& result) {
+  tinyxml2::XMLPrinter printer;
+  printer.PushHeader(false, true);
+  printer.OpenElement("testsuites");
+  printer.OpenElement("testsuite");
+  printer.PushAttribute("name", result.suite.c_str());
+  printer.PushAttribute("tests", int(result.pictures.size()));
+  printer.PushAttribute("failures", result.failed() - result.count(PictureState::failed));
+  printer.PushAttribute("errors", result.count(PictureState::failed));
+  for (const PictureVerdict& one : result.pictures) {
+    printer.OpenElement("testcase");
+    printer.PushAttribute("classname", one.source.c_str());
+    printer.PushAttribute("name", one.name.c_str());
+    if (!one.passes) {
+      printer.OpenElement(one.state == PictureState::failed ? "error" : "failure");
+      printer.PushAttribute("type", plain(one.state).c_str());
+      printer.PushAttribute("message", printable(one.words.empty() ? "" : one.words.front()).c_str());
+      printer.PushText(printable(joined(one.words, "\n") + "\ntolerance: " + one.tolerance).c_str());
+      printer.CloseElement();
+    }
+    printer.CloseElement();
+  }
+  printer.CloseElement();
+  printer.CloseElement();
+  return printer.CStr();
+}
+
+std::string markdown_text(const SuiteResult& result) {
+  std::string text = "## " + std::string(result.failed() == 0 ? "Pictures as accepted" : "Pictures changed") +
+                     ": " + markdown_words(result.suite) + "\n\n" + summary_of(result) + "\n";
+  if (result.failed() == 0) return text;
+  text += "\n| picture | state | why |\n| --- | --- | --- |\n";
+  for (const PictureVerdict& one : result.pictures)
+    if (!one.passes)
+      text += "| " + markdown_words(one.name) + " | " + plain(one.state) + " | " +
+              markdown_words(joined(one.words, "; ")) + " |\n";
+  return text + "\nTo take what is drawn now: `" + accept_command(result) + "`\n";
+}
+
+}  // namespace chainreel

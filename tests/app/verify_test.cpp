@@ -1,0 +1,374 @@
+// Suites of pictures against what they were accepted with.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <tinyxml2.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "core/hash.hpp"
+#include "core/json.hpp"
+#include "encode/png.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+
+extern char** environ;
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+// A suite of three poses beside the model that it shows.
+class Verify : public ::testing::Test {
+ protected:
+  Verify() {
+    write("rr.urdf", read_whole_file("models/rr.urdf"));
+    write("arm.yaml", "model: rr.urdf\nsize: 320x180\nposes: {home: [0, 0], up: [90deg, 0], bent: [30deg, 60deg]}\n");
+  }
+
+  ProgramResult verify(const Words& more = {}, const std::string& suite = "arm.yaml") {
+    return run_program(chainreel::with(Words{"verify", suite}, more), {.folder = folder_.path().string()});
+  }
+  // The results as JSON, whatever the exit code.
+  Json results(const Words& more = {}, const std::string& suite = "arm.yaml") {
+    const ProgramResult result = verify(chainreel::with(more, Words{"--json"}), suite);
+    const Json json = parse_json(result.out);
+    if (!json.is_object()) ADD_FAILURE() << result.err;
+    return json;
+  }
+  void accept_all(const std::string& suite = "arm.yaml") {
+    const ProgramResult result = verify({"--missing", "write"}, suite);
+    ASSERT_EQ(result.status, 0) << result.out << result.err;
+  }
+  void write(const std::string& name, const std::string& text) { folder_.write(name, text); }
+  void replace(const std::string& file, const std::string& from, const std::string& to) {
+    std::string text = read_whole_file(folder_.path() / file);
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    write(file, text.replace(at, from.size(), to));
+  }
+  std::map<std::string, std::string> baselines(const std::string& name = "arm") const {
+    std::map<std::string, std::string> files;
+    const fs::path root = folder_.path() / (name + ".baselines");
+    if (!fs::exists(root)) return files;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root))
+      if (entry.is_regular_file())
+        files[entry.path().lexically_relative(root).string()] = read_whole_file(entry.path());
+    return files;
+  }
+  static Json picture(const Json& json, const std::string& name) {
+    for (const Json& one : json["pictures"])
+      if (one["name"] == name) return one;
+    ADD_FAILURE() << "no picture " << name << " in " << json.dump(1);
+    return Json::object();
+  }
+  static std::string words(const Json& json, const std::string& name) { return picture(json, name)["words"].dump(); }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Verify, FailsWithoutBaselinesAndSaysHowTheyAreMade) {
+  const ProgramResult result = verify();
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out, HasSubstr("missing   home"));
+  EXPECT_THAT(result.out, HasSubstr("--missing write"));
+  EXPECT_THAT(baselines(), IsEmpty());
+}
+
+TEST_F(Verify, PassesWhatItWroteAndLeavesItAlone) {
+  accept_all();
+  const auto before = baselines();
+  EXPECT_THAT(before, Contains(testing::Key("home.png")));
+  const Json json = results();
+  EXPECT_EQ(json["failed"], 0);
+  for (const Json& one : json["pictures"]) EXPECT_EQ(one["state"], "same") << one.dump(1);
+  EXPECT_EQ(baselines(), before);
+}
+
+TEST_F(Verify, NamesAMassThatNoPictureShows) {
+  accept_all();
+  replace("rr.urdf", "<mass value=\"1\"/>", "<mass value=\"1.01\"/>");
+  const Json json = results();
+  EXPECT_EQ(json["failed"], 3);
+  EXPECT_EQ(picture(json, "up")["state"], "physics");
+  EXPECT_THAT(words(json, "up"), HasSubstr("link1"));
+  EXPECT_THAT(words(json, "up"), HasSubstr("mass 1 -> 1.01 kg"));
+  // Where the suite says so, that is told and passes.
+  replace("arm.yaml", "size:", "physics: note\nsize:");
+  EXPECT_EQ(verify().status, 0);
+}
+
+TEST_F(Verify, NamesAJointThatMoved) {
+  accept_all();
+  replace("rr.urdf", "<origin xyz=\"1 0 0\"/>\n    <parent link=\"link1", "<origin xyz=\"1.02 0 0\"/>\n    <parent link=\"link1");
+  const Json json = results();
+  EXPECT_EQ(picture(json, "bent")["state"], "changed");
+  EXPECT_THAT(words(json, "bent"), HasSubstr("origin moved by"));
+  EXPECT_GT(picture(json, "bent")["pixels"]["beyond"], 0);
+}
+
+TEST_F(Verify, NamesAPoseThatChanged) {
+  accept_all();
+  replace("arm.yaml", "60deg", "61deg");
+  const Json json = results();
+  EXPECT_EQ(json["failed"], 1);
+  EXPECT_EQ(picture(json, "bent")["state"], "changed");
+  EXPECT_THAT(words(json, "bent"), HasSubstr("joint2"));
+}
+
+// What a longer arm does to the picture is that it is longer: the camera is that of the baselines.
+TEST_F(Verify, DoesNotMoveTheCameraWithTheRobot) {
+  accept_all();
+  replace("rr.urdf", "<origin xyz=\"1 0 0\"/>\n    <parent link=\"link1", "<origin xyz=\"1.004 0 0\"/>\n    <parent link=\"link1");
+  EXPECT_EQ(verify({"-o", "shown"}).status, 1);
+  const Image before = read_png(folder_.file("shown/home.expected.png")), after = read_png(folder_.file("shown/home.actual.png"));
+  // Everything left of the second joint stands where it stood.
+  int moved = 0;
+  for (int y = 0; y < before.height; ++y)
+    for (int x = 0; x < before.width * 2 / 5; ++x) moved += before.at(x, y) != after.at(x, y);
+  EXPECT_EQ(moved, 0);
+  EXPECT_EQ(verify({"--accept", "--refit"}).status, 0);
+  EXPECT_EQ(verify().status, 0);
+}
+
+TEST_F(Verify, SaysWhereTheCameraCutsSomethingOff) {
+  accept_all();
+  replace("rr.urdf", "<origin xyz=\"1 0 0\"/>\n    <parent link=\"link1", "<origin xyz=\"3 0 0\"/>\n    <parent link=\"link1");
+  EXPECT_THAT(words(results(), "home"), HasSubstr("--accept --refit"));
+}
+
+TEST_F(Verify, AcceptsWhatIsNamedAndNothingElse) {
+  accept_all();
+  const auto before = baselines();
+  replace("arm.yaml", "[90deg, 0]", "[80deg, 0]");
+  replace("arm.yaml", "60deg", "61deg");
+  EXPECT_EQ(verify({"--accept", "up"}).status, 1);  // the other one still differs
+  const auto after = baselines();
+  EXPECT_NE(after.at("up.png"), before.at("up.png"));
+  EXPECT_EQ(after.at("bent.png"), before.at("bent.png"));
+  const Json json = results();
+  EXPECT_EQ(picture(json, "up")["state"], "same");
+  EXPECT_EQ(picture(json, "bent")["state"], "changed");
+  const ProgramResult unknown = verify({"--accept", "ap"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("did you mean 'up'"));
+}
+
+TEST_F(Verify, NamesUnusedBaselinesAndPrunesThemWhenAsked) {
+  accept_all();
+  replace("arm.yaml", ", bent: [30deg, 60deg]", "");
+  EXPECT_THAT(results()["unused"], ElementsAre("bent"));
+  EXPECT_THAT(baselines(), Contains(testing::Key("bent.png")));
+  EXPECT_THAT(results({"--prune"})["pruned"], ElementsAre("bent"));
+  EXPECT_THAT(baselines(), Not(Contains(testing::Key("bent.png"))));
+  EXPECT_EQ(verify().status, 0);
+}
+
+TEST_F(Verify, LooksAtThePicturesThatAFilterNames) {
+  accept_all();
+  replace("arm.yaml", "60deg", "61deg");
+  EXPECT_EQ(verify({"--filter", "[hu]*"}).status, 0);
+  EXPECT_EQ(verify({"--filter", "b*"}).status, 1);
+  EXPECT_EQ(verify({"--filter", "none*"}).status, 2);
+}
+
+TEST_F(Verify, TellsABaselineThatCannotBeUsed) {
+  accept_all();
+  const fs::path home = folder_.path() / "arm.baselines/home.png", up = folder_.path() / "arm.baselines/up.png";
+  const std::string good = read_whole_file(home);
+  write("arm.baselines/home.png", "no picture");
+  EXPECT_EQ(picture(results(), "home")["state"], "baseline");
+  write("arm.baselines/home.png", read_whole_file(up));  // a picture, but not this one
+  EXPECT_THAT(words(results(), "home"), HasSubstr("was changed since it was accepted"));
+  write("arm.baselines/home.png", good);
+  replace("arm.baselines/home.json", "\"suite\": \"arm\"", "\"suite\": \"other\"");
+  EXPECT_THAT(words(results(), "home"), HasSubstr("belongs to the suite"));
+  fs::remove(folder_.path() / "arm.baselines/home.json");
+  EXPECT_THAT(words(results(), "home"), HasSubstr("is missing beside the picture"));
+  // The others are looked at all the same, and accepting mends it.
+  EXPECT_EQ(results()["failed"], 1);
+  EXPECT_EQ(verify({"--accept", "home"}).status, 0);
+}
+
+TEST_F(Verify, TellsOtherPixelsOfTheSamePhysicsApart) {
+  accept_all();
+  // As another renderer would have left it: one pixel by little, then a square that is missing.
+  const auto edit = [&](auto change) {
+    const std::string path = folder_.file("arm.baselines/home.png");
+    Image image = read_png(path);
+    const auto text = read_png_text(path);
+    change(image);
+    write_png(path, image, text);
+    Json facts = parse_json(read_whole_file(folder_.file("arm.baselines/home.json")));
+    facts["png_sha256"] = sha256_of(read_whole_file(path));
+    write("arm.baselines/home.json", facts.dump(1) + "\n");
+  };
+  edit([](Image& image) { image.bgra[0] = std::uint8_t(image.bgra[0] - 4); });
+  // The same renderer gives the same pixels; another one may differ by what nobody sees.
+  EXPECT_EQ(picture(results(), "home")["state"], "pixels");
+  Json facts = parse_json(read_whole_file(folder_.file("arm.baselines/home.json")));
+  facts["page"]["renderer"] = "another one";
+  write("arm.baselines/home.json", facts.dump(1) + "\n");
+  EXPECT_EQ(picture(results(), "home")["state"], "rendered");
+  EXPECT_THAT(words(results(), "home"), HasSubstr("renderer: another one -> "));
+  EXPECT_EQ(verify().status, 0);
+  edit([](Image& image) {
+    for (int y = image.height / 2; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        for (int c = 0; c < 3; ++c) image.bgra[std::size_t(4 * (y * image.width + x) + c)] = 255;
+  });
+  const Json json = results();
+  EXPECT_EQ(picture(json, "home")["state"], "pixels");
+  EXPECT_THAT(words(json, "home"), HasSubstr("there: "));
+  EXPECT_THAT(picture(json, "home")["tolerance"].get<std::string>(), HasSubstr("default"));
+  // A mask over it, and a tolerance that lets it pass; both say where they were set.
+  replace("arm.yaml", "size:", "masks: [[0, 90, 320, 90]]\nsize:");
+  EXPECT_EQ(verify().status, 0);
+}
+
+TEST_F(Verify, RefusesToComparePicturesOfTwoSizes) {
+  accept_all();
+  replace("arm.yaml", "320x180", "640x360");
+  const Json json = results();
+  EXPECT_EQ(picture(json, "home")["state"], "size");
+  EXPECT_THAT(words(json, "home"), HasSubstr("320 x 180 pixels, the picture 640 x 360"));
+}
+
+TEST_F(Verify, TellsAPictureThatCannotBeDrawnAndGoesOn) {
+  write("swing.yaml", "model: rr.urdf\ntorque: [0, 0]\nduration: 1\nmethod: rk4\nstep: 0.01\nevents: [{name: down, when: q1 < -0.5}]\n");
+  write("both.yaml", "scene: swing.yaml\nsize: 320x180\nat: [0, 0.5s, event down]\n");
+  accept_all("both.yaml");
+  replace("swing.yaml", "q1 < -0.5", "q1 < -50");
+  const Json json = results({}, "both.yaml");
+  EXPECT_EQ(json["failed"], 3);
+  int failed = 0;
+  for (const Json& one : json["pictures"]) failed += one["state"] == "failed";
+  EXPECT_EQ(failed, 1);
+}
+
+TEST_F(Verify, NamesWhatChangedInARun) {
+  write("swing.yaml", "model: rr.urdf\ntorque: [0, 1]\nduration: 1\nmethod: rk4\nstep: 0.01\n");
+  write("motion.yaml", "scene: swing.yaml\nsize: 320x180\nat: [0, 0.9s]\n");
+  accept_all("motion.yaml");
+  replace("swing.yaml", "rk4", "dop853");
+  std::string said = results({}, "motion.yaml").dump();
+  EXPECT_THAT(said, HasSubstr("method rk4 -> dop853"));
+  replace("swing.yaml", "dop853", "rk4");
+  EXPECT_EQ(verify({}, "motion.yaml").status, 0);
+  replace("swing.yaml", "[0, 1]", "[0, 1.01]");
+  said = results({}, "motion.yaml").dump();
+  EXPECT_THAT(said, HasSubstr("torque"));
+}
+
+TEST_F(Verify, TakesAFolderOfScenes) {
+  write("films/rr.urdf", read_whole_file("models/rr.urdf"));
+  for (const char* name : {"a", "b"})
+    write(std::string("films/") + name + ".yaml",
+          "model: rr.urdf\ntorque: [0, 0]\nduration: 0.5\nmethod: rk4\nstep: 0.01\nvideo: {width: 320, height: 180}\n");
+  accept_all("films/");
+  EXPECT_THAT(baselines("films"), Contains(testing::Key("a.png")));
+  EXPECT_EQ(verify({}, "films").status, 0);
+}
+
+TEST_F(Verify, IsTheSameOnOneThreadAndOnSeveral) {
+  accept_all();
+  const auto one = baselines();
+  fs::remove_all(folder_.path() / "arm.baselines");
+  EXPECT_EQ(verify({"--missing", "write", "--jobs", "3"}).status, 0);
+  EXPECT_EQ(baselines(), one);
+}
+
+TEST_F(Verify, ReportsForServicesAreWellFormedAndSayEverything) {
+  accept_all();
+  replace("rr.urdf", "<mass value=\"1\"/>", "<mass value=\"1.01\"/>");
+  const ProgramResult result = verify({"--junit", "junit.xml", "--markdown", "summary.md"});
+  EXPECT_EQ(result.status, 1);
+  tinyxml2::XMLDocument junit;
+  ASSERT_EQ(junit.LoadFile(folder_.file("junit.xml").c_str()), tinyxml2::XML_SUCCESS);
+  const tinyxml2::XMLElement* suite = junit.FirstChildElement("testsuites")->FirstChildElement("testsuite");
+  EXPECT_EQ(suite->IntAttribute("tests"), 3);
+  EXPECT_EQ(suite->IntAttribute("failures"), 3);
+  EXPECT_THAT(suite->FirstChildElement("testcase")->FirstChildElement("failure")->Attribute("message"), HasSubstr("mass"));
+  EXPECT_THAT(read_whole_file(folder_.file("summary.md")), HasSubstr("| home | physics | "));
+  EXPECT_THAT(result.out, HasSubstr("chainreel verify arm.yaml --accept home up bent"));
+}
+
+TEST_F(Verify, WaitsForAnotherOneThatWrites) {
+  accept_all();
+  // Two that accept at once: both end well, and the baselines are whole.
+  const ProgramResult both = run_command(
+      {"sh", "-c", "\"$0\" verify arm.yaml --accept --quiet & \"$0\" verify arm.yaml --accept --quiet; r=$?; wait $! && exit $r", program_path()},
+      {.folder = folder_.path().string()});
+  EXPECT_EQ(both.status, 0) << both.err;
+  EXPECT_EQ(verify().status, 0);
+}
+
+// Killed at many instants, accepting leaves the old baselines or the new ones.
+TEST_F(Verify, KilledWhileItAcceptsLeavesOldOrNew) {
+  accept_all();
+  const auto old = baselines();
+  replace("arm.yaml", "[0, 0]", "[5deg, 0]");
+  replace("arm.yaml", "[90deg, 0]", "[80deg, 0]");
+  const std::string program = program_path(), folder = folder_.path().string();
+  std::map<std::string, std::string> fresh;
+  int seen_new = 0;
+  for (int wait_ms = 40; wait_ms <= 400; wait_ms += 24) {
+    const std::string line = "cd '" + folder + "' && exec '" + program + "' verify arm.yaml --accept --quiet";
+    const char* arguments[] = {"sh", "-c", line.c_str(), nullptr};
+    pid_t child = 0;
+    ASSERT_EQ(posix_spawn(&child, "/bin/sh", nullptr, nullptr, const_cast<char**>(arguments), environ), 0);
+    ::usleep(useconds_t(wait_ms) * 1000);
+    ::kill(child, SIGKILL);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    const auto now = baselines();
+    if (now == old) continue;
+    if (fresh.empty()) fresh = now;
+    EXPECT_EQ(now, fresh) << wait_ms;
+    EXPECT_EQ(verify().status, 0);
+    ++seen_new;
+    break;
+  }
+  if (seen_new == 0) {
+    EXPECT_EQ(verify({"--accept"}).status, 0);
+  }
+  // What was left lying is gone with the next change.
+  EXPECT_EQ(verify({"--accept"}).status, 0);
+  int hidden = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_.path()))
+    hidden += entry.path().filename().string().starts_with(".chainreel");
+  EXPECT_EQ(hidden, 0);
+}
+
+TEST_F(Verify, OfAFolderThatCannotBeWrittenIsExitSix) {
+  write("place", "a file where the baselines belong");
+  fs::rename(folder_.path() / "place", folder_.path() / "arm.baselines");
+  EXPECT_EQ(verify({"--missing", "write"}).status, 6);
+  EXPECT_EQ(read_whole_file(folder_.path() / "arm.baselines"), "a file where the baselines belong");
+}
+
+TEST_F(Verify, BaselinesDoNotDependOnThePlace) {
+  accept_all();
+  const TemporaryFolder other;
+  for (const char* name : {"rr.urdf", "arm.yaml"}) other.write(std::string("deep/er/") + name, read_whole_file(folder_.path() / name));
+  const ProgramResult result = run_program({"verify", other.file("deep/er/arm.yaml"), "--missing", "write"},
+                                           {.folder = "/", .environment = {{"LC_ALL", "C.UTF-8"}, {"HOME", "/nowhere"}, {"TZ", "Asia/Tokyo"}}});
+  ASSERT_EQ(result.status, 0) << result.err;
+  for (const auto& [name, bytes] : baselines()) EXPECT_EQ(read_whole_file(other.path() / "deep/er/arm.baselines" / name), bytes) << name;
+}
+
+}  // namespace
+}  // namespace chainreel
