@@ -52,6 +52,7 @@ class EveryCommand : public ::testing::Test {
     inputs_->write("fall.yaml", "model: " CHAINREEL_SOURCE_FOLDER
                                 "/models/pp.urdf\nduration: 1\nmethod: rk4\nstep: 0.01\ntorque: [0, 0]\n"
                                 "events: [{when: \"q2 < -1\", kind: fall}]\n");
+    inputs_->write("suite.yaml", "model: " CHAINREEL_SOURCE_FOLDER "/models/rr.urdf\nsize: 64x36\nposes: {a: [0, 1]}\n");
     for (const std::string& command : first_words(run_program({"--help"}).out, "Subcommands:"))
       helps_[command] = run_program({command, "--help"}).out;
   }
@@ -64,6 +65,7 @@ class EveryCommand : public ::testing::Test {
     Words words;
     std::string ending;    // of what it writes; "": nothing
     bool to_name = false;  // the output is no option, but the command's own word without an ending
+    std::string option = "-o";
   };
   static std::map<std::string, Use> uses() {
     const std::string clip = inputs_->file("clip.mp4");
@@ -96,13 +98,14 @@ class EveryCommand : public ::testing::Test {
           ".csv"}},
         {"fall", {{inputs_->file("fall.yaml"), "--sweep", "torque.2=0,2"}, ".csv"}},
         {"sheet", {with(with({kScene}, kShort), kSmallFigure), ".svg"}},
-        {"gallery", {{clip}, ".html"}}};
+        {"gallery", {{clip}, ".html"}},
+        {"verify", {{inputs_->file("suite.yaml"), "--missing", "write"}, ".xml", false, "--junit"}}};
   }
 
   static Words command_line(const std::string& command, const Use& use, const std::string& output) {
     Words words = with({command}, use.words);
     if (use.to_name) return with(words, {fs::path(output).replace_extension().string()});
-    return use.ending.empty() ? words : with(words, {"-o", output});
+    return use.ending.empty() ? words : with(words, {use.option, output});
   }
   static bool offers(const std::string& command, const std::string& option) {
     for (const std::string& word : first_words(helps_.at(command), "Options:"))
