@@ -294,7 +294,7 @@ TEST_F(Verify, IsTheSameOnOneThreadAndOnSeveral) {
 TEST_F(Verify, ReportsForServicesAreWellFormedAndSayEverything) {
   accept_all();
   replace("rr.urdf", "<mass value=\"1\"/>", "<mass value=\"1.01\"/>");
-  const ProgramResult result = verify({"--junit", "junit.xml", "--markdown", "summary.md"});
+  const ProgramResult result = verify({"--junit", "junit.xml", "--markdown", "summary.md", "--html", "report.html"});
   EXPECT_EQ(result.status, 1);
   tinyxml2::XMLDocument junit;
   ASSERT_EQ(junit.LoadFile(folder_.file("junit.xml").c_str()), tinyxml2::XML_SUCCESS);
@@ -303,6 +303,7 @@ TEST_F(Verify, ReportsForServicesAreWellFormedAndSayEverything) {
   EXPECT_EQ(suite->IntAttribute("failures"), 3);
   EXPECT_THAT(suite->FirstChildElement("testcase")->FirstChildElement("failure")->Attribute("message"), HasSubstr("mass"));
   EXPECT_THAT(read_whole_file(folder_.file("summary.md")), HasSubstr("| home | physics | "));
+  EXPECT_THAT(read_whole_file(folder_.file("report.html")), HasSubstr("1.01 kg"));
   EXPECT_THAT(result.out, HasSubstr("chainreel verify arm.yaml --accept home up bent"));
 }
 

@@ -16,7 +16,9 @@
 #include "app/cli/streams.hpp"
 #include "app/film/progress.hpp"
 #include "app/report/report.hpp"
+#include "app/report/version.hpp"
 #include "app/verify/baselines.hpp"
+#include "app/verify/html_report.hpp"
 #include "app/verify/shots.hpp"
 #include "app/verify/verdict.hpp"
 #include "app/verify/verify_report.hpp"
@@ -41,7 +43,7 @@ struct VerifyOptions {
   std::string missing = "fail";
   std::vector<std::string> filters;
   int jobs = 0;  // all cores
-  std::string junit, markdown, output;
+  std::string junit, markdown, html, output;
   CommonOptions common;
 };
 
@@ -227,10 +229,23 @@ void write_pictures(const std::string& folder, const SuiteResult& result, bool o
   }
 }
 
+VerifyReport page_of(const SuiteResult& result) {
+  VerifyReport report;
+  report.suite = result.suite;
+  report.accept_command = result.failed() > 0 ? accept_command(result) : "";
+  report.program = std::string("chainreel ") + program_version();
+  for (const PictureVerdict& one : result.pictures)
+    report.pictures.push_back({one.name, to_string(one.state), one.source, one.words, one.expected_png,
+                               one.actual_png, one.difference_png, one.difference.worst,
+                               one.difference.beyond, one.tolerance, one.passes});
+  return report;
+}
+
 void write_reports(const VerifyOptions& options, const SuiteResult& result) {
   const bool overwrite = options.common.force;
   if (!options.junit.empty()) write_text_file(options.junit, junit_text(result), overwrite);
   if (!options.markdown.empty()) write_text_file(options.markdown, markdown_text(result), overwrite);
+  if (!options.html.empty()) write_html_report(options.html, page_of(result), overwrite);
   if (!options.output.empty()) write_pictures(options.output, result, overwrite);
 }
 
@@ -291,11 +306,12 @@ void add_verify_command(CommandLine& app) {
   command->add_option("--jobs", options->jobs, "threads (default: all cores)").range(1, 256);
   command->add_option("--junit", options->junit, "results as JUnit XML");
   command->add_option("--markdown", options->markdown, "a summary as Markdown");
+  command->add_option("--html", options->html, "a report as one HTML file");
   command->add_option(
       "-o,--output", options->output,
       "a folder for the pictures of what failed: NAME.expected.png, NAME.actual.png, NAME.difference.png");
   add_result_options(*command, options->common);
-  command->footer("Example: chainreel verify arm.yaml --junit out/junit.xml --markdown out/summary.md");
+  command->footer("Example: chainreel verify arm.yaml --junit out/junit.xml --html out/report.html");
   command->callback([options] { run_verify(*options); });
 }
 

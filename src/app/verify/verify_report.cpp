@@ -3,8 +3,8 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
-#include <cctype>
 
+#include "app/cli/shell_word.hpp"
 #include "core/format.hpp"
 
 namespace chainreel {
@@ -12,17 +12,6 @@ namespace {
 
 std::string plain(const PictureState state) {
   return to_string(state);
-}
-
-// As a shell takes it.
-std::string shell_word(const std::string& word) {
-  const bool is_plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
-    return std::isalnum(c) || std::string("_-./,=:@+").find(char(c)) != std::string::npos;
-  });
-  if (is_plain) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 // Words of others must not become markup.
