@@ -118,8 +118,10 @@ class ModelComparison {
     for (const DescribedCoordinate& one : before_.coordinates) before.push_back(coordinate_now(one.name));
     for (const DescribedCoordinate& one : after_.coordinates) after.push_back(one.name);
     if (before == after) return;
-    if (std::is_permutation(before.begin(), before.end(), after.begin(), after.end()))
-      tell(ModelChange::structure, "order of coordinates " + change_text(joined(before), joined(after)));
+    const std::string words = "order of coordinates " + change_text(joined(before), joined(after));
+    std::sort(before.begin(), before.end());
+    std::sort(after.begin(), after.end());
+    if (before == after) tell(ModelChange::structure, words);
   }
 
   void compare(const UrdfJoint& before, const UrdfJoint& after) {
@@ -180,7 +182,7 @@ class ModelComparison {
       const int line = after.limit.given ? after.limit.line : after.line;
       const auto text = [&](const std::optional<double>& value) { return value ? format_shortest(*value) + " " + unit : "none"; };
       if (old != now)
-        tell(ModelChange::resistance,
+        tell(ModelChange::limit,
              joint + limit.name + " " + (old && now ? change_text(*old, *now, unit) : change_text(text(old), text(now))), line);
     }
   }

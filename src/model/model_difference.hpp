@@ -13,7 +13,8 @@ enum class ModelChange {
   structure,   // links and joints that came, went or have another name; the order of coordinates
   joint,       // where joints are and how they turn; which of them follow others
   mass,        // masses, centres, inertias
-  resistance,  // damping, friction, limits
+  resistance,  // damping, friction
+  limit,       // of joints: of position, rate and effort
   reading,     // how the model was read: gravity, base, end effector
   looks,       // shapes, colours, meshes: of no matter to a motion
 };

@@ -11,6 +11,7 @@ namespace chainreel {
 namespace {
 
 constexpr double kSameTurn = 1e-14;  // rad: the round-off of sines of two writings
+constexpr std::size_t kMostSearched = 1000;  // shapes of a link; of more, each is compared with that of its place
 constexpr const char* kNames[] = {"box", "cylinder", "sphere", "mesh"};
 
 std::string rgba_text(const std::optional<std::array<std::uint8_t, 4>>& color) {
@@ -91,8 +92,9 @@ class Shapes {
     };
     for (std::size_t k = 0; k < after_.shapes.size(); ++k) {
       std::size_t i = k;  // most are where they were
+      const std::size_t searched = before_.shapes.size() <= kMostSearched ? 0 : before_.shapes.size();
       if (i >= before_.shapes.size() || !same(i, k))
-        for (i = 0; i < before_.shapes.size() && !same(i, k);) ++i;
+        for (i = searched; i < before_.shapes.size() && !same(i, k);) ++i;
       if (i == before_.shapes.size()) {
         come.push_back(k);
         continue;

@@ -117,6 +117,51 @@ TEST(PhysicsRecord, NamesTheTableWhoseNumbersChanged) {
               ElementsAre(AllOf(StartsWith("q2 (joint2) differs by"), HasSubstr(": torque: the numbers in table tau.csv differ"))));
 }
 
+// A change beside another one that moves is told by itself where it cannot have moved anything.
+TEST(PhysicsRecord, TakesNothingForACauseThatDoesNotAct) {
+  const TemporaryFolder folder;
+  const auto write = [&](const char* limit, const char* damping, const char* mass) {
+    folder.write("m.urdf", std::string("<robot name='m'><link name='base'/><link name='a'><inertial><origin xyz='1 0 0'/><mass value='") + mass +
+                               "'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link><joint name='j' type='revolute'>"
+                               "<parent link='base'/><child link='a'/><axis xyz='0 0 1'/><limit lower='-9' upper='" + limit +
+                               "' effort='99' velocity='99'/><dynamics damping='" + damping + "'/></joint></robot>");
+  };
+  const auto told = [&](const std::vector<std::string>& overrides) {
+    const std::string scene = folder.write("s.yaml", "model: m.urdf\nduration: 0.5\nmethod: rk4\nstep: 0.01\n");
+    write("9", "0", "1");
+    const Json before = record_of(scene, overrides);
+    write("8", "0.1", "1.01");
+    return explain_runs(before, record_of(scene, overrides));
+  };
+  EXPECT_THAT(told({"friction=false"}), ElementsAre(AllOf(StartsWith("q1 (j) differs by"), HasSubstr(": link a: mass 1 -> 1.01 kg")),
+                                                    HasSubstr("joint j: damping"), HasSubstr("joint j: upper limit")));
+  EXPECT_THAT(told({"limit=stop"}), ElementsAre(StartsWith("link a: mass"), StartsWith("joint j: damping"), StartsWith("joint j: upper limit"),
+                                                StartsWith("q1 (j) differs by")));
+}
+
+TEST(PhysicsRecord, KeepsTablesOfOneNameInTwoFoldersApart) {
+  const Workshop shop;
+  const auto table = [&](const char* folder, const char* value) {
+    shop.folder.write(std::string(folder) + "/ref.csv", std::string("t,q1,q2\n0,0,0\n0.5,") + value + ",0\n1,1,0\n");
+  };
+  const std::vector<std::string> drive = {
+      "torque=[{pd: {kp: 10, kd: 1, trajectory: a/ref.csv}}, {pd: {kp: 10, kd: 1, trajectory: b/ref.csv}}]"};
+  table("a", "0.5"), table("b", "0.5");
+  const Json before = record_of(shop.scene, drive);
+  table("a", "0.6");
+  EXPECT_THAT(explain_runs(before, record_of(shop.scene, drive)), ElementsAre(HasSubstr(": torque: the numbers in table ref.csv differ")));
+}
+
+TEST(PhysicsRecord, TellsTheRotationOfAFloatingBase) {
+  const TemporaryFolder folder;
+  folder.write("m.urdf", "<robot name='m'><link name='body'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='2' iyz='0' izz='3'/>"
+                         "</inertial></link></robot>");
+  const std::string scene =
+      folder.write("s.yaml", "model: m.urdf\nbase: floating\nduration: 0.5\nmethod: rk4\nstep: 0.01\ngravity: [0, 0, 0]\nstart: {qd: [0, 0, 0, 1, 0, 0]}\n");
+  EXPECT_THAT(explain_runs(record_of(scene), record_of(scene, {"start.qd=[0, 0, 0, 1.01, 0, 0]"})),
+              ElementsAre(AllOf(StartsWith("rotation of "), HasSubstr(" differs by 0.0001"), HasSubstr(" rad from t = 0.01"), HasSubstr(": start.qd.4 1 -> 1.01"))));
+}
+
 // Start and motion of a closed loop move with the lengths of its links.
 TEST(PhysicsRecord, TakesAStartOnConstraintsAlongWithItsCause) {
   const TemporaryFolder folder;

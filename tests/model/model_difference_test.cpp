@@ -219,6 +219,18 @@ TEST(ModelDifference, TellsMeshesByTheirTriangles) {
   EXPECT_THAT(words_of(before, describe_model(path, {})), ElementsAre(StartsWith("link forearm: visual 1 (mesh forearm.stl) scale 1 1 1 -> 1 1 2")));
 }
 
+// What a mesh file names itself is no part of its bytes.
+TEST(ModelDifference, TellsColoursThatStandBesideAMesh) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write(
+      "model.urdf", robot_text(link_text("base", "<visual><geometry><mesh filename='a.obj'/></geometry></visual>") + moving("a", "continuous", "base")));
+  folder.write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl m\nf 1 2 3\nf 1 3 4\n");
+  folder.write("a.mtl", "newmtl m\nKd 0.5 0 0\n");
+  const ModelDescription before = describe_model(path, {});
+  folder.write("a.mtl", "newmtl m\nKd 0.5 0.1 0\n");
+  EXPECT_THAT(words_of(before, describe_model(path, {})), ElementsAre("mesh a.obj (link base): the same triangles in other colours, URDF line 2"));
+}
+
 TEST(ModelDifference, RefusesSpoiltRecords) {
   const Json good = to_json(described(arm()));
   const std::vector<std::function<void(Json&)>> spoilings{

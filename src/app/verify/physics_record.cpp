@@ -53,7 +53,8 @@ class Tables {
       hash.add(std::span<const double>(table.columns[i]));
     }
     path = file_name(path);
-    hashes_[path] = hash.finish();
+    const std::string others = hashes_.value(path, "");  // of another folder
+    hashes_[path] = others + (others.empty() ? "" : " ") + hash.finish();
   }
 
   Json hashes_ = Json::object();
@@ -200,11 +201,17 @@ void add_key_changes(const Json& before, const Json& after, Changes& changes) {
 }
 
 // A model's file under another name is told by what differs in it; how it was read, by the scene's keys.
-void add_model_changes(const Json& before, const Json& after, Changes& changes) {
+void add_model_changes(const Json& before, const Json& after, const Json& keys, Changes& changes) {
   if (before == after) return;
+  // What does not act on the run is no cause of another one.
+  const bool limits_act = keys.value("limit", "") != to_string(LimitPolicy::report);
+  const bool friction_acts = keys.value("friction", "") != "false";
   for (ModelDifference& one : differences(model_description_of(before), model_description_of(after))) {
     if (one.change == ModelChange::reading) continue;
-    (one.change == ModelChange::looks ? changes.looks : changes.causes).push_back(std::move(one.words));
+    const bool acts = one.change == ModelChange::limit        ? limits_act
+                      : one.change == ModelChange::resistance ? friction_acts
+                                                              : one.change != ModelChange::looks;
+    (acts ? changes.causes : changes.looks).push_back(std::move(one.words));
   }
 }
 
@@ -251,7 +258,7 @@ std::vector<std::string> explain_panels(const Json& before, const Json& after, c
   add_key_changes(before.at("keys"), after.at("keys"), changes);
   add_table_changes(before.at("tables"), after.at("tables"), changes);
   add_model_changes(of_before.at("models").at(before.at("model").get<std::size_t>()),
-                    of_after.at("models").at(after.at("model").get<std::size_t>()), changes);
+                    of_after.at("models").at(after.at("model").get<std::size_t>()), after.at("keys"), changes);
   join_method(changes.causes);
   const std::string old = method_words(before.at("method")), now = method_words(after.at("method"));
   const Json &run_before = before.at("trajectory"), &run_after = after.at("trajectory");
