@@ -57,8 +57,9 @@ struct FilmReader::State {
   CodecContextPtr decoder;
   FramePtr frame;
   PacketPtr packet;
-  int count = 0;       // frames so far
-  bool ended = false;  // the file was read to its end
+  int count = 0;                // frames so far
+  std::int64_t first_time = 0;  // of the first frame, in units of the stream
+  bool ended = false;           // the file was read to its end
 
   // Decodes the next frame into `frame`; false behind the last.
   bool decode();
@@ -69,7 +70,7 @@ bool FilmReader::State::decode() {
     const std::string what = "holds a frame " + std::to_string(count) + " that cannot be decoded";
     const int received = libav().avcodec_receive_frame(decoder.get(), frame.get());
     if (received == 0) {
-      ++count;
+      if (count++ == 0) first_time = frame->best_effort_timestamp;
       return true;
     }
     if (received == AVERROR_EOF || (received == AVERROR(EAGAIN) && ended)) return false;
@@ -114,6 +115,11 @@ int FilmReader::width() const {
 }
 int FilmReader::height() const {
   return state_->frame->height;
+}
+
+double FilmReader::time() const {
+  return double(state_->frame->best_effort_timestamp - state_->first_time) *
+         av_q2d(state_->input->streams[state_->stream]->time_base);
 }
 
 bool FilmReader::next(Image& image, int widest) {

@@ -20,6 +20,7 @@ class FilmReader {
   double fps() const;      // frames a second, as its file says; 0 where it does not
   int width() const;       // of the last frame, pixels
   int height() const;
+  double time() const;  // s from the first frame to the last that was read
 
   // The next frame as a player would show it, with its opacity; where it is wider than `widest`, scaled down
   // to that. False behind the last. Throws Error (exit 3) where a frame cannot be decoded.

@@ -322,6 +322,46 @@ TEST(Compare, TrajectoriesOfFloatingBasesAreComparedByTheirRotation) {
   EXPECT_EQ(report({named, other})["explained"], Json::array({"columns q1 -> q.a"}));
 }
 
+TEST(Compare, FramesThatAreShownAtOtherTimesDiffer) {
+  const TemporaryFolder folder;
+  const std::string a = film(folder, "a.gif", 6);
+  // Two delays of 4 hundredths, exchanged for 2 and 6: the same frames, the same length.
+  std::string bytes = read_whole_file(a);
+  const std::string control = "\x21\xF9\x04";
+  std::vector<std::size_t> delays;
+  for (std::size_t at = bytes.find(control); at != std::string::npos; at = bytes.find(control, at + 1))
+    delays.push_back(at + 4);
+  ASSERT_EQ(delays.size(), 6u);
+  ASSERT_EQ(bytes[delays[2]], 4);
+  bytes[delays[2]] = 2;
+  bytes[delays[3]] = 6;
+  const Json json = report({a, folder.write("b.gif", bytes)});
+  EXPECT_EQ(json["status"], 1);
+  EXPECT_EQ(json["unequal_frames"], 0);
+  EXPECT_EQ(json["other_time"]["frame"], 3);
+}
+
+TEST(Compare, AnimatedPicturesAndSixteenBitsAreNotPassedOver) {
+  const TemporaryFolder folder;
+  const std::string still = picture(folder, "a.png", square_at(10)), clip = film(folder, "b.apng", 3);
+  fs::copy_file(clip, folder.file("b.png"));
+  const ProgramResult animated = compared({still, folder.file("b.png")});
+  EXPECT_EQ(animated.status, 3);
+  EXPECT_THAT(animated.err, HasSubstr("named .apng"));
+  // One grey pixel of 16 bits, 0x1234.
+  std::string deep;
+  const std::string hex =
+      "89504e470d0a1a0a0000000d49484452000000010000000110000000006aee47160000000b49444154789c6310320100005b00"
+      "479"
+      "6fb1b650000000049454e44ae426082";
+  for (std::size_t i = 0; i < hex.size(); i += 2) deep += char(std::stoi(hex.substr(i, 2), nullptr, 16));
+  const std::string grey = folder.write("c.png", deep);
+  const ProgramResult told = compared({grey, grey});
+  EXPECT_EQ(told.status, 0) << told.err;
+  EXPECT_THAT(told.out, HasSubstr("of channels with 16 bits the upper 8 are compared"));
+  EXPECT_THAT(compared({still, still}).out, Not(HasSubstr("16 bits")));
+}
+
 TEST(Compare, WhatCannotBeComparedIsUsageAndWhatIsSpoiltBadInput) {
   const TemporaryFolder folder;
   const std::string a = picture(folder, "a.png", square_at(10)), clip = film(folder, "a.gif", 2);

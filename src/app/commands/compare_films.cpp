@@ -16,6 +16,8 @@
 namespace chainreel {
 namespace {
 
+constexpr double kSameTime = 1e-3;  // s: WebM counts in thousandths
+
 // A frame that is told of, and the pictures that it is in both films.
 struct ToldFrame {
   int index = 0;
@@ -28,8 +30,10 @@ struct FilmDifference {
   double fps[2], seconds[2];
   int unequal = 0, beyond = 0;  // frames
   std::optional<ToldFrame> first, worst;
-  std::vector<double> errors;  // the worst of each frame that both have; 1 where sizes differ
-  std::vector<bool> failed;    // and whether it is beyond the tolerance
+  std::optional<int> other_time;  // the first frame that is shown at another time
+  double times[2];                // of that frame, s
+  std::vector<double> errors;     // the worst of each frame that both have; 1 where sizes differ
+  std::vector<bool> failed;       // and whether it is beyond the tolerance
 };
 
 bool is_worse(const ImageDifference& a, const ImageDifference& b) {
@@ -58,6 +62,10 @@ FilmDifference difference_of(const CompareOptions& options) {
       if ((there[i] = readers[i].next(images[i]))) ++found.frames[i];
     if (!there[0] && !there[1]) break;
     if (!there[0] || !there[1]) continue;  // the longer one is counted to its end
+    if (!found.other_time && std::abs(readers[0].time() - readers[1].time()) > kSameTime) {
+      found.other_time = found.frames[0] - 1;
+      for (int i = 0; i < 2; ++i) found.times[i] = readers[i].time();
+    }
     const ImageDifference difference = compare_images(images[0], images[1], options.tolerance);
     const bool fails = !difference.passes(options.tolerance);
     found.errors.push_back(difference.same_size ? difference.worst : 1);
@@ -125,8 +133,9 @@ Comparison compare_films(const CompareOptions& options) {
   const FilmDifference found = difference_of(options);
   Comparison result;
   const bool same_length = found.frames[0] == found.frames[1], same_rate = found.fps[0] == found.fps[1];
-  result.equal = found.unequal == 0 && same_length && same_rate;
-  result.passes = found.beyond == 0 && same_length && same_rate;
+  const bool same_times = same_length && same_rate && !found.other_time;
+  result.equal = found.unequal == 0 && same_times;
+  result.passes = found.beyond == 0 && same_times;
   const int both = std::min(found.frames[0], found.frames[1]);
   if (!same_length)
     result.words.push_back("frames: " + std::to_string(found.frames[0]) + " -> " +
@@ -134,6 +143,10 @@ Comparison compare_films(const CompareOptions& options) {
   if (!same_rate)
     result.words.push_back("frames a second: " + format_significant(found.fps[0], 6) + " -> " +
                            format_significant(found.fps[1], 6));
+  if (same_rate && found.other_time)
+    result.words.push_back("frame " + std::to_string(*found.other_time) + " is shown at " +
+                           format_significant(found.times[0], 6) + " s -> " +
+                           format_significant(found.times[1], 6) + " s");
   if (found.unequal == 0) {
     result.words.push_back("all " + std::to_string(both) + " frames that both have are equal");
   } else {
@@ -152,6 +165,9 @@ Comparison compare_films(const CompareOptions& options) {
                    {"errors", found.errors}};
   if (found.first)
     result.report.update({{"first", report_of(*found.first)}, {"worst", report_of(*found.worst)}});
+  if (found.other_time)
+    result.report["other_time"] = {{"frame", *found.other_time},
+                                   {"seconds", {found.times[0], found.times[1]}}};
   const std::vector<std::string> remembered = explain_memories(options.before, options.after);
   result.words.insert(result.words.end(), remembered.begin(), remembered.end());
   result.report["explained"] = remembered;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <future>
 #include <map>
 #include <set>
+#include <string_view>
 
 #include "app/cli/streams.hpp"
 #include "app/commands/comparison.hpp"
@@ -16,11 +18,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Image read_picture(const std::string& path) {
-  require_plain_file(path);
-  note_input(path);
-  return read_png(path);
-}
+// A picture's file, and what its first chunks say of it.
+struct PictureFile {
+  std::string path, bytes;
+  explicit PictureFile(const std::string& from) : path(from), bytes(read_plain_file(from)) {
+    note_input(path);
+  }
+
+  bool has_sixteen_bits() const { return bytes.size() > 24 && bytes[24] == 16; }  // depth in IHDR
+  // Chunks up to the pixels: length, name, that many bytes and a checksum each, behind eight bytes of
+  // signature.
+  bool is_animated() const {
+    for (std::size_t at = 8; at + 12 <= bytes.size();) {
+      const std::string_view name = std::string_view(bytes).substr(at + 4, 4);
+      if (name == "acTL") return true;
+      if (name == "IDAT") return false;
+      std::size_t length = 0;
+      for (std::size_t i = 0; i < 4; ++i) length = 256 * length + static_cast<unsigned char>(bytes[at + i]);
+      at += length + 12;
+    }
+    return false;
+  }
+  Image pixels() const {
+    if (is_animated())
+      throw Error(ExitCode::bad_input, "is an animated picture: named .apng, all its frames are compared",
+                  {path});
+    return read_png(path);
+  }
+};
 
 // Names of the PNGs that lie in a folder itself.
 std::set<std::string> pictures_in(const std::string& folder) {
@@ -36,11 +61,22 @@ std::set<std::string> pictures_in(const std::string& folder) {
 }
 
 Comparison compare_pair(const CompareOptions& options, const std::string& output) {
-  const Image before = read_picture(options.before), after = read_picture(options.after);
+  const PictureFile old_file(options.before), new_file(options.after);
+  Image after;
+  std::future<void> reading;  // at the same time as the other; the same bytes are the same picture
+  if (old_file.bytes != new_file.bytes)
+    reading = std::async(std::launch::async, [&] { after = new_file.pixels(); });
+  const Image before = old_file.pixels();
+  if (reading.valid())
+    reading.get();
+  else
+    after = before;
   const ImageDifference difference = compare_images(before, after, options.tolerance);
   Comparison found{difference.is_equal(), difference.passes(options.tolerance), {}, {}};
   found.words = {told(difference, before, after, options.tolerance)};
   found.report = report_of(difference, before, after);
+  if (old_file.has_sixteen_bits() || new_file.has_sixteen_bits())
+    found.words.push_back("of channels with 16 bits the upper 8 are compared");
   const std::vector<std::string> remembered = explain_memories(options.before, options.after);
   found.words.insert(found.words.end(), remembered.begin(), remembered.end());
   found.report["explained"] = remembered;
@@ -78,7 +114,7 @@ Comparison compare_folders(const CompareOptions& options) {
       Comparison one = compare_pair(pair, "");
       // Only now, so that folders hold what there is to look at and nothing else.
       if (!one.equal && !options.output.empty())
-        write_difference(options, read_picture(pair.before), read_picture(pair.after),
+        write_difference(options, read_png(pair.before), read_png(pair.after),
                          (fs::path(options.output) / name).string());
       state = one.equal ? "equal" : one.passes ? "within tolerance" : "differs";
       found.equal = found.equal && one.equal;
