@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include <chrono>
+#include <cstdint>
 #include <functional>
 #include <numbers>
 
@@ -283,6 +283,21 @@ TEST(ModelDifference, PublicRobotsAreToldFromTheirVariants) {
   std::string heavy = text;
   heavy.insert(value, "1");
   EXPECT_THAT(words_of(bolt, describe_model(copy.write("bolt.urdf", heavy), options)), ElementsAre(AllOf(StartsWith("link "), HasSubstr(": mass "))));
+  // The same robot in another folder, then without the last triangle of one of its (binary) meshes.
+  for (const fs::directory_entry& file : fs::recursive_directory_iterator(folder + "/bolt_description"))
+    if (file.is_regular_file()) copy.write("robots/" + fs::relative(file.path(), folder).string(), text_of(file.path().string()));
+  options.packages["example-robot-data"] = copy.path().string();
+  const std::string copied = (copy.path() / "robots/bolt_description/robots/bolt.urdf").string();
+  EXPECT_EQ(to_json(bolt).dump(), to_json(describe_model(copied, options)).dump());
+  const std::string stl = "robots/bolt_description/meshes/stl/bolt_foot.stl";
+  std::string foot = text_of((copy.path() / stl).string());
+  std::uint32_t triangles = 0;
+  std::copy_n(foot.begin() + 80, 4, reinterpret_cast<char*>(&triangles));
+  --triangles;
+  std::copy_n(reinterpret_cast<const char*>(&triangles), 4, foot.begin() + 80);
+  copy.write(stl, foot.substr(0, foot.size() - 50));
+  EXPECT_THAT(words_of(bolt, describe_model(copied, options)),
+              ElementsAre(AllOf(StartsWith("mesh bolt_foot.stl (link "), HasSubstr(": 1 of its " + std::to_string(triangles + 1) + " triangles gone"))));
 }
 
 }  // namespace
