@@ -22,4 +22,8 @@ double memory_limit();
 // Throws Error (exit 7) with both numbers where `what`, like "a picture of 100x100 px", needs more than there may be.
 void require_memory(double bytes, const std::string& what);
 
+// What the processor can do that compilers for wide vectors go by: "sse4.1 avx2 fma". Two that say the same compute the
+// same bits of a picture.
+std::string processor_features();
+
 }  // namespace chainreel

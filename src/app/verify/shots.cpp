@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/hash.hpp"
+#include "core/machine.hpp"
 #include "draw/figures/poses.hpp"
 #include "draw/robot/view.hpp"
 #include "picture/place_picture.hpp"
@@ -48,6 +49,7 @@ std::vector<std::string> overrides_for(const Suite& suite, const std::array<doub
 
 Json page_of(const Fonts& fonts, ThemeName theme, const RendererInfo& renderer) {
   Json page{{"theme", to_string(theme)}, {"program", program_version()}};
+  page["processor"] = processor_features();
   page["renderer"] = renderer.backend + ", " + renderer.renderer + ", " + renderer.version;
   for (const Face face : {Face::label, Face::label_bold, Face::math})
     page["fonts"][fs::path(fonts.file(face)).filename().string()] = fonts.sha256(face);

@@ -79,7 +79,7 @@ std::vector<std::string> page_words(const Json& before, const Json& now) {
   const auto text = [](const Json& value) {
     return value.is_string() ? value.get<std::string>() : value.dump();
   };
-  for (const char* key : {"theme", "program", "renderer"})
+  for (const char* key : {"theme", "program", "renderer", "processor"})
     if (before.value(key, Json()) != now.value(key, Json()))
       words.push_back(std::string(key) + ": " + text(before.value(key, Json("unknown"))) + " -> " +
                       text(now.value(key, Json("unknown"))));
@@ -156,8 +156,7 @@ PictureVerdict judge(const Suite& suite, const SuitePicture& picture, const Suit
   if (difference.same_size) verdict.words.push_back(pixel_words(difference));
   if (same_physics && is_exact && !same_pixels)
     verdict.words.push_back(
-        "program, renderer and fonts are those of the baseline, which so can only have been other than "
-        "what was drawn, or the machine is at fault");
+        "program, renderer, processor and fonts are those of the baseline, so its very pixels are expected");
   if (difference.same_size && !same_pixels)
     verdict.words.push_back("there: " + shapes_there(shot.picture, shot.height, difference.box));
   if (shot.leaves_camera)
