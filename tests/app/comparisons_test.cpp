@@ -286,7 +286,8 @@ TEST(Compare, ModelsAreComparedInWords) {
   EXPECT_THAT(json["explained"][0].get<std::string>(), HasSubstr("mass 1 -> 11 kg"));
   // Of collisions, too, which no picture shows.
   text = read_whole_file("models/rr.urdf");
-  text.insert(text.find("<link name=\"link1\">") + 19, "<collision><geometry><sphere radius='1'/></geometry></collision>");
+  text.insert(text.find("<link name=\"link1\">") + 19,
+              "<collision><geometry><sphere radius='1'/></geometry></collision>");
   EXPECT_THAT(report({"models/rr.urdf", folder.write("b.urdf", text)})["explained"].dump(),
               HasSubstr("link link1: collision 1 (sphere) added"));
   EXPECT_EQ(compared({"models/rr.urdf", heavier, "-o", folder.file("d.png")}).status, 2) << "has no picture";
@@ -314,11 +315,13 @@ TEST(Compare, TrajectoriesAreComparedInWords) {
 TEST(Compare, TrajectoriesOfFloatingBasesAreComparedByTheirRotation) {
   const TemporaryFolder folder;
   const std::string head = "t,q.b.qx,q.b.qy,q.b.qz,q.b.qw\n0,0,0,0,1\n";
-  const std::string a = folder.write("a.csv", head + "1,0,0,0.6,0.8\n"), b = folder.write("b.csv", head + "1,0,0,-0.6,-0.8\n");
+  const std::string a = folder.write("a.csv", head + "1,0,0,0.6,0.8\n"),
+                    b = folder.write("b.csv", head + "1,0,0,-0.6,-0.8\n");
   EXPECT_EQ(report({a, b})["explained"], Json::array()) << "either sign means the same";
   const std::string c = folder.write("c.csv", head + "1,0,0,0.8,0.6\n");
   EXPECT_EQ(report({a, c})["explained"][0], "rotation of q.b differs by 0.57 rad from t = 1 s on");
-  const std::string named = folder.write("d.csv", "t,q1\n0,0\n1,2\n"), other = folder.write("e.csv", "t,q.a\n0,0\n1,2\n");
+  const std::string named = folder.write("d.csv", "t,q1\n0,0\n1,2\n"),
+                    other = folder.write("e.csv", "t,q.a\n0,0\n1,2\n");
   EXPECT_EQ(report({named, other})["explained"], Json::array({"columns q1 -> q.a"}));
 }
 
@@ -367,6 +370,9 @@ TEST(Compare, WhatCannotBeComparedIsUsageAndWhatIsSpoiltBadInput) {
   const std::string a = picture(folder, "a.png", square_at(10)), clip = film(folder, "a.gif", 2);
   const std::string text = folder.write("a.txt", "words"), spoilt = folder.write("b.png", "no picture");
   const std::string cut = folder.write("c.gif", read_whole_file(clip).substr(0, 40));
+  std::string huge = read_whole_file(clip);
+  huge[6] = huge[7] = huge[8] = huge[9] = char(0xEA);  // 60138 by 60138 pixels
+  const std::string wide = folder.write("d.gif", huge);
   fs::create_directory(folder.file("empty"));
   const auto status = [](Words words) { return compared(words).status; };
   EXPECT_EQ(status({a, clip}), 2);
@@ -384,6 +390,7 @@ TEST(Compare, WhatCannotBeComparedIsUsageAndWhatIsSpoiltBadInput) {
   EXPECT_EQ(status({a, folder.file("none.png")}), 3);
   EXPECT_EQ(status({a, spoilt}), 3);
   EXPECT_EQ(status({clip, cut}), 3);
+  EXPECT_EQ(status({wide, clip}), 3) << "no memory is asked for that";
   EXPECT_EQ(status({folder.path().string(), folder.file("empty")}), 3);
   EXPECT_EQ(status({a, a, "-o", a, "--force"}), 6) << "an input is never replaced";
 }
