@@ -106,6 +106,7 @@ struct Scene {
   std::string file;                     // where it was read; not a key
   std::string name;                     // the file's name without its ending; not a key
   std::vector<std::string> notices;     // what was changed of it when it was made ready; not a key
+  std::vector<std::string> absolute_paths;  // that the file itself has as such; not a key
   std::map<std::string, Place> places;  // where each key stood, by its dotted path; not a key
 
   // For errors found later: the key's place, or the file where the scene left it out.

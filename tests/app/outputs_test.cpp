@@ -12,6 +12,7 @@
 #include "core/json.hpp"
 #include "encode/png.hpp"
 #include "support/picture_compare.hpp"
+#include "scene/text/scene_paths.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/video_probe.hpp"
@@ -144,7 +145,7 @@ TEST_F(OnePass, EveryKindOfFileRemembersTheScene) {
   const ClipMemory first = recall(file("a.mp4"));
   EXPECT_THAT(first.scene, HasSubstr("method: semi_implicit_euler"));
   EXPECT_THAT(first.scene, HasSubstr("width: 160"));
-  EXPECT_THAT(first.scene, HasSubstr("model: models/rr.urdf"));
+  EXPECT_THAT(first.scene, HasSubstr("model: \"../../models/rr.urdf\""));
   EXPECT_EQ(first.audit["frames"], 5);
   EXPECT_EQ(first.audit["trajectory_sha256"],
             Json::parse(read_whole_file(file("a.json")))["trajectory_sha256"]);
@@ -183,7 +184,7 @@ TEST_F(OnePass, TheExtractedSceneGivesTheSameFilesAgain) {
 
 TEST_F(OnePass, ToStandardOutputTheSceneIsMeantForTheWorkingFolder) {
   const ProgramResult result = run_program({"extract", file("c.mov")});
-  EXPECT_EQ(result.out, recall(file("c.mov")).scene);
+  EXPECT_EQ(result.out, moved_scene_text(recall(file("c.mov")).scene, "", "assets/scenes"));
   EXPECT_EQ(result.err, "");
   const Json json = Json::parse(run_program({"extract", file("c.mov"), "--json"}).out);
   EXPECT_EQ(json["scene"], result.out);
@@ -492,7 +493,7 @@ TEST(Outputs, ExtractTellsOfAModelThatIsGoneOrAnother) {
   EXPECT_THAT(run_program({"extract", "a.mp4"}, here).err, HasSubstr("has changed since"));
   fs::remove(folder.path() / "models/rr.urdf");
   EXPECT_THAT(run_program({"extract", "a.mp4"}, here).err,
-              HasSubstr("there is no model models/rr.urdf here"));
+              HasSubstr("there is no models/rr.urdf here"));
 }
 
 }  // namespace

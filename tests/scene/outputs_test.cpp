@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "scene/text/scene_paths.hpp"
 #include "scene/text/write_scene.hpp"
 #include "written_scenes.hpp"
 

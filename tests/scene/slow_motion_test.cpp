@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/film_clock.hpp"
+#include "scene/text/scene_paths.hpp"
 #include "scene/text/write_scene.hpp"
 #include "written_scenes.hpp"
 

@@ -97,15 +97,29 @@ void Command::callback(std::function<void()> run) {
 }
 
 std::vector<std::string> Command::words() const {
+  std::vector<std::string> words;
+  for (Word& word : all_words()) words.push_back(std::move(word.text));
+  return words;
+}
+
+std::vector<std::size_t> Command::files() const {
+  std::vector<std::size_t> files;
+  const std::vector<Word> words = all_words();
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (words[i].is_file) files.push_back(i);
+  return files;
+}
+
+std::vector<Command::Word> Command::all_words() const {
   const CLI::App& app = *app_of(command_);
-  std::vector<std::string> words{app.get_name()};
+  std::vector<Word> words{{app.get_name()}};
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_single_name();
     if (option->count() == 0 || name == "output" || name == "force" || name == "quiet" || name == "json") continue;
     const bool is_flag = option->get_items_expected_max() == 0;
     for (const std::string& value : is_flag ? std::vector<std::string>{""} : option->results()) {
-      if (!option->get_positional()) words.push_back("--" + name);
-      if (!is_flag) words.push_back(value);
+      if (!option->get_positional()) words.push_back({"--" + name});
+      if (!is_flag) words.push_back({value, option->get_positional() || name == "along" || name == "package"});
     }
   }
   return words;

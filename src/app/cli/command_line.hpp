@@ -46,8 +46,16 @@ class Command {
   // What was given to the command, as words that say it again: what is found out by default, where the result goes
   // and how much is told are left out.
   std::vector<std::string> words() const;
+  // Indices of those words that name files: what is known by its place, and what is meant as such.
+  std::vector<std::size_t> files() const;
 
  private:
+  struct Word {
+    std::string text;
+    bool is_file = false;
+  };
+  std::vector<Word> all_words() const;
+
   void* command_;
 };
 

@@ -6,12 +6,11 @@
 
 #include "app/cli/command.hpp"
 #include "app/film/clip_memory.hpp"
+#include "app/film/clip_origin.hpp"
 #include "core/error.hpp"
-#include "core/hash.hpp"
 #include "core/input_file.hpp"
 #include "core/output_file.hpp"
-#include "model/xml_text.hpp"
-#include "scene/text/write_scene.hpp"
+#include "scene/text/scene_paths.hpp"
 
 namespace chainreel {
 namespace {
@@ -21,33 +20,20 @@ namespace fs = std::filesystem;
 struct ExtractOptions {
   std::string clip;
   std::string output;
+  std::string from;
   bool json = false;
   bool force = false;
 };
 
-// The models must be where they were, and what they were, for the same frames to come again.
-void tell_of_models(const Json& audit, const std::string& clip) {
-  // What a clip says was maybe not written by this program: everything is looked at before it is taken.
-  const auto word = [&](const char* key) {
-    return audit.is_object() && audit.contains(key) && audit[key].is_string() ? audit[key].get<std::string>() : "";
-  };
-  const std::string model = word("model"), before = word("model_sha256");
-  if (model.empty() || before.empty()) return;
-  std::error_code ignored;
-  if (!fs::is_regular_file(model, ignored)) {
-    std::fprintf(
-        stderr,
-        "%s: there is no model %s here: stand in the folder where the clip was rendered, or correct the "
-        "scene's `model:`\n",
-        clip.c_str(), model.c_str());
-    return;
-  }
-  try {
-    if (fs::file_size(model, ignored) > kLargestXmlFile || sha256_of_file(model) != before)
-      std::fprintf(stderr, "%s: the model %s has changed since: frames may differ\n", clip.c_str(), model.c_str());
-  } catch (const Error& error) {
-    std::fprintf(stderr, "%s: whether the model has changed since cannot be said: %s\n", clip.c_str(), error.what());
-  }
+// The models must be there, and what they were, for the same frames to come again.
+void tell_of_files(const ClipOrigin& origin, const ExtractOptions& options) {
+  for (const std::string& path : origin.missing)
+    std::fprintf(stderr,
+                 "%s: there is no %s here, nor in folders around: name that in which its paths start, where the scene or "
+                 "model lay, with --from\n",
+                 options.clip.c_str(), path.c_str());
+  for (const std::string& path : origin.changed)
+    std::fprintf(stderr, "%s: the model %s has changed since: frames may differ\n", options.clip.c_str(), path.c_str());
 }
 
 // A figure shows no scene, a sheet many: what made it is said instead.
@@ -55,7 +41,6 @@ void tell_of_figure(const ExtractOptions& options, const Json& figure) {
   if (!options.output.empty())
     throw Error(ExitCode::bad_input, "is a figure, not a scene; it was made by: " + command_line(figure),
                 {options.clip});
-  tell_of_models(figure, options.clip);
   if (options.json)
     std::puts(Json{{"command", command_line(figure)}, {"figure", figure}}.dump(2).c_str());
   else
@@ -65,18 +50,18 @@ void tell_of_figure(const ExtractOptions& options, const Json& figure) {
 void run_extract(const ExtractOptions& options) {
   const ClipMemory memory = recall(options.clip);
   note_input(options.clip);
-  if (!memory.figure.is_null()) return tell_of_figure(options, memory.figure);
-  tell_of_models(memory.audit, options.clip);
-  if (memory.audit.contains("panels") && memory.audit["panels"].is_array())
-    for (const Json& panel : memory.audit["panels"]) tell_of_models(panel, options.clip);
+  const ClipOrigin origin = find_origin(options.clip, files_wanted_by(memory), options.from);
+  tell_of_files(origin, options);
+  if (!memory.figure.is_null()) return tell_of_figure(options, figure_from(memory.figure, origin));
   if (!options.output.empty())
     write_text_file(options.output,
-                    moved_scene_text(memory.scene, fs::path(options.output).parent_path().string()),
+                    moved_scene_text(memory.scene, fs::path(options.output).parent_path().string(), origin.folder),
                     options.force);
+  const std::string scene = moved_scene_text(memory.scene, "", origin.folder);
   if (options.json)
-    std::puts(Json{{"scene", memory.scene}, {"audit", memory.audit}}.dump(2).c_str());
+    std::puts(Json{{"scene", scene}, {"audit", memory.audit}}.dump(2).c_str());
   else if (options.output.empty())
-    std::fputs(memory.scene.c_str(), stdout);
+    std::fputs(scene.c_str(), stdout);
 }
 
 }  // namespace
@@ -90,6 +75,8 @@ void add_extract_command(CommandLine& app) {
       "-o,--output", options->output,
       "a .yaml file, its paths as found from there (default: standard output, paths as found from "
       "the working folder)");
+  command->add_option("--from", options->from,
+                      "the folder in which the remembered paths start: that of the scene or model (default: it is looked for)");
   command->add_flag("--json", options->json, "print scene and audit as JSON on standard output");
   command->add_flag("--force", options->force, "overwrite files outside a folder named out");
   command->footer("Example: chainreel extract out/rr_free.mp4 -o out/again.yaml");

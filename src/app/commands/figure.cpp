@@ -12,6 +12,7 @@
 #include "core/hash.hpp"
 #include "core/machine.hpp"
 #include "core/output_file.hpp"
+#include "scene/text/scene_paths.hpp"
 
 namespace chainreel {
 namespace {
@@ -56,8 +57,31 @@ std::vector<std::string> write_figure(const Picture& picture, const std::string&
   return {path, table};
 }
 
+namespace {
+
+// Of --package NAME=FOLDER, the part behind the =.
+std::size_t begin_of_path(const std::string& word, const std::string& before) {
+  return before == "--package" ? word.find('=') + 1 : 0;
+}
+
+// The first file's, from which those of a figure are remembered: a name that a copy elsewhere has, too.
+std::string folder_of(const Command& command) {
+  const std::vector<std::string> words = command.words();
+  for (const std::size_t i : command.files())
+    if (begin_of_path(words[i], words[i - 1]) == 0) return std::filesystem::path(words[i]).parent_path().string();
+  return "";
+}
+
+}  // namespace
+
 ClipMemory memory_of_figure(const Command& command, const std::string& title) {
-  return {title, {}, {}, {}, {{"arguments", command.words()}}};
+  std::vector<std::string> words = command.words();
+  const std::string folder = folder_of(command);
+  for (const std::size_t i : command.files()) {
+    const std::size_t begin = begin_of_path(words[i], words[i - 1]);
+    words[i].replace(begin, std::string::npos, path_from(folder, words[i].substr(begin)));
+  }
+  return {title, {}, {}, {}, {{"arguments", words}, {"files", command.files()}}};
 }
 
 ClipMemory memory_of_figure(const Command& command, const std::string& title, const std::string& model,
@@ -65,7 +89,7 @@ ClipMemory memory_of_figure(const Command& command, const std::string& title, co
   ClipMemory memory = memory_of_figure(command, title);
   memory.figure["poses"] = poses;
   if (model.empty()) return memory;
-  memory.figure["model"] = model;
+  memory.figure["model"] = path_from(folder_of(command), model);
   memory.figure["model_sha256"] = sha256_of_file(model);
   return memory;
 }

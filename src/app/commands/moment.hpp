@@ -1,12 +1,14 @@
 // One picture out of the film of a scene: same camera, same scales, whatever the instant.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "app/film/clip_memory.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
+#include "scene/text/asked_instant.hpp"
 
 namespace chainreel {
 
@@ -18,11 +20,30 @@ struct Moment {
   std::vector<std::string> warnings;  // what speaks against the runs
 };
 
-// Throws Error (exit 5) where a run does not come that far or does not end as the scene expects; what fails
-// after the instant does not spoil its picture.
+// Several of one film, which is run once; one camera holds the motion and all of them. The film and fonts
+// must outlive them.
+class Moments {
+ public:
+  // Throws Error (exit 5) where a run does not come that far or does not end as the scene expects; what fails
+  // after the last of these instants does not spoil their pictures.
+  Moments(const PreparedFilm& film, const std::vector<double>& at, const Fonts& fonts);
+  ~Moments();
+
+  Moment moment(std::size_t i) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// One alone.
 Moment moment_at(const PreparedFilm& film, double at, const Fonts& fonts);
 
 // The moment that says most: when the last event happened, else the middle of the longest run.
 Moment telling_moment(const PreparedFilm& film, const Fonts& fonts);
+
+// The instants in seconds: events by their first time in any panel. Throws Error where the scene has none
+// such (usage), or the event does not come (bad input).
+std::vector<double> instants_asked(const PreparedFilm& film, const std::vector<AskedInstant>& asked);
 
 }  // namespace chainreel

@@ -19,7 +19,6 @@
 #include "core/output_file.hpp"
 #include "encode/png.hpp"
 #include "render/canvas.hpp"
-#include "scene/text/write_scene.hpp"
 
 namespace chainreel {
 namespace {
@@ -309,7 +308,8 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
             result.seconds);
   write_tables(runs, outputs);
   result.seconds.total = total.lap();
-  result.audit = memory.audit;
+  result.audit = to_json(report);
+  if (memory.audit.contains("held_frames")) result.audit["held_frames"] = memory.audit["held_frames"];
   result.audit["seconds"] = to_json(result.seconds);
 
   try {

@@ -1,10 +1,14 @@
 // chainreel snapshot SCENE --at T -o FILE, chainreel snapshot MODEL --pose Q -o FILE; .png, .svg or .pdf
+// chainreel snapshot SCENE --at 0,1.2s -o FOLDER/, chainreel snapshot MODEL --pose home=Q --pose reach=Q -o
+// FOLDER/
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "app/cli/command.hpp"
+#include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
 #include "app/commands/moment.hpp"
 #include "app/film/automatic.hpp"
@@ -15,16 +19,19 @@
 #include "app/report/report.hpp"
 #include "app/report/run_report.hpp"
 #include "core/error.hpp"
+#include "core/output_file.hpp"
 #include "draw/figures/poses.hpp"
 #include "model/read_chain.hpp"
-#include "scene/quantity.hpp"
+#include "render/canvas.hpp"
+#include "scene/text/asked_instant.hpp"
+#include "scene/text/picture_names.hpp"
 
 namespace chainreel {
 namespace {
 
 struct SnapshotOptions {
   std::string file;
-  std::string at;  // "": 0
+  std::vector<std::string> at;  // each one or several between commas; none: 0
   std::vector<std::string> poses;
   std::string output;
   std::string end_effector;
@@ -34,21 +41,135 @@ struct SnapshotOptions {
   const Command* command = nullptr;
 };
 
-std::string default_output(const SnapshotOptions& options) {
-  if (options.output.empty()) return "out/" + std::filesystem::path(options.file).stem().string() + ".png";
-  picture_format_of(options.output);
-  return options.output;
-}
-
 // The keys that the command line names, however it does.
 std::vector<std::string> overrides_of(const SnapshotOptions& options) {
   std::vector<std::string> overrides = overrides_of(options.common);
-  if (!options.end_effector.empty())
-    overrides.push_back("end_effector=" + Json(options.end_effector).dump());
+  if (!options.end_effector.empty()) overrides.push_back("end_effector=" + Json(options.end_effector).dump());
   return overrides;
 }
 
-void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
+constexpr std::size_t kMostPictures = 500;  // of one command: all are held open until all are whole
+
+// Where pictures go: one file, or a folder with a file each.
+struct OutputPlace {
+  std::string path;
+  bool is_folder = false;
+};
+
+OutputPlace place_of(const SnapshotOptions& options, std::size_t pictures) {
+  std::error_code ignored;
+  const std::string stem = std::filesystem::path(options.file).stem().string();
+  if (options.output.empty())
+    return pictures > 1 ? OutputPlace{"out/" + stem, true} : OutputPlace{"out/" + stem + ".png", false};
+  const bool is_folder =
+      options.output.ends_with('/') || std::filesystem::is_directory(options.output, ignored);
+  if (!is_folder) picture_format_of(options.output);
+  if (!is_folder && pictures > 1)
+    throw Error(ExitCode::usage, "-o " + options.output + " names one file for " + std::to_string(pictures) +
+                                     " pictures: name a folder, like -o out/");
+  return {options.output, is_folder};
+}
+
+// Files that take their names together, when all are whole.
+class Pictures {
+ public:
+  // `names` are those of files without ending; ignored for a single file.
+  Pictures(const SnapshotOptions& options, OutputPlace place, const std::vector<std::string>& names)
+      : place_(std::move(place)) {
+    if (names.size() > kMostPictures)
+      throw Error(ExitCode::usage, "asks for " + std::to_string(names.size()) + " pictures; " +
+                                       std::to_string(kMostPictures) +
+                                       " are the most of one command: take several");
+    for (const std::string& name : names) {
+      const auto file = place_.is_folder ? std::filesystem::path(place_.path) / (name + ".png")
+                                         : std::filesystem::path(place_.path);
+      files_.push_back(std::make_unique<OutputFile>(file.string(), options.common.force));
+    }
+  }
+
+  void write(std::size_t i, const Picture& picture, int width, int height, const Fonts& fonts,
+             const ClipMemory& memory) {
+    const auto image = [&] {
+      if (!canvas_) canvas_ = std::make_unique<Canvas>(width, height, fonts);
+      Image pixels;
+      canvas_->draw(picture, pixels);
+      return pixels;
+    };
+    picture_format_of(files_[i]->path())
+        .write_still(*files_[i], {[&] { return picture; }, image, fonts}, memory);
+    throw_if_interrupted();
+  }
+
+  void commit(const SnapshotOptions& options) {
+    Json list = Json::array();
+    for (const std::unique_ptr<OutputFile>& file : files_) {
+      file->commit();
+      list.push_back(file->path());
+    }
+    if (options.common.json)
+      std::puts((place_.is_folder ? Json{{"files", list}} : Json{{"file", list.front()}}).dump(2).c_str());
+    else if (!options.common.quiet)
+      for (const Json& path : list) std::printf("%s\n", path.get<std::string>().c_str());
+  }
+
+ private:
+  OutputPlace place_;
+  std::vector<std::unique_ptr<OutputFile>> files_;
+  std::unique_ptr<Canvas> canvas_;
+};
+
+// A text of --at or --pose, maybe with a name in front: home=0,90deg.
+struct Named {
+  std::string name;  // "": none was given
+  std::string text;
+};
+
+Named named_of(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) return {"", text};
+  if (equals == 0) throw Error(ExitCode::usage, "'" + text + "' has no name in front of the =");
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+// Commas part instants, but not within brackets: max(1, 2).
+std::vector<std::string> parted(const std::string& text) {
+  std::vector<std::string> parts{""};
+  int depth = 0;
+  for (const char c : text) {
+    depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+    if (c == ',' && depth == 0)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+// Two pictures of one name would be one file.
+void require_own_names(const std::vector<std::string>& names, const std::string& option) {
+  ProblemList problems;
+  PictureNames given;
+  for (const std::string& name : names) given.add(name, {option}, problems);
+  problems.throw_if_any(ExitCode::usage);
+}
+
+void snapshot_scene(const SnapshotOptions& options) {
+  std::vector<AskedInstant> asked;
+  std::vector<std::string> names;
+  const std::string stem = std::filesystem::path(options.file).stem().string();
+  for (const std::string& text : options.at.empty() ? std::vector<std::string>{"0"} : options.at)
+    for (const std::string& part : parted(text)) {
+      const Named named = named_of(part);
+      try {
+        asked.push_back(parse_asked_instant(named.text, {}));
+      } catch (const Error& error) {
+        throw Error(ExitCode::usage, "--at " + text + ": " + error.problems().front().message);
+      }
+      names.push_back(file_name_of(named.name.empty() ? stem + "_" + asked.back().name() : named.name));
+    }
+  require_own_names(names, "--at");
+  const OutputPlace place = place_of(options, asked.size());
+
   std::vector<std::string> overrides = overrides_of(options);
   add_comparison(options.vary, overrides);
   PreparedFilm film = load_film(options.file, overrides, true, options.common.quiet);
@@ -56,44 +177,98 @@ void snapshot_scene(const SnapshotOptions& options, const std::string& output) {
   Video& video = film.scene.video;
   if (options.width > 0) video.width = options.width;
   if (options.height > 0) video.height = options.height;
-  const double at = options.at.empty() ? 0 : parse_quantity(options.at, {});
-  if (at < 0 || at > film.scene.duration)
-    throw Error(ExitCode::usage, "--at " + options.at + " lies outside the scene's duration of " +
-                                     format_quantity(film.scene.duration, "s"));
+  const std::vector<double> instants = instants_asked(film, asked);
+  Pictures pictures(options, place, names);
   const Fonts fonts;
-  const Moment shown = moment_at(film, at, fonts);
-  tell_warnings(shown.warnings);
-  write_picture(shown.picture, video.width, video.height, fonts, output, options.common.force, shown.memory);
+  const Moments moments(film, instants, fonts);
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    const Moment shown = moments.moment(i);
+    if (i == 0) tell_warnings(shown.warnings);
+    pictures.write(i, shown.picture, video.width, video.height, fonts, shown.memory);
+  }
+  pictures.commit(options);
 }
 
-void snapshot_model(const SnapshotOptions& options, const std::string& output) {
+// What each picture shows: of a folder a pose each; of one file all poses in one place.
+struct PosePicture {
+  std::string name;
+  std::vector<std::vector<double>> poses;
+};
+
+std::vector<PosePicture> pose_pictures(const Chain& chain, const SnapshotOptions& options, bool is_folder) {
+  const std::string stem = std::filesystem::path(options.file).stem().string();
+  std::vector<PosePicture> pictures;
+  for (const std::string& text : options.poses) {
+    const Named named = named_of(text);
+    const std::vector<double> q = parse_pose(chain, named.text, "--pose");
+    const bool joins = !is_folder && !pictures.empty();
+    if (!joins)
+      pictures.push_back(
+          {file_name_of(named.name.empty() ? stem + "_" + std::to_string(pictures.size() + 1) : named.name),
+           {}});
+    pictures.back().poses.push_back(q);
+  }
+  if (pictures.empty()) pictures.push_back({file_name_of(stem), {zero_configuration(chain)}});
+  return pictures;
+}
+
+// Of several files each remembers the command that makes it alone: its pose, whose name was the file's.
+ClipMemory memory_of_pose(const SnapshotOptions& options, const Chain& chain,
+                          const std::vector<PosePicture>& shown, std::size_t i) {
+  ClipMemory memory = memory_of_figure(*options.command, chain.name, options.file, shown[i].poses);
+  Json words = Json::array();
+  std::size_t pose = 0;
+  const Json all = memory.figure["arguments"];
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    words.push_back(all[k]);
+    if (all[k] != Json("--pose")) continue;
+    ++k;
+    const bool is_shown = shown.size() == 1 || pose++ == i;
+    if (is_shown)
+      words.push_back(named_of(all[k].get<std::string>()).text);
+    else
+      words.erase(words.size() - 1);
+  }
+  memory.figure["arguments"] = words;
+  return memory;
+}
+
+void snapshot_model(const SnapshotOptions& options) {
   if (!options.at.empty() || !options.vary.empty())
     throw Error(ExitCode::usage, "--at and --vary go with a scene; a model stands still at --pose");
-  const ModelScene model = model_scene_of(options.file, overrides_of(options), "snapshot", keys_of_models(OfModel::picture));
+  const bool is_named = std::any_of(options.poses.begin(), options.poses.end(),
+                                    [](const std::string& text) { return !named_of(text).name.empty(); });
+  // Poses without names in one file are one picture with all of them.
+  OutputPlace place = place_of(options, is_named ? options.poses.size() : 1);
+  if (is_named && options.output.empty())
+    place = {"out/" + std::filesystem::path(options.file).stem().string(), true};
+  if (is_named && !place.is_folder)
+    throw Error(ExitCode::usage, "-o " + options.output +
+                                     ": a pose with a name is a file of its own in a folder: name that, " +
+                                     "like -o out/, or leave the name out");
+  const ModelScene model =
+      model_scene_of(options.file, overrides_of(options), "snapshot", keys_of_models(OfModel::picture));
   const Chain chain = read_chain(options.file, model.options);
-  std::vector<std::vector<double>> poses = parse_poses(chain, options.poses, "--pose");
-  if (poses.empty()) poses.push_back(zero_configuration(chain));
+  const std::vector<PosePicture> shown = pose_pictures(chain, options, place.is_folder);
+  std::vector<std::string> names;
+  for (const PosePicture& one : shown) names.push_back(one.name);
+  require_own_names(names, "--pose");
+  Pictures pictures(options, place, names);
   const Fonts fonts;
   PoseFigureOptions figure;
   set_look(figure, model, chain);
   if (options.width > 0) figure.width = options.width;
   if (options.height > 0) figure.height = options.height;
-  write_picture(draw_pose_figure(chain, poses, figure, fonts), figure.width, figure.height, fonts, output,
-                options.common.force, memory_of_figure(*options.command, chain.name, options.file, poses));
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    pictures.write(i, draw_pose_figure(chain, shown[i].poses, figure, fonts), figure.width, figure.height,
+                   fonts, memory_of_pose(options, chain, shown, i));
+  pictures.commit(options);
 }
 
 void run_snapshot(const SnapshotOptions& options) {
-  const std::string output = default_output(options);
-  if (is_model_file(options.file))
-    snapshot_model(options, output);
-  else if (!options.poses.empty())
-    throw Error(ExitCode::usage, "--pose goes with a model; a scene takes --at");
-  else
-    snapshot_scene(options, output);
-  if (options.common.json)
-    std::puts(Json{{"file", output}}.dump(2).c_str());
-  else if (!options.common.quiet)
-    std::printf("%s\n", output.c_str());
+  if (is_model_file(options.file)) return snapshot_model(options);
+  if (!options.poses.empty()) throw Error(ExitCode::usage, "--pose goes with a model; a scene takes --at");
+  snapshot_scene(options);
 }
 
 }  // namespace
@@ -103,9 +278,15 @@ void add_snapshot_command(CommandLine& app) {
   Command* command =
       app.add_subcommand("snapshot", "one picture: a scene at an instant, or a model at poses");
   command->add_option("file", options->file, "a scene (.yaml) or a model (.urdf)").required();
-  command->add_option("--at", options->at, "instant of the scene in seconds (default 0)");
-  command->add_repeatable("--pose", options->poses, "q of a model: --pose 0,90deg (repeatable)");
-  command->add_option("-o,--output", options->output, "a .png, .svg or .pdf file (default out/NAME.png)");
+  command->add_repeatable("--at", options->at,
+                          "instants of the scene: 1.2s, `event NAME`, or several between commas, maybe "
+                          "named: hit=1.2s (default 0)");
+  command->add_repeatable("--pose", options->poses,
+                          "q of a model: --pose 0,90deg, named --pose home=0,90deg (repeatable)");
+  command->add_option(
+      "-o,--output", options->output,
+      "a .png, .svg or .pdf file, which holds all poses at once; or a folder for a picture each (default "
+      "out/NAME.png, of several out/NAME/)");
   command->add_option("--end-effector", options->end_effector,
                       "the link that is marked, where there are several ends");
   command->add_option("--width", options->width, "pixels").range(16, 16384);
@@ -116,7 +297,9 @@ void add_snapshot_command(CommandLine& app) {
   add_vary_option(*command, options->vary);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
-  command->footer("Example: chainreel snapshot assets/scenes/rrr_torque.yaml --at 1.2 -o out/rrr.png");
+  command->footer(
+      "Example: chainreel snapshot assets/scenes/rrr_torque.yaml --at 1.2 -o out/rrr.png\n"
+      "         chainreel snapshot models/rr.urdf --pose home=0,0 --pose reach=40deg,-90deg -o out/poses/");
   options->command = command;
   command->callback([options] { run_snapshot(*options); });
 }

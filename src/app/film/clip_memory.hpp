@@ -13,9 +13,11 @@ namespace chainreel {
 struct ClipMemory {
   std::string title;
   std::string description;  // one sentence
-  std::string scene;  // YAML of the effective scene; paths as found from the folder where it was rendered
+  std::string scene;  // YAML of the effective scene; paths as found from its own folder, see clip_origin
   Json audit;         // nothing in it depends on the clock
-  Json figure = nullptr;  // null, or in place of a scene {arguments, model, model_sha256, poses}
+  // Null, or in place of a scene {arguments, files, model, model_sha256, poses}; `files` are the indices of those arguments
+  // that are paths, as found from the folder of the first.
+  Json figure = nullptr;
 
   Tags tags() const;        // of MP4, MOV, WebM, PNG, APNG, GIF
   VectorPage page() const;  // of SVG (<metadata>) and PDF (keywords)

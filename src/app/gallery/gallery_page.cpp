@@ -124,7 +124,7 @@ std::string energy_error(const Json& run) {
   return scale.empty() ? error : error + " (kinetic energy up to " + scale + ")";
 }
 
-std::string method_words(const Json& run) {
+std::string method_line(const Json& run) {
   std::string text = word(run, "method");
   if (text.empty()) return "";
   const std::string order = count_text(run, "order"), tolerance = number_text(run, "tolerance", 3, "");
@@ -164,7 +164,7 @@ struct Row {
 const std::vector<Row>& rows() {
   static const std::vector<Row> all{
       {"Energy error", &energy_error},
-      {"Method", &method_words},
+      {"Method", &method_line},
       {"Steps", [](const Json& run) { return count_text(run, "steps"); }},
       {"Evaluations", [](const Json& run) { return count_text(run, "evaluations"); }},
       {"Ended", &status_words},

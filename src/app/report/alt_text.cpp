@@ -8,7 +8,7 @@
 #include "app/report/report.hpp"
 #include "core/format.hpp"
 #include "draw/layers/speed_box.hpp"
-#include "scene/text/write_scene.hpp"
+#include "scene/text/scene_paths.hpp"
 
 namespace chainreel {
 namespace {
@@ -95,11 +95,22 @@ std::string speed_words(const FilmReport& report) {
   return stretches.empty() ? "" : "; not at its own speed: " + joined(stretches);
 }
 
+// The audit without the place where the scene lay.
+Json placeless(Json audit, const Scene& scene) {
+  const auto leave_place = [&](Json& part, const char* key) {
+    if (part.contains(key)) part[key] = placeless_path(scene, part[key].get<std::string>());
+  };
+  for (const char* key : {"scene", "model"}) leave_place(audit, key);
+  if (audit.contains("panels"))
+    for (Json& panel : audit["panels"]) leave_place(panel, "model");
+  return audit;
+}
+
 }  // namespace
 
 ClipMemory memory_of(const FilmReport& report) {
   const Scene& scene = report.film().scene;
-  return {scene.title, sentence_of(report), scene_text(scene), to_json(report)};
+  return {scene.title, sentence_of(report), placeless_scene_text(scene), placeless(to_json(report), scene)};
 }
 
 std::string sentence_of(const FilmReport& report) {

@@ -100,6 +100,7 @@ class Studio::ModelSource : public Source {
     std::vector<std::string> numbers;
     for (const double q : picture.q) numbers.push_back(format_shortest(q));
     shot.memory.figure = {{"arguments", {"snapshot", name_, "--pose=" + joined(numbers, ",")}},
+                          {"files", {1}},
                           {"poses", {picture.q}},
                           {"model", name_},
                           {"model_sha256", sha256_of_file(path())}};
@@ -160,7 +161,8 @@ class Studio::SceneSource : public Source {
     const int frame = frame_of(at);
     runs_->require_expected_ends(frame);
     const Film& film = film_for(picture, fonts);
-    const FilmReport report = film_report(*runs_, film, clock_.frame_count());
+    FilmReport report = film_report(*runs_, film, clock_.frame_count());
+    report.writes = Writes::pictures;
     SuiteShot shot;
     shot.width = film_.scene.video.width;
     shot.height = film_.scene.video.height;

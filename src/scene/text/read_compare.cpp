@@ -4,6 +4,7 @@
 
 #include "scene/keys/keys.hpp"
 #include "scene/keys/own_keys.hpp"
+#include "scene/text/scene_paths.hpp"
 
 namespace chainreel {
 namespace {
@@ -82,6 +83,7 @@ Scene read_comparison(const YamlDocument& document, const PanelReader& read_pane
   scene.title.clear();
   page.read("title", scene.title);
   scene.places = document.places();
+  scene.absolute_paths = absolute_paths_of(document);
   scene.compare = std::move(panels);
   read_layout(page, scene);
   own.throw_if_any();

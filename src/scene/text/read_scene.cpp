@@ -6,6 +6,7 @@
 #include "scene/keys/keys.hpp"
 #include "scene/keys/own_keys.hpp"
 #include "scene/text/read_compare.hpp"
+#include "scene/text/scene_paths.hpp"
 
 namespace chainreel {
 namespace {
@@ -49,6 +50,7 @@ Scene read_document(const YamlDocument& document) {
   fields.finish();
   problems.throw_if_any();
   scene.places = document.places();
+  scene.absolute_paths = absolute_paths_of(document);
   return scene;
 }
 

@@ -18,10 +18,4 @@ std::vector<SceneEntry> entries_of(const Scene& scene);
 // Those entries that all panels have, with the same value.
 std::vector<SceneEntry> shared_entries(const std::vector<Scene>& panels);
 
-// A scene's text for another folder.
-
-// `text` as scene_text writes it, its paths as found from the working folder: the same with relative paths as
-// found from `folder`. Throws Error (bad input) where it is no YAML.
-std::string moved_scene_text(const std::string& text, const std::string& folder);
-
 }  // namespace chainreel

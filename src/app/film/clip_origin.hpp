@@ -1,0 +1,38 @@
+// Where the paths start that a clip or picture remembers: in the folder of the scene or model that it shows.
+// The file does not say where that is, so that it is the same wherever it was made; the folder is found again
+// by what lies in it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/film/clip_memory.hpp"
+
+namespace chainreel {
+
+struct WantedFile {
+  std::string path;    // relative to the folder that is sought
+  std::string sha256;  // "": any
+};
+
+struct ClipOrigin {
+  std::string folder;  // "": the working folder
+  bool is_found = false;
+  std::vector<std::string> changed;  // as found from the working folder: files that are others now
+  std::vector<std::string> missing;  // as remembered
+};
+
+// Looks in the working folder, then in that of the clip, in a few above and in those below both, nearest first; of folders
+// that hold all files, one that holds them unchanged wins over others but the working folder. `given` is the only one
+// looked at unless it is "".
+ClipOrigin find_origin(const std::string& clip, const std::vector<WantedFile>& wanted,
+                       const std::string& given);
+
+// What a memory needs beside it: relative paths of its scene, or of its figure's words, with the hashes that
+// its audit tells.
+std::vector<WantedFile> files_wanted_by(const ClipMemory& memory);
+
+// The figure with paths as found from the working folder.
+Json figure_from(const Json& figure, const ClipOrigin& origin);
+
+}  // namespace chainreel
