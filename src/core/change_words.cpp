@@ -18,12 +18,15 @@ std::string change_text(double before, double after, const std::string& unit) {
   };
   int digits = 6;
   while (digits < 17 && (rounds(before, digits) || rounds(after, digits))) ++digits;
-  const auto text = [&](double value) { return digits < 17 ? format_significant(value, digits) : format_shortest(value); };
+  const auto text = [&](double value) {
+    return digits < 17 ? format_significant(value, digits) : format_shortest(value);
+  };
   return change_text(text(before), text(after)) + (unit.empty() ? "" : " " + unit);
 }
 
 std::string length_text(double metres) {
-  return std::abs(metres) < 0.9995 ? format_significant(1000 * metres, 3) + " mm" : format_significant(metres, 3) + " m";
+  return std::abs(metres) < 0.9995 ? format_significant(1000 * metres, 3) + " mm"
+                                   : format_significant(metres, 3) + " m";
 }
 
 std::string angle_text(double radians) {

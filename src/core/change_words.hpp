@@ -5,8 +5,8 @@
 
 namespace chainreel {
 
-// "1.2 -> 1.25 kg"; the unit may be "". As many digits as show the change to a fiftieth of it, six at least where there
-// are so many.
+// "1.2 -> 1.25 kg"; the unit may be "". As many digits as show the change to a fiftieth of it, six at least
+// where there are so many.
 std::string change_text(double before, double after, const std::string& unit);
 std::string change_text(const std::string& before, const std::string& after);
 

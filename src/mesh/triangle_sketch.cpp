@@ -37,7 +37,8 @@ struct TriangleHash {
 using TurnedCorners = std::array<std::uint32_t, 3>;
 
 // From the corner with the least hash on, so that it does not matter with which of them a file begins.
-TurnedCorners corners_of(const TriangleMesh& mesh, std::size_t first, const std::vector<std::uint64_t>& places) {
+TurnedCorners corners_of(const TriangleMesh& mesh, std::size_t first,
+                         const std::vector<std::uint64_t>& places) {
   TurnedCorners corners{};
   std::copy_n(mesh.triangles.begin() + std::ptrdiff_t(first), 3, corners.begin());
   const auto least = std::min_element(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -47,16 +48,19 @@ TurnedCorners corners_of(const TriangleMesh& mesh, std::size_t first, const std:
   return corners;
 }
 
-TriangleHash hash_of(const TriangleMesh& mesh, const TurnedCorners& corners, const std::vector<std::uint64_t>& places) {
+TriangleHash hash_of(const TriangleMesh& mesh, const TurnedCorners& corners,
+                     const std::vector<std::uint64_t>& places) {
   TriangleHash hash{1, 2};
   for (const std::uint32_t corner : corners) {
     hash.shape = with(hash.shape, places[corner]);
-    hash.colors = with(with(hash.colors, places[corner]), std::bit_cast<std::uint32_t>(mesh.vertices[corner].color));
+    hash.colors =
+        with(with(hash.colors, places[corner]), std::bit_cast<std::uint32_t>(mesh.vertices[corner].color));
   }
   return hash;
 }
 
-void add_normals(const TriangleMesh& mesh, const TurnedCorners& corners, std::uint64_t hash, std::array<double, 4>& sums) {
+void add_normals(const TriangleMesh& mesh, const TurnedCorners& corners, std::uint64_t hash,
+                 std::array<double, 4>& sums) {
   for (const std::uint32_t corner : corners) {
     hash = mixed(hash + 1);
     std::uint64_t signs = hash;
@@ -127,7 +131,8 @@ TriangleSketch sketch_of(const TriangleMesh& mesh) {
     sketch.buckets[hash.shape % TriangleSketch::kBuckets] += short_of(hash.shape);
     if (std::countr_zero(short_of(hash.shape)) < sketch.thinning) continue;
     sketch.sample.push_back(short_of(hash.shape));
-    while (sketch.sample.size() > TriangleSketch::kLargestSample) sketch.sample = thinned(sketch.sample, ++sketch.thinning);
+    while (sketch.sample.size() > TriangleSketch::kLargestSample)
+      sketch.sample = thinned(sketch.sample, ++sketch.thinning);
   }
   std::sort(sketch.sample.begin(), sketch.sample.end());
   if (sketch.thinning == 0) sketch.buckets.clear();  // the sample knows all
@@ -155,21 +160,26 @@ TriangleDifference difference_of(const TriangleSketch& before, const TriangleSke
   const double more = double(after.triangles) - double(before.triangles);
   const int thinning = std::max(before.thinning, after.thinning);
   double changes = 0;  // gone and come
-  const bool by_buckets = before.buckets.size() == TriangleSketch::kBuckets && after.buckets.size() == before.buckets.size();
+  const bool by_buckets =
+      before.buckets.size() == TriangleSketch::kBuckets && after.buckets.size() == before.buckets.size();
   std::size_t changed = 0;
-  for (std::size_t i = 0; by_buckets && i < before.buckets.size(); ++i) changed += before.buckets[i] != after.buckets[i];
+  for (std::size_t i = 0; by_buckets && i < before.buckets.size(); ++i)
+    changed += before.buckets[i] != after.buckets[i];
   if (by_buckets && changed < TriangleSketch::kBuckets * 3 / 4) {
     // So many balls in so many urns leave that many empty.
-    changes = -double(TriangleSketch::kBuckets) * std::log1p(-double(changed) / double(TriangleSketch::kBuckets));
+    changes =
+        -double(TriangleSketch::kBuckets) * std::log1p(-double(changed) / double(TriangleSketch::kBuckets));
     if (changed <= 2) changes = double(changed);
     difference.is_counted = changed <= 2;
   } else {
-    const std::vector<std::uint32_t> old = thinned(before.sample, thinning), now = thinned(after.sample, thinning);
+    const std::vector<std::uint32_t> old = thinned(before.sample, thinning),
+                                     now = thinned(after.sample, thinning);
     const Unshared unshared = unshared_of(old, now);
     const auto scaled = [](std::size_t count, std::size_t sample, std::size_t all) {
       return sample == 0 ? 0 : double(all) * double(count) / double(sample);
     };
-    changes = scaled(unshared.gone, old.size(), before.triangles) + scaled(unshared.come, now.size(), after.triangles);
+    changes = scaled(unshared.gone, old.size(), before.triangles) +
+              scaled(unshared.come, now.size(), after.triangles);
     difference.is_counted = thinning == 0;
   }
   changes = std::max({changes, std::abs(more), 1.0});
@@ -193,7 +203,8 @@ template <class Number>
 Number from_hex(std::string_view text) {
   Number value = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
-  if (code != std::errc() || end != text.data() + text.size()) throw std::invalid_argument("no hexadecimal number");
+  if (code != std::errc() || end != text.data() + text.size())
+    throw std::invalid_argument("no hexadecimal number");
   return value;
 }
 
@@ -205,19 +216,16 @@ std::string hex_of(const std::vector<std::uint32_t>& values) {
 
 std::vector<std::uint32_t> values_of(const std::string& text) {
   std::vector<std::uint32_t> values;
-  for (std::size_t i = 0; i < text.size(); i += 8) values.push_back(from_hex<std::uint32_t>(std::string_view(text).substr(i, 8)));
+  for (std::size_t i = 0; i < text.size(); i += 8)
+    values.push_back(from_hex<std::uint32_t>(std::string_view(text).substr(i, 8)));
   return values;
 }
 
 }  // namespace
 
 Json to_json(const TriangleSketch& sketch) {
-  Json json{{"triangles", sketch.triangles},
-            {"shape", hex(sketch.shape)},
-            {"colors", hex(sketch.colors)},
-            {"normals", sketch.normals},
-            {"lower", sketch.lower},
-            {"upper", sketch.upper}};
+  Json json{{"triangles", sketch.triangles}, {"shape", hex(sketch.shape)}, {"colors", hex(sketch.colors)},
+            {"normals", sketch.normals},     {"lower", sketch.lower},      {"upper", sketch.upper}};
   if (!sketch.buckets.empty()) json["buckets"] = hex_of(sketch.buckets);
   json["thinning"] = sketch.thinning;
   json["sample"] = hex_of(sketch.sample);

@@ -1,5 +1,5 @@
-// Which triangles a mesh has, in a few kilobytes, so that two states of a file can be compared when one of them is gone:
-// how many triangles came and went, whatever the order of triangles and vertices in the file.
+// Which triangles a mesh has, in a few kilobytes, so that two states of a file can be compared when one of
+// them is gone: how many triangles came and went, whatever the order of triangles and vertices in the file.
 #pragma once
 
 #include <array>
@@ -17,20 +17,21 @@ struct TriangleSketch {
   static constexpr std::size_t kLargestSample = 256;
 
   std::size_t triangles = 0;
-  // Sums modulo 2^64 over all triangles of their hashes: by the places of their vertices, in their turning sense; and of
-  // their colours besides.
+  // Sums modulo 2^64 over all triangles of their hashes: by the places of their vertices, in their turning
+  // sense; and of their colours besides.
   std::uint64_t shape = 0, colors = 0;
-  // Sums of the components of all normals under signs by lot, which their triangle's hash decides: two surfaces of one
-  // shape are shaded alike where these agree but for round-off (normals are sums over neighbours in the file's order).
+  // Sums of the components of all normals under signs by lot, which their triangle's hash decides: two
+  // surfaces of one shape are shaded alike where these agree but for round-off (normals are sums over
+  // neighbours in the file's order).
   std::array<double, 4> normals{};
   std::array<float, 3> lower{}, upper{};  // of the box around it, m
-  // Of meshes with more triangles than a sample holds: sums of the hashes, triangle by triangle in the bucket that its hash
-  // names. A bucket tells of a change in it, so that few changes are counted nearly one by one.
+  // Of meshes with more triangles than a sample holds: sums of the hashes, triangle by triangle in the bucket
+  // that its hash names. A bucket tells of a change in it, so that few changes are counted nearly one by one.
   std::vector<std::uint32_t> buckets;
-  // Hashes of those triangles that have `thinning` zeros in theirs, rising: all of a small mesh, a fair lot of a large one.
+  // Hashes of those triangles that have `thinning` zeros in theirs, rising: all of a small mesh, a fair lot
+  // of a large one.
   int thinning = 0;
   std::vector<std::uint32_t> sample;
-
 };
 
 // Round-off of normals is no difference.

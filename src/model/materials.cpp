@@ -7,7 +7,8 @@
 
 namespace chainreel {
 
-Materials::Materials(const UrdfFile& file, const ModelOptions& options) : finder_(file.path, options.packages) {
+Materials::Materials(const UrdfFile& file, const ModelOptions& options)
+    : finder_(file.path, options.packages) {
   for (const UrdfMaterial& material : file.materials) remember(material);
   for (const UrdfLink& link : file.links)
     for (const UrdfShape& shape : link.visuals)

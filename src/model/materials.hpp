@@ -19,16 +19,18 @@ namespace chainreel {
 
 using MaterialRgba = std::array<std::uint8_t, 4>;  // red, green, blue, opacity
 
-// A name is explained by the robot's <material>, else by the first link that says more than the name; a <visual> that says
-// something itself means that.
+// A name is explained by the robot's <material>, else by the first link that says more than the name; a
+// <visual> that says something itself means that.
 class Materials {
  public:
   Materials(const UrdfFile& file, const ModelOptions& options);
 
   // Nothing where it says nothing; a name without a colour anywhere is a problem.
-  std::optional<MaterialRgba> color_of(const UrdfMaterial& material, const std::string& link, UrdfProblems& problems);
+  std::optional<MaterialRgba> color_of(const UrdfMaterial& material, const std::string& link,
+                                       UrdfProblems& problems);
 
-  // The material that says what `material` looks like: itself, or the one that it names; null where there is none.
+  // The material that says what `material` looks like: itself, or the one that it names; null where there is
+  // none.
   const UrdfMaterial* meaning_of(const UrdfMaterial& material) const;
 
  private:

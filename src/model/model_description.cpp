@@ -14,8 +14,9 @@ namespace chainreel {
 namespace {
 
 constexpr const char* kShapeKinds[] = {"box", "cylinder", "sphere", "mesh"};
-constexpr UrdfJointType kJointTypes[] = {UrdfJointType::revolute, UrdfJointType::continuous, UrdfJointType::prismatic,
-                                         UrdfJointType::fixed,    UrdfJointType::floating,   UrdfJointType::planar};
+constexpr UrdfJointType kJointTypes[] = {UrdfJointType::revolute,  UrdfJointType::continuous,
+                                         UrdfJointType::prismatic, UrdfJointType::fixed,
+                                         UrdfJointType::floating,  UrdfJointType::planar};
 
 // "package://arm/meshes/link.stl" is "link.stl".
 std::string name_of_file(const std::string& written) {
@@ -25,7 +26,10 @@ std::string name_of_file(const std::string& written) {
 class Describer {
  public:
   Describer(const UrdfFile& file, const ModelOptions& options)
-      : finder_(file.path, options.packages), materials_(file, options), unheard_(file.path), reads_meshes_(options.meshes) {}
+      : finder_(file.path, options.packages),
+        materials_(file, options),
+        unheard_(file.path),
+        reads_meshes_(options.meshes) {}
 
   DescribedShape described(const UrdfShape& shape, const std::string& link) {
     DescribedShape one;
@@ -34,7 +38,8 @@ class Describer {
     if (shape.material) {
       one.color = materials_.color_of(*shape.material, link, unheard_);
       one.material = shape.material->name;
-      if (const UrdfMaterial* meaning = materials_.meaning_of(*shape.material)) one.texture = name_of_file(meaning->texture);
+      if (const UrdfMaterial* meaning = materials_.meaning_of(*shape.material))
+        one.texture = name_of_file(meaning->texture);
     }
     if (shape.kind == UrdfShapeKind::mesh) {
       one.shape.mesh_file = name_of_file(shape.mesh_file);
@@ -77,14 +82,17 @@ std::vector<DescribedCoordinate> coordinates_of(const Chain& chain) {
     const Joint& joint = chain.bodies[i].joint;
     if (joint.ratio != 1 || joint.offset != 0) continue;  // it reads another joint's coordinate
     const auto at = std::size_t(joint.q_index);
-    const std::size_t metres = joint.kind == JointKind::floating ? 3 : joint.kind == JointKind::prismatic ? 1 : 0;
+    const std::size_t metres = joint.kind == JointKind::floating    ? 3
+                               : joint.kind == JointKind::prismatic ? 1
+                                                                    : 0;
     for (std::size_t k = 0; k < metres; ++k) coordinates[at + k].unit = "m";
     if (joint.kind == JointKind::revolute) coordinates[at].unit = "rad";
   }
   return coordinates;
 }
 
-ModelDescription describe_model(const std::string& path, const ModelOptions& options, DescribeCollisions collisions) {
+ModelDescription describe_model(const std::string& path, const ModelOptions& options,
+                                DescribeCollisions collisions) {
   const UrdfFile file = read_urdf_file(path);
   const Chain chain = chain_of(file, options);
   ModelDescription model;
@@ -102,7 +110,8 @@ ModelDescription describe_model(const std::string& path, const ModelOptions& opt
     DescribedLink one{link.name, link.line, link.inertial, {}, {}};
     for (const UrdfShape& shape : link.visuals) one.visuals.push_back(describer.described(shape, link.name));
     if (link.visuals.empty() || collisions == DescribeCollisions::all)
-      for (const UrdfShape& shape : link.collisions) one.collisions.push_back(describer.described(shape, link.name));
+      for (const UrdfShape& shape : link.collisions)
+        one.collisions.push_back(describer.described(shape, link.name));
     model.links.push_back(std::move(one));
   }
   model.meshes = describer.take_meshes();
@@ -160,8 +169,11 @@ Json json_of(const DescribedLink& link) {
 }
 
 Json json_of(const UrdfJoint& joint) {
-  Json json{{"name", joint.name},     {"line", joint.line},   {"type", to_string(joint.type)},
-            {"parent", joint.parent}, {"child", joint.child}};
+  Json json{{"name", joint.name},
+            {"line", joint.line},
+            {"type", to_string(joint.type)},
+            {"parent", joint.parent},
+            {"child", joint.child}};
   add_origin(joint.origin, json);
   json["axis"] = json_of(joint.axis);
   const UrdfLimit& limit = joint.limit;
@@ -182,7 +194,8 @@ Json json_of(const UrdfJoint& joint) {
 
 template <int n>
 Eigen::Matrix<double, n, 1> vector_of(const Json& json) {
-  if (!json.is_array() || json.size() != std::size_t(n)) throw std::invalid_argument("a vector of another length");
+  if (!json.is_array() || json.size() != std::size_t(n))
+    throw std::invalid_argument("a vector of another length");
   Eigen::Matrix<double, n, 1> v;
   for (int i = 0; i < n; ++i) v[i] = json[std::size_t(i)].get<double>();
   return v;

@@ -1,5 +1,5 @@
-// All of a model that pictures and motions depend on, as its file says it and with what its names mean: plain enough to be
-// kept beside a picture and held against a later state of the file.
+// All of a model that pictures and motions depend on, as its file says it and with what its names mean: plain
+// enough to be kept beside a picture and held against a later state of the file.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +23,7 @@ struct DescribedMesh {
 };
 
 struct DescribedShape {
-  UrdfShape shape;  // its mesh by file name alone, without its material
+  UrdfShape shape;                                   // its mesh by file name alone, without its material
   std::optional<std::array<std::uint8_t, 4>> color;  // as it is drawn; a texture counts as its mean
   std::string material, texture;                     // names, for words alone
   int mesh = -1;                                     // index into ModelDescription::meshes
@@ -63,7 +63,8 @@ enum class DescribeCollisions {
   all,
 };
 
-// Meshes are read as far as `options.meshes` asks for them. Throws Error as read_chain does; never for a mesh or colour.
+// Meshes are read as far as `options.meshes` asks for them. Throws Error as read_chain does; never for a mesh
+// or colour.
 ModelDescription describe_model(const std::string& path, const ModelOptions& options,
                                 DescribeCollisions collisions = DescribeCollisions::where_seen);
 

@@ -34,17 +34,26 @@ struct LimitValue {
   std::optional<double> (*value)(const UrdfJoint& joint);
 };
 bool is_bounded(const UrdfJoint& joint) {
-  return joint.limit.given && (joint.type == UrdfJointType::revolute || joint.type == UrdfJointType::prismatic);
+  return joint.limit.given &&
+         (joint.type == UrdfJointType::revolute || joint.type == UrdfJointType::prismatic);
 }
 constexpr LimitValue kLimits[] = {
     {"lower limit", "rad", "m",
-     [](const UrdfJoint& joint) { return is_bounded(joint) ? std::optional(joint.limit.lower) : std::nullopt; }},
+     [](const UrdfJoint& joint) {
+       return is_bounded(joint) ? std::optional(joint.limit.lower) : std::nullopt;
+     }},
     {"upper limit", "rad", "m",
-     [](const UrdfJoint& joint) { return is_bounded(joint) ? std::optional(joint.limit.upper) : std::nullopt; }},
+     [](const UrdfJoint& joint) {
+       return is_bounded(joint) ? std::optional(joint.limit.upper) : std::nullopt;
+     }},
     {"limit of effort", "N m", "N",
-     [](const UrdfJoint& joint) { return joint.limit.has_effort ? std::optional(joint.limit.effort) : std::nullopt; }},
+     [](const UrdfJoint& joint) {
+       return joint.limit.has_effort ? std::optional(joint.limit.effort) : std::nullopt;
+     }},
     {"limit of velocity", "rad/s", "m/s",
-     [](const UrdfJoint& joint) { return joint.limit.has_velocity ? std::optional(joint.limit.velocity) : std::nullopt; }},
+     [](const UrdfJoint& joint) {
+       return joint.limit.has_velocity ? std::optional(joint.limit.velocity) : std::nullopt;
+     }},
 };
 
 class ModelComparison {
@@ -55,7 +64,8 @@ class ModelComparison {
   std::vector<ModelDifference> run() {
     compare_names();
     for (std::size_t i = 0; i < after_.joints.size(); ++i)
-      if (match_.joints_of[i] >= 0) compare(before_.joints[std::size_t(match_.joints_of[i])], after_.joints[i]);
+      if (match_.joints_of[i] >= 0)
+        compare(before_.joints[std::size_t(match_.joints_of[i])], after_.joints[i]);
     for (std::size_t i = 0; i < after_.links.size(); ++i)
       if (match_.links_of[i] >= 0) compare(before_.links[std::size_t(match_.links_of[i])], after_.links[i]);
     compare_reading();
@@ -78,7 +88,8 @@ class ModelComparison {
       if (back[i] < 0)
         tell(ModelChange::structure, std::string(what) + " " + after[i].name + ": added", after[i].line);
       else if (const std::string& old = before[std::size_t(back[i])].name; old != after[i].name)
-        tell(ModelChange::structure, std::string(what) + " " + old + ": renamed to " + after[i].name, after[i].line);
+        tell(ModelChange::structure, std::string(what) + " " + old + ": renamed to " + after[i].name,
+             after[i].line);
   }
 
   // What a link or a joint of `before` is called in `after`; its old name where it is gone.
@@ -101,14 +112,16 @@ class ModelComparison {
   void compare_names() {
     if (before_.name != after_.name)
       tell(ModelChange::looks, "model: renamed from " + before_.name + " to " + after_.name);
-    const auto kept = std::count_if(match_.joints.begin(), match_.joints.end(), [](int joint) { return joint >= 0; });
+    const auto kept =
+        std::count_if(match_.joints.begin(), match_.joints.end(), [](int joint) { return joint >= 0; });
     if (2 * std::size_t(kept) < std::max(before_.joints.size(), after_.joints.size()))
-      tell(ModelChange::structure, "another robot: " + std::to_string(kept) + " of its " + std::to_string(after_.joints.size()) +
-                                       " joints were there before");
+      tell(ModelChange::structure, "another robot: " + std::to_string(kept) + " of its " +
+                                       std::to_string(after_.joints.size()) + " joints were there before");
     compare_names("link", before_.links, after_.links, match_.links, match_.links_of);
     compare_names("joint", before_.joints, after_.joints, match_.joints, match_.joints_of);
     if (link_now(before_.root) != after_.links[std::size_t(after_.root)].name)
-      tell(ModelChange::structure, "root link " + change_text(link_now(before_.root), after_.links[std::size_t(after_.root)].name));
+      tell(ModelChange::structure,
+           "root link " + change_text(link_now(before_.root), after_.links[std::size_t(after_.root)].name));
     compare_order();
   }
 
@@ -127,14 +140,17 @@ class ModelComparison {
   void compare(const UrdfJoint& before, const UrdfJoint& after) {
     const std::string joint = "joint " + after.name + ": ";
     if (before.type != after.type)
-      tell(ModelChange::joint, joint + "type " + change_text(to_string(before.type), to_string(after.type)), after.line);
+      tell(ModelChange::joint, joint + "type " + change_text(to_string(before.type), to_string(after.type)),
+           after.line);
     if (match_.links[std::size_t(before.parent)] != after.parent)
       tell(ModelChange::structure,
-           joint + "its parent link " + change_text(link_now(before.parent), after_.links[std::size_t(after.parent)].name),
+           joint + "its parent link " +
+               change_text(link_now(before.parent), after_.links[std::size_t(after.parent)].name),
            after.line);
     if (match_.links[std::size_t(before.child)] != after.child)
       tell(ModelChange::structure,
-           joint + "its child link " + change_text(link_now(before.child), after_.links[std::size_t(after.child)].name),
+           joint + "its child link " +
+               change_text(link_now(before.child), after_.links[std::size_t(after.child)].name),
            after.line);
     for (const std::string& words : origin_changes(before.origin, after.origin))
       tell(ModelChange::joint, joint + "origin " + words, after.line);
@@ -149,30 +165,37 @@ class ModelComparison {
     if (a == b) return;
     const bool is_turned_round = a == -b;
     tell(ModelChange::joint,
-         joint + "axis turned " + (is_turned_round ? "round" : "by " + angle_text(angle_between(a, b))) + " (" +
-             change_text(vector_text(before.axis), vector_text(after.axis)) + ")",
+         joint + "axis turned " + (is_turned_round ? "round" : "by " + angle_text(angle_between(a, b))) +
+             " (" + change_text(vector_text(before.axis), vector_text(after.axis)) + ")",
          after.line);
   }
 
   void compare_mimic(const std::string& joint, const std::optional<UrdfMimic>& before,
                      const std::optional<UrdfMimic>& after, int line) {
     if (!before && !after) return;
-    if (!before) return tell(ModelChange::joint, joint + "follows joint " + after->joint + " now (mimic)", after->line);
+    if (!before)
+      return tell(ModelChange::joint, joint + "follows joint " + after->joint + " now (mimic)", after->line);
     const std::string leader = joint_now(before->joint);
-    if (!after) return tell(ModelChange::joint, joint + "does not follow joint " + leader + " any more (mimic)", line);
-    if (leader != after->joint) tell(ModelChange::joint, joint + "mimic joint " + change_text(leader, after->joint), after->line);
+    if (!after)
+      return tell(ModelChange::joint, joint + "does not follow joint " + leader + " any more (mimic)", line);
+    if (leader != after->joint)
+      tell(ModelChange::joint, joint + "mimic joint " + change_text(leader, after->joint), after->line);
     if (before->multiplier != after->multiplier)
-      tell(ModelChange::joint, joint + "mimic multiplier " + change_text(before->multiplier, after->multiplier, ""), after->line);
+      tell(ModelChange::joint,
+           joint + "mimic multiplier " + change_text(before->multiplier, after->multiplier, ""), after->line);
     if (before->offset != after->offset)
-      tell(ModelChange::joint, joint + "mimic offset " + change_text(before->offset, after->offset, ""), after->line);
+      tell(ModelChange::joint, joint + "mimic offset " + change_text(before->offset, after->offset, ""),
+           after->line);
   }
 
   void compare_resistance(const std::string& joint, const UrdfJoint& before, const UrdfJoint& after) {
     if (after.type == UrdfJointType::fixed) return;
     const bool is_linear = after.type == UrdfJointType::prismatic;
-    const auto compare = [&](const char* what, double old, double now, const char* angular, const char* linear) {
+    const auto compare = [&](const char* what, double old, double now, const char* angular,
+                             const char* linear) {
       if (old != now)
-        tell(ModelChange::resistance, joint + what + " " + change_text(old, now, is_linear ? linear : angular), after.line);
+        tell(ModelChange::resistance,
+             joint + what + " " + change_text(old, now, is_linear ? linear : angular), after.line);
     };
     compare("damping", before.damping, after.damping, "N m s/rad", "N s/m");
     compare("friction", before.friction, after.friction, "N m", "N");
@@ -180,20 +203,24 @@ class ModelComparison {
       const std::optional<double> old = limit.value(before), now = limit.value(after);
       const std::string unit = is_linear ? limit.linear : limit.angular;
       const int line = after.limit.given ? after.limit.line : after.line;
-      const auto text = [&](const std::optional<double>& value) { return value ? format_shortest(*value) + " " + unit : "none"; };
+      const auto text = [&](const std::optional<double>& value) {
+        return value ? format_shortest(*value) + " " + unit : "none";
+      };
       if (old != now)
         tell(ModelChange::limit,
-             joint + limit.name + " " + (old && now ? change_text(*old, *now, unit) : change_text(text(old), text(now))), line);
+             joint + limit.name + " " +
+                 (old && now ? change_text(*old, *now, unit) : change_text(text(old), text(now))),
+             line);
     }
   }
 
   void compare(const DescribedLink& before, const DescribedLink& after) {
     compare_inertia(after.name, before.inertial, after.inertial, after.line);
-    for (const ShapeDifference& one :
-         shape_differences({before_, before.visuals}, {after_, after.visuals}, after.name, "visual", told_meshes_))
+    for (const ShapeDifference& one : shape_differences({before_, before.visuals}, {after_, after.visuals},
+                                                        after.name, "visual", told_meshes_))
       tell(ModelChange::looks, one.words, one.line);
-    for (const ShapeDifference& one :
-         shape_differences({before_, before.collisions}, {after_, after.collisions}, after.name, "collision", told_meshes_))
+    for (const ShapeDifference& one : shape_differences(
+             {before_, before.collisions}, {after_, after.collisions}, after.name, "collision", told_meshes_))
       tell(ModelChange::looks, one.words, one.line);
   }
 
@@ -202,13 +229,17 @@ class ModelComparison {
     if (!before && !after) return;
     const std::string link = "link " + name + ": ", of_link = "inertia of link " + name + ": ";
     if (!before)
-      return tell(ModelChange::mass, link + "has an inertia now, mass " + format_shortest(after->mass) + " kg", after->line);
+      return tell(ModelChange::mass,
+                  link + "has an inertia now, mass " + format_shortest(after->mass) + " kg", after->line);
     if (!after)
-      return tell(ModelChange::mass, link + "has no inertia any more, mass was " + format_shortest(before->mass) + " kg", link_line);
+      return tell(ModelChange::mass,
+                  link + "has no inertia any more, mass was " + format_shortest(before->mass) + " kg",
+                  link_line);
     if (before->mass != after->mass)
       tell(ModelChange::mass, link + "mass " + change_text(before->mass, after->mass, "kg"), after->line);
     if (before->origin.xyz != after->origin.xyz)
-      tell(ModelChange::mass, link + "centre of mass " + move_words(before->origin.xyz, after->origin.xyz), after->line);
+      tell(ModelChange::mass, link + "centre of mass " + move_words(before->origin.xyz, after->origin.xyz),
+           after->line);
     if (const std::string turn = turn_words(before->origin, after->origin); !turn.empty())
       tell(ModelChange::mass, of_link + "its axes " + turn, after->line);
     std::vector<std::string> entries;
@@ -222,14 +253,20 @@ class ModelComparison {
 
   void compare_reading() {
     if (before_.gravity != after_.gravity)
-      tell(ModelChange::reading, "gravity " + change_text(vector_text(before_.gravity), vector_text(after_.gravity)) + " m/s^2");
+      tell(ModelChange::reading,
+           "gravity " + change_text(vector_text(before_.gravity), vector_text(after_.gravity)) + " m/s^2");
     if (before_.floating_base != after_.floating_base)
-      tell(ModelChange::reading, std::string("base ") + (after_.floating_base ? "fixed -> floating" : "floating -> fixed"));
+      tell(ModelChange::reading,
+           std::string("base ") + (after_.floating_base ? "fixed -> floating" : "floating -> fixed"));
     if (before_.friction != after_.friction)
-      tell(ModelChange::reading, std::string("damping and friction of joints ") + (after_.friction ? "act now" : "do not act any more"));
-    const auto mass = [](const std::optional<double>& value) { return value ? format_shortest(*value) + " kg" : "none"; };
+      tell(ModelChange::reading, std::string("damping and friction of joints ") +
+                                     (after_.friction ? "act now" : "do not act any more"));
+    const auto mass = [](const std::optional<double>& value) {
+      return value ? format_shortest(*value) + " kg" : "none";
+    };
     if (before_.massless != after_.massless)
-      tell(ModelChange::reading, "mass of links without inertia " + change_text(mass(before_.massless), mass(after_.massless)));
+      tell(ModelChange::reading,
+           "mass of links without inertia " + change_text(mass(before_.massless), mass(after_.massless)));
     std::string end = before_.end_effector;
     for (std::size_t i = 0; i < before_.links.size(); ++i)
       if (before_.links[i].name == end) end = link_now(int(i));

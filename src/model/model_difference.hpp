@@ -24,8 +24,9 @@ struct ModelDifference {
   std::string words;  // "link forearm: mass 1.2 -> 1.25 kg, URDF line 31"; the line is that of `after`
 };
 
-// Numbers are compared exactly as they were read from the files, but for axes, of which only the direction counts, and for
-// turns, which several triples of rpy may write. Lines, paths and names of materials are no difference. Empty: the same.
+// Numbers are compared exactly as they were read from the files, but for axes, of which only the direction
+// counts, and for turns, which several triples of rpy may write. Lines, paths and names of materials are no
+// difference. Empty: the same.
 std::vector<ModelDifference> differences(const ModelDescription& before, const ModelDescription& after);
 
 }  // namespace chainreel

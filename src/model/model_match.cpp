@@ -45,9 +45,11 @@ class Matcher {
     match_by_name(before_.links, after_.links, match_.links, match_.links_of);
     match_by_name(before_.joints, after_.joints, match_.joints, match_.joints_of);
     // Of two robots that have nothing in common none is the other's root under another name.
-    const bool have_something = std::any_of(match_.links.begin(), match_.links.end(), [](int link) { return link >= 0; });
+    const bool have_something =
+        std::any_of(match_.links.begin(), match_.links.end(), [](int link) { return link >= 0; });
     if (have_something || is_alike(before_.root, after_.root)) match_links(before_.root, after_.root);
-    // A link that is found lets others be found below it. Of files with very many other links nobody asks for names.
+    // A link that is found lets others be found below it. Of files with very many other links nobody asks for
+    // names.
     for (int looks = 0; looks < kMostRenamed && match_one_more_link(); ++looks) {
     }
     for (std::size_t i = 0; i < after_.joints.size(); ++i) {
@@ -76,8 +78,9 @@ class Matcher {
     for (const UrdfJoint& old : before_.joints) {
       if (match_.links[std::size_t(old.child)] >= 0) continue;
       for (const UrdfJoint& joint : after_.joints)
-        if (match_.links_of[std::size_t(joint.child)] < 0 && match_.links[std::size_t(old.parent)] == joint.parent &&
-            old.type == joint.type && is_same(old.origin, joint.origin) && is_alike(old.child, joint.child))
+        if (match_.links_of[std::size_t(joint.child)] < 0 &&
+            match_.links[std::size_t(old.parent)] == joint.parent && old.type == joint.type &&
+            is_same(old.origin, joint.origin) && is_alike(old.child, joint.child))
           return match_links(old.child, joint.child);
     }
     return false;
@@ -101,8 +104,10 @@ bool is_same(const DescribedMesh& a, const DescribedMesh& b) {
   return a.sketch && b.sketch ? *a.sketch == *b.sketch : a.file == b.file && !a.sketch && !b.sketch;
 }
 
-bool is_same(const DescribedShape& a, const ModelDescription& of_a, const DescribedShape& b, const ModelDescription& of_b) {
-  if (a.shape.kind != b.shape.kind || !is_same(a.shape.origin, b.shape.origin) || a.color != b.color) return false;
+bool is_same(const DescribedShape& a, const ModelDescription& of_a, const DescribedShape& b,
+             const ModelDescription& of_b) {
+  if (a.shape.kind != b.shape.kind || !is_same(a.shape.origin, b.shape.origin) || a.color != b.color)
+    return false;
   if (a.shape.kind != UrdfShapeKind::mesh) return a.shape.size == b.shape.size;
   return a.shape.mesh_scale == b.shape.mesh_scale &&
          is_same(of_a.meshes[std::size_t(a.mesh)], of_b.meshes[std::size_t(b.mesh)]);

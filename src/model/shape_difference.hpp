@@ -12,7 +12,8 @@ namespace chainreel {
 
 // "moved by 4 mm (x 0.5 -> 0.504 m)"; of two places that differ.
 std::string move_words(const Eigen::Vector3d& before, const Eigen::Vector3d& after);
-// "turned by 0.1 deg (rpy 0 0 0 -> 0 0 0.00174)"; "" where rpy is the same, or another writing of the same turn.
+// "turned by 0.1 deg (rpy 0 0 0 -> 0 0 0.00174)"; "" where rpy is the same, or another writing of the same
+// turn.
 std::string turn_words(const UrdfOrigin& before, const UrdfOrigin& after);
 // Both, as far as they differ.
 std::vector<std::string> origin_changes(const UrdfOrigin& before, const UrdfOrigin& after);
@@ -30,8 +31,10 @@ struct ShapesOfLink {
 // Pairs of meshes that were told already: several links may show one.
 using ToldMeshes = std::set<std::pair<int, int>>;
 
-// Shapes that are the same are paired first, whatever their number; the others in their order. `what`: visual, collision.
+// Shapes that are the same are paired first, whatever their number; the others in their order. `what`:
+// visual, collision.
 std::vector<ShapeDifference> shape_differences(const ShapesOfLink& before, const ShapesOfLink& after,
-                                               const std::string& link, const std::string& what, ToldMeshes& told);
+                                               const std::string& link, const std::string& what,
+                                               ToldMeshes& told);
 
 }  // namespace chainreel

@@ -29,7 +29,8 @@ double distance(double a, double b) {
   return std::isnan(far) ? std::numeric_limits<double>::infinity() : far;
 }
 
-// Angle of the rotation from one quaternion (x y z w, of any length) to another, either sign of which means the same.
+// Angle of the rotation from one quaternion (x y z w, of any length) to another, either sign of which means
+// the same.
 double angle_between(const double* a, const double* b) {
   const double w = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
   const double x = a[3] * b[0] - a[0] * b[3] - a[1] * b[2] + a[2] * b[1];
@@ -56,7 +57,9 @@ struct Columns {
   const std::vector<SampledNumber>& numbers;
   const std::vector<double>& values;
 
-  const double* at(std::size_t sample, std::size_t number) const { return &values[sample * numbers.size() + number]; }
+  const double* at(std::size_t sample, std::size_t number) const {
+    return &values[sample * numbers.size() + number];
+  }
 };
 
 struct Parting {
@@ -64,8 +67,8 @@ struct Parting {
   double by_range = 0;  // how far at the first instant, for the range
 };
 
-std::vector<FreedomDifference> partings(const Columns& before, const Columns& after, const std::vector<double>& t,
-                                        const Instants& instants) {
+std::vector<FreedomDifference> partings(const Columns& before, const Columns& after,
+                                        const std::vector<double>& t, const Instants& instants) {
   std::vector<Parting> found;
   for (std::size_t i = 0; i < after.numbers.size(); ++i) {
     const bool turns = after.numbers[i].unit == kQuaternion && i + 3 < after.numbers.size();
@@ -77,9 +80,11 @@ std::vector<FreedomDifference> partings(const Columns& before, const Columns& af
     const double tolerance = std::max(kAbsolute, kRelative * range);
     Parting one{{after.numbers[i].label, turns ? "rad" : after.numbers[i].unit}, -1};
     for (const auto& [a, b] : instants) {
-      const double far = turns ? angle_between(before.at(a, i), after.at(b, i)) : distance(*before.at(a, i), *after.at(b, i));
+      const double far = turns ? angle_between(before.at(a, i), after.at(b, i))
+                               : distance(*before.at(a, i), *after.at(b, i));
       if (far > tolerance && one.by_range < 0)
-        one.freedom.first_time = t[b], one.freedom.at_first = far, one.by_range = far / std::max(range, kAbsolute);
+        one.freedom.first_time = t[b], one.freedom.at_first = far,
+        one.by_range = far / std::max(range, kAbsolute);
       if (far > one.freedom.largest) one.freedom.largest = far, one.freedom.largest_time = t[b];
     }
     if (one.by_range >= 0) found.push_back(one);
@@ -106,7 +111,8 @@ std::string time_text(double t) {
 }
 
 // Each event by its first occurrence; then how often.
-void compare_events(const SampledTrajectory& before, const SampledTrajectory& after, std::vector<std::string>& words) {
+void compare_events(const SampledTrajectory& before, const SampledTrajectory& after,
+                    std::vector<std::string>& words) {
   struct Course {
     std::vector<double> before, after;
   };
@@ -120,7 +126,9 @@ void compare_events(const SampledTrajectory& before, const SampledTrajectory& af
     else if (course.before.empty())
       words.push_back(event + "happens now, at " + time_text(course.after.front()));
     else if (course.before.size() != course.after.size())
-      words.push_back(event + "happens " + change_text(std::to_string(course.before.size()), std::to_string(course.after.size())) + " times");
+      words.push_back(event + "happens " +
+                      change_text(std::to_string(course.before.size()), std::to_string(course.after.size())) +
+                      " times");
     else
       for (std::size_t i = 0; i < course.after.size(); ++i) {
         if (is_same_time(course.before[i], course.after[i])) continue;
@@ -137,10 +145,13 @@ SampledTrajectory sampled(const Chain& chain, const Trajectory& trajectory, int 
   const bool is_plain = chain.serial && !chain.has_floating;
   const std::vector<std::string> names = position_names(chain);
   for (int i = 0; i < chain.nq; ++i)
-    result.q_numbers.push_back({is_plain ? "q" + std::to_string(i + 1) + " (" + names[std::size_t(i)] + ")" : names[std::size_t(i)], ""});
+    result.q_numbers.push_back(
+        {is_plain ? "q" + std::to_string(i + 1) + " (" + names[std::size_t(i)] + ")" : names[std::size_t(i)],
+         ""});
   for (int i = 0; i < chain.nv; ++i) {
     const std::string& name = chain.coordinate_names[std::size_t(i)];
-    result.qd_numbers.push_back({is_plain ? "qd" + std::to_string(i + 1) + " (" + name + ")" : "rate of " + name, ""});
+    result.qd_numbers.push_back(
+        {is_plain ? "qd" + std::to_string(i + 1) + " (" + name + ")" : "rate of " + name, ""});
   }
   for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
     const Joint& joint = chain.bodies[b].joint;
@@ -187,8 +198,10 @@ TrajectoryDifference difference_of(const SampledTrajectory& before, const Sample
   TrajectoryDifference difference;
   const Instants instants = shared_instants(before.t, after.t);
   difference.instants = int(instants.size());
-  if (before.q_numbers.size() != after.q_numbers.size() || before.qd_numbers.size() != after.qd_numbers.size()) {
-    difference.others.push_back("freedoms " + change_text(joined(labels_of(before.q_numbers)), joined(labels_of(after.q_numbers))));
+  if (before.q_numbers.size() != after.q_numbers.size() ||
+      before.qd_numbers.size() != after.qd_numbers.size()) {
+    difference.others.push_back(
+        "freedoms " + change_text(joined(labels_of(before.q_numbers)), joined(labels_of(after.q_numbers))));
   } else {
     const auto find = [&](const std::vector<SampledNumber>& numbers, const auto& old, const auto& now) {
       return partings({numbers, old}, {numbers, now}, after.t, instants);
@@ -196,12 +209,14 @@ TrajectoryDifference difference_of(const SampledTrajectory& before, const Sample
     difference.freedoms = find(after.q_numbers, before.q, after.q);
     if (difference.freedoms.empty()) difference.freedoms = find(after.qd_numbers, before.qd, after.qd);
     if (instants.size() < 2 && std::max(before.size(), after.size()) > 1)
-      difference.others.push_back("the runs are sampled at other instants and share " + std::to_string(instants.size()));
+      difference.others.push_back("the runs are sampled at other instants and share " +
+                                  std::to_string(instants.size()));
   }
   compare_events(before, after, difference.others);
   const auto end = [](const SampledTrajectory& run) { return "t = " + format_shortest(run.end_time) + " s"; };
   if (before.status != after.status)
-    difference.others.push_back("the run: " + change_text(before.status + " at " + end(before), after.status + " at " + end(after)));
+    difference.others.push_back(
+        "the run: " + change_text(before.status + " at " + end(before), after.status + " at " + end(after)));
   else if (!is_same_time(before.end_time, after.end_time))
     difference.others.push_back("the run ends at " + change_text(end(before), end(after)));
   return difference;
@@ -213,7 +228,8 @@ std::string freedom_words(const TrajectoryDifference& difference) {
   const auto amount = [](double value, const std::string& unit) {
     return format_significant(value, 2) + (unit.empty() ? "" : " " + unit);
   };
-  std::string words = first.label + " differs by " + amount(first.at_first, first.unit) + " from " + time_text(first.first_time) + " on";
+  std::string words = first.label + " differs by " + amount(first.at_first, first.unit) + " from " +
+                      time_text(first.first_time) + " on";
   if (first.largest_time != first.first_time)
     words += " (largest " + amount(first.largest, first.unit) + " at " + time_text(first.largest_time) + ")";
   const std::size_t more = difference.freedoms.size() - 1;

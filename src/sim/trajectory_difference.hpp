@@ -9,8 +9,8 @@
 
 namespace chainreel {
 
-// A number of q or qd: what it is called in words, "q2 (elbow)", and its unit: "rad", "m", "rad/s", .., "" where it is not
-// known. Four neighbours of unit "quaternion" are one rotation.
+// A number of q or qd: what it is called in words, "q2 (elbow)", and its unit: "rad", "m", "rad/s", .., ""
+// where it is not known. Four neighbours of unit "quaternion" are one rotation.
 struct SampledNumber {
   std::string label, unit;
 };
@@ -23,8 +23,8 @@ struct SampledEvent {
 // A run as it is kept: fewer samples than it had.
 struct SampledTrajectory {
   std::vector<SampledNumber> q_numbers, qd_numbers;
-  std::vector<double> t;      // s, rising
-  std::vector<double> q, qd;  // a number each of q_numbers, qd_numbers a sample
+  std::vector<double> t;             // s, rising
+  std::vector<double> q, qd;         // a number each of q_numbers, qd_numbers a sample
   std::vector<SampledEvent> events;  // that happened, in the order of time
   std::string status = "finished";
   double end_time = 0;  // s
@@ -32,15 +32,18 @@ struct SampledTrajectory {
   std::size_t size() const { return t.size(); }
 };
 
-// Every 2^n-th sample, so that runs of other lengths share instants, at most `most`, and the last one. Without events.
+// Every 2^n-th sample, so that runs of other lengths share instants, at most `most`, and the last one.
+// Without events.
 SampledTrajectory sampled(const Chain& chain, const Trajectory& trajectory, int most = 200);
 
-// Of numbers that have names alone: NAME.qx NAME.qy NAME.qz NAME.qw, as position_names has them, become one rotation.
+// Of numbers that have names alone: NAME.qx NAME.qy NAME.qz NAME.qw, as position_names has them, become one
+// rotation.
 void join_rotations(std::vector<SampledNumber>& numbers);
 
 struct FreedomDifference {
   std::string label, unit;
-  double first_time = 0;    // s: the first instant that both have at which they are apart by more than the tolerance
+  double first_time =
+      0;  // s: the first instant that both have at which they are apart by more than the tolerance
   double at_first = 0;      // how far then
   double largest = 0;       // over all instants that both have
   double largest_time = 0;  // s
@@ -55,8 +58,8 @@ struct TrajectoryDifference {
   bool empty() const { return freedoms.empty() && others.empty(); }
 };
 
-// Apart are numbers that differ by more than 1e-9 of their range, and by more than 1e-12. Quaternions are compared by the
-// angle between them. Rates count where no position parts.
+// Apart are numbers that differ by more than 1e-9 of their range, and by more than 1e-12. Quaternions are
+// compared by the angle between them. Rates count where no position parts.
 TrajectoryDifference difference_of(const SampledTrajectory& before, const SampledTrajectory& after);
 
 // "q2 (elbow) differs by 3.1e-4 rad from t = 0.81 s on (largest 0.02 rad at t = 3.2 s)"; "" where none does.

@@ -1,5 +1,5 @@
-// Small faults by lot, put into models and scenes of the project: each must be found, and its words must name the link, the
-// joint or the key that was touched, and nothing else.
+// Small faults by lot, put into models and scenes of the project: each must be found, and its words must name
+// the link, the joint or the key that was touched, and nothing else.
 
 #include <gmock/gmock.h>
 
@@ -32,7 +32,8 @@ using Spoil = std::function<std::optional<Fault>(const std::string& text, std::m
 std::string owner_at(const std::string& text, std::size_t at, const std::string& tags) {
   static const std::regex open("<(link|joint|material|visual|inertial) ?(name=\"([^\"]*)\")?");
   std::string owner;
-  for (auto it = std::sregex_iterator(text.begin(), text.begin() + std::ptrdiff_t(at), open); it != std::sregex_iterator(); ++it)
+  for (auto it = std::sregex_iterator(text.begin(), text.begin() + std::ptrdiff_t(at), open);
+       it != std::sregex_iterator(); ++it)
     if (tags.find((*it)[1].str()) != std::string::npos && !(*it)[3].str().empty()) owner = (*it)[3];
   return owner;
 }
@@ -44,12 +45,14 @@ bool is_inside(const std::string& text, std::size_t at, const std::string& tag) 
 }
 
 // Changes the captured number of one match of `pattern`, by lot; `where` may refuse a place.
-Spoil number_at(const std::string& pattern, const std::string& owners, const std::string& word, std::function<double(double)> change,
+Spoil number_at(const std::string& pattern, const std::string& owners, const std::string& word,
+                std::function<double(double)> change,
                 std::function<bool(const std::string&, std::size_t)> where = {}) {
   return [=](const std::string& text, std::mt19937& lot) -> std::optional<Fault> {
     const std::regex expression(pattern);
     std::vector<std::smatch> matches;
-    for (auto it = std::sregex_iterator(text.begin(), text.end(), expression); it != std::sregex_iterator(); ++it)
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), expression); it != std::sregex_iterator();
+         ++it)
       if (!where || where(text, std::size_t(it->position(0)))) matches.push_back(*it);
     if (matches.empty()) return std::nullopt;
     const std::smatch& match = matches[lot() % matches.size()];
@@ -57,7 +60,8 @@ Spoil number_at(const std::string& pattern, const std::string& owners, const std
     if (old == now) return std::nullopt;
     std::string spoilt = text;
     spoilt.replace(std::size_t(match.position(1)), std::size_t(match.length(1)), format_shortest(now));
-    return Fault{spoilt, owners.empty() ? word : owner_at(text, std::size_t(match.position(0)), owners), word};
+    return Fault{spoilt, owners.empty() ? word : owner_at(text, std::size_t(match.position(0)), owners),
+                 word};
   };
 }
 
@@ -65,12 +69,14 @@ Spoil renamed(const std::string& tag) {
   return [=](const std::string& text, std::mt19937& lot) -> std::optional<Fault> {
     const std::regex expression("<" + tag + " name=\"([^\"]*)\"");
     std::vector<std::string> names;
-    for (auto it = std::sregex_iterator(text.begin(), text.end(), expression); it != std::sregex_iterator(); ++it)
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), expression); it != std::sregex_iterator();
+         ++it)
       if ((*it)[1] != "gripper") names.push_back((*it)[1]);
     const std::string& name = names[lot() % names.size()];
     std::string spoilt = text;
     const std::string old = "\"" + name + "\"";
-    for (std::size_t at = 0; (at = spoilt.find(old, at)) != std::string::npos; at += name.size() + 4) spoilt.replace(at, old.size(), "\"" + name + "_2\"");
+    for (std::size_t at = 0; (at = spoilt.find(old, at)) != std::string::npos; at += name.size() + 4)
+      spoilt.replace(at, old.size(), "\"" + name + "_2\"");
     return Fault{spoilt, tag + " " + name, "renamed to " + name + "_2"};
   };
 }
@@ -78,7 +84,8 @@ Spoil renamed(const std::string& tag) {
 std::optional<Fault> lost_visual(const std::string& text, std::mt19937& lot) {
   static const std::regex visual("<visual>[\\s\\S]*?</visual>");
   std::vector<std::smatch> matches;
-  for (auto it = std::sregex_iterator(text.begin(), text.end(), visual); it != std::sregex_iterator(); ++it) matches.push_back(*it);
+  for (auto it = std::sregex_iterator(text.begin(), text.end(), visual); it != std::sregex_iterator(); ++it)
+    matches.push_back(*it);
   if (matches.empty()) return std::nullopt;
   const std::smatch& match = matches[lot() % matches.size()];
   std::string spoilt = text;
@@ -186,13 +193,15 @@ TEST(PhysicsFaults, InScenesAreFoundAndToldWithTheirMotion) {
       return run_record(film, Runs(film));
     };
     const bool is_auto = std::string(fault.scene) == "four_bar" || std::string(fault.scene) == "slider_crank";
-    const std::vector<std::string> fixed = is_auto ? std::vector<std::string>{"method=rk4", "step=0.002"} : std::vector<std::string>{};
+    const std::vector<std::string> fixed =
+        is_auto ? std::vector<std::string>{"method=rk4", "step=0.002"} : std::vector<std::string>{};
     std::vector<std::string> changed = fixed;
     changed.push_back(fault.change);
     const Json before = record(fixed), after = record(changed);
     EXPECT_LT(before.dump().size(), 100'000U);
     EXPECT_THAT(explain_runs(before, after),
-                testing::ElementsAre(testing::AllOf(testing::HasSubstr(" differs by "), testing::HasSubstr(": " + std::string(fault.words)))));
+                testing::ElementsAre(testing::AllOf(testing::HasSubstr(" differs by "),
+                                                    testing::HasSubstr(": " + std::string(fault.words)))));
     EXPECT_THAT(explain_runs(before, record(fixed)), testing::IsEmpty());
   }
 }

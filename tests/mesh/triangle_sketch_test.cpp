@@ -15,7 +15,8 @@ TriangleMesh sheet(int n) {
   for (int i = 0; i <= n; ++i)
     for (int k = 0; k <= n; ++k) {
       TriangleMesh::Vertex vertex;
-      vertex.position = {float(i) / float(n), float(k) / float(n), float(0.1 * std::sin(0.7 * i) * std::cos(0.3 * k))};
+      vertex.position = {float(i) / float(n), float(k) / float(n),
+                         float(0.1 * std::sin(0.7 * i) * std::cos(0.3 * k))};
       vertex.normal = {float(std::sin(i)), float(std::cos(k)), float(0.1 * i)};
       vertex.color = {255, 255, 255, 255};
       mesh.vertices.push_back(vertex);
@@ -28,8 +29,8 @@ TriangleMesh sheet(int n) {
   return mesh;
 }
 
-// The same surface, written in another order: triangles, the corner each begins with, and vertices, each of which now
-// belongs to one triangle alone.
+// The same surface, written in another order: triangles, the corner each begins with, and vertices, each of
+// which now belongs to one triangle alone.
 TriangleMesh shuffled(const TriangleMesh& mesh, std::mt19937& lot) {
   std::vector<std::size_t> order(mesh.triangles.size() / 3);
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -92,16 +93,18 @@ TEST(TriangleSketch, CountsFewTrianglesExactlyInMeshesOfAnySize) {
   }
 }
 
-// Buckets count what is gone and come up to some 350; the spread of an estimate by samples of some 128 is 10 %, three of
-// which a lot of this size may show.
+// Buckets count what is gone and come up to some 350; the spread of an estimate by samples of some 128 is 10
+// %, three of which a lot of this size may show.
 TEST(TriangleSketch, EstimatesShares) {
   const TriangleMesh mesh = sheet(100);  // 20,000 triangles
   const TriangleSketch before = sketch_of(mesh);
   for (const double share : {0.0005, 0.002, 0.005, 0.02, 0.1, 0.5, 0.9}) {
     SCOPED_TRACE(share);
     const auto count = std::size_t(std::lround(share * 20000));
-    EXPECT_NEAR(difference_of(before, sketch_of(moved_first(mesh, count))).share, share, 0.3 * share + 0.02 * (share > 0.008));
-    EXPECT_NEAR(difference_of(before, sketch_of(without_first(mesh, count))).gone, double(count), 0.3 * double(count) + 1);
+    EXPECT_NEAR(difference_of(before, sketch_of(moved_first(mesh, count))).share, share,
+                0.3 * share + 0.02 * (share > 0.008));
+    EXPECT_NEAR(difference_of(before, sketch_of(without_first(mesh, count))).gone, double(count),
+                0.3 * double(count) + 1);
   }
   EXPECT_NEAR(difference_of(before, sketch_of(moved_first(mesh, 20000))).share, 1, 1e-12);
 }
@@ -135,8 +138,12 @@ TEST(TriangleSketch, IsReadBackFromASmallJson) {
     EXPECT_EQ(triangle_sketch_of(parse_json(text)), sketch);
   }
   Json json = to_json(sketch_of(sheet(80)));
-  for (const auto& [key, value] : std::vector<std::pair<const char*, Json>>{
-           {"sample", "0123"}, {"sample", "0123456g"}, {"shape", ""}, {"thinning", 99}, {"buckets", 3}, {"lower", {1, 2}}}) {
+  for (const auto& [key, value] : std::vector<std::pair<const char*, Json>>{{"sample", "0123"},
+                                                                            {"sample", "0123456g"},
+                                                                            {"shape", ""},
+                                                                            {"thinning", 99},
+                                                                            {"buckets", 3},
+                                                                            {"lower", {1, 2}}}) {
     Json bad = json;
     bad[key] = value;
     // A cut list of buckets, too, counts by the sample.

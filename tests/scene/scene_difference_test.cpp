@@ -11,9 +11,8 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 TEST(SceneDifference, NamesKeysWithBothValues) {
-  EXPECT_THAT(
-      explain_scene_texts("method: rk4\nstep: 0.01\n", "method: dop853\ntolerance: 1e-9\n"),
-      ElementsAre("method rk4 -> dop853", "tolerance: left out -> 1e-9", "step: 0.01 -> left out"));
+  EXPECT_THAT(explain_scene_texts("method: rk4\nstep: 0.01\n", "method: dop853\ntolerance: 1e-9\n"),
+              ElementsAre("method rk4 -> dop853", "tolerance: left out -> 1e-9", "step: 0.01 -> left out"));
 }
 
 TEST(SceneDifference, GoesIntoMappingsAndListsOfThem) {
@@ -36,11 +35,13 @@ TEST(SceneDifference, OfOneKeyGoesDownToWhatDiffers) {
   EXPECT_THAT(key_changes("torque", "{pd: {kp: [1, 2], kd: [3]}}", "{pd: {kp: [1, 4], kd: [3]}, csv: a.csv}"),
               ElementsAre("torque.pd.kp.2 2 -> 4", "torque.csv: left out -> a.csv"));
   EXPECT_THAT(key_changes("torque", "[0, 0]", "{csv: a.csv}"), ElementsAre("torque: [0, 0] -> {csv: a.csv}"));
-  EXPECT_THAT(key_changes("start.q", "[1.5707963267948966]", "[1.5705227719643442]"), ElementsAre("start.q.1 1.5708 -> 1.57052"));
+  EXPECT_THAT(key_changes("start.q", "[1.5707963267948966]", "[1.5705227719643442]"),
+              ElementsAre("start.q.1 1.5708 -> 1.57052"));
 }
 
 TEST(SceneDifference, SaysWhatLeftAListAndWhatCame) {
-  EXPECT_THAT(key_changes("draw", "[chain, trail, time]", "[chain, ellipse]"), ElementsAre("draw: without trail, without time, with ellipse"));
+  EXPECT_THAT(key_changes("draw", "[chain, trail, time]", "[chain, ellipse]"),
+              ElementsAre("draw: without trail, without time, with ellipse"));
   EXPECT_THAT(key_changes("draw", "[a, a]", "[a]"), ElementsAre("draw: [a, a] -> [a]"));
   EXPECT_THAT(key_changes("draw", "[]", "[a]"), ElementsAre("draw [] -> [a]"));
   EXPECT_THAT(key_changes("frames", "{}", ""), ElementsAre("frames: {} -> left out"));
@@ -50,7 +51,8 @@ TEST(SceneDifference, OfTextsThatMeanTheSameIsNone) {
   EXPECT_THAT(key_changes("a", "[1, 2]", "[1,  2]"), IsEmpty());
   EXPECT_THAT(key_changes("a", "1", "1.0"), IsEmpty());
   EXPECT_THAT(key_changes("a", "x y", "\"x y\""), IsEmpty());
-  EXPECT_THAT(key_changes("a", "[1", "[2"), ElementsAre("a: [1 -> [2"));  // of no YAML there is no meaning to compare
+  EXPECT_THAT(key_changes("a", "[1", "[2"),
+              ElementsAre("a: [1 -> [2"));  // of no YAML there is no meaning to compare
 }
 
 TEST(SceneDifference, IsNoneWhereOrderAloneDiffers) {

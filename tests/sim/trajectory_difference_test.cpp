@@ -42,14 +42,16 @@ SampledTrajectory strayed(double rate, double from) {
 std::vector<std::string> words_of(const SampledTrajectory& before, const SampledTrajectory& after) {
   const TrajectoryDifference difference = difference_of(before, after);
   std::vector<std::string> words = difference.others;
-  if (const std::string freedom = freedom_words(difference); !freedom.empty()) words.insert(words.begin(), freedom);
+  if (const std::string freedom = freedom_words(difference); !freedom.empty())
+    words.insert(words.begin(), freedom);
   EXPECT_EQ(words.empty(), difference.empty());
   return words;
 }
 
 TEST(TrajectoryDifference, SaysWhichFreedomPartsWhenAndHowFar) {
-  EXPECT_THAT(words_of(swing(), strayed(0.02, 0.8)),
-              ElementsAre("q2 (elbow) differs by 0.0002 rad from t = 0.81 s on (largest 0.18 rad at t = 10 s)"));
+  EXPECT_THAT(
+      words_of(swing(), strayed(0.02, 0.8)),
+      ElementsAre("q2 (elbow) differs by 0.0002 rad from t = 0.81 s on (largest 0.18 rad at t = 10 s)"));
   EXPECT_THAT(words_of(swing(), swing()), IsEmpty());
 }
 
@@ -61,7 +63,9 @@ TEST(TrajectoryDifference, TakesRoundOffForNone) {
 TEST(TrajectoryDifference, NamesTheFirstOfSeveral) {
   SampledTrajectory run = strayed(0.02, 2);
   for (std::size_t k = 300; k < run.size(); ++k) run.q[2 * k] += 1;
-  EXPECT_THAT(words_of(swing(), run), ElementsAre(AllOf(StartsWith("q2 (elbow) differs by 0.0002 rad from t = 2.01 s on"), HasSubstr(", as does 1 other"))));
+  EXPECT_THAT(words_of(swing(), run),
+              ElementsAre(AllOf(StartsWith("q2 (elbow) differs by 0.0002 rad from t = 2.01 s on"),
+                                HasSubstr(", as does 1 other"))));
 }
 
 TEST(TrajectoryDifference, LooksAtRatesWherePositionsAgree) {
@@ -75,7 +79,8 @@ TEST(TrajectoryDifference, ComparesRunsOfOtherLengthsAndRatesOverSharedInstants)
   short_run.t.resize(501), short_run.q.resize(1002), short_run.qd.resize(1002);
   short_run.status = "stopped", short_run.end_time = 5;
   EXPECT_THAT(words_of(swing(), short_run),
-              ElementsAre(HasSubstr("from t = 0.81 s on (largest 0.084 rad at t = 5 s)"), "the run: finished at t = 10 s -> stopped at t = 5 s"));
+              ElementsAre(HasSubstr("from t = 0.81 s on (largest 0.084 rad at t = 5 s)"),
+                          "the run: finished at t = 10 s -> stopped at t = 5 s"));
   for (std::size_t k = 0; k < rare.size(); ++k) rare.t[k] += 0.005;
   EXPECT_THAT(words_of(swing(), rare), ElementsAre("the runs are sampled at other instants and share 0"));
   EXPECT_EQ(difference_of(swing(), short_run).instants, 501);
@@ -92,8 +97,10 @@ TEST(TrajectoryDifference, TellsEventsAndFreedoms) {
   SampledTrajectory before = swing(), after = swing();
   before.events = {{"touch", 1.2}, {"low", 2}, {"low", 3}, {"gone", 4}};
   after.events = {{"touch", 1.25}, {"low", 2}, {"new", 6}};
-  EXPECT_THAT(words_of(before, after), ElementsAre("event gone: does not happen any more (was at t = 4 s)", "event low: happens 2 -> 1 times",
-                                                   "event new: happens now, at t = 6 s", "event touch: at t = 1.2 -> 1.25 s"));
+  EXPECT_THAT(
+      words_of(before, after),
+      ElementsAre("event gone: does not happen any more (was at t = 4 s)", "event low: happens 2 -> 1 times",
+                  "event new: happens now, at t = 6 s", "event touch: at t = 1.2 -> 1.25 s"));
   SampledTrajectory one = swing();
   one.q_numbers.pop_back(), one.qd_numbers.pop_back();
   one.q.resize(one.size()), one.qd.resize(one.size());
@@ -115,7 +122,9 @@ TEST(TrajectoryDifference, ComparesRotationsByTheirAngle) {
 
 TEST(TrajectoryDifference, FindsRotationsByTheirNames) {
   std::vector<SampledNumber> numbers;
-  for (const char* name : {"q.base.x", "q.base.qx", "q.base.qy", "q.base.qz", "q.base.qw", "q.a.qx", "q.b.qy", "q.b.qz"}) numbers.push_back({name, ""});
+  for (const char* name :
+       {"q.base.x", "q.base.qx", "q.base.qy", "q.base.qz", "q.base.qw", "q.a.qx", "q.b.qy", "q.b.qz"})
+    numbers.push_back({name, ""});
   join_rotations(numbers);
   std::vector<std::string> labels;
   for (const SampledNumber& number : numbers) labels.push_back(number.label);

@@ -26,7 +26,8 @@ std::string members_text(const YAML::Node& before, const YAML::Node& after) {
   const auto add = [&](const char* word, const YAML::Node& these, const YAML::Node& those) {
     for (const auto& one : these) {
       const std::string text = text_of_node(one);
-      if (std::none_of(those.begin(), those.end(), [&](const auto& other) { return text_of_node(other) == text; }))
+      if (std::none_of(those.begin(), those.end(),
+                       [&](const auto& other) { return text_of_node(other) == text; }))
         changes.push_back(word + text);
     }
   };
@@ -116,7 +117,8 @@ std::vector<std::string> explain_scene_texts(const std::string& before, const st
   return comparison.take();
 }
 
-std::vector<std::string> key_changes(const std::string& key, const std::string& before, const std::string& after) {
+std::vector<std::string> key_changes(const std::string& key, const std::string& before,
+                                     const std::string& after) {
   if (before == after) return {};
   SceneComparison comparison;
   try {
