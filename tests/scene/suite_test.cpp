@@ -235,12 +235,14 @@ TEST_F(Suites, LookIsHandedOnAsKeysOfScenes) {
 
 TEST_F(Suites, AllProblemsAreToldAtOnce) {
   const std::string text = error(
-      "model: arn.urdf\nposes: {a: 3}\nthem: dark\nsize: 640\ncamera: {azimut: 1, fit: [1, 0, 0, "
+      "model: arn.urdf\nposes: {a: 3, \"\": [0], srdf: none.srdf}\nthem: dark\nsize: 640\ncamera: {azimut: 1, fit: [1, 0, 0, "
       "1]}\ntolerance: {error: 2, pixel: 1}\n"
       "masks: [[1, 2, 3]]\nphysics: ignore\ntheme: blue\nat: 3\n");
   EXPECT_THAT(text, HasSubstr("there is no file 'arn.urdf'"));
   EXPECT_THAT(text, HasSubstr("did you mean 'arm.urdf'?"));
   EXPECT_THAT(text, HasSubstr("pose 'a' must be a list of numbers"));
+  EXPECT_THAT(text, HasSubstr("a pose has no name"));
+  EXPECT_THAT(text, HasSubstr("snapshots.yaml:2:30: there is no file 'none.srdf'"));
   EXPECT_THAT(text, HasSubstr("unknown key 'them': did you mean 'theme'?"));
   EXPECT_THAT(text, HasSubstr("'size' must be width and height in pixels"));
   EXPECT_THAT(text, HasSubstr("unknown key 'camera.azimut': did you mean 'azimuth'?"));

@@ -139,14 +139,20 @@ class SuiteReader {
                           (is_model ? "' is no model: name scenes under `scene:`"
                                     : "' is no scene: name models under `model:`"),
                       place);
-      } else if (std::error_code ignored; !fs::is_regular_file(source.file, ignored)) {
-        problems_.add("there is no file '" + named + "' (looked for " + source.file +
-                          "):" + nearest_file(source.file) + " Paths are relative to the suite's file.",
-                      place);
-      } else {
+      } else if (is_there(named, source.file, place)) {
         sources_.push_back(source);
       }
     }
+  }
+
+  // Adds a problem where it is not.
+  bool is_there(const std::string& named, const std::string& path, const Place& place) {
+    std::error_code ignored;
+    if (fs::is_regular_file(path, ignored)) return true;
+    problems_.add("there is no file '" + named + "' (looked for " + path + "):" + nearest_file(path) +
+                      " Paths are relative to the suite's file.",
+                  place);
+    return false;
   }
 
   static std::string nearest_file(const std::string& wanted) {
@@ -178,6 +184,7 @@ class SuiteReader {
 
   void read_states(const std::string& named, const Place& place) {
     const std::string path = beside(suite_.file, named);
+    if (!is_there(named, path, place)) return;
     try {
       srdfs_.push_back({read_srdf(path), place, poses_.size(), 0});
       for (WrittenPose& pose : poses_of(srdfs_.back().file)) poses_.push_back(std::move(pose));
@@ -189,8 +196,10 @@ class SuiteReader {
 
   void read_pose(Fields& poses, const std::string& name, const YAML::Node& node, const Place& place) {
     WrittenPose pose{name, place, {}, {}, node.IsMap(), false};
-    bool is_good = true;
-    if (node.IsSequence()) {
+    bool is_good = !name.empty();
+    if (!is_good) {
+      problems_.add("a pose has no name: poses: {home: [0, 0]}", place);
+    } else if (node.IsSequence()) {
       is_good = poses.read(name, pose.numbers);
     } else if (node.IsMap()) {
       Fields joints(document_, node, poses.path(name), problems_);
