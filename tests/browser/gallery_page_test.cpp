@@ -91,8 +91,8 @@ TEST_F(GalleryPage, ShowsTextsAsTheyWereWritten) {
   EXPECT_EQ(browser().run("return [...document.querySelectorAll('h2')].map((h) => h.textContent)"),
             (Json{"An ellipse", kHostileTitle, "Three joints"}));
   EXPECT_EQ(browser().run("return document.querySelectorAll('main script').length"), 0);
-  // The scene is what the film remembers, letter by letter.
-  const ProgramResult scene = run_program({"extract", folder_->file("rr_free.mp4")});
+  // The scene is what the film remembers, letter by letter: with paths as they are, wherever they may start.
+  const ProgramResult scene = run_program({"extract", folder_->file("rr_free.mp4"), "--from", "."});
   EXPECT_EQ(browser().run("return document.querySelector('#clip-2-scene').textContent"), Json(scene.out));
   EXPECT_THAT(browser().run("return document.querySelector('#clip-2-words').textContent").get<std::string>(),
               HasSubstr("The chain rr with 2 freedoms"));
