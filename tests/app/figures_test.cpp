@@ -45,7 +45,7 @@ TEST(Snapshot, LiesBetweenItsNeighbouringFrames) {
 TEST(Snapshot, OutsideTheDurationIsAUsageError) {
   const ProgramResult result = run_program({"snapshot", "assets/scenes/rr_free.yaml", "--at", "11"});
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.err, HasSubstr("outside the scene's duration"));
+  EXPECT_THAT(result.err, HasSubstr("lies behind the end of assets/scenes/rr_free.yaml, whose duration is 10 s"));
 }
 
 TEST(Snapshot, OfAModelAtAPose) {

@@ -227,7 +227,7 @@ TEST(Memory, ThatIsShortIsExitSeven) {
   GTEST_SKIP() << "a sanitizer's shadow takes terabytes of address space";
 #endif
   int refused = 0;
-  for (int limit = 300; limit <= 600; limit += 20) {
+  for (int limit = 100; limit <= 400; limit += 20) {
     const TemporaryFolder folder;
     const ProgramResult result = shell("ulimit -v " + std::to_string(limit * 1000) +
                                            "; \"$0\" snapshot assets/scenes/pp_free.yaml --width 640 --height 360 -o \"$1\"/a.png", folder);
