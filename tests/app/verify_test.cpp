@@ -239,6 +239,15 @@ TEST_F(Verify, TellsOtherPixelsOfTheSamePhysicsApart) {
   EXPECT_EQ(verify().status, 0);
 }
 
+TEST_F(Verify, NamesWhatTheSuiteItselfSaysOfTheLook) {
+  accept_all();
+  replace("arm.yaml", "size:", "theme: dark\nsize:");
+  const Json json = results();
+  EXPECT_EQ(picture(json, "home")["state"], "pixels");
+  EXPECT_THAT(words(json, "home"), HasSubstr("theme: light -> dark"));
+  EXPECT_THAT(words(json, "home"), HasSubstr("the suite now says theme=dark"));
+}
+
 TEST_F(Verify, RefusesToComparePicturesOfTwoSizes) {
   accept_all();
   replace("arm.yaml", "320x180", "640x360");

@@ -47,8 +47,9 @@ std::vector<std::string> overrides_for(const Suite& suite, const std::array<doub
   return overrides;
 }
 
-Json page_of(const Fonts& fonts, ThemeName theme, const RendererInfo& renderer) {
-  Json page{{"theme", to_string(theme)}, {"program", program_version()}};
+// What all pictures of the program depend on.
+Json page_of(const Fonts& fonts, const RendererInfo& renderer) {
+  Json page{{"program", program_version()}};
   page["processor"] = processor_features();
   page["renderer"] = renderer.backend + ", " + renderer.renderer + ", " + renderer.version;
   for (const Face face : {Face::label, Face::label_bold, Face::math})
@@ -81,8 +82,11 @@ class Studio::ModelSource : public Source {
         is_pinned_(part || suite.fit),
         model_(model_scene_of(path, overrides_for(suite, part), "verify", keys_of_models(OfModel::picture))),
         chain_(read_chain(path, model_.options)),
-        record_(model_record(path, model_.options)),
-        name_(source_name(suite, path)) {
+        record_(model_record(path, model_.options,
+                             model_.scene.links == LinkShapes::collision ? DescribeCollisions::all
+                                                                         : DescribeCollisions::where_seen)),
+        name_(source_name(suite, path)),
+        keys_(overrides_for(suite, nullptr)) {
     set_look(figure_, model_, chain_);
   }
 
@@ -95,7 +99,7 @@ class Studio::ModelSource : public Source {
     shot.leaves_camera = is_pinned_ && leaves_page(chain_, picture.q, options, fonts);
     shot.physics = {
         {"source", name_}, {"names", position_names(chain_)}, {"q", picture.q}, {"model", record_}};
-    shot.page = {{"theme", to_string(model_.scene.theme)}};
+    shot.page = {{"theme", to_string(model_.scene.theme)}, {"keys", keys_}};
     shot.memory.title = chain_.name;
     std::vector<std::string> numbers;
     for (const double q : picture.q) numbers.push_back(format_shortest(q));
@@ -127,6 +131,7 @@ class Studio::ModelSource : public Source {
   Chain chain_;
   Json record_;
   std::string name_;
+  std::vector<std::string> keys_;  // what the suite says of the look
   PoseFigureOptions figure_;
 };
 
@@ -286,8 +291,7 @@ Studio::Source& Studio::source_of(const std::string& path) {
 SuiteShot Studio::shoot(const SuitePicture& picture) {
   SuiteShot shot = source_of(picture.source).draw(picture, fonts_);
   shot.image = rasterise(shot.picture, shot.width, shot.height);
-  const std::string theme = shot.page["theme"];
-  shot.page = page_of(fonts_, *value_named<ThemeName>(theme), canvas_->info());
+  shot.page.update(page_of(fonts_, canvas_->info()));
   return shot;
 }
 

@@ -83,6 +83,15 @@ std::vector<std::string> page_words(const Json& before, const Json& now) {
     if (before.value(key, Json()) != now.value(key, Json()))
       words.push_back(std::string(key) + ": " + text(before.value(key, Json("unknown"))) + " -> " +
                       text(now.value(key, Json("unknown"))));
+  // What the suite itself says of the look of its models.
+  const Json keys_before = before.value("keys", Json::array()), keys = now.value("keys", Json::array());
+  const auto missing_in = [](const Json& list, const Json& key) {
+    return std::find(list.begin(), list.end(), key) == list.end();
+  };
+  for (const Json& key : keys_before)
+    if (missing_in(keys, key)) words.push_back("the suite no longer says " + text(key));
+  for (const Json& key : keys)
+    if (missing_in(keys_before, key)) words.push_back("the suite now says " + text(key));
   const Json fonts_before = before.value("fonts", Json::object()), fonts = now.value("fonts", Json::object());
   for (const auto& [file, hash] : fonts.items())
     if (fonts_before.value(file, Json()) != hash)
