@@ -194,7 +194,7 @@ TEST_F(Verify, TellsABaselineThatCannotBeUsed) {
   write("arm.baselines/home.png", read_whole_file(up));  // a picture, but not this one
   EXPECT_THAT(words(results(), "home"), HasSubstr("was changed since it was accepted"));
   write("arm.baselines/home.png", good);
-  replace("arm.baselines/home.json", "\"suite\": \"arm\"", "\"suite\": \"other\"");
+  replace("arm.baselines/home.json", "\"suite\": \"arm.yaml\"", "\"suite\": \"other\"");
   EXPECT_THAT(words(results(), "home"), HasSubstr("belongs to the suite"));
   fs::remove(folder_.path() / "arm.baselines/home.json");
   EXPECT_THAT(words(results(), "home"), HasSubstr("is missing beside the picture"));
@@ -368,6 +368,44 @@ TEST_F(Verify, OfAFolderThatCannotBeWrittenIsExitSix) {
   fs::rename(folder_.path() / "place", folder_.path() / "arm.baselines");
   EXPECT_EQ(verify({"--missing", "write"}).status, 6);
   EXPECT_EQ(read_whole_file(folder_.path() / "arm.baselines"), "a file where the baselines belong");
+}
+
+TEST_F(Verify, RemovesNothingThatIsNotItsOwn) {
+  accept_all();
+  write("arm.baselines/records/notes.txt", "mine");
+  write("arm.baselines/photo.png", "mine");
+  write("arm.yml", "model: rr.urdf\nsize: 320x180\nposes: {other: [0, 0], camera: [1, 0]}\n");
+  EXPECT_EQ(verify({"--missing", "write", "--prune"}, "arm.yml").status, 0);
+  EXPECT_EQ(verify({"--accept", "--prune"}).status, 0);
+  const auto files = baselines();
+  for (const char* name : {"records/notes.txt", "photo.png", "other.png", "camera.png", "home.png"})
+    EXPECT_TRUE(files.contains(name)) << name;
+  EXPECT_EQ(verify().status, 0);
+  EXPECT_EQ(verify({}, "arm.yml").status, 0);
+}
+
+TEST_F(Verify, SurvivesFactsThatAreNone) {
+  accept_all();
+  replace("arm.baselines/home.json", "\"q\"", "\"zz\"");
+  const Json json = results();
+  EXPECT_EQ(picture(json, "home")["state"], "baseline");
+  EXPECT_EQ(picture(json, "up")["state"], "same");
+}
+
+TEST_F(Verify, NeverWritesItsResultsOverBaselines) {
+  accept_all();
+  const auto before = baselines();
+  EXPECT_EQ(verify({"--force", "--markdown", "arm.baselines/home.png"}).status, 6);
+  EXPECT_EQ(verify({"-o", "arm.baselines"}).status, 2);
+  EXPECT_EQ(verify({"--html", "a", "--junit", "a"}).status, 2);
+  EXPECT_EQ(verify({"--accept", "home", "--refit"}).status, 2);
+  EXPECT_EQ(baselines(), before);
+}
+
+TEST_F(Verify, FindsTheBaselinesOfTheFolderThatItStandsIn) {
+  write("films/rr.urdf", read_whole_file("models/rr.urdf"));
+  accept_all("films");
+  EXPECT_EQ(run_program({"verify", "."}, {.folder = (folder_.path() / "films").string()}).status, 0);
 }
 
 TEST_F(Verify, BaselinesDoNotDependOnThePlace) {

@@ -97,7 +97,9 @@ class Teller {
   void tell(const PictureVerdict& verdict) {
     const std::lock_guard lock(mutex_);
     progress_.update(++done_);
-    if (quiet_ || (terminal_ && verdict.passes && verdict.state == PictureState::same)) return;
+    if (quiet_ || verdict.state == PictureState::accepted ||
+        (terminal_ && verdict.passes && verdict.state == PictureState::same))
+      return;
     std::printf("%-8s  %s\n", to_string(verdict.state).c_str(), verdict.name.c_str());
     if (verdict.state != PictureState::same && verdict.state != PictureState::accepted)
       for (const std::string& words : verdict.words) std::printf("          %s\n", words.c_str());
@@ -176,6 +178,13 @@ class Verification {
       PictureVerdict verdict = without(PictureState::baseline, suite_, picture, words_of(error));
       verdict.actual_png = png_bytes(shot.image);
       return {std::move(verdict), nullptr};
+    } catch (const Json::exception&) {
+      PictureVerdict verdict = without(
+          PictureState::baseline, suite_, picture,
+          {baselines_.folder() + "/" + picture.name +
+           ".json: holds other things than a baseline's facts: restore it, or --accept " + picture.name});
+      verdict.actual_png = png_bytes(shot.image);
+      return {std::move(verdict), nullptr};
     }
   }
 
@@ -219,7 +228,12 @@ void update(const Suite& suite, const VerifyOptions& options, const Baselines& b
 // Pictures of what failed, for who has no report.
 void write_pictures(const std::string& folder, const SuiteResult& result, bool overwrite) {
   for (const PictureVerdict& one : result.pictures) {
-    if (one.passes) continue;
+    if (one.passes) {  // what an earlier run left there is no more true
+      std::error_code code;
+      for (const char* what : {".expected.png", ".actual.png", ".difference.png"})
+        fs::remove(fs::path(folder) / (one.name + what), code);
+      continue;
+    }
     const auto write = [&](const char* what, const std::string& png) {
       if (!png.empty()) write_text_file((fs::path(folder) / (one.name + what)).string(), png, overwrite);
     };
@@ -227,6 +241,14 @@ void write_pictures(const std::string& folder, const SuiteResult& result, bool o
     write(".actual.png", one.actual_png);
     write(".difference.png", one.difference_png);
   }
+}
+
+// Two results in one file would be one.
+void require_distinct_outputs(const VerifyOptions& options) {
+  std::set<fs::path> seen;
+  for (const std::string& path : {options.junit, options.markdown, options.html, options.output})
+    if (!path.empty() && !seen.insert(fs::weakly_canonical(path)).second)
+      throw Error(ExitCode::usage, path + " is named twice: each result has a file of its own");
 }
 
 VerifyReport page_of(const SuiteResult& result) {
@@ -255,6 +277,8 @@ void tell_result(const VerifyOptions& options, const SuiteResult& result) {
     return;
   }
   if (options.common.quiet) return;
+  for (const PictureVerdict& one : result.pictures)
+    if (one.state == PictureState::accepted) std::printf("accepted  %s\n", one.name.c_str());
   for (const std::string& name : result.unused)
     std::printf("unused    %s: no picture of the suite has this name; --prune removes it\n", name.c_str());
   for (const std::string& name : result.pruned) std::printf("pruned    %s\n", name.c_str());
@@ -269,11 +293,19 @@ void run_verify(VerifyOptions options) {
   if (options.jobs == 0) options.jobs = std::max(1, int(std::thread::hardware_concurrency()));
   if (options.refit && !options.accepts)
     throw Error(ExitCode::usage, "--refit goes with --accept: a new camera makes all pictures new");
+  if (options.refit && (!options.accept.empty() || !options.filters.empty()))
+    throw Error(ExitCode::usage,
+                "--refit changes the camera of every picture: give --accept without names, and no --filter");
+  require_distinct_outputs(options);
   const Suite suite = read_suite(options.suite);
   const std::vector<const SuitePicture*> chosen = chosen_pictures(suite, options);
   const bool writes = options.accepts || options.prune || options.missing == "write";
   const SuiteLock lock(suite, writes ? SuiteLock::For::writing : SuiteLock::For::reading);
   const Baselines baselines(suite);
+  if (!options.output.empty() &&
+      fs::weakly_canonical(options.output) == fs::weakly_canonical(baselines.folder()))
+    throw Error(ExitCode::usage,
+                "-o " + options.output + " is the folder of the baselines: name another one");
   const Cameras cameras = cameras_of(suite, options.refit ? Cameras{} : baselines.cameras());
   const std::vector<Outcome> outcomes = Verification(suite, options, baselines, cameras).run(chosen);
   throw_if_interrupted();

@@ -24,13 +24,37 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargestFacts = std::uintmax_t(64) << 20;  // bytes
 constexpr const char* kRecords = "records";
-constexpr const char* kCameraFile = "camera.json";
+constexpr const char* kCameraFile = "records/cameras.json";
+
+// What the suite is called, and lies beside its baselines: FOLDER of FOLDER/ and of `.` within it.
+fs::path path_of(const Suite& suite) {
+  fs::path path = fs::path(suite.file).lexically_normal();
+  if (path.filename().empty()) path = path.parent_path();
+  if (path.empty() || path.filename() == "." || path.filename() == "..") {
+    path = fs::absolute(suite.file).lexically_normal();
+    if (path.filename().empty()) path = path.parent_path();
+  }
+  return path;
+}
 
 std::string folder_of(const Suite& suite) {
-  fs::path path = fs::path(suite.file).lexically_normal();
-  if (path.filename().empty()) path = path.parent_path();  // FOLDER/
+  fs::path path = path_of(suite);
   if (!fs::is_directory(path)) path.replace_extension();
   return path.string() + ".baselines";
+}
+
+// a.yaml, a.yml and a folder a/ are three suites, whose baselines would lie in one folder: each knows its
+// own.
+std::string identity_of(const Suite& suite) {
+  const fs::path path = path_of(suite);
+  return path.filename().string() + (fs::is_directory(path) ? "/" : "");
+}
+
+// A record of ours: 16 hexadecimal digits and .json.
+bool is_record(const fs::path& path) {
+  const std::string stem = path.stem().string();
+  return path.extension() == ".json" && stem.size() == 16 &&
+         stem.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
 std::string facts_file_of(const std::string& name) {
@@ -106,7 +130,7 @@ SuiteLock::~SuiteLock() {
   ::close(file_);
 }
 
-Baselines::Baselines(const Suite& suite) : folder_(folder_of(suite)), suite_(suite.name) {}
+Baselines::Baselines(const Suite& suite) : folder_(folder_of(suite)), suite_(identity_of(suite)) {}
 
 bool Baselines::exist() const {
   std::error_code code;
@@ -116,8 +140,17 @@ bool Baselines::exist() const {
 std::set<std::string> Baselines::names() const {
   std::set<std::string> names;
   if (!exist()) return names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
-    if (entry.path().extension() == ".png") names.insert(entry.path().stem().string());
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
+    if (entry.path().extension() != ".png") continue;
+    const std::string name = entry.path().stem().string();
+    const fs::path facts = fs::path(folder_) / facts_file_of(name);
+    std::error_code code;
+    if (!fs::is_regular_file(facts, code)) continue;
+    const Json json = parse_json(read_plain_file(facts.string(), kLargestFacts));
+    if (json.is_object() && json.value("suite", Json()) == Json(suite_) &&
+        json.value("picture", Json()) == Json(name))
+      names.insert(name);
+  }
   return names;
 }
 
@@ -133,8 +166,13 @@ Baseline Baselines::read(const std::string& name) const {
     refuse(facts_path, "is missing beside the picture: restore it, or --accept " + name);
   const Json facts = read_facts(facts_path);
   if (facts.value("suite", Json()) != Json(suite_))
-    refuse(path, "belongs to the suite '" + facts.value("suite", Json("?")).dump() + "', not to '" + suite_ +
-                     "': move it away, or --accept " + name);
+    refuse(path, "belongs to the suite " + facts.value("suite", Json("of another name")).dump() +
+                     ", not to \"" + suite_ + "\": move it away, or --accept " + name);
+  if (facts.value("picture", Json()) != Json(name))
+    refuse(path, "is the picture " + facts.value("picture", Json("of another name")).dump() +
+                     ": restore it, or --accept " + name);
+  note_input(path.string());
+  note_input(facts_path.string());
   Baseline baseline;
   baseline.png = read_plain_file(path.string());
   baseline.image = read_png(path.string());
@@ -144,7 +182,9 @@ Baseline Baselines::read(const std::string& name) const {
   baseline.physics = facts.value("physics", Json::object());
   for (const char* key : kRecordKeys) {
     if (!baseline.physics.contains(key)) continue;
-    const Json& id = baseline.physics[key];
+    const Json id = baseline.physics[key];
+    if (!id.is_string() || !is_record(id.get<std::string>() + ".json"))
+      refuse(facts_path, "names no record: restore it, or --accept " + name);
     const fs::path record =
         fs::path(folder_) / kRecords / (id.is_string() ? id.get<std::string>() + ".json" : "?");
     const std::string text = read_plain_file(record.string(), kLargestFacts);
@@ -173,7 +213,7 @@ Cameras Baselines::cameras() const {
 }
 
 BaselineUpdate::BaselineUpdate(const Suite& suite, const Baselines& old)
-    : folder_(old.folder()), suite_(suite.name) {
+    : folder_(old.folder()), suite_(identity_of(suite)) {
   const fs::path parent =
       fs::path(folder_).parent_path().empty() ? fs::path(".") : fs::path(folder_).parent_path();
   std::error_code code;
@@ -181,7 +221,9 @@ BaselineUpdate::BaselineUpdate(const Suite& suite, const Baselines& old)
     throw Error(ExitCode::file, "is no folder, and baselines belong there: move it away", {folder_});
   remove_leftovers(parent.string());
   coming_ = std::make_unique<TemporaryFile>(TemporaryFile::Kind::coming_folder, parent.string(), "", folder_);
-  if (old.exist()) copy_baselines(folder_, coming_->path());
+  if (!old.exist()) return;
+  copy_baselines(folder_, coming_->path());
+  fs::permissions(coming_->path(), fs::status(folder_, code).permissions(), code);
 }
 
 std::string BaselineUpdate::keep_record(const Json& record) {
@@ -217,6 +259,7 @@ void BaselineUpdate::remove(const std::string& name) {
 void BaselineUpdate::set_cameras(const Cameras& cameras) {
   const fs::path path = fs::path(coming_->path()) / kCameraFile;
   std::error_code code;
+  fs::create_directory(path.parent_path(), code);
   fs::remove(path, code);
   if (cameras.empty()) return;
   Json json = Json::object();
@@ -224,21 +267,24 @@ void BaselineUpdate::set_cameras(const Cameras& cameras) {
   write_whole_file(path, text_of(json));
 }
 
+// What a picture cannot be asked for may be in use: then all records stay. Files that are no records of ours
+// stay, too.
 void BaselineUpdate::drop_unused_records() const {
   std::set<std::string> used;
   const fs::path folder = coming_->path();
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() != ".json" || entry.path().filename() == kCameraFile) continue;
-    const Json facts = read_facts(entry.path());
-    const Json physics = facts.value("physics", Json::object());
+    if (entry.path().extension() != ".json" || !entry.is_regular_file()) continue;
+    const Json facts = parse_json(read_plain_file(entry.path().string(), kLargestFacts));
+    if (!facts.is_object() || !facts.contains("physics") || !facts["physics"].is_object()) return;
     for (const char* key : kRecordKeys)
-      if (physics.contains(key) && physics[key].is_string())
-        used.insert(physics[key].get<std::string>() + ".json");
+      if (facts["physics"].contains(key) && facts["physics"][key].is_string())
+        used.insert(facts["physics"][key].get<std::string>() + ".json");
   }
   std::error_code code;
   if (!fs::is_directory(folder / kRecords, code)) return;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / kRecords))
-    if (!used.contains(entry.path().filename().string())) fs::remove(entry.path(), code);
+    if (is_record(entry.path()) && !used.contains(entry.path().filename().string()))
+      fs::remove(entry.path(), code);
 }
 
 void BaselineUpdate::commit() {

@@ -1,5 +1,6 @@
 // The pictures that a suite was accepted with, in a folder beside it: NAME.png, what they show in NAME.json,
-// records of models and runs in records/, the cameras in camera.json. They change all together or not at all.
+// records of models and runs in records/, the cameras there in cameras.json. They change all together or not
+// at all.
 #pragma once
 
 #include <map>

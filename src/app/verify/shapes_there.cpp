@@ -15,7 +15,9 @@ constexpr std::size_t kMostTold = 5;
 
 // Boxes around shapes, units of H; what covers more than it shows does no harm here.
 struct BoxOf {
-  Rect operator()(const Capsule& s) const { return widened(around({s.a.x, s.a.y, s.a.x, s.a.y}, {s.b.x, s.b.y, s.b.x, s.b.y}), s.radius); }
+  Rect operator()(const Capsule& s) const {
+    return widened(around({s.a.x, s.a.y, s.a.x, s.a.y}, {s.b.x, s.b.y, s.b.x, s.b.y}), s.radius);
+  }
   Rect operator()(const Ellipse& s) const {
     const double x = std::hypot(s.u.x, s.v.x), y = std::hypot(s.u.y, s.v.y);
     return {s.center.x - x, s.center.y - y, s.center.x + x, s.center.y + y};

@@ -8,7 +8,8 @@
 
 namespace chainreel {
 
-// "the text 't = 1.2 s', an arc"; "nothing but the background". `box` in pixels of a picture that is `height` high.
+// "the text 't = 1.2 s', an arc"; "nothing but the background". `box` in pixels of a picture that is `height`
+// high.
 std::string shapes_there(const Picture& picture, int height, const PixelBox& box);
 
 }  // namespace chainreel

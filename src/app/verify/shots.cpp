@@ -47,6 +47,11 @@ std::vector<std::string> overrides_for(const Suite& suite, const std::array<doub
   return overrides;
 }
 
+// The part of the world that is shown; null where that is what fits.
+Json camera_of(const Suite& suite, const std::array<double, 4>* part) {
+  return suite.fit ? Json(*suite.fit) : part ? Json(*part) : Json(nullptr);
+}
+
 // What all pictures of the program depend on.
 Json page_of(const Fonts& fonts, const RendererInfo& renderer) {
   Json page{{"program", program_version()}};
@@ -86,7 +91,8 @@ class Studio::ModelSource : public Source {
                              model_.scene.links == LinkShapes::collision ? DescribeCollisions::all
                                                                          : DescribeCollisions::where_seen)),
         name_(source_name(suite, path)),
-        keys_(overrides_for(suite, nullptr)) {
+        keys_(overrides_for(suite, nullptr)),
+        camera_(camera_of(suite, part)) {
     set_look(figure_, model_, chain_);
   }
 
@@ -99,7 +105,7 @@ class Studio::ModelSource : public Source {
     shot.leaves_camera = is_pinned_ && leaves_page(chain_, picture.q, options, fonts);
     shot.physics = {
         {"source", name_}, {"names", position_names(chain_)}, {"q", picture.q}, {"model", record_}};
-    shot.page = {{"theme", to_string(model_.scene.theme)}, {"keys", keys_}};
+    shot.page = {{"theme", to_string(model_.scene.theme)}, {"keys", keys_}, {"camera", camera_}};
     shot.memory.title = chain_.name;
     std::vector<std::string> numbers;
     for (const double q : picture.q) numbers.push_back(format_shortest(q));
@@ -132,6 +138,7 @@ class Studio::ModelSource : public Source {
   Json record_;
   std::string name_;
   std::vector<std::string> keys_;  // what the suite says of the look
+  Json camera_;
   PoseFigureOptions figure_;
 };
 
@@ -321,7 +328,8 @@ Image Studio::rasterise(const Picture& picture, int width, int height) {
 }
 
 std::string source_name(const Suite& suite, const std::string& source) {
-  const fs::path folder = fs::is_directory(suite.file) ? fs::path(suite.file) : fs::path(suite.file).parent_path();
+  const fs::path folder =
+      fs::is_directory(suite.file) ? fs::path(suite.file) : fs::path(suite.file).parent_path();
   const fs::path from = fs::absolute(folder.empty() ? "." : folder).lexically_normal();
   const fs::path name = fs::absolute(source).lexically_normal().lexically_relative(from);
   return name.empty() ? source : name.generic_string();

@@ -79,7 +79,7 @@ std::vector<std::string> page_words(const Json& before, const Json& now) {
   const auto text = [](const Json& value) {
     return value.is_string() ? value.get<std::string>() : value.dump();
   };
-  for (const char* key : {"theme", "program", "renderer", "processor"})
+  for (const char* key : {"theme", "camera", "program", "renderer", "processor"})
     if (before.value(key, Json()) != now.value(key, Json()))
       words.push_back(std::string(key) + ": " + text(before.value(key, Json("unknown"))) + " -> " +
                       text(now.value(key, Json("unknown"))));
@@ -101,8 +101,9 @@ std::vector<std::string> page_words(const Json& before, const Json& now) {
   return words;
 }
 
-std::string pixel_words(const ImageDifference& difference) {
-  if (difference.is_equal()) return "the same pixels";
+std::string pixel_words(const SuitePicture& picture, const ImageDifference& difference) {
+  if (difference.is_equal())
+    return picture.masks.empty() ? "the same pixels" : "the same pixels outside of the masks";
   const PixelBox& box = difference.box;
   return std::to_string(difference.unequal) + " pixels differ: " + std::to_string(difference.at_edges) +
          " by anti-aliasing, " + std::to_string(difference.beyond) + " beyond the tolerance (largest error " +
@@ -162,7 +163,7 @@ PictureVerdict judge(const Suite& suite, const SuitePicture& picture, const Suit
   verdict.passes = difference.same_size && same_enough && near;
   if (verdict.state == PictureState::same) return verdict;
   for (std::string& words : page_words(baseline.page, shot.page)) verdict.words.push_back(std::move(words));
-  if (difference.same_size) verdict.words.push_back(pixel_words(difference));
+  if (difference.same_size) verdict.words.push_back(pixel_words(picture, difference));
   if (same_physics && is_exact && !same_pixels)
     verdict.words.push_back(
         "program, renderer, processor and fonts are those of the baseline, so its very pixels are expected");
