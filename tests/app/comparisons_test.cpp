@@ -195,6 +195,18 @@ TEST(Compare, SpoiltMemoriesAreNoTrouble) {
   EXPECT_EQ(report({good, no_audit})["explained"], Json::array());
 }
 
+TEST(Compare, NoPictureOfAFolderIsPassedOver) {
+  const TemporaryFolder folder;
+  for (const std::string side : {"old/", "new/"}) picture(folder, side + "same.png", square_at(10));
+  picture(folder, "old/deep/er/a.png", square_at(10));
+  picture(folder, "new/deep/er/a.png", square_at(15));
+  picture(folder, "old/b.PNG", square_at(10));
+  picture(folder, "new/b.PNG", square_at(15));
+  const Json json = report({folder.file("old"), folder.file("new")});
+  EXPECT_EQ(json["status"], 1);
+  EXPECT_EQ(json["counts"], (Json{{"differs", 2}, {"equal", 1}}));
+}
+
 TEST(Compare, FoldersAreComparedByNames) {
   const TemporaryFolder folder;
   for (const std::string side : {"old/", "new/"}) picture(folder, side + "same.png", square_at(10));

@@ -1,5 +1,6 @@
 // Two pictures, and two folders of them.
 
+#include <cctype>
 #include <algorithm>
 #include <filesystem>
 #include <future>
@@ -47,14 +48,24 @@ struct PictureFile {
   }
 };
 
-// Names of the PNGs that lie in a folder itself.
+bool is_png(const fs::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".png";
+}
+
+// PNGs in a folder and in those below it, as it sees them; hidden ones are left out.
 std::set<std::string> pictures_in(const std::string& folder) {
   std::set<std::string> names;
   std::error_code trouble;
-  for (fs::directory_iterator entry(folder, trouble), end; !trouble && entry != end;
+  for (fs::recursive_directory_iterator entry(folder, trouble), end; !trouble && entry != end;
        entry.increment(trouble)) {
-    const fs::path name = entry->path().filename();
-    if (name.extension() == ".png" && name.string().front() != '.') names.insert(name.string());
+    const fs::path name = entry->path().lexically_relative(folder);
+    if (name.filename().string().front() == '.') {
+      if (entry->is_directory(trouble)) entry.disable_recursion_pending();
+    } else if (is_png(name)) {
+      names.insert(name.generic_string());
+    }
   }
   if (trouble) throw Error(ExitCode::bad_input, "cannot be listed: " + trouble.message(), {folder});
   return names;
