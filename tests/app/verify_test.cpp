@@ -268,6 +268,27 @@ TEST_F(Verify, TellsAPictureThatCannotBeDrawnAndGoesOn) {
   EXPECT_EQ(failed, 1);
 }
 
+// A picture of a suite and one made alone are told of one film: its held frames, and events of all of its panels.
+TEST_F(Verify, SaysOfAFilmWhatASnapshotSays) {
+  write("two.yaml",
+        "model: rr.urdf\nduration: 1\nmethod: rk4\nstep: 0.01\ntorque: [0, 0]\nhold: {first: 0.5}\n"
+        "events: [{name: down, when: q1 < -0.5}]\n"
+        "compare: [{start: {q: [0.4, 0]}}, {start: {q: [0, 0]}}]\n");
+  write("both.yaml", "scene: two.yaml\nsize: 320x180\nat: [event down]\n");
+  accept_all("both.yaml");
+  ASSERT_EQ(run_program({"snapshot", "two.yaml", "--at", "event down", "--width", "320", "--height", "180", "-o", "one.png"},
+                        {.folder = folder_.path().string()})
+                .status,
+            0);
+  std::string name;
+  for (const auto& [file, bytes] : baselines("both"))
+    if (file.ends_with(".png")) name = file;
+  const auto audit = [](const std::string& path) { return parse_json(read_png_text(path).at("chainreel_audit")); };
+  const Json suite = audit(folder_.file("both.baselines/" + name)), alone = audit(folder_.file("one.png"));
+  EXPECT_EQ(suite["at"], alone["at"]);
+  EXPECT_EQ(suite["frames"], alone["frames"]);
+}
+
 TEST_F(Verify, NamesWhatChangedInARun) {
   write("swing.yaml", "model: rr.urdf\ntorque: [0, 1]\nduration: 1\nmethod: rk4\nstep: 0.01\n");
   write("motion.yaml", "scene: swing.yaml\nsize: 320x180\nat: [0, 0.9s]\n");

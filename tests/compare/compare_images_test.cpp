@@ -25,15 +25,15 @@ TEST(CompareImages, EqualPicturesAreEqual) {
 }
 
 TEST(CompareImages, SizesThatDifferPassNoTolerance) {
-  const ImageDifference d = compare_images(plain(4, 6, kWhite), plain(6, 4, kWhite), {});
+  const ImageDifference d = compare_images(flat_picture(4, 6, kWhite), flat_picture(6, 4, kWhite), {});
   EXPECT_FALSE(d.same_size);
   EXPECT_FALSE(d.is_equal());
   EXPECT_FALSE(d.passes({.error = 1, .pixels = 1000}));
-  EXPECT_TRUE(difference_picture(plain(4, 6, kWhite), plain(6, 4, kWhite), {}).bgra.empty());
+  EXPECT_TRUE(difference_picture(flat_picture(4, 6, kWhite), flat_picture(6, 4, kWhite), {}).bgra.empty());
 }
 
 TEST(CompareImages, OnePixelIsFoundWhereverItIs) {
-  const Image expected = plain(150, 131, kWhite);
+  const Image expected = flat_picture(150, 131, kWhite);
   for (const auto& [x, y] : {std::pair(0, 0), {149, 130}, {63, 63}, {64, 64}, {75, 40}, {149, 0}}) {
     Image actual = expected;
     set_pixel(actual, x, y, kRed);
@@ -66,7 +66,7 @@ TEST(CompareImages, ErrorsAreThoseOfTheWholePicture) {
 }
 
 TEST(CompareImages, ToleranceOfErrorDecidesWhatCounts) {
-  const Image expected = plain(40, 40, {128, 128, 128, 255}), actual = plain(40, 40, {131, 128, 128, 255});
+  const Image expected = flat_picture(40, 40, {128, 128, 128, 255}), actual = flat_picture(40, 40, {131, 128, 128, 255});
   const ImageDifference d = compare_images(expected, actual, {.error = 0.1});
   EXPECT_EQ(d.unequal, 1600);
   EXPECT_EQ(d.beyond, 0);
@@ -79,7 +79,7 @@ TEST(CompareImages, ToleranceOfErrorDecidesWhatCounts) {
 }
 
 TEST(CompareImages, WhatIsMaskedIsNotLookedAt) {
-  const Image expected = plain(60, 60, kWhite);
+  const Image expected = flat_picture(60, 60, kWhite);
   Image actual = expected;
   for (int i = 0; i < 9; ++i) set_pixel(actual, 20 + i, 30, kRed);
   const PixelBox over = {20, 30, 9, 1}, reaching = {-100, 25, 2000000000, 2000000000},
@@ -92,7 +92,7 @@ TEST(CompareImages, WhatIsMaskedIsNotLookedAt) {
 }
 
 TEST(CompareImages, WhatIsMaskedDoesNotBearOnItsNeighbours) {
-  const Image expected = plain(60, 60, {100, 100, 100, 255});
+  const Image expected = flat_picture(60, 60, {100, 100, 100, 255});
   Image faint = expected, strong = expected;
   set_pixel(faint, 30, 30, {104, 100, 100, 255});
   set_pixel(strong, 30, 30, {104, 100, 100, 255});
@@ -104,7 +104,7 @@ TEST(CompareImages, WhatIsMaskedDoesNotBearOnItsNeighbours) {
 
 TEST(CompareImages, AlphaCountsEvenWhereNothingIsSeen) {
   // On mid grey both are mid grey.
-  const Image expected = plain(9, 9, {128, 128, 128, 255});
+  const Image expected = flat_picture(9, 9, {128, 128, 128, 255});
   Image actual = expected;
   set_pixel(actual, 4, 4, {128, 128, 128, 51});
   const ImageDifference d = compare_images(expected, actual, {});
@@ -114,7 +114,7 @@ TEST(CompareImages, AlphaCountsEvenWhereNothingIsSeen) {
 }
 
 TEST(CompareImages, ColoursOfTransparentPixelsAreUnequalButNotSeen) {
-  const ImageDifference d = compare_images(plain(5, 5, {1, 2, 3, 0}), plain(5, 5, {200, 2, 3, 0}), {});
+  const ImageDifference d = compare_images(flat_picture(5, 5, {1, 2, 3, 0}), flat_picture(5, 5, {200, 2, 3, 0}), {});
   EXPECT_EQ(d.unequal, 25);
   EXPECT_EQ(d.worst, 0);
   EXPECT_TRUE(d.passes({}));
@@ -122,7 +122,7 @@ TEST(CompareImages, ColoursOfTransparentPixelsAreUnequalButNotSeen) {
 
 TEST(CompareImages, PicturesMayBeAsSmallAsTheyLike) {
   for (const auto& [width, height] : {std::pair(1, 1), {1, 70}, {70, 1}, {2, 2}, {65, 3}}) {
-    const Image expected = plain(width, height, kWhite), actual = plain(width, height, kRed);
+    const Image expected = flat_picture(width, height, kWhite), actual = flat_picture(width, height, kRed);
     EXPECT_EQ(compare_images(expected, actual, {}).beyond, width * height);
     EXPECT_EQ(compare_images(expected, actual, {.forgive_edges = true}).beyond, width * height)
         << "paper that has no edge has nothing to forgive";
@@ -132,12 +132,12 @@ TEST(CompareImages, PicturesMayBeAsSmallAsTheyLike) {
 }
 
 TEST(CompareImages, AToleranceThatIsNoNumberAllowsNothing) {
-  const Image expected = plain(9, 9, kWhite), actual = plain(9, 9, {254, 255, 255, 255});
+  const Image expected = flat_picture(9, 9, kWhite), actual = flat_picture(9, 9, {254, 255, 255, 255});
   EXPECT_EQ(compare_images(expected, actual, {.error = std::nan("")}).beyond, 81);
 }
 
 TEST(CompareImages, AnEnvelopeOfAnotherSizeIsRefused) {
-  const Image image = plain(9, 9, kWhite), other = plain(9, 9, kRed), small = plain(8, 9, kWhite);
+  const Image image = flat_picture(9, 9, kWhite), other = flat_picture(9, 9, kRed), small = flat_picture(8, 9, kWhite);
   const Envelope envelope = envelope_of(small);
   EXPECT_THROW(compare_images(image, other, {}, &envelope), std::logic_error);
   EXPECT_THROW(envelope_of(image, std::span(&small, 1)), std::logic_error);
@@ -152,7 +152,7 @@ TEST(CompareImages, IsSymmetricWithoutAnEnvelope) {
 }
 
 TEST(DifferencePicture, ShowsWhereByHowMuchAndWhatIsMasked) {
-  const Image expected = plain(40, 40, {200, 200, 200, 255});
+  const Image expected = flat_picture(40, 40, {200, 200, 200, 255});
   Image actual = expected;
   set_pixel(actual, 5, 5, {0, 0, 0, 255});         // an eye sees it
   set_pixel(actual, 30, 5, {202, 200, 200, 255});  // hardly
@@ -173,8 +173,8 @@ TEST(DifferencePicture, ShowsWhereByHowMuchAndWhatIsMasked) {
 
 TEST(DifferencePicture, LargerErrorsAreDarker) {
   const auto shade = [](std::uint8_t level) {
-    const Image picture = difference_picture(plain(8, 8, {0, 0, 0, 255}),
-                                             plain(8, 8, {level, level, level, 255}), {.error = 0});
+    const Image picture = difference_picture(flat_picture(8, 8, {0, 0, 0, 255}),
+                                             flat_picture(8, 8, {level, level, level, 255}), {.error = 0});
     const Pixel p = picture.at(4, 4);
     return p.r + p.g + p.b;
   };

@@ -104,7 +104,7 @@ TEST(Envelope, OfNeighboursIsTheSameTileByTile) {
 }
 
 TEST(Envelope, IsThePictureAloneWhereNothingChanges) {
-  const Image flat = plain(9, 9, {10, 20, 30, 255});
+  const Image flat = flat_picture(9, 9, {10, 20, 30, 255});
   const Envelope envelope = envelope_of(flat);
   EXPECT_EQ(envelope.low.bgra, flat.bgra);
   EXPECT_EQ(envelope.high.bgra, flat.bgra);

@@ -147,7 +147,7 @@ TEST(Flip, OfPlainColoursIsTheFormulaWithoutFilters) {
   for (const auto& [first, second] : pairs) {
     const double expected =
         naive::redistributed(naive::hunt(naive::linear(first)), naive::hunt(naive::linear(second)));
-    for (const float error : errors_of(plain(24, 24, first), plain(24, 24, second)))
+    for (const float error : errors_of(flat_picture(24, 24, first), flat_picture(24, 24, second)))
       ASSERT_NEAR(error, expected, kSingle);
   }
 }
@@ -155,12 +155,12 @@ TEST(Flip, OfPlainColoursIsTheFormulaWithoutFilters) {
 TEST(Flip, OfBlackAndWhiteIsNearlyAll) {
   // L* differs by 100: (100^0.7 - 0.4 m) / (0.6 m) of the last twentieth, where m = 41.3 is green's from
   // blue.
-  for (const float error : errors_of(plain(4, 4, {0, 0, 0, 255}), plain(4, 4, {255, 255, 255, 255})))
+  for (const float error : errors_of(flat_picture(4, 4, {0, 0, 0, 255}), flat_picture(4, 4, {255, 255, 255, 255})))
     ASSERT_NEAR(error, 0.967, 2e-3);
 }
 
 TEST(Flip, OfGreenAndBlueIsAll) {
-  for (const float error : errors_of(plain(4, 4, {0, 255, 0, 255}), plain(4, 4, {0, 0, 255, 255})))
+  for (const float error : errors_of(flat_picture(4, 4, {0, 255, 0, 255}), flat_picture(4, 4, {0, 0, 255, 255})))
     ASSERT_NEAR(error, 1, 1e-6);
 }
 
@@ -195,7 +195,7 @@ TEST(Flip, OfABoxIsThatOfTheWhole) {
 }
 
 TEST(Flip, ReachesNoFurtherThanItSays) {
-  const Image a = plain(60, 3, {90, 90, 90, 255});
+  const Image a = flat_picture(60, 3, {90, 90, 90, 255});
   Image b = a;
   set_pixel(b, 30, 1, {255, 0, 255, 255});
   const std::vector<float> errors = errors_of(a, b);
@@ -205,7 +205,7 @@ TEST(Flip, ReachesNoFurtherThanItSays) {
 }
 
 TEST(Flip, SeesTransparentPixelsOnMidGrey) {
-  for (const float error : errors_of(plain(5, 5, {255, 0, 0, 0}), plain(5, 5, {128, 128, 128, 255})))
+  for (const float error : errors_of(flat_picture(5, 5, {255, 0, 0, 0}), flat_picture(5, 5, {128, 128, 128, 255})))
     ASSERT_EQ(error, 0.0f);
 }
 

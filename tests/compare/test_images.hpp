@@ -6,24 +6,9 @@
 #include <random>
 
 #include "core/image.hpp"
+#include "support/flat_picture.hpp"
 
 namespace chainreel {
-
-inline void set_pixel(Image& image, int x, int y, Pixel p) {
-  std::uint8_t* target =
-      &image.bgra[std::size_t(4) * (std::size_t(y) * std::size_t(image.width) + std::size_t(x))];
-  target[0] = p.b;
-  target[1] = p.g;
-  target[2] = p.r;
-  target[3] = p.a;
-}
-
-inline Image plain(int width, int height, Pixel p) {
-  Image image(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) set_pixel(image, x, y, p);
-  return image;
-}
 
 inline Image noise(int width, int height, unsigned seed) {
   Image image(width, height);

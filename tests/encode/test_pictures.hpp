@@ -6,27 +6,12 @@
 #include <random>
 
 #include "core/image.hpp"
+#include "support/flat_picture.hpp"
 
 namespace chainreel {
 
-inline void set_pixel(Image& image, int x, int y, Pixel p) {
-  std::uint8_t* bytes =
-      &image.bgra[std::size_t(4) * (std::size_t(y) * std::size_t(image.width) + std::size_t(x))];
-  bytes[0] = p.b;
-  bytes[1] = p.g;
-  bytes[2] = p.r;
-  bytes[3] = p.a;
-}
-
 inline Pixel pixel_of(unsigned rgb) {
   return {std::uint8_t(rgb >> 16), std::uint8_t(rgb >> 8 & 255), std::uint8_t(rgb & 255), 255};
-}
-
-inline Image flat_picture(int width, int height, Pixel color) {
-  Image image(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) set_pixel(image, x, y, color);
-  return image;
 }
 
 inline Image random_picture(int width, int height, unsigned seed) {

@@ -25,13 +25,6 @@ struct ComparedKind {
   bool is_model = false;  // takes --set, --package and --base
 };
 
-bool ends_in(const std::string& path, std::initializer_list<const char*> endings) {
-  std::string ending = fs::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return std::any_of(endings.begin(), endings.end(), [&](const char* one) { return ending == one; });
-}
-
 bool is_folder(const std::string& path) {
   std::error_code ignored;
   return fs::is_directory(path, ignored);

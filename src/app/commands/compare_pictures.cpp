@@ -1,6 +1,5 @@
 // Two pictures, and two folders of them.
 
-#include <cctype>
 #include <algorithm>
 #include <filesystem>
 #include <future>
@@ -48,12 +47,6 @@ struct PictureFile {
   }
 };
 
-bool is_png(const fs::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return ending == ".png";
-}
-
 // PNGs in a folder and in those below it, as it sees them; hidden ones are left out.
 std::set<std::string> pictures_in(const std::string& folder) {
   std::set<std::string> names;
@@ -63,7 +56,7 @@ std::set<std::string> pictures_in(const std::string& folder) {
     const fs::path name = entry->path().lexically_relative(folder);
     if (name.filename().string().front() == '.') {
       if (entry->is_directory(trouble)) entry.disable_recursion_pending();
-    } else if (is_png(name)) {
+    } else if (ends_in(name.string(), {".png"})) {
       names.insert(name.generic_string());
     }
   }

@@ -1,7 +1,9 @@
 #include "app/commands/comparison.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstring>
+#include <filesystem>
 #include <optional>
 
 #include "app/film/clip_memory.hpp"
@@ -121,6 +123,13 @@ std::vector<std::string> explain_memories(const std::string& before, const std::
         std::pair("versions", "versions of the program or its libraries are others")})
     if (facts.value(key, Json()) != other_facts.value(key, Json())) sentences.push_back(told);
   return sentences;
+}
+
+bool ends_in(const std::string& path, std::initializer_list<const char*> endings) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return std::any_of(endings.begin(), endings.end(), [&](const char* one) { return ending == one; });
 }
 
 }  // namespace chainreel

@@ -2,6 +2,7 @@
 // a function here, its file, and a row in compare_command.cpp.
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -47,5 +48,8 @@ void write_difference(const CompareOptions& options, const Image& before, const 
 
 // What the two files remember differently, of scenes key by key. Nothing where neither remembers anything.
 std::vector<std::string> explain_memories(const std::string& before, const std::string& after);
+
+// Whether the file's ending is one of these, which are in lower case, whatever its own case.
+bool ends_in(const std::string& path, std::initializer_list<const char*> endings);
 
 }  // namespace chainreel

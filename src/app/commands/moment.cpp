@@ -1,63 +1,15 @@
 #include "app/commands/moment.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
-#include "app/commands/render_film.hpp"
+#include "app/film/instants.hpp"
 #include "app/report/alt_text.hpp"
 #include "app/report/run_report.hpp"
 #include "core/error.hpp"
 #include "scene/run/fall.hpp"
 
 namespace chainreel {
-namespace {
-
-// How many the whole film has as `render` shows it. `added`: instants among those of the runs that are none
-// of its frames.
-int frames_of_film(const Runs& runs, const std::vector<double>& added) {
-  double end = 0;
-  for (const Trajectory& run : runs.list()) end = std::max(end, run.end_time);
-  int frames = runs.frames_shown(int(runs.times().size()));
-  // At the end itself one stands in the place of the sample that events leave there.
-  for (const double at : added)
-    if (at < end - same_instant(runs.film().panels.front().simulation)) --frames;
-  const Scene& scene = runs.film().scene;
-  return std::min(frames, runs.clock().frame_count()) + frame_count(scene.hold.first, scene.video.fps) +
-         frame_count(scene.hold.last, scene.video.fps);
-}
-
-// Sorted, among those of the frames; `added` are those that were none of them.
-struct Instants {
-  std::vector<double> times, added;
-  std::vector<int> frames;  // of each that is asked for
-};
-
-Instants instants_of(const PreparedFilm& film, const FilmClock& clock, const std::vector<double>& asked) {
-  Instants instants{clock.frame_times(), {}, {}};
-  const double same = same_instant(film.panels.front().simulation);
-  const auto place_of = [&](double at) {
-    return std::lower_bound(instants.times.begin(), instants.times.end(), at - same);
-  };
-  for (const double at : asked) {
-    const auto place = place_of(at);
-    if (place != instants.times.end() && std::abs(*place - at) <= same) continue;
-    instants.times.insert(place, at);
-    instants.added.push_back(at);
-  }
-  for (const double at : asked) instants.frames.push_back(int(place_of(at) - instants.times.begin()));
-  return instants;
-}
-
-std::optional<double> last_event(const std::vector<Trajectory>& runs) {
-  std::optional<double> last;
-  for (const Trajectory& run : runs)
-    for (const double t : run.events.t) last = std::max(last.value_or(t), t);
-  return last;
-}
-
-}  // namespace
-
 struct Moments::State {
   const PreparedFilm& film;
   std::vector<int> frames;
@@ -116,11 +68,7 @@ Moment moment_at(const PreparedFilm& film, double at, const Fonts& fonts) {
 Moment telling_moment(const PreparedFilm& film, const Fonts& fonts) {
   const FilmClock clock = clock_of(film);
   const Runs runs(film, clock, clock.frame_times());
-  // An event between two frames, or behind the last one, has an instant of its own.
-  if (const std::optional<double> event = last_event(runs.list())) return moment_at(film, *event, fonts);
-  int samples = 0;
-  for (const Trajectory& run : runs.list()) samples = std::max(samples, run.size());
-  return moment_at(film, runs.times()[std::size_t(samples / 2)], fonts);
+  return moment_at(film, telling_instant(runs), fonts);
 }
 
 std::vector<double> instants_asked(const PreparedFilm& film, const std::vector<AskedInstant>& asked) {
@@ -134,13 +82,7 @@ std::vector<double> instants_asked(const PreparedFilm& film, const std::vector<A
       continue;
     }
     if (!runs) runs.emplace(film);
-    std::optional<double> first;
-    for (std::size_t panel = 0; panel < runs->size(); ++panel) {
-      const EventHits& hits = (*runs)[panel].events;
-      for (int k = 0; k < hits.size(); ++k)
-        if (film.panels[panel].scene.events[std::size_t(hits.event[std::size_t(k)])].title() == one.event)
-          first = std::min(first.value_or(hits.t[std::size_t(k)]), hits.t[std::size_t(k)]);
-    }
+    const std::optional<double> first = first_time_of(*runs, one.event);
     if (!first)
       throw Error(ExitCode::bad_input, "--at " + one.text + ": the event does not happen in this run",
                   {film.scene.file});

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <optional>
 
+#include "app/film/instants.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
@@ -154,26 +157,28 @@ class Studio::SceneSource : public Source {
         plain_(film_, clock_, clock_.frame_times()),
         record_(run_record(film_, plain_)),
         name_(source_name(suite, path)) {
-    std::vector<double> times = clock_.frame_times();
-    const std::size_t frames = times.size();
+    std::vector<double> asked;
     for (const SuitePicture* picture : pictures_) {
       try {
-        add_instant(times, instant_of(*picture));
+        asked.push_back(instant_of(*picture));
       } catch (const Error&) {
         // It is told when that picture is drawn; the others have their instants.
       }
     }
-    if (times.size() == frames) return;
-    further_ = std::make_unique<Runs>(film_, clock_, std::move(times));
+    Instants instants = instants_of(film_, clock_, asked);
+    for (std::size_t i = 0; i < asked.size(); ++i) frames_[asked[i]] = instants.frames[i];
+    added_ = std::move(instants.added);
+    if (added_.empty()) return;
+    further_ = std::make_unique<Runs>(film_, clock_, std::move(instants.times));
     runs_ = further_.get();
   }
 
   SuiteShot draw(const SuitePicture& picture, const Fonts& fonts) override {
     const double at = instant_of(picture);
-    const int frame = frame_of(at);
+    const int frame = frames_.at(at);
     runs_->require_expected_ends(frame);
     const Film& film = film_for(picture, fonts);
-    FilmReport report = film_report(*runs_, film, clock_.frame_count());
+    FilmReport report = film_report(*runs_, film, frames_of_film(*runs_, added_));
     report.writes = Writes::pictures;
     SuiteShot shot;
     shot.width = film_.scene.video.width;
@@ -195,13 +200,9 @@ class Studio::SceneSource : public Source {
   }
 
  private:
-  bool same(double a, double b) const {
-    return std::abs(a - b) <= same_instant(film_.panels.front().simulation);
-  }
-
   // Events by their names, else by what they say.
   double instant_of(const SuitePicture& picture) const {
-    if (picture.telling) return telling_instant();
+    if (picture.telling) return telling_instant(plain_);
     if (picture.event.empty()) {
       if (picture.at <= film_.scene.duration) return picture.at;
       throw Error(ExitCode::bad_input,
@@ -209,12 +210,7 @@ class Studio::SceneSource : public Source {
                       format_shortest(film_.scene.duration) + " s",
                   picture.place);
     }
-    for (std::size_t i = 0; i < plain_.size(); ++i) {
-      const EventHits& hits = plain_[i].events;
-      for (int k = 0; k < hits.size(); ++k)
-        if (film_.panels[i].scene.events[std::size_t(hits.event[std::size_t(k)])].title() == picture.event)
-          return hits.t[std::size_t(k)];
-    }
+    if (const std::optional<double> first = first_time_of(plain_, picture.event)) return *first;
     throw Error(ExitCode::bad_input,
                 "event '" + picture.event + "' does not happen in " + path() + ": " + known_events(),
                 picture.place);
@@ -225,32 +221,6 @@ class Studio::SceneSource : public Source {
     for (const PreparedScene& panel : film_.panels)
       for (const EventEntry& event : panel.scene.events) names.push_back(event.title());
     return names.empty() ? "it has no events" : "its events are " + joined(names);
-  }
-
-  // The last event, else the middle of the longest run.
-  double telling_instant() const {
-    double last = -1;
-    int samples = 0;
-    for (const Trajectory& run : plain_.list()) {
-      for (const double t : run.events.t) last = std::max(last, t);
-      samples = std::max(samples, run.size());
-    }
-    return last >= 0 ? last : plain_.times()[std::size_t(samples / 2)];
-  }
-
-  void add_instant(std::vector<double>& times, double at) const {
-    const auto place = std::lower_bound(times.begin(), times.end(), at);
-    if (place != times.end() && same(*place, at)) return;
-    if (place != times.begin() && same(*(place - 1), at)) return;
-    times.insert(place, at);
-  }
-
-  int frame_of(double at) const {
-    const std::vector<double>& times = runs_->times();
-    int nearest = 0;
-    for (std::size_t k = 1; k < times.size(); ++k)
-      if (std::abs(times[k] - at) < std::abs(times[std::size_t(nearest)] - at)) nearest = int(k);
-    return nearest;
   }
 
   const Film& film_for(const SuitePicture& picture, const Fonts& fonts) {
@@ -274,6 +244,8 @@ class Studio::SceneSource : public Source {
   Runs plain_;
   Json record_;
   std::string name_;
+  std::map<double, int> frames_;   // of the pictures' instants
+  std::vector<double> added_;      // those that are none of the film's frames
   std::unique_ptr<Runs> further_;  // where pictures show instants between the frames
   const Runs* runs_ = &plain_;
   std::unique_ptr<Film> pages_;  // of the last size
