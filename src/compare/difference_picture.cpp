@@ -45,23 +45,30 @@ bool is_masked(const std::vector<PixelBox>& masks, int x, int y) {
 Image difference_picture(const Image& expected, const Image& actual, const ImageTolerance& tolerance,
                          const Envelope* envelope) {
   if (expected.width != actual.width || expected.height != actual.height) return {};
-  const JudgedPixels judged(expected, actual, tolerance, envelope);
   Image picture(actual.width, actual.height);
+  const auto set = [&](int x, int y, const Color& color) {
+    std::uint8_t* p = &picture.bgra[4 * (std::size_t(y) * std::size_t(actual.width) + std::size_t(x))];
+    for (int c = 0; c < 3; ++c) p[c] = std::uint8_t(std::lround(color[2 - c]));
+    p[3] = 255;
+  };
+  const auto pale = [&](int x, int y) {
+    return pale_grey(&actual.bgra[4 * (std::size_t(y) * std::size_t(actual.width) + std::size_t(x))]);
+  };
   for (int y = 0; y < actual.height; ++y)
     for (int x = 0; x < actual.width; ++x) {
-      const std::size_t i = std::size_t(y) * std::size_t(actual.width) + std::size_t(x);
-      Color color = pale_grey(&actual.bgra[4 * i]);
-      if (is_masked(tolerance.masks, x, y)) {
-        if ((x + y) % 8 == 0) color = mix(color, {0, 0, 0}, 0.25);
-      } else if (!judged.kinds.empty() && judged.kinds[i] == JudgedPixels::at_edge) {
-        color = kAtEdge;
-      } else if (!judged.kinds.empty() && judged.kinds[i] == JudgedPixels::other) {
-        const double error = judged.errors[i];
-        color = mix(color, color_of_error(error), error <= tolerance.error ? 0.4 : 1.0);
+      const bool hatched = (x + y) % 8 == 0 && is_masked(tolerance.masks, x, y);
+      set(x, y, hatched ? mix(pale(x, y), {0, 0, 0}, 0.25) : pale(x, y));
+    }
+  const JudgedPixels judged(expected, actual, tolerance, envelope);
+  for (const JudgedTile& tile : judged.tiles)
+    for (std::size_t k = 0; k < tile.kinds.size(); ++k) {
+      const int x = tile.box.x + int(k) % tile.box.width, y = tile.box.y + int(k) / tile.box.width;
+      if (tile.kinds[k] == JudgedTile::at_edge) {
+        set(x, y, kAtEdge);
+      } else if (tile.kinds[k] == JudgedTile::other) {
+        const double error = tile.errors[k];
+        set(x, y, mix(pale(x, y), color_of_error(error), error <= tolerance.error ? 0.4 : 1.0));
       }
-      for (int c = 0; c < 3; ++c)
-        picture.bgra[4 * i + std::size_t(c)] = std::uint8_t(std::lround(color[2 - c]));
-      picture.bgra[4 * i + 3] = 255;
     }
   return picture;
 }

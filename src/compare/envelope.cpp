@@ -28,6 +28,24 @@ Image means_of(const Image& image) {
   return means;
 }
 
+// What one channel may be, half a pixel's way from `here` on to what lies between `lowest` and `highest`,
+// where it is nowhere steeper than the steepest of these ways.
+struct Range {
+  int low, high;
+};
+Range range_around(int here, int lowest, int highest) {
+  const int rise = std::max(highest - here, here - lowest);
+  return {std::max((here + lowest - rise) / 2, 0), std::min((here + highest + rise + 1) / 2, 255)};
+}
+
+bool is_in(int value, int low, int high) {
+  return value >= low - kRounding && value <= high + kRounding;
+}
+
+int half_way(int a, int b) {
+  return (a + b + 1) / 2;
+}
+
 // The lowest and highest values, half a pixel's way from `middle` on to each of `ends`, of what is nowhere
 // steeper than the steepest of these ways.
 void bound(const Image& middle, std::span<const Image> ends, Image& low, Image& high) {
@@ -40,15 +58,15 @@ void bound(const Image& middle, std::span<const Image> ends, Image& low, Image& 
       highest[i] = std::max(highest[i], end.bgra[i]);
     }
   for (std::size_t i = 0; i < middle.bgra.size(); ++i) {
-    const int here = middle.bgra[i], rise = std::max(highest[i] - here, here - lowest[i]);
-    low.bgra[i] = std::uint8_t(std::max((here + lowest[i] - rise) / 2, 0));
-    high.bgra[i] = std::uint8_t(std::min((here + highest[i] + rise + 1) / 2, 255));
+    const Range range = range_around(middle.bgra[i], lowest[i], highest[i]);
+    low.bgra[i] = std::uint8_t(range.low);
+    high.bgra[i] = std::uint8_t(range.high);
   }
 }
 
 // `count` bytes half way between `a` and `b`.
 void average(const std::uint8_t* a, const std::uint8_t* b, std::size_t count, std::uint8_t* target) {
-  for (std::size_t i = 0; i < count; ++i) target[i] = std::uint8_t((a[i] + b[i] + 1) / 2);
+  for (std::size_t i = 0; i < count; ++i) target[i] = std::uint8_t(half_way(a[i], b[i]));
 }
 
 // The picture half way to its neighbours at (dx, dy), one of them -1 or 1 and the other 0; at the border
@@ -87,14 +105,34 @@ Envelope envelope_of(const Image& drawn) {
   return envelope_of(drawn, moved);
 }
 
+bool is_near_neighbours(const Image& drawn, const Image& actual, int x, int y) {
+  const std::size_t row = std::size_t(4) * std::size_t(drawn.width),
+                    here = std::size_t(y) * row + 4 * std::size_t(x);
+  for (std::size_t c = here; c < here + 4; ++c) {
+    const int value = drawn.bgra[c];
+    int lowest = 255, highest = 0;
+    const auto look = [&](bool is_there, std::size_t neighbour) {
+      const int end = is_there ? half_way(value, drawn.bgra[neighbour]) : value;
+      lowest = std::min(lowest, end);
+      highest = std::max(highest, end);
+    };
+    look(x > 0, c - 4);
+    look(x + 1 < drawn.width, c + 4);
+    look(y > 0, c - row);
+    look(y + 1 < drawn.height, c + row);
+    const Range range = range_around(value, lowest, highest);
+    if (!is_in(actual.bgra[c], range.low, range.high)) return false;
+  }
+  return true;
+}
+
 bool is_within(const Envelope& envelope, const Image& actual, int x, int y) {
   const auto place = [&](int column, int row) {
     return std::size_t(4) * (std::size_t(row) * std::size_t(actual.width) + std::size_t(column));
   };
   const std::size_t here = place(x, y);
   for (std::size_t c = 0; c < 4; ++c) {
-    const int value = actual.bgra[here + c];
-    if (value < envelope.low.bgra[here + c] - kRounding || value > envelope.high.bgra[here + c] + kRounding)
+    if (!is_in(actual.bgra[here + c], envelope.low.bgra[here + c], envelope.high.bgra[here + c]))
       return false;
   }
   for (std::size_t c = 0; c < 4; ++c) {

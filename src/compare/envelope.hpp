@@ -25,6 +25,10 @@ Envelope envelope_of(const Image& drawn, std::span<const Image> moved);
 // some quarter of a pixel's.
 Envelope envelope_of(const Image& drawn);
 
+// What `is_within(envelope_of(drawn), actual, x, y)` asks of the pixel itself, without an envelope: where
+// this is false, that is.
+bool is_near_neighbours(const Image& drawn, const Image& actual, int x, int y);
+
 // Whether `actual` may have this pixel by anti-aliasing alone, to 1/255; its surroundings by an eighth of
 // their contrast more, since renderers differ in how much of a thin stroke they see.
 bool is_within(const Envelope& envelope, const Image& actual, int x, int y);

@@ -18,26 +18,21 @@ class Flip {
   // Beyond so many pixels no pixel bears on another's error: three standard deviations of the widest filter
   // at 67 pixels per degree, the paper's choice (0.7 m before a screen of 3840 pixels on 0.7 m).
   static constexpr int kReach = 10;
-  using Taps = std::array<float, 2 * kReach + 1>;
+  using Taps = std::array<float, kReach + 1>;  // weights from the middle of a filter on to one side
 
   Flip();
 
-  // Errors from 0 to 1 of the pixels in `box`, into `errors`, which has one for each pixel of the pictures,
-  // row by row. The box lies in the pictures, which are of one size. What is transparent is seen on mid grey.
-  void compute(const Image& expected, const Image& actual, const PixelBox& box,
-               std::vector<float>& errors) const;
+  // Errors from 0 to 1 of the pixels in `box`, row by row of it. The box lies in the pictures, which are of
+  // one size. What is transparent is seen on mid grey.
+  std::vector<float> errors(const Image& expected, const Image& actual, const PixelBox& box) const;
 
  private:
-  // What the eye makes of one picture in the box, one value a pixel of it.
-  struct Seen {
-    std::vector<float> lightness, red_green, blue_yellow;  // L*, Hunt-adjusted a* and b*, filtered
-    std::vector<float> edge, point;                        // lengths of the first and second derivatives of Y
-  };
+  struct Seen;
   Seen look_at(const Image& image, const PixelBox& box) const;
 
   Taps achromatic_, red_green_, blue_yellow_wide_, blue_yellow_narrow_;  // contrast sensitivity
   Taps smooth_, edge_, point_;                                           // Gaussian and its derivatives
-  double largest_;  // the colour difference of pure green and pure blue, to the power of the paper
+  float largest_;  // the colour difference of pure green and pure blue, to the power of the paper
 };
 
 }  // namespace chainreel

@@ -52,8 +52,7 @@ TEST(CompareImages, ErrorsAreThoseOfTheWholePicture) {
   Image actual = expected;
   for (const auto& [x, y] : {std::pair(3, 3), {62, 10}, {66, 12}, {130, 127}, {199, 149}, {100, 64}})
     set_pixel(actual, x, y, kRed);
-  std::vector<float> errors(200 * 150);
-  Flip().compute(expected, actual, {0, 0, 200, 150}, errors);
+  const std::vector<float> errors = Flip().errors(expected, actual, {0, 0, 200, 150});
   double sum = 0, worst = 0;
   for (const float error : errors) sum += error;
   for (int y = 0; y < 150; ++y)

@@ -25,8 +25,8 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/output_file.hpp"
+#include "core/parallel.hpp"
 #include "encode/png.hpp"
-#include "scene/run/sweep.hpp"
 
 namespace chainreel {
 namespace {

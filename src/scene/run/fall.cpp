@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/format.hpp"
+#include "core/parallel.hpp"
 #include "scene/run/prepare.hpp"
-#include "scene/run/sweep.hpp"
 #include "scene/text/read_scene.hpp"
 #include "sim/system/chain_system.hpp"
 #include "sim/workload.hpp"

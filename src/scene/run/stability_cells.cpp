@@ -8,9 +8,9 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/parallel.hpp"
 #include "integrate/stability_limit.hpp"
 #include "scene/run/prepare.hpp"
-#include "scene/run/sweep.hpp"
 #include "scene/text/read_scene.hpp"
 #include "sim/audit.hpp"
 #include "sim/batch.hpp"

@@ -1,10 +1,6 @@
 #include "scene/run/sweep.hpp"
 
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <mutex>
-#include <thread>
 #include <vector>
 
 #include "core/error.hpp"
@@ -83,27 +79,6 @@ Sweep parse_sweep(const std::string& text, const std::string& option) {
   }
   if (sweep.numbers.size() != sweep.values.size()) sweep.numbers.clear();
   return sweep;
-}
-
-void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& run) {
-  std::atomic<std::size_t> next = 0;
-  std::exception_ptr problem;
-  std::mutex lock;
-  const auto work = [&] {
-    try {
-      for (std::size_t i = next++; i < count; i = next++) run(i);
-    } catch (...) {
-      const std::lock_guard guard(lock);
-      if (!problem) problem = std::current_exception();
-      next = count;
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (int k = 1; k < threads; ++k) others.emplace_back(work);
-    work();
-  }
-  if (problem) std::rethrow_exception(problem);
 }
 
 }  // namespace chainreel

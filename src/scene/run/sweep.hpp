@@ -3,8 +3,6 @@
 // parameters.k.
 #pragma once
 
-#include <cstddef>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,10 +19,5 @@ struct Sweep {
 
 // Throws Error (usage) naming the option.
 Sweep parse_sweep(const std::string& text, const std::string& option);
-
-// Independent pieces of work on several threads.
-
-// Each index below `count` once; what the first of them throws is thrown here.
-void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& run);
 
 }  // namespace chainreel
