@@ -1,9 +1,11 @@
 #include "core/machine.hpp"
 
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <limits>
 
@@ -115,6 +117,15 @@ std::string processor_features() {
   add(__builtin_cpu_supports("avx512vl"), "avx512vl");
 #endif
   return features;
+}
+
+void prefer_large_pages(void* begin, std::size_t bytes) {
+  constexpr std::uintptr_t kPage = 4096, kLarge = 1 << 21;
+  if (bytes < 2 * kLarge) return;  // may hold no large page
+  const auto first = (reinterpret_cast<std::uintptr_t>(begin) + kPage - 1) / kPage * kPage;
+  const auto end = (reinterpret_cast<std::uintptr_t>(begin) + bytes) / kPage * kPage;
+  // A refusal leaves small pages, which serve as well.
+  if (end > first) madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
 }
 
 }  // namespace chainreel

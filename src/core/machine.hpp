@@ -1,6 +1,7 @@
 // Where a measurement was taken.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace chainreel {
@@ -21,6 +22,10 @@ double memory_limit();
 
 // Throws Error (exit 7) with both numbers where `what`, like "a picture of 100x100 px", needs more than there may be.
 void require_memory(double bytes, const std::string& what);
+
+// Has the system back this memory, which has not been written yet, by large pages where there are some: to hand out
+// a large picture in small ones takes as long as to decode it. Changes nothing but time.
+void prefer_large_pages(void* begin, std::size_t bytes);
 
 // What the processor can do that compilers for wide vectors go by: "sse4.1 avx2 fma". Two that say the same compute the
 // same bits of a picture.

@@ -12,10 +12,12 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/error.hpp"
+#include "encode/usual_png.hpp"
 
 namespace chainreel {
 namespace {
@@ -145,9 +147,9 @@ std::string png_bytes(const Image& image) {
   return bytes;
 }
 
-// libpng's simplified reader keeps its errors in `png.message`; nothing jumps.
-Image read_png(const std::string& path) {
-  const FilePtr file = open_for_reading(path);
+Image decode_png(std::string_view bytes, const std::string& path) {
+  if (std::optional<Image> usual = decode_usual_png(bytes)) return std::move(*usual);
+  // libpng's simplified reader keeps its errors in `png.message`; nothing jumps.
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   const auto fail = [&] {
@@ -155,7 +157,7 @@ Image read_png(const std::string& path) {
     png_image_free(&png);
     throw Error(ExitCode::bad_input, "is not a PNG that can be read: " + reason, {path});
   };
-  if (png_image_begin_read_from_stdio(&png, file.get()) == 0) fail();
+  if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) fail();
   if (png.width > kLargestPng || png.height > kLargestPng) {
     png_image_free(&png);
     throw Error(ExitCode::limit, "is larger than 32768 pixels a side", {path});
@@ -164,6 +166,17 @@ Image read_png(const std::string& path) {
   Image image(int(png.width), int(png.height));
   if (png_image_finish_read(&png, nullptr, image.bgra.data(), 0, nullptr) == 0) fail();
   return image;
+}
+
+Image read_png(const std::string& path) {
+  const FilePtr file = open_for_reading(path);
+  std::string bytes;
+  std::array<char, 1 << 16> block;
+  while (const std::size_t count = std::fread(block.data(), 1, block.size(), file.get()))
+    bytes.append(block.data(), count);
+  if (std::ferror(file.get()) != 0)
+    throw Error(ExitCode::bad_input, std::string("cannot be read: ") + std::strerror(errno), {path});
+  return decode_png(bytes, path);
 }
 
 std::map<std::string, std::string> read_png_text(const std::string& path) {

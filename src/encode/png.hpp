@@ -5,6 +5,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "core/image.hpp"
 #include "encode/frame_sink.hpp"
@@ -19,6 +20,9 @@ void write_png(const std::string& path, const Image& image,
 std::string png_bytes(const Image& image);
 
 Image read_png(const std::string& path);  // throws Error (exit 3)
+
+// The same of a file's bytes; errors name the path.
+Image decode_png(std::string_view bytes, const std::string& path);
 
 // The texts that stand before the pixels, keyword to value. Throws Error (exit 3).
 std::map<std::string, std::string> read_png_text(const std::string& path);

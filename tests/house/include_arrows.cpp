@@ -120,6 +120,7 @@ const House& house() {
                    {"freetype/", {"picture", "render"}},
                    {"libav", {"encode"}},
                    {"libsw", {"encode"}},
+                   {"libdeflate.h", {"encode"}},
                    {"png.h", {"encode", "mesh"}},
                    {"jpeglib.h", {"mesh"}},
                    {"zlib.h", {"encode"}},
