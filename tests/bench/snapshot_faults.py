@@ -2,7 +2,8 @@
 """Small faults against suites of pictures: which of them `verify` finds, and whether its words name the cause.
 
     tests/bench/snapshot_faults.py --program build/chainreel --count 200 --seed 7
-    tests/bench/snapshot_faults.py --peers            # the same pictures given to ImageMagick's compare, too
+    tests/bench/snapshot_faults.py --peers            # the same pictures given to other comparisons, too
+    tests/bench/snapshot_faults.py --peers --npm FOLDER   # .. and to those of npm (see picture_peers.py)
 
 Three suites are made of the project's models and scenes and accepted; then faults are put in one at a time, drawn by the
 seed: into a model (a mass by 1 %, an origin by a pixel or 1e-3 rad, a colour by 4/255, a triangle of a mesh, a limit, a
@@ -10,8 +11,11 @@ name ..), into a scene (a torque, a method, a step, a start, a layer, a theme ..
 (pixels of a baseline, a glyph, another font, a shift by a pixel). A fault counts as found where verify ends with 1, and
 as explained where a sentence about a picture names the link, joint, key or text that it was put into. Run by hand.
 """
-import argparse, hashlib, json, os, random, re, shutil, struct, subprocess, sys, tempfile, zlib
+import argparse, hashlib, json, os, random, re, shutil, struct, subprocess, sys, tempfile, time, zlib
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from picture_peers import NotHere as PeerNotHere, ask, child_seconds, peers
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -272,17 +276,47 @@ def verify(program, folder, suite, *more):
         return run.returncode, {"pictures": [], "error": run.stderr}
 
 
+def pairs_of(folder, suite, into):
+    """Copies of each picture's baseline and of what was drawn: where verify shows nothing, they were equal."""
+    into.mkdir(parents=True)
+    pairs = []
+    for path in sorted((folder / (suite[:-5] + ".baselines")).glob("*.png")):
+        shown = [folder / "shown" / ("%s.%s.png" % (path.stem, side)) for side in ("expected", "actual")]
+        pair = [into / ("%s.%s.png" % (path.stem, side)) for side in ("before", "after")]
+        for source, target in zip(shown if shown[1].exists() else [path, path], pair):
+            shutil.copy(source if source.exists() else path, target)
+        pairs.append(pair)
+    return pairs
+
+
+def ask_peers(program, npm, by_fault):
+    """`by_fault` has the pairs of each fault; a fault is found where one of its pairs differs."""
+    pairs = [pair for fault in by_fault for pair in fault]
+    print("%d pairs of pictures:" % len(pairs))
+    for name, judge in peers(program, npm):
+        try:
+            verdicts, clock, spent = ask(judge, pairs)
+        except PeerNotHere as reason:
+            print("%-26s not here: %s" % (name, reason))
+            continue
+        rest = iter(verdicts)
+        found = sum(any([next(rest) for _ in fault]) for fault in by_fault)
+        print("%-26s finds %3d of %d, %6.1f s, %6.1f s of processor" % (name, found, len(by_fault), clock, spent))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", default=str(ROOT / "build/chainreel"))
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--seed", type=int, default=7)
-    parser.add_argument("--peers", action="store_true", help="ImageMagick's compare over the same pictures")
+    parser.add_argument("--peers", action="store_true", help="other comparisons over the same pictures")
+    parser.add_argument("--npm", help="a folder whose node_modules has pixelmatch, pngjs and odiff-bin")
     options = parser.parse_args()
     program = os.path.abspath(options.program)
     lot = random.Random(options.seed)
-    found = explained = by_pixels = 0
-    missed = []
+    found = explained = pictures = 0
+    clock = spent = 0.0
+    missed, by_fault = [], []
     with tempfile.TemporaryDirectory() as work:
         sound = Path(work) / "sound"
         suites = make_suites(sound)
@@ -301,19 +335,21 @@ def main():
             except NotHere:
                 continue
             tried += 1
+            begin, begin_spent = time.time(), child_seconds()
             code, result = verify(program, folder, suite, *(["-o", "shown"] if options.peers else []))
+            clock, spent = clock + time.time() - begin, spent + child_seconds() - begin_spent
+            pictures += len(result["pictures"])
             said = [w for p in result["pictures"] if not p["passed"] for w in p["words"]]
             named = any(word and word in sentence for word in words for sentence in said)
             found += code == 1
             explained += code == 1 and named
-            if options.peers:
-                pairs = [(p, Path(str(p).replace(".expected.", ".actual."))) for p in (folder / "shown").glob("*.expected.png")]
-                by_pixels += any(subprocess.run(["compare", "-metric", "AE", "-fuzz", "2%", str(a), str(b), "null:"],
-                                                capture_output=True, text=True).returncode == 1 for a, b in pairs)
+            if options.peers: by_fault.append(pairs_of(folder, suite, Path(work) / "pairs" / str(tried)))
             if code != 1 or not named: missed.append((kind, words, code, said[:4] or result.get("error", "")))
         for kind, words, code, said in missed: print("%-28s %s exit %d: %s" % (kind, words, code, said))
-    print("%d faults, seed %d: %d found, %d explained" % (options.count, options.seed, found, explained))
-    if options.peers: print("ImageMagick's compare -fuzz 2%% finds %d of them" % by_pixels)
+        print("%d faults, seed %d: %d found, %d explained" % (options.count, options.seed, found, explained))
+        print("%-26s finds %3d of %d, %6.1f s, %6.1f s of processor, drawing %d pictures included" %
+              ("chainreel verify", found, options.count, clock, spent, pictures))
+        if options.peers: ask_peers(program, options.npm, by_fault)
 
 
 if __name__ == "__main__":
