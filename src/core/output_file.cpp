@@ -40,13 +40,13 @@ std::string behind_links(const std::string& path) {
 
 const char* kind_of(mode_t mode) {
   if (S_ISDIR(mode)) return "is a folder: name a file inside it";
-  if (S_ISCHR(mode) || S_ISBLK(mode)) return "is a device, no file: name a file with -o";
-  if (S_ISFIFO(mode)) return "is a pipe, no file: name a file with -o";
-  return "is a socket, no file: name a file with -o";
+  if (S_ISCHR(mode) || S_ISBLK(mode)) return "is a device, no file: name a file";
+  if (S_ISFIFO(mode)) return "is a pipe, no file: name a file";
+  return "is a socket, no file: name a file";
 }
 
 [[noreturn]] void is_there(const std::string& path) {
-  throw Error(ExitCode::file, "exists already: give --force to overwrite it, or another name with -o", {path});
+  throw Error(ExitCode::file, "exists already: give --force to overwrite it, or another name", {path});
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ void require_replaceable(const std::string& path) {
   if (const std::string input = noted_input(path); !input.empty())
     throw Error(ExitCode::file,
                 "is read by this very command" + (input == path ? "" : " (as " + input + ")") +
-                    ": an output never replaces an input; name another file with -o",
+                    ": an output never replaces an input; name another file",
                 {path});
 }
 
@@ -73,7 +73,7 @@ OutputFile::OutputFile(std::string path, bool overwrite) : path_(std::move(path)
   const fs::path folder = folder_of(target_);
   fs::create_directories(folder, code);
   if (!fs::is_directory(folder, code))
-    throw Error(ExitCode::file, "cannot make this folder; choose another with -o", {folder.string()});
+    throw Error(ExitCode::file, "cannot make this folder; choose another", {folder.string()});
   remove_leftovers(folder.string());
   temporary_ = std::make_unique<TemporaryFile>(TemporaryFile::Kind::coming_file, folder.string(),
                                                fs::path(target_).extension().string(), path_);
@@ -172,7 +172,7 @@ OutputFolder::OutputFolder(std::string folder, std::string stem, std::string end
   std::error_code code;
   fs::create_directories(folder_, code);
   if (!fs::is_directory(folder_, code))
-    throw Error(ExitCode::file, "cannot make this folder; choose another with -o", {folder_});
+    throw Error(ExitCode::file, "cannot make this folder; choose another", {folder_});
   remove_leftovers(folder_);
   const std::vector<std::string> old = names_of_ours();
   for (const std::string& name : old) require_replaceable((fs::path(folder_) / name).string());

@@ -92,7 +92,8 @@ void tidy_up(const fs::path& path) {
 
 }  // namespace
 
-TemporaryFile::TemporaryFile(Kind kind, const std::string& folder, const std::string& ending, const std::string& target)
+TemporaryFile::TemporaryFile(Kind kind, const std::string& folder, const std::string& ending, const std::string& target,
+                             const std::string& remedy)
     : kind_(kind), target_(target) {
   errno = 0;
   for (int i = 0; i < kTries && file_ < 0; ++i) {
@@ -107,8 +108,7 @@ TemporaryFile::TemporaryFile(Kind kind, const std::string& folder, const std::st
     if (file_ >= 0) lock_new();
   }
   if (file_ < 0)
-    throw Error(ExitCode::file,
-                std::string("cannot be written (") + std::strerror(errno) + "); choose another place with -o", {target});
+    throw Error(ExitCode::file, std::string("cannot be written (") + std::strerror(errno) + "); " + remedy, {target});
   const std::lock_guard lock(final_names().mutex);
   final_names().names[path_] = target;
 }

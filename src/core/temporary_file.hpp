@@ -13,8 +13,9 @@ class TemporaryFile {
   enum class Kind { coming_file, coming_folder, former_folder };
 
   // Made anew in `folder`, which is there; `ending` (".mp4") stays last, for writers that go by it. Follows no link and
-  // opens no file that is there. Throws Error (exit 6) that names `target`, for which it is made.
-  TemporaryFile(Kind kind, const std::string& folder, const std::string& ending, const std::string& target);
+  // opens no file that is there. Throws Error (exit 6) that names `target`, for which it is made, and what can be done.
+  TemporaryFile(Kind kind, const std::string& folder, const std::string& ending, const std::string& target,
+                const std::string& remedy = "choose another place for it");
   ~TemporaryFile();  // removes it, with all in it, unless it was let go
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;

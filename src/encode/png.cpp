@@ -3,6 +3,7 @@
 #include "encode/png.hpp"
 
 #include <png.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -147,6 +148,22 @@ std::string png_bytes(const Image& image) {
   return bytes;
 }
 
+std::string with_png_text(std::string png, const std::map<std::string, std::string>& text) {
+  constexpr std::size_t kBehindHeader = 8 + 25;  // the signature and IHDR, which is the first chunk
+  const auto number = [](unsigned long value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += char((value >> shift) & 0xff);
+    return bytes;
+  };
+  std::string chunks;
+  for (const auto& [keyword, value] : text) {
+    const std::string data = keyword + '\0' + value, named = "tEXt" + data;
+    chunks += number(data.size()) + named +
+              number(crc32(0, reinterpret_cast<const Bytef*>(named.data()), uInt(named.size())));
+  }
+  return png.insert(std::min(kBehindHeader, png.size()), chunks);
+}
+
 Image decode_png(std::string_view bytes, const std::string& path) {
   if (std::optional<Image> usual = decode_usual_png(bytes)) return std::move(*usual);
   // libpng's simplified reader keeps its errors in `png.message`; nothing jumps.
@@ -163,6 +180,8 @@ Image decode_png(std::string_view bytes, const std::string& path) {
     throw Error(ExitCode::limit, "is larger than 32768 pixels a side", {path});
   }
   png.format = PNG_FORMAT_BGRA;
+  // Without this libpng takes 16 bits for light, not for what a screen is given, and the same picture becomes another one.
+  png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
   Image image(int(png.width), int(png.height));
   if (png_image_finish_read(&png, nullptr, image.bgra.data(), 0, nullptr) == 0) fail();
   return image;

@@ -18,8 +18,11 @@ void write_png(const std::string& path, const Image& image,
 
 // The same in memory, without texts.
 std::string png_bytes(const Image& image);
+// The bytes of a PNG with these ASCII texts more.
+std::string with_png_text(std::string png, const std::map<std::string, std::string>& text);
 
-Image read_png(const std::string& path);  // throws Error (exit 3)
+// Channels of 16 bits become those of 8. Throws Error (exit 3), of what is too large (exit 7).
+Image read_png(const std::string& path);
 
 // The same of a file's bytes; errors name the path.
 Image decode_png(std::string_view bytes, const std::string& path);

@@ -164,7 +164,7 @@ class Shapes {
     if (is_same(before, after)) return;
     if (before.file != after.file) tell(k, now, "was mesh " + before.file, now.shape.line);
     if (!told_.insert({old.mesh, now.mesh}).second) return;
-    const std::string mesh = "mesh " + after.file + " (link " + link_ + "): ";
+    const std::string mesh = "mesh " + after.file + " (" + links_of(now.mesh) + "): ";
     if (!before.sketch || !after.sketch) {
       if (before.sketch || after.sketch)
         found_.push_back(
@@ -172,6 +172,19 @@ class Shapes {
       return;
     }
     found_.push_back({mesh + triangles_words(*before.sketch, *after.sketch), now.shape.line});
+  }
+
+  // Who shows a mesh: what changed in it is told once, of all of them.
+  std::string links_of(int mesh) const {
+    std::vector<std::string> names;
+    for (const DescribedLink& link : after_.model.links) {
+      const auto shows = [&](const std::vector<DescribedShape>& shapes) {
+        return std::any_of(shapes.begin(), shapes.end(),
+                           [&](const DescribedShape& shape) { return shape.mesh == mesh; });
+      };
+      if (shows(link.visuals) || shows(link.collisions)) names.push_back(link.name);
+    }
+    return (names.size() == 1 ? "link " : "links ") + shortened(joined(names), 200);
   }
 
   static std::string because(const DescribedShape& old, const DescribedShape& now) {

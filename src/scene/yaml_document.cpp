@@ -26,7 +26,7 @@ class Guard final : public YAML::EventHandler {
   // Before a comma that opens a document the library finds empty documents without end: the second is refused.
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (++documents_ > 1)
-      fail("a second YAML document begins here: a scene is one, without `---` and no line of it begins with a comma",
+      fail("a second YAML document begins here: keep one, without `---` and with no line that begins with a comma",
            mark);
   }
   void OnDocumentEnd() override {}
@@ -53,7 +53,7 @@ class Guard final : public YAML::EventHandler {
   void descend(const YAML::Mark& mark, YAML::anchor_t anchor) {
     refuse_anchor(mark, anchor);
     if (++depth_ > kDeepestNesting)
-      fail("nested deeper than " + std::to_string(kDeepestNesting) + " levels: a scene needs four", mark);
+      fail("nested deeper than " + std::to_string(kDeepestNesting) + " levels: four are enough", mark);
   }
   void refuse_anchor(const YAML::Mark& mark, YAML::anchor_t anchor) {
     if (anchor != YAML::NullAnchor) fail("anchors (&name) are not allowed: write the value out", mark);
@@ -72,7 +72,7 @@ std::string read_text(const std::string& path) {
   if (!fs::exists(path, code)) throw Error(ExitCode::bad_input, "there is no such file", {path});
   if (!fs::is_regular_file(path, code)) throw Error(ExitCode::bad_input, "is not a file", {path});
   if (fs::file_size(path, code) > kLargestFile)
-    throw Error(ExitCode::limit, "is larger than 1 MiB: a scene is some 25 lines", {path});
+    throw Error(ExitCode::limit, "is larger than 1 MiB: some 25 lines are enough", {path});
   note_input(path);
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream text;

@@ -198,16 +198,23 @@ TrajectoryDifference difference_of(const SampledTrajectory& before, const Sample
   TrajectoryDifference difference;
   const Instants instants = shared_instants(before.t, after.t);
   difference.instants = int(instants.size());
-  if (before.q_numbers.size() != after.q_numbers.size() ||
-      before.qd_numbers.size() != after.qd_numbers.size()) {
-    difference.others.push_back(
-        "freedoms " + change_text(joined(labels_of(before.q_numbers)), joined(labels_of(after.q_numbers))));
+  const bool same_freedoms = before.q_numbers.size() == after.q_numbers.size(),
+             same_rates = before.qd_numbers.size() == after.qd_numbers.size();
+  const auto change_of_names = [](const std::string& what, const auto& old, const auto& now) {
+    const auto names = [](const auto& numbers) { return numbers.empty() ? "none" : joined(labels_of(numbers)); };
+    return what + " " + change_text(names(old), names(now));
+  };
+  if (!same_freedoms) {
+    difference.others.push_back(change_of_names("freedoms", before.q_numbers, after.q_numbers));
   } else {
     const auto find = [&](const std::vector<SampledNumber>& numbers, const auto& old, const auto& now) {
       return partings({numbers, old}, {numbers, now}, after.t, instants);
     };
     difference.freedoms = find(after.q_numbers, before.q, after.q);
-    if (difference.freedoms.empty()) difference.freedoms = find(after.qd_numbers, before.qd, after.qd);
+    if (!same_rates)
+      difference.others.push_back(change_of_names("rates", before.qd_numbers, after.qd_numbers));
+    else if (difference.freedoms.empty())
+      difference.freedoms = find(after.qd_numbers, before.qd, after.qd);
     if (instants.size() < 2 && std::max(before.size(), after.size()) > 1)
       difference.others.push_back("the runs are sampled at other instants and share " +
                                   std::to_string(instants.size()));

@@ -238,6 +238,28 @@ TEST(Compare, FoldersAreComparedByNames) {
       << "nor over what is compared";
 }
 
+TEST(Compare, OfFoldersNoFormerDifferenceStaysThatIsNoMore) {
+  const TemporaryFolder folder;
+  for (const char* name : {"equal.png", "gone.png", "mine.png"}) {
+    picture(folder, std::string("old/") + name, square_at(10));
+    picture(folder, std::string("new/") + name, square_at(15));
+  }
+  const std::string before = folder.file("old"), after = folder.file("new"), shown = folder.file("shown");
+  EXPECT_EQ(run_program({"compare", before, after, "-o", shown}).status, 1);
+  picture(folder, "shown/mine.png", square_at(30));  // the user's own, in the place of ours
+  for (const char* name : {"equal.png", "mine.png"}) picture(folder, std::string("new/") + name, square_at(10));
+  fs::remove(fs::path(after) / "gone.png");
+  EXPECT_EQ(run_program({"compare", before, after, "-o", shown}).status, 1);
+  EXPECT_FALSE(fs::exists(fs::path(shown) / "equal.png"));
+  EXPECT_FALSE(fs::exists(fs::path(shown) / "gone.png"));
+  EXPECT_TRUE(fs::exists(fs::path(shown) / "mine.png"));
+  // Pictures of differences may be compared themselves, and are inputs then.
+  const std::string gone = picture(folder, "a/x.png", square_at(1), {{"chainreel_compared", ""}});
+  picture(folder, "b/x.png", square_at(1));
+  EXPECT_EQ(run_program({"compare", folder.file("a"), folder.file("b"), "-o", folder.file("a")}).status, 0);
+  EXPECT_TRUE(fs::exists(gone));
+}
+
 class ComparedFilms : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Formats, ComparedFilms, ::testing::Values(".mp4", ".mov", ".webm", ".gif", ".apng"),
                          [](const auto& p) { return std::string(p.param).substr(1); });
@@ -324,6 +346,35 @@ TEST(Compare, TrajectoriesAreComparedInWords) {
   EXPECT_EQ(compared({a, folder.write("f.csv", "t,mass\n0,0\n")}).status, 3);
 }
 
+TEST(Compare, RowsAndColumnsThatOneTableLacksAreADifference) {
+  const TemporaryFolder folder;
+  const std::string a = folder.write("a.csv", "t,q1,q2,qd1,qd2\n0,0,0,1,2\n0.5,1,0,1,2\n1,2,3,1,2\n");
+  const std::string rows = folder.write("b.csv", "t,q1,q2,qd1,qd2\n0,0,0,1,2\n1,2,3,1,2\n");
+  for (const Words& pair : {Words{a, rows}, Words{rows, a}}) {
+    const Json json = report(pair);
+    EXPECT_EQ(json["status"], 1);
+    EXPECT_THAT(json["explained"][0].get<std::string>(), HasSubstr("the first that only one has is at t = 0.5 s"));
+  }
+  const std::string rates = folder.write("c.csv", "t,q1,q2\n0,0,0\n0.5,1,0.25\n1,2,3\n");
+  EXPECT_EQ(report({a, rates})["explained"],
+            (Json{"q2 differs by 0.25 from t = 0.5 s on", "rates qd1, qd2 -> none"}));
+  // By their names, not by their places.
+  const std::string order = folder.write("d.csv", "t,qd2,q2,q1,qd1\n0,2,0,0,1\n0.5,2,0,1,1\n1,2,3,2,1\n");
+  EXPECT_EQ(report({a, order})["equal"], true);
+  EXPECT_THAT(compared({a, order}).out, HasSubstr("their columns stand in another order"));
+}
+
+TEST(Compare, MeshesThatNeitherModelHasAreSaidToBeNotCompared) {
+  const TemporaryFolder folder;
+  const std::string model = folder.write(
+      "a.urdf", "<robot name='a'><link name='base'><visual><geometry><mesh filename='no.stl'/></geometry></visual></link>"
+                "<link name='l'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>"
+                "</link><joint name='j' type='continuous'><parent link='base'/><child link='l'/><axis xyz='0 0 1'/></joint></robot>");
+  EXPECT_EQ(report({model, model})["not_compared"], Json{"mesh no.stl"});
+  EXPECT_THAT(compared({model, model}).out, HasSubstr("neither could be read: mesh no.stl"));
+  EXPECT_EQ(report({"models/rr.urdf", "models/rr.urdf"})["not_compared"], Json::array());
+}
+
 TEST(Compare, TrajectoriesOfFloatingBasesAreComparedByTheirRotation) {
   const TemporaryFolder folder;
   const std::string head = "t,q.b.qx,q.b.qy,q.b.qz,q.b.qw\n0,0,0,0,1\n";
@@ -373,7 +424,7 @@ TEST(Compare, AnimatedPicturesAndSixteenBitsAreNotPassedOver) {
   const std::string grey = folder.write("c.png", deep);
   const ProgramResult told = compared({grey, grey});
   EXPECT_EQ(told.status, 0) << told.err;
-  EXPECT_THAT(told.out, HasSubstr("of channels with 16 bits the upper 8 are compared"));
+  EXPECT_THAT(told.out, HasSubstr("channels of 16 bits are compared as those of 8"));
   EXPECT_THAT(compared({still, still}).out, Not(HasSubstr("16 bits")));
 }
 

@@ -70,6 +70,22 @@ TEST(ManySnapshots, EachInstantIsAFileAndThatOfAFrameIsWhatItIsAlone) {
   EXPECT_NE(read_png(folder.file("there/rr_free_0s.png")).bgra, read_png(folder.file("alone.png")).bgra);
 }
 
+TEST(ManySnapshots, APictureDoesNotDependOnWhichOthersAreAskedFor) {
+  const TemporaryFolder folder;
+  const Words scene =
+      chainreel::with({"snapshot", "assets/scenes/rr_free.yaml"}, chainreel::with(kShortRun, kSmallPicture));
+  const auto taken = [&](const std::string& at, const std::string& place) {
+    EXPECT_EQ(run_program(chainreel::with(scene, {"--at", at, "-o", folder.file(place)})).status, 0);
+  };
+  taken("a=0.1234,b=0.5,c=0.8765", "many/");
+  for (const auto& [name, at] : {std::pair("a", "0.1234"), {"b", "0.5"}, {"c", "0.8765"}}) {
+    taken(at, std::string(name) + ".png");
+    EXPECT_EQ(read_whole_file(folder.file(std::string("many/") + name + ".png")),
+              read_whole_file(folder.file(std::string(name) + ".png")))
+        << at;
+  }
+}
+
 TEST(ManySnapshots, AnEventIsAnInstant) {
   const TemporaryFolder folder;
   const std::string scene =

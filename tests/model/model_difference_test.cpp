@@ -253,9 +253,9 @@ TEST(ModelDifference, TellsMeshesByTheirTriangles) {
   EXPECT_THAT(
       words_of(before, with_mesh(replaced(solid(50), "vertex 7.000000 1 1", "vertex 7.000000 1 1.001"))),
       ElementsAre(StartsWith(
-          "mesh forearm.stl (link forearm): 2 % of its 50 triangles differ")));  // once, of two links
+          "mesh forearm.stl (links forearm, a): 2 % of its 50 triangles differ")));  // once, of two links
   EXPECT_THAT(words_of(before, with_mesh(solid(49))),
-              ElementsAre(StartsWith("mesh forearm.stl (link forearm): 1 of its 50 triangles gone")));
+              ElementsAre(StartsWith("mesh forearm.stl (links forearm, a): 1 of its 50 triangles gone")));
   EXPECT_THAT(
       words_of(before, with_mesh(solid(50, 2))),
       ElementsAre(HasSubstr("all of its 50 triangles differ; the box around it 50 x 1 x 1 -> 50 x 1 x 2 m")));
@@ -265,7 +265,7 @@ TEST(ModelDifference, TellsMeshesByTheirTriangles) {
   ModelOptions options;
   options.meshes = false;
   EXPECT_THAT(words_of(before, describe_model(path, options)),
-              ElementsAre("mesh forearm.stl (link forearm): cannot be read any more, URDF line 2"));
+              ElementsAre("mesh forearm.stl (links forearm, a): cannot be read any more, URDF line 2"));
   // In another folder under the same name.
   folder.write("forearm.stl", solid(50));
   folder.write("else/forearm.stl", solid(50));

@@ -19,7 +19,15 @@ TEST(SceneDifference, GoesIntoMappingsAndListsOfThem) {
   EXPECT_THAT(
       explain_scene_texts("video: {width: 640, height: 360}\nevents: [{when: q1, kind: a}, {when: q2}]\n",
                           "video: {width: 640, height: 480}\nevents: [{when: q1, kind: b}]\n"),
-      ElementsAre("video.height 360 -> 480", "events.1.kind a -> b", "events.2.when: q2 -> left out"));
+      ElementsAre("video.height 360 -> 480", "events.1.kind a -> b", "events: without {when: q2}"));
+}
+
+TEST(SceneDifference, AnEntryThatCameOrWentIsToldWhole) {
+  EXPECT_THAT(key_changes("slow_motion", "[{event: hit, speed: 0.1}]", ""),
+              ElementsAre(testing::HasSubstr("hit")));
+  EXPECT_THAT(key_changes("slow_motion", "[{event: a, speed: 0.1}, {event: hit, speed: 0.1}]", "[{event: a, speed: 0.1}]"),
+              ElementsAre("slow_motion: without {event: hit, speed: 0.1}"));
+  EXPECT_THAT(key_changes("events", "[{name: a}]", "[{name: a}, {name: b}]"), ElementsAre("events: with {name: b}"));
 }
 
 TEST(SceneDifference, NamesTheEntryOfAList) {

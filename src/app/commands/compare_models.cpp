@@ -1,5 +1,7 @@
 // Two models, and two trajectories as `simulate` writes them: what differs, in words.
 
+#include <algorithm>
+
 #include "app/commands/comparison.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/verify/physics_record.hpp"
@@ -8,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/input_file.hpp"
+#include "model/model_description.hpp"
 #include "sim/trajectory_difference.hpp"
 
 namespace chainreel {
@@ -15,9 +18,7 @@ namespace {
 
 // Columns t, q.. and qd..; what they are called is all that a table says of its freedoms, so units are not
 // known.
-SampledTrajectory trajectory_in(const std::string& path) {
-  note_input(path);
-  const Table table = read_csv(path);
+SampledTrajectory trajectory_of(const Table& table, const std::string& path) {
   const int time = table.find("t");
   if (time < 0)
     throw Error(ExitCode::bad_input, "has no column t: it is no trajectory as `simulate` writes it",
@@ -50,11 +51,41 @@ SampledTrajectory trajectory_in(const std::string& path) {
   return trajectory;
 }
 
+// The columns of `table` in the order of `names`, where those are its own.
+bool put_in_order(Table& table, const std::vector<std::string>& names) {
+  if (!std::is_permutation(table.names.begin(), table.names.end(), names.begin(), names.end())) return false;
+  std::vector<std::vector<double>> columns;
+  for (const std::string& name : names) columns.push_back(std::move(table.columns[std::size_t(table.find(name))]));
+  table.columns = std::move(columns);
+  table.names = names;
+  return true;
+}
+
+// Instants at which one of the two has no row are a difference, whatever the other rows say.
+std::string row_words(const SampledTrajectory& before, const SampledTrajectory& after, std::size_t shared) {
+  if (before.size() == shared && after.size() == shared) return "";
+  std::string words = "rows " + change_text(std::to_string(before.size()), std::to_string(after.size())) + ", " +
+                      std::to_string(shared) + " of them at instants that both have";
+  const std::size_t most = std::min(before.size(), after.size());
+  for (std::size_t i = 0; i < most; ++i)
+    if (before.t[i] != after.t[i])
+      return words + "; the first that only one has is at t = " + format_shortest(std::min(before.t[i], after.t[i])) + " s";
+  return words;
+}
+
 std::vector<std::string> names_of(const SampledTrajectory& trajectory) {
   std::vector<std::string> names;
   for (const std::vector<SampledNumber>* numbers : {&trajectory.q_numbers, &trajectory.qd_numbers})
     for (const SampledNumber& number : *numbers) names.push_back(number.label);
   return names;
+}
+
+// Of a model's record.
+std::vector<std::string> unread_meshes(const Json& record) {
+  std::vector<std::string> files;
+  for (const DescribedMesh& mesh : model_description_of(record).meshes)
+    if (!mesh.sketch) files.push_back("mesh " + mesh.file);
+  return files;
 }
 
 Comparison said(std::vector<std::string> words) {
@@ -77,13 +108,31 @@ Comparison compare_models(const CompareOptions& options) {
     note_input(path);
     records[i] = model_record(path, model_scene_of(path, overrides, "compare", honoured).options, DescribeCollisions::all);
   }
-  return said(explain_models(records[0], records[1]));
+  Comparison found = said(explain_models(records[0], records[1]));
+  std::vector<std::string> unread;
+  for (const std::string& mesh : unread_meshes(records[1]))
+    if (const auto old = unread_meshes(records[0]); std::find(old.begin(), old.end(), mesh) != old.end())
+      unread.push_back(mesh);
+  if (!unread.empty())
+    found.words.push_back("not compared, for neither could be read: " + joined(unread));
+  found.report["not_compared"] = unread;
+  return found;
 }
 
 Comparison compare_trajectories(const CompareOptions& options) {
-  const SampledTrajectory before = trajectory_in(options.before), after = trajectory_in(options.after);
+  Table tables[2];
+  for (const int i : {0, 1}) {
+    const std::string& path = i == 0 ? options.before : options.after;
+    note_input(path);
+    tables[i] = read_csv(path);
+  }
+  const bool other_order = tables[0].names != tables[1].names && put_in_order(tables[1], tables[0].names);
+  const SampledTrajectory before = trajectory_of(tables[0], options.before),
+                          after = trajectory_of(tables[1], options.after);
   const TrajectoryDifference difference = difference_of(before, after);
   std::vector<std::string> words = difference.others;
+  if (const std::string rows = row_words(before, after, std::size_t(difference.instants)); !rows.empty())
+    words.push_back(rows);
   const std::vector<std::string> old_names = names_of(before), names = names_of(after);
   if (old_names != names && old_names.size() == names.size())  // compared in their order
     words.push_back("columns " + change_text(joined(old_names), joined(names)));
@@ -92,6 +141,7 @@ Comparison compare_trajectories(const CompareOptions& options) {
   Comparison found = said(words);
   found.equal = before.t == after.t && before.q == after.q && before.qd == after.qd && words.empty();
   if (!found.equal && found.passes) found.words = {"no number differs by more than 1e-9 of its range"};
+  if (other_order) found.words.push_back("their columns stand in another order");
   found.report["instants"] = difference.instants;
   return found;
 }

@@ -9,6 +9,7 @@
 
 #include "app/cli/streams.hpp"
 #include "app/commands/comparison.hpp"
+#include "app/report/compared_picture.hpp"
 #include "core/error.hpp"
 #include "core/input_file.hpp"
 #include "encode/png.hpp"
@@ -76,7 +77,7 @@ Comparison compare_pair(const CompareOptions& options, const std::string& output
   found.words = {told(difference, before, after, options.tolerance)};
   found.report = report_of(difference, before, after);
   if (old_file.has_sixteen_bits() || new_file.has_sixteen_bits())
-    found.words.push_back("of channels with 16 bits the upper 8 are compared");
+    found.words.push_back("channels of 16 bits are compared as those of 8");
   const std::vector<std::string> remembered = explain_memories(options.before, options.after);
   found.words.insert(found.words.end(), remembered.begin(), remembered.end());
   found.report["explained"] = remembered;
@@ -104,6 +105,8 @@ Comparison compare_folders(const CompareOptions& options) {
     Json entry{{"name", name}};
     std::string state;
     std::vector<std::string> words;
+    const std::string shown = options.output.empty() ? "" : (fs::path(options.output) / name).string();
+    bool has_difference = false;
     if (!after.contains(name) || !before.contains(name)) {
       state = before.contains(name) ? "gone" : "added";
       found.equal = found.passes = false;
@@ -113,15 +116,16 @@ Comparison compare_folders(const CompareOptions& options) {
       pair.after = (fs::path(options.after) / name).string();
       Comparison one = compare_pair(pair, "");
       // Only now, so that folders hold what there is to look at and nothing else.
-      if (!one.equal && !options.output.empty())
-        write_difference(options, read_png(pair.before), read_png(pair.after),
-                         (fs::path(options.output) / name).string());
+      has_difference = !one.equal;
+      if (has_difference && !shown.empty())
+        write_difference(options, read_png(pair.before), read_png(pair.after), shown);
       state = one.equal ? "equal" : one.passes ? "within tolerance" : "differs";
       found.equal = found.equal && one.equal;
       found.passes = found.passes && one.passes;
       words = one.words;
       entry.update(one.report);
     }
+    if (!has_difference && !shown.empty()) remove_compared_picture(shown);  // of an earlier run
     entry["state"] = state;
     found.report["pictures"].push_back(entry);
     ++counts[state];

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/film/clip_memory.hpp"
+#include "app/report/compared_picture.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/output_file.hpp"
@@ -87,12 +88,10 @@ void write_difference(const CompareOptions& options, const Image& before, const 
                       const std::string& path) {
   const Image difference = difference_picture(before, after, options.tolerance);
   OutputFile file(path, options.common.force);
-  if (difference.bgra.empty())
-    write_png(file.temporary_path(), side_by_side({&before, &after}));
-  else if (options.side_by_side)
-    write_png(file.temporary_path(), side_by_side({&before, &after, &difference}));
-  else
-    write_png(file.temporary_path(), difference);
+  const Image page = difference.bgra.empty() ? side_by_side({&before, &after})
+                     : options.side_by_side  ? side_by_side({&before, &after, &difference})
+                                             : difference;
+  write_png(file.temporary_path(), page, compared_picture_text());
   file.commit();
 }
 

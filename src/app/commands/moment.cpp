@@ -10,9 +10,10 @@
 #include "scene/run/fall.hpp"
 
 namespace chainreel {
+
+// A film with its pictures, as far as they are asked for.
 struct Moments::State {
   const PreparedFilm& film;
-  std::vector<int> frames;
   Runs runs;
   Film pictures;
   FilmReport report;
@@ -21,9 +22,8 @@ struct Moments::State {
 
   State(const PreparedFilm& of, FilmClock clock, Instants instants, const Fonts& fonts)
       : film(of),
-        frames(std::move(instants.frames)),
         runs(film, std::move(clock), std::move(instants.times)),
-        pictures(runs.pictures(frames_drawn(), fonts)),
+        pictures(runs.pictures(frames_drawn(instants.frames.front()), fonts)),
         report(film_report(runs, pictures, frames_of_film(runs, instants.added))) {
     report.writes = Writes::pictures;
     memory = memory_of(report);
@@ -31,38 +31,41 @@ struct Moments::State {
   }
 
   // Those that every run shows that must come to its end.
-  int frames_drawn() const {
-    for (const int frame : frames) runs.require_expected_ends(frame);
+  int frames_drawn(int frame) const {
+    runs.require_expected_ends(frame);
     const int all = int(runs.times().size());
     return runs.size() == 1 && film.scene.expect == Outcome::finish ? std::min(all, runs[0].size()) : all;
   }
+
+  Moment moment(int frame) const {
+    runs.require_expected_ends(frame);
+    Moment moment;
+    moment.at = runs.times()[std::size_t(frame)];
+    moment.picture = pictures.static_layer();
+    moment.picture.append(pictures.frame(frame));
+    moment.title = runs.size() == 1 ? title_of(film.panels.front().scene, runs[0]) : film.scene.title;
+    moment.memory = memory;
+    moment.memory.audit["at"] = moment.at;
+    moment.warnings = warnings;
+    return moment;
+  }
 };
 
-Moments::Moments(const PreparedFilm& film, const std::vector<double>& at, const Fonts& fonts) {
-  FilmClock clock = clock_of(film);
-  Instants instants = instants_of(film, clock, at);
-  state_ = std::make_unique<State>(film, std::move(clock), std::move(instants), fonts);
-}
+Moments::Moments(const PreparedFilm& film, const Fonts& fonts)
+    : film_(film), fonts_(fonts), clock_(clock_of(film)) {}
 
 Moments::~Moments() = default;
 
-Moment Moments::moment(std::size_t i) const {
-  const State& state = *state_;
-  const int frame = state.frames[i];
-  Moment moment;
-  moment.at = state.runs.times()[std::size_t(frame)];
-  moment.picture = state.pictures.static_layer();
-  moment.picture.append(state.pictures.frame(frame));
-  moment.title = state.runs.size() == 1 ? title_of(state.film.panels.front().scene, state.runs[0])
-                                        : state.film.scene.title;
-  moment.memory = state.memory;
-  moment.memory.audit["at"] = moment.at;
-  moment.warnings = state.warnings;
-  return moment;
+Moment Moments::moment(double at) {
+  Instants instants = instants_of(film_, clock_, {at});
+  const int frame = instants.frames.front();
+  if (!instants.added.empty()) return State(film_, clock_, std::move(instants), fonts_).moment(frame);
+  if (!of_frames_) of_frames_ = std::make_unique<State>(film_, clock_, std::move(instants), fonts_);
+  return of_frames_->moment(frame);
 }
 
 Moment moment_at(const PreparedFilm& film, double at, const Fonts& fonts) {
-  return Moments(film, {at}, fonts).moment(0);
+  return Moments(film, fonts).moment(at);
 }
 
 Moment telling_moment(const PreparedFilm& film, const Fonts& fonts) {

@@ -20,20 +20,24 @@ struct Moment {
   std::vector<std::string> warnings;  // what speaks against the runs
 };
 
-// Several of one film, which is run once; one camera holds the motion and all of them. The film and fonts
-// must outlive them.
+// Several of one film, each as it is alone, whichever others there are: those at its frames share one run; an instant
+// between two frames is a sample more, which camera, trails and plots hold, too, and has a run of its own. The film
+// and fonts must outlive them.
 class Moments {
  public:
-  // Throws Error (exit 5) where a run does not come that far or does not end as the scene expects; what fails
-  // after the last of these instants does not spoil their pictures.
-  Moments(const PreparedFilm& film, const std::vector<double>& at, const Fonts& fonts);
+  Moments(const PreparedFilm& film, const Fonts& fonts);
   ~Moments();
 
-  Moment moment(std::size_t i) const;
+  // Throws Error (exit 5) where a run does not come that far or does not end as the scene expects; what fails
+  // later does not spoil the picture.
+  Moment moment(double at);
 
  private:
   struct State;
-  std::unique_ptr<State> state_;
+  const PreparedFilm& film_;
+  const Fonts& fonts_;
+  FilmClock clock_;
+  std::unique_ptr<State> of_frames_;
 };
 
 // One alone.

@@ -180,9 +180,9 @@ void snapshot_scene(const SnapshotOptions& options) {
   const std::vector<double> instants = instants_asked(film, asked);
   Pictures pictures(options, place, names);
   const Fonts fonts;
-  const Moments moments(film, instants, fonts);
+  Moments moments(film, fonts);
   for (std::size_t i = 0; i < instants.size(); ++i) {
-    const Moment shown = moments.moment(i);
+    const Moment shown = moments.moment(instants[i]);
     if (i == 0) tell_warnings(shown.warnings);
     pictures.write(i, shown.picture, video.width, video.height, fonts, shown.memory);
   }

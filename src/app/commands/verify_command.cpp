@@ -15,6 +15,7 @@
 #include "app/cli/command.hpp"
 #include "app/cli/streams.hpp"
 #include "app/film/progress.hpp"
+#include "app/report/compared_picture.hpp"
 #include "app/report/report.hpp"
 #include "app/report/version.hpp"
 #include "app/verify/baselines.hpp"
@@ -60,17 +61,22 @@ std::vector<const SuitePicture*> chosen_pictures(const Suite& suite, const Verif
     names.push_back(picture.name);
     if (matches(picture, options.filters)) chosen.push_back(&picture);
   }
-  std::vector<Problem> problems;
-  for (const std::string& name : options.accept)
+  ProblemList problems;
+  for (const std::string& name : options.accept) {
+    const auto is_it = [&](const SuitePicture* picture) { return picture->name == name; };
     if (std::find(names.begin(), names.end(), name) == names.end())
-      problems.push_back({"--accept " + name + ": the suite has no such picture:" +
-                              did_you_mean(name, names) + " It has " + shortened(joined(names), 500),
-                          {}});
-  if (!problems.empty()) throw Error(ExitCode::usage, std::move(problems));
-  if (chosen.empty())
-    throw Error(ExitCode::usage,
-                "--filter " + joined(options.filters) +
-                    " matches none of the suite's pictures: " + shortened(joined(names), 500));
+      problems.add("--accept " + name + ": the suite has no such picture:" + did_you_mean(name, names) + " It has " +
+                       shortened(joined(names), 500),
+                   {});
+    else if (std::none_of(chosen.begin(), chosen.end(), is_it))
+      problems.add("--accept " + name + ": --filter leaves this picture out: name it there, too, or give no --filter",
+                   {});
+  }
+  for (const std::string& filter : options.filters)
+    if (std::none_of(suite.pictures.begin(), suite.pictures.end(),
+                     [&](const SuitePicture& picture) { return matches(picture, {filter}); }))
+      problems.add("--filter " + filter + " matches none of the suite's pictures: " + shortened(joined(names), 500), {});
+  problems.throw_if_any(ExitCode::usage);
   return chosen;
 }
 
@@ -155,10 +161,12 @@ class Verification {
   Outcome outcome_of(const SuitePicture& picture, Studio& studio) {
     SuiteShot shot;
     try {
+      // What cannot be fitted cannot be drawn, and says why.
+      if (!suite_.fit && !cameras_.contains(source_name(suite_, picture.source))) studio.fitted(picture.source);
       shot = studio.shoot(picture);
     } catch (const Error& error) {
       if (error.code() == ExitCode::interrupted || error.code() == ExitCode::terminated) throw;
-      return {without(PictureState::failed, suite_, picture, words_of(error)), nullptr};
+      return {without(PictureState::failed, suite_, picture, words_of(as_said_in(suite_, error))), nullptr};
     }
     const bool is_new = !baselines_.has(picture.name);
     if (is_accepted(options_, picture) || (is_new && options_.missing == "write"))
@@ -209,6 +217,19 @@ std::vector<std::string> unused_baselines(const Suite& suite, const Baselines& b
   return {names.begin(), names.end()};
 }
 
+// A source with baselines had a camera, unless it was the suite's own: where that is gone, another one may have been fitted.
+std::vector<std::string> lost_cameras(const Suite& suite, const Baselines& baselines, const Cameras& kept) {
+  std::vector<std::string> notices;
+  std::set<std::string> seen;
+  for (const SuitePicture& picture : suite.pictures) {
+    const std::string source = source_name(suite, picture.source);
+    if (suite.fit || kept.contains(source) || !baselines.has(picture.name) || !seen.insert(source).second) continue;
+    notices.push_back("the camera of " + source + " is missing in " + baselines.camera_file() +
+                      ", and was fitted to what is drawn now: restore that file, or take the new one with --accept --refit");
+  }
+  return notices;
+}
+
 // What is accepted and pruned, in one go.
 void update(const Suite& suite, const VerifyOptions& options, const Baselines& baselines,
             const Cameras& cameras, const std::vector<Outcome>& outcomes, SuiteResult& result) {
@@ -228,14 +249,12 @@ void update(const Suite& suite, const VerifyOptions& options, const Baselines& b
 // Pictures of what failed, for who has no report.
 void write_pictures(const std::string& folder, const SuiteResult& result, bool overwrite) {
   for (const PictureVerdict& one : result.pictures) {
-    if (one.passes) {  // what an earlier run left there is no more true
-      std::error_code code;
-      for (const char* what : {".expected.png", ".actual.png", ".difference.png"})
-        fs::remove(fs::path(folder) / (one.name + what), code);
-      continue;
-    }
     const auto write = [&](const char* what, const std::string& png) {
-      if (!png.empty()) write_text_file((fs::path(folder) / (one.name + what)).string(), png, overwrite);
+      const std::string path = (fs::path(folder) / (one.name + what)).string();
+      if (one.passes || png.empty())  // what an earlier run left there is no more true
+        remove_compared_picture(path);
+      else
+        write_text_file(path, with_png_text(png, compared_picture_text()), overwrite);
     };
     write(".expected.png", one.expected_png);
     write(".actual.png", one.actual_png);
@@ -249,6 +268,20 @@ void require_distinct_outputs(const VerifyOptions& options) {
   for (const std::string& path : {options.junit, options.markdown, options.html, options.output})
     if (!path.empty() && !seen.insert(fs::weakly_canonical(path)).second)
       throw Error(ExitCode::usage, path + " is named twice: each result has a file of its own");
+}
+
+// Before anything is drawn: what cannot be written, or has no place among the baselines.
+void require_writable_outputs(const VerifyOptions& options, const Baselines& baselines) {
+  const fs::path folder = fs::weakly_canonical(baselines.folder());
+  for (const std::string& path : {options.junit, options.markdown, options.html, options.output}) {
+    if (path.empty()) continue;
+    const fs::path target = fs::weakly_canonical(path);
+    if (std::mismatch(folder.begin(), folder.end(), target.begin(), target.end()).first == folder.end())
+      throw Error(ExitCode::usage, path + " lies in the folder of the baselines: name another place");
+    if (path != options.output) const OutputFile allowed(path, options.common.force);  // throws where it is not
+  }
+  if (!options.output.empty() && fs::exists(options.output) && !fs::is_directory(options.output))
+    throw Error(ExitCode::usage, "-o " + options.output + " is a file: name a folder");
 }
 
 VerifyReport page_of(const SuiteResult& result) {
@@ -276,6 +309,7 @@ void tell_result(const VerifyOptions& options, const SuiteResult& result) {
     std::puts(to_json(result).dump(2).c_str());
     return;
   }
+  for (const std::string& notice : result.notices) std::fprintf(stderr, "%s\n", notice.c_str());
   if (options.common.quiet) return;
   for (const PictureVerdict& one : result.pictures)
     if (one.state == PictureState::accepted) std::printf("accepted  %s\n", one.name.c_str());
@@ -302,14 +336,13 @@ void run_verify(VerifyOptions options) {
   const bool writes = options.accepts || options.prune || options.missing == "write";
   const SuiteLock lock(suite, writes ? SuiteLock::For::writing : SuiteLock::For::reading);
   const Baselines baselines(suite);
-  if (!options.output.empty() &&
-      fs::weakly_canonical(options.output) == fs::weakly_canonical(baselines.folder()))
-    throw Error(ExitCode::usage,
-                "-o " + options.output + " is the folder of the baselines: name another one");
-  const Cameras cameras = cameras_of(suite, options.refit ? Cameras{} : baselines.cameras());
+  require_writable_outputs(options, baselines);
+  const Cameras kept = options.refit ? Cameras{} : baselines.cameras();
+  const Cameras cameras = cameras_of(suite, kept);
   const std::vector<Outcome> outcomes = Verification(suite, options, baselines, cameras).run(chosen);
   throw_if_interrupted();
-  SuiteResult result{options.suite, baselines.folder(), {}, unused_baselines(suite, baselines), {}};
+  SuiteResult result{options.suite, baselines.folder(), {}, unused_baselines(suite, baselines), {}, {}};
+  if (!options.refit) result.notices = lost_cameras(suite, baselines, kept);
   for (const Outcome& one : outcomes) result.pictures.push_back(one.verdict);
   tell_of_former_names(result);
   update(suite, options, baselines, cameras, outcomes, result);

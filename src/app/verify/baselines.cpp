@@ -65,9 +65,9 @@ std::string facts_file_of(const std::string& name) {
   throw Error(ExitCode::bad_input, why, {path.string()});
 }
 
-Json read_facts(const fs::path& path) {
+Json read_facts(const fs::path& path, const std::string& remedy) {
   Json facts = parse_json(read_plain_file(path.string(), kLargestFacts));
-  if (!facts.is_object()) refuse(path, "is no JSON object: restore it, or --accept the picture anew");
+  if (!facts.is_object()) refuse(path, "is no JSON object: restore it, or " + remedy);
   return facts;
 }
 
@@ -164,7 +164,7 @@ Baseline Baselines::read(const std::string& name) const {
                  facts_path = fs::path(folder_) / facts_file_of(name);
   if (!fs::exists(facts_path))
     refuse(facts_path, "is missing beside the picture: restore it, or --accept " + name);
-  const Json facts = read_facts(facts_path);
+  const Json facts = read_facts(facts_path, "--accept " + name);
   if (facts.value("suite", Json()) != Json(suite_))
     refuse(path, "belongs to the suite " + facts.value("suite", Json("of another name")).dump() +
                      ", not to \"" + suite_ + "\": move it away, or --accept " + name);
@@ -195,19 +195,23 @@ Baseline Baselines::read(const std::string& name) const {
   return baseline;
 }
 
+std::string Baselines::camera_file() const {
+  return (fs::path(folder_) / kCameraFile).string();
+}
+
 Cameras Baselines::cameras() const {
-  const fs::path path = fs::path(folder_) / kCameraFile;
+  const fs::path path = camera_file();
   Cameras cameras;
   if (!fs::exists(path)) return cameras;
-  const Json facts = read_facts(path);
+  const std::string remedy = "take a new camera with --accept --refit";
+  const Json facts = read_facts(path, remedy);
   for (const auto& [source, part] : facts.items()) {
-    if (!part.is_array() || part.size() != 4)
-      refuse(path, "'" + source + "' must hold four numbers: left, bottom, right, top");
-    for (std::size_t i = 0; i < 4; ++i) {
-      if (!part[i].is_number())
-        refuse(path, "'" + source + "' must hold four numbers: left, bottom, right, top");
-      cameras[source][i] = part[i].get<double>();
-    }
+    std::array<double, 4>& camera = cameras[source];
+    bool is_good = part.is_array() && part.size() == camera.size();
+    for (std::size_t i = 0; is_good && i < camera.size(); ++i)
+      if ((is_good = part[i].is_number())) camera[i] = part[i].get<double>();
+    if (!is_good || !(camera[0] < camera[2]) || !(camera[1] < camera[3]))
+      refuse(path, "'" + source + "' must hold left, bottom, right and top of a camera: restore it, or " + remedy);
   }
   return cameras;
 }
@@ -217,10 +221,19 @@ BaselineUpdate::BaselineUpdate(const Suite& suite, const Baselines& old)
   const fs::path parent =
       fs::path(folder_).parent_path().empty() ? fs::path(".") : fs::path(folder_).parent_path();
   std::error_code code;
+  if (fs::is_symlink(folder_, code))
+    throw Error(ExitCode::file, "is a link, and baselines are exchanged as a whole folder: put the folder itself there",
+                {folder_});
   if (fs::exists(fs::symlink_status(folder_, code)) && !fs::is_directory(fs::symlink_status(folder_, code)))
     throw Error(ExitCode::file, "is no folder, and baselines belong there: move it away", {folder_});
   remove_leftovers(parent.string());
-  coming_ = std::make_unique<TemporaryFile>(TemporaryFile::Kind::coming_folder, parent.string(), "", folder_);
+  for (const fs::path& written : {parent, fs::path(folder_), fs::path(folder_) / kRecords})
+    if (fs::exists(written, code) && ::access(written.c_str(), W_OK) != 0)
+      throw Error(ExitCode::file,
+                  std::string("cannot be written to (") + std::strerror(errno) + "), and new baselines come there",
+                  {written.string()});
+  coming_ = std::make_unique<TemporaryFile>(TemporaryFile::Kind::coming_folder, parent.string(), "", folder_,
+                                            "its parent folder must take a new one");
   if (!old.exist()) return;
   copy_baselines(folder_, coming_->path());
   fs::permissions(coming_->path(), fs::status(folder_, code).permissions(), code);
@@ -287,8 +300,20 @@ void BaselineUpdate::drop_unused_records() const {
       fs::remove(entry.path(), code);
 }
 
+// What is written anew has the mode of what it replaces; that of new files is up to the umask.
+void BaselineUpdate::keep_modes() const {
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(coming_->path())) {
+    const fs::file_status former =
+        fs::status(fs::path(folder_) / entry.path().lexically_relative(coming_->path()), code);
+    if (fs::exists(former) && former.permissions() != entry.status().permissions())
+      fs::permissions(entry.path(), former.permissions(), code);
+  }
+}
+
 void BaselineUpdate::commit() {
   drop_unused_records();
+  keep_modes();
   const std::string parent = fs::path(coming_->path()).parent_path().string();
   sync_folder(coming_->path(), folder_);
   throw_if_interrupted();

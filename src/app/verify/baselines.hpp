@@ -48,6 +48,7 @@ class Baselines {
   // Throws Error (exit 3) of one that is no picture, belongs to another suite or was changed by hand.
   Baseline read(const std::string& name) const;
   Cameras cameras() const;
+  std::string camera_file() const;
 
  private:
   std::string folder_;
@@ -67,6 +68,7 @@ class BaselineUpdate {
 
  private:
   std::string keep_record(const Json& record);
+  void keep_modes() const;
   void drop_unused_records() const;
 
   std::string folder_, suite_;

@@ -145,8 +145,8 @@ class Studio::ModelSource : public Source {
   PoseFigureOptions figure_;
 };
 
-// A scene at instants. Its runs are computed once, and once more where pictures show instants between the
-// frames.
+// A scene at instants. Its run is computed once, and once more for each instant between the frames: that is a sample more,
+// which trails and plots hold, too, and no other picture may depend on it.
 class Studio::SceneSource : public Source {
  public:
   SceneSource(const Suite& suite, const std::string& path, const std::array<double, 4>* part)
@@ -156,29 +156,20 @@ class Studio::SceneSource : public Source {
         clock_(clock_of(film_)),
         plain_(film_, clock_, clock_.frame_times()),
         record_(run_record(film_, plain_)),
-        name_(source_name(suite, path)) {
-    std::vector<double> asked;
-    for (const SuitePicture* picture : pictures_) {
-      try {
-        asked.push_back(instant_of(*picture));
-      } catch (const Error&) {
-        // It is told when that picture is drawn; the others have their instants.
-      }
-    }
-    Instants instants = instants_of(film_, clock_, asked);
-    for (std::size_t i = 0; i < asked.size(); ++i) frames_[asked[i]] = instants.frames[i];
-    added_ = std::move(instants.added);
-    if (added_.empty()) return;
-    further_ = std::make_unique<Runs>(film_, clock_, std::move(instants.times));
-    runs_ = further_.get();
-  }
+        name_(source_name(suite, path)) {}
 
   SuiteShot draw(const SuitePicture& picture, const Fonts& fonts) override {
     const double at = instant_of(picture);
-    const int frame = frames_.at(at);
-    runs_->require_expected_ends(frame);
-    const Film& film = film_for(picture, fonts);
-    FilmReport report = film_report(*runs_, film, frames_of_film(*runs_, added_));
+    Instants instants = instants_of(film_, clock_, {at});
+    const int frame = instants.frames.front();
+    std::optional<Runs> own;
+    if (!instants.added.empty()) own.emplace(film_, clock_, std::move(instants.times));
+    const Runs& runs = own ? *own : plain_;
+    runs.require_expected_ends(frame);
+    std::unique_ptr<Film> own_pages;
+    if (own) own_pages = pages_of(*own, picture, fonts);
+    const Film& film = own ? *own_pages : film_for(picture, fonts);
+    FilmReport report = film_report(runs, film, frames_of_film(runs, instants.added));
     report.writes = Writes::pictures;
     SuiteShot shot;
     shot.width = film_.scene.video.width;
@@ -223,32 +214,33 @@ class Studio::SceneSource : public Source {
     return names.empty() ? "it has no events" : "its events are " + joined(names);
   }
 
+  std::unique_ptr<Film> pages_of(const Runs& runs, const SuitePicture& picture, const Fonts& fonts) {
+    film_.scene.video.width = picture.width;
+    film_.scene.video.height = picture.height;
+    const bool ends = runs.size() == 1 && film_.scene.expect == Outcome::finish;
+    const int frames = int(runs.times().size());
+    return std::make_unique<Film>(runs.pictures(ends ? std::min(frames, runs[0].size()) : frames, fonts));
+  }
+
   const Film& film_for(const SuitePicture& picture, const Fonts& fonts) {
-    Video& video = film_.scene.video;
-    const int width = picture.width > 0 ? picture.width : width_,
-              height = picture.height > 0 ? picture.height : height_;
-    if (pages_ && video.width == width && video.height == height) return *pages_;
-    video.width = width;
-    video.height = height;
-    const bool ends = runs_->size() == 1 && film_.scene.expect == Outcome::finish;
-    const int frames = int(runs_->times().size());
-    pages_ =
-        std::make_unique<Film>(runs_->pictures(ends ? std::min(frames, (*runs_)[0].size()) : frames, fonts));
+    if (!pages_ || width_ != picture.width || height_ != picture.height) {
+      pages_ = pages_of(plain_, picture, fonts);
+      width_ = picture.width;
+      height_ = picture.height;
+    }
+    film_.scene.video.width = width_;
+    film_.scene.video.height = height_;
     return *pages_;
   }
 
   std::vector<const SuitePicture*> pictures_;
   PreparedFilm film_;
-  int width_ = film_.scene.video.width, height_ = film_.scene.video.height;
   FilmClock clock_;
   Runs plain_;
   Json record_;
   std::string name_;
-  std::map<double, int> frames_;   // of the pictures' instants
-  std::vector<double> added_;      // those that are none of the film's frames
-  std::unique_ptr<Runs> further_;  // where pictures show instants between the frames
-  const Runs* runs_ = &plain_;
-  std::unique_ptr<Film> pages_;  // of the last size
+  std::unique_ptr<Film> pages_;  // at the film's frames, of the last size
+  int width_ = 0, height_ = 0;   // that size, px
 };
 
 Studio::Studio(const Suite& suite, const Cameras& cameras) : suite_(suite), cameras_(cameras) {}
@@ -315,8 +307,16 @@ Cameras cameras_of(const Suite& suite, Cameras known) {
   for (const SuitePicture& picture : suite.pictures) {
     const std::string name = source_name(suite, picture.source);
     if (cameras.contains(name)) continue;
-    const auto found = known.find(name);
-    cameras[name] = found != known.end() ? found->second : studio.fitted(picture.source);
+    if (const auto found = known.find(name); found != known.end()) {
+      cameras[name] = found->second;
+      continue;
+    }
+    try {
+      cameras[name] = studio.fitted(picture.source);
+    } catch (const Error& error) {
+      if (error.code() == ExitCode::interrupted || error.code() == ExitCode::terminated) throw;
+      // Its pictures cannot be drawn, which is told of them; others can.
+    }
   }
   return cameras;
 }

@@ -68,7 +68,7 @@ class Studio {
 // `source` as the suite's folder sees it: the same wherever the folder lies.
 std::string source_name(const Suite& suite, const std::string& source);
 
-// With what `known` lacks fitted anew.
+// With what `known` lacks fitted anew, where that can be done.
 Cameras cameras_of(const Suite& suite, Cameras known);
 
 }  // namespace chainreel

@@ -164,7 +164,7 @@ PictureVerdict judge(const Suite& suite, const SuitePicture& picture, const Suit
   if (verdict.state == PictureState::same) return verdict;
   for (std::string& words : page_words(baseline.page, shot.page)) verdict.words.push_back(std::move(words));
   if (difference.same_size) verdict.words.push_back(pixel_words(picture, difference));
-  if (same_physics && is_exact && !same_pixels)
+  if (same_physics && is_exact && difference.same_size && !same_pixels)
     verdict.words.push_back(
         "program, renderer, processor and fonts are those of the baseline, so its very pixels are expected");
   if (difference.same_size && !same_pixels)

@@ -61,7 +61,7 @@ std::string summary_of(const SuiteResult& result) {
 Json to_json(const SuiteResult& result) {
   Json json{{"suite", result.suite},     {"baselines", result.baselines}, {"passed", result.failed() == 0},
             {"failed", result.failed()}, {"pictures", Json::array()},     {"unused", result.unused},
-            {"pruned", result.pruned}};
+            {"pruned", result.pruned},    {"notices", result.notices}};
   for (const PictureVerdict& one : result.pictures) {
     Json picture{{"name", one.name},     {"source", one.source}, {"state", plain(one.state)},
                  {"passed", one.passes}, {"words", one.words},   {"tolerance", one.tolerance}};

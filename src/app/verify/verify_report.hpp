@@ -14,6 +14,7 @@ struct SuiteResult {
   std::vector<PictureVerdict> pictures;  // in the suite's order
   std::vector<std::string> unused;       // baselines of no picture
   std::vector<std::string> pruned;
+  std::vector<std::string> notices;  // of what is no picture's state and yet must be known
 
   int failed() const;
   int count(PictureState state) const;

@@ -76,8 +76,14 @@ class SceneComparison {
       const auto entry = [](const YAML::Node& list, std::size_t i) {
         return i < list.size() ? list[i] : YAML::Node(YAML::NodeType::Undefined);
       };
-      for (std::size_t i = 0; i < most; ++i)
-        compare(key + "." + std::to_string(i + 1), entry(before, i), entry(after, i));
+      for (std::size_t i = 0; i < most; ++i) {
+        const YAML::Node old = entry(before, i), now = entry(after, i);
+        if (old.IsDefined() && now.IsDefined())
+          compare(key + "." + std::to_string(i + 1), old, now);
+        else
+          sentences_.push_back(key + ": " +
+                               (now.IsDefined() ? "with " + text_of_node(now) : "without " + text_of_node(old)));
+      }
       return;
     }
     const std::string members = members_text(before, after);

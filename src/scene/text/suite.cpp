@@ -39,7 +39,9 @@ struct Source {
   Place place;
 };
 
+// What is wrong with an input is one of its problems; a limit or a signal ends the reading.
 void add_problems(const Error& error, ProblemList& problems) {
+  if (error.code() != ExitCode::bad_input && error.code() != ExitCode::usage) throw error;
   for (const Problem& problem : error.problems()) problems.add(problem.message, problem.place);
 }
 
@@ -255,14 +257,19 @@ class SuiteReader {
       key.write(key, look_, entries);
       for (const SceneEntry& entry : entries)
         if (entry.key != "camera.fit" && !entry.key.starts_with("packages."))
-          suite_.overrides.push_back(entry.key + "=" + entry.text);
+          set_of_all(entry.key + "=" + entry.text, fields->place_of(fields->find(key.leaf()), entry.key));
     }
     if (section) section->finish();
     suite_.fit = look_.camera.fit;
     // Overrides are read beside each scene or model, wherever that is.
     for (const auto& [name, folder] : look_.packages)
-      suite_.overrides.push_back("packages." + name + "=" +
-                                 Json(fs::absolute(folder).lexically_normal().string()).dump());
+      set_of_all("packages." + name + "=" + Json(fs::absolute(folder).lexically_normal().string()).dump(),
+                 document_.place_of(root_.find("packages"), "packages"));
+  }
+
+  void set_of_all(const std::string& override, const Place& place) {
+    suite_.overrides.push_back(override);
+    suite_.override_places.push_back(place);
   }
 
   void read_own_settings() {
@@ -358,7 +365,8 @@ class SuiteReader {
   }
 
   void make_instants(const Source& source) try {
-    const Scene scene = read_scene(source.file, suite_.overrides);
+    // What is wrong with the suite's own keys is told already, and not again by each of its scenes.
+    const Scene scene = read_scene(source.file, problems_.empty() ? suite_.overrides : std::vector<std::string>{});
     if (!root_.has("at")) add(source, "", source.place).telling = true;
     for (const auto& [asked, place] : instants_) {
       if (const std::string trouble = trouble_of_instant(asked, scene); !trouble.empty()) {
@@ -371,7 +379,7 @@ class SuiteReader {
       picture.pose = asked.text;
     }
   } catch (const Error& error) {
-    add_problems(error, problems_);
+    add_problems(as_said_in(suite_, error), problems_);
   }
 
   SuitePicture& add(const Source& source, const std::string& pose, const Place& place) {
@@ -456,6 +464,19 @@ Suite suite_of_folder(const std::string& path) {
 }
 
 }  // namespace
+
+Error as_said_in(const Suite& suite, const Error& error) {
+  std::vector<Problem> problems = error.problems();
+  for (Problem& problem : problems)
+    for (std::size_t i = 0; i < suite.overrides.size(); ++i) {
+      const std::string& one = suite.overrides[i];
+      const bool is_named = problem.place.file == "--set " + one,
+                 is_about = problem.place.file.empty() &&
+                            problem.message.starts_with("'" + one.substr(0, one.find('=')) + "'");
+      if (is_named || is_about) problem.place = suite.override_places[i];
+    }
+  return Error(error.code(), std::move(problems));
+}
 
 Suite read_suite(const std::string& path) {
   std::error_code ignored;

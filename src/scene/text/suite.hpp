@@ -42,10 +42,14 @@ struct Suite {
   std::optional<std::array<double, 4>>
       fit;  // `camera: fit`, m: left, bottom, right, top; it is not among the overrides
   std::vector<std::string> overrides;  // what the suite sets of all scenes and models, KEY=VALUE as for --set
+  std::vector<Place> override_places;  // where it says so, a place each
   bool physics_alone_fails = true;     // `physics: fail`: other physics behind the same pixels is a failure
 };
 
 // Reads each model once. Throws Error with every problem: file, line, remedy.
 Suite read_suite(const std::string& path);
+
+// The error with the suite's own lines in the place of overrides that it sets.
+Error as_said_in(const Suite& suite, const Error& error);
 
 }  // namespace chainreel

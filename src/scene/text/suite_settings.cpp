@@ -1,5 +1,8 @@
 #include "scene/text/suite_settings.hpp"
 
+#include <algorithm>
+#include <set>
+
 #include "core/format.hpp"
 
 namespace chainreel {
@@ -101,6 +104,31 @@ void apply(const SuiteSettings& settings, SuitePicture& picture) {
                settings.tolerance_place, false};
 }
 
+namespace {
+
+// Whether the masks together leave no pixel: looked at once between any two neighbouring edges.
+bool cover(const SuitePicture& picture) {
+  long area = 0;
+  for (const std::array<int, 4>& mask : picture.masks) area += long(mask[2]) * mask[3];
+  if (area < long(picture.width) * picture.height) return false;
+  std::set<int> columns{0}, rows{0};
+  for (const auto& [x, y, width, height] : picture.masks) {
+    columns.insert({x, x + width});
+    rows.insert({y, y + height});
+  }
+  const auto is_masked = [&](int column, int row) {
+    return column >= picture.width || row >= picture.height ||
+           std::any_of(picture.masks.begin(), picture.masks.end(), [&](const std::array<int, 4>& mask) {
+             return column >= mask[0] && column < mask[0] + mask[2] && row >= mask[1] && row < mask[1] + mask[3];
+           });
+  };
+  return std::all_of(rows.begin(), rows.end(), [&](int row) {
+    return std::all_of(columns.begin(), columns.end(), [&](int column) { return is_masked(column, row); });
+  });
+}
+
+}  // namespace
+
 void check_masks(const SuitePicture& picture, ProblemList& problems) {
   for (const auto& [x, y, width, height] : picture.masks)
     if (x + width > picture.width || y + height > picture.height)
@@ -108,6 +136,9 @@ void check_masks(const SuitePicture& picture, ProblemList& problems) {
                        " leaves the picture '" + picture.name + "' of " + std::to_string(picture.width) +
                        "x" + std::to_string(picture.height) + ": keep x + width and y + height within",
                    picture.place);
+  if (!picture.masks.empty() && cover(picture))
+    problems.add("the masks cover all of the picture '" + picture.name + "': nothing of it would be looked at",
+                 picture.place);
 }
 
 }  // namespace chainreel

@@ -30,7 +30,7 @@ void read_suite_settings(Fields& fields, SuiteSettings& settings);
 // What the settings say holds of the picture from now on; masks join those that it has.
 void apply(const SuiteSettings& settings, SuitePicture& picture);
 
-// Adds a problem for each mask that leaves the picture.
+// Adds a problem for each mask that leaves the picture, and where nothing of it is left to be looked at.
 void check_masks(const SuitePicture& picture, ProblemList& problems);
 
 }  // namespace chainreel

@@ -1,0 +1,183 @@
+// What may go wrong around a suite: files of others, folders that take nothing, words that would mislead.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+
+#include "app/verify_suite.hpp"
+#include "encode/png.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::SizeIs;
+
+class SuiteTrouble : public Verify {
+ protected:
+  int mode_of(const std::string& name) const {
+    struct stat facts = {};
+    EXPECT_EQ(stat((folder_.path() / name).c_str(), &facts), 0) << name;
+    return int(facts.st_mode & 07777);
+  }
+  std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
+};
+
+TEST_F(SuiteTrouble, PicturesOfWhatFailedGoWhenTheyAreNoMoreTrueAndNoOthersDo) {
+  accept_all();
+  replace("arm.yaml", "home: [0, 0]", "home: [0, 1]");
+  EXPECT_EQ(verify({"-o", "shown"}).status, 1);
+  for (const char* what : {"expected", "actual", "difference"})
+    EXPECT_NO_THROW(read_png(file(std::string("shown/home.") + what + ".png"))) << what;
+  replace("arm.yaml", "home: [0, 1]", "home: [0, 0]");
+  fs::copy_file(file("arm.baselines/up.png"), file("shown/up.actual.png"));  // the user's own
+  write("shown/bent.expected.png", "mine, and no picture");
+  EXPECT_EQ(verify({"-o", "shown"}).status, 0);
+  EXPECT_FALSE(fs::exists(file("shown/home.actual.png")));
+  EXPECT_FALSE(fs::exists(file("shown/home.difference.png")));
+  EXPECT_TRUE(fs::exists(file("shown/up.actual.png")));
+  EXPECT_EQ(read_whole_file(file("shown/bent.expected.png")), "mine, and no picture");
+}
+
+TEST_F(SuiteTrouble, FilesThatAreAcceptedAnewKeepTheirMode) {
+  accept_all();
+  for (const char* name : {"home.png", "home.json", "records/cameras.json"})
+    ASSERT_EQ(chmod(file(std::string("arm.baselines/") + name).c_str(), 0600), 0);
+  ASSERT_EQ(chmod(file("arm.baselines/records").c_str(), 0700), 0);
+  ASSERT_EQ(chmod(file("arm.baselines/up.png").c_str(), 0640), 0);
+  EXPECT_EQ(verify({"--accept", "home"}).status, 0);
+  for (const char* name : {"home.png", "home.json", "records/cameras.json"})
+    EXPECT_EQ(mode_of(std::string("arm.baselines/") + name), 0600) << name;
+  EXPECT_EQ(mode_of("arm.baselines/records"), 0700);
+  EXPECT_EQ(mode_of("arm.baselines/up.png"), 0640);
+}
+
+// The remedy is one that this command has: it takes no other place for its baselines.
+TEST_F(SuiteTrouble, BaselinesBehindALinkAreReadAndNotReplaced) {
+  accept_all();
+  fs::rename(file("arm.baselines"), file("real"));
+  fs::create_directory_symlink("real", file("arm.baselines"));
+  EXPECT_EQ(verify().status, 0);
+  const ProgramResult result = verify({"--accept"});
+  EXPECT_EQ(result.status, 6);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("is a link"), Not(HasSubstr("-o"))));
+  EXPECT_TRUE(fs::is_symlink(file("arm.baselines")));
+  EXPECT_TRUE(fs::exists(file("real/home.png")));
+}
+
+TEST_F(SuiteTrouble, ALostCameraIsToldAlsoWhereNothingElseChanged) {
+  accept_all();
+  fs::remove(file("arm.baselines/records/cameras.json"));
+  const ProgramResult result = verify();
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, HasSubstr("the camera of rr.urdf is missing in arm.baselines/records/cameras.json"));
+  EXPECT_THAT(results()["notices"], SizeIs(1));
+  EXPECT_EQ(verify({"--accept", "--refit"}).status, 0);
+  EXPECT_THAT(verify().err, IsEmpty());
+  // A camera of the suite's own is kept nowhere else.
+  replace("arm.yaml", "size:", "camera: {fit: [-1, -2, 3, 2]}\nsize:");
+  EXPECT_EQ(verify({"--accept"}).status, 0);
+  EXPECT_THAT(results()["notices"], IsEmpty());
+}
+
+TEST_F(SuiteTrouble, ASpoiltCameraIsToldWithARemedyThatWorks) {
+  for (const char* camera : {"[2, 0, 1, 1]", "[0, 0, 0, 1]", "[0, 1]", "\"a\"", "[0, 0, null, 1]"}) {
+    accept_all();
+    write("arm.baselines/records/cameras.json", std::string("{\"rr.urdf\": ") + camera + "}");
+    const ProgramResult result = verify();
+    EXPECT_EQ(result.status, 3) << camera;
+    EXPECT_THAT(result.err, AllOf(HasSubstr("cameras.json"), HasSubstr("--accept --refit"), Not(HasSubstr("--set"))));
+    EXPECT_EQ(verify({"--accept", "--refit"}).status, 0) << camera;
+    EXPECT_EQ(verify().status, 0) << camera;
+  }
+}
+
+TEST_F(SuiteTrouble, KeysOfTheSuiteAreToldWithItsLinesAndOnce) {
+  write("swing.yaml", "model: rr.urdf\ntorque: [0, 0]\nduration: 1\nmethod: rk4\nstep: 0.01\n");
+  write("both.yaml", "scene: swing.yaml\ncamera: {elevation: 400deg}\n");
+  EXPECT_THAT(verify({}, "both.yaml").err, AllOf(HasSubstr("both.yaml:2:21: 'camera.elevation'"), Not(HasSubstr("--set"))));
+  // Found out when the scene is made ready only.
+  write("both.yaml", "scene: swing.yaml\nsize: 320x180\nat: 0\nend_effector: nobody\n");
+  const ProgramResult result = verify({}, "both.yaml");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("both.yaml:4:15: 'end_effector'"), Not(HasSubstr("--set"))));
+}
+
+TEST_F(SuiteTrouble, ASourceThatCannotBeShownLeavesTheOthers) {
+  std::string text = read_whole_file("models/rr.urdf");
+  text.insert(text.find("<link name=\"link1\">") + 19, "<visual><geometry><mesh filename='none.stl'/></geometry></visual>");
+  write("broken.urdf", text);
+  write("two.yaml", "model: [rr.urdf, broken.urdf]\nsize: 320x180\nlinks: visual\nposes: {home: [0, 0]}\n");
+  const Json json = results({"--missing", "write"}, "two.yaml");
+  EXPECT_EQ(picture(json, "rr_home")["state"], "accepted");
+  EXPECT_EQ(picture(json, "broken_home")["state"], "failed");
+  EXPECT_THAT(words(json, "broken_home"), HasSubstr("none.stl"));
+}
+
+// An instant between two frames is a sample more, of trails, too.
+TEST_F(SuiteTrouble, AnInstantMoreChangesNoOtherPicture) {
+  write("swing.yaml",
+        "model: rr.urdf\ntorque: [0, 0]\nduration: 3\nmethod: rk4\nstep: 0.01\ndraw: [chain, trail]\nvideo: {fps: 10}\n");
+  write("s.yaml", "scene: swing.yaml\nsize: 640x360\nat: [1s, 2.9s, 2.9123s]\n");
+  accept_all("s.yaml");
+  write("s.yaml", "scene: swing.yaml\nsize: 640x360\nat: [0.777s, 1s, 2.713s, 2.9s, 2.9123s]\n");
+  const Json json = results({}, "s.yaml");
+  for (const char* name : {"1s", "2.9s", "2.9123s"}) EXPECT_EQ(picture(json, name)["state"], "same") << name;
+}
+
+TEST_F(SuiteTrouble, WhatCannotBeHonouredIsRefusedBeforeAnythingIsDrawn) {
+  accept_all();
+  const auto before = baselines();
+  const auto refused = [&](const Words& words, int status, const std::string& told) {
+    const ProgramResult result = verify(words);
+    EXPECT_EQ(result.status, status) << testing::PrintToString(words);
+    EXPECT_THAT(result.err, HasSubstr(told));
+    EXPECT_THAT(result.out, IsEmpty()) << "drawn already";
+  };
+  refused({"--accept", "home", "--filter", "up"}, 2, "--accept home: --filter leaves this picture out");
+  refused({"--filter", "home", "--filter", "nobody*"}, 2, "--filter nobody* matches none");
+  refused({"-o", "arm.yaml"}, 2, "arm.yaml is a file");
+  refused({"--junit", "arm.baselines/new.xml"}, 2, "lies in the folder of the baselines");
+  refused({"-o", "arm.baselines/shown"}, 2, "lies in the folder of the baselines");
+  refused({"--markdown", "/dev/null"}, 6, "is a device");
+  write("there.html", "mine");
+  refused({"--html", "there.html"}, 6, "exists already");
+  EXPECT_EQ(baselines(), before);
+}
+
+TEST_F(SuiteTrouble, MasksThatLeaveNothingAreRefused) {
+  const auto told = [&](const std::string& masks) {
+    write("m.yaml", "model: rr.urdf\nsize: 320x180\nposes: {a: [0, 0]}\nmasks: " + masks + "\n");
+    const ProgramResult result = verify({"--missing", "write"}, "m.yaml");
+    return result.status == 0 ? "" : result.err;
+  };
+  EXPECT_THAT(told("[[0, 0, 320, 180]]"), HasSubstr("the masks cover all of the picture 'a'"));
+  EXPECT_THAT(told("[[0, 0, 200, 180], [100, 0, 220, 100], [150, 100, 170, 80]]"), HasSubstr("cover all"));
+  EXPECT_THAT(told("[[0, 0, 200, 180], [100, 0, 220, 100], [150, 101, 170, 79], [0, 0, 320, 100]]"), IsEmpty());
+}
+
+TEST_F(SuiteTrouble, OfAnotherSizeNoPixelsAreExpected) {
+  accept_all();
+  replace("arm.yaml", "320x180", "400x300");
+  EXPECT_THAT(words(results(), "home"), Not(HasSubstr("very pixels")));
+}
+
+TEST_F(SuiteTrouble, WordsAboutSuitesAreNotAboutScenes) {
+  write("two.yaml", "model: rr.urdf\n---\nmodel: rr.urdf\n");
+  write("large.yaml", "model: rr.urdf\n#" + std::string(1 << 20, 'x'));
+  write("deep.yaml", "model: " + std::string(99, '[') + std::string(99, ']') + "\n");
+  for (const auto& [suite, status] : {std::pair("two.yaml", 3), {"large.yaml", 7}, {"deep.yaml", 3}}) {
+    const ProgramResult result = verify({}, suite);
+    EXPECT_EQ(result.status, status) << suite;
+    EXPECT_THAT(result.err, Not(HasSubstr("scene"))) << suite;
+  }
+}
+
+}  // namespace
+}  // namespace chainreel
