@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -76,7 +77,8 @@ TEST_F(SuiteTrouble, ALostCameraIsToldAlsoWhereNothingElseChanged) {
   fs::remove(file("arm.baselines/records/cameras.json"));
   const ProgramResult result = verify();
   EXPECT_EQ(result.status, 0);
-  EXPECT_THAT(result.err, HasSubstr("the camera of rr.urdf is missing in arm.baselines/records/cameras.json"));
+  EXPECT_THAT(result.err,
+              HasSubstr("the camera of rr.urdf is missing in arm.baselines/records/cameras.json"));
   EXPECT_THAT(results()["notices"], SizeIs(1));
   EXPECT_EQ(verify({"--accept", "--refit"}).status, 0);
   EXPECT_THAT(verify().err, IsEmpty());
@@ -92,7 +94,8 @@ TEST_F(SuiteTrouble, ASpoiltCameraIsToldWithARemedyThatWorks) {
     write("arm.baselines/records/cameras.json", std::string("{\"rr.urdf\": ") + camera + "}");
     const ProgramResult result = verify();
     EXPECT_EQ(result.status, 3) << camera;
-    EXPECT_THAT(result.err, AllOf(HasSubstr("cameras.json"), HasSubstr("--accept --refit"), Not(HasSubstr("--set"))));
+    EXPECT_THAT(result.err,
+                AllOf(HasSubstr("cameras.json"), HasSubstr("--accept --refit"), Not(HasSubstr("--set"))));
     EXPECT_EQ(verify({"--accept", "--refit"}).status, 0) << camera;
     EXPECT_EQ(verify().status, 0) << camera;
   }
@@ -101,7 +104,8 @@ TEST_F(SuiteTrouble, ASpoiltCameraIsToldWithARemedyThatWorks) {
 TEST_F(SuiteTrouble, KeysOfTheSuiteAreToldWithItsLinesAndOnce) {
   write("swing.yaml", "model: rr.urdf\ntorque: [0, 0]\nduration: 1\nmethod: rk4\nstep: 0.01\n");
   write("both.yaml", "scene: swing.yaml\ncamera: {elevation: 400deg}\n");
-  EXPECT_THAT(verify({}, "both.yaml").err, AllOf(HasSubstr("both.yaml:2:21: 'camera.elevation'"), Not(HasSubstr("--set"))));
+  EXPECT_THAT(verify({}, "both.yaml").err,
+              AllOf(HasSubstr("both.yaml:2:21: 'camera.elevation'"), Not(HasSubstr("--set"))));
   // Found out when the scene is made ready only.
   write("both.yaml", "scene: swing.yaml\nsize: 320x180\nat: 0\nend_effector: nobody\n");
   const ProgramResult result = verify({}, "both.yaml");
@@ -111,7 +115,8 @@ TEST_F(SuiteTrouble, KeysOfTheSuiteAreToldWithItsLinesAndOnce) {
 
 TEST_F(SuiteTrouble, ASourceThatCannotBeShownLeavesTheOthers) {
   std::string text = read_whole_file("models/rr.urdf");
-  text.insert(text.find("<link name=\"link1\">") + 19, "<visual><geometry><mesh filename='none.stl'/></geometry></visual>");
+  text.insert(text.find("<link name=\"link1\">") + 19,
+              "<visual><geometry><mesh filename='none.stl'/></geometry></visual>");
   write("broken.urdf", text);
   write("two.yaml", "model: [rr.urdf, broken.urdf]\nsize: 320x180\nlinks: visual\nposes: {home: [0, 0]}\n");
   const Json json = results({"--missing", "write"}, "two.yaml");
@@ -123,7 +128,8 @@ TEST_F(SuiteTrouble, ASourceThatCannotBeShownLeavesTheOthers) {
 // An instant between two frames is a sample more, of trails, too.
 TEST_F(SuiteTrouble, AnInstantMoreChangesNoOtherPicture) {
   write("swing.yaml",
-        "model: rr.urdf\ntorque: [0, 0]\nduration: 3\nmethod: rk4\nstep: 0.01\ndraw: [chain, trail]\nvideo: {fps: 10}\n");
+        "model: rr.urdf\ntorque: [0, 0]\nduration: 3\nmethod: rk4\nstep: 0.01\ndraw: [chain, trail]\nvideo: "
+        "{fps: 10}\n");
   write("s.yaml", "scene: swing.yaml\nsize: 640x360\nat: [1s, 2.9s, 2.9123s]\n");
   accept_all("s.yaml");
   write("s.yaml", "scene: swing.yaml\nsize: 640x360\nat: [0.777s, 1s, 2.713s, 2.9s, 2.9123s]\n");
@@ -159,7 +165,24 @@ TEST_F(SuiteTrouble, MasksThatLeaveNothingAreRefused) {
   };
   EXPECT_THAT(told("[[0, 0, 320, 180]]"), HasSubstr("the masks cover all of the picture 'a'"));
   EXPECT_THAT(told("[[0, 0, 200, 180], [100, 0, 220, 100], [150, 100, 170, 80]]"), HasSubstr("cover all"));
-  EXPECT_THAT(told("[[0, 0, 200, 180], [100, 0, 220, 100], [150, 101, 170, 79], [0, 0, 320, 100]]"), IsEmpty());
+  EXPECT_THAT(told("[[0, 0, 200, 180], [100, 0, 220, 100], [150, 101, 170, 79], [0, 0, 320, 100]]"),
+              IsEmpty());
+}
+
+// 30 pictures of 8 MB each, which would not fit into what the program may have beside its libraries.
+TEST_F(SuiteTrouble, AcceptingManyPicturesTakesTheMemoryOfAFew) {
+  std::string poses;
+  for (int i = 0; i < 30; ++i)
+    poses += "  p" + std::to_string(i) + ": [0, " + std::to_string(0.1 * i) + "]\n";
+  write("many.yaml", "model: rr.urdf\nsize: 1920x1080\nposes:\n" + poses);
+  const auto largest = [&](const Words& more) {
+    rusage after = {};
+    EXPECT_EQ(verify(chainreel::with({"--jobs", "1", "--quiet"}, more), "many.yaml").status, 0);
+    getrusage(RUSAGE_CHILDREN, &after);
+    return after.ru_maxrss;  // KiB, of the largest child so far
+  };
+  const long few = largest({"--missing", "write", "--filter", "p1"});
+  EXPECT_LT(largest({"--missing", "write"}), few + 120 * 1024) << "half of what all of them take";
 }
 
 TEST_F(SuiteTrouble, OfAnotherSizeNoPixelsAreExpected) {

@@ -120,20 +120,38 @@ class Teller {
   std::mutex mutex_;
 };
 
-// What is drawn for one picture, and what it comes to.
-struct Outcome {
-  PictureVerdict verdict;
-  std::unique_ptr<SuiteShot> accepted;
+// What is accepted: written as it comes, so that memory holds no picture longer than it takes, and taken at once in the end.
+class Acceptance {
+ public:
+  Acceptance(const Suite& suite, const Baselines& baselines) : suite_(suite), baselines_(baselines) {}
+
+  // Begins with the first that is asked for. Safe among threads.
+  BaselineUpdate& change() {
+    const std::lock_guard lock(mutex_);
+    if (!change_) change_ = std::make_unique<BaselineUpdate>(suite_, baselines_);
+    return *change_;
+  }
+  bool has_begun() const { return change_ != nullptr; }
+
+ private:
+  const Suite& suite_;
+  const Baselines& baselines_;
+  std::unique_ptr<BaselineUpdate> change_;
+  std::mutex mutex_;
 };
 
 class Verification {
  public:
   Verification(const Suite& suite, const VerifyOptions& options, const Baselines& baselines,
-               const Cameras& cameras)
-      : suite_(suite), options_(options), baselines_(baselines), cameras_(cameras) {}
+               const Cameras& cameras, Acceptance& acceptance)
+      : suite_(suite),
+        options_(options),
+        baselines_(baselines),
+        cameras_(cameras),
+        acceptance_(acceptance) {}
 
   // By several threads, a few pictures of one source at a time: what they share is loaded once a thread.
-  std::vector<Outcome> run(const std::vector<const SuitePicture*>& pictures) {
+  std::vector<PictureVerdict> run(const std::vector<const SuitePicture*>& pictures) {
     std::vector<std::pair<std::size_t, std::size_t>> pieces;
     const std::size_t longest = std::max<std::size_t>(
         1, (pictures.size() + std::size_t(options_.jobs) - 1) / std::size_t(options_.jobs));
@@ -144,21 +162,21 @@ class Verification {
       pieces.emplace_back(i, end);
       i = end;
     }
-    std::vector<Outcome> outcomes(pictures.size());
+    std::vector<PictureVerdict> verdicts(pictures.size());
     Teller teller(int(pictures.size()), options_);
     for_each_index(pieces.size(), options_.jobs, [&](std::size_t piece) {
       Studio studio(suite_, cameras_);
       for (std::size_t i = pieces[piece].first; i < pieces[piece].second; ++i) {
         throw_if_interrupted();
-        outcomes[i] = outcome_of(*pictures[i], studio);
-        teller.tell(outcomes[i].verdict);
+        verdicts[i] = verdict_of(*pictures[i], studio);
+        teller.tell(verdicts[i]);
       }
     });
-    return outcomes;
+    return verdicts;
   }
 
  private:
-  Outcome outcome_of(const SuitePicture& picture, Studio& studio) {
+  PictureVerdict verdict_of(const SuitePicture& picture, Studio& studio) {
     SuiteShot shot;
     try {
       // What cannot be fitted cannot be drawn, and says why.
@@ -166,33 +184,34 @@ class Verification {
       shot = studio.shoot(picture);
     } catch (const Error& error) {
       if (error.code() == ExitCode::interrupted || error.code() == ExitCode::terminated) throw;
-      return {without(PictureState::failed, suite_, picture, words_of(as_said_in(suite_, error))), nullptr};
+      return without(PictureState::failed, suite_, picture, words_of(as_said_in(suite_, error)));
     }
     const bool is_new = !baselines_.has(picture.name);
-    if (is_accepted(options_, picture) || (is_new && options_.missing == "write"))
-      return {without(PictureState::accepted, suite_, picture, {}),
-              std::make_unique<SuiteShot>(std::move(shot))};
+    if (is_accepted(options_, picture) || (is_new && options_.missing == "write")) {
+      acceptance_.change().set(picture.name, shot);
+      return without(PictureState::accepted, suite_, picture, {});
+    }
     if (is_new) {
       PictureVerdict verdict =
           without(PictureState::missing, suite_, picture,
                   {"there is no baseline: look at the picture, then --accept " + picture.name +
                    ", or take all that are missing with --missing write"});
       verdict.actual_png = png_bytes(shot.image);
-      return {std::move(verdict), nullptr};
+      return verdict;
     }
     try {
-      return {judge(suite_, picture, shot, baselines_.read(picture.name), studio), nullptr};
+      return judge(suite_, picture, shot, baselines_.read(picture.name), studio);
     } catch (const Error& error) {
       PictureVerdict verdict = without(PictureState::baseline, suite_, picture, words_of(error));
       verdict.actual_png = png_bytes(shot.image);
-      return {std::move(verdict), nullptr};
+      return verdict;
     } catch (const Json::exception&) {
       PictureVerdict verdict = without(
           PictureState::baseline, suite_, picture,
           {baselines_.folder() + "/" + picture.name +
            ".json: holds other things than a baseline's facts: restore it, or --accept " + picture.name});
       verdict.actual_png = png_bytes(shot.image);
-      return {std::move(verdict), nullptr};
+      return verdict;
     }
   }
 
@@ -200,6 +219,7 @@ class Verification {
   const VerifyOptions& options_;
   const Baselines& baselines_;
   const Cameras& cameras_;
+  Acceptance& acceptance_;
 };
 
 // A picture that is new while another one is gone may be that one under another name, or at another instant.
@@ -231,14 +251,10 @@ std::vector<std::string> lost_cameras(const Suite& suite, const Baselines& basel
 }
 
 // What is accepted and pruned, in one go.
-void update(const Suite& suite, const VerifyOptions& options, const Baselines& baselines,
-            const Cameras& cameras, const std::vector<Outcome>& outcomes, SuiteResult& result) {
-  const bool accepts = std::any_of(outcomes.begin(), outcomes.end(),
-                                   [](const Outcome& one) { return one.accepted != nullptr; });
-  if (!accepts && !(options.prune && !result.unused.empty())) return;
-  BaselineUpdate change(suite, baselines);
-  for (const Outcome& one : outcomes)
-    if (one.accepted) change.set(one.verdict.name, *one.accepted);
+void update(const VerifyOptions& options, const Cameras& cameras, Acceptance& acceptance,
+            SuiteResult& result) {
+  if (!acceptance.has_begun() && !(options.prune && !result.unused.empty())) return;
+  BaselineUpdate& change = acceptance.change();
   if (options.prune)
     for (const std::string& name : result.unused) change.remove(name);
   change.set_cameras(cameras);
@@ -339,13 +355,13 @@ void run_verify(VerifyOptions options) {
   require_writable_outputs(options, baselines);
   const Cameras kept = options.refit ? Cameras{} : baselines.cameras();
   const Cameras cameras = cameras_of(suite, kept);
-  const std::vector<Outcome> outcomes = Verification(suite, options, baselines, cameras).run(chosen);
-  throw_if_interrupted();
+  Acceptance acceptance(suite, baselines);
   SuiteResult result{options.suite, baselines.folder(), {}, unused_baselines(suite, baselines), {}, {}};
+  result.pictures = Verification(suite, options, baselines, cameras, acceptance).run(chosen);
+  throw_if_interrupted();
   if (!options.refit) result.notices = lost_cameras(suite, baselines, kept);
-  for (const Outcome& one : outcomes) result.pictures.push_back(one.verdict);
   tell_of_former_names(result);
-  update(suite, options, baselines, cameras, outcomes, result);
+  update(options, cameras, acceptance, result);
   write_reports(options, result);
   tell_result(options, result);
   if (result.failed() > 0) throw Error(ExitCode::comparison_failed, summary_of(result), {options.suite});

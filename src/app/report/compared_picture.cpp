@@ -32,7 +32,8 @@ void remove_compared_picture(const std::string& path) {
   std::error_code code;
   std::filesystem::remove(path, code);
   if (code)
-    throw Error(ExitCode::file, "is no more true and cannot be removed (" + code.message() + "): remove it", {path});
+    throw Error(ExitCode::file, "is no more true and cannot be removed (" + code.message() + "): remove it",
+                {path});
 }
 
 }  // namespace chainreel

@@ -1,5 +1,5 @@
-// Pictures that show what was compared: they say so in a text, by which a later run knows them from the user's own and
-// takes those away that are no more true.
+// Pictures that show what was compared: they say so in a text, by which a later run knows them from the
+// user's own and takes those away that are no more true.
 #pragma once
 
 #include <map>

@@ -242,6 +242,7 @@ BaselineUpdate::BaselineUpdate(const Suite& suite, const Baselines& old)
 std::string BaselineUpdate::keep_record(const Json& record) {
   const std::string text = text_of(record), id = sha256_of(text).substr(0, 16);
   const fs::path folder = fs::path(coming_->path()) / kRecords;
+  const std::lock_guard lock(records_);  // many pictures share one
   std::error_code code;
   fs::create_directory(folder, code);
   const fs::path path = folder / (id + ".json");

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <mutex>
 #include <memory>
 #include <optional>
 #include <set>
@@ -61,7 +62,7 @@ class BaselineUpdate {
   // Begins with what there is. Throws Error (exit 6) where the folder cannot be written.
   BaselineUpdate(const Suite& suite, const Baselines& old);
 
-  void set(const std::string& name, const SuiteShot& shot);
+  void set(const std::string& name, const SuiteShot& shot);  // safe among threads
   void remove(const std::string& name);
   void set_cameras(const Cameras& cameras);
   void commit();
@@ -73,6 +74,7 @@ class BaselineUpdate {
 
   std::string folder_, suite_;
   std::unique_ptr<TemporaryFile> coming_;
+  std::mutex records_;
 };
 
 // The names of the file of a picture and of its facts, in a folder of baselines.
