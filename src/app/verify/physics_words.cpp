@@ -214,7 +214,7 @@ std::vector<std::string> explained(const Json& before, const Json& after) {
       if (old[i].at("title") != now[i].at("title"))
         sentences.push_back(
             "panel " + std::to_string(i + 1) + ": title " +
-            change_text(old[i]["title"].get<std::string>(), now[i]["title"].get<std::string>()));
+            change_text(old[i].at("title").get<std::string>(), now[i].at("title").get<std::string>()));
   }
   Changes page;
   add_key_changes(before.at("page"), after.at("page"), page);

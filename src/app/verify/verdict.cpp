@@ -57,16 +57,16 @@ std::vector<std::string> physics_words(const Json& before, const Json& now) {
   if (before.value("source", Json()) != now.value("source", Json()))
     words.push_back("source: " + before.value("source", Json("none")).dump() + " -> " + now["source"].dump());
   if (before.contains("model") && now.contains("model")) {
-    add(explain_models(before["model"], now["model"]));
+    add(explain_models(before.at("model"), now["model"]));
     const auto names = now["names"].get<std::vector<std::string>>();
     if (before.value("names", Json()) == now["names"])
-      add(explain_poses(before["q"].get<std::vector<double>>(), now["q"].get<std::vector<double>>(), names,
+      add(explain_poses(before.at("q").get<std::vector<double>>(), now["q"].get<std::vector<double>>(), names,
                         now["model"]));
   } else if (before.contains("run") && now.contains("run")) {
-    if (before["t"] != now["t"])
-      words.push_back("instant: t = " + format_shortest(before["t"].get<double>()) + " s -> " +
+    if (before.at("t") != now["t"])
+      words.push_back("instant: t = " + format_shortest(before.at("t").get<double>()) + " s -> " +
                       format_shortest(now["t"].get<double>()) + " s");
-    add(explain_runs(before["run"], now["run"]));
+    add(explain_runs(before.at("run"), now["run"]));
   } else {
     words.push_back("it was a picture of a model and is one of a scene, or the other way round");
   }
