@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <thread>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/parallel.hpp"
 #include "mesh/primitives.hpp"
 
 namespace chainreel {
@@ -105,15 +108,35 @@ std::array<double, 12> to_view(const Camera& camera, const Eigen::Affine3d& X_WM
 }  // namespace
 
 std::shared_ptr<const TriangleMesh> MeshShelf::mesh_of(const Visual& visual, MeshUp up) {
-  std::shared_ptr<const TriangleMesh>& mesh = known_[key_of(visual, up)];
-  if (!mesh) mesh = std::make_shared<const TriangleMesh>(read(visual, up));
-  return mesh;
+  Known& known = known_[key_of(visual, up)];
+  if (known.problem) std::rethrow_exception(known.problem);
+  if (!known.mesh) known.mesh = std::make_shared<const TriangleMesh>(read(visual, up));
+  return known.mesh;
+}
+
+void MeshShelf::read_ahead(const std::vector<Visual>& visuals, MeshUp up) {
+  std::vector<std::pair<const Visual*, Known*>> unread;
+  for (const Visual& visual : visuals) {
+    if (visual.kind != VisualKind::mesh) continue;
+    const auto [place, is_new] = known_.try_emplace(key_of(visual, up));
+    if (is_new) unread.emplace_back(&visual, &place->second);
+  }
+  for_each_index(unread.size(), std::min(int(std::thread::hardware_concurrency()), int(unread.size())),
+                 [&](std::size_t i) {
+                   const auto& [visual, known] = unread[i];
+                   try {
+                     known->mesh = std::make_shared<const TriangleMesh>(read(*visual, up));
+                   } catch (const Error&) {
+                     known->problem = std::current_exception();
+                   }
+                 });
 }
 
 BodyShapes load_body_shapes(const std::vector<Visual>& visuals, MeshUp up, MeshShelf& shelf) {
   BodyShapes result;
   std::vector<Problem> problems;
   ExitCode code = ExitCode::bad_input;
+  shelf.read_ahead(visuals, up);
   for (const Visual& visual : visuals) {
     BodyShape shape{visual.body, visual.X_BV, nullptr, std::nullopt, {}};
     try {

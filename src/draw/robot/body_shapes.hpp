@@ -1,6 +1,7 @@
 // A robot as its model's visual shapes show it.
 #pragma once
 
+#include <exception>
 #include <map>
 #include <memory>
 #include <optional>
@@ -35,8 +36,15 @@ class MeshShelf {
   // With the scale of the visual. Throws Error where the file cannot be read.
   std::shared_ptr<const TriangleMesh> mesh_of(const Visual& visual, MeshUp up);
 
+  // Reads the files among them that are not known yet, on all cores. What goes wrong is told by `mesh_of`.
+  void read_ahead(const std::vector<Visual>& visuals, MeshUp up);
+
  private:
-  std::map<std::string, std::shared_ptr<const TriangleMesh>> known_;
+  struct Known {
+    std::shared_ptr<const TriangleMesh> mesh;
+    std::exception_ptr problem;  // of reading it
+  };
+  std::map<std::string, Known> known_;
 };
 
 // The meshes of all shapes; URDF scales are applied, and a material of the model stands
