@@ -336,8 +336,8 @@ Json to_json(const ModelDescription& model) {
 ModelDescription model_description_of(const Json& json) {
   try {
     return read(json);
-  } catch (const Json::exception& error) {
-    throw Error(ExitCode::bad_input, std::string("is no record of a model: ") + error.what());
+  } catch (const Json::exception&) {
+    throw Error(ExitCode::bad_input, "is no record of a model, or was changed by hand");
   } catch (const std::invalid_argument& error) {
     throw Error(ExitCode::bad_input, std::string("is no record of a model: it has ") + error.what());
   }

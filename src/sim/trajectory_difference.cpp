@@ -14,6 +14,7 @@ namespace {
 constexpr double kRelative = 1e-9;   // of a number's range
 constexpr double kAbsolute = 1e-12;  // rad, m and their rates
 constexpr double kSameTime = 1e-9;   // of 1 s and of the instant itself
+constexpr double kSameMotion = 1e-8;   // of 1 and of a number's range
 
 constexpr char kQuaternion[] = "quaternion";
 
@@ -79,6 +80,7 @@ std::vector<FreedomDifference> partings(const Columns& before, const Columns& af
     const double range = turns ? 1 : std::max(0.0, high - low);
     const double tolerance = std::max(kAbsolute, kRelative * range);
     Parting one{{after.numbers[i].label, turns ? "rad" : after.numbers[i].unit}, -1};
+    one.freedom.range = range;
     for (const auto& [a, b] : instants) {
       const double far = turns ? angle_between(before.at(a, i), after.at(b, i))
                                : distance(*before.at(a, i), *after.at(b, i));
@@ -227,6 +229,12 @@ TrajectoryDifference difference_of(const SampledTrajectory& before, const Sample
   else if (!is_same_time(before.end_time, after.end_time))
     difference.others.push_back("the run ends at " + change_text(end(before), end(after)));
   return difference;
+}
+
+bool is_rounding(const TrajectoryDifference& difference) {
+  return std::all_of(difference.freedoms.begin(), difference.freedoms.end(), [](const FreedomDifference& one) {
+    return one.largest <= kSameMotion * (1 + one.range);
+  });
 }
 
 std::string freedom_words(const TrajectoryDifference& difference) {

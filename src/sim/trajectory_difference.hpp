@@ -47,6 +47,7 @@ struct FreedomDifference {
   double at_first = 0;      // how far then
   double largest = 0;       // over all instants that both have
   double largest_time = 0;  // s
+  double range = 0;         // of the number, over both runs
 };
 
 struct TrajectoryDifference {
@@ -61,6 +62,9 @@ struct TrajectoryDifference {
 // Apart are numbers that differ by more than 1e-9 of their range, and by more than 1e-12. Quaternions are
 // compared by the angle between them. Rates count where no position parts.
 TrajectoryDifference difference_of(const SampledTrajectory& before, const SampledTrajectory& after);
+
+// Whether they part by no more than what other sums of the same motion do: 1e-8 of 1 and of each number's range.
+bool is_rounding(const TrajectoryDifference& difference);
 
 // "q2 (elbow) differs by 3.1e-4 rad from t = 0.81 s on (largest 0.02 rad at t = 3.2 s)"; "" where none does.
 std::string freedom_words(const TrajectoryDifference& difference);

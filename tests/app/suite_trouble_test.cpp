@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <tinyxml2.h>
 
 #include <filesystem>
 
 #include "app/verify_suite.hpp"
+#include "core/hash.hpp"
 #include "encode/png.hpp"
 
 namespace chainreel {
@@ -183,6 +185,60 @@ TEST_F(SuiteTrouble, AcceptingManyPicturesTakesTheMemoryOfAFew) {
   };
   const long few = largest({"--missing", "write", "--filter", "p1"});
   EXPECT_LT(largest({"--missing", "write"}), few + 120 * 1024) << "half of what all of them take";
+}
+
+TEST_F(SuiteTrouble, AForceThatLeavesTheMotionIsNotToldByItsRoundOff) {
+  std::string scene = read_whole_file("assets/scenes/pen.yaml");
+  scene.replace(scene.find("../../models/"), 13, "");
+  scene.replace(scene.find("duration: 8"), 11, "duration: 4");
+  write("rrr.urdf", read_whole_file("models/rrr.urdf"));
+  write("pen.yaml", scene);
+  write("s.yaml", "scene: pen.yaml\nsize: 160x96\nat: 0\n");
+  accept_all("s.yaml");
+  replace("pen.yaml", "[0, -5]", "[0, -20]");
+  const Json words = picture(results({}, "s.yaml"), "0s")["words"];
+  EXPECT_EQ(words[0], "contact_force.1.force.2 -5 -> -20");
+  EXPECT_THAT(words[1].get<std::string>(), testing::StartsWith("the motion is the same but for rounding: q"));
+}
+
+TEST_F(SuiteTrouble, ARecordThatIsNoneIsToldWithItsPictureAndARemedy) {
+  accept_all();
+  for (const auto& [name, bytes] : baselines()) {
+    if (!name.starts_with("records/") || name.ends_with("cameras.json")) continue;
+    Json record = parse_json(bytes);
+    record["links"] = 3;
+    const std::string text = record.dump(), id = sha256_of(text).substr(0, 16);
+    write("arm.baselines/records/" + id + ".json", text);
+    replace("arm.baselines/home.json", fs::path(name).stem().string(), id);
+  }
+  const std::string told = words(results(), "home");
+  EXPECT_THAT(told, AllOf(HasSubstr("arm.baselines/home.json: is no record of a model"), HasSubstr("--accept home")));
+  EXPECT_THAT(told, Not(HasSubstr("exception")));
+  EXPECT_EQ(verify({"--accept", "home"}).status, 0);
+}
+
+// What is said to be typed can be, whatever the suite is called, and services are given text.
+TEST_F(SuiteTrouble, NamesOfSuitesNeitherSpoilReportsNorCommands) {
+  for (const std::string name : {"-x.yaml", "a `b` $(c) <b>.yaml", "``` \n.yaml", "no\xfftext.yaml"}) {
+    write(name, read_whole_file(file("arm.yaml")));
+    const Words reports{"--markdown", "out/a.md", "--junit", "out/a.xml", "--html", "out/a.html", "--json"};
+    const ProgramResult result =
+        run_program(chainreel::with({"verify"}, chainreel::with(reports, {"--", name})),
+                    {.folder = folder_.path().string()});
+    EXPECT_EQ(result.status, 1) << name << result.err;
+    const Json json = parse_json(result.out);
+    ASSERT_TRUE(json.is_object()) << name;
+    tinyxml2::XMLDocument xml;
+    EXPECT_EQ(xml.LoadFile(file("out/a.xml").c_str()), tinyxml2::XML_SUCCESS) << name;
+    const std::string markdown = read_whole_file(file("out/a.md"));
+    for (const char* bad : {"<b>.yaml: ", "\xff"}) EXPECT_THAT(markdown, Not(HasSubstr(bad))) << name;
+    if (name.find('\xff') != std::string::npos) continue;  // JSON holds no such name
+    std::string command = json["accept"].get<std::string>();
+    EXPECT_THAT(markdown, HasSubstr("\n" + command + "\n```"));
+    ASSERT_TRUE(command.starts_with("chainreel "));
+    command.replace(0, 9, program_path());
+    EXPECT_EQ(run_command({"sh", "-c", command}, {.folder = folder_.path().string()}).status, 0) << command;
+  }
 }
 
 TEST_F(SuiteTrouble, OfAnotherSizeNoPixelsAreExpected) {

@@ -202,7 +202,7 @@ class Verification {
     try {
       return judge(suite_, picture, shot, baselines_.read(picture.name), studio);
     } catch (const Error& error) {
-      PictureVerdict verdict = without(PictureState::baseline, suite_, picture, words_of(error));
+      PictureVerdict verdict = without(PictureState::baseline, suite_, picture, words_of_baseline(error, picture));
       verdict.actual_png = png_bytes(shot.image);
       return verdict;
     } catch (const Json::exception&) {
@@ -213,6 +213,16 @@ class Verification {
       verdict.actual_png = png_bytes(shot.image);
       return verdict;
     }
+  }
+
+  // What its records hold is read by those who know nothing of files.
+  std::vector<std::string> words_of_baseline(const Error& error, const SuitePicture& picture) const {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems)
+      if (problem.place.file.empty())
+        problem = {problem.message + ": restore it, or --accept " + picture.name,
+                   {baselines_.folder() + "/" + picture.name + ".json"}};
+    return words_of(Error(error.code(), std::move(problems)));
   }
 
   const Suite& suite_;
@@ -322,7 +332,8 @@ void write_reports(const VerifyOptions& options, const SuiteResult& result) {
 
 void tell_result(const VerifyOptions& options, const SuiteResult& result) {
   if (options.common.json) {
-    std::puts(to_json(result).dump(2).c_str());
+    // Names of files may be no text.
+    std::puts(to_json(result).dump(2, ' ', false, Json::error_handler_t::replace).c_str());
     return;
   }
   for (const std::string& notice : result.notices) std::fprintf(stderr, "%s\n", notice.c_str());

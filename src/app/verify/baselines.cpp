@@ -13,6 +13,7 @@
 
 #include "app/cli/streams.hpp"
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "core/hash.hpp"
 #include "core/input_file.hpp"
 #include "encode/png.hpp"
@@ -47,7 +48,7 @@ std::string folder_of(const Suite& suite) {
 // own.
 std::string identity_of(const Suite& suite) {
   const fs::path path = path_of(suite);
-  return path.filename().string() + (fs::is_directory(path) ? "/" : "");
+  return printable(path.filename().string()) + (fs::is_directory(path) ? "/" : "");  // a name may be no text
 }
 
 // A record of ours: 16 hexadecimal digits and .json.
@@ -112,6 +113,12 @@ SuiteLock::SuiteLock(const Suite& suite, For purpose) {
   if (file_ < 0) throw Error(ExitCode::bad_input, std::strerror(errno), {suite.file});
   const int kind = purpose == For::writing ? LOCK_EX : LOCK_SH;
   for (bool told = false; ::flock(file_, kind | LOCK_NB) != 0; told = true) {
+    if (errno == ENOSYS || errno == EOPNOTSUPP || errno == ENOLCK || errno == EINVAL) {
+      if (purpose == For::writing)
+        std::fprintf(stderr, "%s: this file system knows no locks: see to it that no other verify writes now\n",
+                     suite.file.c_str());
+      return;
+    }
     if (errno != EWOULDBLOCK) {
       const int code = errno;
       ::close(file_);

@@ -141,7 +141,10 @@ std::vector<std::string> told(const TrajectoryDifference& difference, const Json
   const bool has_other_bits = before.at("t") == after.at("t") && before.at("sha256") != after.at("sha256");
   if (motion.empty() && has_other_bits && changes.causes.empty() && difference.others.empty())
     motion = "the trajectory differs in its last digits, or between the samples that are kept";
-  if (motion.empty() || changes.causes.size() != 1) {
+  // A cause that leaves the motion as it is, like another force on a constraint, is not told by its round-off.
+  const bool is_same = !motion.empty() && !changes.causes.empty() && is_rounding(difference);
+  if (is_same) motion = "the motion is the same but for rounding: " + motion;
+  if (motion.empty() || is_same || changes.causes.size() != 1) {
     sentences = std::move(changes.causes);
     if (!motion.empty()) sentences.push_back(std::move(motion));
   } else {
@@ -237,8 +240,8 @@ std::vector<std::string> explain_runs(const Json& before, const Json& after) {
   if (before == after) return {};
   try {
     return explained(before, after);
-  } catch (const Json::exception& error) {
-    throw Error(ExitCode::bad_input, std::string("is no record of runs: ") + error.what());
+  } catch (const Json::exception&) {
+    throw Error(ExitCode::bad_input, "is no record of runs, or was changed by hand");
   }
 }
 

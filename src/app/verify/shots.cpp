@@ -296,7 +296,7 @@ std::string source_name(const Suite& suite, const std::string& source) {
       fs::is_directory(suite.file) ? fs::path(suite.file) : fs::path(suite.file).parent_path();
   const fs::path from = fs::absolute(folder.empty() ? "." : folder).lexically_normal();
   const fs::path name = fs::absolute(source).lexically_normal().lexically_relative(from);
-  return name.empty() ? source : name.generic_string();
+  return printable(name.empty() ? source : name.generic_string());  // a name may be no text
 }
 
 Cameras cameras_of(const Suite& suite, Cameras known) {

@@ -17,7 +17,7 @@ std::string plain(const PictureState state) {
 // Words of others must not become markup.
 std::string markdown_words(const std::string& words) {
   std::string text;
-  for (const char c : words) {
+  for (const char c : printable(words)) {
     if (c == '\n' || c == '\r')
       text += ' ';
     else if (std::string("\\`*_{}[]<>|#&").find(c) != std::string::npos)
@@ -26,6 +26,13 @@ std::string markdown_words(const std::string& words) {
       text += c;
   }
   return text;
+}
+
+// As it stands, between fences longer than any in it.
+std::string markdown_code(const std::string& text) {
+  std::string fence = "```";
+  while (text.find(fence) != std::string::npos) fence += '`';
+  return fence + "sh\n" + printable(text) + "\n" + fence + "\n";
 }
 
 }  // namespace
@@ -41,7 +48,8 @@ int SuiteResult::count(PictureState state) const {
 }
 
 std::string accept_command(const SuiteResult& result) {
-  std::string command = "chainreel verify " + shell_word(result.suite) + " --accept";
+  const std::string suite = result.suite.starts_with('-') ? "./" + result.suite : result.suite;  // no option
+  std::string command = "chainreel verify " + shell_word(suite) + " --accept";
   for (const PictureVerdict& one : result.pictures)
     if (!one.passes && one.state != PictureState::failed) command += " " + shell_word(one.name);
   return command;
@@ -80,7 +88,7 @@ std::string junit_text(const SuiteResult& result) {
   printer.PushHeader(false, true);
   printer.OpenElement("testsuites");
   printer.OpenElement("testsuite");
-  printer.PushAttribute("name", result.suite.c_str());
+  printer.PushAttribute("name", printable(result.suite).c_str());
   printer.PushAttribute("tests", int(result.pictures.size()));
   printer.PushAttribute("failures", result.failed() - result.count(PictureState::failed));
   printer.PushAttribute("errors", result.count(PictureState::failed));
@@ -111,7 +119,7 @@ std::string markdown_text(const SuiteResult& result) {
     if (!one.passes)
       text += "| " + markdown_words(one.name) + " | " + plain(one.state) + " | " +
               markdown_words(joined(one.words, "; ")) + " |\n";
-  return text + "\nTo take what is drawn now: `" + accept_command(result) + "`\n";
+  return text + "\nTo take what is drawn now:\n\n" + markdown_code(accept_command(result));
 }
 
 }  // namespace chainreel
