@@ -1,12 +1,15 @@
 #include "core/machine.hpp"
 
+#include <sched.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <functional>
 #include <limits>
 
 #include "core/error.hpp"
@@ -62,24 +65,48 @@ double left_by(decltype(RLIMIT_AS) resource, double taken) {
 }
 
 // Control groups, of both versions: this process's own, as /proc/self/cgroup names them, and that at the root of what a
-// container sees.
-double left_by_control_group() {
-  double least = kUnlimited;
-  const auto look = [&least](const std::string& folder, const char* most, const char* used) {
-    const double limit = number_in(folder + most), now = number_in(folder + used);
-    if (limit < kUnlimited) least = std::min(least, std::max(0.0, limit - (now < kUnlimited ? now : 0)));
-  };
-  look("/sys/fs/cgroup", "/memory.max", "/memory.current");
-  look("/sys/fs/cgroup/memory", "/memory.limit_in_bytes", "/memory.usage_in_bytes");
+// container sees. `look` is given the folder of each; of the second version, "", or the controllers that lie there.
+void for_each_control_group(const std::function<void(const std::string& folder, const std::string& controllers)>& look) {
+  const std::string root = "/sys/fs/cgroup";
+  look(root, "");
+  for (const char* controller : {"memory", "cpu"}) look(root + "/" + controller, controller);
   std::ifstream groups("/proc/self/cgroup");
   for (std::string line; std::getline(groups, line);) {
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (second == std::string::npos) continue;
     const std::string path = line.substr(second + 1), controllers = line.substr(first + 1, second - first - 1);
-    if (controllers.empty()) look("/sys/fs/cgroup" + path, "/memory.max", "/memory.current");
-    if (controllers.find("memory") != std::string::npos)
-      look("/sys/fs/cgroup/memory" + path, "/memory.limit_in_bytes", "/memory.usage_in_bytes");
+    if (controllers.empty()) look(root + path, "");
+    for (const char* controller : {"memory", "cpu"})
+      if (controllers.find(controller) != std::string::npos) look(root + "/" + controller + path, controller);
   }
+}
+
+double left_by_control_group() {
+  double least = kUnlimited;
+  for_each_control_group([&least](const std::string& folder, const std::string& controllers) {
+    const bool is_second = controllers.empty();
+    if (!is_second && controllers != "memory") return;
+    const double limit = number_in(folder + (is_second ? "/memory.max" : "/memory.limit_in_bytes"));
+    const double now = number_in(folder + (is_second ? "/memory.current" : "/memory.usage_in_bytes"));
+    if (limit < kUnlimited) least = std::min(least, std::max(0.0, limit - (now < kUnlimited ? now : 0)));
+  });
+  return least;
+}
+
+// How many processors' time the control groups allow.
+double cores_of_control_group() {
+  double least = kUnlimited;
+  for_each_control_group([&least](const std::string& folder, const std::string& controllers) {
+    double quota = kUnlimited, period = kUnlimited;
+    if (controllers.empty()) {
+      std::ifstream stream(folder + "/cpu.max");
+      if (!(stream >> quota >> period)) return;  // "max 100000"
+    } else if (controllers == "cpu") {
+      quota = number_in(folder + "/cpu.cfs_quota_us");
+      period = number_in(folder + "/cpu.cfs_period_us");
+    }
+    if (quota > 0 && period > 0 && quota < kUnlimited && period < kUnlimited) least = std::min(least, quota / period);
+  });
   return least;
 }
 
@@ -92,6 +119,13 @@ std::string gigabytes(double bytes) {
 double memory_limit() {
   const double machine = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
   return std::min({machine, left_by(RLIMIT_AS, taken(0)), left_by(RLIMIT_DATA, taken(5)), left_by_control_group()});
+}
+
+int usable_cores() {
+  cpu_set_t bound;
+  const long bound_to = sched_getaffinity(0, sizeof bound, &bound) == 0 ? CPU_COUNT(&bound) : sysconf(_SC_NPROCESSORS_ONLN);
+  // Part of a processor's time is worth a thread of its own.
+  return std::max(1, int(std::min(double(bound_to), std::ceil(cores_of_control_group()))));
 }
 
 void require_memory(double bytes, const std::string& what) {

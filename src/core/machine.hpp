@@ -14,6 +14,10 @@ std::string compiler_name();   // that built the program
 // where there is none.
 std::string value_in_file(const char* path, const std::string& key, char separator);
 
+// Processors that this process may use at the same time: those that it is bound to, as far as its control group has time
+// for them. At least 1.
+int usable_cores();
+
 // How much memory may be taken, so that what cannot fit is refused before it is begun.
 
 // Bytes that this process may still take: the least of what the limits of the process and of its control group leave, and

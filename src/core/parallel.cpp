@@ -9,11 +9,16 @@
 namespace chainreel {
 
 void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& run) {
+  for_each_index_with_tools(count, threads, [&run]() -> RunIndex { return std::ref(run); });
+}
+
+void for_each_index_with_tools(std::size_t count, int threads, const std::function<RunIndex()>& begin) {
   std::atomic<std::size_t> next = 0;
   std::exception_ptr problem;
   std::mutex lock;
   const auto work = [&] {
     try {
+      const RunIndex run = begin();
       for (std::size_t i = next++; i < count; i = next++) run(i);
     } catch (...) {
       const std::lock_guard guard(lock);

@@ -69,7 +69,9 @@ ApngWriter::~ApngWriter() = default;
 
 void ApngWriter::write(const Image& full) {
   State& s = *state_;
-  if (!s.small.takes_next()) return;
+  const bool is_shown = s.small.takes_next();
+  s.small.count();
+  if (!is_shown) return;
   const Image& image = s.small.shrink(full);
   check_libav(libav().av_frame_make_writable(s.frame.get()), ExitCode::limit, "no memory left for a frame");
   const int channels = s.settings.alpha ? 4 : 3;
@@ -84,6 +86,14 @@ void ApngWriter::write(const Image& full) {
     }
   }
   s.muxer.encode(*s.frame);
+}
+
+bool ApngWriter::takes_next() const {
+  return state_->small.takes_next();
+}
+
+void ApngWriter::skip() {
+  state_->small.count();
 }
 
 void ApngWriter::finish() {

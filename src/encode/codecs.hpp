@@ -1,6 +1,9 @@
 // Encoders opened with the settings that this program stands for. Internal to this floor.
 #pragma once
 
+#include <functional>
+#include <string>
+
 #include "encode/libav.hpp"
 #include "encode/muxer.hpp"
 #include "encode/video_writer.hpp"
@@ -14,9 +17,13 @@ struct CodecRow {
   std::optional<double> crf, worst_crf;  // the usual quality and the worst; none of a codec of fixed quality
   bool alpha;                            // can keep opacity
   bool every_pixel;                      // 4:4:4 at 10 bits; else 4:2:0 at 8
+  bool every_frame_is_key;
   AVDictionary* (*options)(AVCodecContext&, const VideoSettings&);
 };
 const CodecRow& row_of(VideoCodec codec);
+
+// Frames from one key frame to the next, at most: two seconds.
+int gop_of(FrameRate fps);
 
 // The encoder of a film; settings are checked. Throws Error (exit 4) where FFmpeg has none or refuses.
 CodecContextPtr open_encoder(const VideoSettings& settings);
@@ -24,6 +31,10 @@ CodecContextPtr open_encoder(const VideoSettings& settings);
 // GIF (pal8) and APNG (bgra or rgb24) of one small size.
 CodecContextPtr open_small_encoder(const char* name, AVPixelFormat format, int width, int height,
                                    AVRational frame_time);
+
+// Gives the encoder a frame, or with nullptr the end, and hands on every packet that is ready. `path`: the film, for errors.
+void encode_frame(AVCodecContext& encoder, const AVFrame* frame, const std::string& path,
+                  const std::function<void(AVPacket&)>& take);
 
 // A frame of the encoder's size, pixel format and colours.
 FramePtr allocate_frame(const AVCodecContext& encoder);

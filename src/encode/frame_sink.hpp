@@ -19,6 +19,9 @@ class FrameSink {
   FrameSink& operator=(const FrameSink&) = delete;
 
   virtual void write(const Image& frame) = 0;  // frames in order, all of one size
+  // Of small clips: whether the next frame is among those that they show; one that is not need not be drawn.
+  virtual bool takes_next() const { return true; }
+  virtual void skip() {}  // in the place of write() of such a frame
   virtual void finish() = 0;                   // the file is whole when this has returned
 };
 

@@ -65,10 +65,20 @@ GifWriter::~GifWriter() = default;
 
 void GifWriter::write(const Image& frame) {
   State& s = *state_;
-  if (!s.small.takes_next()) return;
+  const bool is_shown = s.small.takes_next();
+  s.small.count();
+  if (!is_shown) return;
   const Image& image = s.small.shrink(frame);
   s.colors.count(image);
   s.frames.push_back(packed(image));
+}
+
+bool GifWriter::takes_next() const {
+  return state_->small.takes_next();
+}
+
+void GifWriter::skip() {
+  state_->small.count();
 }
 
 void GifWriter::finish() {

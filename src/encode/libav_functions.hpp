@@ -17,7 +17,8 @@ namespace chainreel {
   X(av_frame_get_buffer) X(av_frame_make_writable) X(av_free) X(av_freep) X(av_log_format_line2)      \
   X(av_log_set_callback) X(av_malloc) X(av_strerror) X(av_version_info) X(avutil_version)
 #define CHAINREEL_LIBAV_CODEC(X)                                                                            \
-  X(av_packet_alloc) X(av_packet_free) X(av_packet_rescale_ts) X(av_packet_unref) X(avcodec_alloc_context3) \
+  X(av_packet_alloc) X(av_packet_free) X(av_packet_get_side_data) X(av_packet_new_side_data)                 \
+  X(av_packet_rescale_ts) X(av_packet_unref) X(avcodec_alloc_context3) \
   X(avcodec_find_decoder) X(avcodec_find_decoder_by_name) X(avcodec_find_encoder_by_name)                   \
   X(avcodec_free_context) X(avcodec_open2)                                                                  \
   X(avcodec_parameters_from_context) X(avcodec_parameters_to_context) X(avcodec_receive_frame)              \

@@ -215,8 +215,8 @@ std::map<std::string, std::string> read_png_text(const std::string& path) {
   return text;
 }
 
-PngSequence::PngSequence(std::string folder, std::string stem, Tags tags)
-    : folder_(std::move(folder)), stem_(std::move(stem)), tags_(std::move(tags)) {}
+PngSequence::PngSequence(std::string folder, std::string stem, Tags tags, int first)
+    : folder_(std::move(folder)), stem_(std::move(stem)), tags_(std::move(tags)), next_(first) {}
 
 std::string PngSequence::file_name(const std::string& stem, int frame) {
   const std::string digits = std::to_string(frame);
@@ -224,9 +224,9 @@ std::string PngSequence::file_name(const std::string& stem, int frame) {
 }
 
 void PngSequence::write(const Image& frame) {
-  const std::string path = (std::filesystem::path(folder_) / file_name(stem_, count_)).string();
-  write_png(path, frame, count_ == 0 ? tags_ : Tags{});
-  ++count_;
+  const std::string path = (std::filesystem::path(folder_) / file_name(stem_, next_)).string();
+  write_png(path, frame, next_ == 0 ? tags_ : Tags{});
+  ++next_;
 }
 
 }  // namespace chainreel

@@ -34,8 +34,8 @@ std::map<std::string, std::string> read_png_text(const std::string& path);
 
 class PngSequence final : public FrameSink {
  public:
-  // Files are `stem` and six digits in `folder`, which is there. Tags go into the first.
-  PngSequence(std::string folder, std::string stem, Tags tags);
+  // Files are `stem` and six digits in `folder`, which is there; those of the frames from `first` on. Tags go into frame 0.
+  PngSequence(std::string folder, std::string stem, Tags tags, int first = 0);
   void write(const Image& frame) override;
   void finish() override {}
 
@@ -44,7 +44,7 @@ class PngSequence final : public FrameSink {
  private:
   std::string folder_, stem_;
   Tags tags_;
-  int count_ = 0;
+  int next_;
 };
 
 }  // namespace chainreel

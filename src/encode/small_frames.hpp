@@ -24,8 +24,9 @@ class SmallFrames {
   int height() const { return height_; }
   FrameRate fps() const { return fps_; }
 
-  // Whether the next frame is shown; counts it.
-  bool takes_next() { return count_++ % every_ == 0; }
+  // Whether the next frame is shown.
+  bool takes_next() const { return count_ % every_ == 0; }
+  void count() { ++count_; }
   // The frame at the clip's size, by the mean of the pixels that fall into one; valid until the next call.
   const Image& shrink(const Image& frame);
 
@@ -54,6 +55,8 @@ class GifWriter final : public FrameSink {
   GifWriter(const std::string& path, const SmallClipSettings& settings);
   ~GifWriter() override;
   void write(const Image& frame) override;
+  bool takes_next() const override;
+  void skip() override;
   void finish() override;
 
  private:
@@ -66,6 +69,8 @@ class ApngWriter final : public FrameSink {
   ApngWriter(const std::string& path, const SmallClipSettings& settings);
   ~ApngWriter() override;
   void write(const Image& frame) override;
+  bool takes_next() const override;
+  void skip() override;
   void finish() override;
 
  private:

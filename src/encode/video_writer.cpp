@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "core/format.hpp"
 #include "encode/bleed.hpp"
 #include "encode/codecs.hpp"
+#include "encode/film_chunk.hpp"
 #include "encode/yuv.hpp"
 
 namespace chainreel {
@@ -63,16 +65,27 @@ void require_settings(const VideoSettings& settings) {
     throw Error(ExitCode::usage, "MP4 with H.264 has no opacity: take .mov or .webm");
 }
 
-struct VideoWriter::State {
+struct ChunkEncoder::State {
   VideoSettings settings;
-  Muxer muxer;
+  CodecContextPtr encoder;
   FramePtr frame;
   Image bled;  // the frame with colours in its transparent pixels
+  FilmChunk chunk;
 
-  State(const std::string& path, const VideoSettings& s)
-      : settings(s),
-        muxer(path, *row_of(s.codec).container, open_encoder(s), s.tags),
-        frame(allocate_frame(muxer.encoder())) {}
+  explicit State(const VideoSettings& s)
+      : settings(s), encoder(open_encoder(s)), frame(allocate_frame(*encoder)) {}
+
+  void send(const AVFrame* next) {
+    encode_frame(*encoder, next, "", [this](const AVPacket& packet) {
+      FilmPacket& kept = chunk.packets.emplace_back();
+      kept.data.assign(reinterpret_cast<const char*>(packet.data), std::size_t(packet.size));
+      kept.pts = packet.pts;
+      kept.is_key = (packet.flags & AV_PKT_FLAG_KEY) != 0;
+      std::size_t size = 0;
+      if (const auto* side = libav().av_packet_get_side_data(&packet, AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, &size))
+        kept.opacity.assign(reinterpret_cast<const char*>(side), size);
+    });
+  }
 
   void convert(const Image& image) {
     if (row_of(settings.codec).every_pixel) {
@@ -94,15 +107,15 @@ struct VideoWriter::State {
   }
 };
 
-VideoWriter::VideoWriter(const std::string& path, const VideoSettings& settings) {
+ChunkEncoder::ChunkEncoder(const VideoSettings& settings) {
   require_settings(settings);
   capture_libav_log();
-  state_ = std::make_unique<State>(path, settings);
+  state_ = std::make_unique<State>(settings);
 }
 
-VideoWriter::~VideoWriter() = default;
+ChunkEncoder::~ChunkEncoder() = default;
 
-void VideoWriter::write(const Image& image) {
+void ChunkEncoder::write(const Image& image) {
   State& s = *state_;
   if (image.width != s.settings.width || image.height != s.settings.height)
     throw Error(ExitCode::usage, "a frame of " + size_text(image.width, image.height) +
@@ -115,11 +128,16 @@ void VideoWriter::write(const Image& image) {
     bleed_colors(s.bled);
   }
   s.convert(s.settings.alpha ? s.bled : image);
-  s.muxer.encode(*s.frame);
+  s.frame->pts = s.chunk.frames++;
+  s.send(s.frame.get());
 }
 
-void VideoWriter::finish() {
-  state_->muxer.finish();
+void ChunkEncoder::finish() {
+  state_->send(nullptr);
+}
+
+FilmChunk ChunkEncoder::take() {
+  return std::move(state_->chunk);
 }
 
 }  // namespace chainreel

@@ -1,7 +1,7 @@
-// Frames to a film, constant frame rate, BT.709 limited range and tagged, closed GOPs of 2 s:
+// Frames to what a film is made of: constant frame rate, BT.709 limited range and tagged, closed GOPs of at most 2 s:
 //
 //   h264    MP4, High, yuv420p, x264 veryfast CRF 18, index first; the stream depends neither on the
-//           processor nor on its number of cores
+//           processor nor on its number of cores; without loss at CRF 0, then High 4:4:4 Predictive
 //   vp9     WebM, yuv420p or yuva420p, libvpx CRF 28
 //   prores  MOV, 4444, 10 bits, all frames key frames, at a fixed quantiser
 //
@@ -39,15 +39,18 @@ void require_even_sides(int width, int height);
 // The same for everything in the settings.
 void require_settings(const VideoSettings& settings);
 
-class VideoWriter final : public FrameSink {
+struct FilmChunk;
+
+// Frames to a chunk of a film, see film_chunk.
+class ChunkEncoder final : public FrameSink {
  public:
-  // Writes to `path` as given; the caller renames it when finish() has returned. Throws Error (exit 4: no
-  // encoder, 6: cannot be written).
-  VideoWriter(const std::string& path, const VideoSettings& settings);
-  ~VideoWriter() override;
+  // Throws Error (usage, exit 4: no encoder).
+  explicit ChunkEncoder(const VideoSettings& settings);
+  ~ChunkEncoder() override;
 
   void write(const Image& frame) override;  // of exactly the size in the settings
-  void finish() override;                   // flushes the encoder and closes the file
+  void finish() override;                   // flushes the encoder
+  FilmChunk take();                         // once it is finished
 
  private:
   struct State;

@@ -21,8 +21,9 @@ struct RendererInfo {
 RendererInfo probe_renderer();
 
 // Flat pictures are drawn faster by the calling thread alone, bodies in space by several. To be called before the first
-// canvas of the process, later calls change nothing; the bytes of pictures are the same either way.
-void fill_by_several_threads();
+// canvas of the process, later calls change nothing; the bytes of pictures are the same either way. Several canvases beside
+// one another want one each.
+void fill_by_several_threads(bool wanted = true);
 
 class Canvas {
  public:

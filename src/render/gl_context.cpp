@@ -29,8 +29,8 @@ namespace {
 std::atomic<bool> several_threads = false;
 }
 
-void fill_by_several_threads() {
-  several_threads = true;
+void fill_by_several_threads(bool wanted) {
+  several_threads = wanted;
 }
 
 std::unique_ptr<GlContext> create_gl_context() {

@@ -11,6 +11,7 @@
 #include "encode/png.hpp"
 #include "encode/small_frames.hpp"
 #include "encode/video_writer.hpp"
+#include "support/film_of_frames.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -56,7 +57,7 @@ std::string film(const TemporaryFolder& folder, const std::string& name, int fra
   else if (name.ends_with(".apng"))
     sink = std::make_unique<ApngWriter>(path, small);
   else
-    sink = std::make_unique<VideoWriter>(path,
+    sink = std::make_unique<FilmOfFrames>(path,
                                          VideoSettings{.width = kWide,
                                                        .height = kHigh,
                                                        .fps = fps,

@@ -13,6 +13,7 @@
 #include "encode/film_start.hpp"
 #include "encode/png.hpp"
 #include "encode/video_writer.hpp"
+#include "support/film_of_frames.hpp"
 #include "support/picture_compare.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
@@ -110,7 +111,7 @@ TEST(Gallery, GivesChartsToTheFilmWithTheLongestName) {
 TEST(Gallery, SaysWhereAFilmRemembersNoScene) {
   const TemporaryFolder folder;
   const std::string file = folder.file("foreign.mp4");
-  VideoWriter writer(file, {.width = 64, .height = 36, .fps = {25, 1}});
+  FilmOfFrames writer(file, {.width = 64, .height = 36, .fps = {25, 1}});
   for (int k = 0; k < 5; ++k) writer.write(Image(64, 36));
   writer.finish();
   ASSERT_EQ(gallery(folder).status, 0);

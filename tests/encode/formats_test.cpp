@@ -15,6 +15,7 @@
 #include "encode/small_frames.hpp"
 #include "encode/test_pictures.hpp"
 #include "encode/video_writer.hpp"
+#include "support/film_of_frames.hpp"
 #include "support/picture_compare.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/video_probe.hpp"
@@ -71,7 +72,7 @@ TEST_P(EveryFilm, DecodesToItsFramesInItsColours) {
   const auto picture = [&](int k) {
     return film.settings.alpha ? floating_disc(k) : over(floating_disc(k), 255);
   };
-  VideoWriter writer(path, film.settings);
+  FilmOfFrames writer(path, film.settings);
   for (int k = 0; k < kFrames; ++k) writer.write(picture(k));
   writer.finish();
 
@@ -109,7 +110,7 @@ TEST_P(EveryFilm, SaysWhatItIs) {
   film.settings.width = film.settings.height = 64;
   film.settings.tags = {{"title", "\u03C4 = 0"}, {"chainreel_scene", "a: 1\nb: \"two\" ; = # \\\n"}};
   const std::string path = folder.file(film.file);
-  VideoWriter writer(path, film.settings);
+  FilmOfFrames writer(path, film.settings);
   writer.write(flat_picture(64, 64, pixel_of(0x808080)));
   writer.finish();
   const Tags tags = read_film_tags(path);
@@ -125,7 +126,7 @@ TEST(Formats, EdgesOnNothingKeepTheirColour) {
   const TemporaryFolder folder;
   for (const VideoCodec codec : {VideoCodec::prores, VideoCodec::vp9}) {
     const std::string path = folder.file(codec == VideoCodec::vp9 ? "a.webm" : "a.mov");
-    VideoWriter writer(path, {.width = kWidth, .height = kHeight, .codec = codec, .alpha = true});
+    FilmOfFrames writer(path, {.width = kWidth, .height = kHeight, .codec = codec, .alpha = true});
     writer.write(floating_disc(0));
     writer.finish();
     const Image image = probe_video(path).first;
@@ -288,7 +289,7 @@ TEST(Formats, FilmsHaveTheQualityThatTheirDocumentationNames) {
   const TemporaryFolder folder;
   const auto film = [&](VideoCodec codec, std::optional<double> crf) {
     const std::string path = folder.file(codec == VideoCodec::vp9 ? "a.webm" : "a.mp4");
-    VideoWriter writer(path, {.width = kWidth, .height = kHeight, .crf = crf, .codec = codec});
+    FilmOfFrames writer(path, {.width = kWidth, .height = kHeight, .crf = crf, .codec = codec});
     for (int k = 0; k < 3; ++k) writer.write(over(floating_disc(k), 255));
     writer.finish();
     return read_whole_file(path);

@@ -145,7 +145,8 @@ const House& house() {
                         {"guide", {"film"}},
                         {"gallery", {"report"}},
                         {"verify", {"report"}},
-                        {"commands", {"report", "guide", "gallery", "verify"}},
+                        {"works", {"report"}},
+                        {"commands", {"report", "works", "guide", "gallery", "verify"}},
                         {"", {"commands"}}};
     // Eigen is the language of everything below scene.
     for (const auto& [folder, below] : h.uses)

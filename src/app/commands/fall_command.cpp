@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <thread>
 
 #include "app/cli/command.hpp"
 #include "app/cli/streams.hpp"
@@ -11,6 +10,7 @@
 #include "app/report/report.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/machine.hpp"
 #include "core/output_file.hpp"
 #include "scene/run/fall.hpp"
 
@@ -131,7 +131,7 @@ void run_fall(const FallOptions& options) {
     throw Error(ExitCode::usage, "-o " + options.output + ": tables are written as .csv");
   std::unique_ptr<OutputFile> file;
   if (!options.output.empty()) file = std::make_unique<OutputFile>(options.output, options.common.force);
-  const int cores = std::max(1, int(std::thread::hardware_concurrency()));
+  const int cores = usable_cores();
   const int threads = std::min(options.threads > 0 ? options.threads : cores, int(sweep.values.size()));
   const FallTable table = run_fall_table(options.scene, overrides_of(options.common), sweep, threads,
                                          [](double) { return interrupted(); });

@@ -26,6 +26,7 @@ struct RenderOptions {
   std::vector<std::string> outputs;
   std::string at = "0";
   std::vector<std::string> vary;
+  int jobs = 0;
   CommonOptions common;
 };
 
@@ -59,6 +60,7 @@ std::vector<RenderJob> jobs_of(const RenderOptions& options, const std::vector<P
     RenderJob job;
     job.targets = targets_of(options.outputs, films.size(), films[i].scene);
     job.at = parse_quantity(options.at, {});
+    job.jobs = options.jobs;
     job.overwrite = options.common.force;
     job.quiet = options.common.quiet;
     if (!(job.at >= 0 && job.at <= films[i].scene.duration))
@@ -123,6 +125,8 @@ void add_render_command(CommandLine& app) {
   for (const FlagGroup flags : {FlagGroup::output, FlagGroup::look, FlagGroup::page, FlagGroup::view})
     add_scene_flags(*command, options->common.flags, flags);
   command->add_option("--at", options->at, "instant that .png, .svg and .pdf show, in seconds (default 0)");
+  command->add_option("--jobs", options->jobs, "threads that draw and encode (default: all cores); the bytes are the same")
+      .range(1, 256);
   add_vary_option(*command, options->vary);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);

@@ -7,155 +7,27 @@
 #include <memory>
 #include <set>
 
-#include "app/cli/streams.hpp"
-#include "app/film/progress.hpp"
 #include "app/report/alt_text.hpp"
 #include "app/report/report.hpp"
 #include "app/report/sidecar.hpp"
 #include "app/report/trajectory_csv.hpp"
+#include "app/works/draw_film.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/hash.hpp"
 #include "core/output_file.hpp"
 #include "encode/png.hpp"
-#include "render/canvas.hpp"
 
 namespace chainreel {
 namespace {
 
 namespace fs = std::filesystem;
 
-// One target on its way: where it is written, and for clips what takes its frames.
-struct Output {
-  Target target;
-  std::vector<std::unique_ptr<OutputFile>> files;  // one, or a table a panel, or none of a sequence
-  std::unique_ptr<OutputFolder> folder;
-  std::unique_ptr<FrameSink> sink;
-};
-
-struct SequencePlace {
-  std::string folder, stem;  // stem: all before the six digits
-};
-
-SequencePlace place_of_sequence(const std::string& path) {
-  const fs::path file(path);
-  const std::string name = file.stem().string();
-  return {file.parent_path().string(), name.substr(0, name.size() - 6)};
-}
-
-// What sidecars of a target are named after.
-std::string base_of(const Target& target) {
-  if (!target.format->is_sequence) return fs::path(target.path).replace_extension().string();
-  SequencePlace place = place_of_sequence(target.path);
-  while (place.stem.ends_with('_')) place.stem.pop_back();
-  return (fs::path(place.folder) / (place.stem.empty() ? "frames" : place.stem)).string();
-}
-
-std::vector<Output> open_outputs(const RenderJob& job, std::size_t panels) {
-  std::vector<Output> outputs;
-  for (const Target& target : job.targets) {
-    Output output{target, {}, {}, {}};
-    if (target.is_implied) require_own_sidecar(target.path, job.overwrite);
-    if (target.format->is_sequence) {
-      const SequencePlace place = place_of_sequence(target.path);
-      output.folder = std::make_unique<OutputFolder>(place.folder, place.stem, ".png", job.overwrite);
-    } else if (target.format->shows == Shows::table) {
-      for (std::size_t i = 0; i < panels; ++i)
-        output.files.push_back(
-            std::make_unique<OutputFile>(panel_csv_path(target.path, i, panels == 1), job.overwrite));
-    } else {
-      output.files.push_back(std::make_unique<OutputFile>(target.path, job.overwrite));
-    }
-    outputs.push_back(std::move(output));
-  }
-  return outputs;
-}
-
-std::unique_ptr<FrameSink> sink_of(const Output& output, const Scene& scene, const Tags& tags) {
-  const OutputFormat& format = *output.target.format;
-  if (format.make_sink == nullptr) return nullptr;
-  const VideoSettings settings{.width = scene.video.width,
-                               .height = scene.video.height,
-                               .fps = scene.video.fps,
-                               .crf = scene.video.crf,
-                               .alpha = is_transparent(scene),
-                               .tags = tags};
-  return format.is_sequence ? format.make_sink(format, output.folder->temporary_folder(),
-                                               place_of_sequence(output.target.path).stem, settings)
-                            : format.make_sink(format, output.files.front()->temporary_path(), {}, settings);
-}
-
-// How often each frame is shown.
-struct Schedule {
-  int frames = 0, first = 0, last = 0;  // drawn, held
-
-  int total() const { return frames + first + last; }
-  int shown(int k) const { return 1 + (k == 0 ? first : 0) + (k == frames - 1 ? last : 0); }
-};
-
-// The whole picture of a frame, for pages of shapes.
-Picture picture_of(const Film& film, int frame) {
-  Picture picture = film.static_layer();
-  picture.append(film.frame(frame));
-  return picture;
-}
-
-bool shows(const Output& output, Shows what) {
-  return output.target.format->shows == what;
-}
-
-// All frames that some output needs, each drawn and rasterised once.
-void draw_film(const Film& film, const Scene& scene, const Fonts& fonts, std::vector<Output>& outputs,
-               const Schedule& schedule, int still, const ClipMemory& memory, bool quiet,
-               StageSeconds& seconds) {
-  Stopwatch watch;
-  const auto any = [&](Shows what) {
-    return std::any_of(outputs.begin(), outputs.end(), [&](const Output& output) { return shows(output, what); });
-  };
-  const bool has_clips = any(Shows::motion);
-  if (!has_clips && !any(Shows::still)) return;
-  Canvas canvas(scene.video.width, scene.video.height, fonts);
-  canvas.set_static_layer(film.static_layer());
-  for (Output& output : outputs) output.sink = sink_of(output, scene, memory.tags());
-  seconds.render += watch.lap();
-
-  Progress progress(scene.name, film.frame_count(), quiet);
-  Image image;
-  for (int k = has_clips ? 0 : still; k < (has_clips ? schedule.frames : still + 1); ++k) {
-    throw_if_interrupted();
-    watch.lap();
-    const Picture picture = film.frame(k);
-    seconds.draw += watch.lap();
-    canvas.draw(picture, image);
-    seconds.render += watch.lap();
-    for (Output& output : outputs) {
-      if (output.sink)
-        for (int i = 0; i < schedule.shown(k); ++i) output.sink->write(image);
-      if (k == still && shows(output, Shows::still))
-        output.target.format->write_still(
-            *output.files.front(), {[&] { return picture_of(film, k); }, [&] { return image; }, fonts}, memory);
-    }
-    seconds.encode += watch.lap();
-    progress.update(k + 1);
-  }
-  watch.lap();
-  for (Output& output : outputs)
-    if (output.sink) output.sink->finish();
-  for (Output& output : outputs) output.sink.reset();
-  seconds.encode += watch.lap();
-}
-
 void write_tables(const Runs& runs, std::vector<Output>& outputs) {
   for (Output& output : outputs)
-    if (shows(output, Shows::table))
+    if (output.shows(Shows::table))
       for (std::size_t i = 0; i < runs.size(); ++i)
         write_temporary(*output.files[i], trajectory_csv(runs.film().panels[i].simulation.chain, runs[i]));
-}
-
-void keep_partial(std::vector<Output>& outputs) {
-  for (Output& output : outputs)
-    if (!shows(output, Shows::still))
-      for (auto& file : output.files) file->keep_as_partial();
 }
 
 // Runs that a limit stopped: no failure, but not what one may think either.
@@ -256,18 +128,6 @@ void write_sidecars(std::vector<Sidecar>& sidecars, const FilmReport& report, Re
     if (sidecar.file->is_done()) result.sidecars.push_back(sidecar.file->path());
 }
 
-void commit(std::vector<Output>& outputs, RenderResult& result) {
-  for (Output& output : outputs) {
-    for (auto& file : output.files) {
-      file->commit();
-      result.files.push_back(file->path());
-    }
-    if (!output.folder) continue;
-    output.folder->commit();
-    result.files.push_back(output.target.path);
-  }
-}
-
 Json to_json(const StageSeconds& seconds) {
   return {{"simulate", seconds.simulate},
           {"draw", seconds.draw},
@@ -280,7 +140,7 @@ Json to_json(const StageSeconds& seconds) {
 
 RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
   const Scene& scene = film.scene;
-  std::vector<Output> outputs = open_outputs(job, film.panels.size());
+  std::vector<Output> outputs = open_outputs(job.targets, film.panels.size(), job.overwrite);
   std::vector<Sidecar> sidecars = open_sidecars(job, film);
 
   RenderResult result;
@@ -304,8 +164,8 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
   result.seconds.draw += watch.lap();
 
   const int still = std::clamp(runs.clock().frame_at(job.at), 0, schedule.frames - 1);
-  draw_film(pictures, scene, fonts, outputs, schedule, still, memory, job.quiet,
-            result.seconds);
+  const int jobs = affordable_jobs(job.jobs, scene, outputs);
+  draw_film({pictures, scene, fonts, schedule, still, memory, jobs, job.quiet}, outputs, result.seconds);
   write_tables(runs, outputs);
   result.seconds.total = total.lap();
   result.audit = to_json(report);
@@ -323,7 +183,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
     tell_of_stops(runs);
     tell_of_missing_events(runs);
   }
-  commit(outputs, result);
+  result.files = commit(outputs);
   write_sidecars(sidecars, report, result);
   return result;
 }

@@ -9,18 +9,16 @@
 #include "app/film/runs.hpp"
 #include "app/film/target.hpp"
 #include "app/report/run_report.hpp"
+#include "app/works/draw_film.hpp"
 
 namespace chainreel {
 
 struct RenderJob {
   std::vector<Target> targets;
   double at = 0;  // s, instant of the motion that stills show: the frame that stands there
+  int jobs = 0;   // threads that draw and encode; 0: all processors
   bool overwrite = false;
   bool quiet = false;
-};
-
-struct StageSeconds {
-  double simulate = 0, draw = 0, render = 0, encode = 0, total = 0;
 };
 
 struct RenderResult {

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <thread>
 
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
@@ -14,6 +13,7 @@
 #include "app/report/report.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/machine.hpp"
 #include "draw/charts/stability_map.hpp"
 #include "scene/run/stability_cells.hpp"
 #include "scene/text/read_scene.hpp"
@@ -153,7 +153,7 @@ void draw_map(const StabilityOptions& options, const std::string& output) {
   check_axis(x, "--x");
   check_axis(y, "--y");
   const std::vector<std::string> overrides = overrides_of(options.common);
-  const int threads = options.threads > 0 ? options.threads : int(std::thread::hardware_concurrency());
+  const int threads = options.threads > 0 ? options.threads : usable_cores();
   const StabilityCells cells =
       run_stability_cells(options.scene, overrides, x, y, threads, [](double) { return interrupted(); });
   throw_if_interrupted();

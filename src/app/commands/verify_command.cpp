@@ -10,7 +10,6 @@
 #include <mutex>
 #include <optional>
 #include <set>
-#include <thread>
 
 #include "app/cli/command.hpp"
 #include "app/cli/streams.hpp"
@@ -25,6 +24,7 @@
 #include "app/verify/verify_report.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/machine.hpp"
 #include "core/output_file.hpp"
 #include "core/parallel.hpp"
 #include "encode/png.hpp"
@@ -351,7 +351,7 @@ void tell_result(const VerifyOptions& options, const SuiteResult& result) {
 void run_verify(VerifyOptions options) {
   options.accepts = options.accept_option->given();
   std::erase(options.accept, "");
-  if (options.jobs == 0) options.jobs = std::max(1, int(std::thread::hardware_concurrency()));
+  if (options.jobs == 0) options.jobs = usable_cores();
   if (options.refit && !options.accepts)
     throw Error(ExitCode::usage, "--refit goes with --accept: a new camera makes all pictures new");
   if (options.refit && (!options.accept.empty() || !options.filters.empty()))

@@ -13,21 +13,9 @@
 namespace chainreel {
 namespace {
 
-std::unique_ptr<FrameSink> film(const OutputFormat& row, const std::string& place, const std::string&,
-                                VideoSettings settings) {
-  settings.codec = *row.codec;
-  return std::make_unique<VideoWriter>(place, settings);
-}
-
 template <class Writer>
-std::unique_ptr<FrameSink> small_clip(const OutputFormat&, const std::string& place, const std::string&,
-                                      VideoSettings s) {
-  return std::make_unique<Writer>(place, SmallClipSettings{s.width, s.height, s.fps, s.alpha, s.tags});
-}
-
-std::unique_ptr<FrameSink> sequence(const OutputFormat&, const std::string& place, const std::string& stem,
-                                    VideoSettings settings) {
-  return std::make_unique<PngSequence>(place, stem, settings.tags);
+std::unique_ptr<FrameSink> small_clip(const std::string& path, const VideoSettings& s) {
+  return std::make_unique<Writer>(path, SmallClipSettings{s.width, s.height, s.fps, s.alpha, s.tags});
 }
 
 void write_png_still(const OutputFile& file, const StillView& view, const ClipMemory& memory) {
@@ -49,28 +37,26 @@ constexpr std::array<OutputFormat, 10> kFormats = {{
      .keeps_opacity = false,
      .codec = VideoCodec::h264,
      .browser_type = "video/mp4",
-     .make_sink = film,
      .read_tags = read_film_tags},
     {.ending = ".webm",
      .told = "VP9, for pages; with opacity under preset overlay",
      .codec = VideoCodec::vp9,
      .browser_type = "video/webm",
-     .make_sink = film,
      .read_tags = read_film_tags},
     {.ending = ".mov",
      .told = "ProRes 4444, for compositing; with opacity under preset overlay",
-     .codec = VideoCodec::prores, .make_sink = film, .read_tags = read_film_tags},
+     .codec = VideoCodec::prores, .read_tags = read_film_tags},
     {.ending = ".gif",
      .told = "at most 25 frames/s and 800 pixels wide; one palette, no dither",
      .keeps_opacity = false,
-     .make_sink = small_clip<GifWriter>,
+     .make_clip = small_clip<GifWriter>,
      .read_tags = read_gif_comment},
     {.ending = ".apng",
      .told = "at most 25 frames/s and 800 pixels wide, every colour",
-     .make_sink = small_clip<ApngWriter>, .read_tags = read_png_text},
+     .make_clip = small_clip<ApngWriter>, .read_tags = read_png_text},
     {.ending = "000000.png",
      .told = "a folder of every frame as a PNG, and NAME.tex for LaTeX's animate",
-     .is_sequence = true, .make_sink = sequence, .read_tags = read_png_text},
+     .is_sequence = true, .read_tags = read_png_text},
     {.ending = ".png",
      .told = "the first frame, or that at `--at`",
      .shows = Shows::still, .write_still = write_png_still, .read_tags = read_png_text},

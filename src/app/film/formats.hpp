@@ -36,10 +36,9 @@ struct OutputFormat {
   std::optional<VideoCodec> codec{};  // of films, whose size and quality it limits
   const char* browser_type = "";      // "video/mp4" where browsers play it
 
-  // Makes what takes the frames of a motion. `place`: the file; of a sequence its folder, and `stem` what its
-  // names begin with. Size, rate, quality, opacity and tags are the settings'; the codec is the row's.
-  std::unique_ptr<FrameSink> (*make_sink)(const OutputFormat& row, const std::string& place,
-                                          const std::string& stem, VideoSettings settings) = nullptr;
+  // Of small clips: what takes the frames of a motion, in their order. Size, rate, opacity and tags are the settings'. Films
+  // are made of chunks, see encode/film_chunk; sequences are pictures one by one.
+  std::unique_ptr<FrameSink> (*make_clip)(const std::string& path, const VideoSettings& settings) = nullptr;
   // Writes a still.
   void (*write_still)(const OutputFile& file, const StillView& view, const ClipMemory& memory) = nullptr;
   // What the file says of itself. Throws Error (exit 3) where it says nothing.

@@ -65,6 +65,7 @@ void Film::draw_cell_frames(Picture& picture) const {
 }
 
 Picture Film::static_layer() const {
+  const auto guard = alone();
   Picture picture = page();
   if (stage_->has_cells()) draw_cell_frames(picture);
   for (const Panel& panel : panels_)
@@ -88,6 +89,7 @@ void Film::draw_panel(Picture& picture, std::size_t i, int k) const {
 }
 
 Picture Film::frame(int k) const {
+  const auto guard = alone();
   k = std::clamp(k, 0, frame_count() - 1);
   Picture picture = page();
   for (std::size_t i = 0; i < panels_.size(); ++i) draw_panel(picture, i, k);

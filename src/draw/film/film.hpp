@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "draw/film/film_sheet.hpp"
@@ -12,7 +13,8 @@
 namespace chainreel {
 
 // Runs seen by one camera that is fitted once over all frames of all panels: same scale everywhere, so that
-// lengths can be compared by eye. Not shared between threads.
+// lengths can be compared by eye. Pictures may be asked for by several threads, and are then made one after the other: a
+// picture takes some 0.2 ms, its pixels many times that.
 class Film {
  public:
   // One panel. References must outlive the film. Samples 0..frames-1 of the trajectory are the frames; a run
@@ -38,6 +40,7 @@ class Film {
 
  private:
   Picture page() const;
+  std::lock_guard<std::mutex> alone() const { return std::lock_guard(*drawing_); }
   SharedPage shared_page() const;
   void draw_panel(Picture& picture, std::size_t i, int k) const;
   void draw_cell_frames(Picture& picture) const;
@@ -49,6 +52,7 @@ class Film {
   FilmView view_;
   std::vector<PlacedText> titles_;
   std::vector<Panel> panels_;
+  std::unique_ptr<std::mutex> drawing_ = std::make_unique<std::mutex>();  // poses and masses of a run use one workspace
 };
 
 }  // namespace chainreel

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <thread>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/machine.hpp"
 #include "core/parallel.hpp"
 #include "mesh/primitives.hpp"
 
@@ -121,7 +121,7 @@ void MeshShelf::read_ahead(const std::vector<Visual>& visuals, MeshUp up) {
     const auto [place, is_new] = known_.try_emplace(key_of(visual, up));
     if (is_new) unread.emplace_back(&visual, &place->second);
   }
-  for_each_index(unread.size(), std::min(int(std::thread::hardware_concurrency()), int(unread.size())),
+  for_each_index(unread.size(), std::min(usable_cores(), int(unread.size())),
                  [&](std::size_t i) {
                    const auto& [visual, known] = unread[i];
                    try {

@@ -1,13 +1,16 @@
-#include "encode/video_writer.hpp"
+#include "encode/film_chunk.hpp"
 
 #include <gmock/gmock.h>
 #include <sched.h>
 
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <string>
 
 #include "core/error.hpp"
 #include "encode/test_pictures.hpp"
+#include "support/film_of_frames.hpp"
 #include "support/picture_compare.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/video_probe.hpp"
@@ -21,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr int kFilmWidth = 192, kFilmHeight = 108;
 
 void write_discs(const std::string& path, int frames, FrameRate fps = {60, 1}) {
-  VideoWriter writer(path, {.width = kFilmWidth, .height = kFilmHeight, .fps = fps});
+  FilmOfFrames writer(path, {.width = kFilmWidth, .height = kFilmHeight, .fps = fps});
   for (int k = 0; k < frames; ++k) writer.write(disc_picture(kFilmWidth, kFilmHeight, k));
   writer.finish();
 }
@@ -61,9 +64,9 @@ std::string film_faults(const std::string& path, int frames, FrameRate fps) {
   return faults;
 }
 
-class VideoWriterAtRate : public ::testing::TestWithParam<FrameRate> {};
+class FilmAtRate : public ::testing::TestWithParam<FrameRate> {};
 
-TEST_P(VideoWriterAtRate, DecodesToWhatWasAskedFor) {
+TEST_P(FilmAtRate, DecodesToWhatWasAskedFor) {
   const TemporaryFolder folder;
   const FrameRate fps = GetParam();
   for (const int frames : {1, 2, 3, 47}) {
@@ -77,14 +80,14 @@ TEST_P(VideoWriterAtRate, DecodesToWhatWasAskedFor) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Rates, VideoWriterAtRate,
+INSTANTIATE_TEST_SUITE_P(Rates, FilmAtRate,
                          ::testing::Values(FrameRate{60, 1}, FrameRate{25, 1}, FrameRate{30000, 1001},
                                          FrameRate{1, 1}, FrameRate{24000, 1001}, FrameRate{240, 1}));
 
-TEST(VideoWriter, EveryTwoSecondsThereIsAKeyFrameAndNoneBetween) {
+TEST(Films, EveryTwoSecondsThereIsAKeyFrameAndNoneBetween) {
   const TemporaryFolder folder;
   const std::string path = folder.file("keys.mp4");
-  VideoWriter writer(path, {.width = kFilmWidth, .height = kFilmHeight, .fps = {25, 1}});
+  FilmOfFrames writer(path, {.width = kFilmWidth, .height = kFilmHeight, .fps = {25, 1}});
   // A cut in the middle of a group must not start a new one.
   for (int k = 0; k < 170; ++k)
     writer.write(k < 70 ? disc_picture(kFilmWidth, kFilmHeight, k)
@@ -93,14 +96,14 @@ TEST(VideoWriter, EveryTwoSecondsThereIsAKeyFrameAndNoneBetween) {
   EXPECT_THAT(probe_video(path).key_frames, testing::ElementsAre(0, 50, 100, 150));
 }
 
-TEST(VideoWriter, FlatColoursComeBackWithinThreeCodes) {
+TEST(Films, FlatColoursComeBackWithinThreeCodes) {
   const TemporaryFolder folder;
   // Link fills, ellipse, vectors, ink, page and the corners of the cube.
   for (const unsigned rgb : {0x5159FDu, 0x56B4E9u, 0xE69F00u, 0x009E73u, 0xCC79A7u, 0x873C56u, 0x193C09u,
                              0x1A1A1Au, 0xFFFFFFu, 0x000000u, 0xFF0000u, 0x00FF00u, 0x0000FFu}) {
     const std::string path = folder.file("flat.mp4");
     const Image image = flat_picture(64, 64, pixel_of(rgb));
-    VideoWriter writer(path, {.width = 64, .height = 64});
+    FilmOfFrames writer(path, {.width = 64, .height = 64});
     for (int k = 0; k < 5; ++k) writer.write(image);
     writer.finish();
     // A code of Cb is 1.8556 * 255/224 = 2.1 of blue; with Y rounded too and the quantiser at CRF 18, 3
@@ -110,21 +113,21 @@ TEST(VideoWriter, FlatColoursComeBackWithinThreeCodes) {
   }
 }
 
-TEST(VideoWriter, FramesStandWhereTheyWereWritten) {
+TEST(Films, FramesStandWhereTheyWereWritten) {
   const TemporaryFolder folder;
   write_discs(folder.file("discs.mp4"), 41);
   const VideoFacts film = probe_video(folder.file("discs.mp4"));
   // Flat areas are exact to 3 codes (above); along the disc's edge 2x2 pixels share their colour and the
-  // quantiser rings: up to 82 in one pixel and 0.24 on average. One frame off is four times that, as the last
+  // quantiser rings: up to 122 in one pixel and 0.24 on average. One frame off is four times that, as the last
   // line shows.
-  const PictureTolerance tolerance{.max = 100, .mean = 0.5};
+  const PictureTolerance tolerance{.max = 140, .mean = 0.5};
   EXPECT_TRUE(pictures_agree(film.first, disc_picture(kFilmWidth, kFilmHeight, 0), tolerance, "disc_first"));
   EXPECT_TRUE(pictures_agree(film.middle, disc_picture(kFilmWidth, kFilmHeight, 20), tolerance, "disc_middle"));
   EXPECT_TRUE(pictures_agree(film.last, disc_picture(kFilmWidth, kFilmHeight, 40), tolerance, "disc_last"));
   EXPECT_FALSE(pictures_agree(film.middle, disc_picture(kFilmWidth, kFilmHeight, 21), tolerance, "disc_control"));
 }
 
-TEST(VideoWriter, TwoRunsGiveTheSameBytes) {
+TEST(Films, TwoRunsGiveTheSameBytes) {
   const TemporaryFolder folder;
   write_discs(folder.file("a.mp4"), 130);
   write_discs(folder.file("b.mp4"), 130);
@@ -134,7 +137,7 @@ TEST(VideoWriter, TwoRunsGiveTheSameBytes) {
   EXPECT_NE(read_whole_file(folder.file("a.mp4")), read_whole_file(folder.file("c.mp4")));
 }
 
-TEST(VideoWriter, TheNumberOfCoresDoesNotChangeTheBytes) {
+TEST(Films, TheNumberOfCoresDoesNotChangeTheBytes) {
   const TemporaryFolder folder;
   write_discs(folder.file("all.mp4"), 130);
   cpu_set_t all, one;
@@ -148,7 +151,7 @@ TEST(VideoWriter, TheNumberOfCoresDoesNotChangeTheBytes) {
   EXPECT_EQ(read_whole_file(folder.file("all.mp4")), read_whole_file(folder.file("one.mp4")));
 }
 
-TEST(VideoWriter, SaysNothingAboutTheTimeOfWriting) {
+TEST(Films, SaysNothingAboutTheTimeOfWriting) {
   const TemporaryFolder folder;
   write_discs(folder.file("a.mp4"), 3);
   const std::string bytes = read_whole_file(folder.file("a.mp4"));
@@ -159,7 +162,7 @@ TEST(VideoWriter, SaysNothingAboutTheTimeOfWriting) {
   EXPECT_EQ(bytes.substr(mvhd + 8, 8), std::string(8, '\0'));
 }
 
-TEST(VideoWriter, OddSidesNameTheNearestLegalSizes) {
+TEST(Films, OddSidesNameTheNearestLegalSizes) {
   const Error error = error_of([] { require_even_sides(641, 360); });
   EXPECT_EQ(error.code(), ExitCode::usage);
   EXPECT_THAT(error.what(), HasSubstr("640x360 and 642x360"));
@@ -170,32 +173,32 @@ TEST(VideoWriter, OddSidesNameTheNearestLegalSizes) {
   EXPECT_EQ(error_of([] { require_even_sides(640, 360); }).code(), ExitCode::good);
 
   const TemporaryFolder folder;
-  EXPECT_EQ(error_of([&] { VideoWriter(folder.file("odd.mp4"), {.width = 641, .height = 360}); }).code(),
+  EXPECT_EQ(error_of([&] { FilmOfFrames(folder.file("odd.mp4"), {.width = 641, .height = 360}); }).code(),
             ExitCode::usage);
   EXPECT_FALSE(fs::exists(folder.file("odd.mp4")));
 }
 
-TEST(VideoWriter, TheSmallestLegalFilmIsWritten) {
+TEST(Films, TheSmallestLegalFilmIsWritten) {
   const TemporaryFolder folder;
-  VideoWriter writer(folder.file("small.mp4"), {.width = 2, .height = 2});
+  FilmOfFrames writer(folder.file("small.mp4"), {.width = 2, .height = 2});
   writer.write(flat_picture(2, 2, pixel_of(0x808080)));
   writer.finish();
   EXPECT_EQ(probe_video(folder.file("small.mp4")).frames, 1);
 }
 
-TEST(VideoWriter, SettingsThatMakeNoFilmAreUsageErrors) {
+TEST(Films, SettingsThatMakeNoFilmAreUsageErrors) {
   const TemporaryFolder folder;
   for (const FrameRate fps : {FrameRate{0, 1}, FrameRate{60, 0}, FrameRate{-60, 1}})
-    EXPECT_EQ(error_of([&] { VideoWriter(folder.file("a.mp4"), {.fps = fps}); }).code(), ExitCode::usage);
+    EXPECT_EQ(error_of([&] { FilmOfFrames(folder.file("a.mp4"), {.fps = fps}); }).code(), ExitCode::usage);
   for (const double crf : {-1.0, 52.0, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_EQ(error_of([&] { VideoWriter(folder.file("a.mp4"), {.crf = crf}); }).code(), ExitCode::usage);
-  VideoWriter writer(folder.file("a.mp4"), {.width = 64, .height = 64});
+    EXPECT_EQ(error_of([&] { FilmOfFrames(folder.file("a.mp4"), {.crf = crf}); }).code(), ExitCode::usage);
+  FilmOfFrames writer(folder.file("a.mp4"), {.width = 64, .height = 64});
   EXPECT_EQ(error_of([&] { writer.write(flat_picture(64, 62, {})); }).code(), ExitCode::usage);
 }
 
-TEST(VideoWriter, AFullDiskIsAFileError) {
+TEST(Films, AFullDiskIsAFileError) {
   const auto write_to_full_disk = [](int frames) {
-    VideoWriter writer("/dev/full", {.width = kFilmWidth, .height = kFilmHeight});
+    FilmOfFrames writer("/dev/full", {.width = kFilmWidth, .height = kFilmHeight});
     for (int k = 0; k < frames; ++k) writer.write(random_picture(kFilmWidth, kFilmHeight, unsigned(k)));
     writer.finish();
   };
@@ -205,15 +208,15 @@ TEST(VideoWriter, AFullDiskIsAFileError) {
   EXPECT_THAT(error_of([&] { write_to_full_disk(1); }).what(), HasSubstr("No space left on device"));
 }
 
-TEST(VideoWriter, APlaceThatCannotBeWrittenIsAFileErrorAtOnce) {
+TEST(Films, APlaceThatCannotBeWrittenIsAFileErrorAtOnce) {
   for (const char* path : {"/nonexistent/folder/a.mp4", "/proc/a.mp4", "/"}) {
-    const Error error = error_of([&] { VideoWriter(path, {.width = 64, .height = 64}); });
+    const Error error = error_of([&] { FilmOfFrames(path, {.width = 64, .height = 64}); });
     EXPECT_EQ(error.code(), ExitCode::file) << path;
     EXPECT_THAT(error.what(), HasSubstr(path));
   }
 }
 
-TEST(VideoWriter, PathsThatLookLikeProtocolsAreFiles) {
+TEST(Films, PathsThatLookLikeProtocolsAreFiles) {
   const TemporaryFolder folder;
   const fs::path before = fs::current_path();
   fs::current_path(folder.path());
@@ -223,10 +226,10 @@ TEST(VideoWriter, PathsThatLookLikeProtocolsAreFiles) {
   EXPECT_TRUE(fs::exists(folder.path() / path));
 }
 
-TEST(VideoWriter, WithoutAFrameThereIsAnErrorAndNoFile) {
+TEST(Films, WithoutAFrameThereIsAnErrorAndNoFile) {
   const TemporaryFolder folder;
   {
-    VideoWriter writer(folder.file("none.mp4"), {.width = 64, .height = 64});
+    FilmOfFrames writer(folder.file("none.mp4"), {.width = 64, .height = 64});
     const Error error = error_of([&] { writer.finish(); });
     EXPECT_EQ(error.code(), ExitCode::bad_input);
     EXPECT_THAT(error.what(), HasSubstr("no frame"));
@@ -234,13 +237,63 @@ TEST(VideoWriter, WithoutAFrameThereIsAnErrorAndNoFile) {
   EXPECT_FALSE(fs::exists(folder.file("none.mp4")));
 }
 
-TEST(VideoWriter, AnUnfinishedFilmIsTakenAway) {
+TEST(Films, AnUnfinishedFilmIsTakenAway) {
   const TemporaryFolder folder;
   {
-    VideoWriter writer(folder.file("part.mp4"), {.width = 64, .height = 64});
+    FilmOfFrames writer(folder.file("part.mp4"), {.width = 64, .height = 64});
     writer.write(flat_picture(64, 64, {}));
   }
   EXPECT_FALSE(fs::exists(folder.file("part.mp4")));
+}
+
+// Chunks.
+
+TEST(FilmChunks, AreEqualSharesOfAtMostTwoSecondsAndNotTooShort) {
+  for (const FrameRate fps : {FrameRate{60, 1}, {25, 1}, {30000, 1001}, {1, 1}, {240, 1}})
+    for (const int frames : {1, 2, 23, 47, 48, 50, 100, 119, 120, 121, 160, 240, 300, 600, 601, 1800, 100'000}) {
+      const std::vector<int> bounds = chunk_bounds(frames, fps, VideoCodec::h264);
+      ASSERT_EQ(bounds.front(), 0);
+      ASSERT_EQ(bounds.back(), frames);
+      int shortest = frames, longest = 0;
+      for (std::size_t k = 0; k + 1 < bounds.size(); ++k) {
+        shortest = std::min(shortest, bounds[k + 1] - bounds[k]);
+        longest = std::max(longest, bounds[k + 1] - bounds[k]);
+      }
+      EXPECT_LE(longest, std::lround(2 * fps.value()));
+      EXPECT_LE(longest - shortest, 1);
+      EXPECT_GE(shortest, std::min({24, frames, int(fps.value())})) << frames << " at " << fps.value();
+      EXPECT_EQ(bounds, chunk_bounds(frames, fps, VideoCodec::vp9)) << "files of one film share their frames";
+    }
+  for (const int frames : {160, 240, 300, 600, 1800})
+    EXPECT_EQ((chunk_bounds(frames, {60, 1}, VideoCodec::h264).size() - 1) % 4, 0u) << frames;
+  EXPECT_EQ(chunk_bounds(20, {25, 1}, VideoCodec::prores), (std::vector<int>{0, 6, 13, 20}));
+  EXPECT_EQ(chunk_bounds(20, {25, 1}, {}), (std::vector<int>{0, 6, 13, 20}));
+}
+
+TEST(FilmChunks, BeginWithKeyFramesWhereverTheyAreCut) {
+  const TemporaryFolder folder;
+  const VideoSettings settings{.width = kFilmWidth, .height = kFilmHeight, .fps = {25, 1}};
+  FilmWriter writer(folder.file("a.mp4"), settings);
+  int next = 0;
+  for (const int length : {1, 2, 30, 7}) {
+    ChunkEncoder encoder(settings);
+    for (int k = 0; k < length; ++k) encoder.write(disc_picture(kFilmWidth, kFilmHeight, next++));
+    encoder.finish();
+    writer.add(encoder.take());
+  }
+  writer.finish();
+  EXPECT_EQ(film_faults(folder.file("a.mp4"), 40, {25, 1}), "");
+  EXPECT_THAT(probe_video(folder.file("a.mp4")).key_frames, testing::ElementsAre(0, 1, 3, 33));
+}
+
+TEST(Films, OfTheBestQualityLoseNothingButChroma) {
+  const TemporaryFolder folder;
+  Image grey = random_picture(64, 64, 1);  // without colour there is no chroma to lose: only limited range rounds
+  for (std::size_t i = 0; i < grey.bgra.size(); i += 4) grey.bgra[i] = grey.bgra[i + 2] = grey.bgra[i + 1], grey.bgra[i + 3] = 255;
+  FilmOfFrames writer(folder.file("a.mp4"), {.width = 64, .height = 64, .crf = 0});
+  writer.write(grey);
+  writer.finish();
+  EXPECT_TRUE(pictures_agree(probe_video(folder.file("a.mp4")).first, grey, {.max = 2, .mean = 1}, "lossless"));
 }
 
 // Negative controls of the probe.

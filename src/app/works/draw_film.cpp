@@ -1,0 +1,247 @@
+#include "app/works/draw_film.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <mutex>
+#include <optional>
+
+#include "app/cli/streams.hpp"
+#include "app/works/joined_film.hpp"
+#include "core/machine.hpp"
+#include "core/parallel.hpp"
+#include "encode/png.hpp"
+#include "render/canvas.hpp"
+
+namespace chainreel {
+namespace {
+
+// Of a thread with its canvas and one encoder, measured at 1920x1080.
+constexpr double kBytesOfThread = 30e6, kBytesOfPixel = 90;
+
+VideoSettings settings_of(const OutputFormat& format, const Scene& scene, const Tags& tags) {
+  return {.width = scene.video.width,
+          .height = scene.video.height,
+          .fps = scene.video.fps,
+          .crf = scene.video.crf,
+          .codec = format.codec.value_or(VideoCodec::h264),
+          .alpha = is_transparent(scene),
+          .tags = tags};
+}
+
+// The whole picture of a frame, for pages of shapes.
+Picture picture_of(const Film& film, int frame) {
+  Picture picture = film.static_layer();
+  picture.append(film.frame(frame));
+  return picture;
+}
+
+// What one thread draws with.
+class Pen {
+ public:
+  explicit Pen(const FilmWork& work)
+      : work_(work), canvas_(work.scene.video.width, work.scene.video.height, work.fonts) {
+    canvas_.set_static_layer(work.film.static_layer());
+    seconds.render += watch.lap();
+  }
+
+  // The frame's pixels, good until the next call; a frame that stands there already is not drawn again.
+  const Image& draw(int frame) {
+    if (frame == drawn_) return image_;
+    throw_if_interrupted();
+    watch.lap();
+    const Picture picture = work_.film.frame(frame);
+    seconds.draw += watch.lap();
+    canvas_.draw(picture, image_);
+    seconds.render += watch.lap();
+    drawn_ = frame;
+    return image_;
+  }
+
+  StageSeconds seconds;
+  Stopwatch watch;
+
+ private:
+  const FilmWork& work_;
+  Canvas canvas_;
+  Image image_;
+  int drawn_ = -1;
+};
+
+// All that threads share while they make a film.
+class Workshop {
+ public:
+  Workshop(const FilmWork& work, std::vector<Output>& outputs);
+
+  void run(StageSeconds& seconds);
+
+ private:
+  enum class Kind { clip, stills, chunk };
+  struct Piece {
+    Kind kind;
+    std::size_t index;  // of the output, or of the chunk
+  };
+
+  void do_piece(const Piece& piece, Pen& pen);
+  void draw_clip(Output& output, Pen& pen);
+  void draw_stills(Pen& pen);
+  void draw_chunk(std::size_t index, Pen& pen);
+  void has_drawn();
+
+  const FilmWork& work_;
+  std::vector<Output>& outputs_;
+  std::vector<std::unique_ptr<JoinedFilm>> films_;  // beside the outputs; none of what is no film
+  std::vector<int> bounds_;                         // of the chunks
+  std::vector<Piece> pieces_;
+  Tags tags_;
+  std::atomic<bool> ended_ = false;  // by an error
+  std::mutex lock_;
+  int drawn_ = 0;
+  std::optional<Progress> progress_;
+};
+
+Workshop::Workshop(const FilmWork& work, std::vector<Output>& outputs)
+    : work_(work), outputs_(outputs), tags_(work.memory.tags()) {
+  bool has_chunks = false, has_stills = false;
+  std::optional<VideoCodec> strictest;
+  int frames = 0;
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const OutputFormat& format = *outputs[i].target.format;
+    films_.emplace_back();
+    has_stills = has_stills || format.shows == Shows::still;
+    if (format.shows != Shows::motion) continue;
+    if (format.codec) {
+      films_.back() =
+          std::make_unique<JoinedFilm>(outputs[i].temporary_path(), settings_of(format, work.scene, tags_));
+      if (has_fixed_chunks(*format.codec)) strictest = format.codec;
+    }
+    has_chunks = has_chunks || format.codec || format.is_sequence;
+    if (format.make_clip == nullptr) continue;
+    pieces_.push_back({Kind::clip, i});  // first, as they take longest
+    frames += work.schedule.total();
+  }
+  if (has_stills) {
+    pieces_.push_back({Kind::stills, 0});
+    frames += 1;
+  }
+  if (has_chunks) {
+    bounds_ = chunk_bounds(work.schedule.total(), work.scene.video.fps, strictest);
+    for (std::size_t k = 0; k + 1 < bounds_.size(); ++k) pieces_.push_back({Kind::chunk, k});
+    frames += work.schedule.total();
+  }
+  if (!pieces_.empty()) progress_.emplace(work.scene.name, frames, work.quiet);
+}
+
+void Workshop::run(StageSeconds& seconds) {
+  if (pieces_.empty()) return;
+  const int jobs = std::min(work_.jobs, int(pieces_.size()));
+  // Canvases that draw beside one another leave no processor idle.
+  if (jobs > 1) fill_by_several_threads(false);
+  for_each_index_with_tools(pieces_.size(), jobs, [&]() -> RunIndex {
+    // What the thread spent is told when its last piece is done, and goes with it.
+    const std::shared_ptr<Pen> pen(new Pen(work_), [&](Pen* used) {
+      const std::lock_guard guard(lock_);
+      seconds.draw += used->seconds.draw;
+      seconds.render += used->seconds.render;
+      seconds.encode += used->seconds.encode;
+      delete used;
+    });
+    return [this, pen](std::size_t index) { do_piece(pieces_[index], *pen); };
+  });
+  Stopwatch watch;
+  for (const auto& film : films_)
+    if (film) film->finish();
+  films_.clear();
+  seconds.encode += watch.lap();
+}
+
+void Workshop::do_piece(const Piece& piece, Pen& pen) {
+  try {
+    if (piece.kind == Kind::clip)
+      draw_clip(outputs_[piece.index], pen);
+    else if (piece.kind == Kind::stills)
+      draw_stills(pen);
+    else
+      draw_chunk(piece.index, pen);
+  } catch (...) {
+    ended_ = true;
+    throw;
+  }
+}
+
+void Workshop::has_drawn() {
+  const std::lock_guard guard(lock_);
+  progress_->update(++drawn_);
+}
+
+void Workshop::draw_clip(Output& output, Pen& pen) {
+  const OutputFormat& format = *output.target.format;
+  const std::unique_ptr<FrameSink> sink =
+      format.make_clip(output.temporary_path(), settings_of(format, work_.scene, tags_));
+  for (int n = 0; n < work_.schedule.total() && !ended_; ++n, has_drawn()) {
+    if (!sink->takes_next()) {
+      sink->skip();
+      continue;
+    }
+    const Image& image = pen.draw(work_.schedule.drawn(n));
+    sink->write(image);
+    pen.seconds.encode += pen.watch.lap();
+  }
+  if (ended_) return;
+  sink->finish();
+  pen.seconds.encode += pen.watch.lap();
+}
+
+void Workshop::draw_stills(Pen& pen) {
+  const auto picture = [&] { return picture_of(work_.film, work_.still); };
+  const auto image = [&] { return pen.draw(work_.still); };
+  for (const Output& output : outputs_)
+    if (output.shows(Shows::still))
+      output.target.format->write_still(*output.files.front(), {picture, image, work_.fonts}, work_.memory);
+  pen.seconds.encode += pen.watch.lap();
+  has_drawn();
+}
+
+void Workshop::draw_chunk(std::size_t index, Pen& pen) {
+  std::vector<std::unique_ptr<FrameSink>> sinks;
+  std::vector<std::pair<JoinedFilm*, ChunkEncoder*>> encoders;
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    const Output& output = outputs_[i];
+    if (films_[i]) {
+      auto encoder = std::make_unique<ChunkEncoder>(films_[i]->settings());
+      encoders.emplace_back(films_[i].get(), encoder.get());
+      sinks.push_back(std::move(encoder));
+    } else if (output.folder) {
+      sinks.push_back(std::make_unique<PngSequence>(
+          output.folder->temporary_folder(), place_of_sequence(output.target.path).stem, tags_, bounds_[index]));
+    }
+  }
+  for (int n = bounds_[index]; n < bounds_[index + 1] && !ended_; ++n, has_drawn()) {
+    const Image& image = pen.draw(work_.schedule.drawn(n));
+    for (const auto& sink : sinks) sink->write(image);
+    pen.seconds.encode += pen.watch.lap();
+  }
+  if (ended_) return;
+  for (const auto& sink : sinks) sink->finish();
+  for (const auto& [film, encoder] : encoders) film->take(index, encoder->take());
+  pen.seconds.encode += pen.watch.lap();
+}
+
+}  // namespace
+
+int affordable_jobs(int wanted, const Scene& scene, const std::vector<Output>& outputs) {
+  const auto encoders =
+      std::count_if(outputs.begin(), outputs.end(), [](const Output& output) { return output.target.format->codec; });
+  const double bytes =
+      kBytesOfThread + kBytesOfPixel * scene.video.width * scene.video.height * double(std::max(1L, long(encoders)));
+  const int affordable = int(std::clamp(memory_limit() / bytes, 1.0, 4096.0));
+  if (wanted > affordable)
+    std::fprintf(stderr, "note: %s: there is memory for --jobs %d only\n", scene.name.c_str(), affordable);
+  return std::min(wanted > 0 ? wanted : usable_cores(), affordable);
+}
+
+void draw_film(const FilmWork& work, std::vector<Output>& outputs, StageSeconds& seconds) {
+  Workshop(work, outputs).run(seconds);
+}
+
+}  // namespace chainreel

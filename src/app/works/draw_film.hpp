@@ -1,0 +1,47 @@
+// The frames of a film to its files, on several threads: each has a canvas and encoders of its own and takes the next chunk
+// of the film, a small clip, which needs its frames in order, or the single pictures. Bytes do not depend on who took what.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/film/clip_memory.hpp"
+#include "app/film/progress.hpp"
+#include "app/works/outputs.hpp"
+#include "draw/film/film.hpp"
+
+namespace chainreel {
+
+// How often each frame that is drawn is shown.
+struct Schedule {
+  int frames = 0, first = 0, last = 0;  // drawn; held longer, in frames
+
+  int total() const { return frames + first + last; }
+  int drawn(int shown) const { return std::clamp(shown - first, 0, frames - 1); }
+};
+
+struct StageSeconds {
+  double simulate = 0, draw = 0, render = 0, encode = 0;  // of all threads together
+  double total = 0;                                       // by the clock
+};
+
+struct FilmWork {
+  const Film& film;
+  const Scene& scene;
+  const Fonts& fonts;
+  Schedule schedule;
+  int still = 0;  // frame that single pictures show
+  const ClipMemory& memory;
+  int jobs = 1;  // threads, at most
+  bool quiet = false;
+};
+
+// How many threads are worth having where `wanted`, or all processors where it is 0, may be had: as many as there is memory
+// for; fewer than wanted is told on standard error.
+int affordable_jobs(int wanted, const Scene& scene, const std::vector<Output>& outputs);
+
+// All that the outputs show, whole under their temporary names. The first error of a thread ends all of them and is thrown,
+// as is the signal's.
+void draw_film(const FilmWork& work, std::vector<Output>& outputs, StageSeconds& seconds);
+
+}  // namespace chainreel

@@ -1,0 +1,63 @@
+#include "app/works/outputs.hpp"
+
+#include <filesystem>
+
+#include "app/report/sidecar.hpp"
+#include "app/report/trajectory_csv.hpp"
+
+namespace chainreel {
+namespace fs = std::filesystem;
+
+SequencePlace place_of_sequence(const std::string& path) {
+  const fs::path file(path);
+  const std::string name = file.stem().string();
+  return {file.parent_path().string(), name.substr(0, name.size() - 6)};
+}
+
+std::string base_of(const Target& target) {
+  if (!target.format->is_sequence) return fs::path(target.path).replace_extension().string();
+  SequencePlace place = place_of_sequence(target.path);
+  while (place.stem.ends_with('_')) place.stem.pop_back();
+  return (fs::path(place.folder) / (place.stem.empty() ? "frames" : place.stem)).string();
+}
+
+std::vector<Output> open_outputs(const std::vector<Target>& targets, std::size_t panels, bool overwrite) {
+  std::vector<Output> outputs;
+  for (const Target& target : targets) {
+    Output output{target, {}, {}};
+    if (target.is_implied) require_own_sidecar(target.path, overwrite);
+    if (target.format->is_sequence) {
+      const SequencePlace place = place_of_sequence(target.path);
+      output.folder = std::make_unique<OutputFolder>(place.folder, place.stem, ".png", overwrite);
+    } else if (target.format->shows == Shows::table) {
+      for (std::size_t i = 0; i < panels; ++i)
+        output.files.push_back(std::make_unique<OutputFile>(panel_csv_path(target.path, i, panels == 1), overwrite));
+    } else {
+      output.files.push_back(std::make_unique<OutputFile>(target.path, overwrite));
+    }
+    outputs.push_back(std::move(output));
+  }
+  return outputs;
+}
+
+std::vector<std::string> commit(std::vector<Output>& outputs) {
+  std::vector<std::string> paths;
+  for (Output& output : outputs) {
+    for (auto& file : output.files) {
+      file->commit();
+      paths.push_back(file->path());
+    }
+    if (!output.folder) continue;
+    output.folder->commit();
+    paths.push_back(output.target.path);
+  }
+  return paths;
+}
+
+void keep_partial(std::vector<Output>& outputs) {
+  for (Output& output : outputs)
+    if (!output.shows(Shows::still))
+      for (auto& file : output.files) file->keep_as_partial();
+}
+
+}  // namespace chainreel

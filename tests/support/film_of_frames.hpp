@@ -1,0 +1,41 @@
+// Frames that a test makes one by one to a film, in chunks of two seconds.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "encode/film_chunk.hpp"
+
+namespace chainreel {
+
+class FilmOfFrames final : public FrameSink {
+ public:
+  FilmOfFrames(const std::string& path, const VideoSettings& settings)
+      : settings_(settings), writer_(std::make_unique<FilmWriter>(path, settings)) {}
+
+  void write(const Image& frame) override {
+    if (!encoder_) encoder_ = std::make_unique<ChunkEncoder>(settings_);
+    encoder_->write(frame);
+    if (++frames_ % std::max(1L, std::lround(2 * settings_.fps.value())) == 0) end_chunk();
+  }
+  void finish() override {
+    end_chunk();
+    writer_->finish();
+  }
+
+ private:
+  void end_chunk() {
+    if (!encoder_) return;
+    encoder_->finish();
+    writer_->add(encoder_->take());
+    encoder_.reset();
+  }
+
+  VideoSettings settings_;
+  std::unique_ptr<FilmWriter> writer_;
+  std::unique_ptr<ChunkEncoder> encoder_;  // of the chunk that is being made
+  long frames_ = 0;
+};
+
+}  // namespace chainreel
