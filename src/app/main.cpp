@@ -20,6 +20,7 @@ int run(int argc, char** argv) {
           ".\nWhat scenes may say, methods, constraints, outputs: chainreel help\n"
           "Example: chainreel render assets/scenes/rr_free.yaml");
   add_render_command(app);
+  add_join_command(app);
   add_snapshot_command(app);
   add_ellipse_command(app);
   add_simulate_command(app);

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -166,26 +167,38 @@ void sync_file(const fs::path& path, const std::string& target) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(std::string folder, std::string stem, std::string ending, bool overwrite)
-    : folder_(std::move(folder)), stem_(std::move(stem)), ending_(std::move(ending)) {
+OutputFolder::OutputFolder(std::string folder, std::string stem, std::string ending, bool overwrite, bool is_part)
+    : folder_(std::move(folder)), stem_(std::move(stem)), ending_(std::move(ending)), overwrite_(overwrite) {
   if (folder_.empty()) folder_ = ".";
   std::error_code code;
   fs::create_directories(folder_, code);
   if (!fs::is_directory(folder_, code))
     throw Error(ExitCode::file, "cannot make this folder; choose another", {folder_});
   remove_leftovers(folder_);
+  if (!is_part) require_ours_replaceable();
+  temporary_ = std::make_unique<TemporaryFile>(TemporaryFile::Kind::coming_folder, folder_, "", folder_);
+}
+
+void OutputFolder::require_ours_replaceable() const {
   const std::vector<std::string> old = names_of_ours();
   for (const std::string& name : old) require_replaceable((fs::path(folder_) / name).string());
   if (!old.empty())
-    const OutputFile allowed((fs::path(folder_) / old.front()).string(), overwrite);  // throws where it is not
-  temporary_ = std::make_unique<TemporaryFile>(TemporaryFile::Kind::coming_folder, folder_, "", folder_);
+    const OutputFile allowed((fs::path(folder_) / old.front()).string(), overwrite_);  // throws where it is not
+}
+
+void OutputFolder::keep_to(int first, int behind) {
+  first_ = first;
+  behind_ = behind;
+  require_ours_replaceable();
 }
 
 bool OutputFolder::is_ours(const std::string& name) const {
   if (!name.starts_with(stem_) || !name.ends_with(ending_)) return false;
   if (name.size() < stem_.size() + 6 + ending_.size()) return false;
-  return std::all_of(name.begin() + std::ptrdiff_t(stem_.size()), name.end() - std::ptrdiff_t(ending_.size()),
-                     [](unsigned char c) { return std::isdigit(c) != 0; });
+  const std::string digits = name.substr(stem_.size(), name.size() - stem_.size() - ending_.size());
+  if (!std::all_of(digits.begin(), digits.end(), [](unsigned char c) { return std::isdigit(c) != 0; })) return false;
+  const double number = std::strtod(digits.c_str(), nullptr);  // of any length
+  return number >= double(first_) && number < double(behind_);
 }
 
 std::vector<std::string> OutputFolder::names_of_ours() const {

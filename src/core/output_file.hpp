@@ -2,6 +2,7 @@
 // and renamed when it is complete.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -59,9 +60,14 @@ class OutputFolder {
   // folders that are missing. Throws Error (exit 6) where the folder cannot be written, or where there are
   // such files, `overwrite` is false and the folder does not lie in or below one named `out`; also where such a name
   // belongs to a folder, a device or an input of this run.
-  OutputFolder(std::string folder, std::string stem, std::string ending, bool overwrite);
+  // `is_part`: keep_to() will say which they are, and commit() refuses what may not be replaced.
+  OutputFolder(std::string folder, std::string stem, std::string ending, bool overwrite, bool is_part = false);
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
+
+  // Before commit(): only those numbered first, first + 1, .. behind - 1 are this output's, which is a part of a sequence
+  // that others write, too.
+  void keep_to(int first, int behind);
 
   const std::string& temporary_folder() const { return temporary_->path(); }
   // Replaces the old files by the new ones; throws Error (exit 6) where that failed and the old ones are as they were.
@@ -71,7 +77,11 @@ class OutputFolder {
   bool is_ours(const std::string& name) const;
   std::vector<std::string> names_of_ours() const;
 
+  void require_ours_replaceable() const;
+
   std::string folder_, stem_, ending_;
+  bool overwrite_;
+  long first_ = 0, behind_ = std::numeric_limits<long>::max();
   std::unique_ptr<TemporaryFile> temporary_;
 };
 

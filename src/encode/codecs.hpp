@@ -36,6 +36,10 @@ CodecContextPtr open_small_encoder(const char* name, AVPixelFormat format, int w
 void encode_frame(AVCodecContext& encoder, const AVFrame* frame, const std::string& path,
                   const std::function<void(AVPacket&)>& take);
 
+// A packet's bytes and what goes with them; its time as it stands.
+struct FilmPacket;
+FilmPacket kept_packet(const AVPacket& packet);
+
 // A frame of the encoder's size, pixel format and colours.
 FramePtr allocate_frame(const AVCodecContext& encoder);
 

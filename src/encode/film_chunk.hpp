@@ -38,11 +38,32 @@ class FilmWriter {
  public:
   // Writes to `path` as given; the caller renames it when finish() has returned. Throws Error (usage, exit 4: no
   // encoder, 6: cannot be written).
-  FilmWriter(const std::string& path, const VideoSettings& settings);
+  // `head`: what decoders are to know first, where packets come from a file that has it in its own form, see PacketReader.
+  FilmWriter(const std::string& path, const VideoSettings& settings, const std::string& head = {});
   ~FilmWriter();  // a file that is not finished is taken away
 
   void add(const FilmChunk& chunk);  // in the order of the film
-  void finish();                     // closes the file; throws Error (exit 3) where there was no frame
+  // The same packet by packet: a chunk's, then how many frames it had.
+  void add(const FilmPacket& packet);
+  void end_chunk(int frames);
+  void finish();  // closes the file; throws Error (exit 3) where there was no frame
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// The packets of a film that a FilmWriter wrote, as they stand there.
+class PacketReader {
+ public:
+  // `fps` of the film. Throws Error (exit 3) where the file is no film of ours.
+  PacketReader(const std::string& path, FrameRate fps);
+  ~PacketReader();
+  PacketReader(PacketReader&&) noexcept;
+
+  VideoCodec codec() const;
+  const std::string& head() const;
+  bool next(FilmPacket& packet);  // in decoding order; false behind the last
 
  private:
   struct State;

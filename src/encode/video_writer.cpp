@@ -76,15 +76,8 @@ struct ChunkEncoder::State {
       : settings(s), encoder(open_encoder(s)), frame(allocate_frame(*encoder)) {}
 
   void send(const AVFrame* next) {
-    encode_frame(*encoder, next, "", [this](const AVPacket& packet) {
-      FilmPacket& kept = chunk.packets.emplace_back();
-      kept.data.assign(reinterpret_cast<const char*>(packet.data), std::size_t(packet.size));
-      kept.pts = packet.pts;
-      kept.is_key = (packet.flags & AV_PKT_FLAG_KEY) != 0;
-      std::size_t size = 0;
-      if (const auto* side = libav().av_packet_get_side_data(&packet, AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, &size))
-        kept.opacity.assign(reinterpret_cast<const char*>(side), size);
-    });
+    encode_frame(*encoder, next, "",
+                 [this](const AVPacket& packet) { chunk.packets.push_back(kept_packet(packet)); });
   }
 
   void convert(const Image& image) {

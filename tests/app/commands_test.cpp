@@ -48,6 +48,11 @@ class EveryCommand : public ::testing::Test {
                                {"--set", "video.width=64", "--set", "video.height=36"}))
                   .status,
               0);
+    ASSERT_EQ(run_program(with({"render", kScene, "--quiet", "--shard", "1/1", "-o", inputs_->file("clip.mp4"), "--set",
+                                "video.width=64", "--set", "video.height=36"},
+                               kShort))
+                  .status,
+              0);
     inputs_->write("q.csv", "t,q1,q2\n0,0,0\n0.3,0.7,1\n1,1,2\n");
     inputs_->write("fall.yaml", "model: " CHAINREEL_SOURCE_FOLDER
                                 "/models/pp.urdf\nduration: 1\nmethod: rk4\nstep: 0.01\ntorque: [0, 0]\n"
@@ -73,6 +78,7 @@ class EveryCommand : public ::testing::Test {
         {"render",
          {with(with({kScene, "--set", "video.width=64", "--set", "video.height=36"}, kShort), {"--quiet"}),
           ".png"}},
+        {"join", {{inputs_->file("clip.part-1-of-1.mp4")}, ".mp4"}},
         {"snapshot", {with(with({kScene}, kShort), kSmallFigure), ".svg"}},
         {"ellipse", {with({"models/rr.urdf", "--pose", "0.1,1"}, kSmallFigure), ".csv"}},
         {"simulate", {with({kScene}, kShort), ".csv"}},

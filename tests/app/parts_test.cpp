@@ -87,5 +87,151 @@ TEST(Jobs, AnErrorOfOneEndsAllAndLeavesNothing) {
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
+// Parts of a film, each by a run of the program of its own.
+class Parts : public ::testing::Test {
+ protected:
+  // Renders into `folder` and expects it to go well.
+  static void render(const std::string& output, const Words& more = {}) {
+    const ProgramResult result = run_program(render_of("rr_ellipse", with({"--set", kEvents, "-o", output}, more)));
+    ASSERT_EQ(result.status, 0) << result.err;
+  }
+  static ProgramResult join(const Words& parts, const std::string& output) {
+    return run_program(with(with({"join"}, parts), {"--quiet", "-o", output}));
+  }
+  static constexpr const char* kEvents = "events=[{when: \"t - 1\", name: half}]";
+};
+
+TEST_F(Parts, JoinedAreTheWholeFilmByteForByte) {
+  for (const std::string ending : {"mp4", "webm", "mov"}) {
+    const TemporaryFolder whole, parts;
+    render(whole.file("film." + ending));
+    for (const char* shard : {"2/3", "1/3", "3/3"}) render(parts.file("film." + ending), {"--shard", shard});
+    Words names;
+    for (const auto& [name, bytes] : files_in(parts.path())) names.push_back(parts.file(name));
+    const std::size_t expected = ending == "mov" ? 3 : 2;  // one of three shares of two chunks is empty
+    EXPECT_EQ(names.size(), expected);
+    EXPECT_EQ(probe_video(names.front()).first.width, 96) << "each can be watched";
+    const TemporaryFolder joined;
+    const ProgramResult result = join(names, joined.file("film." + ending));
+    ASSERT_EQ(result.status, 0) << result.err;
+    expect_same_files(whole.path(), joined.path());
+    EXPECT_EQ(files_in(joined.path()).size(), 4u) << "film, audit, words and captions";
+  }
+}
+
+TEST_F(Parts, OfOpacityAndOfFramesAsPicturesAreTheWhole) {
+  const TemporaryFolder whole, parts, joined;
+  const Words look{"--preset", "overlay", "--set", "duration=0.9"};
+  render(whole.file("a.webm"), look);
+  for (const char* frames : {"0:31", "31:62"}) render(parts.file("a.webm"), with(look, {"--frames", frames}));
+  ASSERT_EQ(join({parts.file("a.part-000031-000062.webm"), parts.file("a.part-000000-000031.webm")}, joined.file("a.webm")).status,
+            0);
+  expect_same_files(whole.path(), joined.path());
+
+  const TemporaryFolder pictures, shares;
+  const Words brief{"--set", "duration=0.2"};
+  render(pictures.file("f/k_000000.png"), brief);
+  for (const char* shard : {"2/2", "1/2"}) render(shares.file("f/k_000000.png"), with(brief, {"--shard", shard}));
+  expect_same_files(pictures.path(), shares.path());
+  // A share that is rendered again asks, as a film does; the others' pictures are not its own.
+  const Words again = render_of("rr_ellipse", {"--set", kEvents, "-o", shares.file("f/k_000000.png"), "--frames", "5:7",
+                                                 "--set", "duration=0.2"});
+  EXPECT_EQ(run_program(again).status, 6);
+  EXPECT_EQ(run_program(with(again, {"--force"})).status, 0);
+  expect_same_files(pictures.path(), shares.path());
+}
+
+TEST_F(Parts, OfAnotherFilmOrTooFewAreRefused) {
+  const TemporaryFolder folder;
+  render(folder.file("a.mp4"), {"--frames", "0:64"});
+  render(folder.file("a.mp4"), {"--frames", "64:128"});
+  render(folder.file("b.mp4"), {"--shard", "2/2", "--set", "torque=[0, 1]"});
+  render(folder.file("c.mp4"), {"--shard", "2/2", "--theme", "dark"});
+  render(folder.file("d.mp4"), {"--shard", "2/2", "--crf", "30"});
+  const std::string first = folder.file("a.part-000000-000064.mp4"), second = folder.file("a.part-000064-000128.mp4");
+  const auto trouble = [&](const Words& parts) {
+    const ProgramResult result = join(parts, folder.file("x.mp4"));
+    EXPECT_NE(result.status, 0);
+    EXPECT_FALSE(fs::exists(folder.file("x.mp4")));
+    return std::to_string(result.status) + " " + result.err;
+  };
+  EXPECT_THAT(trouble({first}), HasSubstr("3 "));
+  EXPECT_THAT(trouble({first}), HasSubstr("frames 64 to 127 of 128 are missing: render them with --frames 64:128"));
+  EXPECT_THAT(trouble({second}), HasSubstr("frames 0 to 63"));
+  EXPECT_THAT(trouble({first, second, first}), HasSubstr("too"));
+  EXPECT_THAT(trouble({first, folder.file("b.part-2-of-2.mp4")}), HasSubstr("another motion"));
+  EXPECT_THAT(trouble({first, folder.file("c.part-2-of-2.mp4")}), HasSubstr("its scene differs"));
+  EXPECT_THAT(trouble({first, folder.file("d.part-2-of-2.mp4")}), HasSubstr("quality"));
+  EXPECT_THAT(trouble({first, folder.write("e.mp4", "no film")}), HasSubstr("is no film"));
+  // A part whose second half is lost, and one that is no part.
+  const std::string bytes = read_whole_file(second);
+  EXPECT_THAT(trouble({first, folder.write("f.mp4", bytes.substr(0, bytes.size() * 9 / 10))}), HasSubstr("3 "));
+  ASSERT_EQ(join({first, second}, folder.file("whole.mp4")).status, 0);
+  EXPECT_THAT(trouble({folder.file("whole.mp4")}), HasSubstr("is no part of a film"));
+  EXPECT_EQ(join({first, second}, folder.file("x.webm")).status, 2);
+  EXPECT_EQ(join({first, second}, second).status, 6) << "an output never replaces an input";
+}
+
+TEST_F(Parts, ThatCannotBeAreToldWithTheNearestThatCan) {
+  const TemporaryFolder folder;
+  const auto trouble = [&](const Words& more, const RunOptions& options = {}) {
+    const ProgramResult result = run_program(render_of("rr_ellipse", with({"-o", folder.file("a.mp4")}, more)), options);
+    EXPECT_EQ(result.status, 2) << result.err;
+    EXPECT_TRUE(fs::is_empty(folder.path()));
+    return result.err;
+  };
+  EXPECT_THAT(trouble({"--frames", "0:70"}), HasSubstr("nearest to 70 are 64 and 128"));
+  EXPECT_THAT(trouble({"--frames", "64:129"}), HasSubstr("has 128 frames"));
+  for (const char* text : {"5", "5:5", "7:3", "-1:3", "a:b", ""}) trouble({"--frames=" + std::string(text)});
+  for (const char* text : {"0/2", "3/2", "1", "1/0", "x/y"}) trouble({"--shard", text});
+  EXPECT_THAT(trouble({"--frames", "0:64", "--shard", "1/2"}), HasSubstr("leave one out"));
+  EXPECT_THAT(trouble({"--shard", "1/2", "-o", folder.file("a.gif")}), HasSubstr("cannot be made in parts"));
+  EXPECT_THAT(trouble({"--shard", "slurm"}), HasSubstr("SLURM_ARRAY_TASK_ID is not set"));
+  const RunOptions task{.environment = {{"SLURM_ARRAY_TASK_ID", "11"}, {"SLURM_ARRAY_TASK_MIN", "10"}, {"SLURM_ARRAY_TASK_COUNT", "2"}}};
+  EXPECT_EQ(run_program(render_of("rr_ellipse", {"--shard", "slurm", "-o", folder.file("a.mp4")}), task).status, 0);
+  EXPECT_TRUE(fs::exists(folder.file("a.part-2-of-2.mp4")));
+}
+
+TEST(Resume, OfAKilledRenderGivesTheSameBytesAndLeavesNothing) {
+  const TemporaryFolder whole, folder;
+  const auto words = [](const TemporaryFolder& to) {
+    return render_of("rr_ellipse", {"--set", "duration=4", "--jobs", "1", "-o", to.file("a.mp4"), "-o", to.file("b.mov")});
+  };
+  ASSERT_EQ(run_program(words(whole)).status, 0);
+  const Words resumed = with(words(folder), {"--resume"});
+  // Killed when some chunks are there: by its own watcher, at the first whole one.
+  const std::string kill =
+      "\"$0\" \"$@\" & p=$!; while kill -0 $p 2>/dev/null; do if ls " + folder.file(".a.mp4.resume") +
+      " 2>/dev/null | grep -q '^0-'; then kill -9 $p; fi; done; wait $p";
+  const ProgramResult killed = run_command(with({"bash", "-c", kill, program_path()}, resumed));
+  EXPECT_EQ(killed.status, 137) << killed.err;
+  EXPECT_FALSE(fs::exists(folder.file("a.mp4")));
+  // One of those is spoilt since.
+  for (const auto& entry : fs::directory_iterator(folder.file(".b.mov.resume")))
+    if (entry.path().extension() == ".chunk") fs::resize_file(entry.path(), fs::file_size(entry.path()) - 1);
+  const ProgramResult result = run_program(resumed);
+  ASSERT_EQ(result.status, 0) << result.err;
+  expect_same_files(whole.path(), folder.path());
+}
+
+TEST(Resume, TakesNoChunksOfAnotherScene) {
+  const TemporaryFolder whole, folder;
+  const auto words = [](const TemporaryFolder& to, const char* title) {
+    return render_of("rr_ellipse", {"--set", std::string("title=") + title, "-o", to.file("a.mp4")});
+  };
+  ASSERT_EQ(run_program(words(whole, "B")).status, 0);
+  // No disk for the film itself, whose chunks are then kept.
+  fs::create_directories(folder.path() / ".a.mp4.resume");
+  EXPECT_EQ(run_command(with({"bash", "-c", "\"$0\" \"$@\" & p=$!; while [ -z \"$(ls " + folder.file(".a.mp4.resume") +
+                                              ")\" ] && kill -0 $p; do :; done; kill -9 $p; wait $p",
+                              program_path()},
+                             with(words(folder, "A"), {"--resume"})))
+                .status,
+            137);
+  ASSERT_EQ(run_program(with(words(folder, "B"), {"--resume"})).status, 0);
+  expect_same_files(whole.path(), folder.path());
+  EXPECT_EQ(run_program(with(words(folder, "B"), {"--resume", "--force", "-o", folder.file("c.gif")})).status, 2);
+}
+
 }  // namespace
 }  // namespace chainreel

@@ -73,6 +73,7 @@ std::string gravity_override(const std::string& text);
 bool is_model_file(const std::string& path);
 
 void add_render_command(CommandLine& app);
+void add_join_command(CommandLine& app);
 void add_snapshot_command(CommandLine& app);
 void add_ellipse_command(CommandLine& app);
 void add_simulate_command(CommandLine& app);

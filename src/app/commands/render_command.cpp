@@ -27,6 +27,8 @@ struct RenderOptions {
   std::string at = "0";
   std::vector<std::string> vary;
   int jobs = 0;
+  std::string frames, shard;
+  bool resume = false;
   CommonOptions common;
 };
 
@@ -53,6 +55,32 @@ std::vector<PreparedFilm> load_all(const RenderOptions& options) {
   return films;
 }
 
+std::optional<PartRequest> part_of(const RenderOptions& options) {
+  if (!options.frames.empty() && !options.shard.empty())
+    throw Error(ExitCode::usage, "--frames and --shard both say which part of the film: leave one out");
+  if (!options.frames.empty()) return PartRequest::of_frames(options.frames);
+  if (!options.shard.empty()) return PartRequest::of_shard(options.shard);
+  return std::nullopt;
+}
+
+// Files that are made of parts: films, and frames one by one.
+void make_parts(std::vector<Target>& targets, const PartRequest& part) {
+  for (Target& target : targets) {
+    if (!target.format->codec && !target.format->is_sequence)
+      throw Error(ExitCode::usage, target.path + " cannot be made in parts: take .mp4, .webm, .mov or NAME_000000.png with -o");
+    if (!target.format->codec) continue;
+    const fs::path path(target.path);
+    target.path = (path.parent_path() / (path.stem().string() + part.suffix() + path.extension().string())).string();
+  }
+}
+
+void require_resumable(const std::vector<Target>& targets) {
+  for (const Target& target : targets)
+    if (target.format->shows == Shows::motion && !target.format->codec)
+      throw Error(ExitCode::usage, target.path + ": --resume is for films: .mp4, .webm and .mov" +
+                                       (target.format->is_sequence ? "; render the frames that are missing with --frames A:B" : ""));
+}
+
 std::vector<RenderJob> jobs_of(const RenderOptions& options, const std::vector<PreparedFilm>& films) {
   std::vector<RenderJob> jobs;
   std::map<std::string, std::string> taken;
@@ -61,6 +89,10 @@ std::vector<RenderJob> jobs_of(const RenderOptions& options, const std::vector<P
     job.targets = targets_of(options.outputs, films.size(), films[i].scene);
     job.at = parse_quantity(options.at, {});
     job.jobs = options.jobs;
+    job.part = part_of(options);
+    if (job.part) make_parts(job.targets, *job.part);
+    job.resume = options.resume;
+    if (job.resume) require_resumable(job.targets);
     job.overwrite = options.common.force;
     job.quiet = options.common.quiet;
     if (!(job.at >= 0 && job.at <= films[i].scene.duration))
@@ -99,7 +131,7 @@ void run_render(const RenderOptions& options) {
     if (!options.common.quiet) tell_of_unused_quality(jobs[i], films[i].scene);
     const RenderResult result = render_film(films[i], jobs[i]);
     reports.push_back(result.audit);
-    reports.back()["file"] = result.files.front();
+    reports.back()["file"] = result.files.empty() ? Json(nullptr) : Json(result.files.front());
     reports.back()["files"] = result.files;
     reports.back()["sidecars"] = result.sidecars;
     table.push_back({films[i].scene.name, std::to_string(result.frames), format_fixed(result.film_seconds, 2),
@@ -127,6 +159,13 @@ void add_render_command(CommandLine& app) {
   command->add_option("--at", options->at, "instant that .png, .svg and .pdf show, in seconds (default 0)");
   command->add_option("--jobs", options->jobs, "threads that draw and encode (default: all cores); the bytes are the same")
       .range(1, 256);
+  command->add_option("--frames", options->frames,
+                      "a part of the film, from frame A to the one before B, like 0:150: NAME.part-000000-000150.mp4, for join");
+  command->add_option("--shard", options->shard,
+                      "an equal share of the film, like 3/8: NAME.part-3-of-8.mp4; slurm: that of the array job's task");
+  command->add_flag("--resume", options->resume,
+                    "keep finished chunks of films in a hidden folder beside them until they are whole, and go on from those of a "
+                    "run that was killed");
   add_vary_option(*command, options->vary);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);

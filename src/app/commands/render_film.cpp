@@ -11,6 +11,7 @@
 #include "app/report/report.hpp"
 #include "app/report/sidecar.hpp"
 #include "app/report/trajectory_csv.hpp"
+#include "app/report/version.hpp"
 #include "app/works/draw_film.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -71,7 +72,7 @@ struct Sidecar {
 };
 
 // Beside each clip, or beside the first file where there is none; clips of one name share theirs.
-std::vector<Sidecar> open_sidecars(const RenderJob& job, const PreparedFilm& film) {
+std::vector<Sidecar> open_sidecars(const RenderJob& job, const PreparedFilm& film, bool of_part = false) {
   std::vector<Sidecar> sidecars;
   const bool has_clips = std::any_of(job.targets.begin(), job.targets.end(),
                                      [](const Target& target) { return target.format->shows == Shows::motion; });
@@ -80,6 +81,7 @@ std::vector<Sidecar> open_sidecars(const RenderJob& job, const PreparedFilm& fil
   std::set<std::string> seen;
   for (const Target& target : job.targets) {
     if (has_clips && target.format->shows != Shows::motion) continue;
+    if (of_part && !target.format->is_sequence) continue;  // it holds them
     const std::string base = base_of(target);
     const auto open = [&](const char* ending, auto what) {
       require_own_sidecar(base + ending, job.overwrite);
@@ -136,12 +138,34 @@ Json to_json(const StageSeconds& seconds) {
           {"total", seconds.total}};
 }
 
+// What a part of the film says of itself.
+std::string part_text(const FilmReport& report, const ClipMemory& memory, FrameRange range, const Json& audit,
+                      const Fonts& fonts) {
+  const PreparedFilm& film = report.film();
+  const Video& video = film.scene.video;
+  return to_json(PartFacts{range,
+                           report.frames,
+                           {.width = video.width,
+                            .height = video.height,
+                            .fps = video.fps,
+                            .crf = video.crf,
+                            .alpha = is_transparent(film.scene)},
+                           film_hash(film, memory, fonts),
+                           std::string(program_version()) + " (" + program_revision() + ")",
+                           audit,
+                           alt_text(report),
+                           captions(report)})
+      .dump(-1, ' ', true);
+}
+
 }  // namespace
 
 RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
   const Scene& scene = film.scene;
-  std::vector<Output> outputs = open_outputs(job.targets, film.panels.size(), job.overwrite);
-  std::vector<Sidecar> sidecars = open_sidecars(job, film);
+  const bool is_part = job.part.has_value();
+  std::vector<Output> outputs = open_outputs(job.targets, film.panels.size(), job.overwrite, is_part);
+  std::vector<Sidecar> sidecars;
+  if (!is_part) sidecars = open_sidecars(job, film);
 
   RenderResult result;
   Stopwatch total, watch;
@@ -163,19 +187,43 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
     memory.audit["held_frames"] = {{"first", schedule.first}, {"last", schedule.last}};
   result.seconds.draw += watch.lap();
 
-  const int still = std::clamp(runs.clock().frame_at(job.at), 0, schedule.frames - 1);
-  const int jobs = affordable_jobs(job.jobs, scene, outputs);
-  draw_film({pictures, scene, fonts, schedule, still, memory, jobs, job.quiet}, outputs, result.seconds);
-  write_tables(runs, outputs);
-  result.seconds.total = total.lap();
   result.audit = to_json(report);
   if (memory.audit.contains("held_frames")) result.audit["held_frames"] = memory.audit["held_frames"];
+
+  FrameRange range{0, result.frames};
+  std::string part;
+  if (is_part) {
+    const FilmCuts cuts = cuts_of(outputs, result.frames, fps);
+    range = job.part->of(cuts.bounds, cuts.are_fixed);
+    if (range.empty()) {
+      std::fprintf(stderr, "note: %s: %s has no frames: the film has %zu chunks\n", scene.name.c_str(),
+                   job.part->text().c_str(), cuts.bounds.size() - 1);
+      result.frames = 0;
+      return result;
+    }
+    part = part_text(report, memory, range, result.audit, fonts);
+    for (const Output& output : outputs)
+      if (output.folder) output.folder->keep_to(range.first, range.behind);
+    // Texts beside a sequence are written with its first frame.
+    if (range.first == 0) sidecars = open_sidecars(job, film, true);
+    result.frames = range.behind - range.first;
+  }
+  const std::string key = job.resume ? film_hash(film, memory, fonts) : "";
+
+  const int still = std::clamp(runs.clock().frame_at(job.at), 0, schedule.frames - 1);
+  const int jobs = affordable_jobs(job.jobs, scene, outputs);
+  draw_film({pictures, scene, fonts, schedule, still, memory, range, part, key, jobs, job.quiet}, outputs, result.seconds);
+  write_tables(runs, outputs);
+  result.seconds.total = total.lap();
   result.audit["seconds"] = to_json(result.seconds);
 
   try {
     runs.require_expected_ends();
   } catch (const Error& error) {
-    if (error.code() == ExitCode::numerical) keep_partial(outputs);  // a signal leaves nothing
+    if (error.code() == ExitCode::numerical) {  // a signal leaves nothing
+      keep_partial(outputs);
+      if (job.resume) forget_chunks(outputs);
+    }
     throw;
   }
   tell_warnings(warning_lines(report));
@@ -184,6 +232,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
     tell_of_missing_events(runs);
   }
   result.files = commit(outputs);
+  if (job.resume) forget_chunks(outputs);
   write_sidecars(sidecars, report, result);
   return result;
 }

@@ -10,12 +10,15 @@
 #include "app/film/target.hpp"
 #include "app/report/run_report.hpp"
 #include "app/works/draw_film.hpp"
+#include "app/works/part.hpp"
 
 namespace chainreel {
 
 struct RenderJob {
   std::vector<Target> targets;
   double at = 0;  // s, instant of the motion that stills show: the frame that stands there
+  std::optional<PartRequest> part{};  // else all of the film
+  bool resume = false;                // from the chunks that a killed run left
   int jobs = 0;   // threads that draw and encode; 0: all processors
   bool overwrite = false;
   bool quiet = false;
@@ -31,7 +34,8 @@ struct RenderResult {
 };
 
 // Nothing is begun before all files can be written; nothing bears its name before all are whole. A run that
-// failed leaves films and tables as far as they came under a .partial name, and throws.
+// failed leaves films and tables as far as they came under a .partial name, and throws. A part of a film bears what it is
+// in its name, and holds what stands beside the whole; a share that has no frames leaves no file.
 RenderResult render_film(const PreparedFilm& film, const RenderJob& job);
 
 }  // namespace chainreel

@@ -8,6 +8,7 @@
 
 #include "app/cli/streams.hpp"
 #include "app/works/joined_film.hpp"
+#include "core/hash.hpp"
 #include "core/machine.hpp"
 #include "core/parallel.hpp"
 #include "encode/png.hpp"
@@ -19,21 +20,18 @@ namespace {
 // Of a thread with its canvas and one encoder, measured at 1920x1080.
 constexpr double kBytesOfThread = 30e6, kBytesOfPixel = 90;
 
-VideoSettings settings_of(const OutputFormat& format, const Scene& scene, const Tags& tags) {
-  return {.width = scene.video.width,
-          .height = scene.video.height,
-          .fps = scene.video.fps,
-          .crf = scene.video.crf,
-          .codec = format.codec.value_or(VideoCodec::h264),
-          .alpha = is_transparent(scene),
-          .tags = tags};
-}
-
 // The whole picture of a frame, for pages of shapes.
 Picture picture_of(const Film& film, int frame) {
   Picture picture = film.static_layer();
   picture.append(film.frame(frame));
   return picture;
+}
+
+// A chunk depends on the program, too.
+std::string chunk_key(const VideoSettings& s, const std::string& film_key) {
+  static const std::string program = sha256_of_file("/proc/self/exe");
+  const Json json{s.width, s.height, s.fps.num, s.fps.den, crf_of(s), int(s.codec), s.alpha};
+  return sha256_of(program + film_key + json.dump());
 }
 
 // What one thread draws with.
@@ -82,6 +80,8 @@ class Workshop {
     std::size_t index;  // of the output, or of the chunk
   };
 
+  std::unique_ptr<JoinedFilm> joined_film(const Output& output) const;
+  std::vector<int> chunks_of_range() const;
   void do_piece(const Piece& piece, Pen& pen);
   void draw_clip(Output& output, Pen& pen);
   void draw_stills(Pen& pen);
@@ -103,18 +103,13 @@ class Workshop {
 Workshop::Workshop(const FilmWork& work, std::vector<Output>& outputs)
     : work_(work), outputs_(outputs), tags_(work.memory.tags()) {
   bool has_chunks = false, has_stills = false;
-  std::optional<VideoCodec> strictest;
   int frames = 0;
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const OutputFormat& format = *outputs[i].target.format;
     films_.emplace_back();
     has_stills = has_stills || format.shows == Shows::still;
     if (format.shows != Shows::motion) continue;
-    if (format.codec) {
-      films_.back() =
-          std::make_unique<JoinedFilm>(outputs[i].temporary_path(), settings_of(format, work.scene, tags_));
-      if (has_fixed_chunks(*format.codec)) strictest = format.codec;
-    }
+    if (format.codec) films_.back() = joined_film(outputs[i]);
     has_chunks = has_chunks || format.codec || format.is_sequence;
     if (format.make_clip == nullptr) continue;
     pieces_.push_back({Kind::clip, i});  // first, as they take longest
@@ -125,11 +120,32 @@ Workshop::Workshop(const FilmWork& work, std::vector<Output>& outputs)
     frames += 1;
   }
   if (has_chunks) {
-    bounds_ = chunk_bounds(work.schedule.total(), work.scene.video.fps, strictest);
+    bounds_ = chunks_of_range();
     for (std::size_t k = 0; k + 1 < bounds_.size(); ++k) pieces_.push_back({Kind::chunk, k});
-    frames += work.schedule.total();
+    frames += work.range.behind - work.range.first;
   }
   if (!pieces_.empty()) progress_.emplace(work.scene.name, frames, work.quiet);
+}
+
+std::unique_ptr<JoinedFilm> Workshop::joined_film(const Output& output) const {
+  VideoSettings settings = settings_of(*output.target.format, work_.scene, tags_);
+  std::shared_ptr<const ChunkStore> store;
+  if (!work_.film_key.empty()) store = std::make_shared<ChunkStore>(output.target.path, chunk_key(settings, work_.film_key));
+  if (!work_.part.empty()) settings.tags[kPart] = work_.part;
+  return std::make_unique<JoinedFilm>(output.temporary_path(), settings, std::move(store));
+}
+
+std::vector<int> Workshop::chunks_of_range() const {
+  const auto [first, behind] = work_.range;
+  const FrameRate fps = work_.scene.video.fps;
+  FilmCuts cuts = cuts_of(outputs_, work_.schedule.total(), fps);
+  if (cuts.are_fixed) {
+    std::erase_if(cuts.bounds, [&](int bound) { return bound < first || bound > behind; });
+    return cuts.bounds;
+  }
+  std::vector<int> bounds = chunk_bounds(behind - first, fps, {});
+  for (int& bound : bounds) bound += first;
+  return bounds;
 }
 
 void Workshop::run(StageSeconds& seconds) {
@@ -203,31 +219,60 @@ void Workshop::draw_stills(Pen& pen) {
 }
 
 void Workshop::draw_chunk(std::size_t index, Pen& pen) {
+  const int first = bounds_[index], behind = bounds_[index + 1];
   std::vector<std::unique_ptr<FrameSink>> sinks;
   std::vector<std::pair<JoinedFilm*, ChunkEncoder*>> encoders;
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     const Output& output = outputs_[i];
-    if (films_[i]) {
-      auto encoder = std::make_unique<ChunkEncoder>(films_[i]->settings());
-      encoders.emplace_back(films_[i].get(), encoder.get());
+    JoinedFilm* const film = films_[i].get();
+    if (film != nullptr) {
+      if (film->store() != nullptr)
+        if (std::optional<FilmChunk> kept = film->store()->find(first, behind)) {
+          film->take(index, std::move(*kept));
+          continue;
+        }
+      auto encoder = std::make_unique<ChunkEncoder>(film->settings());
+      encoders.emplace_back(film, encoder.get());
       sinks.push_back(std::move(encoder));
     } else if (output.folder) {
       sinks.push_back(std::make_unique<PngSequence>(
-          output.folder->temporary_folder(), place_of_sequence(output.target.path).stem, tags_, bounds_[index]));
+          output.folder->temporary_folder(), place_of_sequence(output.target.path).stem, tags_, first));
     }
   }
-  for (int n = bounds_[index]; n < bounds_[index + 1] && !ended_; ++n, has_drawn()) {
+  for (int n = first; n < behind && !ended_; ++n, has_drawn()) {
+    if (sinks.empty()) continue;
     const Image& image = pen.draw(work_.schedule.drawn(n));
     for (const auto& sink : sinks) sink->write(image);
     pen.seconds.encode += pen.watch.lap();
   }
   if (ended_) return;
   for (const auto& sink : sinks) sink->finish();
-  for (const auto& [film, encoder] : encoders) film->take(index, encoder->take());
+  for (const auto& [film, encoder] : encoders) {
+    FilmChunk chunk = encoder->take();
+    if (film->store() != nullptr) film->store()->keep(first, behind, chunk);
+    film->take(index, std::move(chunk));
+  }
   pen.seconds.encode += pen.watch.lap();
 }
 
 }  // namespace
+
+VideoSettings settings_of(const OutputFormat& format, const Scene& scene, const Tags& tags) {
+  return {.width = scene.video.width,
+          .height = scene.video.height,
+          .fps = scene.video.fps,
+          .crf = scene.video.crf,
+          .codec = format.codec.value_or(VideoCodec::h264),
+          .alpha = is_transparent(scene),
+          .tags = tags};
+}
+
+FilmCuts cuts_of(const std::vector<Output>& outputs, int frames, FrameRate fps) {
+  std::optional<VideoCodec> strictest;
+  for (const Output& output : outputs)
+    if (const auto codec = output.target.format->codec; codec && has_fixed_chunks(*codec)) strictest = codec;
+  return {chunk_bounds(frames, fps, strictest), strictest.has_value()};
+}
 
 int affordable_jobs(int wanted, const Scene& scene, const std::vector<Output>& outputs) {
   const auto encoders =
@@ -242,6 +287,11 @@ int affordable_jobs(int wanted, const Scene& scene, const std::vector<Output>& o
 
 void draw_film(const FilmWork& work, std::vector<Output>& outputs, StageSeconds& seconds) {
   Workshop(work, outputs).run(seconds);
+}
+
+void forget_chunks(const std::vector<Output>& outputs) {
+  for (const Output& output : outputs)
+    if (output.target.format->codec) ChunkStore(output.target.path, std::string(64, '0')).clear();
 }
 
 }  // namespace chainreel

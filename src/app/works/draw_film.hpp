@@ -2,12 +2,14 @@
 // of the film, a small clip, which needs its frames in order, or the single pictures. Bytes do not depend on who took what.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "app/film/clip_memory.hpp"
 #include "app/film/progress.hpp"
 #include "app/works/outputs.hpp"
+#include "app/works/part.hpp"
 #include "draw/film/film.hpp"
 
 namespace chainreel {
@@ -32,16 +34,30 @@ struct FilmWork {
   Schedule schedule;
   int still = 0;  // frame that single pictures show
   const ClipMemory& memory;
-  int jobs = 1;  // threads, at most
+  FrameRange range;     // of the film, as it is shown: all of it or a part
+  std::string part;     // what films say of themselves as one, or ""
+  std::string film_key; // of what is shown, for chunks that were kept; "": none are
+  int jobs = 1;         // threads, at most
   bool quiet = false;
 };
+
+// Where the chunks of a film begin, and behind them its number of frames; whether its files may be cut there only.
+struct FilmCuts {
+  std::vector<int> bounds;
+  bool are_fixed = false;
+};
+FilmCuts cuts_of(const std::vector<Output>& outputs, int frames, FrameRate fps);
 
 // How many threads are worth having where `wanted`, or all processors where it is 0, may be had: as many as there is memory
 // for; fewer than wanted is told on standard error.
 int affordable_jobs(int wanted, const Scene& scene, const std::vector<Output>& outputs);
 
 // All that the outputs show, whole under their temporary names. The first error of a thread ends all of them and is thrown,
-// as is the signal's.
+// as is the signal's. With a key, films are begun where a killed run of the program left them; what is kept for that goes
+// by forget_chunks().
 void draw_film(const FilmWork& work, std::vector<Output>& outputs, StageSeconds& seconds);
+void forget_chunks(const std::vector<Output>& outputs);
+
+VideoSettings settings_of(const OutputFormat& format, const Scene& scene, const Tags& tags);
 
 }  // namespace chainreel

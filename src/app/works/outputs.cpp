@@ -21,14 +21,15 @@ std::string base_of(const Target& target) {
   return (fs::path(place.folder) / (place.stem.empty() ? "frames" : place.stem)).string();
 }
 
-std::vector<Output> open_outputs(const std::vector<Target>& targets, std::size_t panels, bool overwrite) {
+std::vector<Output> open_outputs(const std::vector<Target>& targets, std::size_t panels, bool overwrite,
+                                 bool is_part) {
   std::vector<Output> outputs;
   for (const Target& target : targets) {
     Output output{target, {}, {}};
     if (target.is_implied) require_own_sidecar(target.path, overwrite);
     if (target.format->is_sequence) {
       const SequencePlace place = place_of_sequence(target.path);
-      output.folder = std::make_unique<OutputFolder>(place.folder, place.stem, ".png", overwrite);
+      output.folder = std::make_unique<OutputFolder>(place.folder, place.stem, ".png", overwrite, is_part);
     } else if (target.format->shows == Shows::table) {
       for (std::size_t i = 0; i < panels; ++i)
         output.files.push_back(std::make_unique<OutputFile>(panel_csv_path(target.path, i, panels == 1), overwrite));

@@ -29,8 +29,8 @@ SequencePlace place_of_sequence(const std::string& path);
 // What sidecars of a target are named after.
 std::string base_of(const Target& target);
 
-// Throws Error (exit 6) where one of them cannot be written.
-std::vector<Output> open_outputs(const std::vector<Target>& targets, std::size_t panels, bool overwrite);
+// `is_part`: sequences hold frames of others, too. Throws Error (exit 6) where one of them cannot be written.
+std::vector<Output> open_outputs(const std::vector<Target>& targets, std::size_t panels, bool overwrite, bool is_part);
 
 // Gives all of them their names, and tells these in the order of the targets.
 std::vector<std::string> commit(std::vector<Output>& outputs);

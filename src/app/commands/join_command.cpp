@@ -1,0 +1,183 @@
+// chainreel join PART... -o FILM: parts of a film, rendered apart, become the whole without being encoded again.
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/cli/command.hpp"
+#include "app/cli/streams.hpp"
+#include "app/report/sidecar.hpp"
+#include "app/works/part.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "core/hash.hpp"
+#include "core/input_file.hpp"
+#include "core/output_file.hpp"
+#include "encode/film_chunk.hpp"
+#include "encode/film_start.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct JoinOptions {
+  std::vector<std::string> parts;
+  std::string output;
+  CommonOptions common;
+};
+
+struct Part {
+  std::string path;
+  Tags tags;  // of the film, without what makes it a part
+  PartFacts facts;
+};
+
+Part read_part(const std::string& path) {
+  require_plain_file(path, kLargestInput * 64);
+  note_input(path);
+  Part part{path, read_film_tags(path), {}};
+  part.facts = part_facts(part.tags[kPart], path);
+  // Containers add some of their own.
+  std::erase_if(part.tags, [](const auto& tag) {
+    return tag.first == kPart || (!tag.first.starts_with("chainreel_") && tag.first != "title" && tag.first != "description");
+  });
+  return part;
+}
+
+// What two parts of one film say alike, in the order in which it is worth telling.
+void require_same_film(const Part& a, const Part& b) {
+  const auto differ = [&](const std::string& what) {
+    throw Error(ExitCode::bad_input, "is no part of the same film as " + a.path + ": " + what, {b.path});
+  };
+  const auto word = [](const Part& part, const char* key) { return part.facts.audit.value(key, Json()); };
+  const VideoSettings &s = a.facts.settings, &t = b.facts.settings;
+  if (word(a, "model_sha256") != word(b, "model_sha256")) differ("its model is another one");
+  if (word(a, "trajectory_sha256") != word(b, "trajectory_sha256")) differ("it shows another motion");
+  if (a.facts.frames != b.facts.frames)
+    differ("that film has " + std::to_string(b.facts.frames) + " frames, not " + std::to_string(a.facts.frames));
+  if (s.width != t.width || s.height != t.height || !(s.fps == t.fps)) differ("its size or frame rate is another one");
+  if (s.crf != t.crf || s.alpha != t.alpha) differ("its quality or opacity is another one");
+  if (a.facts.program != b.facts.program)
+    differ("it was rendered by chainreel " + b.facts.program + ", not " + a.facts.program);
+  if (word(a, "versions") != word(b, "versions")) differ("it was rendered with other versions of libraries");
+  if (a.tags != b.tags) differ("its scene differs");
+  if (a.facts.film_sha256 != b.facts.film_sha256 || a.facts.audit != b.facts.audit)
+    differ("it was rendered with other meshes or fonts");
+}
+
+// In the order of the film, each frame once.
+std::vector<Part> parts_of(const JoinOptions& options) {
+  std::vector<Part> parts;
+  for (const std::string& path : options.parts) parts.push_back(read_part(path));
+  for (const Part& part : parts) require_same_film(parts.front(), part);
+  std::sort(parts.begin(), parts.end(),
+            [](const Part& a, const Part& b) { return a.facts.range.first < b.facts.range.first; });
+  std::vector<Problem> problems;
+  const auto missing = [&](int first, int behind) {
+    problems.push_back({"frames " + std::to_string(first) + " to " + std::to_string(behind - 1) + " of " +
+                            std::to_string(parts.front().facts.frames) + " are missing: render them with --frames " +
+                            std::to_string(first) + ":" + std::to_string(behind),
+                        {options.output}});
+  };
+  int next = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const FrameRange& range = parts[k].facts.range;
+    if (range.first > next) missing(next, range.first);
+    if (range.first < next)
+      problems.push_back({"its frames from " + std::to_string(range.first) + " on are in " + parts[k - 1].path + ", too",
+                          {parts[k].path}});
+    next = std::max(next, range.behind);
+  }
+  if (next < parts.front().facts.frames) missing(next, parts.front().facts.frames);
+  if (!problems.empty()) throw Error(ExitCode::bad_input, std::move(problems));
+  return parts;
+}
+
+void copy_frames(const Part& part, PacketReader& reader, FilmWriter& writer) {
+  const int frames = part.facts.range.behind - part.facts.range.first;
+  const auto spoilt = [&part] {
+    throw Error(ExitCode::bad_input, "does not hold the frames that it tells of", {part.path});
+  };
+  FilmPacket packet;
+  int count = 0;
+  for (; reader.next(packet); ++count) {
+    throw_if_interrupted();
+    if (count >= frames || packet.pts < 0 || packet.pts >= frames || (count == 0 && !packet.is_key)) spoilt();
+    writer.add(packet);
+  }
+  if (count != frames) spoilt();
+  writer.end_chunk(frames);
+}
+
+void write_film(const std::vector<Part>& parts, const std::string& path) {
+  VideoSettings settings = parts.front().facts.settings;
+  settings.tags = parts.front().tags;
+  std::unique_ptr<FilmWriter> writer;
+  std::string head;
+  for (const Part& part : parts) {
+    PacketReader reader(part.path, settings.fps);
+    if (!writer) {
+      settings.codec = reader.codec();
+      head = reader.head();
+      writer = std::make_unique<FilmWriter>(path, settings, head);
+    } else if (reader.codec() != settings.codec || reader.head() != head) {
+      throw Error(ExitCode::bad_input, "is encoded in another way than " + parts.front().path, {part.path});
+    }
+    copy_frames(part, reader, *writer);
+  }
+  writer->finish();
+}
+
+struct JoinedFiles {
+  OutputFile film, audit, words;
+  std::unique_ptr<OutputFile> captions;
+};
+
+void run_join(const JoinOptions& options) {
+  const std::vector<Part> parts = parts_of(options);
+  const PartFacts& facts = parts.front().facts;
+  if (fs::path(options.output).extension() != fs::path(parts.front().path).extension())
+    throw Error(ExitCode::usage, "-o " + options.output + ": its parts are " +
+                                     fs::path(parts.front().path).extension().string() + " files, and joining encodes nothing");
+  const bool force = options.common.force;
+  const auto beside = [&](const char* ending) {
+    std::string path = fs::path(options.output).replace_extension(ending).string();
+    require_own_sidecar(path, force);
+    return path;
+  };
+  JoinedFiles files{OutputFile(options.output, force), OutputFile(beside(".json"), force),
+                    OutputFile(beside(".txt"), force), nullptr};
+  if (!facts.captions.empty()) files.captions = std::make_unique<OutputFile>(beside(".srt"), force);
+
+  write_film(parts, files.film.temporary_path());
+  files.film.commit();
+  Json audit = facts.audit;
+  audit[kSidecarHashes] = Json::object();
+  write_whole(files.words, facts.words);
+  audit[kSidecarHashes][".txt"] = sha256_of(facts.words);
+  if (files.captions) {
+    write_whole(*files.captions, facts.captions);
+    audit[kSidecarHashes][".srt"] = sha256_of(facts.captions);
+  }
+  write_whole(files.audit, audit.dump(2) + "\n");
+  if (options.common.json)
+    std::puts(Json{{"file", options.output}, {"parts", parts.size()}, {"frames", facts.frames}}.dump(2).c_str());
+  else if (!options.common.quiet)
+    std::printf("%s: %d frames of %zu parts\n", options.output.c_str(), facts.frames, parts.size());
+}
+
+}  // namespace
+
+void add_join_command(CommandLine& app) {
+  auto options = std::make_shared<JoinOptions>();
+  Command* command = app.add_subcommand("join", "one film of the parts that `render --frames` and `--shard` wrote");
+  command->add_option("parts", options->parts, "the parts, in any order").required();
+  command->add_option("-o,--output", options->output, "the film, with the ending of its parts").required();
+  add_result_options(*command, options->common);
+  command->footer("Example: chainreel join out/film.part-*.mp4 -o out/film.mp4");
+  command->callback([options] { run_join(*options); });
+}
+
+}  // namespace chainreel
