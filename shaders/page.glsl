@@ -6,8 +6,8 @@ uniform vec2 page_px;
 
 vec4 clip_position(vec2 px) { return vec4(2.0 * px / page_px - 1.0, 0.0, 1.0); }
 
-// The corners of a quad as a strip: -1 or 1 in each direction.
-vec2 quad_corner() { return vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1)) * 2.0 - 1.0; }
-
-// An edge's ramp reaches half a pixel outward; the rest is for the rounding of the quad's corners.
-const float kFringe = 1.0;
+// The corner of the rectangle (left, top, right, bottom) that a vertex is, four to each. Shapes fill windows of
+// whole pixels, so that any part of the page can be drawn alone.
+vec4 corner_of(vec4 window) {
+  return clip_position(mix(window.xy, window.zw, vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1 & 1))));
+}

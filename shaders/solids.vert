@@ -1,5 +1,5 @@
 // Puts a drawn group of bodies down on the page.
-layout(location = 0) in vec4 place;         // left, top, right, bottom on the page
+layout(location = 0) in vec4 window;
 layout(location = 1) in vec4 settings;      // opacity, radius of the outline in px
 layout(location = 2) in vec4 line_color;    // premultiplied
 
@@ -9,5 +9,5 @@ flat out vec4 line;
 void main() {
   how = settings;
   line = line_color;
-  gl_Position = clip_position(mix(place.xy, place.zw, 0.5 * quad_corner() + 0.5));
+  gl_Position = corner_of(window);
 }

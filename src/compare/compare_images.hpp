@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compare/envelope.hpp"
-#include "compare/pixel_box.hpp"
+#include "core/pixel_box.hpp"
 #include "core/image.hpp"
 
 namespace chainreel {

@@ -8,7 +8,7 @@
 #include <array>
 #include <vector>
 
-#include "compare/pixel_box.hpp"
+#include "core/pixel_box.hpp"
 #include "core/image.hpp"
 
 namespace chainreel {

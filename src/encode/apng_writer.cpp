@@ -67,7 +67,7 @@ ApngWriter::ApngWriter(const std::string& path, const SmallClipSettings& setting
 
 ApngWriter::~ApngWriter() = default;
 
-void ApngWriter::write(const Image& full) {
+void ApngWriter::write(const Image& full, const std::vector<PixelBox>&) {
   State& s = *state_;
   const bool is_shown = s.small.takes_next();
   s.small.count();

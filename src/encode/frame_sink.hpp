@@ -3,8 +3,10 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/image.hpp"
+#include "core/pixel_box.hpp"
 
 namespace chainreel {
 
@@ -18,7 +20,10 @@ class FrameSink {
   FrameSink(const FrameSink&) = delete;
   FrameSink& operator=(const FrameSink&) = delete;
 
-  virtual void write(const Image& frame) = 0;  // frames in order, all of one size
+  // Frames in order, all of one size. `changed`: boxes without which the frame is as the one before, all within it.
+  virtual void write(const Image& frame, const std::vector<PixelBox>& changed) = 0;
+  // A frame that may differ everywhere.
+  void write(const Image& frame) { write(frame, {{0, 0, frame.width, frame.height}}); }
   // Of small clips: whether the next frame is among those that they show; one that is not need not be drawn.
   virtual bool takes_next() const { return true; }
   virtual void skip() {}  // in the place of write() of such a frame

@@ -63,7 +63,7 @@ GifWriter::GifWriter(const std::string& path, const SmallClipSettings& settings)
 
 GifWriter::~GifWriter() = default;
 
-void GifWriter::write(const Image& frame) {
+void GifWriter::write(const Image& frame, const std::vector<PixelBox>&) {
   State& s = *state_;
   const bool is_shown = s.small.takes_next();
   s.small.count();

@@ -223,7 +223,7 @@ std::string PngSequence::file_name(const std::string& stem, int frame) {
   return stem + std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits + ".png";
 }
 
-void PngSequence::write(const Image& frame) {
+void PngSequence::write(const Image& frame, const std::vector<PixelBox>&) {
   const std::string path = (std::filesystem::path(folder_) / file_name(stem_, next_)).string();
   write_png(path, frame, next_ == 0 ? tags_ : Tags{});
   ++next_;

@@ -36,7 +36,8 @@ class PngSequence final : public FrameSink {
  public:
   // Files are `stem` and six digits in `folder`, which is there; those of the frames from `first` on. Tags go into frame 0.
   PngSequence(std::string folder, std::string stem, Tags tags, int first = 0);
-  void write(const Image& frame) override;
+  using FrameSink::write;
+  void write(const Image& frame, const std::vector<PixelBox>& changed) override;
   void finish() override {}
 
   static std::string file_name(const std::string& stem, int frame);

@@ -54,7 +54,8 @@ class GifWriter final : public FrameSink {
  public:
   GifWriter(const std::string& path, const SmallClipSettings& settings);
   ~GifWriter() override;
-  void write(const Image& frame) override;
+  using FrameSink::write;
+  void write(const Image& frame, const std::vector<PixelBox>& changed) override;
   bool takes_next() const override;
   void skip() override;
   void finish() override;
@@ -68,7 +69,8 @@ class ApngWriter final : public FrameSink {
  public:
   ApngWriter(const std::string& path, const SmallClipSettings& settings);
   ~ApngWriter() override;
-  void write(const Image& frame) override;
+  using FrameSink::write;
+  void write(const Image& frame, const std::vector<PixelBox>& changed) override;
   bool takes_next() const override;
   void skip() override;
   void finish() override;

@@ -19,10 +19,10 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-void copy_alpha(const Image& image, std::uint8_t* plane, int stride) {
-  for (int y = 0; y < image.height; ++y) {
+void copy_alpha(const Image& image, const PixelBox& box, std::uint8_t* plane, int stride) {
+  for (int y = box.y; y < box.bottom(); ++y) {
     const std::uint8_t* row = &image.bgra[std::size_t(4) * std::size_t(image.width) * std::size_t(y)];
-    for (int x = 0; x < image.width; ++x) plane[std::ptrdiff_t(stride) * y + x] = row[4 * x + 3];
+    for (int x = box.x; x < box.right(); ++x) plane[std::ptrdiff_t(stride) * y + x] = row[4 * x + 3];
   }
 }
 
@@ -80,14 +80,17 @@ struct ChunkEncoder::State {
                  [this](const AVPacket& packet) { chunk.packets.push_back(kept_packet(packet)); });
   }
 
-  void convert(const Image& image) {
+  bool has_frame = false;
+
+  // What `frame` shows in the box; the rest of the encoder's frame stays what it was.
+  void convert(const Image& image, const PixelBox& box) {
     if (row_of(settings.codec).every_pixel) {
       PlanesYuv444 planes;
       for (int i = 0; i < (settings.alpha ? 4 : 3); ++i) {
         planes.plane[i] = reinterpret_cast<std::uint16_t*>(frame->data[i]);
         planes.stride[i] = frame->linesize[i] / 2;
       }
-      convert_to_yuv444(image, planes);
+      convert_to_yuv444(image, box, planes);
       return;
     }
     PlanesYuv420 planes;
@@ -95,8 +98,8 @@ struct ChunkEncoder::State {
       planes.plane[i] = frame->data[i];
       planes.stride[i] = frame->linesize[i];
     }
-    convert_to_yuv420(image, planes);
-    if (settings.alpha) copy_alpha(image, frame->data[3], frame->linesize[3]);
+    convert_to_yuv420(image, box, planes);
+    if (settings.alpha) copy_alpha(image, box, frame->data[3], frame->linesize[3]);
   }
 };
 
@@ -108,19 +111,25 @@ ChunkEncoder::ChunkEncoder(const VideoSettings& settings) {
 
 ChunkEncoder::~ChunkEncoder() = default;
 
-void ChunkEncoder::write(const Image& image) {
+void ChunkEncoder::write(const Image& image, const std::vector<PixelBox>& changed) {
   State& s = *state_;
   if (image.width != s.settings.width || image.height != s.settings.height)
     throw Error(ExitCode::usage, "a frame of " + size_text(image.width, image.height) +
                                      " does not fit a film of " +
                                      size_text(s.settings.width, s.settings.height));
-  // The encoder may still hold the last frame: then its pixels are not ours to change.
+  // The encoder may still hold the last frame: then its pixels are not ours to change, and a copy takes their place.
   check_libav(libav().av_frame_make_writable(s.frame.get()), ExitCode::limit, "no memory left for a frame");
-  if (s.settings.alpha) {
+  const PixelBox whole = {0, 0, image.width, image.height};
+  if (s.settings.alpha) {  // colours spread beyond what changed
     s.bled = image;
     bleed_colors(s.bled);
+    s.convert(s.bled, whole);
+  } else if (!s.has_frame) {
+    s.convert(image, whole);
+  } else {
+    for (const PixelBox& box : changed) s.convert(image, box);
   }
-  s.convert(s.settings.alpha ? s.bled : image);
+  s.has_frame = true;
   s.frame->pts = s.chunk.frames++;
   s.send(s.frame.get());
 }

@@ -48,9 +48,11 @@ class ChunkEncoder final : public FrameSink {
   explicit ChunkEncoder(const VideoSettings& settings);
   ~ChunkEncoder() override;
 
-  void write(const Image& frame) override;  // of exactly the size in the settings
-  void finish() override;                   // flushes the encoder
-  FilmChunk take();                         // once it is finished
+  using FrameSink::write;
+  // Of exactly the size in the settings.
+  void write(const Image& frame, const std::vector<PixelBox>& changed) override;
+  void finish() override;  // flushes the encoder
+  FilmChunk take();        // once it is finished
 
  private:
   struct State;

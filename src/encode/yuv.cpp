@@ -131,31 +131,37 @@ int convert_columns_by_eight(const RowPair&, int) {
 
 #endif
 
-RowPair row_pair(const Image& image, const PlanesYuv420& planes, int y) {
+// That of the box which begins in row y.
+RowPair row_pair(const Image& image, const PlanesYuv420& planes, int x, int y) {
   const std::ptrdiff_t row = std::ptrdiff_t(4) * image.width;
-  const std::uint8_t* upper = image.bgra.data() + row * y;
-  std::uint8_t* y_upper = planes.plane[0] + std::ptrdiff_t(planes.stride[0]) * y;
+  const std::uint8_t* upper = image.bgra.data() + row * y + std::ptrdiff_t(4) * x;
+  std::uint8_t* y_upper = planes.plane[0] + std::ptrdiff_t(planes.stride[0]) * y + x;
   return {upper,
           upper + row,
           y_upper,
           y_upper + planes.stride[0],
-          planes.plane[1] + std::ptrdiff_t(planes.stride[1]) * (y / 2),
-          planes.plane[2] + std::ptrdiff_t(planes.stride[2]) * (y / 2)};
+          planes.plane[1] + std::ptrdiff_t(planes.stride[1]) * (y / 2) + x / 2,
+          planes.plane[2] + std::ptrdiff_t(planes.stride[2]) * (y / 2) + x / 2};
+}
+
+[[maybe_unused]] bool is_even(const PixelBox& box) {
+  return box.x % 2 == 0 && box.y % 2 == 0 && box.width % 2 == 0 && box.height % 2 == 0;
 }
 
 }  // namespace
 
-void convert_to_yuv420(const Image& image, const PlanesYuv420& planes) {
-  assert(image.width % 2 == 0 && image.height % 2 == 0);
-  for (int y = 0; y < image.height; y += 2) {
-    const RowPair rows = row_pair(image, planes, y);
-    convert_columns(rows, convert_columns_by_eight(rows, image.width), image.width);
+void convert_to_yuv420(const Image& image, const PixelBox& box, const PlanesYuv420& planes) {
+  assert(is_even(box));
+  for (int y = box.y; y < box.bottom(); y += 2) {
+    const RowPair rows = row_pair(image, planes, box.x, y);
+    convert_columns(rows, convert_columns_by_eight(rows, box.width), box.width);
   }
 }
 
-void convert_to_yuv420_scalar(const Image& image, const PlanesYuv420& planes) {
-  assert(image.width % 2 == 0 && image.height % 2 == 0);
-  for (int y = 0; y < image.height; y += 2) convert_columns(row_pair(image, planes, y), 0, image.width);
+void convert_to_yuv420_scalar(const Image& image, const PixelBox& box, const PlanesYuv420& planes) {
+  assert(is_even(box));
+  for (int y = box.y; y < box.bottom(); y += 2)
+    convert_columns(row_pair(image, planes, box.x, y), 0, box.width);
 }
 
 namespace {
@@ -172,13 +178,13 @@ constexpr std::uint16_t level(const Weights& w, int zero, const std::uint8_t* p)
 
 }  // namespace
 
-void convert_to_yuv444(const Image& image, const PlanesYuv444& planes) {
-  for (int y = 0; y < image.height; ++y) {
-    const std::uint8_t* p = image.bgra.data() + std::ptrdiff_t(4) * image.width * y;
+void convert_to_yuv444(const Image& image, const PixelBox& box, const PlanesYuv444& planes) {
+  for (int y = box.y; y < box.bottom(); ++y) {
+    const std::uint8_t* p = image.bgra.data() + std::ptrdiff_t(4) * (std::ptrdiff_t(image.width) * y + box.x);
     const auto row = [&](int i) { return planes.plane[i] + std::ptrdiff_t(planes.stride[i]) * y; };
     std::uint16_t *luma = row(0), *cb = row(1), *cr = row(2);
     std::uint16_t* alpha = planes.plane[3] == nullptr ? nullptr : row(3);
-    for (int x = 0; x < image.width; ++x, p += 4) {
+    for (int x = box.x; x < box.right(); ++x, p += 4) {
       luma[x] = level(kTo10.y, 64, p);
       cb[x] = level(kTo10.cb, 512, p);
       cr[x] = level(kTo10.cr, 512, p);

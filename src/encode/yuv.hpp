@@ -12,6 +12,7 @@
 #include <cstdint>
 
 #include "core/image.hpp"
+#include "core/pixel_box.hpp"
 
 namespace chainreel {
 
@@ -20,11 +21,11 @@ struct PlanesYuv420 {
   int stride[3] = {};           // bytes from row to row
 };
 
-// Both sides of the image must be even.
-void convert_to_yuv420(const Image& image, const PlanesYuv420& planes);
+// The part of the image that the box holds, whose sides must be even and within the image; the rest of the planes stays.
+void convert_to_yuv420(const Image& image, const PixelBox& box, const PlanesYuv420& planes);
 
 // The same bytes without vector instructions: what the other is tested against.
-void convert_to_yuv420_scalar(const Image& image, const PlanesYuv420& planes);
+void convert_to_yuv420_scalar(const Image& image, const PixelBox& box, const PlanesYuv420& planes);
 
 // BGRA pixels to planar 4:4:4 YCbCr with opacity, 10 bits in 16, ITU-R BT.709-6 limited range: the formulas
 // of yuv420.hpp with 64, 876, 512 and 896 for 16, 219, 128 and 224. Opacity is straight and full range.
@@ -34,7 +35,7 @@ struct PlanesYuv444 {
   int stride[4] = {};            // numbers from row to row
 };
 
-void convert_to_yuv444(const Image& image, const PlanesYuv444& planes);
+void convert_to_yuv444(const Image& image, const PixelBox& box, const PlanesYuv444& planes);
 
 // Luma and chroma of BT.709 as sums of integers: the same bytes on every machine. Internal.
 

@@ -1,8 +1,10 @@
 #include "render/batch.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "core/error.hpp"
 #include "core/scalar.hpp"
@@ -19,6 +21,42 @@ constexpr double kLargestAxis = 1e6;      // px: and 1/16 px here
 constexpr double kLargestText = 1 << 13;  // px per em
 constexpr int kMostCells = 4096;           // along a side: Mesa takes textures of 8192 and more
 constexpr int kCorners = 8;
+
+// 64 bits of what has been added: different for what differs, but by a chance of 2^-64.
+class Look {
+ public:
+  void add(std::uint64_t word) {
+    state_ = (state_ ^ word) * 0x9E3779B97F4A7C15u;
+    state_ = (state_ ^ (state_ >> 32)) * 0xD6E8FEB86659FD93u;
+    state_ ^= state_ >> 29;
+  }
+  void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
+  void add(const PixelBox& box) {
+    add(std::uint64_t(std::uint32_t(box.x)) << 32 | std::uint32_t(box.y));
+    add(std::uint64_t(std::uint32_t(box.width)) << 32 | std::uint32_t(box.height));
+  }
+  void add(std::span<const float> numbers) {
+    for (std::size_t i = 0; i + 1 < numbers.size(); i += 2)
+      add(std::uint64_t(std::bit_cast<std::uint32_t>(numbers[i])) << 32 |
+          std::bit_cast<std::uint32_t>(numbers[i + 1]));
+  }
+  void add(std::span<const std::uint8_t> bytes) {
+    for (std::size_t i = 0; i + 3 < bytes.size(); i += 4)
+      add(std::uint64_t(bytes[i]) << 24 | std::uint64_t(bytes[i + 1]) << 16 | std::uint64_t(bytes[i + 2]) << 8 |
+          bytes[i + 3]);
+  }
+  std::uint64_t value() const { return state_; }
+
+ private:
+  std::uint64_t state_ = 0x2545F4914F6CDD1Du;
+};
+
+std::uint64_t more(std::uint64_t look, std::uint64_t word) {
+  Look both;
+  both.add(look);
+  both.add(word);
+  return both.value();
+}
 
 }  // namespace
 
@@ -39,7 +77,7 @@ struct Batch::Pixels {
 };
 
 Batch::Batch(int width, int height, GlyphAtlas& atlas)
-    : width_(width), height_(height), atlas_(atlas), touched_(width, height) {}
+    : width_(width), height_(height), atlas_(&atlas) {}
 
 Batch::Pixels Batch::to_pixels(Point p) const {
   return {height_ * p.x, height_ * (1 - p.y)};
@@ -50,13 +88,16 @@ PixelBox Batch::to_pixels(const Rect& rect) const {
     return int(std::lround(std::clamp(edge, 0.0, double(largest))));
   };
   const Pixels low = to_pixels(Point{rect.x0, rect.y1}), high = to_pixels(Point{rect.x1, rect.y0});
-  return {pixel(low.x, width_), pixel(low.y, height_), pixel(high.x, width_), pixel(high.y, height_)};
+  return box_between(pixel(low.x, width_), pixel(low.y, height_), pixel(high.x, width_), pixel(high.y, height_));
 }
 
-// False for boxes that are not numbers, too.
-bool Batch::is_visible(double left, double top, double right, double bottom) const {
-  return right > clip_.left && left < clip_.right && bottom > clip_.top && top < clip_.bottom &&
-         std::isfinite(left + top + right + bottom);
+// All pixels that lie between the sides, within the clip. Empty for sides that are not numbers, too.
+PixelBox Batch::visible_box(double left, double top, double right, double bottom) const {
+  if (!std::isfinite(left + top + right + bottom)) return {};
+  const auto inside = [](double edge, int low, int high) { return int(std::clamp(edge, double(low), double(high))); };
+  return box_between(inside(std::floor(left), clip_.x, clip_.right()), inside(std::floor(top), clip_.y, clip_.bottom()),
+                     inside(std::ceil(right), clip_.x, clip_.right()),
+                     inside(std::ceil(bottom), clip_.y, clip_.bottom()));
 }
 
 // False where nothing would be seen.
@@ -68,18 +109,28 @@ bool Batch::set_paint(const Paint& paint, double& half_stroke, Vector& fill, Vec
   return has_stroke || paint.fill.a > 0;
 }
 
-void Batch::append(Primitive primitive, std::initializer_list<Vector> vectors) {
-  const PrimitiveRow& row = kPrimitives[std::size_t(primitive)];
+Piece& Batch::append(Primitive primitive, const Outline& outline, std::initializer_list<Vector> vectors) {
+  const auto size = std::size_t(4 * kPrimitives[std::size_t(primitive)].vectors);
   std::vector<float>& stream = streams_[std::size_t(primitive)];
-  if (runs_.empty() || runs_.back().primitive != primitive || runs_.back().clip != clip_ ||
-      primitive == Primitive::cells || primitive == Primitive::solids)
-    runs_.push_back({primitive, int(stream.size()) / (4 * row.vectors), 0, clip_});
+  Piece piece{.primitive = primitive, .instance = int(stream.size() / size), .outline = outline};
   for (const Vector& v : vectors) stream.insert(stream.end(), {v.x, v.y, v.z, v.w});
-  ++runs_.back().count;
+  Look look;
+  look.add(std::uint64_t(primitive));
+  look.add(clip_);
+  // The atlas may hold another glyph in the same place by and by: what it is is added where it is known.
+  const std::size_t known = primitive == Primitive::glyph ? 4 : 0;
+  look.add(std::span<const float>(stream).last(size - known));
+  piece.look = look.value();
+  return pieces_.emplace_back(piece);
+}
+
+const float* Batch::numbers(const Piece& piece) const {
+  const auto size = std::size_t(4 * kPrimitives[std::size_t(piece.primitive)].vectors);
+  return &streams_[std::size_t(piece.primitive)][std::size_t(piece.instance) * size];
 }
 
 void Batch::set(const Picture& picture) {
-  runs_.clear();
+  pieces_.clear();
   cell_sheets_.clear();
   solids_.clear();
   for (std::vector<float>& stream : streams_) stream.clear();
@@ -117,9 +168,9 @@ void Batch::add(const Capsule& capsule) {
       half_stroke > 0 ? height_ * capsule.radius : std::max(kThinnest, height_ * capsule.radius);
   const double reach = radius + half_stroke + kFringe;
   Pixels a = to_pixels(capsule.a), b = to_pixels(capsule.b);
-  if (!is_visible(std::min(a.x, b.x) - reach, std::min(a.y, b.y) - reach, std::max(a.x, b.x) + reach,
-                  std::max(a.y, b.y) + reach))
-    return;
+  const PixelBox box = visible_box(std::min(a.x, b.x) - reach, std::min(a.y, b.y) - reach,
+                                   std::max(a.x, b.x) + reach, std::max(a.y, b.y) + reach);
+  if (box.empty()) return;
 
   double alpha_a = capsule.alpha_a, alpha_b = capsule.alpha_b;
   const double farthest = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
@@ -137,7 +188,7 @@ void Batch::add(const Capsule& capsule) {
   const Pixels along = {b.x - a.x, b.y - a.y};
   const double length = std::sqrt(along.x * along.x + along.y * along.y);
   const Pixels axis = length > 0 ? Pixels{along.x / length, along.y / length} : Pixels{1, 0};
-  append(Primitive::capsule,
+  append(Primitive::capsule, {Outline::Kind::segment, box, a.x, a.y, axis.x, axis.y, length, 0, reach},
          {{a.x, a.y, axis.x, axis.y}, {length, radius, half_stroke}, {alpha_a, alpha_b}, fill, stroke});
 }
 
@@ -159,10 +210,11 @@ void Batch::add(const Ellipse& ellipse) {
   const double reach = half_stroke + kFringe;
   const double half_width = std::sqrt(a * a * axis.x * axis.x + b * b * axis.y * axis.y) + reach;
   const double half_height = std::sqrt(a * a * axis.y * axis.y + b * b * axis.x * axis.x) + reach;
-  if (!is_visible(center.x - half_width, center.y - half_height, center.x + half_width,
-                  center.y + half_height))
-    return;
-  append(Primitive::ellipse, {{center.x, center.y, axis.x, axis.y}, {a, b, half_stroke}, fill, stroke});
+  const PixelBox box = visible_box(center.x - half_width, center.y - half_height, center.x + half_width,
+                                   center.y + half_height);
+  if (box.empty()) return;
+  append(Primitive::ellipse, {Outline::Kind::ellipse, box, center.x, center.y, axis.x, axis.y, a, b, reach},
+         {{center.x, center.y, axis.x, axis.y}, {a, b, half_stroke}, fill, stroke});
 }
 
 void Batch::add(const Arc& arc) {
@@ -171,10 +223,12 @@ void Batch::add(const Arc& arc) {
   const double radius = height_ * arc.radius, half_width = std::max(kThinnest, height_ * arc.width / 2);
   const double reach = radius + half_width + kFringe;
   const Pixels center = to_pixels(arc.center);
-  if (!is_visible(center.x - reach, center.y - reach, center.x + reach, center.y + reach)) return;
+  const PixelBox box = visible_box(center.x - reach, center.y - reach, center.x + reach, center.y + reach);
+  if (box.empty()) return;
   const auto middle = sin_cos(arc.start + arc.sweep / 2);
   const auto half = sin_cos(std::min(std::abs(arc.sweep) / 2, std::numbers::pi));
-  append(Primitive::arc, {{center.x, center.y, middle.c, -middle.s},
+  append(Primitive::arc, {Outline::Kind::ring, box, center.x, center.y, 1, 0, radius, 0, half_width + kFringe},
+         {{center.x, center.y, middle.c, -middle.s},
                           {radius, half_width, half.s, half.c},
                           Vector::premultiplied(arc.color)});
 }
@@ -195,8 +249,8 @@ void Batch::add(const Polygon& polygon) {
     corners.push_back(p);
   }
   const double reach = half_stroke + kFringe;
-  if (!is_visible(left - reach, top - reach, right + reach, bottom + reach) || !std::isfinite(twice_area))
-    return;
+  const PixelBox box = visible_box(left - reach, top - reach, right + reach, bottom + reach);
+  if (box.empty() || !std::isfinite(twice_area)) return;
 
   // The shader takes eight corners in one sense; the missing ones divide the longest edges.
   if (twice_area < 0) std::reverse(corners.begin(), corners.end());
@@ -215,26 +269,16 @@ void Batch::add(const Polygon& polygon) {
   const auto pair = [&corners](std::size_t i) {
     return Vector(corners[i].x, corners[i].y, corners[i + 1].x, corners[i + 1].y);
   };
-  append(Primitive::polygon, {pair(0), pair(2), pair(4), pair(6), {half_stroke}, fill, stroke});
+  append(Primitive::polygon, {.kind = Outline::Kind::polygon, .box = box, .reach = reach}, {pair(0), pair(2), pair(4), pair(6), {half_stroke}, fill, stroke});
 }
-
-namespace {
-
-PixelBox enclosing(const std::vector<PixelBox>& boxes) {
-  if (boxes.empty()) return {};
-  PixelBox all = boxes.front();
-  for (const PixelBox& box : boxes)
-    all = {std::min(all.left, box.left), std::min(all.top, box.top), std::max(all.right, box.right),
-           std::max(all.bottom, box.bottom)};
-  return all;
-}
-
-}  // namespace
 
 void Batch::add(const Trail& trail) {
   if (!(trail.color.a > 0) || trail.points.empty()) return;
-  touched_.clear();
-  bool is_seen = false;
+  const int first = int(pieces_.size());
+  const Vector color = Vector::premultiplied(trail.color);
+  PixelBox all;
+  Look paint;
+  for (const float level : {color.x, color.y, color.z, color.w}) paint.add(double(level));
   const std::size_t last = trail.points.size() - 1;
   for (std::size_t i = 0; i < std::max<std::size_t>(last, 1); ++i) {
     const TrailPoint& from = trail.points[i];
@@ -243,20 +287,20 @@ void Batch::add(const Trail& trail) {
     const double radius_a = std::max(kThinnest, height_ * from.width / 2);
     const double radius_b = std::max(kThinnest, height_ * to.width / 2);
     const double reach = std::max(radius_a, radius_b) + kFringe;
-    if ((from.alpha <= 0 && to.alpha <= 0) ||
-        !is_visible(std::min(a.x, b.x) - reach, std::min(a.y, b.y) - reach, std::max(a.x, b.x) + reach,
-                    std::max(a.y, b.y) + reach))
-      continue;
-    append(Primitive::trail, {{a.x, a.y, b.x, b.y}, {radius_a, radius_b, from.alpha, to.alpha}});
-    touched_.mark_segment(a.x, a.y, b.x, b.y, reach);
-    is_seen = true;
+    if (from.alpha <= 0 && to.alpha <= 0) continue;
+    const PixelBox box = visible_box(std::min(a.x, b.x) - reach, std::min(a.y, b.y) - reach,
+                                     std::max(a.x, b.x) + reach, std::max(a.y, b.y) + reach);
+    if (box.empty()) continue;
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    const Pixels axis = length > 0 ? Pixels{(b.x - a.x) / length, (b.y - a.y) / length} : Pixels{1, 0};
+    Piece& piece =
+        append(Primitive::trail, {Outline::Kind::segment, box, a.x, a.y, axis.x, axis.y, length, 0, reach},
+               {{a.x, a.y, b.x, b.y}, {radius_a, radius_b, from.alpha, to.alpha}});
+    piece.look = more(piece.look, paint.value());
+    all = box_around(all, box);
   }
-  if (!is_seen) return;
-  touched_.boxes(clip_, trail_boxes_);
-  runs_.back().clip = enclosing(trail_boxes_);
-  for (const PixelBox& box : trail_boxes_)
-    append(Primitive::layer, {{double(box.left), double(box.top), double(box.right), double(box.bottom)},
-                              Vector::premultiplied(trail.color)});
+  // Where it differs its pieces do.
+  if (int(pieces_.size()) > first) append(Primitive::layer, {Outline::Kind::box, all}, {color}).first_of_path = first;
 }
 
 void Batch::add(const GlyphRun& run) {
@@ -267,16 +311,21 @@ void Batch::add(const GlyphRun& run) {
                                      std::to_string(long(kLargestText)));
   for (const Glyph& glyph : run.glyphs) {
     const Pixels pen = to_pixels(run.origin + Point{glyph.x, glyph.y});
-    if (!is_visible(pen.x - 2 * size, pen.y - 2 * size, pen.x + 2 * size, pen.y + 2 * size)) continue;
+    if (visible_box(pen.x - 2 * size, pen.y - 2 * size, pen.x + 2 * size, pen.y + 2 * size).empty()) continue;
     const long quarters = std::lround(GlyphAtlas::kSteps * pen.x);
     const long step = ((quarters % GlyphAtlas::kSteps) + GlyphAtlas::kSteps) % GlyphAtlas::kSteps;
-    const AtlasGlyph& bitmap = atlas_.glyph(run.face, glyph.index, int(std::lround(64 * size)), int(step));
+    const AtlasGlyph& bitmap = atlas_->glyph(run.face, glyph.index, int(std::lround(64 * size)), int(step));
     if (bitmap.width == 0) continue;
     const double left = double((quarters - step) / GlyphAtlas::kSteps) + bitmap.offset_x;
     const double top = double(std::lround(pen.y)) + bitmap.offset_y;
-    append(Primitive::glyph, {{left, top, double(bitmap.width), double(bitmap.height)},
-                              {double(bitmap.left), double(bitmap.top)},
-                              Vector::premultiplied(run.color)});
+    const PixelBox box = visible_box(left, top, left + bitmap.width, top + bitmap.height);
+    if (box.empty()) continue;
+    Piece& piece = append(Primitive::glyph, {Outline::Kind::box, box},
+                          {{double(bitmap.left), double(bitmap.top)},
+                           {left, top, double(bitmap.width), double(bitmap.height)},
+                           Vector::premultiplied(run.color)});
+    piece.look = more(piece.look, std::uint64_t(run.face) << 62 | std::uint64_t(glyph.index) << 30 |
+                                      std::uint64_t(std::lround(64 * size)) << 4 | std::uint64_t(step));
   }
 }
 
@@ -284,9 +333,8 @@ void Batch::add(const Cells& cells) {
   const std::size_t count = std::size_t(std::max(cells.nx, 0)) * std::size_t(std::max(cells.ny, 0));
   const Pixels low = to_pixels(Point{cells.rect.x0, cells.rect.y1});
   const Pixels high = to_pixels(Point{cells.rect.x1, cells.rect.y0});
-  if (count == 0 || cells.colors.size() != count || !(high.x > low.x) || !(high.y > low.y) ||
-      !is_visible(low.x, low.y, high.x, high.y))
-    return;
+  const PixelBox box = visible_box(low.x - kFringe, low.y - kFringe, high.x + kFringe, high.y + kFringe);
+  if (count == 0 || cells.colors.size() != count || !(high.x > low.x) || !(high.y > low.y) || box.empty()) return;
   if (std::max(cells.nx, cells.ny) > kMostCells)
     throw Error(ExitCode::limit, "a map of " + std::to_string(cells.nx) + "x" + std::to_string(cells.ny) +
                                      " cells; each side may have up to " + std::to_string(kMostCells));
@@ -299,9 +347,33 @@ void Batch::add(const Cells& cells) {
         sheet.rgba.push_back(std::uint8_t(std::lround(c.a * level)));
       sheet.rgba.push_back(std::uint8_t(std::lround(255 * c.a)));
     }
+  Look colors;
+  colors.add(std::span<const std::uint8_t>(sheet.rgba));
   cell_sheets_.push_back(std::move(sheet));
-  append(Primitive::cells, {{low.x, low.y, high.x, high.y}, {double(cells.nx), double(cells.ny)}});
+  Piece& piece = append(Primitive::cells, {Outline::Kind::box, box},
+                        {{low.x, low.y, high.x, high.y}, {double(cells.nx), double(cells.ny)}});
+  piece.look = more(piece.look, colors.value());
 }
+
+namespace {
+
+// Meshes by their places in memory, which are theirs as long as a canvas draws them.
+std::uint64_t look_of(const Solids& solids) {
+  Look look;
+  for (const double number : {solids.origin.x, solids.origin.y, solids.scale, solids.nearness}) look.add(number);
+  look.add(std::uint64_t(solids.is_shadow));
+  for (const Solid& part : solids.parts) {
+    look.add(std::uint64_t(reinterpret_cast<std::uintptr_t>(part.mesh.get())));
+    for (const double number : part.to_view) look.add(number);
+    const Color color = part.color.value_or(Color{});
+    look.add(std::uint64_t(part.color.has_value()) << 24 | std::uint64_t(color.r) << 16 |
+             std::uint64_t(color.g) << 8 | color.b);
+    look.add(color.a);
+  }
+  return look.value();
+}
+
+}  // namespace
 
 void Batch::add(const Solids& solids) {
   if (solids.parts.empty() || !(solids.opacity > 0) || !is_drawable(solids)) return;
@@ -309,9 +381,8 @@ void Batch::add(const Solids& solids) {
   const double radius = has_line ? std::max(2 * kThinnest, height_ * solids.outline_width) : 0;
   const double opacity = solids.is_shadow ? solids.opacity * solids.outline.a : solids.opacity;
   solids_.push_back(&solids);
-  append(Primitive::solids, {{double(clip_.left), double(clip_.top), double(clip_.right), double(clip_.bottom)},
-                             {opacity, radius},
-                             Vector::premultiplied(solids.outline)});
+  Piece& piece = append(Primitive::solids, {Outline::Kind::box, clip_}, {{opacity, radius}, Vector::premultiplied(solids.outline)});
+  piece.look = more(piece.look, look_of(solids));
 }
 
 }  // namespace chainreel

@@ -1,5 +1,5 @@
-// A picture's shapes as numbers for the shaders: each primitive has one stream of instances, and runs of
-// equal primitives keep the painter's order. Needs no OpenGL.
+// A picture's shapes as numbers for the shaders, one piece a shape that is drawn by itself, in painter's order. Needs
+// no OpenGL.
 #pragma once
 
 #include <array>
@@ -9,26 +9,39 @@
 
 #include "picture/picture.hpp"
 #include "render/glyph_atlas.hpp"
-#include "render/tile_mask.hpp"
+#include "render/outline.hpp"
 
 namespace chainreel {
 
-enum class Primitive { capsule, ellipse, arc, polygon, glyph, trail, layer, cells, solids };
+enum class Primitive { capsule, ellipse, arc, polygon, glyph, trail, layer, cells, solids, flat };
 
 struct PrimitiveRow {
   std::string_view name;  // of the shader pair
   int vectors;            // vec4 per instance; their meaning stands at the head of the vertex shader
 };
 
-inline constexpr std::array<PrimitiveRow, 9> kPrimitives = {{{"capsule", 5},
-                                                             {"ellipse", 4},
-                                                             {"arc", 3},
-                                                             {"polygon", 7},
-                                                             {"glyph", 3},
-                                                             {"trail", 2},
-                                                             {"layer", 2},
-                                                             {"cells", 2},
-                                                             {"solids", 3}}};
+inline constexpr std::array<PrimitiveRow, 10> kPrimitives = {{{"capsule", 5},
+                                                              {"ellipse", 4},
+                                                              {"arc", 3},
+                                                              {"polygon", 7},
+                                                              {"glyph", 3},
+                                                              {"trail", 2},
+                                                              {"layer", 1},
+                                                              {"cells", 2},
+                                                              {"solids", 2},
+                                                              {"flat", 1}}};
+
+// Where among the numbers of a primitive that may fill evenly its fill stands, premultiplied; 0 for all others.
+constexpr int place_of_fill(Primitive primitive) {
+  switch (primitive) {
+    case Primitive::ellipse:
+      return 8;
+    case Primitive::polygon:
+      return 20;
+    default:
+      return 0;
+  }
+}
 
 // The colours of one Cells as a texture wants them: multiplied by their opacity, top row first.
 struct CellSheet {
@@ -36,11 +49,12 @@ struct CellSheet {
   std::vector<std::uint8_t> rgba;
 };
 
-// `clip` of a trail's pieces is also the part of the layer to be cleared before; the next run colours it.
-struct Run {
-  Primitive primitive;
-  int first = 0, count = 0;  // instances
-  PixelBox clip;
+struct Piece {
+  Primitive primitive = Primitive::capsule;
+  int instance = 0;      // in the stream of its primitive
+  int first_of_path = 0;  // of Primitive::layer: it colours what the pieces from this one on have drawn
+  Outline outline;       // of solids just its box: they are looked at when they are drawn
+  std::uint64_t look = 0;  // equal for pieces that colour the page alike
 };
 
 class Batch {
@@ -51,11 +65,11 @@ class Batch {
   // which must live until they are drawn.
   void set(const Picture& picture);
 
-  const std::vector<Run>& runs() const { return runs_; }
-  const std::vector<float>& instances(Primitive primitive) const { return streams_[std::size_t(primitive)]; }
-  // The sheet of each instance of Primitive::cells; each is a run by itself.
+  const std::vector<Piece>& pieces() const { return pieces_; }
+  // Its vectors, kPrimitives[..].vectors times four numbers.
+  const float* numbers(const Piece& piece) const;
+  // By instance.
   const std::vector<CellSheet>& cell_sheets() const { return cell_sheets_; }
-  // The bodies of each instance of Primitive::solids, which are those of the picture; each is a run by itself.
   const std::vector<const Solids*>& solids() const { return solids_; }
 
  private:
@@ -64,9 +78,9 @@ class Batch {
 
   Pixels to_pixels(Point p) const;
   PixelBox to_pixels(const Rect& rect) const;
-  bool is_visible(double left, double top, double right, double bottom) const;
+  PixelBox visible_box(double left, double top, double right, double bottom) const;
   bool set_paint(const Paint& paint, double& half_stroke, Vector& fill, Vector& stroke) const;
-  void append(Primitive primitive, std::initializer_list<Vector> vectors);
+  Piece& append(Primitive primitive, const Outline& outline, std::initializer_list<Vector> vectors);
 
   void add(const Capsule& capsule);
   void add(const Ellipse& ellipse);
@@ -78,11 +92,9 @@ class Batch {
   void add(const Solids& solids);
 
   int width_, height_;
-  GlyphAtlas& atlas_;
-  TileMask touched_;  // by the trail being added
-  std::vector<PixelBox> trail_boxes_;
+  GlyphAtlas* atlas_;  // so that batches can be swapped
   PixelBox clip_;  // of the shape being added
-  std::vector<Run> runs_;
+  std::vector<Piece> pieces_;
   std::vector<CellSheet> cell_sheets_;
   std::vector<const Solids*> solids_;
   std::array<std::vector<float>, kPrimitives.size()> streams_;

@@ -7,10 +7,12 @@
 #include "core/error.hpp"
 #include "core/machine.hpp"
 #include "render/batch.hpp"
+#include "render/changes.hpp"
 #include "render/gl_context.hpp"
 #include "render/gl_objects.hpp"
 #include "render/glyph_atlas.hpp"
 #include "render/solid_layer.hpp"
+#include "render/windows.hpp"
 
 namespace chainreel {
 namespace {
@@ -46,12 +48,14 @@ void require_size(int width, int height, int largest) {
 }
 
 // Blending needs colours multiplied by their opacity; outside, opacity is straight.
-void divide_by_alpha(Image& image) {
-  for (std::size_t i = 0; i < image.bgra.size(); i += 4) {
-    const int alpha = image.bgra[i + 3];
-    if (alpha == 0 || alpha == 255) continue;
-    for (std::size_t k = i; k < i + 3; ++k)
-      image.bgra[k] = std::uint8_t(std::min(255, (255 * image.bgra[k] + alpha / 2) / alpha));
+void divide_by_alpha(Image& image, const PixelBox& box) {
+  for (int y = box.y; y < box.bottom(); ++y) {
+    std::uint8_t* p = &image.bgra[std::size_t(4) * (std::size_t(y) * std::size_t(image.width) + std::size_t(box.x))];
+    for (int x = 0; x < box.width; ++x, p += 4) {
+      const int alpha = p[3];
+      if (alpha == 0 || alpha == 255) continue;
+      for (int k = 0; k < 3; ++k) p[k] = std::uint8_t(std::min(255, (255 * p[k] + alpha / 2) / alpha));
+    }
   }
 }
 
@@ -70,14 +74,22 @@ struct Canvas::State {
   GlyphAtlas atlas;
   GLuint atlas_texture = 0, cell_texture = 0;
   int atlas_version = 0;
-  Batch batch;
+  Batch batch, batch_before;           // of the picture that is drawn, and of the one that the page shows
+  bool shows_batch_before = false;     // over the static layer
+  std::vector<TileMask> solid_tiles, solid_tiles_before;  // of each group of bodies
+  TileMask changed;
+  Windows windows;
+  CanvasFrame frame;
 
   State(int w, int h, const Fonts& fonts)
       : width(w),
         height(h),
         page(checked(gl, w, h, largest), Target::Kind::color, w, h),
         atlas(fonts, largest),
-        batch(w, h, atlas) {
+        batch(w, h, atlas),
+        batch_before(w, h, atlas),
+        changed(w, h) {
+    frame.image = Image(w, h);
     for (GLuint* texture : {&cell_texture, &atlas_texture}) {
       gl.GenTextures(1, texture);
       gl.BindTexture(GL_TEXTURE_2D, *texture);
@@ -85,6 +97,7 @@ struct Canvas::State {
       gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     }
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl.PixelStorei(GL_PACK_ROW_LENGTH, w);
     gl.Viewport(0, 0, w, h);
     gl.Enable(GL_SCISSOR_TEST);
     gl.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -102,11 +115,11 @@ struct Canvas::State {
     return gl;
   }
 
-  void scissor(const PixelBox& box) const {
-    gl.Scissor(box.left, box.top, box.right - box.left, box.bottom - box.top);
-  }
+  PixelBox whole() const { return {0, 0, width, height}; }
 
-  const PrimitiveProgram& program(Primitive primitive) {
+  void scissor(const PixelBox& box) const { gl.Scissor(box.x, box.y, box.width, box.height); }
+
+  PrimitiveProgram& program(Primitive primitive) {
     auto& program = programs[std::size_t(primitive)];
     const PrimitiveRow& row = kPrimitives[std::size_t(primitive)];
     if (!program) program.emplace(gl, row.name, row.vectors, width, height);
@@ -115,17 +128,29 @@ struct Canvas::State {
 
   void clear(const Color& background) const {
     const auto level = [&background](int c) { return float(background.a * c / 255); };
-    scissor({0, 0, width, height});
+    scissor(whole());
     gl.ClearColor(level(background.r), level(background.g), level(background.b), float(background.a));
     gl.Clear(GL_COLOR_BUFFER_BIT);
   }
 
+  void set(const Picture& picture) {
+    atlas.trim();
+    batch.set(picture);
+    solid_tiles.clear();
+    for (const Solids* solids : batch.solids()) {
+      if (!solid_layer) solid_layer.emplace(gl, width, height, largest);
+      solid_tiles.emplace_back(width, height);
+      solid_layer->touch(*solids, solid_tiles.back());
+    }
+  }
+
   void upload() {
     for (std::size_t i = 0; i < kPrimitives.size(); ++i) {
-      const std::vector<float>& instances = batch.instances(Primitive(i));
+      const std::vector<float>& instances = windows.instances(Primitive(i));
       if (!instances.empty()) program(Primitive(i)).upload(instances.data(), instances.size());
     }
-    if (batch.instances(Primitive::glyph).empty() || atlas_version == atlas.version()) return;
+    const bool has_glyphs = !windows.instances(Primitive::glyph).empty();
+    if (!has_glyphs || atlas_version == atlas.version()) return;
     gl.BindTexture(GL_TEXTURE_2D, atlas_texture);
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, atlas.width(), atlas.height(), 0, GL_RED, GL_UNSIGNED_BYTE,
                   atlas.sheet().data());
@@ -141,8 +166,10 @@ struct Canvas::State {
   void draw_trail(const Run& run, const Target& target) {
     if (!trail_layer) trail_layer.emplace(gl, Target::Kind::coverage, width, height);
     gl.BindFramebuffer(GL_FRAMEBUFFER, trail_layer->framebuffer());
-    gl.ClearColor(0, 0, 0, 0);
-    gl.Clear(GL_COLOR_BUFFER_BIT);
+    // By drawing: with a scissor the renderer fills what it clears pixel by pixel, too, and this is less.
+    gl.Disable(GL_BLEND);
+    program(Primitive::flat).draw(run.first_to_clear, run.count_to_clear);
+    gl.Enable(GL_BLEND);
     gl.BlendEquation(GL_MAX);
     program(run.primitive).draw(run.first, run.count);
     gl.BlendEquation(GL_FUNC_ADD);
@@ -150,51 +177,77 @@ struct Canvas::State {
   }
 
   // Bodies are drawn aside and put down where they are.
-  void draw_solids(const Run& run, const Target& target) {
-    if (!solid_layer) solid_layer.emplace(gl, width, height, largest);
-    const std::vector<PixelBox>& touched =
-        solid_layer->draw(*batch.solids()[std::size_t(run.first)], run.clip);
+  void draw_solids(const Run& run, const Target& target, const TileMask& tiles) {
+    const Piece& piece = batch.pieces()[std::size_t(run.piece)];
+    TileMask touched = solid_tiles[std::size_t(piece.instance)];
+    touched.keep(tiles);
+    std::vector<PixelBox> boxes;
+    touched.boxes(piece.outline.box, boxes);
+    if (boxes.empty()) return;
+    solid_layer->draw(*batch.solids()[std::size_t(piece.instance)], boxes);
     gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
+    scissor(whole());
     gl.BindTexture(GL_TEXTURE_2D, solid_layer->texture());
-    for (const PixelBox& box : touched) {
-      scissor(box);
-      program(run.primitive).draw(run.first, run.count);
-    }
+    std::vector<float> instances;
+    Windows::append(batch, piece, boxes, instances);
+    program(run.primitive).upload(instances.data(), instances.size());
+    program(run.primitive).draw(0, int(boxes.size()));
   }
 
-  void draw_runs(const Target& target) {
+  // Everything of the batch that lies in the tiles, onto what is there.
+  void draw_in(const TileMask& tiles, const Target& target) {
+    windows.set(batch, tiles);
+    upload();
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
+    scissor(whole());
     gl.Enable(GL_BLEND);
-    for (const Run& run : batch.runs()) {
-      scissor(run.clip);
+    for (const Run& run : windows.runs()) {
       if (run.primitive == Primitive::trail) {
         draw_trail(run, target);
         continue;
       }
       if (run.primitive == Primitive::solids) {
-        draw_solids(run, target);
+        draw_solids(run, target, tiles);
         continue;
       }
       if (run.primitive == Primitive::glyph) gl.BindTexture(GL_TEXTURE_2D, atlas_texture);
       if (run.primitive == Primitive::layer) gl.BindTexture(GL_TEXTURE_2D, trail_layer->texture());
-      if (run.primitive == Primitive::cells) upload_cells(batch.cell_sheets()[std::size_t(run.first)]);
+      if (run.primitive == Primitive::cells)
+        upload_cells(batch.cell_sheets()[std::size_t(batch.pieces()[std::size_t(run.piece)].instance)]);
       program(run.primitive).draw(run.first, run.count);
     }
     gl.Disable(GL_BLEND);
   }
 
-  void copy(const Target& from, const Target& to) const {
-    scissor({0, 0, width, height});
+  void copy(const Target& from, const Target& to, const std::vector<PixelBox>& boxes) const {
+    scissor(whole());
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, from.framebuffer());
     gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, to.framebuffer());
-    gl.BlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    for (const PixelBox& box : boxes)
+      gl.BlitFramebuffer(box.x, box.y, box.right(), box.bottom(), box.x, box.y, box.right(), box.bottom(),
+                         GL_COLOR_BUFFER_BIT, GL_NEAREST);
   }
 
-  void read(Image& image, bool is_translucent) const {
-    if (image.width != width || image.height != height) image = Image(width, height);
+  void read(const std::vector<PixelBox>& boxes, bool is_translucent) {
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, page.framebuffer());
-    gl.ReadPixels(0, 0, width, height, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, image.bgra.data());
+    for (const PixelBox& box : boxes) {
+      const std::size_t first = std::size_t(box.y) * std::size_t(width) + std::size_t(box.x);
+      gl.ReadPixels(box.x, box.y, box.width, box.height, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV,
+                    frame.image.bgra.data() + 4 * first);
+    }
     check_gl(gl, "drawing a picture");
-    if (is_translucent) divide_by_alpha(image);
+    if (is_translucent)
+      for (const PixelBox& box : boxes) divide_by_alpha(frame.image, box);
+  }
+
+  // The tiles in which the page will differ from what it shows.
+  void find_changes() {
+    if (!static_layer || !shows_batch_before) return changed.fill();
+    changed.clear();
+    const auto touch = [](const std::vector<TileMask>& tiles) {
+      return [&tiles](const Piece& piece, TileMask& marked) { marked.add(tiles[std::size_t(piece.instance)]); };
+    };
+    mark_changes(batch_before, batch, touch(solid_tiles_before), touch(solid_tiles), changed);
   }
 };
 
@@ -213,30 +266,38 @@ void Canvas::set_static_layer(const Picture& picture) {
   s.context->make_current();
   if (!s.static_layer) s.static_layer.emplace(s.gl, Target::Kind::color, s.width, s.height);
   s.static_alpha = picture.background.a;
-  s.atlas.trim();
-  s.batch.set(picture);
-  s.upload();
+  s.shows_batch_before = false;
+  s.set(picture);
   s.gl.BindFramebuffer(GL_FRAMEBUFFER, s.static_layer->framebuffer());
   s.clear(picture.background);
-  s.draw_runs(*s.static_layer);
+  s.changed.fill();
+  s.draw_in(s.changed, *s.static_layer);
   check_gl(s.gl, "drawing the static layer");
 }
 
-void Canvas::draw(const Picture& picture, Image& image) {
+const CanvasFrame& Canvas::draw(const Picture& picture) {
   State& s = *state_;
   s.context->make_current();
-  s.atlas.trim();
-  s.batch.set(picture);
-  s.upload();
+  s.set(picture);
+  s.find_changes();
+  s.shows_batch_before = false;  // should this fail
+  s.changed.boxes(s.whole(), s.frame.changed);
   if (s.static_layer) {
-    s.copy(*s.static_layer, s.page);
-    s.gl.BindFramebuffer(GL_FRAMEBUFFER, s.page.framebuffer());
+    s.copy(*s.static_layer, s.page, s.frame.changed);
   } else {
     s.gl.BindFramebuffer(GL_FRAMEBUFFER, s.page.framebuffer());
     s.clear(picture.background);
   }
-  s.draw_runs(s.page);
-  s.read(image, (s.static_layer ? s.static_alpha : picture.background.a) < 1);
+  s.draw_in(s.changed, s.page);
+  s.read(s.frame.changed, (s.static_layer ? s.static_alpha : picture.background.a) < 1);
+  std::swap(s.batch, s.batch_before);
+  std::swap(s.solid_tiles, s.solid_tiles_before);
+  s.shows_batch_before = true;
+  return s.frame;
+}
+
+void Canvas::draw(const Picture& picture, Image& image) {
+  image = draw(picture).image;
 }
 
 RendererInfo probe_renderer() {

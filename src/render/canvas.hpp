@@ -4,8 +4,10 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/image.hpp"
+#include "core/pixel_box.hpp"
 #include "picture/picture.hpp"
 #include "picture/text.hpp"
 
@@ -25,6 +27,12 @@ RendererInfo probe_renderer();
 // one another want one each.
 void fill_by_several_threads(bool wanted = true);
 
+// What a canvas has drawn, and where it may differ from what it had drawn before.
+struct CanvasFrame {
+  Image image;
+  std::vector<PixelBox> changed;  // boxes that do not overlap; the whole at first
+};
+
 class Canvas {
  public:
   // Throws Error (exit 4) where there is no OpenGL 3.3 core context, exit 7 where the size is beyond its
@@ -39,8 +47,11 @@ class Canvas {
   // What does not change between frames: drawn once, copied under every later draw(). The picture's
   // background fills the page. Without a call the page is the drawn picture's own background.
   void set_static_layer(const Picture& picture);
-  // Draws over the static layer and reads the pixels back into `image` (resized to fit, reused between
-  // calls).
+  // Draws over the static layer and reads the pixels back. Only those tiles are drawn and read in which the picture's
+  // shapes differ from those of the picture before: the bytes are the same as if all were. The frame stays the canvas's,
+  // until the next call.
+  const CanvasFrame& draw(const Picture& picture);
+  // The same into an image of one's own.
   void draw(const Picture& picture, Image& image);
 
  private:

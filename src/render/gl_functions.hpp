@@ -37,7 +37,6 @@ namespace chainreel {
   X(DeleteVertexArrays)           \
   X(DepthMask)                    \
   X(Disable)                      \
-  X(DrawArraysInstanced)          \
   X(DrawElements)                 \
   X(Enable)                       \
   X(EnableVertexAttribArray)      \
@@ -70,7 +69,6 @@ namespace chainreel {
   X(Uniform2f)                    \
   X(Uniform4f)                    \
   X(UseProgram)                   \
-  X(VertexAttribDivisor)          \
   X(VertexAttribPointer)          \
   X(Viewport)
 

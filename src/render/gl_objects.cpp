@@ -1,5 +1,6 @@
 #include "render/gl_objects.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -120,38 +121,52 @@ PrimitiveProgram::PrimitiveProgram(const GlFunctions& gl, std::string_view name,
 
   gl_.GenVertexArrays(1, &vertex_array_);
   gl_.GenBuffers(1, &buffer_);
+  gl_.GenBuffers(1, &corners_);
   gl_.BindVertexArray(vertex_array_);
-  for (int i = 0; i < vectors_; ++i) {
+  gl_.BindBuffer(GL_ARRAY_BUFFER, buffer_);
+  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, corners_);
+  constexpr std::size_t kVectorBytes = 4 * sizeof(float);
+  const std::size_t all = std::size_t(1 + vectors_);  // the window comes first
+  for (std::size_t i = 0; i < all; ++i) {
     gl_.EnableVertexAttribArray(GLuint(i));
-    gl_.VertexAttribDivisor(GLuint(i), 1);
+    gl_.VertexAttribPointer(GLuint(i), 4, GL_FLOAT, GL_FALSE, GLsizei(all * kVectorBytes),
+                            reinterpret_cast<const void*>(std::uintptr_t(i * kVectorBytes)));
   }
   check_gl(gl_, "preparing the shaders");
 }
 
 PrimitiveProgram::~PrimitiveProgram() {
+  gl_.DeleteBuffers(1, &corners_);
   gl_.DeleteBuffers(1, &buffer_);
   gl_.DeleteVertexArrays(1, &vertex_array_);
   gl_.DeleteProgram(program_);
 }
 
-void PrimitiveProgram::upload(const float* instances, std::size_t floats) const {
+// Each corner bears all numbers of its instance: drawn as instances, each would pass the renderer's stages alone, at the
+// price of some 100 pixels.
+void PrimitiveProgram::upload(const float* instances, std::size_t floats) {
+  const std::size_t size = std::size_t(4 * (1 + vectors_)), count = floats / size;
+  vertices_.clear();
+  for (std::size_t i = 0; i < count; ++i)
+    for (int corner = 0; corner < 4; ++corner)
+      vertices_.insert(vertices_.end(), instances + i * size, instances + (i + 1) * size);
+  gl_.BindVertexArray(vertex_array_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, buffer_);
-  gl_.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(floats * sizeof(float)), instances, GL_STREAM_DRAW);
+  gl_.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(vertices_.size() * sizeof(float)), vertices_.data(), GL_STREAM_DRAW);
+  if (count <= has_corners_) return;
+  has_corners_ = std::max(count, 2 * has_corners_);
+  std::vector<std::uint32_t> corners;
+  for (std::uint32_t i = 0; i < has_corners_; ++i)
+    for (const std::uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) corners.push_back(4 * i + corner);
+  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(corners.size() * sizeof(corners[0])), corners.data(),
+                 GL_STATIC_DRAW);
 }
 
 void PrimitiveProgram::draw(int first_instance, int count) const {
-  constexpr std::size_t kVectorBytes = 4 * sizeof(float);
-  const std::size_t stride = std::size_t(vectors_) * kVectorBytes;
   gl_.UseProgram(program_);
   gl_.BindVertexArray(vertex_array_);
-  gl_.BindBuffer(GL_ARRAY_BUFFER, buffer_);
-  // OpenGL 3.3 has no first instance: the attributes' pointers move instead.
-  for (int i = 0; i < vectors_; ++i) {
-    const std::size_t offset = std::size_t(first_instance) * stride + std::size_t(i) * kVectorBytes;
-    gl_.VertexAttribPointer(GLuint(i), 4, GL_FLOAT, GL_FALSE, GLsizei(stride),
-                            reinterpret_cast<const void*>(std::uintptr_t(offset)));
-  }
-  gl_.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(count));
+  gl_.DrawElements(GL_TRIANGLES, 6 * GLsizei(count), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(6 * sizeof(std::uint32_t) * std::size_t(first_instance)));
 }
 
 std::string_view shader_source(std::string_view name) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "render/gl_context.hpp"
 
@@ -36,7 +37,7 @@ class Target {
   GLuint texture_ = 0, framebuffer_ = 0;
 };
 
-// The shader pair NAME.vert, NAME.frag and the stream of its instances, each `vectors` vec4 long.
+// The shader pair NAME.vert, NAME.frag and the stream of its instances, each a window and `vectors` vec4 long.
 class PrimitiveProgram {
  public:
   PrimitiveProgram(const GlFunctions& gl, std::string_view name, int vectors, int page_width,
@@ -45,13 +46,15 @@ class PrimitiveProgram {
   PrimitiveProgram(const PrimitiveProgram&) = delete;
   PrimitiveProgram& operator=(const PrimitiveProgram&) = delete;
 
-  void upload(const float* instances, std::size_t floats) const;
+  void upload(const float* instances, std::size_t floats);
   void draw(int first_instance, int count) const;  // of what was uploaded last
 
  private:
   const GlFunctions& gl_;
   int vectors_;
-  GLuint program_ = 0, vertex_array_ = 0, buffer_ = 0;
+  GLuint program_ = 0, vertex_array_ = 0, buffer_ = 0, corners_ = 0;
+  std::size_t has_corners_ = 0;  // of so many instances
+  std::vector<float> vertices_;
 };
 
 // The texts of shaders/, embedded when the program is built.

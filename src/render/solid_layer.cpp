@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kFinePage = 540;  // px of height: smaller pages take more samples a pixel, since they cost less
 constexpr double kDepthMargin = 0.01;
+constexpr int kRim = TileMask::kSide;  // px around what is asked for that is drawn, too
 constexpr double kBodyFringe = 2;  // px around bodies that may be touched: outlines are a pixel wide at least
 
 int samples_for(int width, int height, int largest) {
@@ -117,7 +118,6 @@ SolidLayer::SolidLayer(const GlFunctions& gl, int width, int height, int largest
       width_(width),
       height_(height),
       samples_(samples_for(width, height, largest)),
-      touched_(width, height),
       program_(std::make_unique<Program>(gl, width, height)),
       target_(std::make_unique<Target>(gl, samples_ * width, samples_ * height)) {}
 
@@ -180,55 +180,53 @@ double SolidLayer::depth_of(const Solid& solid, const Buffers& buffers) {
   return z;
 }
 
+std::vector<MeshBounds> SolidLayer::bounds_of_parts(const Solids& solids) {
+  std::vector<MeshBounds> boxes;
+  for (const Solid& solid : solids.parts) boxes.push_back(buffers_of(solid.mesh).bounds);
+  return boxes;
+}
+
 // The tiles around each part, not around all: arms and legs leave most of the box around them empty.
-void SolidLayer::touch_tiles(const Solids& solids, const std::vector<MeshBounds>& boxes,
-                             const PixelBox& clip) {
-  touched_.clear();
+void SolidLayer::touch(const Solids& solids, TileMask& tiles) {
+  const std::vector<MeshBounds> boxes = bounds_of_parts(solids);
   Solids part = solids;
   for (std::size_t i = 0; i < solids.parts.size(); ++i) {
     part.parts = {solids.parts[i]};
     const std::optional<SolidBounds> bounds = bounds_of(part, {boxes[i]});
     if (!bounds) continue;
+    const auto pixel = [](double edge, int largest) { return int(std::clamp(edge, -1.0, largest + 1.0)); };
     const Rect& r = bounds->page;
-    touched_.mark_box(height_ * r.x0 - kBodyFringe, height_ * (1 - r.y1) - kBodyFringe, height_ * r.x1 + kBodyFringe,
-                      height_ * (1 - r.y0) + kBodyFringe);
+    tiles.mark_box(box_between(pixel(std::floor(height_ * r.x0 - kBodyFringe), width_),
+                               pixel(std::floor(height_ * (1 - r.y1) - kBodyFringe), height_),
+                               pixel(std::ceil(height_ * r.x1 + kBodyFringe), width_),
+                               pixel(std::ceil(height_ * (1 - r.y0) + kBodyFringe), height_)));
   }
-  touched_.boxes(clip, tiles_);
 }
 
 // With a rim, since an outline looks for bodies beyond its own pixel.
-void SolidLayer::clear_tiles() const {
+void SolidLayer::clear(const std::vector<PixelBox>& boxes) const {
   gl_.DepthMask(GL_TRUE);
   gl_.ClearColor(0, 0, 0, 0);
-  constexpr int kRim = TileMask::kSide;
-  for (const PixelBox& tile : tiles_) {
-    gl_.Scissor(samples_ * (tile.left - kRim), samples_ * (tile.top - kRim),
-                samples_ * (tile.right - tile.left + 2 * kRim),
-                samples_ * (tile.bottom - tile.top + 2 * kRim));
+  for (const PixelBox& box : boxes) {
+    gl_.Scissor(samples_ * (box.x - kRim), samples_ * (box.y - kRim), samples_ * (box.width + 2 * kRim),
+                samples_ * (box.height + 2 * kRim));
     gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   }
 }
 
-const std::vector<PixelBox>& SolidLayer::draw(const Solids& solids, const PixelBox& clip) {
-  tiles_.clear();
-  std::vector<const Buffers*> buffers;
-  std::vector<MeshBounds> boxes;
-  for (const Solid& solid : solids.parts) {
-    buffers.push_back(&buffers_of(solid.mesh));
-    boxes.push_back(buffers.back()->bounds);
-  }
+void SolidLayer::draw(const Solids& solids, const std::vector<PixelBox>& touched) {
+  const std::vector<MeshBounds> boxes = bounds_of_parts(solids);
   const std::optional<SolidBounds> bounds = bounds_of(solids, boxes);
-  if (!bounds) return tiles_;
-  touch_tiles(solids, boxes, clip);
-  if (tiles_.empty()) return tiles_;
+  if (!bounds) return;
+  std::vector<const Buffers*> buffers;
+  for (const Solid& solid : solids.parts) buffers.push_back(&buffers_of(solid.mesh));
 
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target_->color.framebuffer());
   gl_.Viewport(0, 0, samples_ * width_, samples_ * height_);
-  clear_tiles();
-  const int beyond = 2 + int(std::ceil(height_ * solids.outline_width));
-  gl_.Scissor(samples_ * (clip.left - beyond), samples_ * (clip.top - beyond),
-              samples_ * (clip.right - clip.left + 2 * beyond),
-              samples_ * (clip.bottom - clip.top + 2 * beyond));
+  clear(touched);
+  const PixelBox all = box_around(touched);
+  gl_.Scissor(samples_ * (all.x - kRim), samples_ * (all.y - kRim), samples_ * (all.width + 2 * kRim),
+              samples_ * (all.height + 2 * kRim));
   gl_.Enable(GL_DEPTH_TEST);
   gl_.FrontFace(GL_CW);  // counter-clockwise triangles, in pictures whose y points down
   gl_.UseProgram(program_->program);
@@ -236,9 +234,9 @@ const std::vector<PixelBox>& SolidLayer::draw(const Solids& solids, const PixelB
   std::vector<std::size_t> translucent;
   for (std::size_t i = 0; i < solids.parts.size(); ++i) {
     const std::optional<Color>& color = solids.parts[i].color;
-    const bool all = color && color->a < 1, some = !color && buffers[i]->opaque < buffers[i]->all;
-    if (solids.is_shadow || !all) draw_part(solids.parts[i], *buffers[i], solids, *bounds, Pass::opaque);
-    if (!solids.is_shadow && (all || some)) translucent.push_back(i);
+    const bool whole = color && color->a < 1, some = !color && buffers[i]->opaque < buffers[i]->all;
+    if (solids.is_shadow || !whole) draw_part(solids.parts[i], *buffers[i], solids, *bounds, Pass::opaque);
+    if (!solids.is_shadow && (whole || some)) translucent.push_back(i);
   }
   std::stable_sort(translucent.begin(), translucent.end(), [&](std::size_t a, std::size_t b) {
     return depth_of(solids.parts[a], *buffers[a]) < depth_of(solids.parts[b], *buffers[b]);
@@ -249,7 +247,6 @@ const std::vector<PixelBox>& SolidLayer::draw(const Solids& solids, const PixelB
   gl_.DepthMask(GL_TRUE);
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Viewport(0, 0, width_, height_);
-  return tiles_;
 }
 
 }  // namespace chainreel

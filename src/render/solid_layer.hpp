@@ -20,9 +20,12 @@ class SolidLayer {
   SolidLayer(const SolidLayer&) = delete;
   SolidLayer& operator=(const SolidLayer&) = delete;
 
-  // Draws what falls into `clip` and tells the parts of the page that it may touch, which do not overlap.
-  // Leaves its own framebuffer bound, and the viewport and the state of blending as they are for flat shapes.
-  const std::vector<PixelBox>& draw(const Solids& solids, const PixelBox& clip);
+  // Marks the tiles that the bodies may touch.
+  void touch(const Solids& solids, TileMask& tiles);
+
+  // Draws what falls into the boxes, which must not be empty, and their surroundings. Leaves its own framebuffer bound,
+  // and the viewport and the state of blending as they are for flat shapes.
+  void draw(const Solids& solids, const std::vector<PixelBox>& boxes);
 
   GLuint texture() const;
   int samples() const { return samples_; }  // along a pixel's side
@@ -33,8 +36,8 @@ class SolidLayer {
   struct Target;
 
   const Buffers& buffers_of(const std::shared_ptr<const TriangleMesh>& mesh);
-  void touch_tiles(const Solids& solids, const std::vector<MeshBounds>& boxes, const PixelBox& clip);
-  void clear_tiles() const;
+  std::vector<MeshBounds> bounds_of_parts(const Solids& solids);
+  void clear(const std::vector<PixelBox>& boxes) const;
   enum class Pass { opaque, translucent };
   void draw_part(const Solid& solid, const Buffers& buffers, const Solids& solids, const SolidBounds& bounds,
                  Pass pass);
@@ -42,8 +45,6 @@ class SolidLayer {
 
   const GlFunctions& gl_;
   int width_, height_, samples_;
-  TileMask touched_;
-  std::vector<PixelBox> tiles_;
   std::unique_ptr<Program> program_;
   std::unique_ptr<Target> target_;
   std::map<const TriangleMesh*, std::unique_ptr<Buffers>> meshes_;

@@ -52,16 +52,23 @@ void set_look(Scene& scene, const PictureLook& look) {
 AnyPicture frame_of(const std::string& name, const std::string& scene, const Words& more = {},
                     const Words& vary = {}) {
   const auto known = std::make_shared<std::shared_ptr<FilmRun>>();
-  return {name, [=](const PictureLook& look, const Fonts& fonts) {
-            if (!*known) *known = run_film(scene, more, vary);
-            FilmRun& run = **known;
-            set_look(run.film.scene, look);
-            for (PreparedScene& panel : run.film.panels) set_look(panel.scene, look);
-            const Film pictures = run.runs.pictures(run.clock.frame_count(), fonts);
-            Picture picture = pictures.static_layer();
-            picture.append(pictures.frame(std::min(kFrame, pictures.frame_count() - 1)));
+  const auto show = [=](const PictureLook& look, const Fonts& fonts, const std::function<void(const Film&)>& visit) {
+    if (!*known) *known = run_film(scene, more, vary);
+    FilmRun& run = **known;
+    set_look(run.film.scene, look);
+    for (PreparedScene& panel : run.film.panels) set_look(panel.scene, look);
+    visit(run.runs.pictures(run.clock.frame_count(), fonts));
+  };
+  return {name,
+          [=](const PictureLook& look, const Fonts& fonts) {
+            Picture picture;
+            show(look, fonts, [&](const Film& film) {
+              picture = film.static_layer();
+              picture.append(film.frame(std::min(kFrame, film.frame_count() - 1)));
+            });
             return picture;
-          }};
+          },
+          show};
 }
 
 PoseFigureOptions options_at(const PictureLook& look) {

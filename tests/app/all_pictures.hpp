@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "draw/film/film.hpp"
 #include "picture/picture.hpp"
 #include "picture/text.hpp"
 
@@ -20,6 +21,8 @@ struct PictureLook {
 struct AnyPicture {
   std::string name;
   std::function<Picture(const PictureLook&, const Fonts&)> draw;
+  // Shows the film of which `draw` takes a frame; none where the picture is no film's.
+  std::function<void(const PictureLook&, const Fonts&, const std::function<void(const Film&)>&)> show_film{};
 };
 
 // Frames of every scene of assets/scenes, of comparisons, with plots, with all layers; poses, figures of

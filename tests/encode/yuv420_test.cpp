@@ -15,13 +15,17 @@ struct Planes {
   friend bool operator==(const Planes&, const Planes&) = default;
 };
 
-using Converter = void (*)(const Image&, const PlanesYuv420&);
+using Converter = void (*)(const Image&, const PixelBox&, const PlanesYuv420&);
+
+PlanesYuv420 pointers_to(Planes& p, const Image& image) {
+  return {{p.y.data(), p.cb.data(), p.cr.data()}, {image.width, image.width / 2, image.width / 2}};
+}
 
 Planes planes_of(const Image& image, Converter convert) {
   const std::size_t pixels = std::size_t(image.width) * std::size_t(image.height);
   Planes p{std::vector<std::uint8_t>(pixels), std::vector<std::uint8_t>(pixels / 4),
            std::vector<std::uint8_t>(pixels / 4)};
-  convert(image, {{p.y.data(), p.cb.data(), p.cr.data()}, {image.width, image.width / 2, image.width / 2}});
+  convert(image, {0, 0, image.width, image.height}, pointers_to(p, image));
   return p;
 }
 
@@ -77,6 +81,21 @@ TEST(Yuv420, CornersOfTheColourCubeStayInLimitedRange) {
       EXPECT_GE(c, 16);
       EXPECT_LE(c, 240);
     }
+  }
+}
+
+TEST(Yuv420, PartsThatChangedMakeTheWhole) {
+  const Image before = random_picture(254, 62, 1);
+  const std::vector<PixelBox> parts = {{0, 0, 2, 2}, {32, 10, 78, 20}, {200, 0, 54, 62}, {252, 60, 2, 2}};
+  Image after = before;
+  for (const PixelBox& part : parts)
+    for (int y = part.y; y < part.bottom(); ++y)
+      for (int x = part.x; x < part.right(); ++x) after.bgra[std::size_t(4 * (y * after.width + x))] ^= 0x55u;
+  for (const Converter convert : {convert_to_yuv420, convert_to_yuv420_scalar}) {
+    Planes planes = planes_of(before, convert);
+    ASSERT_NE(planes, planes_of(after, convert));
+    for (const PixelBox& part : parts) convert(after, part, pointers_to(planes, after));
+    EXPECT_EQ(planes, planes_of(after, convert));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "encode/film_chunk.hpp"
 
@@ -14,9 +15,10 @@ class FilmOfFrames final : public FrameSink {
   FilmOfFrames(const std::string& path, const VideoSettings& settings)
       : settings_(settings), writer_(std::make_unique<FilmWriter>(path, settings)) {}
 
-  void write(const Image& frame) override {
+  using FrameSink::write;
+  void write(const Image& frame, const std::vector<PixelBox>& changed) override {
     if (!encoder_) encoder_ = std::make_unique<ChunkEncoder>(settings_);
-    encoder_->write(frame);
+    encoder_->write(frame, changed);
     if (++frames_ % std::max(1L, std::lround(2 * settings_.fps.value())) == 0) end_chunk();
   }
   void finish() override {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "compare/pixel_box.hpp"
+#include "core/pixel_box.hpp"
 #include "picture/picture.hpp"
 
 namespace chainreel {

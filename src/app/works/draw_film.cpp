@@ -43,18 +43,25 @@ class Pen {
     seconds.render += watch.lap();
   }
 
-  // The frame's pixels, good until the next call; a frame that stands there already is not drawn again.
+  // Good until the next call. A frame that stands there already is not drawn again, and has not changed.
   const Image& draw(int frame) {
-    if (frame == drawn_) return image_;
+    if (frame == drawn_) {
+      changed_.clear();
+      return *image_;
+    }
     throw_if_interrupted();
     watch.lap();
     const Picture picture = work_.film.frame(frame);
     seconds.draw += watch.lap();
-    canvas_.draw(picture, image_);
+    const CanvasFrame& drawn = canvas_.draw(picture);
+    image_ = &drawn.image;
+    changed_ = drawn.changed;
     seconds.render += watch.lap();
     drawn_ = frame;
-    return image_;
+    return *image_;
   }
+  // Where it differs from what was drawn before.
+  const std::vector<PixelBox>& changed() const { return changed_; }
 
   StageSeconds seconds;
   Stopwatch watch;
@@ -62,7 +69,8 @@ class Pen {
  private:
   const FilmWork& work_;
   Canvas canvas_;
-  Image image_;
+  const Image* image_ = nullptr;  // the canvas's
+  std::vector<PixelBox> changed_;
   int drawn_ = -1;
 };
 
@@ -242,7 +250,7 @@ void Workshop::draw_chunk(std::size_t index, Pen& pen) {
   for (int n = first; n < behind && !ended_; ++n, has_drawn()) {
     if (sinks.empty()) continue;
     const Image& image = pen.draw(work_.schedule.drawn(n));
-    for (const auto& sink : sinks) sink->write(image);
+    for (const auto& sink : sinks) sink->write(image, pen.changed());
     pen.seconds.encode += pen.watch.lap();
   }
   if (ended_) return;

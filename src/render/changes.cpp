@@ -1,0 +1,110 @@
+#include "render/changes.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace chainreel {
+namespace {
+
+// Where in a list of pieces each look is.
+class Places {
+ public:
+  explicit Places(const std::vector<Piece>& pieces) {
+    for (const Piece& piece : pieces) sorted_.emplace_back(piece.look, int(sorted_.size()));
+    std::sort(sorted_.begin(), sorted_.end());
+  }
+  // The first from there on, or -1.
+  int of(std::uint64_t look, int from) const {
+    const auto found = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(look, from));
+    return found != sorted_.end() && found->first == look ? found->second : -1;
+  }
+
+ private:
+  std::vector<std::pair<std::uint64_t, int>> sorted_;
+};
+
+class Difference {
+ public:
+  Difference(const Batch& before, const Batch& now, const TouchSolids& touch_before, const TouchSolids& touch_now,
+             TileMask& changed)
+      : before_(before), now_(now), touch_before_(touch_before), touch_now_(touch_now), changed_(changed) {}
+
+  // Equal pieces are paired in order; what lies between two pairs differs.
+  void mark() {
+    const std::vector<Piece>&a = before_.pieces(), &b = now_.pieces();
+    const Places places(a);
+    int next_a = 0, next_b = 0;
+    for (int i = 0; i < int(b.size()); ++i) {
+      const std::uint64_t look = b[std::size_t(i)].look;
+      const bool is_next = next_a < int(a.size()) && a[std::size_t(next_a)].look == look;
+      const int same = is_next ? next_a : places.of(look, next_a);
+      if (same < 0) continue;
+      mark_between(next_a, same, next_b, i);
+      next_a = same + 1;
+      next_b = i + 1;
+    }
+    mark_between(next_a, int(a.size()), next_b, int(b.size()));
+  }
+
+ private:
+  void mark_between(int a, int end_a, int b, int end_b) {
+    if (end_a - a == end_b - b) {
+      for (; a < end_a; ++a, ++b) mark_pair(before_.pieces()[std::size_t(a)], now_.pieces()[std::size_t(b)]);
+      return;
+    }
+    for (; a < end_a; ++a) mark_piece(before_.pieces()[std::size_t(a)], touch_before_);
+    for (; b < end_b; ++b) mark_piece(now_.pieces()[std::size_t(b)], touch_now_);
+  }
+
+  // A shape that moves changes nothing where it was and still is of one colour.
+  void mark_pair(const Piece& a, const Piece& b) {
+    if (a.primitive != b.primitive || !has_same_fill(a, b)) {
+      mark_piece(a, touch_before_);
+      mark_piece(b, touch_now_);
+      return;
+    }
+    inside_.clear();
+    for_each_tile(a, before_.numbers(a), changed_, [this](int column, int row, bool is_inside) {
+      is_inside ? inside_.mark(column, row) : changed_.mark(column, row);
+    });
+    // What is left inside is of `a` alone, and differs, too.
+    for_each_tile(b, now_.numbers(b), changed_, [this](int column, int row, bool is_inside) {
+      if (!is_inside || !inside_.at(column, row)) changed_.mark(column, row);
+      inside_.unmark(column, row);
+    });
+    changed_.add(inside_);
+  }
+
+  // Of shapes that fill evenly, the clips of which are the same where it matters: by their boxes.
+  bool has_same_fill(const Piece& a, const Piece& b) const {
+    const int place = place_of_fill(a.primitive);
+    if (place == 0) return false;
+    const float *in_a = before_.numbers(a) + place, *in_b = now_.numbers(b) + place;
+    return std::equal(in_a, in_a + 4, in_b);
+  }
+
+  void mark_piece(const Piece& piece, const TouchSolids& touch) {
+    if (piece.primitive == Primitive::solids) return touch(piece, changed_);
+    if (piece.primitive == Primitive::layer) return;  // where it differs the pieces of its path do
+    const Batch& batch = &touch == &touch_before_ ? before_ : now_;
+    const bool is_ring = piece.primitive == Primitive::arc;  // nothing is inside
+    for_each_tile(piece, batch.numbers(piece), changed_, [&](int column, int row, bool is_inside) {
+      if (!is_inside || !is_ring) changed_.mark(column, row);
+    });
+  }
+
+  const Batch &before_, &now_;
+  const TouchSolids &touch_before_, &touch_now_;
+  TileMask& changed_;
+  TileMask inside_ = changed_;  // of the piece that is looked at
+};
+
+}  // namespace
+
+void mark_changes(const Batch& before, const Batch& now, const TouchSolids& touch_before,
+                  const TouchSolids& touch_now, TileMask& changed) {
+  Difference(before, now, touch_before, touch_now, changed).mark();
+}
+
+}  // namespace chainreel

@@ -1,0 +1,35 @@
+// Where two pictures of one page differ, told by their pieces without drawing them.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+
+#include "render/batch.hpp"
+#include "render/tile_mask.hpp"
+
+namespace chainreel {
+
+// Calls visit(column, row, whether all of it is inside of the shape) for the tiles that a shape may colour.
+template <class Visit>
+void for_each_tile(const Piece& piece, const float* numbers, const TileMask& page, const Visit& visit) {
+  constexpr int kSide = TileMask::kSide;
+  const PixelBox& box = piece.outline.box;
+  for (int row = box.y / kSide; row * kSide < box.bottom(); ++row) {
+    const int top = std::max(box.y, row * kSide), bottom = std::min(box.bottom(), (row + 1) * kSide);
+    const Spans spans = piece.outline.spans(top, bottom, numbers);
+    if (spans.empty()) continue;
+    for (int column = spans.left / kSide; column * kSide < spans.right && column < page.columns(); ++column)
+      visit(column, row,
+            bottom - top == kSide && spans.inner_left <= column * kSide && spans.inner_right >= (column + 1) * kSide);
+  }
+}
+
+// Marks the tiles that bodies may touch.
+using TouchSolids = std::function<void(const Piece& piece, TileMask& tiles)>;
+
+// Adds every tile that may look different: where a piece is that the other does not have, or has in another order.
+// Bodies are asked for where they are, those of `before` and those of `now`.
+void mark_changes(const Batch& before, const Batch& now, const TouchSolids& touch_before,
+                  const TouchSolids& touch_now, TileMask& changed);
+
+}  // namespace chainreel

@@ -1,0 +1,139 @@
+#include "render/windows.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace chainreel {
+namespace {
+
+void append_window(const PixelBox& box, const float* numbers, int count, std::vector<float>& instances) {
+  instances.insert(instances.end(), {float(box.x), float(box.y), float(box.right()), float(box.bottom())});
+  instances.insert(instances.end(), numbers, numbers + count);
+}
+
+// Rows that are looked at together: the fewer, the less is drawn beside thin shapes, and the more windows there are.
+constexpr int kStrip = 16;
+static_assert(TileMask::kSide % kStrip == 0);
+
+constexpr int kSmall = 40 * 40;  // px: what a window more costs
+
+// A shape's parts within the marked tiles, as boxes that do not overlap.
+class Parts {
+ public:
+  Parts(const Piece& piece, const float* numbers, const TileMask& tiles, std::vector<PixelBox>& some,
+        std::vector<PixelBox>& inner)
+      : outline_(piece.outline), numbers_(numbers), tiles_(tiles), some_(some), inner_(inner) {}
+
+  void find() {
+    const PixelBox& box = outline_.box;
+    if ((outline_.kind == Outline::Kind::box || box.width * box.height < kSmall) && are_all_marked()) return some_.add(box);
+    const int height = outline_.kind == Outline::Kind::box ? TileMask::kSide : kStrip;
+    for (int top = box.y; top < box.bottom();) {
+      const int bottom = std::min(box.bottom(), (top / height + 1) * height);
+      add_strip(top, bottom);
+      top = bottom;
+    }
+  }
+
+ private:
+  bool are_all_marked() const {
+    const TileRange range = tiles_.tiles_of(outline_.box);
+    for (int row = range.top; row < range.bottom; ++row)
+      for (int column = range.left; column < range.right; ++column)
+        if (!tiles_.at(column, row)) return false;
+    return true;
+  }
+
+  void add_strip(int top, int bottom) {
+    const Spans spans = outline_.spans(top, bottom, numbers_);
+    if (spans.empty()) return;
+    constexpr int kSide = TileMask::kSide;
+    const int row = top / kSide, end = (spans.right - 1) / kSide + 1;
+    for (int column = spans.left / kSide; column < end; ++column) {
+      if (!tiles_.at(column, row)) continue;
+      int last = column + 1;
+      while (last < end && tiles_.at(last, row)) ++last;
+      const auto part = [&](int left, int right) {
+        return box_between(std::max(left, column * kSide), top, std::min(right, last * kSide), bottom);
+      };
+      some_.add(part(spans.left, spans.inner_left));
+      some_.add(part(spans.inner_right, spans.right));
+      inner_.add(part(spans.inner_left, spans.inner_right));
+      column = last;
+    }
+  }
+
+  const Outline& outline_;
+  const float* numbers_;
+  const TileMask& tiles_;
+  BoxJoiner some_, inner_;
+};
+
+}  // namespace
+
+void Windows::append(const Batch& batch, const Piece& piece, const std::vector<PixelBox>& boxes,
+                     std::vector<float>& instances) {
+  for (const PixelBox& box : boxes)
+    append_window(box, batch.numbers(piece), floats_of(piece.primitive) - 4, instances);
+}
+
+void Windows::add(int index, Primitive primitive, const float* numbers, const std::vector<PixelBox>& boxes) {
+  if (boxes.empty()) return;
+  const int floats = floats_of(primitive);
+  std::vector<float>& stream = streams_[std::size_t(primitive)];
+  if (runs_.empty() || runs_.back().primitive != primitive || primitive == Primitive::cells)
+    runs_.push_back({.primitive = primitive, .first = int(stream.size()) / floats, .piece = index});
+  for (const PixelBox& box : boxes) append_window(box, numbers, floats - 4, stream);
+  runs_.back().count += int(boxes.size());
+}
+
+void Windows::add_shape(const Batch& batch, int index, const TileMask& tiles) {
+  const Piece& piece = batch.pieces()[std::size_t(index)];
+  const float* numbers = batch.numbers(piece);
+  some_.clear();
+  even_.clear();
+  Parts(piece, numbers, tiles, some_, even_).find();
+  add(index, piece.primitive, numbers, some_);
+  const float* fill = numbers + place_of_fill(piece.primitive);
+  if (!even_.empty() && place_of_fill(piece.primitive) > 0 && fill[3] > 0) add(index, Primitive::flat, fill, even_);
+}
+
+// The pieces into their layer, then its colour onto the page, each pixel once.
+void Windows::add_path(const Batch& batch, int layer, const TileMask& tiles) {
+  const Piece& colour = batch.pieces()[std::size_t(layer)];
+  TileMask touched = tiles;
+  touched.clear();
+  for (int i = colour.first_of_path; i < layer; ++i) {
+    const Piece& piece = batch.pieces()[std::size_t(i)];
+    for_each_tile(piece, batch.numbers(piece), tiles, [&](int column, int row, bool) {
+      if (tiles.at(column, row)) touched.mark(column, row);
+    });
+  }
+  touched.boxes(colour.outline.box, path_);
+  if (path_.empty()) return;
+  std::vector<float>& flat = streams_[std::size_t(Primitive::flat)];
+  constexpr std::array<float, 4> kNothing = {};
+  const int first_to_clear = int(flat.size()) / floats_of(Primitive::flat);
+  for (const PixelBox& box : path_) append_window(box, kNothing.data(), int(kNothing.size()), flat);
+  const std::size_t run = runs_.size();
+  for (int i = colour.first_of_path; i < layer; ++i) add_shape(batch, i, tiles);
+  runs_[run].first_to_clear = first_to_clear;
+  runs_[run].count_to_clear = int(path_.size());
+  add(layer, Primitive::layer, batch.numbers(colour), path_);
+}
+
+void Windows::set(const Batch& batch, const TileMask& tiles) {
+  runs_.clear();
+  for (std::vector<float>& stream : streams_) stream.clear();
+  for (int i = 0; i < int(batch.pieces().size()); ++i) {
+    const Primitive primitive = batch.pieces()[std::size_t(i)].primitive;
+    if (primitive == Primitive::solids)
+      runs_.push_back({.primitive = primitive, .piece = i});
+    else if (primitive == Primitive::layer)
+      add_path(batch, i, tiles);
+    else if (primitive != Primitive::trail)
+      add_shape(batch, i, tiles);
+  }
+}
+
+}  // namespace chainreel
