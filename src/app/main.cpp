@@ -21,6 +21,7 @@ int run(int argc, char** argv) {
           "Example: chainreel render assets/scenes/rr_free.yaml");
   add_render_command(app);
   add_join_command(app);
+  add_bench_command(app);
   add_snapshot_command(app);
   add_ellipse_command(app);
   add_simulate_command(app);

@@ -13,7 +13,7 @@ extern "C" {
 namespace chainreel {
 
 #define CHAINREEL_LIBAV_UTIL(X)                                                                       \
-  X(av_dict_free) X(av_dict_get) X(av_dict_set) X(av_dict_set_int) X(av_frame_alloc) X(av_frame_free) \
+  X(av_dict_free) X(av_dict_get) X(av_dict_set) X(av_dict_set_int) X(av_frame_alloc) X(av_frame_clone) X(av_frame_free) \
   X(av_frame_get_buffer) X(av_frame_make_writable) X(av_free) X(av_freep) X(av_log_format_line2)      \
   X(av_log_set_callback) X(av_malloc) X(av_strerror) X(av_version_info) X(avutil_version)
 #define CHAINREEL_LIBAV_CODEC(X)                                                                            \

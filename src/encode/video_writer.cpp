@@ -65,15 +65,35 @@ void require_settings(const VideoSettings& settings) {
     throw Error(ExitCode::usage, "MP4 with H.264 has no opacity: take .mov or .webm");
 }
 
+struct ChunkTape::State {
+  std::vector<FramePtr> frames;
+};
+
+ChunkTape::ChunkTape() : state_(std::make_unique<State>()) {}
+ChunkTape::~ChunkTape() = default;
+ChunkTape::ChunkTape(ChunkTape&&) noexcept = default;
+ChunkTape& ChunkTape::operator=(ChunkTape&&) noexcept = default;
+
+int ChunkTape::frames() const {
+  return int(state_->frames.size());
+}
+
+double ChunkTape::bytes_of_frame(const VideoSettings& settings) {
+  const double pixels = double(settings.width) * settings.height;
+  return pixels * (row_of(settings.codec).every_pixel ? 6 : 1.5) * (settings.alpha ? 1.7 : 1);
+}
+
 struct ChunkEncoder::State {
   VideoSettings settings;
   CodecContextPtr encoder;
   FramePtr frame;
   Image bled;  // the frame with colours in its transparent pixels
   FilmChunk chunk;
+  ChunkTape* tape;
+  StageTime conversion;
 
-  explicit State(const VideoSettings& s)
-      : settings(s), encoder(open_encoder(s)), frame(allocate_frame(*encoder)) {}
+  State(const VideoSettings& s, ChunkTape* t)
+      : settings(s), encoder(open_encoder(s)), frame(allocate_frame(*encoder)), tape(t) {}
 
   void send(const AVFrame* next) {
     encode_frame(*encoder, next, "",
@@ -103,10 +123,10 @@ struct ChunkEncoder::State {
   }
 };
 
-ChunkEncoder::ChunkEncoder(const VideoSettings& settings) {
+ChunkEncoder::ChunkEncoder(const VideoSettings& settings, ChunkTape* tape) {
   require_settings(settings);
   capture_libav_log();
-  state_ = std::make_unique<State>(settings);
+  state_ = std::make_unique<State>(settings, tape);
 }
 
 ChunkEncoder::~ChunkEncoder() = default;
@@ -117,6 +137,7 @@ void ChunkEncoder::write(const Image& image, const std::vector<PixelBox>& change
     throw Error(ExitCode::usage, "a frame of " + size_text(image.width, image.height) +
                                      " does not fit a film of " +
                                      size_text(s.settings.width, s.settings.height));
+  StageClock clock;
   // The encoder may still hold the last frame: then its pixels are not ours to change, and a copy takes their place.
   check_libav(libav().av_frame_make_writable(s.frame.get()), ExitCode::limit, "no memory left for a frame");
   const PixelBox whole = {0, 0, image.width, image.height};
@@ -131,11 +152,24 @@ void ChunkEncoder::write(const Image& image, const std::vector<PixelBox>& change
   }
   s.has_frame = true;
   s.frame->pts = s.chunk.frames++;
-  s.send(s.frame.get());
+  s.conversion += clock.lap();
+  if (s.tape != nullptr)
+    s.tape->state_->frames.emplace_back(check_allocated(libav().av_frame_clone(s.frame.get()), "a frame"));
+  else
+    s.send(s.frame.get());
+}
+
+void ChunkEncoder::play(const ChunkTape& tape) {
+  for (const FramePtr& frame : tape.state_->frames) state_->send(frame.get());
+  state_->chunk.frames += tape.frames();
 }
 
 void ChunkEncoder::finish() {
   state_->send(nullptr);
+}
+
+StageTime ChunkEncoder::conversion() const {
+  return state_->conversion;
 }
 
 FilmChunk ChunkEncoder::take() {

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "core/frame_rate.hpp"
+#include "core/stage_clock.hpp"
 #include "encode/frame_sink.hpp"
 
 namespace chainreel {
@@ -41,18 +42,38 @@ void require_settings(const VideoSettings& settings);
 
 struct FilmChunk;
 
+// A chunk's frames as its encoder takes them, kept in memory: to encode them with nothing before it.
+class ChunkTape {
+ public:
+  ChunkTape();
+  ~ChunkTape();
+  ChunkTape(ChunkTape&&) noexcept;
+  ChunkTape& operator=(ChunkTape&&) noexcept;
+
+  int frames() const;
+  static double bytes_of_frame(const VideoSettings& settings);
+
+ private:
+  friend class ChunkEncoder;
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
 // Frames to a chunk of a film, see film_chunk.
 class ChunkEncoder final : public FrameSink {
  public:
   // Throws Error (usage, exit 4: no encoder).
-  explicit ChunkEncoder(const VideoSettings& settings);
+  // `tape`: takes the frames, which are then not encoded.
+  explicit ChunkEncoder(const VideoSettings& settings, ChunkTape* tape = nullptr);
   ~ChunkEncoder() override;
 
   using FrameSink::write;
   // Of exactly the size in the settings.
   void write(const Image& frame, const std::vector<PixelBox>& changed) override;
-  void finish() override;  // flushes the encoder
-  FilmChunk take();        // once it is finished
+  void play(const ChunkTape& tape);  // writes all that is there, made with the same settings
+  void finish() override;            // flushes the encoder
+  FilmChunk take();                  // once it is finished
+  StageTime conversion() const;      // what frames took to become the encoder's, on the threads that wrote them
 
  private:
   struct State;

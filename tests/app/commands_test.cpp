@@ -79,6 +79,7 @@ class EveryCommand : public ::testing::Test {
          {with(with({kScene, "--set", "video.width=64", "--set", "video.height=36"}, kShort), {"--quiet"}),
           ".png"}},
         {"join", {{inputs_->file("clip.part-1-of-1.mp4")}, ".mp4"}},
+        {"bench", {with({kScene, "--set", "video.width=64", "--set", "video.height=36", "--quiet"}, kShort), ""}},
         {"snapshot", {with(with({kScene}, kShort), kSmallFigure), ".svg"}},
         {"ellipse", {with({"models/rr.urdf", "--pose", "0.1,1"}, kSmallFigure), ".csv"}},
         {"simulate", {with({kScene}, kShort), ".csv"}},

@@ -286,6 +286,28 @@ TEST(FilmChunks, BeginWithKeyFramesWhereverTheyAreCut) {
   EXPECT_THAT(probe_video(folder.file("a.mp4")).key_frames, testing::ElementsAre(0, 1, 3, 33));
 }
 
+TEST(FilmChunks, FromATapeAreThoseOfTheFramesThemselves) {
+  const VideoSettings settings{.width = kFilmWidth, .height = kFilmHeight};
+  ChunkTape tape;
+  ChunkEncoder direct(settings), recorder(settings, &tape);
+  for (int k = 0; k < 12; ++k)
+    for (ChunkEncoder* encoder : {&direct, &recorder}) encoder->write(disc_picture(kFilmWidth, kFilmHeight, k));
+  for (ChunkEncoder* encoder : {&direct, &recorder}) encoder->finish();
+  EXPECT_EQ(tape.frames(), 12);
+  EXPECT_TRUE(recorder.take().packets.empty());
+  ChunkEncoder player(settings);
+  player.play(tape);
+  player.finish();
+  EXPECT_EQ(player.conversion().cpu, 0);
+  const FilmChunk expected = direct.take(), played = player.take();
+  EXPECT_EQ(played.frames, 12);
+  ASSERT_EQ(played.packets.size(), expected.packets.size());
+  for (std::size_t i = 0; i < played.packets.size(); ++i) {
+    EXPECT_TRUE(played.packets[i].data == expected.packets[i].data) << i;
+    EXPECT_EQ(played.packets[i].pts, expected.packets[i].pts);
+  }
+}
+
 TEST(Films, OfTheBestQualityLoseNothingButChroma) {
   const TemporaryFolder folder;
   Image grey = random_picture(64, 64, 1);  // without colour there is no chroma to lose: only limited range rounds

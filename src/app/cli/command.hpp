@@ -74,6 +74,7 @@ bool is_model_file(const std::string& path);
 
 void add_render_command(CommandLine& app);
 void add_join_command(CommandLine& app);
+void add_bench_command(CommandLine& app);
 void add_snapshot_command(CommandLine& app);
 void add_ellipse_command(CommandLine& app);
 void add_simulate_command(CommandLine& app);

@@ -135,7 +135,7 @@ void run_render(const RenderOptions& options) {
     reports.back()["files"] = result.files;
     reports.back()["sidecars"] = result.sidecars;
     table.push_back({films[i].scene.name, std::to_string(result.frames), format_fixed(result.film_seconds, 2),
-                     format_fixed(result.seconds.total, 2), joined(result.files, " ")});
+                     format_fixed(result.times.total, 2), joined(result.files, " ")});
   }
   if (options.common.json)
     std::puts(reports.dump(2).c_str());

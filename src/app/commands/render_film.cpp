@@ -130,12 +130,12 @@ void write_sidecars(std::vector<Sidecar>& sidecars, const FilmReport& report, Re
     if (sidecar.file->is_done()) result.sidecars.push_back(sidecar.file->path());
 }
 
-Json to_json(const StageSeconds& seconds) {
-  return {{"simulate", seconds.simulate},
-          {"draw", seconds.draw},
-          {"render", seconds.render},
-          {"encode", seconds.encode},
-          {"total", seconds.total}};
+Json to_json(const StageTimes& times) {
+  return {{"simulate", times.simulate.wall},
+          {"draw", times.draw.wall},
+          {"render", times.render.wall},
+          {"encode", times.convert.wall + times.encode.wall + times.mux.wall},
+          {"total", times.total}};
 }
 
 // What a part of the film says of itself.
@@ -168,16 +168,15 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
   if (!is_part) sidecars = open_sidecars(job, film);
 
   RenderResult result;
-  Stopwatch total, watch;
+  StageClock total, clock;
   const Runs runs(film);
-  result.seconds.simulate = watch.lap();
+  result.times.simulate = clock.lap();
   if (std::any_of(runs.list().begin(), runs.list().end(), [](const Trajectory& run) { return run.size() == 0; }))
     runs.require_expected_ends();
 
   const Fonts fonts;
   const FrameRate fps = scene.video.fps;
-  const Schedule schedule{runs.frames_shown(runs.clock().frame_count()), frame_count(scene.hold.first, fps),
-                          frame_count(scene.hold.last, fps)};
+  const Schedule schedule = schedule_of(runs);
   const Film pictures = runs.pictures(schedule.frames, fonts);
   result.frames = schedule.total();
   result.film_seconds = frame_time(result.frames, fps);
@@ -185,7 +184,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
   ClipMemory memory = memory_of(report);
   if (schedule.first > 0 || schedule.last > 0)
     memory.audit["held_frames"] = {{"first", schedule.first}, {"last", schedule.last}};
-  result.seconds.draw += watch.lap();
+  result.times.draw += clock.lap();
 
   result.audit = to_json(report);
   if (memory.audit.contains("held_frames")) result.audit["held_frames"] = memory.audit["held_frames"];
@@ -211,11 +210,11 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
   const std::string key = job.resume ? film_hash(film, memory, fonts) : "";
 
   const int still = std::clamp(runs.clock().frame_at(job.at), 0, schedule.frames - 1);
-  const int jobs = affordable_jobs(job.jobs, scene, outputs);
-  draw_film({pictures, scene, fonts, schedule, still, memory, range, part, key, jobs, job.quiet}, outputs, result.seconds);
+  result.jobs = affordable_jobs(job.jobs, scene, outputs);
+  draw_film({pictures, scene, fonts, schedule, still, memory, range, part, key, result.jobs, job.quiet}, outputs, result.times);
   write_tables(runs, outputs);
-  result.seconds.total = total.lap();
-  result.audit["seconds"] = to_json(result.seconds);
+  result.times.total = total.lap().wall;
+  result.audit["seconds"] = to_json(result.times);
 
   try {
     runs.require_expected_ends();

@@ -29,7 +29,8 @@ struct RenderResult {
   std::vector<std::string> sidecars;  // NAME.json, NAME.txt, and maybe NAME.srt and NAME.tex
   int frames = 0;                     // with those that are held
   double film_seconds = 0;
-  StageSeconds seconds;
+  int jobs = 1;                       // threads that it was drawn by, at most
+  StageTimes times;
   Json audit;
 };
 

@@ -40,7 +40,7 @@ class Pen {
   explicit Pen(const FilmWork& work)
       : work_(work), canvas_(work.scene.video.width, work.scene.video.height, work.fonts) {
     canvas_.set_static_layer(work.film.static_layer());
-    seconds.render += watch.lap();
+    times.render += clock.lap();
   }
 
   // Good until the next call. A frame that stands there already is not drawn again, and has not changed.
@@ -50,21 +50,21 @@ class Pen {
       return *image_;
     }
     throw_if_interrupted();
-    watch.lap();
+    clock.lap();
     const Picture picture = work_.film.frame(frame);
-    seconds.draw += watch.lap();
+    times.draw += clock.lap();
     const CanvasFrame& drawn = canvas_.draw(picture);
     image_ = &drawn.image;
     changed_ = drawn.changed;
-    seconds.render += watch.lap();
+    times.render += clock.lap();
     drawn_ = frame;
     return *image_;
   }
   // Where it differs from what was drawn before.
   const std::vector<PixelBox>& changed() const { return changed_; }
 
-  StageSeconds seconds;
-  Stopwatch watch;
+  StageTimes times;
+  StageClock clock;
 
  private:
   const FilmWork& work_;
@@ -79,7 +79,7 @@ class Workshop {
  public:
   Workshop(const FilmWork& work, std::vector<Output>& outputs);
 
-  void run(StageSeconds& seconds);
+  void run(StageTimes& times);
 
  private:
   enum class Kind { clip, stills, chunk };
@@ -117,7 +117,7 @@ Workshop::Workshop(const FilmWork& work, std::vector<Output>& outputs)
     films_.emplace_back();
     has_stills = has_stills || format.shows == Shows::still;
     if (format.shows != Shows::motion) continue;
-    if (format.codec) films_.back() = joined_film(outputs[i]);
+    if (format.codec && work.tapes == nullptr) films_.back() = joined_film(outputs[i]);
     has_chunks = has_chunks || format.codec || format.is_sequence;
     if (format.make_clip == nullptr) continue;
     pieces_.push_back({Kind::clip, i});  // first, as they take longest
@@ -129,6 +129,7 @@ Workshop::Workshop(const FilmWork& work, std::vector<Output>& outputs)
   }
   if (has_chunks) {
     bounds_ = chunks_of_range();
+    if (work.tapes != nullptr) work.tapes->resize(bounds_.size() - 1);
     for (std::size_t k = 0; k + 1 < bounds_.size(); ++k) pieces_.push_back({Kind::chunk, k});
     frames += work.range.behind - work.range.first;
   }
@@ -156,7 +157,7 @@ std::vector<int> Workshop::chunks_of_range() const {
   return bounds;
 }
 
-void Workshop::run(StageSeconds& seconds) {
+void Workshop::run(StageTimes& times) {
   if (pieces_.empty()) return;
   const int jobs = std::min(work_.jobs, int(pieces_.size()));
   // Canvases that draw beside one another leave no processor idle.
@@ -165,18 +166,16 @@ void Workshop::run(StageSeconds& seconds) {
     // What the thread spent is told when its last piece is done, and goes with it.
     const std::shared_ptr<Pen> pen(new Pen(work_), [&](Pen* used) {
       const std::lock_guard guard(lock_);
-      seconds.draw += used->seconds.draw;
-      seconds.render += used->seconds.render;
-      seconds.encode += used->seconds.encode;
+      times += used->times;
       delete used;
     });
     return [this, pen](std::size_t index) { do_piece(pieces_[index], *pen); };
   });
-  Stopwatch watch;
+  StageClock clock;
   for (const auto& film : films_)
     if (film) film->finish();
   films_.clear();
-  seconds.encode += watch.lap();
+  times.mux += clock.lap();
 }
 
 void Workshop::do_piece(const Piece& piece, Pen& pen) {
@@ -209,11 +208,11 @@ void Workshop::draw_clip(Output& output, Pen& pen) {
     }
     const Image& image = pen.draw(work_.schedule.drawn(n));
     sink->write(image);
-    pen.seconds.encode += pen.watch.lap();
+    pen.times.encode += pen.clock.lap();
   }
   if (ended_) return;
   sink->finish();
-  pen.seconds.encode += pen.watch.lap();
+  pen.times.encode += pen.clock.lap();
 }
 
 void Workshop::draw_stills(Pen& pen) {
@@ -222,7 +221,7 @@ void Workshop::draw_stills(Pen& pen) {
   for (const Output& output : outputs_)
     if (output.shows(Shows::still))
       output.target.format->write_still(*output.files.front(), {picture, image, work_.fonts}, work_.memory);
-  pen.seconds.encode += pen.watch.lap();
+  pen.times.encode += pen.clock.lap();
   has_drawn();
 }
 
@@ -242,6 +241,9 @@ void Workshop::draw_chunk(std::size_t index, Pen& pen) {
       auto encoder = std::make_unique<ChunkEncoder>(film->settings());
       encoders.emplace_back(film, encoder.get());
       sinks.push_back(std::move(encoder));
+    } else if (output.target.format->codec) {
+      sinks.push_back(std::make_unique<ChunkEncoder>(settings_of(*output.target.format, work_.scene, tags_),
+                                                     &(*work_.tapes)[index]));
     } else if (output.folder) {
       sinks.push_back(std::make_unique<PngSequence>(
           output.folder->temporary_folder(), place_of_sequence(output.target.path).stem, tags_, first));
@@ -251,19 +253,35 @@ void Workshop::draw_chunk(std::size_t index, Pen& pen) {
     if (sinks.empty()) continue;
     const Image& image = pen.draw(work_.schedule.drawn(n));
     for (const auto& sink : sinks) sink->write(image, pen.changed());
-    pen.seconds.encode += pen.watch.lap();
+    pen.times.encode += pen.clock.lap();
   }
   if (ended_) return;
   for (const auto& sink : sinks) sink->finish();
+  pen.times.encode += pen.clock.lap();
   for (const auto& [film, encoder] : encoders) {
+    pen.times.convert += encoder->conversion();
+    pen.times.encode -= encoder->conversion();
     FilmChunk chunk = encoder->take();
     if (film->store() != nullptr) film->store()->keep(first, behind, chunk);
     film->take(index, std::move(chunk));
   }
-  pen.seconds.encode += pen.watch.lap();
+  pen.times.mux += pen.clock.lap();
 }
 
 }  // namespace
+
+Schedule schedule_of(const Runs& runs) {
+  const Scene& scene = runs.film().scene;
+  return {runs.frames_shown(runs.clock().frame_count()), frame_count(scene.hold.first, scene.video.fps),
+          frame_count(scene.hold.last, scene.video.fps)};
+}
+
+StageTimes& StageTimes::operator+=(const StageTimes& other) {
+  for (StageTime StageTimes::*stage : {&StageTimes::simulate, &StageTimes::draw, &StageTimes::render, &StageTimes::convert,
+                                       &StageTimes::encode, &StageTimes::mux})
+    this->*stage += other.*stage;
+  return *this;
+}
 
 VideoSettings settings_of(const OutputFormat& format, const Scene& scene, const Tags& tags) {
   return {.width = scene.video.width,
@@ -293,8 +311,8 @@ int affordable_jobs(int wanted, const Scene& scene, const std::vector<Output>& o
   return std::min(wanted > 0 ? wanted : usable_cores(), affordable);
 }
 
-void draw_film(const FilmWork& work, std::vector<Output>& outputs, StageSeconds& seconds) {
-  Workshop(work, outputs).run(seconds);
+void draw_film(const FilmWork& work, std::vector<Output>& outputs, StageTimes& times) {
+  Workshop(work, outputs).run(times);
 }
 
 void forget_chunks(const std::vector<Output>& outputs) {

@@ -8,8 +8,10 @@
 
 #include "app/film/clip_memory.hpp"
 #include "app/film/progress.hpp"
+#include "app/film/runs.hpp"
 #include "app/works/outputs.hpp"
 #include "app/works/part.hpp"
+#include "core/stage_clock.hpp"
 #include "draw/film/film.hpp"
 
 namespace chainreel {
@@ -22,9 +24,15 @@ struct Schedule {
   int drawn(int shown) const { return std::clamp(shown - first, 0, frames - 1); }
 };
 
-struct StageSeconds {
-  double simulate = 0, draw = 0, render = 0, encode = 0;  // of all threads together
-  double total = 0;                                       // by the clock
+Schedule schedule_of(const Runs& runs);
+
+// Of all threads together: motion; shapes; pixels, drawn and read; pixels as encoders take them; films encoded, also clips
+// and pictures; packets to the film's file.
+struct StageTimes {
+  StageTime simulate, draw, render, convert, encode, mux;
+  double total = 0;  // s, by the clock
+
+  StageTimes& operator+=(const StageTimes& other);  // the stages alone
 };
 
 struct FilmWork {
@@ -39,6 +47,7 @@ struct FilmWork {
   std::string film_key; // of what is shown, for chunks that were kept; "": none are
   int jobs = 1;         // threads, at most
   bool quiet = false;
+  std::vector<ChunkTape>* tapes = nullptr;  // takes the frames of films, a tape a chunk; then these are not made
 };
 
 // Where the chunks of a film begin, and behind them its number of frames; whether its files may be cut there only.
@@ -55,7 +64,7 @@ int affordable_jobs(int wanted, const Scene& scene, const std::vector<Output>& o
 // All that the outputs show, whole under their temporary names. The first error of a thread ends all of them and is thrown,
 // as is the signal's. With a key, films are begun where a killed run of the program left them; what is kept for that goes
 // by forget_chunks().
-void draw_film(const FilmWork& work, std::vector<Output>& outputs, StageSeconds& seconds);
+void draw_film(const FilmWork& work, std::vector<Output>& outputs, StageTimes& times);
 void forget_chunks(const std::vector<Output>& outputs);
 
 VideoSettings settings_of(const OutputFormat& format, const Scene& scene, const Tags& tags);
