@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
   add_chart_command(app);
   add_energy_command(app);
   add_stability_command(app);
+  add_sweep_command(app);
   add_fall_command(app);
   add_sheet_command(app);
   add_gallery_command(app);

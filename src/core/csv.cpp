@@ -112,4 +112,10 @@ TimeTable read_time_table(const std::string& path, const std::vector<std::string
   return result;
 }
 
+std::string csv_words(const std::string& words) {
+  std::string text = "\"";
+  for (const char c : words) text += c == '"' ? "\"\"" : std::string(1, c == '\n' || c == '\r' ? ' ' : c);
+  return text + "\"";
+}
+
 }  // namespace chainreel

@@ -28,4 +28,7 @@ struct TimeTable {
 };
 TimeTable read_time_table(const std::string& path, const std::vector<std::string>& wanted, int n);
 
+// A field of words: in quotes, on one line.
+std::string csv_words(const std::string& words);
+
 }  // namespace chainreel

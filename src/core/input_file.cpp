@@ -2,6 +2,7 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -69,6 +70,14 @@ std::string noted_input(const std::string& path) {
   struct stat input = {};
   const bool is_there = stat(found->second.c_str(), &input) == 0;
   return is_there && input.st_dev == facts.st_dev && input.st_ino == facts.st_ino ? found->second : "";
+}
+
+std::vector<std::string> noted_inputs() {
+  const std::lock_guard lock(inputs().mutex);
+  std::vector<std::string> names;
+  for (const auto& [id, name] : inputs().names) names.push_back(name);
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 }  // namespace chainreel

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace chainreel {
 
@@ -21,5 +22,8 @@ void note_input(const std::string& path);
 
 // The name under which the very file at `path` was noted, through links of either kind; "" where it was not.
 std::string noted_input(const std::string& path);
+
+// The names of all that was noted, sorted.
+std::vector<std::string> noted_inputs();
 
 }  // namespace chainreel

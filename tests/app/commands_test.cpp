@@ -103,6 +103,7 @@ class EveryCommand : public ::testing::Test {
          {with({"assets/scenes/rr_free.yaml", "--x", "step=0.001:0.002:2", "--y", "gravity.2=-9:-8:2"},
                kShort),
           ".csv"}},
+        {"sweep", {with({kScene, "--over", "torque.1=0,1"}, kShort), ".csv"}},
         {"fall", {{inputs_->file("fall.yaml"), "--sweep", "torque.2=0,2"}, ".csv"}},
         {"sheet", {with(with({kScene}, kShort), kSmallFigure), ".svg"}},
         {"gallery", {{clip}, ".html"}},

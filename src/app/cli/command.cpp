@@ -9,7 +9,7 @@
 #include "core/json.hpp"
 #include "model/chain.hpp"
 #include "scene/quantity.hpp"
-#include "scene/run/sweep.hpp"
+#include "scene/run/grid.hpp"
 #include "scene/scene.hpp"
 
 namespace chainreel {
@@ -76,20 +76,18 @@ void add_vary_option(Command& command, std::vector<std::string>& vary) {
 
 void add_comparison(const std::vector<std::string>& vary, std::vector<std::string>& overrides) {
   if (vary.empty()) return;
-  std::vector<std::string> panels{""};
-  for (const std::string& text : vary) {
-    const Sweep sweep = parse_sweep(text, "--vary");
-    std::vector<std::string> finer;
-    for (const std::string& panel : panels)
-      for (const std::string& value : sweep.values)
-        finer.push_back(panel + (panel.empty() ? "" : ", ") + Json(sweep.key).dump() + ": " + value);
-    panels = std::move(finer);
-  }
-  if (panels.size() > kMostPanels)
-    throw Error(ExitCode::usage, "--vary makes " + std::to_string(panels.size()) + " panels; no more than " +
+  const Grid grid(vary, "--vary");
+  if (grid.size() > kMostPanels)
+    throw Error(ExitCode::usage, "--vary makes " + std::to_string(grid.size()) + " panels; no more than " +
                                      std::to_string(kMostPanels) + " fit a page: give fewer values");
   std::string list;
-  for (const std::string& panel : panels) list += (list.empty() ? "{" : ", {") + panel + "}";
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    const std::vector<std::size_t> at = grid.places(k);
+    std::string panel;
+    for (std::size_t i = 0; i < at.size(); ++i)
+      panel += (i == 0 ? "" : ", ") + Json(grid.axes()[i].key).dump() + ": " + grid.axes()[i].values[at[i]];
+    list += (list.empty() ? "{" : ", {") + panel + "}";
+  }
   overrides.push_back("compare=[" + list + "]");
 }
 

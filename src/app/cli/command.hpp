@@ -89,6 +89,7 @@ void add_methods_command(CommandLine& app);
 void add_chart_command(CommandLine& app);
 void add_energy_command(CommandLine& app);
 void add_stability_command(CommandLine& app);
+void add_sweep_command(CommandLine& app);
 void add_fall_command(CommandLine& app);
 void add_sheet_command(CommandLine& app);
 void add_gallery_command(CommandLine& app);

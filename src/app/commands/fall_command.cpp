@@ -8,6 +8,7 @@
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
 #include "app/report/report.hpp"
+#include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/machine.hpp"
@@ -101,18 +102,12 @@ Json report_of(const std::string& scene, const FallTable& table) {
   return json;
 }
 
-std::string quoted(const std::string& words) {
-  std::string text = "\"";
-  for (const char c : words) text += c == '"' ? "\"\"" : std::string(1, c);
-  return text + "\"";
-}
-
 // Numbers with all their digits; an empty field is what did not happen.
 std::string csv_of(const std::string& scene, const FallTable& table) {
   const auto field = [](const std::optional<double>& value) { return value ? format_exact(*value) : ""; };
   const bool swept = !table.sweep.key.empty();
   std::string text = csv_facts(scene) + (swept ? table.sweep.key + "," : "") + "fall_time,status,end_time";
-  for (const EventEntry& event : table.events) text += "," + quoted(event.title());
+  for (const EventEntry& event : table.events) text += "," + csv_words(event.title());
   text += "\n";
   for (const FallRow& row : table.rows) {
     if (swept) text += row.value + ",";

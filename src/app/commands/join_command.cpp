@@ -7,6 +7,7 @@
 
 #include "app/cli/command.hpp"
 #include "app/cli/streams.hpp"
+#include "app/commands/sweep_table.hpp"
 #include "app/report/sidecar.hpp"
 #include "app/works/part.hpp"
 #include "core/error.hpp"
@@ -136,6 +137,14 @@ struct JoinedFiles {
 };
 
 void run_join(const JoinOptions& options) {
+  if (fs::path(options.output).extension() == ".csv") {
+    join_tables(options.parts, options.output, options.common.force);
+    if (options.common.json)
+      std::puts(Json{{"file", options.output}, {"parts", options.parts.size()}}.dump(2).c_str());
+    else if (!options.common.quiet)
+      std::printf("%s: the table of %zu parts\n", options.output.c_str(), options.parts.size());
+    return;
+  }
   const std::vector<Part> parts = parts_of(options);
   const PartFacts& facts = parts.front().facts;
   if (fs::path(options.output).extension() != fs::path(parts.front().path).extension())
@@ -172,9 +181,9 @@ void run_join(const JoinOptions& options) {
 
 void add_join_command(CommandLine& app) {
   auto options = std::make_shared<JoinOptions>();
-  Command* command = app.add_subcommand("join", "one film of the parts that `render --frames` and `--shard` wrote");
+  Command* command = app.add_subcommand("join", "one film, or table, of the parts that `render` and `sweep` wrote by --frames and --shard");
   command->add_option("parts", options->parts, "the parts, in any order").required();
-  command->add_option("-o,--output", options->output, "the film, with the ending of its parts").required();
+  command->add_option("-o,--output", options->output, "the film or table, with the ending of its parts").required();
   add_result_options(*command, options->common);
   command->footer("Example: chainreel join out/film.part-*.mp4 -o out/film.mp4");
   command->callback([options] { run_join(*options); });

@@ -6,29 +6,29 @@
 #include "core/format.hpp"
 
 namespace chainreel {
-namespace {
 
-std::string csv_head(const Chain& chain) {
+std::string state_names(const Chain& chain) {
   const bool plain = chain.serial && !chain.has_floating;
-  std::string head = "t";
+  std::string names;
   const std::vector<std::string> q_names = position_names(chain);
   for (int i = 0; i < chain.nq; ++i)
-    head += plain ? ",q" + std::to_string(i + 1) : ",q." + q_names[std::size_t(i)];
+    names += (names.empty() ? "q" : ",q") + (plain ? std::to_string(i + 1) : "." + q_names[std::size_t(i)]);
   for (int i = 0; i < chain.nv; ++i)
-    head += plain ? ",qd" + std::to_string(i + 1) : ",qd." + chain.coordinate_names[std::size_t(i)];
-  return head + "\n";
+    names += ",qd" + (plain ? std::to_string(i + 1) : "." + chain.coordinate_names[std::size_t(i)]);
+  return names;
 }
 
-}  // namespace
+std::string state_text(const Trajectory& trajectory, int k) {
+  std::string text;
+  for (const auto& values : {trajectory.q_at(k), trajectory.qd_at(k)})
+    for (const double value : values) text += (text.empty() ? "" : ",") + format_exact(value);
+  return text;
+}
 
 std::string trajectory_csv(const Chain& chain, const Trajectory& trajectory) {
-  std::string text = csv_head(chain);
-  for (int k = 0; k < trajectory.size(); ++k) {
-    text += format_exact(trajectory.t[std::size_t(k)]);
-    for (double value : trajectory.q_at(k)) text += "," + format_exact(value);
-    for (double value : trajectory.qd_at(k)) text += "," + format_exact(value);
-    text += "\n";
-  }
+  std::string text = "t," + state_names(chain) + "\n";
+  for (int k = 0; k < trajectory.size(); ++k)
+    text += format_exact(trajectory.t[std::size_t(k)]) + "," + state_text(trajectory, k) + "\n";
   return text;
 }
 

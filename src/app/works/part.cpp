@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <cstdlib>
 #include <span>
 
@@ -85,10 +86,15 @@ std::string PartRequest::text() const {
                    : "frames " + std::to_string(first_) + ":" + std::to_string(second_);
 }
 
+FrameRange PartRequest::of_things(int count) const {
+  const auto bound = [&](int k) { return int(std::int64_t(count) * k / second_); };
+  return {bound(first_ - 1), bound(first_)};
+}
+
 FrameRange PartRequest::of(const std::vector<int>& bounds, bool is_fixed) const {
   if (is_shard_) {
-    const auto bound = [&](int k) { return bounds[(bounds.size() - 1) * std::size_t(k) / std::size_t(second_)]; };
-    return {bound(first_ - 1), bound(first_)};
+    const FrameRange chunks = of_things(int(bounds.size()) - 1);
+    return {bounds[std::size_t(chunks.first)], bounds[std::size_t(chunks.behind)]};
   }
   if (second_ > bounds.back())
     throw Error(ExitCode::usage,

@@ -30,7 +30,10 @@ class PartRequest {
 
   // What the part's file has before its ending: ".part-000000-000075", ".part-3-of-8".
   std::string suffix() const;
-  std::string text() const;  // for people: "frames 0:75", "shard 3/8"
+  std::string text() const;    // for people: "frames 0:75", "shard 3/8"
+
+  // Share of so many equal things. Of a request by --shard.
+  FrameRange of_things(int count) const;
 
   // Of a film of so many frames, whose chunks begin at `bounds`. `is_fixed`: parts must begin and end there. A share may
   // be empty. Throws Error (usage) with the nearest frames that are possible.

@@ -1,0 +1,263 @@
+#include "app/commands/sweep_table.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <mutex>
+
+#include "app/cli/streams.hpp"
+#include "app/film/progress.hpp"
+#include "app/report/trajectory_csv.hpp"
+#include "app/report/version.hpp"
+#include "app/works/growing_table.hpp"
+#include "core/csv.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "core/hash.hpp"
+#include "core/input_file.hpp"
+#include "core/output_file.hpp"
+#include "core/parallel.hpp"
+#include "scene/run/prepare.hpp"
+#include "scene/text/read_scene.hpp"
+#include "sim/workload.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr int kRunsOfPiece = 16;  // that a thread takes at a time
+
+std::vector<std::string> settings_of(const SweepTableJob& job, std::size_t run) {
+  std::vector<std::string> all = job.overrides;
+  for (const std::string& setting : job.grid.settings(run)) all.push_back(setting);
+  return all;
+}
+
+// With `auto` all runs take the same method, as those of `fall` do.
+Scene scene_of(SceneFile& file, const std::vector<std::string>& overrides) {
+  Scene scene = file.read(overrides);
+  require_single_run(scene);
+  if (scene.chooses_method()) {
+    scene.method = "dop853";
+    scene.tolerance = 1e-10;
+  }
+  return scene;
+}
+
+// What a thread computes rows with.
+class RowMaker {
+ public:
+  RowMaker(const SweepTableJob& job, std::string states, std::size_t events)
+      : job_(job), file_(job.scene), states_(std::move(states)), events_(events) {}
+
+  // Without the end of its line.
+  std::string row(std::size_t run) {
+    std::string row = std::to_string(run);
+    const std::vector<std::size_t> at = job_.grid.places(run);
+    for (std::size_t i = 0; i < at.size(); ++i) row += "," + job_.grid.axes()[i].values[at[i]];
+    try {
+      Scene scene = scene_of(file_, settings_of(job_, run));
+      const Simulation simulation = prepare(scene, false, last_);
+      if (state_names(simulation.chain) != states_ || scene.events.size() != events_)
+        return row + failed_row("its states or events are other ones than the first run's");
+      require_possible(simulation);
+      return row + row_of(scene, simulate(simulation, std::vector<double>{scene.duration}, [](double) { return interrupted(); }));
+    } catch (const Error& error) {
+      throw_if_interrupted();
+      return row + failed_row(error.problems().front().message);
+    }
+  }
+
+ private:
+  std::string row_of(const Scene& scene, const Trajectory& run) const {
+    const bool as_expected =
+        scene.expect == Outcome::diverge ? run.status == RunStatus::diverged : is_complete(run.status);
+    std::string row = as_expected ? ",1," : ",0,";
+    row += to_string(run.status) + "," + format_exact(run.end_time) + "," +
+           (run.ending_event < 0 ? "" : csv_words(scene.events[std::size_t(run.ending_event)].title()));
+    row += "," + (run.size() > 0 ? state_text(run, run.size() - 1) : no_state());
+    std::vector<std::string> first(events_);
+    for (int k = run.events.size() - 1; k >= 0; --k)
+      first[std::size_t(run.events.event[std::size_t(k)])] = format_exact(run.events.t[std::size_t(k)]);
+    for (const std::string& time : first) row += "," + time;
+    return row + "," + (run.trouble.empty() ? "" : csv_words(run.trouble));
+  }
+  std::string failed_row(const std::string& why) const {
+    return ",0,refused,,," + no_state() + std::string(events_, ',') + "," + csv_words(why);
+  }
+  std::string no_state() const { return std::string(std::size_t(std::count(states_.begin(), states_.end(), ',')), ','); }
+
+  const SweepTableJob& job_;
+  SceneFile file_;
+  LastChain last_;
+  std::string states_;
+  std::size_t events_;
+};
+
+// All that rows depend on: the program, the files that were read for the first run, and what was asked.
+std::string key_of(const SweepTableJob& job) {
+  Json json{{"program", {program_version(), program_revision()}}, {"overrides", job.overrides}};
+  for (const Sweep& axis : job.grid.axes()) json["over"].push_back({axis.key, axis.values});
+  std::vector<std::string> hashes;  // files have other names in other places
+  for (const std::string& file : noted_inputs()) hashes.push_back(sha256_of_file(file));
+  std::sort(hashes.begin(), hashes.end());
+  json["files"] = hashes;
+  return sha256_of(json.dump());
+}
+
+std::string runs_line(const FrameRange& runs, std::size_t all) {
+  return "# runs: " + std::to_string(runs.first) + " to " + std::to_string(runs.behind - 1) + " of " + std::to_string(all) + "\n";
+}
+
+std::string head_of(const SweepTableJob& job, const Scene& first, const std::string& states) {
+  std::string head = "# sweep: " + first.name + ", " + method_text(first) + "\n# key: " + key_of(job) + "\n" +
+                     runs_line(job.runs, job.grid.size()) + "run";
+  for (const Sweep& axis : job.grid.axes()) head += "," + axis.key;
+  head += ",good,status,end_time,ended_by," + states;
+  for (const EventEntry& event : first.events) head += "," + csv_words(event.title());
+  return head + ",trouble\n";
+}
+
+// Counts what failed, and keeps what the first in the grid's order says.
+class Failures {
+ public:
+  explicit Failures(const Grid& grid) : grid_(grid) {}
+
+  void look(const std::string& row) {
+    std::size_t comma = row.find(',');
+    for (std::size_t k = 0; k < grid_.axes().size() && comma != std::string::npos; ++k) comma = row.find(',', comma + 1);
+    if (comma == std::string::npos || row.compare(comma, 3, ",0,") != 0) return;
+    const std::lock_guard guard(lock_);
+    ++outcome_.failed;
+    const std::size_t run = std::strtoull(row.c_str(), nullptr, 10);
+    if (outcome_.failed > 1 && run > first_) return;
+    first_ = run;
+    const std::size_t quote = row.rfind(",\"");
+    outcome_.first_failure = joined(grid_.settings(run), " ") + ": " +
+                             (quote == std::string::npos ? row.substr(comma + 3) : row.substr(quote + 2, row.size() - quote - 3));
+  }
+
+  SweepOutcome outcome() const { return outcome_; }
+
+ private:
+  const Grid& grid_;
+  std::mutex lock_;
+  std::size_t first_ = 0;
+  SweepOutcome outcome_;
+};
+
+}  // namespace
+
+SweepOutcome write_sweep_table(const SweepTableJob& job) {
+  // The first run's scene alone: one that cannot be read says so once.
+  SceneFile file(job.scene);
+  Scene first = scene_of(file, settings_of(job, 0));
+  const Simulation simulation = prepare(first, false);
+  require_possible(simulation, double(job.runs.behind - job.runs.first));
+  const std::string states = state_names(simulation.chain);
+
+  GrowingTable table(job.path, head_of(job, first, states), job.overwrite);
+  Failures failures(job.grid);
+  table.for_each_before([&](const std::string& row) { failures.look(row); });
+  SweepOutcome outcome;
+  outcome.skipped = table.rows_before();
+  const std::size_t begin = std::size_t(job.runs.first) + outcome.skipped, behind = std::size_t(job.runs.behind);
+  if (!table.is_finished()) {
+    Ticker ticker(job.quiet);
+    std::mutex lock;
+    const std::size_t pieces = (behind - std::min(begin, behind) + kRunsOfPiece - 1) / kRunsOfPiece;
+    for_each_index_with_tools(pieces, job.threads, [&]() -> RunIndex {
+      const auto maker = std::make_shared<RowMaker>(job, states, first.events.size());
+      return [&, maker](std::size_t piece) {
+        std::string rows;
+        const std::size_t from = begin + piece * kRunsOfPiece, until = std::min(behind, from + kRunsOfPiece);
+        for (std::size_t run = from; run < until; ++run) {
+          throw_if_interrupted();
+          const std::string row = maker->row(run);
+          failures.look(row);
+          rows += row + "\n";
+        }
+        table.take(piece, rows);
+        const std::lock_guard guard(lock);
+        outcome.done += until - from;
+        if (ticker.is_due())
+          ticker.say(first.name + ": " + std::to_string(outcome.skipped + outcome.done) + " of " +
+                     std::to_string(job.runs.behind - job.runs.first) + " runs");
+      };
+    });
+    table.commit();
+  }
+  const SweepOutcome seen = failures.outcome();
+  outcome.failed = seen.failed;
+  outcome.first_failure = seen.first_failure;
+  return outcome;
+}
+
+namespace {
+
+struct TablePart {
+  std::string path, facts, names;  // facts: the lines above that of the runs
+  FrameRange runs;
+  int all = 0;
+};
+
+TablePart read_head(const std::string& path) {
+  require_plain_file(path, kLargestInput * 64);
+  note_input(path);
+  std::ifstream stream(path, std::ios::binary);
+  TablePart part{path, {}, {}, {}, 0};
+  std::string sweep, key, runs;
+  std::getline(stream, sweep);
+  std::getline(stream, key);
+  std::getline(stream, runs);
+  std::getline(stream, part.names);
+  part.facts = sweep + "\n" + key + "\n";
+  int last = -1;
+  if (!stream || !sweep.starts_with("# sweep: ") || !key.starts_with("# key: ") ||
+      std::sscanf(runs.c_str(), "# runs: %d to %d of %d", &part.runs.first, &last, &part.all) != 3)
+    throw Error(ExitCode::bad_input, "is no table of `chainreel sweep`", {path});
+  part.runs.behind = last + 1;
+  return part;
+}
+
+}  // namespace
+
+void join_tables(const std::vector<std::string>& paths, const std::string& path, bool overwrite) {
+  std::vector<TablePart> parts;
+  for (const std::string& one : paths) parts.push_back(read_head(one));
+  for (const TablePart& part : parts)
+    if (part.facts != parts.front().facts || part.names != parts.front().names || part.all != parts.front().all)
+      throw Error(ExitCode::bad_input,
+                  "is no part of the same sweep as " + parts.front().path + ": its scene, values or program are others",
+                  {part.path});
+  std::sort(parts.begin(), parts.end(), [](const TablePart& a, const TablePart& b) { return a.runs.first < b.runs.first; });
+  int next = 0;
+  for (const TablePart& part : parts) {
+    if (part.runs.first != next)
+      throw Error(ExitCode::bad_input, part.runs.first > next ? "runs " + std::to_string(next) + " to " +
+                                                                    std::to_string(part.runs.first - 1) + " before it are missing"
+                                                              : "its runs are in another part, too",
+                  {part.path});
+    next = part.runs.behind;
+  }
+  if (next != parts.front().all)
+    throw Error(ExitCode::bad_input, "runs " + std::to_string(next) + " to " + std::to_string(parts.front().all - 1) + " are missing",
+                {path});
+
+  OutputFile output(path, overwrite);
+  std::ofstream out(output.temporary_path(), std::ios::binary);
+  out << parts.front().facts << runs_line({0, next}, std::size_t(next)) << parts.front().names << "\n";
+  for (const TablePart& part : parts) {
+    std::ifstream stream(part.path, std::ios::binary);
+    std::string line;
+    for (int k = 0; k < 4; ++k) std::getline(stream, line);
+    int rows = 0;
+    for (; std::getline(stream, line); ++rows) out << line << "\n";
+    if (rows != part.runs.behind - part.runs.first)
+      throw Error(ExitCode::bad_input, "does not hold the rows that it tells of", {part.path});
+  }
+  out.close();
+  if (!out) throw Error(ExitCode::file, "could not be written whole: is the disk full?", {path});
+  output.commit();
+}
+
+}  // namespace chainreel

@@ -1,0 +1,38 @@
+// What the runs of a grid come to, as a table: a row a run, with its last state and the first time of each event.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/works/part.hpp"
+#include "scene/run/grid.hpp"
+
+namespace chainreel {
+
+struct SweepTableJob {
+  std::string scene;
+  std::vector<std::string> overrides;
+  const Grid& grid;
+  FrameRange runs;  // those of the grid that are asked for
+  int threads = 1;
+  std::string path;
+  bool overwrite = false;
+  bool quiet = false;
+};
+
+struct SweepOutcome {
+  std::size_t done = 0, skipped = 0;  // skipped: a former run of the program has done them
+  std::size_t failed = 0;
+  std::string first_failure;  // "torque.1=5: diverged at .."
+};
+
+// Rows are written as they come, in the order of the grid; what a run of the program that was ended has done is not done again,
+// as long as the scene, its model and all that they read are the same. Throws what reading the first scene throws, Error (exit
+// 6), and the signal's.
+SweepOutcome write_sweep_table(const SweepTableJob& job);
+
+// Parts of one table, by `--shard`, to the whole: the bytes of one that was computed whole. Throws Error (exit 3) where some
+// are missing, doubled or of another sweep.
+void join_tables(const std::vector<std::string>& parts, const std::string& path, bool overwrite);
+
+}  // namespace chainreel

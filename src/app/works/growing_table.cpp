@@ -1,0 +1,105 @@
+#include "app/works/growing_table.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "core/error.hpp"
+#include "core/output_file.hpp"
+
+namespace chainreel {
+namespace fs = std::filesystem;
+namespace {
+
+struct Found {
+  bool has_head = false;
+  std::size_t rows = 0, bytes = 0;  // of the head and whole rows
+};
+
+Found look_at(const std::string& path, const std::string& head) {
+  Found found;
+  std::error_code code;
+  if (!fs::is_regular_file(path, code)) return found;
+  std::ifstream stream(path, std::ios::binary);
+  std::string text(head.size(), '\0');
+  stream.read(text.data(), std::streamsize(text.size()));
+  if (!stream || text != head) return found;
+  found = {true, 0, head.size()};
+  for (std::string line; std::getline(stream, line) && !stream.eof();) {  // a line without its end is half a row
+    ++found.rows;
+    found.bytes += line.size() + 1;
+  }
+  return found;
+}
+
+}  // namespace
+
+GrowingTable::GrowingTable(const std::string& path, const std::string& head, bool overwrite)
+    : path_(path), hidden_((fs::path(path).parent_path() / ("." + fs::path(path).filename().string() + ".rows")).string()),
+      head_size_(head.size()), overwrite_(overwrite) {
+  if (const Found whole = look_at(path, head); whole.has_head) {
+    finished_ = true;
+    before_ = whole.rows;
+    return;
+  }
+  { const OutputFile allowed(path, overwrite); }  // throws where it is not, before anything is computed
+  file_ = open(hidden_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (file_ < 0) throw Error(ExitCode::file, std::string("cannot be written (") + std::strerror(errno) + ")", {path});
+  if (flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    close(file_);
+    throw Error(ExitCode::file, "is being computed by another process", {path});
+  }
+  const Found found = look_at(hidden_, head);
+  before_ = found.rows;
+  if (ftruncate(file_, off_t(found.bytes)) != 0 || lseek(file_, 0, SEEK_END) < 0) {
+    const std::string reason = std::strerror(errno);
+    close(file_);
+    throw Error(ExitCode::file, "cannot be written (" + reason + ")", {path});
+  }
+  if (!found.has_head) append(head);
+}
+
+GrowingTable::~GrowingTable() {
+  if (file_ >= 0) close(file_);
+}
+
+void GrowingTable::for_each_before(const std::function<void(const std::string& row)>& look) const {
+  std::ifstream stream(finished_ ? path_ : hidden_, std::ios::binary);
+  stream.seekg(std::streamoff(head_size_));
+  std::string line;
+  for (std::size_t k = 0; k < before_ && std::getline(stream, line); ++k) look(line);
+}
+
+void GrowingTable::take(std::size_t piece, std::string lines) {
+  const std::lock_guard guard(lock_);
+  waiting_.emplace(piece, std::move(lines));
+  for (; !waiting_.empty() && waiting_.begin()->first == next_; ++next_, waiting_.erase(waiting_.begin()))
+    append(waiting_.begin()->second);
+}
+
+void GrowingTable::append(const std::string& text) {
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t count = write(file_, text.data() + done, text.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0)
+      throw Error(ExitCode::file, std::string("could not be written whole (") + std::strerror(count < 0 ? errno : EIO) + ")",
+                  {path_});
+    done += std::size_t(count);
+  }
+}
+
+void GrowingTable::commit() {
+  OutputFile output(path_, overwrite_);
+  std::error_code code;
+  fs::copy_file(hidden_, output.temporary_path(), fs::copy_options::overwrite_existing, code);
+  if (code) throw Error(ExitCode::file, "could not be written whole (" + code.message() + ")", {path_});
+  output.commit();
+  fs::remove(hidden_, code);
+}
+
+}  // namespace chainreel

@@ -1,0 +1,47 @@
+// A table whose rows are computed for hours: they are kept in a hidden file beside it as they come, in their order, so that a
+// run of the program that was ended goes on behind the last whole row. It bears its name when all are there.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace chainreel {
+
+class GrowingTable {
+ public:
+  // `head`: the lines above the rows, which say all that they depend on; rows under another head are not taken. Throws Error
+  // (exit 6) as OutputFile does, and where another process is at it.
+  GrowingTable(const std::string& path, const std::string& head, bool overwrite);
+  ~GrowingTable();
+  GrowingTable(const GrowingTable&) = delete;
+  GrowingTable& operator=(const GrowingTable&) = delete;
+
+  // How many rows were there already, of a table that has this name or is still hidden.
+  std::size_t rows_before() const { return before_; }
+  bool is_finished() const { return finished_; }
+  // Calls `look` with each of those.
+  void for_each_before(const std::function<void(const std::string& row)>& look) const;
+
+  // Row lines number `piece`, counted from 0 in this run of the program, in any order and from any thread. Throws Error
+  // (exit 6).
+  void take(std::size_t piece, std::string lines);
+  // All rows are there.
+  void commit();
+
+ private:
+  void append(const std::string& text);
+
+  std::string path_, hidden_;
+  std::size_t head_size_ = 0;
+  std::size_t before_ = 0;
+  bool finished_ = false, overwrite_ = false;
+  int file_ = -1;
+  std::mutex lock_;
+  std::map<std::size_t, std::string> waiting_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace chainreel

@@ -1,0 +1,171 @@
+// A scene over a grid of its keys.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/json.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string kScene = "assets/scenes/rr_free.yaml";
+const Words kGrid{"--over", "start.q.1=0:1.5:4", "--over", "gravity.2=-9.81,-1.62", "--set", "duration=0.3"};
+
+ProgramResult sweep(const std::string& output, const Words& more = kGrid, const RunOptions& options = {}) {
+  return run_program(with({"sweep", kScene, "-o", output}, more), options);
+}
+
+std::vector<std::string> lines_of(const std::string& path) {
+  std::istringstream stream(read_whole_file(path));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream stream(line);
+  for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
+  return fields;
+}
+
+TEST(SweepTable, RowsAreTheLastOfTheRunsByThemselves) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(sweep(folder.file("a.csv")).status, 0);
+  const std::vector<std::string> lines = lines_of(folder.file("a.csv"));
+  ASSERT_EQ(lines.size(), 4u + 8u);
+  EXPECT_EQ(lines[3], "run,start.q.1,gravity.2,good,status,end_time,ended_by,q1,q2,qd1,qd2,trouble");
+  // The last axis goes on first: run 3 is of the second start and the second gravity.
+  const std::vector<std::string> row = fields_of(lines[4 + 3]);
+  EXPECT_EQ(row[1], "0.5");
+  EXPECT_EQ(row[2], "-1.62");
+  ASSERT_EQ(run_program({"simulate", kScene, "--quiet", "--set", "duration=0.3", "--set", "start.q.1=0.5", "--set",
+                         "gravity.2=-1.62", "-o", folder.file("one.csv")})
+                .status,
+            0);
+  const std::vector<std::string> alone = fields_of(lines_of(folder.file("one.csv")).back());
+  EXPECT_EQ(std::vector<std::string>(row.begin() + 7, row.begin() + 11), std::vector<std::string>(alone.begin() + 1, alone.end()));
+}
+
+TEST(SweepTable, ManyThreadsSharesAndRepeatsGiveTheSameBytes) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(sweep(folder.file("one.csv"), with(kGrid, {"--jobs", "1"})).status, 0);
+  ASSERT_EQ(sweep(folder.file("many.csv"), with(kGrid, {"--jobs", "8"})).status, 0);
+  const std::string whole = read_whole_file(folder.file("one.csv"));
+  EXPECT_EQ(read_whole_file(folder.file("many.csv")), whole);
+  Words join{"join"};
+  for (const char* shard : {"3/3", "1/3", "2/3"}) {
+    ASSERT_EQ(sweep(folder.file("s.csv"), with(kGrid, {"--shard", shard})).status, 0);
+    join.push_back(folder.file(std::string("s.part-") + shard[0] + "-of-3.csv"));
+  }
+  ASSERT_EQ(run_program(with(join, {"-o", folder.file("joined.csv")})).status, 0);
+  EXPECT_EQ(read_whole_file(folder.file("joined.csv")), whole);
+  // Parts that are missing, doubled or of another sweep are refused.
+  EXPECT_THAT(run_program({"join", join[1], join[2], "-o", folder.file("x.csv")}).err, HasSubstr("before it are missing"));
+  EXPECT_THAT(run_program({"join", join[2], "-o", folder.file("x.csv")}).err, HasSubstr("are missing"));
+  EXPECT_THAT(run_program(with(join, {join[1], "-o", folder.file("x.csv")})).err, HasSubstr("in another part, too"));
+  ASSERT_EQ(sweep(folder.file("t.csv"), with(kGrid, {"--shard", "1/3", "--set", "torque=[0, 1]"})).status, 0);
+  EXPECT_THAT(run_program({"join", join[1], join[3], folder.file("t.part-1-of-3.csv"), "-o", folder.file("x.csv")}).err,
+              HasSubstr("no part of the same sweep"));
+  EXPECT_FALSE(fs::exists(folder.file("x.csv")));
+}
+
+TEST(SweepTable, GoesOnBehindTheLastWholeRow) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(sweep(folder.file("a.csv")).status, 0);
+  const std::string whole = read_whole_file(folder.file("a.csv"));
+  EXPECT_THAT(sweep(folder.file("a.csv")).out, HasSubstr("8 of them done before")) << "nothing is to be forced";
+  // As a run leaves it that was killed within a row; those that are there are taken, which a forged one shows.
+  std::string left = whole.substr(0, whole.size() - 120);
+  const std::size_t forged = left.find("\n1,");
+  left[left.find("finished", forged)] = 'F';
+  fs::remove(folder.file("a.csv"));
+  folder.write(".a.csv.rows", left);
+  ASSERT_EQ(sweep(folder.file("a.csv")).status, 0);
+  std::string expected = whole;
+  expected[expected.find("finished", forged)] = 'F';
+  EXPECT_EQ(read_whole_file(folder.file("a.csv")), expected);
+  // Rows of another sweep are not, nor is a table of another one replaced.
+  const Words other = with(kGrid, {"--set", "torque=[0, 1]"});
+  EXPECT_EQ(sweep(folder.file("a.csv"), other).status, 6);
+  folder.write(".a.csv.rows", left);
+  EXPECT_EQ(sweep(folder.file("a.csv"), with(other, {"--force"})).status, 0);
+  EXPECT_THAT(read_whole_file(folder.file("a.csv")), Not(HasSubstr("Finished")));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1) << "nothing is left";
+}
+
+TEST(SweepTable, RunsThatFailAreRowsAndToldAtTheEnd) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      sweep(folder.file("a.csv"), {"--over", "step=0.001,-1,0.002", "--over", "model=../../models/rr.urdf,../../models/rrr.urdf", "--set",
+                                   "duration=0.1", "--quiet"});
+  EXPECT_EQ(result.status, 5);
+  EXPECT_THAT(result.err, HasSubstr("4 of the runs failed, first at step=0.001 model=../../models/rrr.urdf"));
+  const std::vector<std::string> lines = lines_of(folder.file("a.csv"));
+  ASSERT_EQ(lines.size(), 4u + 6u);
+  EXPECT_THAT(lines[4], HasSubstr(",1,finished,0.1"));
+  EXPECT_THAT(lines[6], HasSubstr(",0,refused,,,,,,,\"'step' must be above 0 s\""));
+  for (std::size_t k = 4; k < lines.size(); ++k)
+    EXPECT_EQ(std::count(lines[k].begin(), std::find(lines[k].begin(), lines[k].end(), '"'), ','),
+              std::count(lines[3].begin(), lines[3].end(), ','))
+        << lines[k];
+}
+
+TEST(SweepFolder, SkipsWhatShowsTheSameSceneAndNothingElse) {
+  const TemporaryFolder folder;
+  const Words small{"--over", "start.q.1=0,0.5", "--each", "mp4", "--each", "png", "--set", "video.width=64", "--set",
+                    "video.height=36", "--set", "duration=0.1"};
+  ASSERT_EQ(sweep(folder.file("films/"), small).status, 0);
+  const std::string film = folder.file("films/rr_free_start.q.1_0.5.mp4");
+  const std::string bytes = read_whole_file(film);
+  ASSERT_EQ(run_program({"render", kScene, "--quiet", "-o", folder.file("one.mp4"), "--set", "start.q.1=0.5", "--set",
+                         "video.width=64", "--set", "video.height=36", "--set", "duration=0.1"})
+                .status,
+            0);
+  EXPECT_EQ(bytes, read_whole_file(folder.file("one.mp4"))) << "as a render by itself";
+  EXPECT_TRUE(fs::exists(folder.file("films/rr_free_start.q.1_0.png")));
+  const auto written = fs::last_write_time(film);
+  fs::remove(folder.file("films/rr_free_start.q.1_0.mp4"));
+  const ProgramResult again = sweep(folder.file("films/"), with(small, {"--force"}));
+  EXPECT_THAT(again.out, HasSubstr("2 runs, 1 of them done before, 0 failed"));
+  EXPECT_EQ(fs::last_write_time(film), written);
+  EXPECT_TRUE(fs::exists(folder.file("films/rr_free_start.q.1_0.mp4")));
+  // Of the same name, but of another scene.
+  const Words other = with(small, {"--set", "torque=[1, 0]"});
+  EXPECT_EQ(sweep(folder.file("films/"), other).status, 6);
+  EXPECT_EQ(read_whole_file(film), bytes);
+  EXPECT_THAT(sweep(folder.file("films/"), with(other, {"--force"})).out, HasSubstr("0 of them done before"));
+  EXPECT_NE(read_whole_file(film), bytes);
+}
+
+TEST(Sweep, SaysWhatItCannotDoBeforeTheFirstRun) {
+  const TemporaryFolder folder;
+  const auto trouble = [&](const Words& more) {
+    const ProgramResult result = run_program(with({"sweep", kScene}, more));
+    EXPECT_NE(result.status, 0);
+    return std::to_string(result.status) + " " + result.err;
+  };
+  const Words over{"--over", "start.q.1=0,1"};
+  EXPECT_THAT(trouble(with(over, {"-o", folder.file("a.mp4")})), HasSubstr("into a FOLDER/"));
+  EXPECT_THAT(trouble(with(over, {"-o", folder.file("a.csv"), "-o", folder.file("b.csv")})), HasSubstr("one table"));
+  EXPECT_THAT(trouble(with(over, {"-o", folder.file("a.csv"), "--each", "png"})), HasSubstr("--each says"));
+  EXPECT_THAT(trouble(with(over, {"-o", folder.file("f/"), "--each", "doc"})), HasSubstr("--each doc"));
+  EXPECT_THAT(trouble(with(with(over, over), {"-o", folder.file("a.csv")})), HasSubstr("varies already"));
+  EXPECT_THAT(trouble({"--over", "a=0:1:9999", "--over", "b=0:1:9999", "--over", "c=0:1:9999"}), HasSubstr("7 "));
+  EXPECT_THAT(trouble({"--over", "nothing=0,1", "-o", folder.file("a.csv")}), HasSubstr("3 "));
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+}  // namespace
+}  // namespace chainreel
