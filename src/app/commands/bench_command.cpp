@@ -33,7 +33,7 @@ struct BenchOptions {
 
 // What was measured of one film. The floor: the same encoders on the same frames from memory, in the same chunks, by as many
 // threads.
-struct Measured {
+struct MeasuredFilm {
   int frames = 0, film_frames = 0, jobs = 0, chunks = 0;
   StageTime prepare;  // scene and model read, method chosen
   StageTimes stages;
@@ -84,8 +84,8 @@ void keep_least(StageTime& least, const StageTime& now, bool is_first) {
   least = is_first ? now : StageTime{std::min(least.cpu, now.cpu), std::min(least.wall, now.wall)};
 }
 
-Measured measure(const std::string& path, const BenchOptions& options, Scene& scene) {
-  Measured measured;
+MeasuredFilm measure(const std::string& path, const BenchOptions& options, Scene& scene) {
+  MeasuredFilm measured;
   ProcessClock clock;
   StageClock own;
   const PreparedFilm film = load_film(path, overrides_of(options.common), true, true);
@@ -138,7 +138,7 @@ struct StageRow {
   StageTime time;
 };
 
-std::vector<StageRow> rows_of(const Measured& measured) {
+std::vector<StageRow> rows_of(const MeasuredFilm& measured) {
   const StageTimes& s = measured.stages;
   return {{"prepare", "prepare (scene, model, method)", measured.prepare},
           {"simulate", "simulate", s.simulate},
@@ -150,7 +150,7 @@ std::vector<StageRow> rows_of(const Measured& measured) {
           {"rest", "all else", measured.rest()}};
 }
 
-Json to_json(const Measured& measured, const Scene& scene) {
+Json stages_json(const MeasuredFilm& measured, const Scene& scene) {
   Json stages;
   for (const StageRow& row : rows_of(measured)) {
     stages[row.name] = {{"cpu_ms", 1e3 * row.time.cpu / measured.frames}};
@@ -171,7 +171,7 @@ Json to_json(const Measured& measured, const Scene& scene) {
            {{"cpu", measured.whole.cpu / measured.floor.cpu}, {"wall", measured.whole.wall / measured.floor.wall}}}};
 }
 
-void print(const Measured& measured, const Scene& scene) {
+void print_stages(const MeasuredFilm& measured, const Scene& scene) {
   const auto counted = [](int count, const char* what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
   };
@@ -197,10 +197,10 @@ void run_bench(const BenchOptions& options) {
   std::vector<std::vector<std::string>> table{{"film", "frames", "ours s", "encoder s", "ratio", "ratio of CPU"}};
   for (const std::string& path : options.scenes) {
     Scene scene;
-    const Measured m = measure(path, options, scene);
-    all.push_back(to_json(m, scene));
+    const MeasuredFilm m = measure(path, options, scene);
+    all.push_back(stages_json(m, scene));
     if (options.common.json) continue;
-    print(m, scene);
+    print_stages(m, scene);
     table.push_back({scene.name, std::to_string(m.frames), format_fixed(m.whole.wall, 2), format_fixed(m.floor.wall, 2),
                      format_fixed(m.whole.wall / m.floor.wall, 2), format_fixed(m.whole.cpu / m.floor.cpu, 2)});
   }
