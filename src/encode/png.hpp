@@ -1,4 +1,4 @@
-// PNG by libpng: 8-bit RGBA, or RGB where every pixel is opaque; text chunks for what the picture should
+// PNG: 8-bit RGBA, or RGB where every pixel is opaque; text chunks for what the picture should
 // remember (tEXt, or iTXt in UTF-8 where a text is not ASCII). Nothing in the file depends on the time of
 // writing.
 #pragma once

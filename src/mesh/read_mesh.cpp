@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "core/equal_items.hpp"
 #include "core/error.hpp"
 #include "mesh/mesh_file.hpp"
 #include "mesh/smooth_normals.hpp"
@@ -265,7 +266,9 @@ std::vector<Eigen::Vector3f> normals_of(const aiMesh& mesh, const Placement& pla
 
 TriangleMesh collect_triangles(const std::vector<PlacedMesh>& placed, MaterialColors& colors) {
   TriangleMesh result;
-  EqualItems<Vertex> vertices;
+  std::size_t given = 0;
+  for (const PlacedMesh& mesh : placed) given += mesh.mesh->mNumVertices;
+  EqualItems<Vertex> vertices(given / 2);  // files that give each triangle its own have six times too many
   for (const auto& [mesh, X] : placed) {
     const Placement placement(X);
     const Corners corners = corners_of(*mesh, placement);

@@ -4,8 +4,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/equal_items.hpp"
+
 namespace chainreel {
 namespace {
+
+constexpr std::size_t kCornersOfPoint = 6;  // where triangles cover a surface
 
 Eigen::Vector3d vector_of(const Point3f& p) {
   return {double(p[0]), double(p[1]), double(p[2])};
@@ -20,7 +24,7 @@ double angle_at(const Point3f& at, const Point3f& a, const Point3f& b) {
 // The corners at each point, one row behind the other: those of point i stand from first[i] to first[i + 1].
 struct CornersAtPoints {
   explicit CornersAtPoints(const std::vector<Point3f>& corners) {
-    EqualItems<Point3f> points;
+    EqualItems<Point3f> points(corners.size() / kCornersOfPoint);
     point_of.reserve(corners.size());
     for (const Point3f& corner : corners) point_of.push_back(points.index_of(corner));
     first.assign(points.items.size() + 1, 0);

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/equal_items.hpp"
+
 namespace chainreel {
 namespace {
 
@@ -69,16 +71,13 @@ namespace {
 
 // For each vertex the number of its place.
 std::vector<std::uint32_t> places_of(const TriangleMesh& mesh) {
-  std::vector<std::uint32_t> order(mesh.vertices.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return mesh.vertices[a].position < mesh.vertices[b].position;
-  });
-  std::vector<std::uint32_t> place(order.size());
-  std::uint32_t last = 0;
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    if (mesh.vertices[order[i]].position != mesh.vertices[order[i - 1]].position) ++last;
-    place[order[i]] = last;
+  EqualItems<std::array<float, 3>> places(mesh.vertices.size() / 2);
+  std::vector<std::uint32_t> place;
+  place.reserve(mesh.vertices.size());
+  for (const TriangleMesh::Vertex& vertex : mesh.vertices) {
+    std::array<float, 3> at = vertex.position;
+    for (float& x : at) x += 0.0F;  // -0 is at 0
+    place.push_back(places.index_of(at));
   }
   return place;
 }
@@ -98,22 +97,39 @@ class Parts {
 };
 
 struct Edge {
-  std::uint64_t ends = 0;  // the lower place first
-  int sense = 0;           // 1: run along from the lower place
-  std::uint32_t triangle = 0;
+  std::uint32_t upper = 0;  // the place with the higher number
+  std::uint32_t triangle : 31 = 0;
+  std::uint32_t is_upward : 1 = 0;  // run along from the lower place
 };
 
-std::vector<Edge> edges_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& place) {
-  std::vector<Edge> edges;
-  for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint64_t a = place[mesh.triangles[t + k]], b = place[mesh.triangles[t + (k + 1) % 3]];
-      if (a != b)
-        edges.push_back({std::min(a, b) << 32 | std::max(a, b), a < b ? 1 : -1, std::uint32_t(t / 3)});
-    }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.ends < b.ends; });
-  return edges;
-}
+// The edges of all triangles, those of one lower place beside one another, in the order of their upper places: of place i from
+// first[i] to first[i + 1].
+struct Edges {
+  Edges(const TriangleMesh& mesh, const std::vector<std::uint32_t>& place) : first(mesh.vertices.size() + 1, 0) {
+    const auto for_each = [&](const auto& take) {
+      for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
+        const std::uint32_t corners[] = {place[mesh.triangles[t]], place[mesh.triangles[t + 1]], place[mesh.triangles[t + 2]]};
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::uint32_t a = corners[k], b = corners[k == 2 ? 0 : k + 1];
+          if (a != b) take(std::min(a, b), std::max(a, b), std::uint32_t(t / 3), a < b);
+        }
+      }
+    };
+    for_each([&](std::uint32_t lower, std::uint32_t, std::uint32_t, bool) { ++first[lower + 1]; });
+    for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+    row.resize(first.back());
+    std::vector<std::uint32_t> next = first;
+    for_each([&](std::uint32_t lower, std::uint32_t upper, std::uint32_t triangle, bool is_upward) {
+      row[next[lower]++] = {upper, triangle & 0x7fffffffU, is_upward};
+    });
+    for (std::size_t i = 0; i + 1 < first.size(); ++i)
+      std::sort(row.begin() + first[i], row.begin() + first[i + 1],
+                [](const Edge& a, const Edge& b) { return a.upper < b.upper; });
+  }
+
+  std::vector<std::uint32_t> first;
+  std::vector<Edge> row;
+};
 
 // Six times the volume between a triangle and the origin.
 double six_volumes(const TriangleMesh& mesh, std::size_t triangle) {
@@ -128,19 +144,20 @@ double six_volumes(const TriangleMesh& mesh, std::size_t triangle) {
 
 SortedTriangles closed_parts_first(const TriangleMesh& mesh) {
   const std::size_t count = mesh.triangles.size() / 3;
-  const std::vector<Edge> edges = edges_of(mesh, places_of(mesh));
+  const Edges edges(mesh, places_of(mesh));
   Parts parts(count);
   std::vector<std::uint32_t> torn;  // triangles at edges that do not join two
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t end = i;
-    int sense = 0;
-    for (; end < edges.size() && edges[end].ends == edges[i].ends; ++end) {
-      sense += edges[end].sense;
-      parts.join(edges[i].triangle, edges[end].triangle);
+  for (std::size_t place = 0; place + 1 < edges.first.size(); ++place)
+    for (std::uint32_t i = edges.first[place], behind = edges.first[place + 1]; i < behind;) {
+      std::uint32_t end = i;
+      int sense = 0;
+      for (; end < behind && edges.row[end].upper == edges.row[i].upper; ++end) {
+        sense += edges.row[end].is_upward ? 1 : -1;
+        parts.join(edges.row[i].triangle, edges.row[end].triangle);
+      }
+      if (end - i != 2 || sense != 0) torn.push_back(edges.row[i].triangle);
+      i = end;
     }
-    if (end - i != 2 || sense != 0) torn.push_back(edges[i].triangle);
-    i = end;
-  }
   std::vector<double> volume(count, 0.0);
   for (std::size_t t = 0; t < count; ++t) volume[parts.of(std::uint32_t(t))] += six_volumes(mesh, t);
   for (const std::uint32_t t : torn) volume[parts.of(t)] = -1;
@@ -150,12 +167,13 @@ SortedTriangles closed_parts_first(const TriangleMesh& mesh) {
       if (mesh.vertices[mesh.triangles[3 * t + k]].color[3] < 255) return false;
     return true;
   };
-  enum Group { closed, open, translucent };
+  enum Group : std::uint8_t { closed, open, translucent };
   std::vector<Group> group(count);
   for (std::size_t t = 0; t < count; ++t)
     group[t] = !is_opaque(t) ? translucent : volume[parts.of(std::uint32_t(t))] > 0 ? closed : open;
 
   SortedTriangles sorted;
+  sorted.indices.reserve(3 * count);
   for (const Group wanted : {closed, open, translucent}) {
     for (std::size_t t = 0; t < count; ++t)
       if (group[t] == wanted)
