@@ -141,6 +141,20 @@ TEST_F(Parts, OfOpacityAndOfFramesAsPicturesAreTheWhole) {
   expect_same_files(pictures.path(), shares.path());
 }
 
+TEST_F(Parts, TellWhichFramesTheyAreAndAShareWithoutFramesLeavesNone) {
+  const TemporaryFolder folder;
+  const auto report = [&](const char* shard) {
+    const ProgramResult result = run_program(
+        render_of("rr_ellipse", {"--set", "duration=0.3", "--json", "--shard", shard, "-o", folder.file("a.mp4")}));
+    EXPECT_EQ(result.status, 0);
+    return Json::parse(result.out).front();
+  };
+  EXPECT_EQ(report("1/2")["file"], nullptr);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+  EXPECT_EQ(report("2/2")["part"], (Json{{"first", 0}, {"behind", 26}}));
+  EXPECT_EQ(files_in(folder.path()).size(), 1u) << "what stands beside the film is in the part";
+}
+
 TEST_F(Parts, OfAnotherFilmOrTooFewAreRefused) {
   const TemporaryFolder folder;
   render(folder.file("a.mp4"), {"--frames", "0:64"});

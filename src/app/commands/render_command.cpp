@@ -133,6 +133,7 @@ void run_render(const RenderOptions& options) {
     reports.push_back(result.audit);
     reports.back()["file"] = result.files.empty() ? Json(nullptr) : Json(result.files.front());
     reports.back()["files"] = result.files;
+    if (result.part) reports.back()["part"] = {{"first", result.part->first}, {"behind", result.part->behind}};
     reports.back()["sidecars"] = result.sidecars;
     table.push_back({films[i].scene.name, std::to_string(result.frames), format_fixed(result.film_seconds, 2),
                      format_fixed(result.times.total, 2), joined(result.files, " ")});

@@ -194,6 +194,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
   if (is_part) {
     const FilmCuts cuts = cuts_of(outputs, result.frames, fps);
     range = job.part->of(cuts.bounds, cuts.are_fixed);
+    result.part = range;
     if (range.empty()) {
       std::fprintf(stderr, "note: %s: %s has no frames: the film has %zu chunks\n", scene.name.c_str(),
                    job.part->text().c_str(), cuts.bounds.size() - 1);

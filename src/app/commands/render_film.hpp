@@ -27,7 +27,8 @@ struct RenderJob {
 struct RenderResult {
   std::vector<std::string> files;     // of the targets, in their order
   std::vector<std::string> sidecars;  // NAME.json, NAME.txt, and maybe NAME.srt and NAME.tex
-  int frames = 0;                     // with those that are held
+  int frames = 0;                     // with those that are held; of the part
+  std::optional<FrameRange> part;     // of a part: which they are
   double film_seconds = 0;
   int jobs = 1;                       // threads that it was drawn by, at most
   StageTimes times;

@@ -17,8 +17,9 @@
 namespace chainreel {
 namespace {
 
-// Of a thread with its canvas and one encoder, measured at 1920x1080.
-constexpr double kBytesOfThread = 30e6, kBytesOfPixel = 90;
+// Of what all share: libraries that are still to be loaded; of a thread with its canvas and one encoder, measured at
+// 1920x1080, and the address space that it takes for its heap.
+constexpr double kBytesOfProcess = 300e6, kBytesOfThread = 100e6, kBytesOfPixel = 90;
 
 // The whole picture of a frame, for pages of shapes.
 Picture picture_of(const Film& film, int frame) {
@@ -305,7 +306,7 @@ int affordable_jobs(int wanted, const Scene& scene, const std::vector<Output>& o
       std::count_if(outputs.begin(), outputs.end(), [](const Output& output) { return output.target.format->codec; });
   const double bytes =
       kBytesOfThread + kBytesOfPixel * scene.video.width * scene.video.height * double(std::max(1L, long(encoders)));
-  const int affordable = int(std::clamp(memory_limit() / bytes, 1.0, 4096.0));
+  const int affordable = int(std::clamp((memory_limit() - kBytesOfProcess) / bytes, 1.0, 4096.0));
   if (wanted > affordable)
     std::fprintf(stderr, "note: %s: there is memory for --jobs %d only\n", scene.name.c_str(), affordable);
   return std::min(wanted > 0 ? wanted : usable_cores(), affordable);
