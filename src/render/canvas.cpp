@@ -97,7 +97,6 @@ struct Canvas::State {
       gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     }
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    gl.PixelStorei(GL_PACK_ROW_LENGTH, w);
     gl.Viewport(0, 0, w, h);
     gl.Enable(GL_SCISSOR_TEST);
     gl.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -184,14 +183,18 @@ struct Canvas::State {
     std::vector<PixelBox> boxes;
     touched.boxes(piece.outline.box, boxes);
     if (boxes.empty()) return;
-    solid_layer->draw(*batch.solids()[std::size_t(piece.instance)], boxes);
+    const float* numbers = batch.numbers(piece);
+    const BodyPaint paint{numbers[0], numbers[1], {numbers[4], numbers[5], numbers[6], numbers[7]}};
+    const std::vector<PixelBox>& shown =
+        solid_layer->draw(*batch.solids()[std::size_t(piece.instance)], paint, boxes);
     gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
     scissor(whole());
+    if (shown.empty()) return;
     gl.BindTexture(GL_TEXTURE_2D, solid_layer->texture());
     std::vector<float> instances;
-    Windows::append(batch, piece, boxes, instances);
+    Windows::append(batch, piece, shown, instances);
     program(run.primitive).upload(instances.data(), instances.size());
-    program(run.primitive).draw(0, int(boxes.size()));
+    program(run.primitive).draw(0, int(shown.size()));
   }
 
   // Everything of the batch that lies in the tiles, onto what is there.
@@ -230,6 +233,7 @@ struct Canvas::State {
 
   void read(const std::vector<PixelBox>& boxes, bool is_translucent) {
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, page.framebuffer());
+    gl.PixelStorei(GL_PACK_ROW_LENGTH, width);
     for (const PixelBox& box : boxes) {
       const std::size_t first = std::size_t(box.y) * std::size_t(width) + std::size_t(box.x);
       gl.ReadPixels(box.x, box.y, box.width, box.height, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV,

@@ -144,7 +144,7 @@ Spans Outline::spans(int top, int bottom, const float* numbers) const {
                           : kind == Kind::ellipse ? columns_of_ellipse(*this, top, bottom)
                                                   : columns_of_polygon(*this, numbers, top, bottom);
   if (columns.outer.empty()) return {};
-  const auto column = [this](double x) { return int(std::clamp(x, double(box.x), double(box.right()))); };
+  const auto column = [this](double edge) { return int(std::clamp(edge, double(box.x), double(box.right()))); };
   Spans spans{column(std::floor(columns.outer.low)), column(std::ceil(columns.outer.high)), 0, 0};
   if (!columns.inner.empty()) {
     spans.inner_left = column(std::ceil(columns.inner.low));

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "render/gl_objects.hpp"
 #include "render/solid_bounds.hpp"
 
 namespace chainreel {
@@ -13,12 +12,13 @@ namespace {
 
 constexpr int kFinePage = 540;  // px of height: smaller pages take more samples a pixel, since they cost less
 constexpr double kDepthMargin = 0.01;
-constexpr int kRim = TileMask::kSide;  // px around what is asked for that is drawn, too
+constexpr int kGrain = 64;          // px: layers are as large as a multiple of it
 constexpr double kBodyFringe = 2;  // px around bodies that may be touched: outlines are a pixel wide at least
 
 int samples_for(int width, int height, int largest) {
   const int wanted = height <= kFinePage ? 4 : 2;
-  return std::max(1, std::min(wanted, largest / std::max(width, height)));
+  const int possible = std::min(wanted, largest / std::max(width, height));
+  return possible >= 4 ? 4 : possible >= 2 ? 2 : 1;
 }
 
 }  // namespace
@@ -74,13 +74,12 @@ struct SolidLayer::Program {
   const GlFunctions& gl;
   GLuint program;
   std::array<GLint, 3> rows{};
-  GLint page, own_color, depth;
+  GLint page_px, page, own_color, depth;
 
-  Program(const GlFunctions& functions, int width, int height)
-      : gl(functions), program(make_program(functions, "solid")) {
+  explicit Program(const GlFunctions& functions) : gl(functions), program(make_program(functions, "solid")) {
     gl.UseProgram(program);
     const auto place = [&](const char* name) { return gl.GetUniformLocation(program, name); };
-    gl.Uniform2f(place("page_px"), float(width), float(height));
+    page_px = place("page_px");
     rows = {place("row_x"), place("row_y"), place("row_z")};
     page = place("page");
     own_color = place("own_color");
@@ -91,13 +90,14 @@ struct SolidLayer::Program {
   Program& operator=(const Program&) = delete;
 };
 
-struct SolidLayer::Target {
-  chainreel::Target color;
+struct SolidLayer::SampleTarget {
+  Target color;
   const GlFunctions& gl;
+  int width, height;
   GLuint depth = 0;
 
-  Target(const GlFunctions& functions, int width, int height)
-      : color(functions, chainreel::Target::Kind::color, width, height), gl(functions) {
+  SampleTarget(const GlFunctions& functions, int w, int h)
+      : color(functions, Target::Kind::color, w, h), gl(functions), width(w), height(h) {
     gl.GenRenderbuffers(1, &depth);
     gl.BindRenderbuffer(GL_RENDERBUFFER, depth);
     gl.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width, height);
@@ -108,9 +108,9 @@ struct SolidLayer::Target {
       throw Error(ExitCode::no_renderer, "OpenGL offers no depth for a picture of " + std::to_string(width) +
                                              "x" + std::to_string(height));
   }
-  ~Target() { gl.DeleteRenderbuffers(1, &depth); }
-  Target(const Target&) = delete;
-  Target& operator=(const Target&) = delete;
+  ~SampleTarget() { gl.DeleteRenderbuffers(1, &depth); }
+  SampleTarget(const SampleTarget&) = delete;
+  SampleTarget& operator=(const SampleTarget&) = delete;
 };
 
 SolidLayer::SolidLayer(const GlFunctions& gl, int width, int height, int largest)
@@ -118,13 +118,14 @@ SolidLayer::SolidLayer(const GlFunctions& gl, int width, int height, int largest
       width_(width),
       height_(height),
       samples_(samples_for(width, height, largest)),
-      program_(std::make_unique<Program>(gl, width, height)),
-      target_(std::make_unique<Target>(gl, samples_ * width, samples_ * height)) {}
+      largest_(largest),
+      program_(std::make_unique<Program>(gl)),
+      page_(gl, Target::Kind::color, width, height) {}
 
 SolidLayer::~SolidLayer() = default;
 
 GLuint SolidLayer::texture() const {
-  return target_->color.texture();
+  return page_.texture();
 }
 
 const SolidLayer::Buffers& SolidLayer::buffers_of(const std::shared_ptr<const TriangleMesh>& mesh) {
@@ -134,12 +135,12 @@ const SolidLayer::Buffers& SolidLayer::buffers_of(const std::shared_ptr<const Tr
 }
 
 void SolidLayer::draw_part(const Solid& solid, const Buffers& buffers, const Solids& solids,
-                           const SolidBounds& bounds, Pass pass) {
+                           const SolidBounds& bounds, const PixelBox& frame, Pass pass) {
   for (std::size_t r = 0; r < 3; ++r) {
     const double* row = &solid.to_view[4 * r];
     gl_.Uniform4f(program_->rows[r], float(row[0]), float(row[1]), float(row[2]), float(row[3]));
   }
-  gl_.Uniform4f(program_->page, float(height_ * solids.origin.x), float(height_ * (1 - solids.origin.y)),
+  gl_.Uniform4f(program_->page, float(height_ * solids.origin.x - frame.x), float(height_ * (1 - solids.origin.y) - frame.y),
                 float(height_ * solids.scale), float(solids.nearness));
   const std::optional<Color> color = solids.is_shadow ? solids.outline.faded(1) : solid.color;
   if (color)
@@ -203,39 +204,48 @@ void SolidLayer::touch(const Solids& solids, TileMask& tiles) {
   }
 }
 
-// With a rim, since an outline looks for bodies beyond its own pixel.
-void SolidLayer::clear(const std::vector<PixelBox>& boxes) const {
-  gl_.DepthMask(GL_TRUE);
-  gl_.ClearColor(0, 0, 0, 0);
-  for (const PixelBox& box : boxes) {
-    gl_.Scissor(samples_ * (box.x - kRim), samples_ * (box.y - kRim), samples_ * (box.width + 2 * kRim),
-                samples_ * (box.height + 2 * kRim));
-    gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  }
+// The part of the page that they may touch. It depends on nothing but the bodies: where it lies bears on the last bit of
+// their places.
+PixelBox SolidLayer::frame_of(const SolidBounds& bounds) const {
+  const auto pixel = [](double edge, int side) { return int(std::clamp(edge, -1.0, side + 1.0)); };
+  const Rect& r = bounds.page;
+  const PixelBox box = common_part(
+      {0, 0, width_, height_},
+      box_between(pixel(std::floor(height_ * r.x0 - kBodyFringe), width_), pixel(std::floor(height_ * (1 - r.y1) - kBodyFringe), height_),
+                  pixel(std::ceil(height_ * r.x1 + kBodyFringe), width_), pixel(std::ceil(height_ * (1 - r.y0) + kBodyFringe), height_)));
+  const auto grown = [this](int side) { return std::min((side + kGrain - 1) / kGrain * kGrain, largest_ / samples_); };
+  return {box.x, box.y, grown(box.width), grown(box.height)};
 }
 
-void SolidLayer::draw(const Solids& solids, const std::vector<PixelBox>& touched) {
-  const std::vector<MeshBounds> boxes = bounds_of_parts(solids);
-  const std::optional<SolidBounds> bounds = bounds_of(solids, boxes);
-  if (!bounds) return;
+// All of the target is cleared: a part of it would be filled sample by sample.
+void SolidLayer::begin(const PixelBox& frame) {
+  const int width = samples_ * frame.width, height = samples_ * frame.height;
+  if (!target_ || target_->width < width || target_->height < height) {
+    const int most_width = std::max(width, target_ ? target_->width : 0), most_height = std::max(height, target_ ? target_->height : 0);
+    target_.reset();
+    target_ = std::make_unique<SampleTarget>(gl_, most_width, most_height);
+  }
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, target_->color.framebuffer());
+  gl_.Viewport(0, 0, width, height);
+  gl_.Disable(GL_SCISSOR_TEST);
+  gl_.DepthMask(GL_TRUE);
+  gl_.ClearColor(0, 0, 0, 0);
+  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+void SolidLayer::draw_parts(const Solids& solids, const SolidBounds& bounds, const PixelBox& frame) {
   std::vector<const Buffers*> buffers;
   for (const Solid& solid : solids.parts) buffers.push_back(&buffers_of(solid.mesh));
-
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, target_->color.framebuffer());
-  gl_.Viewport(0, 0, samples_ * width_, samples_ * height_);
-  clear(touched);
-  const PixelBox all = box_around(touched);
-  gl_.Scissor(samples_ * (all.x - kRim), samples_ * (all.y - kRim), samples_ * (all.width + 2 * kRim),
-              samples_ * (all.height + 2 * kRim));
   gl_.Enable(GL_DEPTH_TEST);
   gl_.FrontFace(GL_CW);  // counter-clockwise triangles, in pictures whose y points down
   gl_.UseProgram(program_->program);
+  gl_.Uniform2f(program_->page_px, float(frame.width), float(frame.height));
   // What shines through comes last, farthest first, and hides nothing.
   std::vector<std::size_t> translucent;
   for (std::size_t i = 0; i < solids.parts.size(); ++i) {
     const std::optional<Color>& color = solids.parts[i].color;
     const bool whole = color && color->a < 1, some = !color && buffers[i]->opaque < buffers[i]->all;
-    if (solids.is_shadow || !whole) draw_part(solids.parts[i], *buffers[i], solids, *bounds, Pass::opaque);
+    if (solids.is_shadow || !whole) draw_part(solids.parts[i], *buffers[i], solids, bounds, frame, Pass::opaque);
     if (!solids.is_shadow && (whole || some)) translucent.push_back(i);
   }
   std::stable_sort(translucent.begin(), translucent.end(), [&](std::size_t a, std::size_t b) {
@@ -243,10 +253,54 @@ void SolidLayer::draw(const Solids& solids, const std::vector<PixelBox>& touched
   });
   gl_.DepthMask(GL_FALSE);
   for (const std::size_t i : translucent)
-    draw_part(solids.parts[i], *buffers[i], solids, *bounds, Pass::translucent);
+    draw_part(solids.parts[i], *buffers[i], solids, bounds, frame, Pass::translucent);
   gl_.DepthMask(GL_TRUE);
   gl_.Disable(GL_DEPTH_TEST);
+}
+
+void SolidLayer::read(const PixelBox& frame, const PixelBox& wanted) {
+  read_.box = common_part(frame, wanted);
+  read_.per_side = samples_;
+  const PixelBox& box = read_.box;
+  read_.rgba.resize(std::size_t(4) * std::size_t(samples_ * samples_) * std::size_t(box.width) * std::size_t(box.height));
+  gl_.PixelStorei(GL_PACK_ROW_LENGTH, 0);
+  gl_.ReadPixels(samples_ * (box.x - frame.x), samples_ * (box.y - frame.y), samples_ * box.width,
+                 samples_ * box.height, GL_RGBA, GL_UNSIGNED_BYTE, read_.rgba.data());
+}
+
+// Tile by tile, since most are empty.
+void SolidLayer::put(const PixelBox& box, const BodyPixels& pixels, BoxJoiner& shown) {
+  constexpr int kSide = TileMask::kSide;
+  for (int top = box.y; top < box.bottom(); top = (top / kSide + 1) * kSide)
+    for (int left = box.x; left < box.right(); left = (left / kSide + 1) * kSide) {
+      const PixelBox tile = common_part(box, {left / kSide * kSide, top / kSide * kSide, kSide, kSide});
+      if (!pixels.draw(tile, rgba_)) continue;
+      gl_.TexSubImage2D(GL_TEXTURE_2D, 0, tile.x, tile.y, tile.width, tile.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba_.data());
+      shown.add(tile);
+    }
+}
+
+const std::vector<PixelBox>& SolidLayer::draw(const Solids& solids, const BodyPaint& paint,
+                                              const std::vector<PixelBox>& boxes) {
+  shown_.clear();
+  const std::optional<SolidBounds> bounds = bounds_of(solids, bounds_of_parts(solids));
+  if (!bounds) return shown_;
+  const PixelBox frame = frame_of(*bounds);
+  if (frame.empty()) return shown_;
+  begin(frame);
+  draw_parts(solids, *bounds, frame);
+  // A line looks for bodies beyond its own pixel.
+  const int rim = int(std::ceil(paint.radius)) + 1;
+  const PixelBox all = box_around(boxes);
+  read(frame, {all.x - rim, all.y - rim, all.width + 2 * rim, all.height + 2 * rim});
+  gl_.Enable(GL_SCISSOR_TEST);
   gl_.Viewport(0, 0, width_, height_);
+  if (read_.box.empty()) return shown_;
+  const BodyPixels pixels(read_, paint);
+  gl_.BindTexture(GL_TEXTURE_2D, page_.texture());
+  BoxJoiner shown(shown_);
+  for (const PixelBox& box : boxes) put(box, pixels, shown);
+  return shown_;
 }
 
 }  // namespace chainreel

@@ -18,9 +18,9 @@ static_assert(TileMask::kSide % kStrip == 0);
 constexpr int kSmall = 40 * 40;  // px: what a window more costs
 
 // A shape's parts within the marked tiles, as boxes that do not overlap.
-class Parts {
+class WindowParts {
  public:
-  Parts(const Piece& piece, const float* numbers, const TileMask& tiles, std::vector<PixelBox>& some,
+  WindowParts(const Piece& piece, const float* numbers, const TileMask& tiles, std::vector<PixelBox>& some,
         std::vector<PixelBox>& inner)
       : outline_(piece.outline), numbers_(numbers), tiles_(tiles), some_(some), inner_(inner) {}
 
@@ -92,7 +92,7 @@ void Windows::add_shape(const Batch& batch, int index, const TileMask& tiles) {
   const float* numbers = batch.numbers(piece);
   some_.clear();
   even_.clear();
-  Parts(piece, numbers, tiles, some_, even_).find();
+  WindowParts(piece, numbers, tiles, some_, even_).find();
   add(index, piece.primitive, numbers, some_);
   const float* fill = numbers + place_of_fill(piece.primitive);
   if (!even_.empty() && place_of_fill(piece.primitive) > 0 && fill[3] > 0) add(index, Primitive::flat, fill, even_);
