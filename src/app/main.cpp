@@ -8,6 +8,7 @@
 #include "app/guide/reference.hpp"
 #include "app/report/version.hpp"
 #include "core/error.hpp"
+#include "render/gl_backend.hpp"
 
 namespace {
 
@@ -19,6 +20,9 @@ int run(int argc, char** argv) {
       "Exit codes: " + exit_code_words() +
           ".\nWhat scenes may say, methods, constraints, outputs: chainreel help\n"
           "Example: chainreel render assets/scenes/rr_free.yaml");
+  app.add_choice("--gl", "CHAINREEL_GL", words_of(names_of(GlBackend{})),
+                 "where OpenGL comes from: auto takes OSMesa, else EGL; the bytes are the same",
+                 [](const std::string& word) { choose_gl_backend(*value_named<GlBackend>(word)); });
   add_render_command(app);
   add_join_command(app);
   add_bench_command(app);

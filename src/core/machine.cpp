@@ -135,22 +135,14 @@ void require_memory(double bytes, const std::string& what) {
                                    gigabytes(limit) + " only");
 }
 
-std::string processor_features() {
-  std::string features;
-#ifdef __x86_64__
-  __builtin_cpu_init();
-  const auto add = [&](bool there, const char* name) {
-    if (there) features += (features.empty() ? "" : " ") + std::string(name);
-  };
-  add(__builtin_cpu_supports("sse4.1"), "sse4.1");
-  add(__builtin_cpu_supports("avx"), "avx");
-  add(__builtin_cpu_supports("avx2"), "avx2");
-  add(__builtin_cpu_supports("fma"), "fma");
-  add(__builtin_cpu_supports("avx512f"), "avx512f");
-  add(__builtin_cpu_supports("avx512dq"), "avx512dq");
-  add(__builtin_cpu_supports("avx512vl"), "avx512vl");
+std::string processor_architecture() {
+#if defined(__x86_64__)
+  return "x86_64";
+#elif defined(__aarch64__)
+  return "aarch64";
+#else
+  return "unknown";
 #endif
-  return features;
 }
 
 void prefer_large_pages(void* begin, std::size_t bytes) {

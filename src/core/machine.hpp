@@ -31,8 +31,7 @@ void require_memory(double bytes, const std::string& what);
 // a large picture in small ones takes as long as to decode it. Changes nothing but time.
 void prefer_large_pages(void* begin, std::size_t bytes);
 
-// What the processor can do that compilers for wide vectors go by: "sse4.1 avx2 fma". Two that say the same compute the
-// same bits of a picture.
-std::string processor_features();
+// "x86_64": all processors of one architecture draw the same pixels.
+std::string processor_architecture();
 
 }  // namespace chainreel

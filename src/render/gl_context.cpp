@@ -1,17 +1,15 @@
 #include "render/gl_context.hpp"
 
-#include <GL/osmesa.h>
-#include <dlfcn.h>
 #include <sys/mman.h>
 
-#include <array>
 #include <atomic>
-#include <cstdint>
 #include <cstdlib>
 #include <mutex>
 
 #include "core/error.hpp"
 #include "render/canvas.hpp"
+#include "render/gl_backend.hpp"
+#include "render/renderer_pins.hpp"
 
 namespace chainreel {
 
@@ -26,25 +24,13 @@ GlFunctions load_gl_functions(const GlLookup& lookup) {
 }
 
 namespace {
+
+constexpr Name kBackends[] = {{"auto", "OSMesa if it is there, else EGL"},
+                              {"osmesa", "Mesa's library for pictures in memory"},
+                              {"egl", "Mesa without a screen, on the processor"}};
+
 std::atomic<bool> several_threads = false;
-}
-
-void fill_by_several_threads(bool wanted) {
-  several_threads = wanted;
-}
-
-std::unique_ptr<GlContext> create_gl_context() {
-  // Mesa reads the variable when its first context is made; without it there are as many threads as cores.
-  static std::once_flag set;
-  std::call_once(set, [] {
-    if (!several_threads) setenv("LP_NUM_THREADS", "0", /*overwrite=*/0);
-  });
-  return create_osmesa_context();
-}
-
-// The backend that needs neither display nor device: Mesa's OSMesa, which renders on the processor.
-
-namespace {
+std::atomic<GlBackend> chosen = GlBackend::automatic;
 
 // What the library, the compiler in it and a first context map (185 MB were measured), and some more.
 constexpr std::size_t kAddressSpace = std::size_t(240) << 20;  // bytes
@@ -59,95 +45,69 @@ void require_address_space() {
   munmap(room, kAddressSpace);
 }
 
-// Opened once and never closed: its LLVM leaves behind threads' destructors that would outlive it.
-struct OsmesaLibrary {
-  decltype(&OSMesaCreateContextAttribs) create_context = nullptr;
-  decltype(&OSMesaDestroyContext) destroy_context = nullptr;
-  decltype(&OSMesaMakeCurrent) make_current = nullptr;
-  decltype(&OSMesaGetCurrentContext) current_context = nullptr;
-  decltype(&OSMesaGetProcAddress) proc_address = nullptr;
-
-  OsmesaLibrary() {
-    require_address_space();
-    void* library = dlopen("libOSMesa.so.8", RTLD_LAZY | RTLD_LOCAL);
-    if (library == nullptr)
-      throw Error(ExitCode::no_renderer, std::string("no OpenGL renderer: ") + dlerror() +
-                                             "; install the Debian package libosmesa6");
-    load(library, "OSMesaCreateContextAttribs", create_context);
-    load(library, "OSMesaDestroyContext", destroy_context);
-    load(library, "OSMesaMakeCurrent", make_current);
-    load(library, "OSMesaGetCurrentContext", current_context);
-    load(library, "OSMesaGetProcAddress", proc_address);
-  }
-
-  template <class Function>
-  static void load(void* library, const char* name, Function& function) {
-    function = reinterpret_cast<Function>(dlsym(library, name));
-    if (function == nullptr)
-      throw Error(ExitCode::no_renderer, std::string("libOSMesa has no function ") + name +
-                                             "; install Debian's libosmesa6 22 or newer");
-  }
-};
-
-const OsmesaLibrary& osmesa() {
-  static const OsmesaLibrary library;
-  return library;
+// Mesa reads these when its first context is made.
+void prepare_environment() {
+  pin_renderer();
+  // Without it there are as many threads as cores.
+  if (!several_threads) setenv("LP_NUM_THREADS", "0", /*overwrite=*/0);
 }
 
-class OsmesaContext : public GlContext {
- public:
-  OsmesaContext() {
-    constexpr std::array<int, 13> kAttributes = {OSMESA_FORMAT,
-                                                 OSMESA_BGRA,
-                                                 OSMESA_PROFILE,
-                                                 OSMESA_CORE_PROFILE,
-                                                 OSMESA_CONTEXT_MAJOR_VERSION,
-                                                 3,
-                                                 OSMESA_CONTEXT_MINOR_VERSION,
-                                                 3,
-                                                 OSMESA_DEPTH_BITS,
-                                                 0,
-                                                 OSMESA_STENCIL_BITS,
-                                                 0,
-                                                 0};
-    context_ = osmesa().create_context(kAttributes.data(), nullptr);
-    if (context_ == nullptr)
-      throw Error(ExitCode::no_renderer, "no OpenGL renderer: OSMesa offers no OpenGL 3.3 core context");
-    try {
-      make_current();
-      gl_ = load_gl_functions([](const char* name) { return osmesa().proc_address(name); });
-    } catch (...) {
-      osmesa().destroy_context(context_);
-      throw;
-    }
+// Any other renderer draws other bytes. Who names one to Mesa means it.
+void require_llvmpipe(GlContext& context) {
+  const auto* const text = reinterpret_cast<const char*>(context.gl().GetString(GL_RENDERER));
+  const std::string renderer = text == nullptr ? "" : text;
+  if (renderer.starts_with("llvmpipe") || std::getenv("GALLIUM_DRIVER") != nullptr) return;
+  throw Error(ExitCode::no_renderer,
+              context.backend() + " draws by " + renderer +
+                  ", whose pictures have other bytes than those of llvmpipe: install the Debian package libosmesa6, or "
+                  "name the renderer to Mesa (GALLIUM_DRIVER) to take it all the same");
+}
+
+// Where both libraries are missing, both are named.
+std::unique_ptr<GlContext> create_any_context() {
+  // Looked for once a process, so that all its contexts come from one library.
+  static const bool has_osmesa = osmesa_is_there();
+  if (has_osmesa) return create_osmesa_context();
+  try {
+    return create_egl_context();
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::no_renderer) throw;
+    throw Error(ExitCode::no_renderer, std::string(error.what()) + "; or install libosmesa6");
   }
-  ~OsmesaContext() override { osmesa().destroy_context(context_); }
+}
 
-  void make_current() override {
-    if (osmesa().current_context() == context_) return;
-    // Pictures are drawn into framebuffers of their own; OSMesa asks for one pixel of memory all the same.
-    if (osmesa().make_current(context_, &unused_pixel_, GL_UNSIGNED_BYTE, 1, 1) == GL_FALSE)
-      throw Error(ExitCode::no_renderer, "no OpenGL renderer: OSMesa does not accept its own context");
+std::unique_ptr<GlContext> create_chosen_context() {
+  switch (chosen) {
+    case GlBackend::osmesa: return create_osmesa_context();
+    case GlBackend::egl: return create_egl_context();
+    case GlBackend::automatic: break;
   }
-
-  std::string backend() const override { return "OSMesa"; }
-
- private:
-  OSMesaContext context_ = nullptr;
-  std::uint32_t unused_pixel_ = 0;
-};
+  return create_any_context();
+}
 
 }  // namespace
 
-std::unique_ptr<GlContext> create_osmesa_context() {
-  return std::make_unique<OsmesaContext>();
+std::span<const Name> names_of(GlBackend) {
+  return kBackends;
+}
+
+void choose_gl_backend(GlBackend backend) {
+  chosen = backend;
+}
+
+void fill_by_several_threads(bool wanted) {
+  several_threads = wanted;
+}
+
+std::unique_ptr<GlContext> create_gl_context() {
+  static std::once_flag first;
+  std::call_once(first, [] {
+    prepare_environment();
+    require_address_space();
+  });
+  std::unique_ptr<GlContext> context = create_chosen_context();
+  require_llvmpipe(*context);
+  return context;
 }
 
 }  // namespace chainreel
-
-#ifdef __SANITIZE_ADDRESS__
-// OSMesa keeps 160 bytes of every context that it has destroyed, however it is destroyed.
-extern "C" const char* __lsan_default_suppressions() {
-  return "leak:libOSMesa.so\n";
-}
-#endif

@@ -24,10 +24,13 @@ class GlContext {
   GlFunctions gl_;
 };
 
-// A current context of the first backend that works. Throws Error (exit 4) where none does.
+// A current context of the chosen backend. Throws Error (exit 4) saying what is missing, and where it would not draw by
+// llvmpipe, unless the environment names another renderer to Mesa; exit 7 where the address space is too short.
 std::unique_ptr<GlContext> create_gl_context();
 
-// The backends; each throws Error (exit 4) saying what is missing.
+// The backends, for the above.
+bool osmesa_is_there();
 std::unique_ptr<GlContext> create_osmesa_context();
+std::unique_ptr<GlContext> create_egl_context();
 
 }  // namespace chainreel

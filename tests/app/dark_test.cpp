@@ -17,8 +17,7 @@ namespace chainreel {
 namespace {
 
 constexpr int kDarkWidth = 640, kDarkHeight = 360;
-// The same pixels are expected everywhere; processors without FMA differ by 1 in a few bytes, and another
-// build of FreeType may move a glyph's edge.
+// The same pixels are expected everywhere; another build of FreeType may move a glyph's edge, and one of Mesa a pixel.
 constexpr PictureTolerance kSame{.max = 24, .mean = 0.05};
 
 Image picture_of(const std::string& name, const std::string& theme) {

@@ -87,8 +87,7 @@ TEST_P(EveryScene, RunsToTheEndThatItExpects) {
 }
 
 TEST_P(EveryScene, LooksLikeItsGoldenAndKeepsItsMargins) {
-  // The same pixels are expected everywhere; processors without FMA differ by 1 in a few bytes, and another
-  // build of FreeType may move a glyph's edge.
+  // The same pixels are expected everywhere; another build of FreeType may move a glyph's edge, and one of Mesa a pixel.
   const Image picture = image(kFrame);
   EXPECT_TRUE(matches_golden(picture, GetParam(), {.max = 24, .mean = 0.05}));
   // Negative control: a tenth of a second later is another picture.

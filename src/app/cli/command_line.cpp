@@ -144,7 +144,14 @@ CommandLine::CommandLine(const std::string& name, const std::string& about, cons
 CommandLine::~CommandLine() = default;
 
 Command* CommandLine::add_subcommand(const std::string& name, const std::string& about) {
-  return &parser_->commands.emplace_back(parser_->app.add_subcommand(name, about));
+  return &parser_->commands.emplace_back(parser_->app.add_subcommand(name, about)->fallthrough());
+}
+
+void CommandLine::add_choice(const std::string& name, const std::string& variable, std::vector<std::string> words,
+                             const std::string& help, std::function<void(const std::string&)> take) {
+  parser_->app.add_option_function<std::string>(name, std::move(take), help)
+      ->check(CLI::IsMember(std::move(words)))
+      ->envname(variable);
 }
 
 std::vector<CommandLine::CommandText> CommandLine::texts() const {

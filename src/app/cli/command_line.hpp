@@ -67,6 +67,11 @@ class CommandLine {
 
   Command* add_subcommand(const std::string& name, const std::string& about);
 
+  // A choice for all subcommands, before or behind their names, or by a variable of the environment. `take` is given one
+  // of the words, before the subcommand runs.
+  void add_choice(const std::string& name, const std::string& variable, std::vector<std::string> words,
+                  const std::string& help, std::function<void(const std::string&)> take);
+
   struct CommandText {
     std::string name, about, help;
   };

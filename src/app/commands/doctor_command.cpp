@@ -11,6 +11,7 @@
 #include "encode/library_versions.hpp"
 #include "picture/text.hpp"
 #include "render/canvas.hpp"
+#include "render/renderer_pins.hpp"
 
 namespace chainreel {
 namespace {
@@ -32,6 +33,9 @@ void examine_fonts(Examination& examination) {
     const RendererInfo info = canvas.info();
     examination.report["renderer"] = {
         {"backend", info.backend}, {"renderer", info.renderer}, {"version", info.version}};
+    for (const RendererPin& pin : renderer_pins())
+      examination.report["renderer"]["pinned"][pin.name] = pin.value == nullptr ? Json() : Json(pin.value);
+    examination.report["renderer"]["overruled"] = overruled_settings();
   } catch (const Error& error) {
     examination.missing.insert(examination.missing.end(), error.problems().begin(), error.problems().end());
   }
@@ -45,6 +49,16 @@ void examine_encoders(Examination& examination) {
         {"no H.264 encoder: install Debian's libavcodec with libx264 (package libavcodec59)", {}});
 }
 
+// The width of vectors stands in the renderer's name.
+void print_renderer(const Json& renderer) {
+  std::printf("renderer  %s, %s, OpenGL %s\n", renderer["backend"].get<std::string>().c_str(),
+              renderer["renderer"].get<std::string>().c_str(), renderer["version"].get<std::string>().c_str());
+  for (const auto& [name, value] : renderer["pinned"].items())
+    std::printf("pinned    %s\n", value.is_null() ? (name + " not set").c_str() : (name + "=" + value.get<std::string>()).c_str());
+  for (const Json& setting : renderer["overruled"])
+    std::printf("overruled %s of the environment: pictures would have other bytes\n", setting.get<std::string>().c_str());
+}
+
 void run_doctor(const CommonOptions& options) {
   Examination examination;
   examine_fonts(examination);
@@ -54,10 +68,7 @@ void run_doctor(const CommonOptions& options) {
   if (options.json) {
     std::puts(report.dump(2).c_str());
   } else {
-    if (report.contains("renderer"))
-      std::printf("renderer  %s, %s, OpenGL %s\n", report["renderer"]["backend"].get<std::string>().c_str(),
-                  report["renderer"]["renderer"].get<std::string>().c_str(),
-                  report["renderer"]["version"].get<std::string>().c_str());
+    if (report.contains("renderer")) print_renderer(report["renderer"]);
     if (report.contains("fonts"))
       for (const auto& [name, font] : report["fonts"].items())
         std::printf("font      %-10s %s\n", name.c_str(), font["file"].get<std::string>().c_str());

@@ -58,8 +58,8 @@ Json camera_of(const Suite& suite, const std::array<double, 4>* part) {
 // What all pictures of the program depend on.
 Json page_of(const Fonts& fonts, const RendererInfo& renderer) {
   Json page{{"program", program_version()}};
-  page["processor"] = processor_features();
-  page["renderer"] = renderer.backend + ", " + renderer.renderer + ", " + renderer.version;
+  page["processor"] = processor_architecture();
+  page["renderer"] = renderer.renderer + ", " + renderer.version;  // whichever library brought it
   for (const Face face : {Face::label, Face::label_bold, Face::math})
     page["fonts"][fs::path(fonts.file(face)).filename().string()] = fonts.sha256(face);
   return page;

@@ -1,0 +1,31 @@
+// What Mesa's software renderer reads from the environment and the bytes of a picture hang on. It is set inside the program,
+// before a library of Mesa's is opened, so that every x86-64 processor draws the same bytes:
+//
+// - The instructions that shaders are compiled for. Places of vertices and what is interpolated between them are computed by
+//   fused multiply-adds where the processor has such, whatever shaders say; Mesa knows no way to leave those out but to leave
+//   out AVX as a whole. What is left, SSE 4.1, is what processors since 2008 have.
+// - The width of vectors, that which belongs to these instructions: of any other, code may come out of Mesa's cache of
+//   shaders that was compiled for this one, and crashes.
+// - Switches for developers of Mesa that leave parts of a picture out, or all of it.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace chainreel {
+
+struct RendererPin {
+  const char* name;
+  const char* value;  // null: must not be set
+};
+
+std::span<const RendererPin> renderer_pins();
+
+// Sets them for this process and what it starts, once; later calls change nothing.
+void pin_renderer();
+
+// "NAME=value" of those that the environment had otherwise; what it says of them is not followed.
+std::vector<std::string> overruled_settings();
+
+}  // namespace chainreel

@@ -1,0 +1,79 @@
+// Which library draws, what is pinned of it, and what is said where it is missing.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/json.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/video_probe.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+using Environment = std::map<std::string, std::string>;
+
+Environment without(const std::string& libraries) {
+  return {{"LD_PRELOAD", CHAINREEL_FAILING_CALLS}, {"ASAN_OPTIONS", "verify_asan_link_order=0"}, {"FAIL_OPEN", libraries}};
+}
+
+ProgramResult doctor(const Words& words, const Environment& environment = {}) {
+  return run_program(with({"doctor", "--json"}, words), {.folder = "", .environment = environment});
+}
+
+Json renderer(const ProgramResult& result) {
+  EXPECT_EQ(result.status, 0) << result.err;
+  return Json::parse(result.out)["renderer"];
+}
+
+TEST(Renderer, DoctorSaysWhatIsPinnedAndWhatOfTheEnvironmentIsOverruled) {
+  const Json plain = renderer(doctor({}));
+  EXPECT_THAT(plain["renderer"].get<std::string>(), AllOf(StartsWith("llvmpipe"), HasSubstr("128 bits")));
+  EXPECT_EQ(plain["pinned"]["LP_NATIVE_VECTOR_WIDTH"], "128");
+  EXPECT_TRUE(plain["pinned"]["LP_NO_RAST"].is_null());
+  EXPECT_TRUE(plain["overruled"].empty());
+  const Json other = renderer(doctor({}, {{"LP_NATIVE_VECTOR_WIDTH", "512"}, {"LP_NO_RAST", "1"}, {"LP_NUM_THREADS", "2"}}));
+  EXPECT_EQ(other["renderer"], plain["renderer"]);
+  EXPECT_EQ(other["overruled"], (Json{"LP_NATIVE_VECTOR_WIDTH=512", "LP_NO_RAST=1"}));
+  EXPECT_THAT(run_program({"doctor"}, {.folder = "", .environment = {{"LP_NO_RAST", "1"}}}).out,
+              AllOf(HasSubstr("pinned    LP_NATIVE_VECTOR_WIDTH=128"), HasSubstr("overruled LP_NO_RAST=1")));
+}
+
+TEST(Renderer, ComesFromTheLibraryThatIsNamedByFlagOrVariable) {
+  EXPECT_EQ(renderer(doctor({"--gl", "egl"}))["backend"], "EGL");
+  EXPECT_EQ(renderer(doctor({}, {{"CHAINREEL_GL", "egl"}}))["backend"], "EGL");
+  // What is typed goes before what the environment says.
+  EXPECT_EQ(renderer(doctor({"--gl", "osmesa"}, {{"CHAINREEL_GL", "egl"}}))["backend"], "OSMesa");
+  EXPECT_EQ(renderer(doctor({"--gl", "auto"}))["backend"], "OSMesa");
+  const ProgramResult wrong = doctor({"--gl", "glx"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("osmesa,egl"));
+}
+
+TEST(Renderer, ThatIsMissingIsReplacedByTheOtherOrNamedWithItsPackage) {
+  EXPECT_EQ(renderer(doctor({}, without("libOSMesa")))["backend"], "EGL");
+  const auto missing = [](const Words& words, const std::string& libraries) {
+    const ProgramResult result = doctor(words, without(libraries));
+    EXPECT_EQ(result.status, 4) << result.err;
+    return result.err;
+  };
+  EXPECT_THAT(missing({"--gl", "osmesa"}, "libOSMesa"), AllOf(HasSubstr("libosmesa6"), Not(HasSubstr("libegl1"))));
+  EXPECT_THAT(missing({"--gl", "egl"}, "libEGL"), AllOf(HasSubstr("libegl1"), Not(HasSubstr("libosmesa6"))));
+  EXPECT_THAT(missing({}, "libEGL libOSMesa"), AllOf(HasSubstr("libegl1"), HasSubstr("libosmesa6")));
+  // The library is there, but no driver behind it.
+  const ProgramResult none = doctor({"--gl", "egl"}, {{"__EGL_VENDOR_LIBRARY_DIRS", "/none"}, {"__EGL_VENDOR_LIBRARY_FILENAMES", "/none"}});
+  EXPECT_EQ(none.status, 4);
+  EXPECT_THAT(none.err, HasSubstr("libegl-mesa0"));
+}
+
+TEST(Renderer, ThatTheEnvironmentNamesToMesaIsTaken) {
+  EXPECT_EQ(renderer(doctor({}, {{"GALLIUM_DRIVER", "softpipe"}}))["renderer"], "softpipe");
+  EXPECT_EQ(renderer(doctor({"--gl", "egl"}, {{"GALLIUM_DRIVER", "softpipe"}}))["renderer"], "softpipe");
+}
+
+}  // namespace
+}  // namespace chainreel
