@@ -100,6 +100,11 @@ TemporaryFile::TemporaryFile(Kind kind, const std::string& folder, const std::st
     path_ = (fs::path(folder) /
              (kPrefix + random_name() + (kind == Kind::former_folder ? kFormer : kComing) + ending))
                 .string();
+    // Before the file is there: where memory is short, nothing must fail behind that.
+    {
+      const std::lock_guard lock(final_names().mutex);
+      final_names().names[path_] = target;
+    }
     if (kind == Kind::coming_file)
       file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     else if (mkdir(path_.c_str(), 0777) == 0)
@@ -109,8 +114,6 @@ TemporaryFile::TemporaryFile(Kind kind, const std::string& folder, const std::st
   }
   if (file_ < 0)
     throw Error(ExitCode::file, std::string("cannot be written (") + std::strerror(errno) + "); " + remedy, {target});
-  const std::lock_guard lock(final_names().mutex);
-  final_names().names[path_] = target;
 }
 
 // Between its making and its lock another process may have taken it for a leftover: then the next name is tried. Where

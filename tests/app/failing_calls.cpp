@@ -1,8 +1,8 @@
 // Preloaded into the program, so that calls fail as if a disk were broken or memory short.
 //
 // - FAIL_CALL=write|rename|fsync|lseek|memory with FAIL_AT=n: the n-th of them fails, once. write is all that writes to files
-//   but standard output and error; memory is what the program itself and FFmpeg's libraries ask for (others crash where they get
-//   none), from where the program handles its first signal: what comes before main() cannot be told.
+//   but standard output and error; memory is what the program's own code asks for, from where it handles its first signal: what
+//   comes before main() cannot be told, and FFmpeg's and Mesa's libraries abort or crash by themselves where they get none.
 //   With FAIL_COUNTED=file the number of such calls is written there when the program ends.
 // - FAIL_FROM=n, FAIL_COUNT=m: the n-th rename and the m - 1 behind it fail.
 // - FAIL_SEEK=1: every lseek of a file that may be written to.
@@ -93,12 +93,6 @@ bool is_own(const void* caller) {
   return own.holds(caller);
 }
 
-bool is_of_ffmpeg(const void* caller) {
-  Dl_info facts = {};
-  if (dladdr(caller, &facts) == 0 || facts.dli_fname == nullptr) return false;
-  return std::strstr(facts.dli_fname, "/libavutil.so") != nullptr;
-}
-
 bool is_memory_counted() {
   static const char* const wanted = std::getenv("FAIL_CALL");
   return wanted != nullptr && std::strcmp(wanted, "memory") == 0;
@@ -130,12 +124,6 @@ void* operator new(std::size_t bytes, std::align_val_t alignment) {
 
 extern "C" {
 
-int posix_memalign(void** memory, std::size_t alignment, std::size_t bytes) noexcept {
-  if (is_memory_counted() && is_of_ffmpeg(__builtin_return_address(0)) && fails("memory")) return ENOMEM;
-  *memory = __libc_memalign(alignment, bytes);
-  return *memory == nullptr ? ENOMEM : 0;
-}
-
 int rename(const char* from, const char* to) noexcept {
   static std::atomic<int> renames = 0;
   const int first = number("FAIL_FROM", 0), count = number("FAIL_COUNT", 1), now = ++renames;
@@ -144,6 +132,11 @@ int rename(const char* from, const char* to) noexcept {
     return -1;
   }
   return real<int (*)(const char*, const char*)>("rename")(from, to);
+}
+
+int renameat2(int from_folder, const char* from, int to_folder, const char* to, unsigned flags) noexcept {
+  if (fails_with_eio("rename")) return -1;
+  return real<int (*)(int, const char*, int, const char*, unsigned)>("renameat2")(from_folder, from, to_folder, to, flags);
 }
 
 int sigaction(int signal, const struct sigaction* now, struct sigaction* before) noexcept {

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -176,6 +177,56 @@ TEST(Disk, ThatCannotSeekGivesAWholeFilmOrNone) {
   }
   EXPECT_EQ(probe_video(folder.file("a.mp4")).frames, 5);
 }
+
+// A film with its sidecars and a picture, whose n-th call of a kind fails, once. Those of files fail each in its turn, those
+// of memory at some points over the whole run; with CHAINREEL_ALL_FAULTS at many.
+class EveryCall : public testing::TestWithParam<const char*> {
+ protected:
+  ProgramResult render(const TemporaryFolder& folder, std::map<std::string, std::string> settings) {
+    auto environment = failing("FAIL_CALL", GetParam());
+    environment.merge(settings);
+    return run_command({program_path(), "render", "assets/scenes/rr_torque.yaml", "--quiet", "--set", "video.width=64", "--set",
+                        "video.height=36", "--set", "video.fps=25", "--set", "duration=0.2", "--jobs", "1", "-o",
+                        folder.file("a.mp4"), "-o", folder.file("a.png")},
+                       {.folder = "", .environment = environment, .timeout_s = 60});
+  }
+};
+
+TEST_P(EveryCall, ThatFailsOnceLeavesWholeFilesAndIsToldInALine) {
+  const bool is_memory = std::string(GetParam()) == "memory";
+  const TemporaryFolder whole;
+  const ProgramResult good = render(whole, {{"FAIL_COUNTED", whole.file("count")}});
+  ASSERT_EQ(good.status, 0) << good.err;
+  const long calls = std::stol(read_whole_file(whole.file("count")));
+  fs::remove(whole.file("count"));
+  const std::vector<std::string> names = names_in(whole.path());
+  const long points = !is_memory ? calls : std::getenv("CHAINREEL_ALL_FAULTS") != nullptr ? 500 : 12;
+  for (long k = 0; k < std::min(points, calls); ++k) {
+    const long at = is_memory ? 1 + k * (calls / points) : 1 + k;
+    const TemporaryFolder folder;
+    const ProgramResult result = render(folder, {{"FAIL_AT", std::to_string(at)}});
+    const std::string what = std::string(GetParam()) + " " + std::to_string(at) + " of " + std::to_string(calls) + ": " + result.err;
+    // Files are put into their places one by one, each when it is whole; nothing hidden stays.
+    for (const std::string& name : names_in(folder.path())) {
+      EXPECT_THAT(names, testing::Contains(name)) << what;
+      if (!std::binary_search(names.begin(), names.end(), name)) continue;
+      const std::string text = read_whole_file(folder.file(name));
+      if (name == "a.json")
+        EXPECT_TRUE(Json::accept(text)) << what;  // tells of seconds
+      else
+        EXPECT_EQ(text, read_whole_file(whole.file(name))) << what << name;
+    }
+    if (result.status == 0) {  // done in another way
+      EXPECT_EQ(names_in(folder.path()), names) << what;
+      continue;
+    }
+    EXPECT_EQ(result.status, is_memory ? 7 : 6) << what;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << what;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Disk, EveryCall, testing::Values("write", "rename", "fsync", "lseek", "memory"),
+                         [](const auto& one) { return std::string(one.param); });
 
 TEST(Terminal, GetsNoOrdersFromNamesOfOthers) {
   const TemporaryFolder folder;
