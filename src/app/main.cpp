@@ -8,6 +8,7 @@
 #include "app/guide/reference.hpp"
 #include "app/report/version.hpp"
 #include "core/error.hpp"
+#include "core/machine.hpp"
 #include "render/gl_backend.hpp"
 
 namespace {
@@ -73,6 +74,7 @@ int run_and_tell(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  chainreel::give_large_memory_back();
   chainreel::guard_streams();
   chainreel::install_signal_handlers();
   const int code = run_and_tell(argc, argv);

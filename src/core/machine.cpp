@@ -1,5 +1,6 @@
 #include "core/machine.hpp"
 
+#include <malloc.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -143,6 +144,12 @@ std::string processor_architecture() {
 #else
   return "unknown";
 #endif
+}
+
+void give_large_memory_back() {
+  constexpr int kLarge = 1 << 20;  // bytes
+  mallopt(M_MMAP_THRESHOLD, kLarge);
+  mallopt(M_TRIM_THRESHOLD, kLarge);
 }
 
 void prefer_large_pages(void* begin, std::size_t bytes) {
