@@ -40,6 +40,7 @@ Function real(const char* name) {
 
 std::atomic<long> calls = 0;
 std::atomic<bool> in_main = false;
+thread_local bool opens_library = false;  // whose initialisers take functions of the program's for their own
 
 // Counts a call of what FAIL_CALL names, and whether this one is to fail.
 bool fails(const char* kind) {
@@ -99,7 +100,7 @@ bool is_memory_counted() {
 }
 
 void* new_memory(std::size_t bytes, std::size_t alignment, const void* caller) {
-  if (in_main && is_memory_counted() && is_own(caller) && fails("memory")) throw std::bad_alloc();
+  if (in_main && !opens_library && is_memory_counted() && is_own(caller) && fails("memory")) throw std::bad_alloc();
   void* const memory = alignment > 16 ? __libc_memalign(alignment, bytes) : __libc_malloc(bytes == 0 ? 1 : bytes);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
@@ -176,7 +177,10 @@ void* dlopen(const char* file, int flags) noexcept {
       return real<void* (*)(const char*, int)>("dlopen")("library.that.is.not.there", flags);  // for dlerror()
     missing += length + (missing[length] == ' ');
   }
-  return real<void* (*)(const char*, int)>("dlopen")(file, flags);
+  opens_library = true;
+  void* const library = real<void* (*)(const char*, int)>("dlopen")(file, flags);
+  opens_library = false;
+  return library;
 }
 
 off_t lseek(int file, off_t offset, int whence) noexcept { return seek("lseek", file, offset, whence); }
