@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "encode/test_pictures.hpp"
@@ -29,6 +31,20 @@ ExitCode code_of(Action action) {
 // Byte 25 of a PNG, behind signature, IHDR's head, width, height and depth, is the colour type.
 int colour_type(const std::string& path) {
   return read_whole_file(path).at(25);
+}
+
+// Two pixels of 16 bits a channel, 257 times the 8-bit ones.
+TEST(Png, SixteenBitsAreTheSamePictureAsEight) {
+  constexpr std::string_view kHex =
+      "89504e470d0a1a0a0000000d49484452000000020000000110020000002bd0349e000000154944415408d763686870705050f8ff9f81819111001d"
+      "2503c14945a7cb0000000049454e44ae426082";
+  std::string bytes;
+  for (std::size_t i = 0; i < kHex.size(); i += 2) bytes.push_back(char(std::stoi(std::string(kHex.substr(i, 2)), nullptr, 16)));
+  const TemporaryFolder folder;
+  const Image image = read_png(folder.write("deep.png", bytes));
+  ASSERT_EQ(image.width, 2);
+  EXPECT_EQ(image.at(0, 0), (Pixel{128, 64, 32, 255}));
+  EXPECT_EQ(image.at(1, 0), (Pixel{255, 0, 1, 255}));
 }
 
 TEST(Png, PixelsAndAlphaComeBackAsTheyWere) {
