@@ -1,7 +1,8 @@
 // Frames to what a film is made of: constant frame rate, BT.709 limited range and tagged, closed GOPs of at most 2 s:
 //
-//   h264    MP4, High, yuv420p, x264 veryfast with one B frame, CRF 18, index first; the stream depends neither on the
-//           processor nor on its number of cores; without loss at CRF 0, then High 4:4:4 Predictive
+//   h264    MP4, High, yuv420p, x264 veryfast but for one B frame and four frames looked at ahead, CRF 18, index first;
+//           the stream depends neither on the processor nor on its number of cores; without loss at CRF 0, then High
+//           4:4:4 Predictive
 //   vp9     WebM, yuv420p or yuva420p, libvpx CRF 28
 //   prores  MOV, 4444, 10 bits, all frames key frames, at a fixed quantiser
 //
