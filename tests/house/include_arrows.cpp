@@ -10,7 +10,7 @@ namespace {
 
 // POSIX, the compiler and the processor: open to every folder.
 const std::set<std::string> kSystemHeaders = {
-    "cpuid.h",        "dlfcn.h",    "emmintrin.h", "fcntl.h",    "fnmatch.h",    "immintrin.h", "poll.h",
+    "cpuid.h",        "dlfcn.h",    "emmintrin.h", "fcntl.h",    "fnmatch.h",    "immintrin.h", "malloc.h", "poll.h",
     "pthread.h",      "quadmath.h", "sched.h",     "signal.h",   "spawn.h",     "sys/mman.h",
     "linux/fs.h",     "sys/file.h", "sys/syscall.h", "sys/random.h", "sys/resource.h", "sys/stat.h", "sys/types.h", "sys/wait.h", "unistd.h"};
 
