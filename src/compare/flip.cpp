@@ -320,7 +320,7 @@ struct Flip::Seen {
 // Where a processor has wider vectors, the same in them: the compiler fuses nothing, so every processor
 // rounds alike. All that is called is compiled along. The sanitizer cannot follow a choice that is made
 // before the program starts.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define CHAINREEL_ALSO_WIDE [[gnu::flatten, gnu::target_clones("avx2", "default")]]
 #else
 #define CHAINREEL_ALSO_WIDE
