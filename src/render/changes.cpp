@@ -24,15 +24,36 @@ class Places {
   std::vector<std::pair<std::uint64_t, int>> sorted_;
 };
 
+// Calls visit(column, row, whether all of it is inside of the shape) for the tiles that a shape may colour.
+template <class Visit>
+void for_each_tile(const Piece& piece, const float* numbers, const TileMask& page, const Visit& visit) {
+  constexpr int kTile = TileMask::kSide;
+  const PixelBox& box = piece.outline.box;
+  for (int row = box.y / kTile; row * kTile < box.bottom(); ++row) {
+    const int top = std::max(box.y, row * kTile), bottom = std::min(box.bottom(), (row + 1) * kTile);
+    const Spans spans = piece.outline.spans(top, bottom, numbers);
+    if (spans.empty()) continue;
+    for (int column = spans.left / kTile; column * kTile < spans.right && column < page.columns(); ++column)
+      visit(column, row,
+            bottom - top == kTile && spans.inner_left <= column * kTile && spans.inner_right >= (column + 1) * kTile);
+  }
+}
+
+// One of the two pictures.
+struct Side {
+  const Batch& batch;
+  const TouchSolids& touch;
+
+  const Piece& at(int i) const { return batch.pieces()[std::size_t(i)]; }
+};
+
 class Difference {
  public:
-  Difference(const Batch& before, const Batch& now, const TouchSolids& touch_before, const TouchSolids& touch_now,
-             TileMask& changed)
-      : before_(before), now_(now), touch_before_(touch_before), touch_now_(touch_now), changed_(changed) {}
+  Difference(const Side& before, const Side& now, TileMask& changed) : before_(before), now_(now), changed_(changed) {}
 
   // Equal pieces are paired in order; what lies between two pairs differs.
   void mark() {
-    const std::vector<Piece>&a = before_.pieces(), &b = now_.pieces();
+    const std::vector<Piece>&a = before_.batch.pieces(), &b = now_.batch.pieces();
     const Places places(a);
     int next_a = 0, next_b = 0;
     for (int i = 0; i < int(b.size()); ++i) {
@@ -50,26 +71,26 @@ class Difference {
  private:
   void mark_between(int a, int end_a, int b, int end_b) {
     if (end_a - a == end_b - b) {
-      for (; a < end_a; ++a, ++b) mark_pair(before_.pieces()[std::size_t(a)], now_.pieces()[std::size_t(b)]);
+      for (; a < end_a; ++a, ++b) mark_pair(before_.at(a), now_.at(b));
       return;
     }
-    for (; a < end_a; ++a) mark_piece(before_.pieces()[std::size_t(a)], touch_before_);
-    for (; b < end_b; ++b) mark_piece(now_.pieces()[std::size_t(b)], touch_now_);
+    for (; a < end_a; ++a) mark_piece(before_, before_.at(a));
+    for (; b < end_b; ++b) mark_piece(now_, now_.at(b));
   }
 
   // A shape that moves changes nothing where it was and still is of one colour.
   void mark_pair(const Piece& a, const Piece& b) {
     if (a.primitive != b.primitive || !has_same_fill(a, b)) {
-      mark_piece(a, touch_before_);
-      mark_piece(b, touch_now_);
+      mark_piece(before_, a);
+      mark_piece(now_, b);
       return;
     }
     inside_.clear();
-    for_each_tile(a, before_.numbers(a), changed_, [this](int column, int row, bool is_inside) {
+    for_each_tile(a, before_.batch.numbers(a), changed_, [this](int column, int row, bool is_inside) {
       is_inside ? inside_.mark(column, row) : changed_.mark(column, row);
     });
     // What is left inside is of `a` alone, and differs, too.
-    for_each_tile(b, now_.numbers(b), changed_, [this](int column, int row, bool is_inside) {
+    for_each_tile(b, now_.batch.numbers(b), changed_, [this](int column, int row, bool is_inside) {
       if (!is_inside || !inside_.at(column, row)) changed_.mark(column, row);
       inside_.unmark(column, row);
     });
@@ -80,22 +101,20 @@ class Difference {
   bool has_same_fill(const Piece& a, const Piece& b) const {
     const int place = place_of_fill(a.primitive);
     if (place == 0) return false;
-    const float *in_a = before_.numbers(a) + place, *in_b = now_.numbers(b) + place;
+    const float *in_a = before_.batch.numbers(a) + place, *in_b = now_.batch.numbers(b) + place;
     return std::equal(in_a, in_a + 4, in_b);
   }
 
-  void mark_piece(const Piece& piece, const TouchSolids& touch) {
-    if (piece.primitive == Primitive::solids) return touch(piece, changed_);
+  void mark_piece(const Side& side, const Piece& piece) {
+    if (piece.primitive == Primitive::solids) return side.touch(piece, changed_);
     if (piece.primitive == Primitive::layer) return;  // where it differs the pieces of its path do
-    const Batch& batch = &touch == &touch_before_ ? before_ : now_;
     const bool is_ring = piece.primitive == Primitive::arc;  // nothing is inside
-    for_each_tile(piece, batch.numbers(piece), changed_, [&](int column, int row, bool is_inside) {
+    for_each_tile(piece, side.batch.numbers(piece), changed_, [&](int column, int row, bool is_inside) {
       if (!is_inside || !is_ring) changed_.mark(column, row);
     });
   }
 
-  const Batch &before_, &now_;
-  const TouchSolids &touch_before_, &touch_now_;
+  const Side before_, now_;
   TileMask& changed_;
   TileMask inside_ = changed_;  // of the piece that is looked at
 };
@@ -104,7 +123,7 @@ class Difference {
 
 void mark_changes(const Batch& before, const Batch& now, const TouchSolids& touch_before,
                   const TouchSolids& touch_now, TileMask& changed) {
-  Difference(before, now, touch_before, touch_now, changed).mark();
+  Difference({before, touch_before}, {now, touch_now}, changed).mark();
 }
 
 }  // namespace chainreel

@@ -195,24 +195,24 @@ void SolidLayer::touch(const Solids& solids, TileMask& tiles) {
     part.parts = {solids.parts[i]};
     const std::optional<SolidBounds> bounds = bounds_of(part, {boxes[i]});
     if (!bounds) continue;
-    const auto pixel = [](double edge, int largest) { return int(std::clamp(edge, -1.0, largest + 1.0)); };
-    const Rect& r = bounds->page;
-    tiles.mark_box(box_between(pixel(std::floor(height_ * r.x0 - kBodyFringe), width_),
-                               pixel(std::floor(height_ * (1 - r.y1) - kBodyFringe), height_),
-                               pixel(std::ceil(height_ * r.x1 + kBodyFringe), width_),
-                               pixel(std::ceil(height_ * (1 - r.y0) + kBodyFringe), height_)));
+    tiles.mark_box(pixels_of(*bounds));
   }
 }
 
-// The part of the page that they may touch. It depends on nothing but the bodies: where it lies bears on the last bit of
+// Those of the page that it may touch.
+PixelBox SolidLayer::pixels_of(const SolidBounds& bounds) const {
+  const auto pixel = [](double edge, int side) { return int(std::clamp(edge, 0.0, double(side))); };
+  const Rect& r = bounds.page;
+  return box_between(pixel(std::floor(height_ * r.x0 - kBodyFringe), width_),
+                     pixel(std::floor(height_ * (1 - r.y1) - kBodyFringe), height_),
+                     pixel(std::ceil(height_ * r.x1 + kBodyFringe), width_),
+                     pixel(std::ceil(height_ * (1 - r.y0) + kBodyFringe), height_));
+}
+
+// The layer. It depends on nothing but the bodies: where it lies bears on the last bit of
 // their places.
 PixelBox SolidLayer::frame_of(const SolidBounds& bounds) const {
-  const auto pixel = [](double edge, int side) { return int(std::clamp(edge, -1.0, side + 1.0)); };
-  const Rect& r = bounds.page;
-  const PixelBox box = common_part(
-      {0, 0, width_, height_},
-      box_between(pixel(std::floor(height_ * r.x0 - kBodyFringe), width_), pixel(std::floor(height_ * (1 - r.y1) - kBodyFringe), height_),
-                  pixel(std::ceil(height_ * r.x1 + kBodyFringe), width_), pixel(std::ceil(height_ * (1 - r.y0) + kBodyFringe), height_)));
+  const PixelBox box = pixels_of(bounds);
   const auto grown = [this](int side) { return std::min((side + kGrain - 1) / kGrain * kGrain, largest_ / samples_); };
   return {box.x, box.y, grown(box.width), grown(box.height)};
 }

@@ -38,6 +38,7 @@ class SolidLayer {
 
   const Buffers& buffers_of(const std::shared_ptr<const TriangleMesh>& mesh);
   std::vector<MeshBounds> bounds_of_parts(const Solids& solids);
+  PixelBox pixels_of(const SolidBounds& bounds) const;
   PixelBox frame_of(const SolidBounds& bounds) const;
   void begin(const PixelBox& frame);
   void read(const PixelBox& frame, const PixelBox& wanted);

@@ -103,22 +103,18 @@ void Windows::add_path(const Batch& batch, int layer, const TileMask& tiles) {
   const Piece& colour = batch.pieces()[std::size_t(layer)];
   TileMask touched = tiles;
   touched.clear();
+  const std::size_t run = runs_.size();
   for (int i = colour.first_of_path; i < layer; ++i) {
-    const Piece& piece = batch.pieces()[std::size_t(i)];
-    for_each_tile(piece, batch.numbers(piece), tiles, [&](int column, int row, bool) {
-      if (tiles.at(column, row)) touched.mark(column, row);
-    });
+    add_shape(batch, i, tiles);
+    for (const PixelBox& box : some_) touched.mark_box(box);
   }
+  if (runs_.size() == run) return;
   touched.boxes(colour.outline.box, path_);
-  if (path_.empty()) return;
   std::vector<float>& flat = streams_[std::size_t(Primitive::flat)];
   constexpr std::array<float, 4> kNothing = {};
-  const int first_to_clear = int(flat.size()) / floats_of(Primitive::flat);
-  for (const PixelBox& box : path_) append_window(box, kNothing.data(), int(kNothing.size()), flat);
-  const std::size_t run = runs_.size();
-  for (int i = colour.first_of_path; i < layer; ++i) add_shape(batch, i, tiles);
-  runs_[run].first_to_clear = first_to_clear;
+  runs_[run].first_to_clear = int(flat.size()) / floats_of(Primitive::flat);
   runs_[run].count_to_clear = int(path_.size());
+  for (const PixelBox& box : path_) append_window(box, kNothing.data(), int(kNothing.size()), flat);
   add(layer, Primitive::layer, batch.numbers(colour), path_);
 }
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "render/batch.hpp"
-#include "render/changes.hpp"
 #include "render/tile_mask.hpp"
 
 namespace chainreel {
