@@ -259,7 +259,8 @@ void SolidLayer::draw_parts(const Solids& solids, const SolidBounds& bounds, con
 }
 
 void SolidLayer::read(const PixelBox& frame, const PixelBox& wanted) {
-  read_.box = common_part(frame, wanted);
+  // The layer may reach out of the page: what lies there has no line within it, at any side.
+  read_.box = common_part(common_part(frame, {0, 0, width_, height_}), wanted);
   read_.per_side = samples_;
   const PixelBox& box = read_.box;
   read_.rgba.resize(std::size_t(4) * std::size_t(samples_ * samples_) * std::size_t(box.width) * std::size_t(box.height));

@@ -37,13 +37,6 @@ std::map<std::string, std::string> failing(const std::string& name, const std::s
   return {{"LD_PRELOAD", CHAINREEL_FAILING_CALLS}, {"ASAN_OPTIONS", "verify_asan_link_order=0"}, {name, value}};
 }
 
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 TEST(StandardOutput, ThatIsLostIsExitSixInEveryCommand) {
   const TemporaryFolder folder;
   for (const char* command : {"--help", "--version", "methods", "methods --json", "render --help", "check models/rr.urdf",

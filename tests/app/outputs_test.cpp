@@ -39,13 +39,6 @@ ProgramResult render(const std::vector<std::string>& more, const std::string& sc
   return run_program(command);
 }
 
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 std::size_t rows_of(const std::string& text) {
   return std::size_t(std::count(text.begin(), text.end(), '\n'));
 }

@@ -22,13 +22,6 @@ const Words kSmallPicture = {"--width", "160", "--height", "90", "--quiet"};
 const Words kShortRun = {"--set", "duration=1", "--set", "method=rk4",
                          "--set", "step=0.01",  "--set", "tolerance=null"};
 
-std::vector<std::string> sorted_names(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 TEST(ManySnapshots, EachPoseIsAFileOfItsName) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program(
@@ -39,7 +32,7 @@ TEST(ManySnapshots, EachPoseIsAFileOfItsName) {
   EXPECT_THAT(Json::parse(result.out)["files"],
               ElementsAre(folder.file("new/home.png"), folder.file("new/up_and_away.png"),
                           folder.file("new/rr_3.png")));
-  EXPECT_EQ(sorted_names(folder.file("new")),
+  EXPECT_EQ(names_in(folder.file("new")),
             (std::vector<std::string>{"home.png", "rr_3.png", "up_and_away.png"}));
   // Each is what it is alone, and says how it is made alone.
   ASSERT_EQ(run_program(chainreel::with({"snapshot", "models/rr.urdf", "--pose", "90deg,0", "-o",
@@ -62,7 +55,7 @@ TEST(ManySnapshots, EachInstantIsAFileAndThatOfAFrameIsWhatItIsAlone) {
       run_program(chainreel::with(scene, {"--at", "0,0.5s", "--at", "last=0.9", "-o", folder.file("there")}))
           .status,
       0);
-  EXPECT_EQ(sorted_names(folder.file("there")),
+  EXPECT_EQ(names_in(folder.file("there")),
             (std::vector<std::string>{"last.png", "rr_free_0.5s.png", "rr_free_0s.png"}));
   ASSERT_EQ(run_program(chainreel::with(scene, {"--at", "0.5", "-o", folder.file("alone.png")})).status, 0);
   EXPECT_EQ(read_whole_file(folder.file("there/rr_free_0.5s.png")),
@@ -112,7 +105,7 @@ TEST(ManySnapshots, UnnamedPosesInOneFileStayOnePicture) {
                                         kSmallPicture))
                 .status,
             0);
-  EXPECT_EQ(sorted_names(folder.path()), std::vector<std::string>{"a.png"});
+  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"a.png"});
   EXPECT_EQ(recall(folder.file("a.png")).figure["poses"].size(), 2u);
 }
 
@@ -137,14 +130,14 @@ TEST(ManySnapshots, WhatIsUnclearIsRefusedBeforeAnythingIsWritten) {
             2);
   EXPECT_EQ(run_program({"snapshot", "models/rr.urdf", "--pose", "a=0,1", "-o", folder.file("a.png")}).status,
             2);
-  EXPECT_THAT(sorted_names(folder.path()), testing::IsEmpty());
+  EXPECT_THAT(names_in(folder.path()), testing::IsEmpty());
   // A file of others is not written over, and then none of the others either.
   folder.write("y/b.png", "mine");
   EXPECT_EQ(run_program(
                 {"snapshot", "models/rr.urdf", "--pose", "a=0,0", "--pose", "b=1,1", "-o", folder.file("y/")})
                 .status,
             6);
-  EXPECT_EQ(sorted_names(folder.file("y")), std::vector<std::string>{"b.png"});
+  EXPECT_EQ(names_in(folder.file("y")), std::vector<std::string>{"b.png"});
 }
 
 TEST(Snapshots, OpenNoLibraryOfFilms) {

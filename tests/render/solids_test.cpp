@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/error.hpp"
 #include "encode/png.hpp"
@@ -173,6 +174,19 @@ TEST(Solids, HaveAnOutlineOfTheirWidth) {
   // Four sides and four rounded corners of 3 px; twelve directions make the ring up to a tenth too thin.
   const double ring = 4 * 51.2 * 3 + std::numbers::pi * 9;
   EXPECT_NEAR(line, ring, 0.12 * ring);
+}
+
+// A gap between two bodies, one of them just beyond the page: at all four sides the line is that of the other alone.
+TEST(Solids, BeyondThePageHaveNoLineOnIt) {
+  for (const auto& [x, y] : {std::pair(1.0, 0.0), std::pair(-1.0, 0.0), std::pair(0.0, 1.0), std::pair(0.0, -1.0)}) {
+    // A page is 2 m wide; the second body begins 1 px beyond its side, a line's reach is 6 px.
+    Solids alone = scene({at(cube(0.5), 0, 0, 0, kRed)});
+    alone.outline = kBlack;
+    alone.outline_width = 6 * kPx;
+    Solids both = alone;
+    both.parts.push_back(at(cube(0.5), (1.25 + 1.0 / 64) * x, (1.25 + 1.0 / 64) * y, 0, kRed));
+    EXPECT_EQ(largest_difference(draw_items({both}), draw_items({alone})), 0) << x << " " << y;
+  }
 }
 
 TEST(Solids, StayInsideOfTheirClip) {
