@@ -60,7 +60,7 @@ int run_and_tell(int argc, char** argv) {
     print_error(error);
     return int(error.code());
   } catch (const std::bad_alloc&) {
-    std::fputs("chainreel: out of memory: take a shorter duration or a smaller picture\n", stderr);
+    std::fputs(kOutOfMemory, stderr);
     return int(ExitCode::limit);
   } catch (const std::filesystem::filesystem_error& error) {
     std::fprintf(stderr, "%s: %s\n", error.path1().c_str(), error.code().message().c_str());
@@ -76,6 +76,7 @@ int run_and_tell(int argc, char** argv) {
 int main(int argc, char** argv) {
   chainreel::give_large_memory_back();
   chainreel::guard_streams();
+  chainreel::install_last_words();
   chainreel::install_signal_handlers();
   const int code = run_and_tell(argc, argv);
   if (chainreel::flush_standard_output() || code != int(chainreel::ExitCode::good)) return code;

@@ -139,12 +139,14 @@ namespace {
 class Moves {
  public:
   void move(const fs::path& from, const fs::path& to) {
-    if (std::rename(from.c_str(), to.c_str()) != 0)
-      throw Error(ExitCode::file, std::string("cannot be given its name: ") + std::strerror(errno), {to.string()});
-    done_.emplace_back(from, to);
+    done_.emplace_back(from, to);  // takes memory: before anything has moved
+    if (std::rename(from.c_str(), to.c_str()) == 0) return;
+    const int reason = errno;
+    done_.pop_back();
+    throw Error(ExitCode::file, std::string("cannot be given its name: ") + std::strerror(reason), {to.string()});
   }
 
-  // False where something could not be brought back.
+  // False where something could not be brought back. Takes no memory.
   bool undo() {
     bool all = true;
     for (; !done_.empty(); done_.pop_back())
@@ -233,6 +235,9 @@ void OutputFolder::commit() {
     Problem problem = error.problems().front();
     problem.message += "; the former pictures lie in " + place + ", and the next run in this folder brings them back";
     throw Error(ExitCode::file, std::vector<Problem>{problem});
+  } catch (...) {  // no memory
+    if (!moves.undo()) former.let_go();
+    throw;
   }
   sync_folder(folder_, folder_);
 }

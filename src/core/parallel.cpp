@@ -3,6 +3,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -28,7 +29,14 @@ void for_each_index_with_tools(std::size_t count, int threads, const std::functi
   };
   {
     std::vector<std::jthread> others;
-    for (int k = 1; k < threads; ++k) others.emplace_back(work);
+    try {
+      for (int k = 1; k < threads && std::size_t(k) < count; ++k) others.emplace_back(work);
+    } catch (const std::system_error&) {
+      // The system gives no more threads: those that there are do all of it.
+    } catch (...) {
+      next = count;
+      throw;
+    }
     work();
   }
   if (problem) std::rethrow_exception(problem);

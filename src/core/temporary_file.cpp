@@ -137,6 +137,10 @@ TemporaryFile::~TemporaryFile() {
 }
 
 void TemporaryFile::let_go() {
+  {
+    const std::lock_guard lock(final_names().mutex);
+    final_names().names.erase(path_);
+  }
   path_.clear();
   if (file_ >= 0) close(file_);
   file_ = -1;
@@ -167,6 +171,18 @@ void remove_leftovers(const std::string& folder) {
   for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code))
     if (entry->path().filename().string().starts_with(kPrefix)) found.push_back(entry->path());
   for (const fs::path& path : found) tidy_up(path);
+}
+
+void remove_unfinished() noexcept {
+  FinalNames& all = final_names();
+  const std::unique_lock lock(all.mutex, std::try_to_lock);
+  if (!lock.owns_lock()) return;  // by this very thread, maybe; the next run finds them
+  for (const auto& [temporary, target] : all.names) {
+    const fs::path path(temporary);
+    if (path.extension() == kFormer) continue;
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
 }
 
 std::string with_final_names(std::string text) {

@@ -41,6 +41,9 @@ void sync_folder(const std::string& folder, const std::string& target);
 // were about to replace.
 void remove_leftovers(const std::string& folder);
 
+// Removes all files and folders of this process that are being written, where it ends without unwinding.
+void remove_unfinished() noexcept;
+
 // The text with the names of temporary files replaced by those that they were made for: libraries that write tell
 // their trouble by the name they were given.
 std::string with_final_names(std::string text);

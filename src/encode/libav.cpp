@@ -44,6 +44,12 @@ std::string take_log() {
   return lines;
 }
 
+// Encoders tell it as their own fault. Where x264 gets no memory it says so on standard error alone, and FFmpeg nothing;
+// of all else that it refuses it speaks to the log.
+bool is_want_of_memory(int code, const std::string& said) {
+  return code == AVERROR(ENOMEM) || said.find("llocat") != std::string::npos || (code == AVERROR_EXTERNAL && said.empty());
+}
+
 }  // namespace
 
 void capture_libav_log() {
@@ -60,6 +66,8 @@ int check_libav(int code, ExitCode exit_code, const std::string& what, const std
   std::array<char, AV_ERROR_MAX_STRING_SIZE> reason{};
   libav().av_strerror(code, reason.data(), reason.size());
   const std::string said = take_log();
+  if (exit_code == ExitCode::no_renderer && is_want_of_memory(code, said))
+    throw Error(ExitCode::limit, what + ": out of memory: take a smaller picture or fewer --jobs", {path});
   throw Error(exit_code, what + ": " + reason.data() + (said.empty() ? "" : " (" + said + ")"), {path});
 }
 

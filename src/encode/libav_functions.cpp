@@ -13,11 +13,13 @@ namespace {
 void* open_library(const std::string& name, int version) {
   const std::string file = "lib" + name + ".so." + std::to_string(version);
   void* const library = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
-  if (library == nullptr)
-    throw Error(ExitCode::no_renderer, std::string("no films: ") + dlerror() +
-                                           "; install the Debian package lib" + name +
-                                           std::to_string(version));
-  return library;
+  if (library != nullptr) return library;
+  const std::string reason = dlerror();
+  // It is there, but has no room: it brings a hundred others along.
+  if (reason.find("map segment") != std::string::npos || reason.find("llocate memory") != std::string::npos)
+    throw Error(ExitCode::limit, "no films: out of memory (" + reason + "): raise the limit of address space (ulimit -v)");
+  throw Error(ExitCode::no_renderer,
+              "no films: " + reason + "; install the Debian package lib" + name + std::to_string(version));
 }
 
 LibavFunctions load_functions() {

@@ -31,6 +31,12 @@ TEST(Usage, ErrorsAreExitTwo) {
   EXPECT_EQ(run_program({"render", "--no-such-flag", "a.yaml"}).status, 2);
 }
 
+TEST(Usage, NamesWhatItDidNotExpectInItsOrderAndCommandsThatThereAreNot) {
+  EXPECT_THAT(run_program({"check", "a", "b", "c", "--foo"}).err, HasSubstr("were not expected: b c --foo"));
+  EXPECT_THAT(run_program({"rendr", "a"}).err, HasSubstr("no command 'rendr'"));
+  EXPECT_THAT(run_program({}).err, HasSubstr("A subcommand is required"));
+}
+
 TEST(Init, WritesASceneThatRenders) {
   const TemporaryFolder folder;
   const ProgramResult made = run_program({"init", folder.file("my_arm")});

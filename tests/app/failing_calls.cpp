@@ -1,7 +1,7 @@
 // Preloaded into the program, so that calls fail as if a disk were broken or memory short.
 //
-// - FAIL_CALL=write|rename|fsync|lseek|memory with FAIL_AT=n: the n-th of them fails, once. write is all that writes to files
-//   but standard output and error; memory is what the program's own code asks for, from where it handles its first signal: what
+// - FAIL_CALL=write|rename|fsync|lseek|thread|memory with FAIL_AT=n: the n-th of them fails, once. write is all that writes to files
+//   but standard output and error; thread is what the program starts for itself; memory is what the program's own code asks for, from where it handles its first signal: what
 //   comes before main() cannot be told, and FFmpeg's and Mesa's libraries abort or crash by themselves where they get none.
 //   With FAIL_COUNTED=file the number of such calls is written there when the program ends.
 // - FAIL_FROM=n, FAIL_COUNT=m: the n-th rename and the m - 1 behind it fail.
@@ -10,6 +10,7 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <link.h>
+#include <pthread.h>
 #include <signal.h>
 #include <sys/types.h>
 #include <sys/uio.h>
@@ -143,6 +144,14 @@ int renameat2(int from_folder, const char* from, int to_folder, const char* to, 
 int sigaction(int signal, const struct sigaction* now, struct sigaction* before) noexcept {
   in_main = true;
   return real<int (*)(int, const struct sigaction*, struct sigaction*)>("sigaction")(signal, now, before);
+}
+
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*), void* with) noexcept {
+  // By way of the C++ library, as none of its libraries in C.
+  Dl_info caller = {};
+  if (dladdr(__builtin_return_address(0), &caller) != 0 && std::strstr(caller.dli_fname, "libstdc++") != nullptr && fails("thread"))
+    return EAGAIN;
+  return real<int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*)>("pthread_create")(thread, attributes, run, with);
 }
 
 int fsync(int file) { return fails_with_eio("fsync") ? -1 : real<int (*)(int)>("fsync")(file); }

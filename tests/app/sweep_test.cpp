@@ -149,6 +149,95 @@ TEST(SweepFolder, SkipsWhatShowsTheSameSceneAndNothingElse) {
   EXPECT_NE(read_whole_file(film), bytes);
 }
 
+const Words kSmallFilms{"--set", "video.width=64", "--set", "video.height=36", "--set", "duration=0.1"};
+
+// What the scene's text does not tell: the instant of pictures, the model's and its tables' files, the audit beside.
+TEST(SweepFolder, MakesAnewWhatShowsAnythingElse) {
+  const TemporaryFolder folder;
+  folder.write("m.urdf", read_whole_file("models/rr.urdf"));
+  folder.write("tau.csv", "t,tau1,tau2\n0,1,0\n1,1,0\n");
+  const std::string scene = folder.write("s.yaml", "model: m.urdf\nmethod: rk4\nstep: 0.01\ntorque: {csv: tau.csv}\nstart: {q: [0, 0]}\n");
+  const auto made = [&](const Words& more) {
+    const ProgramResult result =
+        run_program(with(with({"sweep", scene, "--over", "start.q.1=0,1", "-o", folder.file("out/")}, kSmallFilms), more));
+    return std::to_string(result.status) + " " + result.out + result.err;
+  };
+  const auto pictures = [&] { return read_whole_file(folder.file("out/s_start.q.1_0.png")); };
+  const Words png{"--each", "png", "--each", "csv"};
+  EXPECT_THAT(made(png), HasSubstr("0 of them done before"));
+  EXPECT_THAT(made(png), HasSubstr("2 of them done before"));
+  const std::string first = pictures();
+  EXPECT_THAT(made(with(png, {"--at", "0.1"})), HasSubstr("0 of them done before"));
+  EXPECT_NE(pictures(), first);
+  EXPECT_THAT(made(png), HasSubstr("0 of them done before"));
+  EXPECT_EQ(pictures(), first);
+  folder.write("tau.csv", "t,tau1,tau2\n0,9,0\n1,9,0\n");
+  EXPECT_THAT(made(png), HasSubstr("0 of them done before"));
+  fs::remove(folder.file("out/s_start.q.1_1.json"));  // as one leaves it that was killed before
+  EXPECT_THAT(made(png), HasSubstr("1 of them done before"));
+  EXPECT_TRUE(fs::exists(folder.file("out/s_start.q.1_1.json")));
+  EXPECT_THAT(made(with(png, {"--at", "5"})), HasSubstr("outside the duration"));
+}
+
+TEST(SweepFolder, OfTwoAtOnceIsThatOfOne) {
+  const TemporaryFolder folder;
+  const std::string two = "\"$0\" \"$@\" & p=$!; \"$0\" \"$@\"; a=$?; wait $p; echo $a $?";
+  const ProgramResult result = run_command(
+      with({"sh", "-c", two, program_path(), "sweep", kScene, "--over", "start.q.1=0:1:6", "-o", folder.file("films/"), "--each",
+            "png", "--quiet"},
+           kSmallFilms));
+  EXPECT_EQ(result.out, "0 0\n") << result.err;
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.file("films")), {}), 18);
+}
+
+TEST(SweepFolder, SharesKnowTheNamesOfTheOthers) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      sweep(folder.file("films/"), with(kSmallFilms, {"--over", "title=a/b,c,d,a_b", "--each", "png", "--shard", "1/2"}));
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("too much alike"));
+}
+
+TEST(SweepTable, IsFinishedWhereItHasAllItsRows) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(sweep(folder.file("a.csv")).status, 0);
+  const std::string whole = read_whole_file(folder.file("a.csv"));
+  folder.write("a.csv", whole.substr(0, whole.rfind("\n7,") + 1));
+  EXPECT_EQ(sweep(folder.file("a.csv")).status, 6) << "somebody's, now";
+  EXPECT_EQ(sweep(folder.file("a.csv"), with(kGrid, {"--force"})).status, 0);
+  EXPECT_EQ(read_whole_file(folder.file("a.csv")), whole);
+}
+
+TEST(SweepTable, PartsThatLostTheirEndOrAreMixedUpAreNotJoined) {
+  const TemporaryFolder folder;
+  for (const char* shard : {"1/2", "2/2"}) ASSERT_EQ(sweep(folder.file("a.csv"), with(kGrid, {"--shard", shard})).status, 0);
+  const std::string second = read_whole_file(folder.file("a.part-2-of-2.csv"));
+  const std::string swapped = std::string(second).replace(second.find("\n5,"), 3, "\n6,");
+  for (const std::string& spoilt : {second.substr(0, second.size() - 1), second.substr(0, second.size() - 3), swapped, second + "8,"}) {
+    const ProgramResult result =
+        run_program({"join", folder.file("a.part-1-of-2.csv"), folder.write("b.csv", spoilt), "-o", folder.file("x.csv")});
+    EXPECT_EQ(result.status, 3) << result.out;
+    EXPECT_FALSE(fs::exists(folder.file("x.csv")));
+  }
+}
+
+TEST(SweepTable, DependsOnFilesThatValuesNameAndHoldsAnyWords) {
+  const TemporaryFolder folder;
+  folder.write("a.urdf", read_whole_file("models/rr.urdf"));
+  folder.write("b.urdf", read_whole_file("models/rr.urdf"));
+  const std::string scene = folder.write("s.yaml", "model: a.urdf\nmethod: rk4\nstep: 0.01\nduration: 0.1\n");
+  const Words words{"sweep", scene, "--over", "model=a.urdf,b.urdf", "-o", folder.file("t.csv")};
+  ASSERT_EQ(run_program(words).status, 0);
+  EXPECT_THAT(run_program(words).out, HasSubstr("2 of them done before"));
+  folder.write("b.urdf", read_whole_file("models/rr.urdf") + "<!-- heavier -->\n");
+  EXPECT_EQ(run_program(words).status, 6) << "its rows are of another model";
+  ASSERT_EQ(run_program({"sweep", scene, "--over", "title=two\nlines,\"b\"", "-o", folder.file("u.csv")}).status, 0);
+  const std::vector<std::string> lines = lines_of(folder.file("u.csv"));
+  ASSERT_EQ(lines.size(), 6u);
+  EXPECT_THAT(lines[4], HasSubstr("0,\"two lines\",1,finished"));
+  EXPECT_THAT(lines[5], HasSubstr("1,\"\"\"b\"\"\",1,finished"));
+}
+
 TEST(Sweep, SaysWhatItCannotDoBeforeTheFirstRun) {
   const TemporaryFolder folder;
   const auto trouble = [&](const Words& more) {

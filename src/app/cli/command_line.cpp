@@ -125,6 +125,21 @@ std::vector<Command::Word> Command::all_words() const {
   return words;
 }
 
+namespace {
+
+std::string words_not_expected(const std::vector<std::string>& words) {
+  std::string text = words.size() == 1 ? "The following argument was not expected:" : "The following arguments were not expected:";
+  for (const std::string& word : words) text += " " + word;
+  return text;
+}
+
+int refuse(const std::string& why) {
+  std::fprintf(stderr, "%s\nRun with --help for more information.\n", why.c_str());
+  return int(ExitCode::usage);
+}
+
+}  // namespace
+
 struct CommandLine::Parser {
   CLI::App app;
   std::deque<Command> commands;  // their addresses stay
@@ -164,6 +179,14 @@ std::vector<CommandLine::CommandText> CommandLine::texts() const {
 int CommandLine::run(int argc, char** argv) {
   try {
     parser_->app.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    // CLI11 lists them backwards.
+    return refuse(words_not_expected(parser_->app.remaining(true)));
+  } catch (const CLI::RequiredError& error) {
+    // Of an unknown command it says that there is none.
+    if (!parser_->app.get_subcommands().empty() || argc < 2) return refuse(error.what());
+    const std::vector<std::string> words = parser_->app.remaining();
+    return refuse(words.empty() ? error.what() : "There is no command '" + words.front() + "'");
   } catch (const CLI::ParseError& error) {
     // By way of the C streams, which are guarded; CLI11 would write to those of C++.
     std::ostringstream out, err;

@@ -64,7 +64,7 @@ std::vector<ChunkTape> tapes_of(const PreparedFilm& film, const Runs& runs, cons
   const ClipMemory memory;
   std::vector<Output> outputs = open_outputs({target}, film.panels.size(), true, false);
   std::vector<ChunkTape> tapes;
-  FilmWork work{pictures, film.scene, fonts, schedule, 0, memory, range, "", "", jobs, true};
+  FilmWork work{pictures, film.scene, fonts, schedule, 0, 0, memory, range, "", "", jobs, true};
   work.tapes = &tapes;
   StageTimes unused;
   draw_film(work, outputs, unused);

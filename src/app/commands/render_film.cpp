@@ -150,7 +150,7 @@ std::string part_text(const FilmReport& report, const ClipMemory& memory, FrameR
                             .fps = video.fps,
                             .crf = video.crf,
                             .alpha = is_transparent(film.scene)},
-                           film_hash(film, memory, fonts),
+                           film_hash(memory, fonts),
                            std::string(program_version()) + " (" + program_revision() + ")",
                            audit,
                            alt_text(report),
@@ -184,9 +184,11 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
   ClipMemory memory = memory_of(report);
   if (schedule.first > 0 || schedule.last > 0)
     memory.audit["held_frames"] = {{"first", schedule.first}, {"last", schedule.last}};
+  if (const std::string meshes = meshes_hash(film); !meshes.empty()) memory.audit[kMeshesHash] = meshes;
   result.times.draw += clock.lap();
 
   result.audit = to_json(report);
+  if (memory.audit.contains(kMeshesHash)) result.audit[kMeshesHash] = memory.audit[kMeshesHash];
   if (memory.audit.contains("held_frames")) result.audit["held_frames"] = memory.audit["held_frames"];
 
   FrameRange range{0, result.frames};
@@ -208,11 +210,13 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
     if (range.first == 0) sidecars = open_sidecars(job, film, true);
     result.frames = range.behind - range.first;
   }
-  const std::string key = job.resume ? film_hash(film, memory, fonts) : "";
+  const std::string key = job.resume ? film_hash(memory, fonts) : "";
 
   const int still = std::clamp(runs.clock().frame_at(job.at), 0, schedule.frames - 1);
   result.jobs = affordable_jobs(job.jobs, scene, outputs);
-  draw_film({pictures, scene, fonts, schedule, still, memory, range, part, key, result.jobs, job.quiet}, outputs, result.times);
+  draw_film({pictures, scene, fonts, schedule, still, runs.times()[std::size_t(still)], memory, range, part, key, result.jobs,
+             job.quiet},
+            outputs, result.times);
   write_tables(runs, outputs);
   result.times.total = total.lap().wall;
   result.audit["seconds"] = to_json(result.times);

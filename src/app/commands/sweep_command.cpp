@@ -5,15 +5,22 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 
 #include "app/cli/command.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/render_film.hpp"
 #include "app/commands/sweep_table.hpp"
+#include "app/film/runs.hpp"
+#include "app/report/report.hpp"
+#include "app/report/trajectory_csv.hpp"
+#include "app/report/version.hpp"
+#include "app/works/draw_film.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/hash.hpp"
+#include "core/input_file.hpp"
 #include "core/machine.hpp"
 #include "core/parallel.hpp"
 #include "render/canvas.hpp"
@@ -27,6 +34,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFiles = 1'000'000;
+constexpr std::uintmax_t kLargestTable = std::uintmax_t(1) << 32;  // bytes
 constexpr std::size_t kMostTold = 5;  // runs that failed
 
 struct SweepOptions {
@@ -66,29 +74,72 @@ std::string name_of(const std::string& scene, const Grid& grid, std::size_t run)
   return file_name_of(name);
 }
 
-// A file that shows this very scene and model already.
-bool is_done(const Target& target, const PreparedFilm& film) {
+bool is_there(const std::string& path) {
   std::error_code code;
-  if (!fs::is_regular_file(target.path, code) || target.format->read_tags == nullptr) return false;
-  try {
-    const ClipMemory memory = recall(target.path);
-    const auto model_hash = [](const Json& json) { return json.value("model_sha256", ""); };
-    std::string there = model_hash(memory.audit);
-    if (there.empty() && memory.audit.contains("panels")) there = model_hash(memory.audit["panels"].front());
-    return memory.scene == placeless_scene_text(film.scene) && there == sha256_of_file(film.panels.front().scene.model);
-  } catch (const Error&) {
-    return false;
-  } catch (const Json::exception&) {
-    return false;  // what it says was not written by this program
-  }
+  return fs::exists(path, code);
 }
+
+// What a run's files say of themselves, to tell those that are there already.
+class FilesOfRun {
+ public:
+  // `at`: instant that pictures show, s.
+  FilesOfRun(const PreparedFilm& film, double at)
+      : film_(film), runs_(film), scene_(placeless_scene_text(film.scene)), meshes_(meshes_hash(film)) {
+    const int still = std::clamp(runs_.clock().frame_at(at), 0, std::max(0, schedule_of(runs_).frames - 1));
+    at_ = runs_.times()[std::size_t(still)];
+    for (std::size_t i = 0; i < runs_.size(); ++i)
+      hashes_.push_back({sha256_of_file(film.panels[i].scene.model), audit_of(film.panels[i].simulation, runs_[i]).sha256});
+  }
+
+  // Whether the file shows this very scene, with the same models, meshes and motions, by the same version of the program.
+  bool is(const Target& target) const {
+    try {
+      if (target.format->shows == Shows::table) return has_tables(target.path);
+      const ClipMemory memory = recall(target.path);
+      if (memory.scene != scene_ || !is_same(memory.audit)) return false;
+      return target.format->shows != Shows::still || memory.audit.value("at", Json()) == Json(at_);
+    } catch (const Error&) {
+      return false;
+    } catch (const Json::exception&) {
+      return false;  // what it says was not written by this program
+    }
+  }
+
+  static std::string audit_beside(const Target& target) { return fs::path(target.path).replace_extension(".json").string(); }
+
+ private:
+  // A table says nothing of its run, and is it.
+  bool has_tables(const std::string& path) const {
+    for (std::size_t i = 0; i < runs_.size(); ++i)
+      if (read_plain_file(panel_csv_path(path, i, runs_.size() == 1), kLargestTable) !=
+          trajectory_csv(film_.panels[i].simulation.chain, runs_[i]))
+        return false;
+    return true;
+  }
+  bool is_same(const Json& audit) const {
+    const Json panels = audit.contains("panels") ? audit["panels"] : Json::array({audit});
+    if (panels.size() != hashes_.size() || audit.at("versions").at("chainreel") != program_version()) return false;
+    if (audit.value(kMeshesHash, "") != meshes_) return false;
+    for (std::size_t i = 0; i < hashes_.size(); ++i)
+      if (panels[i].value("model_sha256", "") != hashes_[i].first || panels[i].value("trajectory_sha256", "") != hashes_[i].second)
+        return false;
+    return true;
+  }
+
+  const PreparedFilm& film_;
+  Runs runs_;
+  std::string scene_, meshes_;
+  double at_ = 0;
+  std::vector<std::pair<std::string, std::string>> hashes_;  // of model and motion, a panel each
+};
 
 class FilmsOfGrid {
  public:
-  FilmsOfGrid(const SweepOptions& options, const Grid& grid, FrameRange runs, std::string folder, int threads)
-      : options_(options), grid_(grid), runs_(runs), folder_(std::move(folder)), threads_(threads),
+  FilmsOfGrid(const SweepOptions& options, const Grid& grid, FrameRange runs, std::string folder)
+      : options_(options), grid_(grid), runs_(runs), folder_(std::move(folder)),
         formats_(formats_of(options)), at_(parse_quantity(options.at, {})) {
     require_names();
+    threads_ = affordable_threads();
   }
 
   SweepOutcome run() {
@@ -117,34 +168,70 @@ class FilmsOfGrid {
   }
 
  private:
-  // Two runs of one name would write one file.
+  // Two runs of one name would write one file, also where others have their shares.
   void require_names() const {
-    const std::size_t count = std::size_t(runs_.behind - runs_.first);
+    const std::size_t count = grid_.size();
     if (count > kMostFiles) throw Error(ExitCode::limit, "a sweep makes no more than a million files: take -o TABLE.csv");
     std::set<std::string> names;
     for (std::size_t k = 0; k < count; ++k)
-      if (const std::string name = name_of("", grid_, std::size_t(runs_.first) + k); !names.insert(name).second)
+      if (const std::string name = name_of("", grid_, k); !names.insert(name).second)
         throw Error(ExitCode::usage, "two runs would both be written to " + name + ": values of --over are too much alike");
   }
 
   // Whether all its files were there.
   bool make(std::size_t run, int jobs) {
-    std::vector<std::string> overrides = overrides_of(options_.common);
-    for (const std::string& setting : grid_.settings(run)) overrides.push_back(setting);
-    const PreparedFilm film = load_film(options_.scene, overrides, true, true);
+    const PreparedFilm film = load(run);
+    if (!(at_ >= 0 && at_ <= film.scene.duration))
+      throw Error(ExitCode::usage, "--at " + options_.at + " lies outside the duration of " + format_quantity(film.scene.duration, "s"));
     const std::string base = (fs::path(folder_) / name_of(film.scene.name, grid_, run)).string();
     RenderJob job;
+    std::optional<FilesOfRun> expected;  // computed where something is there
+    bool are_ours = true;
     for (const OutputFormat* format : formats_) {
       Target target{format, base + format->ending, false};
-      if (!is_done(target, film)) job.targets.push_back(std::move(target));
+      const bool is_table = format->shows == Shows::table;
+      if (is_there(is_table ? panel_csv_path(target.path, 0, film.panels.size() == 1) : target.path)) {
+        if (!expected) expected.emplace(film, at_);
+        const bool is_ours = expected->is(target);
+        if (is_ours && is_there(FilesOfRun::audit_beside(target))) continue;
+        are_ours = are_ours && is_ours;
+      }
+      job.targets.push_back(std::move(target));
     }
     if (job.targets.empty()) return true;
     job.at = at_;
     job.jobs = jobs;
-    job.overwrite = options_.common.force;
+    // Of a run that was killed between its files the first ones are made again.
+    job.overwrite = options_.common.force || (expected && are_ours);
     job.quiet = true;
-    render_film(film, job);
+    try {
+      render_film(film, job);
+    } catch (const Error& error) {
+      // Another sweep over the same folder may have been quicker.
+      if (error.code() != ExitCode::file) throw;
+      const FilesOfRun made(film, at_);
+      if (!std::all_of(job.targets.begin(), job.targets.end(), [&](const Target& target) { return made.is(target); })) throw;
+      return true;
+    }
     return false;
+  }
+
+  PreparedFilm load(std::size_t run) const {
+    std::vector<std::string> overrides = overrides_of(options_.common);
+    for (const std::string& setting : grid_.settings(run)) overrides.push_back(setting);
+    return load_film(options_.scene, overrides, true, true);
+  }
+
+  // As many as there is memory for, by the first run's pictures.
+  int affordable_threads() const {
+    try {
+      const PreparedFilm film = load(std::size_t(runs_.first));
+      std::vector<Output> outputs;
+      for (const OutputFormat* format : formats_) outputs.push_back({Target{format, format->ending, false}, {}, {}});
+      return affordable_jobs(options_.jobs, film.scene, outputs);
+    } catch (const Error&) {
+      return options_.jobs > 0 ? options_.jobs : usable_cores();  // what that run is refused for is told in its turn
+    }
   }
 
   void has_failed(std::size_t run, const std::string& why) {
@@ -158,7 +245,7 @@ class FilmsOfGrid {
   const Grid& grid_;
   FrameRange runs_;
   std::string folder_;
-  int threads_;
+  int threads_ = 1;
   std::vector<const OutputFormat*> formats_;
   double at_;
   std::mutex lock_;
@@ -202,15 +289,18 @@ void run_sweep(SweepOptions options) {
     }
   }
   const int threads = options.jobs > 0 ? options.jobs : usable_cores();
+  const auto is_table_of = [](const std::string& output) { return fs::path(output).extension() == ".csv"; };
+  // A table depends on the files that were read up to there, which must be the same for all shares.
+  std::stable_partition(options.outputs.begin(), options.outputs.end(), is_table_of);
   Json report = Json::array();
   SweepOutcome worst;
   for (const std::string& output : options.outputs) {
-    const bool is_table = fs::path(output).extension() == ".csv";
+    const bool is_table = is_table_of(output);
     const std::string path = is_table ? with_suffix(output, suffix) : output;
     const SweepOutcome outcome =
         is_table ? write_sweep_table({options.scene, overrides_of(options.common), grid, runs, threads, path,
                                       options.common.force, options.common.quiet})
-                 : FilmsOfGrid(options, grid, runs, output, threads).run();
+                 : FilmsOfGrid(options, grid, runs, output).run();
     throw_if_interrupted();
     report.push_back({{"file", path},
                       {"runs", runs.behind - runs.first},

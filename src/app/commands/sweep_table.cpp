@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <mutex>
 
@@ -22,6 +23,7 @@
 #include "sim/workload.hpp"
 
 namespace chainreel {
+namespace fs = std::filesystem;
 namespace {
 
 constexpr int kRunsOfPiece = 16;  // that a thread takes at a time
@@ -43,6 +45,11 @@ Scene scene_of(SceneFile& file, const std::vector<std::string>& overrides) {
   return scene;
 }
 
+// A value as a cell: what is no number may hold anything.
+std::string cell_of(const std::string& value) {
+  return value.find_first_of("\"\n\r") == std::string::npos ? value : csv_words(value);
+}
+
 // What a thread computes rows with.
 class RowMaker {
  public:
@@ -53,7 +60,7 @@ class RowMaker {
   std::string row(std::size_t run) {
     std::string row = std::to_string(run);
     const std::vector<std::size_t> at = job_.grid.places(run);
-    for (std::size_t i = 0; i < at.size(); ++i) row += "," + job_.grid.axes()[i].values[at[i]];
+    for (std::size_t i = 0; i < at.size(); ++i) row += "," + cell_of(job_.grid.axes()[i].values[at[i]]);
     try {
       Scene scene = scene_of(file_, settings_of(job_, run));
       const Simulation simulation = prepare(scene, false, last_);
@@ -93,12 +100,24 @@ class RowMaker {
   std::size_t events_;
 };
 
-// All that rows depend on: the program, the files that were read for the first run, and what was asked.
+// Where values name files, these, as the scene finds them.
+std::vector<std::string> files_named(const SweepTableJob& job) {
+  std::vector<std::string> files;
+  std::error_code code;
+  for (const Sweep& axis : job.grid.axes())
+    for (const std::string& value : axis.numbers.empty() ? axis.values : std::vector<std::string>{})
+      if (const fs::path file = fs::path(job.scene).parent_path() / value; fs::is_regular_file(file, code))
+        files.push_back(file.string());
+  return files;
+}
+
+// All that rows depend on: the program, the files that were read for the first run or that values name, and what was asked.
 std::string key_of(const SweepTableJob& job) {
   Json json{{"program", {program_version(), program_revision()}}, {"overrides", job.overrides}};
   for (const Sweep& axis : job.grid.axes()) json["over"].push_back({axis.key, axis.values});
   std::vector<std::string> hashes;  // files have other names in other places
-  for (const std::string& file : noted_inputs()) hashes.push_back(sha256_of_file(file));
+  for (const std::vector<std::string>& files : {noted_inputs(), files_named(job)})
+    for (const std::string& file : files) hashes.push_back(sha256_of_file(file));
   std::sort(hashes.begin(), hashes.end());
   json["files"] = hashes;
   return sha256_of(json.dump());
@@ -109,7 +128,11 @@ std::string runs_line(const FrameRange& runs, std::size_t all) {
 }
 
 std::string head_of(const SweepTableJob& job, const Scene& first, const std::string& states) {
-  std::string head = "# sweep: " + first.name + ", " + method_text(first) + "\n# key: " + key_of(job) + "\n" +
+  const auto is_of_method = [](const Sweep& axis) {
+    return axis.key == "method" || axis.key == "step" || axis.key == "tolerance" || axis.key == "order";
+  };
+  const bool one_method = std::none_of(job.grid.axes().begin(), job.grid.axes().end(), is_of_method);
+  std::string head = "# sweep: " + first.name + (one_method ? ", " + method_text(first) : "") + "\n# key: " + key_of(job) + "\n" +
                      runs_line(job.runs, job.grid.size()) + "run";
   for (const Sweep& axis : job.grid.axes()) head += "," + axis.key;
   head += ",good,status,end_time,ended_by," + states;
@@ -155,7 +178,7 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
   require_possible(simulation, double(job.runs.behind - job.runs.first));
   const std::string states = state_names(simulation.chain);
 
-  GrowingTable table(job.path, head_of(job, first, states), job.overwrite);
+  GrowingTable table(job.path, head_of(job, first, states), std::size_t(job.runs.behind - job.runs.first), job.overwrite);
   Failures failures(job.grid);
   table.for_each_before([&](const std::string& row) { failures.look(row); });
   SweepOutcome outcome;
@@ -250,9 +273,10 @@ void join_tables(const std::vector<std::string>& paths, const std::string& path,
     std::ifstream stream(part.path, std::ios::binary);
     std::string line;
     for (int k = 0; k < 4; ++k) std::getline(stream, line);
-    int rows = 0;
-    for (; std::getline(stream, line); ++rows) out << line << "\n";
-    if (rows != part.runs.behind - part.runs.first)
+    int run = part.runs.first;
+    // A row whose end is lost is none, nor is one of another run.
+    for (; run < part.runs.behind && std::getline(stream, line) && !stream.eof() && line.starts_with(std::to_string(run) + ","); ++run) out << line << "\n";
+    if (run != part.runs.behind || stream.peek() != std::ifstream::traits_type::eof())
       throw Error(ExitCode::bad_input, "does not hold the rows that it tells of", {part.path});
   }
   out.close();

@@ -219,9 +219,11 @@ void Workshop::draw_clip(Output& output, Pen& pen) {
 void Workshop::draw_stills(Pen& pen) {
   const auto picture = [&] { return picture_of(work_.film, work_.still); };
   const auto image = [&] { return pen.draw(work_.still); };
+  ClipMemory memory = work_.memory;
+  memory.audit["at"] = work_.still_at;
   for (const Output& output : outputs_)
     if (output.shows(Shows::still))
-      output.target.format->write_still(*output.files.front(), {picture, image, work_.fonts}, work_.memory);
+      output.target.format->write_still(*output.files.front(), {picture, image, work_.fonts}, memory);
   pen.times.encode += pen.clock.lap();
   has_drawn();
 }

@@ -41,6 +41,7 @@ struct FilmWork {
   const Fonts& fonts;
   Schedule schedule;
   int still = 0;  // frame that single pictures show
+  double still_at = 0;  // instant of the motion that it shows, s
   const ClipMemory& memory;
   FrameRange range;     // of the film, as it is shown: all of it or a part
   std::string part;     // what films say of themselves as one, or ""

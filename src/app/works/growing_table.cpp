@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -39,10 +40,10 @@ Found look_at(const std::string& path, const std::string& head) {
 
 }  // namespace
 
-GrowingTable::GrowingTable(const std::string& path, const std::string& head, bool overwrite)
+GrowingTable::GrowingTable(const std::string& path, const std::string& head, std::size_t rows, bool overwrite)
     : path_(path), hidden_((fs::path(path).parent_path() / ("." + fs::path(path).filename().string() + ".rows")).string()),
       head_size_(head.size()), overwrite_(overwrite) {
-  if (const Found whole = look_at(path, head); whole.has_head) {
+  if (const Found whole = look_at(path, head); whole.has_head && whole.rows == rows) {
     finished_ = true;
     before_ = whole.rows;
     return;
@@ -54,7 +55,13 @@ GrowingTable::GrowingTable(const std::string& path, const std::string& head, boo
     close(file_);
     throw Error(ExitCode::file, "is being computed by another process", {path});
   }
-  const Found found = look_at(hidden_, head);
+  struct stat open_one = {}, named = {};
+  if (fstat(file_, &open_one) != 0 || lstat(hidden_.c_str(), &named) != 0 || open_one.st_ino != named.st_ino) {
+    close(file_);
+    throw Error(ExitCode::file, "was finished by another process at this moment: run the command again", {path});
+  }
+  Found found = look_at(hidden_, head);
+  if (found.rows > rows) found = {};  // nobody's
   before_ = found.rows;
   if (ftruncate(file_, off_t(found.bytes)) != 0 || lseek(file_, 0, SEEK_END) < 0) {
     const std::string reason = std::strerror(errno);

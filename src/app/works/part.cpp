@@ -151,19 +151,27 @@ PartFacts part_facts(const std::string& text, const std::string& path) {
   return part;
 }
 
-std::string film_hash(const PreparedFilm& film, const ClipMemory& memory, const Fonts& fonts) {
+std::string meshes_hash(const PreparedFilm& film) {
+  Sha256 hash;
+  const auto add = [&hash](const auto& values) { hash.add(std::as_bytes(std::span(values))); };
+  bool has_some = false;
+  for (const PreparedScene& panel : film.panels) {
+    if (!panel.shapes) continue;
+    for (const BodyShape& shape : panel.shapes->shapes) {
+      has_some = true;
+      add(shape.mesh->vertices);
+      add(shape.mesh->triangles);
+    }
+  }
+  return has_some ? hash.finish() : "";
+}
+
+std::string film_hash(const ClipMemory& memory, const Fonts& fonts) {
   Sha256 hash;
   const auto add = [&hash](const auto& values) { hash.add(std::as_bytes(std::span(values))); };
   add(memory.scene);
   add(memory.audit.dump());
   for (const Face face : {Face::label, Face::label_bold, Face::math}) add(fonts.sha256(face));
-  for (const PreparedScene& panel : film.panels) {
-    if (!panel.shapes) continue;
-    for (const BodyShape& shape : panel.shapes->shapes) {
-      add(shape.mesh->vertices);
-      add(shape.mesh->triangles);
-    }
-  }
   return hash.finish();
 }
 

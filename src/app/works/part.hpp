@@ -59,7 +59,12 @@ PartFacts part_facts(const std::string& text, const std::string& path);
 
 inline constexpr const char* kPart = "chainreel_part";
 
-// Of all that the film's pictures depend on and a scene does not tell: its memory, fonts, meshes, samples of the motion.
-std::string film_hash(const PreparedFilm& film, const ClipMemory& memory, const Fonts& fonts);
+inline constexpr const char* kMeshesHash = "meshes_sha256";  // in the audits of films that show meshes
+
+// Of the meshes of all panels; "" where there are none.
+std::string meshes_hash(const PreparedFilm& film);
+
+// Of all that the film's pictures depend on: its memory, which holds hashes of models, meshes and motions, and fonts.
+std::string film_hash(const ClipMemory& memory, const Fonts& fonts);
 
 }  // namespace chainreel

@@ -6,7 +6,7 @@ const ConstraintKind& JointEntry::kind() {
   static const ConstraintKindOf<JointEntry> kind(
       {"joint", "one coordinate keeps a value"}, "{joint: {name: joint2, value: 90deg}}",
       {{"name", &JointEntry::name, "of the joint"}, {"value", &JointEntry::value, "rad or m"}},
-      [](const JointEntry& form, ConstraintResolver& resolver) -> Constraint {
+      [](const JointEntry& form, ConstraintResolver&) -> Constraint {
         return JointConstraint{form.name, form.value};
       });
   return kind;

@@ -95,8 +95,8 @@ class ConstraintKindOf : public ConstraintKind {
   using Key = ConstraintKey<Form>;
   using Resolve = Constraint (*)(const Form& form, ConstraintResolver& resolver);
 
-  ConstraintKindOf(Name name, const char* example, std::vector<Key> keys, Resolve resolve)
-      : ConstraintKind(name, example), keys_(std::move(keys)), resolve_(resolve) {}
+  ConstraintKindOf(Name name, const char* example, std::vector<Key> keys, Resolve meaning)
+      : ConstraintKind(name, example), keys_(std::move(keys)), resolve_(meaning) {}
 
   KeyText tell() const override {
     std::vector<KeyText> parts;

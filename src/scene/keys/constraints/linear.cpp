@@ -41,7 +41,7 @@ const ConstraintKind& LinearEntry::kind() {
       {{"", ConstraintKey<LinearEntry>::ByHand{read_coefficients, write_coefficients, tell_coefficients}},
        {"value", &LinearEntry::value, "of the sum; 0 where it is left out", "",
         ConstraintKey<LinearEntry>::Need::optional}},
-      [](const LinearEntry& form, ConstraintResolver& resolver) -> Constraint {
+      [](const LinearEntry& form, ConstraintResolver&) -> Constraint {
         LinearConstraint linear;
         for (const auto& [name, coefficient] : form.coefficients) linear.terms.push_back({name, coefficient});
         linear.value = form.value;
