@@ -144,8 +144,9 @@ TEST_F(OnePass, EveryKindOfFileRemembersTheScene) {
             Json::parse(read_whole_file(file("a.json")))["trajectory_sha256"]);
   EXPECT_FALSE(first.audit.contains("seconds"));
   for (const char* name : {"b.webm", "c.mov", "d.gif", "e.apng", "f.png", "g.svg", "h.pdf", "frames/k_000000.png"}) {
-    const ClipMemory memory = recall(file(name));
+    ClipMemory memory = recall(file(name));
     EXPECT_EQ(memory.scene, first.scene) << name;
+    EXPECT_EQ(memory.audit.erase("at"), name[1] == '.' && name[0] > 'e' ? 1u : 0u) << name << ": the instant of pictures";
     EXPECT_EQ(memory.audit, first.audit) << name;
   }
 }
