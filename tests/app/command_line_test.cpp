@@ -35,6 +35,8 @@ TEST(Usage, NamesWhatItDidNotExpectInItsOrderAndCommandsThatThereAreNot) {
   EXPECT_THAT(run_program({"check", "a", "b", "c", "--foo"}).err, HasSubstr("were not expected: b c --foo"));
   EXPECT_THAT(run_program({"rendr", "a"}).err, HasSubstr("no command 'rendr'"));
   EXPECT_THAT(run_program({}).err, HasSubstr("A subcommand is required"));
+  for (const char* command : {"fall", "stability"})
+    EXPECT_THAT(run_program({command, "assets/scenes/humanoid_fall.yaml", "--threads", "2"}).err, HasSubstr("--threads is called --jobs"));
 }
 
 TEST(Init, WritesASceneThatRenders) {

@@ -1,6 +1,7 @@
 #include "app/cli/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <deque>
 #include <sstream>
@@ -115,7 +116,7 @@ std::vector<Command::Word> Command::all_words() const {
   std::vector<Word> words{{app.get_name()}};
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_single_name();
-    if (option->count() == 0 || name == "output" || name == "force" || name == "quiet" || name == "json") continue;
+    if (option->count() == 0 || name == "output" || name == "force" || name == "quiet" || name == "json" || name == "jobs") continue;
     const bool is_flag = option->get_items_expected_max() == 0;
     for (const std::string& value : is_flag ? std::vector<std::string>{""} : option->results()) {
       if (!option->get_positional()) words.push_back({"--" + name});
@@ -181,7 +182,11 @@ int CommandLine::run(int argc, char** argv) {
     parser_->app.parse(argc, argv);
   } catch (const CLI::ExtrasError&) {
     // CLI11 lists them backwards.
-    return refuse(words_not_expected(parser_->app.remaining(true)));
+    const std::vector<std::string> words = parser_->app.remaining(true);
+    const CLI::App& command = *parser_->app.get_subcommands().front();
+    const bool is_former = std::any_of(words.begin(), words.end(), [](const std::string& word) { return word.starts_with("--threads"); });
+    return refuse(words_not_expected(words) +
+                  (is_former && command.get_option_no_throw("--jobs") != nullptr ? "; --threads is called --jobs" : ""));
   } catch (const CLI::RequiredError& error) {
     // Of an unknown command it says that there is none.
     if (!parser_->app.get_subcommands().empty() || argc < 2) return refuse(error.what());

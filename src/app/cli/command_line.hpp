@@ -43,8 +43,8 @@ class Command {
   void footer(const std::string& text);
   void callback(std::function<void()> run);
 
-  // What was given to the command, as words that say it again: what is found out by default, where the result goes
-  // and how much is told are left out.
+  // What was given to the command, as words that say it again: what is found out by default, where the result goes,
+  // how much is told and by how many threads are left out.
   std::vector<std::string> words() const;
   // Indices of those words that name files: what is known by its place, and what is meant as such.
   std::vector<std::size_t> files() const;

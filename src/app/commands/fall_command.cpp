@@ -152,7 +152,7 @@ void add_fall_command(CommandLine& app) {
   command->add_option("--sweep", options->sweep,
                       "KEY=a,b,c or KEY=from:to:count, maybe with :log behind it, like torque.1=0:60:7");
   command->add_option("-o,--output", options->output, "a .csv file");
-  command->add_option("--threads", options->threads, "default: all cores").range(1, 256);
+  command->add_option("--jobs", options->threads, "threads (default: all cores)").range(1, 256);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
   command->footer("Example: chainreel fall assets/scenes/humanoid_fall.yaml --sweep parameters.k=0:1200:7");

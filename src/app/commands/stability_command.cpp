@@ -259,7 +259,7 @@ void add_stability_command(CommandLine& app) {
   command->add_option("--x", options->x, "KEY=from:to:count, maybe with :log behind it");
   command->add_option("--y", options->y, "the same, upward");
   command->add_option("--methods", options->methods, "of the table: rk4,taylor,.. (default all)");
-  command->add_option("--threads", options->threads, "default: all cores").range(1, 256);
+  command->add_option("--jobs", options->threads, "threads (default: all cores)").range(1, 256);
   add_figure_options(*command, options->figure, options->common, "out/NAME_stability.png");
   add_scene_options(*command, options->common);
   add_quiet_option(*command, options->common);
