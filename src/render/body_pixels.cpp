@@ -3,50 +3,22 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
+#include <span>
 
 namespace chainreel {
 namespace {
 
-using Bits = std::vector<std::uint64_t>;
+using Words = std::span<const std::uint64_t>;
 
-// row |= row moved by `by` samples (less than 64) to the right, and to the left.
-void add_moved(Bits& row, int by) {
-  const Bits old = row;
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    const std::uint64_t before = i > 0 ? old[i - 1] : 0, after = i + 1 < row.size() ? old[i + 1] : 0;
-    row[i] |= old[i] << by | before >> (64 - by) | old[i] >> by | after << (64 - by);
+// to = from moved by `by` samples (less than 64) to the right, and to the left, and as it is.
+void add_moved(Words from, int by, std::span<std::uint64_t> to) {
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const std::uint64_t before = i > 0 ? from[i - 1] : 0, after = i + 1 < from.size() ? from[i + 1] : 0;
+    to[i] = from[i] | from[i] << by | before >> (64 - by) | from[i] >> by | after << (64 - by);
   }
 }
 
-// Sets all samples within `reach` of one that is set.
-void widen(Bits& row, int reach) {
-  for (int done = 0; done < reach;) {
-    const int step = std::min({2 * done + 1, reach - done, 63});
-    add_moved(row, step);
-    done += step;
-  }
-}
-
-// Bit k: whether there is a body at sample k.
-std::uint64_t body_bits(const std::uint8_t* rgba, int count) {
-  std::uint64_t bits = 0;
-  int k = 0;
-#if defined(__SSE2__)
-  for (; k + 4 <= count; k += 4) {
-    const __m128i four = _mm_loadu_si128(reinterpret_cast<const __m128i*>(rgba + std::ptrdiff_t(4) * k));
-    const __m128i is_body = _mm_cmpgt_epi32(_mm_srli_epi32(four, 24), _mm_setzero_si128());
-    bits |= std::uint64_t(unsigned(_mm_movemask_ps(_mm_castsi128_ps(is_body)))) << k;
-  }
-#endif
-  for (; k < count; ++k) bits |= std::uint64_t(rgba[4 * k + 3] != 0) << k;
-  return bits;
-}
-
-bool has_any(const Bits& row) {
+bool has_any(Words row) {
   return std::any_of(row.begin(), row.end(), [](std::uint64_t word) { return word != 0; });
 }
 
@@ -57,81 +29,109 @@ int half_width(double radius, int dy) {
 
 }  // namespace
 
-BodyPixels::BodyPixels(const BodySamples& samples, const BodyPaint& paint)
-    : samples_(samples),
-      paint_(paint),
-      width_(samples.box.width * samples.per_side),
-      height_(samples.box.height * samples.per_side),
-      body_(std::size_t(height_), Bits(std::size_t(width_ + 63) / 64)) {
-  for (int y = 0; y < height_; ++y) {
-    const std::uint8_t* row = samples.rgba.data() + std::size_t(4) * std::size_t(y) * std::size_t(width_);
-    for (int x = 0; x < width_; x += 64)
-      body_[std::size_t(y)][std::size_t(x) / 64] = body_bits(row + std::ptrdiff_t(4) * x, std::min(64, width_ - x));
+void BodySamples::reset(const PixelBox& new_box, int new_per_side) {
+  box = new_box;
+  per_side = new_per_side;
+  pixels.assign(std::size_t(box.width) * std::size_t(box.height), 0);
+  bits.assign(std::size_t(words()) * std::size_t(box.height * per_side), 0);
+}
+
+void BodySamples::cut_at(int page_width, int page_height) {
+  const int rows = std::clamp(page_height - box.y, 0, box.height) * per_side;
+  std::fill(bits.begin() + std::ptrdiff_t(rows) * words(), bits.end(), 0);
+  const int columns = std::clamp(page_width - box.x, 0, box.width) * per_side;
+  for (int word = columns / 64; word < words(); ++word) {
+    const std::uint64_t kept = word == columns / 64 ? (std::uint64_t(1) << columns % 64) - 1 : 0;
+    for (int row = 0; row < rows; ++row) bits[std::size_t(row) * std::size_t(words()) + std::size_t(word)] &= kept;
   }
-  near_ = body_;
-  const double radius = paint.radius * samples.per_side;
+}
+
+BodyPixels::BodyPixels(const BodySamples& samples, const BodyPaint& paint)
+    : samples_(samples), paint_(paint), words_(samples.words()), height_(samples.box.height * samples.per_side), near_(samples.bits) {
+  for (std::size_t level = 0; level < 256; ++level)
+    faded_[level] = std::uint8_t(std::min(255.0, paint.opacity * double(level) + 0.5));
+  if (paint.radius > 0) find_near();
+}
+
+void BodyPixels::find_near() {
+  const double radius = paint_.radius * samples_.per_side;
   const int rows = int(std::floor(radius + 0.5));
-  if (rows == 0) return;
+  const auto width = std::size_t(words_);
+  std::vector<std::uint64_t> row(width), moved(width);
   for (int y = 0; y < height_; ++y) {
-    if (!has_any(body_[std::size_t(y)])) continue;
-    Bits row = body_[std::size_t(y)];
+    const Words body(&samples_.bits[std::size_t(y) * width], width);
+    if (!has_any(body)) continue;
+    std::copy(body.begin(), body.end(), row.begin());
     // From the disc's uppermost row, which is the narrowest, to its middle.
     for (int dy = rows, reached = 0; dy >= 0; --dy) {
       const int reach = half_width(radius, dy);
-      widen(row, reach - reached);
+      for (int done = reached; done < reach;) {
+        // As far as what is set reaches without gaps.
+        const int step = std::min({2 * done + 1, reach - done, 63});
+        add_moved(row, step, moved);
+        std::swap(row, moved);
+        done += step;
+      }
       reached = reach;
       for (const int to : {y - dy, y + dy}) {
         if (to < 0 || to >= height_) continue;
-        for (std::size_t i = 0; i < row.size(); ++i) near_[std::size_t(to)][i] |= row[i];
+        for (std::size_t i = 0; i < width; ++i) near_[std::size_t(to) * width + i] |= row[i];
       }
     }
   }
 }
 
-bool BodyPixels::is_empty(const PixelBox& part) const {
-  const int first = part.x * samples_.per_side, last = part.right() * samples_.per_side - 1;
-  for (int y = part.y * samples_.per_side; y < part.bottom() * samples_.per_side; ++y)
-    for (int word = first / 64; word <= last / 64; ++word)
-      if (near_[std::size_t(y)][std::size_t(word)] != 0) return false;
+bool BodyPixels::draw(const PixelBox& part, std::vector<std::uint32_t>& pixels) const {
+  pixels.resize(std::size_t(part.width) * std::size_t(part.height));
+  const int n = samples_.per_side, per_word = 64 / n;
+  const int first = (part.x - samples_.box.x) / per_word, end = (part.right() - samples_.box.x) / per_word;
+  const int top = part.y - samples_.box.y;
+  const auto has_row = [&](int row) {
+    return has_any(Words(&near_[std::size_t(row) * std::size_t(words_) + std::size_t(first)], std::size_t(end - first)));
+  };
+  int row = n * top;
+  while (row < n * (top + part.height) && !has_row(row)) ++row;
+  if (row == n * (top + part.height)) return false;
+  for (int y = 0; y < part.height; ++y)
+    for (int word = first; word < end; ++word)
+      draw_word(top + y, word, &pixels[std::size_t(y) * std::size_t(part.width) + std::size_t((word - first) * per_word)]);
   return true;
 }
 
-bool BodyPixels::draw(const PixelBox& part, std::vector<std::uint8_t>& rgba) const {
-  rgba.assign(std::size_t(4) * std::size_t(part.width) * std::size_t(part.height), 0);
-  PixelBox known = common_part(part, samples_.box);
-  known.x -= samples_.box.x;
-  known.y -= samples_.box.y;
-  if (known.empty() || is_empty(known)) return false;
-  for (int y = known.y; y < known.bottom(); ++y) {
-    std::uint8_t* row = &rgba[std::size_t(4) * std::size_t(y + samples_.box.y - part.y) * std::size_t(part.width)];
-    draw_row(y, known.x, known.right(), row + std::ptrdiff_t(4) * (known.x + samples_.box.x - part.x));
+// The pixels of a word of samples.
+void BodyPixels::draw_word(int y, int word, std::uint32_t* pixels) const {
+  const int n = samples_.per_side, count = 64 / n;
+  const std::uint32_t* mean = &samples_.pixels[std::size_t(y) * std::size_t(samples_.box.width) + std::size_t(word * count)];
+  if (paint_.opacity == 1)
+    std::copy_n(mean, count, pixels);
+  else
+    for (int x = 0; x < count; ++x) pixels[x] = mean[x] == 0 ? 0 : with_line(mean[x], 0);
+  // Samples of the line, row by row, and all together.
+  std::array<std::uint64_t, 4> around{};
+  std::uint64_t any = 0;
+  for (int k = 0; k < n; ++k) {
+    const std::size_t at = std::size_t(n * y + k) * std::size_t(words_) + std::size_t(word);
+    around[std::size_t(k)] = near_[at] & ~samples_.bits[at];
+    any |= around[std::size_t(k)];
   }
-  return true;
-}
-
-// Samples of a pixel stand in one word of each row: their number along a side divides 64.
-void BodyPixels::draw_row(int y, int first, int last, std::uint8_t* pixel) const {
-  const int n = samples_.per_side;
   const std::uint64_t all = (std::uint64_t(1) << n) - 1;
-  const float share = float(paint_.opacity / (n * n));
-  for (int x = first; x < last; ++x, pixel += 4) {
-    std::array<int, 4> inside{};
-    int around = 0;
-    for (int sy = n * y; sy < n * (y + 1); ++sy) {
-      const std::size_t word = std::size_t(n * x) / 64;
-      const std::uint64_t near = near_[std::size_t(sy)][word] >> (n * x % 64) & all;
-      if (near == 0) continue;
-      const std::uint64_t body = body_[std::size_t(sy)][word] >> (n * x % 64) & all;
-      around += std::popcount(near & ~body);
-      // Where there is no body all four are 0.
-      const std::uint8_t* sample = &samples_.rgba[std::size_t(4) * (std::size_t(sy) * std::size_t(width_) + std::size_t(n * x))];
-      if (body != 0)
-        for (int k = 0; k < 4 * n; ++k) inside[std::size_t(k % 4)] += sample[k];
-    }
-    if (around == 0 && inside[3] == 0) continue;
-    for (std::size_t c = 0; c < 4; ++c)
-      pixel[c] = std::uint8_t(std::min(255.0f, share * (float(inside[c]) + 255 * paint_.line[c] * float(around)) + 0.5f));
+  while (any != 0) {
+    const int x = std::countr_zero(any) / n;
+    int samples = 0;
+    for (int k = 0; k < n; ++k) samples += std::popcount(around[std::size_t(k)] >> (n * x) & all);
+    pixels[x] = with_line(mean[x], samples);
+    any &= ~(all << (n * x));
   }
+}
+
+std::uint32_t BodyPixels::with_line(std::uint32_t mean, int around) const {
+  const auto level = [&](int shift, std::size_t channel) -> std::uint32_t {
+    const std::uint32_t own = mean >> shift & 255;
+    if (around == 0) return std::uint32_t(faded_[own]) << shift;
+    const double line = 255.0 * paint_.line[channel] * around / (samples_.per_side * samples_.per_side);
+    return std::uint32_t(std::min(255.0, paint_.opacity * (own + line) + 0.5)) << shift;
+  };
+  return level(0, 2) | level(8, 1) | level(16, 0) | level(24, 3);
 }
 
 }  // namespace chainreel

@@ -16,31 +16,39 @@ struct BodyPaint {
   std::array<float, 4> line{};      // its colour, premultiplied, r g b a
 };
 
-// Samples as they were read: red, green, blue and opacity, premultiplied; where the opacity is 0 there is no body.
+// What samples have shown in a part of the page that is a multiple of 64 samples wide.
 struct BodySamples {
-  PixelBox box;       // of the page's pixels that they cover; beyond it there is no body
-  int per_side = 1;   // along a pixel's side: 1, 2 or 4
-  std::vector<std::uint8_t> rgba;
+  PixelBox box;       // of the page's pixels; beyond it there is no body
+  int per_side = 2;   // samples along a pixel's side: 2 or 4
+  std::vector<std::uint32_t> pixels;  // the means of their samples: blue, green, red, opacity from the lowest byte on, premultiplied
+  std::vector<std::uint64_t> bits;    // row by row, for each sample whether it shows a body, the first in the lowest bit
+
+  int words() const { return box.width * per_side / 64; }  // of a row of samples
+  // Makes it empty and as large as the box.
+  void reset(const PixelBox& box, int per_side);
+  // What lies beyond the page bears no line.
+  void cut_at(int page_width, int page_height);
 };
 
 class BodyPixels {
  public:
-  // Looks for bodies and for what is near to them. The samples must live as long as this does.
+  // Looks for what is near to bodies. The samples must live as long as this does.
   BodyPixels(const BodySamples& samples, const BodyPaint& paint);
 
-  // The pixels of a part of the page, row by row, as the samples are; false where they would all be empty.
-  bool draw(const PixelBox& part, std::vector<std::uint8_t>& rgba) const;
+  // The pixels of a part of the box, row by row, as the samples are; false where they would all be empty. It begins and ends
+  // with whole words of samples.
+  bool draw(const PixelBox& part, std::vector<std::uint32_t>& pixels) const;
 
  private:
-  using Bits = std::vector<std::uint64_t>;  // a row of samples
-
-  bool is_empty(const PixelBox& part) const;
-  void draw_row(int y, int first, int last, std::uint8_t* pixel) const;
+  void find_near();
+  void draw_word(int y, int word, std::uint32_t* pixels) const;
+  std::uint32_t with_line(std::uint32_t mean, int around) const;
 
   const BodySamples& samples_;
   BodyPaint paint_;
-  int width_, height_;               // in samples
-  std::vector<Bits> body_, near_;    // near_: bodies and all within the radius of one
+  int words_, height_;               // of rows of samples
+  std::vector<std::uint64_t> near_;  // bodies and all within the radius of one
+  std::array<std::uint8_t, 256> faded_;  // levels times the opacity
 };
 
 }  // namespace chainreel

@@ -76,7 +76,8 @@ struct Canvas::State {
   int atlas_version = 0;
   Batch batch, batch_before;           // of the picture that is drawn, and of the one that the page shows
   bool shows_batch_before = false;     // over the static layer
-  std::vector<TileMask> solid_tiles, solid_tiles_before;  // of each group of bodies
+  std::vector<PlacedSolids> placed;          // of each group of bodies
+  std::vector<SolidTraces> traces_before;    // of each group of the picture that the page shows
   TileMask changed;
   Windows windows;
   CanvasFrame frame;
@@ -135,12 +136,18 @@ struct Canvas::State {
   void set(const Picture& picture) {
     atlas.trim();
     batch.set(picture);
-    solid_tiles.clear();
-    for (const Solids* solids : batch.solids()) {
-      if (!solid_layer) solid_layer.emplace(gl, width, height, largest);
-      solid_tiles.emplace_back(width, height);
-      solid_layer->touch(*solids, solid_tiles.back());
+    placed.resize(batch.solids().size());
+    for (const Piece& piece : batch.pieces()) {
+      if (piece.primitive != Primitive::solids) continue;
+      if (!solid_layer) solid_layer.emplace(gl, width, height);
+      const auto group = std::size_t(piece.instance);
+      solid_layer->place(*batch.solids()[group], body_paint(piece), placed[group]);
     }
+  }
+
+  BodyPaint body_paint(const Piece& piece) const {
+    const float* numbers = batch.numbers(piece);
+    return {numbers[0], numbers[1], {numbers[4], numbers[5], numbers[6], numbers[7]}};
   }
 
   void upload() {
@@ -176,19 +183,16 @@ struct Canvas::State {
   }
 
   // Bodies are drawn aside and put down where they are.
-  void draw_solids(const Run& run, const Target& target, const TileMask& tiles) {
+  void draw_solids(const Run& run, const TileMask& tiles) {
     const Piece& piece = batch.pieces()[std::size_t(run.piece)];
-    TileMask touched = solid_tiles[std::size_t(piece.instance)];
+    const PlacedSolids& group = placed[std::size_t(piece.instance)];
+    TileMask touched(width, height);
+    mark_difference(nullptr, &group.traces(), touched);
     touched.keep(tiles);
     std::vector<PixelBox> boxes;
     touched.boxes(piece.outline.box, boxes);
     if (boxes.empty()) return;
-    const float* numbers = batch.numbers(piece);
-    const BodyPaint paint{numbers[0], numbers[1], {numbers[4], numbers[5], numbers[6], numbers[7]}};
-    const std::vector<PixelBox>& shown =
-        solid_layer->draw(*batch.solids()[std::size_t(piece.instance)], paint, boxes);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
-    scissor(whole());
+    const std::vector<PixelBox>& shown = solid_layer->draw(group, body_paint(piece), boxes);
     if (shown.empty()) return;
     gl.BindTexture(GL_TEXTURE_2D, solid_layer->texture());
     std::vector<float> instances;
@@ -210,7 +214,7 @@ struct Canvas::State {
         continue;
       }
       if (run.primitive == Primitive::solids) {
-        draw_solids(run, target, tiles);
+        draw_solids(run, tiles);
         continue;
       }
       if (run.primitive == Primitive::glyph) gl.BindTexture(GL_TEXTURE_2D, atlas_texture);
@@ -248,10 +252,10 @@ struct Canvas::State {
   void find_changes() {
     if (!static_layer || !shows_batch_before) return changed.fill();
     changed.clear();
-    const auto touch = [](const std::vector<TileMask>& tiles) {
-      return [&tiles](const Piece& piece, TileMask& marked) { marked.add(tiles[std::size_t(piece.instance)]); };
-    };
-    mark_changes(batch_before, batch, touch(solid_tiles_before), touch(solid_tiles), changed);
+    mark_changes(batch_before, batch, [this](const Piece* before, const Piece* now, TileMask& marked) {
+      mark_difference(before == nullptr ? nullptr : &traces_before[std::size_t(before->instance)],
+                      now == nullptr ? nullptr : &placed[std::size_t(now->instance)].traces(), marked);
+    }, changed);
   }
 };
 
@@ -295,7 +299,8 @@ const CanvasFrame& Canvas::draw(const Picture& picture) {
   s.draw_in(s.changed, s.page);
   s.read(s.frame.changed, (s.static_layer ? s.static_alpha : picture.background.a) < 1);
   std::swap(s.batch, s.batch_before);
-  std::swap(s.solid_tiles, s.solid_tiles_before);
+  s.traces_before.resize(s.placed.size());
+  for (std::size_t i = 0; i < s.placed.size(); ++i) std::swap(s.traces_before[i], s.placed[i].traces());
   s.shows_batch_before = true;
   return s.frame;
 }

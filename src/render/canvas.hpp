@@ -22,11 +22,6 @@ struct RendererInfo {
 // Makes a context for a moment. Throws Error (exit 4) where there is none.
 RendererInfo probe_renderer();
 
-// Flat pictures are drawn faster by the calling thread alone, bodies in space by several. To be called before the first
-// canvas of the process, later calls change nothing; the bytes of pictures are the same either way. Several canvases beside
-// one another want one each.
-void fill_by_several_threads(bool wanted = true);
-
 // What a canvas has drawn, and where it may differ from what it had drawn before.
 struct CanvasFrame {
   Image image;

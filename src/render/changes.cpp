@@ -39,21 +39,18 @@ void for_each_tile(const Piece& piece, const float* numbers, const TileMask& pag
   }
 }
 
-// One of the two pictures.
-struct Side {
-  const Batch& batch;
-  const TouchSolids& touch;
-
-  const Piece& at(int i) const { return batch.pieces()[std::size_t(i)]; }
-};
+const Piece& at(const Batch& batch, int i) {
+  return batch.pieces()[std::size_t(i)];
+}
 
 class Difference {
  public:
-  Difference(const Side& before, const Side& now, TileMask& changed) : before_(before), now_(now), changed_(changed) {}
+  Difference(const Batch& before, const Batch& now, const MarkSolids& mark_solids, TileMask& changed)
+      : before_(before), now_(now), mark_solids_(mark_solids), changed_(changed) {}
 
   // Equal pieces are paired in order; what lies between two pairs differs.
   void mark() {
-    const std::vector<Piece>&a = before_.batch.pieces(), &b = now_.batch.pieces();
+    const std::vector<Piece>&a = before_.pieces(), &b = now_.pieces();
     const Places places(a);
     int next_a = 0, next_b = 0;
     for (int i = 0; i < int(b.size()); ++i) {
@@ -71,26 +68,29 @@ class Difference {
  private:
   void mark_between(int a, int end_a, int b, int end_b) {
     if (end_a - a == end_b - b) {
-      for (; a < end_a; ++a, ++b) mark_pair(before_.at(a), now_.at(b));
+      for (; a < end_a; ++a, ++b) mark_pair(at(before_, a), at(now_, b));
       return;
     }
-    for (; a < end_a; ++a) mark_piece(before_, before_.at(a));
-    for (; b < end_b; ++b) mark_piece(now_, now_.at(b));
+    for (; a < end_a; ++a) mark_piece(before_, at(before_, a));
+    for (; b < end_b; ++b) mark_piece(now_, at(now_, b));
   }
 
   // A shape that moves changes nothing where it was and still is of one colour.
   void mark_pair(const Piece& a, const Piece& b) {
+    // Of bodies that are put down alike only those that have moved.
+    if (a.primitive == Primitive::solids && b.primitive == Primitive::solids && a.outline.box == b.outline.box)
+      return mark_solids_(&a, &b, changed_);
     if (a.primitive != b.primitive || !has_same_fill(a, b)) {
       mark_piece(before_, a);
       mark_piece(now_, b);
       return;
     }
     inside_.clear();
-    for_each_tile(a, before_.batch.numbers(a), changed_, [this](int column, int row, bool is_inside) {
+    for_each_tile(a, before_.numbers(a), changed_, [this](int column, int row, bool is_inside) {
       is_inside ? inside_.mark(column, row) : changed_.mark(column, row);
     });
     // What is left inside is of `a` alone, and differs, too.
-    for_each_tile(b, now_.batch.numbers(b), changed_, [this](int column, int row, bool is_inside) {
+    for_each_tile(b, now_.numbers(b), changed_, [this](int column, int row, bool is_inside) {
       if (!is_inside || !inside_.at(column, row)) changed_.mark(column, row);
       inside_.unmark(column, row);
     });
@@ -101,29 +101,30 @@ class Difference {
   bool has_same_fill(const Piece& a, const Piece& b) const {
     const int place = place_of_fill(a.primitive);
     if (place == 0) return false;
-    const float *in_a = before_.batch.numbers(a) + place, *in_b = now_.batch.numbers(b) + place;
+    const float *in_a = before_.numbers(a) + place, *in_b = now_.numbers(b) + place;
     return std::equal(in_a, in_a + 4, in_b);
   }
 
-  void mark_piece(const Side& side, const Piece& piece) {
-    if (piece.primitive == Primitive::solids) return side.touch(piece, changed_);
+  void mark_piece(const Batch& batch, const Piece& piece) {
+    if (piece.primitive == Primitive::solids)
+      return &batch == &before_ ? mark_solids_(&piece, nullptr, changed_) : mark_solids_(nullptr, &piece, changed_);
     if (piece.primitive == Primitive::layer) return;  // where it differs the pieces of its path do
     const bool is_ring = piece.primitive == Primitive::arc;  // nothing is inside
-    for_each_tile(piece, side.batch.numbers(piece), changed_, [&](int column, int row, bool is_inside) {
+    for_each_tile(piece, batch.numbers(piece), changed_, [&](int column, int row, bool is_inside) {
       if (!is_inside || !is_ring) changed_.mark(column, row);
     });
   }
 
-  const Side before_, now_;
+  const Batch &before_, &now_;
+  const MarkSolids& mark_solids_;
   TileMask& changed_;
   TileMask inside_ = changed_;  // of the piece that is looked at
 };
 
 }  // namespace
 
-void mark_changes(const Batch& before, const Batch& now, const TouchSolids& touch_before,
-                  const TouchSolids& touch_now, TileMask& changed) {
-  Difference({before, touch_before}, {now, touch_now}, changed).mark();
+void mark_changes(const Batch& before, const Batch& now, const MarkSolids& mark_solids, TileMask& changed) {
+  Difference(before, now, mark_solids, changed).mark();
 }
 
 }  // namespace chainreel

@@ -8,12 +8,10 @@
 
 namespace chainreel {
 
-// Marks the tiles that bodies may touch.
-using TouchSolids = std::function<void(const Piece& piece, TileMask& tiles)>;
+// Marks the tiles in which two groups of bodies may differ; null stands for none.
+using MarkSolids = std::function<void(const Piece* before, const Piece* now, TileMask& tiles)>;
 
 // Adds every tile that may look different: where a piece is that the other does not have, or has in another order.
-// Bodies are asked for where they are, those of `before` and those of `now`.
-void mark_changes(const Batch& before, const Batch& now, const TouchSolids& touch_before,
-                  const TouchSolids& touch_now, TileMask& changed);
+void mark_changes(const Batch& before, const Batch& now, const MarkSolids& mark_solids, TileMask& changed);
 
 }  // namespace chainreel

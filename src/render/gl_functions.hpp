@@ -14,7 +14,6 @@ namespace chainreel {
   X(AttachShader)                 \
   X(BindBuffer)                   \
   X(BindFramebuffer)              \
-  X(BindRenderbuffer)             \
   X(BindTexture)                  \
   X(BindVertexArray)              \
   X(BlendEquation)                \
@@ -26,26 +25,20 @@ namespace chainreel {
   X(ClearColor)                   \
   X(CompileShader)                \
   X(CreateProgram)                \
-  X(CullFace)                     \
   X(CreateShader)                 \
   X(DeleteBuffers)                \
   X(DeleteFramebuffers)           \
   X(DeleteProgram)                \
-  X(DeleteRenderbuffers)          \
   X(DeleteShader)                 \
   X(DeleteTextures)               \
   X(DeleteVertexArrays)           \
-  X(DepthMask)                    \
   X(Disable)                      \
   X(DrawElements)                 \
   X(Enable)                       \
   X(EnableVertexAttribArray)      \
-  X(FramebufferRenderbuffer)      \
   X(FramebufferTexture2D)         \
-  X(FrontFace)                    \
   X(GenBuffers)                   \
   X(GenFramebuffers)              \
-  X(GenRenderbuffers)             \
   X(GenTextures)                  \
   X(GenVertexArrays)              \
   X(GetError)                     \
@@ -59,15 +52,12 @@ namespace chainreel {
   X(LinkProgram)                  \
   X(PixelStorei)                  \
   X(ReadPixels)                   \
-  X(RenderbufferStorage)          \
   X(Scissor)                      \
   X(ShaderSource)                 \
   X(TexImage2D)                   \
   X(TexParameteri)                \
   X(TexSubImage2D)                \
-  X(Uniform1i)                    \
   X(Uniform2f)                    \
-  X(Uniform4f)                    \
   X(UseProgram)                   \
   X(VertexAttribPointer)          \
   X(Viewport)

@@ -1,4 +1,4 @@
-// Bodies in space drawn into a layer of their own, no larger than they are: several samples a pixel, with depth, which
+// Bodies in space drawn into a layer of their own, tile by tile where they are: several samples a pixel, with depth, which
 // then become pixels of the page. Needs a current context.
 #pragma once
 
@@ -8,56 +8,39 @@
 
 #include "render/body_pixels.hpp"
 #include "render/gl_objects.hpp"
-#include "render/solid_bounds.hpp"
-#include "render/tile_mask.hpp"
+#include "render/placed_solids.hpp"
 
 namespace chainreel {
 
 class SolidLayer {
  public:
-  // For pages of this size. `largest`: the longest side of a texture.
-  SolidLayer(const GlFunctions& gl, int width, int height, int largest);
-  ~SolidLayer();
-  SolidLayer(const SolidLayer&) = delete;
-  SolidLayer& operator=(const SolidLayer&) = delete;
+  // For pages of this size.
+  SolidLayer(const GlFunctions& gl, int width, int height);
 
-  // Marks the tiles that the bodies may touch.
-  void touch(const Solids& solids, TileMask& tiles);
+  // Places the bodies, which are put down like this. Throws Error (exit 3) for a mesh that is none.
+  void place(const Solids& solids, const BodyPaint& paint, PlacedSolids& placed);
 
-  // Draws them and gives those of the boxes' tiles that show something. Leaves its own framebuffer bound, and the viewport
-  // and the state of blending as they are for flat shapes.
-  const std::vector<PixelBox>& draw(const Solids& solids, const BodyPaint& paint, const std::vector<PixelBox>& boxes);
+  // Draws them and gives those of the boxes' tiles that show something.
+  const std::vector<PixelBox>& draw(const PlacedSolids& placed, const BodyPaint& paint, const std::vector<PixelBox>& boxes);
 
   // What draw() has made, premultiplied, at its places on the page; elsewhere it is what was there before.
   GLuint texture() const;
 
  private:
-  struct Buffers;  // of one mesh
-  struct Program;
-  struct SampleTarget;
-
-  const Buffers& buffers_of(const std::shared_ptr<const TriangleMesh>& mesh);
-  std::vector<MeshBounds> bounds_of_parts(const Solids& solids);
-  PixelBox pixels_of(const SolidBounds& bounds) const;
-  PixelBox frame_of(const SolidBounds& bounds) const;
-  void begin(const PixelBox& frame);
-  void read(const PixelBox& frame, const PixelBox& wanted);
+  const SolidMesh& mesh_of(const std::shared_ptr<const TriangleMesh>& mesh);
+  PixelBox tiles_around(const PixelBox& box, double rim) const;
+  void fill(const PlacedSolids& placed, double rim, const std::vector<PixelBox>& boxes);
   void put(const PixelBox& box, const BodyPixels& pixels, BoxJoiner& shown);
-  enum class Pass { opaque, translucent };
-  void draw_part(const Solid& solid, const Buffers& buffers, const Solids& solids, const SolidBounds& bounds,
-                 const PixelBox& frame, Pass pass);
-  void draw_parts(const Solids& solids, const SolidBounds& bounds, const PixelBox& frame);
-  static double depth_of(const Solid& solid, const Buffers& buffers);
 
   const GlFunctions& gl_;
-  int width_, height_, samples_, largest_;
-  std::unique_ptr<Program> program_;
-  std::unique_ptr<SampleTarget> target_;             // grows with the bodies
-  Target page_;                     // what is put down
-  BodySamples read_;
-  std::vector<std::uint8_t> rgba_;
+  SampleGrid grid_;
+  Target page_;  // what is put down
+  TileSamples tile_;
+  BodySamples samples_;
+  std::vector<std::uint32_t> pixels_;
   std::vector<PixelBox> shown_;
-  std::map<const TriangleMesh*, std::unique_ptr<Buffers>> meshes_;
+  std::vector<std::uint8_t> is_wanted_;  // of the tiles of the samples
+  std::map<const TriangleMesh*, std::unique_ptr<SolidMesh>> meshes_;
 };
 
 }  // namespace chainreel

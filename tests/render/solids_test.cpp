@@ -269,6 +269,36 @@ TEST(Solids, KnowWhereTheyStandWithoutBeingDrawn) {
   EXPECT_FALSE(bounds_of(scene({}), {}));
 }
 
+// Its nearest triangles reach behind the eye, its farthest nearly to the horizon, which is at the middle of the page.
+TEST(Solids, ThatReachBehindTheEyeAreCutThere) {
+  const Mesh ground = shared(box_mesh({400, 0.01, 400}));
+  const Image page = draw_items({silhouette({at(ground, 0, -0.5, 0)}, 0.5)});
+  EXPECT_NEAR(covered_area(page), 0.5 * page.width * page.height, 0.01 * page.width * page.height);
+}
+
+TEST(Solids, OnlyWhereABodyHasMovedThePageIsDrawnAgain) {
+  Solids before = scene({at(cube(0.4), -0.6, 0.6, 0, kRed), at(cube(0.4), 0.5, -0.5, 0, kGreen)});
+  before.outline = kBlack;
+  before.outline_width = 2 * kPx;
+  Solids now = before;
+  now.parts[1] = at(now.parts[1].mesh, 0.55, -0.5, 0.1, kGreen);
+  Picture empty, first, second;
+  empty.aspect = first.aspect = second.aspect = 1;
+  first.add(before);
+  second.add(now);
+  constexpr int kSide = 256;
+  const auto canvas = [&] {
+    auto made = std::make_unique<Canvas>(kSide, kSide, fonts());
+    made->set_static_layer(empty);
+    return made;
+  };
+  const auto drawn = canvas(), fresh = canvas();
+  drawn->draw(first);
+  const CanvasFrame& frame = drawn->draw(second);
+  EXPECT_EQ(frame.image.bgra, fresh->draw(second).image.bgra);
+  for (const PixelBox& box : frame.changed) EXPECT_TRUE(box.x >= kSide / 2 && box.y >= kSide / 2) << box.x << " " << box.y;
+}
+
 class SolidsAsVectors : public ::testing::Test {
  protected:
   SolidsAsVectors() {

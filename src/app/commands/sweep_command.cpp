@@ -23,7 +23,6 @@
 #include "core/input_file.hpp"
 #include "core/machine.hpp"
 #include "core/parallel.hpp"
-#include "render/canvas.hpp"
 #include "scene/quantity.hpp"
 #include "scene/text/picture_names.hpp"
 #include "scene/text/scene_paths.hpp"
@@ -144,7 +143,6 @@ class FilmsOfGrid {
 
   SweepOutcome run() {
     const std::size_t count = std::size_t(runs_.behind - runs_.first);
-    fill_by_several_threads(false);  // runs are drawn beside one another
     const int beside = std::max(1, std::min(threads_, int(count)));
     Ticker ticker(options_.common.quiet);
     for_each_index(count, beside, [&](std::size_t k) {

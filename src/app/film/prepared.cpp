@@ -8,7 +8,6 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/robot/view.hpp"
-#include "render/canvas.hpp"
 #include "scene/run/prepare.hpp"
 #include "scene/text/panels.hpp"
 #include "scene/text/read_scene.hpp"
@@ -63,7 +62,6 @@ void load_shapes(PreparedFilm& film) {
     const Chain& chain = panel.simulation.chain;
     const BodyLook look{scene.links, scene.mesh_up, is_oblique(chain, film.scene.camera), scene.place_of("links")};
     panel.shapes = shapes_for(look, scene.model, chain, model_options_of(scene), shelf);
-    if (panel.shapes) fill_by_several_threads();
   }
 }
 

@@ -161,8 +161,6 @@ std::vector<int> Workshop::chunks_of_range() const {
 void Workshop::run(StageTimes& times) {
   if (pieces_.empty()) return;
   const int jobs = std::min(work_.jobs, int(pieces_.size()));
-  // Canvases that draw beside one another leave no processor idle.
-  if (jobs > 1) fill_by_several_threads(false);
   for_each_index_with_tools(pieces_.size(), jobs, [&]() -> RunIndex {
     // What the thread spent is told when its last piece is done, and goes with it.
     const std::shared_ptr<Pen> pen(new Pen(work_), [&](Pen* used) {

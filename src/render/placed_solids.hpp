@@ -1,0 +1,71 @@
+// Bodies where they stand on the page: their vertices placed and lit, their triangles sorted by the tiles that they meet. Needs
+// no OpenGL.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "picture/picture.hpp"
+#include "render/solid_mesh.hpp"
+#include "render/tile_mask.hpp"
+#include "render/tile_samples.hpp"
+
+namespace chainreel {
+
+// How finely a page is sampled.
+struct SampleGrid {
+  int width = 0, height = 0;  // of the page, px
+  int cells = 1;              // along a pixel's side, each of 2 x 2 samples
+
+  SampleGrid(int page_width, int page_height);
+  int tile_side() const { return kTileCells / cells; }  // px
+  int columns() const { return (width + tile_side() - 1) / tile_side(); }
+  int rows() const { return (height + tile_side() - 1) / tile_side(); }
+};
+
+// What a group of bodies has coloured, part by part, so that the next picture's can be held against it.
+struct SolidTraces {
+  Solids solids;
+  double rim = 0;               // px
+  std::vector<TileMask> tiles;  // of the page, that each part may have coloured, its line and its fringe included
+};
+
+// Marks the tiles in which two groups may differ; null stands for none.
+void mark_difference(const SolidTraces* before, const SolidTraces* now, TileMask& changed);
+
+class PlacedSolids {
+ public:
+  using MeshOf = std::function<const SolidMesh&(const std::shared_ptr<const TriangleMesh>&)>;
+
+  // Replaces what was there. `rim`: how far, in px, bodies colour the page around them.
+  void set(const Solids& solids, double rim, const SampleGrid& grid, const MeshOf& mesh_of);
+
+  SolidTraces& traces() { return traces_; }
+  const SolidTraces& traces() const { return traces_; }
+  // Whether a tile of the grid holds anything, and its samples.
+  bool is_empty(int column, int row) const { return bins_[place(column, row)].empty(); }
+  void draw(int column, int row, TileSamples& samples) const;
+
+ private:
+  struct Part;
+  using Triangle = std::array<std::uint32_t, 3>;  // into the vertices, clockwise
+
+  std::size_t place(int column, int row) const { return std::size_t(row) * std::size_t(columns_) + std::size_t(column); }
+  void place_vertices(const Part& part);
+  void add_triangles(const Part& part, std::size_t first, std::size_t end, bool is_culled);
+  void add_clipped(const Part& part, const Triangle& corners, bool is_culled);
+  void add(Triangle corners, bool is_culled, TileMask& touched);
+  void add_to_tiles(const Triangle& corners, TileMask& touched);
+
+  SolidTraces traces_;
+  SampleGrid grid_{1, 1};
+  int columns_ = 0, rows_ = 0;
+  int rim_ = 0;  // in which pixels may be touched, in units of a cell
+  std::vector<PageVertex> vertices_;
+  std::vector<Triangle> triangles_;
+  std::size_t first_translucent_ = 0;
+  std::vector<std::vector<std::uint32_t>> bins_;  // of each tile its triangles, in the order in which they are drawn
+};
+
+}  // namespace chainreel
