@@ -121,6 +121,7 @@ struct GlyphRun {
   std::vector<Glyph> glyphs;
   Color color;
   std::string text;  // what it says, for outputs with selectable text
+  double stroke_width = 0;  // above 0: the edges of the glyphs as lines instead, a halo below words; none selects it
 };
 
 // Flat coloured cells that fill a rectangle, never smoothed; row by row from the lower left.

@@ -63,6 +63,7 @@ struct Placer {
   }
   GlyphRun operator()(GlyphRun run) const {
     run.size *= scale;
+    run.stroke_width *= scale;
     run.origin = (*this)(run.origin);
     for (Glyph& glyph : run.glyphs) {
       glyph.x *= scale;
@@ -87,14 +88,6 @@ bool is_unreadable(const Shape& shape, double smallest) {
   return run != nullptr && run->size < smallest * (1 - kRoundOff);
 }
 
-// What sets words off from that which lies below them; it stands directly before them.
-bool is_plate(const Shape& shape, Color background) {
-  const Capsule* capsule = std::get_if<Capsule>(&shape);
-  if (capsule == nullptr || capsule->paint.stroke_width > 0) return false;
-  const Color& fill = capsule->paint.fill;
-  return fill.faded(0) == background.faded(0);
-}
-
 Rect common_part(const Rect& a, const Rect& b) {
   const Rect both{std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
   return {both.x0, both.y0, std::max(both.x0, both.x1), std::max(both.y0, both.y1)};
@@ -110,16 +103,13 @@ void place_picture(Picture& target, const Picture& page, const Placing& placing)
   const Placer place{scale, corner, placing.thinnest_line};
   const Rect edges = place(shown);
 
-  const int first_clip = int(target.clips.size()), first_item = int(target.items.size());
+  const int first_clip = int(target.clips.size());
   target.clips.push_back(edges);
   for (const Rect& clip : page.clips) target.clips.push_back(common_part(place(clip), edges));
   for (const Item& item : page.items) {
     Item placed{std::visit([&](const auto& shape) -> Shape { return place(shape); }, item.shape),
                 first_clip + 1 + item.clip};
-    if (!is_unreadable(placed.shape, placing.smallest_text))
-      target.items.push_back(std::move(placed));
-    else if (int(target.items.size()) > first_item && is_plate(target.items.back().shape, page.background))
-      target.items.pop_back();
+    if (!is_unreadable(placed.shape, placing.smallest_text)) target.items.push_back(std::move(placed));
   }
 }
 

@@ -75,6 +75,10 @@ inline Rect around(const Rect& a, const Rect& b) {
   return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
+inline Point center_of(const Rect& r) {
+  return {(r.x0 + r.x1) / 2, (r.y0 + r.y1) / 2};
+}
+
 inline Rect widened(const Rect& box, double by) {
   return {box.x0 - by, box.y0 - by, box.x1 + by, box.y1 + by};
 }

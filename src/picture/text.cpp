@@ -90,6 +90,24 @@ void draw_text(Picture& picture, const TextLine& line, Point anchor, int clip) {
   }
 }
 
+void draw_halo(Picture& picture, const TextLine& line, Point anchor, Color color, double width, int clip) {
+  for (GlyphRun run : line.runs) {
+    run.origin = run.origin + anchor;
+    run.color = color;
+    run.stroke_width = 2 * width;
+    picture.add(std::move(run), clip);
+  }
+  for (Shape mark : line.marks) {
+    shift_shape(mark, anchor);
+    if (auto* rule = std::get_if<Capsule>(&mark)) rule->radius += width, rule->paint = {color, {}, 0};
+    if (auto* dot = std::get_if<Ellipse>(&mark)) {
+      const double r = norm(dot->u) + width;
+      *dot = {dot->center, {r, 0}, {0, r}, {color, {}, 0}};
+    }
+    picture.add(std::move(mark), clip);
+  }
+}
+
 namespace {
 
 // Bytes of the sequence that `lead` opens, 0 where it cannot open one.

@@ -76,6 +76,9 @@ TextLine lay_out_math(const Fonts& fonts, const std::string& notation, const Tex
 // Moves a laid-out line to the anchor and appends it to the picture.
 void draw_text(Picture& picture, const TextLine& line, Point anchor, int clip = -1);
 
+// A line around its letters, to be drawn below them: it sets them off from what lies there. `width`: on each side.
+void draw_halo(Picture& picture, const TextLine& line, Point anchor, Color color, double width, int clip = -1);
+
 // UTF-8 to characters and back.
 
 // Throws Error (exit 3) where the bytes are not well-formed UTF-8 (overlong forms and surrogates included).

@@ -309,12 +309,13 @@ void Batch::add(const GlyphRun& run) {
   if (size > kLargestText)
     throw Error(ExitCode::limit, "text of " + std::to_string(long(size)) + " px; the largest is " +
                                      std::to_string(long(kLargestText)));
+  const int em = int(std::lround(64 * size)), stroke = int(std::lround(64 * height_ * run.stroke_width));
   for (const Glyph& glyph : run.glyphs) {
     const Pixels pen = to_pixels(run.origin + Point{glyph.x, glyph.y});
     if (visible_box(pen.x - 2 * size, pen.y - 2 * size, pen.x + 2 * size, pen.y + 2 * size).empty()) continue;
     const long quarters = std::lround(GlyphAtlas::kSteps * pen.x);
     const long step = ((quarters % GlyphAtlas::kSteps) + GlyphAtlas::kSteps) % GlyphAtlas::kSteps;
-    const AtlasGlyph& bitmap = atlas_->glyph(run.face, glyph.index, int(std::lround(64 * size)), int(step));
+    const AtlasGlyph& bitmap = atlas_->glyph(run.face, glyph.index, em, int(step), stroke);
     if (bitmap.width == 0) continue;
     const double left = double((quarters - step) / GlyphAtlas::kSteps) + bitmap.offset_x;
     const double top = double(std::lround(pen.y)) + bitmap.offset_y;
@@ -325,7 +326,8 @@ void Batch::add(const GlyphRun& run) {
                            {left, top, double(bitmap.width), double(bitmap.height)},
                            Vector::premultiplied(run.color)});
     piece.look = more(piece.look, std::uint64_t(run.face) << 62 | std::uint64_t(glyph.index) << 30 |
-                                      std::uint64_t(std::lround(64 * size)) << 4 | std::uint64_t(step));
+                                      std::uint64_t(em) << 4 | std::uint64_t(step));
+    if (stroke > 0) piece.look = more(piece.look, std::uint64_t(stroke));
   }
 }
 

@@ -2,7 +2,9 @@
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
+#include FT_GLYPH_H
 #include FT_OUTLINE_H
+#include FT_STROKER_H
 
 #include <algorithm>
 #include <array>
@@ -16,6 +18,7 @@ namespace chainreel {
 // Faces of its own: FreeType's are not to be shared between threads, and every thread has its canvas.
 struct GlyphAtlas::Rasteriser {
   FT_Library library = nullptr;
+  FT_Stroker stroker = nullptr;
   std::array<FT_Face, 3> faces{};
   std::array<int, 3> sizes{};
   const Fonts& fonts;
@@ -25,9 +28,13 @@ struct GlyphAtlas::Rasteriser {
   }
   Rasteriser(const Rasteriser&) = delete;
   Rasteriser& operator=(const Rasteriser&) = delete;
-  ~Rasteriser() { FT_Done_FreeType(library); }
+  ~Rasteriser() {
+    FT_Stroker_Done(stroker);
+    FT_Done_FreeType(library);
+  }
 
-  const FT_Bitmap& draw(Face face, std::uint32_t index, int size, int step, AtlasGlyph& glyph) {
+  // Row by row without gaps.
+  std::vector<std::uint8_t> draw(Face face, std::uint32_t index, int size, int step, int stroke, AtlasGlyph& glyph) {
     FT_Face& ft_face = faces[std::size_t(face)];
     errno = 0;
     if (ft_face == nullptr && FT_New_Face(library, fonts.file(face).c_str(), 0, &ft_face) != 0)
@@ -38,15 +45,29 @@ struct GlyphAtlas::Rasteriser {
     sizes[std::size_t(face)] = size;
     good = good && FT_Load_Glyph(ft_face, index, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) == 0;
     if (good) FT_Outline_Translate(&ft_face->glyph->outline, step * 64 / kSteps, 0);
-    good = good && FT_Render_Glyph(ft_face->glyph, FT_RENDER_MODE_NORMAL) == 0;
+    FT_Glyph shape = nullptr;
+    good = good && FT_Get_Glyph(ft_face->glyph, &shape) == 0;
+    if (good && stroke > 0) {
+      good = stroker != nullptr || FT_Stroker_New(library, &stroker) == 0;
+      if (good) FT_Stroker_Set(stroker, stroke / 2, FT_STROKER_LINECAP_ROUND, FT_STROKER_LINEJOIN_ROUND, 0);
+      good = good && FT_Glyph_Stroke(&shape, stroker, 1) == 0;
+    }
+    good = good && FT_Glyph_To_Bitmap(&shape, FT_RENDER_MODE_NORMAL, nullptr, 1) == 0;
+    const std::unique_ptr<FT_GlyphRec_, void (*)(FT_Glyph)> drawn(shape, FT_Done_Glyph);
     if (!good)
       throw Error(ExitCode::no_renderer, "glyph " + std::to_string(index) + " of " + fonts.file(face) +
                                              " cannot be drawn at " + std::to_string(size / 64) + " px");
-    glyph.offset_x = ft_face->glyph->bitmap_left;
-    glyph.offset_y = -ft_face->glyph->bitmap_top;
-    glyph.width = int(ft_face->glyph->bitmap.width);
-    glyph.height = int(ft_face->glyph->bitmap.rows);
-    return ft_face->glyph->bitmap;
+    const auto* picture = reinterpret_cast<FT_BitmapGlyph>(drawn.get());
+    glyph.offset_x = picture->left;
+    glyph.offset_y = -picture->top;
+    glyph.width = int(picture->bitmap.width);
+    glyph.height = int(picture->bitmap.rows);
+    std::vector<std::uint8_t> rows;
+    for (int row = 0; row < glyph.height; ++row) {
+      const std::uint8_t* source = picture->bitmap.buffer + row * picture->bitmap.pitch;
+      rows.insert(rows.end(), source, source + glyph.width);
+    }
+    return rows;
   }
 };
 
@@ -63,18 +84,16 @@ GlyphAtlas::GlyphAtlas(const Fonts& fonts, int largest_side)
 
 GlyphAtlas::~GlyphAtlas() = default;
 
-const AtlasGlyph& GlyphAtlas::glyph(Face face, std::uint32_t index, int size, int step) {
-  const Key key{face, index, size, step};
+const AtlasGlyph& GlyphAtlas::glyph(Face face, std::uint32_t index, int size, int step, int stroke) {
+  const Key key{face, index, size, step, stroke};
   if (const auto known = glyphs_.find(key); known != glyphs_.end()) return known->second;
 
   AtlasGlyph glyph;
-  const FT_Bitmap& bitmap = rasteriser_->draw(face, index, size, step, glyph);
+  const std::vector<std::uint8_t> rows = rasteriser_->draw(face, index, size, step, stroke, glyph);
   place(glyph);
-  for (int row = 0; row < glyph.height; ++row) {
-    const std::uint8_t* source = bitmap.buffer + row * bitmap.pitch;
-    std::copy_n(source, glyph.width,
+  for (int row = 0; row < glyph.height; ++row)
+    std::copy_n(rows.begin() + std::ptrdiff_t(row) * glyph.width, glyph.width,
                 sheet_.begin() + std::ptrdiff_t(glyph.top + row) * width_ + std::ptrdiff_t(glyph.left));
-  }
   ++version_;
   return glyphs_.emplace(key, glyph).first->second;
 }

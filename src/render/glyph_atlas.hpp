@@ -27,9 +27,9 @@ class GlyphAtlas {
 
   static constexpr int kSteps = 4;  // places of the pen within a pixel, horizontally
 
-  // `size` of the em in 1/64 px; `step` is the pen's place right of its pixel in 1/kSteps px. Throws Error
-  // (exit 7) for sizes beyond what fits into the sheet.
-  const AtlasGlyph& glyph(Face face, std::uint32_t index, int size, int step);
+  // `size` of the em in 1/64 px; `step` is the pen's place right of its pixel in 1/kSteps px; `stroke`, 1/64 px: above 0,
+  // its edge as a line so wide. Throws Error (exit 7) for sizes beyond what fits into the sheet.
+  const AtlasGlyph& glyph(Face face, std::uint32_t index, int size, int step, int stroke = 0);
 
   // Forgets all glyphs if they have come to fill a large sheet. Not between glyph() and the drawing of it.
   void trim();
@@ -40,7 +40,7 @@ class GlyphAtlas {
   int version() const { return version_; }  // changes with every new glyph
 
  private:
-  using Key = std::tuple<Face, std::uint32_t, int, int>;
+  using Key = std::tuple<Face, std::uint32_t, int, int, int>;
   struct Rasteriser;
 
   void place(AtlasGlyph& glyph);

@@ -215,6 +215,13 @@ class Painter {
     std::vector<cairo_glyph_t> glyphs;
     for (const Glyph& glyph : run.glyphs)
       glyphs.push_back({glyph.index, x(run.origin.x + glyph.x), y(run.origin.y + glyph.y)});
+    if (run.stroke_width > 0) {
+      cairo_set_font_face(cr_, faces_.get(run.face));
+      cairo_set_font_size(cr_, scale_ * run.size);
+      cairo_new_path(cr_);
+      cairo_glyph_path(cr_, glyphs.data(), int(glyphs.size()));
+      return stroke(run.color, run.stroke_width, true);
+    }
     std::string text;
     std::vector<cairo_text_cluster_t> clusters;
     for (const GlyphCluster& cluster : clusters_of(run)) {

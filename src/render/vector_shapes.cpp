@@ -40,7 +40,7 @@ struct Finite {
     return std::all_of(t.points.begin(), t.points.end(),
                        [](const TrailPoint& p) { return good(p.p) && good(p.width) && good(p.alpha); });
   }
-  bool operator()(const GlyphRun& run) const { return good(run.origin) && good(run.size); }
+  bool operator()(const GlyphRun& run) const { return good(run.origin) && good(run.size) && good(run.stroke_width); }
   bool operator()(const Cells& c) const {
     return c.nx > 0 && c.ny > 0 && c.colors.size() == std::size_t(c.nx) * std::size_t(c.ny) &&
            good(c.rect.x0 + c.rect.y0) && good(c.rect.x1 + c.rect.y1);

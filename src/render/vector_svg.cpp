@@ -247,7 +247,10 @@ class SvgWriter {
     body_ += "<text y=\"" + number(y(run.origin.y)) + "\" font-family=\"" + family.name + "," +
              family.fallbacks + "\" font-size=\"" + number(scale_ * run.size) + "\"" +
              (std::string_view(family.weight) == "bold" ? " font-weight=\"bold\"" : "") +
-             paint_text("fill", run.color) + ">";
+             (run.stroke_width > 0 ? line_text(run.color, run.stroke_width, true) + " pointer-events=\"none\"" +
+                                         " style=\"user-select:none\""
+                                   : paint_text("fill", run.color)) +
+             ">";
     std::string places, words;
     const auto flush = [&] {
       if (!words.empty()) body_ += "<tspan x=\"" + places + "\">" + escaped(words) + "</tspan>";

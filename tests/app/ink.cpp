@@ -26,7 +26,7 @@ std::vector<Written> written_on(const Picture& picture, const Fonts& fonts) {
   std::vector<Written> all;
   for (std::size_t i = 0; i < picture.items.size(); ++i) {
     const auto* run = std::get_if<GlyphRun>(&picture.items[i].shape);
-    if (!run || run->color.a == 0) continue;
+    if (!run || run->color.a == 0 || run->stroke_width > 0) continue;  // a halo is below its word
     std::optional<Rect> whole;
     for (const Glyph& glyph : run->glyphs) {
       const auto ink = ink_of(glyph, *run, fonts.ft_face(run->face));

@@ -3,9 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
-
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
 #include "app/film/target.hpp"
@@ -13,21 +10,12 @@
 #include "dynamics/kinematics.hpp"
 #include "picture/theme.hpp"
 #include "support/picture_compare.hpp"
+#include "support/scene_names.hpp"
 
 namespace chainreel {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr int kWidth = 640, kHeight = 360;
-
-std::vector<std::string> scene_names() {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(fs::path(CHAINREEL_SOURCE_FOLDER) / "assets/scenes"))
-    names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 class EveryScene : public ::testing::TestWithParam<std::string> {
  protected:
@@ -78,7 +66,7 @@ class EveryScene : public ::testing::TestWithParam<std::string> {
   Film film_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Assets, EveryScene, ::testing::ValuesIn(scene_names()),
+INSTANTIATE_TEST_SUITE_P(Assets, EveryScene, ::testing::ValuesIn(test::scene_names()),
                          [](const auto& p) { return p.param; });
 
 TEST_P(EveryScene, RunsToTheEndThatItExpects) {
@@ -117,7 +105,7 @@ TEST_P(EveryScene, ShowsTheGripperWhereThePhysicsHasItAndNotElsewhere) {
 TEST(Scenes, OfTheLectureAreAllThere) {
   for (const char* name :
        {"pp_free", "pp_spring", "rr_free", "rr_torque", "rrr_free", "rrr_torque", "rr_ellipse"})
-    EXPECT_THAT(scene_names(), testing::Contains(name));
+    EXPECT_THAT(test::scene_names(), testing::Contains(name));
 }
 
 }  // namespace

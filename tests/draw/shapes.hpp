@@ -63,7 +63,8 @@ inline Point middle_of(const Rect& r) {
 // Everything written on the picture, run by run.
 inline std::string words_of(const Picture& picture) {
   std::string words;
-  for (const GlyphRun& run : all_of<GlyphRun>(picture)) words += run.text;
+  for (const GlyphRun& run : all_of<GlyphRun>(picture))
+    if (run.stroke_width == 0) words += run.text;  // halos say nothing
   return words;
 }
 

@@ -41,7 +41,7 @@ struct BoxOf {
     Rect box = at(s.origin);
     for (const Glyph& glyph : s.glyphs) box = around(box, at({s.origin.x + glyph.x, s.origin.y + glyph.y}));
     // Ascenders, descenders and the last glyph's width are within an em of the pen.
-    return {box.x0 - 0.1 * s.size, box.y0 - 0.35 * s.size, box.x1 + s.size, box.y1 + s.size};
+    return widened({box.x0 - 0.1 * s.size, box.y0 - 0.35 * s.size, box.x1 + s.size, box.y1 + s.size}, s.stroke_width / 2);
   }
   Rect operator()(const Cells& s) const { return s.rect; }
   Rect operator()(const Solids&) const { return {-1e9, -1e9, 1e9, 1e9}; }

@@ -164,8 +164,8 @@ struct Overlay {
       const double off = std::max(kLabelOff, reach_of(poses[i], out)) + kLabelAir + std::abs(out.x) * half_width +
                          std::abs(out.y) * half_height;
       const Point middle = tips[i] + off * out;
-      labels.add(line, {middle.x - half_width, middle.y - half_height, middle.x + half_width, middle.y + half_height},
-                 true);
+      labels.add("pose", line,
+                 {middle.x - half_width, middle.y - half_height, middle.x + half_width, middle.y + half_height});
     }
     labels.draw(picture, scene, options.theme->background, kSceneClip, kLabelFarthest);
   }

@@ -37,7 +37,8 @@ Film::Film(const Scene& page, const std::vector<PanelRun>& runs, std::vector<dou
       sheet_(*stage_, layers_),
       view_(*stage_, layers_, sheet_),
       titles_(sheet_.panel_titles(*stage_, view_.cells)),
-      panels_(panels_of(*stage_, view_)) {}
+      panels_(panels_of(*stage_, view_)),
+      words_(*stage_, layers_, sheet_, view_, panels_) {}
 
 Picture Film::page() const {
   Picture picture;
@@ -46,12 +47,6 @@ Picture Film::page() const {
   if (is_transparent(stage_->page)) picture.background.a = 0;
   for (const PanelCell& cell : view_.cells) picture.clips.push_back(cell.scene);
   return picture;
-}
-
-SharedPage Film::shared_page() const {
-  SharedPage shared{sheet_.sheet, camera(), view_.cells.front().scene};
-  if (stage_->has_cells()) shared.scene.x0 += kBarInset;
-  return shared;
 }
 
 void Film::draw_cell_frames(Picture& picture) const {
@@ -71,7 +66,7 @@ Picture Film::static_layer() const {
   for (const Panel& panel : panels_)
     for (const auto& layer : layers_)
       if (layer->is_of(panel.motion())) layer->draw_once(picture, panel);
-  for (const auto& layer : layers_) layer->draw_page_once(picture, shared_page());
+  for (const auto& layer : layers_) layer->draw_page_once(picture, view_.shared_page(*stage_, sheet_));
   draw_sheet(picture, sheet_.sheet);
   if (sheet_.key) sheet_.key->draw(picture, view_.cells.front().title);
   for (const PlacedText& title : titles_) draw_text(picture, title.line, title.anchor);
@@ -82,7 +77,7 @@ Picture Film::static_layer() const {
 void Film::draw_panel(Picture& picture, std::size_t i, int k) const {
   const Panel& panel = panels_[i];
   const int shown = std::clamp(k, 0, panel.last());
-  MarkLabels labels;
+  MarkLabels labels(words_.at(i, shown));
   for (std::size_t l = 0; l < layers_.size(); ++l)
     if (layers_[l]->is_of(panel.motion()))
       layers_[l]->draw(picture, {panel, panel.motion().pose_at(shown), shown, k > shown, view_.corner(l, i), labels});
@@ -95,7 +90,7 @@ Picture Film::frame(int k) const {
   for (std::size_t i = 0; i < panels_.size(); ++i) draw_panel(picture, i, k);
   draw_notes(picture, k);
   for (const PlotStrip& plot : sheet_.plots) plot.draw_frame(picture, stage_->times[std::size_t(k)]);
-  for (const auto& layer : layers_) layer->draw_page(picture, shared_page(), k);
+  for (const auto& layer : layers_) layer->draw_page(picture, view_.shared_page(*stage_, sheet_), k);
   return picture;
 }
 

@@ -7,6 +7,7 @@
 
 #include "draw/film/film_sheet.hpp"
 #include "draw/film/film_view.hpp"
+#include "draw/film/film_words.hpp"
 #include "draw/layers/layer.hpp"
 #include "draw/page/panel.hpp"
 
@@ -37,11 +38,12 @@ class Film {
   const Panel& panel(int i) const { return panels_[std::size_t(i)]; }
   const Camera& camera(int i = 0) const { return panel(i).camera(); }
   const Rect& scene_area(int i = 0) const { return panel(i).area(); }
+  // Where the words of a panel's marks stand at its frame k.
+  std::span<const StandingWord> words(int i, int k) const { return words_.at(std::size_t(i), k); }
 
  private:
   Picture page() const;
   std::lock_guard<std::mutex> alone() const { return std::lock_guard(*drawing_); }
-  SharedPage shared_page() const;
   void draw_panel(Picture& picture, std::size_t i, int k) const;
   void draw_cell_frames(Picture& picture) const;
   void draw_notes(Picture& picture, int k) const;
@@ -52,6 +54,7 @@ class Film {
   FilmView view_;
   std::vector<PlacedText> titles_;
   std::vector<Panel> panels_;
+  FilmWords words_;
   std::unique_ptr<std::mutex> drawing_ = std::make_unique<std::mutex>();  // poses and masses of a run use one workspace
 };
 

@@ -151,4 +151,10 @@ void FilmView::place_rooms(const Stage& stage, const Layers& layers) {
   }
 }
 
+SharedPage FilmView::shared_page(const Stage& stage, const FilmSheet& sheet) const {
+  SharedPage shared{sheet.sheet, camera_of(0), cells.front().scene};
+  if (stage.has_cells()) shared.scene.x0 += kBarInset;
+  return shared;
+}
+
 }  // namespace chainreel

@@ -23,6 +23,7 @@ struct FilmView {
   Camera camera_of(std::size_t panel) const;
   // Lower left of the room that a layer asked for in or beside the scene of a panel.
   Point corner(std::size_t layer, std::size_t panel) const { return corners_[layer][panel]; }
+  SharedPage shared_page(const Stage& stage, const FilmSheet& sheet) const;
 
  private:
   void place_camera(const Stage& stage, const Layers& layers, const FilmSheet& sheet);

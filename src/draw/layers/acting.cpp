@@ -34,6 +34,8 @@ class VectorLayer : public Layer {
         scales_(scales_of(stage, vectors_at_)),
         pen_(stage.theme, stage.fonts, stage.page.text_scale, scales_) {}
 
+  bool has_words() const override { return true; }
+
   // What the first panel shows stands first.
   void write(SheetText& text) const override {
     std::vector<VectorKind> shown;

@@ -17,6 +17,8 @@ constexpr double kLetterAway = 0.020;  // and more than half its size, from the 
 
 class ChainBase : public Layer {
  public:
+  UnderWords under_words() const override { return UnderWords::if_need_be; }
+
   void draw_once(Picture& picture, const Panel& panel) const override {
     const StagedRun& motion = panel.motion();
     if (!motion.has_foot()) draw_base(picture, panel.drawing(), panel.clip());
@@ -27,6 +29,8 @@ class ChainBase : public Layer {
 
 class ChainRails : public Layer {
  public:
+  UnderWords under_words() const override { return UnderWords::if_need_be; }
+
   void draw(Picture& picture, const Shot& shot) const override {
     draw_rails(picture, shot.panel.drawing(), shot.ws, shot.panel.clip());
   }
@@ -70,6 +74,8 @@ class Outlined : public Layer {
 
 class OutlinedTrail : public Outlined {
  public:
+  UnderWords under_words() const override { return UnderWords::freely; }
+
   void draw(Picture& picture, const Shot& shot) const override {
     const Color color = shot.panel.motion().variant()->color;
     draw_trail(picture, shot.panel.tip(), shot.k, toned(color, outline_look(shot)), shot.panel.clip());

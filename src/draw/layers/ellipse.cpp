@@ -297,6 +297,9 @@ class EllipseLayer : public Layer {
     scale_ = ellipse_scale(bounded_semi_axes(), kEllipseBar / std::sqrt(double(stage.full_panels())), reading_);
   }
 
+  UnderWords under_words() const override { return UnderWords::if_need_be; }
+  bool has_words() const override { return true; }
+
   void write(SheetText& text) const override {
     text.bar = scale_.label();
     text.bar_length = scale_.bar_length;

@@ -82,6 +82,7 @@ class OnGround : public Layer {
 class GroundLayer : public OnGround {
  public:
   using OnGround::OnGround;
+  UnderWords under_words() const override { return UnderWords::freely; }
   void draw_once(Picture& picture, const Panel& panel) const override {
     if (const auto ground = ground_of(panel))
       draw_ground_plane(picture, *ground, panel.camera(), theme(), panel.clip());
@@ -91,6 +92,7 @@ class GroundLayer : public OnGround {
 class ShadowLayer : public OnGround {
  public:
   using OnGround::OnGround;
+  UnderWords under_words() const override { return UnderWords::freely; }
   void draw(Picture& picture, const Shot& shot) const override {
     if (ground_of(shot.panel)) draw_shadow(picture, shot.panel.drawing(), shot.ws, shot.panel.clip());
   }

@@ -39,6 +39,8 @@ struct SharedPage {
   Rect scene;     // ... and what it has for a metre bar
 };
 
+enum class UnderWords { never, if_need_be, freely };
+
 // Made whole by its constructor from what is to be shown, of which it may keep references. All members but the
 // destructor do nothing unless a layer has something to say there.
 class Layer {
@@ -58,6 +60,11 @@ class Layer {
   virtual std::string no_room() const { return ""; }  // what to say where it leaves none to the chain
   // Covers: whether any of it comes into this part of the page, which may be at the lower left of its scene.
   virtual bool covers(const Sight&, const Rect& part, bool at_lower_left) const;
+
+  // Whether words of marks may stand on what it draws.
+  virtual UnderWords under_words() const { return UnderWords::never; }
+  // Whether it adds such words.
+  virtual bool has_words() const { return false; }
 
   // Draw once: what no frame changes.
   virtual void draw_once(Picture&, const Panel&) const {}

@@ -32,6 +32,8 @@ class FrameAxes : public Layer {
                                  {Face::math, scaled(size::kTick, stage.page.text_scale), theme_->axis[i], Align::left});
   }
 
+  bool has_words() const override { return true; }
+
   void measure(const Sight& sight, FitBox& box) const override {
     for (const Eigen::Isometry3d& X_WF : poses(sight.motion.chain(), sight.ws))
       box.add(room_around(reach(sight.marks)), sight.camera.flat(X_WF.translation()));
@@ -65,7 +67,7 @@ class FrameAxes : public Layer {
     return marks * size::kAxisLength + kLetterGap + letter;
   }
 
-  void draw_axis(Picture& picture, const Panel& panel, Point origin, Point v, double away, int axis,
+  void draw_axis(Picture& picture, const Panel& panel, Point origin, Point v, double away, int axis, int frame,
                  MarkLabels& labels) const;
 
   const Theme* theme_;
@@ -73,7 +75,7 @@ class FrameAxes : public Layer {
 };
 
 void FrameAxes::draw_axis(Picture& picture, const Panel& panel, Point origin, Point v, double away, int axis,
-                          MarkLabels& labels) const {
+                          int frame, MarkLabels& labels) const {
   const double marks = panel.marks();
   const int clip = panel.clip();
   const Color color = theme_->axis[std::size_t(axis)];
@@ -106,15 +108,15 @@ void FrameAxes::draw_axis(Picture& picture, const Panel& panel, Point origin, Po
     }
   }
   const TextLine& letter = letters_[std::size_t(axis)];
-  const Point half{letter.box.width() / 2, letter.box.height() / 2};
-  const Point middle = tip + (kLetterGap + std::abs(along.x) * half.x + std::abs(along.y) * half.y) * along;
-  labels.add(letter, {middle.x - half.x, middle.y - half.y, middle.x + half.x, middle.y + half.y}, false);
+  labels.add({"axis " + std::to_string(3 * frame + axis), letter, places_about(letter, tip, kLetterGap, along)});
 }
 
 void FrameAxes::draw(Picture& picture, const Shot& shot) const {
   const Panel& panel = shot.panel;
   const double length = panel.marks() * size::kAxisLength;
+  int frame = 0;
   for (const Eigen::Isometry3d& X_WF : poses(panel.chain(), shot.ws)) {
+    ++frame;
     const Point origin = panel.camera().project(X_WF.translation());
     if (!std::isfinite(origin.x) || !std::isfinite(origin.y)) continue;
     const Camera seen = panel.camera().seen_at(X_WF.translation());
@@ -125,7 +127,7 @@ void FrameAxes::draw(Picture& picture, const Shot& shot) const {
         const double depth = -seen.toward_viewer.dot(direction);
         if ((depth > 0) != away) continue;
         draw_axis(picture, panel, origin, {length * seen.right.dot(direction), length * seen.up.dot(direction)},
-                  depth, axis, shot.labels);
+                  depth, axis, frame, shot.labels);
       }
     }
   }
@@ -173,6 +175,8 @@ class CenterOfMass : public Layer {
 class WordsOfMarks : public Layer {
  public:
   explicit WordsOfMarks(const Stage& stage) : background_(stage.theme.background) {}
+
+  UnderWords under_words() const override { return UnderWords::freely; }
 
   void draw(Picture& picture, const Shot& shot) const override {
     shot.labels.draw(picture, shot.panel.area(), background_, shot.panel.clip());

@@ -28,6 +28,8 @@ class TrailLayer : public Layer {
  public:
   explicit TrailLayer(const Stage& stage) : theme_(&stage.theme) {}
 
+  UnderWords under_words() const override { return UnderWords::freely; }
+
   void draw(Picture& picture, const Shot& shot) const override {
     draw_trail(picture, shot.panel.tip(), shot.k, color_of(shot.panel.motion()), shot.panel.clip());
   }
@@ -43,6 +45,8 @@ class TrailLayer : public Layer {
 
 class GhostsLayer : public Layer {
  public:
+  UnderWords under_words() const override { return UnderWords::freely; }
+
   void draw(Picture& picture, const Shot& shot) const override {
     const Panel& panel = shot.panel;
     for (const Ghost& ghost : ghosts_at(panel.motion().trajectory().t, shot.k, panel.scene().video.fps)) {

@@ -16,6 +16,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kVectorLabelGap = 0.010;  // between an arrow's tip or an arc and its label, units of H
+constexpr double kFarLabelGap = 0.035;      // ... where there is no room nearer
 constexpr double kRoomStep = 0.01;   // units of H: rooms are rounded up to multiples, to have few kinds
 
 Point on_page(const Vector3d& direction, const Camera& camera) {
@@ -33,12 +34,29 @@ Circle circle_about(const Vector3d& axis, const Camera& camera) {
   return {top, axis.cross(top)};
 }
 
-// The ink of a label that stands off `near` along the unit vector `direction`.
 Rect label_box(const TextLine& label, Point near, Point direction) {
-  const double half_width = label.box.width() / 2, half_height = label.box.height() / 2;
-  const double reach = std::abs(direction.x) * half_width + std::abs(direction.y) * half_height;
-  const Point middle = near + (reach + kVectorLabelGap) * direction;
-  return {middle.x - half_width, middle.y - half_height, middle.x + half_width, middle.y + half_height};
+  return place_beyond(label, near, kVectorLabelGap, direction);
+}
+
+// Before the tip of an arrow, or beside its head and shaft, `half` off their middle.
+std::vector<Rect> places_along(const TextLine& label, Point tail, Point v, double half) {
+  const Point ahead = unit(v), side = normal_to(ahead), tip = tail + v;
+  const Point aslant = std::sqrt(0.5) * ahead, across = std::sqrt(0.5) * side;
+  std::vector<Rect> places{label_box(label, tip, ahead), label_box(label, tip, aslant + across),
+                           label_box(label, tip, aslant - across)};
+  for (const double share : {1.0, 0.6, 0.25})
+    for (const double way : {1.0, -1.0})
+      places.push_back(label_box(label, tail + share * v + (way * half) * side, way * side));
+  for (const double way : {1.0, -1.0}) {
+    places.push_back(place_beyond(label, tip, kFarLabelGap, aslant + way * across));
+    places.push_back(place_beyond(label, tail + 0.6 * v, half + kFarLabelGap, way * side));
+  }
+  return places;
+}
+
+// The same word of the same mark from frame to frame.
+std::string word_name(const WorldVector& vector) {
+  return std::to_string(int(vector.kind)) + " " + vector.label;
 }
 
 }  // namespace
@@ -191,8 +209,10 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
     draw_turn(picture, center, u, w, value > 0 ? turn : -turn, style, clip);
   }
   const TextLine& text = label(vector, marks);
-  const double off = radius + marks * size::kArrowHeadWidth / 2;
-  labels.add(text, label_box(text, center + Point{0, off}, {0, 1}), true);
+  const double off = radius + marks * size::kArrowHeadWidth / 2 + kVectorLabelGap;
+  std::vector<Rect> places = places_about(text, center, off, {0, 1});
+  for (const Rect& far : places_about(text, center, off + kFarLabelGap, {0, 1})) places.push_back(far);
+  labels.add({word_name(vector), text, std::move(places)});
 }
 
 void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& camera, double marks, int clip,
@@ -208,7 +228,7 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
              clip);
   if (vector.label.empty()) return;
   const TextLine& text = label(vector, marks);
-  labels.add(text, label_box(text, tail + arrow.v, unit(arrow.v)), true);
+  labels.add({word_name(vector), text, places_along(text, tail, arrow.v, marks * size::kArrowHeadWidth / 2)});
 }
 
 }  // namespace chainreel

@@ -2,22 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace chainreel {
 namespace {
 
-constexpr double kPlate = 0.75;       // opacity of what sets a label off from links below it
-constexpr double kPlateEdge = 0.004;  // of the plate around the letters
+constexpr double kHalo = 0.0035;         // about the letters, units of H
 constexpr double kBetweenLabels = 0.008;        // between two labels, units of H
 constexpr int kRounds = 80;
 constexpr std::size_t kCrowd = 60;  // labels; pushing more apart takes longer than drawing them
 constexpr double kTouch = 1e-6;
 
-Point middle(const Rect& r) {
-  return {(r.x0 + r.x1) / 2, (r.y0 + r.y1) / 2};
-}
 Rect moved(const Rect& r, Point by) {
   return {r.x0 + by.x, r.y0 + by.y, r.x1 + by.x, r.y1 + by.y};
+}
+
+Point turned(Point v, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+void fade(TextLine& line, double opacity) {
+  for (GlyphRun& run : line.runs) run.color.a *= opacity;
+  for (Shape& mark : line.marks) {
+    if (auto* rule = std::get_if<Capsule>(&mark)) rule->paint.fill.a *= opacity;
+    if (auto* dot = std::get_if<Ellipse>(&mark)) dot->paint.fill.a *= opacity;
+  }
 }
 
 // How deep they lie in each other, air included; negative: they do not.
@@ -42,7 +52,7 @@ void push_apart(std::vector<Rect>& boxes, const Rect& area, double air) {
         const Point d = depth(boxes[i], boxes[j], air);
         if (!(d.x > kTouch && d.y > kTouch)) continue;
         rests = false;
-        const Point way = middle(boxes[i]) - middle(boxes[j]);
+        const Point way = center_of(boxes[i]) - center_of(boxes[j]);
         const Point half =
             d.x < d.y ? Point{std::copysign(d.x / 2, way.x), 0} : Point{0, std::copysign(d.y / 2, way.y)};
         boxes[i] = held(moved(boxes[i], half), area);
@@ -65,7 +75,7 @@ std::vector<PlacedBox> first_come(const std::vector<Rect>& wishes, const Rect& a
       const Point d = depth(box, other.box, air);
       return other.stands && d.x > kTouch && d.y > kTouch;
     });
-    const Point way = middle(box) - middle(wish);
+    const Point way = center_of(box) - center_of(wish);
     placed.push_back({box, free && norm(way) < kTouch});
   }
   return placed;
@@ -79,7 +89,7 @@ std::vector<PlacedBox> boxes_apart(const std::vector<Rect>& wishes, const Rect& 
   std::vector<PlacedBox> placed;
   std::vector<std::size_t> standing;
   for (std::size_t i = 0; i < wishes.size(); ++i) {
-    const Point p = middle(wishes[i]);
+    const Point p = center_of(wishes[i]);
     const bool inside = p.x >= area.x0 && p.x <= area.x1 && p.y >= area.y0 && p.y <= area.y1;
     placed.push_back({wishes[i], inside});
     if (inside) standing.push_back(i);
@@ -93,7 +103,7 @@ std::vector<PlacedBox> boxes_apart(const std::vector<Rect>& wishes, const Rect& 
     double most = 1;
     for (std::size_t k = 0; k < boxes.size(); ++k) {
       const Rect& wish = wishes[standing[k]];
-      const Point way = middle(boxes[k]) - middle(wish);
+      const Point way = center_of(boxes[k]) - center_of(wish);
       double strain = norm(way) / (farthest * (wish.y1 - wish.y0));
       for (std::size_t m = 0; m < k; ++m) {
         const Point d = depth(boxes[k], boxes[m], 0);
@@ -111,28 +121,47 @@ std::vector<PlacedBox> boxes_apart(const std::vector<Rect>& wishes, const Rect& 
   return placed;
 }
 
-void MarkLabels::add(TextLine line, const Rect& box, bool plate) {
-  labels_.push_back({std::move(line), box, plate});
+Rect place_beyond(const TextLine& line, Point near, double gap, Point direction) {
+  const double half_width = line.box.width() / 2, half_height = line.box.height() / 2;
+  const double reach = std::abs(direction.x) * half_width + std::abs(direction.y) * half_height;
+  const Point middle = near + (reach + gap) * direction;
+  return {middle.x - half_width, middle.y - half_height, middle.x + half_width, middle.y + half_height};
+}
+
+std::vector<Rect> places_about(const TextLine& line, Point middle, double off, Point first) {
+  std::vector<Rect> places;
+  for (const int eighths : {0, 1, -1, 2, -2, 3, -3, 4})
+    places.push_back(place_beyond(line, middle, off, turned(first, eighths * std::numbers::pi / 4)));
+  return places;
+}
+
+void MarkLabels::add(MarkWord word) {
+  words_.push_back(std::move(word));
+}
+
+void MarkLabels::add(const std::string& name, TextLine line, const Rect& box) {
+  std::vector<Rect> places{box};
+  for (const Point way : {Point{0, 1}, {0, -1}, {1, 0}, {-1, 0}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}})
+    places.push_back(moved(box, {way.x * (box.width() + kBetweenLabels), way.y * (box.height() + kBetweenLabels)}));
+  words_.push_back({name, std::move(line), std::move(places)});
 }
 
 void MarkLabels::draw(Picture& picture, const Rect& area, Color background, int clip, double farthest) const {
-  std::vector<Rect> wishes;
-  for (const Label& label : labels_) wishes.push_back(label.wish);
-  const std::vector<PlacedBox> placed = boxes_apart(wishes, area, kBetweenLabels, farthest);
-  for (std::size_t i = 0; i < labels_.size(); ++i) {
-    if (!placed[i].stands) continue;
-    const Rect& box = placed[i].box;
-    const TextLine& line = labels_[i].line;
-    if (labels_[i].plate) {
-      const double width = box.x1 - box.x0, height = box.y1 - box.y0, y = (box.y0 + box.y1) / 2;
-      const double inset = std::min(width, height) / 2;
-      picture.add(Capsule{{box.x0 + inset, y},
-                          {box.x1 - inset, y},
-                          height / 2 + kPlateEdge,
-                          {background.faded(kPlate), {}, 0}},
-                  clip);
-    }
-    draw_text(picture, line, {box.x0 - line.box.x0, box.y0 - line.box.y0}, clip);
+  std::vector<StandingWord> standing(plan_.begin(), plan_.end());
+  if (standing.empty()) {
+    std::vector<Rect> wishes;
+    for (const MarkWord& word : words_) wishes.push_back(word.places.front());
+    for (const PlacedBox& placed : boxes_apart(wishes, area, kBetweenLabels, farthest))
+      standing.push_back({placed.box, placed.stands ? 1.0 : 0.0});
+  }
+  for (std::size_t i = 0; i < words_.size(); ++i) {
+    const auto& [box, opacity] = standing[i];
+    if (!(opacity > 0)) continue;
+    TextLine line = words_[i].line;
+    fade(line, opacity);
+    const Point anchor{box.x0 - line.box.x0, box.y0 - line.box.y0};
+    draw_halo(picture, line, anchor, background.faded(opacity), kHalo, clip);
+    draw_text(picture, line, anchor, clip);
   }
 }
 

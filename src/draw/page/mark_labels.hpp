@@ -1,7 +1,10 @@
-// Words over a chain that belong to marks: arrows, arcs, axes, poses. They are drawn above all marks, moved
-// apart where they would overlap, and left out where there is no room near what they name.
+// Words over a chain that belong to marks: arrows, arcs, axes, poses. They are drawn above all marks: in films where
+// their plan has them (draw/page/word_plan), in figures moved apart where they would overlap, and left out where there
+// is no room near what they name.
 #pragma once
 
+#include <span>
+#include <string>
 #include <vector>
 
 #include "picture/picture.hpp"
@@ -9,22 +12,42 @@
 
 namespace chainreel {
 
+struct MarkWord {
+  std::string name;  // the same from frame to frame; words of one name are told apart by where they are
+  TextLine line;
+  std::vector<Rect> places;  // of its ink, units of H, the best first; at least one
+};
+
+// Places of a line's ink about a point, `off` away from it: eight directions, `first` of them, the next ones beside it,
+// the opposite one last.
+std::vector<Rect> places_about(const TextLine& line, Point middle, double off, Point first);
+// The ink of a line that stands off `near` by `gap` along the unit vector `direction`.
+Rect place_beyond(const TextLine& line, Point near, double gap, Point direction);
+
+// Where a word stands at a frame.
+struct StandingWord {
+  Rect box;
+  double opacity = 1;  // 0: it is left out
+};
+
 class MarkLabels {
  public:
-  // `box`: where the ink of the line is wished, units of H. A plate sets it off from what lies below.
-  void add(TextLine line, const Rect& box, bool plate);
+  MarkLabels() = default;
+  // Where the words stand, in the order in which they will be added.
+  explicit MarkLabels(std::span<const StandingWord> plan) : plan_(plan) {}
 
-  // Inside `area`; labels that are wished outside of it are left out, and those that would have to go farther
-  // than `farthest` heights of their own.
+  void add(MarkWord word);
+  // `box`: where the ink of the line is wished; places around it will do.
+  void add(const std::string& name, TextLine line, const Rect& box);
+  const std::vector<MarkWord>& words() const { return words_; }
+
+  // With a halo of the background's colour. Without a plan inside `area`: labels that are wished outside of it are left
+  // out, and those that would have to go farther than `farthest` heights of their own.
   void draw(Picture& picture, const Rect& area, Color background, int clip, double farthest = 1.5) const;
 
  private:
-  struct Label {
-    TextLine line;
-    Rect wish;
-    bool plate = false;
-  };
-  std::vector<Label> labels_;
+  std::span<const StandingWord> plan_;
+  std::vector<MarkWord> words_;
 };
 
 // Boxes moved apart, as little as need be, within `area`: the places of those that can stand, and nothing for

@@ -118,18 +118,19 @@ TEST(PlacePicture, LeavesOutWordsThatCannotBeReadAndKeepsLinesThatCanBeSeen) {
   EXPECT_NEAR(std::get<Capsule>(sheet.items[3].shape).radius, 0.01, kSheetRoundOff);
 }
 
-TEST(PlacePicture, LeavesOutThePlatesOfWordsThatCannotBeRead) {
+TEST(PlacePicture, LeavesOutTheHalosOfWordsThatCannotBeRead) {
   Picture page;
   const Color ink = color_of(0);
   for (const double size : {0.2, 0.25}) {
-    page.add(Capsule{{0.1, 0.5}, {0.2, 0.5}, 0.1, {page.background.faded(0.75), {}, 0}});
-    draw_text(page, lay_out_text(fonts(), "x", {Face::label, size, ink}), {0.1, 0.5});
+    const TextLine line = lay_out_text(fonts(), "x", {Face::label, size, ink});
+    draw_halo(page, line, {0.1, 0.5}, page.background, 0.01);
+    draw_text(page, line, {0.1, 0.5});
   }
   Picture sheet;
   place_picture(sheet, page, {.cell = {0, 0, kAspect / 10, 0.1}, .smallest_text = 0.022});
   ASSERT_EQ(sheet.items.size(), 2u);  // of the larger words
-  EXPECT_TRUE(std::holds_alternative<Capsule>(sheet.items[0].shape));
-  EXPECT_TRUE(std::holds_alternative<GlyphRun>(sheet.items[1].shape));
+  EXPECT_NEAR(std::get<GlyphRun>(sheet.items[0].shape).stroke_width, 0.002, kSheetRoundOff);
+  EXPECT_EQ(std::get<GlyphRun>(sheet.items[1].shape).stroke_width, 0);
 }
 
 TEST(ContactGrid, HasRoomForAnyNumberOfPictures) {

@@ -1,0 +1,93 @@
+#include "draw/film/film_words.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "dynamics/kinematics.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kBone = 0.010;  // units of H, radius: what stands for a link that has a shape in space
+
+// What layers draw, by what it means to words.
+struct Pictures {
+  std::array<Picture, 3> by_layer;
+
+  Picture& of(const Layer& layer) { return by_layer[std::size_t(layer.under_words())]; }
+  void add_to(std::vector<Obstacle>& obstacles) const {
+    for (const UnderWords under : {UnderWords::never, UnderWords::if_need_be})
+      for (const Obstacle& obstacle : obstacles_of(by_layer[std::size_t(under)], under == UnderWords::if_need_be))
+        obstacles.push_back(obstacle);
+  }
+};
+
+class Gatherer {
+ public:
+  Gatherer(const Layers& layers, const FilmView& view, const std::vector<Panel>& panels)
+      : layers_(layers), view_(view), panels_(panels) {}
+
+  // What stands in the way of words at a frame of a panel, and its words.
+  void draw(std::size_t i, int k, std::vector<Obstacle>& obstacles, MarkLabels& labels) const {
+    const Panel& panel = panels_[i];
+    const int shown = std::clamp(k, 0, panel.last());
+    const Workspace& ws = panel.motion().pose_at(shown);
+    Pictures pictures;
+    for (std::size_t l = 0; l < layers_.size(); ++l) {
+      const Layer& layer = *layers_[l];
+      if (!layer.is_of(panel.motion()) || (layer.under_words() == UnderWords::freely && !layer.has_words())) continue;
+      layer.draw(pictures.of(layer), {panel, ws, shown, k > shown, view_.corner(l, i), labels});
+    }
+    pictures.add_to(obstacles);
+    if (panel.motion().shapes())
+      for (const LinkSegment& link : panel.motion().skeleton().links)
+        obstacles.push_back({panel.camera().project(pose_of(ws, link.body) * link.from),
+                             panel.camera().project(pose_of(ws, link.body) * link.to), kBone, false});
+  }
+
+  std::vector<Obstacle> once(std::size_t i, const SharedPage& page) const {
+    Pictures pictures;
+    for (const auto& layer : layers_) {
+      if (layer->under_words() == UnderWords::freely) continue;
+      if (layer->is_of(panels_[i].motion())) layer->draw_once(pictures.of(*layer), panels_[i]);
+      layer->draw_page_once(pictures.of(*layer), page);
+    }
+    std::vector<Obstacle> obstacles;
+    pictures.add_to(obstacles);
+    return obstacles;
+  }
+
+ private:
+  const Layers& layers_;
+  const FilmView& view_;
+  const std::vector<Panel>& panels_;
+};
+
+}  // namespace
+
+FilmWords::FilmWords(const Stage& stage, const Layers& layers, const FilmSheet& sheet, const FilmView& view,
+                     const std::vector<Panel>& panels) {
+  if (std::none_of(layers.begin(), layers.end(), [](const auto& layer) { return layer->has_words(); })) return;
+  const Gatherer gatherer(layers, view, panels);
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    WordPlan plan(panels[i].area(), stage.page.video.fps.value());
+    const std::vector<Obstacle> always = gatherer.once(i, view.shared_page(stage, sheet));
+    for (int k = 0; k <= panels[i].last() && !panels[i].motion().is_outlined(); ++k) {
+      std::vector<Obstacle> obstacles = always;
+      MarkLabels labels, others;
+      gatherer.draw(i, k, obstacles, labels);
+      // Chains in outline lie over the first one.
+      if (stage.is_ghost())
+        for (std::size_t j = 1; j < panels.size(); ++j) gatherer.draw(j, k, obstacles, others);
+      plan.add(labels.words(), obstacles);
+    }
+    panels_.push_back(plan.standing());
+  }
+}
+
+std::span<const StandingWord> FilmWords::at(std::size_t panel, int frame) const {
+  if (panels_.empty() || panels_[panel].empty()) return {};
+  return panels_[panel][std::size_t(frame)];
+}
+
+}  // namespace chainreel

@@ -1,0 +1,254 @@
+#include "draw/page/word_plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <ranges>
+#include <span>
+
+namespace chainreel {
+namespace {
+
+constexpr double kPale = 0.3;           // opacity: fainter lines may lie below words
+constexpr double kPieceOfArc = 0.3;     // rad
+constexpr double kFadeSeconds = 0.12;
+constexpr double kLeavesWith = 0.03;    // units of H: a place that sticks out of the area by more is none
+constexpr double kBetweenWords = 0.006;
+constexpr std::size_t kCrowdOfWords = 60;      // words: of more each has its best place or none
+// What it costs: a second without the word, on what may yield, at a place for each one before it in the list; and a
+// change of places.
+constexpr double kHidden = 5, kPoorGround = 2, kWorsePlace = 0.12, kChange = 1.2;
+constexpr int kPlanRounds = 2;  // each word is placed again when all others have places
+
+struct ShapeObstacles {
+  std::vector<Obstacle>* found;
+
+  void line(Point a, Point b, double radius) const {
+    if (std::isfinite(a.x + a.y + b.x + b.y + radius)) found->push_back({a, b, radius, false});
+  }
+  static bool is_seen(const Paint& paint) { return paint.fill.a >= kPale || paint.stroke.a >= kPale; }
+
+  void operator()(const Capsule& c) const {
+    if (is_seen(c.paint)) line(c.a, c.b, c.radius + c.paint.stroke_width / 2);
+  }
+  void operator()(const Ellipse& e) const {
+    if (!is_seen(e.paint)) return;
+    const double wide = std::max(norm(e.u), norm(e.v));
+    if (e.paint.fill.a >= kPale) return line(e.center, e.center, wide + e.paint.stroke_width / 2);
+    curve(e.center, e.u, e.v, 0, 2 * std::numbers::pi, e.paint.stroke_width / 2);
+  }
+  void operator()(const Arc& a) const {
+    if (a.color.a >= kPale) curve(a.center, {a.radius, 0}, {0, a.radius}, a.start, a.sweep, a.width / 2);
+  }
+  // Its edges and spokes: nothing as large as a word fits between.
+  void operator()(const Polygon& p) const {
+    if (!is_seen(p.paint)) return;
+    Point middle;
+    for (int i = 0; i < p.count; ++i) middle = middle + (1.0 / p.count) * p.corners[std::size_t(i)];
+    for (int i = 0; i < p.count; ++i) {
+      const Point a = p.corners[std::size_t(i)];
+      line(a, p.corners[std::size_t((i + 1) % p.count)], p.paint.stroke_width / 2);
+      if (p.paint.fill.a >= kPale) line(a, middle, 0);
+    }
+  }
+  void operator()(const Trail& t) const {
+    for (std::size_t i = 1; i < t.points.size(); ++i)
+      if (t.color.a * t.points[i].alpha >= kPale) line(t.points[i - 1].p, t.points[i].p, t.points[i].width / 2);
+  }
+  void operator()(const Cells& c) const {
+    for (const double share : {0.0, 0.5, 1.0}) {
+      const double x = c.rect.x0 + share * c.rect.width();
+      line({x, c.rect.y0}, {x, c.rect.y1}, 0);
+    }
+  }
+  void operator()(const GlyphRun&) const {}
+  void operator()(const Solids&) const {}
+
+ private:
+  void curve(Point center, Point u, Point v, double start, double sweep, double radius) const {
+    const int pieces = std::max(1, int(std::ceil(std::abs(sweep) / kPieceOfArc)));
+    const auto at = [&](int i) {
+      const double angle = start + sweep * i / pieces;
+      return center + std::cos(angle) * u + std::sin(angle) * v;
+    };
+    for (int i = 0; i < pieces; ++i) line(at(i), at(i + 1), radius);
+  }
+};
+
+bool touches(const Rect& box, const Obstacle& obstacle) {
+  const Rect wide = widened(box, obstacle.radius + kWordAir);
+  const Point a = obstacle.a, b = obstacle.b;
+  if (std::max(a.x, b.x) < wide.x0 || std::min(a.x, b.x) > wide.x1 || std::max(a.y, b.y) < wide.y0 ||
+      std::min(a.y, b.y) > wide.y1)
+    return false;
+  Point from = a, to = b;
+  return cut_segment(wide, from, to);
+}
+
+Rect moved_into(const Rect& area, const Rect& r) {
+  const auto by = [](double low, double high, double least, double most) {
+    return low < least ? least - low : high > most ? most - high : 0;
+  };
+  const Point way{by(r.x0, r.x1, area.x0, area.x1), by(r.y0, r.y1, area.y0, area.y1)};
+  return {r.x0 + way.x, r.y0 + way.y, r.x1 + way.x, r.y1 + way.y};
+}
+
+bool moves_on(const Rect& before, const Rect& now) {
+  return norm(center_of(now) - center_of(before)) <= kWordStep;
+}
+
+constexpr int kNowhere = -1;
+
+}  // namespace
+
+std::vector<Obstacle> obstacles_of(const Picture& picture, bool may_yield) {
+  std::vector<Obstacle> found;
+  for (const Item& item : picture.items) std::visit(ShapeObstacles{&found}, item.shape);
+  for (Obstacle& obstacle : found) obstacle.may_yield = may_yield;
+  return found;
+}
+
+// The one of its name that is nearest to where the word is wished, and has no word at this frame yet.
+WordPlan::Track& WordPlan::track_of(const MarkWord& word, int frame) {
+  std::vector<std::size_t>& named = by_name_[word.name];
+  std::size_t nearest = tracks_.size();
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : named) {
+    const Moment& last = tracks_[i].back();
+    const double way = norm(center_of(last.places.front()) - center_of(word.places.front()));
+    if (last.frame < frame && way < least) least = way, nearest = i;
+  }
+  if (nearest == tracks_.size()) {
+    named.push_back(nearest);
+    tracks_.emplace_back();
+  }
+  return tracks_[nearest];
+}
+
+void WordPlan::add(const std::vector<MarkWord>& words, const std::vector<Obstacle>& obstacles) {
+  const int frame = int(counts_.size());
+  counts_.push_back(int(words.size()));
+  const std::size_t most = words.size() > kCrowdOfWords ? 1 : std::numeric_limits<std::size_t>::max();
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    Moment now{frame, int(i), {}, {}};
+    for (const Rect& wish : words[i].places) {
+      if (now.places.size() == most) break;
+      const Rect box = moved_into(area_, wish);
+      Ground ground = norm(center_of(box) - center_of(wish)) <= kLeavesWith ? Ground::free : Ground::taken;
+      for (std::size_t o = 0; ground != Ground::taken && o < obstacles.size(); ++o)
+        if (touches(box, obstacles[o])) ground = obstacles[o].may_yield ? Ground::poor : Ground::taken;
+      now.places.push_back(box);
+      now.grounds.push_back(ground);
+    }
+    track_of(words[i], frame).push_back(std::move(now));
+  }
+}
+
+namespace {
+
+// The places of one word from frame to frame, kNowhere where it is left out: the way of least cost through all that are
+// free, by dynamic programming. `cost_of`: of a second there, infinite where the place is taken.
+template <class Track, class Cost>
+std::vector<int> best_way(const Track& track, double fps, Cost cost_of) {
+  const double never = std::numeric_limits<double>::infinity();
+  struct State {
+    double cost = 0;
+    int before = kNowhere;
+  };
+  std::vector<std::vector<State>> states(track.size());  // the last one of each: left out
+  for (std::size_t m = 0; m < track.size(); ++m) {
+    const auto& now = track[m];
+    const int places = int(now.places.size());
+    states[m].resize(std::size_t(places) + 1);
+    const bool goes_on = m > 0 && track[m - 1].frame + 1 == now.frame;
+    // The best of the frame before, from where any place is taken with a change.
+    int best = kNowhere;
+    double least = 0;
+    if (m > 0) {
+      least = states[m - 1].back().cost;
+      for (int p = 0; p + 1 < int(states[m - 1].size()); ++p) {
+        const double cost = states[m - 1][std::size_t(p)].cost + kChange / 2;
+        if (cost < least) least = cost, best = p;
+      }
+    }
+    for (int p = 0; p < places; ++p) {
+      State& state = states[m][std::size_t(p)];
+      state = {never, kNowhere};
+      const double cost = cost_of(m, p);
+      if (cost == never) continue;
+      state = {least + kChange / 2, best};
+      if (goes_on && p + 1 < int(states[m - 1].size()) &&
+          moves_on(track[m - 1].places[std::size_t(p)], now.places[std::size_t(p)]) &&
+          states[m - 1][std::size_t(p)].cost <= state.cost)
+        state = {states[m - 1][std::size_t(p)].cost, p};
+      state.cost += cost / fps;
+    }
+    states[m].back() = {least + kHidden / fps, best};
+  }
+  std::vector<int> way(track.size());
+  int place = kNowhere;
+  double least = states.back().back().cost;
+  for (int p = 0; p + 1 < int(states.back().size()); ++p)
+    if (states.back()[std::size_t(p)].cost < least) least = states.back()[std::size_t(p)].cost, place = p;
+  for (std::size_t m = track.size(); m-- > 0;) {
+    way[m] = place;
+    place = place == kNowhere ? states[m].back().before : states[m][std::size_t(place)].before;
+  }
+  return way;
+}
+
+// Full strength but for the first and the last frames of a stay; a film begins and ends with its words.
+template <class Track>
+std::vector<double> opacities(const Track& track, const std::vector<int>& way, double fps, int frames) {
+  const int fade = std::max(1, int(std::lround(kFadeSeconds * fps)));
+  const auto goes_on = [&](std::size_t m) {  // from the frame before
+    return m > 0 && way[m] != kNowhere && way[m - 1] == way[m] && track[m - 1].frame + 1 == track[m].frame &&
+           moves_on(track[m - 1].places[std::size_t(way[m - 1])], track[m].places[std::size_t(way[m])]);
+  };
+  std::vector<double> strength(track.size(), 0);
+  for (std::size_t begin = 0, end = 1; begin < track.size(); begin = end, ++end) {
+    while (end < track.size() && goes_on(end)) ++end;
+    if (way[begin] == kNowhere) continue;
+    const bool opens = track[begin].frame == 0, closes = track[end - 1].frame == frames - 1;
+    for (std::size_t m = begin; m < end; ++m) {
+      const int in = opens ? fade : int(m - begin) + 1, out = closes ? fade : int(end - m);
+      strength[m] = std::min({1.0, double(in) / (fade + 1), double(out) / (fade + 1)});
+      if (in >= fade && out >= fade) strength[m] = 1;
+    }
+  }
+  return strength;
+}
+
+}  // namespace
+
+std::vector<std::vector<StandingWord>> WordPlan::standing() const {
+  const int frames = int(counts_.size());
+  std::vector<std::vector<StandingWord>> words(counts_.size());
+  for (std::size_t k = 0; k < counts_.size(); ++k) words[k].resize(std::size_t(counts_[k]), {{}, 0});
+  for (int round = 0; round < kPlanRounds; ++round)
+    // What is drawn above others has words first: vectors before the letters of axes.
+    for (const Track& track : std::views::reverse(tracks_)) {
+      for (const Moment& now : track) words[std::size_t(now.frame)][std::size_t(now.index)].opacity = 0;
+      const auto cost_of = [&](std::size_t m, int p) {
+        const Moment& now = track[m];
+        const double never = std::numeric_limits<double>::infinity();
+        const Ground ground = now.grounds[std::size_t(p)];
+        if (ground == Ground::taken) return never;
+        const Rect box = widened(now.places[std::size_t(p)], kBetweenWords);
+        const bool meets = std::any_of(words[std::size_t(now.frame)].begin(), words[std::size_t(now.frame)].end(),
+                            [&](const StandingWord& other) { return other.opacity > 0 && overlap(box, other.box); });
+        return meets ? never : p * kWorsePlace + (ground == Ground::poor ? kPoorGround : 0);
+      };
+      const std::vector<int> way = best_way(track, fps_, cost_of);
+      const std::vector<double> strength = opacities(track, way, fps_, frames);
+      for (std::size_t m = 0; m < track.size(); ++m)
+        if (way[m] != kNowhere)
+          words[std::size_t(track[m].frame)][std::size_t(track[m].index)] = {
+              track[m].places[std::size_t(way[m])], strength[m]};
+    }
+  return words;
+}
+
+}  // namespace chainreel

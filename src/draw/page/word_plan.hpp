@@ -1,0 +1,59 @@
+// Where the words of marks stand over a whole film. Each word has several places at each frame; it keeps off what is
+// drawn and off other words, stays at one of its places as long as that is free, and fades where it goes to another one
+// or where it would run faster than can be read. That is decided over all frames at once, so that any frame can be drawn
+// alone.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "draw/page/mark_labels.hpp"
+
+namespace chainreel {
+
+// All points within `radius` of a-b: what words must not lie on.
+struct Obstacle {
+  Point a, b;
+  double radius = 0;
+  bool may_yield = false;  // a word rather stands on it than nowhere
+};
+
+// Lines, discs and edges of what is drawn, units of H; what is too pale to disturb, words and bodies in space are none.
+std::vector<Obstacle> obstacles_of(const Picture& picture, bool may_yield = false);
+
+// From one frame to the next no word moves farther, units of H, but where it fades.
+inline constexpr double kWordStep = 0.02;
+// Between a word and what it keeps off.
+inline constexpr double kWordAir = 0.004;
+
+class WordPlan {
+ public:
+  WordPlan(const Rect& area, double fps) : area_(area), fps_(fps) {}
+
+  // The next frame.
+  void add(const std::vector<MarkWord>& words, const std::vector<Obstacle>& obstacles);
+  // By frame, in the order of the words.
+  std::vector<std::vector<StandingWord>> standing() const;
+
+ private:
+  enum class Ground : std::uint8_t { free, poor, taken };
+  struct Moment {
+    int frame = 0, index = 0;      // of the word among those of the frame
+    std::vector<Rect> places;      // moved into the area
+    std::vector<Ground> grounds;  // what lies there
+  };
+  // One word from frame to frame.
+  using Track = std::vector<Moment>;
+
+  Track& track_of(const MarkWord& word, int frame);
+
+  Rect area_;
+  double fps_;
+  std::vector<int> counts_;  // words of each frame
+  std::vector<Track> tracks_;
+  std::map<std::string, std::vector<std::size_t>> by_name_;
+};
+
+}  // namespace chainreel

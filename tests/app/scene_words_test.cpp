@@ -1,0 +1,123 @@
+// The words of marks in every scene of assets/scenes, over all frames: they lie on nothing, and do not jump.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "app/film/prepared.hpp"
+#include "app/film/runs.hpp"
+#include "draw/film/film.hpp"
+#include "picture/theme.hpp"
+#include "support/scene_names.hpp"
+
+namespace chainreel {
+namespace {
+
+// Places on what is drawn, close enough for no letter to fit between, with the half width of the line there.
+struct Dot {
+  Point p;
+  double radius = 0;
+};
+struct Drawn {
+  std::vector<Dot> links, arrows;
+};
+
+constexpr double kDotPitch = 0.004;  // units of H
+
+void put_dots(std::vector<Dot>& dots, Point a, Point b, double radius) {
+  const int pieces = std::clamp(int(norm(b - a) / kDotPitch), 1, 1000);
+  for (int i = 0; i <= pieces; ++i) dots.push_back({a + (double(i) / pieces) * (b - a), radius});
+}
+
+// Links are bars with an outline of ink, arrows and arcs have the colours of vectors.
+Drawn drawn_on(const Picture& picture, const Theme& theme, int clip) {
+  Drawn drawn;
+  const auto is_vector = [&](const Color& c) {
+    return c == theme.torque || c == theme.velocity || c == theme.force || c == theme.constraint;
+  };
+  for (const Item& item : picture.items) {
+    if (item.clip != clip) continue;
+    if (const auto* bar = std::get_if<Capsule>(&item.shape)) {
+      if (bar->paint.stroke == theme.ink && bar->paint.stroke_width > 0)
+        put_dots(drawn.links, bar->a, bar->b, bar->radius);
+      if (is_vector(bar->paint.fill)) put_dots(drawn.arrows, bar->a, bar->b, bar->radius);
+    }
+    if (const auto* head = std::get_if<Polygon>(&item.shape); head && is_vector(head->paint.fill))
+      for (int i = 0; i < head->count; ++i)
+        put_dots(drawn.arrows, head->corners[std::size_t(i)], head->corners[std::size_t((i + 1) % head->count)], 0);
+    if (const auto* arc = std::get_if<Arc>(&item.shape); arc && is_vector(arc->color))
+      for (int i = 0; i <= 100; ++i) {
+        const double angle = arc->start + arc->sweep * i / 100;
+        drawn.arrows.push_back(
+            {arc->center + arc->radius * Point{std::cos(angle), std::sin(angle)}, arc->width / 2});
+      }
+  }
+  return drawn;
+}
+
+bool any_in(const std::vector<Dot>& dots, const Rect& box) {
+  return std::any_of(dots.begin(), dots.end(), [&](const Dot& dot) {
+    const Rect wide = widened(box, dot.radius);
+    return dot.p.x > wide.x0 && dot.p.x < wide.x1 && dot.p.y > wide.y0 && dot.p.y < wide.y1;
+  });
+}
+
+struct Counts {
+  int frames = 0, words = 0, on_words = 0, on_arrows = 0, on_links = 0, jumps = 0, left_out = 0;
+};
+
+// Words of two frames are the same one where they stand nearest to one another and say so: by their order, as long as
+// there are as many.
+void count(Counts& counts, const Drawn& drawn, std::span<const StandingWord> now, std::span<const StandingWord> before) {
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    ++counts.words;
+    if (!(now[i].opacity > 0)) {
+      ++counts.left_out;
+      continue;
+    }
+    for (std::size_t j = 0; j < i; ++j) counts.on_words += now[j].opacity > 0 && overlap(now[i].box, now[j].box);
+    counts.on_arrows += any_in(drawn.arrows, now[i].box);
+    counts.on_links += any_in(drawn.links, now[i].box);
+    if (now.size() != before.size() || !(before[i].opacity > 0)) continue;
+    const bool fades = now[i].opacity < 0.5 && before[i].opacity < 0.5;
+    counts.jumps += !fades && norm(center_of(now[i].box) - center_of(before[i].box)) > 0.02;
+  }
+}
+
+class WordsOfEveryScene : public ::testing::TestWithParam<std::string> {};
+
+INSTANTIATE_TEST_SUITE_P(Assets, WordsOfEveryScene, ::testing::ValuesIn(test::scene_names()),
+                         [](const auto& p) { return p.param; });
+
+TEST_P(WordsOfEveryScene, LieOnNothingAndDoNotJump) {
+  const Fonts fonts;
+  const PreparedFilm prepared = load_film("assets/scenes/" + GetParam() + ".yaml", {}, false);
+  const Runs runs(prepared);
+  const Film film = runs.pictures(runs.frames_shown(int(runs.times().size())), fonts);
+  Counts counts;
+  for (int panel = 0; panel < film.panel_count(); ++panel)
+    for (int k = 0; k <= film.panel(panel).last(); ++k) {
+      const auto words = film.words(panel, k);
+      ++counts.frames;
+      if (words.empty()) continue;
+      count(counts, drawn_on(film.frame(k), light_theme(), panel), words,
+            k > 0 ? film.words(panel, k - 1) : std::span<const StandingWord>());
+    }
+  std::printf("%-20s %4d frames %5d words: on words %d, on arrows %d, on links %d, jumps %d, left out %d\n",
+              GetParam().c_str(), counts.frames, counts.words, counts.on_words, counts.on_arrows, counts.on_links,
+              counts.jumps, counts.left_out);
+  EXPECT_EQ(counts.on_words, 0);
+  EXPECT_EQ(counts.on_arrows, 0);
+  EXPECT_EQ(counts.on_links, 0);
+  EXPECT_EQ(counts.jumps, 0);
+  // The lengths of the ellipse's axes run along the edge of the scene faster than can be read.
+  if (GetParam() != "rr_ellipse") {
+    EXPECT_LE(counts.left_out, 0.05 * counts.words);
+  }
+}
+
+}  // namespace
+}  // namespace chainreel

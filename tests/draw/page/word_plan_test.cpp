@@ -1,0 +1,154 @@
+// Where words stand over a film: off what is drawn, off one another, and without jumps.
+#include "draw/page/word_plan.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+namespace chainreel {
+namespace {
+
+constexpr Rect kPlanArea{0, 0, 1, 1};
+constexpr double kPlanFps = 60;
+constexpr double kHalfWidth = 0.03, kHalfHeight = 0.02;
+
+Rect box_at(Point middle) {
+  return {middle.x - kHalfWidth, middle.y - kHalfHeight, middle.x + kHalfWidth, middle.y + kHalfHeight};
+}
+
+MarkWord word_at(const std::string& name, const std::vector<Point>& middles) {
+  MarkWord word{name, {}, {}};
+  for (const Point p : middles) word.places.push_back(box_at(p));
+  return word;
+}
+
+Obstacle bar(double x) {
+  return {{x, 0}, {x, 1}, 0.01, false};
+}
+
+bool lies_on(const StandingWord& word, const Obstacle& obstacle) {
+  const Rect wide = widened(word.box, obstacle.radius);
+  Point a = obstacle.a, b = obstacle.b;
+  return word.opacity > 0 && cut_segment(wide, a, b);
+}
+
+TEST(WordPlan, StaysAtTheBestPlaceWhileItIsFree) {
+  WordPlan plan(kPlanArea, kPlanFps);
+  for (int k = 0; k < 50; ++k) plan.add({word_at("v", {{0.5, 0.5}, {0.2, 0.5}})}, {bar(0.9)});
+  for (const auto& frame : plan.standing()) {
+    EXPECT_EQ(frame[0].box.x0, 0.5 - kHalfWidth);
+    EXPECT_EQ(frame[0].opacity, 1);
+  }
+}
+
+// A bar comes over the best place for a second: the word is elsewhere before it comes, and fades on its way.
+TEST(WordPlan, LeavesForWhatComesAndFades) {
+  WordPlan plan(kPlanArea, kPlanFps);
+  std::vector<Obstacle> bars;
+  for (int k = 0; k < 240; ++k) {
+    bars.push_back(bar(std::min(0.9, 0.1 + 0.004 * std::max(0, k - 60))));
+    plan.add({word_at("v", {{0.5, 0.5}, {0.2, 0.5}})}, {bars.back()});
+  }
+  const auto frames = plan.standing();
+  int elsewhere = 0;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const StandingWord& now = frames[k][0];
+    EXPECT_FALSE(lies_on(now, bars[k])) << k;
+    elsewhere += now.opacity == 1 && now.box.x0 < 0.3;
+    if (k == 0 || frames[k - 1][0].box.x0 == now.box.x0) continue;
+    EXPECT_LT(now.opacity, 0.5) << k;
+    EXPECT_LT(frames[k - 1][0].opacity, 0.5) << k;
+  }
+  EXPECT_GT(elsewhere, 10);
+  EXPECT_EQ(frames.back()[0].opacity, 1);
+}
+
+// A bar is at the best place for one frame. Where another place is free all the time the word stands there from the
+// beginning; else it is left out for a moment.
+TEST(WordPlan, DoesNotChangePlacesForWhatPassesAtOnce) {
+  for (const bool other_is_free : {true, false}) {
+    WordPlan plan(kPlanArea, kPlanFps);
+    for (int k = 0; k < 120; ++k) {
+      std::vector<Obstacle> bars;
+      if (k == 60) bars.push_back(bar(0.5));
+      if (k > 100 && !other_is_free) bars.push_back(bar(0.2));
+      plan.add({word_at("v", {{0.5, 0.5}, {0.2, 0.5}})}, bars);
+    }
+    const auto frames = plan.standing();
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      if (k == 60 && !other_is_free) {
+        EXPECT_EQ(frames[k][0].opacity, 0);
+      } else {
+        EXPECT_NEAR(center_of(frames[k][0].box).x, other_is_free ? 0.2 : 0.5, 1e-12) << k;
+        EXPECT_GT(frames[k][0].opacity, 0);
+      }
+    }
+  }
+}
+
+TEST(WordPlan, KeepsWordsOffOneAnother) {
+  WordPlan plan(kPlanArea, kPlanFps);
+  for (int k = 0; k < 100; ++k) {
+    const double x = 0.3 + 0.004 * k;
+    plan.add({word_at("a", {{0.5, 0.5}, {0.5, 0.6}}), word_at("b", {{x, 0.5}, {x, 0.4}})}, {});
+  }
+  for (const auto& frame : plan.standing()) {
+    ASSERT_EQ(frame.size(), 2u);
+    if (frame[0].opacity > 0 && frame[1].opacity > 0) {
+      EXPECT_FALSE(chainreel::overlap(frame[0].box, frame[1].box));
+    }
+  }
+}
+
+// Of one name, they are told apart by where they are, in whatever order they come.
+TEST(WordPlan, FollowsWordsThatComeInAnotherOrder) {
+  WordPlan plan(kPlanArea, kPlanFps);
+  for (int k = 0; k < 60; ++k) {
+    const MarkWord left = word_at("x", {{0.2, 0.5}}), right = word_at("x", {{0.8, 0.5}});
+    if (k % 7 < 3)
+      plan.add({left, right}, {});
+    else
+      plan.add({right, left}, {});
+  }
+  for (const auto& frame : plan.standing())
+    for (const StandingWord& word : frame) EXPECT_EQ(word.opacity, 1);
+}
+
+TEST(WordPlan, IsSilentWhileItsMarkRunsFasterThanCanBeRead) {
+  WordPlan plan(kPlanArea, kPlanFps);
+  double x = 0.1;
+  for (int k = 0; k < 90; ++k) {
+    x += k >= 30 && k < 40 ? 0.05 : 0.002;
+    plan.add({word_at("v", {{x, 0.5}})}, {});
+  }
+  const auto frames = plan.standing();
+  EXPECT_EQ(frames[10][0].opacity, 1);
+  for (std::size_t k = 31; k < 39; ++k) EXPECT_EQ(frames[k][0].opacity, 0) << k;
+  EXPECT_EQ(frames[70][0].opacity, 1);
+}
+
+TEST(WordPlan, StandsOnWhatMayYieldWhereNothingElseIsFree) {
+  Obstacle rail = bar(0.5);
+  rail.may_yield = true;
+  for (const bool other_is_free : {true, false}) {
+    WordPlan plan(kPlanArea, kPlanFps);
+    for (int k = 0; k < 60; ++k)
+      plan.add({word_at("tau", {{0.5, 0.5}, {0.2, 0.5}})}, {rail, bar(other_is_free ? 0.8 : 0.2)});
+    const auto frames = plan.standing();
+    EXPECT_NEAR(center_of(frames[30][0].box).x, other_is_free ? 0.2 : 0.5, 1e-12);
+    EXPECT_EQ(frames[30][0].opacity, 1);
+  }
+}
+
+TEST(WordPlan, TellsWhatIsInTheWay) {
+  Picture picture;
+  const Color ink = color_of(0);
+  picture.add(Capsule{{0, 0}, {1, 0}, 0.01, {ink, {}, 0}});
+  picture.add(Capsule{{0, 0}, {1, 0}, 0.01, {ink.faded(0.2), {}, 0}});  // pale
+  picture.add(Polygon{{Point{0, 0}, {1, 0}, {0, 1}}, 3, {ink, {}, 0}});
+  picture.add(Ellipse{{0.5, 0.5}, {0.1, 0}, {0, 0.1}, {ink, {}, 0}});
+  EXPECT_EQ(obstacles_of(picture).size(), 1u + 6u + 1u);
+}
+
+}  // namespace
+}  // namespace chainreel
