@@ -77,7 +77,10 @@ class Run {
     const StepGrid::Next next = *moved;
     if (constrained_ && !settle()) return false;
     system_.forget_bad_torque();
-    work_.add_step(system_, *integrator_, q_now());
+    if (!simulation_.motion_only)
+      work_.add_step(system_, *integrator_, q_now());
+    else if (!work_.is_free())  // who asks for the inside of a step pays for it: as many evaluations as with the work
+      integrator_->interpolate(0.5 * (begin + now()), q_, qd_);
     ++trajectory_.steps;
     trajectory_.end_time = now();
     if (watch_ && !look_for_events(begin)) return false;
@@ -116,7 +119,7 @@ class Run {
       return append(t, q_now(), qd_now(), work_.at_end());
     integrator_->interpolate(t, q_, qd_);
     if (projected_) constrained_->project_sample(system_.workspace(), q_, qd_);
-    append(t, q_, qd_, work_.at(system_, *integrator_, t, q_));
+    append(t, q_, qd_, simulation_.motion_only ? 0 : work_.at(system_, *integrator_, t, q_));
   }
 
   bool stop_requested(const StopRequest& stop) {
@@ -161,7 +164,7 @@ class Run {
     trajectory_.q.insert(trajectory_.q.end(), q.begin(), q.end());
     trajectory_.qd.insert(trajectory_.qd.end(), qd.begin(), qd.end());
     trajectory_.work.push_back(work);
-    if (constrained_) append_multipliers(t, q, qd);
+    if (constrained_ && !simulation_.motion_only) append_multipliers(t, q, qd);
   }
 
   void append_multipliers(double t, ConstVec q, ConstVec qd) {

@@ -30,6 +30,7 @@ struct Simulation {
   double duration = 10;  // s
   double longest_step = 0;    // s, that a method which chooses its steps may take; 0: any
   long most_evaluations = 0;  // behind that many the run ends with RunStatus::out_of_budget; 0: any number
+  bool motion_only = false;   // without the torques' work and the multipliers, for who looks at q and qd alone
   LimitPolicy limit = LimitPolicy::report;
   std::shared_ptr<const EventSet> events;  // null: none
   ConstraintPlan constraints;

@@ -37,6 +37,7 @@ class WorkIntegral {
   // Work up to the last step's end, and up to an instant within it, where q is the chain's position.
   double at_end() const { return total_; }
   double at(ChainSystem& system, Integrator& integrator, double t, ConstVec q);
+  bool is_free() const { return constant_; }  // needs nothing of a step
 
  private:
   double work_of_constant(ConstVec q) const;

@@ -180,6 +180,11 @@ TEST_F(Parts, OfAnotherFilmOrTooFewAreRefused) {
   // A part whose second half is lost, and one that is no part.
   const std::string bytes = read_whole_file(second);
   EXPECT_THAT(trouble({first, folder.write("f.mp4", bytes.substr(0, bytes.size() * 9 / 10))}), HasSubstr("3 "));
+  for (const double place : {0.3, 0.6, 0.9}) {
+    std::string flipped = bytes;
+    flipped[std::size_t(place * double(bytes.size()))] ^= 1;
+    EXPECT_THAT(trouble({first, folder.write("g.mp4", flipped)}), HasSubstr("3 ")) << place;
+  }
   ASSERT_EQ(join({first, second}, folder.file("whole.mp4")).status, 0);
   EXPECT_THAT(trouble({folder.file("whole.mp4")}), HasSubstr("is no part of a film"));
   EXPECT_EQ(join({first, second}, folder.file("x.webm")).status, 2);

@@ -40,6 +40,7 @@ Part read_part(const std::string& path) {
   note_input(path);
   Part part{path, read_film_tags(path), {}};
   part.facts = part_facts(part.tags[kPart], path);
+  require_sealed(path);
   // Containers add some of their own.
   std::erase_if(part.tags, [](const auto& tag) {
     return tag.first == kPart || (!tag.first.starts_with("chainreel_") && tag.first != "title" && tag.first != "description");

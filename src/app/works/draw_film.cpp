@@ -174,6 +174,8 @@ void Workshop::run(StageTimes& times) {
   for (const auto& film : films_)
     if (film) film->finish();
   films_.clear();
+  for (const Output& output : outputs_)
+    if (output.target.format->codec && !work_.part.empty()) seal_part(output.temporary_path(), output.target.path);
   times.mux += clock.lap();
 }
 

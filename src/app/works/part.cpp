@@ -4,7 +4,11 @@
 #include <charconv>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <span>
+#include <string_view>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -121,6 +125,52 @@ Json to_json(const PartFacts& part) {
           {"audit", part.audit},
           {"words", part.words},
           {"captions", part.captions}};
+}
+
+namespace {
+
+constexpr std::string_view kSeal = "chainreel part ";
+constexpr std::size_t kSealSize = kSeal.size() + 64;  // bytes, with the hash's digits
+
+// MP4's and MOV's `free`, Matroska's Void.
+std::string head_of_box(const std::string& path) {
+  static_assert(kSealSize < 127);
+  if (path.ends_with(".webm")) return {char(0xEC), char(0x80 | kSealSize)};
+  return std::string(3, '\0') + char(8 + kSealSize) + "free";
+}
+
+// Of the first `size` bytes; "" where they cannot be read.
+std::string hash_of_first(const std::string& path, std::uintmax_t size) {
+  std::ifstream stream(path, std::ios::binary);
+  Sha256 hash;
+  std::vector<char> bytes(1 << 20);
+  while (size > 0) {
+    const auto count = std::streamsize(std::min<std::uintmax_t>(size, bytes.size()));
+    if (!stream.read(bytes.data(), count)) return "";
+    hash.add(std::as_bytes(std::span(bytes).first(std::size_t(count))));
+    size -= std::uintmax_t(count);
+  }
+  return hash.finish();
+}
+
+}  // namespace
+
+void seal_part(const std::string& path, const std::string& target) {
+  const std::string hash = sha256_of_file(path);
+  std::ofstream stream(path, std::ios::binary | std::ios::app);
+  stream << head_of_box(path) << kSeal << hash;
+  stream.close();
+  if (!stream) throw Error(ExitCode::file, "could not be written whole: is the disk full?", {target});
+}
+
+void require_sealed(const std::string& path) {
+  std::error_code code;
+  const std::uintmax_t size = std::filesystem::file_size(path, code), box = head_of_box(path).size() + kSealSize;
+  std::string seal(kSealSize, '\0');
+  std::ifstream stream(path, std::ios::binary);
+  if (code || size < box || !stream.seekg(std::streamoff(size - kSealSize)) || !stream.read(seal.data(), std::streamsize(kSealSize)) ||
+      seal != std::string(kSeal) + hash_of_first(path, size - box))
+    throw Error(ExitCode::bad_input, "is not as it was written: it has been changed or cut off since; render it anew", {path});
 }
 
 PartFacts part_facts(const std::string& text, const std::string& path) {

@@ -57,6 +57,11 @@ Json to_json(const PartFacts& part);
 // Throws Error (exit 3) where the file at `path`, which says this, is no part or its facts are spoilt.
 PartFacts part_facts(const std::string& text, const std::string& path);
 
+// A part bears a hash of its bytes at its end, in a box that players pass over: what was changed or cut off since is not
+// joined. `target` is named in errors (exit 6); require_sealed throws Error (exit 3).
+void seal_part(const std::string& path, const std::string& target);
+void require_sealed(const std::string& path);
+
 inline constexpr const char* kPart = "chainreel_part";
 
 inline constexpr const char* kMeshesHash = "meshes_sha256";  // in the audits of films that show meshes

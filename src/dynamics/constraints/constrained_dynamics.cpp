@@ -220,9 +220,16 @@ Eigen::Vector3d contact_force(const Chain& chain, const ConstraintSet& set, cons
 
 void multipliers_of_force(const Chain& chain, const ConstraintSet& set, const ConstrainedWorkspace& cws,
                           std::size_t k, const Eigen::Vector3d& f, Vec lambda) {
+  // Asked at every evaluation, mostly of rows that keep their directions: the last answer is that of the next.
+  struct Answer {
+    Eigen::Matrix3Xd forces;
+    Eigen::Vector3d f;
+    Eigen::VectorXd lambda;
+  };
+  thread_local Answer last;
   const Eigen::Matrix3Xd forces = forces_of_rows(chain, set, cws, k);
-  Eigen::Map<Eigen::VectorXd>(lambda.data() + set.first_row(k), forces.cols()) =
-      least_squares(forces, f);
+  if (last.forces.cols() != forces.cols() || last.forces != forces || last.f != f) last = {forces, f, least_squares(forces, f)};
+  Eigen::Map<Eigen::VectorXd>(lambda.data() + set.first_row(k), forces.cols()) = last.lambda;
 }
 
 }  // namespace chainreel

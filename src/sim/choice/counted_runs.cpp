@@ -36,6 +36,7 @@ CountedRuns::CountedRuns(Simulation& simulation, double budget, const ChoiceWatc
 CountedRuns::~CountedRuns() {
   simulation_.longest_step = 0;
   simulation_.most_evaluations = 0;
+  simulation_.motion_only = false;
 }
 
 Trajectory CountedRuns::run(const MethodSetting& setting, std::span<const double> times, double most,
@@ -44,6 +45,7 @@ Trajectory CountedRuns::run(const MethodSetting& setting, std::span<const double
   simulation_.longest_step = longest_step;
   const double affordable = std::clamp(std::min(most, left()), 0.0, budget_) / price_of_evaluation(setting);
   simulation_.most_evaluations = std::max(1L, long(affordable));
+  simulation_.motion_only = true;
   const std::string doing = to_string(setting);
   const auto stop = [&](double t) { return watch_ && watch_({doing, runs_, spent_ / budget_, t}); };
   Trajectory trajectory = simulate(simulation_, times, stop);
