@@ -16,7 +16,7 @@ namespace chainreel {
 enum class Primitive { capsule, ellipse, arc, polygon, glyph, trail, layer, cells, solids, flat };
 
 struct PrimitiveRow {
-  std::string_view name;  // of the shader pair
+  std::string_view name;  // of the shader pair; bodies in space have none
   int vectors;            // vec4 per instance; their meaning stands at the head of the vertex shader
 };
 

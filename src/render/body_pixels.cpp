@@ -81,47 +81,65 @@ void BodyPixels::find_near() {
   }
 }
 
-bool BodyPixels::draw(const PixelBox& part, std::vector<std::uint32_t>& pixels) const {
-  pixels.resize(std::size_t(part.width) * std::size_t(part.height));
+bool BodyPixels::is_empty(const PixelBox& part) const {
   const int n = samples_.per_side, per_word = 64 / n;
   const int first = (part.x - samples_.box.x) / per_word, end = (part.right() - samples_.box.x) / per_word;
-  const int top = part.y - samples_.box.y;
-  const auto has_row = [&](int row) {
-    return has_any(Words(&near_[std::size_t(row) * std::size_t(words_) + std::size_t(first)], std::size_t(end - first)));
-  };
-  int row = n * top;
-  while (row < n * (top + part.height) && !has_row(row)) ++row;
-  if (row == n * (top + part.height)) return false;
-  for (int y = 0; y < part.height; ++y)
-    for (int word = first; word < end; ++word)
-      draw_word(top + y, word, &pixels[std::size_t(y) * std::size_t(part.width) + std::size_t((word - first) * per_word)]);
+  const int top = n * (part.y - samples_.box.y);
+  for (int row = top; row < top + n * part.height; ++row)
+    if (has_any(Words(&near_[std::size_t(row) * std::size_t(words_) + std::size_t(first)], std::size_t(end - first)))) return false;
   return true;
 }
 
+namespace {
+
+// Both premultiplied; each byte is rounded.
+std::uint32_t put_over(std::uint32_t above, std::uint32_t below) {
+  const std::uint32_t through = 255 - (above >> 24);
+  const auto faded = [through](std::uint32_t pair) {  // two bytes, two bytes apart
+    const std::uint32_t product = pair * through + 0x00800080U;
+    return (product + (product >> 8 & 0x00ff00ffU)) >> 8 & 0x00ff00ffU;
+  };
+  return above + (faded(below & 0x00ff00ffU) | faded(below >> 8 & 0x00ff00ffU) << 8);
+}
+
+}  // namespace
+
+void BodyPixels::draw_over(const PixelBox& part, std::uint32_t* pixels, std::ptrdiff_t stride) const {
+  const int per_word = 64 / samples_.per_side;
+  const int left = part.x - samples_.box.x, right = part.right() - samples_.box.x;
+  for (int y = part.y - samples_.box.y, end = y + part.height; y < end; ++y, pixels += stride)
+    for (int x = left, behind = 0; x < right; x = behind) {
+      behind = std::min(right, (x / per_word + 1) * per_word);
+      if (is_empty(y, x / per_word)) continue;
+      for (int k = x; k < behind; ++k) {
+        const std::uint32_t above = pixel(k, y);
+        if (above != 0) pixels[k - left] = above >> 24 == 255 ? above : put_over(above, pixels[k - left]);
+      }
+    }
+}
+
 // The pixels of a word of samples.
-void BodyPixels::draw_word(int y, int word, std::uint32_t* pixels) const {
-  const int n = samples_.per_side, count = 64 / n;
-  const std::uint32_t* mean = &samples_.pixels[std::size_t(y) * std::size_t(samples_.box.width) + std::size_t(word * count)];
-  if (paint_.opacity == 1)
-    std::copy_n(mean, count, pixels);
-  else
-    for (int x = 0; x < count; ++x) pixels[x] = mean[x] == 0 ? 0 : with_line(mean[x], 0);
-  // Samples of the line, row by row, and all together.
-  std::array<std::uint64_t, 4> around{};
+bool BodyPixels::is_empty(int y, int word) const {
   std::uint64_t any = 0;
-  for (int k = 0; k < n; ++k) {
-    const std::size_t at = std::size_t(n * y + k) * std::size_t(words_) + std::size_t(word);
-    around[std::size_t(k)] = near_[at] & ~samples_.bits[at];
-    any |= around[std::size_t(k)];
+  for (int k = 0; k < samples_.per_side; ++k)
+    any |= near_[std::size_t(samples_.per_side * y + k) * std::size_t(words_) + std::size_t(word)];
+  return any == 0;
+}
+
+std::uint32_t BodyPixels::pixel(int x, int y) const {
+  const std::uint32_t mean = samples_.pixels[std::size_t(y) * std::size_t(samples_.box.width) + std::size_t(x)];
+  int around = 0;  // samples of the line
+  // Where all samples show opaque bodies there is none.
+  if (mean >> 24 != 255) {
+    const unsigned n = unsigned(samples_.per_side), bit = n * unsigned(x) % 64;
+    const std::uint64_t all = (std::uint64_t(1) << n) - 1;
+    for (unsigned k = 0; k < n; ++k) {
+      const std::size_t word = std::size_t(n * unsigned(y) + k) * std::size_t(words_) + n * unsigned(x) / 64;
+      const std::uint64_t line = (near_[word] & ~samples_.bits[word]) >> bit & all;
+      if (line != 0) around += std::popcount(line);
+    }
   }
-  const std::uint64_t all = (std::uint64_t(1) << n) - 1;
-  while (any != 0) {
-    const int x = std::countr_zero(any) / n;
-    int samples = 0;
-    for (int k = 0; k < n; ++k) samples += std::popcount(around[std::size_t(k)] >> (n * x) & all);
-    pixels[x] = with_line(mean[x], samples);
-    any &= ~(all << (n * x));
-  }
+  return around == 0 && paint_.opacity == 1 ? mean : with_line(mean, around);
 }
 
 std::uint32_t BodyPixels::with_line(std::uint32_t mean, int around) const {

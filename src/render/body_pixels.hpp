@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -35,13 +36,15 @@ class BodyPixels {
   // Looks for what is near to bodies. The samples must live as long as this does.
   BodyPixels(const BodySamples& samples, const BodyPaint& paint);
 
-  // The pixels of a part of the box, row by row, as the samples are; false where they would all be empty. It begins and ends
-  // with whole words of samples.
-  bool draw(const PixelBox& part, std::vector<std::uint32_t>& pixels) const;
+  // Whether a part of the box, which begins and ends with whole words of samples, shows nothing.
+  bool is_empty(const PixelBox& part) const;
+  // Puts a part of the box, `pixels` that are `stride` apart from row to row, over what is there.
+  void draw_over(const PixelBox& part, std::uint32_t* pixels, std::ptrdiff_t stride) const;
 
  private:
   void find_near();
-  void draw_word(int y, int word, std::uint32_t* pixels) const;
+  bool is_empty(int y, int word) const;
+  std::uint32_t pixel(int x, int y) const;
   std::uint32_t with_line(std::uint32_t mean, int around) const;
 
   const BodySamples& samples_;

@@ -183,7 +183,7 @@ struct Canvas::State {
   }
 
   // Bodies are drawn aside and put down where they are.
-  void draw_solids(const Run& run, const TileMask& tiles) {
+  void draw_solids(const Run& run, const Target& target, const TileMask& tiles) {
     const Piece& piece = batch.pieces()[std::size_t(run.piece)];
     const PlacedSolids& group = placed[std::size_t(piece.instance)];
     TileMask touched(width, height);
@@ -192,13 +192,8 @@ struct Canvas::State {
     std::vector<PixelBox> boxes;
     touched.boxes(piece.outline.box, boxes);
     if (boxes.empty()) return;
-    const std::vector<PixelBox>& shown = solid_layer->draw(group, body_paint(piece), boxes);
-    if (shown.empty()) return;
-    gl.BindTexture(GL_TEXTURE_2D, solid_layer->texture());
-    std::vector<float> instances;
-    Windows::append(batch, piece, shown, instances);
-    program(run.primitive).upload(instances.data(), instances.size());
-    program(run.primitive).draw(0, int(shown.size()));
+    solid_layer->draw(group, body_paint(piece), boxes, target);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
   }
 
   // Everything of the batch that lies in the tiles, onto what is there.
@@ -214,7 +209,7 @@ struct Canvas::State {
         continue;
       }
       if (run.primitive == Primitive::solids) {
-        draw_solids(run, tiles);
+        draw_solids(run, target, tiles);
         continue;
       }
       if (run.primitive == Primitive::glyph) gl.BindTexture(GL_TEXTURE_2D, atlas_texture);

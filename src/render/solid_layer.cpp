@@ -5,12 +5,7 @@
 
 namespace chainreel {
 
-SolidLayer::SolidLayer(const GlFunctions& gl, int width, int height)
-    : gl_(gl), grid_(width, height), page_(gl, Target::Kind::color, width, height) {}
-
-GLuint SolidLayer::texture() const {
-  return page_.texture();
-}
+SolidLayer::SolidLayer(const GlFunctions& gl, int width, int height) : gl_(gl), grid_(width, height) {}
 
 const SolidMesh& SolidLayer::mesh_of(const std::shared_ptr<const TriangleMesh>& mesh) {
   std::unique_ptr<SolidMesh>& own = meshes_[mesh.get()];
@@ -55,28 +50,30 @@ void SolidLayer::fill(const PlacedSolids& placed, double rim, const std::vector<
   samples_.cut_at(grid_.width, grid_.height);
 }
 
-// Tile by tile, since most are empty.
-void SolidLayer::put(const PixelBox& box, const BodyPixels& pixels, BoxJoiner& shown) {
+// The tiles of a box that show something.
+void SolidLayer::find_shown(const PixelBox& box, const BodyPixels& pixels, BoxJoiner& shown) const {
   const int side = grid_.tile_side();
   for (int top = box.y / side * side; top < box.bottom(); top += side)
-    for (int left = box.x / side * side; left < box.right(); left += side) {
-      if (!pixels.draw({left, top, side, side}, pixels_)) continue;
-      gl_.TexSubImage2D(GL_TEXTURE_2D, 0, left, top, std::min(side, grid_.width - left), std::min(side, grid_.height - top), GL_BGRA,
-                        GL_UNSIGNED_INT_8_8_8_8_REV, pixels_.data());
-      shown.add(common_part(box, {left, top, side, side}));
-    }
+    for (int left = box.x / side * side; left < box.right(); left += side)
+      if (const PixelBox tile{left, top, side, side}; !pixels.is_empty(tile)) shown.add(common_part(box, tile));
 }
 
-const std::vector<PixelBox>& SolidLayer::draw(const PlacedSolids& placed, const BodyPaint& paint, const std::vector<PixelBox>& boxes) {
-  shown_.clear();
+void SolidLayer::draw(const PlacedSolids& placed, const BodyPaint& paint, const std::vector<PixelBox>& boxes, const Target& page) {
   fill(placed, paint.radius, boxes);
   const BodyPixels pixels(samples_, paint);
-  gl_.BindTexture(GL_TEXTURE_2D, page_.texture());
-  gl_.PixelStorei(GL_UNPACK_ROW_LENGTH, grid_.tile_side());
+  shown_.clear();
   BoxJoiner shown(shown_);
-  for (const PixelBox& box : boxes) put(box, pixels, shown);
-  gl_.PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-  return shown_;
+  for (const PixelBox& box : boxes) find_shown(box, pixels, shown);
+  // Pixels of the page are in this memory, too: to blend them here takes a tenth of what a shader takes.
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, page.framebuffer());
+  gl_.BindTexture(GL_TEXTURE_2D, page.texture());
+  gl_.PixelStorei(GL_PACK_ROW_LENGTH, 0);
+  for (const PixelBox& box : shown_) {
+    pixels_.resize(std::size_t(box.width) * std::size_t(box.height));
+    gl_.ReadPixels(box.x, box.y, box.width, box.height, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, pixels_.data());
+    pixels.draw_over(box, pixels_.data(), box.width);
+    gl_.TexSubImage2D(GL_TEXTURE_2D, 0, box.x, box.y, box.width, box.height, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, pixels_.data());
+  }
 }
 
 }  // namespace chainreel

@@ -1,5 +1,5 @@
-// Bodies in space drawn into a layer of their own, tile by tile where they are: several samples a pixel, with depth, which
-// then become pixels of the page. Needs a current context.
+// Bodies in space, drawn tile by tile where they are: several samples a pixel, with depth, which then become pixels that are
+// put down on the page. Needs a current context.
 #pragma once
 
 #include <map>
@@ -20,21 +20,17 @@ class SolidLayer {
   // Places the bodies, which are put down like this. Throws Error (exit 3) for a mesh that is none.
   void place(const Solids& solids, const BodyPaint& paint, PlacedSolids& placed);
 
-  // Draws them and gives those of the boxes' tiles that show something.
-  const std::vector<PixelBox>& draw(const PlacedSolids& placed, const BodyPaint& paint, const std::vector<PixelBox>& boxes);
-
-  // What draw() has made, premultiplied, at its places on the page; elsewhere it is what was there before.
-  GLuint texture() const;
+  // Draws what of them lies in the boxes over what is on the page.
+  void draw(const PlacedSolids& placed, const BodyPaint& paint, const std::vector<PixelBox>& boxes, const Target& page);
 
  private:
   const SolidMesh& mesh_of(const std::shared_ptr<const TriangleMesh>& mesh);
   PixelBox tiles_around(const PixelBox& box, double rim) const;
   void fill(const PlacedSolids& placed, double rim, const std::vector<PixelBox>& boxes);
-  void put(const PixelBox& box, const BodyPixels& pixels, BoxJoiner& shown);
+  void find_shown(const PixelBox& box, const BodyPixels& pixels, BoxJoiner& shown) const;
 
   const GlFunctions& gl_;
   SampleGrid grid_;
-  Target page_;  // what is put down
   TileSamples tile_;
   BodySamples samples_;
   std::vector<std::uint32_t> pixels_;

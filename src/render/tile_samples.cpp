@@ -62,18 +62,32 @@ void TileSamples::clear() {
 
 namespace {
 
-// The columns of a row of cells that an edge leaves, widened by what rounding may take.
-void narrow(const Edge& edge, int row, float& first, float& last) {
-  constexpr float kRounding = 1e-3F;
-  if (edge.dx == 0) return;
-  const float at = float(edge.start + std::int64_t(edge.dy) * (row * kCellUnits + (edge.dy > 0 ? kFar : kNear)) +
-                         std::int64_t(edge.dx) * (edge.dx > 0 ? kFar : kNear));
-  const float crossing = -at / (float(edge.dx) * kCellUnits);
-  if (edge.dx > 0)
-    first = std::max(first, crossing - kRounding);
-  else
-    last = std::min(last, crossing + kRounding);
-}
+// Where an edge crosses rows of cells, in columns: what lies beyond has no sample inside. It is widened by more than rounding takes.
+class Crossing {
+ public:
+  Crossing() = default;
+  explicit Crossing(const Edge& edge) : is_first_(edge.dx > 0) {
+    if (edge.dx == 0) return;
+    const float inverse = 1 / float(edge.dx);
+    const std::int64_t at = edge.start + std::int64_t(edge.dy) * (edge.dy > 0 ? kFar : kNear) + std::int64_t(edge.dx) * (is_first_ ? kFar : kNear);
+    slope_ = -float(edge.dy) * inverse;
+    const float slack = 1e-3F + 1e-5F * std::abs(slope_);
+    start_ = -float(at) * inverse / kCellUnits + (is_first_ ? 1 - slack : slack);
+    is_there_ = true;
+  }
+  void narrow(int row, int& first, int& last) const {
+    if (!is_there_) return;
+    const int column = int(std::min(std::max(start_ + slope_ * float(row), -1.0F), float(kTileCells)));
+    if (is_first_)
+      first = std::max(first, column);
+    else
+      last = std::min(last, column);
+  }
+
+ private:
+  float start_ = 0, slope_ = 0;
+  bool is_there_ = false, is_first_ = false;
+};
 
 // What shines through `above`, each of the four bytes rounded.
 std::uint32_t blended(std::uint32_t above, std::uint32_t below) {
@@ -98,15 +112,16 @@ void TileSamples::fill_cells(const Triangle& t) {
   }
   const Float4 depth_offset = all4(t.depth.dx) * __builtin_convertvector(kSampleX, Float4) +
                               all4(t.depth.dy) * __builtin_convertvector(kSampleY, Float4);
+  const Float4 depth_dx = all4(t.depth.dx);
   const bool narrows = t.last_column - t.first_column >= kNarrowing;
+  std::array<Crossing, 3> crossings;
+  if (narrows)
+    for (std::size_t i = 0; i < 3; ++i) crossings[i] = Crossing(t.edges[i]);
   for (int row = t.first_row; row <= t.last_row; ++row) {
     int first = t.first_column, last = t.last_column;
     if (narrows) {
-      float from = float(first), to = float(last);
-      for (const Edge& edge : t.edges) narrow(edge, row, from, to);
-      if (!(from <= to)) continue;
-      first = int(std::ceil(from));
-      last = int(std::floor(to));
+      for (const Crossing& crossing : crossings) crossing.narrow(row, first, last);
+      if (first > last) continue;
     }
     const int y = row * kCellUnits;
     std::array<Int4, 3> value;
@@ -116,16 +131,16 @@ void TileSamples::fill_cells(const Triangle& t) {
     }
     const Float4 row_depth = depth_offset + all4(t.depth.start + t.depth.dy * float(y));
     const Float4 row_color = t.color.start + t.color.dy * float(y);
-    for (int column = first; column <= last; ++column) {
+    Float4 x = all4(float(first * kCellUnits));
+    for (int column = first; column <= last; ++column, x += float(kCellUnits)) {
       const std::size_t cell = std::size_t(4) * std::size_t(row * kTileCells + column);
       Int4 wins = (value[0] | value[1] | value[2]) >= 0;
       for (std::size_t i = 0; i < 3; ++i) value[i] += step[i];
       std::uint32_t color = t.even;
-      const float x = float(column * kCellUnits);
       if constexpr (fill == Fill::flat) {
         if (bits_of(wins) == 0) continue;
       } else {
-        const Float4 depth = least(most(row_depth + all4(t.depth.dx * x), all4(t.farthest)), all4(t.nearest));
+        const Float4 depth = least(most(row_depth + depth_dx * x, all4(t.farthest)), all4(t.nearest));
         const Float4 before = load4<Float4>(&depth_[cell]);
         wins &= depth > before;
         if (bits_of(wins) == 0) continue;
@@ -192,41 +207,44 @@ void TileSamples::draw(const PageVertex& a, const PageVertex& b, const PageVerte
     is_even ? fill_cells<Fill::translucent, true>(t) : fill_cells<Fill::translucent, false>(t);
 }
 
+namespace {
+
+// The mean of samples, each byte rounded; `count` is 4 or 16.
+template <int count>
+std::uint32_t mean_of(const std::array<std::uint32_t, count>& samples) {
+  // Two bytes apart, so that sums do not meet.
+  std::uint64_t sum = 0;
+  for (const std::uint32_t sample : samples) sum += (std::uint64_t(sample & 0xff00ff00U) << 24) | (sample & 0x00ff00ffU);
+  const auto level = [sum](int shift) { return std::uint32_t((sum >> shift & 0xffff) + count / 2) / count; };
+  return level(0) | level(32) << 8 | level(16) << 16 | level(48) << 24;
+}
+
+}  // namespace
+
 void TileSamples::resolve(int per_pixel, std::uint32_t* pixels, std::ptrdiff_t pixel_stride, std::uint64_t* bits,
                           std::ptrdiff_t bit_stride) const {
-  const std::uint32_t count = 4 * std::uint32_t(per_pixel * per_pixel);
-  const int side = kTileCells / per_pixel;
   for (int row = 0; row < kTileCells; ++row) {
     std::uint64_t upper = 0, lower = 0;
     for (int column = 0; column < kTileCells; ++column) {
-      const Int4 cell = load4<Int4>(&color_[std::size_t(4) * std::size_t(row * kTileCells + column)]);
+      const std::uint32_t* const samples = &color_[std::size_t(4) * std::size_t(row * kTileCells + column)];
+      const Int4 cell = load4<Int4>(samples);
       const unsigned is_body = bits_of((cell & std::int32_t(0xff000000U)) != 0);
       upper |= std::uint64_t(is_body & 3) << (2 * column);
       lower |= std::uint64_t(is_body >> 2) << (2 * column);
+      if (per_pixel > 1) continue;
+      const bool is_even = bits_of(cell == all4(cell[0])) == 15;
+      pixels[row * pixel_stride + column] = is_even ? samples[0] : mean_of<4>({samples[0], samples[1], samples[2], samples[3]});
     }
     bits[2 * row * bit_stride] = upper;
     bits[(2 * row + 1) * bit_stride] = lower;
   }
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
-      // Two bytes apart, so that sums of 16 samples do not meet.
-      std::uint64_t sum = 0;
-      std::uint32_t one = 0;
-      bool is_even = true;
-      for (int row = per_pixel * y; row < per_pixel * (y + 1); ++row)
-        for (int k = 0; k < 4 * per_pixel; ++k) {
-          const std::uint32_t sample = color_[std::size_t(4) * std::size_t(row * kTileCells + per_pixel * x) + std::size_t(k)];
-          if (k == 0 && row == per_pixel * y) one = sample;
-          is_even = is_even && sample == one;
-          sum += (std::uint64_t(sample & 0xff00ff00U) << 24) | (sample & 0x00ff00ffU);
-        }
-      std::uint32_t mean = one;
-      if (!is_even) {
-        mean = 0;
-        const auto level = [&](int shift) { return std::uint32_t((sum >> shift & 0xffff) + count / 2) / count; };
-        mean = level(0) | level(32) << 8 | level(16) << 16 | level(48) << 24;
-      }
-      pixels[y * pixel_stride + x] = mean;
+  if (per_pixel == 1) return;
+  for (int y = 0; y < kTileCells / 2; ++y)
+    for (int x = 0; x < kTileCells / 2; ++x) {
+      std::array<std::uint32_t, 16> samples;
+      for (std::size_t row = 0; row < 2; ++row)
+        std::copy_n(&color_[4 * (std::size_t(2 * y) + row) * kTileCells + std::size_t(8 * x)], 8, &samples[8 * row]);
+      pixels[y * pixel_stride + x] = mean_of<16>(samples);
     }
 }
 

@@ -57,7 +57,7 @@ class TileSamples {
   // The triangle runs clockwise, as one sees it. `left`, `top`: the tile's corner, in units of a cell.
   void draw(const PageVertex& a, const PageVertex& b, const PageVertex& c, int left, int top, Fill fill);
 
-  // The means of each `per_pixel` x `per_pixel` cells into rows of pixels, and of each row of samples a word with a bit for each
+  // The means of each `per_pixel` x `per_pixel` cells, which is 1 or 2, into rows of pixels, and of each row of samples a word with a bit for each
   // that shows a body.
   void resolve(int per_pixel, std::uint32_t* pixels, std::ptrdiff_t pixel_stride, std::uint64_t* bits,
                std::ptrdiff_t bit_stride) const;

@@ -71,12 +71,6 @@ class WindowParts {
 
 }  // namespace
 
-void Windows::append(const Batch& batch, const Piece& piece, const std::vector<PixelBox>& boxes,
-                     std::vector<float>& instances) {
-  for (const PixelBox& box : boxes)
-    append_window(box, batch.numbers(piece), floats_of(piece.primitive) - 4, instances);
-}
-
 void Windows::add(int index, Primitive primitive, const float* numbers, const std::vector<PixelBox>& boxes) {
   if (boxes.empty()) return;
   const int floats = floats_of(primitive);

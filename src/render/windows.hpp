@@ -30,10 +30,6 @@ class Windows {
   // Each instance is its window (left, top, right, bottom) and then its piece's numbers.
   const std::vector<float>& instances(Primitive primitive) const { return streams_[std::size_t(primitive)]; }
 
-  // Appends an instance for each box.
-  static void append(const Batch& batch, const Piece& piece, const std::vector<PixelBox>& boxes,
-                     std::vector<float>& instances);
-
  private:
   void add(int index, Primitive primitive, const float* numbers, const std::vector<PixelBox>& boxes);
   void add_shape(const Batch& batch, int index, const TileMask& tiles);
