@@ -177,6 +177,11 @@ TEST_F(Parts, OfAnotherFilmOrTooFewAreRefused) {
   EXPECT_THAT(trouble({first, folder.file("c.part-2-of-2.mp4")}), HasSubstr("its scene differs"));
   EXPECT_THAT(trouble({first, folder.file("d.part-2-of-2.mp4")}), HasSubstr("quality"));
   EXPECT_THAT(trouble({first, folder.write("e.mp4", "no film")}), HasSubstr("is no film"));
+  ASSERT_EQ(run_program(render_of("rr_ellipse", {"--set", kEvents, "-o", folder.file("h.mp4"), "--shard", "2/2"}),
+                        {.environment = {{"GALLIUM_DRIVER", "softpipe"}}})
+                .status,
+            0);
+  EXPECT_THAT(trouble({first, folder.file("h.part-2-of-2.mp4")}), HasSubstr("by another renderer"));
   // A part whose second half is lost, and one that is no part.
   const std::string bytes = read_whole_file(second);
   EXPECT_THAT(trouble({first, folder.write("f.mp4", bytes.substr(0, bytes.size() * 9 / 10))}), HasSubstr("3 "));

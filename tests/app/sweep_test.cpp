@@ -250,6 +250,7 @@ TEST(Sweep, SaysWhatItCannotDoBeforeTheFirstRun) {
   EXPECT_THAT(trouble(with(over, {"-o", folder.file("a.csv"), "-o", folder.file("b.csv")})), HasSubstr("one table"));
   EXPECT_THAT(trouble(with(over, {"-o", folder.file("a.csv"), "--each", "png"})), HasSubstr("--each says"));
   EXPECT_THAT(trouble(with(over, {"-o", folder.file("f/"), "--each", "doc"})), HasSubstr("--each doc"));
+  EXPECT_THAT(trouble(with(over, {"-o", folder.file("f/"), "--each", "png", "--each", "png"})), HasSubstr("twice"));
   EXPECT_THAT(trouble(with(with(over, over), {"-o", folder.file("a.csv")})), HasSubstr("varies already"));
   EXPECT_THAT(trouble({"--over", "a=0:1:9999", "--over", "b=0:1:9999", "--over", "c=0:1:9999"}), HasSubstr("7 "));
   EXPECT_THAT(trouble({"--over", "nothing=0,1", "-o", folder.file("a.csv")}), HasSubstr("3 "));

@@ -66,7 +66,7 @@ void require_same_film(const Part& a, const Part& b) {
   if (word(a, "versions") != word(b, "versions")) differ("it was rendered with other versions of libraries");
   if (a.tags != b.tags) differ("its scene differs");
   if (a.facts.film_sha256 != b.facts.film_sha256 || a.facts.audit != b.facts.audit)
-    differ("it was rendered with other meshes or fonts");
+    differ("it was rendered with other meshes or fonts, or by another renderer (GALLIUM_DRIVER)");
 }
 
 // In the order of the film, each frame once.

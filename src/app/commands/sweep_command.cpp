@@ -1,12 +1,14 @@
 // chainreel sweep SCENE --over KEY=.. [--over ..] -o FOLDER|TABLE.csv: a scene at every point of a grid of its keys.
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
+#include <thread>
 
 #include "app/cli/command.hpp"
 #include "app/cli/streams.hpp"
@@ -34,6 +36,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFiles = 1'000'000;
 constexpr std::uintmax_t kLargestTable = std::uintmax_t(1) << 32;  // bytes
+constexpr int kLooks = 20;
+constexpr std::chrono::milliseconds kBetweenLooks(50);
 constexpr std::size_t kMostTold = 5;  // runs that failed
 
 struct SweepOptions {
@@ -52,6 +56,8 @@ std::vector<const OutputFormat*> formats_of(const SweepOptions& options) {
     const OutputFormat* format = find_output_format("x." + name);
     if (format == nullptr)
       throw Error(ExitCode::usage, "--each " + name + ": runs become " + endings_of(is_one_file, "or") + ", without the dot");
+    if (std::find(formats.begin(), formats.end(), format) != formats.end())
+      throw Error(ExitCode::usage, "--each " + name + " is given twice");
     formats.push_back(format);
   }
   return formats;
@@ -205,10 +211,13 @@ class FilmsOfGrid {
     try {
       render_film(film, job);
     } catch (const Error& error) {
-      // Another sweep over the same folder may have been quicker.
+      // Another sweep over the same folder may have been quicker; its audit comes last.
       if (error.code() != ExitCode::file) throw;
       const FilesOfRun made(film, at_);
       if (!std::all_of(job.targets.begin(), job.targets.end(), [&](const Target& target) { return made.is(target); })) throw;
+      const std::string audit = FilesOfRun::audit_beside(job.targets.front());
+      for (int k = 0; k < kLooks && !is_there(audit); ++k) std::this_thread::sleep_for(kBetweenLooks);
+      if (!is_there(audit)) throw;
       return true;
     }
     return false;

@@ -222,6 +222,9 @@ std::string film_hash(const ClipMemory& memory, const Fonts& fonts) {
   add(memory.scene);
   add(memory.audit.dump());
   for (const Face face : {Face::label, Face::label_bold, Face::math}) add(fonts.sha256(face));
+  // Mesa's other renderers, which are for whoever names them, give other bytes.
+  if (const char* driver = std::getenv("GALLIUM_DRIVER"); driver != nullptr && std::string_view(driver) != "llvmpipe")
+    add(std::string(driver));
   return hash.finish();
 }
 

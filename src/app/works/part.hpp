@@ -69,7 +69,8 @@ inline constexpr const char* kMeshesHash = "meshes_sha256";  // in the audits of
 // Of the meshes of all panels; "" where there are none.
 std::string meshes_hash(const PreparedFilm& film);
 
-// Of all that the film's pictures depend on: its memory, which holds hashes of models, meshes and motions, and fonts.
+// Of all that the film's pictures depend on: its memory, which holds hashes of models, meshes and motions, fonts, and a renderer
+// that the environment names.
 std::string film_hash(const ClipMemory& memory, const Fonts& fonts);
 
 }  // namespace chainreel
