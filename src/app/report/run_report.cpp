@@ -55,7 +55,7 @@ std::string title_of(const RunReport& run) {
 Json to_json(const RunReport& report) {
   const auto& [prepared, trajectory, audit, warnings, left_picture_at] = report;
   const Scene& scene = prepared.scene;
-  Json json;
+  Json json = Json::object();  // JSON's null that becomes an object is lost where memory is short
   json["scene"] = scene.file;
   json["title"] = title_of(report);
   json["model"] = scene.model;
@@ -140,7 +140,7 @@ FilmReport film_report(const Runs& runs, const Film& pictures, int frames) {
 
 Json to_json(const FilmReport& report) {
   const Scene& scene = report.film().scene;
-  Json json;
+  Json json = Json::object();  // JSON's null that becomes an object is lost where memory is short
   if (report.panels.size() == 1) {
     json = to_json(report.panels.front());
   } else {
@@ -148,6 +148,7 @@ Json to_json(const FilmReport& report) {
             {"title", scene.title},
             {"layout", to_string(scene.layout)},
             {"duration", scene.duration}};
+    json["panels"] = Json::array();
     for (const RunReport& panel : report.panels) {
       json["panels"].push_back(to_json(panel));
       for (const char* shared : {"scene", "duration"}) json["panels"].back().erase(shared);
@@ -170,6 +171,7 @@ Json to_json(const FilmReport& report) {
                                      {"film_from", held + report.clock.film_time(one.from)},
                                      {"film_until", held + report.clock.film_time(one.until)}});
   }
+  json["versions"] = Json::object();
   for (const LibraryLine& line : library_versions(report.writes)) json["versions"][line.name] = line.version;
   return json;
 }
