@@ -1,6 +1,7 @@
 #include "sim/torques_along.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "dynamics/constraints/constrained_dynamics.hpp"
 #include "dynamics/constraints/constraint_rows.hpp"
@@ -43,6 +44,31 @@ std::vector<double> torques_along(const Simulation& simulation, const Trajectory
   }
   simulation.torque->leave_pieces();
   return torques;
+}
+
+std::vector<LinearDrive> linear_drives(const Simulation& simulation) {
+  std::vector<LinearDrive> drives = simulation.torque->linear_drives(simulation.chain);
+  std::erase_if(drives, [&](const LinearDrive& drive) {
+    const int body = body_of_freedom(simulation.chain, drive.freedom);
+    return body < 0 || (simulation.limit == LimitPolicy::clamp &&
+                        std::isfinite(simulation.chain.bodies[std::size_t(body)].joint.limit.effort));
+  });
+  for (LinearDrive& drive : drives) drive.whole = drive.whole && simulation.constraints.contact_forces.empty();
+  return drives;
+}
+
+std::vector<double> references_along(const Simulation& simulation, const Trajectory& trajectory) {
+  const auto n = std::size_t(simulation.chain.nv);
+  std::vector<double> references;
+  if (simulation.chain.has_floating) return references;
+  simulation.torque->leave_pieces();
+  for (int k = 0; k < trajectory.size(); ++k) {
+    const ConstVec q = trajectory.q_at(k);
+    references.insert(references.end(), q.begin(), q.end());
+    const Vec own = Vec(references).last(n);
+    if (!simulation.torque->reference_at(trajectory.t[std::size_t(k)], own)) return {};
+  }
+  return references;
 }
 
 std::vector<std::vector<Reaction>> reactions_along(const Simulation& simulation,

@@ -16,6 +16,14 @@ void hold_as_then(ChainSystem& system, const Simulation& simulation, const Traje
 // constraints, cut where the limit policy says so, friction left out.
 std::vector<double> torques_along(const Simulation& simulation, const Trajectory& trajectory);
 
+// The springs and dampers that drive the run's joints, as `LinearDrive` tells them: none whose torque the limit policy may
+// cut; those are no `whole` beside a force that presses on a constraint.
+std::vector<LinearDrive> linear_drives(const Simulation& simulation);
+
+// The coordinates that feedback follows at each sample, nv numbers each, and those of the run itself where a joint follows
+// none; empty where no joint does, and with floating joints.
+std::vector<double> references_along(const Simulation& simulation, const Trajectory& trajectory);
+
 // The force on the robot (N, W) at the place where a constraint holds it.
 struct Reaction {
   int frame = 0;  // index into chain.frames: its origin is the place

@@ -45,6 +45,11 @@ class ReferenceLaw : public TorqueLaw {
   void leave_pieces() override { reference_->leave_pieces(); }
 
  protected:
+  bool copy_reference(double t, Vec q) {
+    move_to(t);
+    std::copy(q_.begin(), q_.end(), q.begin());
+    return true;
+  }
   void move_to(double t) { reference_->evaluate(t, q_, qd_, qdd_); }
 
   std::unique_ptr<Reference> reference_;
@@ -73,6 +78,17 @@ class PdTorque final : public ReferenceLaw {
     move_to(t);
     for (std::size_t i = 0; i < tau.size(); ++i) tau[i] = kp_[i] * (q_[i] - q[i]) + kd_[i] * (qd_[i] - qd[i]);
   }
+  std::vector<LinearDrive> linear_drives(const Chain&) const override {
+    std::vector<LinearDrive> drives;
+    for (std::size_t i = 0; i < kp_.size(); ++i) {
+      if (!(kp_[i] >= 0 && kd_[i] >= 0 && kp_[i] + kd_[i] > 0)) continue;
+      LinearDrive drive{int(i), kp_[i], kd_[i]};
+      drive.follows = true;
+      drives.push_back(drive);
+    }
+    return drives;
+  }
+  bool reference_at(double t, Vec q) override { return copy_reference(t, q); }
 
  private:
   std::vector<double> kp_, kd_;
@@ -92,6 +108,7 @@ class ComputedTorque final : public ReferenceLaw {
     compute_friction(chain, ws, qd);
     for (std::size_t i = 0; i < tau.size(); ++i) tau[i] = ws.tau[i] + ws.tau_f[i];
   }
+  bool reference_at(double t, Vec q) override { return copy_reference(t, q); }
 
  private:
   std::vector<double> kp_, kd_;
@@ -130,6 +147,22 @@ class SumOfTorques final : public TorqueLaw {
   }
   void leave_pieces() override {
     for (const auto& part : parts_) part->leave_pieces();
+  }
+  // Of the only part that has any: two springs at one joint have no rest that is one of theirs.
+  std::vector<LinearDrive> linear_drives(const Chain& chain) const override {
+    std::vector<LinearDrive> drives;
+    for (const auto& part : parts_) {
+      std::vector<LinearDrive> own = part->linear_drives(chain);
+      if (!own.empty() && !drives.empty()) return {};
+      if (!own.empty()) drives = std::move(own);
+    }
+    for (LinearDrive& one : drives) one.whole = one.whole && parts_.size() == 1;
+    return drives;
+  }
+  bool reference_at(double t, Vec q) override {
+    for (const auto& part : parts_)
+      if (part->reference_at(t, q)) return true;
+    return false;
   }
 
  private:

@@ -72,6 +72,23 @@ class MixedTorque final : public TorqueLaw {
     for (const auto& [joint, law] : controls_) law->leave_pieces();
   }
   StateCorners* corners() override { return rest_->corners(); }
+  std::vector<LinearDrive> linear_drives(const Chain& chain) const override {
+    std::vector<LinearDrive> all = rest_->linear_drives(chain);
+    for (const auto& [joint, law] : controls_)
+      for (const LinearDrive& one : law->linear_drives(chain))
+        if (one.freedom == int(joint)) all.push_back(one);
+    return all;
+  }
+  // That of the joints which follow one; the others' own place is left as it is.
+  bool reference_at(double t, Vec q) override {
+    bool any = false;
+    for (const auto& [joint, law] : controls_) {
+      if (!law->reference_at(t, one_)) continue;
+      q[joint] = one_[joint];
+      any = true;
+    }
+    return any;
+  }
 
  private:
   std::unique_ptr<TorqueLaw> rest_;
@@ -199,6 +216,16 @@ class ExpressionTorque final : public TorqueLaw {
       std::copy_n(form->weights.begin() + 1 + std::ptrdiff_t(n), n, torque.D.begin() + std::ptrdiff_t(i * n));
     }
     return torque;
+  }
+
+  std::vector<LinearDrive> linear_drives(const Chain& chain) const override {
+    if (!has_coordinate_a_freedom()) return {};
+    std::vector<VariableUse> uses = variable_uses();
+    for (std::size_t slot = 0; slot < uses.size(); ++slot)
+      if (probe_.is_kinematic(int(slot))) uses[slot].role = VariableRole::linear;
+    std::vector<std::optional<AffineForm<double>>> forms;
+    for (const Expression& entry : entries_) forms.push_back(affine_form_of<double>(entry, uses));
+    return linear_drives_of(chain, probe_, forms);
   }
 
   bool evaluate_in_quad(Quad t, std::span<const Quad> q, std::span<const Quad> qd,

@@ -9,6 +9,7 @@
 #include "dynamics/kernels/taylor_planar.hpp"
 #include "expr/expression.hpp"
 #include "sim/drive/control.hpp"
+#include "sim/drive/linear_drive.hpp"
 #include "sim/drive/probe.hpp"
 
 namespace chainreel {
@@ -34,6 +35,10 @@ class TorqueLaw {
   virtual StateCorners* corners() { return nullptr; }
   // The law as polynomials in t plus multiples of q and qd, where it is one.
   virtual std::optional<AffineTorque> affine() const { return {}; }
+  // The springs and dampers that the law is, or has; at most one a freedom.
+  virtual std::vector<LinearDrive> linear_drives(const Chain&) const { return {}; }
+  // The coordinates of the reference motion that feedback follows, nv numbers; false where there is none.
+  virtual bool reference_at(double, Vec) { return false; }
   // The law with the digits of Quad; false where it has none.
   virtual bool evaluate_in_quad(Quad, std::span<const Quad>, std::span<const Quad>, std::span<Quad>) const {
     return false;
