@@ -20,22 +20,33 @@ enum class LayerNeeds {
 // default (0: it is not), what it needs, and what the name means. Several that lie at several depths may have one name,
 // of which the first says what it means. Those without a name are always there. Layer x is made by make_layer_x, which
 // src/draw/layers has.
+// Those by default draw nothing where a scene has nothing of theirs.
 #define CHAINREEL_LAYERS(ROW)                                                                               \
   ROW(ground, "ground", 6, nothing, "seen obliquely: a grid on the ground where the robot stands on it")    \
+  ROW(g, "g", 11, words, "gravity: a small arrow that says which way it acts, where it does")             \
+  ROW(constraints, "constraints", 7, nothing,                                                               \
+      "what the robot is tied to: lines and planes with hatching, curves, rods")                            \
   ROW(chain_base, "chain", 1, nothing, "the mechanism")                                                     \
+  ROW(target, "target", 10, nothing,                                                                        \
+      "of feedback (pd, computed_torque): the pose that it follows in outline; coils from there show PD")   \
   ROW(ghosts, "ghosts", 0, nothing,                                                                         \
       "the chain at six earlier instants of the last second, fainter with age, the older half as outlines") \
   ROW(shadow, "shadow", 0, nothing, "seen obliquely: what a light from above leaves dark")                  \
   ROW(chain_rails, "chain", 0, nothing, "")                                                                 \
   ROW(trail, "trail", 2, end_effector, "the last second of the end effector's way, a dot every 0.1 s")      \
+  ROW(slider_springs, "springs", 8, nothing,                                                                \
+      "torques that are linear in a coordinate or a rate as the springs and dampers that they are")         \
   ROW(chain_links, "chain", 0, nothing, "")                                                                 \
+  ROW(joint_springs, "springs", 0, nothing, "")                                                             \
+  ROW(limits, "limits", 12, nothing, "the limits of joints that the motion comes near to")                  \
+  ROW(angles, "angles", 0, nothing, "the coordinates: of revolute joints arcs, of sliders lengths, from zero on") \
   ROW(ellipse, "ellipse", 0, end_effector, "the effective mass of the end effector, as `ellipse:` says")    \
   ROW(foot, "chain", 0, nothing, "")                                                                        \
   ROW(frames, "frames", 0, nothing, "axes of the links' frames (y has one cross tick, z two)")              \
   ROW(com, "com", 0, nothing, "the centre of mass of the whole chain")                                      \
   ROW(gravity, "gravity", 0, nothing, "the weight of each link at its centre of mass")                      \
-  ROW(torque, "torque", 0, nothing,                                                                         \
-      "arcs at revolute joints, arrows beside the rails of sliders; a ring where next to nothing acts")     \
+  ROW(torque, "torque", 9, nothing,                                                                         \
+      "where any acts: arcs at revolute joints, arrows beside the rails of sliders; a ring where one rests") \
   ROW(velocity, "velocity", 0, end_effector, "velocity of the end effector")                                \
   ROW(constraint_force, "constraint_force", 0, nothing, "dashed: what constraints exert on the robot")      \
   ROW(mark_labels, "", 0, nothing, "")                                                                      \
@@ -67,6 +78,8 @@ inline constexpr LayerRow kLayerRows[] = {
 std::span<const Name> layer_names();
 // Those that are drawn where a scene names none.
 const std::vector<std::string>& default_layers();
+// The same where several panels share the page: without those that small panels have no room for.
+const std::vector<std::string>& default_layers_of_panels();
 // Whether a layer of this name has this need.
 bool layer_needs(const std::string& name, LayerNeeds needs);
 

@@ -34,6 +34,15 @@ const std::vector<std::string>& default_layers() {
   return names;
 }
 
+const std::vector<std::string>& default_layers_of_panels() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> some = default_layers();
+    for (const char* crowding : {"torque", "target"}) std::erase(some, crowding);
+    return some;
+  }();
+  return names;
+}
+
 bool layer_needs(const std::string& name, LayerNeeds needs) {
   return std::any_of(std::begin(kLayerRows), std::end(kLayerRows),
                      [&](const LayerRow& layer) { return layer.name == name && layer.needs == needs; });

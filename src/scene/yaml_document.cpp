@@ -225,6 +225,7 @@ YamlDocument panel_document(const YamlDocument& whole, std::size_t index) {
   // Read anew: nodes are shared, and a change in one panel must not reach the others.
   YamlDocument panel = yaml_document_of(whole.text, whole.file, whole.overrides);
   const YAML::Node changes = panel.root["compare"][index];
+  panel.is_panel = true;
   for (const char* key : {"title", "layout", "compare"}) panel.root.remove(key);
   // The first panel's events decide when the film is slow; others need not have them.
   if (index > 0) panel.root.remove("slow_motion");

@@ -35,6 +35,7 @@ struct YamlDocument {
   std::string text;  // of the file
   std::vector<Override> overrides;
   std::vector<Origin> origins;
+  bool is_panel = false;  // one of several on the page
 
   // Where a node stands; `key` is its dotted path, so that overridden values name the command line.
   Place place_of(const YAML::Node& node, const std::string& key) const;

@@ -77,7 +77,8 @@ TEST(Film, ShowsInItsFramesWhatASnapshotShows) {
                  {"video.width=320", "video.height=180", "text_scale=1.5", "duration=1"});
   const Trajectory trajectory = simulate(prepared.simulation, frame_times(prepared.scene));
   const Fonts fonts;
-  const Film drawn(prepared.scene, prepared.simulation.chain, trajectory, trajectory.size(), fonts);
+  const Film drawn(prepared.scene, {{prepared.scene, prepared.simulation.chain, trajectory, &prepared.simulation}}, trajectory.t,
+                   fonts);
   const auto image = [&](int k) {
     Picture picture = drawn.static_layer();
     picture.append(drawn.frame(k));

@@ -198,7 +198,7 @@ TEST(Outputs, AnOverlayHasStraightOpacityAndNoWords) {
   const TemporaryFolder folder;
   const ProgramResult result =
       render({"--preset", "overlay", "-o", folder.file("a.mov"), "-o", folder.file("a.webm"), "-o",
-              folder.file("a_000000.png"), "-o", folder.file("a.svg"), "-o", folder.file("a.apng")});
+              folder.file("a_000000.png"), "-o", folder.file("a.svg"), "-o", folder.file("a.apng"), "--set", "draw=[-torque]"});
   ASSERT_EQ(result.status, 0) << result.err;
   const Image png = read_png(folder.file("a_000000.png"));
   EXPECT_EQ(png.at(2, 2).a, 0);
@@ -219,6 +219,11 @@ TEST(Outputs, AnOverlayHasStraightOpacityAndNoWords) {
   }
   const std::string svg = read_whole_file(folder.file("a.svg"));
   EXPECT_THAT(svg, Not(HasSubstr("<text")));
+  // Neither have the arcs of its torques.
+  ASSERT_EQ(render({"--preset", "overlay", "-o", folder.file("arcs.svg")}).status, 0);
+  const std::string arcs = read_whole_file(folder.file("arcs.svg"));
+  EXPECT_THAT(arcs, Not(HasSubstr("<text")));
+  EXPECT_GT(arcs.size(), svg.size());
   // Laid on white it is the picture on a white page, to the rounding of colours times opacity.
   ASSERT_EQ(render({"-o", folder.file("w_000000.png"), "--set", "draw=[chain, trail]"}).status, 0);
   const Image white = read_png(folder.file("w_000000.png"));

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <stdexcept>
 
+#include "draw/layers/devices.hpp"
 #include "draw/layers/layer.hpp"
 #include "draw/layers/vectors.hpp"
 #include "dynamics/kinematics.hpp"
@@ -17,8 +17,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kMostLabels =
-    4;  // of weights: more of them would hide the chain, and the legend says what they are
+// More of them would hide the chain, and the legend says what they are.
+constexpr int kMostLabels = 4;         // of weights
+constexpr int kMostTorqueLabels = 6;
+constexpr double kArcOfLink = 0.42;    // an arc's radius at most, of the shortest link
+constexpr double kSmallestArc = 0.55;  // of the size that arcs have elsewhere
+constexpr double kLabelledArc = 0.7;   // between smaller ones there is no room for words
 
 // The vectors of a motion at sample k, after compute_kinematics there.
 using VectorsAt = std::function<std::vector<WorldVector>(const StagedRun& motion, const Workspace& ws, int k)>;
@@ -67,15 +71,20 @@ class VectorLayer : public Layer {
 
   void draw(Picture& picture, const Shot& shot) const override {
     const Panel& panel = shot.panel;
-    for (const WorldVector& vector : vectors_at_(panel.motion(), shot.ws, shot.k))
+    // Arcs of neighbouring joints stay apart.
+    const double link = panel.motion().skeleton().shortest_link * panel.camera().scale;
+    const double arcs = link > 0 ? std::clamp(kArcOfLink * link / (panel.marks() * size::kTorqueArc), kSmallestArc, 1.0) : 1;
+    for (WorldVector& vector : vectors_at_(panel.motion(), shot.ws, shot.k)) {
+      vector.size = arcs;
+      if (vector.kind == VectorKind::torque && arcs < kLabelledArc) vector.label.clear();
       pen_.draw(picture, vector, panel.camera(), panel.marks(), panel.clip(), shot.labels);
+    }
   }
 
  private:
   // Runs that diverge do not decide on it, unless all do: their arrows are cut.
   static VectorScales scales_of(const Stage& stage, const VectorsAt& vectors_at) {
-    VectorScales scales;
-    scales.shrink = 1 / std::sqrt(double(stage.full_panels()));
+    VectorMagnitudes magnitudes;
     for (std::size_t i = 0; i < stage.full_panels(); ++i) {
       const StagedRun& motion = stage.motions[i];
       const Chain& chain = motion.chain();
@@ -84,10 +93,10 @@ class VectorLayer : public Layer {
         const Workspace& ws = motion.pose_at(k);
         // Where a run goes wild its forces say nothing.
         if (chain.end_effector >= 0 && !(tip_position(chain, ws).norm() <= motion.limit())) break;
-        for (const WorldVector& vector : vectors_at(motion, ws, k)) scales.peaks.add(vector);
+        for (const WorldVector& vector : vectors_at(motion, ws, k)) magnitudes.add(vector);
       }
     }
-    return scales;
+    return {magnitudes.full(), 1 / std::sqrt(double(stage.full_panels()))};
   }
 
   const Stage* stage_;
@@ -113,29 +122,69 @@ std::vector<WorldVector> weights_at(const Chain& chain, const Workspace& ws) {
   return vectors;
 }
 
-// `tau`: nv numbers.
-std::vector<WorldVector> torques_at(const Chain& chain, const Workspace& ws, const double* tau) {
+// The torques of a run at its samples, and which of them are to be seen.
+class TorqueRun {
+ public:
+  TorqueRun(const Stage& stage, const StagedRun& motion)
+      : nv_(std::size_t(motion.chain().nv)),
+        tau_(torques_along(*motion.simulation(), motion.trajectory())),
+        shown_(nv_),
+        rings_(nv_) {
+    const std::vector<double>& t = motion.trajectory().t;
+    std::vector<double> most(nv_);
+    for (std::size_t at = 0; at < tau_.size(); ++at)
+      if (std::isfinite(tau_[at])) most[at % nv_] = std::max(most[at % nv_], std::abs(tau_[at]));
+    for (std::size_t i = 0; i < nv_; ++i) shown_[i] = most[i] > 0;
+    for (const Device& device : devices_of(stage, motion))
+      if (device.is_all_of_it()) shown_[std::size_t(device.drive.freedom)] = false;
+    // Pictures to be laid over others have no words but those that were asked for.
+    labelled_ = !is_transparent(stage.page) && std::count(shown_.begin(), shown_.end(), true) <= kMostTorqueLabels;
+    const double largest = nv_ == 0 ? 0 : *std::max_element(most.begin(), most.end());
+    for (std::size_t i = 0; i < nv_; ++i) {
+      std::vector<bool> rests(t.size());
+      for (std::size_t k = 0; k < t.size(); ++k) rests[k] = !(std::abs(tau_[k * nv_ + i]) >= kRestBelow * largest);
+      rings_[i] = rings_along(t, rests);
+    }
+  }
+
+  const double* at(int k) const { return tau_.data() + std::size_t(k) * nv_; }
+  // Whether anything ever acts at the freedom, and no spring stands for it.
+  bool shows(int freedom) const { return shown_[std::size_t(freedom)]; }
+  double ring(int freedom, int k) const { return rings_[std::size_t(freedom)][std::size_t(k)]; }
+  bool is_labelled() const { return labelled_; }
+
+ private:
+  std::size_t nv_;
+  std::vector<double> tau_;                 // nv a sample
+  std::vector<bool> shown_;                 // a freedom
+  std::vector<std::vector<double>> rings_;  // a freedom, a sample
+  bool labelled_ = true;
+};
+
+std::vector<WorldVector> torques_at(const Chain& chain, const Workspace& ws, const TorqueRun& run, int k) {
   std::vector<WorldVector> vectors;
+  const double* tau = run.at(k);
   for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
     const Joint& joint = chain.bodies[b].joint;
     const Eigen::Isometry3d X_WB = pose_of(ws, int(b));
     const Vector3d place = X_WB.translation();
     const double* own = tau + joint.v_index;
-    const std::string label = "tau_{" + std::to_string(joint.v_index + 1) + "}";
+    const std::string label = run.is_labelled() ? "tau_{" + std::to_string(joint.v_index + 1) + "}" : "";
     if (joint.kind == JointKind::floating) {
       // Nothing drives a floating base, unless the scene says so: then a force and a moment in axes of the
       // body.
       const Vector3d f = X_WB.linear() * Vector3d(own[0], own[1], own[2]);
       const Vector3d m = X_WB.linear() * Vector3d(own[3], own[4], own[5]);
-      if (f.norm() > 0) vectors.push_back({VectorKind::joint_force, place, f, {}, {}, "f"});
-      if (m.norm() > 0) vectors.push_back({VectorKind::torque, place, m, m.normalized(), {}, "m"});
+      if (f.norm() > 0) vectors.push_back({VectorKind::joint_force, place, f, Vector3d::Zero(), Vector3d::Zero(), "f"});
+      if (m.norm() > 0) vectors.push_back({VectorKind::torque, place, m, m.normalized(), Vector3d::Zero(), "m"});
       continue;
     }
     // A joint that follows another one has no drive of its own.
-    if (joint.ratio != 1 || joint.offset != 0) continue;
+    if (joint.ratio != 1 || joint.offset != 0 || !run.shows(joint.v_index)) continue;
     const Vector3d axis = X_WB.linear() * joint.axis;
     if (joint.kind == JointKind::revolute)
-      vectors.push_back({VectorKind::torque, place, *own * axis, axis, Vector3d::Zero(), label});
+      vectors.push_back({VectorKind::torque, place, *own * axis, axis, Vector3d::Zero(), label,
+                         run.ring(joint.v_index, k)});
     else
       vectors.push_back({VectorKind::joint_force, place, *own * axis, Vector3d::Zero(), axis, label});
   }
@@ -178,10 +227,9 @@ template <class Value, class Compute>
 std::map<const StagedRun*, Value> along_runs(const Stage& stage, Compute compute) {
   std::map<const StagedRun*, Value> values;
   for (const StagedRun& motion : stage.motions) {
-    if (motion.is_outlined()) continue;
-    if (motion.simulation() == nullptr)
-      throw std::logic_error("torques are drawn of a run whose simulation is known");
-    values.emplace(&motion, compute(*motion.simulation(), motion.trajectory()));
+    // Of a motion that no simulation is known of nobody knows what acts.
+    if (motion.is_outlined() || motion.simulation() == nullptr) continue;
+    values.emplace(&motion, compute(motion));
   }
   return values;
 }
@@ -197,8 +245,10 @@ std::unique_ptr<const Layer> make_layer_gravity(const Stage& stage) {
 std::unique_ptr<const Layer> make_layer_torque(const Stage& stage) {
   return std::make_unique<VectorLayer>(
       stage,
-      [tau = along_runs<std::vector<double>>(stage, torques_along)](const StagedRun& motion, const Workspace& ws, int k) {
-        return torques_at(motion.chain(), ws, tau.at(&motion).data() + std::size_t(k) * std::size_t(motion.chain().nv));
+      [runs = along_runs<TorqueRun>(stage, [&](const StagedRun& motion) { return TorqueRun(stage, motion); })](
+          const StagedRun& motion, const Workspace& ws, int k) {
+        const auto run = runs.find(&motion);
+        return run == runs.end() ? std::vector<WorldVector>() : torques_at(motion.chain(), ws, run->second, k);
       },
       kinds_of_torque);
 }
@@ -212,11 +262,13 @@ std::unique_ptr<const Layer> make_layer_velocity(const Stage& stage) {
 std::unique_ptr<const Layer> make_layer_constraint_force(const Stage& stage) {
   return std::make_unique<VectorLayer>(
       stage,
-      [forces = along_runs<std::vector<std::vector<Reaction>>>(stage, reactions_along)](
+      [forces = along_runs<std::vector<std::vector<Reaction>>>(
+           stage, [](const StagedRun& motion) { return reactions_along(*motion.simulation(), motion.trajectory()); })](
           const StagedRun& motion, const Workspace& ws, int k) {
-        const std::vector<std::vector<Reaction>>& own = forces.at(&motion);
-        return own.empty() ? std::vector<WorldVector>{}
-                           : reactions_at(motion.chain(), ws, own[std::size_t(k)]);
+        const auto own = forces.find(&motion);
+        return own == forces.end() || own->second.empty()
+                   ? std::vector<WorldVector>()
+                   : reactions_at(motion.chain(), ws, own->second[std::size_t(k)]);
       },
       always(VectorKind::constraint));
 }

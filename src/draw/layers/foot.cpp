@@ -109,7 +109,7 @@ class FootLayer : public Layer {
     const Point force = (kWeightArrow / camera.scale) * camera.project_vector(push.force, camera.focus);
     const bool stands = push.place >= run.foot.heel && push.place <= run.foot.toe;
     draw_arrow(picture, camera.project(run.on_ground(push.place)), force,
-               {panel.look().theme->constraint, panel.look().marks, !stands, false}, panel.clip());
+               {panel.look().theme->constraint, panel.look().marks, !stands}, panel.clip());
   }
 
  private:

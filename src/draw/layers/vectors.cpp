@@ -17,6 +17,12 @@ using Eigen::Vector3d;
 
 constexpr double kVectorLabelGap = 0.010;  // between an arrow's tip or an arc and its label, units of H
 constexpr double kFarLabelGap = 0.035;      // ... where there is no room nearer
+constexpr double kShareBelowFull = 0.95;  // of a clip's magnitudes
+constexpr double kRestBeforeRing = 0.3, kRingFade = 0.15;  // s
+constexpr double kRingRadius = 0.026;     // units of H: close about a joint's disc
+constexpr double kWholeRadius = 60;       // degrees: an arc that turns by less has a smaller radius, down to a dot
+constexpr double kTorqueDot = 0.0062;     // radius, units of H
+constexpr double kBreakOpens = 0.1;       // a break is open where this much of the length is cut
 constexpr double kRoomStep = 0.01;   // units of H: rooms are rounded up to multiples, to have few kinds
 
 Point on_page(const Vector3d& direction, const Camera& camera) {
@@ -32,6 +38,11 @@ Circle circle_about(const Vector3d& axis, const Camera& camera) {
   if (top.norm() < 1e-6) top = -camera.toward_viewer;
   top.normalize();
   return {top, axis.cross(top)};
+}
+
+// How far the break in what would be `wished` long and is cut at `most` is open.
+double broken(double wished, double most) {
+  return std::clamp((wished - most * (1 + 1e-12)) / (kBreakOpens * most), 0.0, 1.0);
 }
 
 Rect label_box(const TextLine& label, Point near, Point direction) {
@@ -61,19 +72,44 @@ std::string word_name(const WorldVector& vector) {
 
 }  // namespace
 
-void VectorPeaks::add(const WorldVector& vector) {
+void VectorMagnitudes::add(const WorldVector& vector) {
   const double magnitude = vector.value.norm();
-  double& most = largest[std::size_t(vector.kind)];
-  if (std::isfinite(magnitude)) most = std::max(most, magnitude);
+  if (std::isfinite(magnitude) && magnitude > 0) magnitudes_[std::size_t(vector.kind)].push_back(magnitude);
 }
 
-void VectorPeaks::add(const VectorPeaks& other) {
-  for (std::size_t i = 0; i < largest.size(); ++i) largest[i] = std::max(largest[i], other.largest[i]);
+std::array<double, kVectorKinds.size()> VectorMagnitudes::full() const {
+  std::array<double, kVectorKinds.size()> full{};
+  for (std::size_t kind = 0; kind < full.size(); ++kind) {
+    std::vector<double> all = magnitudes_[kind];
+    if (all.empty()) continue;
+    const double least = kRestBelow * *std::max_element(all.begin(), all.end());
+    std::erase_if(all, [least](double one) { return one < least; });
+    const auto at = all.begin() + std::ptrdiff_t(std::ceil(kShareBelowFull * double(all.size()))) - 1;
+    std::nth_element(all.begin(), at, all.end());
+    full[kind] = *at;
+  }
+  return full;
+}
+
+std::vector<double> rings_along(const std::vector<double>& t, const std::vector<bool>& rests) {
+  std::vector<double> rings(t.size());
+  for (std::size_t begin = 0; begin < t.size(); ++begin) {
+    if (!rests[begin] || (begin > 0 && rests[begin - 1])) continue;
+    std::size_t end = begin;
+    while (end + 1 < t.size() && rests[end + 1]) ++end;
+    if (t[end] - t[begin] < 2 * kRestBeforeRing) continue;
+    // At the end of the clip it stays.
+    const double gone = end + 1 == t.size() ? t[end] + kRingFade : t[end];
+    for (std::size_t k = begin; k <= end; ++k)
+      rings[k] = std::clamp(std::min(t[k] - t[begin] - kRestBeforeRing, gone - t[k]) / kRingFade, 0.0, 1.0);
+  }
+  return rings;
 }
 
 VectorScale VectorScales::of(VectorKind kind) const {
-  if (kind == VectorKind::torque) return {peaks.of(kind), kWidestTurn * std::numbers::pi / 180};
-  return {peaks.of(kind), shrink * size::kLongestArrow};
+  const double value = full[std::size_t(kind)];
+  if (kind == VectorKind::torque) return {value, kTurnOfFull * std::numbers::pi / 180};
+  return {value, shrink * size::kLongestArrow};
 }
 
 Color color_of(VectorKind kind, const Theme& theme) {
@@ -118,14 +154,10 @@ std::vector<ScaleEntry> scale_entries(const VectorScales& scales, const std::vec
     const auto mark = kind == VectorKind::torque       ? ScaleEntry::Mark::turn
                       : kind == VectorKind::constraint ? ScaleEntry::Mark::dashed_arrow
                                                        : ScaleEntry::Mark::arrow;
-    if (scale.largest > 0) {
-      const double value = round_length(scale.largest);
-      entries.push_back({mark, scale.on_page(value), color_of(kind, theme),
-                         name + format_shortest(value) + "\u2009" + unit_of(kind)});
-    } else if (kind == VectorKind::torque) {
-      // Rings are drawn where nothing acts; arrows are not.
-      entries.push_back({mark, 0, color_of(kind, theme), name + "0"});
-    }
+    if (!(scale.full > 0)) continue;
+    const double value = round_length(scale.full);
+    entries.push_back({mark, scale.on_page(value), color_of(kind, theme),
+                       name + format_shortest(value) + "\u2009" + unit_of(kind)});
   }
   return entries;
 }
@@ -147,8 +179,9 @@ VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera&
   const double magnitude = vector.value.norm();
   double length = scale.on_page(magnitude);
   Straight arrow;
-  arrow.cut = length > scales_.shrink * size::kArrowCut * (1 + 1e-12);
-  if (arrow.cut) length = scales_.shrink * size::kArrowCut;
+  const double most = scales_.shrink * size::kArrowCut;
+  arrow.broken = broken(length, most);
+  length = std::min(length, most);
   if (!(magnitude > 0) || !std::isfinite(magnitude)) return arrow;
   const Camera seen = camera.seen_at(vector.place);
   arrow.v = (length / magnitude) * on_page(vector.value, seen);
@@ -163,10 +196,10 @@ VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera&
 }
 
 Rect VectorPen::extent(const WorldVector& vector, const Camera& camera, double marks) const {
-  const TextLine& text = label(vector, marks);
   if (vector.kind == VectorKind::torque) {
     const double r = marks * (size::kTorqueArc + size::kArrowHeadWidth / 2);
-    return around({-r, -r, r, r}, label_box(text, {0, r}, {0, 1}));
+    const Rect round{-r, -r, r, r};
+    return vector.label.empty() ? round : around(round, label_box(label(vector, marks), {0, r}, {0, 1}));
   }
   const Straight arrow = straight(vector, camera, marks);
   if (norm(arrow.v) < size::kShortestArrow) return {};
@@ -175,7 +208,7 @@ Rect VectorPen::extent(const WorldVector& vector, const Camera& camera, double m
   const Rect shaft{std::min(tail.x, tip.x) - half, std::min(tail.y, tip.y) - half,
                    std::max(tail.x, tip.x) + half, std::max(tail.y, tip.y) + half};
   if (vector.label.empty()) return shaft;
-  return around(shaft, label_box(text, tip, unit(arrow.v)));
+  return around(shaft, label_box(label(vector, marks), tip, unit(arrow.v)));
 }
 
 void VectorPen::add_to(FitBox& box, const WorldVector& vector, const Camera& camera, double marks) const {
@@ -194,20 +227,25 @@ void VectorPen::add_to(FitBox& box, const WorldVector& vector, const Camera& cam
 void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const Camera& camera, double marks,
                             int clip, MarkLabels& labels) const {
   const Point center = camera.project(vector.place);
-  const double radius = marks * size::kTorqueArc;
+  const double radius = vector.size * marks * size::kTorqueArc;
   const Camera seen = camera.seen_at(vector.place);
   const Circle circle = circle_about(vector.axis, seen);
   const Point u = radius * on_page(circle.top, seen), w = radius * on_page(circle.quarter, seen);
   const VectorScale scale = scales_.of(vector.kind);
   const double value = vector.value.dot(vector.axis);
-  ArrowStyle style{color_of(vector.kind, *theme_), marks, false, false};
-  if (!(std::abs(value) >= kRingBelow * scale.largest) || scale.largest == 0) {
-    draw_ring(picture, center, u, w, style.color, clip);
-  } else {
-    style.cut = std::abs(value) > scale.largest * (1 + 1e-12);
-    const double turn = style.cut ? scale.page_of_largest : scale.on_page(std::abs(value));
-    draw_turn(picture, center, u, w, value > 0 ? turn : -turn, style, clip);
+  ArrowStyle style{color_of(vector.kind, *theme_), marks * std::sqrt(vector.size)};
+  const double widest = kWidestTurn * std::numbers::pi / 180, whole = kWholeRadius * std::numbers::pi / 180;
+  const double wished = scale.on_page(std::abs(value)), turn = std::min(wished, widest);
+  style.broken = broken(wished, widest);
+  const double grown = std::min(1.0, turn / whole);
+  draw_turn(picture, center, grown * u, grown * w, value > 0 ? turn : -turn, style, clip);
+  if (vector.ring > 0) {
+    const double ring = kRingRadius / (size::kTorqueArc * std::sqrt(vector.size));
+    draw_ring(picture, center, ring * u, ring * w, style.color.faded(vector.ring), clip);
   }
+  const double dot = style.size * kTorqueDot;
+  picture.add(Ellipse{center, {dot, 0}, {0, dot}, {style.color, {}, 0}}, clip);
+  if (vector.label.empty()) return;
   const TextLine& text = label(vector, marks);
   const double off = radius + marks * size::kArrowHeadWidth / 2 + kVectorLabelGap;
   std::vector<Rect> places = places_about(text, center, off, {0, 1});
@@ -224,7 +262,7 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   if (norm(arrow.v) < size::kShortestArrow) return;
   const Point tail = place + arrow.shift;
   draw_arrow(picture, tail, arrow.v,
-             {color_of(vector.kind, *theme_), marks, vector.kind == VectorKind::constraint, arrow.cut},
+             {color_of(vector.kind, *theme_), marks, vector.kind == VectorKind::constraint, arrow.broken},
              clip);
   if (vector.label.empty()) return;
   const TextLine& text = label(vector, marks);

@@ -1,5 +1,6 @@
-// Vectors over a chain: torques as arcs, forces and velocities as arrows. Each kind has one scale a clip,
-// fixed from the largest magnitude that the clip has: that one measures 0.20 H, or turns by 300 degrees.
+// Vectors over a chain: torques as arcs, forces and velocities as arrows. Each kind has one scale a clip, which no single
+// peak decides on: the magnitude below which 95 % of those lie that the clip has measures 0.20 H, or turns by 240 degrees.
+// Larger ones grow with it up to 1.25 times that; beyond, a break in the shaft says that they are cut.
 #pragma once
 
 #include <array>
@@ -30,33 +31,41 @@ struct WorldVector {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();   // of a torque, unit, so that one of zero has a ring
   Eigen::Vector3d rail = Eigen::Vector3d::Zero();   // of a joint force, unit: it is drawn beside its rail
   std::string label{};                              // a symbol in math notation
-};
-
-// The largest magnitudes of a clip, by kind; 0: none.
-struct VectorPeaks {
-  std::array<double, kVectorKinds.size()> largest{};
-
-  void add(const WorldVector& vector);
-  void add(const VectorPeaks& other);
-  double of(VectorKind kind) const { return largest[std::size_t(kind)]; }
+  double ring = 0;  // of a torque: opacity of the ring which says that it rests
+  double size = 1;  // of a torque's arc: less where links are short on the page
 };
 
 // What an arrow on the page is worth.
 struct VectorScale {
-  double largest = 0;          // N, N m, m/s; 0: nothing of this kind is to be drawn
-  double page_of_largest = 0;  // its length, units of H; for torques the angle, rad
+  double full = 0;          // N, N m, m/s; 0: nothing of this kind is to be drawn
+  double page_of_full = 0;  // its length, units of H; for torques the angle, rad
 
-  double on_page(double magnitude) const { return largest > 0 ? magnitude / largest * page_of_largest : 0; }
+  double on_page(double magnitude) const { return full > 0 ? magnitude / full * page_of_full : 0; }
 };
 struct VectorScales {
-  VectorPeaks peaks;
+  std::array<double, kVectorKinds.size()> full{};  // by kind; 0: there is none
   double shrink = 1;  // of all lengths; below 1 where panels share a page
 
   VectorScale of(VectorKind kind) const;
 };
-inline constexpr double kWidestTurn = 300;  // degrees
-// Below this fraction of the largest one a torque is a ring.
-inline constexpr double kRingBelow = 0.01;
+inline constexpr double kTurnOfFull = 240, kWidestTurn = 300;  // degrees
+// Below this fraction of the full one a torque rests.
+inline constexpr double kRestBelow = 0.01;
+
+// The magnitudes of a clip, of which its scales are made.
+class VectorMagnitudes {
+ public:
+  void add(const WorldVector& vector);
+  // Of each kind the 95th percentile of those that are not next to nothing: above 1 % of the largest.
+  std::array<double, kVectorKinds.size()> full() const;
+
+ private:
+  std::array<std::vector<double>, kVectorKinds.size()> magnitudes_;
+};
+
+// How strongly the ring of a torque that rests is seen at each of the instants `t` (s, rising), 0 to 1: from 0.3 s of rest
+// on, where it rests for 0.6 s at least, so that no ring is a flash; it comes and goes in 0.15 s.
+std::vector<double> rings_along(const std::vector<double>& t, const std::vector<bool>& rests);
 
 Color color_of(VectorKind kind, const Theme& theme);
 // "torque", "N m": what the legend says.
@@ -85,7 +94,7 @@ class VectorPen {
  private:
   struct Straight {
     Point shift, v;  // of the tail from the place; units of H
-    bool cut = false;
+    double broken = 0;
   };
   Straight straight(const WorldVector& vector, const Camera& camera, double marks) const;
   const TextLine& label(const WorldVector& vector, double marks) const;

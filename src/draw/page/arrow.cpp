@@ -10,7 +10,9 @@ namespace chainreel {
 namespace {
 
 constexpr double kHeadOfShort = 0.7;   // of an arrow that is not much longer than its head
-constexpr double kSecondHead = 0.75;   // of a head's length behind the first one
+constexpr double kBreakAt = 0.45;      // of the way from the tail to the tip
+constexpr double kBreakGap = 0.011, kBreakStroke = 0.022;  // of an open break and its two strokes, units of H
+constexpr double kBreakSlant = 0.35;   // of a stroke's length, that it leans along the shaft
 constexpr double kPieceOfTurn = 0.06;  // rad, of the straight pieces of a turn in space: 0.5 % off the circle
 constexpr double kSpeck = 1e-6;        // units of H: no direction can be seen
 constexpr double kSameShape = 1e-9;    // relative, to tell a circle from an ellipse
@@ -18,6 +20,16 @@ constexpr double kSameShape = 1e-9;    // relative, to tell a circle from an ell
 void draw_head(Picture& picture, Point tip, Point base, double half_width, Color color, int clip) {
   const Point side = half_width * normal_to(unit(tip - base));
   picture.add(Polygon{{tip, base + side, base - side}, 3, {color, {}, 0}}, clip);
+}
+
+// The strokes on both sides of a break about `middle`, across the shaft that runs along the unit vector `along`.
+void draw_break(Picture& picture, Point middle, Point along, const ArrowStyle& style, int clip) {
+  const double gap = style.broken * style.size * kBreakGap, length = style.broken * style.size * kBreakStroke;
+  const Point stroke = (length / 2) * (normal_to(along) + kBreakSlant * along);
+  for (const double side : {-0.5, 0.5}) {
+    const Point at = middle + (side * gap) * along;
+    draw_line(picture, {at - stroke, at + stroke}, 0.6 * style.size * size::kArrowShaft, style.color, clip);
+  }
 }
 
 // Round ends count as part of a dash.
@@ -69,14 +81,21 @@ void draw_arrow(Picture& picture, Point tail, Point v, const ArrowStyle& style, 
   // The shaft ends inside of the head, so that no seam shows; round ends begin behind the tail.
   const Point end = base + 0.2 * head * along;
   const double width = std::min(style.size, grow) * size::kArrowShaft;
-  if (style.dashed) {
-    draw_dashes(picture, tail, end, style, clip);
+  const auto draw_shaft = [&](Point from, Point to) {
+    if (style.dashed)
+      draw_dashes(picture, from, to, style, clip);
+    else
+      draw_line(picture, {from, to}, width, style.color, clip);
+  };
+  if (style.broken > 0) {
+    const Point middle = tail + kBreakAt * v, half = (style.broken * style.size * kBreakGap / 2) * along;
+    draw_shaft(tail, middle - half);
+    draw_shaft(middle + half, end);
+    draw_break(picture, middle, along, style, clip);
   } else {
-    draw_line(picture, {tail, end}, width, style.color, clip);
+    draw_shaft(tail, end);
   }
   draw_head(picture, tip, base, half_width, style.color, clip);
-  const Point back = -kSecondHead * head * along;
-  if (style.cut) draw_head(picture, tip + back, base + back, half_width, style.color, clip);
 }
 
 void draw_turn(Picture& picture, Point center, Point u, Point w, double turn, const ArrowStyle& style,
@@ -86,17 +105,21 @@ void draw_turn(Picture& picture, Point center, Point u, Point w, double turn, co
   const double sign = turn > 0 ? 1 : -1;
   // The angle that a head takes.
   const double head = std::min(style.size * size::kArrowHead / radius, kHeadOfShort * std::abs(turn));
-  const double grow = head * radius / size::kArrowHead;
-  const auto head_at = [&](double angle) {
-    const Point tip = on_curve(center, u, w, angle), base = on_curve(center, u, w, angle - sign * head);
-    if (norm(tip - base) > kSpeck)
-      draw_head(picture, tip, base, grow * size::kArrowHeadWidth / 2, style.color, clip);
-  };
-  const double end = turn / 2;
-  draw_curve(picture, center, u, w, -turn / 2, end - 0.8 * sign * head,
-             std::min(style.size, grow) * size::kArrowShaft, style.color, clip);
-  head_at(end);
-  if (style.cut) head_at(end - kSecondHead * sign * head);
+  const double grow = head * radius / size::kArrowHead, width = std::min(style.size, grow) * size::kArrowShaft;
+  const double begin = -turn / 2, tip_at = turn / 2, end = tip_at - 0.8 * sign * head;
+  if (style.broken > 0) {
+    const double middle = begin + kBreakAt * turn, half = sign * style.broken * style.size * kBreakGap / 2 / radius;
+    draw_curve(picture, center, u, w, begin, middle - half, width, style.color, clip);
+    draw_curve(picture, center, u, w, middle + half, end, width, style.color, clip);
+    const Point along = (-std::sin(middle)) * u + std::cos(middle) * w;
+    if (norm(along) > kSpeck)
+      draw_break(picture, on_curve(center, u, w, middle), sign * unit(along), style, clip);
+  } else {
+    draw_curve(picture, center, u, w, begin, end, width, style.color, clip);
+  }
+  const Point tip = on_curve(center, u, w, tip_at), base = on_curve(center, u, w, tip_at - sign * head);
+  if (norm(tip - base) > kSpeck)
+    draw_head(picture, tip, base, grow * size::kArrowHeadWidth / 2, style.color, clip);
 }
 
 void draw_ring(Picture& picture, Point center, Point u, Point w, Color color, int clip) {

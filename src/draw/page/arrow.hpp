@@ -9,7 +9,7 @@ struct ArrowStyle {
   Color color;
   double size = 1;  // of shaft, head and dashes; below 1 in small panels
   bool dashed = false;
-  bool cut = false;  // longer than what the scale can show: a second head says so
+  double broken = 0;  // 0 to 1: how far a break in the shaft is open, which says that it is longer than it is drawn
 };
 
 // From `tail` to tail + v. The head of a short arrow shrinks with it.

@@ -43,10 +43,7 @@ void draw_entry(Picture& picture, const EntryLine& line, Point left, const Theme
   const double r = turn_radius(em);
   switch (line.entry.mark) {
     case ScaleEntry::Mark::turn:
-      if (line.entry.measure > 0)
-        draw_turn(picture, middle, {0, r}, {-r, 0}, line.entry.measure, {line.entry.color, 0.6}, -1);
-      else
-        draw_ring(picture, middle, {0, r}, {-r, 0}, line.entry.color, -1);
+      draw_turn(picture, middle, {0, r}, {-r, 0}, line.entry.measure, {line.entry.color, 0.6}, -1);
       break;
     case ScaleEntry::Mark::center_of_mass: {
       ChainLook look;

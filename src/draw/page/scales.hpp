@@ -15,7 +15,7 @@ struct Sheet;
 struct ScaleEntry {
   enum class Mark { arrow, dashed_arrow, turn, center_of_mass };
   Mark mark = Mark::arrow;
-  double measure = 0;  // units of H; of a turn rad, 0: the ring of a torque that is zero
+  double measure = 0;  // units of H; of a turn rad
   Color color;
   std::string text;  // "weight 10 N"
   int order = 0;     // entries stand by it, from left to right

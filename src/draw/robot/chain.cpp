@@ -56,11 +56,9 @@ PageLine with_direction(PageLine way, Point direction) {
 
 void draw_rail_of(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, const Rail& rail,
                   int clip) {
-  const PageLine way =
-      with_direction(rail_on_page(drawing, ws, rail), rail_direction(drawing, ws, rail.body));
-  if (!is_drawable(way.a) || !is_drawable(way.b)) return;
+  const PageLine line = rail_line(drawing, ws, rail);
+  if (!is_drawable(line.a) || !is_drawable(line.b)) return;
   const int parent = drawing.chain.bodies[std::size_t(rail.body)].parent;
-  const PageLine line = with_overhang(way, rail.carrier, drawing.look);
   if (parent == 0) draw_rail_ground(picture, line, drawing.look, clip);
   const Color fill = parent == 0 ? tinted(drawing.look.theme->base, 0.25, drawing.look)
                                  : tinted(link_color(drawing, parent), 0.4, drawing.look);
@@ -123,6 +121,11 @@ void draw_bodies(Picture& picture, const ChainDrawing& drawing, const Workspace&
 }
 
 }  // namespace
+
+PageLine rail_line(const ChainDrawing& drawing, const Workspace& ws, const Rail& rail) {
+  const PageLine way = with_direction(rail_on_page(drawing, ws, rail), rail_direction(drawing, ws, rail.body));
+  return with_overhang(way, rail.carrier, drawing.look);
+}
 
 void draw_shadow(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip) {
   if (!drawing.shapes) return;

@@ -27,6 +27,9 @@ void draw_rails(Picture& picture, const ChainDrawing& drawing, const Workspace& 
 // lie above what is drawn later.
 void draw_links(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip);
 
+// A rail from end to end, as it is drawn, from the joint's smaller values to its larger ones.
+PageLine rail_line(const ChainDrawing& drawing, const Workspace& ws, const Rail& rail);
+
 // What the body shapes throw on the plane through the world's origin under a light right above; nothing without them.
 void draw_shadow(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip);
 

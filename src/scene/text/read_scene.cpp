@@ -43,6 +43,7 @@ Scene read_document(const YamlDocument& document) {
   Scene scene;
   scene.file = document.file;
   scene.name = std::filesystem::path(document.file).stem().string();
+  if (document.is_panel) scene.draw = default_layers_of_panels();
   ProblemList problems;
   Fields fields(document, document.root, "", problems);
   read_keys(fields, scene);

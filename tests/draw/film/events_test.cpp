@@ -48,6 +48,7 @@ TEST_F(FallingHuman, IsNotedFromTheInstantOn) {
 
 TEST_F(FallingHuman, IsNotNotedOnNothing) {
   EXPECT_THAT(test::words_of(film(&simulation_).frame(119)), HasSubstr("hip at knee height"));
+  std::erase(scene_.draw, "torque");
   scene_.layout = PageLayout::transparent;
   const Film film = this->film(&simulation_);
   EXPECT_EQ(test::words_of(film.static_layer()) + test::words_of(film.frame(119)), "");
@@ -57,6 +58,7 @@ TEST_F(FallingHuman, IsNotNotedOnNothing) {
 }
 
 TEST_F(FallingHuman, HasAnArrowWhereTheGroundPushes) {
+  std::erase(scene_.draw, "torque");
   const auto shapes = [&](const Simulation* simulation, int k) {
     return film(simulation).frame(k).items.size();
   };

@@ -92,6 +92,7 @@ class LayerFilm : public ::testing::Test {
   LayerFilm() {
     scene.title = "Layers";
     scene.file = "scenes/test.yaml";
+    scene.draw = {"chain", "trail", "time", "title", "torque_label", "ground"};
   }
 
   void make(const std::string& name, const std::vector<std::string>& torque,
@@ -127,21 +128,29 @@ Vector3d rr_velocity(double t) {
   return (tip(t + h) - tip(t - h)) / (2 * h);
 }
 
-TEST_F(LayerFilm, VelocityIsAsLongAsItsShareOfTheFastestAndBeginsAtTheTip) {
+// That below which 95 % of those lie that are not next to nothing.
+double nearly_the_largest(std::vector<double> magnitudes) {
+  std::sort(magnitudes.begin(), magnitudes.end());
+  std::erase_if(magnitudes, [most = magnitudes.back()](double one) { return one < 0.01 * most; });
+  return magnitudes[std::size_t(std::ceil(0.95 * double(magnitudes.size()))) - 1];
+}
+
+TEST_F(LayerFilm, VelocityIsAsLongAsItsShareOfWhatIsNearlyTheFastestAndBeginsAtTheTip) {
   make_rr();
   draw({"velocity"});
   const Film pictures = film();
-  double fastest = 0;
-  for (const double t : run.t) fastest = std::max(fastest, rr_velocity(t).norm());
+  std::vector<double> speeds;
+  for (const double t : run.t) speeds.push_back(rr_velocity(t).norm());
+  const double fastest = nearly_the_largest(speeds);
   double longest = 0;
   int seen = 0;
   for (int k = 0; k < run.size(); ++k) {
     const Vector3d v = rr_velocity(run.t[std::size_t(k)]);
     const auto drawn = arrows(pictures.frame(k), light.velocity);
-    if (0.20 * v.norm() / fastest < 0.012 - 1e-6) {
+    if (0.20 * v.norm() / fastest < 0.003 - 1e-6) {
       EXPECT_TRUE(drawn.empty()) << k;
     }
-    if (0.20 * v.norm() / fastest < 0.012 + 1e-6) continue;
+    if (0.20 * v.norm() / fastest < 0.003 + 1e-6) continue;
     ASSERT_EQ(drawn.size(), 1u) << k;
     const auto q = test::swing(run.t[std::size_t(k)]);
     const Point tip = pictures.camera().project(
@@ -153,7 +162,7 @@ TEST_F(LayerFilm, VelocityIsAsLongAsItsShareOfTheFastestAndBeginsAtTheTip) {
     ++seen;
   }
   EXPECT_GT(seen, 250);
-  EXPECT_NEAR(longest, 0.20, kRate);
+  EXPECT_NEAR(longest, 0.20 * *std::max_element(speeds.begin(), speeds.end()) / fastest, kRate);
   // Negative control: a frame on, it is another vector.
   EXPECT_GT(test::distance(arrows(pictures.frame(60), light.velocity).at(0).v(),
                            arrows(pictures.frame(61), light.velocity).at(0).v()),
@@ -178,19 +187,20 @@ TEST_F(LayerFilm, WeightsHangAtTheCentresOfMassAndGoWithTheMasses) {
   }
 }
 
-TEST_F(LayerFilm, TorquesTurnInTheirSenseByTheirShareOfThreeHundredDegrees) {
+TEST_F(LayerFilm, TorquesTurnInTheirSenseByTheirShareOfTwoHundredAndFortyDegrees) {
   make_rr();
   draw({"torque"});
   const Film pictures = film();
-  double largest = 3;
-  for (const double t : run.t) largest = std::max(largest, std::abs(10 * std::sin(2 * t)));
+  std::vector<double> all;
+  for (const double t : run.t) all.insert(all.end(), {3, std::abs(10 * std::sin(2 * t))});
+  const double largest = nearly_the_largest(all);
   for (int k = 1; k < run.size(); ++k) {
     const double t = run.t[std::size_t(k)], tau = 10 * std::sin(2 * t);
     if (std::abs(tau) < 0.02 * largest) continue;
     const Picture picture = pictures.frame(k);
     const auto drawn = turns(picture, light.torque);
     ASSERT_EQ(drawn.size(), 2u) << k;
-    const double full = 300 * std::numbers::pi / 180;
+    const double full = 240 * std::numbers::pi / 180;
     EXPECT_NEAR(drawn[0], full * tau / largest, kLayersRoundOff) << k;
     EXPECT_NEAR(drawn[1], full * -3 / largest, kLayersRoundOff) << k;
     const auto places = arcs(picture, light.torque);
@@ -199,20 +209,111 @@ TEST_F(LayerFilm, TorquesTurnInTheirSenseByTheirShareOfThreeHundredDegrees) {
     EXPECT_LT(
         test::distance(places[1].center, pictures.camera().project({std::cos(q[0]), std::sin(q[0]), 0})),
         kLayersRoundOff);
-    EXPECT_NEAR(places[0].radius, 0.058, kLayersRoundOff);
+    // A small one is small all over, so that it ends in a dot.
+    EXPECT_NEAR(places[0].radius, 0.058 * std::min(1.0, full * std::abs(tau) / largest / (std::numbers::pi / 3)), kLayersRoundOff);
+    EXPECT_NEAR(places[1].radius, 0.058, kLayersRoundOff);
   }
 }
 
-TEST_F(LayerFilm, ATorqueOfNextToNothingIsARing) {
-  make("rr", {"10*(t > 1)", "0.05"}, test::swing);
+// At which frames the clip has a ring, which says that a torque rests.
+std::vector<bool> frames_with_ring(const Film& pictures, Color color) {
+  std::vector<bool> found;
+  for (int k = 0; k < pictures.frame_count(); ++k) {
+    const auto rings = test::all_of<Arc>(pictures.frame(k), [color](const Arc& arc) {
+      return arc.color.faded(0) == color.faded(0) && std::abs(arc.sweep) > 6;
+    });
+    found.push_back(!rings.empty());
+  }
+  return found;
+}
+
+TEST_F(LayerFilm, ATorqueThatRestsIsADotAndHasARingFromThreeTenthsOfASecondOn) {
+  make("rr", {"10*(t > 1)", "0"}, test::swing);
   draw({"torque"});
   const Film pictures = film();
-  for (const int k : {0, 200}) {
-    const auto drawn = arcs(pictures.frame(k), light.torque);
-    ASSERT_EQ(drawn.size(), 2u);
-    EXPECT_EQ(heads(pictures.frame(k), light.torque).size(), k == 0 ? 0u : 1u);
-    EXPECT_NEAR(std::abs(drawn[1].sweep), 2 * std::numbers::pi, kLayersRoundOff);
+  const std::vector<bool> ring = frames_with_ring(pictures, light.torque);
+  for (int k = 0; k < run.size(); ++k) {
+    const double t = run.t[std::size_t(k)];
+    EXPECT_EQ(ring[std::size_t(k)], t > 0.3 && t < 1 - 0.5 / 60) << t;
+    EXPECT_EQ(heads(pictures.frame(k), light.torque).size(), t > 1 ? 1u : 0u);
+    // The second joint has no drive, and no mark.
+    const auto dots = test::all_of<Ellipse>(pictures.frame(k), [&](const Ellipse& e) { return e.paint.fill == light.torque; });
+    EXPECT_EQ(dots.size(), 1u);
   }
+}
+
+TEST_F(LayerFilm, AnArcThatPassesZeroHasNeitherARingNorAJump) {
+  make("rr", {"10*sin(3*t)", "10*(t > 2)"}, test::swing);
+  draw({"torque"});
+  const Film pictures = film();
+  double jump = 0, jump_of_step = 0;
+  std::optional<Point> tip_before;
+  for (int k = 0; k < run.size(); ++k) {
+    const Picture picture = pictures.frame(k);
+    const auto drawn = heads(picture, light.torque);
+    const Point joint = pictures.camera().project(Vector3d::Zero());
+    // The first joint's head is near it; where there is none the arc is a dot.
+    Point tip = joint;
+    for (const Polygon& head : drawn)
+      if (test::distance(head.corners[0], joint) < 0.0585) tip = head.corners[0];
+    if (tip_before) jump = std::max(jump, test::distance(tip, *tip_before));
+    tip_before = tip;
+  }
+  // By 9.2 degrees a frame at 60 frames a second, and by a fifth of the radius where that grows: 0.018 H at most.
+  EXPECT_LT(jump, 0.018);
+  EXPECT_GT(jump, 0.005) << "it moves";
+  // Negative control: a torque that jumps does.
+  const auto arc_at = [&](int k) { return arcs(pictures.frame(k), light.torque).size(); };
+  for (int k = 1; k < run.size(); ++k) jump_of_step += arc_at(k) > arc_at(k - 1) + 0.5;
+  EXPECT_GE(jump_of_step, 1);
+}
+
+TEST(Rings, NeverLastForLessThanThreeTenthsOfASecondAndAreNeverASurprise) {
+  std::uint32_t seed = 1;
+  const auto chance = [&seed] { return double((seed = seed * 1664525u + 1013904223u) >> 8) / (1 << 24); };
+  int seen = 0;
+  for (int round = 0; round < 300; ++round) {
+    std::vector<double> t;
+    std::vector<bool> rests;
+    const double stay = 0.80 + 0.199 * chance();
+    bool now = chance() < 0.5;
+    for (int k = 0; k < 400; ++k) {
+      t.push_back(k / 60.0);
+      if (chance() > stay) now = !now;
+      rests.push_back(now);
+    }
+    const std::vector<double> rings = rings_along(t, rests);
+    for (std::size_t k = 0; k < t.size(); ++k) {
+      EXPECT_TRUE(rings[k] == 0 || rests[k]);
+      if (k > 0) {
+        EXPECT_LE(std::abs(rings[k] - rings[k - 1]), 1 / 60.0 / 0.15 + 1e-9) << "it fades";
+      }
+      if (rings[k] == 0 || (k > 0 && rings[k - 1] > 0)) continue;
+      std::size_t end = k;
+      while (end + 1 < t.size() && rings[end + 1] > 0) ++end;
+      EXPECT_GE(t[end] - t[k], 0.3 - 3 / 60.0);
+      for (std::size_t before = k; before > 0 && t[k] - t[before] < 0.3 - 1e-9; --before) EXPECT_TRUE(rests[before]);
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 50);
+}
+
+TEST(VectorMagnitudes, MakeAScaleThatNoSinglePeakRuins) {
+  VectorMagnitudes magnitudes;
+  const auto add = [&magnitudes](double value) {
+    WorldVector vector;
+    vector.value = {0, value, 0};
+    magnitudes.add(vector);
+  };
+  for (int i = 1; i <= 99; ++i) add(1 + i * 1e-3);
+  EXPECT_DOUBLE_EQ(magnitudes.full()[std::size_t(VectorKind::velocity)], 1.095) << "the 95th of 99: ceil(94.05)";
+  add(50);
+  EXPECT_DOUBLE_EQ(magnitudes.full()[std::size_t(VectorKind::velocity)], 1.095) << "the 95th of 100";
+  for (int i = 0; i < 1000; ++i) add(1e-3);
+  EXPECT_DOUBLE_EQ(magnitudes.full()[std::size_t(VectorKind::velocity)], 1.095) << "what is next to nothing does not count";
+  add(std::nan(""));
+  EXPECT_EQ(magnitudes.full()[std::size_t(VectorKind::weight)], 0);
 }
 
 TEST_F(LayerFilm, ForcesOfSlidersRunBesideTheirRails) {
@@ -279,7 +380,7 @@ TEST_F(LayerFilm, ConstraintForceIsDashedAndActsOnTheRobot) {
 
 TEST(VectorPen, CutsWhatTheScaleCannotShowAndSaysSo) {
   VectorScales scales;
-  scales.peaks.largest[std::size_t(VectorKind::velocity)] = 2;
+  scales.full[std::size_t(VectorKind::velocity)] = 2;
   const VectorPen pen(light_theme(), fonts(), 1, scales);
   for (const double value : {1.0, 2.4, 2.6, 1e9}) {
     WorldVector v;
@@ -291,13 +392,20 @@ TEST(VectorPen, CutsWhatTheScaleCannotShowAndSaysSo) {
     const auto drawn = arrows(picture, light_theme().velocity);
     ASSERT_EQ(drawn.size(), 1u);
     EXPECT_NEAR(drawn[0].v().x, std::min(0.1 * value, 0.25), kLayersRoundOff);
-    EXPECT_EQ(heads(picture, light_theme().velocity).size(), value > 2.5 ? 2u : 1u);
+    EXPECT_EQ(heads(picture, light_theme().velocity).size(), 1u);
+    // The shaft, or its two parts and the strokes of the break between them.
+    const auto lines = test::all_of<Capsule>(picture);
+    ASSERT_EQ(lines.size(), value > 2.5 ? 4u : 1u);
+    if (value < 2.5) continue;
+    // From a break that has just begun to open to one that is open.
+    const double gap = lines[1].a.x - lines[0].b.x;
+    EXPECT_NEAR(gap, 0.011 * std::min(1.0, (value / 2.5 - 1) / 0.1), kLayersRoundOff);
   }
 }
 
 TEST(VectorPen, TurnsInSpaceLieOnTheCircleAsTheCameraSeesIt) {
   VectorScales scales;
-  scales.peaks.largest[std::size_t(VectorKind::torque)] = 1;
+  scales.full[std::size_t(VectorKind::torque)] = 1;
   const VectorPen pen(light_theme(), fonts(), 1, scales);
   Camera camera;  // along -z
   WorldVector v;
@@ -325,18 +433,23 @@ TEST_F(LayerFilm, ThePrintedScaleIsTheOneThatIsDrawn) {
   EXPECT_THAT(words, HasSubstr("torque"));
   EXPECT_THAT(words, HasSubstr("velocity"));
   EXPECT_THAT(words, HasSubstr("weight"));
-  double fastest = 0;
-  for (const double t : run.t) fastest = std::max(fastest, rr_velocity(t).norm());
+  std::vector<double> speeds;
+  for (int k = 0; k < run.size(); ++k) {
+    Workspace ws(simulation.chain);
+    compute_kinematics(simulation.chain, ws, run.q_at(k), run.qd_at(k));
+    speeds.push_back(frame_velocity(simulation.chain, ws, simulation.chain.end_effector).norm());
+  }
+  const double fastest = nearly_the_largest(speeds);
   VectorScales scales;
-  scales.peaks.largest[std::size_t(VectorKind::velocity)] = fastest;
-  scales.peaks.largest[std::size_t(VectorKind::weight)] = 9.81;
+  scales.full[std::size_t(VectorKind::velocity)] = fastest;
+  scales.full[std::size_t(VectorKind::weight)] = 9.81;
   for (const ScaleEntry& entry : scale_entries(scales, {VectorKind::velocity, VectorKind::weight}, false, light)) {
     EXPECT_THAT(words, HasSubstr(entry.text));
     const auto marks = arrows(page, entry.color, false);
     ASSERT_EQ(marks.size(), 1u);
     const double value = std::stod(entry.text);  // "5 m/s"
     const VectorKind kind = entry.color == light.velocity ? VectorKind::velocity : VectorKind::weight;
-    const double largest = scales.of(kind).largest;
+    const double largest = scales.of(kind).full;
     EXPECT_NEAR(test::length(marks[0].v()) / value, 0.20 / largest, kLayersRoundOff);
     EXPECT_LE(value, largest);
     EXPECT_GT(value, 0.4 * largest);
@@ -523,10 +636,12 @@ TEST_F(LayerFilm, TheEquationTakesTheColoursOfItsVectors) {
   EXPECT_EQ(tau_color(), light.torque);
 }
 
-TEST_F(LayerFilm, TorquesNeedTheirSimulation) {
+TEST_F(LayerFilm, OfAMotionWithoutASimulationNothingIsSaidToAct) {
   make_rr();
-  draw({"torque"});
-  EXPECT_THROW(Film(scene, simulation.chain, run, run.size(), fonts()), std::logic_error);
+  draw({"torque", "springs", "target", "constraint_force"});
+  const Film pictures(scene, simulation.chain, run, run.size(), fonts());
+  EXPECT_TRUE(heads(pictures.frame(50), light.torque).empty());
+  EXPECT_FALSE(heads(film().frame(50), light.torque).empty());
 }
 
 TEST_F(LayerFilm, DarkPicturesHaveNoLightThemesColours) {

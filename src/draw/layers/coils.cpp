@@ -1,0 +1,117 @@
+#include "draw/layers/coils.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "draw/robot/joints.hpp"
+#include "picture/point.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kWire = 0.0036;       // units of H
+constexpr int kWindings = 8, kPiecesOfWinding = 14;
+constexpr double kCoilRadius = 0.0155;
+constexpr double kLoop = 0.35;         // of the radius: how far a winding swings along the coil, which makes its loops
+constexpr double kLead = 0.012;        // of straight wire at both ends
+constexpr double kCylinder = 0.58, kPiston = 0.40, kCylinderWidth = 0.024;  // shares of the length; units of H
+constexpr double kSpiralInner = 0.019, kSpiralWindings = 2, kFewestWindings = 0.5;
+constexpr int kPiecesOfSpiral = 56;
+constexpr double kVanesInner = 0.0175, kVanesOuter = 0.0285;
+constexpr double kRoundCoil = 0.0085;  // half its width
+constexpr int kRoundWindings = 6;
+constexpr double kRoundGrown = 0.05;   // units of H: a coil as long has its full width
+
+double width_of_wire(double size) {
+  return std::max(0.6, size) * kWire;
+}
+
+}  // namespace
+
+void draw_coil(Picture& picture, Point a, Point b, double size, Color color, int clip) {
+  const double length = norm(b - a), width = width_of_wire(size);
+  const Point along = unit(b - a), side = normal_to(along);
+  const double lead = std::min(size * kLead, length / 4), radius = size * kCoilRadius;
+  const double loop = std::min(kLoop * radius, length / 8), begin = lead + loop, end = length - lead - loop;
+  Trail path;
+  path.color = color;
+  path.points.push_back({a, width, 1});
+  for (int i = 0; i <= kWindings * kPiecesOfWinding; ++i) {
+    const double share = double(i) / (kWindings * kPiecesOfWinding), angle = 2 * std::numbers::pi * kWindings * share;
+    path.points.push_back({a + (begin + share * (end - begin) - loop * std::cos(angle)) * along +
+                               (radius * std::sin(angle)) * side,
+                           width, 1});
+  }
+  path.points.push_back({b, width, 1});
+  picture.add(std::move(path), clip);
+}
+
+void draw_dashpot(Picture& picture, Point a, Point b, double size, Color color, Color inside, int clip) {
+  const Point v = b - a, half = (size * kCylinderWidth / 2) * normal_to(unit(v));
+  const Point bottom = a + 0.08 * v, mouth = a + kCylinder * v, piston = a + kPiston * v;
+  const double width = width_of_wire(size);
+  picture.add(Polygon{{bottom + half, mouth + half, mouth - half, bottom - half}, 4, {inside, {}, 0}}, clip);
+  draw_line(picture, {a, bottom}, width, color, clip);
+  draw_line(picture, {bottom - half, bottom + half}, width, color, clip);
+  for (const double s : {-1.0, 1.0}) draw_line(picture, {bottom + s * half, mouth + s * half}, width, color, clip);
+  draw_line(picture, {piston - 0.75 * half, piston + 0.75 * half}, 1.6 * width, color, clip);
+  draw_line(picture, {piston, b}, width, color, clip);
+}
+
+Point PageTurn::at(double radius, double angle) const {
+  return center + (radius * std::cos(angle)) * u + (radius * std::sin(angle)) * w;
+}
+
+void draw_spiral(Picture& picture, const PageTurn& turn, double q, double rest, double size, Color color, int clip) {
+  const double width = width_of_wire(size);
+  // The fixed end is opposite to the link at rest; a link that turns on unwinds it.
+  const double outer = rest + std::numbers::pi;
+  const double span = std::max(2 * std::numbers::pi * kSpiralWindings + outer - q, 2 * std::numbers::pi * kFewestWindings);
+  Trail path;
+  path.color = color;
+  for (int i = 0; i <= kPiecesOfSpiral; ++i) {
+    const double share = double(i) / kPiecesOfSpiral;
+    const double radius = size * (kSpiralInner + share * (kSpiralOuter - kSpiralInner));
+    path.points.push_back({turn.at(radius, outer - span * (1 - share)), width, 1});
+  }
+  const Point end = path.points.back().p;
+  picture.add(std::move(path), clip);
+  const double pin = 1.1 * width;
+  picture.add(Ellipse{end, {pin, 0}, {0, pin}, {color, {}, 0}}, clip);
+}
+
+void draw_vanes(Picture& picture, const PageTurn& turn, double q, double size, Color color, Color inside, int clip) {
+  const double inner = size * kVanesInner, outer = size * kVanesOuter, middle = (inner + outer) / 2;
+  const double width = 0.5 * width_of_wire(size);
+  const auto circle = [&](double radius, double stroke, Color stroke_color) {
+    Trail path;
+    path.color = stroke_color;
+    for (int i = 0; i <= 48; ++i)
+      path.points.push_back({turn.at(radius, 2 * std::numbers::pi * i / 48), stroke, 1});
+    picture.add(std::move(path), clip);
+  };
+  circle(middle, outer - inner, inside);
+  circle(inner, width, color);
+  circle(outer, width, color);
+  for (int i = 0; i < 3; ++i) {
+    const double angle = q + 2 * std::numbers::pi * i / 3;
+    draw_line(picture, {turn.at(inner, angle), turn.at(outer, angle)}, 1.2 * width_of_wire(size), color, clip);
+  }
+}
+
+void draw_round_coil(Picture& picture, const PageTurn& turn, double radius, double from, double to, double size,
+                     Color color, int clip) {
+  const double length = std::abs(to - from) * radius, grown = std::min(1.0, length / kRoundGrown);
+  const int pieces = kRoundWindings * 8;
+  Trail path;
+  path.color = color;
+  for (int i = 0; i <= pieces; ++i) {
+    const double share = double(i) / pieces;
+    const double swing = grown * size * kRoundCoil * std::sin(2 * std::numbers::pi * kRoundWindings * share);
+    path.points.push_back({turn.at(radius + swing, from + share * (to - from)), width_of_wire(size) * grown, 1});
+  }
+  picture.add(std::move(path), clip);
+}
+
+}  // namespace chainreel

@@ -1,0 +1,212 @@
+// The layers `angles` and `limits`: the coordinates as the model counts them, from where each is zero on, and where they
+// must not go.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "draw/layers/coils.hpp"
+#include "draw/layers/devices.hpp"
+#include "draw/layers/layer.hpp"
+#include "draw/robot/chain.hpp"
+#include "picture/point.hpp"
+
+namespace chainreel {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kAngleRadius = 0.085, kZeroReach = 0.120;  // units of H
+constexpr double kAngleLine = 0.0026, kAngleGap = 0.016;
+constexpr double kAngleHead = 0.014, kAngleHeadWidth = 0.010;
+constexpr double kAnglePiece = 0.08;    // rad
+constexpr double kSmallestAngle = 0.06; // rad: with less the symbol stands alone
+constexpr double kBesideCarriage = 0.058;  // units of H, of a slider's length
+
+constexpr double kNearLimit = 10 * std::numbers::pi / 180;  // rad: from here on a limit is seen
+constexpr double kNearEnd = 0.05;       // of a slider's range, the same
+constexpr double kLimitArc = 25 * std::numbers::pi / 180;  // of the arc beyond the limit
+constexpr double kLimitFrom = 0.032, kLimitRadius = 0.062, kLimitLine = 0.0045;
+
+// The joints that have a coordinate of their own, not shared by mimicry.
+template <class Do>
+void for_each_joint(const Chain& chain, JointKind kind, Do&& act) {
+  for (int b = 1; b < int(chain.bodies.size()); ++b) {
+    const Joint& joint = chain.bodies[std::size_t(b)].joint;
+    if (joint.kind == kind && joint.ratio == 1 && joint.offset == 0) act(b, joint);
+  }
+}
+
+PageTurn turn_about(const Panel& panel, const Workspace& ws, int body) {
+  const Vector3d place = pose_of(ws, body).translation();
+  const JointZero zero = joint_zero(panel.chain(), panel.motion().skeleton(), ws, body);
+  const Camera seen = panel.camera().seen_at(place);
+  return {panel.camera().project(place),
+          {seen.right.dot(zero.along), seen.up.dot(zero.along)},
+          {seen.right.dot(zero.quarter), seen.up.dot(zero.quarter)}};
+}
+
+void draw_arc(Picture& picture, const PageTurn& turn, double radius, double from, double to, double width, Color color,
+              int clip) {
+  const int pieces = std::max(2, int(std::ceil(std::abs(to - from) / kAnglePiece)));
+  Trail path;
+  path.color = color;
+  for (int i = 0; i <= pieces; ++i) path.points.push_back({turn.at(radius, from + (to - from) * i / pieces), width, 1});
+  picture.add(std::move(path), clip);
+}
+
+void draw_dashed(Picture& picture, Point a, Point b, double width, Color color, int clip) {
+  const double dash = 0.007, length = norm(b - a);
+  const Point along = unit(b - a);
+  for (double at = 0; at < length; at += 2 * dash)
+    draw_line(picture, {a + at * along, a + std::min(at + dash, length) * along}, width, color, clip);
+}
+
+double coordinate(const Shot& shot, const Joint& joint) {
+  return shot.panel.motion().trajectory().q_at(shot.k)[std::size_t(joint.q_index)];
+}
+
+class Angles : public Layer {
+ public:
+  explicit Angles(const Stage& stage) : stage_(&stage) {}
+
+  bool has_words() const override { return true; }
+
+  void measure(const Sight& sight, FitBox& box) const override {
+    for_each_joint(sight.motion.chain(), JointKind::revolute, [&](int body, const Joint&) {
+      box.add(room_around(sight.marks * kZeroReach), sight.camera.flat(pose_of(sight.ws, body).translation()));
+    });
+  }
+
+  void draw(Picture& picture, const Shot& shot) const override {
+    for_each_joint(shot.panel.chain(), JointKind::revolute,
+                   [&](int body, const Joint& joint) { draw_angle(picture, shot, body, joint); });
+    for_each_joint(shot.panel.chain(), JointKind::prismatic,
+                   [&](int body, const Joint& joint) { draw_length(picture, shot, body, joint); });
+  }
+
+ private:
+  Color color() const { return stage_->theme.ink; }
+
+  void add_label(const Shot& shot, const Joint& joint, Point near, Point away) const {
+    const double em = scaled(size::kAxis * std::sqrt(shot.panel.marks()), stage_->page.text_scale);
+    TextLine text = lay_out_math(stage_->fonts, "q_{" + std::to_string(joint.v_index + 1) + "}",
+                                 {Face::math, em, color(), Align::left});
+    const Rect box = place_beyond(text, near, kAngleGap, away);
+    shot.labels.add("angle " + std::to_string(joint.v_index + 1), std::move(text), box);
+  }
+
+  void draw_head(Picture& picture, Point tip, Point along, double size, int clip) const {
+    const Point base = tip - (size * kAngleHead) * along, half = (size * kAngleHeadWidth / 2) * normal_to(along);
+    picture.add(Polygon{{tip, base + half, base - half}, 3, {color(), {}, 0}}, clip);
+  }
+
+  // From the direction of the joint's link where its value is zero to where it is; whole turns are left out.
+  void draw_angle(Picture& picture, const Shot& shot, int body, const Joint& joint) const {
+    const PageTurn turn = turn_about(shot.panel, shot.ws, body);
+    const double whole = 2 * std::numbers::pi, q = coordinate(shot, joint);
+    if (!is_drawable(turn.center) || !std::isfinite(q)) return;
+    const double angle = q - whole * std::trunc(q / whole), sign = angle < 0 ? -1 : 1;
+    const double marks = shot.panel.marks(), radius = marks * kAngleRadius;
+    const int clip = shot.panel.clip();
+    draw_dashed(picture, turn.center, turn.at(marks * kZeroReach, 0), kAngleLine, color(), clip);
+    const double head = std::min(marks * kAngleHead / radius, std::abs(angle));
+    if (std::abs(angle) > 0) draw_arc(picture, turn, radius, 0, angle - 0.8 * sign * head, kAngleLine, color(), clip);
+    const Point tip = turn.at(radius, angle), base = turn.at(radius, angle - sign * head);
+    const double grown = std::min(1.0, std::abs(angle) * radius / (marks * kAngleHead));
+    if (norm(tip - base) > 1e-6) draw_head(picture, tip, unit(tip - base), marks * grown, clip);
+    const double middle = std::abs(angle) < kSmallestAngle ? 0 : angle / 2;
+    const Point near = turn.at(radius, middle);
+    add_label(shot, joint, near, unit(near - turn.center));
+  }
+
+  // Beside the rail, from the carriage's zero on.
+  void draw_length(Picture& picture, const Shot& shot, int body, const Joint& joint) const {
+    const Camera& camera = shot.panel.camera();
+    const Point zero = camera.project(rail_point(shot.panel.chain(), shot.ws, body, 0));
+    const Point at = camera.project(pose_of(shot.ws, body).translation());
+    const Point way = camera.project_vector(pose_of(shot.ws, body).linear() * joint.axis, pose_of(shot.ws, body).translation());
+    if (!is_drawable(zero) || !is_drawable(at) || !(norm(way) > 0)) return;
+    Point side = normal_to(unit(way));
+    // On the other side than forces.
+    if (side.y > 1e-9 || (std::abs(side.y) <= 1e-9 && side.x > 0)) side = -1 * side;
+    const double marks = shot.panel.marks();
+    const Point shift = (marks * kBesideCarriage) * side, a = zero + shift, b = at + shift;
+    const int clip = shot.panel.clip();
+    const Point tick = (marks * kAngleGap) * side;
+    draw_line(picture, {a - tick, a + tick}, kAngleLine, color(), clip);
+    const double length = norm(b - a), head = std::min(marks * kAngleHead, length);
+    if (length > 1e-6) {
+      const Point along = unit(b - a);
+      draw_line(picture, {a, b - 0.8 * head * along}, kAngleLine, color(), clip);
+      draw_head(picture, b, along, head / kAngleHead, clip);
+    }
+    add_label(shot, joint, 0.5 * (a + b), side);
+  }
+
+  const Stage* stage_;
+};
+
+class Limits : public Layer {
+ public:
+  explicit Limits(const Stage& stage) : theme_(&stage.theme) {}
+
+  UnderWords under_words() const override { return UnderWords::if_need_be; }
+
+  void draw(Picture& picture, const Shot& shot) const override {
+    if (shot.panel.motion().shapes()) return;
+    for (const JointKind kind : {JointKind::revolute, JointKind::prismatic})
+      for_each_joint(shot.panel.chain(), kind, [&](int body, const Joint& joint) {
+        const double q = coordinate(shot, joint), lower = joint.limit.lower, upper = joint.limit.upper;
+        const double near = kind == JointKind::revolute ? kNearLimit : kNearEnd * (upper - lower);
+        if (!(std::isfinite(lower) && std::isfinite(upper) && lower < upper)) return;
+        for (const bool is_upper : {false, true}) {
+          const double left = is_upper ? upper - q : q - lower;  // below zero beyond
+          const double shown = std::clamp(1.5 * (1 - left / near), 0.0, 1.0);
+          if (shown > 0) draw_limit(picture, shot, body, kind, is_upper ? upper : lower, is_upper ? 1 : -1, shown);
+        }
+      });
+  }
+
+ private:
+  void draw_limit(Picture& picture, const Shot& shot, int body, JointKind kind, double limit, double sign,
+                  double shown) const {
+    const Panel& panel = shot.panel;
+    const double marks = panel.marks();
+    const Color color = theme_->base.faded(shown);
+    if (kind == JointKind::prismatic) {
+      const Point at = panel.camera().project(rail_point(panel.chain(), shot.ws, body, limit));
+      const Point way = panel.camera().project_vector(
+          pose_of(shot.ws, body).linear() * panel.chain().bodies[std::size_t(body)].joint.axis,
+          pose_of(shot.ws, body).translation());
+      if (!is_drawable(at) || !(norm(way) > 0)) return;
+      const Point stop = at + (sign * panel.look().rails * size::kCarriageLength / 2) * unit(way);
+      const Point half = (panel.look().rails * size::kRailGap) * normal_to(unit(way));
+      draw_line(picture, {stop - half, stop + half}, 1.5 * kLimitLine, color, panel.clip());
+      return;
+    }
+    const PageTurn turn = turn_about(panel, shot.ws, body);
+    if (!is_drawable(turn.center)) return;
+    draw_line(picture, {turn.at(marks * kLimitFrom, limit), turn.at(marks * (kLimitRadius + kLimitFrom / 2), limit)},
+              kLimitLine, color, panel.clip());
+    draw_arc(picture, turn, marks * kLimitRadius, limit, limit + sign * kLimitArc, kLimitLine, color, panel.clip());
+    for (int i = 1; i <= 4; ++i) {
+      const double angle = limit + sign * kLimitArc * i / 4.5;
+      draw_line(picture, {turn.at(marks * kLimitRadius, angle), turn.at(marks * (kLimitRadius + kLimitFrom / 2), angle + sign * 0.12)},
+                size::kGroundHatch, color, panel.clip());
+    }
+  }
+
+  const Theme* theme_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Layer> make_layer_angles(const Stage& stage) {
+  return std::make_unique<Angles>(stage);
+}
+
+std::unique_ptr<const Layer> make_layer_limits(const Stage& stage) {
+  return std::make_unique<Limits>(stage);
+}
+
+}  // namespace chainreel

@@ -1,0 +1,193 @@
+// The layers `springs`: torques that are linear in a coordinate or in its rate, as the things that would make them. A slider
+// has a coil, a dashpot or both between an end of its rail and its carriage, and a mark where the coil is at rest; a
+// revolute joint a spiral that winds up, a ring with vanes, or both.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "draw/layers/coils.hpp"
+#include "draw/layers/devices.hpp"
+#include "draw/layers/layer.hpp"
+#include "draw/robot/chain.hpp"
+#include "draw/robot/view.hpp"
+#include "dynamics/kinematics.hpp"
+#include "picture/point.hpp"
+#include "sim/torques_along.hpp"
+
+namespace chainreel {
+
+using Eigen::Vector3d;
+
+std::vector<Device> devices_of(const Stage& stage, const StagedRun& motion) {
+  std::vector<Device> devices;
+  if (!stage.shows("springs") || motion.simulation() == nullptr || motion.shapes() || motion.is_outlined()) return devices;
+  const Chain& chain = motion.chain();
+  const Camera camera = view_of(chain, stage.page.camera);
+  for (const LinearDrive& drive : linear_drives(*motion.simulation())) {
+    if (drive.follows) continue;
+    Device device{drive, body_of_freedom(chain, drive.freedom)};
+    const Vector3d axis = pose_of(motion.pose_at(0), device.body).linear() * chain.bodies[std::size_t(device.body)].joint.axis;
+    // Below, else on the left.
+    const double up = camera.up.dot(axis), right = camera.right.dot(axis);
+    device.from_upper = std::abs(up) > 1e-9 ? up < 0 : right < 0;
+    devices.push_back(device);
+  }
+  return devices;
+}
+
+JointZero joint_zero(const Chain& chain, const Skeleton& skeleton, const Workspace& ws, int body) {
+  const Joint& joint = chain.bodies[std::size_t(body)].joint;
+  const auto link = std::find_if(skeleton.links.begin(), skeleton.links.end(),
+                                 [body](const LinkSegment& one) { return one.body == body; });
+  Vector3d along = link == skeleton.links.end() ? Vector3d::UnitX() : Vector3d(link->to - link->from);
+  const auto across = [&joint](const Vector3d& v) { return Vector3d(v - v.dot(joint.axis) * joint.axis); };
+  for (const Vector3d& other : {Vector3d(Vector3d::UnitX()), Vector3d(Vector3d::UnitY())})
+    if (across(along).norm() < 1e-6 * std::max(1.0, along.norm())) along = other;
+  along = across(along).normalized();
+  const Eigen::Matrix3d R = pose_of(ws, chain.bodies[std::size_t(body)].parent).linear() * joint.X_PJ.linear();
+  return {R * along, R * joint.axis.cross(along)};
+}
+
+namespace {
+
+constexpr double kAnchorAway = 0.050;  // of a slider's anchor beyond the end of its rail, units of H
+constexpr double kAnchorWidth = 0.060;
+constexpr double kRestBeyond = 0.022;  // of the mark of rest, on both sides of the rail
+constexpr double kSideBySide = 0.23;   // of the rail's width: of a coil and a dashpot from its middle line
+
+using Devices = std::map<const StagedRun*, std::vector<Device>>;
+
+Devices all_devices(const Stage& stage, JointKind kind) {
+  Devices all;
+  for (const StagedRun& motion : stage.motions) {
+    std::vector<Device> own = devices_of(stage, motion);
+    std::erase_if(own, [&](const Device& device) {
+      return motion.chain().bodies[std::size_t(device.body)].joint.kind != kind;
+    });
+    if (!own.empty()) all.emplace(&motion, std::move(own));
+  }
+  return all;
+}
+
+const Rail* rail_of(const Skeleton& skeleton, int body) {
+  const auto rail = std::find_if(skeleton.rails.begin(), skeleton.rails.end(),
+                                 [body](const Rail& one) { return one.body == body; });
+  return rail == skeleton.rails.end() ? nullptr : &*rail;
+}
+
+// Between rails and carriages.
+class SliderSprings : public Layer {
+ public:
+  explicit SliderSprings(const Stage& stage) : devices_(all_devices(stage, JointKind::prismatic)) {}
+
+  void measure(const Sight& sight, FitBox& box) const override {
+    for_each(sight.motion, [&](const Device& device) {
+      const Rail* rail = rail_of(sight.motion.skeleton(), device.body);
+      if (!rail) return;
+      const Vector3d end = rail_point(sight.motion.chain(), sight.ws, device.body, device.from_upper ? rail->upper : rail->lower);
+      box.add(room_around(sight.marks * (rail_overhang(rail->carrier) + kAnchorAway)), sight.camera.flat(end));
+    });
+  }
+
+  void draw(Picture& picture, const Shot& shot) const override {
+    for_each(shot.panel.motion(), [&](const Device& device) { draw_device(picture, shot, device); });
+  }
+
+ private:
+  template <class Do>
+  void for_each(const StagedRun& motion, Do&& act) const {
+    const auto own = devices_.find(&motion);
+    if (own == devices_.end()) return;
+    for (const Device& device : own->second) act(device);
+  }
+
+  static void draw_device(Picture& picture, const Shot& shot, const Device& device) {
+    const Panel& panel = shot.panel;
+    const ChainDrawing drawing = panel.drawing();
+    const ChainLook& look = panel.look();
+    const Rail* rail = rail_of(drawing.skeleton, device.body);
+    if (!rail) return;
+    const PageLine line = rail_line(drawing, shot.ws, *rail);
+    const Point carriage = panel.camera().project(pose_of(shot.ws, device.body).translation());
+    if (!is_drawable(line.a) || !is_drawable(line.b) || !is_drawable(carriage)) return;
+    const Point away = device.from_upper ? unit(line.b - line.a) : unit(line.a - line.b), side = normal_to(away);
+    const Point anchor = (device.from_upper ? line.b : line.a) + (look.rails * kAnchorAway) * away;
+    const Point end = carriage + (look.rails * carriage_length(rail->carrier) / 2) * away;
+    const Color color = toned(look.theme->torque, look);
+    const Point half = (look.rails * kAnchorWidth / 2) * side;
+    draw_ground(picture, {anchor - half, anchor + half}, away, look, panel.clip());
+    const bool both = device.drive.is_spring() && device.drive.damping > 0;
+    const Point apart = ((both ? kSideBySide : 0) * look.rails * size::kRailGap) * side;
+    if (device.drive.is_spring()) {
+      draw_rest(picture, drawing, shot.ws, device, side, panel.clip());
+      draw_coil(picture, anchor + apart, end + apart, look.rails * (both ? 0.6 : 1), color, panel.clip());
+    }
+    if (device.drive.damping > 0)
+      draw_dashpot(picture, anchor - apart, end - apart, look.rails * (both ? 0.6 : 1), color,
+                   look.theme->background, panel.clip());
+  }
+
+  // Dashes across the rail.
+  static void draw_rest(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, const Device& device,
+                        Point side, int clip) {
+    const ChainLook& look = drawing.look;
+    const Point rest = drawing.camera.project(rail_point(drawing.chain, ws, device.body, device.drive.rest));
+    if (!is_drawable(rest)) return;
+    const double reach = look.rails * (size::kRailGap / 2 + kRestBeyond), dash = reach / 3.5;
+    for (double at = -reach; at < reach - 0.5 * dash; at += 2 * dash)
+      draw_line(picture, {rest + at * side, rest + (at + dash) * side}, size::kRailLine, toned(look.theme->torque, look), clip);
+  }
+
+  Devices devices_;
+};
+
+// Over links and joints.
+class JointSprings : public Layer {
+ public:
+  explicit JointSprings(const Stage& stage) : devices_(all_devices(stage, JointKind::revolute)) {}
+
+  void measure(const Sight& sight, FitBox& box) const override {
+    const auto own = devices_.find(&sight.motion);
+    if (own == devices_.end()) return;
+    for (const Device& device : own->second)
+      box.add(room_around(sight.marks * kSpiralOuter), sight.camera.flat(pose_of(sight.ws, device.body).translation()));
+  }
+
+  void draw(Picture& picture, const Shot& shot) const override {
+    const Panel& panel = shot.panel;
+    const auto own = devices_.find(&panel.motion());
+    if (own == devices_.end()) return;
+    const ChainLook& look = panel.look();
+    for (const Device& device : own->second) {
+      const Vector3d place = pose_of(shot.ws, device.body).translation();
+      const JointZero zero = joint_zero(panel.chain(), panel.motion().skeleton(), shot.ws, device.body);
+      const Camera seen = panel.camera().seen_at(place);
+      const PageTurn turn{panel.camera().project(place),
+                          {seen.right.dot(zero.along), seen.up.dot(zero.along)},
+                          {seen.right.dot(zero.quarter), seen.up.dot(zero.quarter)}};
+      if (!is_drawable(turn.center)) continue;
+      const double q = panel.motion().trajectory().q_at(shot.k)[std::size_t(
+          panel.chain().bodies[std::size_t(device.body)].joint.q_index)];
+      const Color color = toned(look.theme->torque, look);
+      const double size = look.joint_disc / size::kJointDisc;
+      if (device.drive.damping > 0)
+        draw_vanes(picture, turn, q, size, color, tinted(look.theme->torque, 0.25, look), panel.clip());
+      if (device.drive.is_spring()) draw_spiral(picture, turn, q, device.drive.rest, size, color, panel.clip());
+    }
+  }
+
+ private:
+  Devices devices_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Layer> make_layer_slider_springs(const Stage& stage) {
+  return std::make_unique<SliderSprings>(stage);
+}
+
+std::unique_ptr<const Layer> make_layer_joint_springs(const Stage& stage) {
+  return std::make_unique<JointSprings>(stage);
+}
+
+}  // namespace chainreel

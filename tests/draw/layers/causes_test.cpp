@@ -1,0 +1,269 @@
+// What drives and ties a robot is drawn: springs, targets, constraints, gravity, limits and angles, each where the physics
+// says.
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "draw/chains.hpp"
+#include "draw/film/film.hpp"
+#include "draw/shapes.hpp"
+#include "dynamics/kinematics.hpp"
+#include "picture/point.hpp"
+#include "scene/run/prepare.hpp"
+#include "scene/text/read_scene.hpp"
+#include "sim/torques_along.hpp"
+
+namespace chainreel {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kCauseRoundOff = 1e-9;  // of places that are sums of a few numbers of size 1
+
+// A scene of the gallery, or one like it, with its run at 60 frames a second.
+struct Cause {
+  explicit Cause(const std::string& name, const std::vector<std::string>& overrides = {}, double seconds = 2)
+      : scene(read_scene("assets/scenes/" + name + ".yaml", overrides)), simulation(prepare(scene, false)) {
+    for (int k = 0; k < int(60 * seconds); ++k) times.push_back(k / 60.0);
+    if (scene.chooses_method()) {
+      simulation.method = &find_method("rk4");
+      simulation.step = 0.001;
+    }
+    run = simulate(simulation, times);
+  }
+  Film film() const { return {scene, {{scene, simulation.chain, run, &simulation}}, times, fonts}; }
+  double q(int k, std::size_t i) const { return run.q_at(k)[i]; }
+
+  Scene scene;
+  Simulation simulation;
+  std::vector<double> times;
+  Trajectory run;
+  Fonts fonts;
+};
+
+const Theme& light() {
+  return light_theme();
+}
+
+// Wires and arcs, but not the trail of the end effector.
+std::vector<Trail> wires(const Picture& picture, Color color) {
+  return test::all_of<Trail>(picture, [&](const Trail& path) { return path.color == color; });
+}
+
+int torque_heads(const Picture& picture) {
+  return int(test::all_of<Polygon>(picture, [](const Polygon& p) {
+               return p.count == 3 && p.paint.fill == light().torque;
+             }).size());
+}
+
+TEST(SpringLayer, DrawsACoilFromAFixedAnchorToTheSliderAndAMarkWhereItRests) {
+  const Cause cause("pp_spring");
+  const Film pictures = cause.film();
+  std::optional<Point> anchor;
+  double shortest = 1, longest = 0;
+  for (int k = 0; k < cause.run.size(); k += 7) {
+    const Picture picture = pictures.frame(k);
+    const auto coils = wires(picture, light().torque);
+    ASSERT_EQ(coils.size(), 1u) << k;
+    const Point from = coils[0].points.front().p, to = coils[0].points.back().p;
+    if (!anchor) anchor = from;
+    EXPECT_LT(test::distance(*anchor, from), kCauseRoundOff) << "it is fixed";
+    const Point slider = pictures.camera().project({cause.q(k, 0), cause.q(k, 1), 0});
+    EXPECT_NEAR(to.x, slider.x, kCauseRoundOff);
+    EXPECT_NEAR(slider.y - to.y, size::kCarriageLength / 2, kCauseRoundOff) << "at the carriage's lower edge";
+    EXPECT_EQ(torque_heads(picture), 0) << "the coil says how large the force is";
+    shortest = std::min(shortest, test::distance(from, to));
+    longest = std::max(longest, test::distance(from, to));
+    // Dashes across the rail where y = 0.
+    const double rest = pictures.camera().project(Vector3d::Zero()).y;
+    const auto dashes = test::all_of<Capsule>(picture, [&](const Capsule& c) { return c.paint.fill == light().torque; });
+    EXPECT_GE(dashes.size(), 3u);
+    for (const Capsule& dash : dashes) EXPECT_NEAR(dash.a.y, rest, kCauseRoundOff);
+  }
+  EXPECT_GT(shortest, 0.05) << "it never turns inside out";
+  EXPECT_GT(longest, 3 * shortest);
+}
+
+TEST(SpringLayer, DrawsArrowsWhereALawIsNotLinear) {
+  const Cause cause("pp_spring", {"torque=[0, -100 * y_G^3]"}, 0.5);
+  const Picture picture = cause.film().frame(3);
+  EXPECT_TRUE(wires(picture, light().torque).empty());
+  EXPECT_EQ(torque_heads(picture), 1);
+}
+
+TEST(SpringLayer, LeavesTheArrowsToWhoDoesNotNameIt) {
+  const Cause cause("pp_spring", {"draw=[chain, torque]"}, 0.5);
+  const Picture picture = cause.film().frame(3);
+  EXPECT_TRUE(wires(picture, light().torque).empty());
+  EXPECT_EQ(torque_heads(picture), 1);
+}
+
+TEST(SpringLayer, WindsASpiralByTheAngleFromItsRest) {
+  const Cause cause("rr_free", {"torque=[-30 * (q1 - 0.5), -2 * qd2]"}, 1);
+  const Film pictures = cause.film();
+  for (const int k : {0, 20, 40}) {
+    const Picture picture = pictures.frame(k);
+    const Point joint = pictures.camera().project(Vector3d::Zero());
+    const auto all = wires(picture, light().torque);
+    const auto spiral = std::find_if(all.begin(), all.end(), [](const Trail& path) { return path.points.size() == 57; });
+    ASSERT_NE(spiral, all.end());
+    // The inner end turns with the link, the outer one stays opposite to it as it rests.
+    double turned = 0;
+    for (std::size_t i = 1; i < spiral->points.size(); ++i) {
+      const Point a = spiral->points[i - 1].p - joint, b = spiral->points[i].p - joint;
+      turned += std::atan2(cross(a, b), dot(a, b));
+    }
+    const Point in = spiral->points.front().p - joint, out = spiral->points.back().p - joint;
+    EXPECT_NEAR(std::remainder(std::atan2(in.y, in.x) - cause.q(k, 0), 2 * std::numbers::pi), 0, kCauseRoundOff);
+    EXPECT_NEAR(std::remainder(std::atan2(out.y, out.x) - 0.5 - std::numbers::pi, 2 * std::numbers::pi), 0, kCauseRoundOff);
+    EXPECT_NEAR(turned, 5 * std::numbers::pi + 0.5 - cause.q(k, 0), 1e-6);
+    EXPECT_EQ(torque_heads(picture), k == 0 ? 0 : 1) << "the damper has its arc, too; at rest it does nothing";
+  }
+}
+
+TEST(TargetLayer, ShowsThePoseThatFeedbackFollows) {
+  const Cause cause("rr_free", {"torque={pd: {kp: 20, kd: 2, q: [\"0.3 + t\", -0.5]}}", "draw=[chain, target]"}, 1);
+  const Film pictures = cause.film();
+  for (const int k : {0, 30, 59}) {
+    const Picture picture = pictures.frame(k);
+    const auto outlines = test::all_of<Capsule>(picture, [](const Capsule& c) { return c.paint.stroke_width > 0 && c.paint.fill.a == 0; });
+    ASSERT_EQ(outlines.size(), 2u);
+    const double q1 = 0.3 + cause.times[std::size_t(k)], q2 = -0.5;
+    const Point tip = pictures.camera().project({std::cos(q1) + std::cos(q1 + q2), std::sin(q1) + std::sin(q1 + q2), 0});
+    EXPECT_LT(test::distance(outlines[1].b, tip), kCauseRoundOff);
+  }
+  // From the target to where the joint is, coils.
+  const auto coils = wires(pictures.frame(0), light().torque);
+  ASSERT_EQ(coils.size(), 2u);
+  const Point joint = pictures.camera().project(Vector3d::Zero());
+  const Point from = coils[0].points.front().p - joint, to = coils[0].points.back().p - joint;
+  EXPECT_NEAR(std::atan2(from.y, from.x), 0.3, kCauseRoundOff);
+  EXPECT_NEAR(std::atan2(to.y, to.x), 0, kCauseRoundOff);
+  // Negative control: an expression that follows nothing has no target.
+  const Cause other("rr_torque", {}, 0.1);
+  EXPECT_TRUE(references_along(other.simulation, other.run).empty());
+}
+
+TEST(ConstraintLayer, DrawsTheLineOfThePenOnceAndHatchedWhereItPresses) {
+  for (const bool up : {false, true}) {
+    const Cause cause("pen", {"contact_force={constraint: 1, force: [0, " + std::string(up ? "5" : "-5") + "]}"}, 1);
+    const Film pictures = cause.film();
+    const double height = pictures.camera().project({0, 0.5, 0}).y;
+    const auto lines = test::all_of<Capsule>(pictures.static_layer(), [&](const Capsule& c) {
+      return c.paint.fill == light().base && std::abs(c.a.y - height) < 1e-9 && std::abs(c.b.y - height) < 1e-9;
+    });
+    ASSERT_EQ(lines.size(), 1u);
+    const auto strokes = test::all_of<Capsule>(pictures.static_layer(), [&](const Capsule& c) {
+      return c.paint.fill == light().base && std::abs(c.a.y - height) < 1e-9 && std::abs(c.b.y - height) > 0.005;
+    });
+    EXPECT_GT(strokes.size(), 10u);
+    for (const Capsule& stroke : strokes) EXPECT_EQ(stroke.b.y > height, up);
+    for (int k = 0; k < cause.run.size(); ++k) {
+      const Point pen = pictures.panel(0).tip().place(k);
+      EXPECT_GT(pen.x, lines[0].a.x);
+      EXPECT_LT(pen.x, lines[0].b.x);
+    }
+  }
+  const Cause without("rr_torque", {"draw=[constraints]"}, 0.1);
+  EXPECT_TRUE(test::all_of<Capsule>(without.film().static_layer()).empty());
+}
+
+TEST(ConstraintLayer, DrawsCurvesAndRods) {
+  const Cause circle("rr_free", {"start.q=[0, 90deg]", "constraints=[{curve: {frame: gripper, x: \"sqrt(2)*cos(s)\", y: \"sqrt(2)*sin(s)\", s: 0.785398163397}}]",
+                                 "method=dop853", "step=null", "draw=[constraints]", "camera.fit=[-2, -2, 2, 2]"}, 0.2);
+  const Film pictures = circle.film();
+  const auto paths = wires(pictures.static_layer(), light().base);
+  ASSERT_EQ(paths.size(), 1u) << "it comes back to where it began";
+  const Point middle = pictures.camera().project(Vector3d::Zero());
+  for (const TrailPoint& p : paths[0].points)
+    EXPECT_NEAR(test::distance(p.p, middle), std::sqrt(2) * pictures.camera().scale, 1e-4);
+  EXPECT_LT(test::distance(paths[0].points.front().p, paths[0].points.back().p), kCauseRoundOff);
+
+  const Cause rod("rr_free", {"start.q=[0, 90deg]", "constraints=[{distance: {a: gripper, at: [1, 2], length: 1}}]",
+                              "method=dop853", "step=null", "draw=[constraints]"}, 0.2);
+  const Film rods = rod.film();
+  const auto bars = test::all_of<Capsule>(rods.frame(5), [](const Capsule& c) { return c.paint.stroke_width > 0; });
+  ASSERT_EQ(bars.size(), 1u);
+  EXPECT_NEAR(test::distance(bars[0].a, bars[0].b), rods.camera().scale, 1e-6) << "1 m";
+  EXPECT_LT(test::distance(bars[0].b, rods.camera().project({1, 2, 0})), kCauseRoundOff);
+}
+
+TEST(FieldLayer, IsASmallArrowBesideTheMotionAndNothingWithoutGravity) {
+  const auto arrows = [](const Cause& cause) {
+    return test::all_of<Polygon>(cause.film().static_layer(), [](const Polygon& p) { return p.count == 3 && p.paint.fill == light().force; });
+  };
+  const Cause falls("rr_free", {}, 3);
+  const auto found = arrows(falls);
+  ASSERT_EQ(found.size(), 1u);
+  const Point tip = found[0].corners[0], base = 0.5 * (found[0].corners[1] + found[0].corners[2]);
+  EXPECT_NEAR(tip.x, base.x, kCauseRoundOff);
+  EXPECT_LT(tip.y, base.y) << "downwards";
+  const Film pictures = falls.film();
+  for (int k = 0; k < falls.run.size(); k += 5)
+    for (const Capsule& link : test::all_of<Capsule>(pictures.frame(k), [](const Capsule& c) { return c.paint.stroke_width > 0; })) {
+      Point a = link.a, b = link.b;
+      EXPECT_FALSE(cut_segment(widened(test::box_of(found[0]), link.radius), a, b)) << k;
+    }
+  EXPECT_TRUE(arrows(Cause("pp_spring", {}, 0.1)).empty()) << "its gravity is zero";
+  EXPECT_EQ(arrows(Cause("rr_free", {"gravity=[9.81, 0, 0]"}, 0.5)).size(), 1u);
+}
+
+TEST(AngleLayer, MeasuresFromWhereTheModelCountsZero) {
+  const Cause cause("rr_free", {"draw=[chain, angles]"}, 1);
+  const Film pictures = cause.film();
+  const int k = 40;
+  const auto arcs = wires(pictures.frame(k), light().ink);
+  ASSERT_EQ(arcs.size(), 2u);
+  const double q1 = cause.q(k, 0), q2 = cause.q(k, 1);
+  const Point joint = pictures.camera().project({std::cos(q1), std::sin(q1), 0});
+  // The second begins where the first link points.
+  const Point zero = arcs[1].points.front().p - joint;
+  EXPECT_NEAR(std::atan2(zero.y, zero.x), std::remainder(q1, 2 * std::numbers::pi), kCauseRoundOff);
+  // Up to its head, which ends at the second link.
+  const auto heads = test::all_of<Polygon>(pictures.frame(k), [](const Polygon& p) { return p.count == 3 && p.paint.fill == light().ink; });
+  ASSERT_EQ(heads.size(), 2u);
+  const Point tip = heads[1].corners[0] - joint;
+  EXPECT_NEAR(std::remainder(std::atan2(tip.y, tip.x) - q1 - q2, 2 * std::numbers::pi), 0, kCauseRoundOff);
+  EXPECT_TRUE(wires(Cause("rr_free", {}, 0.1).film().frame(2), light().ink).empty()) << "only who asks for it";
+}
+
+TEST(LimitLayer, ShowsALimitThatTheMotionComesNearTo) {
+  Cause cause("rr_free", {"draw=[chain, limits]"}, 1);
+  const auto shown = [&](int k) {
+    return test::all_of<Trail>(cause.film().frame(k), [](const Trail& path) { return path.color.faded(0) == light().base.faded(0); }).size();
+  };
+  EXPECT_EQ(shown(59), 0u) << "there is none";
+  double lowest = 0;
+  for (int k = 0; k < cause.run.size(); ++k) lowest = std::min(lowest, cause.q(k, 0));
+  cause.simulation.chain.bodies[1].joint.limit.lower = lowest - 0.05;
+  cause.simulation.chain.bodies[1].joint.limit.upper = 3;
+  int seen = 0;
+  for (int k = 0; k < cause.run.size(); ++k) {
+    const bool near = cause.q(k, 0) - (lowest - 0.05) < 10 * std::numbers::pi / 180;
+    EXPECT_EQ(shown(k), near ? 1u : 0u) << k;
+    seen += near;
+  }
+  EXPECT_GE(seen, 2);
+}
+
+TEST(DefaultLayers, ShowTheCauseAndLeaveSmallPanelsAlone) {
+  const auto has = [](const Scene& scene, const char* layer) {
+    return std::find(scene.draw.begin(), scene.draw.end(), layer) != scene.draw.end();
+  };
+  for (const char* name : {"rr_torque", "rrr_torque", "pp_spring", "pen", "four_bar", "slider_crank", "humanoid_fall", "particle"}) {
+    const Scene scene = read_scene("assets/scenes/" + std::string(name) + ".yaml");
+    for (const char* layer : {"torque", "springs", "constraints", "target", "g", "limits"}) EXPECT_TRUE(has(scene, layer)) << name << layer;
+    EXPECT_FALSE(has(scene, "angles"));
+  }
+  for (const char* name : {"pen_drift", "big_steps", "euler_gains_energy", "ghost_euler"}) {
+    const Scene scene = read_scene("assets/scenes/" + std::string(name) + ".yaml");
+    EXPECT_TRUE(has(scene, "springs") && has(scene, "constraints")) << name;
+    EXPECT_FALSE(has(scene, "torque") || has(scene, "target")) << name;
+  }
+  EXPECT_TRUE(has(read_scene("assets/scenes/pen_drift.yaml", {"draw=[+torque]"}), "torque")) << "who asks gets it";
+}
+
+}  // namespace
+}  // namespace chainreel
