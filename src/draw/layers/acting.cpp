@@ -139,10 +139,12 @@ class TorqueRun {
       if (device.is_all_of_it()) shown_[std::size_t(device.drive.freedom)] = false;
     // Pictures to be laid over others have no words but those that were asked for.
     labelled_ = !is_transparent(stage.page) && std::count(shown_.begin(), shown_.end(), true) <= kMostTorqueLabels;
-    const double largest = nv_ == 0 ? 0 : *std::max_element(most.begin(), most.end());
+    std::vector<double> magnitudes;
+    for (const double tau : tau_) magnitudes.push_back(std::abs(tau));
+    const double full = full_magnitude(std::move(magnitudes));
     for (std::size_t i = 0; i < nv_; ++i) {
       std::vector<bool> rests(t.size());
-      for (std::size_t k = 0; k < t.size(); ++k) rests[k] = !(std::abs(tau_[k * nv_ + i]) >= kRestBelow * largest);
+      for (std::size_t k = 0; k < t.size(); ++k) rests[k] = !(std::abs(tau_[k * nv_ + i]) >= kRestBelow * full);
       rings_[i] = rings_along(t, rests);
     }
   }

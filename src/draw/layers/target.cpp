@@ -39,14 +39,21 @@ class Target : public Layer {
 
   UnderWords under_words() const override { return UnderWords::if_need_be; }
 
+  void measure(const Sight& sight, FitBox& box) const override {
+    const auto found = followed_.find(&sight.motion);
+    if (found == followed_.end()) return;
+    pose(found->second, sight.motion.chain(), sight.k);
+    const Workspace& ws = *found->second.ws;
+    for (const LinkSegment& link : sight.motion.skeleton().links)
+      box.add(room_around(size::kLinkWidth / 2), sight.camera.flat(pose_of(ws, link.body) * link.to));
+  }
+
   void draw(Picture& picture, const Shot& shot) const override {
     const Panel& panel = shot.panel;
     const auto found = followed_.find(&panel.motion());
     if (found == followed_.end()) return;
     const Followed& followed = found->second;
-    const auto n = std::size_t(panel.chain().nv);
-    const ConstVec target(followed.q.data() + std::size_t(shot.k) * n, n);
-    compute_kinematics(panel.chain(), *followed.ws, target, followed.at_rest);
+    const ConstVec target = pose(followed, panel.chain(), shot.k);
     ChainLook look = panel.look();
     Theme theme = *look.theme;
     theme.ink = theme.torque;
@@ -67,6 +74,14 @@ class Target : public Layer {
     std::unique_ptr<Workspace> ws;      // of the target; a film is drawn by one thread at a time
     std::vector<double> at_rest;
   };
+
+  // Lets the workspace stand as the target does at sample k; its coordinates.
+  static ConstVec pose(const Followed& followed, const Chain& chain, int k) {
+    const auto n = std::size_t(chain.nv);
+    const ConstVec target(followed.q.data() + std::size_t(k) * n, n);
+    compute_kinematics(chain, *followed.ws, target, followed.at_rest);
+    return target;
+  }
 
   static void draw_pull(Picture& picture, const Shot& shot, const LinearDrive& drive, ConstVec target) {
     const Panel& panel = shot.panel;

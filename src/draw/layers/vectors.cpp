@@ -18,6 +18,7 @@ using Eigen::Vector3d;
 constexpr double kVectorLabelGap = 0.010;  // between an arrow's tip or an arc and its label, units of H
 constexpr double kFarLabelGap = 0.035;      // ... where there is no room nearer
 constexpr double kShareBelowFull = 0.95;  // of a clip's magnitudes
+constexpr double kRoundOffBelow = 1e-6;   // of the largest
 constexpr double kRestBeforeRing = 0.3, kRingFade = 0.15;  // s
 constexpr double kRingRadius = 0.026;     // units of H: close about a joint's disc
 constexpr double kWholeRadius = 60;       // degrees: an arc that turns by less has a smaller radius, down to a dot
@@ -73,21 +74,22 @@ std::string word_name(const WorldVector& vector) {
 }  // namespace
 
 void VectorMagnitudes::add(const WorldVector& vector) {
-  const double magnitude = vector.value.norm();
-  if (std::isfinite(magnitude) && magnitude > 0) magnitudes_[std::size_t(vector.kind)].push_back(magnitude);
+  magnitudes_[std::size_t(vector.kind)].push_back(vector.value.norm());
+}
+
+double full_magnitude(std::vector<double> magnitudes) {
+  std::erase_if(magnitudes, [](double one) { return !(one > 0) || !std::isfinite(one); });
+  if (magnitudes.empty()) return 0;
+  const double least = kRoundOffBelow * *std::max_element(magnitudes.begin(), magnitudes.end());
+  std::erase_if(magnitudes, [least](double one) { return one < least; });
+  const auto at = magnitudes.begin() + std::ptrdiff_t(std::ceil(kShareBelowFull * double(magnitudes.size()))) - 1;
+  std::nth_element(magnitudes.begin(), at, magnitudes.end());
+  return *at;
 }
 
 std::array<double, kVectorKinds.size()> VectorMagnitudes::full() const {
   std::array<double, kVectorKinds.size()> full{};
-  for (std::size_t kind = 0; kind < full.size(); ++kind) {
-    std::vector<double> all = magnitudes_[kind];
-    if (all.empty()) continue;
-    const double least = kRestBelow * *std::max_element(all.begin(), all.end());
-    std::erase_if(all, [least](double one) { return one < least; });
-    const auto at = all.begin() + std::ptrdiff_t(std::ceil(kShareBelowFull * double(all.size()))) - 1;
-    std::nth_element(all.begin(), at, all.end());
-    full[kind] = *at;
-  }
+  for (std::size_t kind = 0; kind < full.size(); ++kind) full[kind] = full_magnitude(magnitudes_[kind]);
   return full;
 }
 

@@ -52,11 +52,14 @@ inline constexpr double kTurnOfFull = 240, kWidestTurn = 300;  // degrees
 // Below this fraction of the full one a torque rests.
 inline constexpr double kRestBelow = 0.01;
 
+// The 95th percentile of those that are more than round-off beside the largest, 0 where there is none: the full one.
+double full_magnitude(std::vector<double> magnitudes);
+
 // The magnitudes of a clip, of which its scales are made.
 class VectorMagnitudes {
  public:
   void add(const WorldVector& vector);
-  // Of each kind the 95th percentile of those that are not next to nothing: above 1 % of the largest.
+  // Of each kind the 95th percentile of those that are more than round-off beside the largest.
   std::array<double, kVectorKinds.size()> full() const;
 
  private:

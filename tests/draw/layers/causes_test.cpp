@@ -133,6 +133,7 @@ TEST(TargetLayer, ShowsThePoseThatFeedbackFollows) {
     const double q1 = 0.3 + cause.times[std::size_t(k)], q2 = -0.5;
     const Point tip = pictures.camera().project({std::cos(q1) + std::cos(q1 + q2), std::sin(q1) + std::sin(q1 + q2), 0});
     EXPECT_LT(test::distance(outlines[1].b, tip), kCauseRoundOff);
+    EXPECT_TRUE(test::is_inside(pictures.scene_area(), tip)) << "the camera holds it";
   }
   // From the target to where the joint is, coils.
   const auto coils = wires(pictures.frame(0), light().torque);
