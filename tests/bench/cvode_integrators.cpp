@@ -30,7 +30,7 @@ class Cvode final : public EndFinder {
       : EndFinder(stiff ? "CVODE BDF" : "CVODE Adams", std::move(ladder)),
         run_(problem.run),
         n_(std::size_t(run_.chain.nv)),
-        system_(run_.chain, *run_.torque, LimitPolicy::report) {
+        system_(run_) {
     check(SUNContext_Create(nullptr, &context_));
     y_ = checked(N_VNew_Serial(sunindextype(2 * n_), context_));
     memory_ = checked(CVodeCreate(stiff ? CV_BDF : CV_ADAMS, context_));

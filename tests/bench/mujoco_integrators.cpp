@@ -11,7 +11,7 @@ class MujocoRk4 final : public EndFinder {
   MujocoRk4(const MotionProblem& problem, std::vector<double> ladder)
       : EndFinder("MuJoCo RK4", std::move(ladder)), run_(problem.run), chain_(run_.chain) {
     chain_.use_rk4();
-    ChainSystem system(run_.chain, *run_.torque, LimitPolicy::report, {});
+    ChainSystem system(run_);
     const ConstVec tau = system.torque(0, run_.q0, run_.qd0);
     tau_.assign(tau.begin(), tau.end());
   }

@@ -21,7 +21,7 @@ class OurRate {
  public:
   static constexpr const char* kName = "";
   explicit OurRate(const MotionProblem& problem)
-      : system_(problem.run.chain, *problem.run.torque, LimitPolicy::report) {}
+      : system_(problem.run) {}
   void operator()(const State<n>& y, State<n>& f, double t) {
     std::copy_n(y.begin() + n, n, f.begin());
     system_.acceleration(t, {y.data(), n}, {y.data() + n, n}, {f.data() + n, n});

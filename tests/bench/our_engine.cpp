@@ -17,7 +17,7 @@ void OurEngine::start(const test::State& state) {
   std::vector<TorqueEntry> entries(state.tau.size());
   for (std::size_t i = 0; i < entries.size(); ++i) entries[i].text = format_exact(state.tau[i]);
   torque_ = make_torque_law(chain_, entries, {});
-  system_ = std::make_unique<ChainSystem>(chain_, *torque_, LimitPolicy::report, {});
+  system_ = std::make_unique<ChainSystem>(chain_, *torque_, LimitPolicy::report, ConstraintPlan{});
 }
 
 }  // namespace chainreel::bench

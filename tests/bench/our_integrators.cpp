@@ -14,7 +14,7 @@ class OurMethod final : public EndFinder {
         run_(problem.run),
         method_(find_method(name)),
         order_(order),
-        system_(run_.chain, *run_.torque, LimitPolicy::report),
+        system_(run_),
         forms_(system_, method_) {}
 
   std::vector<double> end_of(double rung) override {
