@@ -18,6 +18,7 @@ double series_step(int n, int order) {
 const std::vector<Method>& methods() {
   static const std::vector<Method> rows{
       {.name = "explicit_euler",
+       .title = "explicit Euler",
        .order = 1,
        .kind = "explicit",
        .evaluations_per_step = 1,
@@ -25,6 +26,7 @@ const std::vector<Method>& methods() {
        .source = "L. Euler, Institutionum calculi integralis I (1768), ch. 7",
        .make_stepper = make_explicit_euler},
       {.name = "semi_implicit_euler",
+       .title = "semi-implicit Euler",
        .order = 1,
        .kind = "semi-implicit in (q, qd)",
        .evaluations_per_step = 1,
@@ -33,6 +35,7 @@ const std::vector<Method>& methods() {
            "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), I.1.2; here in (q, qd)",
        .make_stepper = make_semi_implicit_euler},
       {.name = "rk4",
+       .title = "RK4",
        .order = 4,
        .kind = "explicit",
        .evaluations_per_step = 4,
@@ -40,6 +43,7 @@ const std::vector<Method>& methods() {
        .source = "W. Kutta, Zeitschrift fuer Mathematik und Physik 46 (1901) 435-453",
        .make_stepper = make_rk4},
       {.name = "dop853",
+       .title = "DOP853",
        .order = 8,
        .kind = "explicit, adaptive",
        .adaptive = true,
@@ -50,6 +54,7 @@ const std::vector<Method>& methods() {
                  "Equations I (1993), II.5, II.10",
        .make = make_dop853},
       {.name = "taylor",
+       .title = "Taylor series",
        .order = 20,
        .kind = "series, adaptive",
        .form = Form::series,
@@ -62,6 +67,7 @@ const std::vector<Method>& methods() {
        .source = "A. Jorba, M. Zou, Experimental Mathematics 14 (2005) 99-117",
        .make = make_taylor},
       {.name = "radau5",
+       .title = "Radau 5",
        .order = 5,
        .kind = "implicit, adaptive, L-stable",
        .adaptive = true,
@@ -71,6 +77,7 @@ const std::vector<Method>& methods() {
        .source = "E. Hairer, G. Wanner, Solving Ordinary Differential Equations II (1996), IV.5, IV.8",
        .make = make_radau5},
       {.name = "symplectic_euler",
+       .title = "symplectic Euler",
        .order = 1,
        .kind = "symplectic, in (q, p)",
        .form = Form::momenta,
@@ -80,6 +87,7 @@ const std::vector<Method>& methods() {
        .source = "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), VI.3",
        .make = make_symplectic_euler},
       {.name = "verlet",
+       .title = "Verlet",
        .order = 2,
        .kind = "symplectic, in (q, p)",
        .form = Form::momenta,
@@ -90,6 +98,7 @@ const std::vector<Method>& methods() {
        .source = "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), VI.3",
        .make = make_verlet},
       {.name = "implicit_midpoint",
+       .title = "implicit midpoint",
        .order = 2,
        .kind = "implicit, symplectic, A-stable, in (q, p)",
        .form = Form::momenta,
@@ -100,6 +109,7 @@ const std::vector<Method>& methods() {
        .source = "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), II.1.3",
        .make = make_implicit_midpoint},
       {.name = "gauss4",
+       .title = "Gauss 4",
        .order = 4,
        .kind = "implicit, symplectic, A-stable, in (q, p)",
        .form = Form::momenta,
@@ -110,6 +120,7 @@ const std::vector<Method>& methods() {
        .source = "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), II.1.3",
        .make = make_gauss4},
       {.name = "gauss6",
+       .title = "Gauss 6",
        .order = 6,
        .kind = "implicit, symplectic, A-stable, in (q, p)",
        .form = Form::momenta,
@@ -120,6 +131,7 @@ const std::vector<Method>& methods() {
        .source = "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), II.1.3",
        .make = make_gauss6},
       {.name = "rattle2",
+       .title = "RATTLE 2",
        .order = 2,
        .kind = "symplectic, in Cartesian coordinates",
        .form = Form::linked_points,
@@ -131,6 +143,7 @@ const std::vector<Method>& methods() {
                  "Wanner, Geometric Numerical Integration (2006), VII.1.4",
        .make = make_rattle2},
       {.name = "rattle4",
+       .title = "RATTLE 4",
        .order = 4,
        .kind = "symplectic, in Cartesian coordinates",
        .form = Form::linked_points,
@@ -142,6 +155,7 @@ const std::vector<Method>& methods() {
                  "Geometric Numerical Integration (2006), II.4, VII.1.4",
        .make = make_rattle4},
       {.name = "rattle6",
+       .title = "RATTLE 6",
        .order = 6,
        .kind = "symplectic, in Cartesian coordinates",
        .form = Form::linked_points,
@@ -153,6 +167,7 @@ const std::vector<Method>& methods() {
                  "G. Wanner, Geometric Numerical Integration (2006), V.3.2, VII.1.4",
        .make = make_rattle6},
       {.name = "rattle8",
+       .title = "RATTLE 8",
        .order = 8,
        .kind = "symplectic, in Cartesian coordinates",
        .form = Form::linked_points,
@@ -165,6 +180,12 @@ const std::vector<Method>& methods() {
        .make = make_rattle8},
   };
   return rows;
+}
+
+std::string method_title(const std::string& name) {
+  for (const Method& method : methods())
+    if (method.name == name) return method.title;
+  return name;
 }
 
 const Method& find_method(const std::string& name) {

@@ -52,6 +52,7 @@ class Price {
 
 struct Method {
   std::string name;
+  std::string title;  // in words, for pictures: "semi-implicit Euler"
   int order = 1;
   std::string kind;  // a word or two for `chainreel methods`
   Form form = Form::second_order;
@@ -71,6 +72,9 @@ struct Method {
 };
 
 const std::vector<Method>& methods();
+
+// What pictures call a method; `name` itself where there is none of that name.
+std::string method_title(const std::string& name);
 
 // Throws Error (bad input) naming the nearest known method.
 const Method& find_method(const std::string& name);

@@ -26,7 +26,8 @@ enum class Scale {
 struct Axis {
   Scale scale = Scale::linear;
   double low = 0, high = 1;
-  std::string title{};  // running text with the unit in brackets: "energy [J]"
+  std::string title{};  // with the unit in brackets, formulas between dollar signs: "$tau$ [N m]"
+  std::string last_unit{};  // linear axes: the last number stands at the end, with this unit; "": where it falls
 };
 
 struct PlotStyle {
@@ -78,9 +79,6 @@ double title_above_frame(const PlotStyle& style);
 
 // The frame inside `area` that leaves room for tick labels and axis titles.
 PlotFrame lay_out_plot(const Rect& area, const Axis& x, const Axis& y, const PlotStyle& style);
-
-// The base line of the numbers below the frame.
-double tick_base_line(const PlotFrame& frame, const PlotStyle& style);
 
 // Grid, zero lines, frame, ticks, labels, titles: x's below at the right end, y's above at the left end, so
 // that no text is turned.
@@ -161,8 +159,9 @@ void draw_slope_triangle(Picture& picture, const SlopeTriangle& triangle, const 
 
 struct EndLabel {
   Point end;  // page point where the curve ends
-  std::string text;
+  std::string text;  // formulas between dollar signs
   CurveStyle curve;
+  bool is_quiet = false;  // one of many that others stand out from
 };
 
 // Labels in a column right of the frame that starts at `x`, in the order of their ends, moved apart so that

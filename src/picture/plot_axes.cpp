@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/format.hpp"
 #include "picture/plot.hpp"
 
 namespace chainreel {
@@ -11,8 +12,9 @@ constexpr double kTitleAbove = 0.019;  // with text at its usual size
 constexpr double kTickToLabel = 0.007, kLabelToTitle = 0.010;
 constexpr double kSuperscriptScale = 0.70, kSuperscriptUp = 0.38;  // of the em, as in formulas
 constexpr double kPitchX = 1.7;  // of the widest label: distance of labels along x
-constexpr double kPitchY = 3.0;  // of the em, along y
+constexpr double kPitchY = 3.0, kLeastPitchY = 1.3;  // of the em, along y
 constexpr int kFewestLabels = 3, kMostLinear = 5, kMostLog = 6;
+constexpr double kLastAir = 0.6;  // of the em, before the last number with its unit
 
 Color tick_color(const PlotStyle& style) {
   return style.theme->muted;
@@ -50,13 +52,41 @@ int most_labels(const Axis& axis, double length, double pitch) {
   return std::clamp(int(length / pitch), kFewestLabels, most);
 }
 
+// At most so many, but at least three where a finer step has them and they stand `pitch` apart on the axis' `length`.
+std::vector<Tick> enough_ticks(const Axis& axis, int most, double length, double pitch) {
+  std::vector<Tick> ticks = ticks_of(axis, most);
+  for (int more = most + 1; axis.scale != Scale::log && int(ticks.size()) < kFewestLabels && more <= kMostLinear + 1;
+       ++more) {
+    std::vector<Tick> finer = ticks_of(axis, more);
+    const double step = finer.size() > 1 ? finer[1].value - finer[0].value : 0;
+    if (step / (axis.high - axis.low) * length < pitch) break;
+    ticks = std::move(finer);
+  }
+  return ticks;
+}
+
+Tick last_tick(const Axis& axis) {
+  return {axis.high, format_significant(axis.high, 4) + "\u2009" + axis.last_unit, ""};
+}
+
 std::vector<Tick> x_ticks(const Axis& axis, double width, const PlotStyle& style) {
   const double pitch = kPitchX * widest_label(ticks_of(axis, kMostLog), style);
-  return ticks_of(axis, most_labels(axis, width, std::max(pitch, 1e-3)));
+  std::vector<Tick> ticks = enough_ticks(axis, most_labels(axis, width, std::max(pitch, 1e-3)), width, pitch);
+  if (axis.last_unit.empty()) return ticks;
+  // Numbers that the last one would touch give way to it.
+  const Tick last = last_tick(axis);
+  const double per_value = width / (axis.high - axis.low), air = kLastAir * style.text(size::kTick);
+  const double taken = lay_out_tick(last, style).advance / 2 + air;
+  std::erase_if(ticks, [&](const Tick& tick) {
+    return (axis.high - tick.value) * per_value < taken + lay_out_tick(tick, style).advance / 2;
+  });
+  ticks.push_back(last);
+  return ticks;
 }
 
 std::vector<Tick> y_ticks(const Axis& axis, double height, const PlotStyle& style) {
-  return ticks_of(axis, most_labels(axis, height, kPitchY * style.text(size::kTick)));
+  const double em = style.text(size::kTick);
+  return enough_ticks(axis, most_labels(axis, height, kPitchY * em), height, kLeastPitchY * em);
 }
 
 void draw_line(Picture& picture, Point a, Point b, double width, Color color) {
@@ -190,12 +220,8 @@ PlotFrame lay_out_plot(const Rect& area, const Axis& x, const Axis& y, const Plo
   box.y1 -= y.title.empty() ? tick / 2 : title + title_above_frame(style);
   box.x0 += size::kPlotTick + kTickToLabel + widest_label(y_ticks(y, box.height(), style), style);
   // Half of the last number hangs over the end of the axis.
-  box.x1 -= widest_label(ticks_of(x, kMostLog), style) / 2;
+  box.x1 -= (x.last_unit.empty() ? widest_label(ticks_of(x, kMostLog), style) : lay_out_tick(last_tick(x), style).advance) / 2;
   return frame;
-}
-
-double tick_base_line(const PlotFrame& frame, const PlotStyle& style) {
-  return tick_row(frame, style) - kCapHeight * style.text(size::kTick) / 2;
 }
 
 void draw_axes(Picture& picture, const PlotFrame& frame, const PlotStyle& style) {
@@ -210,11 +236,11 @@ void draw_axes(Picture& picture, const PlotFrame& frame, const PlotStyle& style)
   const TextStyle text{Face::label, em, style.theme->ink, Align::center};
   const double below =
       size::kPlotTick + kTickToLabel + style.text(size::kTick) + kLabelToTitle + kCapHeight * em;
-  draw_text(picture, lay_out_text(*style.fonts, frame.x.title, text),
+  draw_text(picture, lay_out_words(*style.fonts, frame.x.title, text),
             {(frame.box.x0 + frame.box.x1) / 2, frame.box.y0 - below});
   const double labels = widest_label(ys, style) + kTickToLabel + size::kPlotTick;
   draw_text(picture,
-            lay_out_text(*style.fonts, frame.y.title, {Face::label, em, style.theme->ink, Align::left}),
+            lay_out_words(*style.fonts, frame.y.title, {Face::label, em, style.theme->ink, Align::left}),
             {frame.box.x0 - labels, frame.box.y1 + title_above_frame(style)});
 }
 

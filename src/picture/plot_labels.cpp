@@ -89,7 +89,7 @@ double end_labels_width(std::span<const std::string> texts, const PlotStyle& sty
   double widest = 0;
   for (const std::string& text : texts)
     widest =
-        std::max(widest, lay_out_text(*style.fonts, text,
+        std::max(widest, lay_out_words(*style.fonts, text,
                                       {Face::label, style.text(size::kTick), style.theme->ink, Align::left})
                              .advance);
   return kKeyLength + kKeyToText + widest;
@@ -115,7 +115,8 @@ void draw_end_labels(Picture& picture, const PlotFrame& frame, std::vector<EndLa
     picture.add(Capsule{label.end, {at.x - kLeaderGap, at.y}, kLeader / 2, {thin, {}, 0}});
     draw_key(picture, at, kKeyLength, label.curve, *style.theme);
     draw_text(picture,
-              lay_out_text(*style.fonts, label.text, {Face::label, em, style.theme->ink, Align::left}),
+              lay_out_words(*style.fonts, label.text,
+                            {Face::label, em, label.is_quiet ? style.theme->muted : style.theme->ink, Align::left}),
               {at.x + kKeyLength + kKeyToText, at.y - kCapHeight * em / 2});
   }
 }

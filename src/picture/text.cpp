@@ -77,6 +77,72 @@ TextLine lay_out_text(const Fonts& fonts, const std::string& utf8, const TextSty
   return line.finish(style.size * shaped.advance);
 }
 
+namespace {
+
+constexpr double kFormulaSize = 1.2;  // of the text's: small letters of the math face are lower
+
+// Sets `part` behind what is there.
+void append(TextLine& line, TextLine part) {
+  for (GlyphRun& run : part.runs) {
+    run.origin.x += line.advance;
+    line.runs.push_back(std::move(run));
+  }
+  for (Shape& mark : part.marks) {
+    shift_shape(mark, {line.advance, 0});
+    line.marks.push_back(std::move(mark));
+  }
+  if (part.box.width() > 0) {
+    const Rect box{part.box.x0 + line.advance, part.box.y0, part.box.x1 + line.advance, part.box.y1};
+    line.box = line.box.width() > 0 ? around(line.box, box) : box;
+  }
+  line.advance += part.advance;
+}
+
+}  // namespace
+
+std::string without_formulas(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '$' ? std::string("\\$") : std::string(1, c);
+  return escaped;
+}
+
+TextLine lay_out_words(const Fonts& fonts, const std::string& words, const TextStyle& style) {
+  TextLine line;
+  const TextStyle plain{style.face, style.size, style.color, Align::left};
+  std::string text;
+  const auto flush = [&] {
+    if (!text.empty()) append(line, lay_out_text(fonts, text, plain));
+    text.clear();
+  };
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words.compare(i, 2, "\\$") == 0) {
+      text += words[++i];
+      continue;
+    }
+    const std::size_t end = words[i] == '$' ? words.find('$', i + 1) : std::string::npos;
+    if (end == std::string::npos) {
+      text += words[i];
+      continue;
+    }
+    try {
+      TextLine formula = lay_out_math(fonts, words.substr(i + 1, end - i - 1),
+                                      {Face::math, kFormulaSize * style.size, style.color, Align::left});
+      flush();
+      append(line, std::move(formula));
+    } catch (const Error&) {
+      text += words.substr(i + 1, end - i - 1);
+    }
+    i = end;
+  }
+  flush();
+  const double shift = style.align == Align::left ? 0 : style.align == Align::center ? -line.advance / 2 : -line.advance;
+  for (GlyphRun& run : line.runs) run.origin.x += shift;
+  for (Shape& mark : line.marks) shift_shape(mark, {shift, 0});
+  line.box.x0 += shift;
+  line.box.x1 += shift;
+  return line;
+}
+
 void draw_text(Picture& picture, const TextLine& line, Point anchor, int clip) {
   for (const GlyphRun& run : line.runs) {
     Shape moved = run;

@@ -73,6 +73,12 @@ struct SymbolColor {
 TextLine lay_out_math(const Fonts& fonts, const std::string& notation, const TextStyle& style,
                       const std::vector<SymbolColor>& symbols = {});
 
+// Running text with formulas between dollar signs: "$tau$ [N m]". A dollar sign without a partner, or behind a backslash,
+// is one; what is no notation stands as it is written.
+TextLine lay_out_words(const Fonts& fonts, const std::string& words, const TextStyle& style);
+// So that every dollar sign of a text is shown.
+std::string without_formulas(const std::string& text);
+
 // Moves a laid-out line to the anchor and appends it to the picture.
 void draw_text(Picture& picture, const TextLine& line, Point anchor, int clip = -1);
 

@@ -18,7 +18,7 @@ const Theme& light_theme() {
       .constraint = color_of(0x490490),
       .curve = {color_of(0x0072B2), color_of(0xC25700), color_of(0x005F46)},
       .side_a = color_of(0x0072B2),
-      .side_b = color_of(0xD55E00),
+      .side_b = color_of(0xC25700),
       .axis = {color_of(0xC62F28), color_of(0x1E7B34), color_of(0x2250C4)},
   };
   return theme;

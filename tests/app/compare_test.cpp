@@ -116,8 +116,8 @@ TEST_F(CompareFilm, APanelRunsAsItWouldByItself) {
   const Json alone = Json::parse(read_whole_file(folder_.file("two.json")));
   EXPECT_EQ(both["panels"][1]["trajectory_sha256"], alone["trajectory_sha256"]);
   EXPECT_NE(both["panels"][0]["trajectory_sha256"], alone["trajectory_sha256"]);  // negative control
-  EXPECT_EQ(both["panels"][0]["title"], "semi_implicit_euler");
-  EXPECT_EQ(both["panels"][1]["title"], "rk4");
+  EXPECT_EQ(both["panels"][0]["title"], "semi-implicit Euler");
+  EXPECT_EQ(both["panels"][1]["title"], "RK4");
 }
 
 TEST_F(CompareFilm, SimulateWritesAFileForEachPanelOrTheOneThatIsAskedFor) {

@@ -88,7 +88,7 @@ TEST(GhostLayout, FillsTheFirstRunAndOutlinesTheSecondWhereTheirPhysicsHasThem) 
   for (double along = 0.2; along < 0.85; along += 0.05) {
     for (const int body : {1, 2}) {
       filled += ghosts.pixel(image, ghosts.place(0, kFrame, body, along, 0.3)) ==
-                solid(theme.link[std::size_t(body) - 1]);
+                solid(variant_of(0, 2, true, theme).theme->link[std::size_t(body) - 1]);
       for (const double side : {-1.0, 1.0})
         outlined += ghosts.pixel(image, ghosts.place(1, kFrame, body, along, side)) == solid(theme.side_b);
       inside += ghosts.pixel(image, ghosts.place(1, kFrame, body, along, 0.3)) == solid(theme.side_b);
@@ -133,7 +133,7 @@ TEST(GhostLayout, TellsThreeOutlinesApartByLettersAndColours) {
     EXPECT_THAT(words, HasSubstr(key));
   std::set<std::uint32_t> colors;
   for (int i = 0; i < 4; ++i) {
-    const Color c = variant_of(i, 4, light_theme()).color;
+    const Color c = variant_of(i, 4, true, light_theme()).color;
     colors.insert(std::uint32_t(c.r) << 16 | std::uint32_t(c.g) << 8 | c.b);
   }
   EXPECT_EQ(colors.size(), 4u);
@@ -182,7 +182,7 @@ TEST(GhostLayout, IsReachedByFlagsAndSaysWhatItNeeds) {
   EXPECT_EQ(probe_video(folder.file("a.mp4")).frames, 12);
   EXPECT_EQ(Json::parse(read_whole_file(folder.file("a.json")))["layout"], "ghost");
   EXPECT_THAT(read_whole_file(folder.file("a.txt")),
-              HasSubstr("2 variants in one place (filled: rk4; in outline: explicit_euler)"));
+              HasSubstr("2 variants in one place (filled: RK4; in outline: explicit Euler)"));
   const ProgramResult alone = run("snapshot", {"-o", folder.file("b.png")});
   EXPECT_EQ(alone.status, 3);
   EXPECT_THAT(alone.err, HasSubstr("layout 'ghost' needs `compare:` with its panels"));

@@ -21,6 +21,7 @@ namespace {
 struct ChartOptions {
   std::string scene;
   std::string methods;
+  std::string highlight;
   int runs = 5;
   double longest = 0.1;
   FigureOptions figure;
@@ -97,6 +98,7 @@ WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOp
       data.choice = {ladder.method->name, add_choice(prepared.simulation, measured, ladder, options.runs)};
     ChartCurve curve;
     curve.method = ladder.method->name;
+    curve.title = ladder.method->title;
     curve.order = ladder.method->adaptive ? 0 : ladder.method->order;
     curve.look = int(ladder.method - methods().data());
     for (const Rung& rung : ladder.rungs)
@@ -159,17 +161,35 @@ void print_summary(const WorkPrecision& data, const Measured& measured) {
   std::printf("%s\n", choice_text(*measured.choice, measured.accuracy).c_str());
 }
 
+// Of methods that are in the chart; none where nothing is asked for.
+std::vector<std::string> highlighted(const ChartOptions& options, const std::vector<const Method*>& chosen) {
+  std::vector<std::string> names;
+  if (options.highlight.empty()) return names;
+  for (const Method* method : parse_methods(options.highlight, "--highlight")) {
+    if (std::find(chosen.begin(), chosen.end(), method) == chosen.end())
+      throw Error(ExitCode::usage, "--highlight: " + method->name + " is not among --methods");
+    names.push_back(method->name);
+  }
+  return names;
+}
+
 void run_chart(const ChartOptions& options) {
   const std::vector<const Method*> chosen = parse_methods(options.methods);
+  const std::vector<std::string> lit = highlighted(options, chosen);
   PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false, options.common.quiet);
   std::string output = options.figure.output;
   if (output.empty()) output = "out/" + prepared.scene.name + "_chart.png";
   check_figure_path(output);
   Measured measured = measure_all(prepared, chosen, options);
-  const WorkPrecision data = data_of(prepared, measured, options);
+  WorkPrecision data = data_of(prepared, measured, options);
+  for (const std::string& name : lit)
+    if (std::none_of(data.curves.begin(), data.curves.end(), [&](const ChartCurve& c) { return c.method == name; }))
+      throw Error(ExitCode::bad_input, "--highlight: " + name + " does not take this scene",
+                  prepared.scene.place_of("method"));
   const Fonts fonts;
   const ChartLook look = chart_look(options.figure, prepared.scene, fonts);
   const ChartCost panels[] = {ChartCost::seconds, ChartCost::evaluations};
+  light_curves(data, panels, lit);
   const auto files = write_figure(work_precision_chart(data, panels, look), csv_of(options.scene, measured),
                                   options.figure, output, fonts, options.common.force);
   if (options.common.quiet) return;
@@ -185,6 +205,8 @@ void add_chart_command(CommandLine& app) {
       app.add_subcommand("chart", "speed against accuracy: a work-precision diagram of a scene");
   command->add_option("scene", options->scene, "a scene file").required();
   command->add_option("--methods", options->methods, "rk4,taylor,.. (default all that take the scene)");
+  command->add_option("--highlight", options->highlight,
+                      "taylor,rk4: these in colour, the rest grey (default the cheapest at some error, and auto's)");
   command->add_option("--runs", options->runs, "of each rung; the median counts").range(1, 1000);
   command->add_option("--longest", options->longest, "s: rungs that would take longer are left out")
       .positive();

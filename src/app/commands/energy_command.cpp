@@ -116,6 +116,7 @@ MethodRun run_method(Simulation& simulation, const MethodSetting& setting, const
   run.largest_between = audit_of(simulation, trajectory).largest_error;
   run.evaluations = trajectory.evaluations;
   run.curve.method = setting.method->name;
+  run.curve.title = setting.method->title;
   run.curve.trouble = one_word(trajectory.status);
   run.curve.look = int(setting.method - methods().data());
   return run;

@@ -94,7 +94,7 @@ ClipMemory memory_of_figure(const Command& command, const std::string& title, co
   return memory;
 }
 
-std::vector<const Method*> parse_methods(const std::string& text) {
+std::vector<const Method*> parse_methods(const std::string& text, const std::string& option) {
   std::vector<const Method*> chosen;
   if (text.empty())
     for (const Method& method : methods()) chosen.push_back(&method);
@@ -104,7 +104,7 @@ std::vector<const Method*> parse_methods(const std::string& text) {
     try {
       chosen.push_back(&find_method(text.substr(begin, end - begin)));
     } catch (const Error& error) {
-      throw Error(ExitCode::usage, "--methods: " + error.problems().front().message);
+      throw Error(ExitCode::usage, option + ": " + error.problems().front().message);
     }
     begin = end + 1;
   }

@@ -41,8 +41,8 @@ ClipMemory memory_of_figure(const Command& command, const std::string& title);
 ClipMemory memory_of_figure(const Command& command, const std::string& title, const std::string& model,
                             const std::vector<std::vector<double>>& poses);
 
-// "rk4,taylor": rows of the registry; "" is all of them.
-std::vector<const Method*> parse_methods(const std::string& text);
+// "rk4,taylor": rows of the registry; "" is all of them. Throws Error (usage) naming the option.
+std::vector<const Method*> parse_methods(const std::string& text, const std::string& option = "--methods");
 
 // "1000s", "1000 s" or "1000": seconds. Throws Error (usage) naming the option.
 double parse_seconds(const std::string& text, const std::string& option);

@@ -35,6 +35,18 @@ struct StabilityOptions {
 constexpr double kTableSteps[] = {0.1, 0.01, 0.001};
 constexpr double kTableTolerances[] = {1e-3, 1e-6, 1e-9};
 
+// What an axis calls a key: "step [s]", a parameter by its name, q2(0) for start.q.2.
+std::string title_of_key(const std::string& key) {
+  if (key == "step") return "step [s]";
+  for (const std::string prefix : {"parameters.", "start.q.", "start.qd."}) {
+    if (!key.starts_with(prefix)) continue;
+    const std::string rest = key.substr(prefix.size());
+    if (prefix == "parameters.") return rest;
+    return "$" + std::string(prefix == "start.q." ? "q" : "qd") + rest + "(0)$";
+  }
+  return key;
+}
+
 Axis axis_of(const Sweep& sweep) {
   Axis axis;
   axis.scale = sweep.logarithmic ? Scale::log : Scale::linear;
@@ -49,10 +61,7 @@ Axis axis_of(const Sweep& sweep) {
     axis.low = v.front() - half;
     axis.high = v.back() + half;
   }
-  const std::string prefix = "parameters.";
-  axis.title = sweep.key == "step"             ? "step [s]"
-               : sweep.key.starts_with(prefix) ? sweep.key.substr(prefix.size())
-                                               : sweep.key;
+  axis.title = title_of_key(sweep.key);
   return axis;
 }
 
@@ -107,7 +116,7 @@ void add_edges(const StabilityCells& cells, StabilityMap& map) {
 
 StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
   StabilityMap map;
-  map.title = "Where " + cells.method + " fails";
+  map.title = "Where " + method_title(cells.method) + " fails";
   map.subtitle = scene.title.empty() ? scene.name : scene.title;
   map.x = axis_of(cells.x);
   map.y = axis_of(cells.y);

@@ -9,6 +9,7 @@ namespace {
 
 // A share of the page's width; where it is not enough for all panels, they share the labels of the last.
 constexpr double kMostForLabels = 0.30;
+constexpr double kQuietMarker = 0.7;
 constexpr double kZonePad = 0.012;
 constexpr double kWidestZone = 0.34;  // of the panel
 constexpr double kZoneOpacity = 0.14;
@@ -24,7 +25,16 @@ std::string cost_title(ChartCost cost, double width, const PlotStyle& style) {
 
 CurveStyle style_of(const WorkPrecision& data, std::size_t curve, const ChartLook& look) {
   const int index = data.curves[curve].look;
-  return curve_style(index < 0 ? int(curve) : index, *look.theme, look.text_scale);
+  CurveStyle style = curve_style(index < 0 ? int(curve) : index, *look.theme, look.text_scale);
+  if (data.curves[curve].is_lit) return style;
+  style.color = look.theme->base;
+  style.width = size::kPlotLineSecondary;
+  style.marker_size *= kQuietMarker;
+  return style;
+}
+
+std::string title_of(const ChartCurve& curve) {
+  return without_formulas(curve.title.empty() ? curve.method : curve.title);
 }
 
 struct Range {
@@ -107,9 +117,17 @@ void draw_floor_words(Picture& picture, const PlotFrame& frame, const WorkPrecis
                  width);
 }
 
+std::vector<std::size_t> quiet_first(const WorkPrecision& data) {
+  std::vector<std::size_t> order;
+  for (const bool lit : {false, true})
+    for (std::size_t i = 0; i < data.curves.size(); ++i)
+      if (data.curves[i].is_lit == lit) order.push_back(i);
+  return order;
+}
+
 void draw_curves(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,
                  const ChartLook& look) {
-  for (std::size_t i = 0; i < data.curves.size(); ++i) {
+  for (const std::size_t i : quiet_first(data)) {
     const CurveStyle style = style_of(data, i, look);
     std::vector<Point> points;
     for (const ChartPoint& point : data.curves[i].points) {
@@ -132,7 +150,8 @@ std::vector<EndLabel> labels_of(const PlotFrame& frame, const WorkPrecision& dat
                        cost_of(point, cost)};
       if (frame.can_show(p) && (!end || frame.at(p).x > end->x)) end = frame.at(p);
     }
-    if (end) labels.push_back({*end, data.curves[i].method, style_of(data, i, look)});
+    if (end)
+      labels.push_back({*end, title_of(data.curves[i]), style_of(data, i, look), !data.curves[i].is_lit});
   }
   return labels;
 }
@@ -156,7 +175,8 @@ Columns columns_of(const Rect& area, std::size_t count, double labels) {
   return columns;
 }
 
-void draw_panel(Picture& picture, const Rect& area, const WorkPrecision& data, ChartCost cost,
+// Returns whether it has slope triangles.
+bool draw_panel(Picture& picture, const Rect& area, const WorkPrecision& data, ChartCost cost,
                 bool with_labels, const ChartLook& look) {
   const PlotStyle style = look.plot_style();
   const Axis costs = cost_axis(data, cost, area.width(), style);
@@ -166,10 +186,11 @@ void draw_panel(Picture& picture, const Rect& area, const WorkPrecision& data, C
   draw_floor(picture, frame, data, look);
   draw_axes(picture, frame, style);
   draw_floor_words(picture, frame, data, look);
-  draw_marks(picture, frame, data, cost, look);
+  const bool triangles = draw_marks(picture, frame, data, cost, look);
   if (with_labels)
     draw_end_labels(picture, frame, labels_of(frame, data, cost, look), frame.box.x1 + kLabelGap, style);
   draw_curves(picture, frame, data, cost, look);
+  return triangles;
 }
 
 // "3\u00D710\u207B\u00B9\u2074"
@@ -185,7 +206,7 @@ std::string power_text(double value) {
   return text;
 }
 
-std::string footer_of(const WorkPrecision& data) {
+std::string footer_of(const WorkPrecision& data, bool triangles) {
   std::string text;
   const auto add = [&text](const std::string& part) {
     text += (text.empty() || part.empty() ? "" : "; ") + part;
@@ -194,7 +215,9 @@ std::string footer_of(const WorkPrecision& data) {
   if (data.floor > 0)
     add("shaded: the problem's amplification times 2\u207B\u2075\u00B3 is " + power_text(data.floor));
   if (data.reference_uncertainty > 0) add("reference known to " + power_text(data.reference_uncertainty));
-  add("triangles: slope of an order");
+  if (triangles) add("triangles: slope of an order");
+  if (std::any_of(data.curves.begin(), data.curves.end(), [](const ChartCurve& curve) { return !curve.is_lit; }))
+    add("grey: the other methods");
   if (any_failed(data)) add("crosses at the right edge: failed runs");
   add(data.machine);
   return text;
@@ -204,16 +227,26 @@ std::string footer_of(const WorkPrecision& data) {
 
 Picture work_precision_chart(const WorkPrecision& data, std::span<const ChartCost> panels,
                              const ChartLook& look) {
-  Picture picture;
-  const Rect area = draw_chart_page(picture, {data.title, data.subtitle, footer_of(data)}, look);
   std::vector<std::string> methods;
-  for (const ChartCurve& curve : data.curves) methods.push_back(curve.method);
-  const Columns columns = columns_of(area, panels.size(), end_labels_width(methods, look.plot_style()));
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    const bool with_labels = !columns.shared_labels || i + 1 == panels.size();
-    draw_panel(picture, columns.panels[i], data, panels[i], with_labels, look);
-  }
-  return picture;
+  for (const ChartCurve& curve : data.curves) methods.push_back(title_of(curve));
+  const auto draw = [&](bool explains_triangles, bool& triangles) {
+    Picture picture;
+    const ChartText text{data.title, data.subtitle, footer_of(data, explains_triangles)};
+    const Rect area = draw_chart_page(picture, text, look);
+    const Columns columns = columns_of(area, panels.size(), end_labels_width(methods, look.plot_style()));
+    triangles = false;
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+      const bool with_labels = !columns.shared_labels || i + 1 == panels.size();
+      triangles |= draw_panel(picture, columns.panels[i], data, panels[i], with_labels, look);
+    }
+    return picture;
+  };
+  // Whether they are explained decides on the room that they have.
+  bool triangles = false;
+  Picture explained = draw(true, triangles);
+  if (triangles) return explained;
+  Picture plain = draw(false, triangles);
+  return triangles ? explained : plain;
 }
 
 }  // namespace chainreel

@@ -26,6 +26,8 @@ struct ChartCurve {
   int order = 0;  // 0: no slope is expected
   std::vector<ChartPoint> points;
   int look = -1;  // of curve_style; -1: the place in the list
+  std::string title{};  // what the picture calls it; "": `method`
+  bool is_lit = true;  // in colour; else grey, so that the others stand out
 };
 
 struct ChartChoice {
@@ -54,6 +56,10 @@ Picture work_precision_chart(const WorkPrecision& data, std::span<const ChartCos
 // a curve along straight lines of the log-log diagram; nothing where none gets there.
 std::optional<double> least_cost(const WorkPrecision& data, ChartCost cost, double error);
 
+// Lights the curves of these methods, of none named those that are cheapest at some error in one of the panels and the
+// choice of `auto`, and no others.
+void light_curves(WorkPrecision& data, std::span<const ChartCost> panels, const std::vector<std::string>& methods);
+
 // What a diagram draws beside its curves: guides, slopes, failures, the choice of `auto`. Internal.
 
 double cost_of(const ChartPoint& point, ChartCost cost);
@@ -61,7 +67,8 @@ double cost_of(const ChartPoint& point, ChartCost cost);
 // What lies behind the curves: the least cost for each error and ten and a hundred times as much, a triangle
 // for each order whose slope some curve really shows, a ring around the choice of `auto`. Words and triangles
 // stand where no curve crosses them, or are left out; the word of the choice always stands.
-void draw_marks(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,
+// Returns whether there are triangles.
+bool draw_marks(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,
                 const ChartLook& look);
 
 // A failed run: the method's marker and a cross on the right edge, at its cost.

@@ -19,6 +19,7 @@ constexpr double kLongestRun = 0.11;      // H
 constexpr double kSlopeAgreement = 0.25;  // of 1/p: more than times scatter, less than to the next order
 constexpr double kRing = 0.0185, kRingLine = 0.0035;
 constexpr double kFailureShift = 0.020, kFailureSize = 1.25;
+constexpr double kSameCost = 1e-9;    // decades
 constexpr double kClearance = 0.009;  // half a marker and a little air
 
 struct LogPoint {
@@ -192,7 +193,7 @@ bool triangle_is_free(const SlopeTriangle& triangle, double text, const Obstacle
          obstacles.is_free(widened(square, -kClearance)) && obstacles.is_free(widened(number, -kClearance));
 }
 
-void draw_slopes(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,
+bool draw_slopes(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,
                  Obstacles& obstacles, const ChartLook& look) {
   const PlotStyle style = look.plot_style();
   const double text = 1.1 * style.text(size::kTick);
@@ -212,6 +213,7 @@ void draw_slopes(Picture& picture, const PlotFrame& frame, const WorkPrecision& 
       }
     }
   }
+  return !drawn.empty();
 }
 
 // --- the choice of `auto` ---
@@ -268,14 +270,26 @@ std::optional<double> least_cost(const WorkPrecision& data, ChartCost cost, doub
   return std::pow(10.0, least);
 }
 
-void draw_marks(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,
+void light_curves(WorkPrecision& data, std::span<const ChartCost> panels, const std::vector<std::string>& methods) {
+  for (ChartCurve& curve : data.curves) {
+    curve.is_lit = std::find(methods.begin(), methods.end(), curve.method) != methods.end();
+    if (!methods.empty()) continue;
+    if (data.choice && data.choice->method == curve.method) curve.is_lit = true;
+    for (const ChartCost cost : panels)
+      for (const LogPoint& point : good_points(curve, cost))
+        curve.is_lit |= point.cost <= least_log_cost(data, cost, point.error) + kSameCost;
+  }
+}
+
+bool draw_marks(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,
                 const ChartLook& look) {
   const std::vector<Point> best = best_curve(frame, data, cost);
   draw_guides(picture, frame, best, look);
   Obstacles obstacles = obstacles_of(frame, data, cost);
   draw_choice(picture, frame, data, cost, obstacles, look);
-  draw_slopes(picture, frame, data, cost, obstacles, look);
+  const bool triangles = draw_slopes(picture, frame, data, cost, obstacles, look);
   draw_guide_words(picture, frame, best, obstacles, look);
+  return triangles;
 }
 
 void draw_failure(Picture& picture, const PlotFrame& frame, double cost, const CurveStyle& style,

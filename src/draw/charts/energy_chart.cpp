@@ -80,7 +80,8 @@ Point end_of(const PlotFrame& frame, const std::vector<Point>& points) {
 }
 
 std::string label_of(const EnergyCurve& curve) {
-  return curve.trouble.empty() ? curve.method : curve.method + " (" + curve.trouble + ")";
+  const std::string name = without_formulas(curve.title.empty() ? curve.method : curve.title);
+  return curve.trouble.empty() ? name : name + " (" + curve.trouble + ")";
 }
 
 }  // namespace

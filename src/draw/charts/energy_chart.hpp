@@ -13,6 +13,7 @@ struct EnergyCurve {
   std::vector<double> t, error;  // of equal length, t rising; signs of errors are dropped
   std::string trouble;  // why the run ended early, in a word or two: "diverged"; empty for a whole run
   int look = -1;        // of curve_style; -1: the place in the list
+  std::string title{};  // what the picture calls it; "": `method`
 };
 
 struct EnergyChart {

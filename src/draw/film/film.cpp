@@ -15,7 +15,8 @@ std::vector<double> first_times(const Trajectory& trajectory, int frames) {
 // Those in outline first: the one below them has rails as long as theirs.
 std::vector<Panel> panels_of(const Stage& stage, const FilmView& view) {
   const auto panel = [&](std::size_t i, std::span<const Panel> over) {
-    return Panel(stage.motions[i], {view.camera_of(i), view.cells[i].scene, int(i), view.marks}, stage.theme, over);
+    return Panel(stage.motions[i], {view.camera_of(i), view.cells[i].scene, int(i), view.marks},
+                 stage.motions[i].theme_of(stage.theme), over);
   };
   std::vector<Panel> outlined, panels;
   for (std::size_t i = stage.full_panels(); i < stage.motions.size(); ++i) outlined.push_back(panel(i, {}));

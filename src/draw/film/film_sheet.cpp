@@ -7,6 +7,7 @@
 namespace chainreel {
 namespace {
 
+constexpr double kPlotOfComparison = 0.28;  // of the page's height: there the plot is the message
 constexpr double kTitleRow = 1.55;  // of the em: a panel's title or note with the air around it
 
 SheetText words_of(const Stage& stage, const Layers& layers) {
@@ -71,7 +72,8 @@ void FilmSheet::lay_out_plots(const Stage& stage) {
   const int count = int(page.plot.size());
   const bool right = !stage.is_comparison() && page.layout != PageLayout::scene_below &&
                      (count > 1 || page.layout == PageLayout::scene_right);
-  const PlotAreas areas = plot_areas(sheet.scene, count, right ? PlotPlace::right : PlotPlace::below);
+  const PlotAreas areas = plot_areas(sheet.scene, count, right ? PlotPlace::right : PlotPlace::below,
+                                     stage.is_comparison() ? kPlotOfComparison : 0, page.text_scale);
   sheet.scene = areas.scene;
   const PlotStyle style{&stage.fonts, &stage.theme, page.text_scale};
   for (std::size_t i = 0; i < areas.plots.size(); ++i)
@@ -88,12 +90,11 @@ void FilmSheet::lay_out_plots(const Stage& stage) {
 std::vector<PlacedText> FilmSheet::panel_titles(const Stage& stage, const std::vector<PanelCell>& cells) const {
   std::vector<PlacedText> titles;
   if (!has_panel_titles) return titles;
-  const Theme& theme = stage.theme;
-  const bool two_sides = cells.size() == 2;
   const double text_size = title_size(stage, cells);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Rect& row = cells[i].title;
-    const Color color = !two_sides ? theme.ink : i == 0 ? theme.side_a : theme.side_b;
+    const auto& variant = stage.motions[i].variant();
+    const Color color = variant ? variant->color : stage.theme.ink;
     TextLine line = lay_out_text(stage.fonts, stage.motions[i].title(), {Face::label_bold, text_size, color});
     if (line.advance > row.width() + kRoundOff)
       throw Error(ExitCode::bad_input,

@@ -40,6 +40,7 @@ GhostKey::GhostKey(const Stage& stage, double width)
     Entry entry;
     entry.filled = i == 0;
     entry.color = variant.color;
+    entry.fill = variant.theme->link[0];
     const std::string title = (variant.letter.empty() ? "" : variant.letter + ": ") + motion.title();
     const double room = width - kMarkLength - size::kMarkToText;
     entry.line =
@@ -70,7 +71,7 @@ void GhostKey::draw_mark(Picture& picture, const Entry& entry, Point left) const
   const double r = kMarkWidth * text_size_ / 2;
   const Capsule link{{left.x + r, left.y}, {left.x + kMarkLength - r, left.y}, r, {}};
   Capsule shown = link;
-  shown.paint = entry.filled ? Paint{theme_->link[0], theme_->ink, size::kLinkOutline}
+  shown.paint = entry.filled ? Paint{entry.fill, theme_->ink, size::kLinkOutline}
                              : Paint{{}, entry.color, size::kLinkOutline};
   picture.add(shown);
 }

@@ -28,7 +28,7 @@ class GhostKey {
  private:
   struct Entry {
     TextLine line;
-    Color color;
+    Color color, fill;
     bool filled = false;
     double x = 0;  // from the left end
     int row = 0;

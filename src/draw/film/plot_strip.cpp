@@ -7,14 +7,16 @@ namespace chainreel {
 namespace {
 
 constexpr double kTotalLine = 0.0045;
-constexpr double kPale = 0.25;   // of a curve that is still to come
+constexpr double kPale = 0.45;   // of a curve that is still to come
 constexpr double kShareBelow = 0.30;  // of the page's height, right: of its width
 constexpr double kRight = 0.38;
+constexpr double kLongestFrame = 0.05;  // s
 constexpr double kPlotLabelGap = 0.012;
 constexpr double kLeastSpan = 1e-9;  // of the size of the numbers: less is a constant
 constexpr double kRangeAir = 0.06;        // of the range, above and below
-constexpr const char* kTimeTitle = "t [s]";
-constexpr double kTimeGap = 0.02;
+constexpr double kMostBelow = 0.45;   // of the room, whatever is asked for
+constexpr double kWordsOfPlot = 0.075;  // units of H: what title and numbers take of a plot's height at text_scale 1
+constexpr double kRoundTime = 0.1;    // s: a clip ends at a multiple that its last frame nearly reaches
 
 // Curves are told apart by place, or by the run they belong to.
 CurveStyle style_of(const PlotCurves& plot, std::size_t curve, std::size_t run, std::size_t runs,
@@ -33,11 +35,33 @@ CurveStyle style_of(const PlotCurves& plot, std::size_t curve, std::size_t run, 
   return style;
 }
 
+// Of quantities whose names are symbols.
+std::string symbol_of(PlotQuantity quantity) {
+  switch (quantity) {
+    case PlotQuantity::q:
+    case PlotQuantity::qd:
+    case PlotQuantity::tau:
+    case PlotQuantity::lambda:
+      return std::string(to_string(quantity));
+    default:
+      return "";
+  }
+}
+
+// "q [rad]" with its symbol as a formula.
+std::string title_with_symbol(const PlotCurves& plot) {
+  const std::string symbol = symbol_of(plot.quantity), text = without_formulas(plot.title);
+  const bool leads = !symbol.empty() && (text == symbol || text.starts_with(symbol + " "));
+  return leads ? "$" + symbol + "$" + text.substr(symbol.size()) : text;
+}
+
 // In comparisons of two the titles bear the colours of their curves.
 std::string label_of(const PlotCurves& plot, std::size_t curve, const StripRun& run, std::size_t runs) {
-  const std::string& name = plot.curves[curve].name;
+  const std::string& own = plot.curves[curve].name;
+  const std::string name = symbol_of(plot.quantity).empty() ? own : "$" + own + "$";
   if (runs <= 2) return runs == 1 || plot.curves.size() > 1 ? name : "";
-  return plot.curves.size() > 1 ? name + ", " + run.title : run.title;
+  const std::string title = without_formulas(run.title);
+  return plot.curves.size() > 1 ? name + ", " + title : title;
 }
 
 // The range of what decides, or of everything where nothing does.
@@ -62,7 +86,7 @@ Axis value_axis(const StripData& data) {
     high += half;
   }
   const double air = kRangeAir * (high - low);
-  return {data.angles ? Scale::angle : Scale::linear, low - air, high + air, data.title};
+  return {data.angles ? Scale::angle : Scale::linear, low - air, high + air, data.title, {}};
 }
 
 std::vector<std::string> labels_of(const StripData& data) {
@@ -72,12 +96,11 @@ std::vector<std::string> labels_of(const StripData& data) {
   return labels;
 }
 
-// At the end of the row of numbers, so that it takes no row of its own.
-TextStyle time_style(const PlotStyle& style, Align align) {
-  return {Face::label, style.text(size::kTick), style.theme->ink, align};
-}
-double time_width(const PlotStyle& style) {
-  return kTimeGap + lay_out_text(*style.fonts, kTimeTitle, time_style(style, Align::left)).advance;
+// Up to the end of the last frame, where that is a round time.
+Axis time_axis(double end) {
+  if (!(end > 0)) end = 1;
+  const double round = kRoundTime * std::ceil(end / kRoundTime - 1e-6);
+  return {Scale::linear, 0, round - end < kLongestFrame ? round : end, "", "s"};
 }
 
 void draw_part(Picture& picture, const PlotFrame& frame, std::span<const Point> points, CurveStyle style,
@@ -92,9 +115,8 @@ PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
     : data_(std::move(data)), style_(style) {
   const std::vector<std::string> labels = labels_of(data_);
   Rect inner = area;
-  inner.x1 -= std::max(time_width(style_), labels.empty() ? 0 : end_labels_width(labels, style_) + kPlotLabelGap);
-  const Axis time{Scale::linear, 0, data_.end > 0 ? data_.end : 1, ""};
-  frame_ = lay_out_plot(inner, time, value_axis(data_), style_);
+  if (!labels.empty()) inner.x1 -= end_labels_width(labels, style_) + kPlotLabelGap;
+  frame_ = lay_out_plot(inner, time_axis(data_.end), value_axis(data_), style_);
 }
 
 void PlotStrip::draw_static(Picture& picture) const {
@@ -107,9 +129,6 @@ void PlotStrip::draw_static(Picture& picture) const {
     ends.push_back({{end.x, std::clamp(end.y, frame_.box.y0, frame_.box.y1)}, curve.label, curve.style});
   }
   draw_end_labels(picture, frame_, ends, frame_.box.x1 + kPlotLabelGap, style_);
-  const TextStyle text = time_style(style_, Align::left);
-  draw_text(picture, lay_out_text(*style_.fonts, kTimeTitle, text),
-            {frame_.box.x1 + kTimeGap, tick_base_line(frame_, style_)});
 }
 
 void PlotStrip::draw_frame(Picture& picture, double t) const {
@@ -129,7 +148,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
     const StripRun& run = runs[r];
     if (i >= run.plots.size()) continue;
     const PlotCurves& plot = run.plots[i];
-    data.title = plot.title;
+    data.title = title_with_symbol(plot);
     data.angles = plot.angles;
     // A comparison shows the sum of energies alone.
     const bool sum_alone = runs.size() > 1 && plot.quantity == PlotQuantity::energy;
@@ -147,13 +166,16 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
   return data;
 }
 
-PlotAreas plot_areas(const Rect& page, int count, PlotPlace place) {
+PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_below,
+                     double text_scale) {
   PlotAreas areas{page, {}};
   if (count == 0) return areas;
   const double gap = size::kGutter;
   Rect all = page;
   if (place == PlotPlace::below) {
-    all.y1 = page.y0 + kShareBelow * page.height();
+    const double height = page.height(), words = std::max(0.0, text_scale - 1) * kWordsOfPlot;
+    all.y1 = page.y0 + std::max(kShareBelow * height,
+                                std::min(std::max(kShareBelow * height, least_below) + words, kMostBelow * height));
     areas.scene.y0 = all.y1 + gap;
     const double width = (all.width() - gap * (count - 1)) / count;
     for (int i = 0; i < count; ++i) {

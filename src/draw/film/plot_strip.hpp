@@ -57,6 +57,8 @@ struct PlotAreas {
   Rect scene;
   std::vector<Rect> plots;
 };
-PlotAreas plot_areas(const Rect& page, int count, PlotPlace place);
+// `least_below`: height of plots below the scene, units of H, where the room allows. Words that grow with `text_scale` take
+// their room from the scene, not from the plots below it.
+PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_below = 0, double text_scale = 1);
 
 }  // namespace chainreel

@@ -17,13 +17,22 @@ namespace {
 
 constexpr double kWild =
     100;  // lengths of the chain: beyond, a run that did not finish is left out of the fit
+constexpr double kFirstTone = 0.72, kSecondTone = 0.38;  // of a variant's colour in its links
 constexpr int kScaleSamples = 200;  // of a clip decide on the scale of what it shows
+
+Color between(Color from, Color to, double share) {
+  const auto mix = [&](std::uint8_t a, std::uint8_t b) { return std::uint8_t(std::lround(a + share * (double(b) - a))); };
+  return {mix(from.r, to.r), mix(from.g, to.g), mix(from.b, to.b), to.a};
+}
 
 }  // namespace
 
-Variant variant_of(int i, int count, const Theme& theme) {
+Variant variant_of(int i, int count, bool ghost, const Theme& theme) {
   const Color color = count == 2 ? (i == 0 ? theme.side_a : theme.side_b) : curve_style(i, theme).color;
-  return {color, i > 0 && count > 2 ? std::string(1, char('A' + i)) : "", i > 0};
+  auto own = std::make_shared<Theme>(theme);
+  for (std::size_t link = 0; link < own->link.size(); ++link)
+    own->link[link] = between(theme.background, color, link % 2 == 0 ? kFirstTone : kSecondTone);
+  return {color, ghost && i > 0 && count > 2 ? std::string(1, char('A' + i)) : "", ghost && i > 0, std::move(own)};
 }
 
 std::vector<int> some_of(int samples) {
@@ -87,7 +96,7 @@ Stage::Stage(const Scene& shown_page, const std::vector<PanelRun>& runs, std::ve
     if (samples < 1)
       throw Error(ExitCode::bad_input, "a film needs at least one frame", page.place_of("duration"));
     motions.emplace_back(run, samples, is_good(run) || !any_good, count > 1 || run.scene.expect == Outcome::diverge,
-                         ghost ? std::optional(variant_of(i, count, theme)) : std::nullopt);
+                         count > 1 ? std::optional(variant_of(i, count, ghost, theme)) : std::nullopt);
   }
   const Chain& first = motions.front().chain();
   if (!is_oblique(first, page.camera) && !has_eye(first, page.camera)) return;

@@ -30,15 +30,16 @@ struct PanelRun {
 // Outlines of links lie this far outside the edges of filled ones, units of H.
 inline constexpr double kOutlineAway = 1.4 * size::kLinkOutline;
 
-// Layout `ghost`: how a run is told apart from the others in the same place.
+// How a run of a comparison is told apart from the others.
 struct Variant {
-  Color color;          // of its trail, and of its outline
-  std::string letter;   // at the end of its chain, or ""
-  bool outlined = false;  // drawn over the first, without ground and marks
+  Color color;          // of its title, trail, curves, and outline
+  std::string letter;   // of layout `ghost`: at the end of its chain, or ""
+  bool outlined = false;  // of layout `ghost`: drawn over the first, without ground and marks
+  std::shared_ptr<const Theme> theme;  // links in two tones of its colour
 };
 
-// Variant i of `count`: in the colour that its plots have, too, with a letter where there are several outlines.
-Variant variant_of(int i, int count, const Theme& theme);
+// Variant i of `count`; in the layout `ghost` with a letter where there are several outlines.
+Variant variant_of(int i, int count, bool ghost, const Theme& theme);
 
 // One run's chain at each of its frames. Not shared between threads: poses use one workspace.
 class StagedRun {
@@ -56,6 +57,7 @@ class StagedRun {
   bool has_foot() const { return run_.simulation && run_.simulation->events && run_.simulation->events->foot; }
   std::string title() const;  // of the scene, with what it says of this run
   const std::optional<Variant>& variant() const { return variant_; }
+  const Theme& theme_of(const Theme& page) const { return variant_ ? *variant_->theme : page; }
   bool is_outlined() const { return variant_ && variant_->outlined; }
 
   int samples() const { return samples_; }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/format.hpp"
+#include "integrate/method.hpp"
 #include "scene/keys/keys.hpp"
 #include "scene/text/write_scene.hpp"
 
@@ -40,7 +41,7 @@ std::string rounded(const std::string& text) {
 std::string words_of(const SceneEntry& entry) {
   const SceneKey& key = *find_key(entry.key);
   if (key.form == KeyForm::path) return std::filesystem::path(entry.text).stem().string();
-  const std::string value = in_words(entry.text);
+  const std::string value = entry.key == "method" ? method_title(entry.text) : in_words(entry.text);
   if (key.caption.empty()) return entry.key.substr(entry.key.find('.') + 1) + " = " + value;
   std::string words = key.caption;
   return words.replace(words.find('@'), 1, value);

@@ -114,6 +114,38 @@ TEST(Chart, DrawsEveryRungOfTheLadder) {
   EXPECT_EQ(discs(work_precision_chart(one_curve(2), kSeconds, look_of(light_theme()))).size(), 7u);
 }
 
+TEST(Chart, LightsTheCheapestAndTheChoiceOrWhatIsAskedFor) {
+  WorkPrecision data;
+  const auto add = [&](const char* method, double cost) {
+    ChartCurve curve{method, 4, {}, int(data.curves.size())};
+    for (int i = 0; i < 4; ++i) curve.points.push_back({std::pow(10.0, -2 * i), cost * std::pow(3.0, i), 1e3 * cost, false, ""});
+    data.curves.push_back(curve);
+  };
+  add("cheap", 1e-4), add("chosen", 2e-4), add("dear", 3e-4);
+  data.choice = ChartChoice{"chosen", 1};
+  light_curves(data, kBoth, {});
+  EXPECT_TRUE(data.curves[0].is_lit && data.curves[1].is_lit && !data.curves[2].is_lit);
+  const Picture picture = work_precision_chart(data, kSeconds, look_of(light_theme()));
+  EXPECT_TRUE(says(picture, "grey"));
+  const auto trails = [&](const Picture& p, Color color) {
+    return all_of<Trail>(p, [&](const Trail& trail) { return trail.color == color; }).size() +
+           all_of<Capsule>(p, [&](const Capsule& line) { return line.paint.fill == color; }).size();
+  };
+  EXPECT_EQ(trails(picture, curve_style(2, light_theme()).color), 0u);
+  light_curves(data, kBoth, {"dear"});
+  EXPECT_TRUE(!data.curves[0].is_lit && !data.curves[1].is_lit && data.curves[2].is_lit);
+  EXPECT_GT(trails(work_precision_chart(data, kSeconds, look_of(light_theme())), curve_style(2, light_theme()).color), 0u);
+}
+
+TEST(Chart, ExplainsTrianglesOnlyWhereThereAreSome) {
+  WorkPrecision data = one_curve(0);
+  data.curves[0].order = 2;  // it falls by a half decade of cost for each of error: not as order 4 does
+  EXPECT_EQ(says(work_precision_chart(data, kSeconds, look_of(light_theme())), "triangles"),
+            !all_of<Polygon>(work_precision_chart(data, kSeconds, look_of(light_theme()))).empty());
+  data.curves[0].order = 0;  // no slope is expected
+  EXPECT_FALSE(says(work_precision_chart(data, kSeconds, look_of(light_theme())), "triangles"));
+}
+
 TEST(Chart, FailedRunsStandAtTheRightEdge) {
   const Picture none = work_precision_chart(one_curve(0), kSeconds, look_of(light_theme()));
   const Picture picture = work_precision_chart(one_curve(2), kSeconds, look_of(light_theme()));

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
+
 #include "core/error.hpp"
 #include "draw/chains.hpp"
 #include "draw/film/film.hpp"
@@ -280,6 +282,23 @@ TEST_F(PanelFilm, BlamesThePanelWhoseTitleDoesNotFit) {
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), testing::StartsWith("scenes/test.yaml:7:5: the title of panel 2"));
   }
+}
+
+// Two tones of the variant's colour; the page's own link colours are nowhere.
+TEST(Variants, BearTheirColourInTheirLinks) {
+  for (const bool ghost : {false, true})
+    for (int i = 0; i < 2; ++i) {
+      const Variant variant = variant_of(i, 2, ghost, light_theme());
+      EXPECT_EQ(variant.color, i == 0 ? light_theme().side_a : light_theme().side_b);
+      EXPECT_EQ(variant.outlined, ghost && i == 1);
+      const auto& link = variant.theme->link;
+      EXPECT_NE(link[0], link[1]);
+      EXPECT_EQ(link[0], link[2]);
+      const auto spread = [](Color c) { return std::array{c.r - c.g, c.g - c.b}; };
+      for (std::size_t tone = 0; tone < 2; ++tone)
+        for (std::size_t part = 0; part < 2; ++part)  // the same order of red, green and blue
+          EXPECT_GT(spread(link[tone])[part] * spread(variant.color)[part], 0) << i << " " << tone;
+    }
 }
 
 TEST(PanelGrid, TakesTheArrangementInWhichThingsAreLargest) {

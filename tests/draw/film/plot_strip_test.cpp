@@ -42,7 +42,7 @@ TEST(PlotStrip, DrawsThePastInFullAndTheFuturePale) {
   const Color full = light_theme().curve[0];
   const double width = size::kPlotLine;
   EXPECT_NEAR(right_end(moving, full), strip.frame().at_x(2), width);
-  EXPECT_NEAR(right_end(still, full.faded(0.25)), strip.frame().at_x(4), width);
+  EXPECT_NEAR(right_end(still, full.faded(0.45)), strip.frame().at_x(4), width);
   EXPECT_EQ(right_end(still, full), 0);
 }
 
@@ -66,6 +66,54 @@ TEST(PlotStrip, TwoRunsBearTheColoursOfTheirTitlesMoreAreNamed) {
   EXPECT_EQ(three.curves[2].label, "third");
 }
 
+// Runs of what is written: the math face says q, the label face its unit.
+std::vector<GlyphRun> strip_words(const PlotStrip& strip) {
+  Picture picture;
+  strip.draw_static(picture);
+  std::vector<GlyphRun> runs;
+  for (const Item& item : picture.items)
+    if (const auto* run = std::get_if<GlyphRun>(&item.shape)) runs.push_back(*run);
+  return runs;
+}
+
+bool says(const std::vector<GlyphRun>& runs, Face face, const std::string& text) {
+  return std::any_of(runs.begin(), runs.end(), [&](const GlyphRun& run) { return run.face == face && run.text == text; });
+}
+
+TEST(PlotStrip, NamesOfQuantitiesAreFormulasAndAllOthersAreWords) {
+  const Fonts fonts;
+  StripRun run = run_of("a", false, {0, 1, 2});
+  run.plots[0] = {PlotQuantity::tau, "tau [N m]", false, {{"tau1", {0, 1, 2}}, {"tau2", {0, 2, 4}}}};
+  const auto symbols = strip_words(PlotStrip(strip_data({run}, 0, 2, light_theme()), kStripArea, style_of(fonts)));
+  EXPECT_TRUE(says(symbols, Face::math, "\U0001D70F"));
+  EXPECT_TRUE(says(symbols, Face::label, " [N m]"));
+  EXPECT_FALSE(says(symbols, Face::label, "tau1"));
+  run.plots[0] = {PlotQuantity::expression, "cost [$]", false, {{"", {0, 1, 2}}}};
+  EXPECT_TRUE(says(strip_words(PlotStrip(strip_data({run}, 0, 2, light_theme()), kStripArea, style_of(fonts))),
+                   Face::label, "cost [$]"));
+}
+
+TEST(PlotStrip, TheAxisOfTimeEndsWithItsLastNumberAndUnit) {
+  const Fonts fonts;
+  // 599 / 60 s is the last frame of a clip of 10 s; 1.234 s is no round time.
+  for (const auto& [end, text] : {std::pair{599.0 / 60, "10\u2009s"}, {1.234, "1.234\u2009s"}}) {
+    const PlotStrip strip(strip_data({run_of("a", false, {0, 1, 2})}, 0, end, light_theme()), kStripArea, style_of(fonts));
+    EXPECT_TRUE(says(strip_words(strip), Face::label, text));
+    EXPECT_LE(strip.frame().box.x1, kStripArea.x1);
+  }
+}
+
+TEST(PlotStrip, HasThreeNumbersUpAnAngleAxisAtLeast) {
+  const Fonts fonts;
+  StripRun run = run_of("a", false, {0, -3.3, 0.7});
+  run.plots[0].angles = true;
+  const auto words = strip_words(
+      PlotStrip(strip_data({run}, 0, 2, light_theme()), {0.1, 0.1, 1.6, 0.28}, style_of(fonts)));
+  int pis = 0;
+  for (const GlyphRun& word : words) pis += word.text.find("\u03C0") != std::string::npos;
+  EXPECT_GE(pis, 2);  // beside 0
+}
+
 TEST(PlotStrip, PlotsAndSceneShareThePageWithoutOverlap) {
   const Rect page{0.05, 0.1, 1.7, 0.9};
   const PlotAreas below = plot_areas(page, 2, PlotPlace::below);
@@ -76,6 +124,9 @@ TEST(PlotStrip, PlotsAndSceneShareThePageWithoutOverlap) {
   EXPECT_LT(right.scene.x1, right.plots[0].x0);
   EXPECT_GT(right.plots[0].y0, right.plots[1].y1);
   EXPECT_NEAR(right.plots[0].width(), 0.38 * page.width(), 1e-12);
+  EXPECT_NEAR(plot_areas(page, 1, PlotPlace::below, 0.28).plots[0].height(), 0.28, 1e-12);
+  // Larger words leave the frame as high as it was.
+  EXPECT_NEAR(plot_areas(page, 1, PlotPlace::below, 0, 1.5).plots[0].height(), 0.24 + 0.5 * 0.075, 1e-12);
   EXPECT_EQ(plot_areas(page, 0, PlotPlace::below).scene.y0, page.y0);
 }
 
