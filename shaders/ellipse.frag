@@ -9,6 +9,8 @@ flat in vec4 frame;  // centre, unit direction of the major axis
 flat in vec3 size;   // major and minor semi-axis, half stroke
 flat in vec4 fill;
 flat in vec4 stroke;
+flat in vec4 slopes;
+flat in vec4 offsets;
 layout(location = 0) out vec4 color;
 
 const int kMostPasses = 16;
@@ -44,5 +46,5 @@ float distance_to_edge(vec2 p, vec2 ab, float reach) {
 void main() {
   vec2 from_center = gl_FragCoord.xy - frame.xy;
   vec2 p = vec2(dot(from_center, frame.zw), from_center.y * frame.z - from_center.x * frame.w);
-  color = paint(distance_to_edge(abs(p), size.xy, size.z + 1.0), size.z, fill, stroke);
+  color = paint(distance_to_edge(abs(p), size.xy, size.z + 1.0), size.z, fill, stroke) * fade(slopes, offsets);
 }

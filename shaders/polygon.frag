@@ -2,6 +2,8 @@ flat in vec4 c01, c23, c45, c67;  // two corners each
 flat in float half_stroke;
 flat in vec4 fill;
 flat in vec4 stroke;
+flat in vec4 slopes;
+flat in vec4 offsets;
 layout(location = 0) out vec4 color;
 
 float least_square;  // of the distances to the edges seen so far
@@ -29,5 +31,5 @@ void main() {
   see_edge(p, c67.xy, c67.zw);
   see_edge(p, c67.zw, c01.xy);
   float d = sqrt(least_square) * (least_side > 0.0 ? -1.0 : 1.0);
-  color = paint(d, half_stroke, fill, stroke);
+  color = paint(d, half_stroke, fill, stroke) * fade(slopes, offsets);
 }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/triangle_mesh.hpp"
+#include "picture/fade.hpp"
 #include "picture/point.hpp"
 
 namespace chainreel {
@@ -74,6 +75,7 @@ struct Ellipse {
   Point center;
   Point u, v;
   Paint paint;
+  Fade fade{};
 };
 
 // Part of a circle's edge with round ends; angles in radians, counter-clockwise.
@@ -90,6 +92,7 @@ struct Polygon {
   std::array<Point, 8> corners;
   int count = 0;
   Paint paint;
+  Fade fade{};
 };
 
 // A path whose pieces may overlap without beading: coverage is the maximum, not the sum, of its pieces.

@@ -25,6 +25,10 @@ struct Placer {
     return paint;
   }
 
+  Fade operator()(const Fade& fade) const {
+    return {(*this)(fade.scene), scale * fade.left, scale * fade.right, scale * fade.bottom, scale * fade.top};
+  }
+
   Capsule operator()(Capsule capsule) const {
     const bool is_line = capsule.paint.stroke_width == 0;
     capsule.a = (*this)(capsule.a);
@@ -38,6 +42,7 @@ struct Placer {
     ellipse.u = scale * ellipse.u;
     ellipse.v = scale * ellipse.v;
     ellipse.paint = (*this)(ellipse.paint);
+    ellipse.fade = (*this)(ellipse.fade);
     return ellipse;
   }
   Arc operator()(Arc arc) const {
@@ -52,6 +57,7 @@ struct Placer {
       corner = (*this)(corner);
     }
     polygon.paint = (*this)(polygon.paint);
+    polygon.fade = (*this)(polygon.fade);
     return polygon;
   }
   Trail operator()(Trail trail) const {

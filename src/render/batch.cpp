@@ -76,6 +76,14 @@ struct Batch::Pixels {
   double x = 0, y = 0;
 };
 
+// A shape's opacity at a pixel is the least of slope (x, -x, y, -y) + offset, from 0 to 1: of those of the left, right,
+// upper and lower edge. Where it does not fade, an edge cuts it off as smoothly as those of shapes are.
+struct Batch::Fading {
+  Vector slopes, offsets{1, 1, 1, 1};
+  double left = -HUGE_VAL, top = -HUGE_VAL, right = HUGE_VAL, bottom = HUGE_VAL;  // nothing is seen beyond
+  PixelBox unfaded;
+};
+
 Batch::Batch(int width, int height, GlyphAtlas& atlas)
     : width_(width), height_(height), atlas_(&atlas) {}
 
@@ -89,6 +97,27 @@ PixelBox Batch::to_pixels(const Rect& rect) const {
   };
   const Pixels low = to_pixels(Point{rect.x0, rect.y1}), high = to_pixels(Point{rect.x1, rect.y0});
   return box_between(pixel(low.x, width_), pixel(low.y, height_), pixel(high.x, width_), pixel(high.y, height_));
+}
+
+Batch::Fading Batch::to_pixels(const Fade& fade) const {
+  Fading fading;
+  fading.unfaded = clip_;
+  if (!fade.any()) return fading;
+  const Pixels low = to_pixels(Point{fade.scene.x0, fade.scene.y1}), high = to_pixels(Point{fade.scene.x1, fade.scene.y0});
+  const auto stretch = [&](double side) { return std::max(1.0, height_ * side); };
+  const auto slope = [&](double side) { return 1 / stretch(side); };
+  const auto cut = [&](double side) { return side > 0 ? 0 : 0.5; };
+  fading.slopes = {slope(fade.left), slope(fade.right), slope(fade.top), slope(fade.bottom)};
+  fading.offsets = {cut(fade.left) - slope(fade.left) * low.x, cut(fade.right) + slope(fade.right) * high.x,
+                    cut(fade.top) - slope(fade.top) * low.y, cut(fade.bottom) + slope(fade.bottom) * high.y};
+  fading.left = low.x - kFringe, fading.top = low.y - kFringe, fading.right = high.x + kFringe, fading.bottom = high.y + kFringe;
+  // A pixel less on each side: what is computed for its neighbour may be just below 1.
+  const auto inner = [](double edge, int least, int most) { return int(std::clamp(edge, double(least), double(most))); };
+  fading.unfaded = box_between(inner(std::ceil(low.x + stretch(fade.left)) + 1, clip_.x, clip_.right()),
+                               inner(std::ceil(low.y + stretch(fade.top)) + 1, clip_.y, clip_.bottom()),
+                               inner(std::floor(high.x - stretch(fade.right)) - 1, clip_.x, clip_.right()),
+                               inner(std::floor(high.y - stretch(fade.bottom)) - 1, clip_.y, clip_.bottom()));
+  return fading;
 }
 
 // All pixels that lie between the sides, within the clip. Empty for sides that are not numbers, too.
@@ -196,13 +225,13 @@ void Batch::add(const Ellipse& ellipse) {
   const bool u_is_major = norm(ellipse.u) >= norm(ellipse.v);
   const Point major = u_is_major ? ellipse.u : ellipse.v, minor = u_is_major ? ellipse.v : ellipse.u;
   const double length = norm(major);
-  if (norm(minor) >= length * (1 - 1e-9)) {
+  if (norm(minor) >= length * (1 - 1e-9) && !ellipse.fade.any()) {
     add(Capsule{ellipse.center, ellipse.center, length, ellipse.paint});  // a disc
     return;
   }
   Vector fill, stroke;
   double half_stroke = 0;
-  if (!set_paint(ellipse.paint, half_stroke, fill, stroke)) return;
+  if (!set_paint(ellipse.paint, half_stroke, fill, stroke) || !ellipse.fade.is_finite()) return;
   const double smallest = half_stroke > 0 ? kSmallestAxis : kThinnest;
   const double a = std::clamp(height_ * length, smallest, kLargestAxis);
   const double b = std::clamp(height_ * norm(minor), smallest, a);
@@ -210,11 +239,14 @@ void Batch::add(const Ellipse& ellipse) {
   const double reach = half_stroke + kFringe;
   const double half_width = std::sqrt(a * a * axis.x * axis.x + b * b * axis.y * axis.y) + reach;
   const double half_height = std::sqrt(a * a * axis.y * axis.y + b * b * axis.x * axis.x) + reach;
-  const PixelBox box = visible_box(center.x - half_width, center.y - half_height, center.x + half_width,
-                                   center.y + half_height);
+  const Fading fading = to_pixels(ellipse.fade);
+  const PixelBox box =
+      visible_box(std::max(center.x - half_width, fading.left), std::max(center.y - half_height, fading.top),
+                  std::min(center.x + half_width, fading.right), std::min(center.y + half_height, fading.bottom));
   if (box.empty()) return;
   append(Primitive::ellipse, {Outline::Kind::ellipse, box, center.x, center.y, axis.x, axis.y, a, b, reach},
-         {{center.x, center.y, axis.x, axis.y}, {a, b, half_stroke}, fill, stroke});
+         {{center.x, center.y, axis.x, axis.y}, {a, b, half_stroke}, stroke, fill, fading.slopes, fading.offsets})
+      .unfaded = fading.unfaded;
 }
 
 void Batch::add(const Arc& arc) {
@@ -236,7 +268,8 @@ void Batch::add(const Arc& arc) {
 void Batch::add(const Polygon& polygon) {
   Vector fill, stroke;
   double half_stroke = 0;
-  if (polygon.count < 3 || polygon.count > kCorners || !set_paint(polygon.paint, half_stroke, fill, stroke))
+  if (polygon.count < 3 || polygon.count > kCorners || !polygon.fade.is_finite() ||
+      !set_paint(polygon.paint, half_stroke, fill, stroke))
     return;
   std::vector<Pixels> corners;
   double left = HUGE_VAL, top = HUGE_VAL, right = -HUGE_VAL, bottom = -HUGE_VAL, twice_area = 0;
@@ -249,7 +282,9 @@ void Batch::add(const Polygon& polygon) {
     corners.push_back(p);
   }
   const double reach = half_stroke + kFringe;
-  const PixelBox box = visible_box(left - reach, top - reach, right + reach, bottom + reach);
+  const Fading fading = to_pixels(polygon.fade);
+  const PixelBox box = visible_box(std::max(left - reach, fading.left), std::max(top - reach, fading.top),
+                                   std::min(right + reach, fading.right), std::min(bottom + reach, fading.bottom));
   if (box.empty() || !std::isfinite(twice_area)) return;
 
   // The shader takes eight corners in one sense; the missing ones divide the longest edges.
@@ -269,7 +304,9 @@ void Batch::add(const Polygon& polygon) {
   const auto pair = [&corners](std::size_t i) {
     return Vector(corners[i].x, corners[i].y, corners[i + 1].x, corners[i + 1].y);
   };
-  append(Primitive::polygon, {.kind = Outline::Kind::polygon, .box = box, .reach = reach}, {pair(0), pair(2), pair(4), pair(6), {half_stroke}, fill, stroke});
+  append(Primitive::polygon, {.kind = Outline::Kind::polygon, .box = box, .reach = reach}, 
+         {pair(0), pair(2), pair(4), pair(6), {half_stroke}, stroke, fill, fading.slopes, fading.offsets})
+      .unfaded = fading.unfaded;
 }
 
 void Batch::add(const Trail& trail) {

@@ -13,31 +13,33 @@
 
 namespace chainreel {
 
-enum class Primitive { capsule, ellipse, arc, polygon, glyph, trail, layer, cells, solids, flat };
+enum class Primitive { capsule, ellipse, arc, polygon, glyph, trail, layer, cells, solids, flat, faded };
 
 struct PrimitiveRow {
   std::string_view name;  // of the shader pair; bodies in space have none
   int vectors;            // vec4 per instance; their meaning stands at the head of the vertex shader
 };
 
-inline constexpr std::array<PrimitiveRow, 10> kPrimitives = {{{"capsule", 5},
-                                                              {"ellipse", 4},
+inline constexpr std::array<PrimitiveRow, 11> kPrimitives = {{{"capsule", 5},
+                                                              {"ellipse", 6},
                                                               {"arc", 3},
-                                                              {"polygon", 7},
+                                                              {"polygon", 9},
                                                               {"glyph", 3},
                                                               {"trail", 2},
                                                               {"layer", 1},
                                                               {"cells", 2},
                                                               {"solids", 2},
-                                                              {"flat", 1}}};
+                                                              {"flat", 1},
+                                                              {"faded", 3}}};
 
-// Where among the numbers of a primitive that may fill evenly its fill stands, premultiplied; 0 for all others.
+// Where among the numbers of a primitive that may fill evenly its fill stands, premultiplied, and behind it how that
+// fades: the numbers of Primitive::flat and of Primitive::faded. 0 for all others.
 constexpr int place_of_fill(Primitive primitive) {
   switch (primitive) {
     case Primitive::ellipse:
-      return 8;
+      return 12;
     case Primitive::polygon:
-      return 20;
+      return 24;
     default:
       return 0;
   }
@@ -53,6 +55,7 @@ struct Piece {
   Primitive primitive = Primitive::capsule;
   int instance = 0;      // in the stream of its primitive
   int first_of_path = 0;  // of Primitive::layer: it colours what the pieces from this one on have drawn
+  PixelBox unfaded{};    // of what may fill evenly: where it does
   Outline outline;       // of solids just its box: they are looked at when they are drawn
   std::uint64_t look = 0;  // equal for pieces that colour the page alike
 };
@@ -75,9 +78,11 @@ class Batch {
  private:
   struct Vector;
   struct Pixels;  // a point in page pixels, y down
+  struct Fading;
 
   Pixels to_pixels(Point p) const;
   PixelBox to_pixels(const Rect& rect) const;
+  Fading to_pixels(const Fade& fade) const;
   PixelBox visible_box(double left, double top, double right, double bottom) const;
   bool set_paint(const Paint& paint, double& half_stroke, Vector& fill, Vector& stroke) const;
   Piece& append(Primitive primitive, const Outline& outline, std::initializer_list<Vector> vectors);

@@ -86,15 +86,27 @@ class Difference {
       return;
     }
     inside_.clear();
-    for_each_tile(a, before_.numbers(a), changed_, [this](int column, int row, bool is_inside) {
-      is_inside ? inside_.mark(column, row) : changed_.mark(column, row);
+    const bool fades_alike = fades_as(a, b);
+    const auto is_even = [&](const Piece& piece, int column, int row) {
+      const PixelBox tile = TileMask::pixels_of(column, row);
+      return fades_alike || common_part(tile, piece.unfaded) == tile;
+    };
+    for_each_tile(a, before_.numbers(a), changed_, [&](int column, int row, bool is_inside) {
+      is_inside && is_even(a, column, row) ? inside_.mark(column, row) : changed_.mark(column, row);
     });
     // What is left inside is of `a` alone, and differs, too.
-    for_each_tile(b, now_.numbers(b), changed_, [this](int column, int row, bool is_inside) {
-      if (!is_inside || !inside_.at(column, row)) changed_.mark(column, row);
+    for_each_tile(b, now_.numbers(b), changed_, [&](int column, int row, bool is_inside) {
+      if (!is_inside || !is_even(b, column, row) || !inside_.at(column, row)) changed_.mark(column, row);
       inside_.unmark(column, row);
     });
     changed_.add(inside_);
+  }
+
+  // Of shapes with the same fill.
+  bool fades_as(const Piece& a, const Piece& b) const {
+    const int place = place_of_fill(a.primitive) + 4;
+    const float *in_a = before_.numbers(a) + place, *in_b = now_.numbers(b) + place;
+    return std::equal(in_a, in_a + 8, in_b);
   }
 
   // Of shapes that fill evenly, the clips of which are the same where it matters: by their boxes.

@@ -131,6 +131,28 @@ class Painter {
     cairo_new_path(cr_);
   }
 
+  // The current path, fading.
+  void paint_path(const Paint& paint, const Fade& fade) {
+    if (!fade.any()) return paint_path(paint);
+    cairo_push_group(cr_);
+    paint_path(paint);
+    cairo_pattern_t* shape = cairo_pop_group(cr_);
+    cairo_push_group_with_content(cr_, CAIRO_CONTENT_ALPHA);
+    double below = 0;
+    for (const auto& [part, opacity] : fade_levels(fade)) {
+      cairo_rectangle(cr_, x(part.x0), y(part.y1), scale_ * part.width(), scale_ * part.height());
+      cairo_set_source_rgba(cr_, 0, 0, 0, (opacity - below) / (1 - below));  // over what is there they make the whole
+      cairo_fill(cr_);
+      below = opacity;
+    }
+    cairo_pattern_t* mask = cairo_pop_group(cr_);
+    cairo_set_source(cr_, shape);
+    cairo_mask(cr_, mask);
+    cairo_pattern_destroy(mask);
+    cairo_pattern_destroy(shape);
+    cairo_new_path(cr_);
+  }
+
   void capsule_path(const Capsule& c) {
     const double dx = x(c.b.x) - x(c.a.x), dy = y(c.b.y) - y(c.a.y), r = scale_ * c.radius;
     const double angle = std::atan2(dy, dx), quarter = std::numbers::pi / 2;
@@ -174,7 +196,7 @@ class Painter {
     cairo_arc(cr_, 0, 0, 1, 0, 2 * std::numbers::pi);
     cairo_close_path(cr_);
     cairo_set_matrix(cr_, &before);
-    paint_path(e.paint);
+    paint_path(e.paint, e.fade);
   }
 
   void add(const Arc& a) {
@@ -196,7 +218,7 @@ class Painter {
     cairo_new_path(cr_);
     for (int i = 0; i < p.count; ++i) line_to(p.corners[std::size_t(i)]);
     cairo_close_path(cr_);
-    paint_path(p.paint);
+    paint_path(p.paint, p.fade);
   }
 
   void add(const Trail& trail) {

@@ -27,13 +27,13 @@ struct Finite {
     return good(c.a) && good(c.b) && good(c.radius) && good(c.paint) && good(c.alpha_a) && good(c.alpha_b);
   }
   bool operator()(const Ellipse& e) const {
-    return good(e.center) && good(e.u) && good(e.v) && good(e.paint);
+    return good(e.center) && good(e.u) && good(e.v) && good(e.paint) && e.fade.is_finite();
   }
   bool operator()(const Arc& a) const {
     return good(a.center) && good(a.radius) && good(a.start) && good(a.sweep) && good(a.width);
   }
   bool operator()(const Polygon& p) const {
-    return p.count >= 3 && p.count <= 8 && good(p.paint) &&
+    return p.count >= 3 && p.count <= 8 && good(p.paint) && p.fade.is_finite() &&
            std::all_of(p.corners.begin(), p.corners.begin() + p.count, [](Point c) { return good(c); });
   }
   bool operator()(const Trail& t) const {
@@ -85,6 +85,15 @@ std::vector<TrailRun> trail_runs(const Trail& trail) {
   }
   if (is_uniform && !runs.empty()) runs.front().round_ends = true;
   return runs;
+}
+
+std::vector<FadeLevel> fade_levels(const Fade& fade) {
+  std::vector<FadeLevel> levels;
+  for (int i = 0; i <= kOpacityLevels; ++i) {
+    const Rect part = fade.inset(double(i) / kOpacityLevels);
+    if (part.x0 < part.x1 && part.y0 < part.y1) levels.push_back({part, std::min(1.0, (i + 0.5) / kOpacityLevels)});
+  }
+  return levels;
 }
 
 std::vector<GlyphCluster> clusters_of(const GlyphRun& run) {

@@ -30,6 +30,14 @@ struct TrailRun {
 };
 std::vector<TrailRun> trail_runs(const Trail& trail);
 
+// Vector formats know no opacity that is the least of several: parts of the page one in the other, each over the one before
+// it, what they hold having this opacity.
+struct FadeLevel {
+  Rect part;
+  double opacity = 0;
+};
+std::vector<FadeLevel> fade_levels(const Fade& fade);
+
 // The glyphs first .. first + count - 1 and the characters that they stand for.
 struct GlyphCluster {
   std::size_t first = 0, count = 0;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <vector>
 
 #include "core/format.hpp"
 #include "picture/fonts.hpp"
@@ -161,6 +162,29 @@ class SvgWriter {
     return " mask=\"url(#fade" + id + ")\"";
   }
 
+  // Shapes that fade alike share it.
+  std::string fade_text(const Fade& fade) {
+    if (!fade.any()) return "";
+    const auto known = std::find(edges_.begin(), edges_.end(), fade);
+    const std::string id = "edge" + std::to_string(known - edges_.begin() + 1);
+    if (known == edges_.end()) define_edges(id, fade);
+    return " mask=\"url(#" + id + ")\"";
+  }
+
+  void define_edges(const std::string& id, const Fade& fade) {
+    edges_.push_back(fade);
+    const auto place = [this](const Rect& r) {
+      return " x=\"" + number(x(r.x0)) + "\" y=\"" + number(y(r.y1)) + "\" width=\"" + number(scale_ * r.width()) +
+             "\" height=\"" + number(scale_ * r.height()) + "\"";
+    };
+    defs_ += "<mask id=\"" + id + "\" maskUnits=\"userSpaceOnUse\"" + place(fade.scene) + ">\n";
+    for (const FadeLevel& level : fade_levels(fade)) {
+      const auto gray = std::uint8_t(std::lround(255 * level.opacity));
+      defs_ += "<rect" + place(level.part) + " fill=\"" + color_text({gray, gray, gray, 1}) + "\"/>\n";
+    }
+    defs_ += "</mask>\n";
+  }
+
   void add(const Capsule& c) {
     std::string attributes;
     if (c.alpha_a != c.alpha_b)
@@ -193,10 +217,12 @@ class SvgWriter {
     const Point axis = size_of(e.u) > 0 ? e.u : Point{e.v.y, -e.v.x};
     const double degrees = -std::atan2(axis.y, axis.x) * 180 / std::numbers::pi;
     const std::string center = number(x(e.center.x)) + " " + number(y(e.center.y));
+    const std::string mask = fade_text(e.fade);
+    if (!mask.empty()) body_ += "<g" + mask + ">";  // which is not turned
     body_ += "<ellipse cx=\"" + number(x(e.center.x)) + "\" cy=\"" + number(y(e.center.y)) + "\" rx=\"" +
              number(scale_ * a) + "\" ry=\"" + number(scale_ * b) + "\"" + paint_text(e.paint);
     if (a != b && degrees != 0) body_ += " transform=\"rotate(" + number(degrees) + " " + center + ")\"";
-    body_ += "/>\n";
+    body_ += mask.empty() ? "/>\n" : "/></g>\n";
   }
 
   // Two halves: an arc of a whole turn has no direction in SVG.
@@ -224,9 +250,10 @@ class SvgWriter {
   }
 
   void add(const Polygon& p) {
+    const std::string mask = fade_text(p.fade);
     body_ += "<polygon points=\"";
     for (int i = 0; i < p.count; ++i) body_ += (i > 0 ? " " : "") + at(p.corners[std::size_t(i)]);
-    body_ += "\"" + paint_text(p.paint) + "/>\n";
+    body_ += "\"" + paint_text(p.paint) + mask + "/>\n";
   }
 
   void add(const Trail& trail) {
@@ -308,6 +335,7 @@ class SvgWriter {
   std::optional<SolidImages> bodies_;
   std::string defs_, body_;
   std::array<std::set<char32_t>, 3> used_;
+  std::vector<Fade> edges_;
   int clip_ = -1, fades_ = 0;
 };
 

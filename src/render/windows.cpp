@@ -85,11 +85,35 @@ void Windows::add_shape(const Batch& batch, int index, const TileMask& tiles) {
   const Piece& piece = batch.pieces()[std::size_t(index)];
   const float* numbers = batch.numbers(piece);
   some_.clear();
-  even_.clear();
-  WindowParts(piece, numbers, tiles, some_, even_).find();
-  add(index, piece.primitive, numbers, some_);
+  inner_.clear();
+  WindowParts(piece, numbers, tiles, some_, inner_).find();
   const float* fill = numbers + place_of_fill(piece.primitive);
-  if (!even_.empty() && place_of_fill(piece.primitive) > 0 && fill[3] > 0) add(index, Primitive::flat, fill, even_);
+  const bool has_inside = place_of_fill(piece.primitive) > 0 && fill[3] > 0;
+  // Nothing of the shape overlaps: what continues a run comes first.
+  const bool continues = !runs_.empty() && runs_.back().primitive == piece.primitive;
+  if (continues) add(index, piece.primitive, numbers, some_);
+  if (has_inside) add_inside(index, piece, fill);
+  if (!continues) add(index, piece.primitive, numbers, some_);
+}
+
+// What is inside of the shape, and there evenly filled or faded.
+void Windows::add_inside(int index, const Piece& piece, const float* fill) {
+  even_.clear();
+  faded_.clear();
+  for (const PixelBox& box : inner_) {
+    const PixelBox even = common_part(box, piece.unfaded);
+    if (even.empty()) {
+      faded_.push_back(box);
+      continue;
+    }
+    even_.push_back(even);
+    for (const PixelBox& side : {box_between(box.x, box.y, box.right(), even.y), box_between(box.x, even.y, even.x, even.bottom()),
+                                 box_between(even.right(), even.y, box.right(), even.bottom()),
+                                 box_between(box.x, even.bottom(), box.right(), box.bottom())})
+      if (!side.empty()) faded_.push_back(side);
+  }
+  add(index, Primitive::faded, fill, faded_);
+  add(index, Primitive::flat, fill, even_);
 }
 
 // The pieces into their layer, then its colour onto the page, each pixel once.

@@ -37,7 +37,9 @@ class Windows {
 
   std::vector<Run> runs_;
   std::array<std::vector<float>, kPrimitives.size()> streams_;
-  std::vector<PixelBox> some_, even_, path_;
+  void add_inside(int index, const Piece& piece, const float* fill);
+
+  std::vector<PixelBox> some_, inner_, even_, faded_, path_;
 };
 
 }  // namespace chainreel

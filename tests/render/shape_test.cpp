@@ -242,6 +242,25 @@ TEST(Shapes, OpacityOfACapsuleRunsFromEndToEnd) {
   EXPECT_NEAR(darkness(image, 11, 64), 0.9, 1.0 / 255);  // the round ends have the opacity of theirs
 }
 
+// Wherever its windows are cut: the part of a shape that is shaded has the bytes of what is filled evenly beside it.
+TEST(Shapes, FadeTowardsTheEdgesOfAPartOfThePage) {
+  Fade fade{{10 * kPx, 0, 1 - 20 * kPx, 1}};
+  fade.left = 50 * kPx, fade.bottom = 40 * kPx;
+  const Point middle = at_px(64, 64);
+  const Paint paint{kBlack, {}, 0};
+  for (const Shape& shape : std::initializer_list<Shape>{
+           Ellipse{middle, {2, 0}, {0, 1.5}, paint, fade}, Ellipse{middle, {1.5, 0}, {0, 1.5}, paint, fade},
+           Polygon{{at_px(-40, -40), at_px(200, -40), at_px(200, 200), at_px(-40, 200)}, 4, paint, fade}}) {
+    const Image image = draw_items({shape});
+    for (int y = 0; y < kSide; ++y)
+      for (int x = 0; x < kSide; ++x) {
+        const double left = (x + 0.5 - 10) / 50, bottom = (kSide - y - 0.5) / 40;
+        const double expected = x >= kSide - 20 ? 0 : std::clamp(std::min(left, bottom), 0.0, 1.0);
+        ASSERT_NEAR(darkness(image, x, y), expected, 1.0 / 255) << x << " " << y;
+      }
+  }
+}
+
 Trail wave(double alpha, double width_px) {
   Trail trail;
   trail.color = kBlack;

@@ -180,6 +180,18 @@ TEST(Vector, FillsShineThroughTranslucentStrokes) {
   }
 }
 
+TEST(Vector, ShapesFadeTowardsEdges) {
+  Picture page;
+  Fade fade{{100.0 / kHeight, 1 - 400.0 / kHeight, 500.0 / kHeight, 1 - 100.0 / kHeight}};
+  fade.left = 160.0 / kHeight, fade.top = 80.0 / kHeight;
+  page.add(Ellipse{{300.0 / kHeight, 0.5}, {2, 1}, {-0.8, 1.6}, {kBlack, kNothing, 0}, fade});
+  const Image canvas = by_canvas(page);
+  EXPECT_NEAR(canvas.at(180, 300).g, 127, 2);  // else they were alike without it
+  for (const Image& image : {by_cairo(page), by_rsvg(page), by_poppler(page)})
+    for (int y = 92; y < 410; y += 5)
+      for (int x = 93; x < 510; x += 5) ASSERT_NEAR(image.at(x, y).g, canvas.at(x, y).g, 255 / 64.0 + 2) << x << " " << y;
+}
+
 std::string words_of_pdf(const std::string& bytes) {
   const TemporaryFolder folder;
   const ProgramResult result = run_command({"pdftotext", "-layout", folder.write("page.pdf", bytes), "-"});

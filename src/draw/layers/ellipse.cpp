@@ -58,22 +58,6 @@ double reach_along(const std::vector<PageAxis>& axes, Point n) {
   return std::sqrt(squared);
 }
 
-// An ellipse with the semi-axes u and v, |u| >= |v| > 0, that is too large for its scene.
-void draw_fading_ellipse(Picture& picture, Point center, Point u, Point v, const Paint& paint, const Fade& fade,
-                         int clip) {
-  constexpr int kPieces = 96;  // of a half: chords lie 0.0006 of its length off at most, along the axis
-  const double a = norm(u), seen = std::min(a, kBeyond);
-  std::vector<Point> upper, lower;
-  for (int i = 0; i <= kPieces; ++i) {
-    const double x = seen * std::cos(i * std::numbers::pi / kPieces) / a;
-    upper.push_back(center + x * u + std::sqrt(std::max(0.0, 1 - x * x)) * v);
-  }
-  for (const Point p : upper) lower.push_back(2 * center - p);
-  if (paint.fill.a > 0) fill_between(picture, upper, lower, paint.fill, fade, clip);
-  draw_outline(picture, upper, paint.stroke_width, paint.stroke, fade, clip);
-  draw_outline(picture, lower, paint.stroke_width, paint.stroke, fade, clip);
-}
-
 void draw_ellipse(Picture& picture, Point center, const std::array<Point, 2>& axes, const Paint& paint,
                   const EllipseStyle& style, int clip) {
   const auto [u, v] = axes;
@@ -81,8 +65,7 @@ void draw_ellipse(Picture& picture, Point center, const std::array<Point, 2>& ax
       longer(fade_along(style.scene, center, u, style.fade), fade_along(style.scene, center, v, style.fade));
   if (norm(v) < kNoLength)  // nothing moves along the other axis
     return draw_axis(picture, center, u, false, paint.stroke_width, paint.stroke, fade, clip);
-  if (!fade.any()) return picture.add(Ellipse{center, u, v, paint}, clip);
-  draw_fading_ellipse(picture, center, u, v, paint, fade, clip);
+  picture.add(Ellipse{center, std::min(1.0, kLongest / norm(u)) * u, v, paint, fade}, clip);
 }
 
 // The axes that have an end, solid the first of all and dashed the others, with their lengths where none is seen.
@@ -133,17 +116,13 @@ void draw_fading_line(Picture& picture, Point p, Point d, const EllipseStyle& st
   }
 }
 
-// The fill between the lines: scenes one in the other, ever smaller, each cut to the band, so that no seam
-// shows.
+// The fill between the lines.
 void draw_fading_fill(Picture& picture, Point center, Point half_width, const Fade& fade, Color line, int clip) {
-  const Color fill = line.faded(1 - std::pow(1 - kEllipseFill, 1.0 / kFadeSteps));
-  for (int i = 0; i < kFadeSteps; ++i) {
-    const Rect r = fade.inset((i + 0.5) / kFadeSteps);
-    if (!(r.x0 < r.x1 && r.y0 < r.y1)) return;
-    Polygon band{{Point{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}, 4, {fill, {}, 0}};
-    band = cut(cut(band, center + half_width, -1 * half_width), center - half_width, half_width);
-    if (band.count >= 3) picture.add(band, clip);
-  }
+  const Rect& r = fade.scene;
+  Polygon band{{Point{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}, 4, {line.faded(kEllipseFill), {}, 0}};
+  band = cut(cut(band, center + half_width, -1 * half_width), center - half_width, half_width);
+  band.fade = fade;
+  if (band.count >= 3) picture.add(band, clip);
 }
 
 void draw_open(Picture& picture, const std::vector<PageAxis>& axes, Point center, Point direction,

@@ -63,20 +63,6 @@ Polygon cut(const Polygon& polygon, Point through, Point inward) {
   return kept;
 }
 
-double Fade::opacity_at(Point p) const {
-  double opacity = 1;
-  for (const auto& [inside, stretch] : {std::pair{p.x - scene.x0, left},
-                                        {scene.x1 - p.x, right},
-                                        {p.y - scene.y0, bottom},
-                                        {scene.y1 - p.y, top}})
-    if (stretch > 0) opacity = std::min(opacity, std::clamp(inside / stretch, 0.0, 1.0));
-  return opacity;
-}
-
-Rect Fade::inset(double share) const {
-  return {scene.x0 + share * left, scene.y0 + share * bottom, scene.x1 - share * right, scene.y1 - share * top};
-}
-
 Fade fade_everywhere(const Rect& scene, double stretch) {
   return {scene, stretch, stretch, stretch, stretch};
 }
@@ -147,29 +133,14 @@ void fill_piece(Picture& picture, const std::array<Point, 4>& corners, Color col
   if (piece.count > 2 && norm(piece.corners[std::size_t(piece.count - 1)] - piece.corners[0]) < kNoLength)
     --piece.count;
   if (piece.count < 3) return;
-  if (!fade.any()) {
-    piece.paint.fill = color;
-    picture.add(piece, clip);
-    return;
+  piece.paint.fill = color;
+  if (fade.any()) {
+    const Rect& r = fade.scene;
+    piece = cut(cut(piece, {r.x0, r.y0}, {1, 0}), {r.x1, r.y1}, {-1, 0});
+    piece = cut(cut(piece, {r.x0, r.y0}, {0, 1}), {r.x1, r.y1}, {0, -1});
+    piece.fade = fade;
   }
-  // Frame by frame from the edge inwards, each a little stronger: pieces side by side, none over another.
-  const auto fill = [&](const Rect& r, double strength) {
-    if (!(r.x0 < r.x1 && r.y0 < r.y1)) return;
-    Polygon part = cut(cut(piece, {r.x0, r.y0}, {1, 0}), {r.x1, r.y1}, {-1, 0});
-    part = cut(cut(part, {r.x0, r.y0}, {0, 1}), {r.x1, r.y1}, {0, -1});
-    part.paint.fill = color.faded(strength);
-    if (part.count >= 3) picture.add(part, clip);
-  };
-  for (int i = 0; i < kFadeSteps; ++i) {
-    const Rect out = fade.inset(double(i) / kFadeSteps), in = fade.inset(double(i + 1) / kFadeSteps);
-    if (!(in.x0 < in.x1 && in.y0 < in.y1)) return;
-    const double strength = (i + 0.5) / kFadeSteps;
-    fill({out.x0, out.y0, in.x0, out.y1}, strength);
-    fill({in.x1, out.y0, out.x1, out.y1}, strength);
-    fill({in.x0, out.y0, in.x1, in.y0}, strength);
-    fill({in.x0, in.y1, in.x1, out.y1}, strength);
-  }
-  fill(fade.inset(1), 1);
+  if (piece.count >= 3) picture.add(piece, clip);
 }
 
 void draw_axis(Picture& picture, Point center, Point v, bool dashed, double width, Color color, const Fade& fade,

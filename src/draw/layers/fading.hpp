@@ -16,8 +16,8 @@ namespace chainreel {
 inline constexpr double kNoLength = 1e-9;
 inline constexpr double kEllipseFill = 0.16;     // opacity
 inline constexpr double kSilhouetteFill = 0.12;  // of an ellipsoid
-inline constexpr int kFadeSteps = 16;  // of the fill; each changes it by 1 %, below what can be seen
 inline constexpr double kLongPiece = 0.02;  // units of H: fading lines change their opacity in steps of this length
+inline constexpr double kLongest = 60;  // units of H: an axis that is longer changes nothing on the page that can be seen
 inline constexpr double kBeyond = 3;        // units of H: farther than any corner of a page from any place on it
 
 inline bool contains(const Rect& r, Point p) {
@@ -37,16 +37,6 @@ std::optional<std::pair<double, double>> part_inside(const Rect& scene, Point p,
 // The part of a convex polygon where dot(p - through, inward) >= 0; one corner more at most.
 Polygon cut(const Polygon& polygon, Point through, Point inward);
 
-// Over which last stretch before each edge of `scene` things fade, units of H; 0: not at all.
-struct Fade {
-  Rect scene;
-  double left = 0, right = 0, bottom = 0, top = 0;
-
-  bool any() const { return left > 0 || right > 0 || bottom > 0 || top > 0; }
-  // 1 within the scene, 0 from an edge on that things fade towards.
-  double opacity_at(Point p) const;
-  Rect inset(double share) const;  // by this share of the stretches
-};
 Fade fade_everywhere(const Rect& scene, double stretch);
 // Towards the edges through which the axis from center - v to center + v leaves the scene at both of its ends, along
 // the axis over what it leads out and `most` at most: of a curve that grows beyond its scene ever more fades.

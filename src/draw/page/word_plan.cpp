@@ -37,7 +37,12 @@ struct ShapeObstacles {
     if (!is_seen(e.paint)) return;
     const double wide = std::max(norm(e.u), norm(e.v));
     if (e.paint.fill.a >= kPale) return line(e.center, e.center, wide + e.paint.stroke_width / 2);
+    const std::size_t first = found->size();
     curve(e.center, e.u, e.v, 0, 2 * std::numbers::pi, e.paint.stroke_width / 2);
+    if (!e.fade.any()) return;
+    const Rect seen = e.fade.inset(kPale);
+    const auto is_unseen = [&](Obstacle& piece) { return !cut_segment(seen, piece.a, piece.b); };
+    found->erase(std::remove_if(found->begin() + std::ptrdiff_t(first), found->end(), is_unseen), found->end());
   }
   void operator()(const Arc& a) const {
     if (a.color.a >= kPale) curve(a.center, {a.radius, 0}, {0, a.radius}, a.start, a.sweep, a.width / 2);

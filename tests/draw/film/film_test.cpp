@@ -155,7 +155,7 @@ TEST_F(RrFilm, NamesItsEllipseAndItsScale) {
   // One scale for the whole clip: Lambda of RR depends on q2 alone, so equal q2 give equal ellipses.
   const auto ellipse_at = [&](int k) {
     return test::all_of<Ellipse>(film.frame(k),
-                                 [](const Ellipse& e) { return e.paint.stroke == light_theme().ellipse; });
+                                 [](const Ellipse& e) { return e.paint.stroke == light_theme().ellipse && !e.fade.any(); });
   };
   int compared = 0;
   for (int k = 0; k < 100; ++k) {

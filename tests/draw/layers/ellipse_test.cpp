@@ -9,6 +9,7 @@
 
 #include "core/format.hpp"
 #include "draw/chains.hpp"
+#include "draw/layers/fading.hpp"
 #include "draw/shapes.hpp"
 
 namespace chainreel {
@@ -101,18 +102,20 @@ TEST(Ellipse, IsAnOpenBandAtASingularPose) {
 TEST(Ellipse, FillsTheBandBetweenItsLinesAndFadesItBeforeTheEdge) {
   const DrawnEllipse stretched({0.6, 0});
   const Point along{std::cos(0.6), std::sin(0.6)}, across{-along.y, along.x};
-  const auto layers = test::all_of<Polygon>(stretched.picture);
-  double opacity = 1;
-  for (const Polygon& layer : layers) {
-    opacity *= 1 - layer.paint.fill.a;
-    for (int i = 0; i < layer.count; ++i) {
-      const Point p = layer.corners[std::size_t(i)], r = p - stretched.center;
-      EXPECT_LE(std::abs(r.x * across.x + r.y * across.y), 0.05 + kEllipseRoundOff);
-      EXPECT_TRUE(test::is_inside(stretched.style.scene, p));
-    }
+  const auto bands = test::all_of<Polygon>(stretched.picture);
+  ASSERT_EQ(bands.size(), 1u);
+  const Polygon& band = bands[0];
+  EXPECT_NEAR(band.paint.fill.a, 0.16, kEllipseRoundOff);
+  for (int i = 0; i < band.count; ++i) {
+    const Point p = band.corners[std::size_t(i)], r = p - stretched.center;
+    EXPECT_LE(std::abs(r.x * across.x + r.y * across.y), 0.05 + kEllipseRoundOff);
+    EXPECT_TRUE(test::is_inside(stretched.style.scene, p));
   }
-  EXPECT_NEAR(1 - opacity, 0.16, kEllipseRoundOff);
-  EXPECT_GT(layers.size(), 10u);
+  EXPECT_EQ(band.fade.opacity_at(stretched.center), 1);
+  for (const int side : {-1, 1}) {
+    const Point end = stretched.center + (side * way_out(stretched.style.scene, stretched.center, side * along)) * along;
+    EXPECT_NEAR(band.fade.opacity_at(end), 0, kEllipseRoundOff);
+  }
 }
 
 TEST(Ellipse, NearlySingularIsStillNeverANumberThatWasCut) {
@@ -131,7 +134,8 @@ TEST(Ellipse, HasNoInfinitySignWhereJIsRegular) {
       regular.picture = {};
       draw_mass_ellipse(regular.picture, regular.axes, regular.center, regular.camera, regular.style, -1);
       ASSERT_TRUE(regular.axes[0].mass);
-      EXPECT_TRUE(test::all_of<Ellipse>(regular.picture).empty()) << "it is too large for the scene";
+      for (const Ellipse& e : test::all_of<Ellipse>(regular.picture))
+        EXPECT_TRUE(e.fade.any()) << "it is too large for the scene";
       EXPECT_TRUE(test::all_finite(regular.picture));
       // Its mass, at both ends of the axis that is cut.
       const std::string mass = format_significant(*regular.axes[0].mass, 3) + " kg";
@@ -158,16 +162,12 @@ TEST(Ellipse, FadesGraduallyAsItOutgrowsItsScene) {
     Picture picture;
     draw_mass_ellipse(picture, axes, {0.8, 0.5}, {}, style, -1);
     const double stretch = std::min(excess, size::kEllipseFade);
-    double outermost = 0;
-    for (const Trail& trail : test::all_of<Trail>(picture)) {
-      if (trail.points.front().width != size::kEllipseLine) continue;  // the axis ends before its mass
-      for (const TrailPoint& point : trail.points) {
-        const double inside = std::min(point.p.x - style.scene.x0, style.scene.x1 - point.p.x);
-        EXPECT_NEAR(point.alpha, std::clamp(inside / stretch, 0.0, 1.0), 1e-9);
-        outermost = std::max(outermost, point.p.x);
-      }
-    }
-    EXPECT_NEAR(outermost, style.scene.x1, 1e-9);
+    const auto ellipses = test::all_of<Ellipse>(picture);
+    ASSERT_EQ(ellipses.size(), 1u);
+    EXPECT_EQ(ellipses[0].paint.stroke_width, size::kEllipseLine);
+    for (const double inside : {0.0, 0.5, 1.0, 1.5})
+      for (const double x : {style.scene.x0 + inside * stretch, style.scene.x1 - inside * stretch})
+        EXPECT_NEAR(ellipses[0].fade.opacity_at({x, 0.5}), std::min(inside, 1.0), 1e-9);
     const auto words = test::all_of<GlyphRun>(picture);
     ASSERT_EQ(words.size(), 2u);
     EXPECT_EQ(words[0].text, "1 kg");
@@ -177,17 +177,20 @@ TEST(Ellipse, FadesGraduallyAsItOutgrowsItsScene) {
   Picture whole;
   draw_mass_ellipse(whole, {{1, Eigen::Vector3d::UnitX()}, {0.1, Eigen::Vector3d::UnitY()}}, {0.8, 0.5}, {},
                     {&light_theme(), &fonts(), 1, 0.9299, {0.045, 0.11, 1.73, 0.87}}, -1);
-  EXPECT_EQ(test::all_of<Ellipse>(whole).size(), 1u);
+  ASSERT_EQ(test::all_of<Ellipse>(whole).size(), 1u);
+  EXPECT_FALSE(test::all_of<Ellipse>(whole)[0].fade.any());
   EXPECT_EQ(test::words_of(whole), "");
 }
 
 TEST(Ellipse, IsOnlyClippedWhereOneEndOfAnAxisStaysInTheScene) {
   // The tip near the right edge: the major axis leaves there, its other end shows its length.
   const DrawnEllipse at_edge({0, 150 * kDegree}, 0.05, {1.70, 0.5});
-  EXPECT_EQ(test::all_of<Ellipse>(at_edge.picture).size(), 1u);
+  ASSERT_EQ(test::all_of<Ellipse>(at_edge.picture).size(), 1u);
+  EXPECT_FALSE(test::all_of<Ellipse>(at_edge.picture)[0].fade.any());
   // At ten times the scale both ends are outside.
   const DrawnEllipse large({0, 150 * kDegree}, 0.5, {0.8, 0.5});
-  EXPECT_TRUE(test::all_of<Ellipse>(large.picture).empty());
+  ASSERT_EQ(test::all_of<Ellipse>(large.picture).size(), 1u);
+  EXPECT_TRUE(test::all_of<Ellipse>(large.picture)[0].fade.any());
 }
 
 TEST(Ellipse, KeepsInfinitySignsInsideTheSceneWhereverTheTipIs) {
