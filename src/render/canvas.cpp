@@ -22,8 +22,15 @@ std::string gl_string(const GlFunctions& gl, GLenum name) {
   return text == nullptr ? "unknown" : reinterpret_cast<const char*>(text);
 }
 
+// "llvmpipe (LLVM 15.0.6, 256 bits)" without the width of its vectors: that is the processor's and changes no byte.
+std::string without_width(std::string renderer) {
+  const std::size_t end = renderer.rfind(" bits)"), start = renderer.rfind(", ", end);
+  if (end != std::string::npos && start != std::string::npos) renderer.erase(start, end + 5 - start);
+  return renderer;
+}
+
 RendererInfo info_of(const GlContext& context) {
-  return {context.backend(), gl_string(context.gl(), GL_RENDERER), gl_string(context.gl(), GL_VERSION)};
+  return {context.backend(), without_width(gl_string(context.gl(), GL_RENDERER)), gl_string(context.gl(), GL_VERSION)};
 }
 
 // The longest side of a picture that the context can draw.

@@ -15,7 +15,7 @@ namespace chainreel {
 
 struct RendererInfo {
   std::string backend;   // "OSMesa"
-  std::string renderer;  // GL_RENDERER
+  std::string renderer;  // GL_RENDERER, alike on all processors
   std::string version;   // GL_VERSION
 };
 

@@ -1,5 +1,6 @@
 #include "render/renderer_pins.hpp"
 
+#include <array>
 #include <cstdlib>
 #include <mutex>
 #include <string_view>
@@ -7,16 +8,26 @@
 namespace chainreel {
 namespace {
 
-constexpr RendererPin kPins[] = {
 #ifdef __x86_64__
-    {"GALLIUM_OVERRIDE_CPU_CAPS", "sse4.1"},
+bool has_avx() {
+  return __builtin_cpu_supports("avx") != 0;
+}
+#else
+bool has_avx() {
+  return false;
+}
 #endif
-    {"LP_NATIVE_VECTOR_WIDTH", "128"},  // bits
-    {"LIBGL_ALWAYS_SOFTWARE", "true"},  // EGL would take a graphics card
-    {"GALLIUM_NOSSE", nullptr},
-    {"GALLIVM_PERF", nullptr},
-    {"LP_PERF", nullptr},
-    {"LP_NO_RAST", nullptr},
+
+const std::array kPins = {
+#ifdef __x86_64__
+    RendererPin{"GALLIUM_OVERRIDE_CPU_CAPS", has_avx() ? "avx" : "sse4.1"},
+#endif
+    RendererPin{"LP_NATIVE_VECTOR_WIDTH", has_avx() ? "256" : "128"},  // bits
+    RendererPin{"LIBGL_ALWAYS_SOFTWARE", "true"},  // EGL would take a graphics card
+    RendererPin{"GALLIUM_NOSSE", nullptr},
+    RendererPin{"GALLIVM_PERF", nullptr},
+    RendererPin{"LP_PERF", nullptr},
+    RendererPin{"LP_NO_RAST", nullptr},
 };
 
 std::vector<std::string>& overruled() {

@@ -1,9 +1,10 @@
 // What Mesa's software renderer reads from the environment and the bytes of a picture hang on. It is set inside the program,
 // before a library of Mesa's is opened, so that every x86-64 processor draws the same bytes:
 //
-// - The instructions that shaders are compiled for. Places of vertices and what is interpolated between them are computed by
-//   fused multiply-adds where the processor has such, whatever shaders say; Mesa knows no way to leave those out but to leave
-//   out AVX as a whole. What is left, SSE 4.1, is what processors since 2008 have.
+// - The instructions that shaders are compiled for, one of two sets: up to AVX, or up to SSE 4.1 where there is no AVX. Places
+//   of vertices, and what is interpolated between them, are computed by fused multiply-adds where the processor has such,
+//   whatever shaders say. Here this changes no byte: windows have corners on whole pixels, to which Mesa rounds, and nothing is
+//   interpolated; what shaders themselves compute is never fused. More than AVX would bring little, and more kinds of code.
 // - The width of vectors, that which belongs to these instructions: of any other, code may come out of Mesa's cache of
 //   shaders that was compiled for this one, and crashes.
 // - Switches for developers of Mesa that leave parts of a picture out, or all of it.

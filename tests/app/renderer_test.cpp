@@ -11,6 +11,7 @@ namespace chainreel {
 namespace {
 
 using testing::AllOf;
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -32,15 +33,15 @@ Json renderer(const ProgramResult& result) {
 
 TEST(Renderer, DoctorSaysWhatIsPinnedAndWhatOfTheEnvironmentIsOverruled) {
   const Json plain = renderer(doctor({}));
-  EXPECT_THAT(plain["renderer"].get<std::string>(), AllOf(StartsWith("llvmpipe"), HasSubstr("128 bits")));
-  EXPECT_EQ(plain["pinned"]["LP_NATIVE_VECTOR_WIDTH"], "128");
+  EXPECT_THAT(plain["renderer"].get<std::string>(), AllOf(StartsWith("llvmpipe (LLVM"), Not(HasSubstr("bits"))));
+  EXPECT_THAT(plain["pinned"]["LP_NATIVE_VECTOR_WIDTH"], AnyOf("128", "256"));  // of processors without AVX, and with it
   EXPECT_TRUE(plain["pinned"]["LP_NO_RAST"].is_null());
   EXPECT_TRUE(plain["overruled"].empty());
   const Json other = renderer(doctor({}, {{"LP_NATIVE_VECTOR_WIDTH", "512"}, {"LP_NO_RAST", "1"}, {"LP_NUM_THREADS", "2"}}));
   EXPECT_EQ(other["renderer"], plain["renderer"]);
   EXPECT_EQ(other["overruled"], (Json{"LP_NATIVE_VECTOR_WIDTH=512", "LP_NO_RAST=1"}));
   EXPECT_THAT(run_program({"doctor"}, {.folder = "", .environment = {{"LP_NO_RAST", "1"}}}).out,
-              AllOf(HasSubstr("pinned    LP_NATIVE_VECTOR_WIDTH=128"), HasSubstr("overruled LP_NO_RAST=1")));
+              AllOf(HasSubstr("pinned    LP_NATIVE_VECTOR_WIDTH="), HasSubstr("overruled LP_NO_RAST=1")));
 }
 
 TEST(Renderer, ComesFromTheLibraryThatIsNamedByFlagOrVariable) {

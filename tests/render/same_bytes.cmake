@@ -18,7 +18,7 @@ function(require_same name)
 endfunction()
 
 foreach(setting LP_NUM_THREADS=0 LP_NUM_THREADS=2 LP_NATIVE_VECTOR_WIDTH=256 LP_NATIVE_VECTOR_WIDTH=512
-        GALLIUM_OVERRIDE_CPU_CAPS=avx LP_NO_RAST=1 MESA_SHADER_CACHE_DISABLE=true)
+        GALLIUM_OVERRIDE_CPU_CAPS=ssse3 LP_NO_RAST=1 MESA_SHADER_CACHE_DISABLE=true)
   require_same(${setting} ${CMAKE_COMMAND} -E env ${setting} ${CARD_HASH})
 endforeach()
 foreach(library osmesa egl)
