@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace chainreel {
 namespace {
@@ -116,18 +117,38 @@ void Windows::add_inside(int index, const Piece& piece, const float* fill) {
   add(index, Primitive::flat, fill, even_);
 }
 
+// Strip by strip, so that none overlaps another: strips lie within tiles.
+void Windows::find_path_area(const PixelBox& within) {
+  constexpr int kGap = 12;  // px: what a window more costs
+  struct Part {
+    int row, left, right;
+    bool operator<(const Part& other) const { return std::pair(row, left) < std::pair(other.row, other.left); }
+  };
+  std::vector<Part> parts;
+  for (const PixelBox& box : path_windows_)
+    for (int row = box.y / kStrip; row * kStrip < box.bottom(); ++row) parts.push_back({row, box.x, box.right()});
+  std::sort(parts.begin(), parts.end());
+  path_.clear();
+  BoxJoiner area(path_);
+  for (std::size_t i = 0; i < parts.size();) {
+    Part part = parts[i++];
+    for (; i < parts.size() && parts[i].row == part.row && parts[i].left <= part.right + kGap; ++i)
+      part.right = std::max(part.right, parts[i].right);
+    area.add(common_part(within, box_between(part.left, part.row * kStrip, part.right, (part.row + 1) * kStrip)));
+  }
+}
+
 // The pieces into their layer, then its colour onto the page, each pixel once.
 void Windows::add_path(const Batch& batch, int layer, const TileMask& tiles) {
   const Piece& colour = batch.pieces()[std::size_t(layer)];
-  TileMask touched = tiles;
-  touched.clear();
+  path_windows_.clear();
   const std::size_t run = runs_.size();
   for (int i = colour.first_of_path; i < layer; ++i) {
     add_shape(batch, i, tiles);
-    for (const PixelBox& box : some_) touched.mark_box(box);
+    path_windows_.insert(path_windows_.end(), some_.begin(), some_.end());
   }
   if (runs_.size() == run) return;
-  touched.boxes(colour.outline.box, path_);
+  find_path_area(colour.outline.box);
   std::vector<float>& flat = streams_[std::size_t(Primitive::flat)];
   constexpr std::array<float, 4> kNothing = {};
   runs_[run].first_to_clear = int(flat.size()) / floats_of(Primitive::flat);
