@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
@@ -115,11 +116,16 @@ std::string compressed(const Rows& rows) {
   return {room.get(), libdeflate_zlib_compress(compressor.get(), rows.bytes.get(), rows.size, room.get(), most)};
 }
 
-std::string file_of(const Image& image, const std::map<std::string, std::string>& text, const std::string& path) {
+std::string file_of(const Image& image, const std::map<std::string, std::string>& text, const std::string& path,
+                    double per_metre) {
   const bool opaque = image.is_opaque();
   std::string png = "\x89PNG\r\n\x1a\n";
   const std::string depth_and_kind = {8, char(opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGBA), 0, 0, 0};
   append_chunk(png, "IHDR", big_endian(std::size_t(image.width)) + big_endian(std::size_t(image.height)) + depth_and_kind);
+  if (per_metre > 0) {
+    const std::string both = big_endian(std::size_t(std::lround(per_metre)));
+    append_chunk(png, "pHYs", both + both + '\x01');
+  }
   append_text_chunks(png, text, path);
   // Chunks of 2^31 bytes and more are not allowed.
   const std::string pixels = compressed(rows_of(image, opaque));
@@ -151,9 +157,10 @@ FilePtr open_for_reading(const std::string& path) {
 
 }  // namespace
 
-void write_png(const std::string& path, const Image& image, const std::map<std::string, std::string>& text) {
+void write_png(const std::string& path, const Image& image, const std::map<std::string, std::string>& text,
+               double per_metre) {
   if (image.width <= 0 || image.height <= 0) throw Error(ExitCode::usage, "a picture without pixels", {path});
-  const std::string png = file_of(image, text, path);
+  const std::string png = file_of(image, text, path, per_metre);
   FilePtr file(std::fopen(path.c_str(), "wb"));
   if (!file)
     throw Error(ExitCode::file, std::string("cannot be written here (") + std::strerror(errno) + ")", {path});

@@ -12,9 +12,9 @@
 
 namespace chainreel {
 
-// Throws Error (exit 6) where the file cannot be written whole.
+// `per_metre`: pixels, for printing; 0: not said. Throws Error (exit 6) where the file cannot be written whole.
 void write_png(const std::string& path, const Image& image,
-               const std::map<std::string, std::string>& text = {});
+               const std::map<std::string, std::string>& text = {}, double per_metre = 0);
 
 // The same in memory, without texts.
 std::string png_bytes(const Image& image);

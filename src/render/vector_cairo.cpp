@@ -316,8 +316,10 @@ std::string pdf_text(const Picture& picture, const Fonts& fonts, const VectorPag
     static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), length);
     return CAIRO_STATUS_SUCCESS;
   };
+  constexpr double kPointsPerMm = 72 / 25.4;
+  const double height = page.width_mm > 0 ? page.width_mm * kPointsPerMm / picture.aspect : page.height;
   const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
-      cairo_pdf_surface_create_for_stream(append, &bytes, page.height * picture.aspect, page.height),
+      cairo_pdf_surface_create_for_stream(append, &bytes, height * picture.aspect, height),
       &cairo_surface_destroy);
   const auto set = [&](cairo_pdf_metadata_t key, const std::string& value) {
     cairo_pdf_surface_set_metadata(surface.get(), key, value.empty() ? nullptr : value.c_str());
@@ -329,7 +331,7 @@ std::string pdf_text(const Picture& picture, const Fonts& fonts, const VectorPag
   {
     const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo(cairo_create(surface.get()),
                                                                    &cairo_destroy);
-    paint_with_cairo(cairo.get(), picture, fonts, page.height);
+    paint_with_cairo(cairo.get(), picture, fonts, height);
   }
   cairo_surface_finish(surface.get());
   check(cairo_surface_status(surface.get()), "writing a PDF page");

@@ -15,6 +15,7 @@ struct VectorPage {
   double height = 540;  // of the page in its own units: pt in PDF, px in SVG
   std::string title, description;
   std::string metadata;  // anything that is to travel with the page
+  double width_mm = 0;   // above 0: as wide on paper, whatever the height
 };
 
 // All numbers are finite; others are left out, as by the canvas.

@@ -93,8 +93,11 @@ class SvgWriter {
       std::visit([this](const auto& shape) { add(shape); }, item.shape);
     }
     enter_clip(-1);
-    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(width) + "\" height=\"" +
-                      number(scale_) + "\" viewBox=\"0 0 " + number(width) + " " + number(scale_) +
+    const auto side = [&](double length) {
+      return page.width_mm > 0 ? number(length * page.width_mm / width) + "mm" : number(length);
+    };
+    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + side(width) + "\" height=\"" +
+                      side(scale_) + "\" viewBox=\"0 0 " + number(width) + " " + number(scale_) +
                       "\" role=\"img\" xml:space=\"preserve\">\n";
     const auto element = [&svg](const char* name, const std::string& text) {
       if (!text.empty()) svg += std::string("<") + name + ">" + escaped(text) + "</" + name + ">\n";

@@ -27,6 +27,8 @@ enum class LayerNeeds {
   ROW(constraints, "constraints", 7, nothing,                                                               \
       "what the robot is tied to: lines and planes with hatching, curves, rods")                            \
   ROW(chain_base, "chain", 1, nothing, "the mechanism")                                                     \
+  ROW(ellipse_inside, "ellipse", 0, end_effector,                                                            \
+      "the effective mass of the end effector, as `ellipse:` says")                                         \
   ROW(target, "target", 10, nothing,                                                                        \
       "of feedback (pd, computed_torque): the pose that it follows in outline; coils from there show PD")   \
   ROW(ghosts, "ghosts", 0, nothing,                                                                         \
@@ -40,7 +42,7 @@ enum class LayerNeeds {
   ROW(joint_springs, "springs", 0, nothing, "")                                                             \
   ROW(limits, "limits", 12, nothing, "the limits of joints that the motion comes near to")                  \
   ROW(angles, "angles", 0, nothing, "the coordinates: of revolute joints arcs, of sliders lengths, from zero on") \
-  ROW(ellipse, "ellipse", 0, end_effector, "the effective mass of the end effector, as `ellipse:` says")    \
+  ROW(ellipse, "ellipse", 0, end_effector, "")                                                              \
   ROW(foot, "chain", 0, nothing, "")                                                                        \
   ROW(frames, "frames", 0, nothing, "axes of the links' frames (y has one cross tick, z two)")              \
   ROW(com, "com", 0, nothing, "the centre of mass of the whole chain")                                      \

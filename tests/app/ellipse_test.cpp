@@ -135,6 +135,37 @@ TEST(EllipseOutputs, AreWordsInPdfAndSvgAndNumbersInCsv) {
   EXPECT_THAT(text_of(table), HasSubstr(",inf,"));
 }
 
+// Words are 7 pt and larger where the page is as wide as it says.
+TEST(EllipseOutputs, HaveTheirSizeOnPaper) {
+  const TemporaryFolder folder;
+  const auto draw_on_paper = [&](const std::string& name, std::vector<std::string> words) {
+    words.insert(words.begin(), {"ellipse", "models/rr.urdf", "--sweep", "q2=30deg:150deg:6", "--width-mm", "84", "--letters"});
+    words.insert(words.end(), {"-o", folder.file(name)});
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return text_of(folder.file(name));
+  };
+  const std::string svg = draw_on_paper("a.svg", {"--height-mm", "60"});
+  EXPECT_THAT(svg, HasSubstr("width=\"84mm\" height=\"60"));
+  EXPECT_THAT(svg, HasSubstr("(f)"));
+  // 84 mm are 238.11 pt; 540 units of the page are 60 mm, 170.08 pt.
+  const double pt_per_unit = 170.08 / 540;
+  std::size_t sizes = 0;
+  for (std::size_t at = svg.find("font-size=\""); at != std::string::npos; at = svg.find("font-size=\"", at + 1), ++sizes)
+    EXPECT_GE(std::stod(svg.substr(at + 11)) * pt_per_unit, 7 - 1e-2);
+  EXPECT_GT(sizes, 6u);
+  EXPECT_THAT(draw_on_paper("a.pdf", {"--height-mm", "60"}), HasSubstr("238.11"));
+  const std::string png = draw_on_paper("a.png", {"--dpi", "100"});
+  const std::size_t at = png.find("pHYs");
+  ASSERT_NE(at, std::string::npos);
+  // 331 pixels of 84 mm: 3940 a metre, in two bytes behind two zeros.
+  EXPECT_EQ(png.substr(at + 4, 4), std::string("\0\0\x0f\x64", 4));
+  EXPECT_EQ(read_png(folder.file("a.png")).width, 331);
+  // Negative control: without a size on paper there is none.
+  ASSERT_EQ(draw({"models/rr.urdf", "--pose", "0,1"}, folder.file("b.png")).status, 0);
+  EXPECT_EQ(text_of(folder.file("b.png")).find("pHYs"), std::string::npos);
+}
+
 TEST(EllipseOptions, ThatDoNotGoTogetherAreNamed) {
   const auto error = [](const std::vector<std::string>& words) {
     const ProgramResult result = draw(words, "out/x.png");
@@ -150,6 +181,10 @@ TEST(EllipseOptions, ThatDoNotGoTogetherAreNamed) {
   EXPECT_THAT(error({"models/pp.urdf", "--field"}), HasSubstr("without limits"));
   EXPECT_THAT(error({"models/rr.urdf", "--pose", "0,1", "--joint-space", "--reading", "belt"}),
               HasSubstr("leave out --reading"));
+  EXPECT_THAT(error({"models/rr.urdf", "--pose", "0,1", "--width-mm", "84"}), HasSubstr("leave out --width"));
+  EXPECT_THAT(error({"models/rr.urdf", "--pose", "0,1", "--dpi", "600"}), HasSubstr("go with --width-mm"));
+  EXPECT_THAT(error({"models/rr.urdf", "--pose", "0,1", "--width-mm", "0"}), HasSubstr("between 20 and 2000"));
+  EXPECT_THAT(error({"models/rr.urdf", "--field", "--letters"}), HasSubstr("--letters name panels"));
   EXPECT_THAT(error({"models/rr.urdf", "--along", "assets/scenes/rr_free.yaml"}), HasSubstr("leave out models/rr.urdf"));
 }
 

@@ -1,5 +1,7 @@
 // chainreel ellipse MODEL --pose Q [--pose Q ...] -o FILE.png|.svg|.pdf|.csv, and other ways to name poses.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -12,10 +14,13 @@
 #include "core/error.hpp"
 #include "core/output_file.hpp"
 #include "draw/figures/poses.hpp"
+#include "draw/page/sheet.hpp"
 #include "model/read_chain.hpp"
 
 namespace chainreel {
 namespace {
+
+constexpr double kNotGiven = -1;
 
 struct EllipseOptions {
   std::string model;
@@ -29,6 +34,9 @@ struct EllipseOptions {
   std::string end_effector;
   std::string title;
   int width = 0, height = 0;  // 0: as the scene says
+  double width_mm = kNotGiven, height_mm = kNotGiven;  // on paper
+  int dpi = 0;                // of a .png on paper; 0: kPrintDpi
+  bool letters = false;
   CommonOptions common;
   const Command* command = nullptr;
 
@@ -42,6 +50,34 @@ struct EllipseOptions {
     return {read_as(motion), shown == EllipseShape::section && !motion.chain.planar};
   }
 };
+
+constexpr int kPrintDpi = 300, kMostPixels = 16384;
+constexpr double kMmPerInch = 25.4, kPointsPerMm = 72 / kMmPerInch;
+constexpr double kSmallestPrint = 7;  // pt: what a paper's figure may say
+
+// How tall a figure of `panels` panels is to be on paper, mm: so many across as columns of a paper hold, each with its caption.
+double paper_height(double width, int panels, bool is_one_picture, bool is_joint_space) {
+  constexpr double kShape = 0.75, kCaption = 6, kMatrix = 17, kFoot = 16;
+  if (is_one_picture) return kShape * width + kFoot;
+  if (is_joint_space) return panels * (width / 3 + 2 * kCaption) + kFoot;
+  const int across = panels == 1 ? 1 : panels <= 4 ? 2 : panels <= 9 ? 3 : 4, rows = (panels + across - 1) / across;
+  return rows * (kShape * width / across + (panels < 5 ? kMatrix : kCaption)) + kFoot;
+}
+
+// Nothing that is written at its usual size is smaller than kSmallestPrint.
+void set_on_paper(PoseFigureOptions& figure, const EllipseOptions& options, int poses) {
+  const double height = options.height_mm != kNotGiven
+                            ? options.height_mm
+                            : paper_height(options.width_mm, figure.layout == "row" ? 1 : poses,
+                                           options.sources.field || figure.layout == "superposed", options.joint_space);
+  const double per_mm = (options.dpi > 0 ? options.dpi : kPrintDpi) / kMmPerInch;
+  figure.width = int(std::lround(options.width_mm * per_mm));
+  figure.height = int(std::lround(height * per_mm));
+  if (std::max(figure.width, figure.height) > kMostPixels)
+    throw Error(ExitCode::usage, "--width-mm: that makes " + std::to_string(figure.width) + " x " + std::to_string(figure.height) +
+                                     " pixels, more than " + std::to_string(kMostPixels) + " a side: take a smaller --dpi");
+  figure.text_scale = std::max(1.0, figure.text_scale) * kSmallestPrint / (kSmallestText * height * kPointsPerMm);
+}
 
 std::string output_of(const EllipseOptions& options) {
   std::string output = options.output;
@@ -126,12 +162,24 @@ EllipseJob job_of(const EllipseOptions& options) {
   figure.path = poses.path;
   figure.cell = poses.cell;
   figure.section = options.form(job.motion).section;
+  figure.letters = options.letters;
+  if (options.letters && !options.joint_space && (figure.cell > 0 || figure.layout == "superposed"))
+    throw Error(ExitCode::usage, "--letters name panels: with --field leave them out, else take --layout grid or row");
+  if (options.width_mm != kNotGiven) set_on_paper(figure, options, int(poses.q.size()));
   return job;
 }
 
 void check_combination(const EllipseOptions& options) {
   if (options.joint_space && (!options.reading.empty() || !options.layout.empty() || options.sources.field))
     throw Error(ExitCode::usage, "--joint-space shows M(q) itself: leave out --reading, --layout and --field");
+  for (const auto& [name, mm] : {std::pair{"--width-mm", options.width_mm}, {"--height-mm", options.height_mm}})
+    if (mm != kNotGiven && !(mm >= 20 && mm <= 2000))
+      throw Error(ExitCode::usage, std::string(name) + " takes millimetres between 20 and 2000, like 84");
+  const bool on_paper = options.width_mm != kNotGiven;
+  if (on_paper && (options.width > 0 || options.height > 0))
+    throw Error(ExitCode::usage, "--width-mm is the size on paper: leave out --width and --height, --dpi says how many pixels");
+  if (!on_paper && (options.height_mm != kNotGiven || options.dpi > 0))
+    throw Error(ExitCode::usage, "--height-mm and --dpi go with --width-mm");
   if (!options.joint_space && !options.joints.empty())
     throw Error(ExitCode::usage, "--joints goes with --joint-space");
   if (options.sources.field && !options.layout.empty())
@@ -151,7 +199,8 @@ void run_ellipse(const EllipseOptions& options) {
     throw Error(ExitCode::usage,
                 "--joint-space shows M(q), which says of a constrained mechanism only what its cut chain would do: leave "
                 "one of the two out; `chainreel dynamics " + options.sources.along + " --at T` prints M, Jc and Lambda");
-  const ClipMemory memory = memory_of_figure(*options.command, figure.title, options.model, poses.q);
+  ClipMemory memory = memory_of_figure(*options.command, figure.title, options.model, poses.q);
+  if (options.width_mm != kNotGiven) memory.width_mm = options.width_mm;
   Json numbers;
   if (options.joint_space) {
     const std::array<int, 2> joints = joints_of(chain, options.joints);
@@ -214,6 +263,10 @@ void add_ellipse_command(CommandLine& app) {
       .one_of(words_of(names_of(EllipseShape{})));
   command->add_option("--width", options->width, "pixels").range(16, 16384);
   command->add_option("--height", options->height, "pixels").range(16, 16384);
+  command->add_option("--width-mm", options->width_mm, "millimetres on paper: 84 for a column; nothing is written below 7 pt");
+  command->add_option("--height-mm", options->height_mm, "goes with --width-mm (default: what suits the poses)");
+  command->add_option("--dpi", options->dpi, "of a .png with --width-mm (default 300)").range(50, 2400);
+  command->add_flag("--letters", options->letters, "(a), (b), .. before the captions of panels");
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
   command->footer(

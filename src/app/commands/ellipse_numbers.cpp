@@ -113,7 +113,8 @@ Json joint_space_json(const Chain& chain, const GatheredPoses& poses, std::array
 namespace {
 
 constexpr int kPosesAlong = 6, kPointsAcross = 12;
-constexpr int kPathPoints = 400;  // at least, of a motion
+// Of a motion: at 10 m/s on a turn of 1 m chords of 5 cm lie 0.3 mm off the path, less than a pixel of 4 m.
+constexpr int kPathPoints = 400, kMostPathPoints = 8000, kPathPointsPerSecond = 200;
 
 // q1, q2, ... or the name of a coordinate.
 std::size_t coordinate_of(const Chain& chain, const std::string& key) {
@@ -185,7 +186,8 @@ Motion motion_of(const PoseSources& sources, const CommonOptions& common) {
   say_notices(film.panels.front(), common.quiet);
   const int count = sources.samples > 0 ? sources.samples : kPosesAlong;
   if (count < 2) throw Error(ExitCode::usage, "--samples: a motion has at least two poses, its ends");
-  const int between = std::max(1, kPathPoints / (count - 1)), intervals = between * (count - 1);
+  const double wanted = std::clamp(kPathPointsPerSecond * film.scene.duration, double(kPathPoints), double(kMostPathPoints));
+  const int between = std::max(1, int(wanted) / (count - 1)), intervals = between * (count - 1);
   std::vector<double> times;
   for (int k = 0; k <= intervals; ++k) times.push_back(film.scene.duration * k / intervals);
   const Runs runs(film, {}, times);

@@ -116,6 +116,7 @@ VectorPage ClipMemory::page() const {
   VectorPage page;
   page.title = title;
   page.description = description;
+  page.width_mm = width_mm;
   const Json json = figure.is_null() ? Json{{kScene, scene}, {kAudit, audit}} : Json{{kFigure, figure}};
   page.metadata = json.dump(-1, ' ', true);
   return page;

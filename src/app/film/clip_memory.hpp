@@ -19,6 +19,8 @@ struct ClipMemory {
   // that are paths, as found from the folder of the first.
   Json figure = nullptr;
 
+  double width_mm = 0;  // of the picture on paper; 0: it has no size of its own. Not read back
+
   Tags tags() const;        // of MP4, MOV, WebM, PNG, APNG, GIF
   VectorPage page() const;  // of SVG (<metadata>) and PDF (keywords)
 };

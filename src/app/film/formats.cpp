@@ -19,7 +19,8 @@ std::unique_ptr<FrameSink> small_clip(const std::string& path, const VideoSettin
 }
 
 void write_png_still(const OutputFile& file, const StillView& view, const ClipMemory& memory) {
-  write_png(file.temporary_path(), view.image(), memory.tags());
+  const Image image = view.image();
+  write_png(file.temporary_path(), image, memory.tags(), memory.width_mm > 0 ? 1000 * image.width / memory.width_mm : 0);
 }
 
 void write_svg_still(const OutputFile& file, const StillView& view, const ClipMemory& memory) {

@@ -10,8 +10,11 @@
 namespace chainreel {
 namespace {
 
-constexpr double kMatrixRow = 1.30;      // of the em, between rows of the matrix
-constexpr double kToMatrix = 1.75;     // of the em, between pose and matrix
+constexpr double kMatrixRow = 1.30;  // of the em, between rows of the matrix
+constexpr double kToMatrix = 1.75;   // of the em, between pose and matrix
+constexpr double kFirstLine = 1.2,
+                 kLineRow = 1.6;        // of the em: base line below a panel, and a caption of one line
+constexpr double kLetterGap = 0.5;      // of the em
 constexpr double kColumnGap = 0.9;      // of the em
 constexpr double kBracketGap = 0.38;    // of the em, between bracket and numbers
 constexpr double kBracketSerif = 0.16;  // of the em
@@ -92,7 +95,7 @@ void draw_matrix(Picture& picture, const MatrixLine& matrix, Point middle, Color
 
 }  // namespace
 
-std::vector<std::string> pose_notations(const Chain& chain, const std::vector<double>& q) {
+std::vector<std::string> coordinate_notations(const Chain& chain, const std::vector<double>& q) {
   std::vector<std::string> entries;
   for (const double value : q) entries.push_back(number_notation(value, std::abs(value)));
   for (const Body& body : chain.bodies) {
@@ -102,6 +105,11 @@ std::vector<std::string> pose_notations(const Chain& chain, const std::vector<do
     entry = body.joint.kind == JointKind::revolute ? degrees_notation(value)
                                                    : number_notation(value, std::abs(value)) + " m";
   }
+  return entries;
+}
+
+std::vector<std::string> pose_notations(const Chain& chain, const std::vector<double>& q) {
+  const std::vector<std::string> entries = coordinate_notations(chain, q);
   const std::vector<std::string> ends{entries.empty() ? "" : entries.front(), "\u2026",
                                       entries.empty() ? "" : entries.back()};
   return {"q = " + list_of(entries), "q = " + list_of(ends)};
@@ -153,13 +161,57 @@ double caption_height(int rows, double text_scale) {
   return scaled(size::kAxis, text_scale) * (kToMatrix + std::max(rows, 1) * kMatrixRow + 0.5);
 }
 
+bool matrix_fits(const EffectiveMass& effective, double width, double text_scale, const Theme& theme,
+                 const Fonts& fonts) {
+  if (!effective.Lambda) return true;
+  const TextStyle smallest{Face::math, scaled(kSmallestText, text_scale), theme.ink, Align::left};
+  return lay_out_matrix(fonts, matrix_notations(*effective.Lambda), smallest).width <= width;
+}
+
+std::vector<std::string> line_notations(const Chain& chain, const std::vector<double>& q,
+                                        const std::vector<std::optional<double>>& masses) {
+  std::vector<std::string> forms = pose_notations(chain, q), entries;
+  for (const std::optional<double>& mass : masses)
+    entries.push_back(mass ? number_notation(*mass, *mass) : std::string("\u221E"));
+  forms.insert(forms.begin(), forms.front() + ", lambda = " + list_of(entries) + "\u2009kg");
+  return forms;
+}
+
+double caption_line_height(double text_scale) {
+  return kLineRow * scaled(size::kAxis, text_scale);
+}
+
+bool line_fits(const std::string& notation, double width, double text_scale, const Theme& theme,
+               const Fonts& fonts) {
+  const TextStyle style{Face::math, scaled(kSmallestText, text_scale), theme.ink, Align::center};
+  return lay_out_math(fonts, notation, style).advance <= width;
+}
+
+void draw_caption_line(Picture& picture, const std::vector<std::string>& forms, const Rect& box,
+                       double text_scale, const Theme& theme, const Fonts& fonts) {
+  const TextStyle style{Face::math, scaled(size::kAxis, text_scale), theme.ink, Align::center};
+  draw_text(picture, fit_math(fonts, forms, style, box.width(), text_scale),
+            {(box.x0 + box.x1) / 2, box.y1 - kFirstLine * style.size});
+}
+
+Rect draw_letter(Picture& picture, std::size_t panel, const Rect& box, double text_scale, const Theme& theme,
+                 const Fonts& fonts) {
+  std::string name;
+  for (std::size_t left = panel + 1; left > 0; left = (left - 1) / 26)
+    name.insert(name.begin(), char('a' + (left - 1) % 26));
+  const TextStyle style{Face::label_bold, scaled(size::kAxis, text_scale), theme.ink, Align::left};
+  const TextLine letter = lay_out_text(fonts, "(" + name + ")", style);
+  draw_text(picture, letter, {box.x0, box.y1 - kFirstLine * style.size});
+  return {box.x0 + letter.advance + kLetterGap * style.size, box.y0, box.x1, box.y1};
+}
+
 void draw_caption(Picture& picture, const Chain& chain, const std::vector<double>& q,
                   const EffectiveMass& effective, const Rect& box, double text_scale, const Theme& theme,
                   const Fonts& fonts) {
   TextStyle style{Face::math, scaled(size::kAxis, text_scale), theme.ink, Align::center};
   const double em = style.size, middle = (box.x0 + box.x1) / 2;
   draw_text(picture, fit_math(fonts, pose_notations(chain, q), style, box.width(), text_scale),
-            {middle, box.y1 - 1.2 * em});
+            {middle, box.y1 - kFirstLine * em});
   const double rest = box.y1 - kToMatrix * em;
   if (!effective.Lambda) {
     style.face = Face::label;
@@ -171,7 +223,7 @@ void draw_caption(Picture& picture, const Chain& chain, const std::vector<double
   const std::vector<std::vector<std::string>> notations = matrix_notations(*effective.Lambda);
   MatrixLine matrix = lay_out_matrix(fonts, notations, style);
   if (matrix.width > box.width()) {
-    style.size = std::max(kSmallestText, style.size * box.width() / matrix.width);
+    style.size = std::max(scaled(kSmallestText, text_scale), style.size * box.width() / matrix.width);
     matrix = lay_out_matrix(fonts, notations, style);
   }
   draw_matrix(picture, matrix, {middle, rest - double(notations.size()) * kMatrixRow * em / 2 - 0.15 * em},

@@ -1,6 +1,7 @@
 // The words below a panel of the ellipse figure: the pose, and Lambda as numbers.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace chainreel {
 // "q = (0\u00B0, 90\u00B0)" in math notation: revolute joints in degrees to a tenth, prismatic ones in m. The
 // second form leaves out the middle of long lists.
 std::vector<std::string> pose_notations(const Chain& chain, const std::vector<double>& q);
+std::vector<std::string> coordinate_notations(const Chain& chain, const std::vector<double>& q);  // its entries
 
 // Three significant digits in math notation; what is below round-off of `largest` is 0.
 std::string number_notation(double value, double largest);
@@ -25,6 +27,22 @@ std::string singular_text(const EffectiveMass& effective);
 
 // How tall a caption with a matrix of `rows` rows is, units of H.
 double caption_height(int rows, double text_scale);
+
+// Whether Lambda can be read where the caption is so wide.
+bool matrix_fits(const EffectiveMass& effective, double width, double text_scale, const Theme& theme, const Fonts& fonts);
+
+// A caption of one line: the pose, before it in the first form its masses along the axes, "q = (0\u00B0, 90\u00B0):
+// \u03BB = (2, 1) kg"; where that is too long for one panel the others do without them, too.
+std::vector<std::string> line_notations(const Chain& chain, const std::vector<double>& q,
+                                        const std::vector<std::optional<double>>& masses);
+double caption_line_height(double text_scale);
+bool line_fits(const std::string& notation, double width, double text_scale, const Theme& theme, const Fonts& fonts);
+void draw_caption_line(Picture& picture, const std::vector<std::string>& forms, const Rect& box, double text_scale,
+                       const Theme& theme, const Fonts& fonts);
+
+// "(a)", "(b)", .. at the left end of the caption in `box`. Returns what is left of it.
+Rect draw_letter(Picture& picture, std::size_t panel, const Rect& box, double text_scale, const Theme& theme,
+                 const Fonts& fonts);
 
 // Draws both lines centred in `box`, from its top down, smaller where its width asks for it.
 void draw_caption(Picture& picture, const Chain& chain, const std::vector<double>& q,

@@ -10,6 +10,8 @@
 #include "core/error.hpp"
 #include "draw/figures/caption.hpp"
 #include "draw/layers/ellipse.hpp"
+#include "draw/layers/ellipsoid.hpp"
+#include "draw/page/mark_labels.hpp"
 #include "draw/page/panel_grid.hpp"
 #include "draw/robot/chain.hpp"
 #include "draw/robot/chain_fit.hpp"
@@ -20,12 +22,14 @@
 namespace chainreel {
 namespace {
 
-constexpr int kMostAcross = 4;
+constexpr std::size_t kManyPoses = 5;  // have one line of caption each
+constexpr double kLeastPicture = 0.7;  // of the cell of one of many, above its caption
+constexpr double kLeastSide = 0.08;    // units of H, of a panel that can be read
 constexpr double kLabelInset = 0.014;
 // How long the bounded semi-axes (their median) are drawn, as a share of the shorter side of a panel.
 constexpr double kSmallerAxis = 0.14, kLargerAxis = 0.24;
-// In an ordinary pose the largest mass is at most so many times the smallest one. Nearer to a singular pose it has no
-// bound, and to show it would make all ellipses needles: it is written where it leaves its panel.
+// In an ordinary pose the largest mass is at most so many times the smallest one. Nearer to a singular pose
+// it has no bound, and to show it would make all ellipses needles: it is written where it leaves its panel.
 constexpr double kOrdinaryRatio = 32;
 constexpr int kBeltSamples = 64;
 
@@ -53,7 +57,8 @@ struct Panels {
   const PoseFigureOptions& options;
   const Fonts& fonts;
   std::vector<Rect> places;
-  double caption = 0;  // height of the words below each scene
+  double caption = 0;                           // height of the words below each scene
+  std::vector<std::vector<std::string>> lines;  // one a panel, where that is its whole caption
   double marks = 1;
   EllipseScale scale;
   Skeleton skeleton;
@@ -74,12 +79,12 @@ void fit_panels(Panels& panels, const std::vector<Pose>& poses, Workspace& ws) {
       compute_kinematics(panels.chain, ws, pose.q, at_rest);
       places.add_pose(ws, kNoLimit);
       places.add(tip_position(panels.chain, ws),
-                 room_of(pose.axes, seen.seen_at(tip_position(panels.chain, ws)), panels.scale, kLongestAxis * panels.side()));
+                 room_of(pose.axes, seen.seen_at(tip_position(panels.chain, ws)), panels.scale,
+                         kLongestAxis * panels.side()));
     }
     fit_to(seen, places.box(), panels.scene(0), size::kFitMargin);
   };
-  const MotionBox motion =
-      box_around(panels.chain, panels.skeleton, shapes, ws, configurations_of(poses));
+  const MotionBox motion = box_around(panels.chain, panels.skeleton, shapes, ws, configurations_of(poses));
   panels.camera = aimed_camera(panels.chain, panels.options.camera, motion, panels.scene(0), fit);
 }
 
@@ -100,24 +105,107 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
                              look_of(panels.skeleton, camera, theme, 1, panels.marks),
                              panels.options.shapes.get()};
   const Point tip = camera.project(tip_position(panels.chain, ws));
+  EllipseStyle style{&theme, &panels.fonts,         panels.options.text_scale, panels.scale.per_unit(),
+                     scene,  panels.options.reading};
+  MarkLabels labels;
+  style.lines = panels.marks;
+  // Small panels have no room for the lengths of semi-axes in space.
+  if (panels.lines.empty()) style.labels = &labels;
+  if (drawing.shapes) style.hides = robot_hides(*drawing.shapes, ws, camera, tip_position(panels.chain, ws));
+  const Camera seen = camera.seen_at(tip_position(panels.chain, ws));
   draw_base(picture, drawing, clip);
+  style.part = EllipsePart::below;
+  draw_mass_ellipse(picture, pose.axes, tip, seen, style, clip);
   draw_rails(picture, drawing, ws, clip);
   draw_links(picture, drawing, ws, clip);
-  draw_mass_ellipse(picture, pose.axes, tip, camera.seen_at(tip_position(panels.chain, ws)),
-                    {&theme, &panels.fonts, panels.options.text_scale, panels.scale.per_unit(), scene,
-                     panels.options.reading},
-                    clip);
+  style.part = EllipsePart::above;
+  draw_mass_ellipse(picture, pose.axes, tip, seen, style, clip);
   if (!drawing.shapes) draw_end_effector(picture, tip, drawing.look, clip);
+  labels.draw(picture, scene, theme.background, clip);
   if (i < panels.options.labels.size()) {
-    const TextStyle style{Face::label, scaled(size::kAxis, panels.options.text_scale), theme.ink, Align::left};
+    const TextStyle text{Face::label, scaled(size::kAxis, panels.options.text_scale), theme.ink, Align::left};
     draw_text(picture,
-              fit_text(panels.fonts, panels.options.labels[i], style, scene.width() - 2 * kLabelInset,
+              fit_text(panels.fonts, panels.options.labels[i], text, scene.width() - 2 * kLabelInset,
                        panels.options.text_scale),
-              {scene.x0 + kLabelInset, scene.y1 - kLabelInset - 0.75 * style.size}, clip);
+              {scene.x0 + kLabelInset, scene.y1 - kLabelInset - 0.75 * text.size}, clip);
   }
-  draw_caption(picture, panels.chain, pose.q, pose.effective,
-               {scene.x0, panels.places[i].y0, scene.x1, scene.y0}, panels.options.text_scale, theme,
+  Rect caption{scene.x0, panels.places[i].y0, scene.x1, scene.y0};
+  if (panels.options.letters)
+    caption = draw_letter(picture, i, caption, panels.options.text_scale, theme, panels.fonts);
+  if (!panels.lines.empty())
+    return draw_caption_line(picture, panels.lines[i], caption, panels.options.text_scale, theme,
+                             panels.fonts);
+  draw_caption(picture, panels.chain, pose.q, pose.effective, caption, panels.options.text_scale, theme,
                panels.fonts);
+}
+
+// How wide the text of a caption may be.
+double caption_width(const Panels& panels) {
+  const double letter = panels.options.letters ? 2.5 * scaled(size::kAxis, panels.options.text_scale) : 0;
+  return panels.places[0].width() - letter;
+}
+
+bool has_matrices(const Panels& panels, const std::vector<Pose>& poses) {
+  return poses.size() < kManyPoses && std::all_of(poses.begin(), poses.end(), [&](const Pose& pose) {
+           return matrix_fits(pose.effective, caption_width(panels), panels.options.text_scale,
+                              *panels.options.theme, panels.fonts);
+         });
+}
+
+std::vector<std::vector<std::string>> lines_of(const Panels& panels, const std::vector<Pose>& poses) {
+  std::vector<std::vector<std::string>> lines;
+  bool fit = true;
+  for (const Pose& pose : poses) {
+    std::vector<std::optional<double>> masses;
+    for (const MassAxis& axis : mass_axes(pose.effective)) masses.push_back(axis.mass);
+    lines.push_back(line_notations(panels.chain, pose.q, masses));
+    fit = fit && line_fits(lines.back().front(), caption_width(panels), panels.options.text_scale,
+                           *panels.options.theme, panels.fonts);
+  }
+  for (std::vector<std::string>& forms : lines)
+    if (!fit) forms.erase(forms.begin());
+  return lines;
+}
+
+// Where poses differ in one coordinate and are too long to be written, that one: "q2 = 30\u00B0".
+void name_what_differs(std::vector<std::vector<std::string>>& lines, const Panels& panels,
+                       const std::vector<Pose>& poses) {
+  const bool fit = std::all_of(lines.begin(), lines.end(), [&](const std::vector<std::string>& forms) {
+    return line_fits(forms.front(), caption_width(panels), panels.options.text_scale, *panels.options.theme,
+                     panels.fonts);
+  });
+  std::vector<std::size_t> differing;
+  for (std::size_t i = 0; i < poses[0].q.size(); ++i)
+    if (std::any_of(poses.begin(), poses.end(), [&](const Pose& pose) { return pose.q[i] != poses[0].q[i]; }))
+      differing.push_back(i);
+  if (fit || differing.size() != 1) return;
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    lines[k] = {"q" + std::to_string(differing[0] + 1) + " = " +
+                coordinate_notations(panels.chain, poses[k].q)[differing[0]]};
+}
+
+// Panels so many across; false where they are too small.
+bool lay_out(Panels& panels, const Rect& area, int across, const std::vector<Pose>& poses, Workspace& ws) {
+  const PoseFigureOptions& options = panels.options;
+  panels.places = panels_of(area, int(poses.size()), across);
+  panels.lines =
+      has_matrices(panels, poses) ? std::vector<std::vector<std::string>>{} : lines_of(panels, poses);
+  if (!panels.lines.empty()) name_what_differs(panels.lines, panels, poses);
+  panels.caption = panels.lines.empty()
+                       ? caption_height(int(poses[0].effective.basis.directions.size()), options.text_scale)
+                       : caption_line_height(options.text_scale);
+  if (!(panels.side() > kLeastSide)) return false;
+  panels.marks = marks_in(panels.scene(0));
+  panels.scale = scale_for(poses, panels.side(), options.reading);
+  fit_panels(panels, poses, ws);
+  return true;
+}
+
+// How good an arrangement is: what is drawn is large, and of many panels each is mostly picture.
+double merit(const Panels& panels) {
+  const bool is_picture =
+      panels.lines.empty() || panels.scene(0).height() >= kLeastPicture * panels.places[0].height();
+  return (is_picture ? 1 : 0.1) * panels.camera.scale;
 }
 
 }  // namespace
@@ -156,10 +244,13 @@ bool is_ordinary(const std::vector<MassAxis>& axes) {
 }
 
 EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReading reading) {
+  // Those of the curves that have an end, where there are any.
+  const auto is_finite = [](const Pose& pose) { return !pose.axes.empty() && pose.axes.front().mass; };
+  const bool any_finite = std::any_of(poses.begin(), poses.end(), is_finite);
   std::vector<double> bounded;
   for (const Pose& pose : poses) {
     const auto length = bounded_semi_axis(pose.axes, reading);
-    if (length && *length > 0) bounded.push_back(*length);
+    if (length && *length > 0 && (is_finite(pose) || !any_finite)) bounded.push_back(*length);
   }
   if (bounded.empty()) return {1, 0.10, reading};
   std::nth_element(bounded.begin(), bounded.begin() + std::ptrdiff_t(bounded.size() / 2), bounded.end());
@@ -176,18 +267,22 @@ EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReadi
   return {bar, bar * per_unit, reading};
 }
 
-Sheet sheet_of(const PoseFigureOptions& options, const EllipseScale& scale, const Fonts& fonts) {
+Sheet sheet_of(const Chain& chain, const PoseFigureOptions& options, const EllipseScale& scale,
+               const Fonts& fonts) {
   SheetText text;
   text.title = options.title;
   text.bar = scale.label();
   text.bar_length = scale.bar_length;
-  text.legend = ellipse_legend(options.reading, options.section);
-  if (options.cell > 0) text.legend += "; fading where longer than its cell";
+  text.legend = ellipse_legend(options.reading, chain.planar      ? EllipseBody::flat
+                                                : options.section ? EllipseBody::section
+                                                                  : EllipseBody::solid);
+  if (options.cell > 0) text.legend += "; cut where longer than its cell";
   return lay_out_sheet(text, double(options.width) / options.height, options.text_scale, *options.theme,
                        fonts);
 }
 
-Room room_of(const std::vector<MassAxis>& axes, const Camera& camera, const EllipseScale& scale, double most) {
+Room room_of(const std::vector<MassAxis>& axes, const Camera& camera, const EllipseScale& scale,
+             double most) {
   double x = 0, y = 0;
   std::vector<Point> ends;  // of the semi-axes on the page, cut to `most`
   for (const MassAxis& axis : axes) {
@@ -216,26 +311,27 @@ Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<d
   if (configurations.empty()) throw Error(ExitCode::usage, "a figure needs at least one pose");
   Workspace ws(chain);
   const std::vector<Pose> poses = poses_of(mass, configurations, options, ws);
-  if (options.cell > 0 || options.layout == "superposed") return draw_superposed(chain, poses, options, fonts);
-  Panels panels{chain, options, fonts, {}, 0, 1, {}, {}, {}};
-  panels.caption = caption_height(int(poses[0].effective.basis.directions.size()), options.text_scale);
+  if (options.cell > 0 || options.layout == "superposed")
+    return draw_superposed(chain, poses, options, fonts);
   // The scale follows from the size of the panels: they are laid out with the longest bar and label that may
   // come.
-  const int across = options.layout == "row" ? int(poses.size()) : kMostAcross;
-  panels.places = panels_of(sheet_of(options, {0.005, kLongestBar, options.reading}, fonts).scene,
-                            int(poses.size()), across);
-  if (!(panels.side() > 0.08))
+  const Rect area = sheet_of(chain, options, {0.005, kLongestBar, options.reading}, fonts).scene;
+  std::optional<Panels> best;
+  for (int across = options.layout == "row" ? int(poses.size()) : 1; across <= int(poses.size()); ++across) {
+    Panels panels{chain, options, fonts, {}, 0, {}, 1, {}, {}, {}};
+    if (lay_out(panels, area, across, poses, ws) && (!best || merit(panels) > merit(*best)))
+      best.emplace(std::move(panels));
+  }
+  if (!best)
     throw Error(ExitCode::usage,
                 "too many poses for one page: draw several figures, or take --layout superposed");
-  panels.marks = marks_in(panels.scene(0));
-  panels.scale = scale_for(poses, panels.side(), options.reading);
-  fit_panels(panels, poses, ws);
+  const Panels& panels = *best;
 
   Picture picture;
   picture.aspect = double(options.width) / options.height;
   picture.background = options.theme->background;
   for (std::size_t i = 0; i < poses.size(); ++i) draw_panel(picture, panels, i, poses[i], ws);
-  draw_sheet(picture, sheet_of(options, panels.scale, fonts));
+  draw_sheet(picture, sheet_of(chain, options, panels.scale, fonts));
   return picture;
 }
 

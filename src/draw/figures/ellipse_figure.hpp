@@ -31,7 +31,7 @@ bool is_ordinary(const std::vector<MassAxis>& axes);
 EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReading reading);
 
 // With legend, scale and title.
-Sheet sheet_of(const PoseFigureOptions& options, const EllipseScale& scale, const Fonts& fonts);
+Sheet sheet_of(const Chain& chain, const PoseFigureOptions& options, const EllipseScale& scale, const Fonts& fonts);
 
 // What a closed curve of the usual size takes around the end effector; none of its axes counts beyond `most`.
 Room room_of(const std::vector<MassAxis>& axes, const Camera& camera, const EllipseScale& scale, double most);

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "draw/figures/caption.hpp"
 #include "draw/figures/ellipse_figure.hpp"
+#include "draw/layers/ellipsoid.hpp"
 #include "draw/page/mark_labels.hpp"
 #include "draw/page/scales.hpp"
 #include "draw/robot/chain.hpp"
@@ -20,9 +21,8 @@ namespace {
 constexpr double kPathLine = 0.0018, kPathOpacity = 0.35;
 constexpr int kFewPoses = 3;           // more share the room of so many
 constexpr double kLeastRoom = 0.4;     // of the page for an ellipse, however many there are
-constexpr double kInCell = 0.46;       // of a cell's side: the longest semi-axis that is drawn whole
+constexpr double kInCell = 0.46;       // of a cell's side: the circle that holds what is seen of its ellipse
 constexpr double kMostWhole = 0.7;     // of a field's ellipses have their long axes inside of their cells
-constexpr double kFadeOfCell = 0.25;   // of a cell's side
 constexpr double kCellOfFullLines = 0.2, kThinnestLines = 0.5;  // units of H; of the style guide's widths
 constexpr double kLabelOff = 0.022;  // units of H, from an end effector
 constexpr double kLabelAir = 0.008, kFarReach = 0.3;  // units of H: off a curve; longer curves are written on
@@ -128,21 +128,25 @@ struct Overlay {
     picture.add(std::move(trail), kSceneClip);
   }
 
-  void draw_ellipse(Picture& picture, const Pose& pose, const Rect& scene) {
+  void draw_ellipse(Picture& picture, const Pose& pose, const Rect& scene, EllipsePart part) {
     stand_in(pose);
-    const Point tip = camera.project(tip_position(chain, ws));
+    const Eigen::Vector3d place = tip_position(chain, ws);
+    const Point tip = camera.project(place);
     EllipseStyle style{options.theme, &fonts, options.text_scale, scale.per_unit(), scene, options.reading};
+    style.part = part;
+    if (options.shapes) style.hides = robot_hides(*options.shapes, ws, camera, place);
     int clip = kSceneClip;
     if (is_field()) {
       const double side = options.cell * camera.scale, half = side / 2;
       style.scene = {tip.x - half, tip.y - half, tip.x + half, tip.y + half};
-      style.fade = kFadeOfCell * side;
+      style.fade = half / 2;  // of belts
+      style.disc = kInCell * side;
       style.signs = false;
       style.lines = std::clamp(side / kCellOfFullLines, kThinnestLines, 1.0);
       clip = int(picture.clips.size());
       picture.clips.push_back(style.scene);
     }
-    draw_mass_ellipse(picture, pose.axes, tip, camera.seen_at(tip_position(chain, ws)), style, clip);
+    draw_mass_ellipse(picture, pose.axes, tip, camera.seen_at(place), style, clip);
   }
 
   // Each pose by its name, or its q, off its end effector: away from the middle of them all.
@@ -194,7 +198,7 @@ struct Overlay {
 Picture draw_superposed(const Chain& chain, const std::vector<Pose>& poses, const PoseFigureOptions& options,
                         const Fonts& fonts) {
   Overlay overlay(chain, poses, options, fonts);
-  const Rect room = sheet_of(options, {0.005, kLongestBar, options.reading}, fonts).scene;
+  const Rect room = sheet_of(chain, options, {0.005, kLongestBar, options.reading}, fonts).scene;
   const double share = std::max(kLeastRoom, std::min(1.0, std::sqrt(double(kFewPoses) / double(poses.size()))));
   overlay.scale = scale_for(poses, share * std::min(room.width(), room.height()), options.reading);
   overlay.fit(room);
@@ -204,7 +208,7 @@ Picture draw_superposed(const Chain& chain, const std::vector<Pose>& poses, cons
       throw Error(ExitCode::usage, "so many ellipses get too small to be read: take fewer --samples");
     overlay.scale = field_scale(poses, cell, options.reading);
   }
-  const Sheet sheet = sheet_of(options, overlay.scale, fonts);
+  const Sheet sheet = sheet_of(chain, options, overlay.scale, fonts);
 
   Picture picture;
   picture.aspect = sheet.aspect;
@@ -217,9 +221,12 @@ Picture draw_superposed(const Chain& chain, const std::vector<Pose>& poses, cons
             kSceneClip);
   if (overlay.is_field())
     overlay.draw_chain(picture, poses[roundest(poses)], kOnionSkin);
-  else
+  else {
+    for (const Pose& pose : poses) overlay.draw_ellipse(picture, pose, room, EllipsePart::below);
     for (const Pose& pose : poses) overlay.draw_chain(picture, pose, kOnionSkin);
-  for (const Pose& pose : poses) overlay.draw_ellipse(picture, pose, room);
+  }
+  const EllipsePart over = overlay.is_field() ? EllipsePart::whole : EllipsePart::above;
+  for (const Pose& pose : poses) overlay.draw_ellipse(picture, pose, room, over);
   if (!overlay.is_field() && !options.shapes)
     for (const Pose& pose : poses) {
       overlay.stand_in(pose);

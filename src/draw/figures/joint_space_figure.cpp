@@ -23,6 +23,7 @@ namespace {
 constexpr int kMostPoses = 3;
 constexpr double kFill = 0.16;
 constexpr double kWidestLabel = 0.25;  // of a frame
+constexpr double kNameBelow = 1.3;     // of the em, below the numbers
 constexpr double kAirAround = 1.25;  // of what is drawn, to the frame of its axes
 
 bool is_prismatic(const Chain& chain, int freedom) {
@@ -31,23 +32,50 @@ bool is_prismatic(const Chain& chain, int freedom) {
   return false;
 }
 
-std::string acceleration_title(const Chain& chain, int joint) {
-  return "acceleration " + std::to_string(joint + 1) + (is_prismatic(chain, joint) ? " [m/s\u00B2]" : " [rad/s\u00B2]");
+// A symbol of the equation of motion, "qdd1", and its unit.
+struct AxisName {
+  std::string symbol, unit;
+};
+
+AxisName acceleration(const Chain& chain, int joint) {
+  return {"qdd" + std::to_string(joint + 1), is_prismatic(chain, joint) ? " [m/s\u00B2]" : " [rad/s\u00B2]"};
 }
 
-std::string torque_title(const Chain& chain, int joint) {
-  return is_prismatic(chain, joint) ? "force " + std::to_string(joint + 1) + " [N]"
-                                    : "torque " + std::to_string(joint + 1) + " [N m]";
+AxisName torque(const Chain& chain, int joint) {
+  return {"tau" + std::to_string(joint + 1), is_prismatic(chain, joint) ? " [N]" : " [N m]"};
 }
 
-// Axes with the same length per unit both ways, in the middle of `area`.
-PlotFrame square_frame(const Rect& area, double most, const std::string& x, const std::string& y,
-                       const PlotStyle& style) {
-  PlotFrame frame = lay_out_plot(area, {Scale::linear, -most, most, x}, {Scale::linear, -most, most, y}, style);
-  const double side = std::min(frame.box.width(), frame.box.height());
-  const Point middle{(frame.box.x0 + frame.box.x1) / 2, (frame.box.y0 + frame.box.y1) / 2};
-  frame.box = {middle.x - side / 2, middle.y - side / 2, middle.x + side / 2, middle.y + side / 2};
+// With room for the names of its axes.
+PlotFrame frame_in(const Rect& area, double most, const PlotStyle& style) {
+  const Axis axis{Scale::linear, -most, most, "q"};
+  PlotFrame frame = lay_out_plot(area, axis, axis, style);
+  frame.x.title = frame.y.title = "";
   return frame;
+}
+
+// Axes with the same length per unit both ways, in the middle of where they were: squares of one size on one base line.
+void make_equal_squares(PlotFrame& a, PlotFrame& b) {
+  const double side = std::min({a.box.width(), a.box.height(), b.box.width(), b.box.height()});
+  for (PlotFrame* frame : {&a, &b}) {
+    const Point middle{(frame->box.x0 + frame->box.x1) / 2, (frame->box.y0 + frame->box.y1) / 2};
+    frame->box = {middle.x - side / 2, middle.y - side / 2, middle.x + side / 2, middle.y + side / 2};
+  }
+}
+
+// The horizontal one's below its middle, the vertical one's above the frame.
+void draw_named_axes(Picture& picture, const PlotFrame& frame, const AxisName& x, const AxisName& y,
+                     const PlotStyle& style) {
+  draw_axes(picture, frame, style);
+  const double em = style.text(size::kAxis);
+  const auto draw_name = [&](const AxisName& name, Point at, bool centred) {
+    const TextLine symbol = lay_out_math(*style.fonts, name.symbol, {Face::math, em, style.theme->ink, Align::left});
+    const TextLine unit = lay_out_text(*style.fonts, name.unit, {Face::label, em, style.theme->ink, Align::left});
+    if (centred) at.x -= (symbol.advance + unit.advance) / 2;
+    draw_text(picture, symbol, at);
+    draw_text(picture, unit, {at.x + symbol.advance, at.y});
+  };
+  draw_name(x, {(frame.box.x0 + frame.box.x1) / 2, tick_base_line(frame, style) - kNameBelow * em}, true);
+  draw_name(y, {frame.box.x0, frame.box.y1 + title_above_frame(style)}, false);
 }
 
 // The image of the unit circle under a symmetric positive matrix, whose eigenvectors are its axes, with the images of the unit vectors as arrows.
@@ -80,8 +108,8 @@ void draw_image(Picture& picture, const PlotFrame& frame, const Eigen::Matrix2d&
     // Beside the tip, on the side away from the other arrow.
     const double side = k == 0 ? -1 : 1;
     const Point out{-side * v.y / length, side * v.x / length};
-    Point at = center + 0.72 * v + (0.9 * em) * out;
-    at.x += out.x * label.advance / 2;
+    const double off = std::abs(out.x) * label.advance / 2 + std::abs(out.y) * 0.35 * em + 0.4 * em;
+    Point at = center + 0.72 * v + off * out;
     const double half = label.advance / 2 + 0.006;
     at.x = std::clamp(at.x, frame.box.x0 + half, frame.box.x1 - half);
     at.y = std::clamp(at.y - 0.3 * em, frame.box.y0 + 0.3 * em, frame.box.y1 - em);
@@ -150,15 +178,15 @@ Picture draw_joint_space_figure(const Chain& chain, const std::vector<std::vecto
     body.y0 += words;
     draw_posture(picture, chain, poses[i], skeleton, view_of(chain), body, theme);
     const TextStyle caption{Face::math, scaled(size::kAxis, options.text_scale), theme.ink, Align::center};
-    draw_text(picture, fit_math(fonts, pose_notations(chain, poses[i]), caption, column, options.text_scale),
-              {(body.x0 + body.x1) / 2, bottom + 0.3 * caption.size});
-    const PlotFrame from = square_frame(area(1), kAirAround, acceleration_title(chain, joints[0]),
-                                        acceleration_title(chain, joints[1]), style);
-    draw_axes(picture, from, style);
+    Rect below{body.x0, bottom, body.x1, bottom + (0.3 + 1.2) * caption.size};
+    if (options.letters) below = draw_letter(picture, i, below, options.text_scale, theme, fonts);
+    draw_text(picture, fit_math(fonts, pose_notations(chain, poses[i]), caption, below.width(), options.text_scale),
+              {(below.x0 + below.x1) / 2, bottom + 0.3 * caption.size});
+    PlotFrame from = frame_in(area(1), kAirAround, style), to = frame_in(area(2), kAirAround * most, style);
+    make_equal_squares(from, to);
+    draw_named_axes(picture, from, acceleration(chain, joints[0]), acceleration(chain, joints[1]), style);
     draw_image(picture, from, Eigen::Matrix2d::Identity(), "qdd", joints, style);
-    const PlotFrame to = square_frame(area(2), kAirAround * most, torque_title(chain, joints[0]),
-                                      torque_title(chain, joints[1]), style);
-    draw_axes(picture, to, style);
+    draw_named_axes(picture, to, torque(chain, joints[0]), torque(chain, joints[1]), style);
     draw_image(picture, to, maps[i], "qdd", joints, style);
   }
   draw_sheet(picture, sheet);

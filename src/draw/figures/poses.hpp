@@ -30,7 +30,9 @@ struct PoseFigureOptions {
   // For figures with ellipses:
   EllipseReading reading = EllipseReading::mass;
   bool section = false;               // by the xy plane of the end effector, instead of the ellipsoid
-  std::string layout = "grid";        // panels, at most four across; or row: all in one; or superposed: no panels
+  std::string layout = "grid";        // panels, so many across as lets them be largest; or row: all in one; or
+                                      // superposed: no panels
+  bool letters = false;               // (a), (b), .. before the captions of panels
   std::vector<std::string> labels;    // "t = 0.5 s", one a panel; may be empty
   std::vector<Eigen::Vector3d> path;  // of the end effector, m: drawn below superposed poses
   double cell = 0;  // m: above 0 the poses are a field, each ellipse in a square of this side about its point
@@ -49,7 +51,7 @@ bool leaves_page(const Chain& chain, const std::vector<double>& q, const PoseFig
                  const Fonts& fonts);
 
 // One panel a pose, all at the same scale: the chain, its effective-mass ellipse, and below them the pose and the
-// numbers of Lambda; at singular poses an open band and the direction of infinite mass. Superposed: every chain as an
+// numbers of Lambda, of five poses and more on one line; at singular poses an open band and the direction of infinite mass. Superposed: every chain as an
 // onion skin of 25 %, every ellipse at full strength. A field: the chain where its ellipse is roundest alone.
 Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& poses,
                             const PoseFigureOptions& options, const Fonts& fonts);

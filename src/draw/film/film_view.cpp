@@ -46,9 +46,10 @@ void fit_to_area(Camera& camera, const Stage& stage, const FitBox& box, const Re
   if (!fit_as_told(camera, stage.page.camera, area)) fit_to(camera, box, area, size::kFitMargin);
 }
 
-std::vector<PanelCell> cells_of(const Stage& stage, const FilmSheet& sheet, const FitBox& box) {
+std::vector<PanelCell> cells_of(const Stage& stage, const FilmSheet& sheet, double row_below, const FitBox& box) {
   const int count = int(stage.motions.size());
-  const Rect& area = sheet.sheet.scene;
+  Rect area = sheet.sheet.scene;
+  area.y0 += row_below;
   const std::vector<PanelCell> cells =
       stage.is_ghost()                  ? ghost_cells(area, sheet.rows, stage.motions)
       : stage.page.layout == PageLayout::compare ? panel_cells(area, count, count, sheet.rows)
@@ -104,7 +105,8 @@ void FilmView::place_camera(const Stage& stage, const Layers& layers, const Film
   const CameraEntry& entry = stage.page.camera;
   camera = view_of(chain, entry);
   box_ = fit_box(stage, layers, camera, 1);
-  cells = cells_of(stage, sheet, box_);
+  for (const auto& layer : layers) row_below_ = std::max(row_below_, layer->row_below());
+  cells = cells_of(stage, sheet, row_below_, box_);
   marks = stage.is_ghost() ? 1 : marks_in(cells);
   const Rect& first = cells.front().scene;
   if (has_eye(chain, entry))
@@ -153,6 +155,7 @@ void FilmView::place_rooms(const Stage& stage, const Layers& layers) {
 
 SharedPage FilmView::shared_page(const Stage& stage, const FilmSheet& sheet) const {
   SharedPage shared{sheet.sheet, camera_of(0), cells.front().scene};
+  if (row_below_ > 0) shared.scene.y0 = sheet.sheet.scene.y0;
   if (stage.has_cells()) shared.scene.x0 += kBarInset;
   return shared;
 }

@@ -30,6 +30,7 @@ struct FilmView {
   void place_rooms(const Stage& stage, const Layers& layers);
 
   FitBox box_;  // that the camera holds
+  double row_below_ = 0;  // units of H, that layers keep for themselves below all scenes
   std::vector<std::vector<Point>> corners_;  // by layer and panel
 };
 

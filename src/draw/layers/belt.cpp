@@ -9,7 +9,7 @@
 namespace chainreel {
 namespace {
 
-constexpr double kFlat = 0.0003;  // units of H: what a chord may lie off the curve
+constexpr double kFlat = 0.0003;     // units of H: what a chord may lie off the curve
 constexpr int kDeepest = 10;         // halvings of a part of the curve
 constexpr int kOutlinePoints = 180;  // of the silhouette of a surface
 
@@ -29,6 +29,21 @@ struct PlaneBelt {
   }
 };
 
+// Towards each edge that a curve of these points leaves the scene through, over what it leads out and `most`
+// at most.
+Fade fade_about(const Rect& scene, const std::vector<Point>& points, double most) {
+  Fade fade{scene};
+  for (const Point p : points) {
+    fade.left = std::max(fade.left, scene.x0 - p.x);
+    fade.right = std::max(fade.right, p.x - scene.x1);
+    fade.bottom = std::max(fade.bottom, scene.y0 - p.y);
+    fade.top = std::max(fade.top, p.y - scene.y1);
+  }
+  for (double* stretch : {&fade.left, &fade.right, &fade.bottom, &fade.top})
+    *stretch = std::min(*stretch, most);
+  return fade;
+}
+
 void halve(const PlaneBelt& belt, double a, double b, int depth, std::vector<double>& angles) {
   const double middle = (a + b) / 2;
   const Point p = belt.at(a), q = belt.at(b), m = belt.at(middle);
@@ -42,20 +57,26 @@ void halve(const PlaneBelt& belt, double a, double b, int depth, std::vector<dou
 std::vector<double> quarter(const PlaneBelt& belt) {
   const double from = belt.start(), to = std::numbers::pi / 2;
   std::vector<double> angles{from};
-  for (int i = 0; i < 4; ++i) halve(belt, from + i * (to - from) / 4, from + (i + 1) * (to - from) / 4, 0, angles);
+  for (int i = 0; i < 4; ++i)
+    halve(belt, from + i * (to - from) / 4, from + (i + 1) * (to - from) / 4, 0, angles);
   return angles;
 }
 
-void draw_plane_belt(Picture& picture, const PlaneBelt& belt, Point center, double width, bool filled, Color color,
-                     const Fade& fade, int clip) {
+// With its inside where `fill` is seen, and its outline where the line has a width.
+void draw_plane_belt(Picture& picture, const PlaneBelt& belt, Point center, double width, Color fill,
+                     Color color, const EllipseStyle& style, int clip) {
   const std::vector<double> angles = quarter(belt);
   std::vector<Point> upper, lower;  // halves, from one end of the long axis to the other
   for (const double a : angles) upper.push_back(center + belt.at(a));
   for (std::size_t i = angles.size() - 1; i-- > 0;)
     upper.push_back(center + belt.at(std::numbers::pi - angles[i]));
   for (const Point p : upper) lower.push_back(2 * center - p);
+  std::vector<Point> both = upper;
+  both.insert(both.end(), lower.begin(), lower.end());
+  const Fade fade = fade_about(style.scene, both, style.fade);
   // Along the long axis the curve goes one way only, so that strips across it hold the inside.
-  if (filled) fill_between(picture, upper, lower, color.faded(kEllipseFill), fade, clip);
+  if (fill.a > 0) fill_between(picture, upper, lower, fill, fade, clip);
+  if (!(width > 0)) return;
   if (angles.front() > 0) {
     draw_outline(picture, upper, width, color, fade, clip);
     draw_outline(picture, lower, width, color, fade, clip);
@@ -65,8 +86,9 @@ void draw_plane_belt(Picture& picture, const PlaneBelt& belt, Point center, doub
   draw_outline(picture, upper, width, color, fade, clip);
 }
 
-// The largest sqrt(1 + t^2) / (ee + 2 en t + nn t^2): how far the surface reaches where the camera sees the direction
-// e, over all t along the line of sight. Its derivative vanishes where nn t^3 + (2 nn - ee) t + 2 en = 0.
+// The largest sqrt(1 + t^2) / (ee + 2 en t + nn t^2): how far the surface reaches where the camera sees the
+// direction e, over all t along the line of sight. Its derivative vanishes where nn t^3 + (2 nn - ee) t + 2
+// en = 0.
 double seen_reach(double ee, double en, double nn, double most) {
   const auto reach = [&](double t) {
     const double felt = ee + 2 * en * t + nn * t * t;
@@ -90,7 +112,7 @@ double seen_reach(double ee, double en, double nn, double most) {
 
 // Draws the surface 1 / (u^T A u) with A in 1/kg, as the camera sees it.
 void draw_surface(Picture& picture, const Eigen::Matrix3d& A, Point center, const Camera& camera,
-                  const Fade& fade, const EllipseStyle& style, int clip) {
+                  const EllipseStyle& style, int clip) {
   const Eigen::Vector3d n = camera.toward_viewer;
   const double most = kBeyond / style.per_unit;
   const auto reach = [&](double angle) {
@@ -113,20 +135,24 @@ void draw_surface(Picture& picture, const Eigen::Matrix3d& A, Point center, cons
     outline.push_back(center + p);
     if (i <= kOutlinePoints) half.push_back({dot(p, along), dot(p, across)});
   }
+  const Fade fade = fade_about(style.scene, outline, style.fade);
   for (std::size_t i = 1; i < half.size(); ++i) half[i].x = std::min(half[i].x, half[i - 1].x);
   const auto height = [&](double x) {
-    const auto after = std::lower_bound(half.begin(), half.end(), x, [](Point p, double v) { return p.x > v; });
+    const auto after =
+        std::lower_bound(half.begin(), half.end(), x, [](Point p, double v) { return p.x > v; });
     if (after == half.begin() || after == half.end()) return 0.0;
     const Point a = *(after - 1), b = *after;
     return a.x > b.x ? b.y + (x - b.x) / (a.x - b.x) * (a.y - b.y) : b.y;
   };
-  for (std::size_t i = 0; i + 1 < half.size(); ++i) {
+  for (std::size_t i = 0; style.draws_below() && i + 1 < half.size(); ++i) {
     const Point a = half[i], b = half[i + 1];
     const auto page = [&](double x, double y) { return center + x * along + y * across; };
     fill_piece(picture, {page(a.x, a.y), page(b.x, b.y), page(b.x, -height(-b.x)), page(a.x, -height(-a.x))},
                style.theme->ellipse.faded(kSilhouetteFill), fade, clip);
   }
-  draw_outline(picture, outline, style.lines * size::kEllipseLine, style.theme->ellipse, fade, clip);
+  for_each_stroke(style, [&](const Stroke& stroke) {
+    draw_outline(picture, outline, stroke.width(size::kEllipseLine, style), stroke.color, fade, clip);
+  });
 }
 
 }  // namespace
@@ -135,43 +161,48 @@ void draw_belt(Picture& picture, const std::vector<MassAxis>& axes, Point center
                const EllipseStyle& style, int clip) {
   const Color line = style.theme->ellipse;
   std::vector<Point> page;  // for 1 kg
-  std::vector<double> mobility, stretch;
+  std::vector<double> mobility;
   std::vector<bool> open;
+  Spread spread;  // of the ellipse that the belt touches at its axes
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   for (const MassAxis& axis : axes) {
-    const Point d =
-        style.per_unit * Point{camera.right.dot(axis.direction), camera.up.dot(axis.direction)};
+    const Point d = style.per_unit * Point{camera.right.dot(axis.direction), camera.up.dot(axis.direction)};
     const double m = axis.mass ? 1 / *axis.mass : 0;
     page.push_back(d);
     mobility.push_back(m);
     open.push_back(!axis.mass && norm(d) > kNoLength * style.per_unit);
-    stretch.push_back(open.back()  ? style.fade
-                      : axis.mass ? std::min(style.fade, excess_of(style.scene, center, *axis.mass * d))
-                                  : 0);
+    if (open.back()) spread.add(2 * kBeyond * unit(d));
+    if (axis.mass) spread.add(*axis.mass * d);
     A += m * axis.direction * axis.direction.transpose();
   }
   const bool solid = axes.size() > 2;
-  if (solid && mobility.back() > 0)
-    draw_surface(picture, A, center, camera, fade_everywhere(style.scene, *std::max_element(stretch.begin(), stretch.end())), style,
-                 clip);
-  for (std::size_t i = 0; i + 1 < axes.size(); ++i)
-    for (std::size_t j = i + 1; j < axes.size(); ++j) {
-      if (!(mobility[j] > 0)) continue;  // infinite in this whole plane
-      draw_plane_belt(picture, {page[i], page[j], mobility[i], mobility[j]}, center,
-                      solid ? style.lines * size::kEllipseAxis : style.lines * size::kEllipseLine, !solid, line,
-                      fade_everywhere(style.scene, std::max(stretch[i], stretch[j])), clip);
+  if (solid && mobility.back() > 0) draw_surface(picture, A, center, camera, style, clip);
+  const Fade whole = fade_of(style.scene, center, spread, style.fade);
+  const auto draw_planes = [&](double width, Color fill, Color stroke) {
+    for (std::size_t i = 0; i + 1 < axes.size(); ++i)
+      for (std::size_t j = i + 1; j < axes.size(); ++j)
+        if (mobility[j] > 0)  // else infinite in this whole plane
+          draw_plane_belt(picture, {page[i], page[j], mobility[i], mobility[j]}, center, width, fill, stroke,
+                          style, clip);
+  };
+  if (style.draws_below() && !solid) draw_planes(0, line.faded(kEllipseFill), {});
+  for_each_stroke(style, [&](const Stroke& stroke) {
+    draw_planes(stroke.width(solid ? size::kEllipseAxis : size::kEllipseLine, style), {}, stroke.color);
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      if (!axes[i].mass) continue;
+      const Point v = *axes[i].mass * page[i];
+      draw_axis(picture, center, v, i > 0, stroke.width(size::kEllipseAxis, style), stroke.color,
+                fade_before_length(center, v, *axes[i].mass, whole, style), clip);
     }
-  for (std::size_t i = 0; i < axes.size(); ++i) {
+  });
+  for (std::size_t i = 0; style.draws_above() && i < axes.size(); ++i) {
     if (open[i]) {
       // Beside the curve only the sign at each end says that there is no end.
       draw_infinities(picture, center, unit(page[i]), 0, style, clip);
       continue;
     }
     if (!axes[i].mass) continue;
-    const Point v = *axes[i].mass * page[i];
-    draw_axis(picture, center, v, i > 0, style.lines * size::kEllipseAxis, line,
-              fade_before_length(center, v, *axes[i].mass, style), clip);
-    draw_length_along(picture, center, v, *axes[i].mass, 0, style, clip);
+    draw_length_along(picture, center, *axes[i].mass * page[i], *axes[i].mass, 0, style, clip);
   }
 }
 

@@ -4,13 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 
 #include "core/format.hpp"
+#include "draw/layers/ellipsoid.hpp"
 #include "draw/layers/fading.hpp"
-#include "draw/layers/layer.hpp"
-#include "sim/instant.hpp"
 
 namespace chainreel {
 namespace {
@@ -35,78 +33,51 @@ std::vector<PageAxis> page_axes(const std::vector<MassAxis>& axes, const Camera&
   return projected;
 }
 
-// The ellipse on the page whose support function is sqrt(sum (a_i . n)^2): the silhouette of the ellipsoid
-// with the projected semi-axes a_i; for two perpendicular a_i just the ellipse itself.
-std::array<Point, 2> silhouette(const std::vector<PageAxis>& axes) {
-  double xx = 0, xy = 0, yy = 0;
-  for (const PageAxis& a : axes) {
-    xx += a.v.x * a.v.x;
-    xy += a.v.x * a.v.y;
-    yy += a.v.y * a.v.y;
-  }
-  const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
-  const double mean = (xx + yy) / 2, deviation = std::hypot((xx - yy) / 2, xy);
-  const Point u{std::cos(angle), std::sin(angle)};
-  return {std::sqrt(mean + deviation) * u, std::sqrt(std::max(mean - deviation, 0.0)) * normal_to(u)};
-}
-
-// How far the finite axes reach from the centre along the unit vector n.
-double reach_along(const std::vector<PageAxis>& axes, Point n) {
-  double squared = 0;
+Spread spread_of(const std::vector<PageAxis>& axes) {
+  Spread spread;
   for (const PageAxis& axis : axes)
-    if (axis.length) squared += dot(axis.v, n) * dot(axis.v, n);
-  return std::sqrt(squared);
+    if (axis.length) spread.add(axis.v);
+  return spread;
 }
 
-void draw_ellipse(Picture& picture, Point center, const std::array<Point, 2>& axes, const Paint& paint,
-                  const EllipseStyle& style, int clip) {
-  const auto [u, v] = axes;
-  const Fade fade =
-      longer(fade_along(style.scene, center, u, style.fade), fade_along(style.scene, center, v, style.fade));
-  if (norm(v) < kNoLength)  // nothing moves along the other axis
-    return draw_axis(picture, center, u, false, paint.stroke_width, paint.stroke, fade, clip);
-  picture.add(Ellipse{center, std::min(1.0, kLongest / norm(u)) * u, v, paint, fade}, clip);
+// The axes that have an end, solid the first of all and dashed the others.
+void draw_finite_axes(Picture& picture, const std::vector<PageAxis>& axes, Point center, const Fade& fade,
+                      const Stroke& stroke, const EllipseStyle& style, int clip) {
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (axes[i].length && norm(axes[i].v) > kNoLength)
+      draw_axis(picture, center, axes[i].v, i > 0, stroke.width(size::kEllipseAxis, style), stroke.color,
+                fade_before_length(center, axes[i].v, *axes[i].length, fade, style), clip);
 }
 
-// The axes that have an end, solid the first of all and dashed the others, with their lengths where none is seen.
-void draw_finite_axes(Picture& picture, const std::vector<PageAxis>& axes, Point center, const EllipseStyle& style,
-                      int clip) {
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    if (!axes[i].length || !(norm(axes[i].v) > kNoLength)) continue;
-    const Fade fade = fade_before_length(center, axes[i].v, *axes[i].length, style);
-    draw_axis(picture, center, axes[i].v, i > 0, style.lines * size::kEllipseAxis, style.theme->ellipse, fade, clip);
-    draw_length_along(picture, center, axes[i].v, *axes[i].length, reach_along(axes, normal_to(unit(axes[i].v))),
-                      style, clip);
-  }
-}
-
+// In the plane.
 void draw_closed(Picture& picture, const std::vector<PageAxis>& axes, Point center, const EllipseStyle& style,
                  int clip) {
-  const Color line = style.theme->ellipse;
-  const bool solid = axes.size() > 2;
-  const auto outline = silhouette(axes);
-  draw_ellipse(picture, center, outline,
-               {line.faded(solid ? kSilhouetteFill : kEllipseFill), line, style.lines * size::kEllipseLine}, style,
-               clip);
-  if (norm(outline[1]) < kNoLength && !solid)
-    return draw_length_along(picture, center, axes[0].v, *axes[0].length, 0, style, clip);
-  for (std::size_t i = 0; solid && i < axes.size(); ++i) {
-    const auto principal = silhouette({axes[i], axes[(i + 1) % axes.size()]});
-    if (norm(principal[1]) > kNoLength)
-      draw_ellipse(picture, center, principal, {{}, line, style.lines * size::kEllipseAxis}, style, clip);
-  }
-  draw_finite_axes(picture, axes, center, style, clip);
+  const Spread spread = spread_of(axes);
+  const Fade fade = fade_of(style.scene, center, spread, style.fade);
+  const std::array<Point, 2> outline = spread.axes();
+  const Color fill = style.theme->ellipse.faded(kEllipseFill);
+  if (style.part == EllipsePart::below) draw_ellipse(picture, center, outline, {fill, {}, 0}, fade, clip);
+  for_each_stroke(style, [&](const Stroke& stroke) {
+    const double width = stroke.width(size::kEllipseLine, style);
+    const Paint paint{style.draws_below() ? fill : Color{}, stroke.color, width};
+    draw_ellipse(picture, center, outline, paint, fade, clip);
+    if (norm(outline[1]) >= kNoLength) draw_finite_axes(picture, axes, center, fade, stroke, style, clip);
+  });
+  if (!style.draws_above()) return;
+  for (const PageAxis& axis : axes)
+    if (norm(axis.v) > kNoLength)
+      draw_length_along(picture, center, axis.v, *axis.length, spread.reach(normal_to(unit(axis.v))), style, clip);
 }
 
 // The whole line through p along the unit vector d, from edge to edge of the scene, fading over its last
 // stretches.
-void draw_fading_line(Picture& picture, Point p, Point d, const EllipseStyle& style, int clip) {
+void draw_fading_line(Picture& picture, Point p, Point d, const Stroke& stroke, const EllipseStyle& style, int clip) {
   const auto part = part_inside(style.scene, p - kBeyond * d, p + kBeyond * d);
   if (!part) return;
   const double in = kBeyond * (2 * part->first - 1), out = kBeyond * (2 * part->second - 1);
   const double fade = std::min(style.fade, (out - in) / 2);
   const Point a = p + in * d, b = p + out * d;
-  Capsule line{a + fade * d, b - fade * d, style.lines * size::kEllipseLine / 2, {style.theme->ellipse, {}, 0}};
+  Capsule line{a + fade * d, b - fade * d, stroke.width(size::kEllipseLine, style) / 2, {stroke.color, {}, 0}};
   picture.add(line, clip);
   line.alpha_b = 0;
   for (const auto& [inner, edge] : {std::pair{a + fade * d, a}, {b - fade * d, b}}) {
@@ -125,21 +96,61 @@ void draw_fading_fill(Picture& picture, Point center, Point half_width, const Fa
   if (band.count >= 3) picture.add(band, clip);
 }
 
+// A curve of a field, which ends at the circle of its cell: the inside is cut there, lines fade over the last quarter of
+// the way. `v` may have no length.
+void draw_in_disc(Picture& picture, Point center, Point u, Point v, const EllipseStyle& style, int clip) {
+  constexpr int kPieces = 48;
+  constexpr double kFadeOfDisc = 0.25;
+  const Color line = style.theme->ellipse;
+  const double a = norm(u), b = norm(v), r = style.disc, end = std::min(a, r);
+  const Point along = unit(u), across = normal_to(along);
+  const auto opacity = [&](Point p) { return a > r ? std::clamp((r - norm(p)) / (kFadeOfDisc * r), 0.0, 1.0) : 1.0; };
+  const auto stroke = [&](const std::vector<Point>& points, double width) {
+    Trail trail;
+    trail.color = line;
+    for (const Point p : points) trail.points.push_back({center + p, width, opacity(p)});
+    if (points.size() > 1) picture.add(std::move(trail), clip);
+  };
+  std::vector<Point> upper, lower, outline;
+  const double bend = a > r && b < r ? b * std::sqrt((a * a - r * r) / (a * a - b * b)) : 0;  // where it meets the circle
+  const double meets = std::sqrt(std::max(0.0, std::min(end * end, r * r - bend * bend)));
+  for (int i = 0; i <= kPieces; ++i) {
+    const double c = std::cos(i * std::numbers::pi / kPieces), x = end * c, seen = meets * c;
+    const double curve = b * std::sqrt(std::max(0.0, 1 - x * x / (a * a)));
+    const double height = std::min(curve, std::sqrt(std::max(0.0, r * r - x * x)));
+    upper.push_back(center + x * along + height * across);
+    if (b < r) outline.push_back(seen * along + b * std::sqrt(std::max(0.0, 1 - seen * seen / (a * a))) * across);
+  }
+  for (const Point p : upper) lower.push_back(2 * center - p);
+  const double width = style.lines * size::kEllipseLine;
+  if (b > kNoLength) fill_between(picture, upper, lower, line.faded(kEllipseFill), Fade{style.scene}, clip);
+  stroke(outline, width);
+  for (Point& p : outline) p = -1 * p;
+  stroke(outline, width);
+  std::vector<Point> axis;
+  for (int i = -4; i <= 4; ++i) axis.push_back(i * end / 4 * along);
+  stroke(axis, b > kNoLength ? style.lines * size::kEllipseAxis : width);
+  draw_axis(picture, center, std::min(b, r) * across, true, style.lines * size::kEllipseAxis, line, Fade{style.scene}, clip);
+}
+
 void draw_open(Picture& picture, const std::vector<PageAxis>& axes, Point center, Point direction,
                const EllipseStyle& style, int clip) {
-  const Color line = style.theme->ellipse;
   const Point d = unit(direction), n = normal_to(d);
-  const double half_width = reach_along(axes, n);
+  const double half_width = spread_of(axes).reach(n);
   // As of an axis that is longer than any page: an ellipse that grows goes over into this band.
-  draw_fading_fill(picture, center, half_width * n, fade_along(style.scene, center, 2 * kBeyond * d, style.fade), line,
-                   clip);
-  for (const double side : {-1.0, 1.0}) {
-    draw_fading_line(picture, center + (side * half_width) * n, d, style, clip);
-  }
-  draw_axis(picture, center, kBeyond * d, false, style.lines * size::kEllipseAxis, line,
-            fade_before_infinity(center, d, style), clip);
-  draw_axis(picture, center, half_width * n, true, style.lines * size::kEllipseAxis, line,
-            fade_along(style.scene, center, half_width * n, style.fade), clip);
+  Spread band;
+  band.add(2 * kBeyond * d);
+  band.add(half_width * n);
+  const Fade fade = fade_of(style.scene, center, band, style.fade);
+  if (style.draws_below()) draw_fading_fill(picture, center, half_width * n, fade, style.theme->ellipse, clip);
+  for_each_stroke(style, [&](const Stroke& stroke) {
+    const double width = stroke.width(size::kEllipseAxis, style);
+    for (const double side : {-1.0, 1.0})
+      draw_fading_line(picture, center + (side * half_width) * n, d, stroke, style, clip);
+    draw_axis(picture, center, kBeyond * d, false, width, stroke.color, fade_before_infinity(d, fade, style), clip);
+    draw_axis(picture, center, half_width * n, true, width, stroke.color, fade, clip);
+  });
+  if (!style.draws_above()) return;
   draw_infinities(picture, center, d, half_width, style, clip);
   for (const PageAxis& axis : axes)
     if (axis.length && norm(axis.v) > kNoLength)
@@ -148,15 +159,16 @@ void draw_open(Picture& picture, const std::vector<PageAxis>& axes, Point center
 
 }  // namespace
 
-std::string ellipse_legend(EllipseReading reading, bool section) {
-  const std::string cut = section ? ", cut at the tool" : "";
+std::string ellipse_legend(EllipseReading reading, EllipseBody body) {
+  const std::string cut = body == EllipseBody::section ? ", cut at the tool" : "";
+  const std::string name = body == EllipseBody::solid ? "ellipsoid" : "ellipse";
   switch (reading) {
     case EllipseReading::energy:
-      return "kinetic energy ellipse of \u039B(q)" + cut + ": velocities of equal energy, 0.5 J";
+      return "kinetic energy " + name + " of \u039B(q)" + cut + ": velocities of equal energy, 0.5 J";
     case EllipseReading::belt:
       return "effective mass belt of \u039B(q)" + cut + ": mass felt along each direction";
     default:
-      return "effective mass ellipse \u039B(q)" + cut + ": force for unit acceleration";
+      return "effective mass " + name + " \u039B(q)" + cut + ": force for unit acceleration";
   }
 }
 
@@ -220,10 +232,19 @@ void draw_mass_ellipse(Picture& picture, const std::vector<MassAxis>& axes, Poin
     if (norm(open) > 0 && std::abs(dot(unit(open), normal_to(unit(axis.v)))) > 1e-6) all_open = true;
     open = axis.v;
   }
-  if (all_open) {
-    draw_infinities(picture, center, {1, 0}, 0, style, clip);
+  if (style.disc > 0 && !all_open) {
+    const Point d = unit(open);
+    const auto closed = spread_of(projected).axes();
+    if (norm(open) > 0)
+      draw_in_disc(picture, center, kBeyond * d, spread_of(projected).reach(normal_to(d)) * normal_to(d), style, clip);
+    else if (norm(closed[0]) > kNoLength)
+      draw_in_disc(picture, center, closed[0], closed[1], style, clip);
+  } else if (all_open) {
+    if (style.draws_above()) draw_infinities(picture, center, {1, 0}, 0, style, clip);
   } else if (norm(open) > 0) {
     draw_open(picture, projected, center, open, style, clip);
+  } else if (axes.size() > 2) {
+    draw_ellipsoid(picture, axes, center, camera, style, clip);
   } else if (!projected.empty()) {
     draw_closed(picture, projected, center, style, clip);
   }
@@ -256,81 +277,6 @@ std::vector<MassAxis> section_axes(const EffectiveMass& effective, const Eigen::
   }
   if (reading == EllipseReading::energy) std::swap(axes[0], axes[1]);
   return axes;
-}
-
-// The layer `ellipse`: the effective mass of the end effector along a run, at one scale for the whole film.
-
-namespace {
-
-constexpr double kEllipseBar = 0.10;  // units of H: the bounded semi-axis measures about as much
-
-class EllipseLayer : public Layer {
- public:
-  explicit EllipseLayer(const Stage& stage)
-      : stage_(&stage),
-        reading_(stage.page.ellipse.reading),
-        is_section_(stage.page.ellipse.shape == EllipseShape::section) {
-    for (const StagedRun& motion : stage.motions)
-      if (is_of(motion)) masses_.emplace(&motion, motion);
-    // Panels share the page, so their sides shrink with the root of their number.
-    scale_ = ellipse_scale(bounded_semi_axes(), kEllipseBar / std::sqrt(double(stage.full_panels())), reading_);
-  }
-
-  UnderWords under_words() const override { return UnderWords::if_need_be; }
-  bool has_words() const override { return true; }
-
-  void write(SheetText& text) const override {
-    text.bar = scale_.label();
-    text.bar_length = scale_.bar_length;
-    if (stage_->shows("legend"))
-      text.legend = ellipse_legend(reading_, is_section_ && !stage_->motions.front().chain().planar);
-  }
-
-  void draw(Picture& picture, const Shot& shot) const override {
-    const Panel& panel = shot.panel;
-    EllipseStyle style{&stage_->theme,   &stage_->fonts, panel.scene().text_scale,
-                       scale_.per_unit(), panel.area(),   reading_};
-    style.labels = &shot.labels;
-    const Camera seen = panel.camera().seen_at(tip_position(panel.chain(), shot.ws));
-    draw_mass_ellipse(picture, axes_at(panel.motion(), shot.k), panel.tip().place(shot.k), seen, style, panel.clip());
-  }
-
- private:
-  struct MassAlong {
-    explicit MassAlong(const StagedRun& motion)
-        : mass(motion.chain(), motion.simulation() ? motion.simulation()->constraints : ConstraintPlan{}),
-          ws(std::make_unique<Workspace>(motion.chain())) {}
-    TipMass mass;
-    std::unique_ptr<Workspace> ws;  // its own: the mass needs more than the pose, and spoils it
-  };
-
-  std::vector<MassAxis> axes_at(const StagedRun& motion, int k) const {
-    const MassAlong& along = masses_.at(&motion);
-    const EffectiveMass effective = along.mass.at(*along.ws, motion.trajectory().q_at(k));
-    if (!is_section_) return mass_axes(effective);
-    return section_axes(effective, tip_plane(motion.chain(), motion.pose_at(k)), reading_);
-  }
-
-  // At some of the frames, kg or m/s.
-  std::vector<double> bounded_semi_axes() const {
-    std::vector<double> bounded;
-    for (const auto& [motion, mass] : masses_)
-      for (const int k : some_of(motion->samples()))
-        if (const auto length = bounded_semi_axis(axes_at(*motion, k), reading_)) bounded.push_back(*length);
-    return bounded;
-  }
-
-  const Stage* stage_;
-  EllipseReading reading_;
-  bool is_section_;
-  std::map<const StagedRun*, MassAlong> masses_;
-  EllipseScale scale_;
-};
-
-}  // namespace
-
-std::unique_ptr<const Layer> make_layer_ellipse(const Stage& stage) {
-  return std::make_unique<EllipseLayer>(stage);
 }
 
 }  // namespace chainreel

@@ -11,11 +11,13 @@
 // zero to within kSingularFraction of the largest, as singular_directions has it, no acceleration is possible along
 // that direction: there, and nowhere else, `mass` is open, two lines along the bounded width that fade towards the
 // edge of the scene, with an infinity sign at each end, and so are the ends of `belt`; `energy` shrinks to a segment.
-// A curve with an axis that leaves the scene at both of its ends fades towards the edge, too, the sooner the further
-// it leads out, and has the length of that axis written at them ("7.91 kg"). In space the ellipse drawn is the
-// silhouette of the ellipsoid, with its three principal ellipses.
+// A curve that leaves the scene fades towards the edge, too, the sooner the further it leads out; an axis that leaves it at
+// both of its ends has its length written at them ("7.91 kg"). The inside lies below the chain, the lines over it with
+// edges in the background's colour, so that they are seen on any link. In space the ellipse drawn is the silhouette of
+// the ellipsoid, with its three principal ellipses (draw/layers/ellipsoid).
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,8 +33,10 @@ namespace chainreel {
 
 class MarkLabels;
 
+// What is drawn of the set: in the plane an ellipse, in space an ellipsoid, or the curve in which a plane cuts it.
+enum class EllipseBody { flat, solid, section };
 // What the curve is, in the words of a legend; may be broken behind ": ".
-std::string ellipse_legend(EllipseReading reading, bool section = false);
+std::string ellipse_legend(EllipseReading reading, EllipseBody body = EllipseBody::flat);
 
 // A semi-axis of the ellipse or ellipsoid.
 struct MassAxis {
@@ -62,6 +66,12 @@ struct EllipseScale {
 EllipseScale ellipse_scale(std::vector<double> bounded_semi_axes, double bar_length,
                            EllipseReading reading = EllipseReading::mass);
 
+// What lies below the chain, its inside, and what over it, lines and words; or both where nothing lies between.
+enum class EllipsePart { whole, below, above };
+
+// Whether the robot hides a place from the viewer, given from the curve's middle, in W, in units of H.
+using Hides = std::function<bool(const Eigen::Vector3d&)>;
+
 // What belongs to the picture in which ellipses are drawn.
 struct EllipseStyle {
   const Theme* theme = nullptr;
@@ -74,6 +84,12 @@ struct EllipseStyle {
   bool signs = true;                 // infinity signs and lengths at ends that are not seen
   double lines = 1;                  // times the widths of the style guide
   MarkLabels* labels = nullptr;      // takes the lengths, to be drawn with other words; absent: they are drawn
+  EllipsePart part = EllipsePart::whole;
+  Hides hides = nullptr;  // of a robot in space
+  double disc = 0;        // units of H; above 0: what is seen of the curve lies in this circle about its middle
+
+  bool draws_below() const { return part != EllipsePart::above; }
+  bool draws_above() const { return part != EllipsePart::below; }
 };
 
 // The curve about `center` in the reading of the style.

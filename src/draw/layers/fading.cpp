@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/format.hpp"
 #include "draw/page/mark_labels.hpp"
@@ -40,6 +41,23 @@ double way_out(const Rect& scene, Point p, Point d) {
                   std::min(to_edge(p.x, d.x, scene.x0, scene.x1), to_edge(p.y, d.y, scene.y0, scene.y1)));
 }
 
+void Spread::add(Point a) {
+  xx += a.x * a.x;
+  xy += a.x * a.y;
+  yy += a.y * a.y;
+}
+
+double Spread::reach(Point n) const {
+  return std::sqrt(std::max(0.0, n.x * n.x * xx + 2 * n.x * n.y * xy + n.y * n.y * yy));
+}
+
+std::array<Point, 2> Spread::axes() const {
+  const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
+  const double mean = (xx + yy) / 2, deviation = std::hypot((xx - yy) / 2, xy);
+  const Point u{std::cos(angle), std::sin(angle)};
+  return {std::sqrt(mean + deviation) * u, std::sqrt(std::max(mean - deviation, 0.0)) * normal_to(u)};
+}
+
 double excess_of(const Rect& scene, Point center, Point v) {
   const double length = norm(v);
   if (!(length > kNoLength)) return 0;
@@ -63,27 +81,29 @@ Polygon cut(const Polygon& polygon, Point through, Point inward) {
   return kept;
 }
 
-Fade fade_everywhere(const Rect& scene, double stretch) {
-  return {scene, stretch, stretch, stretch, stretch};
+namespace {
+
+// How far the ellipse of semi-variances `along` and `across` with the mixed one `mixed` reaches along the first axis where
+// the second is within [low, high], which holds 0.
+double farthest(double along, double mixed, double across, double low, double high) {
+  if (!(across > kNoLength * kNoLength)) return std::sqrt(along);
+  // Its boundary is steepest in the middle: the highest point is the highest of all, or the nearest to it that is allowed.
+  const double highest = along > 0 ? mixed / std::sqrt(along) : 0, reach = std::sqrt(across);
+  const double at = std::clamp(highest, std::max(low, -reach), std::min(high, reach));
+  const double rest = std::max(0.0, along - mixed * mixed / across) * std::max(0.0, 1 - at * at / across);
+  return mixed / across * at + std::sqrt(rest);
 }
 
-Fade fade_along(const Rect& scene, Point center, Point v, double most) {
-  Fade fade{scene};
-  const double excess = std::min(most, excess_of(scene, center, v));
-  if (!(excess > 0)) return fade;
-  for (const Point d : {unit(v), -1 * unit(v)}) {
-    const Point end = center + (way_out(scene, center, d) + excess) * d;
-    fade.left = std::max(fade.left, scene.x0 - end.x);
-    fade.right = std::max(fade.right, end.x - scene.x1);
-    fade.bottom = std::max(fade.bottom, scene.y0 - end.y);
-    fade.top = std::max(fade.top, end.y - scene.y1);
-  }
-  return fade;
-}
+}  // namespace
 
-Fade longer(const Fade& a, const Fade& b) {
-  return {a.scene, std::max(a.left, b.left), std::max(a.right, b.right), std::max(a.bottom, b.bottom),
-          std::max(a.top, b.top)};
+Fade fade_of(const Rect& scene, Point center, const Spread& spread, double most) {
+  const Rect room{scene.x0 - center.x, scene.y0 - center.y, scene.x1 - center.x, scene.y1 - center.y};
+  const auto stretch = [&](double reach, double way) { return std::clamp(reach - way, 0.0, most); };
+  const auto& [xx, xy, yy] = spread;
+  return {scene, stretch(farthest(xx, xy, yy, -room.y1, -room.y0), -room.x0),
+          stretch(farthest(xx, xy, yy, room.y0, room.y1), room.x1),
+          stretch(farthest(yy, xy, xx, -room.x1, -room.x0), -room.y0),
+          stretch(farthest(yy, xy, xx, room.x0, room.x1), room.y1)};
 }
 
 void draw_outline(Picture& picture, const std::vector<Point>& points, double width, Color color, const Fade& fade,
@@ -141,6 +161,16 @@ void fill_piece(Picture& picture, const std::array<Point, 4>& corners, Color col
     piece.fade = fade;
   }
   if (piece.count >= 3) picture.add(piece, clip);
+}
+
+void draw_ellipse(Picture& picture, Point center, const std::array<Point, 2>& axes, const Paint& paint,
+                  const Fade& fade, int clip) {
+  const auto [u, v] = axes;
+  if (norm(v) < kNoLength) {  // nothing moves along the other axis
+    if (paint.stroke_width > 0) draw_axis(picture, center, u, false, paint.stroke_width, paint.stroke, fade, clip);
+    return;
+  }
+  picture.add(Ellipse{center, std::min(1.0, kLongest / norm(u)) * u, v, paint, fade}, clip);
 }
 
 void draw_axis(Picture& picture, Point center, Point v, bool dashed, double width, Color color, const Fade& fade,
@@ -216,9 +246,7 @@ TextLine infinity(const EllipseStyle& style) {
                       {Face::label, size::kSymbol * style.text_scale, style.theme->ellipse, Align::left});
 }
 
-Fade fade_before(const TextLine& text, double strength, Point center, Point v, const EllipseStyle& style) {
-  Fade fade = fade_along(style.scene, center, v, style.fade);
-  const Point d = unit(v);
+Fade fade_before(const TextLine& text, double strength, Point d, Fade fade) {
   const double taken = strength * (2 * half_along(text, d) + kSignAir);
   // Only towards edges that the axis leaves through; one that it nearly misses comes in gradually.
   const auto room = [&](double stretch, double along) { return std::min(taken * std::abs(along), 4 * stretch); };
@@ -245,14 +273,14 @@ void draw_length_along(Picture& picture, Point center, Point v, double length, d
   draw_along(picture, text, center, -1 * unit(v), half_width, style, clip, style.labels);
 }
 
-Fade fade_before_length(Point center, Point v, double length, const EllipseStyle& style) {
+Fade fade_before_length(Point center, Point v, double length, const Fade& whole, const EllipseStyle& style) {
   const double strength = strength_of_length(center, v, style);
-  if (!(strength > 0)) return fade_along(style.scene, center, v, style.fade);
-  return fade_before(text_of_length(length, strength, style), strength, center, v, style);
+  if (!(strength > 0)) return whole;
+  return fade_before(text_of_length(length, strength, style), strength, unit(v), whole);
 }
 
-Fade fade_before_infinity(Point center, Point d, const EllipseStyle& style) {
-  return fade_before(infinity(style), style.signs ? 1 : 0, center, 2 * kBeyond * d, style);
+Fade fade_before_infinity(Point d, const Fade& whole, const EllipseStyle& style) {
+  return fade_before(infinity(style), style.signs ? 1 : 0, d, whole);
 }
 
 }  // namespace chainreel

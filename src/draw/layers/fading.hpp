@@ -16,6 +16,7 @@ namespace chainreel {
 inline constexpr double kNoLength = 1e-9;
 inline constexpr double kEllipseFill = 0.16;     // opacity
 inline constexpr double kSilhouetteFill = 0.12;  // of an ellipsoid
+inline constexpr double kLineEdge = 0.0016;  // units of H: of the background's colour, about lines that lie over a chain
 inline constexpr double kLongPiece = 0.02;  // units of H: fading lines change their opacity in steps of this length
 inline constexpr double kLongest = 60;  // units of H: an axis that is longer changes nothing on the page that can be seen
 inline constexpr double kBeyond = 3;        // units of H: farther than any corner of a page from any place on it
@@ -27,6 +28,18 @@ inline bool contains(const Rect& r, Point p) {
 // How far from p along the unit vector d the scene ends; 0 where p is outside and d leads away.
 double way_out(const Rect& scene, Point p, Point d);
 
+// A symmetric 2 x 2 matrix: the sum of a a^T over semi-axes a on the page, of which sqrt(n^T S n) is how far their ellipse
+// reaches along the unit vector n.
+struct Spread {
+  double xx = 0, xy = 0, yy = 0;
+
+  void add(Point a);
+  double reach(Point n) const;
+  // The semi-axes of the ellipse, the longer one first: of the silhouette of an ellipsoid with the projected semi-axes a;
+  // of two perpendicular ones they themselves.
+  std::array<Point, 2> axes() const;
+};
+
 // How far the nearer end of the axis from center - v to center + v lies outside of the scene, units of H; 0 where one
 // end is inside, so that the length of the axis can be seen.
 double excess_of(const Rect& scene, Point center, Point v);
@@ -37,12 +50,9 @@ std::optional<std::pair<double, double>> part_inside(const Rect& scene, Point p,
 // The part of a convex polygon where dot(p - through, inward) >= 0; one corner more at most.
 Polygon cut(const Polygon& polygon, Point through, Point inward);
 
-Fade fade_everywhere(const Rect& scene, double stretch);
-// Towards the edges through which the axis from center - v to center + v leaves the scene at both of its ends, along
-// the axis over what it leads out and `most` at most: of a curve that grows beyond its scene ever more fades.
-Fade fade_along(const Rect& scene, Point center, Point v, double most);
-// The longer stretch of each edge.
-Fade longer(const Fade& a, const Fade& b);
+// Towards each edge through which the ellipse leaves the scene, over what it leads out there and `most` at most: of a curve
+// that grows beyond its scene ever more fades, and nothing is cut.
+Fade fade_of(const Rect& scene, Point center, const Spread& spread, double most);
 
 // A line through the points, fading; of one that fades only the part in the scene.
 void draw_outline(Picture& picture, const std::vector<Point>& points, double width, Color color, const Fade& fade,
@@ -53,6 +63,10 @@ void draw_outline(Picture& picture, const std::vector<Point>& points, double wid
 void fill_between(Picture& picture, const std::vector<Point>& upper, const std::vector<Point>& lower, Color color,
                   const Fade& fade, int clip);
 void fill_piece(Picture& picture, const std::array<Point, 4>& corners, Color color, const Fade& fade, int clip);
+
+// An ellipse of two perpendicular semi-axes, the longer one first; the axis alone where the other has no length.
+void draw_ellipse(Picture& picture, Point center, const std::array<Point, 2>& axes, const Paint& paint,
+                  const Fade& fade, int clip);
 
 // A line from center - v to center + v, fading; dashes are symmetric about the middle.
 void draw_axis(Picture& picture, Point center, Point v, bool dashed, double width, Color color, const Fade& fade,
@@ -70,8 +84,22 @@ void draw_infinities(Picture& picture, Point center, Point d, double half_width,
 void draw_length_along(Picture& picture, Point center, Point v, double length, double half_width,
                        const EllipseStyle& style, int clip);
 
-// How the lines of such axes fade, to leave room for what is written at their ends.
-Fade fade_before_length(Point center, Point v, double length, const EllipseStyle& style);
-Fade fade_before_infinity(Point center, Point d, const EllipseStyle& style);
+// How the lines of such axes fade, those of a curve that fades as `whole`, to leave room for what is written at their ends.
+Fade fade_before_length(Point center, Point v, double length, const Fade& whole, const EllipseStyle& style);
+Fade fade_before_infinity(Point d, const Fade& whole, const EllipseStyle& style);
+
+// One stroke of the lines: those of a curve over a chain are drawn twice, first wider in the background's colour.
+struct Stroke {
+  Color color;
+  double wider = 0;
+
+  double width(double line, const EllipseStyle& style) const { return style.lines * line + wider; }
+};
+// Calls draw(stroke) for those that the style asks for.
+template <class Draw>
+void for_each_stroke(const EllipseStyle& style, Draw draw) {
+  if (style.part == EllipsePart::above) draw(Stroke{style.theme->background, 2 * style.lines * kLineEdge});
+  if (style.draws_above()) draw(Stroke{style.theme->ellipse, 0});
+}
 
 }  // namespace chainreel

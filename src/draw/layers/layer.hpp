@@ -57,6 +57,8 @@ class Layer {
   virtual void measure(const Sight&, FitBox&) const {}
   // Width and height of a part of each scene in a corner, or beside it, that it needs for itself. One layer of a film.
   virtual std::optional<Point> room_beside(const StagedRun&) const { return std::nullopt; }
+  // Height of a row below all scenes, above what is written at the page's foot, that it needs for itself.
+  virtual double row_below() const { return 0; }
   virtual std::string no_room() const { return ""; }  // what to say where it leaves none to the chain
   // Covers: whether any of it comes into this part of the page, which may be at the lower left of its scene.
   virtual bool covers(const Sight&, const Rect& part, bool at_lower_left) const;

@@ -41,7 +41,11 @@ class Legend : public Layer {};
 
 class ScaleBar : public Layer {
  public:
-  explicit ScaleBar(const Stage& stage) : fonts_(&stage.fonts) {}
+  explicit ScaleBar(const Stage& stage)
+      : fonts_(&stage.fonts), text_scale_(stage.page.text_scale), is_below_(stage.shows("ellipse")) {}
+
+  // An ellipse may come anywhere in the scene: below it the bar is out of its way.
+  double row_below() const override { return is_below_ ? metre_bar_row(text_scale_) : 0; }
 
   bool covers(const Sight&, const Rect&, bool at_lower_left) const override { return at_lower_left; }
   void draw_page_once(Picture& picture, const SharedPage& page) const override {
@@ -52,6 +56,8 @@ class ScaleBar : public Layer {
 
  private:
   const Fonts* fonts_;
+  double text_scale_;
+  bool is_below_;
 };
 
 }  // namespace

@@ -79,6 +79,10 @@ double metre_bar_length(double scale, double scene_width) {
   return round_length(0.25 * scene_width / scale);
 }
 
+double metre_bar_row(double text_scale) {
+  return 1.5 * scaled(size::kTick, text_scale);
+}
+
 void draw_metre_bar(Picture& picture, const Camera& camera, const Sheet& sheet, const Fonts& fonts) {
   const double metres = metre_bar_length(camera.scale, sheet.scene.width());
   const double length = metres * camera.scale, text_size = scaled(size::kTick, sheet.text_scale);

@@ -44,6 +44,8 @@ void draw_scale_bar(Picture& picture, Point at, double length, Color color, int 
 double metre_bar_length(double scale, double scene_width);
 
 // The scale of lengths: a bar at the lower left inside the scene.
+// How much of the lower edge of a scene it takes, units of H.
+double metre_bar_row(double text_scale);
 void draw_metre_bar(Picture& picture, const Camera& camera, const Sheet& sheet, const Fonts& fonts);
 
 }  // namespace chainreel

@@ -20,7 +20,7 @@ EffectiveMass mass_of(const Chain& chain, const std::vector<double>& q) {
 }
 
 bool is_mass_ellipse(const Ellipse& e) {
-  return e.paint.stroke == light_theme().ellipse && e.paint.fill.a > 0;
+  return e.paint.stroke == light_theme().ellipse;
 }
 
 TEST(PoseFigure, ShowsTheLastPoseInFullAndTheOthersAsOnionSkins) {

@@ -10,7 +10,9 @@
 #include "core/format.hpp"
 #include "draw/chains.hpp"
 #include "draw/layers/fading.hpp"
+#include "draw/layers/ellipsoid.hpp"
 #include "draw/shapes.hpp"
+#include "dynamics/kinematics.hpp"
 
 namespace chainreel {
 namespace {
@@ -26,7 +28,8 @@ struct DrawnEllipse {
   Camera camera;
   Point center{0.8, 0.5};
 
-  explicit DrawnEllipse(const std::vector<double>& q, double per_kg = 0.05, Point at = {0.8, 0.5}) : center(at) {
+  explicit DrawnEllipse(const std::vector<double>& q, double per_kg = 0.05, Point at = {0.8, 0.5})
+      : center(at) {
     const Chain chain = test::model("rr");
     Workspace ws(chain);
     axes = mass_axes(effective_mass_of(chain, ws, q, chain.end_effector, Task::linear));
@@ -125,7 +128,8 @@ TEST(Ellipse, NearlySingularIsStillNeverANumberThatWasCut) {
   EXPECT_EQ(nearly.words(), "\u221E\u221E");
 }
 
-// RR near its stretched pose, but regular: of Lambda_inv the smaller eigenvalue is 1e-4 of the larger one or more.
+// RR near its stretched pose, but regular: of Lambda_inv the smaller eigenvalue is 1e-4 of the larger one or
+// more.
 TEST(Ellipse, HasNoInfinitySignWhereJIsRegular) {
   for (const EllipseReading reading : {EllipseReading::mass, EllipseReading::belt})
     for (const double angle : {2.0, 5.0, 20.0, 178.0}) {
@@ -151,16 +155,15 @@ TEST(Ellipse, HasNoInfinitySignWhereJIsRegular) {
     }
 }
 
-// As the axis grows beyond the edge, the curve fades over no more than it leads out, and the mass comes in gradually:
-// between two frames of a film nothing flashes.
+// As the axis grows beyond the edge, the curve fades over no more than it leads out, and the mass comes in
+// gradually: between two frames of a film nothing flashes.
 TEST(Ellipse, FadesGraduallyAsItOutgrowsItsScene) {
-  const double reach = 0.8 - 0.045;  // of the centre from the left edge, the farther one is at 1.73 - 0.8 = 0.93
-  EXPECT_LT(reach, 0.93);
+  const Point middle{0.8875, 0.5};  // 0.8425 from both edges
   for (const double excess : {0.001, 0.01, 0.05, 0.3}) {
     const std::vector<MassAxis> axes{{1, Eigen::Vector3d::UnitX()}, {0.1, Eigen::Vector3d::UnitY()}};
-    const EllipseStyle style{&light_theme(), &fonts(), 1, 0.93 + excess, {0.045, 0.11, 1.73, 0.87}};
+    const EllipseStyle style{&light_theme(), &fonts(), 1, 0.8425 + excess, {0.045, 0.11, 1.73, 0.87}};
     Picture picture;
-    draw_mass_ellipse(picture, axes, {0.8, 0.5}, {}, style, -1);
+    draw_mass_ellipse(picture, axes, middle, {}, style, -1);
     const double stretch = std::min(excess, size::kEllipseFade);
     const auto ellipses = test::all_of<Ellipse>(picture);
     ASSERT_EQ(ellipses.size(), 1u);
@@ -175,22 +178,82 @@ TEST(Ellipse, FadesGraduallyAsItOutgrowsItsScene) {
   }
   // Just inside, it is whole.
   Picture whole;
-  draw_mass_ellipse(whole, {{1, Eigen::Vector3d::UnitX()}, {0.1, Eigen::Vector3d::UnitY()}}, {0.8, 0.5}, {},
-                    {&light_theme(), &fonts(), 1, 0.9299, {0.045, 0.11, 1.73, 0.87}}, -1);
-  ASSERT_EQ(test::all_of<Ellipse>(whole).size(), 1u);
-  EXPECT_FALSE(test::all_of<Ellipse>(whole)[0].fade.any());
+  draw_mass_ellipse(whole, {{1, Eigen::Vector3d::UnitX()}, {0.1, Eigen::Vector3d::UnitY()}}, middle, {},
+                    {&light_theme(), &fonts(), 1, 0.8424, {0.045, 0.11, 1.73, 0.87}}, -1);
+  EXPECT_EQ(test::all_of<Ellipse>(whole).size(), 1u);
   EXPECT_EQ(test::words_of(whole), "");
 }
 
-TEST(Ellipse, IsOnlyClippedWhereOneEndOfAnAxisStaysInTheScene) {
-  // The tip near the right edge: the major axis leaves there, its other end shows its length.
-  const DrawnEllipse at_edge({0, 150 * kDegree}, 0.05, {1.70, 0.5});
-  ASSERT_EQ(test::all_of<Ellipse>(at_edge.picture).size(), 1u);
-  EXPECT_FALSE(test::all_of<Ellipse>(at_edge.picture)[0].fade.any());
-  // At ten times the scale both ends are outside.
-  const DrawnEllipse large({0, 150 * kDegree}, 0.5, {0.8, 0.5});
-  ASSERT_EQ(test::all_of<Ellipse>(large.picture).size(), 1u);
-  EXPECT_TRUE(test::all_of<Ellipse>(large.picture)[0].fade.any());
+// The tip near an edge: the major axis leaves there, its other end shows its length.
+TEST(Ellipse, IsNowhereCutFlatWhereOneEndLeavesTheScene) {
+  for (const Point tip : {Point{1.70, 0.5}, {0.06, 0.5}, {0.8, 0.12}, {0.8, 0.86}}) {
+    const DrawnEllipse at_edge({0, 150 * kDegree}, 0.05, tip);
+    const auto ellipses = test::all_of<Ellipse>(at_edge.picture);
+    ASSERT_EQ(ellipses.size(), 1u);
+    EXPECT_EQ(at_edge.words(), "");
+    const Ellipse& ellipse = ellipses[0];
+    const Rect& scene = at_edge.style.scene;
+    double near_edge = 0;
+    for (int i = 0; i < 100000; ++i) {
+      const double angle = 2 * kPi * i / 100000;
+      const Point p = ellipse.center + std::cos(angle) * ellipse.u + std::sin(angle) * ellipse.v;
+      const double inside = std::min({p.x - scene.x0, scene.x1 - p.x, p.y - scene.y0, scene.y1 - p.y});
+      if (std::abs(inside) < 1e-4) near_edge = std::max(near_edge, ellipse.fade.opacity_at(p));
+    }
+    EXPECT_TRUE(ellipse.fade.any());
+    // The shortest stretch here is 0.02 H: 1e-4 is 0.005 of it.
+    EXPECT_LT(near_edge, 0.01) << tip.x << " " << tip.y;
+  }
+  // Negative control: in the middle it is whole.
+  const auto middle = test::all_of<Ellipse>(DrawnEllipse({0, 150 * kDegree}).picture);
+  ASSERT_EQ(middle.size(), 1u);
+  EXPECT_FALSE(middle[0].fade.any());
+}
+
+// Over a chain lines have edges in the background's colour: their contrast is that with the page, whatever
+// link lies below.
+TEST(Ellipse, LiesBelowTheChainWithItsInsideAndOverItWithItsLines) {
+  const DrawnEllipse bent({0, 150 * kDegree});
+  const auto part = [&](EllipsePart which) {
+    EllipseStyle style = bent.style;
+    style.part = which;
+    Picture picture;
+    draw_mass_ellipse(picture, bent.axes, bent.center, bent.camera, style, -1);
+    return picture;
+  };
+  const auto below = test::all_of<Ellipse>(part(EllipsePart::below)),
+             above = test::all_of<Ellipse>(part(EllipsePart::above));
+  ASSERT_EQ(below.size(), 1u);
+  EXPECT_NEAR(below[0].paint.fill.a, 0.16, 1e-12);
+  EXPECT_EQ(below[0].paint.stroke_width, 0);
+  ASSERT_EQ(above.size(), 2u);
+  for (const Ellipse& e : above) EXPECT_EQ(e.paint.fill.a, 0);
+  EXPECT_TRUE(above[0].paint.stroke == light_theme().background);
+  EXPECT_GT(above[0].paint.stroke_width, above[1].paint.stroke_width + 0.002);
+  EXPECT_TRUE(above[1].paint.stroke == light_theme().ellipse);
+}
+
+// As its ratio of axes grows without bounds, the curve goes over into the open band: it keeps its width and
+// its fade.
+TEST(Ellipse, GoesOverIntoTheOpenBandWithoutAJump) {
+  const auto outline_at = [](std::optional<double> mass) {
+    const EllipseStyle style{&light_theme(), &fonts(), 1, 0.1, {0.045, 0.11, 1.73, 0.87}};
+    Picture picture;
+    draw_mass_ellipse(picture, {{mass, Eigen::Vector3d::UnitX()}, {1, Eigen::Vector3d::UnitY()}}, {0.8, 0.5},
+                      {}, style, -1);
+    double highest = 0;  // of the curve 0.6 H beside its middle, inside of what fades
+    for (const Ellipse& e : test::all_of<Ellipse>(picture)) {
+      const double share = 0.6 / test::length(e.u);
+      highest = std::max(highest, test::length(e.v) * std::sqrt(1 - share * share));
+    }
+    for (const Capsule& line :
+         test::all_of<Capsule>(picture, [](const Capsule& c) { return c.radius == size::kEllipseLine / 2; }))
+      highest = std::max(highest, line.a.y - 0.5);
+    return highest;
+  };
+  EXPECT_NEAR(outline_at(std::nullopt), 0.1, 1e-12);
+  // x = 0.6 of a = 20 and more: sqrt(1 - (0.6 / a)^2) differs from 1 by 0.0005 and less.
+  for (const double mass : {200.0, 1e4, 1e6}) EXPECT_NEAR(outline_at(mass), 0.1, 1e-4) << mass;
 }
 
 TEST(Ellipse, KeepsInfinitySignsInsideTheSceneWhereverTheTipIs) {
@@ -198,8 +261,7 @@ TEST(Ellipse, KeepsInfinitySignsInsideTheSceneWhereverTheTipIs) {
     const DrawnEllipse stretched({0, 0}, 0.05, tip);
     int signs = 0;
     for (const GlyphRun& run : test::all_of<GlyphRun>(stretched.picture)) {
-      const TextLine sign =
-          lay_out_text(fonts(), run.text, {run.face, run.size, run.color, Align::left});
+      const TextLine sign = lay_out_text(fonts(), run.text, {run.face, run.size, run.color, Align::left});
       // The run's origin is its left end.
       EXPECT_TRUE(test::is_inside(stretched.style.scene, test::shifted(sign.box, run.origin)));
       ++signs;
@@ -217,8 +279,7 @@ TEST(Ellipse, OfAPointThatCannotMoveIsInfiniteEverywhere) {
   EXPECT_FALSE(axes.at(0).mass || axes.at(1).mass);
   EXPECT_FALSE(bounded_semi_axis(axes, EllipseReading::mass));
   Picture picture;
-  draw_mass_ellipse(picture, axes, {0.8, 0.5}, {}, {&light_theme(), &fonts(), 1, 0.1, {0, 0, 1.7, 1}},
-                    -1);
+  draw_mass_ellipse(picture, axes, {0.8, 0.5}, {}, {&light_theme(), &fonts(), 1, 0.1, {0, 0, 1.7, 1}}, -1);
   EXPECT_EQ(test::words_of(picture), "\u221E\u221E");
 }
 
@@ -238,8 +299,56 @@ TEST(Ellipse, InSpaceIsTheSilhouetteOfTheEllipsoid) {
   Picture oblique;
   draw_mass_ellipse(oblique, axes, {0.8, 0.5}, camera, style, -1);
   EXPECT_NEAR(test::length(test::all_of<Ellipse>(oblique).at(0).v), 0.1 * std::sqrt(2.5), kEllipseRoundOff);
-  // And the principal ellipses, but for the one that is seen from its edge.
-  EXPECT_EQ(test::all_of<Ellipse>(oblique).size(), 3u);
+  // Its outline is drawn in space: from 0.1 sqrt(2.5) to 0.3 from the middle.
+  const auto lines = test::all_of<Trail>(oblique);
+  const auto outline = std::find_if(lines.begin(), lines.end(),
+                                    [](const Trail& t) { return t.points[0].width == size::kEllipseLine; });
+  ASSERT_NE(outline, lines.end());
+  double nearest = 1, farthest = 0;
+  for (const TrailPoint& point : outline->points) {
+    nearest = std::min(nearest, test::distance(point.p, {0.8, 0.5}));
+    farthest = std::max(farthest, test::distance(point.p, {0.8, 0.5}));
+  }
+  EXPECT_NEAR(farthest, 0.3, 1e-3);  // of the nearest of 128 points
+  EXPECT_NEAR(nearest, 0.1 * std::sqrt(2.5), 1e-3);
+  // And of the principal ellipses and axes the near halves in full, the far ones thin and dashed.
+  const auto width_of = [](const Trail& t) { return t.points[0].width; };
+  EXPECT_EQ(std::count_if(lines.begin(), lines.end(),
+                          [&](const Trail& t) { return width_of(t) == size::kEllipseAxis; }),
+            6);
+  EXPECT_GT(test::all_of<Capsule>(oblique, [](const Capsule& line) { return 2 * line.radius < size::kEllipseAxis; })
+                .size(),
+            20u);
+}
+
+// A cube of 1 m about the tip, seen along -z, at 1 H a metre.
+TEST(Ellipsoid, IsHiddenWhereABodyStandsBeforeIt) {
+  Visual visual;
+  visual.size = {1, 1, 1};
+  MeshShelf shelf;
+  const BodyShapes cube = load_body_shapes({visual}, MeshUp::rviz, shelf);
+  const Chain chain = test::model("rr");
+  Workspace ws(chain);
+  compute_kinematics(chain, ws, std::vector<double>{0, 0}, std::vector<double>{0, 0});
+  const Hides hides = robot_hides(cube, ws, Camera{}, Eigen::Vector3d::Zero());
+  EXPECT_TRUE(hides({0, 0, -2}));
+  EXPECT_TRUE(hides({0.4, 0.4, 0.4})) << "inside";
+  EXPECT_FALSE(hides({0, 0, 2}));
+  EXPECT_FALSE(hides({0.6, 0, -2}));
+  // What is hidden is drawn below the robot, and nowhere twice.
+  EllipseStyle style{&light_theme(), &fonts(), 1, 1, {0, 0, 1.7, 1}};
+  style.hides = hides;
+  const std::vector<MassAxis> axes{{0.4, Eigen::Vector3d::UnitX()}, {0.3, Eigen::Vector3d::UnitY()}, {0.2, Eigen::Vector3d::UnitZ()}};
+  const auto lines = [&](EllipsePart part) {
+    style.part = part;
+    Picture picture;
+    draw_mass_ellipse(picture, axes, {0.8, 0.5}, {}, style, -1);
+    return test::all_of<Trail>(picture).size();
+  };
+  EXPECT_GT(lines(EllipsePart::below), 3u);
+  EXPECT_EQ(lines(EllipsePart::above), 0u) << "all of it is in the cube";
+  style.hides = nullptr;
+  EXPECT_GT(lines(EllipsePart::above), 3u);
 }
 
 TEST(EllipseScale, DrawsARoundMassNearTheMedianAsTheBar) {

@@ -1,0 +1,210 @@
+// The layers `ellipse`: the effective mass of the end effector along a run, at one scale for the whole film.
+// Its inside lies below the chain, its lines over it.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "draw/layers/ellipse.hpp"
+#include "draw/layers/ellipsoid.hpp"
+#include "draw/layers/layer.hpp"
+#include "draw/page/scales.hpp"
+#include "sim/instant.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kEllipseBar = 0.10;  // units of H: the bounded semi-axis measures about as much
+constexpr double kSolidAxis = 0.25;   // ... of an ellipsoid, which is to be read in space
+constexpr double kLongestSolidBar = 0.12;  // units of H
+constexpr double kMuchRounder = 1.5;  // in the ratio of its axes: then the other pose is worth a ghost
+constexpr double kGhost = 0.25;       // opacity of that pose
+constexpr double kGhostLine = 0.45;   // ... and of its lines
+
+// How the mass is felt at the samples of the runs that are shown in full.
+class MassAlong {
+ public:
+  explicit MassAlong(const Stage& stage)
+      : stage_(&stage),
+        reading_(stage.page.ellipse.reading),
+        is_section_(stage.page.ellipse.shape == EllipseShape::section) {
+    for (const StagedRun& motion : stage.motions)
+      if (!motion.is_outlined()) masses_.emplace(&motion, motion);
+    // Panels share the page, so their sides shrink with the root of their number.
+    const double share = 1 / std::sqrt(double(stage.full_panels()));
+    scale_ = body() == EllipseBody::solid ? solid_scale(share * kSolidAxis)
+                                          : ellipse_scale(bounded_semi_axes(), share * kEllipseBar, reading_);
+  }
+
+  const EllipseScale& scale() const { return scale_; }
+  EllipseReading reading() const { return reading_; }
+  EllipseBody body() const {
+    return stage_->motions.front().chain().planar ? EllipseBody::flat
+           : is_section_                          ? EllipseBody::section
+                                                  : EllipseBody::solid;
+  }
+
+  std::vector<MassAxis> axes_at(const StagedRun& motion, int k) const {
+    const Mass& along = masses_.at(&motion);
+    const EffectiveMass effective = along.mass.at(*along.ws, motion.trajectory().q_at(k));
+    if (!is_section_) return mass_axes(effective);
+    return section_axes(effective, tip_plane(motion.chain(), motion.pose_at(k)), reading_);
+  }
+
+  void draw(Picture& picture, const Panel& panel, int k, EllipseStyle style) const {
+    const Workspace& ws = panel.motion().pose_at(k);
+    const Eigen::Vector3d tip = tip_position(panel.chain(), ws);
+    if (panel.motion().shapes() && body() == EllipseBody::solid)
+      style.hides = robot_hides(*panel.motion().shapes(), ws, panel.camera(), tip);
+    draw_mass_ellipse(picture, axes_at(panel.motion(), k), panel.tip().place(k), panel.camera().seen_at(tip),
+                      style, panel.clip());
+  }
+
+  EllipseStyle style_in(const Panel& panel, EllipsePart part) const {
+    EllipseStyle style{&stage_->theme,    &stage_->fonts, panel.scene().text_scale,
+                       scale_.per_unit(), panel.area(),   reading_};
+    style.part = part;
+    style.lines = panel.marks();
+    return style;
+  }
+
+ private:
+  struct Mass {
+    explicit Mass(const StagedRun& motion)
+        : mass(motion.chain(), motion.simulation() ? motion.simulation()->constraints : ConstraintPlan{}),
+          ws(std::make_unique<Workspace>(motion.chain())) {}
+    TipMass mass;
+    std::unique_ptr<Workspace> ws;  // its own: the mass needs more than the pose, and spoils it
+  };
+
+  // At some of the frames, kg or m/s.
+  std::vector<double> bounded_semi_axes() const {
+    std::vector<double> bounded;
+    for (const auto& [motion, mass] : masses_)
+      for (const int k : some_of(motion->samples()))
+        if (const auto length = bounded_semi_axis(axes_at(*motion, k), reading_)) bounded.push_back(*length);
+    return bounded;
+  }
+
+  // The median of the bounded semi-axes is `length` long, the bar round.
+  EllipseScale solid_scale(double length) const {
+    std::vector<double> bounded = bounded_semi_axes();
+    bounded.erase(std::remove_if(bounded.begin(), bounded.end(),
+                                 [](double m) { return !(m > 0) || !std::isfinite(m); }),
+                  bounded.end());
+    if (bounded.empty()) return {1, kEllipseBar, reading_};
+    const auto middle = bounded.begin() + std::ptrdiff_t(bounded.size() / 2);
+    std::nth_element(bounded.begin(), middle, bounded.end());
+    const double bar = round_length(kLongestSolidBar * *middle / length);
+    return {bar, bar * length / *middle, reading_};
+  }
+
+  const Stage* stage_;
+  EllipseReading reading_;
+  bool is_section_;
+  std::map<const StagedRun*, Mass> masses_;
+  EllipseScale scale_;
+};
+
+// The inside; and in space the pose at which the ellipsoid is roundest, with its ellipsoid, where it changes
+// by much: that the other is longer is then seen, not only said.
+class EllipseInside : public Layer {
+ public:
+  explicit EllipseInside(const Stage& stage) : along_(stage) {}
+
+  UnderWords under_words() const override { return UnderWords::if_need_be; }
+
+  // Velocities of equal energy have a bound everywhere: the picture holds them.
+  void measure(const Sight& sight, FitBox& box) const override {
+    if (along_.body() != EllipseBody::solid || along_.reading() != EllipseReading::energy) return;
+    const Eigen::Vector3d tip = tip_position(sight.motion.chain(), sight.ws);
+    const Camera seen = sight.camera.seen_at(tip);
+    double x = 0, y = 0;
+    for (const MassAxis& axis : along_.axes_at(sight.motion, sight.k)) {
+      const double length = semi_axis(axis, along_.reading()).value_or(0) * along_.scale().per_unit();
+      x = std::hypot(x, length * seen.right.dot(axis.direction));
+      y = std::hypot(y, length * seen.up.dot(axis.direction));
+    }
+    box.add({x, x, y, y}, sight.camera.flat(tip));
+  }
+
+  void draw_once(Picture& picture, const Panel& panel) const override {
+    if (along_.body() != EllipseBody::solid) return;
+    const auto k = roundest(panel.motion());
+    if (!k) return;
+    const Workspace& then = panel.motion().pose_at(*k);
+    ChainLook look = panel.look();
+    look.strength = kGhost;
+    const ChainDrawing drawing = panel.drawing(look);
+    Theme pale = *look.theme;
+    pale.ellipse = pale.ellipse.faded(kGhostLine);
+    EllipseStyle style = along_.style_in(panel, EllipsePart::below);
+    style.theme = &pale;
+    style.signs = false;
+    along_.draw(picture, panel, *k, style);
+    draw_rails(picture, drawing, then, panel.clip());
+    draw_links(picture, drawing, then, panel.clip());
+    style.part = EllipsePart::above;
+    along_.draw(picture, panel, *k, style);
+  }
+
+  void draw(Picture& picture, const Shot& shot) const override {
+    along_.draw(picture, shot.panel, shot.k, along_.style_in(shot.panel, EllipsePart::below));
+  }
+
+ private:
+  // The shortest semi-axis over the longest one.
+  double roundness(const StagedRun& motion, int k) const {
+    const std::vector<MassAxis> axes = along_.axes_at(motion, k);
+    if (axes.empty() || !axes.front().mass || !axes.back().mass) return 0;
+    return *axes.back().mass / *axes.front().mass;
+  }
+  std::optional<int> roundest(const StagedRun& motion) const {
+    int best = 0;
+    double most = 0, least = 1;
+    for (const int k : some_of(motion.counted())) {
+      const double round = roundness(motion, k);
+      if (round > most) most = round, best = k;
+      least = std::min(least, round);
+    }
+    if (!(most > kMuchRounder * kMuchRounder * least)) return std::nullopt;
+    return best;
+  }
+
+  MassAlong along_;
+};
+
+class EllipseLines : public Layer {
+ public:
+  explicit EllipseLines(const Stage& stage) : along_(stage), has_legend_(stage.shows("legend")) {}
+
+  UnderWords under_words() const override { return UnderWords::if_need_be; }
+  bool has_words() const override { return true; }
+
+  void write(SheetText& text) const override {
+    text.bar = along_.scale().label();
+    text.bar_length = along_.scale().bar_length;
+    if (has_legend_) text.legend = ellipse_legend(along_.reading(), along_.body());
+  }
+
+  void draw(Picture& picture, const Shot& shot) const override {
+    EllipseStyle style = along_.style_in(shot.panel, EllipsePart::above);
+    style.labels = &shot.labels;
+    along_.draw(picture, shot.panel, shot.k, style);
+  }
+
+ private:
+  MassAlong along_;
+  bool has_legend_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Layer> make_layer_ellipse_inside(const Stage& stage) {
+  return std::make_unique<EllipseInside>(stage);
+}
+
+std::unique_ptr<const Layer> make_layer_ellipse(const Stage& stage) {
+  return std::make_unique<EllipseLines>(stage);
+}
+
+}  // namespace chainreel

@@ -1,0 +1,290 @@
+#include "draw/layers/ellipsoid.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/format.hpp"
+#include "draw/layers/fading.hpp"
+#include "draw/page/mark_labels.hpp"
+#include "draw/page/sheet.hpp"
+
+namespace chainreel {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kHalfTurn = 64;          // of half a turn
+constexpr double kFarLine = 0.0016;  // units of H: lines behind the middle
+constexpr double kFarOpacity = 0.75;
+constexpr double kFarDash = 0.008, kFarGap = 0.006;  // units of H
+constexpr double kNumberGap = 0.010;                 // units of H, beyond the end of a semi-axis
+constexpr double kLeastAxis =
+    0.02;  // units of H: shorter ones, seen from their end, have no room for a number
+
+// A semi-axis in W, units of H on a page that it is parallel to.
+struct SolidAxis {
+  Vector3d v, direction;
+  double length = 0;  // kg or m/s
+};
+
+// A line in space, relative to the middle of the ellipsoid.
+using Line = std::vector<Vector3d>;
+
+class Ellipsoid {
+ public:
+  Ellipsoid(const std::vector<MassAxis>& axes, Point center, const Camera& camera, const EllipseStyle& style)
+      : center_(center), camera_(camera), style_(style) {
+    for (const MassAxis& axis : axes)
+      if (const auto length = semi_axis(axis, style.reading))
+        axes_.push_back({*length * style.per_unit * axis.direction, axis.direction, *length});
+    // What is heavy is slow.
+    if (style.reading == EllipseReading::energy) std::reverse(axes_.begin(), axes_.end());
+    for (const SolidAxis& axis : axes_) spread_.add(on_page(axis.v) - center_);
+    fade_ = fade_of(style.scene, center, spread_, style.fade);
+  }
+
+  void draw(Picture& picture, int clip) const {
+    const Color line = style_.theme->ellipse;
+    const std::array<Point, 2> outline = spread_.axes();
+    if (style_.draws_below()) {
+      draw_ellipse(picture, center_, outline, {line.faded(kSilhouetteFill), {}, 0}, fade_, clip);
+      for (const Line& far : far_lines()) draw_dashed(picture, far, clip);
+    }
+    const bool has_inside = norm(outline[1]) > kNoLength;
+    // Of what stands before the middle, and of the silhouette, that which a body hides.
+    if (style_.part == EllipsePart::below && style_.hides) {
+      const Stroke stroke{line, 0};
+      if (has_inside) draw_pieces(picture, silhouette(), true, stroke, size::kEllipseLine, clip);
+      for (const Line& near : near_lines())
+        draw_pieces(picture, near, true, stroke, size::kEllipseAxis, clip);
+    }
+    for_each_stroke(style_, [&](const Stroke& stroke) {
+      if (has_inside) draw_pieces(picture, silhouette(), false, stroke, size::kEllipseLine, clip);
+      for (const Line& near : near_lines())
+        draw_pieces(picture, near, false, stroke, size::kEllipseAxis, clip);
+    });
+    if (style_.draws_above()) draw_numbers(picture, clip);
+  }
+
+ private:
+  Point on_page(const Vector3d& p) const { return center_ + Point{camera_.right.dot(p), camera_.up.dot(p)}; }
+  std::vector<Point> on_page(const Line& line) const {
+    std::vector<Point> points;
+    for (const Vector3d& p : line) points.push_back(on_page(p));
+    return points;
+  }
+
+  // How the normal at cos(a) axis_i + sin(a) axis_j turns towards the viewer: as cos(a - facing).
+  double facing(const SolidAxis& i, const SolidAxis& j) const {
+    const Vector3d& n = camera_.toward_viewer;
+    return std::atan2(n.dot(j.v) / j.v.squaredNorm(), n.dot(i.v) / i.v.squaredNorm());
+  }
+  static bool has_length(const SolidAxis& axis) { return axis.v.norm() > kNoLength; }
+
+  // Half of each principal ellipse, from where it meets the silhouette on, and half of each axis.
+  std::vector<Line> halves(double side) const {
+    std::vector<Line> lines;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      const SolidAxis &u = axes_[i], &v = axes_[(i + 1) % axes_.size()];
+      if (has_length(u)) {
+        const double toward = camera_.toward_viewer.dot(u.v) < 0 ? -side : side;
+        lines.push_back({Vector3d::Zero(), toward * u.v});
+      }
+      if (axes_.size() < 3 || !has_length(u) || !has_length(v)) continue;
+      const double middle = facing(u, v) + (side > 0 ? 0 : std::numbers::pi);
+      Line half;
+      for (int k = -kHalfTurn / 2; k <= kHalfTurn / 2; ++k) {
+        const double a = middle + k * std::numbers::pi / kHalfTurn;
+        half.push_back(std::cos(a) * u.v + std::sin(a) * v.v);
+      }
+      lines.push_back(std::move(half));
+    }
+    return lines;
+  }
+  std::vector<Line> near_lines() const { return finely(halves(1)); }
+  std::vector<Line> far_lines() const { return halves(-1); }
+
+  // Bodies may hide a part of a long line.
+  static std::vector<Line> finely(std::vector<Line> lines) {
+    for (Line& line : lines) {
+      if (line.size() != 2) continue;
+      const Line ends = line;
+      line.clear();
+      for (int i = 0; i <= kHalfTurn; ++i) line.push_back(ends[0] + double(i) / kHalfTurn * (ends[1] - ends[0]));
+    }
+    return lines;
+  }
+
+  // Where the surface turns away from the viewer: the image of a great circle of the unit sphere.
+  Line silhouette() const {
+    Vector3d w = Vector3d::Zero();
+    double largest = 0;
+    for (const SolidAxis& axis : axes_) largest = std::max(largest, axis.v.norm());
+    for (std::size_t i = 0; i < axes_.size() && i < 3; ++i) {
+      const double size = std::max(axes_[i].v.norm(), kNoLength * largest);
+      w[Eigen::Index(i)] = camera_.toward_viewer.dot(axes_[i].direction) / size;
+    }
+    if (axes_.size() < 3) w = Vector3d::UnitZ();  // the third one has no end, and is seen from there
+    const Vector3d a = w.norm() > 0 ? Vector3d(w.unitOrthogonal()) : Vector3d(Vector3d::UnitX());
+    const Vector3d b = w.norm() > 0 ? Vector3d(w.normalized().cross(a)) : Vector3d(Vector3d::UnitY());
+    Line line;
+    for (int k = 0; k <= 2 * kHalfTurn; ++k) {
+      const double angle = k * std::numbers::pi / kHalfTurn;
+      const Vector3d on_sphere = std::cos(angle) * a + std::sin(angle) * b;
+      Vector3d p = Vector3d::Zero();
+      for (std::size_t i = 0; i < axes_.size() && i < 3; ++i) p += on_sphere[Eigen::Index(i)] * axes_[i].v;
+      line.push_back(p);
+    }
+    return line;
+  }
+
+  // Those pieces of the line that a body hides, or the others.
+  void draw_pieces(Picture& picture, const Line& line, bool hidden, const Stroke& stroke, double width,
+                   int clip) const {
+    const double wide = stroke.width(width, style_);
+    std::vector<Point> piece;
+    const auto put_down = [&] {
+      // The edge ends before the line does, which goes on below.
+      if (stroke.wider > 0 && piece.size() > 2) piece = {piece.begin() + 1, piece.end() - 1};
+      if (piece.size() > 1) draw_outline(picture, piece, wide, stroke.color, fade_, clip);
+      piece.clear();
+    };
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      const bool is_hidden = style_.hides && style_.hides(0.5 * (line[i] + line[i + 1]));
+      if (is_hidden != hidden) {
+        put_down();
+        continue;
+      }
+      if (piece.empty()) piece.push_back(on_page(line[i]));
+      piece.push_back(on_page(line[i + 1]));
+    }
+    put_down();
+  }
+
+  // Dashes symmetric about the middle of the line's length.
+  void draw_dashed(Picture& picture, const Line& line, int clip) const {
+    const std::vector<Point> points = on_page(line);
+    std::vector<double> way{0};
+    for (std::size_t i = 1; i < points.size(); ++i)
+      way.push_back(way.back() + norm(points[i] - points[i - 1]));
+    const double whole = way.back(), period = kFarDash + kFarGap;
+    if (!(whole > kNoLength)) return;
+    const auto at = [&](double s) {
+      const auto after = std::lower_bound(way.begin() + 1, way.end() - 1, s);
+      const std::size_t i = std::size_t(after - way.begin());
+      const double step = way[i] - way[i - 1];
+      return points[i - 1] + (step > 0 ? (s - way[i - 1]) / step : 0) * (points[i] - points[i - 1]);
+    };
+    const int count = int(std::min(whole / 2, kBeyond) / period);
+    const Color color = style_.theme->ellipse.faded(kFarOpacity);
+    for (int i = -count; i <= count; ++i) {
+      const double from = std::max(0.0, whole / 2 + i * period - kFarDash / 2);
+      const double to = std::min(whole, whole / 2 + i * period + kFarDash / 2);
+      const double opacity = fade_.opacity_at(at((from + to) / 2));
+      if (from < to && opacity > 0)
+        draw_line(picture, {at(from), at(to)}, style_.lines * kFarLine, color.faded(opacity), clip);
+    }
+  }
+
+  // The length of each semi-axis at the end that faces the viewer, else at the other one.
+  void draw_numbers(Picture& picture, int clip) const {
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      const Point v = on_page(axes_[i].v) - center_;
+      if (!style_.signs || norm(v) < kLeastAxis) continue;
+      draw_length_along(picture, center_, v, axes_[i].length, spread_.reach(normal_to(unit(v))), style_,
+                        clip);
+      if (style_.labels == nullptr) continue;
+      const std::string unit_of = style_.reading == EllipseReading::energy ? " m/s" : " kg";
+      const TextLine number = lay_out_text(
+          *style_.fonts, format_significant(axes_[i].length, 2) + unit_of,
+          {Face::label, scaled(size::kTick, style_.text_scale), style_.theme->ellipse, Align::left});
+      const double toward = camera_.toward_viewer.dot(axes_[i].v) < 0 ? -1 : 1;
+      MarkWord word{"semi-axis", number, {}};
+      for (const double side : {toward, -toward}) {
+        const Point d = side * unit(v), end = center_ + side * v;
+        const Rect place = place_beyond(number, end, kNumberGap, d);
+        const Rect& scene = style_.scene;
+        if (place.x0 >= scene.x0 && place.x1 <= scene.x1 && place.y0 >= scene.y0 && place.y1 <= scene.y1)
+          word.places.push_back(place);
+      }
+      if (!word.places.empty()) style_.labels->add(std::move(word));
+    }
+  }
+
+  std::vector<SolidAxis> axes_;  // from the longest to the shortest
+  Point center_;
+  const Camera& camera_;
+  const EllipseStyle& style_;
+  Spread spread_;
+  Fade fade_;
+};
+
+// What pairs of planes with 13 normals leave of space.
+class Hull {
+ public:
+  Hull(const BodyShape& shape, const Workspace& ws) {
+    const Eigen::Isometry3d X_WB = pose_of(ws, shape.body);
+    const Eigen::Matrix3d axes = (X_WB * shape.X_BM).linear();
+    std::size_t n = 0;
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z) {
+          if (9 * x + 3 * y + z <= 0) continue;  // one of each pair
+          normals_[n] = axes * Vector3d(x, y, z);
+          low_[n] = HUGE_VAL, high_[n] = -HUGE_VAL;
+          for (const Vector3d& corner : shape.corners) {
+            const double at = normals_[n].dot(X_WB * corner);
+            low_[n] = std::min(low_[n], at);
+            high_[n] = std::max(high_[n], at);
+          }
+          ++n;
+        }
+  }
+
+  // Whether the ray from p along v has more of it than a touch.
+  bool is_met_by(const Vector3d& p, const Vector3d& v) const {
+    constexpr double kTouch = 1e-3;  // m
+    double in = 0, out = HUGE_VAL;
+    for (std::size_t n = 0; n < normals_.size(); ++n) {
+      const double at = normals_[n].dot(p), rate = normals_[n].dot(v);
+      if (std::abs(rate) < 1e-12) {
+        if (at < low_[n] || at > high_[n]) return false;
+        continue;
+      }
+      const double a = (low_[n] - at) / rate, b = (high_[n] - at) / rate;
+      in = std::max(in, std::min(a, b));
+      out = std::min(out, std::max(a, b));
+    }
+    return out > in + kTouch;
+  }
+
+ private:
+  std::array<Vector3d, 13> normals_;
+  std::array<double, 13> low_, high_;
+};
+
+}  // namespace
+
+void draw_ellipsoid(Picture& picture, const std::vector<MassAxis>& axes, Point center, const Camera& camera,
+                    const EllipseStyle& style, int clip) {
+  Ellipsoid(axes, center, camera, style).draw(picture, clip);
+}
+
+Hides robot_hides(const BodyShapes& shapes, const Workspace& ws, const Camera& camera, const Vector3d& tip) {
+  std::vector<Hull> hulls;
+  for (const BodyShape& shape : shapes.shapes)
+    if (!shape.corners.empty()) hulls.emplace_back(shape, ws);
+  const double share = 1 - camera.nearness * camera.toward_viewer.dot(tip - camera.focus);
+  const Vector3d toward = camera.seen_at(tip).toward_viewer;
+  return [hulls = std::move(hulls), tip, toward, metres = share / camera.scale](const Vector3d& place) {
+    const Vector3d p = tip + metres * place;
+    return std::any_of(hulls.begin(), hulls.end(),
+                       [&](const Hull& hull) { return hull.is_met_by(p, toward); });
+  };
+}
+
+}  // namespace chainreel
