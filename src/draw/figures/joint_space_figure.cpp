@@ -23,7 +23,6 @@ namespace {
 constexpr int kMostPoses = 3;
 constexpr double kFill = 0.16;
 constexpr double kWidestLabel = 0.25;  // of a frame
-constexpr double kNameBelow = 1.3;     // of the em, below the numbers
 constexpr double kAirAround = 1.25;  // of what is drawn, to the frame of its axes
 
 bool is_prismatic(const Chain& chain, int freedom) {
@@ -32,25 +31,16 @@ bool is_prismatic(const Chain& chain, int freedom) {
   return false;
 }
 
-// A symbol of the equation of motion, "qdd1", and its unit.
-struct AxisName {
-  std::string symbol, unit;
-};
-
-AxisName acceleration(const Chain& chain, int joint) {
-  return {"qdd" + std::to_string(joint + 1), is_prismatic(chain, joint) ? " [m/s\u00B2]" : " [rad/s\u00B2]"};
+std::string acceleration_title(const Chain& chain, int joint) {
+  return "$qdd" + std::to_string(joint + 1) + (is_prismatic(chain, joint) ? "$ [m/s\u00B2]" : "$ [rad/s\u00B2]");
 }
 
-AxisName torque(const Chain& chain, int joint) {
-  return {"tau" + std::to_string(joint + 1), is_prismatic(chain, joint) ? " [N]" : " [N m]"};
+std::string torque_title(const Chain& chain, int joint) {
+  return "$tau" + std::to_string(joint + 1) + (is_prismatic(chain, joint) ? "$ [N]" : "$ [N m]");
 }
 
-// With room for the names of its axes.
-PlotFrame frame_in(const Rect& area, double most, const PlotStyle& style) {
-  const Axis axis{Scale::linear, -most, most, "q"};
-  PlotFrame frame = lay_out_plot(area, axis, axis, style);
-  frame.x.title = frame.y.title = "";
-  return frame;
+PlotFrame frame_in(const Rect& area, double most, const std::string& x, const std::string& y, const PlotStyle& style) {
+  return lay_out_plot(area, {Scale::linear, -most, most, x}, {Scale::linear, -most, most, y}, style);
 }
 
 // Axes with the same length per unit both ways, in the middle of where they were: squares of one size on one base line.
@@ -60,22 +50,6 @@ void make_equal_squares(PlotFrame& a, PlotFrame& b) {
     const Point middle{(frame->box.x0 + frame->box.x1) / 2, (frame->box.y0 + frame->box.y1) / 2};
     frame->box = {middle.x - side / 2, middle.y - side / 2, middle.x + side / 2, middle.y + side / 2};
   }
-}
-
-// The horizontal one's below its middle, the vertical one's above the frame.
-void draw_named_axes(Picture& picture, const PlotFrame& frame, const AxisName& x, const AxisName& y,
-                     const PlotStyle& style) {
-  draw_axes(picture, frame, style);
-  const double em = style.text(size::kAxis);
-  const auto draw_name = [&](const AxisName& name, Point at, bool centred) {
-    const TextLine symbol = lay_out_math(*style.fonts, name.symbol, {Face::math, em, style.theme->ink, Align::left});
-    const TextLine unit = lay_out_text(*style.fonts, name.unit, {Face::label, em, style.theme->ink, Align::left});
-    if (centred) at.x -= (symbol.advance + unit.advance) / 2;
-    draw_text(picture, symbol, at);
-    draw_text(picture, unit, {at.x + symbol.advance, at.y});
-  };
-  draw_name(x, {(frame.box.x0 + frame.box.x1) / 2, tick_base_line(frame, style) - kNameBelow * em}, true);
-  draw_name(y, {frame.box.x0, frame.box.y1 + title_above_frame(style)}, false);
 }
 
 // The image of the unit circle under a symmetric positive matrix, whose eigenvectors are its axes, with the images of the unit vectors as arrows.
@@ -182,11 +156,14 @@ Picture draw_joint_space_figure(const Chain& chain, const std::vector<std::vecto
     if (options.letters) below = draw_letter(picture, i, below, options.text_scale, theme, fonts);
     draw_text(picture, fit_math(fonts, pose_notations(chain, poses[i]), caption, below.width(), options.text_scale),
               {(below.x0 + below.x1) / 2, bottom + 0.3 * caption.size});
-    PlotFrame from = frame_in(area(1), kAirAround, style), to = frame_in(area(2), kAirAround * most, style);
+    PlotFrame from = frame_in(area(1), kAirAround, acceleration_title(chain, joints[0]),
+                              acceleration_title(chain, joints[1]), style);
+    PlotFrame to = frame_in(area(2), kAirAround * most, torque_title(chain, joints[0]), torque_title(chain, joints[1]),
+                            style);
     make_equal_squares(from, to);
-    draw_named_axes(picture, from, acceleration(chain, joints[0]), acceleration(chain, joints[1]), style);
+    draw_axes(picture, from, style);
     draw_image(picture, from, Eigen::Matrix2d::Identity(), "qdd", joints, style);
-    draw_named_axes(picture, to, torque(chain, joints[0]), torque(chain, joints[1]), style);
+    draw_axes(picture, to, style);
     draw_image(picture, to, maps[i], "qdd", joints, style);
   }
   draw_sheet(picture, sheet);
