@@ -195,7 +195,7 @@ TEST(Ellipse, IsNowhereCutFlatWhereOneEndLeavesTheScene) {
     const Rect& scene = at_edge.style.scene;
     double near_edge = 0;
     for (int i = 0; i < 100000; ++i) {
-      const double angle = 2 * kPi * i / 100000;
+      const double angle = 2 * std::numbers::pi * i / 100000;
       const Point p = ellipse.center + std::cos(angle) * ellipse.u + std::sin(angle) * ellipse.v;
       const double inside = std::min({p.x - scene.x0, scene.x1 - p.x, p.y - scene.y0, scene.y1 - p.y});
       if (std::abs(inside) < 1e-4) near_edge = std::max(near_edge, ellipse.fade.opacity_at(p));
