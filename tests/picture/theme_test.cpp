@@ -29,7 +29,7 @@ std::vector<Row> light_rows() {
           {"force", t.force, 12.4},     {"constraint", t.constraint, 12.3},
           {"curve 1", t.curve[0], 5.2}, {"curve 2", t.curve[1], 4.5},
           {"curve 3", t.curve[2], 7.7}, {"A", t.side_a, 5.2},
-          {"B", t.side_b, 3.9},         {"x", t.axis[0], 5.5},
+          {"B", t.side_b, 4.5},         {"x", t.axis[0], 5.5},
           {"y", t.axis[1], 5.3},        {"z", t.axis[2], 7.0}};
 }
 
@@ -111,9 +111,12 @@ TEST(Theme, RedAndGreenOfAFrameAreConfusedWhichIsWhyAxesBearLetters) {
   EXPECT_GT(difference(Vision::normal, light_theme().axis[0], light_theme().axis[1]), 40);
 }
 
+// Four times the distance that any two marks have; both sides are words too, and so at least 4.5 above the page.
 TEST(Theme, TwoSidesOfAComparisonAreFarApart) {
-  for (const Vision vision : kVisions)
-    EXPECT_GE(difference(vision, light_theme().side_a, light_theme().side_b), 48.5) << int(vision);
+  for (const Theme* theme : {&light_theme(), &dark_theme()}) {
+    for (const Vision vision : kVisions) EXPECT_GE(difference(vision, theme->side_a, theme->side_b), 48) << int(vision);
+    for (const Color side : {theme->side_a, theme->side_b}) EXPECT_GE(contrast(side, theme->background), 4.5);
+  }
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ TEST_F(CompareScene, TakesOverridesOfTheSceneAndOfItsPanels) {
 
 TEST_F(CompareScene, NamesPanelsByWhatDiffers) {
   EXPECT_THAT(titles(read("method: rk4\ncompare: [{method: explicit_euler}, {}]\n")),
-              ElementsAre("explicit_euler", "rk4"));
+              ElementsAre("explicit Euler", "RK4"));
   EXPECT_THAT(titles(read("compare: [{step: 0.01, method: rk4}, {step: 0.001, method: rk4, title: mine}]\n")),
               ElementsAre("step 0.01 s", "mine"));
   EXPECT_THAT(titles(read("compare: [{torque: [1, 0]}, {torque: [2, 0]}]\n")),

@@ -66,7 +66,7 @@ class Field : public Layer {
                                        {first, high}, {last, high}, {last, low}, {first, low}}};
     for (const Point& place : places) {
       const Rect covered{place.x + ink.x0, place.y + ink.y0, place.x + ink.x1, place.y + ink.y1};
-      if (holds(area, covered) && is_free(panel, widened(covered, kFieldAir))) return place;
+      if (holds(area, widened(covered, kFieldAir / 2)) && is_free(panel, widened(covered, kFieldAir))) return place;
     }
     return std::nullopt;
   }
