@@ -90,9 +90,14 @@ TEST_P(EveryScene, ShowsTheGripperWhereThePhysicsHasItAndNotElsewhere) {
   const Color ink = prepared_.panels.front().shapes ? light_theme().ellipse : light_theme().ink;
   const Image picture = image(kFrame);
   ASSERT_FALSE(moving_panels(kFrame).empty());
-  // A disc of 5 px: its centre pixel is flat ink.
-  for (const int panel : moving_panels(kFrame))
-    EXPECT_EQ(pixel_at(picture, panel, gripper(panel, kFrame)), (Pixel{ink.r, ink.g, ink.b, 255})) << panel;
+  // A disc of 5 px: its centre pixel is flat ink. Where lines cross, their edges come into it by one step of a colour.
+  const int step = prepared_.panels.front().shapes ? 1 : 0;
+  for (const int panel : moving_panels(kFrame)) {
+    const Pixel seen = pixel_at(picture, panel, gripper(panel, kFrame));
+    EXPECT_NEAR(seen.r, ink.r, step) << panel;
+    EXPECT_NEAR(seen.g, ink.g, step) << panel;
+    EXPECT_NEAR(seen.b, ink.b, step) << panel;
+  }
   // Negative control: some disc's widths away there is no gripper.
   const Color disc = light_theme().ink;
   for (const int panel : moving_panels(kFrame)) {

@@ -1,6 +1,5 @@
 #include "draw/layers/ellipsoid.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
