@@ -33,6 +33,7 @@ int run(int argc, char** argv) {
   add_extract_command(app);
   add_compare_command(app);
   add_dynamics_command(app);
+  add_equations_command(app);
   add_inverse_command(app);
   add_init_command(app);
   add_check_command(app);

@@ -86,6 +86,7 @@ class EveryCommand : public ::testing::Test {
         {"extract", {{clip}, ".yaml"}},
         {"compare", {{clip, clip}, ".png"}},
         {"dynamics", {{"models/rr.urdf", "--q", "0.1,1"}, ""}},
+        {"equations", {{"models/rr.urdf"}, ".tex"}},
         {"inverse", {{"models/rr.urdf", "--trajectory", inputs_->file("q.csv")}, ".csv"}},
         {"init", {{}, ".yaml", true}},
         {"check", {{kScene}, ""}},

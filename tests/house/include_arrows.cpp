@@ -107,14 +107,17 @@ const House& house() {
               {"encode", {"core"}},
               {"model", {"core", "mesh"}},
               {"dynamics", {"model"}},
+              {"symbols", {"dynamics"}},
               {"render", {"picture", "mesh"}},
               {"sim", {"dynamics", "integrate", "expr"}},
               {"scene", {"sim"}},
               {"draw", {"scene", "picture"}},
-              {"app", {"draw", "render", "encode", "compare"}}};
+              {"app", {"draw", "render", "encode", "compare", "symbols"}}};
     h.libraries = {{"nlohmann/", {"core"}},
                    {"openssl/", {"core"}},
                    {"assimp/", {"mesh"}},
+                   {"ginac/", {"symbols"}},
+                   {"cln/", {"symbols"}},
                    {"hb", {"picture"}},
                    {"ft2build.h", {"picture", "render"}},
                    {"freetype/", {"picture", "render"}},

@@ -1,0 +1,21 @@
+// An equation of motion as text, as LaTeX and as a module of Python.
+#pragma once
+
+#include <string>
+
+#include "symbols/equation.hpp"
+
+namespace chainreel {
+
+enum class Notation { text, latex, python };
+
+// `angle`: "q" or "theta", the letter of coordinates that turn; in Python q is an array of all.
+std::string formula_in(Notation notation, const SymbolicEquation& equation, const Formula& formula,
+                          const std::string& angle = "q");
+
+// The whole of it, lines that end; with the values of its symbols.
+std::string text_of(const SymbolicEquation& equation, const std::string& angle = "q");
+std::string latex_of(const SymbolicEquation& equation, const std::string& angle = "q");
+std::string python_of(const SymbolicEquation& equation);
+
+}  // namespace chainreel

@@ -1,0 +1,80 @@
+// `equations`: its Python is that which it prints, and says what `dynamics` says.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/json.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+// Debian's own, which has its packages.
+constexpr const char* kPython = "/usr/bin/python3";
+
+// M, C qd + g, J and Lambda from the module in one state, as JSON.
+const char* const kProbe =
+    "import json, importlib.util as u\n"
+    "s = u.spec_from_file_location('m', 'MODULE'); m = u.module_from_spec(s); s.loader.exec_module(m)\n"
+    "import numpy as np\n"
+    "q, qd, tau = np.array([Q]), np.array([QD]), np.array([TAU])\n"
+    "print(json.dumps({'M': m.M(q).tolist(), 'nle': (m.C(q, qd) @ qd + m.g(q)).tolist(), 'J': m.J(q).tolist(),\n"
+    "  'Lambda': m.Lambda(q).tolist(), 'qdd': m.forward(q, qd, tau).tolist()}))\n";
+
+std::string replaced(std::string text, const std::string& word, const std::string& by) {
+  return text.replace(text.find(word), word.size(), by);
+}
+
+void expect_near(const Json& a, const Json& b, const std::string& what) {
+  ASSERT_EQ(a.size(), b.size()) << what;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (a[i].is_array())
+      expect_near(a[i], b[i], what);
+    else  // some hundred roundings of numbers up to 100
+      EXPECT_NEAR(a[i].get<double>(), b[i].get<double>(), 1e-10 * (1 + std::abs(b[i].get<double>()))) << what;
+}
+
+TEST(Equations, AsPythonSayWhatDynamicsSays) {
+  if (!std::filesystem::exists(kPython)) GTEST_SKIP() << "needs Debian's python3 with python3-numpy";
+  const struct {
+    const char *model, *q, *qd, *tau;
+  } cases[] = {{"rr", "0.3,1.1", "0.5,-2", "1,2"}, {"rrr", "0.3,1.1,-0.7", "0.5,-2,1", "1,2,-3"}, {"pp", "0.3,1.1", "0.5,-2", "1,2"}};
+  for (const auto& c : cases) {
+    const TemporaryFolder folder;
+    const std::string model = std::string("models/") + c.model + ".urdf", module = folder.file("m.py");
+    ASSERT_EQ(run_program({"equations", model, "--python", "-o", module}).status, 0);
+    folder.write("probe.py", replaced(replaced(replaced(replaced(kProbe, "MODULE", module), "[Q]", "[" + std::string(c.q) + "]"), "[QD]",
+                                               "[" + std::string(c.qd) + "]"),
+                                      "[TAU]", "[" + std::string(c.tau) + "]"));
+    const ProgramResult said = run_command({kPython, folder.file("probe.py")});
+    ASSERT_EQ(said.status, 0) << said.err;
+    const Json python = Json::parse(said.out);
+    const Json numbers = Json::parse(run_program({"dynamics", model, "--q=" + std::string(c.q), "--qd=" + std::string(c.qd),
+                                                  "--tau=" + std::string(c.tau), "--json"})
+                                         .out);
+    for (const char* key : {"M", "nle", "J", "Lambda", "qdd"}) expect_near(python[key], numbers[key], c.model + std::string(" ") + key);
+  }
+}
+
+TEST(Equations, TakeWhatASceneSaysOfItsMechanism) {
+  const ProgramResult pen = run_program({"equations", "assets/scenes/pen.yaml"});
+  EXPECT_EQ(pen.status, 0) << pen.err;
+  EXPECT_THAT(pen.out, HasSubstr("the scene's constraints are not in it"));
+  const ProgramResult down = run_program({"equations", "models/rr.urdf", "--gravity", "0,0,0", "--json"});
+  EXPECT_EQ(Json::parse(down.out)["g"], Json({"0", "0"}));
+}
+
+TEST(Equations, RefuseWhatTheyCannotSay) {
+  EXPECT_THAT(run_program({"equations", "models/arm.urdf"}).err, AllOf(HasSubstr("1 to 4 joints"), HasSubstr("chainreel dynamics")));
+  EXPECT_EQ(run_program({"equations", "models/arm.urdf"}).status, 3);
+  EXPECT_EQ(run_program({"equations", "models/rr.urdf", "--latex", "--python"}).status, 2);
+  EXPECT_EQ(run_program({"equations", "models/rr.urdf", "--python", "--theta"}).status, 2);
+}
+
+}  // namespace
+}  // namespace chainreel

@@ -1,0 +1,41 @@
+// The three ways of writing an equation.
+#include "symbols/notation.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/chains.hpp"
+
+namespace chainreel::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(Notation, TakesTogetherWhatHasTheSameFactor) {
+  const SymbolicEquation rrr = symbolic_equation_of(rrr_chain());
+  EXPECT_EQ(formula_in(Notation::text, rrr, rrr.C.at(0, 1)),
+            "-1/2 m_3 L_2 L_3 qd_3 sin(q_3) - (1/2 m_2 + m_3) L_1 L_2 (qd_1 + qd_2) sin(q_2) - "
+            "1/2 m_3 L_1 L_3 (qd_1 + qd_2 + qd_3) sin(q_2 + q_3)");
+  const SymbolicEquation pp = symbolic_equation_of(pp_chain());
+  EXPECT_EQ(formula_in(Notation::text, pp, pp.M.at(0, 0)), "m_1 + m_2");
+}
+
+TEST(Notation, OfLatexHasBracesAndOneMatrixOrOneLineAnEntry) {
+  const std::string latex = latex_of(symbolic_equation_of(rr_chain()), "theta");
+  EXPECT_THAT(latex, AllOf(HasSubstr("M_{11} &= (m_{1} + m_{2}) L_{1}^{2} + m_{2} L_{2}^{2} + 2 m_{2} L_{1} L_{2} \\cos \\theta_{2}"),
+                           HasSubstr("\\dot{\\theta}_{2}"), HasSubstr("\\begin{bmatrix}"), HasSubstr("\\Lambda = J^{-T} M J^{-1}"),
+                           HasSubstr("% m_{1} = 1 kg"), Not(HasSubstr("q_"))));
+  EXPECT_EQ(std::count(latex.begin(), latex.end(), '{'), std::count(latex.begin(), latex.end(), '}'));
+}
+
+TEST(Notation, TellsEverySymbolWithValueAndUnit) {
+  const std::string text = text_of(symbolic_equation_of(rr_chain({.L1 = 0.7})));
+  EXPECT_THAT(text, AllOf(HasSubstr("L_1     = 0.7 m "), HasSubstr("g       = 9.81 m/s^2"), HasSubstr("qd_1    in rad/s")));
+}
+
+}  // namespace
+}  // namespace chainreel::test
