@@ -81,7 +81,6 @@ void add_simulate_command(CommandLine& app);
 void add_extract_command(CommandLine& app);
 void add_compare_command(CommandLine& app);
 void add_dynamics_command(CommandLine& app);
-void add_equations_command(CommandLine& app);
 void add_inverse_command(CommandLine& app);
 void add_init_command(CommandLine& app);
 void add_check_command(CommandLine& app);

@@ -1,121 +1,45 @@
 // chainreel equations MODEL | SCENE [--latex | --python] [--theta] [-o FILE]
+#include "app/commands/equations_command.hpp"
 
-#include <cstdio>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 
-#include "app/cli/command.hpp"
-#include "app/cli/streams.hpp"
-#include "app/film/model_scene.hpp"
-#include "app/film/prepared.hpp"
 #include "core/error.hpp"
-#include "core/json.hpp"
-#include "core/output_file.hpp"
-#include "model/read_chain.hpp"
-#include "symbols/notation.hpp"
 
 namespace chainreel {
 namespace {
 
-struct EquationsOptions {
-  std::string file;
-  int panel = 0;  // of a scene, from 1; 0: the only one
-  std::string gravity, end_effector, output;
-  bool latex = false, python = false, theta = false;
-  CommonOptions common;
-};
+// Beside this program as built, and as installed.
+constexpr const char* kPlaces[] = {"chainreel-equations", "../libexec/chainreel/chainreel-equations"};
 
-std::vector<std::string> overrides_of(const EquationsOptions& options) {
-  std::vector<std::string> overrides = overrides_of(options.common);
-  if (!options.gravity.empty()) overrides.push_back(gravity_override(options.gravity));
-  if (!options.end_effector.empty()) overrides.push_back("end_effector=" + Json(options.end_effector).dump());
-  return overrides;
-}
-
-// The equation of the mechanism of a model, or of a scene's with what the scene says of it.
-SymbolicEquation equation_of(const EquationsOptions& options) {
-  if (is_model_file(options.file)) {
-    if (options.panel > 0) throw Error(ExitCode::usage, "--panel goes with a scene");
-    std::vector<std::string> honoured = keys_of_models(OfModel::mechanism);
-    honoured.push_back("end_effector");
-    ModelScene model = model_scene_of(options.file, overrides_of(options), "equations", honoured);
-    model.options.meshes = false;
-    return symbolic_equation_of(read_chain(options.file, model.options));
-  }
-  const PreparedFilm film = load_film(options.file, overrides_of(options), false);
-  if (options.panel > int(film.panels.size()))
-    throw Error(ExitCode::usage, "--panel " + std::to_string(options.panel) + ": the scene has " +
-                                     std::to_string(film.panels.size()));
-  if (options.panel == 0) require_single_run(film.scene);
-  const Simulation& simulation = film.panels[std::size_t(std::max(options.panel, 1) - 1)].simulation;
-  SymbolicEquation equation = symbolic_equation_of(simulation.chain);
-  if (!simulation.constraints.empty())
-    equation.notes.push_back("the scene's constraints are not in it: they add J_c^T lambda to tau");
-  return equation;
-}
-
-Json matrix_json(const SymbolicEquation& equation, const FormulaMatrix& m) {
-  Json rows = Json::array();
-  for (int r = 0; r < m.rows; ++r) {
-    Json row = Json::array();
-    for (int c = 0; c < m.columns; ++c) row.push_back(formula_in(Notation::text, equation, m.at(r, c)));
-    rows.push_back(row);
-  }
-  return rows;
-}
-
-Json list_json(const SymbolicEquation& equation, const std::vector<Formula>& list) {
-  Json entries = Json::array();
-  for (const Formula& e : list) entries.push_back(formula_in(Notation::text, equation, e));
-  return entries;
-}
-
-Json json_of(const SymbolicEquation& equation) {
-  Json json{{"model", equation.model}, {"coordinates", equation.coordinates}};
-  json["M"] = matrix_json(equation, equation.M);
-  json["C"] = matrix_json(equation, equation.C);
-  json["g"] = list_json(equation, equation.g);
-  json["damping"] = list_json(equation, equation.damping);
-  json["friction"] = list_json(equation, equation.friction);
-  if (!equation.end_effector.empty()) {
-    json["end_effector"] = equation.end_effector;
-    json["J"] = matrix_json(equation, equation.J);
-    json["Lambda"] = nullptr;
-    if (equation.Lambda)
-      json["Lambda"] = {{"numerator", matrix_json(equation, equation.Lambda->numerator)},
-                        {"root_of_denominator", formula_in(Notation::text, equation, equation.Lambda->root)}};
-  }
-  json["symbols"] = Json::array();
-  for (const Symbol& symbol : equation.symbols)
-    if (!symbol.is_coordinate())
-      json["symbols"].push_back({{"letter", symbol.letter},
-                                 {"index", symbol.index},
-                                 {"value", symbol.value},
-                                 {"unit", symbol.unit},
-                                 {"meaning", symbol.meaning}});
-  json["notes"] = equation.notes;
-  return json;
-}
-
-void run_equations(const EquationsOptions& options) {
-  if (int(options.latex) + int(options.python) + int(options.common.json) > 1)
-    throw Error(ExitCode::usage, "--latex, --python and --json are three forms of one thing: take one of them");
-  if (options.theta && (options.python || options.common.json))
-    throw Error(ExitCode::usage, "--theta is for text and LaTeX: the angles are q in Python and JSON");
-  const SymbolicEquation equation = equation_of(options);
-  const std::string angle = options.theta ? "theta" : "q";
-  const std::string text = options.common.json ? json_of(equation).dump(2) + "\n"
-                           : options.latex     ? latex_of(equation, angle)
-                           : options.python    ? python_of(equation)
-                                               : text_of(equation, angle);
-  if (options.output.empty())
-    std::fputs(text.c_str(), stdout);
-  else
-    write_text_file(options.output, text, options.common.force);
+// The words that this process was started with.
+std::vector<std::string> own_words() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
+  return words;
 }
 
 }  // namespace
 
-void add_equations_command(CommandLine& app) {
+void run_equations_elsewhere(const EquationsOptions&) {
+  std::vector<std::string> words = own_words();
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  for (const char* place : kPlaces) execv((folder / place).c_str(), pointers.data());
+  throw Error(ExitCode::no_renderer, "chainreel-equations cannot be started from " + folder.string() + ": " + std::strerror(errno) +
+                                         "; it is part of every build and package, install them whole");
+}
+
+void add_equations_command(CommandLine& app, void (*run)(const EquationsOptions&)) {
   auto options = std::make_shared<EquationsOptions>();
   Command* command = app.add_subcommand(
       "equations", "M(q), C(q, qd), g(q), J and Lambda of a chain of up to four joints in symbols, as text, LaTeX or Python");
@@ -131,7 +55,7 @@ void add_equations_command(CommandLine& app) {
   add_json_option(*command, options->common);
   add_force_option(*command, options->common);
   command->footer("Example: chainreel equations models/rr.urdf --latex -o rr.tex");
-  command->callback([options] { run_equations(*options); });
+  command->callback([options, run] { run(*options); });
 }
 
 }  // namespace chainreel

@@ -1,0 +1,116 @@
+// chainreel-equations: the one command that computes in symbols.
+#include <algorithm>
+#include <cstdio>
+
+#include "app/commands/equations_command.hpp"
+#include "app/film/model_scene.hpp"
+#include "app/film/prepared.hpp"
+#include "app/main_program.hpp"
+#include "core/error.hpp"
+#include "core/json.hpp"
+#include "core/output_file.hpp"
+#include "model/read_chain.hpp"
+#include "symbols/notation.hpp"
+
+namespace chainreel {
+namespace {
+
+std::vector<std::string> overrides_of(const EquationsOptions& options) {
+  std::vector<std::string> overrides = overrides_of(options.common);
+  if (!options.gravity.empty()) overrides.push_back(gravity_override(options.gravity));
+  if (!options.end_effector.empty()) overrides.push_back("end_effector=" + Json(options.end_effector).dump());
+  return overrides;
+}
+
+// The equation of the mechanism of a model, or of a scene's with what the scene says of it.
+SymbolicEquation equation_of(const EquationsOptions& options) {
+  if (is_model_file(options.file)) {
+    if (options.panel > 0) throw Error(ExitCode::usage, "--panel goes with a scene");
+    std::vector<std::string> honoured = keys_of_models(OfModel::mechanism);
+    honoured.push_back("end_effector");
+    ModelScene model = model_scene_of(options.file, overrides_of(options), "equations", honoured);
+    model.options.meshes = false;
+    return symbolic_equation_of(read_chain(options.file, model.options));
+  }
+  const PreparedFilm film = load_film(options.file, overrides_of(options), false);
+  if (options.panel > int(film.panels.size()))
+    throw Error(ExitCode::usage, "--panel " + std::to_string(options.panel) + ": the scene has " +
+                                     std::to_string(film.panels.size()));
+  if (options.panel == 0) require_single_run(film.scene);
+  const Simulation& simulation = film.panels[std::size_t(std::max(options.panel, 1) - 1)].simulation;
+  SymbolicEquation equation = symbolic_equation_of(simulation.chain);
+  if (!simulation.constraints.empty())
+    equation.notes.push_back("the scene's constraints are not in it: they add J_c^T lambda to tau");
+  return equation;
+}
+
+Json matrix_json(const SymbolicEquation& equation, const FormulaMatrix& m) {
+  Json rows = Json::array();
+  for (int r = 0; r < m.rows; ++r) {
+    Json row = Json::array();
+    for (int c = 0; c < m.columns; ++c) row.push_back(formula_in(Notation::text, equation, m.at(r, c)));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json list_json(const SymbolicEquation& equation, const std::vector<Formula>& list) {
+  Json entries = Json::array();
+  for (const Formula& e : list) entries.push_back(formula_in(Notation::text, equation, e));
+  return entries;
+}
+
+Json json_of(const SymbolicEquation& equation) {
+  Json json{{"model", equation.model}, {"coordinates", equation.coordinates}};
+  json["M"] = matrix_json(equation, equation.M);
+  json["C"] = matrix_json(equation, equation.C);
+  json["g"] = list_json(equation, equation.g);
+  json["damping"] = list_json(equation, equation.damping);
+  json["friction"] = list_json(equation, equation.friction);
+  if (!equation.end_effector.empty()) {
+    json["end_effector"] = equation.end_effector;
+    json["J"] = matrix_json(equation, equation.J);
+    json["Lambda"] = nullptr;
+    if (equation.Lambda)
+      json["Lambda"] = {{"numerator", matrix_json(equation, equation.Lambda->numerator)},
+                        {"root_of_denominator", formula_in(Notation::text, equation, equation.Lambda->root)}};
+  }
+  json["symbols"] = Json::array();
+  for (const Symbol& symbol : equation.symbols)
+    if (!symbol.is_coordinate())
+      json["symbols"].push_back({{"letter", symbol.letter},
+                                 {"index", symbol.index},
+                                 {"value", symbol.value},
+                                 {"unit", symbol.unit},
+                                 {"meaning", symbol.meaning}});
+  json["notes"] = equation.notes;
+  return json;
+}
+
+void run_equations(const EquationsOptions& options) {
+  if (int(options.latex) + int(options.python) + int(options.common.json) > 1)
+    throw Error(ExitCode::usage, "--latex, --python and --json are three forms of one thing: take one of them");
+  if (options.theta && (options.python || options.common.json))
+    throw Error(ExitCode::usage, "--theta is for text and LaTeX: the angles are q in Python and JSON");
+  const SymbolicEquation equation = equation_of(options);
+  const std::string angle = options.theta ? "theta" : "q";
+  const std::string text = options.common.json ? json_of(equation).dump(2) + "\n"
+                           : options.latex     ? latex_of(equation, angle)
+                           : options.python    ? python_of(equation)
+                                               : text_of(equation, angle);
+  if (options.output.empty())
+    std::fputs(text.c_str(), stdout);
+  else
+    write_text_file(options.output, text, options.common.force);
+}
+
+void add_commands(CommandLine& app) {
+  add_equations_command(app, run_equations);
+}
+
+}  // namespace
+}  // namespace chainreel
+
+int main(int argc, char** argv) {
+  return chainreel::main_program(argc, argv, chainreel::add_commands);
+}
