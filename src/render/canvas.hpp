@@ -1,5 +1,5 @@
-// Shapes to pixels: one off-screen OpenGL context and the shader pairs of shaders/. Not shared between
-// threads.
+// Shapes to pixels: what lies under a film by an off-screen OpenGL context and the shader pairs of shaders/, what moves over
+// it in memory, with the same bytes. Not shared between threads.
 #pragma once
 
 #include <memory>
@@ -28,11 +28,20 @@ struct CanvasFrame {
   std::vector<PixelBox> changed;  // boxes that do not overlap; the whole at first
 };
 
+// What does not change between frames, drawn once: for canvases of several threads.
+struct StaticLayer {
+  Image pixels;      // premultiplied by their opacity
+  double alpha = 1;  // of the background
+  int largest_side = 0;  // of a picture that the renderer can draw
+};
+
 class Canvas {
  public:
   // Throws Error (exit 4) where there is no OpenGL 3.3 core context, exit 7 where the size is beyond its
   // limits.
   Canvas(int width, int height, const Fonts& fonts);
+  // Of the layer's size, over it. Needs no OpenGL.
+  Canvas(std::shared_ptr<const StaticLayer> layer, const Fonts& fonts);
   ~Canvas();
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
@@ -42,7 +51,8 @@ class Canvas {
   // What does not change between frames: drawn once, copied under every later draw(). The picture's
   // background fills the page. Without a call the page is the drawn picture's own background.
   void set_static_layer(const Picture& picture);
-  // Draws over the static layer and reads the pixels back. Only those tiles are drawn and read in which the picture's
+  std::shared_ptr<const StaticLayer> static_layer() const;
+  // Draws over the static layer. Only those tiles are drawn in which the picture's
   // shapes differ from those of the picture before: the bytes are the same as if all were. The frame stays the canvas's,
   // until the next call.
   const CanvasFrame& draw(const Picture& picture);

@@ -5,7 +5,7 @@
 
 namespace chainreel {
 
-SolidLayer::SolidLayer(const GlFunctions& gl, int width, int height) : gl_(gl), grid_(width, height) {}
+SolidLayer::SolidLayer(int width, int height) : grid_(width, height) {}
 
 const SolidMesh& SolidLayer::mesh_of(const std::shared_ptr<const TriangleMesh>& mesh) {
   std::unique_ptr<SolidMesh>& own = meshes_[mesh.get()];
@@ -58,22 +58,14 @@ void SolidLayer::find_shown(const PixelBox& box, const BodyPixels& pixels, BoxJo
       if (const PixelBox tile{left, top, side, side}; !pixels.is_empty(tile)) shown.add(common_part(box, tile));
 }
 
-void SolidLayer::draw(const PlacedSolids& placed, const BodyPaint& paint, const std::vector<PixelBox>& boxes, const Target& page) {
+void SolidLayer::draw(const PlacedSolids& placed, const BodyPaint& paint, const std::vector<PixelBox>& boxes, std::uint32_t* page) {
   fill(placed, paint.radius, boxes);
   const BodyPixels pixels(samples_, paint);
   shown_.clear();
   BoxJoiner shown(shown_);
   for (const PixelBox& box : boxes) find_shown(box, pixels, shown);
-  // Pixels of the page are in this memory, too: to blend them here takes a tenth of what a shader takes.
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, page.framebuffer());
-  gl_.BindTexture(GL_TEXTURE_2D, page.texture());
-  gl_.PixelStorei(GL_PACK_ROW_LENGTH, 0);
-  for (const PixelBox& box : shown_) {
-    pixels_.resize(std::size_t(box.width) * std::size_t(box.height));
-    gl_.ReadPixels(box.x, box.y, box.width, box.height, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, pixels_.data());
-    pixels.draw_over(box, pixels_.data(), box.width);
-    gl_.TexSubImage2D(GL_TEXTURE_2D, 0, box.x, box.y, box.width, box.height, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, pixels_.data());
-  }
+  for (const PixelBox& box : shown_)
+    pixels.draw_over(box, page + std::ptrdiff_t(box.y) * grid_.width + box.x, grid_.width);
 }
 
 }  // namespace chainreel

@@ -1,27 +1,28 @@
 // Bodies in space, drawn tile by tile where they are: several samples a pixel, with depth, which then become pixels that are
-// put down on the page. Needs a current context.
+// put down on the page.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <vector>
 
 #include "render/body_pixels.hpp"
-#include "render/gl_objects.hpp"
 #include "render/placed_solids.hpp"
+#include "render/tile_mask.hpp"
 
 namespace chainreel {
 
 class SolidLayer {
  public:
   // For pages of this size.
-  SolidLayer(const GlFunctions& gl, int width, int height);
+  SolidLayer(int width, int height);
 
   // Places the bodies, which are put down like this. Throws Error (exit 3) for a mesh that is none.
   void place(const Solids& solids, const BodyPaint& paint, PlacedSolids& placed);
 
-  // Draws what of them lies in the boxes over what is on the page.
-  void draw(const PlacedSolids& placed, const BodyPaint& paint, const std::vector<PixelBox>& boxes, const Target& page);
+  // Draws what of them lies in the boxes over the page, premultiplied, blue in the lowest byte.
+  void draw(const PlacedSolids& placed, const BodyPaint& paint, const std::vector<PixelBox>& boxes, std::uint32_t* page);
 
  private:
   const SolidMesh& mesh_of(const std::shared_ptr<const TriangleMesh>& mesh);
@@ -29,11 +30,9 @@ class SolidLayer {
   void fill(const PlacedSolids& placed, double rim, const std::vector<PixelBox>& boxes);
   void find_shown(const PixelBox& box, const BodyPixels& pixels, BoxJoiner& shown) const;
 
-  const GlFunctions& gl_;
   SampleGrid grid_;
   TileSamples tile_;
   BodySamples samples_;
-  std::vector<std::uint32_t> pixels_;
   std::vector<PixelBox> shown_;
   std::vector<std::uint8_t> is_wanted_;  // of the tiles of the samples
   std::map<const TriangleMesh*, std::unique_ptr<SolidMesh>> meshes_;

@@ -35,12 +35,17 @@ std::string chunk_key(const VideoSettings& s, const std::string& film_key) {
   return sha256_of(program + film_key + json.dump());
 }
 
+// What lies under all frames. The renderer, which takes more memory than all else, goes when this is drawn.
+std::shared_ptr<const StaticLayer> layer_under(const FilmWork& work) {
+  Canvas canvas(work.scene.video.width, work.scene.video.height, work.fonts);
+  canvas.set_static_layer(work.film.static_layer());
+  return canvas.static_layer();
+}
+
 // What one thread draws with.
 class Pen {
  public:
-  explicit Pen(const FilmWork& work)
-      : work_(work), canvas_(work.scene.video.width, work.scene.video.height, work.fonts) {
-    canvas_.set_static_layer(work.film.static_layer());
+  Pen(const FilmWork& work, std::shared_ptr<const StaticLayer> layer) : work_(work), canvas_(std::move(layer), work.fonts) {
     times.render += clock.lap();
   }
 
@@ -161,16 +166,19 @@ std::vector<int> Workshop::chunks_of_range() const {
 void Workshop::run(StageTimes& times) {
   if (pieces_.empty()) return;
   const int jobs = std::min(work_.jobs, int(pieces_.size()));
+  StageClock clock;
+  const std::shared_ptr<const StaticLayer> layer = layer_under(work_);
+  times.render += clock.lap();
   for_each_index_with_tools(pieces_.size(), jobs, [&]() -> RunIndex {
     // What the thread spent is told when its last piece is done, and goes with it.
-    const std::shared_ptr<Pen> pen(new Pen(work_), [&](Pen* used) {
+    const std::shared_ptr<Pen> pen(new Pen(work_, layer), [&](Pen* used) {
       const std::lock_guard guard(lock_);
       times += used->times;
       delete used;
     });
     return [this, pen](std::size_t index) { do_piece(pieces_[index], *pen); };
   });
-  StageClock clock;
+  clock.lap();
   for (const auto& film : films_)
     if (film) film->finish();
   films_.clear();
