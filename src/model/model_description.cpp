@@ -91,9 +91,9 @@ std::vector<DescribedCoordinate> coordinates_of(const Chain& chain) {
   return coordinates;
 }
 
-ModelDescription describe_model(const std::string& path, const ModelOptions& options,
+ModelDescription describe_model(const ModelSource& source, const ModelOptions& options,
                                 DescribeCollisions collisions) {
-  const UrdfFile file = read_urdf_file(path);
+  const UrdfFile file = read_urdf_file(source);
   const Chain chain = chain_of(file, options);
   ModelDescription model;
   model.name = file.name;

@@ -65,7 +65,7 @@ enum class DescribeCollisions {
 
 // Meshes are read as far as `options.meshes` asks for them. Throws Error as read_chain does; never for a mesh
 // or colour.
-ModelDescription describe_model(const std::string& path, const ModelOptions& options,
+ModelDescription describe_model(const ModelSource& source, const ModelOptions& options,
                                 DescribeCollisions collisions = DescribeCollisions::where_seen);
 
 Json to_json(const ModelDescription& model);

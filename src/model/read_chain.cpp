@@ -9,7 +9,7 @@
 namespace chainreel {
 namespace {
 
-int end_effector_of(const Chain& chain, const ModelOptions& options, const std::string& path) {
+int end_effector_of(const Chain& chain, const ModelOptions& options, const UrdfFile& file) {
   if (options.end_effector.empty()) {
     const int gripper = find_frame(chain, "gripper");
     if (gripper >= 0) return gripper;
@@ -23,7 +23,7 @@ int end_effector_of(const Chain& chain, const ModelOptions& options, const std::
   throw Error(ExitCode::bad_input,
               "has no link '" + options.end_effector + "' that could be the end effector:" +
                   (near.empty() ? " its last link is '" + names.back() + "'" : near),
-              {path});
+              file.at(0));
 }
 
 void require_regular(const ReducedModel& model, const UrdfFile& file) {
@@ -45,7 +45,7 @@ Chain chain_of(const UrdfFile& file, const ModelOptions& options) {
   ReducedModel model = reduce(file, options);
   require_regular(model, file);
   Chain chain = std::move(model.chain);
-  chain.end_effector = end_effector_of(chain, options, file.path);
+  chain.end_effector = end_effector_of(chain, options, file);
   const Eigen::Vector3d down =
       moves_in_xy_plane(chain) ? Eigen::Vector3d(0, -9.81, 0) : Eigen::Vector3d(0, 0, -9.81);
   chain.gravity = options.gravity.value_or(down);
@@ -53,8 +53,8 @@ Chain chain_of(const UrdfFile& file, const ModelOptions& options) {
   return chain;
 }
 
-Chain read_chain(const std::string& path, const ModelOptions& options) {
-  return chain_of(read_urdf_file(path), options);
+Chain read_chain(const ModelSource& source, const ModelOptions& options) {
+  return chain_of(read_urdf_file(source), options);
 }
 
 }  // namespace chainreel

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "model/chain.hpp"
+#include "model/model_source.hpp"
 
 namespace chainreel {
 
@@ -28,7 +29,7 @@ struct ModelOptions {
 };
 
 // Throws Error with every problem of the file. Meshes are not looked at: only pictures that show them need them.
-Chain read_chain(const std::string& path, const ModelOptions& options = {});
+Chain read_chain(const ModelSource& source, const ModelOptions& options = {});
 
 // The same from a file that has been read already.
 Chain chain_of(const UrdfFile& file, const ModelOptions& options);

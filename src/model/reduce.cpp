@@ -28,7 +28,7 @@ Inertia inertia_of(const UrdfInertial& inertial, const Eigen::Isometry3d& X_BL) 
 class Reducer {
  public:
   Reducer(const UrdfFile& file, const ModelOptions& options)
-      : file_(file), options_(options), problems_(file.path) {
+      : file_(file), options_(options), problems_(file.problems()) {
     for (const UrdfJoint& joint : file_.joints) joint_names_.insert(joint.name);
   }
 

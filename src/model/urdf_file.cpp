@@ -7,7 +7,6 @@
 #include "model/urdf_check.hpp"
 #include "model/urdf_problems.hpp"
 #include "model/urdf_tree.hpp"
-#include "model/xml_text.hpp"
 
 namespace chainreel {
 
@@ -41,9 +40,10 @@ std::string to_string(UrdfJointType type) {
   return "";
 }
 
-UrdfFile read_urdf_file(const std::string& path) {
-  UrdfProblems problems(path);
-  CheckedUrdf urdf = check_urdf(read_xml_text(path), path, problems);
+UrdfFile read_urdf_file(const ModelSource& source) {
+  UrdfProblems problems = source.links ? UrdfProblems(source.place) : UrdfProblems(source.path);
+  CheckedUrdf urdf = check_urdf(source.urdf(), source.path, problems);
+  if (source.links) urdf.file.asked = source.place;
   connect_links(urdf, problems);
   check_mimics(urdf.file, problems);
   problems.throw_if_any();
@@ -161,7 +161,7 @@ void take_apart(urdf::ModelInterface& model) {
 void read_urdf_values(const std::string& plain, UrdfFile& file) {
   LogCapture log;
   const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(plain);
-  if (!model) throw Error(ExitCode::bad_input, "is refused by urdfdom: " + log.text(), {file.path});
+  if (!model) throw Error(ExitCode::bad_input, "is refused by urdfdom: " + log.text(), file.at(0));
   const auto refuse = [&](const std::string& what, int line) {
     throw Error(ExitCode::bad_input, "urdfdom cannot read " + what + ": " + log.text(), file.at(line));
   };

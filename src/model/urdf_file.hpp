@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "model/model_source.hpp"
 #include "model/urdf_problems.hpp"
 
 namespace chainreel {
@@ -116,7 +117,11 @@ struct UrdfFile {
   std::vector<UrdfIgnoredTag> ignored;
   std::vector<UrdfRemark> remarks;
 
-  Place at(int line) const { return {path, line, 0}; }
+  std::optional<Place> asked;  // of numbers that stand for a file: where they stand, for all errors
+
+  Place at(int line) const { return asked ? *asked : Place{path, line, 0}; }
+  // An empty list for problems of this file.
+  UrdfProblems problems() const { return asked ? UrdfProblems(*asked) : UrdfProblems(path); }
 };
 
 // Links from the root on, parents first, depth first, children in document order.
@@ -124,7 +129,7 @@ std::vector<int> depth_first_links(const UrdfFile& file);
 
 // Reads and checks. Throws Error with every problem that the file has (exit 3; exit 7 beyond a limit of
 // size).
-UrdfFile read_urdf_file(const std::string& path);
+UrdfFile read_urdf_file(const ModelSource& source);
 
 // The second look at a URDF file: urdfdom reads masses, inertias, placements, axes, limits and shapes.
 

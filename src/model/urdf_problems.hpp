@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,9 +26,11 @@ struct UrdfRemark {
 class UrdfProblems {
  public:
   explicit UrdfProblems(std::string path) : path_(std::move(path)) {}
+  // Of a text that no file holds: all is told of the place that asks for it.
+  explicit UrdfProblems(Place asked) : path_(asked.file), asked_(std::move(asked)) {}
 
   void add(int line, std::string message) {
-    if (++count_ <= kMostShown) shown_.push_back({std::move(message), {path_, line, 0}});
+    if (++count_ <= kMostShown) shown_.push_back({std::move(message), asked_ ? *asked_ : Place{path_, line, 0}});
   }
   void remark(UrdfRemark remark) {
     if (remarks_.size() < kMostRemarks) remarks_.push_back(std::move(remark));
@@ -51,6 +54,7 @@ class UrdfProblems {
   static constexpr std::size_t kMostRemarks = 10'000;
 
   std::string path_;
+  std::optional<Place> asked_;
   std::vector<Problem> shown_;
   std::vector<UrdfRemark> remarks_;
   int count_ = 0;

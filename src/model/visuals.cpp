@@ -30,15 +30,15 @@ VisualKind kind_of(UrdfShapeKind kind) {
 
 }  // namespace
 
-std::vector<Visual> read_visuals(const std::string& path, const Chain& chain, const ModelOptions& options,
+std::vector<Visual> read_visuals(const ModelSource& source, const Chain& chain, const ModelOptions& options,
                                  ShapesOf which) {
-  const UrdfFile file = read_urdf_file(path);
+  const UrdfFile file = read_urdf_file(source);
   const std::map<std::string, std::string> meshes = find_meshes(file, options, which);
   std::unordered_map<std::string, const Frame*> frames;
   for (const Frame& frame : chain.frames) frames.emplace(frame.name, &frame);
 
   Materials materials(file, options);
-  UrdfProblems problems(file.path);
+  UrdfProblems problems = file.problems();
   std::vector<Visual> visuals;
   for (const UrdfLink& link : file.links) {
     const auto frame = frames.find(link.name);
@@ -75,7 +75,7 @@ std::map<std::string, std::string> find_meshes(const UrdfFile& file, const Model
                                                ShapesOf which) {
   std::map<std::string, std::string> paths;
   FileFinder finder(file.path, options.packages);
-  UrdfProblems problems(file.path);
+  UrdfProblems problems = file.problems();
   for (const UrdfLink& link : file.links) {
     for (const UrdfShape& shape : shapes_of(link, which)) {
       if (shape.kind != UrdfShapeKind::mesh) continue;
@@ -174,8 +174,8 @@ class Measure {
 
 }  // namespace
 
-Outline read_outline(const std::string& path, const Chain& chain, const ModelOptions& options) {
-  const UrdfFile file = read_urdf_file(path);
+Outline read_outline(const ModelSource& source, const Chain& chain, const ModelOptions& options) {
+  const UrdfFile file = read_urdf_file(source);
   std::unordered_map<std::string, const Frame*> frames;
   for (const Frame& frame : chain.frames) frames.emplace(frame.name, &frame);
   Measure measure(file, options);

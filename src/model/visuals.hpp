@@ -37,7 +37,7 @@ enum class ShapesOf { visual, collision };  // the <visual>s or the <collision>s
 // else the first link that does; a texture counts as its mean colour, and as nothing where it cannot be read.
 // Throws Error with every material that is named and has no colour anywhere, and every mesh that is not
 // found; without `options.meshes` such meshes are left out.
-std::vector<Visual> read_visuals(const std::string& path, const Chain& chain, const ModelOptions& options,
+std::vector<Visual> read_visuals(const ModelSource& source, const Chain& chain, const ModelOptions& options,
                                  ShapesOf which = ShapesOf::visual);
 
 // Where the meshes lie that a model shows.
@@ -61,6 +61,6 @@ struct Outline {
 // Takes the <visual>s, of links without any the <collision>s; meshes count with the box around their
 // vertices. `chain` was read from the same file with the same options. Throws Error where the file cannot be
 // read; never for a mesh.
-Outline read_outline(const std::string& path, const Chain& chain, const ModelOptions& options);
+Outline read_outline(const ModelSource& source, const Chain& chain, const ModelOptions& options);
 
 }  // namespace chainreel

@@ -9,6 +9,7 @@
 
 #include "core/frame_rate.hpp"
 #include "mesh/read_mesh.hpp"
+#include "model/model_source.hpp"
 #include "scene/constraint_entry.hpp"
 #include "scene/layers.hpp"
 #include "scene/words.hpp"
@@ -62,7 +63,7 @@ struct EllipseEntry {
 
 struct Scene {
   std::string title;
-  std::string model;                       // path, as found from the working folder
+  ModelSource model;                       // a path as found from the working folder, or numbers
   std::optional<Eigen::Vector3d> gravity;  // m/s^2; absent: by the plane of the chain
   RootLink base = RootLink::fixed;
   bool friction = true;                    // the model's joint damping and friction act

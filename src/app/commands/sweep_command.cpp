@@ -21,7 +21,6 @@
 #include "app/works/draw_film.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "core/hash.hpp"
 #include "core/input_file.hpp"
 #include "core/machine.hpp"
 #include "core/parallel.hpp"
@@ -93,7 +92,7 @@ class FilesOfRun {
     const int still = std::clamp(runs_.clock().frame_at(at), 0, std::max(0, schedule_of(runs_).frames - 1));
     at_ = runs_.times()[std::size_t(still)];
     for (std::size_t i = 0; i < runs_.size(); ++i)
-      hashes_.push_back({sha256_of_file(film.panels[i].scene.model), audit_of(film.panels[i].simulation, runs_[i]).sha256});
+      hashes_.push_back({film.panels[i].scene.model.sha256(), audit_of(film.panels[i].simulation, runs_[i]).sha256});
   }
 
   // Whether the file shows this very scene, with the same models, meshes and motions, by the same version of the program.

@@ -24,7 +24,7 @@ void say_what_is_left_out(const std::vector<std::string>& wanted, const Prepared
       missing.push_back(layer);
   if (!missing.empty())
     std::fprintf(stderr, "note: %s: not drawn, as %s has several ends: choose one with `--set end_effector=NAME`\n",
-                 joined(missing).c_str(), prepared.scene.model.c_str());
+                 joined(missing).c_str(), prepared.scene.model.words().c_str());
 }
 
 PreparedScene prepare_panel(Scene scene, bool meshes, bool quiet) {

@@ -100,9 +100,14 @@ Json placeless(Json audit, const Scene& scene) {
   const auto leave_place = [&](Json& part, const char* key) {
     if (part.contains(key)) part[key] = placeless_path(scene, part[key].get<std::string>());
   };
-  for (const char* key : {"scene", "model"}) leave_place(audit, key);
+  const auto leave_model = [&](Json& part, const Scene& panel) {
+    if (!panel.model.links) leave_place(part, "model");  // numbers lie nowhere
+  };
+  leave_place(audit, "scene");
+  leave_model(audit, scene);
   if (audit.contains("panels"))
-    for (Json& panel : audit["panels"]) leave_place(panel, "model");
+    for (std::size_t i = 0; i < audit["panels"].size() && i < scene.compare.size(); ++i)
+      leave_model(audit["panels"][i], scene.compare[i]);
   return audit;
 }
 

@@ -5,7 +5,6 @@
 
 #include "app/film/automatic.hpp"
 #include "app/report/report.hpp"
-#include "core/hash.hpp"
 #include "render/canvas.hpp"
 #include "scene/run/fall.hpp"
 
@@ -58,8 +57,8 @@ Json to_json(const RunReport& report) {
   Json json = Json::object();  // JSON's null that becomes an object is lost where memory is short
   json["scene"] = scene.file;
   json["title"] = title_of(report);
-  json["model"] = scene.model;
-  json["model_sha256"] = sha256_of_file(scene.model);
+  json["model"] = scene.model.words();
+  json["model_sha256"] = scene.model.sha256();
   json["status"] = to_string(trajectory.status);
   if (scene.expect != Outcome::finish) json["expect"] = to_string(scene.expect);
   if (!trajectory.trouble.empty()) json["trouble"] = trajectory.trouble;

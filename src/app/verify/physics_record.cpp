@@ -108,7 +108,7 @@ Json method_record(const PreparedScene& panel) {
 
 // How a panel's model was read.
 struct ModelReading {
-  std::string path;
+  ModelSource source;
   ModelOptions options;
   DescribeCollisions collisions;
   friend bool operator==(const ModelReading&, const ModelReading&) = default;
@@ -123,7 +123,7 @@ ModelReading reading_of(const PreparedScene& panel) {
 
 }  // namespace
 
-Json model_record(const std::string& urdf, const ModelOptions& options, DescribeCollisions collisions) {
+Json model_record(const ModelSource& urdf, const ModelOptions& options, DescribeCollisions collisions) {
   return to_json(describe_model(urdf, options, collisions));
 }
 
@@ -139,7 +139,7 @@ Json run_record(const PreparedFilm& film, const Runs& runs) {
     const auto index = std::size_t(std::find(read.begin(), read.end(), reading) - read.begin());
     if (index == read.size()) {
       read.push_back(reading);
-      models.push_back(model_record(reading.path, reading.options, reading.collisions));
+      models.push_back(model_record(reading.source, reading.options, reading.collisions));
     }
     Tables tables;
     Json keys = keys_of(panel.scene, KeyOf::panel, tables);

@@ -15,7 +15,7 @@ namespace chainreel {
 
 // All of a model that pictures and motion depend on; of meshes enough to say what share of their triangles
 // differs. Throws Error as read_chain does.
-Json model_record(const std::string& urdf, const ModelOptions& options,
+Json model_record(const ModelSource& urdf, const ModelOptions& options,
                   DescribeCollisions collisions = DescribeCollisions::where_seen);
 
 // Per panel the keys of its scene, the model, the method that was taken, and the trajectory: its hash and

@@ -158,7 +158,7 @@ BodyShapes load_body_shapes(const std::vector<Visual>& visuals, MeshUp up, MeshS
   return result;
 }
 
-std::shared_ptr<const BodyShapes> shapes_for(const BodyLook& look, const std::string& model,
+std::shared_ptr<const BodyShapes> shapes_for(const BodyLook& look, const ModelSource& model,
                                              const Chain& chain, const ModelOptions& options,
                                              MeshShelf& shelf) {
   if (look.links == LinkShapes::plain || (look.links == LinkShapes::automatic && !look.is_oblique)) return nullptr;

@@ -62,7 +62,7 @@ struct BodyLook {
 
 // None for bars, nor with auto where nothing that moves has a shape. Throws Error as above, and where
 // `visual` finds none.
-std::shared_ptr<const BodyShapes> shapes_for(const BodyLook& look, const std::string& model,
+std::shared_ptr<const BodyShapes> shapes_for(const BodyLook& look, const ModelSource& model,
                                              const Chain& chain, const ModelOptions& options,
                                              MeshShelf& shelf);
 

@@ -38,7 +38,7 @@ std::vector<Chapter> chapters() {
   return {
       {"The mechanism",
        {Row("title", &Scene::title, "above the picture; {fall} in it becomes the time of the fall").of_page(),
-        Row(told_model(), read_model, model_text),
+        Row(told_model(), read_model, model_text).example("model: {links: [0.5, 0.4, 0.3], masses: [2, 1.5, 1], joints: RRR}"),
         Row("gravity", &Scene::gravity, "world x y z; a chain in a plane: down in it")
             .in("m/s^2")
             .absent("9.81 downwards: -y of planar chains, -z in space")
@@ -232,7 +232,12 @@ void collect_paths(const KeyText& text, std::vector<std::string>& names) {
   if (text.form == KeyForm::path && !text.name.empty() &&
       std::find(names.begin(), names.end(), text.name) == names.end())
     names.push_back(text.name);
-  for (const KeyText& part : text.parts) collect_paths(part, names);
+  for (const KeyText& part : text.parts) {
+    // Of a key that may be a path or something else, which bears the name.
+    const bool is_alternative = text.form == KeyForm::either && part.form == KeyForm::path && part.name.empty();
+    if (is_alternative && std::find(names.begin(), names.end(), text.name) == names.end()) names.push_back(text.name);
+    collect_paths(part, names);
+  }
 }
 
 }  // namespace

@@ -8,20 +8,111 @@
 namespace chainreel {
 
 KeyText told_model() {
-  return told("model", KeyForm::path, "the mechanism, a URDF file").required();
+  const KeyText length = told("", KeyForm::number, "").in("m"), mass = told("", KeyForm::number, "").in("kg");
+  const KeyText damping = told("", KeyForm::number, "").in("N m s/rad or N s/m");
+  return told_either(
+             "model",
+             {told("", KeyForm::path, "a URDF file"),
+              told_record(
+                  "",
+                  {told_list("links", length, "their lengths; at zero all lie along x, one behind the other"),
+                   told_either("masses", {mass, told_list("", mass, "")}, "1 each where left out"),
+                   told("joints", KeyForm::text,
+                        "a letter each: R turns about z, P slides along x, or across the P before it; else with its axis, "
+                        "RzPx; all R where left out"),
+                   told_word("shape", names_of(LinkMass{}), "where the mass is; rod where left out"),
+                   told_either("damping", {damping, told_list("", damping, "")}, "of the joints; none where left out"),
+                   told_list("dh", told_list("", told("", KeyForm::number, ""), ""),
+                             "in the place of `links`: a, alpha, d, theta of each joint (Denavit and Hartenberg), m and rad"),
+                   told_word("convention", names_of(DhConvention{}), "of `dh`; standard where left out")},
+                  "a serial chain in numbers: a number a link, or one for all")},
+             "the mechanism")
+      .required();
 }
 
+namespace {
+
+// A number for all, or a list of one each.
+void read_numbers(Fields& fields, const std::string& key, std::vector<double>& values) {
+  double one = 0;
+  if (fields.find(key).IsScalar() && fields.read(key, one))
+    values = {one};
+  else if (!fields.find(key).IsScalar())
+    fields.read(key, values);
+}
+
+bool read_dh(Fields& fields, std::vector<DhRow>& rows) {
+  const YAML::Node node = fields.find("dh");
+  if (!node.IsDefined()) return true;
+  bool is_good = node.IsSequence() && node.size() > 0;
+  if (!is_good) fields.problem_at("dh", "'model.dh' must hold rows a, alpha, d, theta: dh: [[0.5, 90deg, 0, 0], [0.4, 0, 0, 0]]");
+  for (std::size_t i = 0; is_good && i < node.size(); ++i) {
+    const std::string key = "dh." + std::to_string(i + 1);
+    const Place place = fields.place_of(node[i], key);
+    try {
+      if (!node[i].IsSequence() || node[i].size() != 4)
+        throw Error(ExitCode::bad_input, "must be four numbers a, alpha, d, theta: [0.5, 90deg, 0, 0]");
+      DhRow& row = rows.emplace_back();
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (!node[i][k].IsScalar()) throw Error(ExitCode::bad_input, "must be four numbers a, alpha, d, theta");
+        row[k] = parse_quantity(node[i][k].Scalar(), place);
+      }
+    } catch (const Error& error) {
+      fields.problems().add("'model." + key + "': " + error.problems().front().message, place);
+      is_good = false;
+    }
+  }
+  return is_good;
+}
+
+ModelSource read_links(Fields& fields, const YAML::Node& node) {
+  Fields inner(fields.document(), node, "model", fields.problems());
+  ModelSource source(fields.document().file);
+  source.place = fields.place_of(node, "model");
+  LinkChain chain;
+  const bool has_links = inner.has("links");
+  bool is_good = !has_links || inner.read("links", chain.links);
+  read_numbers(inner, "masses", chain.masses);
+  read_numbers(inner, "damping", chain.damping);
+  inner.read("joints", chain.joints);
+  inner.read("shape", chain.shape);
+  is_good &= read_dh(inner, chain.dh);
+  inner.read("convention", chain.convention);
+  if (inner.has("convention") && chain.dh.empty())
+    inner.problem_at("convention", "'model.convention' means nothing without rows of `dh`");
+  inner.finish();
+  if (!is_good) return source;
+  for (const LinkProblem& problem : complete(chain)) {
+    const std::string message = "'model." + problem.key + "' " + problem.message;
+    if (inner.find(problem.key).IsDefined())
+      inner.problem_at(problem.key, message);
+    else
+      fields.problem_at("model", message);
+  }
+  source.links = std::move(chain);
+  return source;
+}
+
+}  // namespace
+
 void read_model(Fields& fields, Scene& scene) {
-  fields.read_path("model", scene.model);
+  const YAML::Node node = fields.find("model");
+  if (node.IsMap()) {
+    scene.model = read_links(fields, node);
+    return;
+  }
+  if (node.IsSequence())
+    return fields.problem_at("model", "'model' must be a URDF file, or hold numbers: model: {links: [0.5, 0.4], masses: [2, 1]}");
+  fields.read_path("model", scene.model.path);
   std::error_code ignored;
-  if (scene.model.empty())
-    fields.problem_at("model", "the scene names no model: write `model: ../../models/rr.urdf`");
-  else if (!std::filesystem::is_regular_file(scene.model, ignored))
-    fields.problem_at("model", "there is no model file " + scene.model + ": paths are relative to the scene file");
+  if (scene.model.path.empty())
+    fields.problem_at("model", "the scene names no model: write `model: ../../models/rr.urdf`, or `model: {links: [0.5, 0.4]}`");
+  else if (!std::filesystem::is_regular_file(scene.model.path, ignored))
+    fields.problem_at("model", "there is no model file " + scene.model.path + ": paths are relative to the scene file");
 }
 
 std::string model_text(const Scene& scene) {
-  return word_text(scene.model);
+  return scene.model.links ? text_of(*scene.model.links) : word_text(scene.model.path);
 }
 
 KeyText told_packages() {

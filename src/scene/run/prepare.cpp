@@ -20,7 +20,7 @@ void check_length(std::vector<double>& values, const std::vector<double>& absent
     values = absent;
   } else if (values.size() != absent.size()) {
     problems.add("'" + key + "' has " + std::to_string(values.size()) + " numbers, but the model " +
-                     scene.model + " needs " + std::to_string(absent.size()),
+                     scene.model.words() + " needs " + std::to_string(absent.size()),
                  scene.place_of(key));
   }
 }
@@ -32,7 +32,7 @@ void check_torque(Scene& scene, const Chain& chain, ProblemList& problems) {
   std::string joints;
   for (const std::string& name : chain.coordinate_names) joints += (joints.empty() ? "" : ", ") + name;
   problems.add("'torque' has " + std::to_string(scene.torque.size()) + " entries, but the model " +
-                   scene.model + " has " + std::to_string(chain.nv) + " freedoms (" + joints +
+                   scene.model.words() + " has " + std::to_string(chain.nv) + " freedoms (" + joints +
                    "); an entry that holds a comma must be quoted, and decimals take a point",
                scene.place_of("torque"));
 }
@@ -75,7 +75,7 @@ NamedFrames find_frames(const Scene& scene, const Chain& chain, ProblemList& pro
     if (index >= 0)
       frames.push_back({name, index});
     else
-      problems.add("'frames." + name + "' names no link and no moving joint of " + scene.model + ": '" +
+      problems.add("'frames." + name + "' names no link and no moving joint of " + scene.model.words() + ": '" +
                        wanted + "';" + did_you_mean(wanted, known) + " They are " + list_of(known) + ".",
                    scene.place_of("frames." + name));
   }
@@ -125,7 +125,7 @@ void choose_end_effector(Scene& scene, Chain& chain) {
     for (const Frame& frame : chain.frames) links.push_back(frame.name);
     if (chain.end_effector < 0)
       throw Error(ExitCode::bad_input,
-                  "'end_effector' names no link of " + scene.model + ": '" + scene.end_effector + "';" +
+                  "'end_effector' names no link of " + scene.model.words() + ": '" + scene.end_effector + "';" +
                       did_you_mean(scene.end_effector, links),
                   scene.place_of("end_effector"));
   }
@@ -160,10 +160,10 @@ ModelOptions model_options_of(const Scene& scene) {
   return options;
 }
 
-const Chain& LastChain::read(const std::string& path, const ModelOptions& options) {
-  if (!chain_ || path != path_ || !(options == options_)) {
-    chain_ = read_chain(path, options);
-    path_ = path;
+const Chain& LastChain::read(const ModelSource& source, const ModelOptions& options) {
+  if (!chain_ || !(source == source_) || !(options == options_)) {
+    chain_ = read_chain(source, options);
+    source_ = source;
     options_ = options;
   }
   return *chain_;

@@ -19,13 +19,13 @@ ModelOptions model_options_of(const Scene& scene);
 // with every problem.
 Simulation prepare(Scene& scene, bool meshes = true);
 
-// The last model that was read, for scenes that differ in other things: its file is read once. For one thread at a time.
+// The last model that was read, for scenes that differ in other things: it is read once. For one thread at a time.
 class LastChain {
  public:
-  const Chain& read(const std::string& path, const ModelOptions& options);
+  const Chain& read(const ModelSource& source, const ModelOptions& options);
 
  private:
-  std::string path_;
+  ModelSource source_;
   ModelOptions options_;
   std::optional<Chain> chain_;
 };

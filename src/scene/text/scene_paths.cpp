@@ -73,6 +73,12 @@ std::string with_paths(const std::string& text,
 
 }  // namespace
 
+std::string scene_with_model(const std::string& text, const std::string& model) {
+  return with_paths(text, [&](const std::string& path) -> std::optional<std::string> {
+    return path.ends_with(".urdf") ? std::optional(model) : std::nullopt;
+  });
+}
+
 std::string moved_scene_text(const std::string& text, const std::string& to, const std::string& from) {
   const fs::path folder = to.empty() ? fs::path(".") : fs::path(to);
   return with_paths(text, [&](const std::string& path) -> std::optional<std::string> {

@@ -15,6 +15,9 @@ struct YamlDocument;
 // same with relative paths as found from `to`. Throws Error (bad input) where it is no YAML.
 std::string moved_scene_text(const std::string& text, const std::string& to, const std::string& from = "");
 
+// `text` as people write it, all else as it stands, its models now this file. Throws as above.
+std::string scene_with_model(const std::string& text, const std::string& model);
+
 // Relative paths that the text names, each once. Throws as above.
 std::vector<std::string> relative_paths_in(const std::string& text);
 

@@ -1,0 +1,56 @@
+#include "app/cli/data_folder.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+}  // namespace
+
+std::string data_folder() {
+  std::error_code code;
+  const fs::path program = fs::read_symlink("/proc/self/exe", code);
+  if (code) return "";
+  // Of an installed program, and of one in its build tree.
+  for (const fs::path& share : {program.parent_path().parent_path() / "share", program.parent_path() / "share"}) {
+    const fs::path folder = share / "chainreel";
+    if (fs::is_directory(folder / "assets/scenes", code)) return folder.string();
+  }
+  return "";
+}
+
+std::vector<std::string> shipped_scenes() {
+  std::vector<std::string> names;
+  std::error_code code;
+  for (fs::directory_iterator entry(fs::path(data_folder()) / "assets/scenes", code), end; !code && entry != end;
+       entry.increment(code))
+    if (entry->path().extension() == ".yaml") names.push_back(entry->path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string shipped_file(const std::string& name) {
+  const std::string folder = data_folder();
+  if (folder.empty() || name.empty() || name.find('/') != std::string::npos || name.front() == '.') return "";
+  const fs::path scene = fs::path(folder) / "assets/scenes" / name, model = fs::path(folder) / "models" / name;
+  for (const fs::path& path : {scene, fs::path(scene.string() + ".yaml"), model})
+    if (is_file(path)) return path.string();
+  return "";
+}
+
+std::string found_file(const std::string& named) {
+  std::error_code ignored;
+  if (fs::exists(named, ignored)) return named;
+  const std::string shipped = shipped_file(named);
+  return shipped.empty() ? named : shipped;
+}
+
+}  // namespace chainreel

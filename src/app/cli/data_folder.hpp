@@ -1,0 +1,22 @@
+// The scenes, models and guide that come with the program: beside the build, or under share/chainreel where it is
+// installed. They are found from the program's own file, so that an installed tree can be moved.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace chainreel {
+
+// Holds assets/scenes and models; "" where nothing lies where it is looked for.
+std::string data_folder();
+
+// Names of the scenes that come with the program, sorted.
+std::vector<std::string> shipped_scenes();
+
+// The file of such a scene or model: "rr_free" or "rr_free.yaml", "rr.urdf"; "" where there is none of that name.
+std::string shipped_file(const std::string& name);
+
+// `named` itself where there is such a file or it is a path; else the file of that name which comes with the program.
+std::string found_file(const std::string& named);
+
+}  // namespace chainreel
