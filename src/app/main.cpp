@@ -31,6 +31,7 @@ void add_commands(chainreel::CommandLine& app) {
   add_gallery_command(app);
   add_verify_command(app);
   add_schema_command(app);
+  add_completion_command(app);
   add_help_command(app);
 }
 

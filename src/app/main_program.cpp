@@ -21,7 +21,7 @@ int run(int argc, char** argv, void (*add_commands)(CommandLine&)) {
       program_version(),
       "Exit codes: " + exit_code_words() +
           ".\nWhat scenes may say, methods, constraints, outputs: chainreel help\n"
-          "Example: chainreel render assets/scenes/rr_free.yaml");
+          "Example: chainreel render rr_free");
   app.add_choice("--gl", "CHAINREEL_GL", words_of(names_of(GlBackend{})),
                  "where OpenGL comes from: auto takes OSMesa, else EGL; the bytes are the same",
                  [](const std::string& word) { choose_gl_backend(*value_named<GlBackend>(word)); });

@@ -194,8 +194,9 @@ const Method& find_method(const std::string& name) {
     if (method.name == name) return method;
     names.push_back(method.name);
   }
-  throw Error(ExitCode::bad_input, "unknown method '" + name + "':" + did_you_mean(name, names) +
-                                       " The methods are " + joined(names) + ".");
+  const std::string near = did_you_mean(name, names);
+  throw Error(ExitCode::bad_input, "unknown method '" + name + "':" +
+                                       (near.empty() ? " they are " + joined(names) + "." : near + " `chainreel methods` lists all."));
 }
 
 std::unique_ptr<Integrator> make_integrator(const Method& method, const Forms& forms,

@@ -20,7 +20,7 @@ int require_end_effector(const Chain& chain) {
   throw Error(ExitCode::bad_input,
               "the model '" + chain.name +
                   "' has no link 'gripper' and several ends: choose the end effector with "
-                  "--end-effector NAME, of a scene with `--set end_effector=NAME`; the ends are " +
+                  "`--set end_effector=NAME`; the ends are " +
                   leaves);
 }
 

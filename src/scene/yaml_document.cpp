@@ -151,6 +151,19 @@ void apply(YAML::Node node, const std::string& key, const Change& change) {
   apply(child, key.substr(dot + 1), change);
 }
 
+// Takes the key away as if the file did not have it. Returns whether it was there.
+bool take_away(YAML::Node node, const std::string& key, const Change& change) {
+  const std::size_t dot = key.find('.');
+  if (dot != std::string::npos) {
+    if (!node.IsMap() && !node.IsSequence()) return false;
+    YAML::Node child = child_of(node, key.substr(0, dot), change);
+    return child.IsDefined() && take_away(child, key.substr(dot + 1), change);
+  }
+  if (node.IsSequence())
+    throw Error(change.code, "an entry of a list cannot be left out: give the list anew", change.place);
+  return node.IsMap() && node[key].IsDefined() && node.remove(key);
+}
+
 bool lies_below(const std::string& key, const std::string& other) {
   return key.size() > other.size() && key.starts_with(other) && key[other.size()] == '.';
 }
@@ -212,6 +225,10 @@ void replace_overrides(YamlDocument& document, const std::vector<Override>& over
   document.origins.clear();
   for (const Override& one : overrides) {
     const Place place{name_of(one), 0, 0};
+    if (one.value.find_first_not_of(' ') == std::string::npos) {
+      if (take_away(document.root, one.key, {one.key, {}, place})) continue;
+      // It was not there: null, so that a key that nobody knows is told.
+    }
     apply(document.root, one.key, {one.key, parse(one.value, name_of(one)), place});
     document.origins.push_back({one.key, place});
   }

@@ -93,6 +93,7 @@ class EveryCommand : public ::testing::Test {
         {"doctor", {{}, ""}},
         {"methods", {{}, ""}},
         {"schema", {{}, ""}},
+        {"completion", {{"bash"}, ""}},
         {"help", {{}, ""}},
         {"chart",
          {with({"assets/scenes/rr_free.yaml", "--methods", "rk4", "--runs", "1", "--longest", "0.001"},

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <sstream>
 
 #include "core/json.hpp"
 #include "support/run_program.hpp"
@@ -166,6 +168,101 @@ TEST(SceneWithAModelInNumbers, IsRememberedByItsFilm) {
 TEST(SceneWithAModelInNumbers, MovesLikeTheFileOfItsNumbers) {
   EXPECT_EQ(motion_of("assets/scenes/rr_free.yaml", {"--set", "model={links: [1, 1], masses: 1, shape: point}"}),
             motion_of("assets/scenes/rr_free.yaml"));
+}
+
+// What stands in the column of options or of commands.
+Words words_of_help(const Words& command, const std::string& head) {
+  Words words;
+  const std::string help = run_program(with(command, {"--help"})).out;
+  std::istringstream lines(help.substr(help.find("\n" + head + "\n") + head.size() + 2));
+  for (std::string line; std::getline(lines, line) && !line.empty();)
+    if (line.size() > 2 && line[2] != ' ') words.push_back(line.substr(2, line.find_first_of(" ,", 2) - 2));
+  return words;
+}
+
+// What bash offers behind these words, of which the last is begun.
+Words completed_by_bash(const std::string& words, int last) {
+  const ProgramResult result = run_command(
+      {"bash", "-c",
+       "source <(" + program_path() + " completion bash); COMP_WORDS=(chainreel " + words + "); COMP_CWORD=" + std::to_string(last) +
+           "; _chainreel; printf '%s\n' \"${COMPREPLY[@]}\""});
+  EXPECT_EQ(result.err, "");
+  Words found;
+  std::istringstream lines(result.out);
+  for (std::string line; std::getline(lines, line);) found.push_back(line);
+  return found;
+}
+
+TEST(Completion, OfBashKnowsCommandsOptionsAndTheirWords) {
+  using testing::Contains;
+  using testing::ElementsAre;
+  EXPECT_THAT(completed_by_bash("rend", 1), ElementsAre("render"));
+  EXPECT_THAT(completed_by_bash("''", 1), Contains("completion"));
+  EXPECT_THAT(completed_by_bash("render --them", 2), ElementsAre("--theme"));
+  EXPECT_THAT(completed_by_bash("render --preset d", 3), ElementsAre("doc"));
+  EXPECT_THAT(completed_by_bash("init --shape ''", 3), ElementsAre("rod", "point"));
+  EXPECT_THAT(completed_by_bash("--gl os", 2), ElementsAre("osmesa"));
+  EXPECT_THAT(completed_by_bash("render --set video.w", 3), ElementsAre("video.width="));
+  EXPECT_THAT(completed_by_bash("render rr_fr", 2), ElementsAre("rr_free"));
+  EXPECT_THAT(completed_by_bash("render assets/scenes/rr_fr", 2), ElementsAre("assets/scenes/rr_free.yaml"));
+  EXPECT_THAT(completed_by_bash("help rend", 2), ElementsAre("render"));
+}
+
+TEST(Completion, AndManualPagesKnowEveryOptionOfEveryCommand) {
+  std::map<std::string, std::string> scripts;
+  for (const char* shell : {"bash", "zsh", "fish"}) scripts[shell] = run_program({"completion", shell}).out;
+  int options = 0;
+  for (const std::string& command : words_of_help({}, "Subcommands:")) {
+    const std::string page = run_program({"help", command, "--man"}).out;
+    EXPECT_THAT(page, testing::StartsWith(".TH CHAINREEL-")) << command;
+    for (const auto& [shell, script] : scripts) EXPECT_THAT(script, HasSubstr(command)) << shell;
+    for (const std::string& name : words_of_help({command}, "Options:")) {
+      ++options;
+      std::string in_roff = name;
+      for (std::size_t at = 0; (at = in_roff.find('-', at)) != std::string::npos; at += 2) in_roff.replace(at, 1, "\\-");
+      EXPECT_THAT(page, HasSubstr("\\fB" + in_roff + "\\fR")) << command;
+      EXPECT_THAT(scripts["bash"], HasSubstr(name)) << command;
+      EXPECT_THAT(scripts["zsh"], HasSubstr("'*" + name + "[")) << command;
+      const std::string of_fish = name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+      EXPECT_THAT(scripts["fish"], HasSubstr("__fish_seen_subcommand_from " + command + "'")) << command;
+      EXPECT_THAT(scripts["fish"], HasSubstr(of_fish)) << command;
+    }
+  }
+  EXPECT_GE(options, 150);
+}
+
+TEST(Installed, TreeMayBeMovedAndKnowsItsScenesByName) {
+  const TemporaryFolder folder;
+  const std::string build = fs::path(program_path()).parent_path().string();
+  const ProgramResult installed = run_command({"cmake", "--install", build, "--prefix", folder.file("first")});
+  ASSERT_EQ(installed.status, 0) << installed.err;
+  fs::rename(folder.path() / "first", folder.path() / "moved");
+  const std::string program = folder.file("moved/bin/chainreel");
+  fs::create_directory(folder.path() / "work");
+  const RunOptions there{.folder = folder.file("work")};
+  const ProgramResult run = run_command({program, "simulate", "rr_free", "--set", "duration=0.5", "-o", "a.csv", "--json"}, there);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const Json report = Json::parse(run.out);
+  EXPECT_EQ(report["trajectory_sha256"], motion_of("assets/scenes/rr_free.yaml"));
+  EXPECT_THAT(report["scene"].get<std::string>(), HasSubstr("moved/share/chainreel/assets/scenes/rr_free.yaml"));
+  EXPECT_EQ(run_command({program, "check", "rr.urdf"}, there).status, 0);
+  EXPECT_EQ(run_command({program, "init", "mine", "--from", "pen"}, there).status, 0);
+  EXPECT_EQ(run_command({program, "equations", "rr.urdf"}, there).status, 0) << "by its program in libexec";
+  // One's own file of that name comes first.
+  fs::copy_file("assets/scenes/rr_free.yaml", folder.path() / "work/pen.yaml");
+  const ProgramResult own = run_command({program, "check", "pen.yaml"}, there);
+  EXPECT_EQ(own.status, 3) << "its model is not beside it";
+  for (const char* file : {"share/man/man1/chainreel.1", "share/man/man1/chainreel-render.1", "share/chainreel/assets/guide/using.md",
+                           "share/chainreel/models/rr.urdf", "share/bash-completion/completions/chainreel",
+                           "share/zsh/vendor-completions/_chainreel", "share/fish/vendor_completions.d/chainreel.fish",
+                           "share/doc/chainreel/copyright"})
+    EXPECT_TRUE(fs::is_regular_file(folder.path() / "moved" / file)) << file;
+  // What roff has to say of the pages.
+  for (const auto& page : fs::directory_iterator(folder.path() / "moved/share/man/man1")) {
+    const ProgramResult set = run_command({"groff", "-man", "-ww", "-z", "-Tutf8", "-Kutf8", page.path().string()});
+    if (set.status == 127) break;  // without groff, which nothing else needs
+    EXPECT_EQ(set.err, "") << page.path();
+  }
 }
 
 }  // namespace

@@ -45,6 +45,16 @@ TEST(NearestName, FindsTheCandidateThatWasProbablyMeant) {
   EXPECT_EQ(did_you_mean("duraton", keys), " did you mean 'duration'?");
 }
 
+TEST(NearestName, PassesOverCapitalsDashesAndExchangedNeighbours) {
+  const std::vector<std::string> words = {"rk4", "semi_implicit_euler", "explicit_euler", "chain", "masses"};
+  EXPECT_EQ(nearest_name("RK4", words), "rk4");
+  EXPECT_EQ(nearest_name("semi-implicit-euler", words), "semi_implicit_euler");
+  EXPECT_EQ(nearest_name("chian", words), "chain");
+  EXPECT_EQ(did_you_mean("euler", words), " did you mean 'semi_implicit_euler' or 'explicit_euler'?");
+  EXPECT_EQ(did_you_mean("mass", words), " did you mean 'masses'?");
+  EXPECT_EQ(did_you_mean("ul", words), "") << "two letters are part of everything";
+}
+
 TEST(NearestName, KeepsSilentWhereNothingIsNear) {
   const std::vector<std::string> keys = {"duration", "draw"};
   EXPECT_EQ(nearest_name("elephant", keys), "");

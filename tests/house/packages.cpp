@@ -35,7 +35,8 @@ std::set<std::string> packages_named_by(std::string_view page) {
   for (std::sregex_iterator at(text.begin(), text.end(), install), end; at != end; ++at) {
     std::istringstream words((*at)[2].str());
     for (std::string word; words >> word;)
-      if (word[0] != '-' && word != "\\") result.insert(word);
+      // A path is a package that one has, of no list.
+      if (word[0] != '-' && word != "\\" && word.find('/') == std::string::npos) result.insert(word);
   }
   return result;
 }

@@ -95,7 +95,8 @@ void add_sheet_command(CommandLine& app);
 void add_gallery_command(CommandLine& app);
 void add_verify_command(CommandLine& app);
 void add_schema_command(CommandLine& app);
-// It tells of all commands that are there when it runs.
+// Both tell of all commands that are there when they run.
+void add_completion_command(CommandLine& app);
 void add_help_command(CommandLine& app);
 
 }  // namespace chainreel

@@ -6,6 +6,7 @@
 #include <deque>
 #include <sstream>
 
+#include "app/cli/data_folder.hpp"
 #include "core/error.hpp"
 
 namespace chainreel {
@@ -48,6 +49,16 @@ Option Option::one_of(std::vector<std::string> words) {
 
 Option Option::show_default() {
   option_of(option_)->capture_default_str();
+  return *this;
+}
+
+Option Option::names_input() {
+  option_of(option_)->transform(CLI::Validator(
+      [](std::string& named) {
+        named = found_file(named);
+        return std::string();
+      },
+      ""));
   return *this;
 }
 
@@ -134,6 +145,27 @@ std::string words_not_expected(const std::vector<std::string>& words) {
   return text;
 }
 
+// Of the first option that the command does not have: those that resemble it.
+std::string options_like(const std::vector<std::string>& words, const CLI::App& command, const CLI::App& app) {
+  std::vector<std::string> known;
+  for (const CLI::App* owner : {&command, &app})
+    for (const CLI::Option* option : owner->get_options())
+      for (const std::string& name : option->get_lnames()) known.push_back(name);
+  for (const std::string& word : words) {
+    if (!word.starts_with("--")) continue;
+    const std::string name = word.substr(2, word.find('=') - 2);
+    std::string near = did_you_mean(name, known);
+    for (std::size_t at = 0; (at = near.find(" '", at)) != std::string::npos; at += 4) near.insert(at + 2, "--");
+    return near.empty() ? "" : ";" + near;
+  }
+  return "";
+}
+
+// A scene in a command's place means its film.
+bool names_a_scene(const std::string& word) {
+  return word.ends_with(".yaml") || word.ends_with(".yml");
+}
+
 int refuse(const std::string& why) {
   std::fprintf(stderr, "%s\nRun with --help for more information.\n", why.c_str());
   return int(ExitCode::usage);
@@ -177,21 +209,70 @@ std::vector<CommandLine::CommandText> CommandLine::texts() const {
   return texts;
 }
 
+namespace {
+
+// The words between braces in what CLI11 calls the type: "TEXT:{rod,point}".
+std::vector<std::string> words_of_type(const std::string& type) {
+  const std::size_t open = type.find('{'), close = type.rfind('}');
+  std::vector<std::string> words;
+  if (open == std::string::npos || close == std::string::npos || close < open) return words;
+  std::istringstream stream(type.substr(open + 1, close - open - 1));
+  for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
+  return words;
+}
+
+CommandLine::CommandTable table_of(const CLI::App& app) {
+  CommandLine::CommandTable table{app.get_name(), app.get_description(), app.get_footer(), {}};
+  for (const CLI::Option* one : app.get_options()) {
+    CommandLine::OptionTable option;
+    for (const std::string& name : one->get_snames()) option.names.push_back("-" + name);
+    for (const std::string& name : one->get_lnames()) option.names.push_back("--" + name);
+    option.is_positional = option.names.empty();
+    if (option.is_positional) option.names = {one->get_name(true)};
+    option.help = one->get_description();
+    option.words = words_of_type(one->get_type_name());
+    option.takes_value = one->get_items_expected_max() > 0;
+    option.is_required = one->get_required();
+    table.options.push_back(std::move(option));
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<CommandLine::CommandTable> CommandLine::tables() const {
+  std::vector<CommandTable> tables;
+  for (const CLI::App* one : parser_->app.get_subcommands([](const CLI::App*) { return true; })) tables.push_back(table_of(*one));
+  return tables;
+}
+
+CommandLine::CommandTable CommandLine::shared_options() const {
+  return table_of(parser_->app);
+}
+
 int CommandLine::run(int argc, char** argv) {
+  std::vector<char*> given(argv, argv + argc);
+  std::string render = "render";
+  if (argc > 1 && names_a_scene(argv[1])) given.insert(given.begin() + 1, render.data());
   try {
-    parser_->app.parse(argc, argv);
+    parser_->app.parse(int(given.size()), given.data());
   } catch (const CLI::ExtrasError&) {
     // CLI11 lists them backwards.
     const std::vector<std::string> words = parser_->app.remaining(true);
     const CLI::App& command = *parser_->app.get_subcommands().front();
     const bool is_former = std::any_of(words.begin(), words.end(), [](const std::string& word) { return word.starts_with("--threads"); });
-    return refuse(words_not_expected(words) +
-                  (is_former && command.get_option_no_throw("--jobs") != nullptr ? "; --threads is called --jobs" : ""));
+    return refuse(words_not_expected(words) + (is_former && command.get_option_no_throw("--jobs") != nullptr
+                                                   ? "; --threads is called --jobs"
+                                                   : options_like(words, command, parser_->app)));
   } catch (const CLI::RequiredError& error) {
     // Of an unknown command it says that there is none.
     if (!parser_->app.get_subcommands().empty() || argc < 2) return refuse(error.what());
     const std::vector<std::string> words = parser_->app.remaining();
-    return refuse(words.empty() ? error.what() : "There is no command '" + words.front() + "'");
+    if (words.empty()) return refuse(error.what());
+    std::vector<std::string> names;
+    for (const CLI::App* one : parser_->app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(one->get_name());
+    const std::string near = did_you_mean(words.front(), names);
+    return refuse("There is no command '" + words.front() + "'" + (near.empty() ? "" : ":" + near));
   } catch (const CLI::ParseError& error) {
     // By way of the C streams, which are guarded; CLI11 would write to those of C++.
     std::ostringstream out, err;

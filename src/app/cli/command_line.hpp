@@ -19,6 +19,7 @@ class Option {
   Option positive();
   Option one_of(std::vector<std::string> words);
   Option show_default();  // in the help
+  Option names_input();   // a scene or model: one that comes with the program may be meant by its name alone
   bool given() const;     // on the command line; to be asked when it was parsed
 
  private:
@@ -77,6 +78,24 @@ class CommandLine {
   };
   // What all subcommands say of themselves, in the order in which they were added.
   std::vector<CommandText> texts() const;
+
+  // The same as a table, for manual pages and for shells that complete words.
+  struct OptionTable {
+    std::vector<std::string> names;  // "-o", "--output"; of what is known by its place, what the help calls it
+    std::string help;
+    std::vector<std::string> words;  // that it takes, where it takes only some
+    bool takes_value = false;
+    bool is_positional = false;
+    bool is_required = false;
+    const std::string& long_name() const { return names.back(); }
+  };
+  struct CommandTable {
+    std::string name, about, footer;
+    std::vector<OptionTable> options;
+  };
+  std::vector<CommandTable> tables() const;
+  // What the program itself is called, and the options that all commands take.
+  CommandTable shared_options() const;
 
   // Runs the subcommand. Returns the exit code; what the callback throws passes through.
   int run(int argc, char** argv);

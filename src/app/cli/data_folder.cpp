@@ -1,5 +1,7 @@
 #include "app/cli/data_folder.hpp"
 
+#include <sys/auxv.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -13,14 +15,24 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
+// The program's own file; where there is no /proc, as in bare roots, as it was called.
+fs::path own_file() {
+  std::error_code code;
+  const fs::path link = fs::read_symlink("/proc/self/exe", code);
+  if (!code) return link;
+  const auto called = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
+  return called == nullptr ? fs::path() : fs::canonical(called, code);
+}
+
 }  // namespace
 
 std::string data_folder() {
   std::error_code code;
-  const fs::path program = fs::read_symlink("/proc/self/exe", code);
-  if (code) return "";
-  // Of an installed program, and of one in its build tree.
-  for (const fs::path& share : {program.parent_path().parent_path() / "share", program.parent_path() / "share"}) {
+  const fs::path program = own_file();
+  if (program.empty()) return "";
+  // Of an installed program, of one in its build tree, and of what is installed in libexec/chainreel.
+  for (const char* way : {"../share", "share", "../../share"}) {
+    const fs::path share = (program.parent_path() / way).lexically_normal();
     const fs::path folder = share / "chainreel";
     if (fs::is_directory(folder / "assets/scenes", code)) return folder.string();
   }

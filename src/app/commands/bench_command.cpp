@@ -216,7 +216,7 @@ void add_bench_command(CommandLine& app) {
   auto options = std::make_shared<BenchOptions>();
   Command* command = app.add_subcommand(
       "bench", "what each stage of rendering a scene to .mp4 takes, beside its encoder alone on the same frames");
-  command->add_option("scenes", options->scenes, "scene files").required();
+  command->add_option("scenes", options->scenes, "scene files").required().names_input();
   command->add_option("--jobs", options->jobs, "threads, of the film and of the encoder alone (default: all cores)").range(1, 256);
   command->add_option("--rounds", options->rounds, "how often both are measured by turns; the least counts (default 1)")
       .range(1, 1000);

@@ -203,7 +203,7 @@ void add_chart_command(CommandLine& app) {
   auto options = std::make_shared<ChartOptions>();
   Command* command =
       app.add_subcommand("chart", "speed against accuracy: a work-precision diagram of a scene");
-  command->add_option("scene", options->scene, "a scene file").required();
+  command->add_option("scene", options->scene, "a scene file").required().names_input();
   command->add_option("--methods", options->methods, "rk4,taylor,.. (default all that take the scene)");
   command->add_option("--highlight", options->highlight,
                       "taylor,rk4: these in colour, the rest grey (default the cheapest at some error, and auto's)");

@@ -132,7 +132,7 @@ void print_model(const Json& model) {
   if (model.contains("end_effector"))
     std::printf("end effector: %s\n", model["end_effector"].get<std::string>().c_str());
   else
-    std::printf("end effector: none of %s; choose one with --end-effector NAME, of a scene with end_effector: NAME\n",
+    std::printf("end effector: none of %s; choose one with `--set end_effector=NAME`\n",
                 words_of(model["ends"]).c_str());
 }
 
@@ -253,7 +253,7 @@ void add_check_command(CommandLine& app) {
   auto options = std::make_shared<CheckOptions>();
   Command* command =
       app.add_subcommand("check", "the effective scene with all defaults, or what a model holds");
-  command->add_option("file", options->file, "a scene (.yaml) or a model (.urdf)").required();
+  command->add_option("file", options->file, "a scene (.yaml) or a model (.urdf)").required().names_input();
   add_scene_options(*command, options->common);
   add_json_option(*command, options->common);
   command->footer("Example: chainreel check assets/scenes/rr_free.yaml --set method=rk4");

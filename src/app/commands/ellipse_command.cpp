@@ -235,11 +235,11 @@ void run_ellipse(const EllipseOptions& options) {
 void add_ellipse_command(CommandLine& app) {
   auto options = std::make_shared<EllipseOptions>();
   Command* command = app.add_subcommand("ellipse", "a figure of the effective mass at chosen poses");
-  command->add_option("model", options->model, "a model (.urdf); not with --along");
+  command->add_option("model", options->model, "a model (.urdf); not with --along").names_input();
   PoseSources& sources = options->sources;
   command->add_repeatable("--pose", sources.poses, "q of the chain: --pose 0,90deg (repeatable)");
   command->add_option("--sweep", sources.sweep, "poses that differ in one coordinate: --sweep q2=0:180deg:9");
-  command->add_option("--along", sources.along, "poses along the motion of a scene (.yaml)");
+  command->add_option("--along", sources.along, "poses along the motion of a scene (.yaml)").names_input();
   command->add_flag("--field", sources.field, "a grid of points of the workspace, of planar chains of 2 or 3 joints");
   command->add_option("--samples", sources.samples, "poses --along (default 6), points across the --field (default 12)")
       .range(1, 200);

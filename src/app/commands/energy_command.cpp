@@ -213,7 +213,7 @@ void add_energy_command(CommandLine& app) {
   auto options = std::make_shared<EnergyOptions>();
   Command* command =
       app.add_subcommand("energy", "a chart of the energy error against time, a curve a method");
-  command->add_option("scene", options->scene, "a scene file").required();
+  command->add_option("scene", options->scene, "a scene file").required().names_input();
   command->add_option("--until", options->until, "how long, like 1000s (default the scene's duration)");
   command->add_option("--methods", options->methods, "rk4,taylor,.. (default all that take the scene)");
   command->add_option("--step", options->step, "s, of methods of fixed step (default the scene's, else 0.01)")

@@ -43,7 +43,7 @@ void add_equations_command(CommandLine& app, void (*run)(const EquationsOptions&
   auto options = std::make_shared<EquationsOptions>();
   Command* command = app.add_subcommand(
       "equations", "M(q), C(q, qd), g(q), J and Lambda of a chain of up to four joints in symbols, as text, LaTeX or Python");
-  command->add_option("file", options->file, "a model (.urdf) or a scene (.yaml)").required();
+  command->add_option("file", options->file, "a model (.urdf) or a scene (.yaml)").required().names_input();
   command->add_flag("--latex", options->latex, "as LaTeX");
   command->add_flag("--python", options->python, "as a module of Python with functions of numpy arrays");
   command->add_flag("--theta", options->theta, "angles are called theta, not q");

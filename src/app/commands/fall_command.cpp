@@ -148,7 +148,7 @@ void run_fall(const FallOptions& options) {
 void add_fall_command(CommandLine& app) {
   auto options = std::make_shared<FallOptions>();
   Command* command = app.add_subcommand("fall", "when a scene's model falls, against one of its keys");
-  command->add_option("scene", options->scene, "a scene file with an event of kind fall").required();
+  command->add_option("scene", options->scene, "a scene file with an event of kind fall").required().names_input();
   command->add_option("--sweep", options->sweep,
                       "KEY=a,b,c or KEY=from:to:count, maybe with :log behind it, like torque.1=0:60:7");
   command->add_option("-o,--output", options->output, "a .csv file");

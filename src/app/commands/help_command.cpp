@@ -3,7 +3,9 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
+#include "app/guide/manual.hpp"
 #include "app/guide/reference.hpp"
+#include "app/report/version.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "scene/keys/schema.hpp"
@@ -13,6 +15,7 @@ namespace {
 
 struct HelpOptions {
   std::string topic;
+  bool man = false;
   CommonOptions common;
 };
 
@@ -41,6 +44,8 @@ void list_topics(const std::vector<GuidePage>& pages, bool json) {
 }
 
 void run_help(const HelpOptions& options, const CommandLine& app) {
+  if (options.man && options.common.json) throw Error(ExitCode::usage, "--man prints a manual page, --json the same as JSON: take one");
+  if (options.man) return void(std::fputs(manual_page(app, program_version(), options.topic).c_str(), stdout));
   const std::vector<GuidePage> pages = guide_pages(app);
   if (options.topic.empty()) return list_topics(pages, options.common.json);
   std::vector<std::string> known;
@@ -79,9 +84,22 @@ void add_help_command(CommandLine& app) {
   auto options = std::make_shared<HelpOptions>();
   Command* command = app.add_subcommand("help", "the reference: scene, methods, constraints, outputs, ..");
   command->add_option("topic", options->topic, "a topic or a command; without it the topics are listed");
+  command->add_flag("--man", options->man, "print chainreel(1), or the manual page of a command: chainreel help render --man | man -l -");
   add_json_option(*command, options->common);
   command->footer("Example: chainreel help scene");
   command->callback([options, &app] { run_help(*options, app); });
+}
+
+// chainreel completion SHELL: what makes a shell complete the program's words.
+
+void add_completion_command(CommandLine& app) {
+  auto shell = std::make_shared<std::string>();
+  Command* command = app.add_subcommand("completion", "a script by which bash, zsh or fish completes words of the command line");
+  command->add_option("shell", *shell, "whose script").required().one_of(words_of(names_of(Shell{})));
+  command->footer(
+      "The Debian package installs all three. By hand: bash reads it by source <(chainreel completion bash).\n"
+      "Example: chainreel completion fish > ~/.config/fish/completions/chainreel.fish");
+  command->callback([shell, &app] { std::fputs(completion_script(app, *value_named<Shell>(*shell)).c_str(), stdout); });
 }
 
 // chainreel schema: the keys of a scene as a JSON Schema, for editors.

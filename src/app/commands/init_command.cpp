@@ -133,8 +133,8 @@ StarterFiles files_of_chain(const InitOptions& options, const std::string& name)
 // A scene of the program's and its model, which then lies beside it.
 StarterFiles copied_files(const std::string& from, const std::string& name) {
   const auto known = std::find_if(std::begin(kBeginnings), std::end(kBeginnings), [&](const Beginning& one) { return one.name == from; });
-  const std::string path = shipped_file((known != std::end(kBeginnings) ? known->scene : from) + std::string(".yaml"));
-  if (path.empty()) {
+  const std::string path = shipped_file(known != std::end(kBeginnings) ? known->scene : from);
+  if (!path.ends_with(".yaml")) {
     std::vector<std::string> names = shipped_scenes();
     if (names.empty())
       throw Error(ExitCode::bad_input, "the scenes that come with the program are not beside it: install it whole, or take --links");

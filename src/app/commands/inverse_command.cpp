@@ -105,7 +105,8 @@ void add_inverse_command(CommandLine& app) {
       ->add_option("file", options->file,
                    "a model (.urdf), or a scene (.yaml) for its mechanism with constraints and contact_force; "
                    "constraints that are not pressed bear nothing")
-      .required();
+      .required()
+      .names_input();
   command
       ->add_option("--trajectory", options->trajectory,
                    "a .csv with t,q1.. and maybe qd1.., qdd1.. (else splines)")

@@ -151,7 +151,7 @@ void add_render_command(CommandLine& app) {
   Command* command = app.add_subcommand("render",
                                          "render scenes to films, clips and pictures, each with its audit as "
                                          "NAME.json and in words as NAME.txt");
-  command->add_option("scenes", options->scenes, "scene files").required();
+  command->add_option("scenes", options->scenes, "scene files").required().names_input();
   command->add_repeatable("-o,--output", options->outputs,
       "a .mp4, .webm, .mov, .gif, .apng, .png, .svg, .pdf or .csv file, or NAME_000000.png for a sequence "
       "(repeatable: each frame is drawn once for all), or a folder (default out/NAME.mp4)");

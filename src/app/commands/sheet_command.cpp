@@ -125,7 +125,7 @@ void add_sheet_command(CommandLine& app) {
   auto options = std::make_shared<SheetOptions>();
   Command* command =
       app.add_subcommand("sheet", "a contact sheet: one picture of each scene, all on one page");
-  command->add_option("scenes", options->scenes, "scene files, up to 48").required();
+  command->add_option("scenes", options->scenes, "scene files, up to 48").required().names_input();
   command->add_option(
       "--at", options->at,
       "instant of every scene in seconds, or its end where that is earlier (default: the last "

@@ -104,7 +104,7 @@ void run_simulate(const SimulateOptions& options) {
 void add_simulate_command(CommandLine& app) {
   auto options = std::make_shared<SimulateOptions>();
   Command* command = app.add_subcommand("simulate", "run a scene and write its states as CSV");
-  command->add_option("scene", options->scene, "a scene file").required();
+  command->add_option("scene", options->scene, "a scene file").required().names_input();
   command->add_option("-o,--output", options->output,
                       "a .csv file, or - for standard output (default out/NAME.csv); of a scene with several "
                       "panels NAME.1.csv, NAME.2.csv, ...");

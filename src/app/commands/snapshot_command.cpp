@@ -277,7 +277,7 @@ void add_snapshot_command(CommandLine& app) {
   auto options = std::make_shared<SnapshotOptions>();
   Command* command =
       app.add_subcommand("snapshot", "one picture: a scene at an instant, or a model at poses");
-  command->add_option("file", options->file, "a scene (.yaml) or a model (.urdf)").required();
+  command->add_option("file", options->file, "a scene (.yaml) or a model (.urdf)").required().names_input();
   command->add_repeatable("--at", options->at,
                           "instants of the scene: 1.2s, `event NAME`, or several between commas, maybe "
                           "named: hit=1.2s (default 0)");

@@ -264,7 +264,7 @@ void add_stability_command(CommandLine& app) {
   auto options = std::make_shared<StabilityOptions>();
   Command* command = app.add_subcommand(
       "stability", "a map of where a scene fails over two of its keys, or which method does");
-  command->add_option("scene", options->scene, "a scene file").required();
+  command->add_option("scene", options->scene, "a scene file").required().names_input();
   command->add_option("--x", options->x, "KEY=from:to:count, maybe with :log behind it");
   command->add_option("--y", options->y, "the same, upward");
   command->add_option("--methods", options->methods, "of the table: rk4,taylor,.. (default all)");

@@ -6,7 +6,7 @@ namespace chainreel {
 
 inline constexpr char kStarterScene[] = R"(# A scene: what moves, what drives it, and what the film shows. All keys: chainreel help scene
 title: "@NAME@"
-model: @NAME@.urdf            #@model
+model: "@NAME@.urdf"          #@model
 @GRAVITY@
 start:
   q: @Q@          #@start.q

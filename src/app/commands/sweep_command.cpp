@@ -328,7 +328,7 @@ void run_sweep(SweepOptions options) {
 void add_sweep_command(CommandLine& app) {
   auto options = std::make_shared<SweepOptions>();
   Command* command = app.add_subcommand("sweep", "a scene at every point of a grid of its keys: a table, films or pictures");
-  command->add_option("scene", options->scene, "a scene file").required();
+  command->add_option("scene", options->scene, "a scene file").required().names_input();
   command->add_repeatable("--over", options->over,
                           "KEY=a,b,c or KEY=from:to:count, maybe with :log behind it (repeatable: all combinations)")
       .required();

@@ -50,6 +50,7 @@ std::string value_words(const KeyText& text) {
     case KeyForm::expression:
       return "expression";
     case KeyForm::list:
+      if (text.parts[0].form == KeyForm::list && is_short(text)) return "list of lists" + value_words(text.parts[0]).substr(4);
       return is_short(text) ? "list of " + value_cell(text.parts[0]) + "s" : "list, see below";
     case KeyForm::mapping:
       return "names, each with a " + value_words(text.parts[0]);
@@ -156,7 +157,8 @@ std::string scene_page() {
   std::string text =
       "# Keys of a scene\n\n"
       "A scene is a YAML file. Each key may also be given on the command line: `--set video.width=640`; some have flags of\n"
-      "their own. Numbers are in SI units and radians, or constant expressions: `90deg`, `pi/2`, `1e-3`. Paths are relative\n"
+      "their own; `--set tolerance=` takes a key away, and `--set method=rk4` those of step, tolerance, order and accuracy that do\n"
+      "not go with rk4. Numbers are in SI units and radians, or constant expressions: `90deg`, `pi/2`, `1e-3`. Paths are relative\n"
       "to the scene file. A key with * may differ from panel to panel of a comparison; the others belong to the whole\n"
       "picture. `chainreel check SCENE` prints a scene with every key; `chainreel schema` prints a JSON Schema for editors.\n";
   for (const std::string& chapter : chapters()) text += chapter_text(chapter);

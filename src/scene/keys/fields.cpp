@@ -199,9 +199,10 @@ void Fields::finish() {
   for (const auto& pair : map_) {
     const std::string& key = pair.first.Scalar();
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-    problems_->add(
-        "unknown key '" + path(key) + "':" + did_you_mean(key, known_) + " The keys here are " + joined(known_) + ".",
-        place_of(pair.first, key));
+    constexpr std::size_t kFewKeys = 12;
+    const std::string others =
+        known_.size() > kFewKeys ? " `chainreel help scene` lists all keys." : " The keys here are " + joined(known_) + ".";
+    problems_->add("unknown key '" + path(key) + "':" + did_you_mean(key, known_) + others, place_of(pair.first, key));
   }
 }
 

@@ -8,21 +8,23 @@
 namespace chainreel {
 
 KeyText told_model() {
-  const KeyText length = told("", KeyForm::number, "").in("m"), mass = told("", KeyForm::number, "").in("kg");
-  const KeyText damping = told("", KeyForm::number, "").in("N m s/rad or N s/m");
+  const KeyText number = told("", KeyForm::number, "");
+  const auto for_all_or_each = [&](const char* name, const char* help) {
+    return told_either(name, {number, told_list("", number, "")}, help);
+  };
   return told_either(
              "model",
              {told("", KeyForm::path, "a URDF file"),
               told_record(
                   "",
-                  {told_list("links", length, "their lengths; at zero all lie along x, one behind the other"),
-                   told_either("masses", {mass, told_list("", mass, "")}, "1 each where left out"),
+                  {told_list("links", number, "their lengths, m; at zero all lie along x, one behind the other"),
+                   for_all_or_each("masses", "kg; 1 each where left out"),
                    told("joints", KeyForm::text,
                         "a letter each: R turns about z, P slides along x, or across the P before it; else with its axis, "
                         "RzPx; all R where left out"),
                    told_word("shape", names_of(LinkMass{}), "where the mass is; rod where left out"),
-                   told_either("damping", {damping, told_list("", damping, "")}, "of the joints; none where left out"),
-                   told_list("dh", told_list("", told("", KeyForm::number, ""), ""),
+                   for_all_or_each("damping", "of the joints, N m s/rad or N s/m; none where left out"),
+                   told_list("dh", told_list("", number, ""),
                              "in the place of `links`: a, alpha, d, theta of each joint (Denavit and Hartenberg), m and rad"),
                    told_word("convention", names_of(DhConvention{}), "of `dh`; standard where left out")},
                   "a serial chain in numbers: a number a link, or one for all")},

@@ -61,7 +61,8 @@ void read_draw(Fields& fields, Scene& scene) {
     const bool remove = entry.starts_with('-');
     const std::string name = remove || entry.starts_with('+') ? entry.substr(1) : entry;
     if (!index_of_name(layer_names(), name))
-      fields.problem_at("draw", "unknown layer '" + name + "' in 'draw':" + did_you_mean(name, words_of(layer_names())));
+      fields.problem_at("draw", "unknown layer '" + name + "' in 'draw':" + did_you_mean(name, words_of(layer_names())) +
+                                 " `chainreel help layers` lists all.");
     std::erase(scene.draw, name);
     if (!remove) scene.draw.push_back(name);
   }

@@ -1,4 +1,6 @@
 // What two keys of a scene say together.
+#include <algorithm>
+
 #include "integrate/method.hpp"
 #include "scene/film_clock.hpp"
 #include "scene/keys/own_keys.hpp"
@@ -6,35 +8,70 @@
 namespace chainreel {
 namespace {
 
-void check_method_options(Fields& fields, const Scene& scene, const Method& method) {
-  if (scene.tolerance && !method.adaptive)
-    fields.problem_at("tolerance", method.name + " takes no tolerance: its step is fixed, see 'step'");
-  if (scene.tolerance && scene.step)
-    fields.problem_at("tolerance", "'step' and 'tolerance' exclude each other: a fixed step meets no tolerance");
-  if (!scene.order) return;
-  if (method.highest_order == 0)
-    fields.problem_at("order", method.name + " has one order only, " + std::to_string(method.order));
-  else if (*scene.order < method.lowest_order || *scene.order > method.highest_order)
-    fields.problem_at("order", "'order' of " + method.name + " must lie between " +
-                                   std::to_string(method.lowest_order) + " and " +
-                                   std::to_string(method.highest_order));
+bool is_of_command_line(const Fields& fields, const std::string& key) {
+  const std::vector<Origin>& origins = fields.document().origins;
+  return std::any_of(origins.begin(), origins.end(), [&](const Origin& one) { return one.key == key && one.command_line; });
 }
 
-void check_method_keys(Fields& fields, const Scene& scene) {
+// Keys that go with a method. Where the command line names another one, those of the file that do not go with it are left
+// out, which is said; what the command line itself says is never passed over.
+class MethodKeys {
+ public:
+  MethodKeys(Fields& fields, Scene& scene) : fields_(fields), scene_(scene), is_replaced_(is_of_command_line(fields, "method")) {}
+
+  // True where the key was left out; else it is a problem.
+  bool leave_out(const std::string& key, const std::string& problem) {
+    if (!is_replaced_ || is_of_command_line(fields_, key)) {
+      fields_.problem_at(key, problem);
+      return false;
+    }
+    if (key == "step") scene_.step.reset();
+    if (key == "tolerance") scene_.tolerance.reset();
+    if (key == "order") scene_.order.reset();
+    if (key == "accuracy") scene_.accuracy = Accuracy{};
+    scene_.notices.push_back("'" + key + "' of the scene is left out: it does not go with method " + scene_.method +
+                             " of the command line");
+    return true;
+  }
+
+  bool stands_in_the_file(const std::string& key) const { return !is_of_command_line(fields_, key); }
+
+ private:
+  Fields& fields_;
+  Scene& scene_;
+  bool is_replaced_;
+};
+
+void check_method_options(MethodKeys& keys, const Scene& scene, const Method& method) {
+  if (scene.tolerance && !method.adaptive)
+    keys.leave_out("tolerance", method.name + " takes no tolerance: its step is fixed, see 'step'");
+  if (scene.tolerance && scene.step)
+    // Of the two that one stays which the command line says.
+    keys.leave_out(keys.stands_in_the_file("step") && !keys.stands_in_the_file("tolerance") ? "step" : "tolerance",
+                   "'step' and 'tolerance' exclude each other: a fixed step meets no tolerance");
+  if (!scene.order) return;
+  if (method.highest_order == 0)
+    keys.leave_out("order", method.name + " has one order only, " + std::to_string(method.order));
+  else if (*scene.order < method.lowest_order || *scene.order > method.highest_order)
+    keys.leave_out("order", "'order' of " + method.name + " must lie between " + std::to_string(method.lowest_order) + " and " +
+                                std::to_string(method.highest_order));
+}
+
+void check_method_keys(Fields& fields, Scene& scene) {
   if (scene.step && *scene.step > scene.duration && scene.duration > 0)
     fields.problem_at("step", "'step' is longer than the duration");
+  MethodKeys keys(fields, scene);
   if (scene.chooses_method()) {
-    for (const char* key : {"step", "tolerance", "order"})
+    for (const std::string key : {"step", "tolerance", "order"})
       if (fields.has(key))
-        fields.problem_at(key, "'" + std::string(key) + "' is chosen by `method: auto`: name a method, or leave '" +
-                                   key + "' out");
+        keys.leave_out(key, "'" + key + "' is chosen by `method: auto`: name a method, or leave '" + key + "' out");
     return;
   }
   if (fields.has("accuracy"))
-    fields.problem_at("accuracy", "'accuracy' is what `method: auto` chooses by; with method " + scene.method +
-                                      " it means nothing: leave one of the two out");
+    keys.leave_out("accuracy", "'accuracy' is what `method: auto` chooses by; with method " + scene.method +
+                                   " it means nothing: leave one of the two out");
   try {
-    check_method_options(fields, scene, find_method(scene.method));
+    check_method_options(keys, scene, find_method(scene.method));
   } catch (const Error& error) {
     fields.problem_at("method", error.problems().front().message);
   }

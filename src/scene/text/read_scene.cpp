@@ -1,5 +1,6 @@
 #include "scene/text/read_scene.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/json.hpp"
@@ -79,7 +80,8 @@ Scene SceneFile::read(const std::vector<std::string>& overrides) {
   constexpr int kMostReads = 1000;  // values that were replaced stay in the document's memory
   const std::vector<Override> wanted = parse_overrides(overrides);
   const auto same_key = [](const Override& a, const Override& b) { return a.key == b.key; };
-  const bool fits = document_ && ++reads_ < kMostReads &&
+  const bool takes_away = std::any_of(wanted.begin(), wanted.end(), [](const Override& one) { return one.value.empty(); });
+  const bool fits = document_ && ++reads_ < kMostReads && !takes_away &&
                     std::equal(wanted.begin(), wanted.end(), document_->overrides.begin(), document_->overrides.end(),
                                same_key);
   if (fits) {

@@ -1,0 +1,44 @@
+# What is installed, and the Debian package of it. The program finds its scenes and models from its own file, so that the
+# installed tree may be moved.
+include(GNUInstallDirs)
+
+# FFmpeg's libraries and Mesa's are opened by name when they are needed, which no tool sees. What this library, which is
+# installed nowhere, is linked with by the same functions tells which packages the program needs besides.
+pkg_check_modules(OPENED REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil libswscale osmesa)
+add_library(chainreel_opened MODULE EXCLUDE_FROM_ALL src/encode/opened_libraries.cpp src/render/opened_libraries.cpp)
+target_link_libraries(chainreel_opened PRIVATE PkgConfig::OPENED)
+target_include_directories(chainreel_opened PRIVATE ${CMAKE_SOURCE_DIR}/src)
+
+set(manual ${CMAKE_BINARY_DIR}/manual)
+# Manual pages and completions are made when they are installed: nothing else needs them.
+install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" -DPROGRAM=$<TARGET_FILE:chainreel> -DFOLDER=${manual}
+  -P \"${CMAKE_SOURCE_DIR}/assets/package/manual.cmake\" COMMAND_ERROR_IS_FATAL ANY)")
+install(TARGETS chainreel RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS chainreel-equations RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/chainreel)
+install(DIRECTORY assets/scenes assets/guide assets/ci assets/cluster DESTINATION ${CMAKE_INSTALL_DATADIR}/chainreel/assets)
+install(DIRECTORY models DESTINATION ${CMAKE_INSTALL_DATADIR}/chainreel)
+install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
+install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 FILES_MATCHING PATTERN "*.1")
+install(FILES ${manual}/chainreel.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME chainreel)
+install(FILES ${manual}/_chainreel DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+install(FILES ${manual}/chainreel.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME chainreel)
+set(CPACK_PACKAGE_VENDOR chainreel)
+set(CPACK_PACKAGE_CONTACT "The authors of chainreel <chainreel@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
+set(CPACK_PACKAGE_DESCRIPTION "From a short scene file to a film of a robot chain moving under given torques:
+MP4, WebM, GIF, PNG, SVG and PDF, without display or GPU, with an audit of the physics beside each film.")
+set(CPACK_PACKAGE_FILE_NAME chainreel)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+  OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libegl1, libegl-mesa0, man-db")
+set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_SOURCE_DIR}/assets/package/depends.cmake)
+set(CPACK_CHAINREEL_BINARIES "${CMAKE_BINARY_DIR}/chainreel;${CMAKE_BINARY_DIR}/chainreel-equations;${CMAKE_BINARY_DIR}/libchainreel_opened.so")
+set(CPACK_CHAINREEL_FOLDER ${CMAKE_BINARY_DIR}/package)
+include(CPack)

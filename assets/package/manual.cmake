@@ -1,0 +1,16 @@
+# Manual pages and completions as the program prints them, into FOLDER: cmake -DPROGRAM=chainreel -DFOLDER=manual -P ..
+function(print file)
+  execute_process(COMMAND ${PROGRAM} ${ARGN} OUTPUT_FILE ${FOLDER}/${file} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+file(MAKE_DIRECTORY ${FOLDER})
+print(chainreel.1 help --man)
+file(READ ${FOLDER}/chainreel.1 page)
+string(REGEX MATCHALL "chainreel\\\\-[a-z]+ \\(1\\)" commands "${page}")
+foreach(command ${commands})
+  string(REGEX REPLACE "chainreel\\\\-([a-z]+) .*" "\\1" name "${command}")
+  print(chainreel-${name}.1 help ${name} --man)
+endforeach()
+print(chainreel.bash completion bash)
+print(_chainreel completion zsh)
+print(chainreel.fish completion fish)
