@@ -31,8 +31,6 @@ void store4(Number* to, Lanes lanes) {
 inline Float4 least(Float4 a, Float4 b) { return a < b ? a : b; }
 inline Float4 most(Float4 a, Float4 b) { return a > b ? a : b; }
 
-inline Float4 magnitude(Float4 x) { return Float4(Int4(x) & all4(std::int32_t(0x7fffffff))); }
-
 inline Float4 root(Float4 x) {
 #if defined(__SSE2__)
   __m128 floats;
@@ -105,6 +103,8 @@ inline unsigned bits_of(Int4 lanes) {
   return unsigned(lanes[0] & 1) | unsigned(lanes[1] & 2) | unsigned(lanes[2] & 4) | unsigned(lanes[3] & 8);
 #endif
 }
+
+inline bool are_all(Int4 lanes) { return bits_of(lanes) == 15; }
 
 // Four bytes as numbers, the lowest first, and back: what is between two is cut off.
 inline Float4 unpacked(std::uint32_t bytes) {

@@ -1,41 +1,48 @@
-// The fragment shaders of shaders/, for four pixels of a row at once: the same operations in the same order,
-// so that pixels have the bytes that OpenGL's software renderer gives them.
-#pragma once
+// The fragment shaders of shaders/, for several pixels of a row at once: the same operations in the same
+// order, so that pixels have the bytes that OpenGL's software renderer gives them, and windows filled with
+// them. Included for each width of the processor's vectors, within a namespace that says what Floats, Ints,
+// kLanes and kCenters are; so it includes nothing and has no guard.
 
-#include <algorithm>
-#include <array>
-
-#include "render/lanes.hpp"
-
-namespace chainreel::shades {
-
-struct Color4 {
-  Float4 r, g, b, a;
+struct Colors {
+  Floats r, g, b, a;
 };
 
-inline Float4 between(Float4 x, float low, float high) {
-  return least(most(x, all4(low)), all4(high));
+inline Floats all(float x) {
+  return Floats{} + x;
 }
-inline Float4 coverage(Float4 d) {
+inline Floats least(Floats a, Floats b) {
+  return a < b ? a : b;
+}
+inline Floats most(Floats a, Floats b) {
+  return a > b ? a : b;
+}
+inline Floats magnitude(Floats x) {
+  return Floats(Ints(x) & 0x7fffffff);
+}
+inline Floats between(Floats x, float low, float high) {
+  return least(most(x, all(low)), all(high));
+}
+inline Floats coverage(Floats d) {
   return between(0.5F - d, 0.0F, 1.0F);
 }
-inline Float4 mixed(float from, float to, Float4 t) {
+inline Floats mixed(float from, float to, Floats t) {
   return from + t * (to - from);
 }
-inline Float4 chosen(Int4 which, Float4 yes, Float4 no) {
+inline Floats chosen(Ints which, Floats yes, Floats no) {
   return which ? yes : no;
 }
 
-constexpr Float4 kNoLevel = {0, 0, 0, 0};
-constexpr Color4 kNoColor = {kNoLevel, kNoLevel, kNoLevel, kNoLevel};
+constexpr Colors kNoColor = {};
 
-inline Color4 operator*(const Color4& color, Float4 by) {
+inline Colors operator*(const Colors& color, Floats by) {
   return {color.r * by, color.g * by, color.b * by, color.a * by};
 }
 
+inline Ints level(Floats c) {
+  return rounded_to_even(255.0F * between(c, 0.0F, 1.0F));
+}
 // Its pixels as bytes: blue lowest, opacity highest.
-inline Int4 bytes_of(const Color4& color) {
-  const auto level = [](Float4 c) { return rounded_to_even(255.0F * between(c, 0.0F, 1.0F)); };
+inline Ints bytes_of(const Colors& color) {
   return level(color.b) | level(color.g) << 8 | level(color.r) << 16 | level(color.a) << 24;
 }
 
@@ -47,8 +54,8 @@ std::array<float, kCount> numbers_of(const float* from) {
 }
 
 struct Fill {
-  explicit Fill(const float* n) : color{all4(n[0]), all4(n[1]), all4(n[2]), all4(n[3])} {}
-  Color4 color;
+  explicit Fill(const float* n) : color{all(n[0]), all(n[1]), all(n[2]), all(n[3])} {}
+  Colors color;
 };
 
 // paint() of paint.glsl.
@@ -56,26 +63,24 @@ class Paint {
  public:
   Paint(float half_stroke, const float* fill, const float* stroke)
       : half_stroke_(half_stroke), fill_(fill), stroke_(stroke), both_(fill) {
-    const Color4 through = fill_.color * (1.0F - stroke_.color.a);
+    const Colors through = fill_.color * (1.0F - stroke_.color.a);
     both_.color = {stroke_.color.r + through.r, stroke_.color.g + through.g, stroke_.color.b + through.b,
                    stroke_.color.a + through.a};
   }
   // Whether all four lie where there is neither fill nor stroke.
-  bool is_beyond(Float4 d) const { return bits_of(d - half_stroke_ >= 0.5F) == 15; }
+  bool is_beyond(Floats d) const { return are_all(d - half_stroke_ >= 0.5F); }
   bool fills() const { return fill_.color.a[0] > 0; }
-  const Color4& fill() const { return fill_.color; }
-  Color4 at(Float4 d) const {
-    const Float4 middle = coverage(d);
+  const Colors& fill() const { return fill_.color; }
+  Colors at(Floats d) const {
+    const Floats middle = coverage(d);
     if (half_stroke_ == 0) return fill_.color * middle;
-    const Float4 inside = d + half_stroke_;
-    if (bits_of(inside <= -0.5F) == 15) return fill_.color;
-    const Float4 inner = coverage(inside), outer = coverage(d - half_stroke_);
-    const Float4 of_both = middle - inner, of_stroke = outer - middle;
-    const auto sum = [&](Float4 fill, Float4 both, Float4 stroke) {
-      return fill * inner + both * of_both + stroke * of_stroke;
-    };
-    const Color4 &f = fill_.color, &b = both_.color, &s = stroke_.color;
-    return {sum(f.r, b.r, s.r), sum(f.g, b.g, s.g), sum(f.b, b.b, s.b), sum(f.a, b.a, s.a)};
+    const Floats inside = d + half_stroke_;
+    if (are_all(inside <= -0.5F)) return fill_.color;
+    const Floats inner = coverage(inside), outer = coverage(d - half_stroke_);
+    const Floats of_both = middle - inner, of_stroke = outer - middle;
+    const Colors &f = fill_.color, &b = both_.color, &s = stroke_.color;
+    return {f.r * inner + b.r * of_both + s.r * of_stroke, f.g * inner + b.g * of_both + s.g * of_stroke,
+            f.b * inner + b.b * of_both + s.b * of_stroke, f.a * inner + b.a * of_both + s.a * of_stroke};
   }
 
  private:
@@ -88,10 +93,10 @@ struct Fade {
   std::array<float, 8> n;  // slopes, offsets
 
   explicit Fade(const float* numbers) : n(numbers_of<8>(numbers)) {}
-  Float4 at(Float4 x, float y) const {
-    const Float4 across = least(n[0] * x + n[4], n[1] * -x + n[5]);
+  Floats at(Floats x, float y) const {
+    const Floats across = least(n[0] * x + n[4], n[1] * -x + n[5]);
     const float along = std::min(n[2] * y + n[6], n[3] * -y + n[7]);
-    return between(least(across, all4(along)), 0.0F, 1.0F);
+    return between(least(across, all(along)), 0.0F, 1.0F);
   }
 };
 
@@ -102,15 +107,15 @@ struct Capsule {
   Paint paint{n[6], &n[12], &n[16]};
 
   explicit Capsule(const float* numbers) : n(numbers_of<20>(numbers)) {}
-  Color4 operator()(Float4 px, float py) const {
-    const Float4 x = px - n[0];
+  Colors operator()(Floats px, float py) const {
+    const Floats x = px - n[0];
     const float y = py - n[1];
-    const Float4 along = x * n[2] + y * n[3], across = y * n[2] - x * n[3];
-    const Float4 beside = along - between(along, 0.0F, n[4]);
-    const Float4 d = root(beside * beside + across * across) - n[5];
+    const Floats along = x * n[2] + y * n[3], across = y * n[2] - x * n[3];
+    const Floats beside = along - between(along, 0.0F, n[4]);
+    const Floats d = root(beside * beside + across * across) - n[5];
     if (paint.is_beyond(d)) return kNoColor;
     if (is_even) return paint.at(d);
-    const Float4 t = between(along / length, 0.0F, 1.0F);
+    const Floats t = between(along / length, 0.0F, 1.0F);
     return paint.at(d) * mixed(n[8], n[9], t);
   }
 };
@@ -120,14 +125,14 @@ struct Arc {
   Fill fill{&n[8]};
 
   explicit Arc(const float* numbers) : n(numbers_of<12>(numbers)) {}
-  Color4 operator()(Float4 px, float py) const {
-    const Float4 x = px - n[0];
+  Colors operator()(Floats px, float py) const {
+    const Floats x = px - n[0];
     const float y = py - n[1];
-    const Float4 u = x * n[2] + y * n[3], v = magnitude(y * n[2] - x * n[3]);
+    const Floats u = x * n[2] + y * n[3], v = magnitude(y * n[2] - x * n[3]);
     const float end_u = n[7], end_v = n[6];
-    const Int4 beside_arc = v * end_u <= u * end_v;
-    const Float4 to_u = u - n[4] * end_u, to_v = v - n[4] * end_v;
-    const Float4 to_line =
+    const Ints beside_arc = v * end_u <= u * end_v;
+    const Floats to_u = u - n[4] * end_u, to_v = v - n[4] * end_v;
+    const Floats to_line =
         chosen(beside_arc, magnitude(root(u * u + v * v) - n[4]), root(to_u * to_u + to_v * to_v));
     return fill.color * coverage(to_line - n[5]);
   }
@@ -150,51 +155,51 @@ struct Ellipse {
   Fade fade{&n[16]};
 
   explicit Ellipse(const float* numbers) : n(numbers_of<24>(numbers)) {}
-  Color4 operator()(Float4 px, float py) const {
-    const Float4 x = px - n[0];
+  Colors operator()(Floats px, float py) const {
+    const Floats x = px - n[0];
     const float y = py - n[1];
-    const Float4 u = x * n[2] + y * n[3], v = y * n[2] - x * n[3];
-    const Float4 scaled_u = u * per_a, scaled_v = v * per_b,
+    const Floats u = x * n[2] + y * n[3], v = y * n[2] - x * n[3];
+    const Floats scaled_u = u * per_a, scaled_v = v * per_b,
                  square = scaled_u * scaled_u + scaled_v * scaled_v;
-    if (bits_of(square > outside) == 15) return kNoColor;
-    if (bits_of(square < inside) == 15) return paint.fills() ? paint.fill() * fade.at(px, py) : kNoColor;
-    if (bits_of(is_beyond_tangent(scaled_u, scaled_v, square)) == 15) return kNoColor;
-    const Float4 d = distance(magnitude(u), magnitude(v));
+    if (are_all(square > outside)) return kNoColor;
+    if (are_all(square < inside)) return paint.fills() ? paint.fill() * fade.at(px, py) : kNoColor;
+    if (are_all(is_beyond_tangent(scaled_u, scaled_v, square))) return kNoColor;
+    const Floats d = distance(magnitude(u), magnitude(v));
     if (paint.is_beyond(d)) return kNoColor;
     return paint.at(d) * fade.at(px, py);
   }
   // The ellipse lies on one side of its tangent where the ray to the pixel leaves it; so the edge is at least
   // as far away.
-  Int4 is_beyond_tangent(Float4 scaled_u, Float4 scaled_v, Float4 square) const {
-    const Float4 normal_u = scaled_u * per_a, normal_v = scaled_v * per_b, level = root(square);
+  Ints is_beyond_tangent(Floats scaled_u, Floats scaled_v, Floats square) const {
+    const Floats normal_u = scaled_u * per_a, normal_v = scaled_v * per_b, level = root(square);
     return (level - 1.0F) * level > farthest * root(normal_u * normal_u + normal_v * normal_v);
   }
-  Float4 distance(Float4 u, Float4 v) const {
-    const Float4 zu = u / a, zv = most(v / b, all4(1e-6F));
-    const Float4 level = root(zu * zu + zv * zv);
-    const Float4 at_least = (level - 1.0F) * b;
-    const Int4 is_far = magnitude(at_least) > reach;
-    if (bits_of(is_far) == 15) return at_least;
-    const Float4 numerator = ratio * ratio * zu;
-    Float4 w = most(zv, numerator - r_less_1), foot_u = all4(0.0F), foot_v = all4(0.0F);
-    Int4 seeks = ~is_far;
+  Floats distance(Floats u, Floats v) const {
+    const Floats zu = u / a, zv = most(v / b, all(1e-6F));
+    const Floats level = root(zu * zu + zv * zv);
+    const Floats at_least = (level - 1.0F) * b;
+    const Ints is_far = magnitude(at_least) > reach;
+    if (are_all(is_far)) return at_least;
+    const Floats numerator = ratio * ratio * zu;
+    Floats w = most(zv, numerator - r_less_1), foot_u = all(0.0F), foot_v = all(0.0F);
+    Ints seeks = ~is_far;
     for (int pass = 0; pass <= kMostPasses; ++pass) {
-      const Float4 over_u = w + r_less_1;
-      const Float4 u_now = numerator / over_u, v_now = zv / w;
+      const Floats over_u = w + r_less_1;
+      const Floats u_now = numerator / over_u, v_now = zv / w;
       foot_u = chosen(seeks, u_now, foot_u);
       foot_v = chosen(seeks, v_now, foot_v);
-      const Float4 square = u_now * u_now + v_now * v_now, norm = root(square);
+      const Floats square = u_now * u_now + v_now * v_now, norm = root(square);
       seeks &= ~(norm < 1.00002F);
-      if (bits_of(seeks) == 0) break;
-      const Float4 step =
+      if (are_all(~seeks)) break;
+      const Floats step =
           square * (norm - 1.0F) / (u_now * u_now * (1.0F / over_u) + v_now * v_now * (1.0F / w));
       w = chosen(seeks, w + step, w);
     }
-    const Float4 norm = root(foot_u * foot_u + foot_v * foot_v);
-    const Float4 to_u = foot_u / norm * a - u, to_v = foot_v / norm * b - v;
-    const Float4 distance = root(to_u * to_u + to_v * to_v);
-    const Float4 zero = all4(0.0F);
-    const Float4 sided = chosen(at_least > 0.0F, distance, chosen(at_least < 0.0F, -distance, zero));
+    const Floats norm = root(foot_u * foot_u + foot_v * foot_v);
+    const Floats to_u = foot_u / norm * a - u, to_v = foot_v / norm * b - v;
+    const Floats distance = root(to_u * to_u + to_v * to_v);
+    const Floats zero = all(0.0F);
+    const Floats sided = chosen(at_least > 0.0F, distance, chosen(at_least < 0.0F, -distance, zero));
     return chosen(is_far, at_least, sided);
   }
 };
@@ -214,20 +219,20 @@ struct Polygon {
       square[i] = std::max(x * x + y * y, 1e-12F);
     }
   }
-  Color4 operator()(Float4 px, float py) const {
-    Float4 least_square = all4(1e30F), least_side = all4(1e30F);
+  Colors operator()(Floats px, float py) const {
+    Floats least_square = all(1e30F), least_side = all(1e30F);
     for (int i = 0; i < kCorners; ++i) {
       const float *from = &n[std::size_t(2 * i)], *to = &n[std::size_t(2 * ((i + 1) % kCorners))];
       const float edge_x = to[0] - from[0], edge_y = to[1] - from[1];
-      const Float4 x = px - from[0];
+      const Floats x = px - from[0];
       const float y = py - from[1];
-      const Float4 t = between((x * edge_x + y * edge_y) / square[i], 0.0F, 1.0F);
-      const Float4 to_x = x - t * edge_x, to_y = y - t * edge_y;
+      const Floats t = between((x * edge_x + y * edge_y) / square[i], 0.0F, 1.0F);
+      const Floats to_x = x - t * edge_x, to_y = y - t * edge_y;
       least_square = least(least_square, to_x * to_x + to_y * to_y);
       least_side = least(least_side, edge_x * y - edge_y * x);
     }
-    const Float4 far = root(least_square);
-    const Float4 d = chosen(least_side > 0.0F, -far, far);
+    const Floats far = root(least_square);
+    const Floats d = chosen(least_side > 0.0F, -far, far);
     if (paint.is_beyond(d)) return kNoColor;
     return paint.at(d) * fade.at(px, py);
   }
@@ -238,7 +243,7 @@ struct Faded {
   Fade fade;
 
   explicit Faded(const float* n) : fill(n), fade(n + 4) {}
-  Color4 operator()(Float4 px, float py) const { return fill.color * fade.at(px, py); }
+  Colors operator()(Floats px, float py) const { return fill.color * fade.at(px, py); }
 };
 
 // A level, not a colour.
@@ -248,14 +253,74 @@ struct Trail {
   float square = std::max(along_x * along_x + along_y * along_y, 1e-12F);
 
   explicit Trail(const float* numbers) : n(numbers_of<8>(numbers)) {}
-  Float4 operator()(Float4 px, float py) const {
-    const Float4 x = px - n[0];
+  Floats operator()(Floats px, float py) const {
+    const Floats x = px - n[0];
     const float y = py - n[1];
-    const Float4 t = between((x * along_x + y * along_y) / square, 0.0F, 1.0F);
-    const Float4 to_x = x - t * along_x, to_y = y - t * along_y;
-    const Float4 d = root(to_x * to_x + to_y * to_y) - mixed(n[4], n[5], t);
+    const Floats t = between((x * along_x + y * along_y) / square, 0.0F, 1.0F);
+    const Floats to_x = x - t * along_x, to_y = y - t * along_y;
+    const Floats d = root(to_x * to_x + to_y * to_y) - mixed(n[4], n[5], t);
     return coverage(d) * mixed(n[6], n[7], t);
   }
 };
 
-}  // namespace chainreel::shades
+static_assert(sizeof(Floats) == kLanes * sizeof(float));
+
+// Pixels at the left of those that are drawn together, of which the first `count` are on the page.
+inline void put(Ints above, std::uint32_t* pixels, int count) {
+  if (are_all(above == 0)) return;
+  Ints below = {};
+  const std::size_t bytes = std::size_t(std::min(count, kLanes)) * sizeof(std::uint32_t);
+  if (bytes == sizeof below) {
+    std::memcpy(&below, pixels, sizeof below);
+    below = put_over(above, below);
+    std::memcpy(pixels, &below, sizeof below);
+  } else {
+    std::memcpy(&below, pixels, bytes);
+    below = put_over(above, below);
+    std::memcpy(pixels, &below, bytes);
+  }
+}
+
+template <class Shade>
+void fill_with(const PixelBox& box, const float* numbers, std::uint32_t* page, std::ptrdiff_t stride) {
+  const Shade shade(numbers);
+  for (int y = box.y; y < box.bottom(); ++y) {
+    std::uint32_t* row = page + y * stride;
+    for (int x = box.x; x < box.right(); x += kLanes)
+      put(bytes_of(shade(float(x) + kCenters, float(y) + 0.5F)), row + x, box.right() - x);
+  }
+}
+
+inline void fill_window(Primitive primitive, const PixelBox& box, const float* numbers, std::uint32_t* page,
+                        std::ptrdiff_t stride) {
+  switch (primitive) {
+    case Primitive::capsule:
+      return fill_with<Capsule>(box, numbers, page, stride);
+    case Primitive::ellipse:
+      return fill_with<Ellipse>(box, numbers, page, stride);
+    case Primitive::arc:
+      return fill_with<Arc>(box, numbers, page, stride);
+    case Primitive::polygon:
+      return fill_with<Polygon>(box, numbers, page, stride);
+    case Primitive::faded:
+      return fill_with<Faded>(box, numbers, page, stride);
+    default:  // of no formula
+      return;
+  }
+}
+
+// The largest value stays.
+inline void fill_trail_window(const PixelBox& box, const float* numbers, std::uint8_t* trail,
+                              std::ptrdiff_t stride) {
+  const Trail shade(numbers);
+  for (int y = box.y; y < box.bottom(); ++y) {
+    std::uint8_t* row = trail + y * stride;
+    for (int x = box.x; x < box.right(); x += kLanes) {
+      const Ints levels =
+          rounded_to_even(255.0F * between(shade(float(x) + kCenters, float(y) + 0.5F), 0.0F, 1.0F));
+      if (are_all(levels == 0)) continue;
+      for (int k = 0, count = std::min(kLanes, box.right() - x); k < count; ++k)
+        row[x + k] = std::max(row[x + k], std::uint8_t(levels[k]));
+    }
+  }
+}

@@ -4,43 +4,20 @@
 #include <cmath>
 #include <cstring>
 
-#include "render/shades.hpp"
+#include "render/lanes.hpp"
 
 namespace chainreel {
 namespace {
 
-using shades::bytes_of;
-using shades::Color4;
-
-constexpr int kLanes = 4;
-constexpr Float4 kCenters = {0.5F, 1.5F, 2.5F, 3.5F};
-
-inline bool is_nothing(Int4 pixels) {
-  std::int64_t halves[2];
-  std::memcpy(halves, &pixels, sizeof halves);
-  return (halves[0] | halves[1]) == 0;
-}
-
-// Four pixels at most, of which the first `count` are on the page.
-inline void put(Int4 above, std::uint32_t* pixels, int count) {
-  if (is_nothing(above)) return;
-  Int4 below = {};
-  if (count >= kLanes) {
-    below = put_over(above, load4<Int4>(pixels));
-    std::memcpy(pixels, &below, sizeof below);
-  } else {
-    std::memcpy(&below, pixels, std::size_t(count) * sizeof(std::uint32_t));
-    below = put_over(above, below);
-    std::memcpy(pixels, &below, std::size_t(count) * sizeof(std::uint32_t));
-  }
+// A colour, red first, at a level, as a pixel: blue lowest, opacity highest.
+std::uint32_t bytes_of(const float* color, float level) {
+  const Float4 numbers = {color[2], color[1], color[0], color[3]};
+  const Int4 bytes = rounded_to_even(255.0F * least(most(numbers * level, all4(0.0F)), all4(1.0F)));
+  return std::uint32_t(bytes[0] | bytes[1] << 8 | bytes[2] << 16 | bytes[3] << 24);
 }
 
 std::uint32_t put_one(std::uint32_t above, std::uint32_t below) {
   return std::uint32_t(put_over(all4(std::int32_t(above)), all4(std::int32_t(below)))[0]);
-}
-
-std::uint32_t bytes_of(const float* fill, float level) {
-  return std::uint32_t(bytes_of(shades::Fill(fill).color * all4(level))[0]);
 }
 
 PixelBox window_of(const float* instance) {
@@ -49,39 +26,30 @@ PixelBox window_of(const float* instance) {
 
 }  // namespace
 
-WindowPainter::WindowPainter(int width, int height) : width_(width), height_(height) {}
-
-template <class Shade>
-void WindowPainter::draw_shape(const PixelBox& box, const float* numbers, std::uint32_t* page) const {
-  const Shade shade(numbers);
-  for (int y = box.y; y < box.bottom(); ++y) {
-    std::uint32_t* row = at(page, 0, y);
-    for (int x = box.x; x < box.right(); x += kLanes)
-      put(bytes_of(shade(float(x) + kCenters, float(y) + 0.5F)), row + x, box.right() - x);
-  }
-}
+WindowPainter::WindowPainter(int width, int height, const WindowFillers& fillers)
+    : width_(width), height_(height), fillers_(&fillers) {}
 
 void WindowPainter::draw_flat(const PixelBox& box, const float* fill, std::uint32_t* page) const {
   const std::uint32_t color = bytes_of(fill, 1);
+  if (color == 0) return;
   const Int4 above = all4(std::int32_t(color));
   for (int y = box.y; y < box.bottom(); ++y) {
     std::uint32_t* row = at(page, 0, y);
-    if (color >> 24 == 255)
-      std::fill(row + box.x, row + box.right(), color);
-    else
-      for (int x = box.x; x < box.right(); x += kLanes) put(above, row + x, box.right() - x);
+    int x = box.x;
+    if (color >> 24 == 255) {
+      std::fill(row + x, row + box.right(), color);
+      continue;
+    }
+    for (; x + 4 <= box.right(); x += 4) store4(row + x, put_over(above, load4<Int4>(row + x)));
+    for (; x < box.right(); ++x) row[x] = put_one(color, row[x]);
   }
 }
 
 void WindowPainter::set_levels(const float* fill) {
   if (std::equal(color_of_levels_.begin(), color_of_levels_.end(), fill)) return;
   std::copy(fill, fill + 4, color_of_levels_.begin());
-  const Color4 color = shades::Fill(fill).color;
-  for (std::size_t level = 0; level < levels_.size(); level += kLanes) {
-    const float first = float(level);
-    store4(&levels_[level],
-           bytes_of(color * (Float4{first, first + 1, first + 2, first + 3} * (1.0F / 255))));
-  }
+  for (std::size_t level = 0; level < levels_.size(); ++level)
+    levels_[level] = bytes_of(fill, float(level) * (1.0F / 255));
 }
 
 // The levels of the box's first pixel and what is right of it, and below it `stride` further each.
@@ -118,26 +86,14 @@ void WindowPainter::draw_trail(const Run& run, const Windows& windows) {
       std::fill(row_of(y) + box.x, row_of(y) + box.right(), std::uint8_t(0));
   }
   instance = windows.instances(Primitive::trail).data() + std::ptrdiff_t(run.first) * floats;
-  for (int i = 0; i < run.count; ++i, instance += floats) {
-    const PixelBox box = window_of(instance);
-    const shades::Trail shade(instance + 4);
-    for (int y = box.y; y < box.bottom(); ++y) {
-      std::uint8_t* row = row_of(y);
-      for (int x = box.x; x < box.right(); x += kLanes) {
-        const Int4 levels = rounded_to_even(
-            255.0F * shades::between(shade(float(x) + kCenters, float(y) + 0.5F), 0.0F, 1.0F));
-        if (is_nothing(levels)) continue;
-        for (int k = 0, count = std::min(kLanes, box.right() - x); k < count; ++k)
-          row[x + k] = std::max(row[x + k], std::uint8_t(levels[k]));
-      }
-    }
-  }
+  for (int i = 0; i < run.count; ++i, instance += floats)
+    fillers_->fill_trail(window_of(instance), instance + 4, trail_.data(), width_);
 }
 
 void WindowPainter::draw_cells(const PixelBox& box, const float* n, const CellSheet& sheet,
                                std::uint32_t* page) const {
   const float left = n[0], top = n[1], right = n[2], bottom = n[3], across = n[4], down = n[5];
-  const auto cover = [](float low, float high) { return shades::coverage(all4(-std::min(low, high)))[0]; };
+  const auto cover = [](float low, float high) { return std::clamp(0.5F + std::min(low, high), 0.0F, 1.0F); };
   const auto cell = [](float place, float count) {
     return std::size_t(std::clamp(std::floor(place), 0.0F, count - 1));
   };
@@ -167,21 +123,6 @@ void WindowPainter::draw(const Run& run, const Windows& windows, const Batch& ba
     const PixelBox box = window_of(instance);
     const float* numbers = instance + 4;
     switch (run.primitive) {
-      case Primitive::capsule:
-        draw_shape<shades::Capsule>(box, numbers, page);
-        break;
-      case Primitive::ellipse:
-        draw_shape<shades::Ellipse>(box, numbers, page);
-        break;
-      case Primitive::arc:
-        draw_shape<shades::Arc>(box, numbers, page);
-        break;
-      case Primitive::polygon:
-        draw_shape<shades::Polygon>(box, numbers, page);
-        break;
-      case Primitive::faded:
-        draw_shape<shades::Faded>(box, numbers, page);
-        break;
       case Primitive::flat:
         draw_flat(box, numbers, page);
         break;
@@ -195,9 +136,8 @@ void WindowPainter::draw(const Run& run, const Windows& windows, const Batch& ba
         draw_cells(box, numbers,
                    batch.cell_sheets()[std::size_t(batch.pieces()[std::size_t(run.piece)].instance)], page);
         break;
-      case Primitive::trail:
-      case Primitive::solids:
-        break;
+      default:
+        fillers_->fill(run.primitive, box, numbers, page, width_);
     }
   }
 }

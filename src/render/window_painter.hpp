@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/fill_windows.hpp"
 #include "render/windows.hpp"
 
 namespace chainreel {
@@ -14,7 +15,7 @@ namespace chainreel {
 class WindowPainter {
  public:
   // For pages of this size.
-  WindowPainter(int width, int height);
+  WindowPainter(int width, int height, const WindowFillers& fillers = window_fillers().front());
 
   // Draws a run over the page, whose rows lie behind one another: premultiplied, blue in the lowest byte. Not
   // of bodies.
@@ -32,13 +33,12 @@ class WindowPainter {
                   std::uint32_t* page) const;
   void draw_levels(const PixelBox& box, const std::uint8_t* levels, std::ptrdiff_t stride,
                    std::uint32_t* page) const;
-  template <class Shade>
-  void draw_shape(const PixelBox& box, const float* numbers, std::uint32_t* page) const;
 
   std::uint32_t* at(std::uint32_t* page, int x, int y) const { return page + std::ptrdiff_t(y) * width_ + x; }
   void set_levels(const float* fill);
 
   int width_, height_;
+  const WindowFillers* fillers_;
   std::vector<std::uint8_t> trail_;  // of the page: the path that is drawn; made when first used
   std::array<float, 4> color_of_levels_{-1, -1, -1, -1};
   Levels levels_{};

@@ -41,12 +41,17 @@ Picture bodies(const Theme& theme) {
 int main(int count, char** words) try {
   if (count > 1) choose_gl_backend(require_named<GlBackend>("the library", words[1]));
   const Fonts fonts;
-  Canvas canvas(320, 180, fonts);
+  Canvas canvas(320, 180, fonts), over_a_layer(320, 180, fonts);
   Image image;
   Sha256 hash;
   for (const Theme* theme : {&light_theme(), &dark_theme()}) {
     for (const Picture& picture : {test_card(fonts, *theme), bodies(*theme)}) {
       canvas.draw(picture, image);
+      hash.add(std::as_bytes(std::span(image.bgra)));
+      Picture below;
+      below.background = picture.background;
+      over_a_layer.set_static_layer(below);
+      over_a_layer.draw(picture, image);
       hash.add(std::as_bytes(std::span(image.bgra)));
     }
   }

@@ -1,6 +1,7 @@
 // What moves is drawn in memory, what lies under it by OpenGL: with the same bytes, whatever the shape.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <random>
 #include <string>
@@ -9,6 +10,7 @@
 #include "core/scalar.hpp"
 #include "render/drawing.hpp"
 #include "render/test_card.hpp"
+#include "render/window_painter.hpp"
 
 namespace chainreel {
 namespace {
@@ -74,33 +76,59 @@ class Shapes {
   std::mt19937 random_{17};
 };
 
-struct Difference {
-  int largest = 0, pixels = 0;
-  std::string first;
-};
+Image by_opengl(const Picture& picture) {
+  static Canvas canvas(kPageWidth, kPageHeight, fonts());
+  Image image;
+  canvas.draw(picture, image);
+  return image;
+}
 
-Difference of_painters(const Picture& picture) {
-  static Canvas opengl(kPageWidth, kPageHeight, fonts()), in_memory(kPageWidth, kPageHeight, fonts());
-  Image expected, image;
-  opengl.draw(picture, expected);
+// Over a page of the picture's background.
+Image in_memory(const Picture& picture) {
+  static Canvas canvas(kPageWidth, kPageHeight, fonts());
   Picture below;
   below.background = picture.background;
-  in_memory.set_static_layer(below);
-  in_memory.draw(picture, image);
-  Difference difference;
+  canvas.set_static_layer(below);
+  Image image;
+  canvas.draw(picture, image);
+  return image;
+}
+
+// The same on an opaque page, by vectors of one width.
+Image filled_by(const WindowFillers& fillers, const Picture& picture) {
+  static GlyphAtlas atlas(fonts(), 1024);
+  Batch batch(kPageWidth, kPageHeight, atlas);
+  batch.set(picture);
+  TileMask tiles(kPageWidth, kPageHeight);
+  tiles.fill();
+  Windows windows;
+  windows.set(batch, tiles);
+  Image image(kPageWidth, kPageHeight);
+  auto* const page = reinterpret_cast<std::uint32_t*>(image.bgra.data());
+  const Color& c = picture.background;
+  std::fill(page, page + kPageWidth * kPageHeight,
+            255U << 24 | unsigned(c.r) << 16 | unsigned(c.g) << 8 | c.b);
+  WindowPainter painter(kPageWidth, kPageHeight, fillers);
+  for (const Run& run : windows.runs()) painter.draw(run, windows, batch, atlas, page);
+  return image;
+}
+
+// "" where there is none, else how many pixels, the largest one and the first.
+std::string difference(const Image& image, const Image& expected) {
+  const auto text = [](const Pixel& p) {
+    return std::to_string(p.r) + " " + std::to_string(p.g) + " " + std::to_string(p.b) + " " +
+           std::to_string(p.a);
+  };
+  int pixels = 0;
+  std::string first;
   for (int y = 0; y < kPageHeight; ++y)
-    for (int x = 0; x < kPageWidth; ++x) {
-      if (image.at(x, y) == expected.at(x, y)) continue;
-      const auto text = [](const Pixel& p) {
-        return std::to_string(p.r) + " " + std::to_string(p.g) + " " + std::to_string(p.b) + " " +
-               std::to_string(p.a);
-      };
-      if (difference.pixels++ == 0)
-        difference.first = "at " + std::to_string(x) + "," + std::to_string(y) + ": " + text(image.at(x, y)) +
-                           " instead of " + text(expected.at(x, y));
-    }
-  difference.largest = largest_difference(image, expected);
-  return difference;
+    for (int x = 0; x < kPageWidth; ++x)
+      if (image.at(x, y) != expected.at(x, y) && pixels++ == 0)
+        first = std::to_string(x) + "," + std::to_string(y) + ": " + text(image.at(x, y)) + " instead of " +
+                text(expected.at(x, y));
+  if (pixels == 0) return "";
+  return std::to_string(pixels) + " pixels, by " + std::to_string(largest_difference(image, expected)) +
+         ", first at " + first;
 }
 
 TEST(WindowPainter, GivesTheBytesOfTheShaders) {
@@ -116,9 +144,12 @@ TEST(WindowPainter, GivesTheBytesOfTheShaders) {
       Picture picture;
       picture.background = {shapes.level(), shapes.level(), shapes.level(), round % 8 == 0 ? 0.5 : 1};
       for (int i = 0; i < 3; ++i) picture.add(make());
-      const Difference difference = of_painters(picture);
-      EXPECT_EQ(difference.pixels, 0) << kind << " " << round << ", " << difference.pixels << " pixels, by "
-                                      << difference.largest << ", " << difference.first;
+      const Image expected = by_opengl(picture);
+      EXPECT_EQ(difference(in_memory(picture), expected), "") << kind << " " << round;
+      if (picture.background.a < 1) continue;
+      for (const WindowFillers& fillers : window_fillers())
+        EXPECT_EQ(difference(filled_by(fillers, picture), expected), "")
+            << kind << " " << round << ", " << fillers.lanes << " at once";
     }
 }
 
@@ -128,10 +159,8 @@ TEST(WindowPainter, GivesTheBytesOfTheShadersForEachShapeOfACard) {
     for (std::size_t i = 0; i < card.items.size(); ++i) {
       Picture one = card;
       one.items = {card.items[i]};
-      const Difference difference = of_painters(one);
-      EXPECT_EQ(difference.pixels, 0)
-          << "item " << i << ", kind " << card.items[i].shape.index() << ", " << difference.pixels
-          << " pixels, by " << difference.largest << ", " << difference.first;
+      EXPECT_EQ(difference(in_memory(one), by_opengl(one)), "")
+          << "item " << i << ", kind " << card.items[i].shape.index();
     }
   }
 }
