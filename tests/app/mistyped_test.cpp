@@ -54,6 +54,19 @@ TEST(Mistyped, KeyOfAComparisonIsToldOnce) {
   EXPECT_EQ(result.err.find(what, first + 1), std::string::npos) << result.err;
 }
 
+TEST(Problems, AreElevenLinesAtMostAndAllCounted) {
+  const TemporaryFolder folder;
+  std::string keys = "model: {links: [1, 1]}\n", urdf = "<robot name='many'>";
+  for (int i = 0; i < 50; ++i) keys += "colour" + std::to_string(i) + ": 1\n";
+  for (int i = 0; i < 50; ++i) urdf += "\n<joint name='j" + std::to_string(i) + "' type='bent'/>";
+  const ProgramResult scene = run_program({"check", folder.write("s.yaml", keys)});
+  EXPECT_EQ(std::count(scene.err.begin(), scene.err.end(), '\n'), 11) << scene.err;
+  EXPECT_THAT(scene.err, HasSubstr(".. and 40 more problems"));
+  const std::string model = folder.write("m.urdf", urdf + "</robot>");
+  const ProgramResult file = run_program({"dynamics", model});
+  EXPECT_EQ(std::count(file.err.begin(), file.err.end(), '\n'), 11) << file.err;
+}
+
 TEST(SceneInACommandsPlace, MeansItsFilm) {
   const TemporaryFolder folder;
   const Words small{"-o", folder.file("a.gif"), "--quiet", "--set", "duration=0.1", "--set", "video.width=64", "--set", "video.height=36"};

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -24,7 +25,7 @@ namespace chainreel {
 namespace {
 
 constexpr std::size_t kLongestMessage = 1000;  // bytes: a dozen lines
-constexpr std::size_t kMostProblems = 40;
+constexpr std::size_t kMostProblems = 10;
 
 struct Guard {
   int file = -1;
@@ -126,12 +127,30 @@ void install_last_words() {
   std::set_terminate(end_at_once);
 }
 
+namespace {
+
+// Of "and 970 more problems", which stands for those that a reader did not keep; else 1.
+std::size_t problems_in(const Problem& problem) {
+  std::size_t count = 0;
+  return std::sscanf(problem.message.c_str(), "and %zu more problems", &count) == 1 ? count : 1;
+}
+
+}  // namespace
+
 void print_error(const Error& error) {
-  const std::vector<Problem>& problems = error.problems();
-  for (std::size_t i = 0; i < problems.size() && i < kMostProblems; ++i)
-    std::fprintf(stderr, "%s\n", shortened(with_final_names(to_string(problems[i])), kLongestMessage).c_str());
-  if (problems.size() > kMostProblems)
-    std::fprintf(stderr, ".. and %zu more problems\n", problems.size() - kMostProblems);
+  std::vector<std::string> told;
+  std::size_t more = 0;
+  for (const Problem& problem : error.problems()) {
+    const std::string line = shortened(with_final_names(to_string(problem)), kLongestMessage);
+    if (std::find(told.begin(), told.end(), line) != told.end()) continue;  // of panels that share what is wrong
+    if (told.size() == kMostProblems || problems_in(problem) > 1) {
+      more += problems_in(problem);
+      continue;
+    }
+    told.push_back(line);
+    std::fprintf(stderr, "%s\n", line.c_str());
+  }
+  if (more > 0) std::fprintf(stderr, ".. and %zu more problems\n", more);
 }
 
 bool flush_standard_output() {
