@@ -143,7 +143,7 @@ std::vector<StageRow> rows_of(const MeasuredFilm& measured) {
   return {{"prepare", "prepare (scene, model, method)", measured.prepare},
           {"simulate", "simulate", s.simulate},
           {"shapes", "draw: shapes", s.draw},
-          {"pixels", "draw: pixels, read back", s.render},
+          {"pixels", "draw: pixels", s.render},
           {"convert", "convert", s.convert},
           {"encode", "encode", s.encode},
           {"mux", "mux", s.mux},
