@@ -88,24 +88,50 @@ TriangleMesh cylinder_mesh(double radius, double length) {
   return mesh;
 }
 
-TriangleMesh sphere_mesh(double radius) {
-  TriangleMesh mesh;
-  const auto add = [&](const Eigen::Vector3d& n) { return add_vertex(mesh, radius * n, n); };
+namespace {
+
+// What bounds a body around its middle: rows of points about z from pole to pole. Calls add(n) for unit vectors n.
+template <class Add>
+void add_globe(TriangleMesh& mesh, int segments, int rings, double first_angle, const Add& add) {
   const std::uint32_t south = add({0, 0, -1});
-  for (int ring = 1; ring < kRings; ++ring) {
-    const auto [s, c] = sin_cos(M_PI * double(ring) / kRings);
-    for (int i = 0; i < kSegments; ++i) add(s * corner(i) - Eigen::Vector3d(0, 0, c));
+  for (int ring = 1; ring < rings; ++ring) {
+    const auto [s, c] = sin_cos(M_PI * double(ring) / rings);
+    for (int i = 0; i < segments; ++i) {
+      const auto [y, x] = sin_cos(first_angle + 2 * M_PI * double(i) / segments);
+      add({s * x, s * y, -c});
+    }
   }
   const std::uint32_t north = add({0, 0, 1});
-  const auto at = [](int ring, int i) { return 1 + std::uint32_t((ring - 1) * kSegments + i % kSegments); };
-  for (int i = 0; i < kSegments; ++i) {
+  const auto at = [&](int ring, int i) { return south + 1 + std::uint32_t((ring - 1) * segments + i % segments); };
+  for (int i = 0; i < segments; ++i) {
     add_triangle(mesh, south, at(1, i + 1), at(1, i));
-    for (int ring = 1; ring + 1 < kRings; ++ring) {
+    for (int ring = 1; ring + 1 < rings; ++ring) {
       add_triangle(mesh, at(ring, i), at(ring, i + 1), at(ring + 1, i + 1));
       add_triangle(mesh, at(ring, i), at(ring + 1, i + 1), at(ring + 1, i));
     }
-    add_triangle(mesh, north, at(kRings - 1, i), at(kRings - 1, i + 1));
+    add_triangle(mesh, north, at(rings - 1, i), at(rings - 1, i + 1));
   }
+}
+
+}  // namespace
+
+TriangleMesh sphere_mesh(double radius) {
+  TriangleMesh mesh;
+  add_globe(mesh, kSegments, kRings, 0, [&](const Eigen::Vector3d& n) { return add_vertex(mesh, radius * n, n); });
+  return mesh;
+}
+
+TriangleMesh rounded_box_mesh(const Eigen::Vector3d& edges, double radius) {
+  // Segments in fours and an odd number of rings: no point of the globe lies between two sides, so that its eighths can be moved
+  // apart.
+  constexpr int kCorners = 32, kRows = 17;
+  TriangleMesh mesh;
+  const Eigen::Vector3d apart = (0.5 * edges).array() - radius;
+  add_globe(mesh, kCorners, kRows, M_PI / kCorners, [&](const Eigen::Vector3d& n) {
+    Eigen::Vector3d p = radius * n;
+    for (int i = 0; i < 3; ++i) p[i] += n[i] > 0 ? apart[i] : n[i] < 0 ? -apart[i] : 0;
+    return add_vertex(mesh, p, n);
+  });
   return mesh;
 }
 

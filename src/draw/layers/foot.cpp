@@ -1,5 +1,5 @@
-// A foot on the ground and what the ground answers: an arrow from the centre of pressure, as long as the
-// force. Beyond the foot, where no ground could push, it is dashed; where the ground had to pull, there is
+// A foot on the ground and what the ground answers: an arrow that ends at the centre of pressure, which is marked, as long as
+// the force. It stands below the ground, along the line on which the force acts, where no leg hides it. Beyond the foot, where no ground could push, it is dashed; where the ground had to pull, there is
 // none.
 #include <algorithm>
 #include <cmath>
@@ -15,9 +15,10 @@
 namespace chainreel {
 namespace {
 
-constexpr double kWeightArrow = 0.22;  // units of H: as long is the force that bears the weight
+constexpr double kWeightArrow = 0.15;  // units of H: as long is the force that bears the weight
+constexpr double kMostRoom = 1.5;      // weights: the camera holds arrows of so much, longer ones lead out of the scene
+constexpr double kPressure = 0.0075;   // units of H: radius of the centre of pressure
 constexpr double kFarthest = 3;        // lengths of the foot: beyond, the arrow tells nothing
-constexpr double kGroundBesideFoot = 2.5;  // lengths of the foot, on each side
 
 double weight_of(const Chain& chain) {
   double mass = 0;
@@ -34,6 +35,11 @@ struct FootRun {
 
   explicit FootRun(const StagedRun& motion);
   Eigen::Vector3d on_ground(double place) const { return place * ground.along + foot.height * ground.up; }
+  // A ground cannot pull; false for what is no number, too.
+  bool is_shown(const Push& push) const {
+    const double middle = (foot.heel + foot.toe) / 2;
+    return push.force.dot(ground.up) > 0 && std::abs(push.place - middle) < kFarthest * (foot.toe - foot.heel);
+  }
 
   double weight = 0;  // N
   Foot foot;
@@ -62,6 +68,14 @@ FootRun::FootRun(const StagedRun& motion)
   }
 }
 
+// The line through two places from one side of a part of the page to the other; from left to right.
+PageLine across(const Rect& area, Point a, Point b) {
+  if (a.x > b.x) std::swap(a, b);
+  const Point along = unit(b - a);
+  if (!(along.x > 0.1)) return {a, b};
+  return {a + ((area.x0 - a.x) / along.x) * along, a + ((area.x1 - a.x) / along.x) * along};
+}
+
 class FootLayer : public Layer {
  public:
   explicit FootLayer(const Stage& stage) : theme_(&stage.theme) {
@@ -79,17 +93,23 @@ class FootLayer : public Layer {
                            "ground reaction " + format_shortest(force) + " N", kAfterVectors});
   }
 
+  void measure(const Sight& sight, FitBox& box) const override {
+    const auto known = runs_.find(&sight.motion);
+    if (known == runs_.end()) return;
+    const FootRun& run = known->second;
+    const FootRun::Push& push = run.pushes[std::size_t(std::clamp(sight.k, 0, int(run.pushes.size()) - 1))];
+    if (!run.is_shown(push)) return;
+    box.add({0, 0, kWeightArrow * std::min(kMostRoom, push.force.dot(run.ground.up)), 0}, sight.camera.flat(run.on_ground(push.place)));
+  }
+
   void draw_once(Picture& picture, const Panel& panel) const override {
     const auto known = runs_.find(&panel.motion());
     if (known == runs_.end()) return;
     const FootRun& run = known->second;
     const ChainLook& look = panel.look();
     const auto at = [&](double place) { return panel.camera().project(run.on_ground(place)); };
-    const double beyond = kGroundBesideFoot * (run.foot.toe - run.foot.heel);
-    const Point left = at(run.foot.heel - beyond), right = at(run.foot.toe + beyond);
-    draw_ground(picture, left.x < right.x ? PageLine{left, right} : PageLine{right, left}, {0, -1}, look,
-                panel.clip());
     const Point heel = at(run.foot.heel), toe = at(run.foot.toe);
+    draw_ground(picture, across(panel.area(), heel, toe), {0, -1}, look, panel.clip());
     const Paint paint{tinted(look.theme->base, 0.35, look), toned(look.theme->base, look), size::kLinkOutline};
     for (const Eigen::Vector3d& ankle : run.ankles)
       picture.add(Polygon{{heel, toe, panel.camera().project(ankle)}, 3, paint}, panel.clip());
@@ -101,15 +121,16 @@ class FootLayer : public Layer {
     if (known == runs_.end()) return;
     const FootRun& run = known->second;
     const FootRun::Push& push = run.pushes[std::size_t(std::clamp(shot.k, 0, int(run.pushes.size()) - 1))];
-    const double middle = (run.foot.heel + run.foot.toe) / 2;
-    // A ground cannot pull; false for what is no number, too.
-    if (!(push.force.dot(run.ground.up) > 0)) return;
-    if (!(std::abs(push.place - middle) < kFarthest * (run.foot.toe - run.foot.heel))) return;
+    if (!run.is_shown(push)) return;
     const Camera& camera = panel.camera();
     const Point force = (kWeightArrow / camera.scale) * camera.project_vector(push.force, camera.focus);
     const bool stands = push.place >= run.foot.heel && push.place <= run.foot.toe;
-    draw_arrow(picture, camera.project(run.on_ground(push.place)), force,
-               {panel.look().theme->constraint, panel.look().marks, !stands}, panel.clip());
+    const ChainLook& look = panel.look();
+    const Point pressure = camera.project(run.on_ground(push.place));
+    draw_arrow(picture, pressure - force, force, {look.theme->constraint, look.marks, !stands}, panel.clip());
+    const double radius = look.marks * kPressure;
+    picture.add(Ellipse{pressure, {radius, 0}, {0, radius}, {stands ? look.theme->constraint : look.theme->background, look.theme->constraint, size::kLinkOutline}},
+                panel.clip());
   }
 
  private:

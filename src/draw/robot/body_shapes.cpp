@@ -9,6 +9,7 @@
 #include "core/format.hpp"
 #include "core/machine.hpp"
 #include "core/parallel.hpp"
+#include "draw/robot/made_bodies.hpp"
 #include "mesh/primitives.hpp"
 
 namespace chainreel {
@@ -132,6 +133,11 @@ void MeshShelf::read_ahead(const std::vector<Visual>& visuals, MeshUp up) {
                  });
 }
 
+void measure_corners(BodyShape& shape) {
+  shape.corners.clear();
+  for (const Vector3d& corner : corners_of(*shape.mesh)) shape.corners.push_back(shape.X_BM * corner);
+}
+
 BodyShapes load_body_shapes(const std::vector<Visual>& visuals, MeshUp up, MeshShelf& shelf) {
   BodyShapes result;
   std::vector<Problem> problems;
@@ -147,7 +153,7 @@ BodyShapes load_body_shapes(const std::vector<Visual>& visuals, MeshUp up, MeshS
         problems.push_back({"link '" + visual.link + "': " + to_string(problem), visual.place});
       continue;
     }
-    for (const Vector3d& corner : corners_of(*shape.mesh)) shape.corners.push_back(visual.X_BV * corner);
+    measure_corners(shape);
     if (visual.color) {
       const auto& [r, g, b, a] = *visual.color;
       shape.color = Color{r, g, b, a / 255.0};
@@ -158,6 +164,45 @@ BodyShapes load_body_shapes(const std::vector<Visual>& visuals, MeshUp up, MeshS
   return result;
 }
 
+Color link_tint(int place_in_chain) {
+  return place_in_chain % 2 == 0 ? color_of(0xB7C5D6) : color_of(0xECEEF1);
+}
+
+namespace {
+
+// The one colour that all of it has.
+std::optional<Color> only_color(const BodyShape& shape) {
+  if (shape.color) return shape.color;
+  if (shape.mesh->vertices.empty()) return std::nullopt;
+  const auto& first = shape.mesh->vertices.front().color;
+  for (const TriangleMesh::Vertex& vertex : shape.mesh->vertices)
+    if (vertex.color != first) return std::nullopt;
+  return Color{first[0], first[1], first[2], first[3] / 255.0};
+}
+
+bool are_of_one_grey(const BodyShapes& shapes) {
+  constexpr int kGrey = 24;  // levels between the channels of what still counts as grey
+  std::optional<Color> all;
+  for (const BodyShape& shape : shapes.shapes) {
+    const std::optional<Color> own = only_color(shape);
+    if (!own || own->a < 1 || (all && *all != *own)) return false;
+    all = own;
+  }
+  return all && std::max({all->r, all->g, all->b}) - std::min({all->r, all->g, all->b}) <= kGrey;
+}
+
+// Bodies between which there is no shape count as one.
+void tint_in_turn(BodyShapes& shapes, const Chain& chain) {
+  std::vector<bool> is_shown(chain.bodies.size(), false);
+  for (const BodyShape& shape : shapes.shapes) is_shown[std::size_t(shape.body)] = true;
+  std::vector<int> place(chain.bodies.size(), 0);
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b)
+    place[b] = place[std::size_t(chain.bodies[b].parent)] + (is_shown[b] ? 1 : 0);
+  for (BodyShape& shape : shapes.shapes) shape.color = link_tint(place[std::size_t(shape.body)]);
+}
+
+}  // namespace
+
 std::shared_ptr<const BodyShapes> shapes_for(const BodyLook& look, const ModelSource& model,
                                              const Chain& chain, const ModelOptions& options,
                                              MeshShelf& shelf) {
@@ -167,13 +212,19 @@ std::shared_ptr<const BodyShapes> shapes_for(const BodyLook& look, const ModelSo
       read_visuals(model, chain, options, collision ? ShapesOf::collision : ShapesOf::visual);
   const bool any_moves =
       std::any_of(visuals.begin(), visuals.end(), [](const Visual& visual) { return visual.body > 0; });
-  if (look.links == LinkShapes::automatic && !any_moves) return nullptr;
+  if (look.links == LinkShapes::automatic && !any_moves) {
+    BodyShapes made = made_bodies(chain);
+    if (made.shapes.empty()) return nullptr;
+    return std::make_shared<const BodyShapes>(std::move(made));
+  }
   if (visuals.empty())
     throw Error(
         ExitCode::bad_input,
         "'links' is " + to_string(look.links) + ", but the model has no <" + to_string(look.links) + ">: take auto or plain",
         look.place);
-  return std::make_shared<const BodyShapes>(load_body_shapes(visuals, look.mesh_up, shelf));
+  BodyShapes shapes = load_body_shapes(visuals, look.mesh_up, shelf);
+  if (look.links == LinkShapes::automatic && any_moves && are_of_one_grey(shapes)) tint_in_turn(shapes, chain);
+  return std::make_shared<const BodyShapes>(std::move(shapes));
 }
 
 Rect extent_of(const BodyShape& shape, const Workspace& ws, const Camera& camera) {

@@ -30,6 +30,9 @@ struct BodyShapes {
   std::vector<BodyShape> shapes;
 };
 
+// Finds the corners of its mesh where it stands.
+void measure_corners(BodyShape& shape);
+
 // Meshes that were read, so that several panels read each file once.
 class MeshShelf {
  public:
@@ -52,6 +55,9 @@ class MeshShelf {
 // read.
 BodyShapes load_body_shapes(const std::vector<Visual>& visuals, MeshUp up, MeshShelf& shelf);
 
+// The light tints of links that are told apart by nothing else: neighbours have different ones.
+Color link_tint(int place_in_chain);
+
 // How a scene, or a command, wants its robots drawn.
 struct BodyLook {
   LinkShapes links = LinkShapes::automatic;
@@ -60,7 +66,8 @@ struct BodyLook {
   Place place;  // of `links`
 };
 
-// None for bars, nor with auto where nothing that moves has a shape. Throws Error as above, and where
+// None for bars, nor with auto where the view is flat. With auto, bodies are made where nothing that moves has a shape
+// (draw/robot/made_bodies), and links that are all of one grey get two light tints in turn. Throws Error as above, and where
 // `visual` finds none.
 std::shared_ptr<const BodyShapes> shapes_for(const BodyLook& look, const ModelSource& model,
                                              const Chain& chain, const ModelOptions& options,

@@ -67,5 +67,30 @@ TEST_F(FallingHuman, HasAnArrowWhereTheGroundPushes) {
   EXPECT_EQ(shapes(&simulation_, run_.size() - 1), shapes(nullptr, run_.size() - 1));
 }
 
+TEST_F(FallingHuman, TheGroundPushesFromBelowWhereThePressureIsMarked) {
+  scene_.draw = {"chain"};
+  const Film film = this->film(&simulation_);
+  const Color force = theme_named("light").constraint;
+  std::optional<Point> mark;
+  const Picture frame = film.frame(60);
+  for (const Ellipse& disc : test::all_of<Ellipse>(frame))
+    if (disc.paint.stroke == force) mark = disc.center;
+  ASSERT_TRUE(mark);
+  double highest = -HUGE_VAL, lowest = HUGE_VAL;
+  for (const Polygon& part : test::all_of<Polygon>(frame))
+    for (int i = 0; part.paint.fill == force && i < part.count; ++i) highest = std::max(highest, part.corners[std::size_t(i)].y);
+  for (const Capsule& part : test::all_of<Capsule>(frame))
+    if (part.paint.fill == force) lowest = std::min({lowest, part.a.y, part.b.y});
+  EXPECT_NEAR(highest, mark->y, 0.002) << "the head ends there";
+  EXPECT_LT(lowest, mark->y - 0.1) << "the shaft comes from below";
+  EXPECT_GT(lowest, film.scene_area().y0) << "the camera holds it";
+  // The ground goes from side to side.
+  double left = HUGE_VAL, right = -HUGE_VAL;
+  for (const Capsule& line : test::all_of<Capsule>(film.static_layer()))
+    if (std::abs(line.a.y - line.b.y) < 1e-9) left = std::min({left, line.a.x, line.b.x}), right = std::max({right, line.a.x, line.b.x});
+  EXPECT_NEAR(left, film.scene_area().x0, 1e-6);
+  EXPECT_NEAR(right, film.scene_area().x1, 1e-6);
+}
+
 }  // namespace
 }  // namespace chainreel
