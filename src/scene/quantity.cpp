@@ -1,18 +1,77 @@
 #include "scene/quantity.hpp"
 
+#include <cctype>
 #include <numbers>
+#include <optional>
+#include <string_view>
 
 #include "expr/expression.hpp"
 
 namespace chainreel {
+namespace {
 
-double parse_quantity(const std::string& text, const Place& place) {
-  const bool degrees = text.size() > 3 && text.ends_with("deg");
-  const std::string value = degrees ? text.substr(0, text.size() - 3) : text;
+struct Unit {
+  std::string_view name;
+  std::string_view si;  // of the same kind
+  double factor;        // of one of it in that
+};
+
+constexpr double kDegree = std::numbers::pi / 180;
+// Longer names before those that they end with.
+constexpr Unit kUnits[] = {{"deg/s", "rad/s", kDegree}, {"rad/s", "rad/s", 1},   {"mm/s", "m/s", 1e-3}, {"cm/s", "m/s", 1e-2},
+                           {"m/s^2", "m/s^2", 1},       {"m/s", "m/s", 1},       {"1/s", "1/s", 1},     {"N m", "N m", 1},
+                           {"deg", "rad", kDegree},     {"rad", "rad", 1},       {"min", "s", 60},      {"ms", "s", 1e-3},
+                           {"us", "s", 1e-6},           {"mm", "m", 1e-3},       {"cm", "m", 1e-2},     {"km", "m", 1e3},
+                           {"kg", "kg", 1},             {"Hz", "1/s", 1},        {"px", "px", 1},       {"N", "N", 1},
+                           {"J", "J", 1},               {"h", "s", 3600},        {"g", "kg", 1e-3},     {"s", "s", 1},
+                           {"m", "m", 1}};
+
+struct Split {
+  std::string number;
+  const Unit* unit = nullptr;
+};
+
+// A unit stands behind a figure, a bracket or a space, or behind pi; elsewhere its letters belong to a word.
+Split split(const std::string& text) {
+  const std::size_t last = text.find_last_not_of(" \t");
+  const std::string trimmed = last == std::string::npos ? "" : text.substr(0, last + 1);
+  for (const Unit& unit : kUnits) {
+    if (!trimmed.ends_with(unit.name)) continue;
+    const std::string number = trimmed.substr(0, trimmed.size() - unit.name.size());
+    const std::size_t end = number.find_last_not_of(" \t");
+    if (end == std::string::npos) continue;
+    const unsigned char before = static_cast<unsigned char>(number.back());
+    const bool stands_apart = std::isdigit(before) || before == '.' || before == ')' || before == ' ';
+    if (stands_apart || number.ends_with("pi")) return {number.substr(0, end + 1), &unit};
+  }
+  return {trimmed, nullptr};
+}
+
+// Whether `si` is among "rad or m".
+bool is_among(std::string_view si, std::string_view wanted) {
+  for (std::size_t begin = 0; begin <= wanted.size();) {
+    const std::size_t end = std::min(wanted.find(" or ", begin), wanted.size());
+    if (wanted.substr(begin, end - begin) == si) return true;
+    begin = end + 4;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool has_unit(const std::string& text) {
+  return split(text).unit != nullptr;
+}
+
+double parse_quantity(const std::string& text, const Place& place, const std::string& in) {
+  const auto [value, unit] = split(text);
   const std::optional<double> number = Expression::parse(value, {}, place).constant();
   if (!number || !(*number - *number == 0))
     throw Error(ExitCode::bad_input, "'" + text + "' is not a finite number", place);
-  return degrees ? *number * std::numbers::pi / 180 : *number;
+  if (unit == nullptr) return *number;
+  if (!in.empty() && !is_among(unit->si, in))
+    throw Error(ExitCode::bad_input, "'" + text + "' is in " + std::string(unit->name) + ", but this is in " + in, place);
+  return *number * unit->factor;
 }
 
 }  // namespace chainreel

@@ -1,4 +1,4 @@
-// One number as people write it: `1.5`, `90deg`, `pi/2`.
+// One number as people write it: `1.5`, `90deg`, `pi/2`, `20ms`, `0.3 m`.
 #pragma once
 
 #include <string>
@@ -7,7 +7,11 @@
 
 namespace chainreel {
 
-// In SI units and radians. Throws Error at `place`.
-double parse_quantity(const std::string& text, const Place& place);
+// In SI units and radians. `in` is the unit that the number is told in, as the reference has it ("s", "rad", "rad or m");
+// "": any. Throws Error at `place`, also of a unit of another kind: an instant of 90deg is none.
+double parse_quantity(const std::string& text, const Place& place, const std::string& in = "");
+
+// Whether a unit stands behind the number.
+bool has_unit(const std::string& text);
 
 }  // namespace chainreel

@@ -207,5 +207,25 @@ TEST(Readme, SheetShowsEveryScene) {
   EXPECT_EQ(std::count(words.begin(), words.end(), ';') + 1, scenes) << remedy;
 }
 
+// By the names of joints, with a picture's name in front or without; 30 for 30deg is said.
+TEST(CommandLine, TakesPosesByNameAndSaysWhatIsMeantInDegrees) {
+  const TemporaryFolder folder;
+  const auto q_of = [](const std::string& q) {
+    return Json::parse(run_program({"dynamics", "models/rr.urdf", "--q", q, "--json"}).out)["q"];
+  };
+  EXPECT_EQ(q_of("joint2=90deg"), q_of("0,90deg"));
+  EXPECT_EQ(q_of("joint2=0.5,joint1=20deg"), q_of("20deg,0.5"));
+  for (const char* bad : {"jont2=1", "joint1=1,joint1=2", "joint1=1,2", "joint1="})
+    EXPECT_EQ(run_program({"dynamics", "models/rr.urdf", "--q", bad}).status, 2) << bad;
+  EXPECT_THAT(run_program({"dynamics", "models/rr.urdf", "--q", "jont2=1"}).err, HasSubstr("did you mean"));
+  const ProgramResult named = run_program({"snapshot", "models/rr.urdf", "--pose", "home=joint2=90deg", "--pose", "b=0,1", "--width", "64",
+                                           "--height", "36", "-o", folder.file("f/"), "--quiet"});
+  EXPECT_EQ(named.status, 0) << named.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.file("f/home.png")));
+  const ProgramResult degrees = run_program({"dynamics", "models/rr.urdf", "--q", "30,0.2"});
+  EXPECT_THAT(degrees.err, HasSubstr("WARNING: --q: 30 of joint1 is in radians, 4.77 turns: for degrees write 30deg"));
+  EXPECT_EQ(run_program({"dynamics", "models/rr.urdf", "--q", "30rad,6.2"}).err, "") << "negative control";
+}
+
 }  // namespace
 }  // namespace chainreel

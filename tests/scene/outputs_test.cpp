@@ -35,7 +35,7 @@ TEST_F(SceneOutputs, SayWhatIsWrong) {
   EXPECT_THAT(error("video: {preset: slide}\n"), HasSubstr("or still, not 'slide': did you mean 'slides'?"));
   EXPECT_THAT(error("video: {preset: \"\"}\n"), HasSubstr("or still, not ''"));
   EXPECT_THAT(error("video: {crf: -1}\n"), HasSubstr("'video.crf' must lie between 0"));
-  EXPECT_THAT(error("hold: 1\n"), HasSubstr("hold: {first: 1, last: 2}"));
+  EXPECT_THAT(error("hold: [1]\n"), HasSubstr("hold: {first: 1, last: 2}"));
   EXPECT_THAT(error("hold: {last: -1}\n"), HasSubstr("'hold.last' must lie between 0 and 3600 s"));
   EXPECT_THAT(error("hold: {middle: 1}\n"), HasSubstr("unknown key 'hold.middle'"));
   EXPECT_THAT(error("layout: transparant\n"), HasSubstr("did you mean 'transparent'?"));

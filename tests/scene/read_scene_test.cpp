@@ -203,6 +203,36 @@ TEST(Quantity, ReadsDegreesAndConstants) {
     EXPECT_THROW(parse_quantity(bad, {}), Error) << bad;
 }
 
+TEST(Quantity, ReadsUnitsOfItsKindAlone) {
+  EXPECT_DOUBLE_EQ(parse_quantity("20ms", {}, "s"), 0.02);
+  EXPECT_DOUBLE_EQ(parse_quantity("2 * 5 min", {}, "s"), 600);
+  EXPECT_DOUBLE_EQ(parse_quantity("1e-3s", {}, "s"), 1e-3);
+  EXPECT_DOUBLE_EQ(parse_quantity("35 cm", {}, "rad or m"), 0.35);
+  EXPECT_DOUBLE_EQ(parse_quantity("(1 + 1) mm", {}), 2e-3);
+  EXPECT_DOUBLE_EQ(parse_quantity("pi rad", {}, "rad"), std::numbers::pi);
+  EXPECT_DOUBLE_EQ(parse_quantity("90deg/s", {}, "rad/s or m/s"), std::numbers::pi / 2);
+  EXPECT_DOUBLE_EQ(parse_quantity("-9.81 m/s^2", {}, "m/s^2"), -9.81);
+  EXPECT_EQ(parse_quantity("2", {}, "s"), 2);
+  for (const auto& [text, in] : {std::pair{"90deg", "s"}, {"2s", "rad or m"}, {"1m", "s"}, {"3kg", "m/s^2"}})
+    EXPECT_THROW(parse_quantity(text, {}, in), Error) << text;
+  for (const char* bad : {"s", "ms", "2 parsecs", "2ss", "2 s s", "m/s^2"}) EXPECT_THROW(parse_quantity(bad, {}), Error) << bad;
+  EXPECT_TRUE(has_unit("30deg") && has_unit("0.5 rad"));
+  EXPECT_FALSE(has_unit("30") || has_unit("pi/6"));
+}
+
+// What was read without a word before: an angle for a time, and a slider's place that a unit made no better.
+TEST_F(ReadScene, TakesUnitsWhereverANumberStandsAndRefusesOthers) {
+  EXPECT_THAT(error("duration: 90deg\n"), HasSubstr("'90deg' is in deg, but this is in s"));
+  EXPECT_THAT(error("gravity: [0, 1s, 0]\n"), HasSubstr("but this is in m/s^2"));
+  EXPECT_THAT(error("start: {q: [1s, 0]}\n"), HasSubstr("but this is in rad or m"));
+  const Scene scene = read("duration: 500ms\nmethod: rk4\nstep: 1ms\nstart: {q: [90deg, 20cm]}\nhold: 250ms\n");
+  EXPECT_DOUBLE_EQ(scene.duration, 0.5);
+  EXPECT_DOUBLE_EQ(*scene.step, 1e-3);
+  EXPECT_DOUBLE_EQ(scene.start.q[1], 0.2);
+  EXPECT_EQ(scene.hold.first, 0.25);
+  EXPECT_EQ(scene.hold.last, 0.25);
+}
+
 // A file whose text is parsed once gives what one that is read anew gives: other values of the same keys, other keys, and
 // good values behind a bad one.
 TEST(SceneFile, ReadsLikeAFreshFileEachTime) {

@@ -1,7 +1,10 @@
 #include "app/cli/command.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
+#include <numbers>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -117,9 +120,80 @@ std::vector<double> parse_counted(std::size_t count, const Chain& chain, const s
 
 }  // namespace
 
+namespace {
+
+// The joint that owns a coordinate; none of a floating or planar joint's.
+const Joint* joint_of(const Chain& chain, std::size_t coordinate) {
+  for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
+    const Joint& joint = chain.bodies[i].joint;
+    const bool is_own = joint.kind != JointKind::floating && joint.ratio == 1 && joint.offset == 0;
+    if (is_own && joint.q_index == int(coordinate)) return &joint;
+  }
+  return nullptr;
+}
+
+// 30 where 30deg is meant: more than a turn, in figures without a unit.
+void warn_of_degrees(const Chain& chain, std::size_t coordinate, const std::string& number, double value,
+                     const std::string& what) {
+  const Joint* joint = joint_of(chain, coordinate);
+  if (joint == nullptr || joint->kind != JointKind::revolute || has_unit(number) || std::abs(value) <= 2 * std::numbers::pi) return;
+  std::fprintf(stderr, "WARNING: %s: %s of %s is in radians, %s turns: for degrees write %sdeg, for radians %srad\n", what.c_str(),
+               number.c_str(), joint->name.c_str(), format_significant(std::abs(value) / (2 * std::numbers::pi), 3).c_str(),
+               number.c_str(), number.c_str());
+}
+
+std::vector<double> pose_by_name(const Chain& chain, const std::vector<std::string>& entries, const std::string& text,
+                                 const std::string& what) {
+  const std::vector<std::string> names = position_names(chain);
+  std::vector<double> q = zero_configuration(chain);
+  std::vector<bool> is_set(q.size());
+  for (const std::string& entry : entries) {
+    const std::size_t equals = entry.find('=');
+    if (equals == std::string::npos)
+      throw Error(ExitCode::usage, what + " " + text + ": '" + entry + "' names no joint: name all or none, like " + names[0] + "=90deg");
+    const std::string name = entry.substr(0, equals), number = entry.substr(equals + 1);
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at == names.end())
+      throw Error(ExitCode::usage, what + " " + text + ": " + chain.name + " has no coordinate '" + name + "':" +
+                                       did_you_mean(name, names) + " It has " + joined(names));
+    const std::size_t index = std::size_t(at - names.begin());
+    if (is_set[index]) throw Error(ExitCode::usage, what + " " + text + ": names " + name + " twice");
+    is_set[index] = true;
+    const std::vector<double> value = parse_list(number, what);
+    if (value.empty()) throw Error(ExitCode::usage, what + " " + text + ": " + name + " has no number behind the =");
+    q[index] = value[0];
+    warn_of_degrees(chain, index, number, q[index], what);
+  }
+  return q;
+}
+
+std::vector<std::string> entries_of(const std::string& text) {
+  std::vector<std::string> entries;
+  std::stringstream stream(text);
+  for (std::string entry; std::getline(stream, entry, ',');) entries.push_back(entry);
+  return entries;
+}
+
+}  // namespace
+
+double parse_seconds(const std::string& text, const std::string& option) {
+  try {
+    return parse_quantity(text, {}, "s");
+  } catch (const Error& error) {
+    throw Error(ExitCode::usage, option + " takes seconds, like 1.2, 1.2s or 20ms: " + error.problems().front().message);
+  }
+}
+
 std::vector<double> parse_pose(const Chain& chain, const std::string& text, const std::string& what) {
   if (text.empty()) return zero_configuration(chain);
-  std::vector<double> q = parse_counted(std::size_t(chain.nq), chain, text, what);
+  const std::vector<std::string> entries = entries_of(text);
+  std::vector<double> q;
+  if (text.find('=') != std::string::npos) {
+    q = pose_by_name(chain, entries, text, what);
+  } else {
+    q = parse_counted(std::size_t(chain.nq), chain, text, what);
+    for (std::size_t i = 0; i < q.size(); ++i) warn_of_degrees(chain, i, entries[i], q[i], what);
+  }
   if (const std::string trouble = trouble_of_pose(chain, q); !trouble.empty())
     throw Error(ExitCode::usage, what + " " + text + ": " + trouble);
   return q;

@@ -58,7 +58,11 @@ void add_comparison(const std::vector<std::string>& vary, std::vector<std::strin
 // "0,90deg" as numbers; `what` names the option in the error.
 std::vector<double> parse_list(const std::string& text, const std::string& what);
 
-// A pose of the chain from "0,90deg": as many numbers as it has coordinates.
+// An instant or a span of the command line, s: 1.2, 1.2s, 20ms. Throws Error (usage) naming the option.
+double parse_seconds(const std::string& text, const std::string& option);
+
+// A pose of the chain from "0,90deg", as many numbers as it has coordinates, or from "elbow=90deg,wrist=0.3", where joints
+// that are not named stand at zero. Angles that can only be meant in degrees are said to be radians.
 std::vector<double> parse_pose(const Chain& chain, const std::string& text, const std::string& what);
 // The same for each text of a repeatable option.
 std::vector<std::vector<double>> parse_poses(const Chain& chain, const std::vector<std::string>& texts,

@@ -23,7 +23,7 @@ struct ChartOptions {
   std::string methods;
   std::string highlight;
   int runs = 5;
-  double longest = 0.1;
+  std::string longest = "100ms";
   FigureOptions figure;
   CommonOptions common;
 };
@@ -64,7 +64,8 @@ Measured measure_all(PreparedScene& prepared, const std::vector<const Method*>& 
   measured.reference = end_reference(simulation);
   LadderOptions ladder;
   ladder.runs = options.runs;
-  ladder.longest_run = options.longest;
+  ladder.longest_run = parse_seconds(options.longest, "--longest");
+  if (!(ladder.longest_run > 0)) throw Error(ExitCode::usage, "--longest takes seconds above 0, like 100ms; not '" + options.longest + "'");
   const EndState& end = measured.reference.state;
   for (const Method* method : chosen) {
     measured.ladders.push_back(climb(simulation, *method, end, ladder, stop_asked));
@@ -208,8 +209,8 @@ void add_chart_command(CommandLine& app) {
   command->add_option("--highlight", options->highlight,
                       "taylor,rk4: these in colour, the rest grey (default the cheapest at some error, and auto's)");
   command->add_option("--runs", options->runs, "of each rung; the median counts").range(1, 1000);
-  command->add_option("--longest", options->longest, "s: rungs that would take longer are left out")
-      .positive();
+  command->add_option("--longest", options->longest, "rungs that would take longer are left out: 100ms")
+      .show_default();
   add_figure_options(*command, options->figure, options->common, "out/NAME_chart.png");
   add_scene_options(*command, options->common);
   add_quiet_option(*command, options->common);

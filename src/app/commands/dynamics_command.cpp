@@ -196,7 +196,7 @@ Json scene_report(const DynamicsOptions& options) {
                                      std::to_string(count) + (count == 1 ? " panel" : " panels"));
   if (options.panel == 0) require_single_run(film.scene);
   const PreparedScene& prepared = film.panels[std::size_t(std::max(options.panel, 1) - 1)];
-  const double at = options.at.empty() ? 0 : parse_quantity(options.at, {});
+  const double at = options.at.empty() ? 0 : parse_seconds(options.at, "--at");
   if (!(at >= 0 && at <= film.scene.duration))
     throw Error(ExitCode::usage, "--at " + options.at + " lies outside the scene's duration of " +
                                      format_quantity(film.scene.duration, "s"));

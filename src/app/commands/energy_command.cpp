@@ -22,7 +22,7 @@ struct EnergyOptions {
   std::string scene;
   std::string until;
   std::string methods;
-  double step = 0;
+  std::string step;
   double tolerance = 0;
   FigureOptions figure;
   CommonOptions common;
@@ -54,7 +54,8 @@ struct Settings {
 };
 
 Settings settings_of(const EnergyOptions& options, const Scene& scene) {
-  Settings settings{options.step, options.tolerance};
+  Settings settings{options.step.empty() ? 0 : parse_seconds(options.step, "--step"), options.tolerance};
+  if (!options.step.empty() && !(settings.step > 0)) throw Error(ExitCode::usage, "--step takes seconds above 0, like 10ms; not '" + options.step + "'");
   if (settings.tolerance > 0 && settings.tolerance < kLeastTolerance)
     throw Error(ExitCode::usage, "--tolerance is below the rounding of doubles, which no step can meet: take " +
                                      format_shortest(kLeastTolerance) + " or more");
@@ -177,6 +178,7 @@ void run_energy(const EnergyOptions& options) {
   const Settings settings = settings_of(options, prepared.scene);
   Simulation& simulation = prepared.simulation;
   if (!options.until.empty()) simulation.duration = parse_seconds(options.until, "--until");
+  if (!(simulation.duration > 0)) throw Error(ExitCode::usage, "--until takes seconds above 0, like 1000s; not '" + options.until + "'");
   std::string output = options.figure.output;
   if (output.empty()) output = "out/" + prepared.scene.name + "_energy.png";
   check_figure_path(output);
@@ -216,8 +218,7 @@ void add_energy_command(CommandLine& app) {
   command->add_option("scene", options->scene, "a scene file").required().names_input();
   command->add_option("--until", options->until, "how long, like 1000s (default the scene's duration)");
   command->add_option("--methods", options->methods, "rk4,taylor,.. (default all that take the scene)");
-  command->add_option("--step", options->step, "s, of methods of fixed step (default the scene's, else 0.01)")
-      .positive();
+  command->add_option("--step", options->step, "of methods of fixed step, like 10ms (default the scene's, else 0.01)");
   command
       ->add_option("--tolerance", options->tolerance, "of adaptive methods (default the scene's, else 1e-9)")
       .positive();

@@ -111,16 +111,6 @@ std::vector<const Method*> parse_methods(const std::string& text, const std::str
   return chosen;
 }
 
-double parse_seconds(const std::string& text, const std::string& option) {
-  std::string number = text;
-  if (number.ends_with('s')) number.pop_back();
-  while (number.ends_with(' ')) number.pop_back();
-  const auto value = parse_number(number);
-  if (!value || !(*value > 0))
-    throw Error(ExitCode::usage, option + " takes seconds above 0, like 1000s; not '" + text + "'");
-  return *value;
-}
-
 std::string csv_facts(const std::string& scene) {
   return "# scene: " + scene + "\n# machine: " + processor_name() + "\n# system: " + system_name() +
          "\n# compiler: " + compiler_name() + "\n# revision: " + version_text() + "\n";

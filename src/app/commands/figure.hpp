@@ -44,9 +44,6 @@ ClipMemory memory_of_figure(const Command& command, const std::string& title, co
 // "rk4,taylor": rows of the registry; "" is all of them. Throws Error (usage) naming the option.
 std::vector<const Method*> parse_methods(const std::string& text, const std::string& option = "--methods");
 
-// "1000s", "1000 s" or "1000": seconds. Throws Error (usage) naming the option.
-double parse_seconds(const std::string& text, const std::string& option);
-
 // Lines that begin with #: machine, compiler, version, scene.
 std::string csv_facts(const std::string& scene);
 // "Xeon 2.80GHz; g++ 12.2.0; chainreel 0.1.0, 1a2b3c4": for the foot of a chart.

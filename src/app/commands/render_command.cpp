@@ -87,7 +87,7 @@ std::vector<RenderJob> jobs_of(const RenderOptions& options, const std::vector<P
   for (std::size_t i = 0; i < films.size(); ++i) {
     RenderJob job;
     job.targets = targets_of(options.outputs, films.size(), films[i].scene);
-    job.at = parse_quantity(options.at, {});
+    job.at = parse_seconds(options.at, "--at");
     job.jobs = options.jobs;
     job.part = part_of(options);
     if (job.part) make_parts(job.targets, *job.part);

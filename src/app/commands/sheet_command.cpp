@@ -50,7 +50,7 @@ ContactCell cell_of(const std::string& file, const SheetOptions& options, ThemeN
   for (PreparedScene& panel : film.panels) set_for_cell(panel.scene, theme, text_scale);
   Moment moment = options.at.empty()
                       ? telling_moment(film, fonts)
-                      : moment_at(film, std::min(parse_quantity(options.at, {}), film.scene.duration), fonts);
+                      : moment_at(film, std::min(parse_seconds(options.at, "--at"), film.scene.duration), fonts);
   tell_warnings(moment.warnings);
   return {std::move(moment.picture), moment.title.empty() ? film.scene.name : moment.title};
 }
@@ -102,7 +102,7 @@ void refuse_own_keys(const std::vector<std::string>& set) {
 void run_sheet(const SheetOptions& options) {
   refuse_own_keys(options.common.set);
   picture_format_of(options.output);
-  if (!options.at.empty() && parse_quantity(options.at, {}) < 0)
+  if (!options.at.empty() && parse_seconds(options.at, "--at") < 0)
     throw Error(ExitCode::usage, "--at " + options.at + " lies before the start");
   const ThemeName theme = theme_of(options.common.flags);
   const Fonts fonts;

@@ -131,6 +131,14 @@ Named named_of(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+// The same of a pose, where a name in front may be a joint's: elbow=90deg has none, home=elbow=90deg has.
+Named named_pose(const Chain& chain, const std::string& text) {
+  const Named named = named_of(text);
+  const std::vector<std::string> coordinates = position_names(chain);
+  const bool is_joint = std::find(coordinates.begin(), coordinates.end(), named.name) != coordinates.end();
+  return is_joint ? Named{"", text} : named;
+}
+
 // Commas part instants, but not within brackets: max(1, 2).
 std::vector<std::string> parted(const std::string& text) {
   std::vector<std::string> parts{""};
@@ -199,7 +207,7 @@ std::vector<PosePicture> pose_pictures(const Chain& chain, const SnapshotOptions
   const std::string stem = std::filesystem::path(options.file).stem().string();
   std::vector<PosePicture> pictures;
   for (const std::string& text : options.poses) {
-    const Named named = named_of(text);
+    const Named named = named_pose(chain, text);
     const std::vector<double> q = parse_pose(chain, named.text, "--pose");
     const bool joins = !is_folder && !pictures.empty();
     if (!joins)
@@ -225,7 +233,7 @@ ClipMemory memory_of_pose(const SnapshotOptions& options, const Chain& chain,
     ++k;
     const bool is_shown = shown.size() == 1 || pose++ == i;
     if (is_shown)
-      words.push_back(named_of(all[k].get<std::string>()).text);
+      words.push_back(named_pose(chain, all[k].get<std::string>()).text);
     else
       words.erase(words.size() - 1);
   }
@@ -236,8 +244,12 @@ ClipMemory memory_of_pose(const SnapshotOptions& options, const Chain& chain,
 void snapshot_model(const SnapshotOptions& options) {
   if (!options.at.empty() || !options.vary.empty())
     throw Error(ExitCode::usage, "--at and --vary go with a scene; a model stands still at --pose");
-  const bool is_named = std::any_of(options.poses.begin(), options.poses.end(),
-                                    [](const std::string& text) { return !named_of(text).name.empty(); });
+  const ModelScene model =
+      model_scene_of(options.file, overrides_of(options), "snapshot", keys_of_models(OfModel::picture));
+  const Chain chain = read_chain(options.file, model.options);
+  const bool is_named = std::any_of(options.poses.begin(), options.poses.end(), [&](const std::string& text) {
+    return !named_pose(chain, text).name.empty();
+  });
   // Poses without names in one file are one picture with all of them.
   OutputPlace place = place_of(options, is_named ? options.poses.size() : 1);
   if (is_named && options.output.empty())
@@ -246,9 +258,6 @@ void snapshot_model(const SnapshotOptions& options) {
     throw Error(ExitCode::usage, "-o " + options.output +
                                      ": a pose with a name is a file of its own in a folder: name that, " +
                                      "like -o out/, or leave the name out");
-  const ModelScene model =
-      model_scene_of(options.file, overrides_of(options), "snapshot", keys_of_models(OfModel::picture));
-  const Chain chain = read_chain(options.file, model.options);
   const std::vector<PosePicture> shown = pose_pictures(chain, options, place.is_folder);
   std::vector<std::string> names;
   for (const PosePicture& one : shown) names.push_back(one.name);

@@ -141,7 +141,7 @@ class FilmsOfGrid {
  public:
   FilmsOfGrid(const SweepOptions& options, const Grid& grid, FrameRange runs, std::string folder)
       : options_(options), grid_(grid), runs_(runs), folder_(std::move(folder)),
-        formats_(formats_of(options)), at_(parse_quantity(options.at, {})) {
+        formats_(formats_of(options)), at_(parse_seconds(options.at, "--at")) {
     require_names();
     threads_ = affordable_threads();
   }

@@ -50,7 +50,7 @@ std::optional<double> Fields::number(const YAML::Node& node, const std::string& 
   const std::optional<std::string> text = scalar(node, key, "a number");
   if (!text) return std::nullopt;
   try {
-    return parse_quantity(*text, place_of(node, key));
+    return parse_quantity(*text, place_of(node, key), unit_);
   } catch (const Error& error) {
     for (const Problem& problem : error.problems())
       problems_->add("'" + path(key) + "': " + problem.message, problem.place);

@@ -63,6 +63,9 @@ class Fields {
   // Unknown keys are problems that name the nearest known one.
   void finish();
 
+  // Numbers that are read from now on are told in this unit; "": in any.
+  void measure_in(std::string unit) { unit_ = std::move(unit); }
+
   ProblemList& problems() { return *problems_; }
   const YamlDocument& document() const { return *document_; }
 
@@ -73,7 +76,7 @@ class Fields {
 
   const YamlDocument* document_;
   YAML::Node map_;
-  std::string prefix_;
+  std::string prefix_, unit_;
   ProblemList* problems_;
   std::vector<std::string> known_;
 };

@@ -102,6 +102,8 @@ class KeyRow {
   KeyRow(KeyText text, void (*read)(Fields&, Scene&), void (*write)(const Scene&, std::vector<SceneEntry>&));
   // A mapping, whose keys are the rows behind it.
   static KeyRow section(const char* name, const char* example, const char* help);
+  // ... which may be one value for all of them.
+  KeyRow&& or_one(SceneKey::Read read) && { return key_.read = std::move(read), std::move(*this); }
 
   KeyRow&& in(const char* unit) && { return key_.unit = unit, std::move(*this); }
   KeyRow&& within(double least, double most) && { return key_.range = {least, most, false}, std::move(*this); }
@@ -138,7 +140,10 @@ class KeyRow {
       T& value = get(scene);
       if constexpr (std::is_same_v<T, std::optional<double>>)
         if (is_endless(key, fields)) return void(value = std::numeric_limits<double>::infinity());
-      if (!fields.read(key.leaf(), value)) return;
+      fields.measure_in(key.unit);
+      const bool is_read = fields.read(key.leaf(), value);
+      fields.measure_in("");
+      if (!is_read) return;
       if (const auto number = number_in(value)) check_range(key, fields, *number);
     };
     key_.text = [see](const SceneKey& key, const Scene& scene) {

@@ -58,11 +58,11 @@ std::vector<Chapter> chapters() {
       {"Start and drive",
        {Row::section("start", "start: {q: [0, 90deg], qd: [0, 0]}", "the state in which the run begins"),
         Row("start.q", &Scene::start, &StartState::q, "joint positions, a number a coordinate")
-            .in("rad")
+            .in("rad or m")
             .absent("all at zero")
             .caption("q(0) = @"),
         Row("start.qd", &Scene::start, &StartState::qd, "joint rates, a number a freedom")
-            .in("rad/s")
+            .in("rad/s or m/s")
             .absent("at rest")
             .caption("qd(0) = @"),
         Row(told_torque(), read_torque, torque_text)
@@ -205,7 +205,18 @@ std::vector<Chapter> chapters() {
             .example("slow_motion: [{from: 1s, until: 1.5s, speed: 0.25}]")
             .absent("none")
             .of_page(),
-        Row::section("hold", "hold: {first: 1, last: 2}", "how long the end frames stand still")
+        Row::section("hold", "hold: {first: 1, last: 2}", "how long the end frames stand still; one number is both")
+            .or_one([](const SceneKey&, Fields& fields, Scene& scene) {
+              double both = 0;
+              fields.measure_in("s");
+              if (fields.read("hold", both)) {
+                if (both >= 0 && both <= kLongestHold)
+                  scene.hold = {both, both};
+                else
+                  fields.problem_at("hold", "'hold' must be between 0 and " + format_shortest(kLongestHold) + " s");
+              }
+              fields.measure_in("");
+            })
             .of_page()
             .flag(FlagGroup::output, "--hold"),
         Row("hold.first", &Scene::hold, &Hold::first, "of the first frame").in("s").within(0, kLongestHold).of_page(),

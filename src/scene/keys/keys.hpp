@@ -49,7 +49,7 @@ struct SceneKey : KeyText {
   bool is_section = false;
   bool takes_null = false;  // which says that the key is absent
 
-  Read read;    // from the mapping that holds the key; none of a section
+  Read read;    // from the mapping that holds the key; of a section one value for all its leaves, none where it takes none
   Write write;  // adds nothing where the scene leaves it out
   std::function<std::string(const SceneKey& key, const Scene& scene)> text;  // the value in one line, "": absent
   bool (*means_something)(const Scene& scene) = nullptr;                     // null: it always does

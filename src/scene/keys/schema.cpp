@@ -84,6 +84,7 @@ Json schema_of_key(const SceneKey& key) {
       json["type"].push_back("null");
     }
   }
+  if (key.is_section && key.read) json["type"] = {json["type"], "number", "string"};
   if (!key.example.empty()) json["examples"].push_back(key.example);
   return json;
 }

@@ -45,10 +45,8 @@ class StretchReader {
   // `1.5`, `1.5s` or `1.5 s`.
   bool read_seconds(const std::string& key, double& value) {
     if (!has(key)) return false;
-    std::string text = inner_.find(key).Scalar();
-    if (text.ends_with('s')) text.pop_back();
     try {
-      value = parse_quantity(text, {});
+      value = parse_quantity(inner_.find(key).Scalar(), {}, "s");
     } catch (const Error&) {
       return complain("is '" + inner_.find(key).Scalar() + "', but seconds are wanted, like 1.5s", key);
     }

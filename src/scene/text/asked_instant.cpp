@@ -43,15 +43,8 @@ AskedInstant parse_asked_instant(const std::string& text, const Place& place) {
       throw Error(ExitCode::bad_input, std::string("`event` names no event: ") + kForms, place);
     return asked;
   }
-  std::string number = asked.text;
-  // Behind a digit it is the unit; elsewhere it belongs to a word.
-  const std::size_t before =
-      number.ends_with('s') ? number.find_last_not_of(' ', number.size() - 2) : std::string::npos;
-  if (before != std::string::npos && std::string("0123456789.)").find(number[before]) != std::string::npos)
-    number.resize(before + 1);
   try {
-    if (number.ends_with("deg")) throw Error(ExitCode::bad_input, "degrees");
-    asked.at = parse_quantity(number, place) + 0.0;  // no -0
+    asked.at = parse_quantity(asked.text, place, "s") + 0.0;  // no -0
   } catch (const Error&) {
     throw Error(ExitCode::bad_input, "'" + shortened(asked.text, 80) + "' is no instant: " + kForms, place);
   }

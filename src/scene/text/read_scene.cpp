@@ -29,7 +29,9 @@ void read_keys(Fields& fields, Scene& scene) {
   };
   for (const SceneKey& key : scene_keys()) {
     if (key.section().empty()) leave_section();
-    if (key.is_section)
+    if (key.is_section && key.read && fields.find(key.name).IsScalar())
+      key.read(key, fields, scene);
+    else if (key.is_section)
       section = fields.section(key.name, contents_of(key));
     else if (key.section().empty())
       key.read(key, fields, scene);
