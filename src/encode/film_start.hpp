@@ -1,4 +1,4 @@
-// How a film begins: its first frame, as a still that stands for the film, and its measures.
+// One frame of a film, as a still that stands for it, and its measures.
 #pragma once
 
 #include <string>
@@ -14,9 +14,9 @@ struct FilmStart {
   Image frame;                // opaque, scaled down to at most the width that was asked for
 };
 
-// Reads MP4, MOV or WebM. Throws Error (exit 3) where the file is no such film or its first frame cannot be
-// decoded.
-FilmStart read_film_start(const std::string& path, int widest);
+// The frame that is shown `at` seconds from the start on, or the last one. Reads MP4, MOV or WebM. Throws Error (exit 3)
+// where the file is no such film or a frame up to there cannot be decoded.
+FilmStart read_film_start(const std::string& path, int widest, double at = 0);
 
 // What a film says of itself, read from MP4, MOV and WebM.
 

@@ -24,6 +24,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/hash.hpp"
+#include "picture/find_font.hpp"
 #include "picture/shaping.hpp"
 #include "picture/text.hpp"
 
@@ -67,6 +68,7 @@ std::string code_point_name(char32_t c) {
 
 struct Fonts::State {
   struct Entry {
+    std::string name, remedy;  // for messages
     std::string file;
     hb_blob_t* blob = nullptr;
     hb_font_t* hb_font = nullptr;
@@ -96,9 +98,24 @@ struct Fonts::State {
 
   Entry& entry(Face face) { return faces[std::size_t(face)]; }
 
-  void open(std::size_t which, const std::vector<std::string>& folders) {
+  void open_own(std::size_t which, const std::vector<std::string>& folders) {
+    const FaceFile& own = kFaceFiles[which];
     Entry& e = faces[which];
-    e.file = find_font_file(kFaceFiles[which], folders);
+    e.name = std::string(own.name) + " (" + own.package + ")";
+    e.remedy = std::string("; if it is broken, reinstall the Debian package ") + own.package;
+    open(e, find_font_file(own, folders));
+  }
+  void open_family(std::size_t which, const std::string& family, WantedFace wanted) {
+    Entry& e = faces[which];
+    e.name = family;
+    open(e, find_font(library, family, wanted));
+    if (wanted == WantedFace::math && !hb_ot_math_has_data(hb_font_get_face(e.hb_font)))
+      throw Error(ExitCode::no_renderer, "font family '" + family + "' (" + e.file +
+                                             ") has no MATH table: formulas need one, like those of Latin Modern Math or STIX Two Math");
+  }
+
+  void open(Entry& e, const std::string& file) {
+    e.file = file;
     errno = 0;
     e.blob = hb_blob_create_from_file(e.file.c_str());
     unsigned length = 0;
@@ -107,9 +124,7 @@ struct Fonts::State {
                                           &e.ft_face) != 0)
       throw Error(ExitCode::no_renderer, "font file " + e.file +
                                              " cannot be read" +
-                                             (errno != 0 ? std::string(": ") + std::strerror(errno) : "") +
-                                             "; if it is broken, reinstall the Debian package " +
-                                             kFaceFiles[which].package);
+                                             (errno != 0 ? std::string(": ") + std::strerror(errno) : "") + e.remedy);
 
     hb_face_t* hb_face = hb_face_create(e.blob, 0);
     e.hb_font = hb_font_create(hb_face);
@@ -121,10 +136,19 @@ struct Fonts::State {
   }
 };
 
-Fonts::Fonts() : Fonts(kFontFolders) {}
+Fonts::Fonts(const FontFamilies& families) : state_(std::make_unique<State>()) {
+  const std::string bold = families.bold.empty() ? families.label : families.bold;
+  const std::pair<const std::string&, WantedFace> wanted[] = {
+      {families.label, WantedFace::regular}, {bold, WantedFace::bold}, {families.math, WantedFace::math}};
+  for (std::size_t i = 0; i < kFaceFiles.size(); ++i)
+    if (wanted[i].first.empty())
+      state_->open_own(i, kFontFolders);
+    else
+      state_->open_family(i, wanted[i].first, wanted[i].second);
+}
 
 Fonts::Fonts(const std::vector<std::string>& folders) : state_(std::make_unique<State>()) {
-  for (std::size_t i = 0; i < kFaceFiles.size(); ++i) state_->open(i, folders);
+  for (std::size_t i = 0; i < kFaceFiles.size(); ++i) state_->open_own(i, folders);
 }
 
 Fonts::~Fonts() = default;
@@ -196,10 +220,8 @@ ShapedText shape(const Fonts& fonts, Face face, std::u32string_view text) {
   const std::lock_guard lock(fonts.state().outlines);
   for (unsigned i = 0; i < count; ++i) {
     if (infos[i].codepoint == 0) {
-      const FaceFile& source = kFaceFiles[std::size_t(face)];
       const char32_t missing = text[infos[i].cluster];
-      throw Error(ExitCode::no_renderer, std::string(source.name) + " (" + source.package +
-                                             ") has no glyph for " + code_point_name(missing) + " in '" +
+      throw Error(ExitCode::no_renderer, entry.name + " has no glyph for " + code_point_name(missing) + " in '" +
                                              encode_utf8(text) + "'");
     }
     const Glyph glyph = {infos[i].codepoint, double(pen_x + positions[i].x_offset) / entry.units_per_em,

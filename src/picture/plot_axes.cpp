@@ -275,6 +275,7 @@ CurveStyle curve_style(int index, const Theme& theme, double text_scale) {
   style.color = color_of(colors[std::size_t(look)]);
   style.marker = Marker(1 + (look + 5 * round) % kCurveLooks);
   style.dash = Dash((look + round) % 4);
+  style.width *= theme.lines;
   style.marker_size = size::kMarker * std::max(1.0, text_scale);
   return style;
 }

@@ -13,10 +13,19 @@ struct FT_FaceRec_;
 
 namespace chainreel {
 
+// Families that somebody wants instead of the program's own faces, by their names; "": the program's own.
+struct FontFamilies {
+  std::string label, bold, math;  // `bold` left out: the bold face of `label`
+};
+
 // The opened faces. Throws Error (exit 4) naming file and Debian package where one is missing.
 class Fonts {
  public:
-  Fonts();
+  Fonts() : Fonts(FontFamilies{}) {}
+  // A family is looked for by the names that font files (.ttf, .otf) themselves bear, in the folders of fonts in the order of
+  // their paths; of its upright faces that nearest to the wanted weight and to normal width is taken. Nothing stands in
+  // for a family that is not there: Error (exit 4).
+  explicit Fonts(const FontFamilies& families);
   explicit Fonts(const std::vector<std::string>& folders);  // searched in this order instead of Debian's
   ~Fonts();
   Fonts(const Fonts&) = delete;

@@ -15,6 +15,9 @@ struct Theme {
   std::array<Color, 3> curve;  // plot lines of joints 1, 2, 3
   Color side_a, side_b;        // the two sides of a comparison
   std::array<Color, 3> axis;   // x, y, z of a frame; each axis also bears its letter
+  double lines = 1;            // times the widths of outlines, curves and ellipses
+
+  friend bool operator==(const Theme&, const Theme&) = default;
 };
 
 const Theme& light_theme();

@@ -12,6 +12,7 @@
 #include "model/model_source.hpp"
 #include "scene/constraint_entry.hpp"
 #include "scene/layers.hpp"
+#include "scene/style.hpp"
 #include "scene/words.hpp"
 #include "sim/accuracy.hpp"
 #include "sim/drive/limits.hpp"
@@ -100,6 +101,7 @@ struct Scene {
       compare;            // the panels, each the scene with its changes; empty: the scene is the only one
   ThemeName theme = ThemeName::light;
   double text_scale = 1;  // for clips used smaller than drawn
+  Style style;            // of the house; what a file said of it stands here, too
   Video video;
   std::vector<SlowMotionEntry> slow_motion;
   Hold hold;

@@ -95,7 +95,7 @@ AnyPicture ellipses_of(const std::string& name, const std::string& chain, const 
                        const std::string& layout, EllipseReading reading = EllipseReading::mass) {
   return {name, [=](const PictureLook& look, const Fonts& fonts) {
             const Motion motion = sources.along.empty()
-                                      ? Motion{model(chain), gather_poses(model(chain), sources), *value_named<ThemeName>(look.theme)}
+                                      ? Motion{model(chain), gather_poses(model(chain), sources), &theme_named(look.theme)}
                                       : motion_of(sources, {});
             PoseFigureOptions options = options_at(look);
             options.title = "Effective mass";

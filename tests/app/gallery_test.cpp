@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "app/gallery/gallery_clips.hpp"
 #include "app/gallery/gallery_page.hpp"
 #include "app/report/page_template.hpp"
 #include "core/hash.hpp"
@@ -156,6 +157,32 @@ TEST(FilmStart, IsTheFirstFrameAsAnotherReaderSeesIt) {
   const FilmStart small = read_film_start(file, 80);
   EXPECT_EQ(small.frame.width, 80);
   EXPECT_EQ(small.frame.height, 45);
+}
+
+TEST(FilmStart, IsTheFrameThatIsShownAtAnInstant) {
+  const TemporaryFolder folder;
+  const std::string file = render(folder, "a.mp4");  // twelve frames
+  const VideoFacts facts = probe_video(file);
+  EXPECT_LT(compare_pictures(read_film_start(file, 4096, 11.0 / 60).frame, facts.last).mean, 1);
+  EXPECT_LT(compare_pictures(read_film_start(file, 4096, 99).frame, facts.last).mean, 1) << "behind the end: the last";
+  EXPECT_EQ(read_film_start(file, 4096, 0.008).frame.bgra, read_film_start(file, 4096).frame.bgra);
+}
+
+TEST(GalleryPoster, IsTheLastEventOrTwoFifthsOfTheFilm) {
+  EXPECT_DOUBLE_EQ(poster_time(Json(), 10), 4);
+  EXPECT_DOUBLE_EQ(poster_time(Json::object(), 10), 4);
+  Json audit{{"frames", 600}, {"events", {{{"t", 1.5}}, {{"t", 3}}}}};
+  EXPECT_DOUBLE_EQ(poster_time(audit, 10), 3);
+  audit["held_frames"] = {{"first", 60}, {"last", 0}};
+  EXPECT_DOUBLE_EQ(poster_time(audit, 10), 4) << "the first frame is held for a second";
+  // From 2 s on four times slower, until 2.5 s, which the film reaches 3 s + 2 s later.
+  audit["slow_motion"] = {{{"from", 2}, {"until", 2.5}, {"speed", 0.25}, {"film_from", 3}, {"film_until", 5}}};
+  EXPECT_DOUBLE_EQ(poster_time(audit, 10), 5.5);
+  audit["events"] = {{{"t", 2.25}}};
+  EXPECT_DOUBLE_EQ(poster_time(audit, 10), 4);
+  EXPECT_DOUBLE_EQ(poster_time({{"panels", {{{"events", {{{"t", 2}}}}}, Json::object()}}}, 10), 2);
+  EXPECT_DOUBLE_EQ(poster_time({{"events", {{{"t", 50}}}}}, 10), 4) << "not in the film";
+  EXPECT_DOUBLE_EQ(poster_time({{"events", "none"}}, 10), 4);
 }
 
 TEST(GalleryAudit, PutsRunsSideBySideAndEnduresStrangeKinds) {

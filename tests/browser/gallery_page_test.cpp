@@ -164,6 +164,43 @@ TEST_F(GalleryPage, ShowsItsFilmsAtDeskAndPhoneInLightAndDark) {
   browser().prefer_dark(false);
 }
 
+TEST_F(GalleryPage, PutsTheButtonInTheMiddleAndTheControlsBelowTheFilm) {
+  browser().resize(390, 900);
+  browser().open("file://" + page());
+  const Json at = browser().run(
+      "const box = (e) => e.getBoundingClientRect(), film = document.querySelector('.film');"
+      "const v = box(film.querySelector('video')), b = box(film.querySelector('.start')), c = box(film.querySelector('.controls'));"
+      "return [(b.left + b.right) / 2 - (v.left + v.right) / 2, (b.top + b.bottom) / 2 - (v.top + v.bottom) / 2, c.top - v.bottom,"
+      "film.querySelector('video').controls, Math.min(...[...film.querySelectorAll('.controls button')].map((e) => box(e).height))]");
+  EXPECT_NEAR(at[0].get<double>(), 0, 1);
+  EXPECT_NEAR(at[1].get<double>(), 0, 1);
+  EXPECT_GE(at[2].get<double>(), -0.5) << "no words of the film lie under them";
+  EXPECT_EQ(at[3], false);
+  EXPECT_GE(at[4].get<double>(), 36) << "large enough for a finger";
+}
+
+TEST_F(GalleryPage, IsPlayedByTheKeyboard) {
+  browser().open("file://" + page());
+  const Json went = browser().run_async(R"js(
+    const film = document.querySelectorAll('.film')[2], video = film.querySelector('video');
+    if (video.readyState < 1) await new Promise((done) => video.addEventListener('loadedmetadata', done, {once: true}));
+    const press = async (key) => {
+      const moved = new Promise((done) => video.addEventListener(key === 'k' ? 'play' : 'seeked', done, {once: true}));
+      video.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true, cancelable: true}));
+      await moved;
+    };
+    await press('ArrowRight');
+    const second = video.currentTime, hidden = film.querySelector('.start').hidden;
+    await press('Home');
+    const start = video.currentTime, shown = !film.querySelector('.start').hidden;
+    await press('k');
+    const plays = !video.paused;
+    video.pause();
+    return [second, hidden, start, shown, plays];
+  )js");
+  EXPECT_EQ(went, (Json{1, true, 0, true, true}));
+}
+
 // Negative controls: the same check finds what is wrong on purpose.
 
 TEST_F(GalleryPage, CheckFindsABrokenFilm) {

@@ -107,7 +107,7 @@ TEST_F(Keys, WithNullAreAbsentWhereTheyCanBe) {
 }
 
 TEST_F(Keys, WhoseValueIsAPathAreKnownByName) {
-  EXPECT_THAT(path_keys(), testing::UnorderedElementsAre("model", "csv", "inverse_of", "trajectory"));
+  EXPECT_THAT(path_keys(), testing::UnorderedElementsAre("model", "csv", "inverse_of", "trajectory", "file"));
 }
 
 TEST_F(Keys, OfModelsAreThoseOfTheMechanismAndOfItsPicture) {
@@ -115,7 +115,7 @@ TEST_F(Keys, OfModelsAreThoseOfTheMechanismAndOfItsPicture) {
               testing::ElementsAre("gravity", "base", "friction", "massless", "packages"));
   EXPECT_THAT(keys_of_models(OfModel::picture),
               testing::ElementsAre("gravity", "base", "friction", "massless", "packages", "end_effector", "links",
-                                   "mesh_up", "camera", "theme", "text_scale", "video.width", "video.height"));
+                                   "mesh_up", "camera", "theme", "text_scale", "style", "video.width", "video.height"));
 }
 
 }  // namespace

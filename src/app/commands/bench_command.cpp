@@ -17,6 +17,7 @@
 #include "core/parallel.hpp"
 #include "core/stage_clock.hpp"
 #include "core/temporary_file.hpp"
+#include "draw/page/house_style.hpp"
 #include "encode/film_chunk.hpp"
 
 namespace chainreel {
@@ -58,7 +59,7 @@ int frames_that_fit(const std::vector<int>& bounds, double bytes_of_frame, doubl
 
 // The frames as encoders take them, a tape a chunk.
 std::vector<ChunkTape> tapes_of(const PreparedFilm& film, const Runs& runs, const Target& target, FrameRange range, int jobs) {
-  const Fonts fonts;
+  const Fonts fonts(families_of(film.scene));
   const Schedule schedule = schedule_of(runs);
   const Film pictures = runs.pictures(schedule.frames, fonts);
   const ClipMemory memory;

@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/charts/chart.hpp"
+#include "draw/page/house_style.hpp"
 #include "sim/choice/work_precision.hpp"
 
 namespace chainreel {
@@ -187,7 +188,7 @@ void run_chart(const ChartOptions& options) {
     if (std::none_of(data.curves.begin(), data.curves.end(), [&](const ChartCurve& c) { return c.method == name; }))
       throw Error(ExitCode::bad_input, "--highlight: " + name + " does not take this scene",
                   prepared.scene.place_of("method"));
-  const Fonts fonts;
+  const Fonts fonts(families_of(prepared.scene));
   const ChartLook look = chart_look(options.figure, prepared.scene, fonts);
   const ChartCost panels[] = {ChartCost::seconds, ChartCost::evaluations};
   light_curves(data, panels, lit);

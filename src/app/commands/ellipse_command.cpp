@@ -12,6 +12,7 @@
 #include "app/film/model_scene.hpp"
 #include "app/film/target.hpp"
 #include "core/error.hpp"
+#include "draw/page/house_style.hpp"
 #include "core/output_file.hpp"
 #include "draw/figures/poses.hpp"
 #include "draw/page/sheet.hpp"
@@ -125,7 +126,7 @@ EllipseJob job_of_scene(const EllipseOptions& options) {
   EllipseJob job{motion_of(options.sources, options.common), {}};
   const Motion& motion = job.motion;
   job.figure.text_scale = motion.text_scale;
-  job.figure.theme = &theme_named(to_string(motion.theme));
+  job.figure.theme = motion.theme;
   job.figure.camera = motion.camera;
   job.figure.shapes = motion.shapes;
   job.figure.width = motion.video.width;
@@ -138,7 +139,8 @@ EllipseJob job_of_model(const EllipseOptions& options) {
   std::vector<std::string> honoured = keys_of_models(OfModel::picture);
   honoured.insert(honoured.end(), {"title", "ellipse"});
   const ModelScene model = model_scene_of(options.model, model_overrides(options), "ellipse", honoured);
-  EllipseJob job{{read_chain(options.model, model.options), {}, model.scene.theme, model.scene.text_scale}, {}};
+  EllipseJob job{{read_chain(options.model, model.options), {}, &page_theme(model.scene), model.scene.text_scale}, {}};
+  job.motion.families = families_of(model.scene);
   Motion& motion = job.motion;
   require_end_effector(motion.chain);
   motion.poses = gather_poses(motion.chain, options.sources);
@@ -204,14 +206,14 @@ void run_ellipse(const EllipseOptions& options) {
   Json numbers;
   if (options.joint_space) {
     const std::array<int, 2> joints = joints_of(chain, options.joints);
-    const Fonts fonts;
+    const Fonts fonts(motion.families);
     write_picture(draw_joint_space_figure(chain, poses.q, joints, figure, fonts), figure.width,
                   figure.height, fonts, output, options.common.force, memory);
     numbers = joint_space_json(chain, poses, joints);
   } else if (output.ends_with(".csv")) {
     write_text_file(output, ellipse_csv(tip, poses, options.form(motion)), options.common.force);
   } else {
-    const Fonts fonts;
+    const Fonts fonts(motion.families);
     write_picture(draw_ellipse_figure(tip, poses.q, figure, fonts), figure.width,
                   figure.height, fonts, output, options.common.force, memory);
   }

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/layers/ellipse.hpp"
+#include "draw/page/house_style.hpp"
 #include "draw/robot/chain.hpp"
 #include "dynamics/equation_of_motion.hpp"
 #include "dynamics/inverse_kinematics.hpp"
@@ -194,9 +195,9 @@ Motion motion_of(const PoseSources& sources, const CommonOptions& common) {
   runs.require_expected_ends();
 
   const Trajectory& run = runs[0];
-  Motion motion{film.panels.front().simulation.chain, {}, film.scene.theme, film.scene.text_scale,
+  Motion motion{film.panels.front().simulation.chain, {}, &page_theme(film.scene), film.scene.text_scale,
                 film.scene.camera, film.scene.ellipse, film.panels.front().shapes,
-                film.panels.front().simulation.constraints, film.scene.video};
+                film.panels.front().simulation.constraints, film.scene.video, families_of(film.scene)};
   const Chain& chain = motion.chain;
   require_end_effector(chain);
   Workspace ws(chain);

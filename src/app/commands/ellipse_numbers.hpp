@@ -9,6 +9,8 @@
 #include "core/json.hpp"
 #include "draw/layers/ellipse.hpp"
 #include "draw/robot/body_shapes.hpp"
+#include "picture/text.hpp"
+#include "picture/theme.hpp"
 #include "scene/scene.hpp"
 #include "sim/instant.hpp"
 
@@ -40,13 +42,14 @@ GatheredPoses gather_poses(const Chain& chain, const PoseSources& sources);
 struct Motion {
   Chain chain;
   GatheredPoses poses;
-  ThemeName theme = ThemeName::light;
+  const Theme* theme = &light_theme();
   double text_scale = 1;
   CameraEntry camera = {};  // of a scene
   EllipseEntry ellipse = {};
   std::shared_ptr<const BodyShapes> shapes = nullptr;
   ConstraintPlan constraints = {};  // of the scene
   Video video = {};
+  FontFamilies families = {};
 };
 Motion motion_of(const PoseSources& sources, const CommonOptions& common);
 

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/charts/energy_chart.hpp"
+#include "draw/page/house_style.hpp"
 #include "sim/audit.hpp"
 #include "sim/workload.hpp"
 
@@ -199,7 +200,7 @@ void run_energy(const EnergyOptions& options) {
     runs.push_back(run_method(simulation, settings.of(*method), times));
   }
 
-  const Fonts fonts;
+  const Fonts fonts(families_of(prepared.scene));
   const ChartLook look = chart_look(options.figure, prepared.scene, fonts);
   const EnergyChart chart = chart_of(prepared, settings, simulation.duration, runs);
   const auto files = write_figure(energy_chart(chart, look), csv_of(options.scene, runs), options.figure,

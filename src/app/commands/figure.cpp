@@ -12,6 +12,7 @@
 #include "core/hash.hpp"
 #include "core/machine.hpp"
 #include "core/output_file.hpp"
+#include "draw/page/house_style.hpp"
 #include "scene/text/scene_paths.hpp"
 
 namespace chainreel {
@@ -36,7 +37,7 @@ void add_figure_options(Command& command, FigureOptions& options, CommonOptions&
 }
 
 ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fonts& fonts) {
-  return {double(options.width) / options.height, scene.text_scale, &theme_named(to_string(scene.theme)), &fonts};
+  return {double(options.width) / options.height, scene.text_scale, &page_theme(scene), &fonts};
 }
 
 void check_figure_path(const std::string& path) {

@@ -64,6 +64,7 @@ void require_same_film(const Part& a, const Part& b) {
   if (a.facts.program != b.facts.program)
     differ("it was rendered by chainreel " + b.facts.program + ", not " + a.facts.program);
   if (word(a, "versions") != word(b, "versions")) differ("it was rendered with other versions of libraries");
+  if (word(a, "style") != word(b, "style")) differ("its style's logo or font files are others");
   if (a.tags != b.tags) differ("its scene differs");
   if (a.facts.film_sha256 != b.facts.film_sha256 || a.facts.audit != b.facts.audit)
     differ("it was rendered with other meshes or fonts, or by another renderer (GALLIUM_DRIVER)");

@@ -47,6 +47,7 @@ struct Moments::State {
     moment.memory = memory;
     moment.memory.audit["at"] = moment.at;
     moment.warnings = warnings;
+    moment.left_out = report.left_out;
     return moment;
   }
 };

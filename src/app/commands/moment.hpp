@@ -18,6 +18,7 @@ struct Moment {
   std::string title;  // of the page, with what it says of the run
   ClipMemory memory;
   std::vector<std::string> warnings;  // what speaks against the runs
+  std::vector<std::string> left_out;  // layers that a page this small has no room for
 };
 
 // Several of one film, each as it is alone, whichever others there are: those at its frames share one run; an instant

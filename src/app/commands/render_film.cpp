@@ -17,6 +17,7 @@
 #include "core/format.hpp"
 #include "core/hash.hpp"
 #include "core/output_file.hpp"
+#include "draw/page/house_style.hpp"
 #include "encode/png.hpp"
 
 namespace chainreel {
@@ -174,7 +175,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
   if (std::any_of(runs.list().begin(), runs.list().end(), [](const Trajectory& run) { return run.size() == 0; }))
     runs.require_expected_ends();
 
-  const Fonts fonts;
+  const Fonts fonts(families_of(scene));
   const FrameRate fps = scene.video.fps;
   const Schedule schedule = schedule_of(runs);
   const Film pictures = runs.pictures(schedule.frames, fonts);
@@ -231,6 +232,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
     throw;
   }
   tell_warnings(warning_lines(report));
+  tell_left_out(report.left_out, scene, job.quiet);
   if (!job.quiet) {
     tell_of_stops(runs);
     tell_of_missing_events(runs);

@@ -32,6 +32,13 @@ struct SheetOptions {
   const Command* command = nullptr;
 };
 
+// Words of all cells stand on one page, in one face.
+void leave_out_faces(Scene& scene, bool quiet) {
+  if (!scene.style.fonts.empty() && !quiet)
+    std::fprintf(stderr, "note: %s: a sheet has one face: the style's `fonts` are left out\n", scene.name.c_str());
+  scene.style.fonts = {};
+}
+
 // What a small picture shows: all that is drawn, without the words around it.
 void set_for_cell(Scene& scene, ThemeName theme, double text_scale) {
   scene.video.height = 1000;
@@ -46,6 +53,7 @@ void set_for_cell(Scene& scene, ThemeName theme, double text_scale) {
 ContactCell cell_of(const std::string& file, const SheetOptions& options, ThemeName theme,
                     double text_scale, const Fonts& fonts) {
   PreparedFilm film = load_film(file, overrides_of(options.common), true, options.common.quiet);
+  leave_out_faces(film.scene, options.common.quiet);
   set_for_cell(film.scene, theme, text_scale);
   for (PreparedScene& panel : film.panels) set_for_cell(panel.scene, theme, text_scale);
   Moment moment = options.at.empty()

@@ -21,6 +21,7 @@
 #include "core/error.hpp"
 #include "core/output_file.hpp"
 #include "draw/figures/poses.hpp"
+#include "draw/page/house_style.hpp"
 #include "model/read_chain.hpp"
 #include "render/canvas.hpp"
 #include "scene/text/asked_instant.hpp"
@@ -187,11 +188,12 @@ void snapshot_scene(const SnapshotOptions& options) {
   if (options.height > 0) video.height = options.height;
   const std::vector<double> instants = instants_asked(film, asked);
   Pictures pictures(options, place, names);
-  const Fonts fonts;
+  const Fonts fonts(families_of(film.scene));
   Moments moments(film, fonts);
   for (std::size_t i = 0; i < instants.size(); ++i) {
     const Moment shown = moments.moment(instants[i]);
     if (i == 0) tell_warnings(shown.warnings);
+    if (i == 0) tell_left_out(shown.left_out, film.scene, options.common.quiet);
     pictures.write(i, shown.picture, video.width, video.height, fonts, shown.memory);
   }
   pictures.commit(options);
@@ -263,7 +265,7 @@ void snapshot_model(const SnapshotOptions& options) {
   for (const PosePicture& one : shown) names.push_back(one.name);
   require_own_names(names, "--pose");
   Pictures pictures(options, place, names);
-  const Fonts fonts;
+  const Fonts fonts(families_of(model.scene));
   PoseFigureOptions figure;
   set_look(figure, model, chain);
   if (options.width > 0) figure.width = options.width;

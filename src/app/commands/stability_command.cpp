@@ -15,6 +15,7 @@
 #include "core/format.hpp"
 #include "core/machine.hpp"
 #include "draw/charts/stability_map.hpp"
+#include "draw/page/house_style.hpp"
 #include "scene/run/stability_cells.hpp"
 #include "scene/text/read_scene.hpp"
 #include "sim/audit.hpp"
@@ -167,7 +168,7 @@ void draw_map(const StabilityOptions& options, const std::string& output) {
       run_stability_cells(options.scene, overrides, x, y, threads, [](double) { return interrupted(); });
   throw_if_interrupted();
   const Scene scene = read_scene(options.scene, overrides);
-  const Fonts fonts;
+  const Fonts fonts(families_of(scene));
   const ChartLook look = chart_look(options.figure, scene, fonts);
   const auto files = write_figure(stability_map(map_of(scene, cells), look), csv_of(options.scene, cells),
                                   options.figure, output, fonts, options.common.force);

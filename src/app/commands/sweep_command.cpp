@@ -14,6 +14,7 @@
 #include "app/cli/streams.hpp"
 #include "app/commands/render_film.hpp"
 #include "app/commands/sweep_table.hpp"
+#include "app/film/house_logo.hpp"
 #include "app/film/runs.hpp"
 #include "app/report/report.hpp"
 #include "app/report/trajectory_csv.hpp"
@@ -88,7 +89,7 @@ class FilesOfRun {
  public:
   // `at`: instant that pictures show, s.
   FilesOfRun(const PreparedFilm& film, double at)
-      : film_(film), runs_(film), scene_(placeless_scene_text(film.scene)), meshes_(meshes_hash(film)) {
+      : film_(film), runs_(film), scene_(placeless_scene_text(film.scene)), meshes_(meshes_hash(film)), style_(style_report(film.scene)) {
     const int still = std::clamp(runs_.clock().frame_at(at), 0, std::max(0, schedule_of(runs_).frames - 1));
     at_ = runs_.times()[std::size_t(still)];
     for (std::size_t i = 0; i < runs_.size(); ++i)
@@ -123,7 +124,7 @@ class FilesOfRun {
   bool is_same(const Json& audit) const {
     const Json panels = audit.contains("panels") ? audit["panels"] : Json::array({audit});
     if (panels.size() != hashes_.size() || audit.at("versions").at("chainreel") != program_version()) return false;
-    if (audit.value(kMeshesHash, "") != meshes_) return false;
+    if (audit.value(kMeshesHash, "") != meshes_ || audit.value("style", Json()) != style_) return false;
     for (std::size_t i = 0; i < hashes_.size(); ++i)
       if (panels[i].value("model_sha256", "") != hashes_[i].first || panels[i].value("trajectory_sha256", "") != hashes_[i].second)
         return false;
@@ -133,6 +134,7 @@ class FilesOfRun {
   const PreparedFilm& film_;
   Runs runs_;
   std::string scene_, meshes_;
+  Json style_;
   double at_ = 0;
   std::vector<std::pair<std::string, std::string>> hashes_;  // of model and motion, a panel each
 };

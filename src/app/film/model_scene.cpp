@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "draw/page/house_style.hpp"
 #include "draw/robot/view.hpp"
 #include "scene/run/prepare.hpp"
 #include "scene/text/read_scene.hpp"
@@ -41,7 +42,7 @@ void set_look(PoseFigureOptions& figure, const ModelScene& model, const Chain& c
   figure.width = scene.video.width;
   figure.height = scene.video.height;
   figure.text_scale = scene.text_scale;
-  figure.theme = &theme_named(to_string(scene.theme));
+  figure.theme = &page_theme(scene);
   figure.camera = scene.camera;
   MeshShelf shelf;
   const BodyLook look{scene.links, scene.mesh_up, is_oblique(chain, scene.camera), scene.place_of("links")};

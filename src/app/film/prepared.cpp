@@ -5,8 +5,10 @@
 #include <set>
 
 #include "app/film/automatic.hpp"
+#include "app/film/house_logo.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "draw/page/house_style.hpp"
 #include "draw/robot/view.hpp"
 #include "scene/run/prepare.hpp"
 #include "scene/text/panels.hpp"
@@ -69,6 +71,10 @@ void load_shapes(PreparedFilm& film) {
 
 PreparedFilm load_film(const std::string& path, const std::vector<std::string>& overrides, bool meshes, bool quiet) {
   PreparedFilm film{read_scene(path, overrides), {}};
+  const std::vector<std::string> pale = low_contrasts(film.scene);
+  Scene& noticed = film.scene.compare.empty() ? film.scene : film.scene.compare.front();
+  noticed.notices.insert(noticed.notices.end(), pale.begin(), pale.end());
+  if (meshes) load_logo(film.scene);
   if (film.scene.compare.empty()) {
     film.panels.push_back(prepare_panel(std::move(film.scene), meshes, quiet));
     film.scene = film.panels.front().scene;

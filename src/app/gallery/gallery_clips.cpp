@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <optional>
 #include <set>
 
 #include "app/cli/streams.hpp"
@@ -19,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kPosterWidth = 960;  // pixels
+constexpr double kTellingShare = 0.4;  // of a film without events: its poster
 
 struct ChartKind {
   const char* ending;
@@ -125,6 +127,33 @@ void add_charts(std::vector<GalleryClip>& clips) {
 
 }  // namespace
 
+double poster_time(const Json& audit, double film_seconds) {
+  const double otherwise = kTellingShare * film_seconds;
+  try {
+    std::optional<double> last;  // of the motion
+    const auto look = [&](const Json& run) {
+      for (const Json& event : run.value("events", Json::array()))
+        last = std::max(last.value_or(0), event.at("t").get<double>());
+    };
+    look(audit);
+    for (const Json& panel : audit.value("panels", Json::array())) look(panel);
+    if (!last) return otherwise;
+    double held = 0;
+    if (audit.contains("held_frames"))
+      held = audit["held_frames"].at("first").get<double>() * film_seconds / audit.at("frames").get<double>();
+    double film = held + *last;
+    for (const Json& slow : audit.value("slow_motion", Json::array())) {
+      const double from = slow.at("from").get<double>(), until = slow.at("until").get<double>();
+      if (*last < from) continue;
+      film = *last <= until ? slow.at("film_from").get<double>() + (*last - from) / slow.at("speed").get<double>()
+                            : slow.at("film_until").get<double>() + *last - until;
+    }
+    return film >= 0 && film <= film_seconds ? film : otherwise;
+  } catch (const Json::exception&) {
+    return otherwise;  // an audit of a strange kind
+  }
+}
+
 std::vector<std::string> find_clips(const std::vector<std::string>& paths) {
   std::vector<std::string> found;
   ProblemList problems;
@@ -159,6 +188,7 @@ std::vector<GalleryClip> read_clips(const std::vector<std::string>& paths) {
     try {
       clip.start = read_film_start(path, kPosterWidth);
       remember(clip);
+      clip.start = read_film_start(path, kPosterWidth, poster_time(clip.audit, clip.start.seconds));
       clips.push_back(std::move(clip));
     } catch (const Error& error) {
       for (Problem problem : error.problems()) {

@@ -34,4 +34,7 @@ std::vector<std::string> find_clips(const std::vector<std::string>& paths);
 // Throws Error (exit 3) with the problems of all that cannot be played.
 std::vector<GalleryClip> read_clips(const std::vector<std::string>& paths);
 
+// The instant of the film, s, that its poster shows: its last event, else 40 % of the film.
+double poster_time(const Json& audit, double film_seconds);
+
 }  // namespace chainreel

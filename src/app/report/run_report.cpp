@@ -4,7 +4,11 @@
 #include <cstdio>
 
 #include "app/film/automatic.hpp"
+#include "app/film/house_logo.hpp"
 #include "app/report/report.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "draw/film/compose.hpp"
 #include "render/canvas.hpp"
 #include "scene/run/fall.hpp"
 
@@ -120,12 +124,18 @@ std::vector<std::string> warning_lines(const FilmReport& report) {
   return lines;
 }
 
+void tell_left_out(const std::vector<std::string>& layers, const Scene& page, bool quiet) {
+  if (quiet || layers.empty()) return;
+  std::fprintf(stderr, "note: %s: %s: not drawn, as no word may be lower than %g px and %d x %d px have no room for more\n",
+               page.name.c_str(), joined(layers).c_str(), kLeastWordPixels, page.video.width, page.video.height);
+}
+
 double held_first(const Scene& scene) {
   return frame_time(frame_count(scene.hold.first, scene.video.fps), scene.video.fps);
 }
 
 FilmReport film_report(const Runs& runs, const Film& pictures, int frames) {
-  FilmReport report{runs, {}, frames, pictures.clock(), {}, Writes::films};
+  FilmReport report{runs, {}, frames, pictures.clock(), {}, Writes::films, pictures.left_out()};
   double end = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     report.panels.push_back(run_report(runs.film().panels[i], runs[i]));
@@ -160,6 +170,8 @@ Json to_json(const FilmReport& report) {
   json["width"] = scene.video.width;
   json["height"] = scene.video.height;
   json["film_seconds"] = report.film_seconds();
+  if (!report.left_out.empty()) json["left_out"] = report.left_out;
+  if (const Json style = style_report(scene); !style.is_null()) json["style"] = style;
   if (!scene.slow_motion.empty()) {
     const double held = held_first(scene);
     json["slow_motion"] = Json::array();

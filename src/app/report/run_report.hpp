@@ -35,6 +35,7 @@ struct FilmReport {
   FilmClock clock;
   std::vector<Stretch> slow_motion;  // as far as the motion went
   Writes writes = Writes::films;     // a single picture of it, or all
+  std::vector<std::string> left_out = {};  // layers that a page this small has no room for
 
   const PreparedFilm& film() const { return runs.film(); }
   double film_seconds() const { return frame_time(frames, film().scene.video.fps); }
@@ -49,6 +50,9 @@ std::vector<std::string> warning_lines(const std::string& name, const RunReport&
 std::vector<std::string> warning_lines(const FilmReport& report);
 // On standard error. Said even where all is to be quiet.
 void tell_warnings(const std::vector<std::string>& lines);
+
+// On standard error: layers that the scene draws and the page is too small for.
+void tell_left_out(const std::vector<std::string>& layers, const Scene& page, bool quiet);
 
 // For how long the first frame is held: whole frames, s.
 double held_first(const Scene& scene);

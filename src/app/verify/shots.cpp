@@ -18,6 +18,7 @@
 #include "core/hash.hpp"
 #include "core/machine.hpp"
 #include "draw/figures/poses.hpp"
+#include "draw/page/house_style.hpp"
 #include "draw/robot/view.hpp"
 #include "picture/place_picture.hpp"
 #include "scene/keys/keys.hpp"
@@ -74,6 +75,7 @@ class Studio::Source {
   virtual ~Source() = default;
   const std::string& path() const { return path_; }
 
+  virtual FontFamilies families() const = 0;
   virtual SuiteShot draw(const SuitePicture& picture, const Fonts& fonts) = 0;
   virtual std::array<double, 4> fitted(const Fonts& fonts) = 0;
 
@@ -98,6 +100,8 @@ class Studio::ModelSource : public Source {
         camera_(camera_of(suite, part)) {
     set_look(figure_, model_, chain_);
   }
+
+  FontFamilies families() const override { return families_of(model_.scene); }
 
   SuiteShot draw(const SuitePicture& picture, const Fonts& fonts) override {
     const PoseFigureOptions options = options_for(picture);
@@ -157,6 +161,8 @@ class Studio::SceneSource : public Source {
         plain_(film_, clock_, clock_.frame_times()),
         record_(run_record(film_, plain_)),
         name_(source_name(suite, path)) {}
+
+  FontFamilies families() const override { return families_of(film_.scene); }
 
   SuiteShot draw(const SuitePicture& picture, const Fonts& fonts) override {
     const double at = instant_of(picture);
@@ -259,10 +265,20 @@ Studio::Source& Studio::source_of(const std::string& path) {
   return *source_;
 }
 
+const Fonts& Studio::fonts_of(const Source& source) {
+  const FontFamilies families = source.families();
+  std::unique_ptr<Fonts>& fonts = fonts_[{families.label, families.bold, families.math}];
+  if (!fonts) fonts = std::make_unique<Fonts>(families);
+  return *fonts;
+}
+
 SuiteShot Studio::shoot(const SuitePicture& picture) {
-  SuiteShot shot = source_of(picture.source).draw(picture, fonts_);
-  shot.image = rasterise(shot.picture, shot.width, shot.height);
-  shot.page.update(page_of(fonts_, canvas_->info()));
+  Source& source = source_of(picture.source);
+  const Fonts& fonts = fonts_of(source);
+  SuiteShot shot = source.draw(picture, fonts);
+  shot.fonts = &fonts;
+  shot.image = rasterise(shot.picture, shot.width, shot.height, fonts);
+  shot.page.update(page_of(fonts, canvas_->info()));
   return shot;
 }
 
@@ -272,17 +288,19 @@ Image Studio::moved(const SuiteShot& shot, double right, double up) {
   picture.background = shot.picture.background;
   const double x = right / shot.height, y = up / shot.height;
   place_picture(picture, shot.picture, {{x, y, shot.picture.aspect + x, 1 + y}});
-  return rasterise(picture, shot.width, shot.height);
+  return rasterise(picture, shot.width, shot.height, *shot.fonts);
 }
 
 std::array<double, 4> Studio::fitted(const std::string& source) {
-  return source_of(source).fitted(fonts_);
+  Source& shown = source_of(source);
+  return shown.fitted(fonts_of(shown));
 }
 
-Image Studio::rasterise(const Picture& picture, int width, int height) {
-  if (!canvas_ || canvas_width_ != width || canvas_height_ != height) {
+Image Studio::rasterise(const Picture& picture, int width, int height, const Fonts& fonts) {
+  if (!canvas_ || canvas_width_ != width || canvas_height_ != height || canvas_fonts_ != &fonts) {
     canvas_ = nullptr;
-    canvas_ = std::make_unique<Canvas>(width, height, fonts_);
+    canvas_ = std::make_unique<Canvas>(width, height, fonts);
+    canvas_fonts_ = &fonts;
     canvas_width_ = width;
     canvas_height_ = height;
   }

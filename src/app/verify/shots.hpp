@@ -1,6 +1,7 @@
 // The pictures of a suite as the program draws them now, each with the physics behind it.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -19,6 +20,7 @@ namespace chainreel {
 struct SuiteShot {
   Picture picture;
   int width = 0, height = 0;  // px
+  const Fonts* fonts = nullptr;  // the studio's
   Image image;
   ClipMemory memory;
   // {source, model, names, q}, or {source, t, run}: `model` and `run` are records
@@ -55,14 +57,16 @@ class Studio {
   class ModelSource;
   class SceneSource;
   Source& source_of(const std::string& path);
-  Image rasterise(const Picture& picture, int width, int height);
+  const Fonts& fonts_of(const Source& source);
+  Image rasterise(const Picture& picture, int width, int height, const Fonts& fonts);
 
   const Suite& suite_;
   const Cameras& cameras_;
-  Fonts fonts_;
+  std::map<std::array<std::string, 3>, std::unique_ptr<Fonts>> fonts_;  // by the families of label, bold, math
   std::unique_ptr<Source> source_;  // the last one
   std::unique_ptr<Canvas> canvas_;  // the last one
   int canvas_width_ = 0, canvas_height_ = 0;
+  const Fonts* canvas_fonts_ = nullptr;
 };
 
 // `source` as the suite's folder sees it: the same wherever the folder lies.

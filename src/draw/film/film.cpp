@@ -33,13 +33,17 @@ Film::Film(const Scene& scene, const Chain& chain, const Trajectory& trajectory,
 
 Film::Film(const Scene& page, const std::vector<PanelRun>& runs, std::vector<double> times,
            const Fonts& fonts, FilmClock clock)
-    : stage_(std::make_unique<const Stage>(page, runs, std::move(times), fonts, std::move(clock))),
-      layers_(layers_of(*stage_)),
-      sheet_(*stage_, layers_),
+    : Film(compose(page, runs, times, fonts, clock)) {}
+
+Film::Film(Composition composed)
+    : stage_(std::move(composed.stage)),
+      layers_(std::move(composed.layers)),
+      sheet_(std::move(composed.sheet)),
       view_(*stage_, layers_, sheet_),
       titles_(sheet_.panel_titles(*stage_, view_.cells)),
       panels_(panels_of(*stage_, view_)),
-      words_(*stage_, layers_, sheet_, view_, panels_) {}
+      words_(*stage_, layers_, sheet_, view_, panels_),
+      left_out_(std::move(composed.left_out)) {}
 
 Picture Film::page() const {
   Picture picture;

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <vector>
 
+#include "draw/film/compose.hpp"
 #include "draw/film/film_sheet.hpp"
 #include "draw/film/film_view.hpp"
 #include "draw/film/film_words.hpp"
@@ -38,6 +39,8 @@ class Film {
   const Panel& panel(int i) const { return panels_[std::size_t(i)]; }
   const Camera& camera(int i = 0) const { return panel(i).camera(); }
   const Rect& scene_area(int i = 0) const { return panel(i).area(); }
+  // Layers that the scene draws and that a page this small has no room for.
+  const std::vector<std::string>& left_out() const { return left_out_; }
   // Where the words of a panel's marks stand at its frame k.
   std::span<const StandingWord> words(int i, int k) const { return words_.at(std::size_t(i), k); }
 
@@ -48,6 +51,8 @@ class Film {
   void draw_cell_frames(Picture& picture) const;
   void draw_notes(Picture& picture, int k) const;
 
+  explicit Film(Composition composed);
+
   std::unique_ptr<const Stage> stage_;
   Layers layers_;
   FilmSheet sheet_;
@@ -55,6 +60,7 @@ class Film {
   std::vector<PlacedText> titles_;
   std::vector<Panel> panels_;
   FilmWords words_;
+  std::vector<std::string> left_out_;
   std::unique_ptr<std::mutex> drawing_ = std::make_unique<std::mutex>();  // poses and masses of a run use one workspace
 };
 

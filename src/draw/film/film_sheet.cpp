@@ -8,6 +8,7 @@ namespace chainreel {
 namespace {
 
 constexpr double kPlotOfComparison = 0.28;  // of the page's height: there the plot is the message
+constexpr double kLeastBeside = 1.2;  // of a page's aspect: a narrower one has no room for plots beside the scene
 constexpr double kTitleRow = 1.55;  // of the em: a panel's title or note with the air around it
 
 SheetText words_of(const Stage& stage, const Layers& layers) {
@@ -15,6 +16,8 @@ SheetText words_of(const Stage& stage, const Layers& layers) {
   if (is_transparent(stage.page)) return text;  // nothing above or below the scene
   text.title_place = stage.page.place_of("title");
   for (const auto& layer : layers) layer->write(text);
+  if (const auto& logo = stage.page.style.logo; logo && logo->image)
+    text.logo = PageLogo{logo->image, logo->corner, logo->height, stage.page.video.height};
   std::stable_sort(text.scales.begin(), text.scales.end(),
                    [](const ScaleEntry& a, const ScaleEntry& b) { return a.order < b.order; });
   return text;
@@ -72,14 +75,16 @@ void FilmSheet::lay_out_plots(const Stage& stage) {
   const int count = int(page.plot.size());
   const bool right = !stage.is_comparison() && page.layout != PageLayout::scene_below &&
                      (count > 1 || page.layout == PageLayout::scene_right);
-  const PlotAreas areas = plot_areas(sheet.scene, count, right ? PlotPlace::right : PlotPlace::below,
+  const bool narrow = page.video.width < kLeastBeside * page.video.height;
+  const PlotPlace place = narrow ? PlotPlace::stacked : right ? PlotPlace::right : PlotPlace::below;
+  const PlotAreas areas = plot_areas(sheet.scene, count, place,
                                      stage.is_comparison() ? kPlotOfComparison : 0, page.text_scale);
   sheet.scene = areas.scene;
   const PlotStyle style{&stage.fonts, &stage.theme, page.text_scale};
   for (std::size_t i = 0; i < areas.plots.size(); ++i)
     plots.emplace_back(strip_data(runs, i, stage.times.back(), stage.theme), areas.plots[i], style);
-  if (!right) return;
-  double x0 = sheet.scene.x1, x1 = sheet.aspect;
+  if (place == PlotPlace::below) return;
+  double x0 = 0, x1 = sheet.aspect;
   for (const PlotStrip& plot : plots) {
     x0 = std::max(x0, plot.frame().box.x0);
     x1 = std::min(x1, plot.frame().box.x1);

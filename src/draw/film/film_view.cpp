@@ -15,6 +15,11 @@ namespace {
 constexpr double kLargestAside = 0.6;  // of a panel's width may be taken by what stands beside its scene
 constexpr double kAir = 0.010;         // around a part of the page that is left free
 
+// Pages higher than wide: panels stand above one another, and marks are those of a page as wide.
+bool is_portrait(const Scene& page) {
+  return page.video.height > page.video.width;
+}
+
 // What a camera with these axes must hold of a motion: the chain, and what layers draw over it. Wild ones count with
 // their start, unless all are.
 FitBox fit_box(const StagedRun& motion, const Layers& layers, const Camera& view, double marks) {
@@ -52,7 +57,7 @@ std::vector<PanelCell> cells_of(const Stage& stage, const FilmSheet& sheet, doub
   area.y0 += row_below;
   const std::vector<PanelCell> cells =
       stage.is_ghost()                  ? ghost_cells(area, sheet.rows, stage.motions)
-      : stage.page.layout == PageLayout::compare ? panel_cells(area, count, count, sheet.rows)
+      : stage.page.layout == PageLayout::compare ? panel_cells(area, count, is_portrait(stage.page) ? 1 : count, sheet.rows)
                                         : best_cells(area, count, sheet.rows, box);
   if (cells.empty())
     throw Error(ExitCode::bad_input,
@@ -107,7 +112,7 @@ void FilmView::place_camera(const Stage& stage, const Layers& layers, const Film
   box_ = fit_box(stage, layers, camera, 1);
   for (const auto& layer : layers) row_below_ = std::max(row_below_, layer->row_below());
   cells = cells_of(stage, sheet, row_below_, box_);
-  marks = stage.is_ghost() ? 1 : marks_in(cells);
+  marks = is_portrait(stage.page) ? marks_in(cells.front().scene) : stage.is_ghost() ? 1 : marks_in(cells);
   const Rect& first = cells.front().scene;
   if (has_eye(chain, entry))
     place_eye(

@@ -10,6 +10,8 @@ constexpr double kTotalLine = 0.0045;
 constexpr double kPale = 0.45;   // of a curve that is still to come
 constexpr double kShareBelow = 0.30;  // of the page's height, right: of its width
 constexpr double kRight = 0.38;
+constexpr double kMostLabels = 0.4;  // of a plot's width may be taken by the names of its curves
+constexpr double kShareStacked = 0.22, kMostStacked = 0.50;  // of the height: of each plot, and of all
 constexpr double kLongestFrame = 0.05;  // s
 constexpr double kPlotLabelGap = 0.012;
 constexpr double kLeastSpan = 1e-9;  // of the size of the numbers: less is a constant
@@ -30,7 +32,7 @@ CurveStyle style_of(const PlotCurves& plot, std::size_t curve, std::size_t run, 
   }
   if (curve < theme.curve.size()) style.color = theme.curve[curve];
   if (plot.quantity == PlotQuantity::energy && curve + 1 == plot.curves.size())
-    return {theme.ink, kTotalLine, Dash::solid, Marker::none};
+    return {theme.ink, theme.lines * kTotalLine, Dash::solid, Marker::none};
   if (plot.quantity == PlotQuantity::lambda && plot.curves.size() == 1) style.color = theme.constraint;
   return style;
 }
@@ -113,7 +115,12 @@ void draw_part(Picture& picture, const PlotFrame& frame, std::span<const Point> 
 
 PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
     : data_(std::move(data)), style_(style) {
-  const std::vector<std::string> labels = labels_of(data_);
+  std::vector<std::string> labels = labels_of(data_);
+  // The names of runs stand above their panels, too, in the colours of the curves.
+  if (!labels.empty() && end_labels_width(labels, style_) > kMostLabels * area.width()) {
+    for (StripCurve& curve : data_.curves) curve.label.clear();
+    labels.clear();
+  }
   Rect inner = area;
   if (!labels.empty()) inner.x1 -= end_labels_width(labels, style_) + kPlotLabelGap;
   frame_ = lay_out_plot(inner, time_axis(data_.end), value_axis(data_), style_);
@@ -172,6 +179,16 @@ PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_
   if (count == 0) return areas;
   const double gap = size::kGutter;
   Rect all = page;
+  if (place == PlotPlace::stacked) {
+    all.y1 = page.y0 + std::min(kShareStacked * count, kMostStacked) * page.height();
+    areas.scene.y0 = all.y1 + gap;
+    const double each = (all.height() - gap * (count - 1)) / count;
+    for (int i = 0; i < count; ++i) {
+      const double y1 = all.y1 - i * (each + gap);
+      areas.plots.push_back({all.x0, y1 - each, all.x1, y1});
+    }
+    return areas;
+  }
   if (place == PlotPlace::below) {
     const double height = page.height(), words = std::max(0.0, text_scale - 1) * kWordsOfPlot;
     all.y1 = page.y0 + std::max(kShareBelow * height,

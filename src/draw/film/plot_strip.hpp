@@ -52,7 +52,7 @@ struct StripRun {
 StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double end, const Theme& theme);
 
 // Where plots stand, and what they leave to the scene.
-enum class PlotPlace { below, right };
+enum class PlotPlace { below, right, stacked };  // stacked: below, one above the other
 struct PlotAreas {
   Rect scene;
   std::vector<Rect> plots;

@@ -96,7 +96,9 @@ class VectorLayer : public Layer {
         for (const WorldVector& vector : vectors_at(motion, ws, k)) magnitudes.add(vector);
       }
     }
-    return {magnitudes.full(), 1 / std::sqrt(double(stage.full_panels()))};
+    // Lengths are shares of a page's height; on one higher than wide, of its width.
+    const double narrow = std::min(1.0, double(stage.page.video.width) / stage.page.video.height);
+    return {magnitudes.full(), narrow / std::sqrt(double(stage.full_panels()))};
   }
 
   const Stage* stage_;

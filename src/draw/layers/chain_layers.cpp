@@ -84,7 +84,7 @@ class OutlinedTrail : public Outlined {
 
 class OutlinedChain : public Outlined {
  public:
-  explicit OutlinedChain(const Stage& stage) : fonts_(&stage.fonts) {}
+  explicit OutlinedChain(const Stage& stage) : fonts_(&stage.fonts), text_scale_(stage.page.text_scale) {}
 
   // Twice: as wide lines in the background's colour, and on them the outline itself.
   void draw(Picture& picture, const Shot& shot) const override {
@@ -96,7 +96,7 @@ class OutlinedChain : public Outlined {
     halo.ink = halo.background;
     for (const bool is_halo : {true, false}) {
       look.theme = is_halo ? &halo : &line;
-      look.stroke = is_halo ? kOutlineHalo : 1;
+      look.stroke = (is_halo ? kOutlineHalo : 1) * look.theme->lines;
       ChainDrawing drawing = panel.drawing(look);
       drawing.shapes = nullptr;
       draw_rails(picture, drawing, shot.ws, panel.clip());
@@ -128,7 +128,7 @@ class OutlinedChain : public Outlined {
     const std::vector<LinkSegment>& links = panel.motion().skeleton().links;
     if (letter.empty() || links.empty()) return;
     const Point joint = panel.camera().project(pose_of(shot.ws, links.back().body) * links.back().from);
-    const double em = scaled(size::kAxis, panel.scene().text_scale);
+    const double em = scaled(size::kAxis, text_scale_);
     // Each turned a little more than the one before, so that they stand apart where the runs agree.
     const double turn = kLetterTurn * (letter[0] - 'C');
     const Point along = unit(tip - joint), side = normal_to(along);
@@ -139,6 +139,7 @@ class OutlinedChain : public Outlined {
   }
 
   const Fonts* fonts_;
+  double text_scale_;
 };
 
 }  // namespace

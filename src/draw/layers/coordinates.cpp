@@ -88,7 +88,7 @@ class Angles : public Layer {
   Color color() const { return stage_->theme.ink; }
 
   void add_label(const Shot& shot, const Joint& joint, Point near, Point away) const {
-    const double em = scaled(size::kAxis * std::sqrt(shot.panel.marks()), stage_->page.text_scale);
+    const double em = scaled(std::max(size::kAxis * std::sqrt(shot.panel.marks()), kSmallestText), stage_->page.text_scale);
     TextLine text = lay_out_math(stage_->fonts, "q_{" + std::to_string(joint.v_index + 1) + "}",
                                  {Face::math, em, color(), Align::left});
     const Rect box = place_beyond(text, near, kAngleGap, away);

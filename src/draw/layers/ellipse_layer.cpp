@@ -60,10 +60,10 @@ class MassAlong {
   }
 
   EllipseStyle style_in(const Panel& panel, EllipsePart part) const {
-    EllipseStyle style{&stage_->theme,    &stage_->fonts, panel.scene().text_scale,
+    EllipseStyle style{&stage_->theme,    &stage_->fonts, stage_->page.text_scale,
                        scale_.per_unit(), panel.area(),   reading_};
     style.part = part;
-    style.lines = panel.marks();
+    style.lines = panel.marks() * stage_->theme.lines;
     return style;
   }
 

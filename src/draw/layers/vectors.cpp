@@ -171,7 +171,7 @@ const TextLine& VectorPen::label(const WorldVector& vector, double marks) const 
   const auto key = std::tuple{vector.kind, vector.label, marks};
   const auto known = labels_.find(key);
   if (known != labels_.end()) return known->second;
-  const TextStyle style{Face::math, scaled(size::kSymbol * std::sqrt(marks), text_scale_),
+  const TextStyle style{Face::math, scaled(std::max(size::kSymbol * std::sqrt(marks), kSmallestText), text_scale_),
                         color_of(vector.kind, *theme_), Align::left};
   return labels_.emplace(key, lay_out_math(*fonts_, vector.label, style)).first->second;
 }

@@ -1,16 +1,19 @@
 #include "draw/page/sheet.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "draw/page/house_style.hpp"
 
 namespace chainreel {
 namespace {
 
 constexpr double kTextGap = 0.05;   // between texts that share a row
 constexpr double kNextRow = 1.5;    // of the em, for further rows
+constexpr double kNarrowPage = 1.2;  // aspect: below, titles may take two rows
 
 // Advances are proportional to the size, so one correction is enough. `lay_out`: of a style.
 template <class LayOut>
@@ -38,6 +41,18 @@ struct Builder {
   void place(TextLine line, Point anchor) { sheet.texts.push_back({std::move(line), anchor}); }
 };
 
+// The title broken where its longer half is shortest; nothing where that does not fit either.
+std::optional<std::array<TextLine, 2>> two_rows(const Builder& b, const std::string& title, const TextStyle& style) {
+  std::optional<std::array<TextLine, 2>> best;
+  for (std::size_t at = title.find(' '); at != std::string::npos; at = title.find(' ', at + 1)) {
+    const auto row = [&](const std::string& words) { return fit_text(b.fonts, words, style, b.width(), b.sheet.text_scale); };
+    std::array<TextLine, 2> rows{row(title.substr(0, at)), row(title.substr(at + 1))};
+    const auto length = [](const std::array<TextLine, 2>& two) { return std::max(two[0].advance, two[1].advance); };
+    if (length(rows) <= b.width() + kRoundOff && (!best || length(rows) < length(*best))) best = std::move(rows);
+  }
+  return best;
+}
+
 void build_title_band(Builder& b, const SheetText& text) {
   if (text.title.empty() && text.torque.empty() && text.equation.empty()) return;
   const Theme& theme = *b.sheet.theme;
@@ -46,8 +61,15 @@ void build_title_band(Builder& b, const SheetText& text) {
   double row_bottom = b.top - size::kTitleBand * b.sheet.text_scale;
   double title_end = b.left;
   if (!text.title.empty()) {
-    TextLine line = fit_text(b.fonts, text.title, b.style(Face::label_bold, size::kTitle, theme.ink),
-                             b.width(), b.sheet.text_scale);
+    const TextStyle style = b.style(Face::label_bold, size::kTitle, theme.ink);
+    TextLine line = fit_text(b.fonts, text.title, style, b.width(), b.sheet.text_scale);
+    if (const auto rows = b.sheet.aspect < kNarrowPage && line.advance > b.width() + kRoundOff ? two_rows(b, text.title, style)
+                                                                                              : std::nullopt) {
+      b.place((*rows)[0], {b.left, baseline(row_bottom, b.top, title_size)});
+      b.top = row_bottom + 0.35 * title_size;
+      row_bottom = b.top - kNextRow * title_size;
+      line = (*rows)[1];
+    }
     if (line.advance > b.width() + kRoundOff) {
       throw Error(ExitCode::bad_input,
                   "the title does not fit on the page: shorten it (at most seven words read well)",
@@ -225,14 +247,60 @@ std::string time_text(double t, int decimals) {
   return "t = " + format_fixed(t, decimals) + " s";
 }
 
+namespace {
+
+// Bands with the logo in one of their corners: they are as high as it at least, and their words end beside it.
+class LogoCorner {
+ public:
+  LogoCorner(Builder& b, const std::optional<PageLogo>& logo) : b_(&b), logo_(logo) {}
+
+  template <class Build>
+  void build(bool at_top, Build build_band) {
+    if (!logo_ || at_top != is_at_top()) return build_band();
+    const Rect box = box_in_corner();
+    const double left = b_->left, right = b_->right;
+    (is_at_left() ? b_->left : b_->right) = is_at_left() ? box.x1 + kTextGap : box.x0 - kTextGap;
+    build_band();
+    b_->left = left;
+    b_->right = right;
+    if (at_top)
+      b_->top = std::min(b_->top, box.y0 - size::kMarkToText);
+    else
+      b_->bottom = std::max(b_->bottom, box.y1 + size::kMarkToText);
+    b_->sheet.logo = logo_;
+    b_->sheet.logo_box = box;
+  }
+
+ private:
+  bool is_at_top() const { return logo_->corner == PageCorner::top_right || logo_->corner == PageCorner::top_left; }
+  bool is_at_left() const { return logo_->corner == PageCorner::top_left || logo_->corner == PageCorner::bottom_left; }
+
+  // On whole pixels; not wider than a third of the page.
+  Rect box_in_corner() const {
+    const double pixel = 1.0 / logo_->page_height, aspect = double(logo_->image->width) / logo_->image->height;
+    const double most = b_->width() / 3, high = std::min(logo_->height, most / aspect);
+    const auto whole = [&](double length) { return std::max(1.0, std::round(length / pixel)) * pixel; };
+    const double width = whole(high * aspect), height = whole(high);
+    const double x0 = std::floor((is_at_left() ? b_->left : b_->right - width) / pixel) * pixel;
+    const double y0 = std::floor((is_at_top() ? b_->top - height : b_->bottom) / pixel) * pixel;
+    return {x0, y0, x0 + width, y0 + height};
+  }
+
+  Builder* b_;
+  const std::optional<PageLogo>& logo_;
+};
+
+}  // namespace
+
 Sheet lay_out_sheet(const SheetText& text, double aspect, double text_scale, const Theme& theme,
                     const Fonts& fonts) {
   Builder b{{}, fonts, size::kMargin, aspect - size::kMargin, 1 - size::kMargin, size::kMargin};
   b.sheet.aspect = aspect;
   b.sheet.text_scale = text_scale;
   b.sheet.theme = &theme;
-  build_title_band(b, text);
-  build_footer_band(b, text);
+  LogoCorner corner(b, text.logo);
+  corner.build(true, [&] { build_title_band(b, text); });
+  corner.build(false, [&] { build_footer_band(b, text); });
   if (!(b.top - b.bottom > 0.1)) {
     throw Error(ExitCode::bad_input,
                 "title, torques and legend leave no room for the scene: draw fewer of them or "
@@ -246,6 +314,7 @@ Sheet lay_out_sheet(const SheetText& text, double aspect, double text_scale, con
 void draw_sheet(Picture& picture, const Sheet& sheet) {
   for (const PlacedText& text : sheet.texts) draw_text(picture, text.line, text.anchor);
   for (const PlacedEntry& entry : sheet.scales) draw_entry(picture, entry.line, entry.left, *sheet.theme);
+  if (sheet.logo) draw_logo(picture, *sheet.logo->image, sheet.logo_box, sheet.logo->page_height);
   if (sheet.bar) draw_scale_bar(picture, *sheet.bar, sheet.bar_length, sheet.theme->ellipse);
 }
 

@@ -3,15 +3,18 @@
 // overlaps.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/image.hpp"
 #include "draw/page/scales.hpp"
 #include "picture/picture.hpp"
 #include "picture/text.hpp"
 #include "picture/theme.hpp"
+#include "scene/style.hpp"
 
 namespace chainreel {
 
@@ -19,6 +22,14 @@ namespace chainreel {
 inline constexpr double kSmallestText = size::kTick;
 
 inline constexpr double kRoundOff = 1e-12;  // a text that just fills its row fits
+
+// A picture in a corner. The band that it stands in ends before it.
+struct PageLogo {
+  std::shared_ptr<const Image> image;
+  PageCorner corner = PageCorner::top_right;
+  double height = 0;  // units of H
+  int page_height = 1080;  // px: its sides lie on whole pixels
+};
 
 // What a page says. Empty texts are left out, and bands without a text, too.
 struct SheetText {
@@ -33,6 +44,7 @@ struct SheetText {
   std::string legend;               // may be broken behind ": "
   std::vector<ScaleEntry> scales;   // of vectors, in rows above or beside the time
   bool with_panel_titles = false;   // where several panels share the page each has one of its own
+  std::optional<PageLogo> logo;
   Place title_place;                // for the message about a title that does not fit
 };
 
@@ -55,6 +67,8 @@ struct Sheet {
   std::optional<Point> bar;  // left end of the scale bar
   double bar_length = 0;
   std::vector<PlacedEntry> scales;
+  std::optional<PageLogo> logo;
+  Rect logo_box;
   Point time_anchor;  // right end of its base line
   Point time_left;    // ... and where what stands beside it ends
 };

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "draw/page/house_style.hpp"
 #include "draw/robot/chain_fit.hpp"
 #include "draw/robot/view.hpp"
 #include "dynamics/kinematics.hpp"
@@ -83,7 +84,7 @@ Stage::Stage(const Scene& shown_page, const std::vector<PanelRun>& runs, std::ve
              const Fonts& all_fonts, FilmClock film_clock)
     : page(shown_page),
       fonts(all_fonts),
-      theme(theme_named(to_string(page.theme))),
+      theme(page_theme(page)),
       times(std::move(shown_times)),
       clock(std::move(film_clock)) {
   const int count = int(runs.size());

@@ -97,7 +97,7 @@ struct Stage {
   Stage(const Scene& page, const std::vector<PanelRun>& runs, std::vector<double> times, const Fonts& fonts,
         FilmClock clock);
 
-  const Scene& page;
+  const Scene page;  // as it is drawn: its text_scale is that of its size
   const Fonts& fonts;
   const Theme& theme;
   std::vector<double> times;

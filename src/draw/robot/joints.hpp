@@ -42,7 +42,8 @@ inline ChainLook look_of(const Skeleton& skeleton, const Camera& camera, const T
           width,
           std::min(marks * size::kJointDisc, 1.1 * width),
           marks * std::min(1.0, width / kWidthOfFullRails),
-          true};
+          true,
+          theme.lines};
 }
 
 // An opaque colour between the background (0) and `color` (1): onion skins hide what lies behind them, so

@@ -177,6 +177,11 @@ std::vector<Chapter> chapters() {
             .within(0.5, 3)
             .of_page()
             .flag(FlagGroup::look, "--text-scale")
+            .of_model(OfModel::picture),
+        Row(told_style(), read_style, style_text)
+            .example("style: {light: {ink: \"#14213D\"}, lines: 1.2}")
+            .absent("the program's own")
+            .of_page()
             .of_model(OfModel::picture)}},
       {"The film",
        {Row::section("video", "video: {width: 1280, height: 720, fps: 60}", "the film's frames and files").of_page(),

@@ -61,6 +61,11 @@ void read_layout(Fields& fields, Scene& scene);
 std::string layout_text(const Scene& scene);
 KeyText told_compare();
 
+// --- the house style: style_keys.cpp
+KeyText told_style();
+void read_style(Fields& fields, Scene& scene);
+std::string style_text(const Scene& scene);
+
 // --- the film: slow_motion_keys.cpp
 KeyText told_slow_motion();
 void read_slow_motion(Fields& fields, Scene& scene);

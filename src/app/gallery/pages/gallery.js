@@ -18,21 +18,57 @@ function save(blob, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 }
 
-// A film that nobody touches shows its first frame, without controls over it.
+function element(name, properties, ...children) {
+  const made = Object.assign(document.createElement(name), properties);
+  made.append(...children);
+  return made;
+}
+
+// A browser's own controls lie over the film's lower edge, where its words are: these stand below it. The picture that stands
+// for a film shows until somebody plays it, with a button in its middle.
 for (const video of document.querySelectorAll('video')) {
-  const rest = () => {
-    const waits = video.paused && video.currentTime === 0;
-    video.controls = !waits;
-    video.parentElement.classList.toggle('waiting', waits);
-  };
-  const wake = () => {
-    video.controls = true;
-    video.parentElement.classList.remove('waiting');
-  };
+  const title = document.getElementById(video.getAttribute('aria-labelledby')).textContent;
+  const film = video.parentElement;
+  const start = element('button', {type: 'button', className: 'start', ariaLabel: 'Play ' + title});
+  const play = element('button', {type: 'button', className: 'play', ariaLabel: 'Play ' + title});
+  const place = element('input', {type: 'range', min: 0, max: 1000, value: 0, step: 1, ariaLabel: 'Place in the film'});
+  const time = element('output', {});
+  const whole = element('button', {type: 'button', className: 'whole', ariaLabel: 'Full screen', hidden: !document.fullscreenEnabled});
+  const frame = element('div', {className: 'frame'});
+  video.controls = false;
   video.tabIndex = 0;
-  for (const what of ['pointerenter', 'focus', 'play']) video.addEventListener(what, wake);
-  for (const what of ['pointerleave', 'blur']) video.addEventListener(what, rest);
-  rest();
+  film.classList.add('own');
+  video.replaceWith(frame);
+  frame.append(video, start);
+  film.append(element('div', {className: 'controls'}, play, place, time, whole));
+
+  const toggle = () => (video.paused ? video.play() : video.pause());
+  const go = (seconds) => { video.currentTime = Math.min(Math.max(seconds, 0), video.duration || 0); };
+  const show = () => {
+    const length = video.duration || 0;
+    start.hidden = !video.paused || video.currentTime > 0;
+    play.textContent = video.paused ? '\u25B6' : '\u2016';
+    play.ariaLabel = (video.paused ? 'Play ' : 'Pause ') + title;
+    if (document.activeElement !== place || !video.paused) place.value = length > 0 ? 1000 * video.currentTime / length : 0;
+    place.ariaValueText = video.currentTime.toFixed(1) + ' of ' + length.toFixed(1) + ' seconds';
+    time.textContent = video.currentTime.toFixed(1) + ' / ' + length.toFixed(1) + ' s';
+  };
+  for (const what of ['play', 'pause', 'timeupdate', 'seeked', 'loadedmetadata', 'emptied']) video.addEventListener(what, show);
+  for (const button of [start, play, video]) button.addEventListener('click', toggle);
+  place.addEventListener('input', () => go(place.value / 1000 * video.duration));
+  whole.addEventListener('click', () => (document.fullscreenElement ? document.exitFullscreen() : video.requestFullscreen()));
+
+  const keys = {
+    ' ': toggle, k: toggle, ArrowLeft: () => go(video.currentTime - 1), ArrowRight: () => go(video.currentTime + 1),
+    Home: () => go(0), End: () => go(video.duration), f: () => whole.click(),
+  };
+  film.addEventListener('keydown', (event) => {
+    const own = event.target instanceof HTMLInputElement || (event.target instanceof HTMLButtonElement && event.key === ' ');
+    if (own || event.ctrlKey || event.altKey || event.metaKey || !(event.key in keys)) return;
+    event.preventDefault();
+    keys[event.key]();
+  });
+  show();
 }
 
 for (const button of document.querySelectorAll('button.save')) {

@@ -1,0 +1,16 @@
+// The logo of a scene's style, and what its files tell of the style.
+#pragma once
+
+#include "core/json.hpp"
+#include "scene/scene.hpp"
+
+namespace chainreel {
+
+// Reads the style's logo, if it has one. Throws Error where the file is none.
+void load_logo(Scene& scene);
+
+// {fonts: {label: {family, file, sha256}, ..}, logo: {sha256, pixels_sha256}, low_contrast: [..]}: what a film depends on
+// that its scene's text does not hold. Null where there is no style.
+Json style_report(const Scene& scene);
+
+}  // namespace chainreel

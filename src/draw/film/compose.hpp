@@ -1,0 +1,35 @@
+// A film's page at its size in pixels: words that can be read, and a scene that has room.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "draw/film/film_sheet.hpp"
+#include "draw/layers/layer.hpp"
+
+namespace chainreel {
+
+// No word of a film is lower than this, but the scripts of formulas, down to pages 270 px high.
+inline constexpr double kLeastWordPixels = 9;
+inline constexpr int kLeastPagePixels = 270;
+
+// The text_scale at which a page is drawn: the scene's, smaller by the width of pages higher than wide, and no less than
+// what makes the smallest word kLeastWordPixels high.
+double text_scale_of_page(const Scene& page);
+
+struct Composition {
+  std::unique_ptr<const Stage> stage;
+  Layers layers;
+  FilmSheet sheet;
+  std::vector<std::string> left_out;  // layers that the page is too small for
+};
+
+// Where words had to be enlarged, layers go one after the other, in the order equation, torque_label, legend, mass_matrix,
+// scale_bar, as long as the words leave less than kLeastScene of the page's height to the scene, or do not fit. Throws Error as
+// Stage and FilmSheet do.
+inline constexpr double kLeastScene = 0.45;
+Composition compose(const Scene& page, const std::vector<PanelRun>& runs, const std::vector<double>& times, const Fonts& fonts,
+                    const FilmClock& clock);
+
+}  // namespace chainreel

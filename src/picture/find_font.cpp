@@ -1,0 +1,85 @@
+#include "picture/find_font.hpp"
+
+#include <ft2build.h>
+#include FT_FREETYPE_H
+#include FT_TRUETYPE_TABLES_H
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kRegular = 400, kBold = 700, kNormalWidth = 5;  // OS/2: usWeightClass, usWidthClass
+
+std::vector<fs::path> font_folders() {
+  std::vector<fs::path> folders{"/usr/local/share/fonts", "/usr/share/fonts", "/usr/share/texmf/fonts/opentype"};
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != 0)
+    folders.push_back(fs::path(home) / ".local/share/fonts");
+  return folders;
+}
+
+// Sorted, so that the order in which a file system lists names means nothing.
+std::vector<std::string> font_files() {
+  std::set<std::string> files;
+  for (const fs::path& folder : font_folders()) {
+    std::error_code code;
+    for (fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, code), end;
+         !code && entry != end; entry.increment(code)) {
+      std::error_code ignored;
+      const std::string ending = entry->path().extension().string();
+      if ((ending == ".ttf" || ending == ".otf") && entry->is_regular_file(ignored)) files.insert(entry->path().string());
+    }
+  }
+  return {files.begin(), files.end()};
+}
+
+int weight_of(FT_Face face) {
+  const auto* os2 = static_cast<const TT_OS2*>(FT_Get_Sfnt_Table(face, FT_SFNT_OS2));
+  if (os2 != nullptr && os2->version != 0xFFFF) return os2->usWeightClass;
+  return (face->style_flags & FT_STYLE_FLAG_BOLD) != 0 ? kBold : kRegular;
+}
+
+int width_of(FT_Face face) {
+  const auto* os2 = static_cast<const TT_OS2*>(FT_Get_Sfnt_Table(face, FT_SFNT_OS2));
+  return os2 != nullptr && os2->version != 0xFFFF ? os2->usWidthClass : kNormalWidth;
+}
+
+}  // namespace
+
+std::string find_font(FT_LibraryRec_* library, const std::string& family, WantedFace wanted) {
+  const bool is_bold = wanted == WantedFace::bold;
+  std::vector<std::tuple<int, int, std::string>> found;
+  std::set<std::string> families;
+  for (const std::string& file : font_files()) {
+    FT_Face face = nullptr;
+    if (FT_New_Face(library, file.c_str(), 0, &face) != 0) continue;
+    const std::string name = face->family_name != nullptr ? face->family_name : "";
+    const bool is_upright = (face->style_flags & FT_STYLE_FLAG_ITALIC) == 0 && FT_IS_SCALABLE(face);
+    if (is_upright) families.insert(name);
+    const int weight = weight_of(face), width = width_of(face);
+    // A light face is no bold one, nor the other way round.
+    if (is_upright && name == family && (weight > (kRegular + kBold) / 2) == is_bold)
+      found.emplace_back(std::abs(weight - (is_bold ? kBold : kRegular)), std::abs(width - kNormalWidth), file);
+    FT_Done_Face(face);
+  }
+  if (!found.empty()) return std::get<2>(*std::min_element(found.begin(), found.end()));
+  const bool is_known = families.contains(family);
+  const std::vector<std::string> names(families.begin(), families.end());
+  throw Error(ExitCode::no_renderer,
+              "font family '" + family + "' " +
+                  (is_known ? std::string("has no upright ") + (is_bold ? "bold" : "regular") + " face: name another family for `" +
+                                  (is_bold ? "bold" : "label") + "`"
+                            : "is not installed:" + did_you_mean(family, names) +
+                                  " install it in /usr/local/share/fonts (.ttf, .otf), or name one that is there"));
+}
+
+}  // namespace chainreel

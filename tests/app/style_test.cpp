@@ -1,0 +1,104 @@
+// A house style in films and pictures: what it changes, what depends on it, what is refused.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/json.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string kStyledScene = "assets/scenes/rr_free.yaml";
+const Words kStyledFilm{"--set", "video.width=96", "--set", "video.height=54", "--set", "duration=2.2"};  // two chunks of a film
+
+std::string colored_square(const std::string& color) {
+  return "<svg xmlns='http://www.w3.org/2000/svg' width='10' height='10'><rect width='10' height='10' fill='" + color + "'/></svg>";
+}
+
+class HouseStyleFilm : public testing::Test {
+ protected:
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_.file(name)) << text;
+    return fs::absolute(folder_.file(name)).string();
+  }
+  // With the style in a file of this text.
+  Words with_style(const Words& words, const std::string& text) const {
+    return with(with(words, kStyledFilm), {"--set", "style=" + write("lab.yaml", text)});
+  }
+  const TemporaryFolder folder_;
+};
+
+TEST_F(HouseStyleFilm, ExampleIsDrawnAndSaysNothingAgainstItself) {
+  for (const std::string theme : {"light", "dark"}) {
+    const std::string svg = folder_.file(theme + ".svg");
+    const ProgramResult run = run_program({"snapshot", kStyledScene, "--at", "1", "--theme", theme, "-o", svg, "--set",
+                                           "style=" + fs::absolute("assets/styles/lecture.yaml").string()});
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.err, Not(HasSubstr("contrast")));
+    EXPECT_THAT(read_whole_file(svg), HasSubstr("#8ecae6")) << "pages of vectors have the same style";
+  }
+}
+
+TEST_F(HouseStyleFilm, SaysWhatCannotBeReadAndInItsReport) {
+  const ProgramResult run = run_program(with_style({"render", kStyledScene, "-o", folder_.file("a.gif")}, "light: {ink: \"#AAAAAA\"}\n"));
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("style: ink has a contrast of 2.3"));
+  const Json report = parse_json(read_whole_file(folder_.file("a.json")));
+  EXPECT_THAT(report["style"]["low_contrast"][0].get<std::string>(), HasSubstr("ink"));
+}
+
+TEST_F(HouseStyleFilm, PartsDependOnTheLogosBytes) {
+  const auto part = [&](const std::string& which) {
+    return run_program(with_style({"render", kStyledScene, "--quiet", "-o", folder_.file("a.mp4"), "--shard", which}, "logo: {file: logo.svg}\n"));
+  };
+  write("logo.svg", colored_square("red"));
+  ASSERT_EQ(part("1/2").status, 0);
+  ASSERT_EQ(part("2/2").status, 0);
+  const Words join{"join", folder_.file("a.part-1-of-2.mp4"), folder_.file("a.part-2-of-2.mp4"), "-o", folder_.file("whole.mp4"), "--force"};
+  EXPECT_EQ(run_program(join).status, 0);
+  write("logo.svg", colored_square("blue"));
+  ASSERT_EQ(run_program(with(with_style({"render", kStyledScene, "--quiet", "-o", folder_.file("a.mp4"), "--shard", "2/2"}, "logo: {file: logo.svg}\n"),
+                             {"--force"})).status, 0);
+  const ProgramResult mixed = run_program(join);
+  EXPECT_EQ(mixed.status, 3) << "half of the film would have another logo";
+  EXPECT_THAT(mixed.err, HasSubstr("its style's logo or font files are others"));
+}
+
+TEST_F(HouseStyleFilm, SweptFilesAreDrawnAnewWhereTheLogoIsAnother) {
+  write("logo.svg", colored_square("red"));
+  const auto sweep = [&](const Words& more) {
+    return run_program(with(with_style({"sweep", kStyledScene, "--over", "start.q.1=0,1", "--each", "png", "-o", folder_.file("runs/")},
+                                       "logo: {file: logo.svg}\n"),
+                            more)).out;
+  };
+  EXPECT_THAT(sweep({}), HasSubstr("0 of them done before"));
+  EXPECT_THAT(sweep({"--force"}), HasSubstr("2 of them done before"));
+  write("logo.svg", colored_square("blue"));
+  EXPECT_THAT(sweep({"--force"}), HasSubstr("0 of them done before"));
+}
+
+TEST_F(HouseStyleFilm, FacesAreThoseThatAreNamedOrNone) {
+  const std::string out = folder_.file("a.svg");
+  const ProgramResult gone = run_program(with_style({"snapshot", kStyledScene, "-o", out}, "fonts: {label: \"DejaVu Sanz\"}\n"));
+  EXPECT_EQ(gone.status, 4);
+  EXPECT_THAT(gone.err, AllOf(HasSubstr("'DejaVu Sanz' is not installed"), HasSubstr("did you mean 'DejaVu Sans'?")));
+  const ProgramResult no_math = run_program(with_style({"snapshot", kStyledScene, "-o", out}, "fonts: {math: \"DejaVu Sans Mono\"}\n"));
+  EXPECT_EQ(no_math.status, 4);
+  EXPECT_THAT(no_math.err, HasSubstr("MATH table"));
+  // The program's own face by its name: the same picture, and the file is told.
+  const std::string plain = folder_.file("plain.png"), named = folder_.file("named.png");
+  ASSERT_EQ(run_program(with({"snapshot", kStyledScene, "-o", plain}, kStyledFilm)).status, 0);
+  ASSERT_EQ(run_program(with_style({"snapshot", kStyledScene, "-o", named}, "fonts: {label: DejaVu Sans}\n")).status, 0);
+  EXPECT_EQ(run_program({"compare", plain, named}).status, 0);
+}
+
+}  // namespace
+}  // namespace chainreel
