@@ -321,7 +321,7 @@ TEST(Audit, HasTheKeysThatOthersRead) {
                        with(plain, {"tolerance", "events", "events.kind", "events.name", "events.q",
                                     "events.qd", "events.t", "end_time", "fall_time", "trouble"})),
             "");
-  EXPECT_EQ(difference(keys_of_audit("pen", brief), with(plain, {"tolerance",
+  EXPECT_EQ(difference(keys_of_audit("pen", brief), with(plain, {"tolerance", "left_out",
                                                                  "auto",
                                                                  "auto.accuracy",
                                                                  "auto.attainable",
