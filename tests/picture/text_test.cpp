@@ -157,7 +157,7 @@ TEST(Text, FacesAreKnownByFileAndHash) {
 
 TEST(Text, MissingFontFileNamesItsPackage) {
   try {
-    Fonts nowhere({"/nonexistent"});
+    Fonts nowhere(std::vector<std::string>{"/nonexistent"});
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::no_renderer);
@@ -165,7 +165,7 @@ TEST(Text, MissingFontFileNamesItsPackage) {
     EXPECT_THAT(error.what(), HasSubstr("fonts-dejavu-core"));
   }
   try {
-    Fonts without_math({"/usr/share/fonts/truetype/dejavu"});
+    Fonts without_math(std::vector<std::string>{"/usr/share/fonts/truetype/dejavu"});
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("fonts-lmodern"));
