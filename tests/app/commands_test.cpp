@@ -319,7 +319,10 @@ TEST(Audit, HasTheKeysThatOthersRead) {
   EXPECT_EQ(difference(keys_of_audit("rr_free", brief), plain), "");
   EXPECT_EQ(difference(keys_of_audit("humanoid_fall", {"--set", "duration=2"}),
                        with(plain, {"tolerance", "events", "events.kind", "events.name", "events.q",
-                                    "events.qd", "events.t", "end_time", "fall_time", "trouble"})),
+                                    "events.qd", "events.t", "end_time", "fall_time", "trouble",
+                                    "held_frames", "held_frames.first", "held_frames.last", "meshes_sha256",
+                                    "slow_motion", "slow_motion.film_from", "slow_motion.film_until",
+                                    "slow_motion.from", "slow_motion.speed", "slow_motion.until"})),
             "");
   EXPECT_EQ(difference(keys_of_audit("pen", brief), with(plain, {"tolerance", "left_out",
                                                                  "auto",

@@ -91,7 +91,7 @@ nodes_are_idle() { [[ $(sinfo -h -t idle -o %D 2>/dev/null) == 2 ]]; }
 until_true nodes_are_idle
 
 cd "$folder/work"
-film=("$source/assets/scenes/rr_ellipse.yaml" --set duration=8 --set video.width=320 --set video.height=180)
+film=("$source/assets/scenes/rr_ellipse.yaml" --set duration=16 --set video.width=1280 --set video.height=720)
 grid=("$source/assets/scenes/rr_free.yaml" --over start.q.1=0:1.5:20 --over start.q.2=0:1.5:20 --set duration=0.3)
 "$chainreel" render "${film[@]}" -o whole/film.mp4 --quiet
 "$chainreel" sweep "${grid[@]}" -o whole/grid.csv --quiet
