@@ -37,16 +37,33 @@ std::vector<Stretch> merged(const std::vector<Stretch>& stretches, double durati
 
 }  // namespace
 
-FilmClock::FilmClock(double duration, FrameRate fps, const std::vector<Stretch>& stretches)
+FilmClock::FilmClock(double duration, FrameRate fps, const std::vector<Stretch>& stretches, std::vector<Pause> pauses)
     : duration_(duration), fps_(fps) {
+  std::erase_if(pauses, [&](const Pause& pause) {
+    return !(pause.seconds > 0 && pause.at >= 0 && pause.at <= duration);
+  });
+  std::stable_sort(pauses.begin(), pauses.end(), [](const Pause& a, const Pause& b) { return a.at < b.at; });
   double film = 0;
+  auto pause = pauses.begin();
   const std::vector<Stretch> all = merged(stretches, duration);
   if (!all.empty()) pieces_.clear();
   for (const Stretch& one : all) {
     pieces_.push_back({one.from, film, one.speed});
-    film += (one.until - one.from) / one.speed;
     if (one.speed != 1) slow_.push_back(one);
+    double from = one.from;
+    for (; pause != pauses.end() && (pause->at < one.until || one.until >= duration); ++pause) {
+      film += (pause->at - from) / one.speed;
+      from = pause->at;
+      pieces_.push_back({from, film, 0});
+      film += pause->seconds;
+      pieces_.push_back({from, film, one.speed});
+    }
+    film += (one.until - from) / one.speed;
   }
+}
+
+double FilmClock::film_seconds() const {
+  return pieces_.back().film_from + (duration_ - pieces_.back().from) / pieces_.back().speed;
 }
 
 const FilmClock::Piece& FilmClock::piece_at(double t) const {
@@ -74,10 +91,15 @@ std::vector<double> FilmClock::frame_times() const {
 }
 
 int FilmClock::frame_at(double t) const {
-  return int(std::floor(film_time(t) * fps_.value() + kSameInstant));
+  const Piece& piece = piece_at(t);  // behind pauses at t
+  const double film = piece.film_from + (t - piece.from) / piece.speed;
+  return int(std::floor(film * fps_.value() + kSameInstant));
 }
 
 double FilmClock::film_time(double t) const {
+  const auto standing = std::find_if(pieces_.begin(), pieces_.end(),
+                                     [&](const Piece& piece) { return piece.speed == 0 && piece.from == t; });
+  if (standing != pieces_.end()) return standing->film_from;
   const Piece& piece = piece_at(t);
   return piece.film_from + (t - piece.from) / piece.speed;
 }
@@ -88,8 +110,25 @@ double FilmClock::speed_at(double t) const {
 
 double FilmClock::shortest_step() const {
   double slowest = pieces_.front().speed;
-  for (const Piece& piece : pieces_) slowest = std::min(slowest, piece.speed);
+  for (const Piece& piece : pieces_)
+    if (piece.speed > 0) slowest = std::min(slowest, piece.speed);
   return slowest / fps_.value();
+}
+
+std::optional<double> instant_of(const AnnotationEntry& entry, const std::vector<EventEntry>& events,
+                                 const EventHits& hits) {
+  if (entry.event.empty()) return entry.at;
+  for (int k = 0; k < hits.size(); ++k)
+    if (events[std::size_t(hits.event[std::size_t(k)])].title() == entry.event) return hits.t[std::size_t(k)];
+  return std::nullopt;
+}
+
+std::vector<Pause> pauses_of(const std::vector<AnnotationEntry>& entries, const std::vector<EventEntry>& events,
+                             const EventHits& hits) {
+  std::vector<Pause> pauses;
+  for (const AnnotationEntry& entry : entries)
+    if (const std::optional<double> at = instant_of(entry, events, hits)) pauses.push_back({*at, entry.hold});
+  return pauses;
 }
 
 std::vector<Stretch> stretches_of(const std::vector<SlowMotionEntry>& entries,

@@ -3,10 +3,12 @@
 //
 // Film time is the integral of dt / speed over the motion, so that the motion's time is a piecewise linear
 // function of it. Frame k shows the instant that its own film time k / fps belongs to: a change of speed
-// takes effect on the first frame at or after it, and nothing is repeated. Without stretches frame k shows k
+// takes effect on the first frame at or after it, and nothing is repeated but where `annotate:` lets the motion stand
+// still, a piece of speed 0. Without stretches frame k shows k
 // / fps to the last bit.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/frame_rate.hpp"
@@ -25,24 +27,30 @@ struct Stretch {
   friend bool operator==(const Stretch&, const Stretch&) = default;
 };
 
+// An instant at which the motion stands still, and for how long; s.
+struct Pause {
+  double at = 0, seconds = 0;
+};
+
 class FilmClock {
  public:
   FilmClock() = default;  // speed 1 all the time; has no frames
-  // Stretches in any order, as far as they lie within [0, duration]; where they overlap the slowest holds.
-  FilmClock(double duration, FrameRate fps, const std::vector<Stretch>& stretches = {});
+  // Stretches and pauses in any order, as far as they lie within [0, duration]; where stretches overlap the slowest
+  // holds, and pauses at one instant add up.
+  FilmClock(double duration, FrameRate fps, const std::vector<Stretch>& stretches = {}, std::vector<Pause> pauses = {});
 
-  bool is_plain() const { return slow_.empty(); }
+  bool is_plain() const { return slow_.empty() && pieces_.size() == 1; }
   // What is not shown at speed 1, in the order of time, without overlaps.
   const std::vector<Stretch>& stretches() const { return slow_; }
 
-  double film_seconds() const { return film_time(duration_); }
+  double film_seconds() const;
   int frame_count() const;                  // round(film_seconds() * fps)
   double time_of_frame(int k) const;        // of the motion, s
   std::vector<double> frame_times() const;  // of all frames
   // The frame that stands when the motion is at t: the last one that is not later.
   int frame_at(double t) const;
 
-  double film_time(double t) const;  // when the film is at instant t of the motion, s
+  double film_time(double t) const;  // when the film comes to instant t of the motion, s
   double speed_at(double t) const;   // a stretch holds from its first instant on, and no more at its last
   // How much of the motion lies between the two frames that are closest in it, s.
   double shortest_step() const;
@@ -58,6 +66,13 @@ class FilmClock {
   std::vector<Piece> pieces_{{}};
   std::vector<Stretch> slow_;
 };
+
+// The instants at which the entries hold the film; for events the first of theirs among `hits`.
+std::vector<Pause> pauses_of(const std::vector<AnnotationEntry>& entries, const std::vector<EventEntry>& events,
+                             const EventHits& hits);
+// When an entry's words are meant; nothing for those of an event that does not happen.
+std::optional<double> instant_of(const AnnotationEntry& entry, const std::vector<EventEntry>& events,
+                                 const EventHits& hits);
 
 // The entries' stretches of the motion: those of an event once for each of its instants among `hits`, whose
 // run had the events `events`.

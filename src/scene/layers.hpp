@@ -51,6 +51,7 @@ enum class LayerNeeds {
       "where any acts: arcs at revolute joints, arrows beside the rails of sliders; a ring where one rests") \
   ROW(velocity, "velocity", 0, end_effector, "velocity of the end effector")                                \
   ROW(constraint_force, "constraint_force", 0, nothing, "dashed: what constraints exert on the robot")      \
+  ROW(annotations, "", 0, nothing, "")                                                                      \
   ROW(mark_labels, "", 0, nothing, "")                                                                      \
   ROW(chain_tip, "chain", 0, nothing, "")                                                                   \
   ROW(mass_matrix, "mass_matrix", 0, nothing, "M(q) as a live heat map, with numbers up to 4 x 4")          \

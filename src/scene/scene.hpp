@@ -57,6 +57,18 @@ struct SlowMotionEntry {
   double speed = 1;   // 0.25: four times slower
 };
 
+// Words that point at something, while the film stands still for a while.
+struct AnnotationEntry {
+  std::string event;  // "": `at` says when; else the first time that this happens
+  double at = 0;      // s of the motion
+  std::string text;   // formulas between dollar signs
+  std::string point;  // a name of `frames`, a link, or a joint; "": `spot` says where
+  std::vector<double> spot;  // m: right and up as camera.fit has them, or x y z in the world
+  double hold = 2;    // s of the film for which the motion stands still
+  int panel = 1;      // of a comparison
+  Place place;
+};
+
 struct EllipseEntry {
   EllipseReading reading = EllipseReading::mass;
   EllipseShape shape = EllipseShape::ellipsoid;
@@ -104,6 +116,7 @@ struct Scene {
   Style style;            // of the house; what a file said of it stands here, too
   Video video;
   std::vector<SlowMotionEntry> slow_motion;
+  std::vector<AnnotationEntry> annotate;
   Hold hold;
 
   std::string file;                     // where it was read; not a key

@@ -244,8 +244,9 @@ YamlDocument panel_document(const YamlDocument& whole, std::size_t index) {
   const YAML::Node changes = panel.root["compare"][index];
   panel.is_panel = true;
   for (const char* key : {"title", "layout", "compare"}) panel.root.remove(key);
-  // The first panel's events decide when the film is slow; others need not have them.
-  if (index > 0) panel.root.remove("slow_motion");
+  // The first panel's events decide when the film is slow or stands still; others need not have them.
+  if (index > 0)
+    for (const char* key : {"slow_motion", "annotate"}) panel.root.remove(key);
   const std::string prefix = "compare." + std::to_string(index + 1) + ".";
   for (const auto& pair : changes) {
     const std::string& key = pair.first.Scalar();

@@ -219,7 +219,7 @@ TEST_F(Parts, ThatCannotBeAreToldWithTheNearestThatCan) {
 TEST(Resume, OfAKilledRenderGivesTheSameBytesAndLeavesNothing) {
   const TemporaryFolder whole, folder;
   const auto words = [](const TemporaryFolder& to) {
-    return render_of("rr_ellipse", {"--set", "duration=4", "--jobs", "1", "-o", to.file("a.mp4"), "-o", to.file("b.mov")});
+    return render_of("rr_ellipse", {"--set", "duration=10", "--jobs", "1", "-o", to.file("a.mp4"), "-o", to.file("b.mov")});
   };
   ASSERT_EQ(run_program(words(whole)).status, 0);
   const Words resumed = with(words(folder), {"--resume"});
@@ -241,7 +241,7 @@ TEST(Resume, OfAKilledRenderGivesTheSameBytesAndLeavesNothing) {
 TEST(Resume, TakesNoChunksOfAnotherScene) {
   const TemporaryFolder whole, folder;
   const auto words = [](const TemporaryFolder& to, const char* title) {
-    return render_of("rr_ellipse", {"--set", std::string("title=") + title, "-o", to.file("a.mp4")});
+    return render_of("rr_ellipse", {"--set", std::string("title=") + title, "--set", "duration=10", "--jobs", "1", "-o", to.file("a.mp4")});
   };
   ASSERT_EQ(run_program(words(whole, "B")).status, 0);
   // No disk for the film itself, whose chunks are then kept.

@@ -43,7 +43,7 @@ void tell_of_stops(const Runs& runs) {
   }
 }
 
-// Slow motion about an event that never comes is none, which its author may want to know.
+// Slow motion about an event that never comes is none, nor are its words, which their author may want to know.
 void tell_of_missing_events(const Runs& runs) {
   const PreparedFilm& film = runs.film();
   const std::vector<EventEntry>& events = film.panels.front().scene.events;
@@ -54,6 +54,10 @@ void tell_of_missing_events(const Runs& runs) {
       std::fprintf(stderr, "%s: no slow motion about '%s', which does not happen\n", film.scene.name.c_str(),
                    entry.event.c_str());
   }
+  for (const AnnotationEntry& entry : film.scene.annotate)
+    if (!instant_of(entry, events, runs[0].events))
+      std::fprintf(stderr, "%s: '%s' is not said, as '%s' does not happen\n", film.scene.name.c_str(),
+                   entry.text.c_str(), entry.event.c_str());
 }
 
 // For LaTeX's package animate, which takes a frame rate as a number and frames by their first and last.
@@ -77,8 +81,9 @@ std::vector<Sidecar> open_sidecars(const RenderJob& job, const PreparedFilm& fil
   std::vector<Sidecar> sidecars;
   const bool has_clips = std::any_of(job.targets.begin(), job.targets.end(),
                                      [](const Target& target) { return target.format->shows == Shows::motion; });
-  const bool has_events = std::any_of(film.panels.begin(), film.panels.end(),
-                                      [](const PreparedScene& panel) { return !panel.scene.events.empty(); });
+  const bool has_captions = !film.scene.annotate.empty() ||
+                            std::any_of(film.panels.begin(), film.panels.end(),
+                                        [](const PreparedScene& panel) { return !panel.scene.events.empty(); });
   std::set<std::string> seen;
   for (const Target& target : job.targets) {
     if (has_clips && target.format->shows != Shows::motion) continue;
@@ -92,7 +97,7 @@ std::vector<Sidecar> open_sidecars(const RenderJob& job, const PreparedFilm& fil
     if (!seen.insert(base).second || (!has_clips && seen.size() > 1)) continue;
     open(".json", Sidecar::audit);
     open(".txt", Sidecar::words);
-    if (has_events) open(".srt", Sidecar::captions);
+    if (has_captions) open(".srt", Sidecar::captions);
   }
   return sidecars;
 }

@@ -10,6 +10,7 @@
 #include "core/format.hpp"
 #include "draw/page/house_style.hpp"
 #include "draw/robot/view.hpp"
+#include "scene/annotation.hpp"
 #include "scene/run/prepare.hpp"
 #include "scene/text/panels.hpp"
 #include "scene/text/read_scene.hpp"
@@ -67,6 +68,16 @@ void load_shapes(PreparedFilm& film) {
   }
 }
 
+void check_words(const PreparedFilm& film) {
+  std::vector<const Scene*> scenes;
+  std::vector<const Chain*> chains;
+  for (const PreparedScene& panel : film.panels) {
+    scenes.push_back(&panel.scene);
+    chains.push_back(&panel.simulation.chain);
+  }
+  check_annotations(film.scene, scenes, chains);
+}
+
 }  // namespace
 
 PreparedFilm load_film(const std::string& path, const std::vector<std::string>& overrides, bool meshes, bool quiet) {
@@ -78,6 +89,7 @@ PreparedFilm load_film(const std::string& path, const std::vector<std::string>& 
   if (film.scene.compare.empty()) {
     film.panels.push_back(prepare_panel(std::move(film.scene), meshes, quiet));
     film.scene = film.panels.front().scene;
+    check_words(film);
     if (meshes) load_shapes(film);
     return film;
   }
@@ -86,6 +98,7 @@ PreparedFilm load_film(const std::string& path, const std::vector<std::string>& 
   name_panels(film.scene.compare);
   for (std::size_t i = 0; i < film.panels.size(); ++i)
     film.panels[i].scene.title = film.scene.compare[i].title;
+  check_words(film);
   if (meshes) load_shapes(film);
   return film;
 }

@@ -35,18 +35,20 @@ FilmClock clock_of(const PreparedFilm& film) {
   const Scene& scene = film.scene;
   const PreparedScene& first = film.panels.front();
   EventHits hits;
-  if (std::any_of(scene.slow_motion.begin(), scene.slow_motion.end(),
-                  [](const SlowMotionEntry& entry) { return !entry.event.empty(); })) {
+  const auto is_of_event = [](const auto& entry) { return !entry.event.empty(); };
+  if (std::any_of(scene.slow_motion.begin(), scene.slow_motion.end(), is_of_event) ||
+      std::any_of(scene.annotate.begin(), scene.annotate.end(), is_of_event)) {
     hits = simulate(first.simulation, {}, [](double) { return interrupted(); }).events;
     throw_if_interrupted();
   }
   const FilmClock clock(scene.duration, scene.video.fps,
-                        stretches_of(scene.slow_motion, first.scene.events, hits));
+                        stretches_of(scene.slow_motion, first.scene.events, hits),
+                        pauses_of(scene.annotate, first.scene.events, hits));
   if (clock.is_plain()) return clock;
   const double frames = clock.film_seconds() * scene.video.fps.value();
   if (frames > kMostFrames)
-    throw Error(ExitCode::limit, "slow motion makes a film of more than ten million frames",
-                scene.place_of("slow_motion"));
+    throw Error(ExitCode::limit, "slow motion and pauses make a film of more than ten million frames",
+                scene.place_of(scene.slow_motion.empty() ? "annotate" : "slow_motion"));
   if (frames < 0.5)
     throw Error(ExitCode::bad_input, "slow motion leaves less than half a frame: the film would be empty",
                 scene.place_of("slow_motion"));

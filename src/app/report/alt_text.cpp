@@ -62,6 +62,29 @@ void add_events(std::vector<Moment>& moments, const RunReport& run, const std::s
   }
 }
 
+// What `annotate:` says, formulas as they are written.
+void add_words(std::vector<Moment>& moments, const FilmReport& report) {
+  const RunReport& first = report.panels.front();
+  for (const AnnotationEntry& entry : report.film().scene.annotate) {
+    const auto at = instant_of(entry, first.prepared.scene.events, first.trajectory.events);
+    if (!at || *at > first.trajectory.end_time) continue;
+    std::string words = entry.text;
+    std::erase(words, '$');
+    moments.push_back({*at, words});
+  }
+}
+
+// "; stands still at t = 1.2 s for 2 s"
+std::string pause_words(const FilmReport& report) {
+  const RunReport& first = report.panels.front();
+  std::string text;
+  for (const Pause& one : pauses_of(report.film().scene.annotate, first.prepared.scene.events, first.trajectory.events))
+    if (one.seconds > 0 && one.at <= first.trajectory.end_time)
+      text += std::string(text.empty() ? "; stands still at t = " : ", at ") + format_significant(one.at, 6) + " s for " +
+              format_quantity(one.seconds, "s");
+  return text;
+}
+
 void add_troubles(std::vector<Moment>& moments, const RunReport& run, const std::string& where) {
   for (const LimitEvent& limit : run.trajectory.limits)
     moments.push_back({limit.t, where + "joint " + limit.joint + " passes its limit of " + limit.quantity});
@@ -140,10 +163,11 @@ std::string alt_text(const FilmReport& report) {
   const double first = scene.hold.first, last = scene.hold.last;
   if (first > 0) text += "; the first is held for " + format_quantity(first, "s");
   if (last > 0) text += "; the last is held for " + format_quantity(last, "s");
-  text += speed_words(report) + "\nUnits: m, kg, s, N, N m, J, rad; times are those of the motion\n";
+  text += speed_words(report) + pause_words(report) + "\nUnits: m, kg, s, N, N m, J, rad; times are those of the motion\n";
   std::vector<Moment> moments;
   for (const RunReport& run : report.panels) add_events(moments, run, where_of(report, run));
   for (const RunReport& run : report.panels) add_troubles(moments, run, where_of(report, run));
+  add_words(moments, report);
   sort_by_time(moments);
   text += moments.empty() ? "What happens: nothing is marked; the motion goes on to its end.\n"
                           : "What happens:\n";
@@ -156,6 +180,7 @@ std::string captions(const FilmReport& report) {
   const Scene& scene = report.film().scene;
   std::vector<Moment> moments;
   for (const RunReport& run : report.panels) add_events(moments, run, where_of(report, run));
+  add_words(moments, report);
   sort_by_time(moments);
   const double start = held_first(scene), film_end = report.film_seconds();
   // An event behind the last frame's instant is told while that frame stands.

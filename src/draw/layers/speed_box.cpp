@@ -44,7 +44,7 @@ class TimeLayer : public Layer {
 class SpeedBox : public Layer {
  public:
   explicit SpeedBox(const Stage& stage) : stage_(&stage), text_size_(scaled(size::kAxis, stage.page.text_scale)) {
-    if (stage.clock.is_plain()) return;
+    if (stage.clock.stretches().empty()) return;
     for (const Stretch& one : stage.clock.stretches())
       width_ = std::max(width_,
                         lay_out_text(stage.fonts, speed_text(one.speed), {Face::label, text_size_}).advance);

@@ -36,13 +36,6 @@ Point depth(const Rect& a, const Rect& b, double air) {
           std::min(a.y1, b.y1) - std::max(a.y0, b.y0) + air};
 }
 
-Rect held(const Rect& r, const Rect& area) {
-  const auto by = [](double low, double high, double least, double most) {
-    return low < least ? least - low : high > most ? most - high : 0;
-  };
-  return moved(r, {by(r.x0, r.x1, area.x0, area.x1), by(r.y0, r.y1, area.y0, area.y1)});
-}
-
 // Each pair that overlaps goes apart the shorter way, half of it each, over and over.
 void push_apart(std::vector<Rect>& boxes, const Rect& area, double air) {
   for (int round = 0; round < kRounds; ++round) {
@@ -55,8 +48,8 @@ void push_apart(std::vector<Rect>& boxes, const Rect& area, double air) {
         const Point way = center_of(boxes[i]) - center_of(boxes[j]);
         const Point half =
             d.x < d.y ? Point{std::copysign(d.x / 2, way.x), 0} : Point{0, std::copysign(d.y / 2, way.y)};
-        boxes[i] = held(moved(boxes[i], half), area);
-        boxes[j] = held(moved(boxes[j], -1 * half), area);
+        boxes[i] = moved_into(area, moved(boxes[i], half));
+        boxes[j] = moved_into(area, moved(boxes[j], -1 * half));
       }
     if (rests) return;
   }
@@ -64,13 +57,20 @@ void push_apart(std::vector<Rect>& boxes, const Rect& area, double air) {
 
 }  // namespace
 
+Rect moved_into(const Rect& area, const Rect& r) {
+  const auto by = [](double low, double high, double least, double most) {
+    return low < least ? least - low : high > most ? most - high : 0;
+  };
+  return moved(r, {by(r.x0, r.x1, area.x0, area.x1), by(r.y0, r.y1, area.y0, area.y1)});
+}
+
 namespace {
 
 // Crowds that no one could read: each label stands where it wishes, unless one before it does so already.
 std::vector<PlacedBox> first_come(const std::vector<Rect>& wishes, const Rect& area, double air) {
   std::vector<PlacedBox> placed;
   for (const Rect& wish : wishes) {
-    const Rect box = held(wish, area);
+    const Rect box = moved_into(area, wish);
     const bool free = std::none_of(placed.begin(), placed.end(), [&](const PlacedBox& other) {
       const Point d = depth(box, other.box, air);
       return other.stands && d.x > kTouch && d.y > kTouch;
@@ -96,7 +96,7 @@ std::vector<PlacedBox> boxes_apart(const std::vector<Rect>& wishes, const Rect& 
   }
   while (!standing.empty()) {
     std::vector<Rect> boxes;
-    for (const std::size_t i : standing) boxes.push_back(held(wishes[i], area));
+    for (const std::size_t i : standing) boxes.push_back(moved_into(area, wishes[i]));
     push_apart(boxes, area, air);
     // Where one cannot stay near, the one that went farthest gives way, and the others begin anew without it.
     std::size_t worst = standing.size();
@@ -135,6 +135,24 @@ std::vector<Rect> places_about(const TextLine& line, Point middle, double off, P
   return places;
 }
 
+namespace {
+
+constexpr double kLeaderWidth = 0.0025, kLeaderDot = 0.0055, kLeaderGap = 0.008;  // units of H
+
+// From the side of the box that is nearest.
+void draw_leader(Picture& picture, const Leader& leader, const Rect& box, Color background, double opacity, int clip) {
+  const Rect air = widened(box, kLeaderGap);
+  const Point from{std::clamp(leader.to.x, air.x0, air.x1), std::clamp(leader.to.y, air.y0, air.y1)};
+  const Color color = leader.color.faded(opacity), halo = background.faded(opacity);
+  if (norm(leader.to - from) > kLeaderDot) {
+    picture.add(Capsule{from, leader.to, kLeaderWidth / 2 + kHalo, {halo, {}, 0}}, clip);
+    picture.add(Capsule{from, leader.to, kLeaderWidth / 2, {color, {}, 0}}, clip);
+  }
+  picture.add(Ellipse{leader.to, {kLeaderDot, 0}, {0, kLeaderDot}, {color, halo, kHalo}}, clip);
+}
+
+}  // namespace
+
 void MarkLabels::add(MarkWord word) {
   words_.push_back(std::move(word));
 }
@@ -160,6 +178,7 @@ void MarkLabels::draw(Picture& picture, const Rect& area, Color background, int 
     TextLine line = words_[i].line;
     fade(line, opacity);
     const Point anchor{box.x0 - line.box.x0, box.y0 - line.box.y0};
+    if (words_[i].leader) draw_leader(picture, *words_[i].leader, box, background, opacity, clip);
     draw_halo(picture, line, anchor, background.faded(opacity), kHalo, clip);
     draw_text(picture, line, anchor, clip);
   }

@@ -3,6 +3,7 @@
 // is no room near what they name.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,10 +13,17 @@
 
 namespace chainreel {
 
+// A line from a word to what it speaks of.
+struct Leader {
+  Point to;
+  Color color;
+};
+
 struct MarkWord {
   std::string name;  // the same from frame to frame; words of one name are told apart by where they are
   TextLine line;
   std::vector<Rect> places;  // of its ink, units of H, the best first; at least one
+  std::optional<Leader> leader = std::nullopt;  // its word was asked for: it stands on others rather than nowhere
 };
 
 // Places of a line's ink about a point, `off` away from it: eight directions, `first` of them, the next ones beside it,
@@ -23,6 +31,9 @@ struct MarkWord {
 std::vector<Rect> places_about(const TextLine& line, Point middle, double off, Point first);
 // The ink of a line that stands off `near` by `gap` along the unit vector `direction`.
 Rect place_beyond(const TextLine& line, Point near, double gap, Point direction);
+
+// The same box, moved the shortest way into the area.
+Rect moved_into(const Rect& area, const Rect& r);
 
 // Where a word stands at a frame.
 struct StandingWord {

@@ -20,6 +20,7 @@ constexpr std::size_t kCrowdOfWords = 60;      // words: of more each has its be
 // What it costs: a second without the word, on what may yield, at a place for each one before it in the list; and a
 // change of places.
 constexpr double kHidden = 5, kPoorGround = 2, kWorsePlace = 0.12, kChange = 1.2;
+constexpr double kWorseOfMany = 0.01;  // the same of a place of words with a leader, which have many
 constexpr int kPlanRounds = 2;  // each word is placed again when all others have places
 
 struct ShapeObstacles {
@@ -92,14 +93,6 @@ bool touches(const Rect& box, const Obstacle& obstacle) {
   return cut_segment(wide, from, to);
 }
 
-Rect moved_into(const Rect& area, const Rect& r) {
-  const auto by = [](double low, double high, double least, double most) {
-    return low < least ? least - low : high > most ? most - high : 0;
-  };
-  const Point way{by(r.x0, r.x1, area.x0, area.x1), by(r.y0, r.y1, area.y0, area.y1)};
-  return {r.x0 + way.x, r.y0 + way.y, r.x1 + way.x, r.y1 + way.y};
-}
-
 bool moves_on(const Rect& before, const Rect& now) {
   return norm(center_of(now) - center_of(before)) <= kWordStep;
 }
@@ -137,13 +130,13 @@ void WordPlan::add(const std::vector<MarkWord>& words, const std::vector<Obstacl
   counts_.push_back(int(words.size()));
   const std::size_t most = words.size() > kCrowdOfWords ? 1 : std::numeric_limits<std::size_t>::max();
   for (std::size_t i = 0; i < words.size(); ++i) {
-    Moment now{frame, int(i), {}, {}};
+    Moment now{frame, int(i), {}, {}, words[i].leader.has_value()};
     for (const Rect& wish : words[i].places) {
       if (now.places.size() == most) break;
       const Rect box = moved_into(area_, wish);
       Ground ground = norm(center_of(box) - center_of(wish)) <= kLeavesWith ? Ground::free : Ground::taken;
       for (std::size_t o = 0; ground != Ground::taken && o < obstacles.size(); ++o)
-        if (touches(box, obstacles[o])) ground = obstacles[o].may_yield ? Ground::poor : Ground::taken;
+        if (touches(box, obstacles[o])) ground = obstacles[o].may_yield || now.insists ? Ground::poor : Ground::taken;
       now.places.push_back(box);
       now.grounds.push_back(ground);
     }
@@ -244,7 +237,9 @@ std::vector<std::vector<StandingWord>> WordPlan::standing() const {
         const Rect box = widened(now.places[std::size_t(p)], kBetweenWords);
         const bool meets = std::any_of(words[std::size_t(now.frame)].begin(), words[std::size_t(now.frame)].end(),
                             [&](const StandingWord& other) { return other.opacity > 0 && overlap(box, other.box); });
-        return meets ? never : p * kWorsePlace + (ground == Ground::poor ? kPoorGround : 0);
+        const double poor = ground == Ground::poor ? kPoorGround : 0;
+        if (now.insists) return p * kWorseOfMany + poor + (meets ? kPoorGround : 0);
+        return meets ? never : p * kWorsePlace + poor;
       };
       const std::vector<int> way = best_way(track, fps_, cost_of);
       const std::vector<double> strength = opacities(track, way, fps_, frames);

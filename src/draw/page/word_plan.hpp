@@ -43,6 +43,7 @@ class WordPlan {
     int frame = 0, index = 0;      // of the word among those of the frame
     std::vector<Rect> places;      // moved into the area
     std::vector<Ground> grounds;  // what lies there
+    bool insists = false;         // rather on anything than nowhere
   };
   // One word from frame to frame.
   using Track = std::vector<Moment>;

@@ -1,4 +1,6 @@
 // The key events: what a run looks out for.
+#include <algorithm>
+
 #include "scene/keys/own_keys.hpp"
 
 namespace chainreel {
@@ -51,6 +53,18 @@ std::string events_text(const Scene& scene) {
     }
     out << YAML::EndSeq;
   });
+}
+
+bool names_event(Fields& fields, const Scene& scene, const std::string& event) {
+  if (event.empty()) return true;
+  std::vector<std::string> names;
+  for (const EventEntry& one : scene.events) names.push_back(one.title());
+  if (std::find(names.begin(), names.end(), event) != names.end()) return true;
+  fields.problem_at("event", "'" + fields.path("event") + "' names '" + event + "', but " +
+                                 (names.empty() ? "the scene has no 'events'" : "no entry of 'events' has that name:") +
+                                 did_you_mean(event, names) +
+                                 (names.empty() ? "" : " There are " + quoted_list(names) + "."));
+  return false;
 }
 
 void read_events(Fields& fields, Scene& scene) {

@@ -66,6 +66,19 @@ bool Fields::read(const std::string& key, std::string& value) {
   return text.has_value();
 }
 
+bool Fields::read_seconds(const std::string& key, double& value) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return false;
+  try {
+    value = parse_quantity(node.IsScalar() ? node.Scalar() : "", {}, "s");
+    return true;
+  } catch (const Error&) {
+    problem_at(key, "'" + path(key) + "' is " + (node.IsScalar() ? "'" + node.Scalar() + "'" : "no number") +
+                        ", but seconds are wanted, like 1.5s");
+    return false;
+  }
+}
+
 bool Fields::read(const std::string& key, double& value) {
   const YAML::Node node = find(key);
   if (!node.IsDefined()) return false;

@@ -41,6 +41,7 @@ class Fields {
   bool read(const std::string& key, std::vector<double>& value);  // numbers, `90deg`, `pi/2`
   bool read(const std::string& key, Eigen::Vector3d& value);
   bool read(const std::string& key, std::vector<std::string>& value);
+  bool read_seconds(const std::string& key, double& value);       // `1.5`, `1.5s` or `1.5 s`
   bool read_path(const std::string& key, std::string& value);  // relative to the scene file
   std::optional<std::size_t> read_word(const std::string& key, std::span<const Name> words);  // its index
   template <Named Enum>

@@ -210,6 +210,10 @@ std::vector<Chapter> chapters() {
             .example("slow_motion: [{from: 1s, until: 1.5s, speed: 0.25}]")
             .absent("none")
             .of_page(),
+        Row(told_annotate(), read_annotate, annotate_text)
+            .example("annotate: [{at: 1.2s, text: \"heaviest along the arm\", point: gripper, hold: 1s}]")
+            .absent("none")
+            .of_page(),
         Row::section("hold", "hold: {first: 1, last: 2}", "how long the end frames stand still; one number is both")
             .or_one([](const SceneKey&, Fields& fields, Scene& scene) {
               double both = 0;

@@ -43,6 +43,8 @@ std::string contact_force_text(const Scene& scene);
 // --- what is looked out for: event_keys.cpp
 KeyText told_events();
 void read_events(Fields& fields, Scene& scene);
+// Whether the scene has an event of the name that stands at `event` in the fields, or none is named; else a problem.
+bool names_event(Fields& fields, const Scene& scene, const std::string& event);
 std::string events_text(const Scene& scene);
 
 // --- the page: page_keys.cpp
@@ -70,6 +72,11 @@ std::string style_text(const Scene& scene);
 KeyText told_slow_motion();
 void read_slow_motion(Fields& fields, Scene& scene);
 std::string slow_motion_text(const Scene& scene);
+
+// --- what is pointed at: annotate_keys.cpp
+KeyText told_annotate();
+void read_annotate(Fields& fields, Scene& scene);
+std::string annotate_text(const Scene& scene);
 
 // What two keys say together: rules.cpp. After all keys were read.
 void check_together(Fields& fields, Scene& scene);

@@ -4,7 +4,6 @@
 
 #include "scene/film_clock.hpp"
 #include "scene/keys/own_keys.hpp"
-#include "scene/quantity.hpp"
 
 namespace chainreel {
 namespace {
@@ -23,9 +22,10 @@ class StretchReader {
   bool read(const Scene& scene, SlowMotionEntry& entry) {
     inner_.read("event", entry.event);
     const bool complete =
-        read_seconds("from", entry.from) & read_seconds("until", entry.until) & read_speed(entry.speed);
+        (has("from") && inner_.read_seconds("from", entry.from)) &
+                          (has("until") && inner_.read_seconds("until", entry.until)) & read_speed(entry.speed);
     inner_.finish();
-    if (!complete || !knows_event(scene, entry)) return false;
+    if (!complete || !names_event(inner_, scene, entry.event)) return false;
     return entry.event.empty() ? check_instants(scene, entry) : check_span(entry);
   }
 
@@ -42,17 +42,6 @@ class StretchReader {
     return false;
   }
 
-  // `1.5`, `1.5s` or `1.5 s`.
-  bool read_seconds(const std::string& key, double& value) {
-    if (!has(key)) return false;
-    try {
-      value = parse_quantity(inner_.find(key).Scalar(), {}, "s");
-    } catch (const Error&) {
-      return complain("is '" + inner_.find(key).Scalar() + "', but seconds are wanted, like 1.5s", key);
-    }
-    return true;
-  }
-
   bool read_speed(double& speed) {
     if (!has("speed")) return false;
     inner_.read("speed", speed);
@@ -60,18 +49,6 @@ class StretchReader {
     return complain("must lie between " + format_shortest(kSlowest) + " and " + format_shortest(kFastest) +
                         ": 0.25 is four times slower, 4 four times faster",
                     "speed");
-  }
-
-  bool knows_event(const Scene& scene, const SlowMotionEntry& entry) {
-    if (entry.event.empty()) return true;
-    std::vector<std::string> names;
-    for (const EventEntry& event : scene.events) names.push_back(event.title());
-    if (std::find(names.begin(), names.end(), entry.event) != names.end()) return true;
-    return complain(
-        "names '" + entry.event + "', but " +
-            (names.empty() ? "the scene has no 'events'" : "no entry of 'events' has that name:") +
-            did_you_mean(entry.event, names) + (names.empty() ? "" : " There are " + quoted_list(names) + "."),
-        "event");
   }
 
   bool check_span(const SlowMotionEntry& entry) {

@@ -5,6 +5,7 @@
 #include "expr/expression.hpp"
 #include "model/chain.hpp"
 #include "model/read_chain.hpp"
+#include "scene/annotation.hpp"
 #include "sim/system/constrained_chain.hpp"
 
 namespace chainreel {
@@ -64,14 +65,8 @@ void check_parameters(const Scene& scene, const Chain& chain, const NamedFrames&
 NamedFrames find_frames(const Scene& scene, const Chain& chain, ProblemList& problems) {
   NamedFrames frames;
   for (const auto& [name, wanted] : scene.frames) {
-    std::vector<std::string> known;
-    for (const Frame& frame : chain.frames) known.push_back(frame.name);
-    int index = find_frame(chain, wanted);
-    for (const Body& body : chain.bodies) {
-      if (&body == &chain.bodies[0]) continue;
-      known.push_back(body.joint.name);
-      if (index < 0 && body.joint.name == wanted) index = find_frame(chain, body.name);
-    }
+    const std::vector<std::string> known = point_names(chain);
+    const int index = find_point(chain, wanted);
     if (index >= 0)
       frames.push_back({name, index});
     else

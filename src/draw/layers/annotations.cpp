@@ -1,0 +1,136 @@
+// Words of `annotate:` with a line to what they speak of. They stand at one place of the page while that moves on.
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "draw/layers/layer.hpp"
+#include "dynamics/kinematics.hpp"
+#include "picture/point.hpp"
+#include "scene/annotation.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kAhead = 0.3;  // s of the film that words come before their instant, and go after it
+constexpr double kStay = 2;    // s of the film, of those that do not hold it
+constexpr double kSame = 1e-9;  // s
+constexpr double kFarPlaces[] = {0.09, 0.14, 0.20, 0.28};  // of words from what they speak of, units of H
+
+// Running text, with formulas between dollar signs.
+TextLine lay_out_mixed(const Fonts& fonts, const std::string& text, TextStyle style) {
+  TextLine line;
+  style.align = Align::left;
+  double x = 0;
+  bool is_math = false;
+  for (std::size_t from = 0; from <= text.size(); is_math = !is_math) {
+    const std::size_t until = std::min(text.find('$', from), text.size());
+    const std::string part = text.substr(from, until - from);
+    from = until + 1;
+    if (part.empty()) continue;
+    TextLine piece = is_math ? lay_out_math(fonts, part, style) : lay_out_text(fonts, part, style);
+    Picture moved;
+    draw_text(moved, piece, {x, 0});
+    for (Item& item : moved.items) {
+      if (auto* run = std::get_if<GlyphRun>(&item.shape))
+        line.runs.push_back(std::move(*run));
+      else
+        line.marks.push_back(std::move(item.shape));
+    }
+    const Rect box{piece.box.x0 + x, piece.box.y0, piece.box.x1 + x, piece.box.y1};
+    line.box = x == 0 ? box
+                      : Rect{std::min(line.box.x0, box.x0), std::min(line.box.y0, box.y0),
+                             std::max(line.box.x1, box.x1), std::max(line.box.y1, box.y1)};
+    x += piece.advance;
+  }
+  line.advance = x;
+  return line;
+}
+
+class Annotations : public Layer {
+ public:
+  explicit Annotations(const Stage& stage) : stage_(&stage) {
+    const StagedRun& first = stage.motions.front();
+    const TextStyle style{Face::label, scaled(size::kSymbol, stage.page.text_scale), stage.theme.ink};
+    for (std::size_t i = 0; i < stage.page.annotate.size(); ++i) {
+      const AnnotationEntry& entry = stage.page.annotate[i];
+      const std::optional<double> at = instant_of(entry, first.scene().events, first.trajectory().events);
+      if (at) notes_.push_back({&entry, int(i) + 1, *at, lay_out(entry, style)});
+    }
+  }
+
+  UnderWords under_words() const override { return UnderWords::freely; }
+  bool has_words() const override { return !notes_.empty(); }
+
+  void draw(Picture&, const Shot& shot) const override {
+    for (const Note& note : notes_)
+      if (note.entry->panel == shot.panel.clip() + 1 && is_shown(note, stage_->times[std::size_t(shot.k)]))
+        add_words(note, shot);
+  }
+
+ private:
+  struct Note {
+    const AnnotationEntry* entry;
+    int number;
+    double at;  // s of the motion
+    TextLine line;
+  };
+
+  TextLine lay_out(const AnnotationEntry& entry, const TextStyle& style) const {
+    try {
+      return lay_out_mixed(stage_->fonts, entry.text, style);
+    } catch (const Error& error) {
+      throw Error(error.code(), error.problems().front().message, entry.place);
+    }
+  }
+
+  bool is_shown(const Note& note, double t) const {
+    const double begin = stage_->clock.film_time(note.at), now = stage_->clock.film_time(t);
+    const double stay = note.entry->hold > 0 ? note.entry->hold + kAhead : kStay;
+    return now >= begin - kAhead - kSame && now <= begin + stay + kSame;
+  }
+
+  // What is spoken of, in W.
+  static Eigen::Vector3d point_of(const AnnotationEntry& entry, const Panel& panel, const Workspace& ws) {
+    if (entry.spot.size() == 3) return {entry.spot[0], entry.spot[1], entry.spot[2]};
+    if (entry.spot.size() == 2) return entry.spot[0] * panel.camera().right + entry.spot[1] * panel.camera().up;
+    const int frame = find_point(panel.chain(), panel.scene(), entry.point);
+    return frame_pose(panel.chain(), ws, frame).translation();
+  }
+
+  void add_words(const Note& note, const Shot& shot) const {
+    const Panel& panel = shot.panel;
+    const Rect& area = panel.area();
+    if (note.line.box.width() > area.width())
+      throw Error(ExitCode::bad_input,
+                  "'annotate." + std::to_string(note.number) +
+                      ".text' is wider than the picture: shorten it, or take a smaller text_scale",
+                  note.entry->place);
+    const Point now = panel.camera().project(point_of(*note.entry, panel, shot.ws));
+    // Where the words stand is decided by the instant that they are about.
+    const auto& times = stage_->times;
+    const int samples = panel.last() + 1;
+    const int k = int(std::lower_bound(times.begin(), times.begin() + samples, note.at - kSame) - times.begin());
+    const Workspace& then_ws = panel.motion().pose_at(std::min(k, samples - 1));
+    const Point then = panel.camera().project(point_of(*note.entry, panel, then_ws));
+    panel.motion().pose_at(shot.k);  // the workspace of the shot is the same one
+    if (!std::isfinite(now.x + now.y + then.x + then.y)) return;
+    const Point inward = center_of(area) - then;
+    const Point first = norm(inward) > 0.05 ? unit(inward) : unit({1, 1});
+    std::vector<Rect> places;
+    for (const double off : kFarPlaces)
+      for (const Rect& place : places_about(note.line, then, off, first)) places.push_back(moved_into(area, place));
+    shot.labels.add({"annotation " + std::to_string(note.number), note.line, std::move(places),
+                     Leader{now, stage_->theme.ink}});
+  }
+
+  const Stage* stage_;
+  std::vector<Note> notes_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Layer> make_layer_annotations(const Stage& stage) {
+  return std::make_unique<Annotations>(stage);
+}
+
+}  // namespace chainreel

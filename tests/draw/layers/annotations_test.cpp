@@ -1,0 +1,88 @@
+// Words of `annotate:` and their leader lines.
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "draw/chains.hpp"
+#include "draw/film/film.hpp"
+#include "draw/shapes.hpp"
+
+namespace chainreel {
+namespace {
+
+class AnnotatedRr : public ::testing::Test {
+ protected:
+  AnnotatedRr() {
+    scene.file = "scenes/test.yaml";
+    scene.duration = 2;
+    AnnotationEntry entry;
+    entry.at = 1;
+    entry.text = "heaviest along $Lambda^{-1}$";
+    entry.spot = {0.5, -0.75};
+    entry.hold = 1;
+    scene.annotate = {entry};
+  }
+
+  Film film() {
+    const FilmClock clock(2, {10, 1}, {}, pauses_of(scene.annotate, {}, {}));
+    run = {};
+    for (const double t : clock.frame_times()) {
+      const Trajectory one = test::run_of([&](double h) { return test::swing(t + h); }, 1);
+      run.nq = run.nv = 2;
+      run.t.push_back(t);
+      run.work.push_back(0);
+      run.q.insert(run.q.end(), one.q.begin(), one.q.end());
+      run.qd.insert(run.qd.end(), one.qd.begin(), one.qd.end());
+    }
+    run.end_time = run.t.back();
+    return Film(scene, {{scene, chain, run}}, run.t, fonts(), clock);
+  }
+
+  // The ends of lines and the dots at them, which are of the leader alone.
+  static std::vector<Point> dots(const Picture& picture) {
+    std::vector<Point> found;
+    for (const Item& item : picture.items)
+      if (const auto* e = std::get_if<Ellipse>(&item.shape); e && std::abs(norm(e->u) - 0.0055) < 1e-9)
+        found.push_back(e->center);
+    return found;
+  }
+
+  Chain chain = test::model("rr");
+  Scene scene;
+  Trajectory run;
+};
+
+TEST_F(AnnotatedRr, HasALeaderToItsPointWhileTheClockStandsStillAndALittleAround) {
+  const Film one = film();
+  ASSERT_EQ(one.frame_count(), 30);
+  const Camera& camera = one.camera();
+  for (int k = 0; k < 30; ++k) {
+    const std::vector<Point> ends = dots(one.frame(k));
+    ASSERT_EQ(ends.size(), k >= 7 && k <= 23 ? 1u : 0u) << k;
+    if (!ends.empty()) {
+      EXPECT_LT(norm(ends[0] - camera.project({0.5, -0.75, 0})), 1e-12) << k;
+    }
+  }
+}
+
+TEST_F(AnnotatedRr, FramesOfAPauseAreOnePictureAndAnyFrameIsDrawnAlone) {
+  const Film one = film(), other = film();
+  const std::size_t items = one.frame(15).items.size();
+  for (int k = 11; k < 20; ++k) EXPECT_EQ(one.frame(k).items.size(), items) << k;
+  EXPECT_EQ(other.frame(15).items.size(), items);
+}
+
+TEST_F(AnnotatedRr, WordsWiderThanThePictureAreAnErrorAtTheirEntry) {
+  scene.annotate[0].text = std::string(200, 'w');
+  scene.annotate[0].place = {"scenes/test.yaml", 7, 3};
+  try {
+    film().frame(15);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("scenes/test.yaml:7:3: 'annotate.1.text' is wider than the picture"));
+  }
+}
+
+}  // namespace
+}  // namespace chainreel
