@@ -66,7 +66,18 @@ void require_replaceable(const std::string& path) {
                 {path});
 }
 
+namespace {
+
+// It stands for standard output, which what comes here cannot go to; nobody wants a file or a folder of that name.
+void refuse_dash(const std::string& path) {
+  if (path == "-" || path.starts_with("-/"))
+    throw Error(ExitCode::usage, "-o " + path + ": this goes into a file, not to standard output: name one, like -o out/result");
+}
+
+}  // namespace
+
 OutputFile::OutputFile(std::string path, bool overwrite) : path_(std::move(path)), target_(behind_links(path_)) {
+  refuse_dash(path_);
   require_replaceable(path_);
   replace_ = overwrite || lies_below_out(target_);
   std::error_code code;
@@ -172,6 +183,7 @@ void sync_file(const fs::path& path, const std::string& target) {
 OutputFolder::OutputFolder(std::string folder, std::string stem, std::string ending, bool overwrite, bool is_part)
     : folder_(std::move(folder)), stem_(std::move(stem)), ending_(std::move(ending)), overwrite_(overwrite) {
   if (folder_.empty()) folder_ = ".";
+  refuse_dash(folder_ + "/");
   std::error_code code;
   fs::create_directories(folder_, code);
   if (!fs::is_directory(folder_, code))

@@ -227,5 +227,22 @@ TEST(CommandLine, TakesPosesByNameAndSaysWhatIsMeantInDegrees) {
   EXPECT_EQ(run_program({"dynamics", "models/rr.urdf", "--q", "30rad,6.2"}).err, "") << "negative control";
 }
 
+// A file or a folder of that name is nobody's wish; `simulate` and `inverse` write there.
+TEST(CommandLine, ADashIsNoNameOfAFile) {
+  const std::string root = CHAINREEL_SOURCE_FOLDER;
+  for (const Words& words : std::vector<Words>{{"equations", root + "/models/rr.urdf", "-o", "-"},
+                                               {"snapshot", root + "/models/rr.urdf", "--pose", "home=0,1", "-o", "-/"},
+                                               {"sweep", root + "/assets/scenes/pp_free.yaml", "--over", "torque.1=0,1", "--set",
+                                                "duration=0.05", "-o", "-"}}) {
+    const TemporaryFolder folder;
+    const ProgramResult result = run_program(words, {.folder = folder.path().string()});
+    EXPECT_EQ(result.status, 2) << words[0] << result.err;
+    EXPECT_THAT(result.err, HasSubstr("name one, like -o out/")) << words[0];
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << words[0];
+  }
+  const ProgramResult table = run_program({"simulate", "assets/scenes/pp_free.yaml", "--set", "duration=0.05", "-o", "-", "--quiet"});
+  EXPECT_EQ(table.status, 0) << "negative control";
+}
+
 }  // namespace
 }  // namespace chainreel
