@@ -1,6 +1,7 @@
 // Pixels in memory: 8-bit BGRA, premultiplied by nothing (alpha is straight), top row first, no padding.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -11,6 +12,13 @@ struct Pixel {
   std::uint8_t r = 0, g = 0, b = 0, a = 255;
   friend bool operator==(const Pixel&, const Pixel&) = default;
 };
+
+// A pixel's bytes whose colour is multiplied by its alpha, as blending needs it: divided by it again, rounded.
+inline void divide_by_alpha(std::uint8_t* bgra) {
+  const int alpha = bgra[3];
+  if (alpha == 0 || alpha == 255) return;
+  for (int k = 0; k < 3; ++k) bgra[k] = std::uint8_t(std::min(255, (255 * bgra[k] + alpha / 2) / alpha));
+}
 
 struct Image {
   int width = 0;

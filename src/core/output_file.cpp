@@ -66,15 +66,10 @@ void require_replaceable(const std::string& path) {
                 {path});
 }
 
-namespace {
-
-// It stands for standard output, which what comes here cannot go to; nobody wants a file or a folder of that name.
 void refuse_dash(const std::string& path) {
   if (path == "-" || path.starts_with("-/"))
     throw Error(ExitCode::usage, "-o " + path + ": this goes into a file, not to standard output: name one, like -o out/result");
 }
-
-}  // namespace
 
 OutputFile::OutputFile(std::string path, bool overwrite) : path_(std::move(path)), target_(behind_links(path_)) {
   refuse_dash(path_);

@@ -12,6 +12,10 @@
 
 namespace chainreel {
 
+// A dash stands for standard output, which what goes into a file cannot go to; nobody wants a file or a folder of that
+// name. Throws Error (exit 2).
+void refuse_dash(const std::string& path);
+
 class OutputFile {
  public:
   // Makes the folders that are missing; a link to a file stands for that file. Throws Error (exit 6) where the folder

@@ -2,35 +2,23 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "encode/film_input.hpp"
 #include "encode/film_reader.hpp"
 
 namespace chainreel {
 
-namespace {
-
-constexpr int kSmallest = 16;  // px: what is only passed over
-
-// How many frames lie before the one that is shown at this time.
-int frames_before(const std::string& path, double at) {
-  FilmReader reader(path, false);
-  Image unseen;
-  int before = -1;
-  // Times are told to a thousandth of a second in some containers.
-  while (reader.next(unseen, kSmallest) && reader.time() <= at + 1e-3) ++before;
-  return std::max(before, 0);
-}
-
-}  // namespace
-
 FilmStart read_film_start(const std::string& path, int widest, double at) {
-  const int before = at > 0 ? frames_before(path, at) : 0;
   FilmReader reader(path, false);
   FilmStart start;
-  for (int k = 0; k < before; ++k) reader.next(start.frame, kSmallest);
   if (!reader.next(start.frame, widest))
     throw Error(ExitCode::bad_input, "holds no frame that can be decoded", {path});
+  if (at > 0) {
+    // Times are told to a thousandth of a second in some containers.
+    Image next;
+    while (reader.next(next, widest) && reader.time() <= at + 1e-3) std::swap(start.frame, next);
+  }
   for (std::size_t i = 3; i < start.frame.bgra.size(); i += 4) start.frame.bgra[i] = 255;
   start.width = reader.width();
   start.height = reader.height();

@@ -304,7 +304,7 @@ void Batch::add(const Polygon& polygon) {
   const auto pair = [&corners](std::size_t i) {
     return Vector(corners[i].x, corners[i].y, corners[i + 1].x, corners[i + 1].y);
   };
-  append(Primitive::polygon, {.kind = Outline::Kind::polygon, .box = box, .reach = reach}, 
+  append(Primitive::polygon, {.kind = Outline::Kind::polygon, .box = box, .reach = reach},
          {pair(0), pair(2), pair(4), pair(6), {half_stroke}, stroke, fill, fading.slopes, fading.offsets})
       .unfaded = fading.unfaded;
 }

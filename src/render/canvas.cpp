@@ -20,11 +20,7 @@ namespace {
 void divide_by_alpha(Image& image, const PixelBox& box) {
   for (int y = box.y; y < box.bottom(); ++y) {
     std::uint8_t* p = &image.bgra[std::size_t(4) * (std::size_t(y) * std::size_t(image.width) + std::size_t(box.x))];
-    for (int x = 0; x < box.width; ++x, p += 4) {
-      const int alpha = p[3];
-      if (alpha == 0 || alpha == 255) continue;
-      for (int k = 0; k < 3; ++k) p[k] = std::uint8_t(std::min(255, (255 * p[k] + alpha / 2) / alpha));
-    }
+    for (int x = 0; x < box.width; ++x, p += 4) chainreel::divide_by_alpha(p);
   }
 }
 

@@ -10,7 +10,6 @@
 namespace chainreel {
 
 #define CHAINREEL_GL_FUNCTIONS(X) \
-  X(ActiveTexture)                \
   X(AttachShader)                 \
   X(BindBuffer)                   \
   X(BindFramebuffer)              \
@@ -18,7 +17,6 @@ namespace chainreel {
   X(BindVertexArray)              \
   X(BlendEquation)                \
   X(BlendFunc)                    \
-  X(BlitFramebuffer)              \
   X(BufferData)                   \
   X(CheckFramebufferStatus)       \
   X(Clear)                        \
@@ -52,7 +50,6 @@ namespace chainreel {
   X(LinkProgram)                  \
   X(PixelStorei)                  \
   X(ReadPixels)                   \
-  X(Scissor)                      \
   X(ShaderSource)                 \
   X(TexImage2D)                   \
   X(TexParameteri)                \

@@ -31,7 +31,7 @@ RendererInfo info_of(const GlContext& context) {
 namespace {
 
 // The longest side of a picture that the context can draw.
-int largest_side(const GlFunctions& gl) {
+int measured_side(const GlFunctions& gl) {
   GLint texture = 0;
   std::array<GLint, 2> viewport{};
   gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
@@ -43,18 +43,14 @@ int largest_side(const GlFunctions& gl) {
 // without a screen.
 constexpr double kBytesOfPixel = 20;
 
-void require_size(int width, int height, int largest) {
-  if (width >= 1 && height >= 1 && width <= largest && height <= largest)
-    return require_memory(kBytesOfPixel * width * height,
-                          "a picture of " + std::to_string(width) + "x" + std::to_string(height) + " px");
-  throw Error(ExitCode::limit, "a picture of " + std::to_string(width) + "x" + std::to_string(height) +
-                                   " px cannot be drawn; each side must be 1 to " + std::to_string(largest) +
-                                   " px");
-}
-
-const GlContext& sized(const GlContext& context, int width, int height) {
-  require_size(width, height, largest_side(context.gl()));
-  return context;
+// The longest side that can be drawn.
+int largest_side_for(const GlFunctions& gl, int width, int height) {
+  const int largest = measured_side(gl);
+  const std::string what = "a picture of " + std::to_string(width) + "x" + std::to_string(height) + " px";
+  if (std::min(width, height) < 1 || std::max(width, height) > largest)
+    throw Error(ExitCode::limit, what + " cannot be drawn; each side must be 1 to " + std::to_string(largest) + " px");
+  require_memory(kBytesOfPixel * width * height, what);
+  return largest;
 }
 
 }  // namespace
@@ -63,8 +59,8 @@ GlPainter::GlPainter(int width, int height)
     : width_(width),
       height_(height),
       context_(create_gl_context()),
-      gl_(sized(*context_, width, height).gl()),
-      largest_(chainreel::largest_side(gl_)),
+      gl_(context_->gl()),
+      largest_(largest_side_for(gl_, width, height)),
       page_(gl_, Target::Kind::color, width, height) {
   for (GLuint* texture : {&cell_texture_, &atlas_texture_}) {
     gl_.GenTextures(1, texture);

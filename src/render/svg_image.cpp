@@ -104,12 +104,8 @@ Image svg_image(const std::string& bytes, const std::string& path, int height) {
   const unsigned char* pixels = cairo_image_surface_get_data(surface.get());
   const auto stride = std::size_t(cairo_image_surface_get_stride(surface.get()));
   for (std::size_t y = 0; y < std::size_t(height); ++y)
-    for (std::size_t x = 0; x < std::size_t(width); ++x) {
-      const unsigned char* from = pixels + y * stride + 4 * x;
-      std::uint8_t* to = &image.bgra[4 * (y * std::size_t(width) + x)];
-      for (int i = 0; i < 3; ++i) to[i] = from[3] == 0 ? 0 : std::uint8_t(std::min(255, (255 * from[i] + from[3] / 2) / from[3]));
-      to[3] = from[3];
-    }
+    std::copy_n(pixels + y * stride, 4 * std::size_t(width), &image.bgra[4 * y * std::size_t(width)]);
+  for (std::size_t i = 0; i < image.bgra.size(); i += 4) divide_by_alpha(&image.bgra[i]);
   return image;
 }
 

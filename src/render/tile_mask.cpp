@@ -25,21 +25,11 @@ void TileMask::keep(const TileMask& other) {
   for (std::size_t i = 0; i < marked_.size(); ++i) marked_[i] &= other.marked_[i];
 }
 
-bool TileMask::is_empty() const {
-  return std::none_of(marked_.begin(), marked_.end(), [](std::uint8_t tile) { return tile != 0; });
-}
-
 TileRange TileMask::tiles_of(const PixelBox& box) const {
   if (box.empty()) return {};
   const auto first = [](int pixel, int count) { return pixel <= 0 ? 0 : std::min(pixel / kSide, count); };
   const auto last = [](int pixel, int count) { return pixel <= 0 ? 0 : std::min((pixel - 1) / kSide + 1, count); };
   return {first(box.x, columns_), first(box.y, rows_), last(box.right(), columns_), last(box.bottom(), rows_)};
-}
-
-void TileMask::mark_box(const PixelBox& box) {
-  const TileRange tiles = tiles_of(box);
-  for (int row = tiles.top; row < tiles.bottom; ++row)
-    for (int column = tiles.left; column < tiles.right; ++column) mark(column, row);
 }
 
 void TileMask::boxes(const PixelBox& clip, std::vector<PixelBox>& result) const {

@@ -30,11 +30,9 @@ class TileMask {
   void fill();
   void add(const TileMask& other);   // of the same page
   void keep(const TileMask& other);  // those that the other has, too
-  bool is_empty() const;
 
   // The tiles that meet the box, which may reach out of the page.
   TileRange tiles_of(const PixelBox& box) const;
-  void mark_box(const PixelBox& box);
 
   // The pixels of a tile; at the page's right and lower side they may reach out of it.
   static PixelBox pixels_of(int column, int row) { return {column * kSide, row * kSide, kSide, kSide}; }

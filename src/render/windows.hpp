@@ -32,13 +32,13 @@ class Windows {
 
  private:
   void add(int index, Primitive primitive, const float* numbers, const std::vector<PixelBox>& boxes);
+  void add_inside(int index, const Piece& piece, const float* fill);
   void add_shape(const Batch& batch, int index, const TileMask& tiles);
   void find_path_area(const PixelBox& within);
   void add_path(const Batch& batch, int layer, const TileMask& tiles);
 
   std::vector<Run> runs_;
   std::array<std::vector<float>, kPrimitives.size()> streams_;
-  void add_inside(int index, const Piece& piece, const float* fill);
 
   std::vector<PixelBox> some_, inner_, even_, faded_;
   std::vector<PixelBox> path_windows_, path_;  // of the pieces of a path; what they fill together

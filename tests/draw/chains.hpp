@@ -50,11 +50,10 @@ inline Chain two_links(const Eigen::Vector3d& ex, const Eigen::Vector3d& normal,
 }
 
 // Samples of q(t) with qd from a central difference: draw only needs it for the trail's smoothness.
-inline Trajectory run_of(const std::function<std::vector<double>(double)>& q, int frames,
-                         FrameRate fps = {}) {
+inline Trajectory run_at(const std::vector<double>& times, const std::function<std::vector<double>(double)>& q) {
   Trajectory run;
-  for (int k = 0; k < frames; ++k) {
-    const double t = frame_time(k, fps), h = 1e-5;
+  for (const double t : times) {
+    const double h = 1e-5;
     const std::vector<double> now = q(t), before = q(t - h), after = q(t + h);
     run.nq = run.nv = int(now.size());
     run.t.push_back(t);
@@ -66,6 +65,12 @@ inline Trajectory run_of(const std::function<std::vector<double>(double)>& q, in
   }
   run.end_time = run.t.back();
   return run;
+}
+
+inline Trajectory run_of(const std::function<std::vector<double>(double)>& q, int frames, FrameRate fps = {}) {
+  std::vector<double> times;
+  for (int k = 0; k < frames; ++k) times.push_back(frame_time(k, fps));
+  return run_at(times, q);
 }
 
 inline std::vector<double> swing(double t) {

@@ -191,7 +191,8 @@ TEST(TileMask, BoxesCoverTheTilesOnceAndJoinRowsThatAreAlike) {
     for (int row = 0; row < mask.rows(); ++row)
       for (int column = 0; column < mask.columns(); ++column)
         if (random() % 3 == 0) mask.mark(column, row);
-    mask.mark_box({-50, 140, 200, 100});
+    for (int row = 140 / TileMask::kSide; row < 5; ++row)
+      for (int column = 0; column < 5; ++column) mask.mark(column, row);
     std::vector<PixelBox> boxes;
     const PixelBox clip = {13, 7, 468, 283};
     mask.boxes(clip, boxes);

@@ -94,10 +94,21 @@ void add_comparison(const std::vector<std::string>& vary, std::vector<std::strin
   overrides.push_back("compare=[" + list + "]");
 }
 
+namespace {
+
+// What stands between commas.
+std::vector<std::string> entries_of(const std::string& text) {
+  std::vector<std::string> entries;
+  std::stringstream stream(text);
+  for (std::string entry; std::getline(stream, entry, ',');) entries.push_back(entry);
+  return entries;
+}
+
+}  // namespace
+
 std::vector<double> parse_list(const std::string& text, const std::string& what) {
   std::vector<double> values;
-  std::stringstream stream(text);
-  for (std::string entry; std::getline(stream, entry, ',');) {
+  for (const std::string& entry : entries_of(text)) {
     try {
       values.push_back(parse_quantity(entry, {}));
     } catch (const Error& error) {
@@ -105,6 +116,13 @@ std::vector<double> parse_list(const std::string& text, const std::string& what)
     }
   }
   return values;
+}
+
+std::optional<std::size_t> coordinate_of(const Chain& chain, const std::string& name) {
+  const std::vector<std::string> names = position_names(chain);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (name == names[i] || name == "q" + std::to_string(i + 1)) return i;
+  return std::nullopt;
 }
 
 namespace {
@@ -117,10 +135,6 @@ std::vector<double> parse_counted(std::size_t count, const Chain& chain, const s
                                      " numbers, but " + chain.name + " needs " + std::to_string(count));
   return values;
 }
-
-}  // namespace
-
-namespace {
 
 // The joint that owns a coordinate; none of a floating or planar joint's.
 const Joint* joint_of(const Chain& chain, std::size_t coordinate) {
@@ -152,26 +166,18 @@ std::vector<double> pose_by_name(const Chain& chain, const std::vector<std::stri
     if (equals == std::string::npos)
       throw Error(ExitCode::usage, what + " " + text + ": '" + entry + "' names no joint: name all or none, like " + names[0] + "=90deg");
     const std::string name = entry.substr(0, equals), number = entry.substr(equals + 1);
-    const auto at = std::find(names.begin(), names.end(), name);
-    if (at == names.end())
+    const std::optional<std::size_t> at = coordinate_of(chain, name);
+    if (!at)
       throw Error(ExitCode::usage, what + " " + text + ": " + chain.name + " has no coordinate '" + name + "':" +
                                        did_you_mean(name, names) + " It has " + joined(names));
-    const std::size_t index = std::size_t(at - names.begin());
-    if (is_set[index]) throw Error(ExitCode::usage, what + " " + text + ": names " + name + " twice");
-    is_set[index] = true;
+    if (is_set[*at]) throw Error(ExitCode::usage, what + " " + text + ": names " + name + " twice");
+    is_set[*at] = true;
     const std::vector<double> value = parse_list(number, what);
     if (value.empty()) throw Error(ExitCode::usage, what + " " + text + ": " + name + " has no number behind the =");
-    q[index] = value[0];
-    warn_of_degrees(chain, index, number, q[index], what);
+    q[*at] = value[0];
+    warn_of_degrees(chain, *at, number, q[*at], what);
   }
   return q;
-}
-
-std::vector<std::string> entries_of(const std::string& text) {
-  std::vector<std::string> entries;
-  std::stringstream stream(text);
-  for (std::string entry; std::getline(stream, entry, ',');) entries.push_back(entry);
-  return entries;
 }
 
 }  // namespace
@@ -182,6 +188,12 @@ double parse_seconds(const std::string& text, const std::string& option) {
   } catch (const Error& error) {
     throw Error(ExitCode::usage, option + " takes seconds, like 1.2, 1.2s or 20ms: " + error.problems().front().message);
   }
+}
+
+double parse_positive_seconds(const std::string& text, const std::string& option, const std::string& example) {
+  const double seconds = parse_seconds(text, option);
+  if (!(seconds > 0)) throw Error(ExitCode::usage, option + " takes seconds above 0, like " + example + "; not '" + text + "'");
+  return seconds;
 }
 
 std::vector<double> parse_pose(const Chain& chain, const std::string& text, const std::string& what) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,8 +61,13 @@ std::vector<double> parse_list(const std::string& text, const std::string& what)
 
 // An instant or a span of the command line, s: 1.2, 1.2s, 20ms. Throws Error (usage) naming the option.
 double parse_seconds(const std::string& text, const std::string& option);
+// The same of what must be above 0; the error gives `example`.
+double parse_positive_seconds(const std::string& text, const std::string& option, const std::string& example);
 
-// A pose of the chain from "0,90deg", as many numbers as it has coordinates, or from "elbow=90deg,wrist=0.3", where joints
+// The place of q1, q2, .. or of a coordinate's name among the chain's; none where it has no such.
+std::optional<std::size_t> coordinate_of(const Chain& chain, const std::string& name);
+
+// A pose of the chain from "0,90deg", as many numbers as it has coordinates, or from "elbow=90deg,q3=0.3", where joints
 // that are not named stand at zero. Angles that can only be meant in degrees are said to be radians.
 std::vector<double> parse_pose(const Chain& chain, const std::string& text, const std::string& what);
 // The same for each text of a repeatable option.

@@ -15,8 +15,9 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
-// The program's own file; where there is no /proc, as in bare roots, as it was called.
-fs::path own_file() {
+}  // namespace
+
+fs::path program_file() {
   std::error_code code;
   const fs::path link = fs::read_symlink("/proc/self/exe", code);
   if (!code) return link;
@@ -24,11 +25,9 @@ fs::path own_file() {
   return called == nullptr ? fs::path() : fs::canonical(called, code);
 }
 
-}  // namespace
-
 std::string data_folder() {
   std::error_code code;
-  const fs::path program = own_file();
+  const fs::path program = program_file();
   if (program.empty()) return "";
   // Of an installed program, of one in its build tree, and of what is installed in libexec/chainreel.
   for (const char* way : {"../share", "share", "../../share"}) {

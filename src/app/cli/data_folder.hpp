@@ -2,10 +2,14 @@
 // installed. They are found from the program's own file, so that an installed tree can be moved.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace chainreel {
+
+// The program's own file; where there is no /proc, as in bare roots, as it was called. Empty where neither tells.
+std::filesystem::path program_file();
 
 // Holds assets/scenes and models; "" where nothing lies where it is looked for.
 std::string data_folder();

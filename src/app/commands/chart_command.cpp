@@ -65,8 +65,7 @@ Measured measure_all(PreparedScene& prepared, const std::vector<const Method*>& 
   measured.reference = end_reference(simulation);
   LadderOptions ladder;
   ladder.runs = options.runs;
-  ladder.longest_run = parse_seconds(options.longest, "--longest");
-  if (!(ladder.longest_run > 0)) throw Error(ExitCode::usage, "--longest takes seconds above 0, like 100ms; not '" + options.longest + "'");
+  ladder.longest_run = parse_positive_seconds(options.longest, "--longest", "100ms");
   const EndState& end = measured.reference.state;
   for (const Method* method : chosen) {
     measured.ladders.push_back(climb(simulation, *method, end, ladder, stop_asked));

@@ -117,27 +117,21 @@ constexpr int kPosesAlong = 6, kPointsAcross = 12;
 // Of a motion: at 10 m/s on a turn of 1 m chords of 5 cm lie 0.3 mm off the path, less than a pixel of 4 m.
 constexpr int kPathPoints = 400, kMostPathPoints = 8000, kPathPointsPerSecond = 200;
 
-// q1, q2, ... or the name of a coordinate.
-std::size_t coordinate_of(const Chain& chain, const std::string& key) {
-  const std::vector<std::string> names = position_names(chain);
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (key == names[i] || key == "q" + std::to_string(i + 1)) return i;
-  throw Error(ExitCode::usage, "--sweep " + key + ": " + chain.name + " has no such coordinate; it has q1 to q" +
-                                   std::to_string(names.size()));
-}
-
 GatheredPoses swept(const Chain& chain, const PoseSources& sources) {
   if (sources.poses.size() > 1)
     throw Error(ExitCode::usage, "--sweep starts from one --pose, not from several");
   const std::vector<double> from =
       sources.poses.empty() ? zero_configuration(chain) : parse_pose(chain, sources.poses[0], "--pose");
   const Sweep sweep = parse_sweep(sources.sweep, "--sweep");
-  const std::size_t at = coordinate_of(chain, sweep.key);
+  const std::optional<std::size_t> at = coordinate_of(chain, sweep.key);
+  if (!at)
+    throw Error(ExitCode::usage, "--sweep " + sweep.key + ": " + chain.name + " has no such coordinate; it has q1 to q" +
+                                     std::to_string(position_names(chain).size()));
   GatheredPoses gathered;
   for (const std::string& value : sweep.values) {
     std::vector<double> q = from;
     try {
-      q[at] = parse_quantity(value, {});
+      q[*at] = parse_quantity(value, {});
     } catch (const Error& error) {
       throw Error(ExitCode::usage, "--sweep " + sources.sweep + ": " + error.problems().front().message);
     }

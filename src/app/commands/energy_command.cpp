@@ -55,8 +55,7 @@ struct Settings {
 };
 
 Settings settings_of(const EnergyOptions& options, const Scene& scene) {
-  Settings settings{options.step.empty() ? 0 : parse_seconds(options.step, "--step"), options.tolerance};
-  if (!options.step.empty() && !(settings.step > 0)) throw Error(ExitCode::usage, "--step takes seconds above 0, like 10ms; not '" + options.step + "'");
+  Settings settings{options.step.empty() ? 0 : parse_positive_seconds(options.step, "--step", "10ms"), options.tolerance};
   if (settings.tolerance > 0 && settings.tolerance < kLeastTolerance)
     throw Error(ExitCode::usage, "--tolerance is below the rounding of doubles, which no step can meet: take " +
                                      format_shortest(kLeastTolerance) + " or more");
@@ -178,8 +177,7 @@ void run_energy(const EnergyOptions& options) {
   PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false, options.common.quiet);
   const Settings settings = settings_of(options, prepared.scene);
   Simulation& simulation = prepared.simulation;
-  if (!options.until.empty()) simulation.duration = parse_seconds(options.until, "--until");
-  if (!(simulation.duration > 0)) throw Error(ExitCode::usage, "--until takes seconds above 0, like 1000s; not '" + options.until + "'");
+  if (!options.until.empty()) simulation.duration = parse_positive_seconds(options.until, "--until", "1000s");
   std::string output = options.figure.output;
   if (output.empty()) output = "out/" + prepared.scene.name + "_energy.png";
   check_figure_path(output);

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <memory>
 
+#include "app/cli/data_folder.hpp"
 #include "core/error.hpp"
 
 namespace chainreel {
@@ -33,7 +34,7 @@ void run_equations_elsewhere(const EquationsOptions&) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
-  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  const std::filesystem::path folder = program_file().parent_path();
   for (const char* place : kPlaces) execv((folder / place).c_str(), pointers.data());
   throw Error(ExitCode::no_renderer, "chainreel-equations cannot be started from " + folder.string() + ": " + std::strerror(errno) +
                                          "; it is part of every build and package, install them whole");

@@ -42,6 +42,12 @@ constexpr Beginning kBeginnings[] = {{"rr", "rr_free"},       {"rrr", "rrr_torqu
                                      {"four_bar", "four_bar"}, {"pen", "pen"},               {"humanoid", "humanoid_fall"},
                                      {"compare", "euler_gains_energy"}};
 
+std::vector<std::string> names_of_beginnings() {
+  std::vector<std::string> names;
+  for (const Beginning& one : kBeginnings) names.push_back(one.name);
+  return names;
+}
+
 void replace_all(std::string& text, const std::string& mark, const std::string& by) {
   for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + by.size()))
     text.replace(at, mark.size(), by);
@@ -135,13 +141,13 @@ StarterFiles copied_files(const std::string& from, const std::string& name) {
   const auto known = std::find_if(std::begin(kBeginnings), std::end(kBeginnings), [&](const Beginning& one) { return one.name == from; });
   const std::string path = shipped_file(known != std::end(kBeginnings) ? known->scene : from);
   if (!path.ends_with(".yaml")) {
-    std::vector<std::string> names = shipped_scenes();
-    if (names.empty())
+    const std::vector<std::string> scenes = shipped_scenes();
+    if (scenes.empty())
       throw Error(ExitCode::bad_input, "the scenes that come with the program are not beside it: install it whole, or take --links");
-    for (const Beginning& one : kBeginnings) names.push_back(one.name);
-    std::vector<std::string> short_names;
-    for (const Beginning& one : kBeginnings) short_names.push_back(one.name);
-    throw Error(ExitCode::usage, "--from knows no scene '" + from + "':" + did_you_mean(from, names) + " " + joined(short_names) +
+    const std::vector<std::string> beginnings = names_of_beginnings();
+    std::vector<std::string> names = scenes;
+    names.insert(names.end(), beginnings.begin(), beginnings.end());
+    throw Error(ExitCode::usage, "--from knows no scene '" + from + "':" + did_you_mean(from, names) + " " + joined(beginnings) +
                                      ", or any that lies in " + data_folder() + "/assets/scenes");
   }
   const Scene scene = read_scene(path);
@@ -185,9 +191,8 @@ void add_init_command(CommandLine& app) {
       .one_of(words_of(names_of(LinkMass{})));
   command->add_option("--dh", options->dh, "a table (.csv) of a, alpha, d, theta in the place of --links");
   command->add_option("--convention", options->convention, "of --dh").one_of(words_of(names_of(DhConvention{})));
-  std::vector<std::string> names;
-  for (const Beginning& one : kBeginnings) names.push_back(one.name);
-  command->add_option("--from", options->from, "copy a scene that comes with the program: " + joined(names) + ", ..");
+  command->add_option("--from", options->from,
+                      "copy a scene that comes with the program: " + joined(names_of_beginnings()) + ", ..");
   add_result_options(*command, options->common);
   command->footer("Example: chainreel init my_arm --links 0.5,0.4,0.3 --masses 2,1.5,1 --damping 0.1");
   command->callback([options] { run_init(*options); });

@@ -269,8 +269,7 @@ void check_outputs(const SweepOptions& options) {
   int tables = 0, folders = 0;
   for (const std::string& output : options.outputs) {
     const std::string ending = fs::path(output).extension().string();
-    if (output == "-")
-      throw Error(ExitCode::usage, "-o -: a sweep writes into files, not to standard output: name one, like -o out/grid.csv");
+    refuse_dash(output);
     if (ending == ".csv")
       ++tables;
     else if (ending.empty() || output.ends_with('/'))

@@ -26,16 +26,7 @@ class AnnotatedRr : public ::testing::Test {
 
   Film film() {
     const FilmClock clock(2, {10, 1}, {}, pauses_of(scene.annotate, {}, {}));
-    run = {};
-    for (const double t : clock.frame_times()) {
-      const Trajectory one = test::run_of([&](double h) { return test::swing(t + h); }, 1);
-      run.nq = run.nv = 2;
-      run.t.push_back(t);
-      run.work.push_back(0);
-      run.q.insert(run.q.end(), one.q.begin(), one.q.end());
-      run.qd.insert(run.qd.end(), one.qd.begin(), one.qd.end());
-    }
-    run.end_time = run.t.back();
+    run = test::run_at(clock.frame_times(), test::swing);
     return Film(scene, {{scene, chain, run}}, run.t, fonts(), clock);
   }
 

@@ -38,17 +38,7 @@ class SlowRr : public ::testing::Test {
   SlowRr() {
     scene.title = "RR";
     scene.file = "scenes/test.yaml";
-    const std::vector<double> times = clock.frame_times();
-    run = {};
-    for (const double t : times) {
-      Trajectory one = test::run_of([&](double h) { return test::swing(t + h); }, 1);
-      run.nq = run.nv = 2;
-      run.t.push_back(t);
-      run.work.push_back(0);
-      run.q.insert(run.q.end(), one.q.begin(), one.q.end());
-      run.qd.insert(run.qd.end(), one.qd.begin(), one.qd.end());
-    }
-    run.end_time = run.t.back();
+    run = test::run_at(clock.frame_times(), test::swing);
   }
   Film film() const { return Film(scene, {{scene, chain, run}}, run.t, fonts(), clock); }
 
