@@ -7,7 +7,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "app/commands/moment.hpp"
+#include "app/works/moment.hpp"
 #include "core/json.hpp"
 #include "encode/png.hpp"
 #include "support/picture_compare.hpp"

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -91,7 +94,43 @@ TEST(House, DevWithoutAWordItKnowsPrintsItsUsage) {
   }
 }
 
+// The names between the brackets of set(NAME ..) in assets/package/public_headers.cmake.
+std::set<std::string> public_headers(const std::string& text, const std::string& part) {
+  const std::size_t begin = text.find("set(" + part + "_headers") + part.size() + 13;
+  std::istringstream names(text.substr(begin, text.find(')', begin) - begin));
+  return {std::istream_iterator<std::string>(names), {}};
+}
+
+// Those of our own that it includes.
+std::set<std::string> headers_in(const std::string& text) {
+  static const std::regex include("#include \"([^\"]+)\"");
+  std::set<std::string> names;
+  for (std::sregex_iterator it(text.begin(), text.end(), include), end; it != end; ++it) names.insert((*it)[1]);
+  return names;
+}
+
+TEST(House, PublicHeadersIncludePublicHeadersAndEigenAlone) {
+  const std::string lists = read_whole_file(kRoot / "assets/package/public_headers.cmake");
+  std::set<std::string> known;
+  for (const char* part : {"dynamics", "sim", "film"}) {
+    const std::set<std::string> own = public_headers(lists, part);
+    EXPECT_FALSE(own.empty()) << part;
+    known.insert(own.begin(), own.end());
+    for (const std::string& header : own) {
+      const std::string text = read_whole_file(kRoot / "src" / header);
+      EXPECT_THAT(headers_in(text), IsSubsetOf(known)) << header << " of chainreel::" << part;
+      EXPECT_EQ(text.find("nlohmann"), std::string::npos) << header;
+    }
+  }
+}
+
 // Negative controls of the helpers above.
+
+TEST(House, ListsOfPublicHeadersAreReadAsWritten) {
+  EXPECT_THAT(public_headers("set(sim_headers\n  a/b.hpp c/d.hpp)\nset(film_headers e.hpp)\n", "sim"),
+              UnorderedElementsAre("a/b.hpp", "c/d.hpp"));
+  EXPECT_THAT(headers_in("#include <vector>\n#include \"core/error.hpp\"\n"), UnorderedElementsAre("core/error.hpp"));
+}
 
 TEST(House, TheChecksSeeWhatTheyLookFor) {
   const TemporaryFolder tree;

@@ -112,7 +112,8 @@ const House& house() {
               {"sim", {"dynamics", "integrate", "expr"}},
               {"scene", {"sim"}},
               {"draw", {"scene", "picture"}},
-              {"app", {"draw", "render", "encode", "compare", "symbols"}}};
+              {"app", {"draw", "render", "encode", "compare", "symbols"}},
+              {"python", {"app"}}};
     h.libraries = {{"nlohmann/", {"core"}},
                    {"openssl/", {"core"}},
                    {"assimp/", {"mesh"}},
@@ -135,7 +136,8 @@ const House& house() {
                    {"EGL/", {"render"}},
                    {"cairo", {"render"}},
                    {"yaml-cpp/", {"scene"}},
-                   {"CLI/", {"app"}}};
+                   {"CLI/", {"app"}},
+                   {"pybind11/", {"python"}}};
     // "" are the files that stand in the room itself.
     h.shelves["draw"] = {{"robot", {}},        {"page", {"robot"}},     {"layers", {"page"}},
                          {"film", {"layers"}}, {"figures", {"layers"}}, {"charts", {"page"}}};
@@ -149,11 +151,12 @@ const House& house() {
                         {"gallery", {"report"}},
                         {"verify", {"report"}},
                         {"works", {"report"}},
+                        {"library", {"works"}},
                         {"commands", {"report", "works", "guide", "gallery", "verify"}},
                         {"", {"commands"}}};
     // Eigen is the language of everything below scene.
     for (const auto& [folder, below] : h.uses)
-      if (folder != "scene" && folder != "draw" && folder != "app") h.libraries["Eigen/"].insert(folder);
+      if (folder != "scene" && folder != "draw" && folder != "app" && folder != "python") h.libraries["Eigen/"].insert(folder);
     return h;
   }();
   return instance;

@@ -1,5 +1,6 @@
 #include "app/cli/data_folder.hpp"
 
+#include <dlfcn.h>
 #include <sys/auxv.h>
 
 #include <algorithm>
@@ -15,6 +16,13 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
+// The file that holds this code, where it is a library that another program has loaded.
+fs::path library_file() {
+  Dl_info info = {};
+  const bool is_known = dladdr(reinterpret_cast<const void*>(&data_folder), &info) != 0 && info.dli_fname != nullptr;
+  return is_known && info.dli_fname[0] == '/' ? fs::path(info.dli_fname) : fs::path();
+}
+
 }  // namespace
 
 fs::path program_file() {
@@ -27,14 +35,15 @@ fs::path program_file() {
 
 std::string data_folder() {
   std::error_code code;
-  const fs::path program = program_file();
-  if (program.empty()) return "";
-  // Of an installed program, of one in its build tree, and of what is installed in libexec/chainreel.
-  for (const char* way : {"../share", "share", "../../share"}) {
-    const fs::path share = (program.parent_path() / way).lexically_normal();
-    const fs::path folder = share / "chainreel";
-    if (fs::is_directory(folder / "assets/scenes", code)) return folder.string();
-  }
+  // Of an installed program, of one in its build tree, of what is installed in libexec/chainreel, or built as a library, and
+  // of what is installed in lib/python3/dist-packages/chainreel.
+  for (const fs::path& file : {library_file(), program_file()})
+    for (const char* way : {"../share", "share", "../../share", "../../../../share"}) {
+      if (file.empty()) continue;
+      const fs::path share = (file.parent_path() / way).lexically_normal();
+      const fs::path folder = share / "chainreel";
+      if (fs::is_directory(folder / "assets/scenes", code)) return folder.string();
+    }
   return "";
 }
 

@@ -216,6 +216,18 @@ void install_signal_handlers() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
+InterruptWatch::InterruptWatch() : before_{} {
+  struct sigaction action = {};
+  action.sa_handler = remember;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, &before_);
+}
+
+InterruptWatch::~InterruptWatch() {
+  sigaction(SIGINT, &before_, nullptr);
+  received = 0;
+}
+
 bool interrupted() {
   return received != 0;
 }

@@ -1,6 +1,8 @@
 // Standard output and error as this program uses them.
 #pragma once
 
+#include <csignal>
+
 #include "core/error.hpp"
 
 namespace chainreel {
@@ -27,6 +29,18 @@ bool flush_standard_output();
 
 void install_signal_handlers();
 bool interrupted();
+// For a program that has handlers of its own and calls ours: as long as this lives SIGINT is ours, and afterwards as it was,
+// with no signal received. One at a time.
+class InterruptWatch {
+ public:
+  InterruptWatch();
+  ~InterruptWatch();
+  InterruptWatch(const InterruptWatch&) = delete;
+  InterruptWatch& operator=(const InterruptWatch&) = delete;
+
+ private:
+  struct sigaction before_;
+};
 // Throws Error once a signal has come, with 128 and its number for an exit code: 129 SIGHUP, 130 SIGINT, 131 SIGQUIT,
 // 143 SIGTERM.
 void throw_if_interrupted();

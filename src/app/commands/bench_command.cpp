@@ -7,7 +7,7 @@
 
 #include "app/cli/command.hpp"
 #include "app/cli/streams.hpp"
-#include "app/commands/render_film.hpp"
+#include "app/works/render_film.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
 #include "app/report/report.hpp"

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
-#include "app/commands/render_film.hpp"
+#include "app/works/render_film.hpp"
 #include "app/film/automatic.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"

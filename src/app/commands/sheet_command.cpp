@@ -9,7 +9,7 @@
 #include "app/cli/command.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
-#include "app/commands/moment.hpp"
+#include "app/works/moment.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
 #include "app/film/target.hpp"

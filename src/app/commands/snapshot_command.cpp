@@ -10,7 +10,7 @@
 #include "app/cli/command.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
-#include "app/commands/moment.hpp"
+#include "app/works/moment.hpp"
 #include "app/film/automatic.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/film/prepared.hpp"

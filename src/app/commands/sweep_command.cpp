@@ -12,7 +12,7 @@
 
 #include "app/cli/command.hpp"
 #include "app/cli/streams.hpp"
-#include "app/commands/render_film.hpp"
+#include "app/works/render_film.hpp"
 #include "app/commands/sweep_table.hpp"
 #include "app/film/house_logo.hpp"
 #include "app/film/runs.hpp"

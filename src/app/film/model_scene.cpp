@@ -20,9 +20,8 @@ bool is_honoured(const std::string& key, const std::vector<std::string>& honoure
 
 }  // namespace
 
-ModelScene model_scene_of(const std::string& model, const std::vector<std::string>& overrides,
-                          const std::string& command, const std::vector<std::string>& honoured) {
-  ModelScene read{read_model_scene(model, overrides), {}};
+void require_honoured(const std::vector<std::string>& overrides, const std::string& model, const std::string& command,
+                      const std::vector<std::string>& honoured) {
   std::vector<Problem> problems;
   for (const std::string& text : overrides) {
     if (is_honoured(text.substr(0, text.find('=')), honoured)) continue;
@@ -32,9 +31,20 @@ ModelScene model_scene_of(const std::string& model, const std::vector<std::strin
                         {}});
   }
   if (!problems.empty()) throw Error(ExitCode::usage, std::move(problems));
+}
+
+ModelScene model_scene_of(Scene scene) {
+  ModelScene read{std::move(scene), {}};
   read.options = model_options_of(read.scene);
   read.options.end_effector = read.scene.end_effector;
   return read;
+}
+
+ModelScene model_scene_of(const std::string& model, const std::vector<std::string>& overrides,
+                          const std::string& command, const std::vector<std::string>& honoured) {
+  Scene scene = read_model_scene(model, overrides);
+  require_honoured(overrides, model, command, honoured);
+  return model_scene_of(std::move(scene));
 }
 
 void set_look(PoseFigureOptions& figure, const ModelScene& model, const Chain& chain) {

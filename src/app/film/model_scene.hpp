@@ -23,6 +23,12 @@ struct ModelScene {
 ModelScene model_scene_of(const std::string& model, const std::vector<std::string>& overrides,
                           const std::string& command, const std::vector<std::string>& honoured);
 
+// The same of a scene that has been read.
+ModelScene model_scene_of(Scene scene);
+// Throws Error (usage) of overrides that mean nothing to `command` of a model.
+void require_honoured(const std::vector<std::string>& overrides, const std::string& model, const std::string& command,
+                      const std::vector<std::string>& honoured);
+
 // What the picture keys say of a figure of `chain`, which was read from the model. Throws Error of a mesh that cannot
 // be read.
 void set_look(PoseFigureOptions& figure, const ModelScene& model, const Chain& chain);

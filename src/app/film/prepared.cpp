@@ -58,6 +58,16 @@ std::vector<PreparedScene> prepare_panels(const std::vector<Scene>& scenes, bool
   return panels;
 }
 
+void drive(Scene& scene, const OwnTorque& torque) {
+  if (!scene.torque.empty() || scene.control)
+    throw Error(ExitCode::usage, "the scene has a torque of its own, and is given " + torque.words + ": leave one of them out",
+                scene.place_of("torque"));
+  Control control;
+  control.function = torque;
+  scene.control = control;
+  for (Scene& panel : scene.compare) drive(panel, torque);
+}
+
 void load_shapes(PreparedFilm& film) {
   MeshShelf shelf;
   for (PreparedScene& panel : film.panels) {
@@ -81,7 +91,12 @@ void check_words(const PreparedFilm& film) {
 }  // namespace
 
 PreparedFilm load_film(const std::string& path, const std::vector<std::string>& overrides, bool meshes, bool quiet) {
-  PreparedFilm film{read_scene(path, overrides), {}};
+  return film_of(read_scene(path, overrides), meshes, quiet);
+}
+
+PreparedFilm film_of(Scene scene, bool meshes, bool quiet, const std::optional<OwnTorque>& torque) {
+  PreparedFilm film{std::move(scene), {}};
+  if (torque) drive(film.scene, *torque);
   const std::vector<std::string> pale = low_contrasts(film.scene);
   Scene& noticed = film.scene.compare.empty() ? film.scene : film.scene.compare.front();
   noticed.notices.insert(noticed.notices.end(), pale.begin(), pale.end());

@@ -28,6 +28,7 @@ std::string vector_text(const std::vector<double>& values) {
 }
 
 std::string torque_words(const Scene& scene) {
+  if (scene.control && scene.control->function) return "torques of " + scene.control->function->words;
   if (scene.control) return "a control of all joints";
   std::string text;
   bool acts = false;

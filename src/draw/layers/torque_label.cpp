@@ -85,6 +85,7 @@ std::string control_notation(const Control& control) {
   add(!control.csv.empty() || !control.inverse_of.empty(), "tau(t)");
   add(control.pd.has_value(), "PD");
   add(control.computed_torque.has_value(), "computed torque");
+  add(control.function.has_value(), "tau(t, q, qd)");
   return sum.empty() ? "0" : sum;
 }
 

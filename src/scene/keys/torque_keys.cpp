@@ -81,6 +81,11 @@ Control read_control(Fields& fields, const YAML::Node& node, const std::string& 
   control.pd = read_feedback(inner, "pd");
   control.computed_torque = read_feedback(inner, "computed_torque");
   inner.read("gravity_compensation", control.gravity_compensation);
+  // Films of such a run remember what it was called.
+  if (const YAML::Node function = inner.find("function"); function.IsDefined())
+    fields.problems().add("the torque was " + (function.IsScalar() ? function.Scalar() : std::string("a function")) +
+                              ", which no file holds: run the program that has it, or write an expression or a table (csv)",
+                          fields.place_of(function, key));
   inner.finish();
   return control;
 }
@@ -113,6 +118,7 @@ void emit_control(YAML::Emitter& out, const Control& control) {
   emit_feedback(out, "pd", control.pd);
   emit_feedback(out, "computed_torque", control.computed_torque);
   if (control.gravity_compensation) out << YAML::Key << "gravity_compensation" << YAML::Value << true;
+  if (control.function) out << YAML::Key << "function" << YAML::Value << control.function->words;
   out << YAML::EndMap;
 }
 

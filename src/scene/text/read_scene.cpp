@@ -74,6 +74,10 @@ Scene read_scene(const std::string& path, const std::vector<std::string>& overri
   return read_either(load_yaml(path, parse_overrides(overrides)));
 }
 
+Scene read_scene_text(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {
+  return read_either(yaml_document_of(text, file, parse_overrides(overrides)));
+}
+
 SceneFile::SceneFile(const std::string& path) : path_(path) {}
 
 SceneFile::~SceneFile() = default;

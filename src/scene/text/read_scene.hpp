@@ -12,6 +12,9 @@ namespace chainreel {
 // `overrides` are texts `key=value` of the command line. Throws Error with every problem of the file.
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides = {});
 
+// The same of a text, YAML or JSON: `file` is what errors call it, and its paths start in the folder of that name.
+Scene read_scene_text(const std::string& text, const std::string& file, const std::vector<std::string>& overrides = {});
+
 struct YamlDocument;
 
 // A scene file that is read again and again with other values of the same keys, as for the cells of a map: its text is

@@ -273,6 +273,7 @@ std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& contr
                                                 gains(ct->kp, "kp"), gains(ct->kd, "kd")),
                ct->trajectory, ct->outside, chain.nv));
   if (control.gravity_compensation) parts.push_back(std::make_unique<GravityCompensation>());
+  if (control.function) parts.push_back(make_function_torque(*control.function));
   return std::make_unique<SumOfTorques>(std::move(parts), chain.nv);
 }
 

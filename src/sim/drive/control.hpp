@@ -8,6 +8,7 @@
 
 #include "core/names.hpp"
 #include "sim/drive/reference.hpp"
+#include "sim/drive/torque_function.hpp"
 
 namespace chainreel {
 
@@ -36,6 +37,7 @@ struct Control {
   std::optional<Feedback> pd;               // kp (q_ref - q) + kd (qd_ref - qd)
   std::optional<Feedback> computed_torque;  // M (qdd_ref + kd (qd_ref - qd) + kp (q_ref - q)) + nle + tau_f
   bool gravity_compensation = false;        // tau_g(q)
+  std::optional<OwnTorque> function{};      // of the calling program, which no file can hold
   Place place;
 };
 

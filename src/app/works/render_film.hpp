@@ -35,9 +35,9 @@ struct RenderResult {
   Json audit;
 };
 
-// Nothing is begun before all files can be written; nothing bears its name before all are whole. A run that
+// `done`: the film's runs at its frames, where its caller has them. Nothing is begun before all files can be written; nothing bears its name before all are whole. A run that
 // failed leaves films and tables as far as they came under a .partial name, and throws. A part of a film bears what it is
 // in its name, and holds what stands beside the whole; a share that has no frames leaves no file.
-RenderResult render_film(const PreparedFilm& film, const RenderJob& job);
+RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const Runs* done = nullptr);
 
 }  // namespace chainreel

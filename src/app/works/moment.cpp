@@ -1,4 +1,4 @@
-#include "app/commands/moment.hpp"
+#include "app/works/moment.hpp"
 
 #include <algorithm>
 #include <optional>

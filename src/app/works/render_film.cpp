@@ -1,10 +1,11 @@
-#include "app/commands/render_film.hpp"
+#include "app/works/render_film.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include "app/report/alt_text.hpp"
@@ -166,7 +167,7 @@ std::string part_text(const FilmReport& report, const ClipMemory& memory, FrameR
 
 }  // namespace
 
-RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
+RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const Runs* done) {
   const Scene& scene = film.scene;
   const bool is_part = job.part.has_value();
   std::vector<Output> outputs = open_outputs(job.targets, film.panels.size(), job.overwrite, is_part);
@@ -175,7 +176,8 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job) {
 
   RenderResult result;
   StageClock total, clock;
-  const Runs runs(film);
+  std::optional<Runs> own;
+  const Runs& runs = done != nullptr ? *done : own.emplace(film);
   result.times.simulate = clock.lap();
   if (std::any_of(runs.list().begin(), runs.list().end(), [](const Trajectory& run) { return run.size() == 0; }))
     runs.require_expected_ends();
