@@ -25,6 +25,11 @@ install(FILES ${manual}/_chainreel DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vend
 install(FILES ${manual}/chainreel.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT runtime)
 
 include(assets/package/library.cmake)
+if(CHAINREEL_PYTHON)
+  set(python_package lib/python3/dist-packages/chainreel)
+  install(TARGETS chainreel_python LIBRARY DESTINATION ${python_package} COMPONENT python)
+  install(FILES ${CHAINREEL_PYTHON_FILES} DESTINATION ${python_package} COMPONENT python)
+endif()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME chainreel)
@@ -37,9 +42,12 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_STRIP_FILES ON)
-# A package each: the program with its scenes, models and guide; what other programs are built with.
+# A package each: the program with its scenes, models and guide; what other programs are built with; the Python module.
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL runtime dev)
+if(CHAINREEL_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME chainreel)
 set(CPACK_DEBIAN_RUNTIME_FILE_NAME chainreel.deb)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
@@ -50,7 +58,13 @@ set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 # Who links with the film's library opens what the program opens by name.
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS chainreel)
 set(CPACK_COMPONENT_DEV_DESCRIPTION "Libraries, headers and CMake package of chainreel: robot dynamics, runs and films.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-chainreel)
+set(CPACK_DEBIAN_PYTHON_FILE_NAME python3-chainreel.deb)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Python module of chainreel: robot dynamics, runs as numpy arrays, films.")
 set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_SOURCE_DIR}/assets/package/depends.cmake)
 set(CPACK_CHAINREEL_BINARIES "${CMAKE_BINARY_DIR}/chainreel;${CMAKE_BINARY_DIR}/chainreel-equations;${CMAKE_BINARY_DIR}/libchainreel_opened.so")
+set(CPACK_CHAINREEL_MODULE "${CHAINREEL_PYTHON_MODULE}") # "": none
+set(CPACK_CHAINREEL_PYTHON "${CHAINREEL_PYTHON_VERSION}")
 set(CPACK_CHAINREEL_FOLDER ${CMAKE_BINARY_DIR}/package)
 include(CPack)

@@ -64,6 +64,15 @@ inside fish -c 'complete -C "chainreel render --theme d"' | grep -q '^dark' || d
 inside man --warnings -E UTF-8 -l -Tutf8 -Z /usr/share/man/man1/chainreel.1 >/dev/null 2>"$folder/log"
 [[ ! -s $folder/log ]] || die "the manual page has faults: $(cat "$folder/log")"
 
+# The Python module, where its package was made.
+if [[ -f ${package%/*}/python3-chainreel.deb ]]; then
+  cp "${package%/*}/python3-chainreel.deb" "$root/"
+  inside env DEBIAN_FRONTEND=noninteractive apt-get -q -y install --no-install-recommends ./python3-chainreel.deb >"$folder/log" 2>&1 ||
+    die "apt refuses the Python package: $(tail -5 "$folder/log")"
+  inside sh -c "cd /films && python3 -B -c 'import chainreel as cr
+assert cr.Scene(\"rr_free\", duration=0.5).run().film(\"python.mp4\") == [\"python.mp4\"]'" || die "the Python module does not run"
+fi
+
 # Taken away, nothing of it stays.
 inside env DEBIAN_FRONTEND=noninteractive apt-get -q -y purge chainreel >/dev/null 2>&1
 [[ -z $(find "$root/usr" -name '*chainreel*' -print -quit) ]] || die "something stays behind when the package is taken away"

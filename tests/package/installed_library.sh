@@ -77,6 +77,18 @@ printf 'target_include_directories(headers PRIVATE .)\nset_target_properties(hea
 compile "$folder/headers"
 "$folder/headers.build/headers" || die "headers: $?"
 
+# The Python module, where it was built, finds what is installed beside it.
+module=$prefix/lib/python3/dist-packages
+if [[ -d $module ]]; then
+  (cd "$folder" && PYTHONPATH=$module /usr/bin/python3 -B -c '
+import chainreel as cr
+assert cr.__file__.startswith("'"$module"'"), cr.__file__
+assert cr.load("rr.urdf").nv == 2
+assert cr.Scene("rr_free", duration=0.1).run().film("python.mp4") == ["python.mp4"]') || die "the Python module: $?"
+else
+  say "without the Python module, which was not built"
+fi
+
 # What is not there is said.
 project other "dynamics other" dynamics "$folder/headers/main.cpp"
 if cmake -S "$folder/other" -B "$folder/other.build" -DCMAKE_PREFIX_PATH="$prefix" >"$folder/log" 2>&1; then die "there is no component 'other'"; fi

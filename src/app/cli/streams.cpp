@@ -216,7 +216,12 @@ void install_signal_handlers() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
+namespace {
+int watches = 0;
+}
+
 InterruptWatch::InterruptWatch() : before_{} {
+  ++watches;
   struct sigaction action = {};
   action.sa_handler = remember;
   sigemptyset(&action.sa_mask);
@@ -225,7 +230,7 @@ InterruptWatch::InterruptWatch() : before_{} {
 
 InterruptWatch::~InterruptWatch() {
   sigaction(SIGINT, &before_, nullptr);
-  received = 0;
+  if (--watches == 0) received = 0;  // who watches around this one is yet to see it
 }
 
 bool interrupted() {

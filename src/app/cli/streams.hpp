@@ -30,7 +30,7 @@ bool flush_standard_output();
 void install_signal_handlers();
 bool interrupted();
 // For a program that has handlers of its own and calls ours: as long as this lives SIGINT is ours, and afterwards as it was,
-// with no signal received. One at a time.
+// with no signal received. Of one thread, where one may live within another.
 class InterruptWatch {
  public:
   InterruptWatch();

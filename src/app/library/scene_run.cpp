@@ -187,6 +187,7 @@ std::vector<std::string> SceneRun::warnings() const {
 FilmFiles SceneRun::film(const FilmRequest& request) const {
   const std::lock_guard guard(state_->lock);
   state_->require_within(request.at);
+  if (request.jobs < 0) throw Error(ExitCode::usage, "jobs are threads, 0 for all processors, not " + std::to_string(request.jobs));
   check_outputs(request.files, 1);
   RenderJob job;
   job.targets = targets_of(request.files, 1, state_->film.scene);

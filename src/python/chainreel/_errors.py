@@ -1,0 +1,55 @@
+"""What goes wrong, as Python says it."""
+
+from __future__ import annotations
+
+from typing import List, NamedTuple, Optional
+
+
+class Problem(NamedTuple):
+    message: str  # what is wrong and what to do about it
+    file: str  # "" where it is in no file
+    line: int  # from 1; 0 where unknown
+    column: int
+
+
+class Error(Exception):
+    """What the command line would end with.
+
+    code: its exit code: 2 usage, 3 bad input, 4 no renderer or codec, 5 numerical failure, 6 file, 7 limit exceeded.
+    problems: every problem that was found, a Problem each. file, line: of the first one.
+    """
+
+    def __init__(self, code: int, problems: List[Problem]):
+        self.code = code
+        self.problems = [Problem(*problem) for problem in problems]
+        super().__init__("\n".join(_text(problem) for problem in self.problems))
+
+    def __reduce__(self):
+        return (type(self), (self.code, self.problems))
+
+    @property
+    def file(self) -> str:
+        """Of the first problem; "" where it is in no file."""
+        return self.problems[0].file if self.problems else ""
+
+    @property
+    def line(self) -> int:
+        """Of the first problem, from 1; 0 where unknown."""
+        return self.problems[0].line if self.problems else 0
+
+    def without_lines_of(self, file: str) -> "Error":
+        """The same, where `file` is a text that its caller never saw."""
+        return Error(self.code, [problem._replace(line=0, column=0) if problem.file == file else problem
+                                 for problem in self.problems])
+
+
+class RunWarning(UserWarning):
+    """What speaks against a run that came to its end, or was changed of its scene."""
+
+
+def _text(problem: Problem) -> str:
+    place: Optional[str] = problem.file
+    for number in (problem.line, problem.column):
+        if number:
+            place = f"{place}:{number}"
+    return f"{place}: {problem.message}" if place else problem.message

@@ -1,0 +1,45 @@
+// import chainreel._native
+
+#include <exception>
+
+#include "app/report/version.hpp"
+#include "core/error.hpp"
+#include "python/binding.hpp"
+
+namespace py = pybind11;
+
+namespace chainreel {
+namespace {
+
+// As chainreel.Error, with each problem's place.
+void raise(const Error& error) {
+  if (error.code() == ExitCode::interrupted) {
+    PyErr_SetNone(PyExc_KeyboardInterrupt);
+    return;
+  }
+  py::list problems;
+  for (const Problem& problem : error.problems())
+    problems.append(
+        py::make_tuple(problem.message, problem.place.file, problem.place.line, problem.place.column));
+  const py::object type = py::module_::import("chainreel._errors").attr("Error");
+  const py::object raised = type(int(error.code()), problems);
+  PyErr_SetObject(type.ptr(), raised.ptr());
+}
+
+}  // namespace
+}  // namespace chainreel
+
+PYBIND11_MODULE(_native, module) {
+  module.doc() = "What chainreel's Python package calls; use chainreel itself.";
+  module.attr("version") = chainreel::program_version();
+  module.attr("revision") = chainreel::program_revision();
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const chainreel::Error& error) {
+      chainreel::raise(error);
+    }
+  });
+  chainreel::bind_model(module);
+  chainreel::bind_run(module);
+}

@@ -1,0 +1,146 @@
+"""Models: the terms of the equation of motion."""
+
+import ast
+import inspect
+import os
+import pickle
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import chainreel as cr
+from chainreel import _native
+from support import FolderTest, program_json
+
+DAMPED = """<robot name="damped">
+  <link name="base"/>
+  <link name="rod"><inertial><origin xyz="0 -0.5 0"/><mass value="2"/>
+    <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="hinge" type="continuous"><parent link="base"/><child link="rod"/><axis xyz="0 0 1"/>
+    <dynamics damping="0.5" friction="0.25"/></joint>
+</robot>"""
+
+
+class Models(FolderTest):
+    def test_numbers_are_those_of_the_program(self):
+        for name, q, qd in (("rr.urdf", [0.3, 1.2], [1, -2]), ("rrr.urdf", [0.1, 0.2, -0.7], [3, 2, 1]),
+                            ("pp.urdf", [0.5, 0.25], [1, 2])):
+            model = cr.load("models/" + name)
+            tau = [0.5 * k for k in range(1, model.nv + 1)]
+            words = {"--q": q, "--qd": qd, "--tau": tau}
+            numbers = program_json("dynamics", "models/" + name,
+                                   *[word for key, values in words.items() for word in (key, ",".join(map(str, values)))])
+            for ours, theirs in ((model.M(q), "M"), (model.C(q, qd), "C"), (model.nle(q, qd), "nle"), (model.gravity(q), "tau_g"),
+                                 (model.friction(qd), "tau_f"), (model.forward(q, qd, tau), "qdd"), (model.jacobian(q), "J"),
+                                 (model.Lambda_inv(q), "Lambda_inv"), (model.Lambda(q), "Lambda"), (model.position(q), "x"),
+                                 (np.array(model.energy(q, qd)), None)):
+                expected = numbers[theirs] if theirs else [numbers["kinetic"], numbers["potential"]]
+                np.testing.assert_array_equal(ours.ravel(), np.ravel(expected), err_msg=f"{name} {theirs}")
+
+    def test_two_point_masses_have_the_lectures_matrices(self):
+        model = cr.load("rr.urdf")  # m = 1 kg at the end of each link of 1 m
+        q1, q2 = 0.3, 1.2
+        c2, s2 = np.cos(q2), np.sin(q2)
+        # Some ten operations of order one.
+        near = {"rtol": 0, "atol": 1e-14}
+        np.testing.assert_allclose(model.M([q1, q2]), [[3 + 2 * c2, 1 + c2], [1 + c2, 1]], **near)
+        np.testing.assert_allclose(model.C([q1, q2], [1, 2]) @ [1, 2], [-s2 * (2 * 1 * 2 + 2 * 2), s2], **near)
+        np.testing.assert_allclose(model.gravity([q1, q2]), [9.81 * (2 * np.cos(q1) + np.cos(q1 + q2)), 9.81 * np.cos(q1 + q2)],
+                                   rtol=0, atol=1e-13)
+        J = model.jacobian([q1, q2])
+        np.testing.assert_allclose(J, [[-np.sin(q1) - np.sin(q1 + q2), -np.sin(q1 + q2)],
+                                       [np.cos(q1) + np.cos(q1 + q2), np.cos(q1 + q2)]], **near)
+        np.testing.assert_allclose(model.Lambda([q1, q2]), np.linalg.inv(J @ np.linalg.inv(model.M([q1, q2])) @ J.T),
+                                   rtol=1e-12)
+
+    def test_inverse_dynamics_undo_forward_dynamics_with_friction_too(self):
+        model = cr.load(self.write("damped.urdf", DAMPED), gravity=[0, -9.81, 0])
+        np.testing.assert_allclose(model.friction([2]), [0.5 * 2 + 0.25])
+        np.testing.assert_allclose(model.forward([0.4], [2], model.inverse([0.4], [2], [3])), [3], rtol=1e-14)
+        self.assertEqual(cr.load(self.path("damped.urdf"), friction=False).friction([2])[0], 0)
+
+    def test_a_chain_of_numbers_needs_no_file(self):
+        model = cr.load(links=[0.5, 0.4, 0.3], masses=[2, 1.5, 1], joints="RRR", shape="point")
+        self.assertEqual((model.nq, model.nv), (3, 3))
+        np.testing.assert_allclose(model.M([0, 0, 0])[2, 2], 1 * 0.3**2, rtol=1e-12)
+        with self.assertRaises(TypeError):
+            cr.load()
+        with self.assertRaises(TypeError):
+            cr.load("rr.urdf", links=[1])
+        with self.assertRaises(cr.Error) as caught:
+            cr.load(links=[-1])
+        self.assertEqual((caught.exception.code, caught.exception.line), (3, 0))
+
+    def test_arrays_are_copies(self):
+        model = cr.load("rr.urdf")
+        M = model.M([0, 0])
+        before = M.copy()
+        model.M([0, 2])
+        np.testing.assert_array_equal(M, before)
+        M[0, 0] = 7
+        self.assertNotEqual(model.M([0, 0])[0, 0], 7)
+
+    def test_what_is_no_state_is_refused(self):
+        model = cr.load("rr.urdf")
+        for q in ([1], [1, 2, 3], [[1, 2]], [np.nan, 0], [np.inf, 0], 3):
+            with self.assertRaises(cr.Error) as caught:
+                model.M(q)
+            self.assertEqual(caught.exception.code, 2, q)
+        for q in ("ab", None, {}, [None, 1]):
+            with self.assertRaises((TypeError, cr.Error), msg=repr(q)):
+                model.M(q)
+        with self.assertRaisesRegex(cr.Error, "did you mean 'gripper'"):
+            model.jacobian([0, 0], "griper")
+        with self.assertRaisesRegex(cr.Error, "none of linear, full"):
+            model.jacobian([0, 0], task="both")
+        with self.assertRaisesRegex(cr.Error, "singular"):
+            model.Lambda([0, 0])
+
+    def test_errors_name_file_and_line(self):
+        path = self.write("broken.urdf", DAMPED.replace('<mass value="2"/>', '<mass value="heavy"/>'))
+        with self.assertRaises(cr.Error) as caught:
+            cr.load(path)
+        error = caught.exception
+        self.assertEqual((error.code, error.file, error.line), (3, path, 3))
+        self.assertIn(f"{path}:3", str(error))
+        again = pickle.loads(pickle.dumps(error))
+        self.assertEqual((str(again), again.code, again.problems), (str(error), error.code, error.problems))
+        with self.assertRaisesRegex(cr.Error, "means nothing to `load`"):
+            cr.load("rr.urdf", duration=3)
+
+    def test_an_ellipse_shows_itself(self):
+        ellipse = cr.load("rr.urdf").ellipse([0.3, 1.2])
+        self.assertTrue(ellipse._repr_svg_().lstrip().startswith("<"))
+        self.assertIn("</svg>", ellipse.svg)
+        self.assertLess(ellipse.mobility[0], ellipse.mobility[1])
+        ellipse.save(self.path("e.svg"))
+        with self.assertRaises(FileExistsError):
+            ellipse.save(self.path("e.svg"))
+        with self.assertRaisesRegex(cr.Error, "none of mass, energy, belt"):
+            cr.load("rr.urdf").ellipse([0, 1], "weight")
+
+    def test_all_that_is_public_says_what_it_is(self):
+        for kind in (cr.Model, cr.Ellipse, cr.Scene, cr.Run, cr.Panel, cr.Error):
+            self.assertTrue(inspect.getdoc(kind), kind)
+            for name, value in vars(kind).items():
+                if not name.startswith("_") and (callable(value) or isinstance(value, property)):
+                    if (kind, name) != (cr.Error, "with_traceback"):
+                        self.assertTrue(inspect.getdoc(value), f"{kind.__name__}.{name}")
+
+    def test_the_stub_names_what_the_module_has(self):
+        stub = Path("src/python/chainreel/_native.pyi").read_text(encoding="utf-8")
+        told = {}
+        for item in ast.parse(stub).body:
+            if isinstance(item, ast.ClassDef):
+                told[item.name] = {part.name for part in item.body if isinstance(part, ast.FunctionDef)} - {"__init__"}
+        for name, parts in told.items():
+            there = {part for part in vars(getattr(_native, name)) if not part.startswith("_")}
+            self.assertEqual(parts, there, name)
+        classes = {name for name, value in vars(_native).items() if inspect.isclass(value)}
+        self.assertEqual(set(told), classes)
+        self.assertTrue(os.path.exists(os.path.join(os.path.dirname(cr.__file__), "py.typed")))
+
+
+if __name__ == "__main__":
+    unittest.main()

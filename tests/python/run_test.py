@@ -1,0 +1,200 @@
+"""Runs: their numbers, whose memory they are, torques of Python, what goes wrong."""
+
+import gc
+import os
+import signal
+import threading
+import time
+import unittest
+import warnings
+
+import numpy as np
+
+import chainreel as cr
+from support import FolderTest, program, program_json
+
+RR = os.path.abspath("models/rr.urdf")
+FALL = {"model": RR, "gravity": [0, -9.81, 0], "start": {"q": [0.3, 1]}, "duration": 0.5, "method": "rk4", "step": 0.001}
+
+
+class Runs(FolderTest):
+    def test_states_are_those_that_simulate_writes(self):
+        for scene in ("rr_free", "rr_torque", "rrr_torque"):
+            file = f"assets/scenes/{scene}.yaml"
+            report = program_json("simulate", file, "--set", "duration=1", "-o", self.path(scene + ".csv"))
+            table = np.loadtxt(self.path(scene + ".csv"), delimiter=",", skiprows=1)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", cr.RunWarning)
+                run = cr.Scene(file, duration=1).run()
+            np.testing.assert_array_equal(np.column_stack([run.t, run.q, run.qd]), table)
+            ours = run.report
+            self.assertEqual({key: ours[key] for key in ("trajectory_sha256", "method", "energy_start", "audit_error")},
+                             {key: report[key] for key in ("trajectory_sha256", "method", "energy_start", "audit_error")})
+
+    def test_a_dict_is_a_scene(self):
+        text = "\n".join(f"{key}: {value}" for key, value in
+                         {**FALL, "start": "{q: [0.3, 1]}", "torque": "[sin(t), 0]"}.items())
+        by_file = cr.Scene(self.write("scene.yaml", text)).run()
+        by_dict = cr.Scene({**FALL, "start": {"q": np.array([0.3, 1])}, "torque": ["sin(t)", 0]}).run()
+        np.testing.assert_array_equal(by_file.q, by_dict.q)
+        by_keys = cr.Scene(FALL, torque=["sin(t)", 0], set={"video.fps": 30}).run()
+        np.testing.assert_array_equal(by_keys.q, by_dict.q[::2])
+
+    def test_energy_is_what_the_model_says(self):
+        run = cr.Scene({**FALL, "torque": ["sin(t)", "-qd2"]}).run()
+        model = cr.load(RR, gravity=[0, -9.81, 0])
+        np.testing.assert_array_equal([sum(model.energy(q, qd)) for q, qd in zip(run.q, run.qd)], run.energy)
+        np.testing.assert_array_equal(run.kinetic + run.potential, run.energy)
+        # The C library's sine and ours are each right to half a unit in the last place.
+        np.testing.assert_allclose(run.tau, np.column_stack([np.sin(run.t), -run.qd[:, 1]]), rtol=0, atol=1e-15)
+        np.testing.assert_allclose(run.energy_error, run.energy - run.energy[0] - run.work, rtol=0, atol=1e-12)
+
+    def test_views_outlive_the_run_and_cannot_be_written(self):
+        run = cr.Scene(FALL).run()
+        views = [run.t, run.q, run.qd, run.tau, run.energy, run.work, run.kinetic, run.potential, run.energy_error]
+        self.assertTrue(np.shares_memory(run.q, views[1]))
+        self.assertTrue(np.shares_memory(run.tau, views[3]))
+        for view in views:
+            self.assertFalse(view.flags.owndata)
+            with self.assertRaises(ValueError):
+                view[0] = 1
+            with self.assertRaises(ValueError):
+                view.setflags(write=True)
+        copies = [view.copy() for view in views]
+        del run, view
+        gc.collect()
+        others = [cr.Scene(FALL, step=0.002).run() for _ in range(4)]  # would take the memory that was given back
+        for view, copy in zip(views, copies):
+            np.testing.assert_array_equal(view, copy)
+        del others
+
+    def test_instants_of_ones_own(self):
+        times = np.linspace(0, 0.5, 7)
+        run = cr.Scene(FALL).run(times)
+        np.testing.assert_array_equal(run.t, times)
+        for bad in ([0.2, 0.1], [0, 9], [np.nan]):
+            with self.assertRaisesRegex(cr.Error, "must rise"):
+                cr.Scene(FALL).run(bad)
+        with self.assertRaises(ValueError):
+            cr.Scene(FALL).run([])
+
+    def test_a_comparison_has_panels(self):
+        run = cr.Scene({**FALL, "compare": [{"method": "rk4"}, {"method": "semi_implicit_euler"}]}).run()
+        self.assertEqual([panel.report["method"] for panel in run.panels], ["rk4", "semi_implicit_euler"])
+        self.assertFalse(np.array_equal(run.panels[0].q, run.panels[1].q))
+        for name in ("q", "energy", "report", "title", "events", "status"):
+            with self.assertRaisesRegex(cr.Error, r"take those of run.panels"):
+                getattr(run, name)
+        repr(run)
+
+    def test_events_have_names_and_instants(self):
+        run = cr.Scene({**FALL, "events": [{"when": "q1", "name": "level"}]}).run()
+        self.assertTrue(run.events)
+        name, t = run.events[0]
+        self.assertEqual(name, "level")
+        # Between the two samples where q1 changes its sign.
+        before = np.searchsorted(run.t, t) - 1
+        self.assertLess(run.q[before, 0] * run.q[before + 1, 0], 0)
+
+    def test_a_python_torque_is_its_expression(self):
+        def push(t, q, qd):
+            return [2 * t, -3 * qd[1]]
+
+        run = cr.Scene(FALL, torque=push).run()
+        np.testing.assert_array_equal(run.q, cr.Scene(FALL, torque=["2 * t", "-3 * qd2"]).run().q)
+        self.assertIn("the Python function push (run_test.py:", run.scene)
+        with self.assertRaisesRegex(cr.Error, "which no file holds"):
+            cr.Scene(self.write("again.yaml", run.scene)).run()
+        with self.assertRaisesRegex(cr.Error, "torque of its own"):
+            cr.Scene({**FALL, "torque": [1, 1]}, torque=push).run()
+        kept = []
+        cr.Scene(FALL, torque=lambda t, q, qd: kept.append(q) or [0, 0]).run()
+        self.assertFalse(np.array_equal(kept[0], kept[-1]))  # copies: they may be kept
+
+    def test_what_a_torque_raises_is_raised(self):
+        class Own(Exception):
+            pass
+
+        def fail(t, q, qd):
+            if t > 0.1:
+                raise Own("at a tenth")
+            return [0, 0]
+
+        for method in ({}, {"method": "auto", "step": None}):
+            with self.assertRaisesRegex(Own, "at a tenth"):
+                cr.Scene(FALL, torque=fail, **method).run()
+        for bad, kind in ((lambda t, q, qd: [1], ValueError), (lambda t, q, qd: [[1, 2]], ValueError),
+                          (lambda t, q, qd: "ab", TypeError), (lambda t, q, qd: None, (TypeError, ValueError, cr.Error)),
+                          (lambda: [0, 0], TypeError), (lambda t, q, qd: [float("nan"), 0], cr.Error)):
+            with self.assertRaises(kind):
+                cr.Scene(FALL, torque=bad).run()
+
+    def test_errors_name_file_and_line(self):
+        path = self.write("scene.yaml", f"model: {RR}\nduration: 1\nmethod: rk4\nstep: -1\nplott: 1\n")
+        with self.assertRaises(cr.Error) as caught:
+            cr.Scene(path).run()
+        error = caught.exception
+        self.assertEqual((error.code, error.file, error.line), (3, path, 4))
+        self.assertEqual([problem.line for problem in error.problems], [4, 5])
+        with self.assertRaises(cr.Error) as caught:  # a text that its caller never saw has no lines
+            cr.Scene({**FALL, "methd": 1}).run()
+        self.assertEqual(caught.exception.line, 0)
+        self.assertIn("did you mean 'method'", str(caught.exception))
+        for bad in ({"duration": float("nan")}, {"duration": float("inf")}):
+            with self.assertRaises(ValueError):
+                cr.Scene({**FALL, **bad})
+        with self.assertRaises(TypeError):
+            cr.Scene({**FALL, "title": object()})
+        with self.assertRaisesRegex(cr.Error, "no such file"):
+            cr.Scene("nowhere.yaml").run()
+
+    def test_what_speaks_against_a_run_is_a_warning(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            cr.Scene("rr_free", duration=10).run()
+        self.assertTrue(any(issubclass(one.category, cr.RunWarning) and "energy is off" in str(one.message) for one in caught))
+        with self.assertRaises(cr.Error) as failed:
+            cr.Scene({**FALL, "duration": 100, "method": "explicit_euler", "step": 0.2}).run()
+        self.assertEqual(failed.exception.code, 5)
+
+    def test_other_threads_go_on_and_ctrl_c_ends_it(self):
+        count, ended = [0], threading.Event()
+
+        def others():
+            while not ended.is_set():
+                count[0] += 1
+                time.sleep(0.001)
+            os.kill(os.getpid(), signal.SIGINT)
+
+        thread = threading.Thread(target=others)
+        timer = threading.Timer(0.3, ended.set)
+        thread.start()
+        timer.start()
+        counted = count[0]
+        long = {**FALL, "duration": 3000, "step": 0.0001}  # ten seconds and more
+        with self.assertRaises(KeyboardInterrupt):
+            cr.Scene(long).run()
+        thread.join()
+        self.assertGreater(count[0], counted + 10)
+        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+        cr.Scene(FALL).run()  # the signal is forgotten
+        self.assertIsNotNone(program("doctor"))
+
+    def test_runs_of_several_threads_do_not_meet(self):
+        expected = cr.Scene(FALL).run().q.copy()
+        results = [None] * 4
+
+        def work(i):
+            results[i] = cr.Scene(FALL, torque=lambda t, q, qd: [0.0, 0.0]).run().q
+
+        threads = [threading.Thread(target=work, args=(i,)) for i in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for q in results:
+            np.testing.assert_array_equal(q, expected)
+
+
+if __name__ == "__main__":
+    unittest.main()
