@@ -2,6 +2,7 @@
 
 #include <exception>
 
+#include "app/cli/data_folder.hpp"
 #include "app/report/version.hpp"
 #include "core/error.hpp"
 #include "python/binding.hpp"
@@ -33,6 +34,7 @@ PYBIND11_MODULE(_native, module) {
   module.doc() = "What chainreel's Python package calls; use chainreel itself.";
   module.attr("version") = chainreel::program_version();
   module.attr("revision") = chainreel::program_revision();
+  module.def("found_file", &chainreel::found_file);
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);

@@ -6,6 +6,8 @@ from numpy.typing import ArrayLike, NDArray
 version: str
 revision: str
 
+def found_file(named: str) -> str: ...
+
 _Array = NDArray[np.float64]
 
 class Model:

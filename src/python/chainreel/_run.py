@@ -26,7 +26,8 @@ class Scene:
         Scene({"model": "rr.urdf", "start": {"q": [0.3, 1.2]}, "torque": [0, "-2 * qd2"]})
         Scene("arm.yaml", set={"video.fps": 30, "draw": ["chain", "trail"]})
 
-    keys, set: change keys of it, as `--set` does; None takes a key away. A dict's paths start in the working folder.
+    keys, set: change keys of it, as `--set` does; None takes a key away. A dict's paths start in the working folder;
+    its model may also be the name of one that comes with chainreel.
     torque: a function of t (s), q (nq,) and qd (nv,) that gives nv numbers, N m or N, in the place of the scene's torque. It
     must depend on its arguments alone: it is asked several times of each instant, not in the order of time. It is slow: each
     question takes some microseconds, where an expression in the scene takes some 10 ns, and `method: auto` asks a hundred
@@ -39,7 +40,7 @@ class Scene:
                  torque: Optional[Torque] = None, name: str = "scene", **keys: Any):
         if torque is not None and not callable(torque):
             keys["torque"], torque = torque, None
-        self._text = text_of(dict(scene)) if isinstance(scene, Mapping) else None
+        self._text = text_of(_with_model(scene)) if isinstance(scene, Mapping) else None
         self._path = name if isinstance(scene, Mapping) else os.fspath(scene)
         self._overrides = overrides_of({**keys, **(set or {})})
         self._torque = torque
@@ -203,6 +204,13 @@ class Run(Panel):
             self._html = ('<video controls loop muted playsinline style="max-width: 100%" width="720" '
                           f'src="data:video/mp4;base64,{data}"></video>')
         return self._html
+
+
+def _with_model(scene: Mapping[str, Any]) -> Dict[str, Any]:
+    """The scene with the path of a model that comes with chainreel, where it names one."""
+    model = scene.get("model")
+    named = isinstance(model, (str, os.PathLike))
+    return {**scene, "model": _native.found_file(os.fspath(model))} if named else dict(scene)
 
 
 def _words_of(torque: Optional[Torque]) -> str:
