@@ -7,6 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/plain_numbers.hpp"
+
 namespace chainreel {
 
 void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& run) {
@@ -18,6 +20,7 @@ void for_each_index_with_tools(std::size_t count, int threads, const std::functi
   std::exception_ptr problem;
   std::mutex lock;
   const auto work = [&] {
+    const PlainNumbers plain;
     try {
       const RunIndex run = begin();
       for (std::size_t i = next++; i < count; i = next++) run(i);

@@ -63,6 +63,20 @@ TEST(Library, WhatAFunctionThrowsIsThrown) {
   }
 }
 
+TEST(Library, AFunctionThatAsksItsOwnRunIsToldSo) {
+  const SceneRun* own = nullptr;
+  SceneRequest request = scene_of();
+  request.torque = torque_of([&own](auto, auto, auto, auto tau) {
+    tau[0] = tau[1] = 0;
+    if (own != nullptr) own->energy();
+  });
+  const SceneRun run(std::move(request));
+  own = &run;
+  EXPECT_THROW(run.torques(), Error);
+  own = nullptr;
+  EXPECT_EQ(run.torques().size(), 2 * run.trajectory().t.size());
+}
+
 TEST(Library, AFunctionIsNoTorqueOfAScene) {
   SceneRequest request = scene_of({"torque=[1, 0]"});
   request.torque = torque_of([](auto, auto, auto, auto) {});

@@ -1,9 +1,11 @@
 """Films and pictures of runs: the program's own."""
 
 import base64
+import locale
 import os
 import re
 import shutil
+import subprocess
 import unittest
 
 import numpy as np
@@ -74,6 +76,24 @@ class Films(FolderTest):
         cr.Scene(self.scene).run([0, 0.1]).film(self.path("few.mp4"))
         cr.Scene(self.scene).run().film(self.path("all.mp4"))
         self.assertEqual(read(self.path("few.mp4")), read(self.path("all.mp4")))
+
+    def test_a_language_with_commas_changes_no_number(self):
+        def files(name):
+            run = cr.Scene(self.scene, set={"video.crf": 18.5}).run()
+            return [read(path) for path in run.film(*(self.path(name + ending) for ending in (".mp4", ".svg", ".csv")))]
+
+        expected = files("plain")
+        source = self.write("comma.src", 'LC_NUMERIC\ndecimal_point ","\nthousands_sep "."\ngrouping 3;3\nEND LC_NUMERIC\n')
+        subprocess.run(["localedef", "-c", "-f", "UTF-8", "-i", source, self.path("comma.UTF-8")], capture_output=True,
+                       check=False)  # it misses all that is not about numbers
+        os.environ["LOCPATH"] = self.folder
+        try:
+            locale.setlocale(locale.LC_NUMERIC, "comma.UTF-8")
+            self.assertEqual(locale.str(1.5), "1,5")
+            self.assertEqual(files("comma"), expected)
+            self.assertEqual(locale.str(1.5), "1,5")  # it stays the caller's
+        finally:
+            locale.setlocale(locale.LC_NUMERIC, "C")
 
     def test_names_that_say_nothing_are_refused(self):
         run = cr.Scene(self.scene).run()

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/names.hpp"
+#include "core/plain_numbers.hpp"
 #include "draw/figures/poses.hpp"
 #include "draw/page/house_style.hpp"
 #include "model/read_chain.hpp"
@@ -16,6 +17,7 @@
 namespace chainreel {
 
 LoadedModel load_model(const SceneRequest& request) {
+  const PlainNumbers plain;
   std::vector<std::string> honoured = keys_of_models(OfModel::mechanism);
   honoured.push_back("end_effector");
   LoadedModel model;
@@ -32,6 +34,7 @@ LoadedModel load_model(const SceneRequest& request) {
 
 std::string ellipse_svg(const LoadedModel& model, const std::vector<std::vector<double>>& poses,
                         const std::string& reading, int width, int height) {
+  const PlainNumbers plain;
   require_end_effector(model.chain);
   const std::optional<EllipseReading> read_as = value_named<EllipseReading>(reading);
   if (!read_as)

@@ -1,6 +1,8 @@
 #include "app/library/scene_run.hpp"
 
+#include <atomic>
 #include <mutex>
+#include <thread>
 
 #include "app/cli/data_folder.hpp"
 #include "app/cli/streams.hpp"
@@ -11,6 +13,7 @@
 #include "app/works/moment.hpp"
 #include "app/works/render_film.hpp"
 #include "core/format.hpp"
+#include "core/plain_numbers.hpp"
 #include "draw/page/house_style.hpp"
 #include "scene/text/read_scene.hpp"
 #include "scene/text/write_scene.hpp"
@@ -48,10 +51,12 @@ struct SceneRun::State {
   std::optional<Fonts> fonts{};
   std::optional<Moments> moments{};
   std::mutex lock{};
+  std::atomic<std::thread::id> holder{};  // of the lock
 
   // What asks the torque function: its own failure is the cause of any that comes of it.
   template <class Work>
   auto watched(Work&& work) {
+    const PlainNumbers plain;
     if (failure) *failure = nullptr;
     try {
       if constexpr (std::is_void_v<decltype(work())>) {
@@ -84,6 +89,26 @@ struct SceneRun::State {
       throw Error(ExitCode::usage, "the instant " + format_shortest(at) + " s lies outside the scene's duration of " +
                                        format_shortest(film.scene.duration) + " s");
   }
+};
+
+// One thread at a time asks a run; its torque function, which it asks itself, cannot.
+class SceneRun::Asked {
+ public:
+  explicit Asked(State& state) : state_(state) {
+    if (state_.holder == std::this_thread::get_id())
+      throw Error(ExitCode::usage, "a torque function asks the run that it drives, which waits for it");
+    state_.lock.lock();
+    state_.holder = std::this_thread::get_id();
+  }
+  ~Asked() {
+    state_.holder = std::thread::id();
+    state_.lock.unlock();
+  }
+  Asked(const Asked&) = delete;
+  Asked& operator=(const Asked&) = delete;
+
+ private:
+  State& state_;
 };
 
 SceneRun::SceneRun(SceneRequest request, std::vector<double> times) : state_(std::make_unique<State>()) {
@@ -130,7 +155,7 @@ std::vector<std::string> SceneRun::event_names(int panel) const {
 }
 
 const std::vector<double>& SceneRun::torques(int panel) const {
-  const std::lock_guard guard(state_->lock);
+  const Asked asked(*state_);
   std::optional<std::vector<double>>& torques = state_->courses.at(std::size_t(panel)).torques;
   if (!torques)
     torques = state_->watched(
@@ -139,7 +164,7 @@ const std::vector<double>& SceneRun::torques(int panel) const {
 }
 
 const EnergyCourse& SceneRun::energy(int panel) const {
-  const std::lock_guard guard(state_->lock);
+  const Asked asked(*state_);
   std::optional<EnergyCourse>& energy = state_->courses.at(std::size_t(panel)).energy;
   if (energy) return *energy;
   const Trajectory& run = trajectory(panel);
@@ -164,14 +189,14 @@ std::string SceneRun::effective_scene() const {
 }
 
 std::string SceneRun::report(int panel) const {
-  const std::lock_guard guard(state_->lock);
+  const Asked asked(*state_);
   return state_->watched([&] {
     return to_json(run_report(state_->film.panels.at(std::size_t(panel)), trajectory(panel))).dump(2);
   });
 }
 
 std::vector<std::string> SceneRun::warnings() const {
-  const std::lock_guard guard(state_->lock);
+  const Asked asked(*state_);
   return state_->watched([&] {
     std::vector<std::string> lines;
     for (int panel = 0; panel < panels(); ++panel) {
@@ -185,7 +210,7 @@ std::vector<std::string> SceneRun::warnings() const {
 }
 
 FilmFiles SceneRun::film(const FilmRequest& request) const {
-  const std::lock_guard guard(state_->lock);
+  const Asked asked(*state_);
   state_->require_within(request.at);
   if (request.jobs < 0) throw Error(ExitCode::usage, "jobs are threads, 0 for all processors, not " + std::to_string(request.jobs));
   check_outputs(request.files, 1);
@@ -201,7 +226,7 @@ FilmFiles SceneRun::film(const FilmRequest& request) const {
 }
 
 Image SceneRun::frame(double at, int width, int height) const {
-  const std::lock_guard guard(state_->lock);
+  const Asked asked(*state_);
   state_->require_within(at);
   Video& video = state_->film.scene.video;
   constexpr int kMostPixels = 16384;
@@ -225,7 +250,7 @@ Image SceneRun::frame(double at, int width, int height) const {
 }
 
 void SceneRun::picture(double at, const std::string& path, bool overwrite) const {
-  const std::lock_guard guard(state_->lock);
+  const Asked asked(*state_);
   state_->require_within(at);
   const Video& video = state_->film.scene.video;
   state_->watched([&] {

@@ -76,6 +76,7 @@ class SceneRun {
 
  private:
   struct State;
+  class Asked;
   std::unique_ptr<State> state_;
 };
 

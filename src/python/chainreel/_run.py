@@ -77,7 +77,8 @@ class Panel:
         self._index = index
 
     def __repr__(self) -> str:
-        return f"<chainreel.Panel {self.title!r}: {len(self.t)} samples, {self.status}>"
+        title = f" {self.title!r}" if self.title else ""
+        return f"<chainreel.Panel{title}: {len(self.t)} samples, {self.status}>"
 
     @property
     def title(self) -> str:
