@@ -5,7 +5,10 @@ import locale
 import os
 import re
 import shutil
+import signal
 import subprocess
+import threading
+import time
 import unittest
 
 import numpy as np
@@ -76,6 +79,22 @@ class Films(FolderTest):
         cr.Scene(self.scene).run([0, 0.1]).film(self.path("few.mp4"))
         cr.Scene(self.scene).run().film(self.path("all.mp4"))
         self.assertEqual(read(self.path("few.mp4")), read(self.path("all.mp4")))
+
+    def test_ctrl_c_leaves_no_file(self):
+        run = cr.Scene(self.scene, duration=100).run()
+        before = sorted(os.listdir(self.folder))
+
+        def interrupt():
+            while sorted(os.listdir(self.folder)) == before:
+                time.sleep(0.001)
+            os.kill(os.getpid(), signal.SIGINT)
+
+        thread = threading.Thread(target=interrupt)
+        thread.start()
+        with self.assertRaises(KeyboardInterrupt):
+            run.film(self.path("long.mp4"))
+        thread.join()
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
 
     def test_a_language_with_commas_changes_no_number(self):
         def files(name):
