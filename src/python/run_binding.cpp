@@ -47,13 +47,13 @@ py::array view(const std::vector<double>& values, int columns, const py::object&
   const py::ssize_t width = columns, rows = py::ssize_t(values.size()) / width;
   Array array({rows, width}, values.data(), owner);
   array.attr("setflags")(py::arg("write") = false);
-  return std::move(array);
+  return array;
 }
 
 py::array view(const std::vector<double>& values, const py::object& owner) {
   Array array({py::ssize_t(values.size())}, {py::ssize_t(sizeof(double))}, values.data(), owner);
   array.attr("setflags")(py::arg("write") = false);
-  return std::move(array);
+  return array;
 }
 
 const SceneRun& run_of(const py::object& self) {
@@ -89,12 +89,13 @@ std::unique_ptr<SceneRun> run_scene(std::string path, std::optional<std::string>
 
 py::tuple film_of_run(const SceneRun& run, std::vector<std::string> files, double at, int jobs, bool overwrite) {
   const FilmFiles made = without_lock([&] { return run.film({std::move(files), at, jobs, overwrite}); });
-  return py::make_tuple(made.files, made.sidecars, made.frames, made.seconds);
+  return py::make_tuple(made.files, made.sidecars, made.notes, made.frames, made.seconds);
 }
 
-// (height, width, 4), RGBA.
-py::array_t<std::uint8_t> pixels(const SceneRun& run, double at, int width, int height) {
-  const Image image = without_lock([&] { return run.frame(at, width, height); });
+// (height, width, 4), RGBA; and notes.
+py::tuple pixels(const SceneRun& run, double at, int width, int height) {
+  std::vector<std::string> notes;
+  const Image image = without_lock([&] { return run.frame(at, width, height, &notes); });
   py::array_t<std::uint8_t> array({py::ssize_t(image.height), py::ssize_t(image.width), py::ssize_t(4)});
   std::uint8_t* to = array.mutable_data();
   for (std::size_t i = 0; i < image.bgra.size(); i += 4) {
@@ -103,7 +104,7 @@ py::array_t<std::uint8_t> pixels(const SceneRun& run, double at, int width, int 
     to[i + 2] = image.bgra[i];
     to[i + 3] = image.bgra[i + 3];
   }
-  return array;
+  return py::make_tuple(array, notes);
 }
 
 }  // namespace
@@ -143,7 +144,9 @@ void bind_run(py::module_& module) {
       .def("film", &film_of_run)
       .def("frame", &pixels)
       .def("picture", [](const SceneRun& run, double at, const std::string& path, bool overwrite) {
-        without_lock([&] { run.picture(at, path, overwrite); });
+        std::vector<std::string> notes;
+        without_lock([&] { run.picture(at, path, overwrite, &notes); });
+        return notes;
       });
 }
 

@@ -7,9 +7,11 @@ import re
 import shutil
 import signal
 import subprocess
+import sys
 import threading
 import time
 import unittest
+import warnings
 
 import numpy as np
 
@@ -61,7 +63,9 @@ class Films(FolderTest):
                 run.frame(bad)
 
     def test_colours_are_red_green_blue(self):
-        page = cr.Scene(self.scene, style={"light": {"background": "#ff8000"}}).run().frame(0)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", cr.RunWarning)  # of colours too pale for it
+            page = cr.Scene(self.scene, style={"light": {"background": "#ff8000"}}).run().frame(0)
         self.assertEqual(tuple(page[0, 0]), (255, 128, 0, 255))
 
     def test_a_film_of_a_python_torque_is_drawn_and_told(self):
@@ -69,6 +73,25 @@ class Films(FolderTest):
         run.film(self.path("pushed.mp4"))
         with open(self.path("pushed.txt"), encoding="utf-8") as file:
             self.assertIn("torques of the Python function <lambda>", file.read())
+
+    def test_what_is_not_shown_is_a_warning_and_nothing_goes_to_standard_error(self):
+        code = f"""
+import warnings, chainreel as cr
+warnings.simplefilter("error")
+run = cr.Scene({self.scene!r}, torque=["sin(t)", "-qd2"], plot=["energy"], set={{"events": [{{"when": "t - 9", "name": "never"}}],
+                                     "slow_motion": [{{"event": "never", "from": 0, "until": 0.1, "speed": 0.5}}]}}).run()
+for make in (lambda: run.film({self.path("slow.mp4")!r}), lambda: run.frame(0.1, 120, 60)):
+    try:
+        make()
+        print("nothing")
+    except cr.RunWarning as warning:
+        print(warning)
+"""
+        result = subprocess.run([sys.executable, "-B", "-c", code], capture_output=True, text=True, check=False)
+        film, small = result.stdout.splitlines()
+        self.assertIn("no slow motion about 'never'", film)
+        self.assertIn("120 x 60 px have no room for more", small)
+        self.assertEqual(result.stderr, "")
 
     def test_a_notebook_shows_the_film(self):
         html = cr.Scene(self.scene).run()._repr_html_()

@@ -84,6 +84,9 @@ struct SceneRun::State {
     if (!moments) moments.emplace(film, own_fonts());
     return moments->moment(at);
   }
+  void note(const Moment& shown, std::vector<std::string>* notes) const {
+    if (notes != nullptr && !shown.left_out.empty()) notes->push_back(left_out_words(shown.left_out, film.scene));
+  }
   void require_within(double at) const {
     if (!(at >= 0 && at <= film.scene.duration))
       throw Error(ExitCode::usage, "the instant " + format_shortest(at) + " s lies outside the scene's duration of " +
@@ -220,12 +223,13 @@ FilmFiles SceneRun::film(const FilmRequest& request) const {
   job.jobs = request.jobs;
   job.overwrite = request.overwrite;
   job.quiet = true;
+  job.tells = false;
   const Runs* runs = state_->has_times ? nullptr : &*state_->runs;
   RenderResult result = state_->watched([&] { return render_film(state_->film, job, runs); });
-  return {std::move(result.files), std::move(result.sidecars), result.frames, result.film_seconds};
+  return {std::move(result.files), std::move(result.sidecars), std::move(result.notes), result.frames, result.film_seconds};
 }
 
-Image SceneRun::frame(double at, int width, int height) const {
+Image SceneRun::frame(double at, int width, int height, std::vector<std::string>* notes) const {
   const Asked asked(*state_);
   state_->require_within(at);
   Video& video = state_->film.scene.video;
@@ -245,16 +249,18 @@ Image SceneRun::frame(double at, int width, int height) const {
   if (height > 0) video.height = height;
   return state_->watched([&] {
     const Moment shown = is_usual ? state_->moment(at) : moment_at(state_->film, at, state_->own_fonts());
+    state_->note(shown, notes);
     return rasterise(shown.picture, video.width, video.height, state_->own_fonts());
   });
 }
 
-void SceneRun::picture(double at, const std::string& path, bool overwrite) const {
+void SceneRun::picture(double at, const std::string& path, bool overwrite, std::vector<std::string>* notes) const {
   const Asked asked(*state_);
   state_->require_within(at);
   const Video& video = state_->film.scene.video;
   state_->watched([&] {
     const Moment shown = state_->moment(at);
+    state_->note(shown, notes);
     write_picture(shown.picture, video.width, video.height, state_->own_fonts(), path, overwrite, shown.memory);
   });
 }

@@ -32,6 +32,7 @@ struct FilmRequest {
 struct FilmFiles {
   std::vector<std::string> files;     // in the order of the request
   std::vector<std::string> sidecars;  // audit, words, captions
+  std::vector<std::string> notes;     // what of the scene it does not show, or shows otherwise
   int frames = 0;
   double seconds = 0;
 };
@@ -69,10 +70,10 @@ class SceneRun {
   std::vector<std::string> warnings() const;  // what speaks against the run, and what was changed of the scene; a line each
 
   FilmFiles film(const FilmRequest& request) const;
-  // The film's page at an instant, s; width and height in pixels, 0: the scene's.
-  Image frame(double at, int width = 0, int height = 0) const;
+  // The film's page at an instant, s; width and height in pixels, 0: the scene's. `notes` takes what it does not show.
+  Image frame(double at, int width = 0, int height = 0, std::vector<std::string>* notes = nullptr) const;
   // The same as a .png, .svg or .pdf.
-  void picture(double at, const std::string& path, bool overwrite = false) const;
+  void picture(double at, const std::string& path, bool overwrite = false, std::vector<std::string>* notes = nullptr) const;
 
  private:
   struct State;

@@ -124,10 +124,14 @@ std::vector<std::string> warning_lines(const FilmReport& report) {
   return lines;
 }
 
+std::string left_out_words(const std::vector<std::string>& layers, const Scene& page) {
+  if (layers.empty()) return "";
+  return page.name + ": " + joined(layers) + ": not drawn, as no word may be lower than " + format_shortest(kLeastWordPixels) +
+         " px and " + std::to_string(page.video.width) + " x " + std::to_string(page.video.height) + " px have no room for more";
+}
+
 void tell_left_out(const std::vector<std::string>& layers, const Scene& page, bool quiet) {
-  if (quiet || layers.empty()) return;
-  std::fprintf(stderr, "note: %s: %s: not drawn, as no word may be lower than %g px and %d x %d px have no room for more\n",
-               page.name.c_str(), joined(layers).c_str(), kLeastWordPixels, page.video.width, page.video.height);
+  if (!quiet && !layers.empty()) std::fprintf(stderr, "note: %s\n", left_out_words(layers, page).c_str());
 }
 
 double held_first(const Scene& scene) {

@@ -51,7 +51,9 @@ std::vector<std::string> warning_lines(const FilmReport& report);
 // On standard error. Said even where all is to be quiet.
 void tell_warnings(const std::vector<std::string>& lines);
 
-// On standard error: layers that the scene draws and the page is too small for.
+// Layers that the scene draws and the page is too small for, in words; "" where there are none.
+std::string left_out_words(const std::vector<std::string>& layers, const Scene& page);
+// The same on standard error.
 void tell_left_out(const std::vector<std::string>& layers, const Scene& page, bool quiet);
 
 // For how long the first frame is held: whole frames, s.

@@ -34,31 +34,43 @@ void write_tables(const Runs& runs, std::vector<Output>& outputs) {
 }
 
 // Runs that a limit stopped: no failure, but not what one may think either.
-void tell_of_stops(const Runs& runs) {
+void add_stops(const Runs& runs, std::vector<std::string>& notes) {
   const PreparedFilm& film = runs.film();
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (runs[i].trouble.empty() || !is_complete(runs[i].status)) continue;
     const std::string text = "stopped: " + runs[i].trouble;
-    std::fprintf(stderr, "%s: %s\n", film.scene.name.c_str(),
-                 runs.size() == 1 ? text.c_str() : in_panel(film.panels[i].scene, i, text).c_str());
+    notes.push_back(film.scene.name + ": " + (runs.size() == 1 ? text : in_panel(film.panels[i].scene, i, text)));
   }
 }
 
 // Slow motion about an event that never comes is none, nor are its words, which their author may want to know.
-void tell_of_missing_events(const Runs& runs) {
+void add_missing_events(const Runs& runs, std::vector<std::string>& notes) {
   const PreparedFilm& film = runs.film();
   const std::vector<EventEntry>& events = film.panels.front().scene.events;
   for (const SlowMotionEntry& entry : film.scene.slow_motion) {
     const auto is_its = [&](int event) { return events[std::size_t(event)].title() == entry.event; };
     const std::vector<int>& hits = runs[0].events.event;
     if (!entry.event.empty() && std::none_of(hits.begin(), hits.end(), is_its))
-      std::fprintf(stderr, "%s: no slow motion about '%s', which does not happen\n", film.scene.name.c_str(),
-                   entry.event.c_str());
+      notes.push_back(film.scene.name + ": no slow motion about '" + entry.event + "', which does not happen");
   }
   for (const AnnotationEntry& entry : film.scene.annotate)
     if (!instant_of(entry, events, runs[0].events))
-      std::fprintf(stderr, "%s: '%s' is not said, as '%s' does not happen\n", film.scene.name.c_str(),
-                   entry.text.c_str(), entry.event.c_str());
+      notes.push_back(film.scene.name + ": '" + entry.text + "' is not said, as '" + entry.event + "' does not happen");
+}
+
+// What is to be said of a film that became what it is, to its caller or on standard error.
+void tell(const FilmReport& report, const RenderJob& job, RenderResult& result) {
+  const Scene& page = report.film().scene;
+  add_stops(report.runs, result.notes);
+  add_missing_events(report.runs, result.notes);
+  if (job.tells) {
+    tell_warnings(warning_lines(report));
+    tell_left_out(report.left_out, page, job.quiet);
+    if (job.quiet) return;
+    for (const std::string& note : result.notes) std::fprintf(stderr, "%s\n", note.c_str());
+  } else if (!report.left_out.empty()) {
+    result.notes.push_back(left_out_words(report.left_out, page));
+  }
 }
 
 // For LaTeX's package animate, which takes a frame rate as a number and frames by their first and last.
@@ -238,12 +250,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
     }
     throw;
   }
-  tell_warnings(warning_lines(report));
-  tell_left_out(report.left_out, scene, job.quiet);
-  if (!job.quiet) {
-    tell_of_stops(runs);
-    tell_of_missing_events(runs);
-  }
+  tell(report, job, result);
   result.files = commit(outputs);
   if (job.resume) forget_chunks(outputs);
   write_sidecars(sidecars, report, result);

@@ -44,7 +44,7 @@ class Error(Exception):
 
 
 class RunWarning(UserWarning):
-    """What speaks against a run that came to its end, or was changed of its scene."""
+    """What speaks against a run that came to its end, was changed of its scene, or is not shown of it."""
 
 
 def _text(problem: Problem) -> str:

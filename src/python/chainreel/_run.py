@@ -64,8 +64,7 @@ class Scene:
                 raise
             raise error.without_lines_of(self._path) from None
         run = Run(native)
-        for line in native.warnings():
-            warnings.warn(line, RunWarning, stacklevel=2)
+        _warn(native.warnings())
         return run
 
 
@@ -185,15 +184,19 @@ class Run(Panel):
         """
         if not files:
             raise TypeError("film takes the name of a file, like 'film.mp4'")
-        return self._native.film([os.fspath(file) for file in files], at, jobs, overwrite)[0]
+        made, _, notes, _, _ = self._native.film([os.fspath(file) for file in files], at, jobs, overwrite)
+        _warn(notes)
+        return made
 
     def frame(self, t: float, width: int = 0, height: int = 0) -> NDArray[np.uint8]:
         """(height, width, 4) the film's page at t, s: RGBA, opacity straight. 0: the scene's size in pixels."""
-        return self._native.frame(t, width, height)
+        pixels, notes = self._native.frame(t, width, height)
+        _warn(notes)
+        return pixels
 
     def picture(self, path: Union[str, os.PathLike], t: float, overwrite: bool = False) -> None:
         """The film's page at t, s, as a .png, .svg or .pdf."""
-        self._native.picture(t, os.fspath(path), overwrite)
+        _warn(self._native.picture(t, os.fspath(path), overwrite))
 
     def _repr_html_(self) -> str:
         if self._html is None:
@@ -205,6 +208,12 @@ class Run(Panel):
             self._html = ('<video controls loop muted playsinline style="max-width: 100%" width="720" '
                           f'src="data:video/mp4;base64,{data}"></video>')
         return self._html
+
+
+def _warn(lines: List[str]) -> None:
+    """To who called us."""
+    for line in lines:
+        warnings.warn(line, RunWarning, stacklevel=3)
 
 
 def _with_model(scene: Mapping[str, Any]) -> Dict[str, Any]:
