@@ -111,11 +111,23 @@ void BodyPixels::draw_over(const PixelBox& part, std::uint32_t* pixels, std::ptr
     for (int x = left, behind = 0; x < right; x = behind) {
       behind = std::min(right, (x / per_word + 1) * per_word);
       if (is_empty(y, x / per_word)) continue;
+      if (copies_inside(y, x, behind, pixels + (x - left))) continue;
       for (int k = x; k < behind; ++k) {
         const std::uint32_t above = pixel(k, y);
         if (above != 0) pixels[k - left] = above >> 24 == 255 ? above : put_over(above, pixels[k - left]);
       }
     }
+}
+
+// Where opaque bodies fill all pixels from x to behind, which lie in one word of samples, they are the page's.
+bool BodyPixels::copies_inside(int y, int x, int behind, std::uint32_t* pixels) const {
+  if (paint_.opacity != 1) return false;
+  const std::uint32_t* const from = &samples_.pixels[std::size_t(y) * std::size_t(samples_.box.width) + std::size_t(x)];
+  std::uint32_t common = 0xff000000U;
+  for (int k = 0; k < behind - x; ++k) common &= from[k];
+  if (common != 0xff000000U) return false;
+  std::copy_n(from, behind - x, pixels);
+  return true;
 }
 
 // The pixels of a word of samples.

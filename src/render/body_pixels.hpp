@@ -44,6 +44,7 @@ class BodyPixels {
  private:
   void find_near();
   bool is_empty(int y, int word) const;
+  bool copies_inside(int y, int x, int behind, std::uint32_t* pixels) const;
   std::uint32_t pixel(int x, int y) const;
   std::uint32_t with_line(std::uint32_t mean, int around) const;
 

@@ -222,10 +222,11 @@ class Ellipsoid {
   Fade fade_;
 };
 
-// What pairs of planes with 13 normals leave of space.
+// What pairs of planes with 13 normals leave of space, for rays of one direction v.
 class Hull {
  public:
-  Hull(const BodyShape& shape, const Workspace& ws) {
+  Hull(const BodyShape& shape, const Workspace& ws, const Vector3d& v) : sides_{v.unitOrthogonal(), {}} {
+    sides_[1] = v.cross(sides_[0]);
     const Eigen::Isometry3d X_WB = pose_of(ws, shape.body);
     const Eigen::Matrix3d axes = (X_WB * shape.X_BM).linear();
     std::size_t n = 0;
@@ -234,27 +235,37 @@ class Hull {
         for (int z = -1; z <= 1; ++z) {
           if (9 * x + 3 * y + z <= 0) continue;  // one of each pair
           normals_[n] = axes * Vector3d(x, y, z);
-          low_[n] = HUGE_VAL, high_[n] = -HUGE_VAL;
-          for (const Vector3d& corner : shape.corners) {
-            const double at = normals_[n].dot(X_WB * corner);
-            low_[n] = std::min(low_[n], at);
-            high_[n] = std::max(high_[n], at);
-          }
+          rates_[n] = normals_[n].dot(v);
           ++n;
         }
+    slabs_.fill({HUGE_VAL, -HUGE_VAL});
+    seen_.fill({HUGE_VAL, -HUGE_VAL});
+    for (const Vector3d& corner : shape.corners) {
+      const Vector3d p = X_WB * corner;
+      for (n = 0; n < normals_.size(); ++n) slabs_[n].add(normals_[n].dot(p));
+      for (std::size_t i = 0; i < 2; ++i) seen_[i].add(sides_[i].dot(p));
+    }
+    // Between corners a round body reaches out farther, by up to 1 - cos(22.5 deg) of its half.
+    for (Range& range : seen_) {
+      const double more = 0.04 * (range.high - range.low);
+      range.low -= more, range.high += more;
+    }
   }
 
   // Whether the ray from p along v has more of it than a touch.
-  bool is_met_by(const Vector3d& p, const Vector3d& v) const {
+  bool is_met_from(const Vector3d& p) const {
     constexpr double kTouch = 1e-3;  // m
+    // Most bodies stand well beside it.
+    for (std::size_t i = 0; i < 2; ++i)
+      if (!seen_[i].holds(sides_[i].dot(p))) return false;
     double in = 0, out = HUGE_VAL;
     for (std::size_t n = 0; n < normals_.size(); ++n) {
-      const double at = normals_[n].dot(p), rate = normals_[n].dot(v);
-      if (std::abs(rate) < 1e-12) {
-        if (at < low_[n] || at > high_[n]) return false;
+      const double at = normals_[n].dot(p);
+      if (std::abs(rates_[n]) < 1e-12) {
+        if (!slabs_[n].holds(at)) return false;
         continue;
       }
-      const double a = (low_[n] - at) / rate, b = (high_[n] - at) / rate;
+      const double a = (slabs_[n].low - at) / rates_[n], b = (slabs_[n].high - at) / rates_[n];
       in = std::max(in, std::min(a, b));
       out = std::min(out, std::max(a, b));
     }
@@ -262,8 +273,17 @@ class Hull {
   }
 
  private:
+  struct Range {
+    double low, high;
+    void add(double at) { low = std::min(low, at), high = std::max(high, at); }
+    bool holds(double at) const { return at >= low && at <= high; }
+  };
+
+  std::array<Vector3d, 2> sides_;  // with v a frame
+  std::array<Range, 2> seen_;      // along v
   std::array<Vector3d, 13> normals_;
-  std::array<double, 13> low_, high_;
+  std::array<Range, 13> slabs_;
+  std::array<double, 13> rates_;  // of v along the normals
 };
 
 }  // namespace
@@ -274,15 +294,14 @@ void draw_ellipsoid(Picture& picture, const std::vector<MassAxis>& axes, Point c
 }
 
 Hides robot_hides(const BodyShapes& shapes, const Workspace& ws, const Camera& camera, const Vector3d& tip) {
-  std::vector<Hull> hulls;
-  for (const BodyShape& shape : shapes.shapes)
-    if (!shape.corners.empty()) hulls.emplace_back(shape, ws);
   const double share = 1 - camera.nearness * camera.toward_viewer.dot(tip - camera.focus);
   const Vector3d toward = camera.seen_at(tip).toward_viewer;
-  return [hulls = std::move(hulls), tip, toward, metres = share / camera.scale](const Vector3d& place) {
+  std::vector<Hull> hulls;
+  for (const BodyShape& shape : shapes.shapes)
+    if (!shape.corners.empty()) hulls.emplace_back(shape, ws, toward);
+  return [hulls = std::move(hulls), tip, metres = share / camera.scale](const Vector3d& place) {
     const Vector3d p = tip + metres * place;
-    return std::any_of(hulls.begin(), hulls.end(),
-                       [&](const Hull& hull) { return hull.is_met_by(p, toward); });
+    return std::any_of(hulls.begin(), hulls.end(), [&](const Hull& hull) { return hull.is_met_from(p); });
   };
 }
 
