@@ -16,7 +16,7 @@ constexpr double kBesideTheEye = 1e-3;
 
 Point Camera::flat(const Eigen::Vector3d& x) const {
   const Eigen::Vector3d r = x - focus;
-  const double share = 1 - nearness * toward_viewer.dot(r);
+  const double share = 1 - nearing.dot(r);
   if (share < kBesideTheEye) {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     return {kNone, kNone};
@@ -25,20 +25,20 @@ Point Camera::flat(const Eigen::Vector3d& x) const {
 }
 
 Point Camera::flat_vector(const Eigen::Vector3d& v, const Eigen::Vector3d& x) const {
-  const double share = 1 - nearness * toward_viewer.dot(x - focus);
+  const double share = 1 - nearing.dot(x - focus);
   const Point at = flat(x);
-  const double toward = nearness * toward_viewer.dot(v);
+  const double toward = nearing.dot(v);
   return {(right.dot(v) + toward * at.x) / share, (up.dot(v) + toward * at.y) / share};
 }
 
 Camera Camera::seen_at(const Eigen::Vector3d& x) const {
   Camera local = *this;
-  if (nearness == 0) return local;
+  if (!has_eye()) return local;
   const Point at = flat(x);
-  local.right += nearness * at.x * toward_viewer;
-  local.up += nearness * at.y * toward_viewer;
+  local.right += at.x * nearing;
+  local.up += at.y * nearing;
   local.toward_viewer = local.right.cross(local.up).normalized();
-  local.nearness = 0;
+  local.nearing.setZero();
   return local;
 }
 

@@ -1,5 +1,6 @@
 // World to page. Parallel rays: a point's page position is its components along `right` and `up`, scaled and
-// shifted. With an eye at a finite distance they grow towards it.
+// shifted. With an eye at a finite distance they grow towards it; the page then is a plane across `nearing`, so that lines across
+// that stay parallel: where it is horizontal, what stands upright is drawn upright (two-point perspective).
 #pragma once
 
 #include <Eigen/Core>
@@ -13,9 +14,13 @@ struct Camera {
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();
   Eigen::Vector3d toward_viewer = Eigen::Vector3d::UnitZ();  // right x up
   Eigen::Vector3d focus = Eigen::Vector3d::Zero();           // the point looked at, m
-  double nearness = 0;                                       // 1/m: of the eye to `focus`; 0: parallel rays
+  Eigen::Vector3d nearing = Eigen::Vector3d::Zero();  // 1/m: at focus + r all is 1 / (1 - nearing . r) times as large; 0: parallel rays
   double scale = 1;                                          // units of H per metre at `focus`
   Point origin;                                              // page position of `focus`
+
+  bool has_eye() const { return nearing != Eigen::Vector3d::Zero(); }
+  // How far the eye stands from `focus`, along toward_viewer, m.
+  double distance() const { return 1 / nearing.dot(toward_viewer); }
 
   // Where the ray to a point meets the plane through `focus`, m along right and up; no numbers for points
   // beside or behind the eye.

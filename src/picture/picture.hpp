@@ -45,14 +45,15 @@ struct Solid {
 
 struct Solids {
   std::vector<Solid> parts;
-  // A point (x, y, z) of the view stands on the page at origin + scale / (1 - z nearness) (x, y).
+  // A point (x, y, z) of the view stands on the page at origin + scale / (1 - nearing . (x, y, z)) (x, y).
   Point origin;
-  double scale = 1;     // units of H per metre where z = 0
-  double nearness = 0;  // 1/m: of the eye from z = 0; 0: parallel rays
-  double opacity = 1;   // of the whole
-  Color outline;        // around the whole; a = 0: none
+  double scale = 1;                   // units of H per metre where nothing is nearer
+  std::array<double, 3> nearing{};    // 1/m; 0: parallel rays
+  double opacity = 1;                 // of the whole
+  Color outline;                      // around the whole; a = 0: none
   double outline_width = 0;
-  bool is_shadow = false;  // one flat colour instead of light: that of `outline`, which then is no line
+  bool is_shadow = false;  // one flat colour instead of light: that of `outline`, whose width is how far its edges are blurred
+  Fade fade{};             // of a shadow
 };
 
 // Fill the inside, then a stroke centred on the edge.

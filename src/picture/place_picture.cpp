@@ -85,6 +85,7 @@ struct Placer {
     solids.origin = (*this)(solids.origin);
     solids.scale *= scale;
     solids.outline_width = solids.is_shadow ? scale * solids.outline_width : width(solids.outline_width);
+    solids.fade = (*this)(solids.fade);
     return solids;
   }
 };

@@ -399,8 +399,12 @@ namespace {
 // Meshes by their places in memory, which are theirs as long as a canvas draws them.
 std::uint64_t look_of(const Solids& solids) {
   Look look;
-  for (const double number : {solids.origin.x, solids.origin.y, solids.scale, solids.nearness}) look.add(number);
+  for (const double number : {solids.origin.x, solids.origin.y, solids.scale}) look.add(number);
+  for (const double number : solids.nearing) look.add(number);
   look.add(std::uint64_t(solids.is_shadow));
+  const Fade& fade = solids.fade;
+  for (const double number : {fade.scene.x0, fade.scene.y0, fade.scene.x1, fade.scene.y1, fade.left, fade.right, fade.bottom, fade.top})
+    look.add(number);
   for (const Solid& part : solids.parts) {
     look.add(std::uint64_t(reinterpret_cast<std::uintptr_t>(part.mesh.get())));
     for (const double number : part.to_view) look.add(number);
@@ -412,12 +416,15 @@ std::uint64_t look_of(const Solids& solids) {
   return look.value();
 }
 
+constexpr double kWidestBlur = 256;  // px
+
 }  // namespace
 
 void Batch::add(const Solids& solids) {
   if (solids.parts.empty() || !(solids.opacity > 0) || !is_drawable(solids)) return;
   const bool has_line = !solids.is_shadow && solids.outline.a > 0 && solids.outline_width > 0;
-  const double radius = has_line ? std::max(2 * kThinnest, height_ * solids.outline_width) : 0;
+  const double blur = solids.is_shadow && std::isfinite(solids.outline_width) ? std::min(kWidestBlur, height_ * std::max(0.0, solids.outline_width)) : 0;
+  const double radius = has_line ? std::max(2 * kThinnest, height_ * solids.outline_width) : blur;
   const double opacity = solids.is_shadow ? solids.opacity * solids.outline.a : solids.opacity;
   solids_.push_back(&solids);
   Piece& piece = append(Primitive::solids, {Outline::Kind::box, clip_}, {{opacity, radius}, Vector::premultiplied(solids.outline)});

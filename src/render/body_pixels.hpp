@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/pixel_box.hpp"
+#include "picture/fade.hpp"
 
 namespace chainreel {
 
@@ -15,6 +16,9 @@ struct BodyPaint {
   double opacity = 1;
   double radius = 0;                // of the line around them, px; 0: none
   std::array<float, 4> line{};      // its colour, premultiplied, r g b a
+  bool is_shadow = false;           // no line: as far are edges blurred, in the line's colour, and fade with `fade`
+  Fade fade{};
+  int page_height = 1;  // px
 };
 
 // What samples have shown in a part of the page that is a multiple of 64 samples wide.
@@ -43,6 +47,7 @@ class BodyPixels {
 
  private:
   void find_near();
+  void blur();
   bool is_empty(int y, int word) const;
   bool copies_inside(int y, int x, int behind, std::uint32_t* pixels) const;
   std::uint32_t pixel(int x, int y) const;
@@ -53,6 +58,7 @@ class BodyPixels {
   int words_, height_;               // of rows of samples
   std::vector<std::uint64_t> near_;  // bodies and all within the radius of one
   std::array<std::uint8_t, 256> faded_;  // levels times the opacity
+  std::vector<std::uint32_t> soft_;      // of a shadow, its pixels in the box
 };
 
 }  // namespace chainreel

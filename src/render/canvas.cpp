@@ -88,7 +88,8 @@ struct Canvas::State {
 
   BodyPaint body_paint(const Piece& piece) const {
     const float* numbers = batch.numbers(piece);
-    return {numbers[0], numbers[1], {numbers[4], numbers[5], numbers[6], numbers[7]}};
+    const Solids& solids = *batch.solids()[std::size_t(piece.instance)];
+    return {numbers[0], numbers[1], {numbers[4], numbers[5], numbers[6], numbers[7]}, solids.is_shadow, solids.fade, height};
   }
 
   // Where bodies are in the changed tiles.

@@ -44,8 +44,8 @@ bool is_same(const Solid& a, const Solid& b) {
 bool are_seen_alike(const SolidTraces& a, const SolidTraces& b) {
   const Solids &one = a.solids, &other = b.solids;
   return a.rim == b.rim && one.parts.size() == other.parts.size() && one.origin.x == other.origin.x && one.origin.y == other.origin.y &&
-         one.scale == other.scale && one.nearness == other.nearness && one.opacity == other.opacity &&
-         one.outline == other.outline && one.outline_width == other.outline_width && one.is_shadow == other.is_shadow;
+         one.scale == other.scale && one.nearing == other.nearing && one.opacity == other.opacity &&
+         one.outline == other.outline && one.outline_width == other.outline_width && one.is_shadow == other.is_shadow && one.fade == other.fade;
 }
 
 }  // namespace
@@ -127,7 +127,9 @@ void PlacedSolids::place_vertices(const Part& part) {
   for (std::size_t i = 0; i < 12; ++i) m[i] = float(part.solid.to_view[i]);
   const double unit = double(grid_.height) * grid_.cells * kCellUnits;  // a page height's
   const float left = float(unit * solids.origin.x), top = float(unit * (1 - solids.origin.y));
-  const float scale = float(unit * solids.scale), nearness = float(solids.nearness);
+  const float scale = float(unit * solids.scale);
+  std::array<float, 3> nearing;
+  for (std::size_t i = 0; i < 3; ++i) nearing[i] = float(solids.nearing[i]);
   const float least_place = -kGuardCells * kCellUnits, largest_place = (kLongestPage + kGuardCells) * kCellUnits;
   const Color own = part.color.value_or(Color{});
   const std::uint32_t own_color = bytes_of(own);
@@ -137,8 +139,9 @@ void PlacedSolids::place_vertices(const Part& part) {
     const auto at = [i](const std::vector<float>& numbers) { return load4<Float4>(&numbers[i]); };
     const Float4 px = at(mesh.position[0]), py = at(mesh.position[1]), pz = at(mesh.position[2]);
     const auto row = [&](std::size_t r) { return m[r] * px + m[r + 1] * py + m[r + 2] * pz + m[r + 3]; };
-    const Float4 z = row(8), w = 1.0F - z * nearness, inverse = 1.0F / w;
-    const Float4 x = left + scale * row(0) * inverse, y = top - scale * row(4) * inverse, depth = z * inverse;
+    const Float4 right = row(0), up = row(4), toward = row(8);
+    const Float4 w = 1.0F - (right * nearing[0] + up * nearing[1] + toward * nearing[2]), inverse = 1.0F / w;
+    const Float4 x = left + scale * right * inverse, y = top - scale * up * inverse, depth = toward * inverse;
     const Int4 is_in = (w > kNearestToEye) & (x > least_place) & (x < largest_place) & (y > least_place) & (y < largest_place);
     const Int4 to_x = is_in ? rounded(x) : all4(kOut), to_y = rounded(y);
     Int4 color = all4(std::int32_t(own_color));
@@ -211,7 +214,8 @@ void PlacedSolids::add_clipped(const Part& part, const Triangle& corners, bool i
       const double* const m = &part.solid.to_view[r];
       return m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3];
     };
-    ViewCorner view{0, 0, 1 - row(8) * solids.nearness, row(8), {}};
+    const std::array<double, 3>& n = solids.nearing;
+    ViewCorner view{0, 0, 1 - (row(0) * n[0] + row(4) * n[1] + row(8) * n[2]), row(8), {}};
     view.x = unit * (solids.origin.x * view.w + solids.scale * row(0));
     view.y = unit * ((1 - solids.origin.y) * view.w - solids.scale * row(4));
     for (std::size_t c = 0; c < 4; ++c) view.color[c] = double(vertices_[corner].color >> (8 * c) & 255);

@@ -1,7 +1,10 @@
-// Where bodies in space stand in view coordinates and on the page, without drawing them.
+// What is asked of bodies in space before they are drawn.
 #pragma once
 
-#include <optional>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "core/triangle_mesh.hpp"
 #include "picture/picture.hpp"
@@ -16,14 +19,6 @@ MeshBounds bounds_of(const TriangleMesh& mesh);
 
 // All numbers are finite and all parts have a mesh. Whether its indices are right is seen when it is drawn.
 bool is_drawable(const Solids& solids);
-
-// The bounds of everything in front of the eye; the two depths are view coordinates z.
-struct SolidBounds {
-  Rect page;  // with the outline
-  double nearest = 0, farthest = 0;
-};
-// Nothing where there is nothing to see. `bounds` are those of the parts' meshes, in their order.
-std::optional<SolidBounds> bounds_of(const Solids& solids, const std::vector<MeshBounds>& bounds);
 
 // Which parts of a mesh bound a volume, so that triangles that turn away from the viewer are never seen.
 

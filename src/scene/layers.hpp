@@ -33,7 +33,8 @@ enum class LayerNeeds {
       "of feedback (pd, computed_torque): the pose that it follows in outline; coils from there show PD")   \
   ROW(ghosts, "ghosts", 0, nothing,                                                                         \
       "the chain at six earlier instants of the last second, fainter with age, the older half as outlines") \
-  ROW(shadow, "shadow", 0, nothing, "seen obliquely: what a light from above leaves dark")                  \
+  ROW(shadow, "shadow", 13, nothing,                                                                        \
+      "seen obliquely: the soft shadow of a light from above, darker where a body touches the ground")      \
   ROW(chain_rails, "chain", 0, nothing, "")                                                                 \
   ROW(trail, "trail", 2, end_effector, "the last second of the end effector's way, a dot every 0.1 s")      \
   ROW(slider_springs, "springs", 8, nothing,                                                                \

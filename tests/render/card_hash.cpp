@@ -23,7 +23,7 @@ Picture bodies(const Theme& theme) {
   Solids solids;
   solids.origin = {0.89, 0.5};
   solids.scale = 0.5;
-  solids.nearness = 0.11;
+  solids.nearing = {0, 0.02, 0.11};
   solids.outline = theme.ink;
   solids.outline_width = 0.004;
   solids.parts = {{shared(sphere_mesh(0.61)), {1, 0, 0, -0.7, 0, 1, 0, 0.1, 0, 0, 1, 0.03}, theme.link[0]},

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "core/error.hpp"
@@ -43,7 +44,7 @@ Solids scene(std::vector<Solid> parts, double nearness = 0) {
   solids.parts = std::move(parts);
   solids.origin = {0.5, 0.5};
   solids.scale = 0.5;
-  solids.nearness = nearness;
+  solids.nearing = {0, 0, nearness};
   return solids;
 }
 
@@ -63,6 +64,41 @@ TEST(Solids, CoverTheAreaOfTheirOutline) {
   EXPECT_NEAR(covered_area(draw_items({silhouette({at(shared(sphere_mesh(0.7)), 0, 0, 0)})})),
               std::numbers::pi * radius * radius, 0.005 * std::numbers::pi * radius * radius);
   EXPECT_EQ(covered_area(draw_items({silhouette({})})), 0);
+}
+
+// As dark in sum as with hard edges, but spread: nothing changes farther away than the blur reaches, and between there are all
+// levels. Twice as far along rows as across them.
+TEST(Solids, ShadowsHaveSoftEdges) {
+  const Image sharp = draw_items({silhouette({at(cube(0.5), 0, 0, 0)})});
+  Solids blurred = silhouette({at(cube(0.5), 0, 0, 0)});
+  constexpr double kBlur = 12;  // px
+  blurred.outline_width = kBlur / kSide;
+  const Image soft = draw_items({blurred});
+  EXPECT_NEAR(covered_area(soft), covered_area(sharp), 0.01 * covered_area(sharp));  // levels are rounded
+  std::set<int> across, along;
+  for (int k = 0; k < kSide; ++k) {
+    across.insert(int(std::lround(255 * darkness(soft, kSide / 2, k))));
+    along.insert(int(std::lround(255 * darkness(soft, k, kSide / 2))));
+    if (std::abs(k + 0.5 - kSide / 2.0) < 16 + kBlur + 1) continue;
+    EXPECT_EQ(darkness(soft, k, kSide / 2), 0) << k;
+    EXPECT_EQ(darkness(soft, kSide / 2, k), 0) << k;
+  }
+  EXPECT_GE(along.size(), 12u);
+  EXPECT_GE(across.size(), 6u);
+  EXPECT_GT(along.size(), across.size());
+  EXPECT_NEAR(darkness(soft, kSide / 2, kSide / 2), 1, 0.01);
+}
+
+TEST(Solids, SoftShadowsFadeBeforeTheEdgesOfTheirScene) {
+  Solids shadow = silhouette({at(cube(1.6), 0, 0, 0)});
+  shadow.fade = {{0.2, 0.2, 0.8, 0.8}, 0.1, 0.1, 0.1, 0.1};
+  const Image image = draw_items({shadow});
+  const auto dark = [&](double x, double y) { return darkness(image, int(x * kSide), int((1 - y) * kSide)); };
+  EXPECT_NEAR(dark(0.5, 0.5), 1, 0.01);
+  EXPECT_NEAR(dark(0.25, 0.5), 0.5, 0.06);  // half of the stretch; a pixel is 0.08 of it
+  EXPECT_NEAR(dark(0.5, 0.75), 0.5, 0.06);
+  EXPECT_EQ(dark(0.15, 0.5), 0);
+  EXPECT_EQ(dark(0.5, 0.1), 0);
 }
 
 TEST(Solids, StandWhereTheViewPutsThem) {
@@ -257,16 +293,6 @@ TEST(Solids, WithTrianglesBetweenMissingVerticesAreAnError) {
   TriangleMesh mesh = box_mesh({1, 1, 1});
   mesh.triangles.back() = 1000;
   EXPECT_THROW(draw_items({scene({at(shared(mesh), 0, 0, 0)})}), Error);
-}
-
-TEST(Solids, KnowWhereTheyStandWithoutBeingDrawn) {
-  const Solids solids = silhouette({at(cube(0.4), 0.1, 0, 0)}, 0.5);
-  const auto bounds = bounds_of(solids, {bounds_of(*solids.parts[0].mesh)});
-  ASSERT_TRUE(bounds);
-  EXPECT_NEAR(bounds->nearest, 0.2, 1e-7);  // vertices are floats
-  EXPECT_NEAR(bounds->farthest, -0.2, 1e-7);
-  EXPECT_NEAR(bounds->page.x1, 0.5 + 0.5 * 0.3 / (1 - 0.1), 1e-7);
-  EXPECT_FALSE(bounds_of(scene({}), {}));
 }
 
 // Its nearest triangles reach behind the eye, its farthest nearly to the horizon, which is at the middle of the page.

@@ -97,9 +97,9 @@ Picture draw_pose_figure(const Chain& chain, const std::vector<std::vector<doubl
   picture.aspect = sheet.aspect;
   picture.background = options.theme->background;
   picture.clips = {sheet.scene};
-  const auto ground = ground_under(stage.motion, camera);
-  if (ground && is_oblique(chain, options.camera))
-    draw_ground_plane(picture, *ground, camera, *options.theme, kSceneClip);
+  const auto ground = is_oblique(chain, options.camera) ? ground_under(stage.motion, camera) : std::nullopt;
+  if (ground)
+    draw_ground_plane(picture, *ground, camera, *options.theme, sheet.scene, kSceneClip);
   const auto drawing = [&](double strength) {
     return ChainDrawing{chain, skeleton, camera, look_of(skeleton, camera, *options.theme, strength),
                         options.shapes.get()};
@@ -108,6 +108,7 @@ Picture draw_pose_figure(const Chain& chain, const std::vector<std::vector<doubl
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const double strength = i + 1 < poses.size() ? kOnionSkin : 1;
     stage.stand(poses[i]);
+    if (ground) draw_shadow(picture, drawing(strength), stage.ws, sheet.scene, kSceneClip);
     draw_rails(picture, drawing(strength), stage.ws, kSceneClip);
     draw_links(picture, drawing(strength), stage.ws, kSceneClip);
     if (options.shapes || chain.end_effector < 0) continue;

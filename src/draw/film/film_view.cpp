@@ -119,7 +119,7 @@ void FilmView::place_camera(const Stage& stage, const Layers& layers, const Film
         camera, *stage.space, entry, first.height(),
         [&](Camera& seen) { fit_to_area(seen, stage, fit_box(stage, layers, seen, marks), first); },
         stage.page.place_of("camera.distance"));
-  if (marks != 1 || camera.nearness > 0) box_ = fit_box(stage, layers, camera, marks);
+  if (marks != 1 || camera.has_eye()) box_ = fit_box(stage, layers, camera, marks);
   fit_to_area(camera, stage, box_, first);
 }
 

@@ -294,7 +294,7 @@ void draw_ellipsoid(Picture& picture, const std::vector<MassAxis>& axes, Point c
 }
 
 Hides robot_hides(const BodyShapes& shapes, const Workspace& ws, const Camera& camera, const Vector3d& tip) {
-  const double share = 1 - camera.nearness * camera.toward_viewer.dot(tip - camera.focus);
+  const double share = 1 - camera.nearing.dot(tip - camera.focus);
   const Vector3d toward = camera.seen_at(tip).toward_viewer;
   std::vector<Hull> hulls;
   for (const BodyShape& shape : shapes.shapes)

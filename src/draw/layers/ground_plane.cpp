@@ -18,6 +18,8 @@ constexpr double kGroundBeyond = 0.35;   // of the motion's reach, the grid goes
 constexpr double kCells = 10;      // about, over the diameter
 constexpr double kLine = 0.0016;   // units of H
 constexpr double kShown = 0.9;     // opacity of the lines in the middle
+constexpr double kFades = 0.07;    // units of H before the edges of the scene
+constexpr int kPieces = 24;        // of a line, between which its opacity is linear
 
 // Any two directions that span the plane, along the world's axes where these lie in it.
 std::array<Vector3d, 2> along(const Vector3d& up) {
@@ -40,7 +42,8 @@ std::optional<GroundPlane> ground_under(const MotionBox& motion, const Camera& c
 }
 
 void draw_ground_plane(Picture& picture, const GroundPlane& ground, const Camera& camera, const Theme& theme,
-                       int clip) {
+                       const Rect& area, int clip) {
+  const Fade edges{area, kFades, kFades, kFades, kFades};
   const std::array<Vector3d, 2> axes = along(ground.up);
   for (std::size_t i = 0; i < 2; ++i) {
     const Vector3d &line = axes[i], &step = axes[1 - i];
@@ -49,14 +52,14 @@ void draw_ground_plane(Picture& picture, const GroundPlane& ground, const Camera
     for (double k = first; k * ground.spacing <= middle + ground.radius; ++k) {
       const double off = k * ground.spacing - middle;
       const double half = std::sqrt(std::max(0.0, ground.radius * ground.radius - off * off));
-      const double shown = kShown * (1 - std::pow(off / ground.radius, 2));
-      const Vector3d nearest = ground.middle + off * step;
-      const Point m = camera.project(nearest);
-      for (const double side : {-1.0, 1.0}) {
-        const Point end = camera.project(nearest + side * half * line);
-        if (!std::isfinite(m.x + m.y + end.x + end.y)) continue;
-        picture.add(Capsule{m, end, kLine / 2, {theme.rule, {}, 0}, shown, 0}, clip);
+      Trail way{{}, theme.rule};
+      for (int piece = 0; piece <= kPieces; ++piece) {
+        const double at = half * (2.0 * piece / kPieces - 1);
+        const Point p = camera.project(ground.middle + off * step + at * line);
+        const double away = std::hypot(off, at) / ground.radius;
+        if (is_drawable(p)) way.points.push_back({p, kLine, kShown * std::max(0.0, 1 - away * away) * edges.opacity_at(p)});
       }
+      if (way.points.size() > 1) picture.add(std::move(way), clip);
     }
   }
 }
@@ -85,7 +88,7 @@ class GroundLayer : public OnGround {
   UnderWords under_words() const override { return UnderWords::freely; }
   void draw_once(Picture& picture, const Panel& panel) const override {
     if (const auto ground = ground_of(panel))
-      draw_ground_plane(picture, *ground, panel.camera(), theme(), panel.clip());
+      draw_ground_plane(picture, *ground, panel.camera(), theme(), panel.area(), panel.clip());
   }
 };
 
@@ -94,7 +97,7 @@ class ShadowLayer : public OnGround {
   using OnGround::OnGround;
   UnderWords under_words() const override { return UnderWords::freely; }
   void draw(Picture& picture, const Shot& shot) const override {
-    if (ground_of(shot.panel)) draw_shadow(picture, shot.panel.drawing(), shot.ws, shot.panel.clip());
+    if (ground_of(shot.panel)) draw_shadow(picture, shot.panel.drawing(), shot.ws, shot.panel.area(), shot.panel.clip());
   }
 };
 

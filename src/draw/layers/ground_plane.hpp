@@ -21,7 +21,8 @@ struct GroundPlane {
 // from below.
 std::optional<GroundPlane> ground_under(const MotionBox& motion, const Camera& camera);
 
+// Fades with the distance from the middle, and before the edges of `area`.
 void draw_ground_plane(Picture& picture, const GroundPlane& ground, const Camera& camera, const Theme& theme,
-                       int clip);
+                       const Rect& area, int clip);
 
 }  // namespace chainreel

@@ -240,7 +240,8 @@ Solids solids_seen_by(const Camera& camera) {
   Solids solids;
   solids.origin = camera.origin;
   solids.scale = camera.scale;
-  solids.nearness = camera.nearness;
+  const std::array<Vector3d, 3> axes{camera.right, camera.up, camera.toward_viewer};
+  for (std::size_t i = 0; i < 3; ++i) solids.nearing[i] = camera.nearing.dot(axes[i]);
   return solids;
 }
 

@@ -21,7 +21,11 @@ struct Part {
 
 constexpr double kBodyOutline = 0.0015;  // of body shapes, units of H: their light shows their form
 // Opacity of the black of a shadow, on a white page and on a dark one.
-constexpr double kShadow = 0.15, kShadowOnDark = 0.5;
+constexpr double kShadow = 0.17, kShadowOnDark = 0.5;
+constexpr double kContact = 0.22, kContactOnDark = 0.5;  // ... and where a body touches the ground, besides
+constexpr double kNear = 0.12;           // of the longest reach: what stands higher has no contact
+constexpr double kSoft = 0.030, kSoftContact = 0.014;  // units of H: how far their edges are blurred
+constexpr double kShadowFades = 0.07;    // units of H before the edges of the scene
 
 // Seen along the normal of the plane in which all motion stays.
 bool is_face_on(const ChainDrawing& drawing) {
@@ -127,14 +131,31 @@ PageLine rail_line(const ChainDrawing& drawing, const Workspace& ws, const Rail&
   return with_overhang(way, rail.carrier, drawing.look);
 }
 
-void draw_shadow(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip) {
+void draw_shadow(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, const Rect& area, int clip) {
   if (!drawing.shapes) return;
-  Solids shadow = solids_seen_by(drawing.camera);
-  add_shadows(shadow, *drawing.shapes, ws, drawing.camera, up_of(drawing.chain));
-  shadow.is_shadow = true;
+  const Vector3d up = up_of(drawing.chain);
   const bool on_dark = drawing.look.theme->background.g < 128;
-  shadow.outline = color_of(0x000000, on_dark ? kShadowOnDark : kShadow);
-  picture.add(std::move(shadow), clip);
+  Solids shadow = solids_seen_by(drawing.camera);
+  shadow.is_shadow = true;
+  shadow.fade = {area, kShadowFades, kShadowFades, kShadowFades, kShadowFades};
+  Solids all = shadow;
+  add_shadows(all, *drawing.shapes, ws, drawing.camera, up);
+  all.outline = color_of(0x000000, drawing.look.strength * (on_dark ? kShadowOnDark : kShadow));
+  all.outline_width = kSoft;
+  const std::vector<Solid> parts = all.parts;
+  picture.add(std::move(all), clip);
+  const double highest = kNear * drawing.skeleton.reach;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const BodyShape& shape = drawing.shapes->shapes[i];
+    double lowest = HUGE_VAL;
+    for (const Vector3d& corner : shape.corners) lowest = std::min(lowest, std::abs(up.dot(pose_of(ws, shape.body) * corner)));
+    if (!(lowest < highest)) continue;
+    Solids contact = shadow;
+    contact.parts = {parts[i]};
+    contact.outline = color_of(0x000000, drawing.look.strength * (1 - lowest / highest) * (on_dark ? kContactOnDark : kContact));
+    contact.outline_width = kSoftContact;
+    picture.add(std::move(contact), clip);
+  }
 }
 
 void draw_base(Picture& picture, const ChainDrawing& drawing, int clip) {

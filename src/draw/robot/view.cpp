@@ -85,6 +85,14 @@ double rounded_up(double value) {
   return std::ceil(value / unit) * unit;
 }
 
+// Along which things grow, by 1 for each m that leads to the eye. Horizontal, so that what stands upright is drawn so; seen from
+// high above, where that would stretch the page, straight to the viewer.
+Vector3d direction_of_growth(const Vector3d& toward_viewer, const Vector3d& up) {
+  constexpr double kSteep = 0.5;  // of elevations above 45 degrees
+  const Vector3d level = toward_viewer - up.dot(toward_viewer) * up;
+  return level.squaredNorm() < kSteep ? toward_viewer : Vector3d(level / level.squaredNorm());
+}
+
 }  // namespace
 
 bool is_oblique(const Chain& chain, const CameraEntry& entry) {
@@ -113,9 +121,9 @@ void place_eye(Camera& camera, const MotionBox& motion, const CameraEntry& entry
                const std::function<void(Camera&)>& fit, const Place& place) {
   if (motion.empty()) return;
   camera.focus = motion.middle();
+  const Vector3d growing = direction_of_growth(camera.toward_viewer, motion.up());
   double nearest = 0;  // m before the focus
-  for (const Vector3d& corner : motion.corners())
-    nearest = std::max(nearest, camera.toward_viewer.dot(corner - camera.focus));
+  for (const Vector3d& corner : motion.corners()) nearest = std::max(nearest, growing.dot(corner - camera.focus));
   const double least = kLeastClear * nearest;
   if (entry.distance && *entry.distance < least)
     throw Error(ExitCode::bad_input,
@@ -126,7 +134,7 @@ void place_eye(Camera& camera, const MotionBox& motion, const CameraEntry& entry
     fit(camera);
     const double seen = height / camera.scale / 2;  // m above and below the focus
     const double fitting = std::max(seen / std::tan(kFieldOfView / 2), kClear * nearest);
-    camera.nearness = 1 / entry.distance.value_or(fitting);
+    camera.nearing = growing / entry.distance.value_or(fitting);
   }
   fit(camera);
 }

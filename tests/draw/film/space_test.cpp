@@ -4,7 +4,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <regex>
+#include <set>
 #include <tuple>
 
 #include "core/error.hpp"
@@ -16,7 +18,6 @@
 #include "draw/robot/view.hpp"
 #include "draw/shapes.hpp"
 #include "dynamics/kinematics.hpp"
-#include "render/solid_bounds.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace chainreel {
@@ -79,9 +80,21 @@ class Space : public ::testing::Test {
 };
 
 Rect extent_of(const Solids& solids) {
-  std::vector<MeshBounds> bounds;
-  for (const Solid& part : solids.parts) bounds.push_back(bounds_of(*part.mesh));
-  return bounds_of(solids, bounds)->page;
+  Rect all{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (const Solid& part : solids.parts)
+    for (const TriangleMesh::Vertex& vertex : part.mesh->vertices) {
+      std::array<double, 3> view{};
+      double w = 1;
+      for (std::size_t r = 0; r < 3; ++r) {
+        view[r] = part.to_view[4 * r + 3];
+        for (std::size_t c = 0; c < 3; ++c) view[r] += part.to_view[4 * r + c] * vertex.position[c];
+        w -= solids.nearing[r] * view[r];
+      }
+      const Point at = solids.origin + solids.scale / w * Point{view[0], view[1]};
+      all = {std::min(all.x0, at.x), std::min(all.y0, at.y), std::max(all.x1, at.x), std::max(all.y1, at.y)};
+    }
+  const double around = solids.outline_width;
+  return {all.x0 - around, all.y0 - around, all.x1 + around, all.y1 + around};
 }
 
 TEST_F(Space, ShapesStandWhereTheirBodiesDo) {
@@ -110,14 +123,14 @@ TEST_F(Space, PointsOfShapesProjectAsTheCameraProjectsThem) {
   const Scene plain = scene();
   const Film made = film(plain, all.get());
   const Camera& camera = made.camera();
-  ASSERT_GT(camera.nearness, 0);
+  ASSERT_TRUE(camera.has_eye());
   const Picture picture = made.frame(20);
   const Solids solids = test::all_of<Solids>(picture).at(0);
   Workspace ws(chain);
   compute_kinematics(chain, ws, run.q_at(20), run.qd_at(20));
   for (std::size_t i = 0; i < 3; ++i) {
     const auto& m = solids.parts[i].to_view;
-    const double grown = solids.scale / (1 - m[11] * solids.nearness);
+    const double grown = solids.scale / (1 - m[3] * solids.nearing[0] - m[7] * solids.nearing[1] - m[11] * solids.nearing[2]);
     const Point at = solids.origin + grown * Point{m[3], m[7]};
     const Vector3d place = pose_of(ws, all->shapes[i].body) * all->shapes[i].X_BM.translation();
     EXPECT_NEAR(at.x, camera.project(place).x, kSpaceRoundOff);
@@ -146,7 +159,36 @@ TEST_F(Space, ThirtyDegreesHoldTheScene) {
   const Film made = film(plain, nullptr);
   const double height = made.scene_area().height() / made.camera().scale;
   // The last of six passes changes the distance by less than a thousandth.
-  EXPECT_NEAR(2 * std::atan(height / 2 * made.camera().nearness), 30 * M_PI / 180, 0.001);
+  EXPECT_NEAR(2 * std::atan(height / 2 / made.camera().distance()), 30 * M_PI / 180, 0.001);
+}
+
+// Verticals have no vanishing point; seen from high above they do, since the page would be stretched.
+TEST_F(Space, WhatStandsUprightIsDrawnUpright) {
+  Scene plain = scene();
+  const auto lean = [&](const Scene& asked) {
+    const Film made = film(asked, nullptr);
+    const Camera& camera = made.camera();
+    EXPECT_TRUE(camera.has_eye());
+    const Point low = camera.project(camera.focus + Vector3d(0.3, 0.3, -0.2)), high = camera.project(camera.focus + Vector3d(0.3, 0.3, 0.3));
+    EXPECT_GT(high.y, low.y);
+    return std::abs(high.x - low.x);
+  };
+  EXPECT_LT(lean(plain), kSpaceRoundOff);
+  plain.camera.elevation = 60 * M_PI / 180;
+  EXPECT_GT(lean(plain), 100 * kSpaceRoundOff);
+}
+
+// What is drawn before something else is what the ray meets first, and the eye is where all rays come from.
+TEST_F(Space, RaysMeetInTheEye) {
+  const Scene plain = scene();
+  const Film made = film(plain, nullptr);
+  const Camera& camera = made.camera();
+  const Vector3d eye = camera.focus + camera.distance() * camera.toward_viewer;
+  for (const Vector3d& place : {Vector3d(0.3, -0.2, 0.4), Vector3d(-0.2, 0.1, 0.9), Vector3d(0, 0.4, 0)}) {
+    const Point near = camera.project(place + 0.3 * (eye - place)), far = camera.project(place);
+    EXPECT_NEAR(near.x, far.x, kSpaceRoundOff);
+    EXPECT_NEAR(near.y, far.y, kSpaceRoundOff);
+  }
 }
 
 TEST_F(Space, AnEyeFarAwaySeesParallelRays) {
@@ -154,7 +196,7 @@ TEST_F(Space, AnEyeFarAwaySeesParallelRays) {
   far.camera.distance = 1e5;
   parallel.camera.distance = std::numeric_limits<double>::infinity();
   const Film one = film(far, nullptr), other = film(parallel, nullptr);
-  EXPECT_EQ(other.camera().nearness, 0);
+  EXPECT_FALSE(other.camera().has_eye());
   for (const Vector3d& place : {Vector3d(0, 0, 0), Vector3d(0.3, -0.4, 0.9)}) {
     // A metre of depth changes the scale by 1e-5.
     EXPECT_NEAR(one.camera().project(place).x, other.camera().project(place).x, 2e-5);
@@ -162,7 +204,7 @@ TEST_F(Space, AnEyeFarAwaySeesParallelRays) {
   }
   Scene near = scene();
   near.camera.distance = 2;
-  EXPECT_DOUBLE_EQ(1 / film(near, nullptr).camera().nearness, 2);
+  EXPECT_DOUBLE_EQ(film(near, nullptr).camera().distance(), 2);
 }
 
 TEST_F(Space, AnEyeAmongTheBodiesIsAnError) {
@@ -210,14 +252,14 @@ TEST(View, TurnsByAzimuthAndElevation) {
 TEST(Camera, DerivesItsProjection) {
   Camera camera = view_of(test::model("rr"), {0.5, 0.3, {}, {}});
   camera.focus = {0.2, 0.1, -0.3};
-  camera.nearness = 0.4;
+  camera.nearing = {0.1, 0.3, 0.3};
   camera.scale = 0.7;
   const Vector3d x(0.6, -0.2, 0.5), v(0.3, 0.8, -0.6);
   constexpr double h = 1e-6;  // of central differences: errors of h^2
   const Point difference = (1 / (2 * h)) * (camera.project(x + h * v) - camera.project(x - h * v));
   EXPECT_NEAR(camera.project_vector(v, x).x, difference.x, 1e-9);
   EXPECT_NEAR(camera.project_vector(v, x).y, difference.y, 1e-9);
-  EXPECT_TRUE(std::isnan(camera.project(camera.focus + 3 * camera.toward_viewer).x));  // behind the eye
+  EXPECT_TRUE(std::isnan(camera.project(camera.focus + 10 * camera.nearing).x));  // behind the eye
 }
 
 TEST_F(Space, LinksSayWhatIsDrawn) {
@@ -246,16 +288,23 @@ TEST_F(Space, LinksSayWhatIsDrawn) {
   EXPECT_TRUE(test::all_of<Capsule>(film(plain, all.get()).frame(0)).empty());
 }
 
+// Lines of the ground are the only trails that stand still.
 TEST_F(Space, StandsOnAGroundThatItTouches) {
   const auto all = shapes();
-  const Scene plain = scene();
-  EXPECT_FALSE(test::all_of<Capsule>(film(plain, all.get()).static_layer()).empty());
+  const auto lines_of = [&](const Scene& scene) { return test::all_of<Trail>(film(scene, all.get()).static_layer()); };
+  const std::vector<Trail> lines = lines_of(scene());
+  EXPECT_GT(lines.size(), 8u);
+  // They end in nothing, and are nowhere cut off.
+  for (const Trail& line : lines) {
+    EXPECT_NEAR(line.points.front().alpha, 0, 1e-6);
+    EXPECT_NEAR(line.points.back().alpha, 0, 1e-6);
+  }
   Scene bare = scene();
   bare.draw = {"chain"};
-  EXPECT_TRUE(test::all_of<Capsule>(film(bare, all.get()).static_layer()).empty());
+  EXPECT_TRUE(lines_of(bare).empty());
   Scene below = scene();
   below.camera.elevation = -0.3;
-  EXPECT_TRUE(test::all_of<Capsule>(film(below, all.get()).static_layer()).empty());
+  EXPECT_TRUE(lines_of(below).empty());
 }
 
 MotionBox box_of(const Vector3d& up, std::initializer_list<Vector3d> places) {
@@ -300,17 +349,48 @@ TEST_F(Space, ThrowsAFlatShadow) {
   shaded.draw = {"chain", "shadow"};
   const Picture picture = film(shaded, all.get()).frame(30);
   const auto solids = test::all_of<Solids>(picture);
-  ASSERT_EQ(solids.size(), 2u);
+  ASSERT_GE(solids.size(), 2u);
   ASSERT_TRUE(solids[0].is_shadow);
-  EXPECT_FALSE(solids[1].is_shadow);
+  EXPECT_GT(solids[0].outline_width, 0);  // soft
+  const Solids& bodies = solids.back();
+  EXPECT_FALSE(bodies.is_shadow);
   // The shadow of the sphere has its centre right below it: the two differ by the height times the page's up
   // alone.
   Workspace ws(chain);
   compute_kinematics(chain, ws, run.q_at(30), run.qd_at(30));
   const Vector3d center = pose_of(ws, 2) * all->shapes[2].X_BM.translation();
-  const double rise = solids[1].parts[2].to_view[7] - solids[0].parts[2].to_view[7];
+  const double rise = bodies.parts[2].to_view[7] - solids[0].parts[2].to_view[7];
   EXPECT_NEAR(rise, center.z() * std::cos(20 * M_PI / 180), kSpaceRoundOff);
-  EXPECT_NEAR(solids[1].parts[2].to_view[3], solids[0].parts[2].to_view[3], kSpaceRoundOff);
+  EXPECT_NEAR(bodies.parts[2].to_view[3], solids[0].parts[2].to_view[3], kSpaceRoundOff);
+}
+
+// A second shadow lies below what is near to the ground, the darker the nearer, and below nothing else.
+TEST_F(Space, WhatTouchesTheGroundHasADarkerShadowBelow) {
+  const auto all = shapes();
+  Scene shaded = scene();
+  shaded.draw = {"chain", "shadow"};
+  const Picture picture = film(shaded, all.get()).frame(30);
+  Workspace ws(chain);
+  compute_kinematics(chain, ws, run.q_at(30), run.qd_at(30));
+  std::map<const TriangleMesh*, double> height;  // of what is lowest of a shape
+  for (const BodyShape& shape : all->shapes) {
+    double lowest = HUGE_VAL;
+    for (const Vector3d& corner : shape.corners) lowest = std::min(lowest, std::abs((pose_of(ws, shape.body) * corner).z()));
+    height[shape.mesh.get()] = lowest;
+  }
+  double highest_with = 0, lowest_without = HUGE_VAL;
+  std::set<const TriangleMesh*> with;
+  const auto shadows = test::all_of<Solids>(picture, [](const Solids& solids) { return solids.is_shadow; });
+  for (std::size_t i = 1; i < shadows.size(); ++i) {
+    ASSERT_EQ(shadows[i].parts.size(), 1u);
+    with.insert(shadows[i].parts[0].mesh.get());
+  }
+  for (const auto& [mesh, lowest] : height)
+    (with.contains(mesh) ? highest_with : lowest_without) =
+        with.contains(mesh) ? std::max(highest_with, lowest) : std::min(lowest_without, lowest);
+  EXPECT_FALSE(with.empty());
+  EXPECT_LT(with.size(), height.size());
+  EXPECT_LT(highest_with, lowest_without);
 }
 
 TEST_F(Space, ThrowsNoShadowWhereThereIsNoGround) {
@@ -325,7 +405,7 @@ TEST_F(Space, ThrowsNoShadowWhereThereIsNoGround) {
 TEST_F(Space, DirectionsAreSeenAsTheyAreAtTheirPlaces) {
   Camera camera = view_of(chain);
   camera.focus = {0, 0, 0.4};
-  camera.nearness = 0.8;
+  camera.nearing = Vector3d(0.7, 0.2, -0.1);
   const Vector3d place(0.5, -0.4, 0.2), direction(0.3, 0.2, -0.7);
   const Camera seen = camera.seen_at(place);
   const Point page = camera.project_vector(direction, place);
@@ -341,11 +421,12 @@ TEST_F(Space, PosesOfAModelAreSeenTheSameWay) {
   PoseFigureOptions options;
   options.shapes = shapes();
   const Picture picture = draw_pose_figure(chain, {{0, 0}, {0.5, 0.5}}, options, fonts());
-  const auto solids = test::all_of<Solids>(picture);
+  const auto solids = test::all_of<Solids>(picture, [](const Solids& one) { return !one.is_shadow; });
   ASSERT_EQ(solids.size(), 2u);
+  EXPECT_LT(test::all_of<Solids>(picture).size(), 7u);  // two shadows a pose, and the contact of its foot
   EXPECT_LT(solids[0].opacity, 0.5);  // an onion skin
   EXPECT_EQ(solids[1].opacity, 1);
-  EXPECT_GT(solids[1].nearness, 0);
+  EXPECT_NE(solids[1].nearing, (std::array<double, 3>{}));
 }
 
 // A left hand is a right hand with a negative scale; stretched, normals stay across the surface.
