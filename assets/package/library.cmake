@@ -6,7 +6,7 @@ include(${CMAKE_SOURCE_DIR}/assets/package/public_headers.cmake)
 
 set(dynamics_libraries core mesh model dynamics)
 set(sim_libraries expr integrate sim)
-set(film_libraries scene picture draw render encode film)
+set(film_libraries scene picture draw render encode table film)
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/chainreel)
 
 foreach(part dynamics sim film)
@@ -43,4 +43,4 @@ install(FILES ${CMAKE_BINARY_DIR}/chainreelConfig.cmake ${CMAKE_BINARY_DIR}/chai
   DESTINATION ${config} COMPONENT dev)
 
 # What the libraries are linked with, for the Debian package.
-set(CPACK_CHAINREEL_DEV_PACKAGES "libassimp-dev, libcairo2-dev, libconsole-bridge-dev, libdeflate-dev, libeigen3-dev, libfreetype-dev, libharfbuzz-dev, libimagequant-dev, libjpeg-dev, libpng-dev, libssl-dev, libtinyxml2-dev, liburdfdom-dev, libyaml-cpp-dev, pkg-config, zlib1g-dev")
+set(CPACK_CHAINREEL_DEV_PACKAGES "libassimp-dev, libcairo2-dev, libconsole-bridge-dev, libdeflate-dev, libeigen3-dev, libfreetype-dev, libharfbuzz-dev, libimagequant-dev, libjpeg-dev, libminizip-dev, libpng-dev, libssl-dev, libtinyxml2-dev, liburdfdom-dev, libyaml-cpp-dev, pkg-config, zlib1g-dev")

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/cli/result.hpp"
 #include "app/commands/equations_command.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/film/prepared.hpp"
@@ -88,20 +89,22 @@ Json json_of(const SymbolicEquation& equation) {
 }
 
 void run_equations(const EquationsOptions& options) {
-  if (int(options.latex) + int(options.python) + int(options.common.json) > 1)
-    throw Error(ExitCode::usage, "--latex, --python and --json are three forms of one thing: take one of them");
-  if (options.theta && (options.python || options.common.json))
+  // Of a file, --json tells on standard output what is in it.
+  const bool prints_json = options.common.json && options.output.empty();
+  const bool is_json = prints_json || options.output.ends_with(".json");
+  if (int(options.latex) + int(options.python) + int(is_json) > 1)
+    throw Error(ExitCode::usage, "--latex, --python and JSON are three forms of one thing: take one of them");
+  if (options.theta && (options.python || is_json))
     throw Error(ExitCode::usage, "--theta is for text and LaTeX: the angles are q in Python and JSON");
   const SymbolicEquation equation = equation_of(options);
   const std::string angle = options.theta ? "theta" : "q";
-  const std::string text = options.common.json ? json_of(equation).dump(2) + "\n"
-                           : options.latex     ? latex_of(equation, angle)
-                           : options.python    ? python_of(equation)
-                                               : text_of(equation, angle);
-  if (options.output.empty())
-    std::fputs(text.c_str(), stdout);
-  else
-    write_text_file(options.output, text, options.common.force);
+  const std::string text = is_json          ? json_of(equation).dump(2) + "\n"
+                           : options.latex  ? latex_of(equation, angle)
+                           : options.python ? python_of(equation)
+                                            : text_of(equation, angle);
+  if (options.output.empty()) return void(std::fputs(text.c_str(), stdout));
+  write_text_file(options.output, text, options.common.force);
+  if (options.common.json) tell_files(options.common, {options.output}, json_of(equation));
 }
 
 void add_commands(CommandLine& app) {

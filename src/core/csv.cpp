@@ -29,6 +29,12 @@ std::vector<std::string> fields_of(const std::string& line) {
   }
 }
 
+// "q1" of "q1 [rad]".
+std::string without_unit(const std::string& name) {
+  const std::size_t begin = name.rfind(" [");
+  return begin == std::string::npos || begin == 0 || !name.ends_with(']') ? name : trimmed(name.substr(0, begin));
+}
+
 }  // namespace
 
 int Table::find(const std::string& name) const {
@@ -52,9 +58,10 @@ Table read_csv(const std::string& path) {
     const std::vector<std::string> fields = fields_of(line);
     if (table.names.empty()) {
       table.names = fields;
+      for (std::string& name : table.names) name = without_unit(name);
       for (std::size_t i = 0; i < fields.size(); ++i)
-        if (table.find(fields[i]) != int(i))
-          throw Error(ExitCode::bad_input, "two columns are named '" + fields[i] + "': rename or remove one", {path, number});
+        if (table.find(table.names[i]) != int(i))
+          throw Error(ExitCode::bad_input, "two columns are named '" + table.names[i] + "': rename or remove one", {path, number});
       table.columns.resize(fields.size());
       continue;
     }

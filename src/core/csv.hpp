@@ -8,7 +8,7 @@ namespace chainreel {
 
 struct Table {
   std::string file;
-  std::vector<std::string> names;
+  std::vector<std::string> names;  // without their units: "q1" of "q1 [rad]"
   std::vector<std::vector<double>> columns;  // one a name, all of the same length
   std::vector<int> lines;                    // of the file, where each row stands
 

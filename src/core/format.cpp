@@ -144,6 +144,16 @@ std::string PrintableStream::end() {
   return result;
 }
 
+std::u32string code_points(std::string_view text) {
+  std::u32string points;
+  while (!text.empty()) {
+    const Character character = character_at(text);
+    points += character.length > 0 ? char32_t(character.code) : U'\uFFFD';
+    text.remove_prefix(character.length > 0 ? character.length : 1);
+  }
+  return points;
+}
+
 std::string printable(std::string_view text) {
   PrintableStream stream;
   std::string result = stream.next(text);

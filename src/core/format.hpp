@@ -27,7 +27,10 @@ std::optional<double> parse_number(std::string_view text);
 // as \u001b, in the way of JSON, which stays JSON; all else as it is.
 std::string printable(std::string_view text);
 
-// The same of a text that comes in pieces: a character may be cut between two of them.
+// The characters of a text; bytes that are no UTF-8 become U+FFFD.
+std::u32string code_points(std::string_view text);
+
+// `printable` of a text that comes in pieces: a character may be cut between two of them.
 class PrintableStream {
  public:
   std::string next(std::string_view piece);

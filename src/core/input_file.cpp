@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "core/error.hpp"
@@ -51,6 +52,23 @@ std::string read_plain_file(const std::string& path, std::uintmax_t largest) {
     throw Error(ExitCode::bad_input,
                 std::string("cannot be read") + (errno != 0 ? std::string(": ") + std::strerror(errno) : ""), {path});
   return bytes;
+}
+
+namespace {
+
+std::optional<std::string>& held_text() {
+  static std::optional<std::string> text;
+  return text;
+}
+
+}  // namespace
+
+void hold_standard_input(std::string text) {
+  held_text() = std::move(text);
+}
+
+const std::string* standard_input_at(const std::string& path) {
+  return held_text() && path == kStandardInput ? &*held_text() : nullptr;
 }
 
 void note_input(const std::string& path) {

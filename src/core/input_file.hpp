@@ -17,6 +17,11 @@ void require_plain_file(const std::string& path, std::uintmax_t largest = kLarge
 // All its bytes. Throws as above, and Error (exit 3) where it cannot be read.
 std::string read_plain_file(const std::string& path, std::uintmax_t largest = kLargestInput);
 
+// What came by standard input, under a name of its own that no file needs to have: known to those that read scenes.
+inline constexpr const char* kStandardInput = "stdin";
+void hold_standard_input(std::string text);
+const std::string* standard_input_at(const std::string& path);  // null where the path is another, or nothing came
+
 // Remembers the file at `path`, if there is one, as an input of this program's run. Safe among threads.
 void note_input(const std::string& path);
 

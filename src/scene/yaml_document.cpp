@@ -67,6 +67,7 @@ class Guard final : public YAML::EventHandler {
 };
 
 std::string read_text(const std::string& path) {
+  if (const std::string* text = standard_input_at(path)) return *text;
   namespace fs = std::filesystem;
   std::error_code code;
   if (!fs::exists(path, code)) throw Error(ExitCode::bad_input, "there is no such file", {path});

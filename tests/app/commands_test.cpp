@@ -12,7 +12,7 @@
 #include <map>
 #include <sstream>
 
-#include "app/report/trajectory_csv.hpp"
+#include "app/report/motion_table.hpp"
 #include "core/csv.hpp"
 #include "core/format.hpp"
 #include "core/json.hpp"
@@ -183,6 +183,34 @@ TEST_F(EveryCommand, RefusesAPackageWithoutAFolderAsUsage) {
   EXPECT_GE(taking, 10);
 }
 
+// A script for a shell has no JSON, a schema is JSON already.
+TEST_F(EveryCommand, PrintsItsResultAsOneJsonTextAndNothingElse) {
+  for (const auto& [command, use] : uses()) {
+    const bool is_text_of_others = command == "completion" || command == "schema";
+    EXPECT_NE(offers(command, "--json"), is_text_of_others) << command;
+    if (is_text_of_others) continue;
+    const TemporaryFolder folder;
+    const ProgramResult told = run_program(with(command_line(command, use, folder.file("a" + use.ending)), {"--json"}));
+    EXPECT_EQ(told.status, 0) << command << told.err;
+    const Json json = parse_json(told.out);
+    EXPECT_TRUE(json.is_object() || json.is_array()) << command << told.out;
+    EXPECT_FALSE(json.empty()) << command;
+    if (!use.ending.empty() && !use.to_name && use.option == "-o" && command != "extract" && command != "compare") {
+      EXPECT_THAT(told.out, HasSubstr("a" + use.ending)) << command << " does not say what it wrote";
+    }
+    if (!offers(command, "--quiet")) continue;
+    const TemporaryFolder quiet;
+    const ProgramResult again =
+        run_program(with(command_line(command, use, quiet.file("a" + use.ending)), {"--json", "--quiet"}));
+    EXPECT_FALSE(parse_json(again.out).is_discarded()) << command << again.out;
+  }
+  // A name that is no text is no reason to crash.
+  const TemporaryFolder odd;
+  const ProgramResult told = run_program({"sheet", kScene, "--json", "--width", "64", "--height", "36", "-o", odd.file("\xff.svg")});
+  EXPECT_EQ(told.status, 0) << told.err;
+  EXPECT_THAT(parse_json(told.out).value("file", ""), HasSubstr("\xEF\xBF\xBD.svg"));
+}
+
 // Digits from the first that is not zero to the last.
 int significant_digits(const std::string& number) {
   std::string digits;
@@ -209,8 +237,9 @@ TEST_F(EveryCommand, WritesTablesWithAllDigitsOfItsNumbers) {
   }
 }
 
-TEST(TrajectoryCsv, ReadsBackEqualToTheLastBit) {
-  const Chain chain = read_chain("models/rr.urdf");
+TEST(MotionTable, ReadsBackEqualToTheLastBit) {
+  Simulation simulation;
+  simulation.chain = read_chain("models/rr.urdf");
   Trajectory trajectory;
   trajectory.nq = trajectory.nv = 2;
   std::uint64_t state = 1;
@@ -224,7 +253,8 @@ TEST(TrajectoryCsv, ReadsBackEqualToTheLastBit) {
     for (int i = 0; i < 2; ++i) trajectory.q.push_back(next()), trajectory.qd.push_back(next());
   }
   const TemporaryFolder folder;
-  const Table table = read_csv(folder.write("a.csv", trajectory_csv(chain, trajectory)));
+  const DataTable written = motion_table(simulation, trajectory, {MotionColumn::t, MotionColumn::q, MotionColumn::qd});
+  const Table table = read_csv(folder.write("a.csv", table_bytes(written, TableFormat::csv)));
   ASSERT_EQ(table.names, (std::vector<std::string>{"t", "q1", "q2", "qd1", "qd2"}));
   for (int k = 0; k < 200; ++k) {
     const std::vector<double> row{trajectory.t[std::size_t(k)], trajectory.q_at(k)[0], trajectory.q_at(k)[1],

@@ -28,7 +28,9 @@ TEST(SimulateCommand, WritesARowAFrameAndOneAtTheEnd) {
   ASSERT_EQ(result.status, 0) << result.err;
   const std::vector<std::string> lines = lines_of(result.out);
   ASSERT_EQ(lines.size(), 1u + 120 + 1);
-  EXPECT_EQ(lines[0], "t,q1,q2,qd1,qd2");
+  EXPECT_EQ(lines[0],
+            "t [s],q1 [m],q2 [m],qd1 [m/s],qd2 [m/s],tau1 [N],tau2 [N],kinetic [J],potential [J],energy [J],"
+            "x_G [m],y_G [m],xd_G [m/s],yd_G [m/s]");
   EXPECT_THAT(lines[1], testing::StartsWith("0,0,0,1.5,"));
   EXPECT_THAT(lines.back(), testing::StartsWith("2,"));
   // 17 significant digits: the frame at 1/60 s.
@@ -44,7 +46,7 @@ TEST(SimulateCommand, WritesARowAStepWhereAsked) {
             0);
   const std::vector<std::string> lines = lines_of(read_whole_file(file));
   EXPECT_EQ(lines.size(), 1u + 251);
-  EXPECT_EQ(lines[0], "t,q1,q2,q3,qd1,qd2,qd3");
+  EXPECT_THAT(lines[0], testing::StartsWith("t [s],q1 [rad],q2 [rad],q3 [rad],qd1 [rad/s],qd2 [rad/s],qd3 [rad/s],tau1"));
 }
 
 Json dynamics(std::vector<std::string> arguments) {
@@ -113,7 +115,7 @@ TEST(InverseCommand, UndoesForwardDynamics) {
   ASSERT_EQ(result.status, 0) << result.err;
   const std::vector<std::string> lines = lines_of(read_whole_file(torques));
   ASSERT_EQ(lines.size(), 1u + 201);
-  EXPECT_EQ(lines[0], "t,tau1,tau2");
+  EXPECT_EQ(lines[0], "t [s],tau1 [N m],tau2 [N m]");
   double t, tau1, tau2;
   ASSERT_EQ(std::sscanf(lines[100].c_str(), "%lf,%lf,%lf", &t, &tau1, &tau2), 3);
   // qd is in the file and its spline at 5 ms gives qdd to h^3 of its fourth derivative (some 1e5 x 1e-7 /

@@ -100,6 +100,7 @@ const House& house() {
     House h;
     h.uses = {{"core", {}},
               {"compare", {"core"}},
+              {"table", {"core"}},
               {"expr", {"core"}},
               {"mesh", {"core"}},
               {"integrate", {"core"}},
@@ -112,7 +113,7 @@ const House& house() {
               {"sim", {"dynamics", "integrate", "expr"}},
               {"scene", {"sim"}},
               {"draw", {"scene", "picture"}},
-              {"app", {"draw", "render", "encode", "compare", "symbols"}},
+              {"app", {"draw", "render", "encode", "compare", "symbols", "table"}},
               {"python", {"app"}}};
     h.libraries = {{"nlohmann/", {"core"}},
                    {"openssl/", {"core"}},
@@ -128,6 +129,7 @@ const House& house() {
                    {"png.h", {"encode", "mesh"}},
                    {"jpeglib.h", {"mesh"}},
                    {"zlib.h", {"encode"}},
+                   {"minizip/", {"table"}},
                    {"libimagequant.h", {"encode"}},
                    {"urdf_", {"model"}},
                    {"console_bridge/", {"model"}},

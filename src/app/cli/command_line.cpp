@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "app/cli/data_folder.hpp"
+#include "app/cli/streams.hpp"
 #include "core/error.hpp"
 
 namespace chainreel {
@@ -55,7 +56,7 @@ Option Option::show_default() {
 Option Option::names_input() {
   option_of(option_)->transform(CLI::Validator(
       [](std::string& named) {
-        named = found_file(named);
+        named = named == "-" ? read_standard_input() : found_file(named);
         return std::string();
       },
       ""));

@@ -19,7 +19,9 @@ class Option {
   Option positive();
   Option one_of(std::vector<std::string> words);
   Option show_default();  // in the help
-  Option names_input();   // a scene or model: one that comes with the program may be meant by its name alone
+  // A scene or model: one that comes with the program may be meant by its name alone; "-" is a scene that comes by standard
+  // input. What it throws passes through run().
+  Option names_input();
   bool given() const;     // on the command line; to be asked when it was parsed
 
  private:

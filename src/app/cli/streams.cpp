@@ -19,6 +19,7 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/input_file.hpp"
 #include "core/temporary_file.hpp"
 
 namespace chainreel {
@@ -200,6 +201,24 @@ void remember(int signal) {
 }
 
 }  // namespace
+
+std::string read_standard_input() {
+  constexpr std::size_t kLargest = std::size_t(1) << 20;  // bytes, as of a scene's file
+  if (standard_input_at(kStandardInput) != nullptr) return kStandardInput;
+  std::string text;
+  std::array<char, 65536> piece{};
+  for (;;) {
+    const ssize_t count = read(STDIN_FILENO, piece.data(), piece.size());
+    throw_if_interrupted();
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw Error(ExitCode::bad_input, std::string("cannot be read: ") + std::strerror(errno), {kStandardInput});
+    if (count == 0) break;
+    text.append(piece.data(), std::size_t(count));
+    if (text.size() > kLargest) throw Error(ExitCode::limit, "is larger than 1 MiB: some 25 lines are enough", {kStandardInput});
+  }
+  hold_standard_input(std::move(text));
+  return kStandardInput;
+}
 
 void install_signal_handlers() {
   struct sigaction action = {};

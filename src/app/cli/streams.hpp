@@ -24,6 +24,10 @@ void print_error(const Error& error);
 // Hands on what was printed. False, with words on standard error, where not all of it was taken.
 bool flush_standard_output();
 
+// Reads all of standard input, once, and holds it (core/input_file) for those that read scenes. Returns the name under
+// which they find it. Throws Error (bad input) where it cannot be read, (limit) where it does not end within 1 MiB.
+std::string read_standard_input();
+
 // Signals that ask the program to end: a flag that the long loops look at, so that temporary files are removed on the
 // way out. A pipe without a reader and a file that may not grow are errors of the write that meets them, no signals.
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
+#include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/works/render_film.hpp"
 #include "app/film/prepared.hpp"
@@ -205,10 +206,9 @@ void run_bench(const BenchOptions& options) {
     table.push_back({scene.name, std::to_string(m.frames), format_fixed(m.whole.wall, 2), format_fixed(m.floor.wall, 2),
                      format_fixed(m.whole.wall / m.floor.wall, 2), format_fixed(m.whole.cpu / m.floor.cpu, 2)});
   }
-  if (options.common.json)
-    std::puts(all.dump(2).c_str());
-  else if (options.scenes.size() > 1)
-    std::fputs(table_text(table).c_str(), stdout);
+  tell_result(options.common, [&] { return all; }, [&] {
+    if (options.scenes.size() > 1) std::fputs(table_text(table).c_str(), stdout);
+  });
 }
 
 }  // namespace

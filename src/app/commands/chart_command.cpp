@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
 #include "app/film/automatic.hpp"
@@ -162,6 +163,39 @@ void print_summary(const WorkPrecision& data, const Measured& measured) {
   std::printf("%s\n", choice_text(*measured.choice, measured.accuracy).c_str());
 }
 
+Json json_of(const std::string& scene, const Measured& measured) {
+  Json json{{"scene", scene},
+            {"machine", machine_line()},
+            {"reference",
+             {{"how", measured.reference.how},
+              {"uncertainty", measured.reference.uncertainty},
+              {"amplification", measured.reference.amplification}}},
+            {"error", "the larger of error_q and error_qd x qd_scale"},
+            {"qd_scale", measured.reference.state.qd_scale},
+            {"choice", choice_report(*measured.choice, measured.accuracy, false)},
+            {"methods", Json::array()},
+            {"left_out", Json::array()}};
+  for (const Ladder& ladder : measured.ladders) {
+    if (!ladder.refusal.empty()) json["left_out"].push_back(ladder.refusal);
+    Json rungs = Json::array();
+    for (const Rung& rung : ladder.rungs)
+      rungs.push_back({{"setting", to_string(rung.setting)},
+                       {"step", rung.setting.step > 0 ? Json(rung.setting.step) : Json(nullptr)},
+                       {"tolerance", rung.setting.options.tolerance > 0 ? Json(rung.setting.options.tolerance) : Json(nullptr)},
+                       {"runs", rung.runs},
+                       {"median_seconds", rung.seconds},
+                       {"steps", rung.steps},
+                       {"evaluations", rung.evaluations},
+                       {"error", rung.error},
+                       {"error_q", rung.error_q},
+                       {"error_qd", rung.error_qd},
+                       {"energy_error", rung.energy_error},
+                       {"status", to_string(rung.status)}});
+    if (ladder.refusal.empty()) json["methods"].push_back({{"method", ladder.method->name}, {"rungs", rungs}});
+  }
+  return json;
+}
+
 // Of methods that are in the chart; none where nothing is asked for.
 std::vector<std::string> highlighted(const ChartOptions& options, const std::vector<const Method*>& chosen) {
   std::vector<std::string> names;
@@ -193,9 +227,8 @@ void run_chart(const ChartOptions& options) {
   light_curves(data, panels, lit);
   const auto files = write_figure(work_precision_chart(data, panels, look), csv_of(options.scene, measured),
                                   options.figure, output, fonts, options.common.force);
-  if (options.common.quiet) return;
-  print_summary(data, measured);
-  for (const std::string& file : files) std::printf("%s\n", file.c_str());
+  if (!options.common.json && !options.common.quiet) print_summary(data, measured);
+  tell_files(options.common, files, options.common.json ? json_of(options.scene, measured) : Json::object());
 }
 
 }  // namespace
@@ -213,8 +246,7 @@ void add_chart_command(CommandLine& app) {
       .show_default();
   add_figure_options(*command, options->figure, options->common, "out/NAME_chart.png");
   add_scene_options(*command, options->common);
-  add_quiet_option(*command, options->common);
-  add_force_option(*command, options->common);
+  add_result_options(*command, options->common);
   command->footer("Example: chainreel chart assets/scenes/rr_free.yaml -o out/chart.svg");
   command->callback([options] { run_chart(*options); });
 }

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
+#include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/film/automatic.hpp"
 #include "app/film/model_scene.hpp"
@@ -208,7 +209,7 @@ void check_scene(const CheckOptions& options) {
     for (std::size_t i = 0; i < reports.size() && !alone; ++i)
       json["panels"].push_back(
           {{"title", film.panels[i].scene.title}, {"model", reports[i].model}, {"cost", reports[i].cost}});
-    std::puts(json.dump(2).c_str());
+    print_json(json);
     return;
   }
   std::printf("# %s with all defaults; paths from this folder\n%s\n", options.file.c_str(), text.c_str());
@@ -241,7 +242,7 @@ void check_model(const CheckOptions& options) {
   if (errors.empty())
     report["model"] = model_report(read_chain(options.file, model.options));
   if (options.common.json)
-    std::puts(report.dump(2).c_str());
+    print_json(report);
   else if (errors.empty())
     print_model(report["model"]);
   if (!errors.empty()) throw Error(ExitCode::bad_input, errors);

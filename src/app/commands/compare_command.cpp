@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/cli/result.hpp"
 #include "app/commands/comparison.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -89,7 +90,7 @@ void run_compare(CompareOptions options) {
                 std::string("--set, --package and --base say how models are read, nothing of ") + kind.told);
   refuse_what_is_not_there(kind, options);
   const Comparison found = kind.compare(options);
-  if (options.common.json) {
+  const auto report_of_all = [&] {
     Json report = found.report;
     report.update({{"before", options.before},
                    {"after", options.after},
@@ -99,10 +100,11 @@ void run_compare(CompareOptions options) {
       report["tolerance"] = {{"error", options.tolerance.error},
                              {"pixels", options.tolerance.pixels},
                              {"edges_forgiven", options.tolerance.forgive_edges}};
-    std::puts(report.dump(2).c_str());
-  } else if (!options.common.quiet) {
+    return report;
+  };
+  tell_result(options.common, report_of_all, [&] {
     for (const std::string& line : found.words) std::printf("%s\n", line.c_str());
-  }
+  });
   if (!found.passes)
     throw Error(ExitCode::comparison_failed, options.before + " and " + options.after + " differ");
 }

@@ -16,8 +16,8 @@
 namespace chainreel {
 namespace {
 
-// Columns t, q.. and qd..; what they are called is all that a table says of its freedoms, so units are not
-// known.
+// Columns t, q.. and qd.., and what else `simulate` writes, whose numbers are compared like rates; what they are called is
+// all that a table says of its freedoms, so units are not known.
 SampledTrajectory trajectory_of(const Table& table, const std::string& path) {
   const int time = table.find("t");
   if (time < 0)
@@ -28,15 +28,13 @@ SampledTrajectory trajectory_of(const Table& table, const std::string& path) {
   std::vector<std::size_t> positions, rates;
   for (std::size_t i = 0; i < table.names.size(); ++i) {
     const std::string& name = table.names[i];
-    if (name.starts_with("qd")) {
+    if (int(i) == time) continue;
+    if (!name.starts_with("q") || name.starts_with("qd")) {
       rates.push_back(i);
       trajectory.qd_numbers.push_back({name, ""});
-    } else if (name.starts_with("q")) {
+    } else {
       positions.push_back(i);
       trajectory.q_numbers.push_back({name, ""});
-    } else if (int(i) != time) {
-      throw Error(ExitCode::bad_input, "has a column " + name + ": trajectories have t, q.. and qd.. alone",
-                  {path, 1});
     }
   }
   if (positions.empty()) throw Error(ExitCode::bad_input, "has no column of positions, q..", {path, 1});

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/cli/command.hpp"
+#include "app/cli/result.hpp"
 #include "app/report/report.hpp"
 #include "core/error.hpp"
 #include "encode/library_versions.hpp"
@@ -66,7 +67,7 @@ void run_doctor(const CommonOptions& options) {
   for (const LibraryLine& line : library_versions()) examination.report["versions"][line.name] = line.version;
   const Json& report = examination.report;
   if (options.json) {
-    std::puts(report.dump(2).c_str());
+    print_json(report);
   } else {
     if (report.contains("renderer")) print_renderer(report["renderer"]);
     if (report.contains("fonts"))

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
+#include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/film/automatic.hpp"
 #include "app/film/model_scene.hpp"
@@ -240,7 +241,7 @@ std::string text_of(const Json& value) {
 void run_dynamics(const DynamicsOptions& options) {
   const Json json = is_model_file(options.file) ? model_report(options) : scene_report(options);
   if (options.common.json) {
-    std::puts(json.dump(2).c_str());
+    print_json(json);
     return;
   }
   for (const auto& [key, value] : json.items()) {

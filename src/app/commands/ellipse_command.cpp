@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
+#include "app/cli/result.hpp"
 #include "app/commands/ellipse_numbers.hpp"
 #include "app/commands/figure.hpp"
 #include "app/film/model_scene.hpp"
@@ -217,19 +218,16 @@ void run_ellipse(const EllipseOptions& options) {
     write_picture(draw_ellipse_figure(tip, poses.q, figure, fonts), figure.width,
                   figure.height, fonts, output, options.common.force, memory);
   }
-  if (options.common.json) {
-    Json report{{"file", output}};
-    if (!options.joint_space) {
-      report["reading"] = to_string(options.read_as(motion));
-      report["shape"] = options.form(motion).section ? "section" : "ellipsoid";
-      report["unit"] = options.read_as(motion) == EllipseReading::energy ? "m/s" : "kg";
-      numbers = ellipse_json(tip, poses, options.form(motion));
-    }
-    report["poses"] = numbers;
-    std::puts(report.dump(2).c_str());
-  } else if (!options.common.quiet) {
-    std::printf("%s\n", output.c_str());
+  if (!options.common.json) return tell_files(options.common, {output});
+  Json report = Json::object();
+  if (!options.joint_space) {
+    report["reading"] = to_string(options.read_as(motion));
+    report["shape"] = options.form(motion).section ? "section" : "ellipsoid";
+    report["unit"] = options.read_as(motion) == EllipseReading::energy ? "m/s" : "kg";
+    numbers = ellipse_json(tip, poses, options.form(motion));
   }
+  report["poses"] = numbers;
+  tell_files(options.common, {output}, report);
 }
 
 }  // namespace

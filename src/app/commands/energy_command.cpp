@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
 #include "app/film/prepared.hpp"
@@ -161,6 +162,20 @@ void print_table(const std::vector<MethodRun>& runs, const std::vector<std::stri
   for (const std::string& line : left_out) std::printf("left out: %s\n", line.c_str());
 }
 
+Json json_of(const std::string& scene, double until, const std::vector<MethodRun>& runs,
+             const std::vector<std::string>& left_out) {
+  Json json{{"scene", scene}, {"until", until}, {"runs", Json::array()}, {"left_out", left_out}};
+  for (const MethodRun& run : runs)
+    json["runs"].push_back({{"method", run.curve.method},
+                            {"setting", to_string(run.setting)},
+                            {"largest_error", run.largest},
+                            {"error_at_end", run.at_end},
+                            {"largest_between_steps", run.largest_between},
+                            {"evaluations", run.evaluations},
+                            {"status", run.curve.trouble.empty() ? "finished" : run.curve.trouble}});
+  return json;
+}
+
 // Before the first of them runs.
 void require_all_possible(Simulation& simulation, const std::vector<const Method*>& chosen, const Settings& settings) {
   double work = 0;
@@ -203,9 +218,8 @@ void run_energy(const EnergyOptions& options) {
   const EnergyChart chart = chart_of(prepared, settings, simulation.duration, runs);
   const auto files = write_figure(energy_chart(chart, look), csv_of(options.scene, runs), options.figure,
                                   output, fonts, options.common.force);
-  if (options.common.quiet) return;
-  print_table(runs, left_out);
-  for (const std::string& file : files) std::printf("%s\n", file.c_str());
+  if (!options.common.json && !options.common.quiet) print_table(runs, left_out);
+  tell_files(options.common, files, json_of(options.scene, simulation.duration, runs, left_out));
 }
 
 }  // namespace
@@ -223,8 +237,7 @@ void add_energy_command(CommandLine& app) {
       .positive();
   add_figure_options(*command, options->figure, options->common, "out/NAME_energy.png");
   add_scene_options(*command, options->common);
-  add_quiet_option(*command, options->common);
-  add_force_option(*command, options->common);
+  add_result_options(*command, options->common);
   command->footer("Example: chainreel energy assets/scenes/rr_free.yaml --until 100s --step 0.01");
   command->callback([options] { run_energy(*options); });
 }

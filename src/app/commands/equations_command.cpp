@@ -51,7 +51,7 @@ void add_equations_command(CommandLine& app, void (*run)(const EquationsOptions&
   command->add_option("--panel", options->panel, "one panel of a scene that compares several, from 1").range(1, 12);
   command->add_option("--gravity", options->gravity, "world x,y,z in m/s^2");
   command->add_option("--end-effector", options->end_effector, "the link that J and Lambda speak of");
-  command->add_option("-o,--output", options->output, "a file (default: standard output)");
+  command->add_option("-o,--output", options->output, "a file, of JSON where it ends in .json (default: standard output)");
   add_scene_options(*command, options->common);
   add_json_option(*command, options->common);
   add_force_option(*command, options->common);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
+#include "app/cli/result.hpp"
 #include "app/film/clip_memory.hpp"
 #include "app/film/clip_origin.hpp"
 #include "core/error.hpp"
@@ -21,8 +22,7 @@ struct ExtractOptions {
   std::string clip;
   std::string output;
   std::string from;
-  bool json = false;
-  bool force = false;
+  CommonOptions common;
 };
 
 // The models must be there, and what they were, for the same frames to come again.
@@ -41,10 +41,8 @@ void tell_of_figure(const ExtractOptions& options, const Json& figure) {
   if (!options.output.empty())
     throw Error(ExitCode::bad_input, "is a figure, not a scene; it was made by: " + command_line(figure),
                 {options.clip});
-  if (options.json)
-    std::puts(Json{{"command", command_line(figure)}, {"figure", figure}}.dump(2).c_str());
-  else
-    std::printf("%s\n", command_line(figure).c_str());
+  tell_result(options.common, [&] { return Json{{"command", command_line(figure)}, {"figure", figure}}; },
+              [&] { std::printf("%s\n", command_line(figure).c_str()); });
 }
 
 void run_extract(const ExtractOptions& options) {
@@ -56,12 +54,11 @@ void run_extract(const ExtractOptions& options) {
   if (!options.output.empty())
     write_text_file(options.output,
                     moved_scene_text(memory.scene, fs::path(options.output).parent_path().string(), origin.folder),
-                    options.force);
+                    options.common.force);
   const std::string scene = moved_scene_text(memory.scene, "", origin.folder);
-  if (options.json)
-    std::puts(Json{{"scene", scene}, {"audit", memory.audit}}.dump(2).c_str());
-  else if (options.output.empty())
-    std::fputs(scene.c_str(), stdout);
+  tell_result(options.common, [&] { return Json{{"scene", scene}, {"audit", memory.audit}}; }, [&] {
+    if (options.output.empty()) std::fputs(scene.c_str(), stdout);
+  });
 }
 
 }  // namespace
@@ -77,8 +74,8 @@ void add_extract_command(CommandLine& app) {
       "the working folder)");
   command->add_option("--from", options->from,
                       "the folder in which the remembered paths start: that of the scene or model (default: it is looked for)");
-  command->add_flag("--json", options->json, "print scene and audit as JSON on standard output");
-  command->add_flag("--force", options->force, "overwrite files outside a folder named out");
+  add_json_option(*command, options->common);
+  add_force_option(*command, options->common);
   command->footer("Example: chainreel extract out/rr_free.mp4 -o out/again.yaml");
   command->callback([options] { run_extract(*options); });
 }

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
+#include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
 #include "app/report/report.hpp"
@@ -133,7 +134,7 @@ void run_fall(const FallOptions& options) {
   throw_if_interrupted();
   if (file) write_whole(*file, csv_of(options.scene, table));
   if (options.common.json)
-    std::puts(report_of(options.scene, table).dump(2).c_str());
+    print_json(report_of(options.scene, table));
   else if (!options.common.quiet || !file)
     print_table(table);
   if (file && !options.common.quiet && !options.common.json) std::printf("%s\n", options.output.c_str());

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
+#include "app/cli/result.hpp"
 #include "app/guide/manual.hpp"
 #include "app/guide/reference.hpp"
 #include "app/report/version.hpp"
@@ -37,7 +38,7 @@ void list_topics(const std::vector<GuidePage>& pages, bool json) {
     list.push_back({{"topic", page.topic}, {"about", page.about}});
   }
   if (json)
-    std::puts(list.dump(2).c_str());
+    print_json(list);
   else
     std::fputs((markdown_table(table) + "\nchainreel help TOPIC prints one of them, or how a command is called.\n").c_str(),
                stdout);
@@ -51,7 +52,7 @@ void run_help(const HelpOptions& options, const CommandLine& app) {
   std::vector<std::string> known;
   const auto tell = [&](const std::string& text) {
     if (options.common.json)
-      std::puts(Json{{"topic", options.topic}, {"text", text}}.dump(2).c_str());
+      print_json({{"topic", options.topic}, {"text", text}});
     else
       std::fputs(text.c_str(), stdout);
   };
@@ -110,7 +111,7 @@ void add_schema_command(CommandLine& app) {
       "Into a file, and with the first line of a scene, editors with a YAML server complete and check it:\n"
       "# yaml-language-server: $schema=scene.schema.json\n"
       "Example: chainreel schema > scene.schema.json");
-  command->callback([] { std::puts(scene_schema().dump(2).c_str()); });
+  command->callback([] { print_json(scene_schema()); });
 }
 
 }  // namespace chainreel

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
+#include "app/cli/result.hpp"
 #include "app/cli/data_folder.hpp"
 #include "app/commands/dh_table.hpp"
 #include "app/commands/starter_files.hpp"
@@ -170,11 +171,9 @@ void run_init(const InitOptions& options) {
   OutputFile model(base.string() + ".urdf", options.common.force);
   write_whole(model, files.model);
   write_whole(scene, files.scene);
-  if (options.common.json)
-    std::puts(Json{{"files", {scene.path(), model.path()}}}.dump(2).c_str());
-  else if (!options.common.quiet)
-    std::printf("%s\n%s\nNext: chainreel render %s\n", scene.path().c_str(), model.path().c_str(),
-                scene.path().c_str());
+  tell_result(options.common, [&] { return Json{{"files", {scene.path(), model.path()}}}; }, [&] {
+    std::printf("%s\n%s\nNext: chainreel render %s\n", scene.path().c_str(), model.path().c_str(), scene.path().c_str());
+  });
 }
 
 }  // namespace

@@ -5,12 +5,11 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
+#include "app/cli/table_files.hpp"
 #include "app/film/model_scene.hpp"
-#include "app/report/report.hpp"
+#include "app/report/motion_table.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
-#include "core/format.hpp"
-#include "core/output_file.hpp"
 #include "scene/run/prepare.hpp"
 #include "scene/text/read_scene.hpp"
 #include "sim/drive/reference.hpp"
@@ -22,7 +21,7 @@ namespace {
 struct InverseOptions {
   std::string file;
   std::string trajectory;
-  std::string output;
+  std::vector<std::string> outputs;
   std::string gravity;
   CommonOptions common;
 };
@@ -48,21 +47,17 @@ Mechanism load_mechanism(const InverseOptions& options) {
 }
 
 // A row per instant of the trajectory: t,tau1.. and the multipliers that go with them.
-std::string table_of(const InverseAlong& inverse) {
-  std::string text = "t";
-  for (std::size_t i = 1; i <= inverse.nv; ++i) text += ",tau" + std::to_string(i);
-  for (std::size_t i = 1; i <= inverse.rows.size(); ++i) text += ",lambda" + std::to_string(i);
-  for (std::size_t k = 0; k < inverse.t.size(); ++k) {
-    text += "\n" + format_exact(inverse.t[k]);
-    for (std::size_t i = 0; i < inverse.nv; ++i) text += "," + format_exact(inverse.tau[k * inverse.nv + i]);
-    for (std::size_t i = 0; i < inverse.rows.size(); ++i)
-      text += "," + format_exact(inverse.lambda[k * inverse.rows.size() + i]);
-  }
-  return text + "\n";
+DataTable table_of(const Chain& chain, const InverseAlong& inverse) {
+  DataTable table;
+  table.rows = inverse.t.size();
+  table.add("t", "s", inverse.t);
+  table.add("tau", torque_columns(chain), {inverse.nv}, inverse.tau);
+  if (!inverse.rows.empty()) table.add("lambda", multiplier_columns(int(inverse.rows.size())), {inverse.rows.size()}, inverse.lambda);
+  return table;
 }
 
-Json report_of(const InverseAlong& inverse, const std::string& output) {
-  Json json{{"file", output}, {"rows", inverse.t.size()}};
+Json report_of(const InverseAlong& inverse) {
+  Json json{{"rows", inverse.t.size()}};
   if (!inverse.rows.empty())
     json["constraints"] = {{"rows", inverse.rows},
                            {"position_error", inverse.position_error},
@@ -76,23 +71,12 @@ void run_inverse(const InverseOptions& options) {
   if (mechanism.chain.has_floating)
     throw Error(ExitCode::bad_input, "a floating base follows no given joint motion: take --base fixed",
                 {options.file});
-  std::string output = options.output;
-  if (output.empty())
-    output = "out/" + std::filesystem::path(options.trajectory).stem().string() + "_tau.csv";
-  const bool to_stdout = output == "-";
-  if (to_stdout && options.common.json)
-    throw Error(ExitCode::usage, "-o - and --json both write to standard output: name a file");
+  std::vector<std::string> outputs = options.outputs;
+  if (outputs.empty()) outputs.push_back("out/" + std::filesystem::path(options.trajectory).stem().string() + "_tau.csv");
+  TableFiles files(outputs, options.common);
   const InverseAlong inverse = inverse_along(mechanism.chain, mechanism.constraints, options.trajectory);
-  const std::string text = table_of(inverse);
-  if (to_stdout) {
-    std::fwrite(text.data(), 1, text.size(), stdout);
-    return;
-  }
-  write_text_file(output, text, options.common.force);
-  if (options.common.json)
-    std::puts(report_of(inverse, output).dump(2).c_str());
-  else if (!options.common.quiet)
-    std::printf("%s  %zu rows\n", output.c_str(), inverse.t.size());
+  files.write(table_of(mechanism.chain, inverse));
+  files.tell(options.common, inverse.t.size(), report_of(inverse));
 }
 
 }  // namespace
@@ -111,7 +95,7 @@ void add_inverse_command(CommandLine& app) {
       ->add_option("--trajectory", options->trajectory,
                    "a .csv with t,q1.. and maybe qd1.., qdd1.. (else splines)")
       .required();
-  command->add_option("-o,--output", options->output, "a .csv file, or - (default out/TRAJECTORY_tau.csv)");
+  add_table_option(*command, options->outputs, "out/TRAJECTORY_tau.csv");
   command->add_option("--gravity", options->gravity, "world x,y,z in m/s^2");
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
+#include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/sweep_table.hpp"
 #include "app/report/sidecar.hpp"
@@ -141,10 +142,8 @@ struct JoinedFiles {
 void run_join(const JoinOptions& options) {
   if (fs::path(options.output).extension() == ".csv") {
     join_tables(options.parts, options.output, options.common.force);
-    if (options.common.json)
-      std::puts(Json{{"file", options.output}, {"parts", options.parts.size()}}.dump(2).c_str());
-    else if (!options.common.quiet)
-      std::printf("%s: the table of %zu parts\n", options.output.c_str(), options.parts.size());
+    tell_result(options.common, [&] { return Json{{"file", options.output}, {"parts", options.parts.size()}}; },
+                [&] { std::printf("%s: the table of %zu parts\n", options.output.c_str(), options.parts.size()); });
     return;
   }
   const std::vector<Part> parts = parts_of(options);
@@ -173,10 +172,9 @@ void run_join(const JoinOptions& options) {
     audit[kSidecarHashes][".srt"] = sha256_of(facts.captions);
   }
   write_whole(files.audit, audit.dump(2) + "\n");
-  if (options.common.json)
-    std::puts(Json{{"file", options.output}, {"parts", parts.size()}, {"frames", facts.frames}}.dump(2).c_str());
-  else if (!options.common.quiet)
-    std::printf("%s: %d frames of %zu parts\n", options.output.c_str(), facts.frames, parts.size());
+  tell_result(options.common,
+              [&] { return Json{{"file", options.output}, {"parts", parts.size()}, {"frames", facts.frames}}; },
+              [&] { std::printf("%s: %d frames of %zu parts\n", options.output.c_str(), facts.frames, parts.size()); });
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
+#include "app/cli/result.hpp"
 #include "app/guide/reference.hpp"
 #include "app/report/report.hpp"
 #include "core/json.hpp"
@@ -35,7 +36,7 @@ void run_methods(const CommonOptions& options) {
                      state_words(method), method.adaptive ? "adaptive or fixed" : "fixed", method.kind,
                      method.source});
   }
-  std::fputs(options.json ? (list.dump(2) + "\n").c_str() : table_text(table).c_str(), stdout);
+  tell_result(options, [&] { return list; }, [&] { std::fputs(table_text(table).c_str(), stdout); });
 }
 
 }  // namespace

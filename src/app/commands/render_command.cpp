@@ -7,11 +7,12 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
-#include "app/works/render_film.hpp"
+#include "app/cli/result.hpp"
 #include "app/film/automatic.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
 #include "app/report/report.hpp"
+#include "app/works/render_film.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "scene/quantity.hpp"
@@ -138,10 +139,7 @@ void run_render(const RenderOptions& options) {
     table.push_back({films[i].scene.name, std::to_string(result.frames), format_fixed(result.film_seconds, 2),
                      format_fixed(result.times.total, 2), joined(result.files, " ")});
   }
-  if (options.common.json)
-    std::puts(reports.dump(2).c_str());
-  else if (!options.common.quiet)
-    std::fputs(table_text(table).c_str(), stdout);
+  tell_result(options.common, [&] { return reports; }, [&] { std::fputs(table_text(table).c_str(), stdout); });
 }
 
 }  // namespace
@@ -153,7 +151,7 @@ void add_render_command(CommandLine& app) {
                                          "NAME.json and in words as NAME.txt");
   command->add_option("scenes", options->scenes, "scene files").required().names_input();
   command->add_repeatable("-o,--output", options->outputs,
-      "a .mp4, .webm, .mov, .gif, .apng, .png, .svg, .pdf or .csv file, or NAME_000000.png for a sequence "
+      "a .mp4, .webm, .mov, .gif, .apng, .png, .svg, .pdf, .csv or .npz file, or NAME_000000.png for a sequence "
       "(repeatable: each frame is drawn once for all), or a folder (default out/NAME.mp4)");
   for (const FlagGroup flags : {FlagGroup::output, FlagGroup::look, FlagGroup::page, FlagGroup::view})
     add_scene_flags(*command, options->common.flags, flags);

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
+#include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
 #include "app/works/moment.hpp"
@@ -50,8 +51,9 @@ void set_for_cell(Scene& scene, ThemeName theme, double text_scale) {
   std::erase(scene.draw, "mass_matrix");  // its numbers could not be read
 }
 
+// `told` gets what the cell shows in numbers.
 ContactCell cell_of(const std::string& file, const SheetOptions& options, ThemeName theme,
-                    double text_scale, const Fonts& fonts) {
+                    double text_scale, const Fonts& fonts, Json& told) {
   PreparedFilm film = load_film(file, overrides_of(options.common), true, options.common.quiet);
   leave_out_faces(film.scene, options.common.quiet);
   set_for_cell(film.scene, theme, text_scale);
@@ -60,19 +62,21 @@ ContactCell cell_of(const std::string& file, const SheetOptions& options, ThemeN
                       ? telling_moment(film, fonts)
                       : moment_at(film, std::min(parse_seconds(options.at, "--at"), film.scene.duration), fonts);
   tell_warnings(moment.warnings);
+  told.push_back({{"scene", file}});
+  told.back().update(moment.numbers);
   return {std::move(moment.picture), moment.title.empty() ? film.scene.name : moment.title};
 }
 
 // The problems of all scenes are told at once.
 std::vector<ContactCell> cells_of(const SheetOptions& options, ThemeName theme, double text_scale,
-                                  const Fonts& fonts) {
+                                  const Fonts& fonts, Json& told) {
   std::vector<ContactCell> cells;
   std::vector<Problem> problems;
   ExitCode code = ExitCode::bad_input;
   for (const std::string& file : options.scenes) {
     throw_if_interrupted();
     try {
-      cells.push_back(cell_of(file, options, theme, text_scale, fonts));
+      cells.push_back(cell_of(file, options, theme, text_scale, fonts, told));
     } catch (const Error& error) {
       if (error.code() == ExitCode::interrupted || error.code() == ExitCode::terminated) throw;
       code = error.code();
@@ -117,14 +121,11 @@ void run_sheet(const SheetOptions& options) {
   const ContactSheetLook look{double(options.width) / options.height, options.columns,
                               text_scale_of(options.common.flags), &theme_named(to_string(theme)), &fonts};
   const ContactGrid grid = contact_grid(int(options.scenes.size()), look);
-  const std::vector<ContactCell> cells = cells_of(options, theme, text_scale_in(grid), fonts);
+  Json told = Json::array();
+  const std::vector<ContactCell> cells = cells_of(options, theme, text_scale_in(grid), fonts, told);
   write_picture(draw_contact_sheet(grid, cells, look), options.width, options.height, fonts, options.output,
                 options.common.force, memory_of_sheet(*options.command, cells));
-  if (options.common.json)
-    std::puts(
-        Json{{"file", options.output}, {"columns", grid.columns}, {"lines", grid.lines}}.dump(2).c_str());
-  else if (!options.common.quiet)
-    std::printf("%s\n", options.output.c_str());
+  tell_files(options.common, {options.output}, {{"columns", grid.columns}, {"lines", grid.lines}, {"cells", told}});
 }
 
 }  // namespace

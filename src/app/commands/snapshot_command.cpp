@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
+#include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
 #include "app/works/moment.hpp"
@@ -16,6 +17,7 @@
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
 #include "app/film/target.hpp"
+#include "app/report/instant_report.hpp"
 #include "app/report/report.hpp"
 #include "app/report/run_report.hpp"
 #include "core/error.hpp"
@@ -101,16 +103,19 @@ class Pictures {
     throw_if_interrupted();
   }
 
-  void commit(const SnapshotOptions& options) {
-    Json list = Json::array();
-    for (const std::unique_ptr<OutputFile>& file : files_) {
-      file->commit();
-      list.push_back(file->path());
+  // `numbers`: what each picture shows.
+  void commit(const SnapshotOptions& options, const std::vector<Json>& numbers) {
+    Json list = Json::array(), pictures = Json::array();
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+      files_[i]->commit();
+      list.push_back(files_[i]->path());
+      pictures.push_back({{"file", files_[i]->path()}});
+      pictures.back().update(numbers[i]);
     }
-    if (options.common.json)
-      std::puts((place_.is_folder ? Json{{"files", list}} : Json{{"file", list.front()}}).dump(2).c_str());
-    else if (!options.common.quiet)
+    const auto found = [&] { return place_.is_folder ? Json{{"files", list}, {"pictures", pictures}} : pictures.front(); };
+    tell_result(options.common, found, [&] {
       for (const Json& path : list) std::printf("%s\n", path.get<std::string>().c_str());
+    });
   }
 
  private:
@@ -190,13 +195,15 @@ void snapshot_scene(const SnapshotOptions& options) {
   Pictures pictures(options, place, names);
   const Fonts fonts(families_of(film.scene));
   Moments moments(film, fonts);
+  std::vector<Json> numbers;
   for (std::size_t i = 0; i < instants.size(); ++i) {
     const Moment shown = moments.moment(instants[i]);
     if (i == 0) tell_warnings(shown.warnings);
     if (i == 0) tell_left_out(shown.left_out, film.scene, options.common.quiet);
     pictures.write(i, shown.picture, video.width, video.height, fonts, shown.memory);
+    numbers.push_back(shown.numbers);
   }
-  pictures.commit(options);
+  pictures.commit(options, numbers);
 }
 
 // What each picture shows: of a folder a pose each; of one file all poses in one place.
@@ -270,10 +277,15 @@ void snapshot_model(const SnapshotOptions& options) {
   set_look(figure, model, chain);
   if (options.width > 0) figure.width = options.width;
   if (options.height > 0) figure.height = options.height;
-  for (std::size_t i = 0; i < shown.size(); ++i)
+  std::vector<Json> numbers;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
     pictures.write(i, draw_pose_figure(chain, shown[i].poses, figure, fonts), figure.width, figure.height,
                    fonts, memory_of_pose(options, chain, shown, i));
-  pictures.commit(options);
+    Json poses = Json::array();
+    for (const std::vector<double>& q : shown[i].poses) poses.push_back(pose_report(chain, q));
+    numbers.push_back({{"poses", poses}});
+  }
+  pictures.commit(options, numbers);
 }
 
 void run_snapshot(const SnapshotOptions& options) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
 #include "app/film/prepared.hpp"
@@ -158,6 +159,31 @@ void print_map_summary(const StabilityCells& cells) {
       cells.in_batches ? ", stepped in batches" : "");
 }
 
+Json json_of(const StabilityCells& cells) {
+  Json json{{"method", cells.method},
+            {"x", {{"key", cells.x.key}, {"values", cells.x.numbers}}},
+            {"y", {{"key", cells.y.key}, {"values", cells.y.numbers}}},
+            {"threads", cells.threads},
+            {"rows", Json::array()}};
+  std::size_t failed = 0;
+  for (std::size_t iy = 0; iy < cells.y.values.size(); ++iy) {
+    Json row = Json::array();
+    for (std::size_t ix = 0; ix < cells.x.values.size(); ++ix) {
+      const StabilityCell& cell = cells.at(ix, iy);
+      failed += cell.failed;
+      row.push_back({{"failed", cell.failed},
+                     {"status", to_string(cell.status)},
+                     {"energy_error", cell.energy_error},
+                     {"energy_scale", cell.energy_scale}});
+      if (cell.stable) row.back()["stable_by_theory"] = *cell.stable;
+      if (!cell.trouble.empty()) row.back()["trouble"] = cell.trouble;
+    }
+    json["rows"].push_back(std::move(row));
+  }
+  json["failed"] = failed;
+  return json;
+}
+
 void draw_map(const StabilityOptions& options, const std::string& output) {
   const Sweep x = parse_sweep(options.x, "--x"), y = parse_sweep(options.y, "--y");
   check_axis(x, "--x");
@@ -172,24 +198,43 @@ void draw_map(const StabilityOptions& options, const std::string& output) {
   const ChartLook look = chart_look(options.figure, scene, fonts);
   const auto files = write_figure(stability_map(map_of(scene, cells), look), csv_of(options.scene, cells),
                                   options.figure, output, fonts, options.common.force);
-  if (options.common.quiet) return;
-  print_map_summary(cells);
-  for (const std::string& file : files) std::printf("%s\n", file.c_str());
+  if (!options.common.json && !options.common.quiet) print_map_summary(cells);
+  tell_files(options.common, files, json_of(cells));
 }
 
-std::string verdict(Simulation& simulation, const MethodSetting& setting) {
+// What became of a run with one setting: in words, and as numbers.
+struct Verdict {
+  std::string words;
+  Json json;
+};
+
+Verdict verdict(Simulation& simulation, const MethodSetting& setting) {
   apply(setting, simulation);
   const double end[] = {simulation.duration};
   const Trajectory trajectory = simulate_audited(simulation, end, [](double) { return interrupted(); });
   throw_if_interrupted();
+  Json json{{"setting", to_string(setting)}, {"status", to_string(trajectory.status)}, {"end_time", trajectory.end_time}};
   if (trajectory.status != RunStatus::finished || trajectory.size() == 0)
-    return to_string(trajectory.status) + " at " + format_significant(trajectory.end_time, 3) + " s";
-  return format_significant(trajectory.energy_at_steps->largest_error, 2) + " J";
+    return {to_string(trajectory.status) + " at " + format_significant(trajectory.end_time, 3) + " s", json};
+  json["energy_error"] = trajectory.energy_at_steps->largest_error;
+  return {format_significant(trajectory.energy_at_steps->largest_error, 2) + " J", json};
 }
 
 std::string limit_text(const std::optional<double>& limit) {
   if (!limit) return "unknown";
   return std::isfinite(*limit) ? format_significant(*limit, 4) : "none";
+}
+
+Json limit_json(const std::optional<double>& limit) {
+  if (!limit) return nullptr;
+  return std::isfinite(*limit) ? Json(*limit) : Json("none");
+}
+
+Json linearisation_json(const Linearisation& start) {
+  if (!start.trouble.empty()) return {{"trouble", start.trouble}};
+  Json json{{"is_equilibrium", start.is_equilibrium}, {"qd", start.rate}, {"qdd", start.acceleration}, {"rates", Json::array()}};
+  for (const std::complex<double>& rate : start.rates) json["rates"].push_back({{"real", rate.real()}, {"imag", rate.imag()}});
+  return json;
 }
 
 // "decays with 7063 /s", "swings with omega = 10 rad/s, damping ratio 0.05"
@@ -218,40 +263,48 @@ void print_linearisation(const Linearisation& start) {
 }
 
 // "Who fails here": every method at three steps or tolerances.
-void print_methods(const StabilityOptions& options) {
+void compare_methods(const StabilityOptions& options) {
   PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false, options.common.quiet);
   Simulation& simulation = prepared.simulation;
   const Linearisation start = linearise(simulation);
   std::vector<std::vector<std::string>> table{
       {"method", "coarse", "middle", "fine", "limit of the step, s"}};
-  std::string left_out;
+  Json found{{"scene", options.scene}, {"methods", Json::array()}, {"left_out", Json::array()}};
   for (const Method* method : parse_methods(options.methods)) {
     simulation.method = method;
     try {
       check_method(simulation);
     } catch (const Error& error) {
-      left_out += "left out: " + error.problems().front().message + "\n";
+      found["left_out"].push_back(error.problems().front().message);
       continue;
     }
     std::vector<std::string> row{method->name};
-    for (std::size_t k = 0; k < 3; ++k)
-      row.push_back(verdict(simulation, method->adaptive ? MethodSetting{method, {kTableTolerances[k], 0}, 0}
-                                                         : MethodSetting{method, {}, kTableSteps[k]}));
-    row.push_back(limit_text(longest_stable_step(*method, start)));
+    Json runs = Json::array();
+    for (std::size_t k = 0; k < 3; ++k) {
+      Verdict one = verdict(simulation, method->adaptive ? MethodSetting{method, {kTableTolerances[k], 0}, 0}
+                                                         : MethodSetting{method, {}, kTableSteps[k]});
+      row.push_back(std::move(one.words));
+      runs.push_back(std::move(one.json));
+    }
+    const std::optional<double> limit = longest_stable_step(*method, start);
+    row.push_back(limit_text(limit));
     table.push_back(row);
+    found["methods"].push_back({{"method", method->name}, {"runs", runs}, {"longest_stable_step", limit_json(limit)}});
   }
+  found["start"] = linearisation_json(start);
+  if (options.common.json) return print_json(found);
   std::printf(
       "Who fails here: the largest energy error with steps of 0.1, 0.01 and 0.001 s, or tolerances of "
       "1e-3, 1e-6 and 1e-9\n");
   std::fputs(table_text(table).c_str(), stdout);
-  std::fputs(left_out.c_str(), stdout);
+  for (const Json& line : found["left_out"]) std::printf("left out: %s\n", line.get<std::string>().c_str());
   print_linearisation(start);
 }
 
 void run_stability(const StabilityOptions& options) {
   if (options.x.empty() != options.y.empty())
     throw Error(ExitCode::usage, "a map needs both --x and --y; without them the methods are compared");
-  if (options.x.empty()) return print_methods(options);
+  if (options.x.empty()) return compare_methods(options);
   std::string output = options.figure.output;
   if (output.empty())
     output = "out/" + std::filesystem::path(options.scene).stem().string() + "_stability.png";
@@ -272,8 +325,7 @@ void add_stability_command(CommandLine& app) {
   command->add_option("--jobs", options->threads, "threads (default: all cores)").range(1, 256);
   add_figure_options(*command, options->figure, options->common, "out/NAME_stability.png");
   add_scene_options(*command, options->common);
-  add_quiet_option(*command, options->common);
-  add_force_option(*command, options->common);
+  add_result_options(*command, options->common);
   command->footer(
       "Example: chainreel stability assets/scenes/pp_spring.yaml --set 'torque=[0, -k * y_G]'\n"
       "         --set parameters.k=100 --x step=0.02:0.4:96 --y parameters.k=25:400:60");

@@ -11,13 +11,14 @@
 #include <thread>
 
 #include "app/cli/command.hpp"
+#include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/works/render_film.hpp"
 #include "app/commands/sweep_table.hpp"
 #include "app/film/house_logo.hpp"
 #include "app/film/runs.hpp"
 #include "app/report/report.hpp"
-#include "app/report/trajectory_csv.hpp"
+#include "app/report/motion_table.hpp"
 #include "app/report/version.hpp"
 #include "app/works/draw_film.hpp"
 #include "core/error.hpp"
@@ -116,8 +117,8 @@ class FilesOfRun {
   // A table says nothing of its run, and is it.
   bool has_tables(const std::string& path) const {
     for (std::size_t i = 0; i < runs_.size(); ++i)
-      if (read_plain_file(panel_csv_path(path, i, runs_.size() == 1), kLargestTable) !=
-          trajectory_csv(film_.panels[i].simulation.chain, runs_[i]))
+      if (read_plain_file(panel_table_path(path, i, runs_.size() == 1), kLargestTable) !=
+          table_bytes(motion_table(film_.panels[i].simulation, runs_[i]), table_format_of(path)))
         return false;
     return true;
   }
@@ -195,7 +196,7 @@ class FilmsOfGrid {
     for (const OutputFormat* format : formats_) {
       Target target{format, base + format->ending, false};
       const bool is_table = format->shows == Shows::table;
-      if (is_there(is_table ? panel_csv_path(target.path, 0, film.panels.size() == 1) : target.path)) {
+      if (is_there(is_table ? panel_table_path(target.path, 0, film.panels.size() == 1) : target.path)) {
         if (!expected) expected.emplace(film, at_);
         const bool is_ours = expected->is(target);
         if (is_ours && is_there(FilesOfRun::audit_beside(target))) continue;
@@ -320,7 +321,7 @@ void run_sweep(SweepOptions options) {
                   outcome.failed);
     if (outcome.failed > worst.failed) worst = outcome;
   }
-  if (options.common.json) std::puts(report.dump(2).c_str());
+  if (options.common.json) print_json(report);
   if (worst.failed > 0)
     throw Error(ExitCode::numerical, std::to_string(worst.failed) + " of the runs failed, first at " + worst.first_failure,
                 {options.scene});

@@ -8,7 +8,7 @@
 
 #include "app/cli/streams.hpp"
 #include "app/film/progress.hpp"
-#include "app/report/trajectory_csv.hpp"
+#include "app/report/motion_table.hpp"
 #include "app/report/version.hpp"
 #include "app/works/growing_table.hpp"
 #include "core/csv.hpp"
@@ -118,6 +118,7 @@ std::string key_of(const SweepTableJob& job) {
   std::vector<std::string> hashes;  // files have other names in other places
   for (const std::vector<std::string>& files : {noted_inputs(), files_named(job)})
     for (const std::string& file : files) hashes.push_back(sha256_of_file(file));
+  if (const std::string* text = standard_input_at(job.scene)) hashes.push_back(sha256_of(*text));
   std::sort(hashes.begin(), hashes.end());
   json["files"] = hashes;
   return sha256_of(json.dump());

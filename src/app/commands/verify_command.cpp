@@ -12,6 +12,7 @@
 #include <set>
 
 #include "app/cli/command.hpp"
+#include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/film/progress.hpp"
 #include "app/report/compared_picture.hpp"
@@ -330,12 +331,8 @@ void write_reports(const VerifyOptions& options, const SuiteResult& result) {
   if (!options.output.empty()) write_pictures(options.output, result, overwrite);
 }
 
-void tell_result(const VerifyOptions& options, const SuiteResult& result) {
-  if (options.common.json) {
-    // Names of files may be no text.
-    std::puts(to_json(result).dump(2, ' ', false, Json::error_handler_t::replace).c_str());
-    return;
-  }
+void tell_verdicts(const VerifyOptions& options, const SuiteResult& result) {
+  if (options.common.json) return print_json(to_json(result));
   for (const std::string& notice : result.notices) std::fprintf(stderr, "%s\n", notice.c_str());
   if (options.common.quiet) return;
   for (const PictureVerdict& one : result.pictures)
@@ -374,7 +371,7 @@ void run_verify(VerifyOptions options) {
   tell_of_former_names(result);
   update(options, cameras, acceptance, result);
   write_reports(options, result);
-  tell_result(options, result);
+  tell_verdicts(options, result);
   if (result.failed() > 0) throw Error(ExitCode::comparison_failed, summary_of(result), {options.suite});
 }
 

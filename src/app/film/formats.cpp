@@ -32,7 +32,7 @@ void write_pdf_still(const OutputFile& file, const StillView& view, const ClipMe
 }
 
 // A sequence stands before single pictures, whose ending it has, too.
-constexpr std::array<OutputFormat, 10> kFormats = {{
+constexpr std::array<OutputFormat, 11> kFormats = {{
     {.ending = ".mp4",
      .told = "H.264, for slides and browsers; `video.crf` 0 to 51",
      .keeps_opacity = false,
@@ -68,7 +68,10 @@ constexpr std::array<OutputFormat, 10> kFormats = {{
      .told = "that frame as a page; text stays text",
      .shows = Shows::still, .write_still = write_pdf_still, .read_tags = read_pdf_words},
     {.ending = ".csv",
-     .told = "the motion, a row a frame and one at its end",
+     .told = "the motion as a table, a row a frame: t, q, qd, tau, energies, end effector, with units",
+     .shows = Shows::table},
+    {.ending = ".npz",
+     .told = "the same as arrays for NumPy",
      .shows = Shows::table},
 }};
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
+#include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/gallery/gallery_page.hpp"
 #include "core/error.hpp"
@@ -18,7 +19,7 @@ struct GalleryOptions {
   std::vector<std::string> paths{"out"};
   std::string output = "out/index.html";
   std::string title = "Films of robot chains";
-  bool json = false, quiet = false, force = false;
+  CommonOptions common;
 };
 
 // Films lie in the page as data: URLs, whose length browsers limit, each in its own way.
@@ -39,18 +40,15 @@ void run_gallery(const GalleryOptions& options) {
   if (!options.output.ends_with(".html"))
     throw Error(ExitCode::usage, "-o " + options.output + ": a gallery is written as .html");
   const std::vector<GalleryClip> clips = read_clips(find_clips(options.paths));
-  OutputFile output(options.output, options.force);
+  OutputFile output(options.output, options.common.force);
   std::ofstream stream(output.temporary_path(), std::ios::binary);
   write_gallery(stream, clips, options.title);
   stream.close();
   if (!stream) throw Error(ExitCode::file, "could not be written whole: is the disk full?", {output.path()});
   throw_if_interrupted();
   output.commit();
-  if (!options.quiet) tell_of_long_films(clips);
-  if (options.json)
-    std::puts(Json{{"file", options.output}, {"films", clips.size()}}.dump(2).c_str());
-  else if (!options.quiet)
-    std::printf("%s\n", options.output.c_str());
+  if (!options.common.quiet) tell_of_long_films(clips);
+  tell_files(options.common, {options.output}, {{"films", clips.size()}});
 }
 
 }  // namespace
@@ -62,9 +60,7 @@ void add_gallery_command(CommandLine& app) {
   command->add_option("paths", options->paths, "folders with films, or films: .mp4, .webm (default out)");
   command->add_option("-o,--output", options->output, "a .html file (default out/index.html)");
   command->add_option("--title", options->title, "of the page");
-  command->add_flag("--json", options->json, "print the result as JSON on standard output");
-  command->add_flag("--quiet", options->quiet, "no closing words");
-  command->add_flag("--force", options->force, "overwrite files outside a folder named out");
+  add_result_options(*command, options->common);
   command->footer("Example: chainreel gallery out -o out/index.html");
   command->callback([options] { run_gallery(*options); });
 }

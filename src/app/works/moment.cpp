@@ -5,6 +5,7 @@
 
 #include "app/film/instants.hpp"
 #include "app/report/alt_text.hpp"
+#include "app/report/instant_report.hpp"
 #include "app/report/run_report.hpp"
 #include "core/error.hpp"
 #include "scene/run/fall.hpp"
@@ -48,7 +49,19 @@ struct Moments::State {
     moment.memory.audit["at"] = moment.at;
     moment.warnings = warnings;
     moment.left_out = report.left_out;
+    moment.numbers = numbers(frame);
     return moment;
+  }
+
+  // A panel whose run ended before stands still as it ended.
+  Json numbers(int frame) const {
+    Json panels = Json::array();
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      Json panel{{"title", film.panels[i].scene.title}, {"status", to_string(runs[i].status)}};
+      if (runs[i].size() > 0) panel.update(sample_report(film.panels[i].simulation, runs[i], std::min(frame, runs[i].size() - 1)));
+      panels.push_back(std::move(panel));
+    }
+    return {{"at", runs.times()[std::size_t(frame)]}, {"panels", panels}};
   }
 };
 

@@ -8,6 +8,7 @@
 #include "app/film/clip_memory.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
+#include "core/json.hpp"
 #include "scene/text/asked_instant.hpp"
 
 namespace chainreel {
@@ -19,6 +20,7 @@ struct Moment {
   ClipMemory memory;
   std::vector<std::string> warnings;  // what speaks against the runs
   std::vector<std::string> left_out;  // layers that a page this small has no room for
+  Json numbers;                       // {"at", "panels": [what each shows]}
 };
 
 // Several of one film, each as it is alone, whichever others there are: those at its frames share one run; an instant

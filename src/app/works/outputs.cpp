@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "app/report/sidecar.hpp"
-#include "app/report/trajectory_csv.hpp"
+#include "app/report/motion_table.hpp"
 
 namespace chainreel {
 namespace fs = std::filesystem;
@@ -32,7 +32,7 @@ std::vector<Output> open_outputs(const std::vector<Target>& targets, std::size_t
       output.folder = std::make_unique<OutputFolder>(place.folder, place.stem, ".png", overwrite, is_part);
     } else if (target.format->shows == Shows::table) {
       for (std::size_t i = 0; i < panels; ++i)
-        output.files.push_back(std::make_unique<OutputFile>(panel_csv_path(target.path, i, panels == 1), overwrite));
+        output.files.push_back(std::make_unique<OutputFile>(panel_table_path(target.path, i, panels == 1), overwrite));
     } else {
       output.files.push_back(std::make_unique<OutputFile>(target.path, overwrite));
     }

@@ -11,7 +11,7 @@
 #include "app/report/alt_text.hpp"
 #include "app/report/report.hpp"
 #include "app/report/sidecar.hpp"
-#include "app/report/trajectory_csv.hpp"
+#include "app/report/motion_table.hpp"
 #include "app/report/version.hpp"
 #include "app/works/draw_film.hpp"
 #include "core/error.hpp"
@@ -30,7 +30,8 @@ void write_tables(const Runs& runs, std::vector<Output>& outputs) {
   for (Output& output : outputs)
     if (output.shows(Shows::table))
       for (std::size_t i = 0; i < runs.size(); ++i)
-        write_temporary(*output.files[i], trajectory_csv(runs.film().panels[i].simulation.chain, runs[i]));
+        write_temporary(*output.files[i], table_bytes(motion_table(runs.film().panels[i].simulation, runs[i]),
+                                                      table_format_of(output.target.path)));
 }
 
 // Runs that a limit stopped: no failure, but not what one may think either.

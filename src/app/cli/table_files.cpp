@@ -1,0 +1,68 @@
+#include "app/cli/table_files.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <set>
+
+#include "app/cli/result.hpp"
+#include "core/error.hpp"
+
+namespace chainreel {
+
+void add_table_option(Command& command, std::vector<std::string>& outputs, const std::string& usual) {
+  command.add_repeatable("-o,--output", outputs,
+                         "a .csv, .json or .npz file, or - for CSV on standard output (repeatable; default " + usual + ")");
+}
+
+TableFiles::TableFiles(const std::vector<std::string>& paths, const CommonOptions& options) {
+  std::set<std::string> seen;
+  for (const std::string& path : paths) {
+    require_room_on_output(options, path);
+    if (!seen.insert(std::filesystem::path(path).lexically_normal().string()).second)
+      throw Error(ExitCode::usage, "-o " + path + " is named twice");
+    files_.push_back({path, table_format_of(path), nullptr});
+  }
+  for (One& one : files_)
+    if (one.path != "-") one.file = std::make_unique<OutputFile>(one.path, options.force);
+}
+
+void TableFiles::write(const DataTable& table) {
+  for (One& one : files_) {
+    const std::string bytes = table_bytes(table, one.format);
+    if (one.file)
+      write_whole(*one.file, bytes);
+    else
+      std::fwrite(bytes.data(), 1, bytes.size(), stdout);
+  }
+}
+
+void TableFiles::write_partial(const DataTable& table) {
+  for (One& one : files_) {
+    const std::string bytes = table_bytes(table, one.format);
+    if (one.file)
+      chainreel::write_partial(*one.file, bytes);
+    else
+      std::fwrite(bytes.data(), 1, bytes.size(), stdout);
+  }
+}
+
+Json TableFiles::report() const {
+  Json json{{"file", files_.front().path}};
+  for (const One& one : files_)
+    if (files_.size() > 1) json["files"].push_back(one.path);
+  return json;
+}
+
+void TableFiles::tell(const CommonOptions& options, std::size_t rows, const Json& found) const {
+  const auto all = [&] {
+    Json told = report();
+    told.update(found);
+    return told;
+  };
+  tell_result(options, all, [&] {
+    for (const One& one : files_)
+      if (one.file) std::printf("%s  %zu rows\n", one.path.c_str(), rows);
+  });
+}
+
+}  // namespace chainreel

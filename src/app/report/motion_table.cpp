@@ -1,0 +1,301 @@
+#include "app/report/motion_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "dynamics/energy.hpp"
+#include "dynamics/kinematics.hpp"
+#include "sim/audit.hpp"
+#include "sim/system/chain_system.hpp"
+#include "sim/torques_along.hpp"
+
+namespace chainreel {
+
+std::span<const Name> names_of(MotionColumn) {
+  static constexpr Name names[] = {{"t", "s"},
+                                   {"q", "of each coordinate, rad or m"},
+                                   {"qd", "of each freedom, rad/s or m/s"},
+                                   {"qdd", "rad/s^2 or m/s^2"},
+                                   {"tau", "as the run felt them, N m or N"},
+                                   {"energy", "kinetic, potential and their sum, J"},
+                                   {"energy_error", "what the work of the torques does not explain, J"},
+                                   {"x_G", "of the end effector along W, m"},
+                                   {"y_G", "m"},
+                                   {"z_G", "m"},
+                                   {"xd_G", "m/s"},
+                                   {"yd_G", "m/s"},
+                                   {"zd_G", "m/s"},
+                                   {"lambda", "of each row of the constraints, N or N m"},
+                                   {"frames", "the origin of each link's frame along W, m"}};
+  return names;
+}
+
+namespace {
+
+constexpr MotionColumn kTip[] = {MotionColumn::x_G,  MotionColumn::y_G,  MotionColumn::z_G,
+                                 MotionColumn::xd_G, MotionColumn::yd_G, MotionColumn::zd_G};
+
+bool is_of_tip(MotionColumn column) {
+  return std::find(std::begin(kTip), std::end(kTip), column) != std::end(kTip);
+}
+
+// Its place among x, y, z and their rates.
+std::size_t index_in_tip(MotionColumn column) {
+  return std::size_t(std::find(std::begin(kTip), std::end(kTip), column) - std::begin(kTip));
+}
+
+bool is_plain(const Chain& chain) {
+  return chain.serial && !chain.has_floating;
+}
+
+// "q1", or "q.hip" where numbers would say nothing.
+std::vector<std::string> names_of_numbers(const Chain& chain, const std::string& stem, const std::vector<std::string>& owners) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < owners.size(); ++i)
+    names.push_back(stem + (is_plain(chain) ? std::to_string(i + 1) : "." + owners[i]));
+  return names;
+}
+
+enum class Kind { turns, slides, plain };
+
+// Of the numbers of q; quaternions are plain ones.
+std::vector<Kind> kinds_of_positions(const Chain& chain) {
+  std::vector<Kind> kinds(std::size_t(chain.nq), Kind::plain);
+  for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
+    const Joint& joint = chain.bodies[i].joint;
+    const auto at = std::size_t(joint.q_index);
+    if (joint.ratio != 1 || joint.offset != 0) continue;  // it reads another joint's coordinate
+    if (joint.kind == JointKind::floating)
+      std::fill_n(kinds.begin() + std::ptrdiff_t(at), 3, Kind::slides);
+    else
+      kinds[at] = joint.kind == JointKind::revolute ? Kind::turns : Kind::slides;
+  }
+  return kinds;
+}
+
+std::vector<Kind> kinds_of_freedoms(const Chain& chain) {
+  std::vector<Kind> kinds(std::size_t(chain.nv), Kind::plain);
+  for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
+    const Joint& joint = chain.bodies[i].joint;
+    const auto at = std::size_t(joint.v_index);
+    if (joint.ratio != 1 || joint.offset != 0) continue;
+    if (joint.kind == JointKind::floating) {
+      std::fill_n(kinds.begin() + std::ptrdiff_t(at), 3, Kind::slides);
+      std::fill_n(kinds.begin() + std::ptrdiff_t(at) + 3, 3, Kind::turns);
+    } else {
+      kinds[at] = joint.kind == JointKind::revolute ? Kind::turns : Kind::slides;
+    }
+  }
+  return kinds;
+}
+
+std::vector<std::string> with_units(std::vector<std::string> names, const std::vector<Kind>& kinds, const char* turning,
+                                    const char* sliding) {
+  for (std::size_t i = 0; i < names.size(); ++i)
+    names[i] = with_unit(names[i], kinds[i] == Kind::turns ? turning : kinds[i] == Kind::slides ? sliding : "");
+  return names;
+}
+
+// Sums of steps are decimals but for their rounding, which nobody wants to read.
+double decimal_instant(double t) {
+  constexpr int kDigits = 15, kShort = 12;
+  const std::string text = format_significant(t, kDigits);
+  const double near = parse_number(text).value_or(t);
+  return format_shortest(near).size() <= kShort ? near : t;
+}
+
+std::vector<double> decimal_instants(std::vector<double> t) {
+  for (double& instant : t) instant = decimal_instant(instant);
+  return t;
+}
+
+std::vector<double> accelerations_along(const Simulation& simulation, const Trajectory& trajectory) {
+  ChainSystem system(simulation);
+  const auto n = std::size_t(simulation.chain.nv);
+  std::vector<double> all(std::size_t(trajectory.size()) * n);
+  for (int k = 0; k < trajectory.size(); ++k) {
+    const double t = trajectory.t[std::size_t(k)];
+    hold_as_then(system, simulation, trajectory, t);
+    system.acceleration(t, trajectory.q_at(k), trajectory.qd_at(k), Vec(all).subspan(std::size_t(k) * n, n));
+  }
+  simulation.torque->leave_pieces();
+  return all;
+}
+
+void add_energies(DataTable& table, const Chain& chain, const Trajectory& trajectory) {
+  Workspace ws(chain);
+  std::vector<double> kinetic, potential, total;
+  for (int k = 0; k < trajectory.size(); ++k) {
+    const Energy energy = energy_of(chain, ws, trajectory.q_at(k), trajectory.qd_at(k));
+    kinetic.push_back(energy.kinetic);
+    potential.push_back(energy.potential);
+    total.push_back(energy.total());
+  }
+  table.add("kinetic", "J", std::move(kinetic));
+  table.add("potential", "J", std::move(potential));
+  table.add("energy", "J", std::move(total));
+}
+
+// x, y, z and their rates of the end effector, a list each.
+std::vector<std::vector<double>> tip_along(const Chain& chain, const Trajectory& trajectory) {
+  std::vector<std::vector<double>> tip(6);
+  Workspace ws(chain);
+  for (int k = 0; k < trajectory.size(); ++k) {
+    compute_kinematics(chain, ws, trajectory.q_at(k), trajectory.qd_at(k));
+    const Eigen::Vector3d x = frame_position(chain, ws, chain.end_effector), xd = frame_velocity(chain, ws, chain.end_effector);
+    for (int i = 0; i < 3; ++i) {
+      tip[std::size_t(i)].push_back(x[i]);
+      tip[std::size_t(i) + 3].push_back(xd[i]);
+    }
+  }
+  return tip;
+}
+
+void add_frames(DataTable& table, const Chain& chain, const Trajectory& trajectory) {
+  std::vector<std::string> names;
+  for (const Frame& frame : chain.frames)
+    for (const char* axis : {"x", "y", "z"}) names.push_back(with_unit(frame.name + "." + axis, "m"));
+  std::vector<double> values;
+  values.reserve(names.size() * std::size_t(trajectory.size()));
+  Workspace ws(chain);
+  for (int k = 0; k < trajectory.size(); ++k) {
+    compute_kinematics(chain, ws, trajectory.q_at(k), trajectory.qd_at(k));
+    for (std::size_t frame = 0; frame < chain.frames.size(); ++frame) {
+      const Eigen::Vector3d x = frame_position(chain, ws, int(frame));
+      values.insert(values.end(), {x[0], x[1], x[2]});
+    }
+  }
+  table.add("frames", std::move(names), {chain.frames.size(), 3}, std::move(values));
+}
+
+void add_multipliers(DataTable& table, const Trajectory& trajectory) {
+  table.add("lambda", multiplier_columns(trajectory.rows), {std::size_t(trajectory.rows)}, trajectory.lambda);
+}
+
+void add_column(DataTable& table, MotionColumn column, const Simulation& simulation, const Trajectory& trajectory) {
+  const Chain& chain = simulation.chain;
+  const auto of_freedoms = [&](const char* stem, const char* turning, const char* sliding, std::vector<double> values) {
+    table.add(stem, with_units(names_of_numbers(chain, stem, chain.coordinate_names), kinds_of_freedoms(chain), turning, sliding),
+              {std::size_t(chain.nv)}, std::move(values));
+  };
+  switch (column) {
+    case MotionColumn::t:
+      return table.add("t", "s", decimal_instants(trajectory.t));
+    case MotionColumn::q:
+      return table.add("q",
+                       with_units(names_of_numbers(chain, "q", position_names(chain)), kinds_of_positions(chain), "rad", "m"),
+                       {std::size_t(chain.nq)}, trajectory.q);
+    case MotionColumn::qd:
+      return of_freedoms("qd", "rad/s", "m/s", trajectory.qd);
+    case MotionColumn::qdd:
+      return of_freedoms("qdd", "rad/s^2", "m/s^2", accelerations_along(simulation, trajectory));
+    case MotionColumn::tau:
+      return table.add("tau", torque_columns(chain), {std::size_t(chain.nv)}, torques_along(simulation, trajectory));
+    case MotionColumn::energy:
+      return add_energies(table, chain, trajectory);
+    case MotionColumn::energy_error:
+      return table.add("energy_error", "J", audit_of(simulation, trajectory).error);
+    case MotionColumn::lambda:
+      return add_multipliers(table, trajectory);
+    case MotionColumn::frames:
+      return add_frames(table, chain, trajectory);
+    default:
+      break;
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> torque_columns(const Chain& chain) {
+  return with_units(names_of_numbers(chain, "tau", chain.coordinate_names), kinds_of_freedoms(chain), "N m", "N");
+}
+
+std::vector<std::string> multiplier_columns(int rows) {
+  std::vector<std::string> names;
+  for (int i = 1; i <= rows; ++i) names.push_back("lambda" + std::to_string(i));
+  return names;
+}
+
+std::vector<MotionColumn> usual_columns(const Chain& chain) {
+  std::vector<MotionColumn> columns{MotionColumn::t, MotionColumn::q, MotionColumn::qd, MotionColumn::tau, MotionColumn::energy};
+  if (chain.end_effector < 0) return columns;
+  constexpr double kAlong = 1e-12;  // of a unit vector: less is rounding
+  for (const MotionColumn column : kTip) {
+    const auto axis = Eigen::Index(index_in_tip(column) % 3);
+    const bool moves = !chain.planar || std::abs(chain.planar->plane.ex[axis]) > kAlong || std::abs(chain.planar->plane.ey[axis]) > kAlong;
+    if (moves) columns.push_back(column);
+  }
+  return columns;
+}
+
+std::vector<MotionColumn> parse_columns(const std::string& text, const std::string& option) {
+  std::vector<MotionColumn> columns;
+  std::istringstream stream(text);
+  for (std::string word; std::getline(stream, word, ',');) {
+    const std::optional<MotionColumn> column = value_named<MotionColumn>(word);
+    if (!column) throw Error(ExitCode::usage, option + ": each " + misnamed(names_of(MotionColumn{}), word));
+    if (std::find(columns.begin(), columns.end(), *column) != columns.end())
+      throw Error(ExitCode::usage, option + " names " + word + " twice");
+    columns.push_back(*column);
+  }
+  if (columns.empty())
+    throw Error(ExitCode::usage, option + " takes names between commas, like t,q,tau; there are " + alternatives(names_of(MotionColumn{})));
+  return columns;
+}
+
+void require_columns(const Simulation& simulation, const std::vector<MotionColumn>& columns, const std::string& option) {
+  for (const MotionColumn column : columns) {
+    if (is_of_tip(column) && simulation.chain.end_effector < 0)
+      throw Error(ExitCode::usage, option + " " + to_string(column) + ": " + simulation.chain.name +
+                                       " has several ends: choose one with `--set end_effector=NAME`");
+    if (column == MotionColumn::lambda && simulation.constraints.empty())
+      throw Error(ExitCode::usage, option + " lambda: the scene has no constraints");
+  }
+}
+
+DataTable motion_table(const Simulation& simulation, const Trajectory& trajectory, const std::vector<MotionColumn>& columns) {
+  DataTable table;
+  table.rows = std::size_t(trajectory.size());
+  std::vector<std::vector<double>> tip;
+  for (const MotionColumn column : columns) {
+    if (!is_of_tip(column)) {
+      add_column(table, column, simulation, trajectory);
+      continue;
+    }
+    if (tip.empty()) tip = tip_along(simulation.chain, trajectory);
+    const std::size_t i = index_in_tip(column);
+    table.add(to_string(column), i < 3 ? "m" : "m/s", tip[i]);
+  }
+  return table;
+}
+
+DataTable motion_table(const Simulation& simulation, const Trajectory& trajectory) {
+  return motion_table(simulation, trajectory, usual_columns(simulation.chain));
+}
+
+std::string state_names(const Chain& chain) {
+  std::vector<std::string> names = names_of_numbers(chain, "q", position_names(chain));
+  const std::vector<std::string> rates = names_of_numbers(chain, "qd", chain.coordinate_names);
+  names.insert(names.end(), rates.begin(), rates.end());
+  return joined(names, ",");
+}
+
+std::string state_text(const Trajectory& trajectory, int k) {
+  std::string text;
+  for (const auto& values : {trajectory.q_at(k), trajectory.qd_at(k)})
+    for (const double value : values) text += (text.empty() ? "" : ",") + format_exact(value);
+  return text;
+}
+
+std::string panel_table_path(const std::string& path, std::size_t panel, bool alone) {
+  if (alone) return path;
+  std::filesystem::path result(path);
+  const std::string ending = result.extension().string();
+  return result.replace_extension(std::to_string(panel + 1) + ending).string();
+}
+
+}  // namespace chainreel

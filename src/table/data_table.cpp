@@ -1,0 +1,106 @@
+#include "table/data_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/csv.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "core/json.hpp"
+#include "table/npz.hpp"
+
+namespace chainreel {
+namespace {
+
+struct Ending {
+  const char* ending;
+  TableFormat format;
+};
+constexpr Ending kEndings[] = {{".csv", TableFormat::csv}, {".json", TableFormat::json}, {".npz", TableFormat::npz}};
+
+// A name with a comma would be two.
+std::string csv_name(const std::string& name) {
+  return name.find_first_of(",\"\n\r") == std::string::npos ? name : csv_words(name);
+}
+
+// The names that numbers which are none have in NumPy and pandas.
+std::string csv_number(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  return format_shortest(value);
+}
+
+std::string csv_bytes(const DataTable& table) {
+  std::string text;
+  for (const DataArray& array : table.arrays)
+    for (const std::string& column : array.columns) text += (text.empty() ? "" : ",") + csv_name(column);
+  text += "\n";
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    const char* between = "";
+    for (const DataArray& array : table.arrays)
+      for (std::size_t i = 0; i < array.columns.size(); ++i, between = ",")
+        text += between + csv_number(array.values[row * array.columns.size() + i]);
+    text += "\n";
+  }
+  return text;
+}
+
+// Nested as the shape says, from its number `level` on; `at` goes through the values.
+Json nested(const DataArray& array, std::size_t level, std::size_t& at) {
+  if (level == array.shape.size()) return array.values[at++];
+  Json list = Json::array();
+  for (std::size_t i = 0; i < array.shape[level]; ++i) list.push_back(nested(array, level + 1, at));
+  return list;
+}
+
+std::string json_bytes(const DataTable& table) {
+  Json json{{"columns", Json::array()}};
+  for (const DataArray& array : table.arrays) {
+    for (const std::string& column : array.columns) json["columns"].push_back(column);
+    Json& list = json[array.name] = Json::array();
+    std::size_t at = 0;
+    for (std::size_t row = 0; row < table.rows; ++row) list.push_back(nested(array, 0, at));
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : name + " [" + unit + "]";
+}
+
+void DataTable::add(const std::string& name, const std::string& unit, std::vector<double> values) {
+  add(name, {with_unit(name, unit)}, {}, std::move(values));
+}
+
+void DataTable::add(const std::string& name, std::vector<std::string> columns, std::vector<std::size_t> shape,
+                    std::vector<double> values) {
+  arrays.push_back({name, std::move(columns), std::move(shape), std::move(values)});
+}
+
+TableFormat table_format_of(const std::string& path) {
+  if (path == "-") return TableFormat::csv;
+  const std::string ending = std::filesystem::path(path).extension().string();
+  std::vector<std::string> known;
+  for (const Ending& one : kEndings) {
+    if (ending == one.ending) return one.format;
+    known.push_back(one.ending);
+  }
+  throw Error(ExitCode::usage, "-o " + path + ": tables are written as " + joined(known) + ", by the file's ending, or as CSV to -");
+}
+
+std::string table_bytes(const DataTable& table, TableFormat format) {
+  switch (format) {
+    case TableFormat::json:
+      return json_bytes(table);
+    case TableFormat::npz:
+      return npz_bytes(table);
+    case TableFormat::csv:
+      break;
+  }
+  return csv_bytes(table);
+}
+
+}  // namespace chainreel

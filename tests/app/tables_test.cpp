@@ -1,0 +1,223 @@
+// Motions as tables, scenes from standard input: what goes in and out of the program besides pictures.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "core/csv.hpp"
+#include "core/json.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Each;
+using testing::HasSubstr;
+
+const Words kHalfSecond{"--set", "duration=0.5", "--quiet"};
+
+ProgramResult simulate(const std::string& scene, const Words& more) {
+  return run_program(with(with({"simulate", scene}, kHalfSecond), more));
+}
+
+Table table_of(const std::string& scene, const Words& more) {
+  const TemporaryFolder folder;
+  const ProgramResult made = simulate(scene, with(more, {"-o", folder.file("a.csv")}));
+  EXPECT_EQ(made.status, 0) << made.err;
+  return made.status == 0 ? read_csv(folder.file("a.csv")) : Table{};
+}
+
+const std::vector<double>& column(const Table& table, const std::string& name) {
+  static const std::vector<double> none;
+  const int at = table.find(name);
+  EXPECT_GE(at, 0) << name;
+  return at < 0 ? none : table.columns[std::size_t(at)];
+}
+
+TEST(SimulateTables, AreTheSameMotionInEveryFormat) {
+  const TemporaryFolder folder;
+  const std::string csv = folder.file("a.csv"), json = folder.file("a.json"), npz = folder.file("a.npz");
+  const ProgramResult made =
+      simulate("assets/scenes/four_bar.yaml", {"-o", csv, "-o", npz, "-o", json, "--columns", "t,q,lambda,energy", "--json"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_EQ(Json::parse(made.out)["files"], Json({csv, npz, json}));
+  const Table table = read_csv(csv);
+  const Json read = Json::parse(read_whole_file(json));
+  EXPECT_EQ(read["q"].size(), table.rows());
+  const ProgramResult numpy = run_command({"/usr/bin/python3", "-c",
+                                           "import numpy, json, sys\n"
+                                           "d, j = numpy.load(sys.argv[1]), json.load(open(sys.argv[2]))\n"
+                                           "c = numpy.genfromtxt(sys.argv[3], delimiter=',', skip_header=1)\n"
+                                           "assert list(d['columns']) == j['columns']\n"
+                                           "assert all(numpy.array_equal(d[k], numpy.array(j[k])) for k in j if k != 'columns')\n"
+                                           "all = numpy.column_stack([d[k] for k in j if k != 'columns'])\n"
+                                           "print(numpy.array_equal(all, c), all.shape[1] == len(j['columns']))\n",
+                                           npz, json, csv});
+  EXPECT_EQ(numpy.out, "True True\n") << numpy.err;
+}
+
+TEST(SimulateTables, OfOtherKindsAreRefusedBeforeAnythingIsComputed) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"a", "a.txt", "a.csv.gz", "a.CSV"}) {
+    const ProgramResult refused = simulate("assets/scenes/rr_free.yaml", {"-o", folder.file("good.csv"), "-o", folder.file(name)});
+    EXPECT_EQ(refused.status, 2) << name;
+    EXPECT_THAT(refused.err, HasSubstr(".csv, .json, .npz")) << name;
+  }
+  const ProgramResult twice = simulate("assets/scenes/rr_free.yaml", {"-o", folder.file("a.csv"), "-o", folder.file("./a.csv")});
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_THAT(twice.err, HasSubstr("named twice"));
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(SimulateTables, GiveCsvToStandardOutputBesideFiles) {
+  const TemporaryFolder folder;
+  const ProgramResult made = simulate("assets/scenes/pp_free.yaml", {"-o", "-", "-o", folder.file("a.csv")});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_EQ(made.out, read_whole_file(folder.file("a.csv")));
+  EXPECT_EQ(simulate("assets/scenes/pp_free.yaml", {"-o", "-", "-o", "-"}).status, 2);
+}
+
+TEST(SimulateColumns, HoldWhatTheEquationOfMotionSays) {
+  // tau = M qdd + nle + tau_f at each row, by the program's own numbers of that state.
+  const Table table = table_of("assets/scenes/rr_torque.yaml", {"--columns", "tau,qdd,qd,q,t,x_G,yd_G,energy_error"});
+  EXPECT_EQ(table.names.front(), "tau1") << "in the order that was asked for";
+  const std::size_t row = table.rows() / 2;
+  const auto pair = [&](const std::string& stem) {
+    return std::to_string(column(table, stem + "1")[row]) + "," + std::to_string(column(table, stem + "2")[row]);
+  };
+  const ProgramResult said =
+      run_program({"dynamics", "models/rr.urdf", "--q", pair("q"), "--qd", pair("qd"), "--tau", pair("tau"), "--json"});
+  ASSERT_EQ(said.status, 0) << said.err;
+  const Json json = Json::parse(said.out);
+  // Six decimals of the state that was handed on, through forces of some 20 N per rad.
+  EXPECT_NEAR(json["qdd"][0].get<double>(), column(table, "qdd1")[row], 1e-3);
+  EXPECT_NEAR(json["qdd"][1].get<double>(), column(table, "qdd2")[row], 1e-3);
+  EXPECT_NEAR(json["x"][0].get<double>(), column(table, "x_G")[row], 1e-5);
+  EXPECT_NEAR(json["xd"][1].get<double>(), column(table, "yd_G")[row], 1e-4);
+  EXPECT_GT(std::abs(column(table, "qdd1")[row]), 0.1);  // negative control: something moves
+}
+
+TEST(SimulateColumns, GiveFramesOfAllLinksAndTheEndEffectorAmongThem) {
+  const Table table = table_of("assets/scenes/rr_free.yaml", {"--columns", "t,x_G,y_G,z_G,frames"});
+  for (const char* axis : {"x", "y", "z"})
+    EXPECT_EQ(column(table, std::string(axis) + "_G"), column(table, std::string("gripper.") + axis));
+}
+
+TEST(SimulateColumns, GiveInstantsAsDecimalsWhereTheyAre) {
+  // Sums of steps of 0.1 s: 0.30000000000000004, 0.7999999999999999.
+  const Table table = table_of("assets/scenes/rr_free.yaml", {"--every-step", "--columns", "t", "--set", "method=rk4", "--set", "step=0.1",
+                                                              "--set", "duration=1"});
+  EXPECT_EQ(table.columns[0], (std::vector<double>{0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1}));
+  // A third of a second is none, and keeps all its digits.
+  const Table thirds = table_of("assets/scenes/rr_free.yaml", {"--columns", "t", "--set", "video.fps=3", "--set", "duration=1"});
+  EXPECT_EQ(thirds.columns[0][1], 1.0 / 3);
+}
+
+TEST(SimulateColumns, ThatARunDoesNotHaveAreRefused) {
+  const auto refused = [](const std::string& scene, const std::string& columns, const std::string& why) {
+    const ProgramResult result = simulate(scene, {"-o", "-", "--columns", columns});
+    EXPECT_EQ(result.status, 2) << columns;
+    EXPECT_EQ(result.out, "") << columns;
+    EXPECT_THAT(result.err, HasSubstr(why)) << columns;
+  };
+  refused("assets/scenes/rr_free.yaml", "t,lambda", "no constraints");
+  refused("assets/scenes/rr_free.yaml", "t,taus", "did you mean 'tau'");
+  refused("assets/scenes/rr_free.yaml", "t,q,t", "names t twice");
+  refused("assets/scenes/rr_free.yaml", "", "takes names between commas");
+  refused("assets/scenes/rr_free.yaml", "t,,q", "must be");
+  refused("assets/scenes/humanoid_fall.yaml", "t,x_G", "end_effector=NAME");
+}
+
+TEST(SimulateColumns, OfAFloatingBaseHaveUnitsAndNames) {
+  const ProgramResult made = simulate("assets/scenes/rr_free.yaml", {"-o", "-", "--base", "floating", "--columns", "q,qd,tau", "--set",
+                                                                     "start.q=[0,0,0,0,0,0,1,0,0]", "--set", "start.qd=[0,0,0,0,0,0,0,0]"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  const std::string head = made.out.substr(0, made.out.find('\n'));
+  for (const char* name : {".x [m],", ".qw,", ".vx [m/s],", ".wz [rad/s],", ".wz [N m],", ".vx [N],"}) EXPECT_THAT(head, HasSubstr(name));
+  const auto commas = std::count(head.begin(), head.end(), ',');
+  EXPECT_EQ(commas, 9 + 8 + 8 - 1);
+}
+
+TEST(RenderTables, AreWrittenForNumPyToo) {
+  const TemporaryFolder folder;
+  const Words small{"--set", "video.width=64", "--set", "video.height=36"};
+  ASSERT_EQ(run_program(with(with({"render", "assets/scenes/pp_free.yaml", "-o", folder.file("a.npz"), "-o", folder.file("a.gif")},
+                                  kHalfSecond), small)).status, 0);
+  const ProgramResult read = run_command({"/usr/bin/python3", "-c", "import numpy, sys; print(numpy.load(sys.argv[1])['q'].shape)", folder.file("a.npz")});
+  EXPECT_EQ(read.out, "(31, 2)\n") << read.err;  // 30 frames and the end
+  EXPECT_EQ(run_program({"chart", "assets/scenes/rr_free.yaml", "-o", folder.file("a.npz")}).status, 2) << "charts have no arrays";
+}
+
+// The shell gives it: run_program's own input is empty.
+ProgramResult with_input(const std::string& text, const std::string& words, const TemporaryFolder& folder) {
+  const std::string file = folder.write("input.txt", text);
+  return run_command({"sh", "-c", "cd \"$2\" && \"$0\" " + words + " < \"$1\"", program_path(), file, folder.path().string()});
+}
+
+TEST(StandardInput, HoldsASceneForAllThatTakeOne) {
+  const TemporaryFolder folder;
+  const std::string scene =
+      "model: {links: [1, 1]}\nduration: 0.2\nmethod: rk4\nstep: 0.01\ntorque: [0, 0]\nvideo: {width: 64, height: 36}\n";
+  folder.write("a.yaml", scene);
+  for (const std::string words : {"simulate - --json -o -.csv", "check - --json", "dynamics - --json --at 0.1", "equations - --json"}) {
+    const ProgramResult of_input = with_input(scene, words, folder);
+    EXPECT_EQ(of_input.status, 0) << words << of_input.err;
+    EXPECT_FALSE(parse_json(of_input.out).is_discarded()) << words;
+  }
+  for (const std::string words : {"render -", "snapshot - --width 64 --height 36", "energy - --methods rk4", "sweep - --over duration=0.1,0.2"})
+    EXPECT_EQ(with_input(scene, words + " --quiet", folder).status, 0) << words;
+  for (const char* file : {"out/stdin.mp4", "out/stdin.png", "out/stdin_energy.csv", "out/stdin_sweep.csv"})
+    EXPECT_TRUE(fs::exists(folder.path() / file)) << file;
+  // The same motion as from a file.
+  const ProgramResult of_file = with_input("", "simulate a.yaml -o -", folder);
+  EXPECT_EQ(with_input(scene, "simulate - -o -", folder).out, of_file.out);
+}
+
+TEST(StandardInput, ThatIsNoSceneSaysSoByItsName) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& text, int status, const std::string& why) {
+    const ProgramResult result = with_input(text, "check -", folder);
+    EXPECT_EQ(result.status, status) << why;
+    EXPECT_THAT(result.err, HasSubstr(why));
+  };
+  refused("", 3, "stdin: holds no scene");
+  refused("model: {links: [1]}\ntorque: [0]\nduraton: 3\n", 3, "stdin:3:1");
+  refused(std::string(std::size_t(2) << 20, '#'), 7, "larger than 1 MiB");
+  refused(std::string("\xff\xfe\0\0", 4), 3, "stdin");
+  const ProgramResult closed = run_command({"sh", "-c", "\"$0\" check - <&-", program_path()});
+  EXPECT_EQ(closed.status, 3);
+  EXPECT_THAT(closed.err, HasSubstr("stdin: cannot be read"));
+}
+
+// What a sweep goes on with is of the same scene, also where that has no file.
+TEST(StandardInput, OfAnotherSceneIsAnotherSweep) {
+  const TemporaryFolder folder;
+  const auto sweep = [&](const std::string& torque) {
+    const ProgramResult made = with_input("model: {links: [1]}\nduration: 0.1\nmethod: rk4\nstep: 0.01\ntorque: [" + torque + "]\n",
+                                          "sweep - --over start.q.1=0,1 --set start.q=[0] -o out/a.csv --json", folder);
+    EXPECT_EQ(made.status, 0) << made.err;
+    return read_whole_file((folder.path() / "out/a.csv").string());
+  };
+  EXPECT_NE(sweep("0"), sweep("9"));
+}
+
+TEST(SnapshotNumbers, AreThoseOfDynamicsAtThatInstant) {
+  const TemporaryFolder folder;
+  const ProgramResult shot = run_program({"snapshot", "assets/scenes/rr_torque.yaml", "--at", "0.5", "--width", "64", "--height", "36", "-o",
+                                          folder.file("a.svg"), "--json"});
+  ASSERT_EQ(shot.status, 0) << shot.err;
+  const Json shown = Json::parse(shot.out)["panels"][0];
+  const Json state = Json::parse(run_program({"dynamics", "assets/scenes/rr_torque.yaml", "--at", "0.5", "--json"}).out);
+  EXPECT_EQ(shown["t"], 0.5);
+  for (const char* key : {"q", "qd", "tau", "kinetic", "potential"}) EXPECT_EQ(shown[key], state[key]) << key;
+  EXPECT_EQ(shown["end_effector"]["x"], state["x"]);
+  EXPECT_EQ(shown["end_effector"]["xd"], state["xd"]);
+}
+
+}  // namespace
+}  // namespace chainreel
