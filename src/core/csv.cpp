@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -29,10 +31,27 @@ std::vector<std::string> fields_of(const std::string& line) {
   }
 }
 
-// "q1" of "q1 [rad]".
-std::string without_unit(const std::string& name) {
+// "q1 [rad]" in two; nothing where it names no unit.
+std::string take_unit(std::string& name) {
   const std::size_t begin = name.rfind(" [");
-  return begin == std::string::npos || begin == 0 || !name.ends_with(']') ? name : trimmed(name.substr(0, begin));
+  if (begin == std::string::npos || begin == 0 || !name.ends_with(']')) return "";
+  const std::string unit = name.substr(begin + 2, name.size() - begin - 3);
+  name = trimmed(name.substr(0, begin));
+  return unit;
+}
+
+// A column in the program's units.
+std::vector<double> in_our_units(const Table& table, std::size_t column) {
+  std::vector<double> values = table.columns[column];
+  const std::optional<double> factor = factor_of_unit(table.units[column]);
+  if (!factor)
+    throw Error(ExitCode::bad_input,
+                "'" + table.names[column] + " [" + table.units[column] +
+                    "]' has a unit that is not known: s, rad, m, N, N m and their rates are, and ms, us, ns, deg, mm and cm",
+                {table.file});
+  if (*factor != 1)
+    for (double& value : values) value *= *factor;
+  return values;
 }
 
 }  // namespace
@@ -50,7 +69,7 @@ Table read_csv(const std::string& path) {
     throw Error(ExitCode::limit, "is larger than 256 MiB", {path});
   note_input(path);
   std::ifstream stream(path, std::ios::binary);
-  Table table{path, {}, {}, {}};
+  Table table{path, {}, {}, {}, {}};
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
     ++number;
@@ -58,7 +77,7 @@ Table read_csv(const std::string& path) {
     const std::vector<std::string> fields = fields_of(line);
     if (table.names.empty()) {
       table.names = fields;
-      for (std::string& name : table.names) name = without_unit(name);
+      for (std::string& name : table.names) table.units.push_back(take_unit(name));
       for (std::size_t i = 0; i < fields.size(); ++i)
         if (table.find(table.names[i]) != int(i))
           throw Error(ExitCode::bad_input, "two columns are named '" + table.names[i] + "': rename or remove one", {path, number});
@@ -86,12 +105,25 @@ Table read_csv(const std::string& path) {
   return table;
 }
 
+std::optional<double> factor_of_unit(const std::string& unit) {
+  static const std::map<std::string, double> base{{"s", 1},    {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9},
+                                                  {"rad", 1},  {"deg", std::numbers::pi / 180}, {"m", 1}, {"cm", 1e-2},
+                                                  {"mm", 1e-3}, {"N", 1},    {"N m", 1},   {"Nm", 1}, {"N*m", 1}};
+  if (unit.empty()) return 1;
+  const std::size_t slash = unit.find('/');
+  const auto found = base.find(unit.substr(0, slash));
+  if (found == base.end()) return std::nullopt;
+  const std::string below = slash == std::string::npos ? "" : unit.substr(slash + 1);
+  const bool is_known = below.empty() ? slash == std::string::npos : below == "s" || below == "s^2" || below == "s2";
+  return is_known ? std::optional(found->second) : std::nullopt;
+}
+
 TimeTable read_time_table(const std::string& path, const std::vector<std::string>& wanted, int n) {
   const Table table = read_csv(path);
   TimeTable result;
   const int time = table.find("t");
   if (time < 0) throw Error(ExitCode::bad_input, "has no column 't'", {path});
-  result.t = table.columns[std::size_t(time)];
+  result.t = in_our_units(table, std::size_t(time));
   result.lines = table.lines;
   for (std::size_t k = 1; k < result.t.size(); ++k)
     if (result.t[k] <= result.t[k - 1])
@@ -103,7 +135,7 @@ TimeTable read_time_table(const std::string& path, const std::vector<std::string
     std::vector<std::vector<double>> group;
     for (int i = 1; i <= n; ++i) {
       const int column = table.find(name + std::to_string(i));
-      if (column >= 0) group.push_back(table.columns[std::size_t(column)]);
+      if (column >= 0) group.push_back(in_our_units(table, std::size_t(column)));
     }
     if (!group.empty() && group.size() != std::size_t(n))
       throw Error(ExitCode::bad_input,

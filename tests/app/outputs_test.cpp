@@ -129,7 +129,7 @@ TEST_F(OnePass, VectorPagesHaveTheirWordsAndTheirPicture) {
 
 TEST_F(OnePass, TheTableHasARowAFrame) {
   const std::string table = read_whole_file(file("i.csv"));
-  EXPECT_THAT(table, testing::StartsWith("t [s],q1 [m],q2 [m],qd1 [m/s],qd2 [m/s],tau1 [N],"));
+  EXPECT_THAT(table, testing::StartsWith("t [s],q1 [rad],q2 [rad],qd1 [rad/s],qd2 [rad/s],tau1 [N m],"));
   EXPECT_EQ(rows_of(table), 7u) << "head, frames, and the end of the motion";
   EXPECT_THAT(table, HasSubstr("\n0.2,"));
 }

@@ -82,6 +82,17 @@ TEST(SimulateTables, GiveCsvToStandardOutputBesideFiles) {
   EXPECT_EQ(simulate("assets/scenes/pp_free.yaml", {"-o", "-", "-o", "-"}).status, 2);
 }
 
+// A scene with a robot of two ends.
+std::string two_arms(const TemporaryFolder& folder) {
+  const std::string inertial = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>";
+  const auto arm = [&](const std::string& name) {
+    return "<link name='" + name + "'>" + inertial + "</link><joint name='to_" + name +
+           "' type='continuous'><parent link='base'/><child link='" + name + "'/><axis xyz='0 0 1'/></joint>";
+  };
+  folder.write("two.urdf", "<robot name='two'><link name='base'>" + inertial + "</link>" + arm("left") + arm("right") + "</robot>");
+  return folder.write("two.yaml", "model: two.urdf\nduration: 0.5\nmethod: rk4\nstep: 0.01\n");
+}
+
 TEST(SimulateColumns, HoldWhatTheEquationOfMotionSays) {
   // tau = M qdd + nle + tau_f at each row, by the program's own numbers of that state.
   const Table table = table_of("assets/scenes/rr_torque.yaml", {"--columns", "tau,qdd,qd,q,t,x_G,yd_G,energy_error"});
@@ -130,12 +141,13 @@ TEST(SimulateColumns, ThatARunDoesNotHaveAreRefused) {
   refused("assets/scenes/rr_free.yaml", "t,q,t", "names t twice");
   refused("assets/scenes/rr_free.yaml", "", "takes names between commas");
   refused("assets/scenes/rr_free.yaml", "t,,q", "must be");
-  refused("assets/scenes/humanoid_fall.yaml", "t,x_G", "end_effector=NAME");
+  const TemporaryFolder folder;
+  refused(two_arms(folder), "t,x_G", "end_effector=NAME");
 }
 
 TEST(SimulateColumns, OfAFloatingBaseHaveUnitsAndNames) {
-  const ProgramResult made = simulate("assets/scenes/rr_free.yaml", {"-o", "-", "--base", "floating", "--columns", "q,qd,tau", "--set",
-                                                                     "start.q=[0,0,0,0,0,0,1,0,0]", "--set", "start.qd=[0,0,0,0,0,0,0,0]"});
+  const TemporaryFolder folder;
+  const ProgramResult made = simulate(two_arms(folder), {"-o", "-", "--base", "floating", "--columns", "q,qd,tau"});
   ASSERT_EQ(made.status, 0) << made.err;
   const std::string head = made.out.substr(0, made.out.find('\n'));
   for (const char* name : {".x [m],", ".qw,", ".vx [m/s],", ".wz [rad/s],", ".wz [N m],", ".vx [N],"}) EXPECT_THAT(head, HasSubstr(name));
@@ -151,6 +163,32 @@ TEST(RenderTables, AreWrittenForNumPyToo) {
   const ProgramResult read = run_command({"/usr/bin/python3", "-c", "import numpy, sys; print(numpy.load(sys.argv[1])['q'].shape)", folder.file("a.npz")});
   EXPECT_EQ(read.out, "(31, 2)\n") << read.err;  // 30 frames and the end
   EXPECT_EQ(run_program({"chart", "assets/scenes/rr_free.yaml", "-o", folder.file("a.npz")}).status, 2) << "charts have no arrays";
+}
+
+// A table that says its units is taken at its word, or refused.
+TEST(TablesThatAreRead, AreTakenInTheUnitsThatTheyName) {
+  const TemporaryFolder folder;
+  const auto torque = [&](const std::string& table) {
+    const ProgramResult made = run_program({"inverse", "models/rr.urdf", "--trajectory", folder.write("q.csv", table), "-o", "-"});
+    return made.status == 0 ? made.out : "status " + std::to_string(made.status) + ": " + made.err;
+  };
+  const std::string expected = torque("t,q1,q2\n0,0,0.5\n1,0,0.5\n");
+  EXPECT_THAT(expected, testing::StartsWith("t [s],tau1"));
+  EXPECT_EQ(torque("t [s],q1 [rad],q2 [rad]\n0,0,0.5\n1,0,0.5\n"), expected);
+  EXPECT_EQ(torque("t [ms],q1 [rad],q2\n0,0,0.5\n1000,0,0.5\n"), expected);
+  const std::string right_angle = torque("t,q1,q2\n0,1.5707963267948966,0\n1,1.5707963267948966,0\n");
+  EXPECT_EQ(torque("t,q1 [deg],q2 [deg]\n0,90,0\n1,90,0\n"), right_angle);
+  EXPECT_NE(right_angle, expected);
+  for (const char* unit : {"grad", "rad/min", "deg/", ""})
+    EXPECT_THAT(torque("t,q1 [" + std::string(unit) + "],q2\n0,0,0.5\n1,0,0.5\n"),
+                *unit == '\0' ? testing::StartsWith("t [s]") : testing::StartsWith("status 3"))
+        << unit;
+  // Two tables of other units are not equal, though their numbers are.
+  const std::string a = folder.write("a.csv", "t,q1 [rad]\n0,0\n1,1\n"), b = folder.write("b.csv", "t,q1 [deg]\n0,0\n1,1\n");
+  EXPECT_EQ(run_program({"compare", a, a}).status, 0);
+  const ProgramResult compared = run_program({"compare", a, b});
+  EXPECT_EQ(compared.status, 1) << compared.out;
+  EXPECT_THAT(compared.out, HasSubstr("units"));
 }
 
 // The shell gives it: run_program's own input is empty.

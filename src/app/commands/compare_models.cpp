@@ -17,7 +17,7 @@ namespace chainreel {
 namespace {
 
 // Columns t, q.. and qd.., and what else `simulate` writes, whose numbers are compared like rates; what they are called is
-// all that a table says of its freedoms, so units are not known.
+// all that a table says of its freedoms.
 SampledTrajectory trajectory_of(const Table& table, const std::string& path) {
   const int time = table.find("t");
   if (time < 0)
@@ -31,10 +31,10 @@ SampledTrajectory trajectory_of(const Table& table, const std::string& path) {
     if (int(i) == time) continue;
     if (!name.starts_with("q") || name.starts_with("qd")) {
       rates.push_back(i);
-      trajectory.qd_numbers.push_back({name, ""});
+      trajectory.qd_numbers.push_back({name, table.units[i]});
     } else {
       positions.push_back(i);
-      trajectory.q_numbers.push_back({name, ""});
+      trajectory.q_numbers.push_back({name, table.units[i]});
     }
   }
   if (positions.empty()) throw Error(ExitCode::bad_input, "has no column of positions, q..", {path, 1});
@@ -54,7 +54,10 @@ bool put_in_order(Table& table, const std::vector<std::string>& names) {
   if (!std::is_permutation(table.names.begin(), table.names.end(), names.begin(), names.end())) return false;
   std::vector<std::vector<double>> columns;
   for (const std::string& name : names) columns.push_back(std::move(table.columns[std::size_t(table.find(name))]));
+  std::vector<std::string> units;
+  for (const std::string& name : names) units.push_back(table.units[std::size_t(table.find(name))]);
   table.columns = std::move(columns);
+  table.units = std::move(units);
   table.names = names;
   return true;
 }
@@ -76,6 +79,14 @@ std::vector<std::string> names_of(const SampledTrajectory& trajectory) {
   for (const std::vector<SampledNumber>* numbers : {&trajectory.q_numbers, &trajectory.qd_numbers})
     for (const SampledNumber& number : *numbers) names.push_back(number.label);
   return names;
+}
+
+// Numbers of other units are other numbers, whatever they are called.
+std::vector<std::string> units_of(const SampledTrajectory& trajectory) {
+  std::vector<std::string> units;
+  for (const std::vector<SampledNumber>* numbers : {&trajectory.q_numbers, &trajectory.qd_numbers})
+    for (const SampledNumber& number : *numbers) units.push_back(number.unit);
+  return units;
 }
 
 // Of a model's record.
@@ -134,6 +145,9 @@ Comparison compare_trajectories(const CompareOptions& options) {
   const std::vector<std::string> old_names = names_of(before), names = names_of(after);
   if (old_names != names && old_names.size() == names.size())  // compared in their order
     words.push_back("columns " + change_text(joined(old_names), joined(names)));
+  const std::vector<std::string> old_units = units_of(before), units = units_of(after);
+  if (old_units != units && old_units.size() == units.size())
+    words.push_back("units " + change_text(joined(old_units), joined(units)));
   if (const std::string parted = freedom_words(difference); !parted.empty())
     words.insert(words.begin(), parted);
   Comparison found = said(words);

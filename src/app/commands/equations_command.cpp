@@ -1,6 +1,7 @@
 // chainreel equations MODEL | SCENE [--latex | --python] [--theta] [-o FILE]
 #include "app/commands/equations_command.hpp"
 
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -12,6 +13,7 @@
 
 #include "app/cli/data_folder.hpp"
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 
 namespace chainreel {
 namespace {
@@ -27,6 +29,19 @@ std::vector<std::string> own_words() {
   return words;
 }
 
+// For the program that comes in this one's place: a scene can be read from there once.
+void put_on_standard_input(const std::string& text) {
+  const int file = memfd_create("stdin", 0);
+  std::size_t done = 0;
+  while (file >= 0 && done < text.size()) {
+    const ssize_t count = write(file, text.data() + done, text.size() - done);
+    if (count <= 0) break;
+    done += std::size_t(count);
+  }
+  if (file < 0 || done < text.size() || lseek(file, 0, SEEK_SET) != 0 || dup2(file, STDIN_FILENO) < 0)
+    throw Error(ExitCode::file, std::string("cannot be handed on: ") + std::strerror(errno), {kStandardInput});
+}
+
 }  // namespace
 
 void run_equations_elsewhere(const EquationsOptions&) {
@@ -34,6 +49,7 @@ void run_equations_elsewhere(const EquationsOptions&) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
+  if (const std::string* text = standard_input_at(kStandardInput)) put_on_standard_input(*text);
   const std::filesystem::path folder = program_file().parent_path();
   for (const char* place : kPlaces) execv((folder / place).c_str(), pointers.data());
   throw Error(ExitCode::no_renderer, "chainreel-equations cannot be started from " + folder.string() + ": " + std::strerror(errno) +

@@ -133,8 +133,10 @@ void run_fall(const FallOptions& options) {
                                          [](double) { return interrupted(); });
   throw_if_interrupted();
   if (file) write_whole(*file, csv_of(options.scene, table));
+  Json report = report_of(options.scene, table);
+  if (file) report["file"] = options.output;
   if (options.common.json)
-    print_json(report_of(options.scene, table));
+    print_json(report);
   else if (!options.common.quiet || !file)
     print_table(table);
   if (file && !options.common.quiet && !options.common.json) std::printf("%s\n", options.output.c_str());
