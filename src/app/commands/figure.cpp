@@ -42,8 +42,8 @@ ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fon
 
 void check_figure_path(const std::string& path) {
   if (find_output_format(path, Shows::still) || path.ends_with(".csv")) return;
-  const auto is_picture = [](const OutputFormat& row) { return row.shows == Shows::still; };
-  throw Error(ExitCode::usage, "-o " + path + ": charts are written as " + endings_of(is_picture, "or") + ", their numbers alone as .csv");
+  const auto is_chart = [](const OutputFormat& row) { return row.shows == Shows::still || row.ending == std::string(".csv"); };
+  throw Error(ExitCode::usage, "-o " + path + ": charts are written as " + endings_of(is_chart, "or"));
 }
 
 std::vector<std::string> write_figure(const Picture& picture, const std::string& csv,

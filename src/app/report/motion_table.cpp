@@ -287,7 +287,7 @@ std::string state_names(const Chain& chain) {
 std::string state_text(const Trajectory& trajectory, int k) {
   std::string text;
   for (const auto& values : {trajectory.q_at(k), trajectory.qd_at(k)})
-    for (const double value : values) text += (text.empty() ? "" : ",") + format_exact(value);
+    for (const double value : values) text += (text.empty() ? "" : ",") + format_shortest(value);
   return text;
 }
 
