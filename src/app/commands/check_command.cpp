@@ -27,6 +27,7 @@ namespace {
 
 struct CheckOptions {
   std::string file;
+  bool all = false;  // candidates of a method that is chosen
   CommonOptions common;
 };
 
@@ -137,12 +138,33 @@ void print_model(const Json& model) {
                 words_of(model["ends"]).c_str());
 }
 
-void print_candidates(const Choice& choice, const Accuracy& accuracy) {
-  std::vector<std::vector<std::string>> table{{"tried", "off by, " + to_string(accuracy.unit), "us", "evaluations", ""}};
+constexpr std::size_t kNextBest = 3;
+
+// The best first: what keeps the accuracy by its cost, then the others by their errors.
+std::vector<Choice::Candidate> ranked(const Choice& choice, const Accuracy& accuracy) {
+  std::vector<Choice::Candidate> all;
   for (const Choice::Candidate& one : choice.tried)
+    if (to_string(one.setting) != to_string(choice.best.setting)) all.push_back(one);
+  const auto keeps = [&](const Choice::Candidate& one) { return one.trouble.empty() && one.error <= accuracy.value; };
+  std::stable_sort(all.begin(), all.end(), [&](const Choice::Candidate& a, const Choice::Candidate& b) {
+    if (keeps(a) != keeps(b)) return keeps(a);
+    return keeps(a) ? a.cost < b.cost : a.error < b.error;
+  });
+  return all;
+}
+
+void print_candidates(const Choice& choice, const Accuracy& accuracy, bool all) {
+  std::vector<std::vector<std::string>> table{
+      {all ? "next best" : "the next best", "off by, " + to_string(accuracy.unit), "us", "evaluations", ""}};
+  const std::vector<Choice::Candidate> others = ranked(choice, accuracy);
+  const std::size_t shown = all ? others.size() : std::min(others.size(), kNextBest);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const Choice::Candidate& one = others[i];
     table.push_back({to_string(one.setting), format_significant(one.error, 2),
                      format_significant(one.cost / 1000, 3), std::to_string(one.evaluations), one.trouble});
-  std::fputs(table_text(table).c_str(), stdout);
+  }
+  if (shown > 0) std::fputs(table_text(table).c_str(), stdout);
+  if (shown < others.size()) std::printf("%zu others: --all\n", others.size() - shown);
 }
 
 struct ExaminedRun {
@@ -166,7 +188,7 @@ ExaminedRun examine_run(const PreparedScene& prepared, int frames) {
   return report;
 }
 
-void print_run(const PreparedScene& prepared, const ExaminedRun& report) {
+void print_run(const PreparedScene& prepared, const ExaminedRun& report, bool all) {
   print_model(report.model);
   if (report.model.contains("constraints"))
     std::printf("%s\n", constraint_plan_text(report.model["constraints"]).c_str());
@@ -179,7 +201,7 @@ void print_run(const PreparedScene& prepared, const ExaminedRun& report) {
               cost["frames"].get<int>());
   if (prepared.choice) {
     std::printf("%s\n", choice_text(*prepared.choice, prepared.scene.accuracy).c_str());
-    print_candidates(*prepared.choice, prepared.scene.accuracy);
+    print_candidates(*prepared.choice, prepared.scene.accuracy, all);
   }
   std::printf("computed for the picture only: %d energies, %d Lambda", cost["energies_computed"].get<int>(),
               cost["Lambda_computed"].get<int>());
@@ -216,7 +238,7 @@ void check_scene(const CheckOptions& options) {
   for (std::size_t i = 0; i < reports.size(); ++i) {
     if (!alone)
       std::printf("%spanel %d: %s\n", i > 0 ? "\n" : "", int(i) + 1, film.panels[i].scene.title.c_str());
-    print_run(film.panels[i], reports[i]);
+    print_run(film.panels[i], reports[i], options.all);
   }
 }
 
@@ -256,6 +278,7 @@ void add_check_command(CommandLine& app) {
       app.add_subcommand("check", "the effective scene with all defaults, or what a model holds");
   command->add_option("file", options->file, "a scene (.yaml) or a model (.urdf)").required().names_input();
   add_scene_options(*command, options->common);
+  command->add_flag("--all", options->all, "of a method that is chosen, all candidates instead of the three next best");
   add_json_option(*command, options->common);
   command->footer("Example: chainreel check assets/scenes/rr_free.yaml --set method=rk4");
   command->callback(

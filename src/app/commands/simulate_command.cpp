@@ -11,6 +11,7 @@
 #include "app/cli/table_files.hpp"
 #include "app/film/automatic.hpp"
 #include "app/film/prepared.hpp"
+#include "app/film/progress.hpp"
 #include "app/film/runs.hpp"
 #include "app/report/report.hpp"
 #include "app/report/run_report.hpp"
@@ -33,8 +34,12 @@ struct SimulateOptions {
   CommonOptions common;
 };
 
-Trajectory run_scene(const PreparedScene& prepared, bool every_step) {
-  const auto stop = [](double) { return interrupted(); };
+Trajectory run_scene(const PreparedScene& prepared, bool every_step, bool quiet) {
+  Ticker ticker(quiet);
+  const auto stop = [&](double t) {
+    if (ticker.is_due()) ticker.say(prepared.scene.name + ": simulating", std::min(t / prepared.simulation.duration, 1.0));
+    return interrupted();
+  };
   if (every_step) return simulate_every_step(prepared.simulation, stop);
   std::vector<double> times = frame_times(prepared.scene);
   const double duration = prepared.scene.duration;
@@ -48,7 +53,7 @@ Trajectory run_scene(const PreparedScene& prepared, bool every_step) {
 Json simulate_panel(const PreparedScene& prepared, TableFiles& files, const std::vector<MotionColumn>& columns,
                     const SimulateOptions& options, bool alone) {
   say_choice(prepared, options.common.quiet);
-  const Trajectory trajectory = run_scene(prepared, options.every_step);
+  const Trajectory trajectory = run_scene(prepared, options.every_step, options.common.quiet);
   throw_if_interrupted();
   const DataTable table = motion_table(prepared.simulation, trajectory, columns);
   if (is_complete(trajectory.status) || prepared.scene.expect == Outcome::diverge)

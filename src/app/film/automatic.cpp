@@ -1,5 +1,6 @@
 #include "app/film/automatic.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -44,8 +45,7 @@ Json candidate_report(const Choice::Candidate& candidate) {
 
 std::string progress_text(const ChoiceProgress& now, double duration) {
   return "choosing a method: " + now.doing + " at t = " + format_significant(now.t, 3) + " of " +
-         format_shortest(duration) + " s, behind " + std::to_string(now.runs) + " runs and " +
-         format_fixed(100 * now.spent, 0) + " % of the budget";
+         format_shortest(duration) + " s, behind " + std::to_string(now.runs) + " runs; of its budget";
 }
 
 // Where the run ends by an event, s.
@@ -90,7 +90,7 @@ Choice choose_with_progress(Simulation& simulation, const Scene& scene, std::spa
       scene.links == LinkShapes::plain ? Outline{} : read_outline(scene.model, simulation.chain, model_options_of(scene));
   Ticker ticker(quiet);
   Choice choice = choose_method(simulation, scene.accuracy, times, [&](const ChoiceProgress& now) {
-    if (ticker.is_due()) ticker.say(scene.name + ": " + progress_text(now, simulation.duration));
+    if (ticker.is_due()) ticker.say(scene.name + ": " + progress_text(now, simulation.duration), std::clamp(now.spent, 0.0, 1.0));
     return interrupted();
   });
   throw_if_interrupted();

@@ -95,7 +95,7 @@ PreparedFilm load_film(const std::string& path, const std::vector<std::string>& 
 }
 
 PreparedFilm film_of(Scene scene, bool meshes, bool quiet, const std::optional<OwnTorque>& torque) {
-  PreparedFilm film{std::move(scene), {}};
+  PreparedFilm film{std::move(scene), {}, quiet};
   if (torque) drive(film.scene, *torque);
   const std::vector<std::string> pale = low_contrasts(film.scene);
   Scene& noticed = film.scene.compare.empty() ? film.scene : film.scene.compare.front();

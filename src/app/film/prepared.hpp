@@ -26,6 +26,7 @@ struct PreparedScene {
 struct PreparedFilm {
   Scene scene;  // the effective one; its `compare` holds the panels' scenes
   std::vector<PreparedScene> panels;
+  bool quiet = true;  // nothing is said while its runs are computed
 };
 
 // `quiet`: says nothing while a method is chosen.

@@ -14,7 +14,29 @@ constexpr std::chrono::milliseconds kTerminalPeriod{100};
 constexpr std::chrono::milliseconds kPlainPeriod{4000};
 constexpr std::chrono::milliseconds kPatience{900};  // before the first word
 
+// To the file itself: standard error takes no carriage return, which would let a name write over its line.
+bool rewrite_line(const std::string& text) {
+  std::fflush(stderr);
+  return write(STDERR_FILENO, text.data(), text.size()) >= 0;
+}
+
 }  // namespace
+
+std::string bar_text(double part) {
+  constexpr int kWidth = 20;
+  if (!(part >= 0 && part <= 1)) return "";
+  const int done = int(part * kWidth);
+  std::string bar(std::size_t(kWidth), ' ');
+  std::fill_n(bar.begin(), done, '=');
+  if (done < kWidth) bar[std::size_t(done)] = '>';
+  return "[" + bar + "] " + format_fixed(100 * part, 0) + " %";
+}
+
+std::string time_left_text(double part, double seconds) {
+  constexpr double kEnough = 0.01;  // less of the work tells nothing of the rest
+  if (!(part >= kEnough && part <= 1)) return "";
+  return format_fixed(seconds * (1 - part) / part, 0) + " s left";
+}
 
 Progress::Progress(std::string label, int total, bool quiet)
     : label_(std::move(label)),
@@ -42,22 +64,19 @@ void Progress::print(int done, Clock::time_point now) {
   const double rate = seconds > 0 ? done / seconds : 0;
   const double left = rate > 0 ? (total_ - done) / rate : 0;
   char numbers[128];
-  std::snprintf(numbers, sizeof numbers, " %3d %%  %d/%d frames  %.1f frames/s  %.0f s left%s",
-                total_ > 0 ? int(100.0 * done / total_) : 100, done, total_, rate, left, terminal_ ? "  " : "\n");
-  // To the file itself: standard error takes no carriage return, which would let a name write over its line.
+  std::snprintf(numbers, sizeof numbers, " %s  %d/%d frames  %.1f frames/s  %.0f s left%s",
+                bar_text(total_ > 0 ? double(done) / total_ : 1).c_str(), done, total_, rate, left, terminal_ ? "  " : "\n");
   std::string text = terminal_ ? "\r" : "";
   text += printable(label_) + std::string(label_.size() < 16 ? 16 - label_.size() : 0, ' ') + numbers;
-  std::fflush(stderr);
-  if (write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // nobody looks
-  printed_ = true;
+  printed_ |= rewrite_line(text);
 }
 
 Ticker::Ticker(bool quiet)
-    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), next_(Clock::now() + kPatience) {}
+    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), start_(Clock::now()), next_(start_ + kPatience) {}
 
 Ticker::~Ticker() {
   // What was said meanwhile is of no use any more.
-  if (terminal_ && printed_ > 0) std::fprintf(stderr, "\r%*s\r", int(printed_), "");
+  if (terminal_ && printed_ > 0) rewrite_line("\r" + std::string(printed_, ' ') + "\r");
 }
 
 bool Ticker::is_due() const {
@@ -66,12 +85,16 @@ bool Ticker::is_due() const {
 
 void Ticker::say(const std::string& text) {
   next_ = Clock::now() + (terminal_ ? kTerminalPeriod : kPlainPeriod);
-  if (terminal_)
-    std::fprintf(stderr, "\r%-*s", int(printed_), text.c_str());
-  else
-    std::fprintf(stderr, "%s\n", text.c_str());
-  std::fflush(stderr);
-  printed_ = std::max(printed_, text.size());
+  std::string line = printable(text);
+  if (terminal_) line = "\r" + line + std::string(printed_ > line.size() ? printed_ - line.size() : 0, ' ');
+  rewrite_line(terminal_ ? line : line + "\n");
+  printed_ = std::max(printed_, line.size());
+}
+
+void Ticker::say(const std::string& text, double part) {
+  const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+  const std::string left = time_left_text(part, seconds);
+  say(text + "  " + bar_text(part) + (left.empty() ? "" : "  " + left));
 }
 
 }  // namespace chainreel

@@ -7,6 +7,11 @@
 
 namespace chainreel {
 
+// "[=======>            ]  37 %"; of what is not known to end, "".
+std::string bar_text(double part);
+// "12 s left", of work of which that part took so long; "" while nothing can be told.
+std::string time_left_text(double part, double seconds);
+
 class Progress {
  public:
   Progress(std::string label, int total, bool quiet);
@@ -34,6 +39,8 @@ class Ticker {
 
   bool is_due() const;
   void say(const std::string& text);
+  // The same with a bar behind it and the time left, of work of which that part is done.
+  void say(const std::string& text, double part);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -41,7 +48,7 @@ class Ticker {
   bool quiet_;
   bool terminal_;
   std::size_t printed_ = 0;  // characters of the line that stands on the terminal
-  Clock::time_point next_;
+  Clock::time_point start_, next_;
 };
 
 }  // namespace chainreel

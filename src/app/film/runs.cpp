@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/cli/streams.hpp"
+#include "app/film/progress.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 
@@ -55,13 +56,31 @@ FilmClock clock_of(const PreparedFilm& film) {
   return clock;
 }
 
+namespace {
+
+std::string simulating_text(const PreparedFilm& film, const PreparedScene& panel) {
+  return film.scene.name + ": simulating" + (film.panels.size() == 1 ? "" : " '" + panel.scene.title + "'");
+}
+
+// Of all panels, `before` of which are through.
+double part_done(const PreparedFilm& film, std::size_t before, double t) {
+  const double duration = film.panels[before].simulation.duration;
+  return (double(before) + (duration > 0 ? std::clamp(t / duration, 0.0, 1.0) : 0)) / double(film.panels.size());
+}
+
+}  // namespace
+
 Runs::Runs(const PreparedFilm& film) : Runs(film, clock_of(film), {}) {}
 
 Runs::Runs(const PreparedFilm& film, FilmClock clock, std::vector<double> times)
     : film_(film), clock_(std::move(clock)), times_(std::move(times)) {
   if (times_.empty()) times_ = with_end(clock_.frame_times(), film);
+  Ticker ticker(film.quiet);
   for (const PreparedScene& panel : film.panels) {
-    list_.push_back(simulate_audited(panel.simulation, times_, [](double) { return interrupted(); }));
+    list_.push_back(simulate_audited(panel.simulation, times_, [&](double t) {
+      if (ticker.is_due()) ticker.say(simulating_text(film, panel), part_done(film, list_.size(), t));
+      return interrupted();
+    }));
     throw_if_interrupted();
   }
 }
