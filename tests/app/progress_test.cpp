@@ -62,6 +62,8 @@ TEST(CheckOfAChoice, ShowsTheThreeNextBestUnlessAllAreAskedFor) {
   EXPECT_THAT(few.out, HasSubstr("others: --all"));
   EXPECT_GT(candidates(all.out), 3);
   EXPECT_THAT(all.out, Not(HasSubstr("--all")));
+  EXPECT_EQ(run_program({"check", "assets/scenes/rr_free.yaml", "--all", "--set", "method=rk4"}).status, 2);
+  EXPECT_EQ(run_program({"check", "models/rr.urdf", "--all"}).status, 2);
   // JSON has them all in any case.
   const Json json = Json::parse(run_program(with(words, {"--json"})).out);
   EXPECT_GE(json["cost"]["auto"]["tried"].size(), std::size_t(candidates(all.out)));

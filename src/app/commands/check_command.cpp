@@ -217,6 +217,8 @@ void print_run(const PreparedScene& prepared, const ExaminedRun& report, bool al
 
 void check_scene(const CheckOptions& options) {
   const PreparedFilm film = load_film(options.file, overrides_of(options.common), true, options.common.quiet);
+  if (options.all && std::none_of(film.panels.begin(), film.panels.end(), [](const PreparedScene& panel) { return panel.choice.has_value(); }))
+    throw Error(ExitCode::usage, "--all shows what `method: auto` tried, and the scene names its method: take --set method=auto");
   const int frames = clock_of(film).frame_count();
   std::vector<ExaminedRun> reports;
   for (const PreparedScene& panel : film.panels) {
@@ -243,6 +245,7 @@ void check_scene(const CheckOptions& options) {
 }
 
 void check_model(const CheckOptions& options) {
+  if (options.all) throw Error(ExitCode::usage, "--all goes with a scene, whose method is chosen");
   std::vector<std::string> honoured = keys_of_models(OfModel::mechanism);
   honoured.push_back("end_effector");
   const ModelScene model = model_scene_of(options.file, overrides_of(options.common), "check", honoured);
