@@ -113,8 +113,7 @@ TEST(Flags, ThatACommandDoesNotHonourAreNotOffered) {
       {"methods", "--set", "a=1"},            {"methods", "--quiet"},
       {"doctor", "--base", "floating"},       {"doctor", "--force"},
       {"dynamics", "models/rr.urdf", "--force"}, {"check", "models/rr.urdf", "--force"},
-      {"chart", "assets/scenes/rr_free.yaml", "--json"}, {"energy", "assets/scenes/rr_free.yaml", "--json"},
-      {"stability", "assets/scenes/pp_spring.yaml", "--json"},
+      {"completion", "bash", "--json"},          {"check", "models/rr.urdf", "--columns", "t"},
       {"sheet", "assets/scenes/rr_free.yaml", "--set", "theme=dark"},
       {"sheet", "assets/scenes/rr_free.yaml", "--set", "video.width=64"},
       {"dynamics", "assets/scenes/pen.yaml", "--q", "0,0,0"}, {"dynamics", "models/rr.urdf", "--at", "1"}};

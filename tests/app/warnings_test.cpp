@@ -145,7 +145,7 @@ TEST(Check, SaysThatFrictionLetsCreep) {
   // And so it does: 1.5 N against 2 N.
   const ProgramResult run = run_program({"simulate", folder.write("push.yaml", "model: slider.urdf\ntorque: [1.5]\nduration: 1\n"
                                                                              "method: radau5\ntolerance: 1e-9\n"),
-                                         "-o", "-"});
+                                         "-o", "-", "--columns", "t,q,qd"});
   EXPECT_EQ(run.status, 0) << run.err;
   const std::string last = run.out.substr(run.out.find_last_of(',') + 1);
   EXPECT_NEAR(std::stod(last), 0.00973, 1e-5) << run.out;
