@@ -107,6 +107,7 @@ void PlacedSolids::set(const Solids& solids, double rim, const SampleGrid& grid,
     if (part.is_translucent()) continue;
     add_triangles(part, 0, sorted.closed, true);
     add_triangles(part, sorted.closed, part.color ? sorted.indices.size() / 3 : sorted.opaque, false);
+    if (!solids.is_shadow) add_creases(part);
   }
   // What shines through comes last, farthest first, and hides nothing.
   first_translucent_ = triangles_.size();
@@ -169,6 +170,47 @@ void PlacedSolids::add_triangles(const Part& part, std::size_t first, std::size_
       add_clipped(part, corners, is_culled);
     else
       add(corners, is_culled, part.touched);
+  }
+}
+
+namespace {
+
+constexpr double kCreaseLine = 0.0010, kThinnestCrease = 0.7;  // units of H, and px
+constexpr std::uint32_t kCreaseLevel = 5;  // eighths of what the body's colour is beside it
+
+std::uint32_t darkened(std::uint32_t color) {
+  std::uint32_t result = color & 0xff000000U;
+  for (int shift = 0; shift < 24; shift += 8) result |= ((color >> shift & 255) * kCreaseLevel / 8) << shift;
+  return result;
+}
+
+// Twice a triangle's area; negative where one sees its outside.
+std::int64_t turn(const PageVertex& a, const PageVertex& b, const PageVertex& c) {
+  return std::int64_t(b.x - a.x) * (c.y - a.y) - std::int64_t(c.x - a.x) * (b.y - a.y);
+}
+
+}  // namespace
+
+// Thin lines where a surface bends sharply, as far before it as they are wide.
+void PlacedSolids::add_creases(const Part& part) {
+  const double unit = double(grid_.height) * grid_.cells * kCellUnits;
+  const double half = std::max(kCreaseLine * grid_.height, kThinnestCrease) / 2 * grid_.cells * kCellUnits;
+  const float before = float(2 * half / (unit * traces_.solids.scale));
+  for (const Crease& crease : part.mesh.creases) {
+    const auto at = [&](std::uint32_t index) { return vertices_[part.first + index]; };
+    const std::array<PageVertex, 4> corners = {at(crease.a), at(crease.b), at(crease.left), at(crease.right)};
+    const auto &[a, b, left, right] = corners;
+    const bool is_cut = std::any_of(corners.begin(), corners.end(), [](const PageVertex& corner) { return corner.x == kOut; });
+    if (is_cut || (turn(a, b, left) >= 0 && turn(b, a, right) >= 0) || a.color >> 24 != 255) continue;
+    const double dx = b.x - a.x, dy = b.y - a.y, length = std::sqrt(dx * dx + dy * dy);
+    if (length < 1) continue;
+    const auto aside_x = std::int32_t(std::lround(-dy / length * half)), aside_y = std::int32_t(std::lround(dx / length * half));
+    const auto first = std::uint32_t(vertices_.size());
+    for (const PageVertex& end : {a, b})
+      for (const int side : {-1, 1})
+        vertices_.push_back({end.x + side * aside_x, end.y + side * aside_y, end.depth + before, darkened(end.color)});
+    add({first, first + 1, first + 3}, false, part.touched);
+    add({first, first + 3, first + 2}, false, part.touched);
   }
 }
 
@@ -238,7 +280,7 @@ void PlacedSolids::add_clipped(const Part& part, const Triangle& corners, bool i
 
 void PlacedSolids::add(Triangle corners, bool is_culled, TileMask& touched) {
   const PageVertex &a = vertices_[corners[0]], &b = vertices_[corners[1]], &c = vertices_[corners[2]];
-  const std::int64_t area = std::int64_t(b.x - a.x) * (c.y - a.y) - std::int64_t(c.x - a.x) * (b.y - a.y);
+  const std::int64_t area = turn(a, b, c);
   // Counter-clockwise triangles, in pictures whose y points down.
   if (area == 0 || (area > 0 && is_culled)) return;
   if (area < 0) std::swap(corners[1], corners[2]);

@@ -54,6 +54,7 @@ class PlacedSolids {
   std::size_t place(int column, int row) const { return std::size_t(row) * std::size_t(columns_) + std::size_t(column); }
   void place_vertices(const Part& part);
   void add_triangles(const Part& part, std::size_t first, std::size_t end, bool is_culled);
+  void add_creases(const Part& part);
   void add_clipped(const Part& part, const Triangle& corners, bool is_culled);
   void add(Triangle corners, bool is_culled, TileMask& touched);
   void add_to_tiles(const Triangle& corners, TileMask& touched);

@@ -105,11 +105,40 @@ double six_volumes(const TriangleMesh& mesh, std::size_t triangle) {
          a[2] * (double(b[0]) * c[1] - double(b[1]) * c[0]);
 }
 
-}  // namespace
+// A triangle's edge between two places: its corners there, as it runs, and the third.
+struct Side {
+  std::uint32_t from = 0, to = 0, third = 0;
+};
 
-SortedTriangles closed_parts_first(const TriangleMesh& mesh) {
+Side side_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& place, const Edge& edge) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto at = [&](std::size_t corner) { return mesh.triangles[3 * std::size_t(edge.triangle) + (k + corner) % 3]; };
+    const std::uint32_t from = place[at(0)], to = place[at(1)];
+    if (std::max(from, to) == edge.upper && (from < to) == (edge.is_upward == 1)) return {at(0), at(1), at(2)};
+  }
+  return {};
+}
+
+bool bends(const TriangleMesh& mesh, std::uint32_t one, std::uint32_t other) {
+  constexpr float kCosine = 0.8660254F;  // of 30 degrees
+  const auto &n = mesh.vertices[one].normal, &m = mesh.vertices[other].normal;
+  return n[0] * m[0] + n[1] * m[1] + n[2] * m[2] < kCosine;
+}
+
+std::vector<Crease> creases_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& place, const Edges& edges) {
+  std::vector<Crease> creases;
+  for (std::size_t lower = 0; lower + 1 < edges.first.size(); ++lower)
+    for (std::uint32_t i = edges.first[lower], behind = edges.first[lower + 1], end = i; i < behind; i = end) {
+      for (end = i; end < behind && edges.row[end].upper == edges.row[i].upper;) ++end;
+      if (end - i != 2 || edges.row[i].is_upward == edges.row[i + 1].is_upward) continue;
+      const Side one = side_of(mesh, place, edges.row[i]), other = side_of(mesh, place, edges.row[i + 1]);
+      if (bends(mesh, one.from, other.to) && bends(mesh, one.to, other.from)) creases.push_back({one.from, one.to, one.third, other.third});
+    }
+  return creases;
+}
+
+SortedTriangles closed_parts_first(const TriangleMesh& mesh, const Edges& edges) {
   const std::size_t count = mesh.triangles.size() / 3;
-  const Edges edges(mesh, places_of(mesh));
   Parts parts(count);
   std::vector<std::uint32_t> torn;  // triangles at edges that do not join two
   for (std::size_t place = 0; place + 1 < edges.first.size(); ++place)
@@ -148,6 +177,15 @@ SortedTriangles closed_parts_first(const TriangleMesh& mesh) {
     if (wanted == open) sorted.opaque = sorted.indices.size() / 3;
   }
   return sorted;
+}
+
+}  // namespace
+
+MeshSurface::MeshSurface(const TriangleMesh& mesh) {
+  const std::vector<std::uint32_t> place = places_of(mesh);
+  const Edges edges(mesh, place);
+  triangles = closed_parts_first(mesh, edges);
+  creases = creases_of(mesh, place, edges);
 }
 
 }  // namespace chainreel

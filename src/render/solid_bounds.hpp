@@ -20,8 +20,6 @@ MeshBounds bounds_of(const TriangleMesh& mesh);
 // All numbers are finite and all parts have a mesh. Whether its indices are right is seen when it is drawn.
 bool is_drawable(const Solids& solids);
 
-// Which parts of a mesh bound a volume, so that triangles that turn away from the viewer are never seen.
-
 // The triangles in another order.
 struct SortedTriangles {
   std::vector<std::uint32_t> indices;  // three a triangle
@@ -29,9 +27,22 @@ struct SortedTriangles {
   std::size_t opaque = 0;              // ... are opaque; the others let something through
 };
 
-// A part is what hangs together by edges, with vertices at the same place counted as one. It is closed where
-// every edge joins just two triangles that run along it in opposite directions, and the volume inside is
-// positive.
-SortedTriangles closed_parts_first(const TriangleMesh& mesh);
+// An edge at which a surface bends sharply: from `a` to `b`, as the one of its two triangles runs, whose third corners are `left`
+// and `right`.
+struct Crease {
+  std::uint32_t a = 0, b = 0, left = 0, right = 0;
+};
+
+// What a mesh's edges tell of it. Vertices at the same place count as one.
+struct MeshSurface {
+  // Which parts bound a volume, so that triangles that turn away from the viewer are never seen. A part is what hangs together by
+  // edges. It is closed where every edge joins just two triangles that run along it in opposite directions, and the volume inside is
+  // positive.
+  SortedTriangles triangles;
+  // The edges of two triangles at both ends of which their normals are more than 30 degrees apart.
+  std::vector<Crease> creases;
+
+  explicit MeshSurface(const TriangleMesh& mesh);
+};
 
 }  // namespace chainreel

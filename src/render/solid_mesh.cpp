@@ -1,5 +1,7 @@
 #include "render/solid_mesh.hpp"
 
+#include <utility>
+
 #include "core/error.hpp"
 
 namespace chainreel {
@@ -16,7 +18,9 @@ SolidMesh::SolidMesh(std::shared_ptr<const TriangleMesh> whole) : mesh(std::move
   for (const std::uint32_t index : mesh->triangles)
     if (index >= mesh->vertices.size())
       throw Error(ExitCode::bad_input, "a mesh has triangles between vertices that it does not have");
-  triangles = closed_parts_first(*mesh);
+  MeshSurface surface(*mesh);
+  triangles = std::move(surface.triangles);
+  creases = std::move(surface.creases);
   const auto add = [this](const TriangleMesh::Vertex& vertex) {
     for (std::size_t i = 0; i < 3; ++i) {
       position[i].push_back(vertex.position[i]);

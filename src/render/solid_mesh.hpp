@@ -17,6 +17,7 @@ struct SolidMesh {
   std::shared_ptr<const TriangleMesh> mesh;  // kept, so that no other mesh gets its place in memory
   MeshBounds bounds;
   SortedTriangles triangles;
+  std::vector<Crease> creases;
   // Of each vertex, its numbers apart, so that four are placed at once; the last ones are repeated up to a multiple of 4.
   std::array<std::vector<float>, 3> position, normal;
   std::vector<std::uint32_t> color;  // blue, green, red and opacity from the lowest byte on, premultiplied

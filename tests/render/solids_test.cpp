@@ -123,6 +123,45 @@ TEST(Solids, GrowTowardsTheEye) {
   EXPECT_LT(covered_area(draw_items({silhouette({at(cube(0.4), 0, 0, 0)})})), 0.9 * side * side);
 }
 
+TEST(Solids, HaveCreasesWhereTheyBendByMoreThanThirtyDegrees) {
+  EXPECT_EQ(MeshSurface(box_mesh({1, 2, 3})).creases.size(), 12u);
+  EXPECT_EQ(MeshSurface(cylinder_mesh(0.3, 1)).creases.size(), 2 * 48u);  // its rims
+  EXPECT_TRUE(MeshSurface(sphere_mesh(0.7)).creases.empty());
+  // Two triangles that share an edge, each with its own normal.
+  for (const double degrees : {-40.0, -20.0, 20.0, 29.0, 31.0, 90.0}) {
+    const double c = std::cos(degrees * std::numbers::pi / 180), s = std::sin(degrees * std::numbers::pi / 180);
+    TriangleMesh mesh;
+    const auto add = [&](double x, double y, double z, double nx, double nz) {
+      mesh.vertices.push_back({{float(x), float(y), float(z)}, {float(nx), 0, float(nz)}});
+    };
+    add(0, 0, 0, 0, 1), add(0, 1, 0, 0, 1), add(-1, 0, 0, 0, 1);
+    add(0, 0, 0, s, c), add(0, 1, 0, s, c), add(c, 0, -s, s, c);
+    mesh.triangles = {0, 1, 2, 4, 3, 5};
+    EXPECT_EQ(MeshSurface(mesh).creases.size(), std::abs(degrees) > 30 ? 1u : 0u) << degrees;
+    // With one normal for both there is no line, however it is bent.
+    for (std::size_t i = 3; i < 6; ++i) mesh.vertices[i].normal = {0, 0, 1};
+    EXPECT_TRUE(MeshSurface(mesh).creases.empty()) << degrees;
+  }
+}
+
+// The edge between two faces of a cube is darker than both; one that lies behind a face is not seen.
+TEST(Solids, CreasesAreDarkLinesBeforeWhatTheyBound) {
+  const double c = std::cos(0.6), s = std::sin(0.6);
+  const auto turned = [&](double z, double edge, std::optional<Color> color) {
+    return Solid{cube(edge), {c, 0, s, 0, 0, 1, 0, 0, -s, 0, c, z}, color};
+  };
+  const Color grey = color_of(0xC0C0C0);
+  const Image image = draw_items({scene({turned(0, 0.8, grey)})});
+  const int edge = int(64 + 64 * 0.4 * (s - c));  // px: the vertical edge nearest to the viewer
+  int darkest = 255;
+  for (int x = edge - 2; x <= edge + 2; ++x) darkest = std::min(darkest, int(image.at(x, 64).g));
+  EXPECT_LT(darkest, image.at(edge - 6, 64).g - 15);
+  EXPECT_LT(darkest, image.at(edge + 6, 64).g - 15);
+  // Negative control: what hides the cube hides its edges.
+  const Image hidden = draw_items({scene({turned(0, 0.8, grey), at(cube(1.4), 0, 0, 2, grey)})});
+  for (int x = edge - 6; x <= edge + 6; ++x) EXPECT_EQ(hidden.at(x, 64).g, hidden.at(64, 64).g);
+}
+
 TEST(Solids, HideWhatLiesBehindThemInAnyOrder) {
   const Solid before = at(cube(0.4), 0, 0, 0.5, kRed), behind = at(cube(0.8), 0, 0, -0.5, kGreen);
   const Image one = draw_items({scene({before, behind})}), other = draw_items({scene({behind, before})});
@@ -183,7 +222,7 @@ TEST(Solids, OpaqueTrianglesOfAMeshHideOthersAlsoBesideTranslucentOnes) {
   add(box_mesh({0.4, 0.4, 0.1}), 0, 0.5, {200, 0, 0, 255});
   add(box_mesh({0.4, 0.4, 0.1}), 0, -0.5, {0, 0, 200, 255});
   add(box_mesh({0.1, 0.1, 0.1}), 0.7, 0, {0, 200, 0, 128});
-  const SortedTriangles sorted = closed_parts_first(mesh);
+  const SortedTriangles sorted = MeshSurface(mesh).triangles;
   EXPECT_EQ(sorted.closed, 24u);
   EXPECT_EQ(sorted.opaque, 24u);
   const Pixel middle = draw_items({scene({at(shared(mesh), 0, 0, 0)})}).at(64, 64);
@@ -248,22 +287,22 @@ TEST(Solids, LeaveNothingBehindForTheNextFrame) {
 // Culling leaves out what is never seen, and nothing else.
 TEST(Solids, ClosedPartsLookAsTheyWouldWithAllTriangles) {
   TriangleMesh torn = sphere_mesh(0.7);
-  ASSERT_EQ(closed_parts_first(torn).closed, torn.triangles.size() / 3);
+  ASSERT_EQ(MeshSurface(torn).triangles.closed, torn.triangles.size() / 3);
   const Image closed = draw_items({scene({at(shared(torn), 0.1, 0, 0, kRed)})});
   // The first triangle twice: no edge of it joins just two, so the part counts as open and all is drawn.
   for (int k = 0; k < 3; ++k) torn.triangles.push_back(torn.triangles[std::size_t(k)]);
-  ASSERT_EQ(closed_parts_first(torn).closed, 0u);
+  ASSERT_EQ(MeshSurface(torn).triangles.closed, 0u);
   EXPECT_EQ(largest_difference(closed, draw_items({scene({at(shared(torn), 0.1, 0, 0, kRed)})})), 0);
 }
 
 TEST(Solids, OpenPartsAreSeenFromBehind) {
   TriangleMesh lid = box_mesh({0.8, 0.8, 0.8});
   lid.triangles.resize(lid.triangles.size() - 3);
-  EXPECT_EQ(closed_parts_first(lid).closed, 0u);
+  EXPECT_EQ(MeshSurface(lid).triangles.closed, 0u);
   TriangleMesh inside_out = box_mesh({0.8, 0.8, 0.8});
   for (std::size_t t = 0; t < inside_out.triangles.size(); t += 3)
     std::swap(inside_out.triangles[t], inside_out.triangles[t + 1]);
-  EXPECT_EQ(closed_parts_first(inside_out).closed, 0u);
+  EXPECT_EQ(MeshSurface(inside_out).triangles.closed, 0u);
   EXPECT_GT(covered_area(draw_items({silhouette({at(shared(inside_out), 0, 0, 0)})})), 51 * 51);
 }
 
@@ -274,7 +313,7 @@ TEST(Solids, ClosedPartsComeFirstWhereAMeshHasBoth) {
   two.triangles.resize(two.triangles.size() - 3);  // the first box is open
   two.vertices.insert(two.vertices.end(), other.vertices.begin(), other.vertices.end());
   for (const std::uint32_t index : other.triangles) two.triangles.push_back(index + shift);
-  const SortedTriangles sorted = closed_parts_first(two);
+  const SortedTriangles sorted = MeshSurface(two).triangles;
   EXPECT_EQ(sorted.closed, 12u);
   EXPECT_EQ(sorted.indices.size(), two.triangles.size());
   EXPECT_GE(sorted.indices.front(), shift);

@@ -92,7 +92,7 @@ TEST_F(MadeBodies, APersonHasHeadTrunkAndFeet) {
   // Left and right are one another's mirror.
   EXPECT_NEAR(all.lower.y(), -all.upper.y(), 1e-6);
   for (const BodyShape& shape : shapes.shapes) {
-    EXPECT_EQ(closed_parts_first(*shape.mesh).closed, shape.mesh->triangles.size() / 3);
+    EXPECT_EQ(MeshSurface(*shape.mesh).triangles.closed, shape.mesh->triangles.size() / 3);
     EXPECT_FALSE(shape.corners.empty());
   }
 }
@@ -157,7 +157,7 @@ TEST_F(MadeBodies, LinksOfOneGreyGetTwoTintsInTurn) {
 
 TEST(RoundedBox, FillsItsEdgesAndIsClosed) {
   const TriangleMesh mesh = rounded_box_mesh({0.4, 0.6, 1}, 0.1);
-  EXPECT_EQ(closed_parts_first(mesh).closed, mesh.triangles.size() / 3);
+  EXPECT_EQ(MeshSurface(mesh).triangles.closed, mesh.triangles.size() / 3);
   const MeshBounds bounds = bounds_of(mesh);
   const std::array<double, 3> half{0.2, 0.3, 0.5};
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(bounds.upper[i], half[i], 0.01 * 0.1);
