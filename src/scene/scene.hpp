@@ -108,7 +108,7 @@ struct Scene {
   EllipseEntry ellipse;
   CameraEntry camera;
   std::vector<PlotEntry> plot;  // beside or below the scene, at most three
-  PageLayout layout = PageLayout::scene;
+  PageLayout layout = PageLayout::automatic;
   std::vector<Scene>
       compare;            // the panels, each the scene with its changes; empty: the scene is the only one
   ThemeName theme = ThemeName::light;

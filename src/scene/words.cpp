@@ -15,7 +15,9 @@ constexpr Name kReadings[] = {{"mass", "forces for unit accelerations; semi-axes
                               {"belt", "the mass felt along each direction, kg"}};
 constexpr Name kEllipseShapes[] = {{"ellipsoid", "whole"},
                                    {"section", "cut by the xy plane of the end effector"}};
-constexpr Name kLayouts[] = {{"scene", "the scene, plots beside it where there are two or three"},
+constexpr Name kLayouts[] = {{"auto",
+                              "as `scene`, with a plot of what tells its story where that takes nothing from the motion"},
+                             {"scene", "the scene, plots beside it where there are two or three"},
                              {"scene-below", "plots below the scene"},
                              {"scene-right", "plots beside the scene"},
                              {"transparent", "the motion alone on nothing, for overlays"},

@@ -16,7 +16,7 @@ enum class EllipseReading { mass, energy, belt };
 // What is drawn of it in space.
 enum class EllipseShape { ellipsoid, section };
 // Where on the page the scene, its plots and its panels stand.
-enum class PageLayout { scene, scene_below, scene_right, transparent, compare, grid, ghost };
+enum class PageLayout { automatic, scene, scene_below, scene_right, transparent, compare, grid, ghost };
 enum class ThemeName { light, dark };
 // What a scene writes where no file is named.
 enum class Preset { slides, web, overlay, doc, frames, still };

@@ -104,9 +104,8 @@ PlotCurves energies(const Simulation& simulation, const Trajectory& trajectory, 
   return plot;
 }
 
-PlotCurves values_of(const Expression& value, const Simulation& simulation, const Trajectory& trajectory,
+PlotCurves values_of(const Expression& value, const PlotSet& plots, const Simulation& simulation, const Trajectory& trajectory,
                      int samples) {
-  const PlotSet& plots = *simulation.plots;
   const Chain& chain = simulation.chain;
   Probe probe = plots.probe;
   Workspace ws(chain);
@@ -132,7 +131,7 @@ PlotCurves values_of(const Expression& value, const Simulation& simulation, cons
   return plot;
 }
 
-PlotCurves curves_of(const PlotSet::Plot& plot, const Simulation& simulation, const Trajectory& trajectory,
+PlotCurves curves_of(const PlotSet::Plot& plot, const PlotSet& plots, const Simulation& simulation, const Trajectory& trajectory,
                      int samples) {
   const Chain& chain = simulation.chain;
   switch (plot.quantity) {
@@ -154,7 +153,7 @@ PlotCurves curves_of(const PlotSet::Plot& plot, const Simulation& simulation, co
     case PlotQuantity::expression:
       break;
   }
-  return values_of(*plot.value, simulation, trajectory, samples);
+  return values_of(*plot.value, plots, simulation, trajectory, samples);
 }
 
 }  // namespace
@@ -194,16 +193,19 @@ std::shared_ptr<const PlotSet> make_plots(const Chain& chain, const std::vector<
   return plots;
 }
 
-std::vector<PlotCurves> plot_curves(const Simulation& simulation, const Trajectory& trajectory, int samples) {
+std::vector<PlotCurves> plot_curves(const PlotSet& plots, const Simulation& simulation, const Trajectory& trajectory, int samples) {
   std::vector<PlotCurves> all;
-  if (!simulation.plots) return all;
-  for (const PlotSet::Plot& plot : simulation.plots->list) {
-    all.push_back(curves_of(plot, simulation, trajectory, samples));
+  for (const PlotSet::Plot& plot : plots.list) {
+    all.push_back(curves_of(plot, plots, simulation, trajectory, samples));
     all.back().quantity = plot.quantity;
     all.back().title = plot.title;
     all.back().angles = plot.quantity == PlotQuantity::q && units_of(simulation.chain) == JointUnits::turning;
   }
   return all;
+}
+
+std::vector<PlotCurves> plot_curves(const Simulation& simulation, const Trajectory& trajectory, int samples) {
+  return simulation.plots ? plot_curves(*simulation.plots, simulation, trajectory, samples) : std::vector<PlotCurves>();
 }
 
 }  // namespace chainreel

@@ -69,7 +69,9 @@ struct PlotCurves {
   std::vector<PlotCurve> curves;
 };
 
-// One entry a plot of simulation.plots, over the first `samples` samples.
+// One entry a plot, over the first `samples` samples.
+std::vector<PlotCurves> plot_curves(const PlotSet& plots, const Simulation& simulation, const Trajectory& trajectory, int samples);
+// The same of simulation.plots.
 std::vector<PlotCurves> plot_curves(const Simulation& simulation, const Trajectory& trajectory, int samples);
 
 }  // namespace chainreel

@@ -18,6 +18,7 @@ namespace chainreel {
 namespace {
 
 constexpr int kWidth = 640, kHeight = 360;
+constexpr double kLeastFilled = 0.40;  // of a scene's width or height: what joints, words and arrows have around them is not counted
 
 class EveryScene : public ::testing::TestWithParam<std::string> {
  protected:
@@ -115,6 +116,35 @@ TEST_P(EveryScene, ShowsTheGripperWhereThePhysicsHasItAndNotElsewhere) {
     const Eigen::Vector3d elsewhere = Eigen::Vector3d(0.005, 0.06, 0) / film_.camera(panel).scale;
     EXPECT_NE(pixel_at(picture, panel, gripper(panel, kFrame) + elsewhere), (Pixel{disc.r, disc.g, disc.b, 255}))
         << panel;
+  }
+}
+
+// The part of a panel's scene in which its joints and its end move, and the part of the page that its scene has.
+TEST_P(EveryScene, FillsItsPageWithItsMotion) {
+  const double aspect = double(kWidth) / kHeight;
+  double page = 0;
+  for (int i = 0; i < film_.panel_count(); ++i) {
+    const Chain& chain = prepared_.panels[std::size_t(i)].simulation.chain;
+    const Trajectory& run = runs_[std::size_t(i)];
+    const Rect& scene = film_.scene_area(i);
+    Workspace ws(chain);
+    Rect filled{1e9, 1e9, -1e9, -1e9};
+    const auto left = film_.panel(i).left_at();
+    for (int k = 0; k < std::min(run.size(), film_.frame_count()) && !(left && times_[std::size_t(k)] >= *left); ++k) {
+      compute_kinematics(chain, ws, run.q_at(k), run.qd_at(k));
+      std::vector<Eigen::Vector3d> places;
+      for (std::size_t b = 1; b < chain.bodies.size(); ++b) places.push_back(pose_of(ws, int(b)).translation());
+      if (chain.end_effector >= 0) places.push_back(frame_position(chain, ws, chain.end_effector));
+      for (const Eigen::Vector3d& place : places) {
+        const Point p = film_.camera(i).project(place);
+        filled = {std::min(filled.x0, p.x), std::min(filled.y0, p.y), std::max(filled.x1, p.x), std::max(filled.y1, p.y)};
+      }
+    }
+    const double wide = filled.width() / scene.width(), high = filled.height() / scene.height();
+    page += scene.width() * scene.height() / aspect;
+    std::printf("%-20s panel %d: motion %3.0f x %3.0f %% of its scene, which is %3.0f x %3.0f %% of the page\n", GetParam().c_str(),
+                i + 1, 100 * wide, 100 * high, 100 * scene.width() / aspect, 100 * scene.height());
+    EXPECT_GE(std::max(wide, high), kLeastFilled) << "panel " << i + 1;
   }
 }
 

@@ -61,7 +61,7 @@ TEST_F(CompareScene, GivesEachPanelTheSceneWithItsOwnChanges) {
 
 TEST_F(CompareScene, OfOnePanelIsAPlainScene) {
   EXPECT_TRUE(read("").compare.empty());
-  EXPECT_EQ(read("").layout, PageLayout::scene);
+  EXPECT_EQ(read("").layout, PageLayout::automatic);
   EXPECT_EQ(read("expect: diverge\n").expect, Outcome::diverge);
 }
 

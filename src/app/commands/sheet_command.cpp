@@ -48,6 +48,7 @@ void set_for_cell(Scene& scene, ThemeName theme, double text_scale) {
   scene.theme = theme;
   scene.text_scale = text_scale;
   scene.plot.clear();
+  if (scene.layout == PageLayout::automatic) scene.layout = PageLayout::scene;
   std::erase(scene.draw, "mass_matrix");  // its numbers could not be read
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "draw/film/film_sheet.hpp"
+#include "draw/film/film_view.hpp"
 #include "draw/layers/layer.hpp"
 
 namespace chainreel {
@@ -22,13 +23,18 @@ struct Composition {
   std::unique_ptr<const Stage> stage;
   Layers layers;
   FilmSheet sheet;
+  FilmView view;
   std::vector<std::string> left_out;  // layers that the page is too small for
 };
 
 // Where words had to be enlarged, layers go one after the other, in the order equation, torque_label, legend, mass_matrix,
 // scale_bar, as long as the words leave less than kLeastScene of the page's height to the scene, or do not fit. Throws Error as
 // Stage and FilmSheet do.
+//
+// With layout `auto` a plot stands beside the scene, else below it, where the motion keeps kLeastKept of its size and no further
+// layer goes: the scene's only plot, or the story that it has (draw/film/story).
 inline constexpr double kLeastScene = 0.45;
+inline constexpr double kLeastKept = 0.9;
 Composition compose(const Scene& page, const std::vector<PanelRun>& runs, const std::vector<double>& times, const Fonts& fonts,
                     const FilmClock& clock);
 

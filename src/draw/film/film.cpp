@@ -39,7 +39,7 @@ Film::Film(Composition composed)
     : stage_(std::move(composed.stage)),
       layers_(std::move(composed.layers)),
       sheet_(std::move(composed.sheet)),
-      view_(*stage_, layers_, sheet_),
+      view_(std::move(composed.view)),
       titles_(sheet_.panel_titles(*stage_, view_.cells)),
       panels_(panels_of(*stage_, view_)),
       words_(*stage_, layers_, sheet_, view_, panels_),

@@ -30,11 +30,12 @@ bool has_notes(const Stage& stage) {
 }
 
 // What the plots of the page show of a run; its simulation must be there.
-StripRun strip_run(const StagedRun& motion) {
+StripRun strip_run(const StagedRun& motion, const std::vector<PlotCurves>& story) {
   const Trajectory& run = motion.trajectory();
   StripRun strip{motion.title(), motion.is_wild(), {}, {}};
   strip.times.assign(run.t.begin(), run.t.begin() + motion.samples());
-  if (motion.simulation()) strip.plots = plot_curves(*motion.simulation(), run, motion.samples());
+  strip.plots = story;
+  if (story.empty() && motion.simulation()) strip.plots = plot_curves(*motion.simulation(), run, motion.samples());
   return strip;
 }
 
@@ -52,12 +53,12 @@ double title_size(const Stage& stage, const std::vector<PanelCell>& cells) {
 
 }  // namespace
 
-FilmSheet::FilmSheet(const Stage& stage, const Layers& layers) {
+FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const std::vector<PlotCurves>& story) {
   const Scene& page = stage.page;
   const SheetText text = words_of(stage, layers);
   const double aspect = double(page.video.width) / page.video.height;
   sheet = lay_out_sheet(text, aspect, page.text_scale, stage.theme, stage.fonts);
-  if (!page.plot.empty() && !is_transparent(page)) lay_out_plots(stage);
+  if (!(page.plot.empty() && story.empty()) && !is_transparent(page)) lay_out_plots(stage, story);
   has_panel_titles = text.with_panel_titles && stage.has_cells();
   if (has_panel_titles) rows.title = kTitleRow * scaled(size::kSymbol, page.text_scale);
   if (text.with_panel_titles && stage.is_ghost()) {
@@ -68,11 +69,11 @@ FilmSheet::FilmSheet(const Stage& stage, const Layers& layers) {
 }
 
 // One plot below the scene, more beside it, unless the layout says otherwise; below several panels.
-void FilmSheet::lay_out_plots(const Stage& stage) {
+void FilmSheet::lay_out_plots(const Stage& stage, const std::vector<PlotCurves>& story) {
   const Scene& page = stage.page;
   std::vector<StripRun> runs;
-  for (const StagedRun& motion : stage.motions) runs.push_back(strip_run(motion));
-  const int count = int(page.plot.size());
+  for (const StagedRun& motion : stage.motions) runs.push_back(strip_run(motion, story));
+  const int count = int(story.empty() ? page.plot.size() : story.size());
   const bool right = !stage.is_comparison() && page.layout != PageLayout::scene_below &&
                      (count > 1 || page.layout == PageLayout::scene_right);
   const bool narrow = page.video.width < kLeastBeside * page.video.height;

@@ -16,8 +16,9 @@ namespace chainreel {
 inline constexpr double kTitleDescent = 0.40;
 
 struct FilmSheet {
-  // Throws Error (bad input) where the words leave no room.
-  FilmSheet(const Stage& stage, const Layers& layers);
+  // `story`: what is plotted where the scene names no plot, see story.hpp. Throws Error (bad input) where the words leave no
+  // room.
+  FilmSheet(const Stage& stage, const Layers& layers, const std::vector<PlotCurves>& story = {});
 
   Sheet sheet;  // its scene is what is left for all panels
   std::vector<PlotStrip> plots;
@@ -29,7 +30,7 @@ struct FilmSheet {
   std::vector<PlacedText> panel_titles(const Stage& stage, const std::vector<PanelCell>& cells) const;
 
  private:
-  void lay_out_plots(const Stage& stage);
+  void lay_out_plots(const Stage& stage, const std::vector<PlotCurves>& story);
 };
 
 }  // namespace chainreel

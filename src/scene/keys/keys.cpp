@@ -166,7 +166,7 @@ std::vector<Chapter> chapters() {
             .flag(FlagGroup::view, "--fit"),
         Row(told_plot(), read_plot, plot_text).example("plot: [energy, \"x_G - 1\"]").absent("none").of_page(),
         Row(told_layout(), read_layout, layout_text)
-            .absent("scene; compare for two panels, grid for more")
+            .absent("auto; compare for two panels, grid for more")
             .of_page()
             .flag(FlagGroup::page, "--layout"),
         Row("theme", &Scene::theme, "the colours")

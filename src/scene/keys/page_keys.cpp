@@ -107,7 +107,7 @@ KeyText told_layout() {
 
 void read_layout(Fields& fields, Scene& scene) {
   const std::size_t panels = std::max<std::size_t>(1, scene.compare.size());
-  scene.layout = panels == 1 ? PageLayout::scene : panels == 2 ? PageLayout::compare : PageLayout::grid;
+  scene.layout = panels == 1 ? PageLayout::automatic : panels == 2 ? PageLayout::compare : PageLayout::grid;
   PageLayout layout{};
   if (!fields.read("layout", layout)) return;
   if (const std::string problem = layout_problem(layout, panels); !problem.empty())

@@ -1,0 +1,49 @@
+#include "draw/film/story.hpp"
+
+#include <algorithm>
+
+#include "draw/layers/devices.hpp"
+
+namespace chainreel {
+namespace {
+
+std::vector<PlotCurves> curves_of(const StagedRun& motion, PlotQuantity quantity) {
+  const Simulation& simulation = *motion.simulation();
+  const auto plots = make_plots(motion.chain(), {{std::string(to_string(quantity)), "", {}}}, {}, {}, {},
+                                motion.trajectory().rows);
+  return plot_curves(*plots, simulation, motion.trajectory(), motion.samples());
+}
+
+// Of the coordinates those that springs drive; empty where there are no springs, or more than springs.
+std::vector<PlotCurves> sprung_coordinates(const Stage& stage, const StagedRun& motion) {
+  std::vector<bool> is_driven(std::size_t(motion.chain().nq), false);
+  bool has_spring = false;
+  for (const Device& device : devices_of(stage, motion)) {
+    if (!device.is_all_of_it()) return {};
+    if (!device.drive.is_spring()) continue;
+    has_spring = is_driven[std::size_t(motion.chain().bodies[std::size_t(device.body)].joint.q_index)] = true;
+  }
+  if (!has_spring) return {};
+  std::vector<PlotCurves> plots = curves_of(motion, PlotQuantity::q);
+  std::vector<PlotCurve>& curves = plots.front().curves;
+  for (std::size_t i = curves.size(); i-- > 0;)
+    if (!is_driven[i]) curves.erase(curves.begin() + std::ptrdiff_t(i));
+  return plots;
+}
+
+bool shows_masses(const Stage& stage) {
+  return stage.shows("ellipse") || stage.shows("mass_matrix");
+}
+
+}  // namespace
+
+std::vector<PlotCurves> story_of(const Stage& stage) {
+  const StagedRun& motion = stage.motions.front();
+  if (stage.is_comparison() || motion.samples() < 2 || !motion.simulation() || is_transparent(stage.page) || shows_masses(stage))
+    return {};
+  if (motion.trajectory().rows > 0) return curves_of(motion, PlotQuantity::lambda);
+  if (std::vector<PlotCurves> sprung = sprung_coordinates(stage, motion); !sprung.empty()) return sprung;
+  return curves_of(motion, motion.simulation()->torque->is_constant() ? PlotQuantity::energy : PlotQuantity::tau);
+}
+
+}  // namespace chainreel
