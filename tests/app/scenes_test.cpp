@@ -154,5 +154,47 @@ TEST(Scenes, OfTheLectureAreAllThere) {
     EXPECT_THAT(test::scene_names(), testing::Contains(name));
 }
 
+// The page of a scene in layout auto, and the same with `layout: scene`.
+struct TwoPages {
+  Rect area, whole;
+  double kept = 0;  // of the motion's size
+
+  explicit TwoPages(const std::string& name, const std::vector<std::string>& more = {}) {
+    const Fonts fonts;
+    std::vector<double> scales;
+    for (const char* layout : {"layout=auto", "layout=scene"}) {
+      std::vector<std::string> overrides{"duration=2", layout};
+      overrides.insert(overrides.end(), more.begin(), more.end());
+      const PreparedFilm film = load_film("assets/scenes/" + name + ".yaml", overrides);
+      const Runs runs(film);
+      const Film pictures = runs.pictures(film.scene.video.fps.num * 2, fonts);
+      (scales.empty() ? area : whole) = pictures.scene_area();
+      scales.push_back(pictures.camera().scale);
+    }
+    kept = scales[0] / scales[1];
+  }
+  bool is_whole() const { return area.x0 == whole.x0 && area.x1 == whole.x1 && area.y0 == whole.y0 && area.y1 == whole.y1; }
+};
+
+TEST(LayoutAuto, TellsTheStoryBesideANarrowMotionAndBelowAFlatOne) {
+  for (const char* narrow : {"pp_spring", "particle", "rrr_torque"}) {
+    const TwoPages pages(narrow);
+    EXPECT_LT(pages.area.width(), 0.65 * pages.whole.width()) << narrow;
+    EXPECT_EQ(pages.area.height(), pages.whole.height()) << narrow;
+    EXPECT_GE(pages.kept, 0.9) << narrow;
+  }
+  const TwoPages flat("slider_crank");
+  EXPECT_EQ(flat.area.width(), flat.whole.width());
+  EXPECT_LT(flat.area.height(), 0.75 * flat.whole.height());
+  EXPECT_GE(flat.kept, 0.9);
+}
+
+TEST(LayoutAuto, TakesNothingFromAMotionAndNothingIsToldOfPicturesOfMassesOrWithoutWords) {
+  EXPECT_TRUE(TwoPages("rr_ellipse").is_whole()) << "the ellipse is the story";
+  EXPECT_TRUE(TwoPages("pp_spring", {"camera.fit=[-1.6, -1, 1.6, 0.8]"}).is_whole()) << "what is asked for fills the page";
+  EXPECT_FALSE(TwoPages("pp_spring", {"camera.fit=[-0.5, -1, 0.5, 0.8]"}).is_whole());
+  EXPECT_FALSE(TwoPages("pp_spring", {"plot=energy"}).is_whole()) << "the scene's own plot";
+}
+
 }  // namespace
 }  // namespace chainreel

@@ -77,12 +77,10 @@ void add_words(std::vector<Moment>& moments, const FilmReport& report) {
 
 // "; stands still at t = 1.2 s for 2 s"
 std::string pause_words(const FilmReport& report) {
-  const RunReport& first = report.panels.front();
   std::string text;
-  for (const Pause& one : pauses_of(report.film().scene.annotate, first.prepared.scene.events, first.trajectory.events))
-    if (one.seconds > 0 && one.at <= first.trajectory.end_time)
-      text += std::string(text.empty() ? "; stands still at t = " : ", at ") + format_significant(one.at, 6) + " s for " +
-              format_quantity(one.seconds, "s");
+  for (const Pause& one : report.pauses)
+    text += std::string(text.empty() ? "; stands still at t = " : ", at ") + format_significant(one.at, 6) + " s for " +
+            format_quantity(one.seconds, "s");
   return text;
 }
 

@@ -139,7 +139,7 @@ double held_first(const Scene& scene) {
 }
 
 FilmReport film_report(const Runs& runs, const Film& pictures, int frames) {
-  FilmReport report{runs, {}, frames, pictures.clock(), {}, Writes::films, pictures.left_out()};
+  FilmReport report{runs, {}, frames, pictures.clock(), {}, {}, Writes::films, pictures.left_out()};
   double end = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     report.panels.push_back(run_report(runs.film().panels[i], runs[i]));
@@ -148,6 +148,9 @@ FilmReport film_report(const Runs& runs, const Film& pictures, int frames) {
   }
   for (const Stretch& one : report.clock.stretches())
     if (one.from < end) report.slow_motion.push_back({one.from, std::min(one.until, end), one.speed});
+  const Scene& page = report.film().scene;
+  for (const Pause& one : pauses_of(page.annotate, report.film().panels.front().scene.events, runs[0].events))
+    if (one.seconds > 0 && one.at <= end) report.pauses.push_back(one);
   return report;
 }
 
@@ -185,6 +188,12 @@ Json to_json(const FilmReport& report) {
                                      {"speed", one.speed},
                                      {"film_from", held + report.clock.film_time(one.from)},
                                      {"film_until", held + report.clock.film_time(one.until)}});
+  }
+  if (!scene.annotate.empty()) {
+    json["pauses"] = Json::array();
+    for (const Pause& one : report.pauses)
+      json["pauses"].push_back(
+          {{"at", one.at}, {"seconds", one.seconds}, {"film_from", held_first(scene) + report.clock.film_time(one.at)}});
   }
   json["versions"] = Json::object();
   for (const LibraryLine& line : library_versions(report.writes)) json["versions"][line.name] = line.version;

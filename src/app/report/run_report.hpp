@@ -34,6 +34,7 @@ struct FilmReport {
   int frames = 0;  // of the whole film, with those that are held
   FilmClock clock;
   std::vector<Stretch> slow_motion;  // as far as the motion went
+  std::vector<Pause> pauses;         // ... in the order of `annotate:`
   Writes writes = Writes::films;     // a single picture of it, or all
   std::vector<std::string> left_out = {};  // layers that a page this small has no room for
 

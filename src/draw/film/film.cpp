@@ -103,14 +103,18 @@ Picture Film::frame(int k) const {
 void Film::draw_notes(Picture& picture, int k) const {
   if (!(sheet_.rows.note > 0)) return;
   for (std::size_t i = 0; i < panels_.size(); ++i) {
-    std::string note = panels_[i].note(k);
-    if (note.empty()) continue;
-    if (stage_->is_ghost()) note = panels_[i].title() + ": " + note;
+    if (panels_[i].note(k).empty()) continue;
     const Rect& row = view_.cells[i].note;
     const double text_scale = stage_->page.text_scale;
     const TextStyle style{Face::label, scaled(size::kAxis, text_scale), stage_->theme.ink, Align::left};
-    draw_text(picture, fit_text(stage_->fonts, note, style, row.width(), text_scale),
-              {row.x0, row.y0 + kTitleDescent * style.size});
+    const std::string whose = stage_->is_ghost() ? panels_[i].title() + ": " : "";
+    TextLine line;
+    // In a narrow row the last event alone.
+    for (const int events : {2, 1}) {
+      line = fit_text(stage_->fonts, whose + panels_[i].note(k, events), style, row.width(), text_scale);
+      if (line.advance <= row.width() + kRoundOff) break;
+    }
+    draw_text(picture, line, {row.x0, row.y0 + kTitleDescent * style.size});
   }
 }
 

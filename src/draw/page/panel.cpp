@@ -116,24 +116,23 @@ std::optional<double> Panel::left_at() const {
 }
 
 // The last events up to this frame, as many as a line holds.
-std::string Panel::event_note(int k) const {
-  constexpr int kInALine = 2;
+std::string Panel::event_note(int k, int events) const {
   const Trajectory& run = motion_->trajectory();
   const EventHits& hits = run.events;
   const auto begin = hits.t.begin();
   const auto end =
       k < run.size() ? std::upper_bound(begin, hits.t.end(), run.t[std::size_t(k)]) : hits.t.end();
   std::string text;
-  for (int i = std::max(0, int(end - begin) - kInALine); i < int(end - begin); ++i) {
+  for (int i = std::max(0, int(end - begin) - events); i < int(end - begin); ++i) {
     const EventEntry& event = scene().events[std::size_t(hits.event[std::size_t(i)])];
     text += (text.empty() ? "" : ";  ") + event.title() + " at " + time_text(hits.t[std::size_t(i)]);
   }
   return text;
 }
 
-std::string Panel::note(int k) const {
+std::string Panel::note(int k, int events) const {
   const std::optional<double> left = left_at();
-  if (!left || k <= last_) return event_note(k);
+  if (!left || k <= last_) return event_note(k, events);
   const bool gone = left_ || motion_->trajectory().status == RunStatus::diverged;
   return (gone ? "left the picture at " : "ended at ") + time_text(*left);
 }

@@ -67,7 +67,7 @@ class Panel {
   ChainDrawing drawing() const { return drawing(look_); }
 
   // "left the picture at t = 1.24 s" from that frame on, or what happened last: "elbow straight at t = 1.24 s".
-  std::string note(int k) const;
+  std::string note(int k, int events = 2) const;
   std::string title() const { return motion_->title(); }
   // The instant at which the panel stood still.
   std::optional<double> left_at() const;
@@ -76,7 +76,7 @@ class Panel {
   void find_last_inside();
   bool is_inside(const Workspace& ws) const;
   void follow_tip();
-  std::string event_note(int k) const;
+  std::string event_note(int k, int events) const;
 
   const StagedRun* motion_;
   PanelView view_;
