@@ -234,27 +234,6 @@ TEST_F(SlowMotionFilm, LooksLikeItsGolden) {
   }
 }
 
-TEST_F(SlowMotionFilm, WithWordsLooksLikeItsGolden) {
-  const Fonts fonts;
-  for (const char* theme : {"light", "dark"}) {
-    const PreparedFilm film = load_film(
-        "assets/scenes/rr_ellipse.yaml",
-        {"video.width=640", "video.height=360", "text_scale=1.5", "duration=1", std::string("theme=") + theme,
-         "annotate=[{at: 0.5s, text: \"heaviest along the long axis of $Lambda$\", point: gripper, hold: 1s}]"});
-    const Runs runs(film);
-    const Film pictures = runs.pictures(runs.clock().frame_count(), fonts);
-    ASSERT_EQ(pictures.frame_count(), 120);
-    const auto image = [&](int k) {
-      Picture picture = pictures.static_layer();
-      picture.append(pictures.frame(k));
-      return rasterise(picture, 640, 360, fonts);
-    };
-    const std::string name = std::string("annotate_") + theme;
-    EXPECT_TRUE(matches_golden(image(60), name, {.max = 24, .mean = 0.05}));
-    EXPECT_FALSE(pictures_agree(image(60), image(119), {.max = 24, .mean = 0.05}, name + "_control"));
-  }
-}
-
 // Stands still at the event for 0.4 s, and at 0.4 s for 0.2 s.
 constexpr char kWords[] =
     "annotate: [{event: half, text: \"half a metre\", point: gripper, hold: 0.4s}, "
