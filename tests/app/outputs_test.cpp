@@ -225,7 +225,7 @@ TEST(Outputs, AnOverlayHasStraightOpacityAndNoWords) {
   EXPECT_THAT(arcs, Not(HasSubstr("<text")));
   EXPECT_GT(arcs.size(), svg.size());
   // Laid on white it is the picture on a white page, to the rounding of colours times opacity.
-  ASSERT_EQ(render({"-o", folder.file("w_000000.png"), "--set", "draw=[chain, trail]"}).status, 0);
+  ASSERT_EQ(render({"-o", folder.file("w_000000.png"), "--layout", "scene", "--set", "draw=[chain, trail]"}).status, 0);
   const Image white = read_png(folder.file("w_000000.png"));
   EXPECT_TRUE(pictures_agree(over(png, 255), white, {.max = 3, .mean = 0.05}, "overlay_on_white"));
   EXPECT_FALSE(pictures_agree(over(png, 250), white, {.max = 3, .mean = 0.05}, "overlay_control"));
