@@ -12,11 +12,12 @@ namespace {
 using CommandTable = CommandLine::CommandTable;
 using OptionTable = CommandLine::OptionTable;
 
-// Text between macros: nothing in it is taken for a command of roff.
+// Text between macros: nothing in it is taken for a command of roff. Lists without spaces may go on in the next line.
 std::string roff(const std::string& text) {
   std::string result;
   bool at_start = true;
   for (const char c : text) {
+    if (result.ends_with(',') && c != ' ' && c != '\n') result += "\\:";
     if (at_start && (c == '.' || c == '\'')) result += "\\&";
     if (c == '\\')
       result += "\\e";

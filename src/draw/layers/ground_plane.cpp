@@ -19,7 +19,7 @@ constexpr double kCells = 10;      // about, over the diameter
 constexpr double kLine = 0.0016;   // units of H
 constexpr double kShown = 0.9;     // opacity of the lines in the middle
 constexpr double kFades = 0.07;    // units of H before the edges of the scene
-constexpr int kPieces = 24;        // of a line, between which its opacity is linear
+constexpr int kPieces = 64;        // of a line; vector pages have one opacity a piece
 
 // Any two directions that span the plane, along the world's axes where these lie in it.
 std::array<Vector3d, 2> along(const Vector3d& up) {

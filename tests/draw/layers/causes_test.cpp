@@ -167,7 +167,7 @@ TEST(ConstraintLayer, DrawsTheLineOfThePenOnceAndHatchedWhereItPresses) {
       EXPECT_LT(pen.x, lines[0].b.x);
     }
   }
-  const Cause without("rr_torque", {"draw=[constraints]"}, 0.1);
+  const Cause without("rr_torque", {"draw=[constraints]", "layout=scene"}, 0.1);
   EXPECT_TRUE(test::all_of<Capsule>(without.film().static_layer()).empty());
 }
 
@@ -227,7 +227,7 @@ TEST(AngleLayer, MeasuresFromWhereTheModelCountsZero) {
   ASSERT_EQ(heads.size(), 2u);
   const Point tip = heads[1].corners[0] - joint;
   EXPECT_NEAR(std::remainder(std::atan2(tip.y, tip.x) - q1 - q2, 2 * std::numbers::pi), 0, kCauseRoundOff);
-  EXPECT_TRUE(wires(Cause("rr_free", {}, 0.1).film().frame(2), light().ink).empty()) << "only who asks for it";
+  EXPECT_TRUE(wires(Cause("rr_free", {"layout=scene"}, 0.1).film().frame(2), light().ink).empty()) << "only who asks for it";
 }
 
 TEST(LimitLayer, ShowsALimitThatTheMotionComesNearTo) {

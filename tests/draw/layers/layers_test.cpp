@@ -670,6 +670,7 @@ class LayerGolden : public LayerFilm {
  protected:
   void expect_golden(const std::string& name) {
     scene.text_scale = 1.5;
+    scene.layout = PageLayout::scene;
     scene.video.width = 640, scene.video.height = 360, scene.video.fps = {};
     for (const ThemeName theme : {ThemeName::light, ThemeName::dark}) {
       scene.theme = theme;
