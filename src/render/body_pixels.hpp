@@ -51,6 +51,7 @@ class BodyPixels {
   bool is_empty(int y, int word) const;
   bool copies_inside(int y, int x, int behind, std::uint32_t* pixels) const;
   std::uint32_t pixel(int x, int y) const;
+  std::uint32_t soft_pixel(int x, int y) const;
   std::uint32_t with_line(std::uint32_t mean, int around) const;
 
   const BodySamples& samples_;
@@ -58,7 +59,8 @@ class BodyPixels {
   int words_, height_;               // of rows of samples
   std::vector<std::uint64_t> near_;  // bodies and all within the radius of one
   std::array<std::uint8_t, 256> faded_;  // levels times the opacity
-  std::vector<std::uint32_t> soft_;      // of a shadow, its pixels in the box
+  PixelBox soft_box_;                // of a shadow, from the corner of the samples: where it is
+  std::vector<std::uint32_t> soft_;  // its pixels there
 };
 
 }  // namespace chainreel
