@@ -104,7 +104,7 @@ void run_equations(const EquationsOptions& options) {
                                             : text_of(equation, angle);
   if (options.output.empty()) return void(std::fputs(text.c_str(), stdout));
   write_text_file(options.output, text, options.common.force);
-  if (options.common.json) tell_files(options.common, {options.output}, json_of(equation));
+  if (options.common.json) tell_files(options.common, {options.output}, [&] { return json_of(equation); });
 }
 
 void add_commands(CommandLine& app) {

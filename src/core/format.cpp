@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <sstream>
 #include <utility>
 
 namespace chainreel {
@@ -41,6 +42,13 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) text += (i == 0 ? "" : between) + words[i];
   return text;
+}
+
+std::vector<std::string> separated(const std::string& text, char sign) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, sign);) parts.push_back(part);
+  return parts;
 }
 
 std::string quoted_list(const std::vector<std::string>& names) {

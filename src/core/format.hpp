@@ -15,6 +15,8 @@ std::string format_fixed(double value, int decimals);  // never "-0.00"
 std::string format_significant(double value, int digits);
 
 std::string joined(const std::vector<std::string>& words, const std::string& between = ", ");
+// What stands between the signs: "a,,b" is three, nothing none; behind the last sign nothing is counted.
+std::vector<std::string> separated(const std::string& text, char sign);
 std::string quoted_list(const std::vector<std::string>& names);  // 'a', 'b'
 std::string bracketed(const std::vector<double>& values);  // [1, 0.25, -3], six digits
 

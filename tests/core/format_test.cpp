@@ -77,5 +77,12 @@ TEST(ParseNumber, IgnoresTheLocale) {
   std::locale::global(before);
 }
 
+TEST(Separated, HoldsEmptyPartsButForOneBehindTheLastSign) {
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(separated("a,b", ','), (Words{"a", "b"}));
+  EXPECT_EQ(separated("a,,b,", ','), (Words{"a", "", "b"}));
+  EXPECT_EQ(separated("", ','), Words{});
+}
+
 }  // namespace
 }  // namespace chainreel

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <numbers>
-#include <sstream>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -94,21 +93,9 @@ void add_comparison(const std::vector<std::string>& vary, std::vector<std::strin
   overrides.push_back("compare=[" + list + "]");
 }
 
-namespace {
-
-// What stands between commas.
-std::vector<std::string> entries_of(const std::string& text) {
-  std::vector<std::string> entries;
-  std::stringstream stream(text);
-  for (std::string entry; std::getline(stream, entry, ',');) entries.push_back(entry);
-  return entries;
-}
-
-}  // namespace
-
 std::vector<double> parse_list(const std::string& text, const std::string& what) {
   std::vector<double> values;
-  for (const std::string& entry : entries_of(text)) {
+  for (const std::string& entry : separated(text, ',')) {
     try {
       values.push_back(parse_quantity(entry, {}));
     } catch (const Error& error) {
@@ -198,7 +185,7 @@ double parse_positive_seconds(const std::string& text, const std::string& option
 
 std::vector<double> parse_pose(const Chain& chain, const std::string& text, const std::string& what) {
   if (text.empty()) return zero_configuration(chain);
-  const std::vector<std::string> entries = entries_of(text);
+  const std::vector<std::string> entries = separated(text, ',');
   std::vector<double> q;
   if (text.find('=') != std::string::npos) {
     q = pose_by_name(chain, entries, text, what);

@@ -9,6 +9,7 @@
 #include "app/cli/data_folder.hpp"
 #include "app/cli/streams.hpp"
 #include "core/error.hpp"
+#include "core/format.hpp"
 
 namespace chainreel {
 namespace {
@@ -215,11 +216,8 @@ namespace {
 // The words between braces in what CLI11 calls the type: "TEXT:{rod,point}".
 std::vector<std::string> words_of_type(const std::string& type) {
   const std::size_t open = type.find('{'), close = type.rfind('}');
-  std::vector<std::string> words;
-  if (open == std::string::npos || close == std::string::npos || close < open) return words;
-  std::istringstream stream(type.substr(open + 1, close - open - 1));
-  for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
-  return words;
+  if (open == std::string::npos || close == std::string::npos || close < open) return {};
+  return separated(type.substr(open + 1, close - open - 1), ',');
 }
 
 CommandLine::CommandTable table_of(const CLI::App& app) {

@@ -17,15 +17,22 @@ void tell_result(const CommonOptions& options, const std::function<Json()>& foun
     in_words();
 }
 
-void tell_files(const CommonOptions& options, const std::vector<std::string>& files, Json found) {
+Json files_json(const std::vector<std::string>& files) {
+  Json json = Json::object();
+  if (!files.empty()) json["file"] = files.front();
+  if (files.size() > 1) json["files"] = files;
+  return json;
+}
+
+void tell_files(const CommonOptions& options, const std::vector<std::string>& files, const std::function<Json()>& found,
+                const std::function<void()>& in_words) {
   const auto with_files = [&] {
-    Json told = Json::object();
-    if (!files.empty()) told["file"] = files.front();
-    if (files.size() > 1) told["files"] = files;
-    told.update(found);
+    Json told = files_json(files);
+    if (found) told.update(found());
     return told;
   };
   tell_result(options, with_files, [&] {
+    if (in_words) in_words();
     for (const std::string& file : files) std::printf("%s\n", file.c_str());
   });
 }

@@ -18,9 +18,13 @@ void print_json(const Json& found);
 // With --json the first, else the second unless --quiet. Only the one that is told is made.
 void tell_result(const CommonOptions& options, const std::function<Json()>& found, const std::function<void()>& in_words);
 
-// What a command wrote and nothing more: the files' names, one a line, or {"file": ..} with what else was found. Of several
-// files "files" holds them all.
-void tell_files(const CommonOptions& options, const std::vector<std::string>& files, Json found = Json::object());
+// The names of files that were written: {"file": the first}, with "files" where there are several.
+Json files_json(const std::vector<std::string>& files);
+
+// What a command wrote: `in_words` where there is anything to say, then the files' names, one a line; or `files_json` with
+// what else was found. Only the one that is told is made.
+void tell_files(const CommonOptions& options, const std::vector<std::string>& files,
+                const std::function<Json()>& found = nullptr, const std::function<void()>& in_words = nullptr);
 
 // "-o -" gives the data itself to standard output, where there is room for one text. Throws Error (usage) beside --json.
 void require_room_on_output(const CommonOptions& options, const std::string& output);

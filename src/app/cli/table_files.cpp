@@ -26,36 +26,33 @@ TableFiles::TableFiles(const std::vector<std::string>& paths, const CommonOption
     if (one.path != "-") one.file = std::make_unique<OutputFile>(one.path, options.force);
 }
 
-void TableFiles::write(const DataTable& table) {
+void TableFiles::write_by(void (*write_file)(OutputFile&, std::string_view), const DataTable& table) {
   for (One& one : files_) {
     const std::string bytes = table_bytes(table, one.format);
     if (one.file)
-      write_whole(*one.file, bytes);
+      write_file(*one.file, bytes);
     else
       std::fwrite(bytes.data(), 1, bytes.size(), stdout);
   }
+}
+
+void TableFiles::write(const DataTable& table) {
+  write_by(write_whole, table);
 }
 
 void TableFiles::write_partial(const DataTable& table) {
-  for (One& one : files_) {
-    const std::string bytes = table_bytes(table, one.format);
-    if (one.file)
-      chainreel::write_partial(*one.file, bytes);
-    else
-      std::fwrite(bytes.data(), 1, bytes.size(), stdout);
-  }
+  write_by(chainreel::write_partial, table);
 }
 
-Json TableFiles::report() const {
-  Json json{{"file", files_.front().path}};
-  for (const One& one : files_)
-    if (files_.size() > 1) json["files"].push_back(one.path);
-  return json;
+std::vector<std::string> TableFiles::paths() const {
+  std::vector<std::string> paths;
+  for (const One& one : files_) paths.push_back(one.path);
+  return paths;
 }
 
 void TableFiles::tell(const CommonOptions& options, std::size_t rows, const Json& found) const {
   const auto all = [&] {
-    Json told = report();
+    Json told = files_json(paths());
     told.update(found);
     return told;
   };

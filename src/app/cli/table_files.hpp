@@ -25,8 +25,8 @@ class TableFiles {
   void write(const DataTable& table);
   void write_partial(const DataTable& table);  // of a run that failed, under .partial names
 
-  Json report() const;  // {"file": .., "files": [..] where there are several}
-  // The files with their number of rows, or with --json that report and what else was `found`. Nothing in words of a
+  std::vector<std::string> paths() const;
+  // The files with their number of rows, or with --json their names and what else was `found`. Nothing in words of a
   // table that went to standard output.
   void tell(const CommonOptions& options, std::size_t rows, const Json& found) const;
 
@@ -36,6 +36,8 @@ class TableFiles {
     TableFormat format;
     std::unique_ptr<OutputFile> file;  // null: standard output
   };
+  void write_by(void (*write_file)(OutputFile&, std::string_view), const DataTable& table);
+
   std::vector<One> files_;
 };
 

@@ -227,8 +227,7 @@ void run_chart(const ChartOptions& options) {
   light_curves(data, panels, lit);
   const auto files = write_figure(work_precision_chart(data, panels, look), csv_of(options.scene, measured),
                                   options.figure, output, fonts, options.common.force);
-  if (!options.common.json && !options.common.quiet) print_summary(data, measured);
-  tell_files(options.common, files, options.common.json ? json_of(options.scene, measured) : Json::object());
+  tell_files(options.common, files, [&] { return json_of(options.scene, measured); }, [&] { print_summary(data, measured); });
 }
 
 }  // namespace

@@ -16,11 +16,10 @@ constexpr std::size_t kLargestTable = 1 << 20;  // bytes
 const std::array<std::string, 5> kNames{"a", "alpha", "d", "theta", "mass"};
 
 std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line + ",");
-  for (std::string cell; std::getline(stream, cell, ',');) {
+  std::vector<std::string> cells = separated(line + ",", ',');  // an empty last cell is one, too
+  for (std::string& cell : cells) {
     const std::size_t first = cell.find_first_not_of(" \t\r\""), last = cell.find_last_not_of(" \t\r\"");
-    cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
+    cell = first == std::string::npos ? "" : cell.substr(first, last - first + 1);
   }
   return cells;
 }

@@ -204,13 +204,11 @@ void run_ellipse(const EllipseOptions& options) {
                 "one of the two out; `chainreel dynamics " + options.sources.along + " --at T` prints M, Jc and Lambda");
   ClipMemory memory = memory_of_figure(*options.command, figure.title, options.model, poses.q);
   if (options.width_mm != kNotGiven) memory.width_mm = options.width_mm;
-  Json numbers;
+  const std::array<int, 2> joints = options.joint_space ? joints_of(chain, options.joints) : std::array<int, 2>{};
   if (options.joint_space) {
-    const std::array<int, 2> joints = joints_of(chain, options.joints);
     const Fonts fonts(motion.families);
     write_picture(draw_joint_space_figure(chain, poses.q, joints, figure, fonts), figure.width,
                   figure.height, fonts, output, options.common.force, memory);
-    numbers = joint_space_json(chain, poses, joints);
   } else if (output.ends_with(".csv")) {
     write_text_file(output, ellipse_csv(tip, poses, options.form(motion)), options.common.force);
   } else {
@@ -218,16 +216,13 @@ void run_ellipse(const EllipseOptions& options) {
     write_picture(draw_ellipse_figure(tip, poses.q, figure, fonts), figure.width,
                   figure.height, fonts, output, options.common.force, memory);
   }
-  if (!options.common.json) return tell_files(options.common, {output});
-  Json report = Json::object();
-  if (!options.joint_space) {
-    report["reading"] = to_string(options.read_as(motion));
-    report["shape"] = options.form(motion).section ? "section" : "ellipsoid";
-    report["unit"] = options.read_as(motion) == EllipseReading::energy ? "m/s" : "kg";
-    numbers = ellipse_json(tip, poses, options.form(motion));
-  }
-  report["poses"] = numbers;
-  tell_files(options.common, {output}, report);
+  tell_files(options.common, {output}, [&] {
+    if (options.joint_space) return Json{{"poses", joint_space_json(chain, poses, joints)}};
+    return Json{{"reading", to_string(options.read_as(motion))},
+                {"shape", options.form(motion).section ? "section" : "ellipsoid"},
+                {"unit", options.read_as(motion) == EllipseReading::energy ? "m/s" : "kg"},
+                {"poses", ellipse_json(tip, poses, options.form(motion))}};
+  });
 }
 
 }  // namespace

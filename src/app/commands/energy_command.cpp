@@ -218,8 +218,8 @@ void run_energy(const EnergyOptions& options) {
   const EnergyChart chart = chart_of(prepared, settings, simulation.duration, runs);
   const auto files = write_figure(energy_chart(chart, look), csv_of(options.scene, runs), options.figure,
                                   output, fonts, options.common.force);
-  if (!options.common.json && !options.common.quiet) print_table(runs, left_out);
-  tell_files(options.common, files, json_of(options.scene, simulation.duration, runs, left_out));
+  tell_files(options.common, files, [&] { return json_of(options.scene, simulation.duration, runs, left_out); },
+             [&] { print_table(runs, left_out); });
 }
 
 }  // namespace

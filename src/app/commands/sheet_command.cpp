@@ -126,7 +126,8 @@ void run_sheet(const SheetOptions& options) {
   const std::vector<ContactCell> cells = cells_of(options, theme, text_scale_in(grid), fonts, told);
   write_picture(draw_contact_sheet(grid, cells, look), options.width, options.height, fonts, options.output,
                 options.common.force, memory_of_sheet(*options.command, cells));
-  tell_files(options.common, {options.output}, {{"columns", grid.columns}, {"lines", grid.lines}, {"cells", told}});
+  tell_files(options.common, {options.output},
+             [&] { return Json{{"columns", grid.columns}, {"lines", grid.lines}, {"cells", told}}; });
 }
 
 }  // namespace

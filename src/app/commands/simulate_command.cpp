@@ -34,10 +34,10 @@ struct SimulateOptions {
   CommonOptions common;
 };
 
-Trajectory run_scene(const PreparedScene& prepared, bool every_step, bool quiet) {
-  Ticker ticker(quiet);
+Trajectory run_scene(const PreparedFilm& film, const PreparedScene& prepared, bool every_step) {
+  Ticker ticker(film.quiet);
   const auto stop = [&](double t) {
-    if (ticker.is_due()) ticker.say(prepared.scene.name + ": simulating", std::min(t / prepared.simulation.duration, 1.0));
+    if (ticker.is_due()) ticker.say(simulating_text(film, prepared), part_done(prepared.simulation, t));
     return interrupted();
   };
   if (every_step) return simulate_every_step(prepared.simulation, stop);
@@ -50,10 +50,10 @@ Trajectory run_scene(const PreparedScene& prepared, bool every_step, bool quiet)
 }
 
 // A panel's run as files.
-Json simulate_panel(const PreparedScene& prepared, TableFiles& files, const std::vector<MotionColumn>& columns,
-                    const SimulateOptions& options, bool alone) {
+Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, TableFiles& files,
+                    const std::vector<MotionColumn>& columns, const SimulateOptions& options, bool alone) {
   say_choice(prepared, options.common.quiet);
-  const Trajectory trajectory = run_scene(prepared, options.every_step, options.common.quiet);
+  const Trajectory trajectory = run_scene(film, prepared, options.every_step);
   throw_if_interrupted();
   const DataTable table = motion_table(prepared.simulation, trajectory, columns);
   if (is_complete(trajectory.status) || prepared.scene.expect == Outcome::diverge)
@@ -65,7 +65,7 @@ Json simulate_panel(const PreparedScene& prepared, TableFiles& files, const std:
   tell_warnings(warning_lines(prepared.scene.name + (alone ? "" : ", '" + prepared.scene.title + "'"), run));
   Json report = to_json(run);
   report["rows"] = trajectory.size();
-  report.update(files.report());
+  report.update(files_json(files.paths()));
   return report;
 }
 
@@ -100,7 +100,7 @@ void run_simulate(const SimulateOptions& options) {
     for (const std::string& output : outputs) paths.push_back(panel_table_path(output, i, alone));
     TableFiles files(paths, options.common);
     reports.push_back(
-        simulate_panel(film.panels[i], files, wanted.empty() ? usual_columns(simulation.chain) : wanted, options, alone));
+        simulate_panel(film, film.panels[i], files, wanted.empty() ? usual_columns(simulation.chain) : wanted, options, alone));
     if (!options.common.json) files.tell(options.common, reports.back()["rows"].get<std::size_t>(), {});
   }
   if (options.common.json) print_json(alone ? reports.front() : Json{{"panels", reports}});

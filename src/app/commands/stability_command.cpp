@@ -198,8 +198,7 @@ void draw_map(const StabilityOptions& options, const std::string& output) {
   const ChartLook look = chart_look(options.figure, scene, fonts);
   const auto files = write_figure(stability_map(map_of(scene, cells), look), csv_of(options.scene, cells),
                                   options.figure, output, fonts, options.common.force);
-  if (!options.common.json && !options.common.quiet) print_map_summary(cells);
-  tell_files(options.common, files, json_of(cells));
+  tell_files(options.common, files, [&] { return json_of(cells); }, [&] { print_map_summary(cells); });
 }
 
 // What became of a run with one setting: in words, and as numbers.

@@ -56,19 +56,13 @@ FilmClock clock_of(const PreparedFilm& film) {
   return clock;
 }
 
-namespace {
-
 std::string simulating_text(const PreparedFilm& film, const PreparedScene& panel) {
   return film.scene.name + ": simulating" + (film.panels.size() == 1 ? "" : " '" + panel.scene.title + "'");
 }
 
-// Of all panels, `before` of which are through.
-double part_done(const PreparedFilm& film, std::size_t before, double t) {
-  const double duration = film.panels[before].simulation.duration;
-  return (double(before) + (duration > 0 ? std::clamp(t / duration, 0.0, 1.0) : 0)) / double(film.panels.size());
+double part_done(const Simulation& simulation, double t) {
+  return simulation.duration > 0 ? std::clamp(t / simulation.duration, 0.0, 1.0) : 0;
 }
-
-}  // namespace
 
 Runs::Runs(const PreparedFilm& film) : Runs(film, clock_of(film), {}) {}
 
@@ -77,8 +71,11 @@ Runs::Runs(const PreparedFilm& film, FilmClock clock, std::vector<double> times)
   if (times_.empty()) times_ = with_end(clock_.frame_times(), film);
   Ticker ticker(film.quiet);
   for (const PreparedScene& panel : film.panels) {
+    const auto part_of_all = [&](double t) {
+      return (double(list_.size()) + part_done(panel.simulation, t)) / double(film.panels.size());
+    };
     list_.push_back(simulate_audited(panel.simulation, times_, [&](double t) {
-      if (ticker.is_due()) ticker.say(simulating_text(film, panel), part_done(film, list_.size(), t));
+      if (ticker.is_due()) ticker.say(simulating_text(film, panel), part_of_all(t));
       return interrupted();
     }));
     throw_if_interrupted();

@@ -52,6 +52,10 @@ class Runs {
 // The same for one run: it finished or was stopped by a limit, or diverged.
 void require_expected_end(const Trajectory& trajectory, const Scene& scene);
 
+// What is said while a panel runs, and how much of its run lies before t, from 0 to 1.
+std::string simulating_text(const PreparedFilm& film, const PreparedScene& panel);
+double part_done(const Simulation& simulation, double t);
+
 // "panel 2 (rk4): message"
 std::string in_panel(const Scene& scene, std::size_t i, const std::string& message);
 

@@ -7,6 +7,14 @@
 #include "sim/torques_along.hpp"
 
 namespace chainreel {
+namespace {
+
+// Its name and where it is, by kinematics that were computed.
+Json end_effector_json(const Chain& chain, const Workspace& ws) {
+  return {{"name", chain.frames[std::size_t(chain.end_effector)].name}, {"x", to_json(frame_position(chain, ws, chain.end_effector))}};
+}
+
+}  // namespace
 
 Json sample_report(const Simulation& simulation, const Trajectory& trajectory, int k) {
   const Chain& chain = simulation.chain;
@@ -22,9 +30,8 @@ Json sample_report(const Simulation& simulation, const Trajectory& trajectory, i
   json["kinetic"] = energy.kinetic;
   json["potential"] = energy.potential;
   if (chain.end_effector < 0) return json;
-  json["end_effector"] = {{"name", chain.frames[std::size_t(chain.end_effector)].name},
-                          {"x", to_json(frame_position(chain, ws, chain.end_effector))},
-                          {"xd", to_json(frame_velocity(chain, ws, chain.end_effector))}};
+  json["end_effector"] = end_effector_json(chain, ws);
+  json["end_effector"]["xd"] = to_json(frame_velocity(chain, ws, chain.end_effector));
   return json;
 }
 
@@ -34,8 +41,7 @@ Json pose_report(const Chain& chain, ConstVec q) {
   Workspace ws(chain);
   const std::vector<double> still(std::size_t(chain.nv));
   compute_kinematics(chain, ws, q, still);
-  json["end_effector"] = {{"name", chain.frames[std::size_t(chain.end_effector)].name},
-                          {"x", to_json(frame_position(chain, ws, chain.end_effector))}};
+  json["end_effector"] = end_effector_json(chain, ws);
   return json;
 }
 

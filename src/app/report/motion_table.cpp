@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -62,35 +61,27 @@ std::vector<std::string> names_of_numbers(const Chain& chain, const std::string&
 
 enum class Kind { turns, slides, plain };
 
-// Of the numbers of q; quaternions are plain ones.
-std::vector<Kind> kinds_of_positions(const Chain& chain) {
-  std::vector<Kind> kinds(std::size_t(chain.nq), Kind::plain);
+// Of that many numbers, of which a joint's begin at its index; a quaternion's are plain, a twist's turn.
+std::vector<Kind> kinds_of(const Chain& chain, int count, int Joint::*index, Kind of_turn) {
+  std::vector<Kind> kinds(std::size_t(count), Kind::plain);
   for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
     const Joint& joint = chain.bodies[i].joint;
-    const auto at = std::size_t(joint.q_index);
+    const auto at = kinds.begin() + std::ptrdiff_t(joint.*index);
     if (joint.ratio != 1 || joint.offset != 0) continue;  // it reads another joint's coordinate
     if (joint.kind == JointKind::floating)
-      std::fill_n(kinds.begin() + std::ptrdiff_t(at), 3, Kind::slides);
+      std::fill_n(std::fill_n(at, 3, Kind::slides), 3, of_turn);
     else
-      kinds[at] = joint.kind == JointKind::revolute ? Kind::turns : Kind::slides;
+      *at = joint.kind == JointKind::revolute ? Kind::turns : Kind::slides;
   }
   return kinds;
 }
 
+std::vector<Kind> kinds_of_positions(const Chain& chain) {
+  return kinds_of(chain, chain.nq, &Joint::q_index, Kind::plain);
+}
+
 std::vector<Kind> kinds_of_freedoms(const Chain& chain) {
-  std::vector<Kind> kinds(std::size_t(chain.nv), Kind::plain);
-  for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
-    const Joint& joint = chain.bodies[i].joint;
-    const auto at = std::size_t(joint.v_index);
-    if (joint.ratio != 1 || joint.offset != 0) continue;
-    if (joint.kind == JointKind::floating) {
-      std::fill_n(kinds.begin() + std::ptrdiff_t(at), 3, Kind::slides);
-      std::fill_n(kinds.begin() + std::ptrdiff_t(at) + 3, 3, Kind::turns);
-    } else {
-      kinds[at] = joint.kind == JointKind::revolute ? Kind::turns : Kind::slides;
-    }
-  }
-  return kinds;
+  return kinds_of(chain, chain.nv, &Joint::v_index, Kind::turns);
 }
 
 std::vector<std::string> with_units(std::vector<std::string> names, const std::vector<Kind>& kinds, const char* turning,
@@ -234,8 +225,7 @@ std::vector<MotionColumn> usual_columns(const Chain& chain) {
 
 std::vector<MotionColumn> parse_columns(const std::string& text, const std::string& option) {
   std::vector<MotionColumn> columns;
-  std::istringstream stream(text);
-  for (std::string word; std::getline(stream, word, ',');) {
+  for (const std::string& word : separated(text, ',')) {
     const std::optional<MotionColumn> column = value_named<MotionColumn>(word);
     if (!column) throw Error(ExitCode::usage, option + ": each " + misnamed(names_of(MotionColumn{}), word));
     if (std::find(columns.begin(), columns.end(), *column) != columns.end())
