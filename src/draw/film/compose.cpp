@@ -28,6 +28,11 @@ double text_scale_of_page(const Scene& page) {
 
 namespace {
 
+// A page that cannot hold what is asked for is bad input; a renderer, a file or memory that fails is not about room.
+bool tells_of_no_room(const Error& error) {
+  return error.code() == ExitCode::bad_input;
+}
+
 // What all pages of a film are made from.
 struct Shown {
   const std::vector<PanelRun>& runs;
@@ -51,8 +56,8 @@ Composition with_readable_words(const Scene& page, const Shown& film, const std:
         FilmView view(*stage, layers, sheet);
         return {std::move(stage), std::move(layers), std::move(sheet), std::move(view), std::move(left_out)};
       }
-    } catch (const Error&) {
-      if (next == nullptr) throw;
+    } catch (const Error& error) {
+      if (next == nullptr || !tells_of_no_room(error)) throw;
     }
     std::erase(shown.draw, std::string(next));
     left_out.push_back(next);
@@ -73,8 +78,8 @@ Composition compose(const Scene& page, const std::vector<PanelRun>& runs, const 
     try {
       Composition told = with_readable_words(with_plot, {runs, times, fonts, clock}, story);
       if (told.left_out == plain.left_out && told.view.camera.scale >= kLeastKept * plain.view.camera.scale) return told;
-    } catch (const Error&) {
-      // There is no room for it.
+    } catch (const Error& error) {
+      if (!tells_of_no_room(error)) throw;
     }
   }
   return plain;
