@@ -50,110 +50,7 @@ BodyPixels::BodyPixels(const BodySamples& samples, const BodyPaint& paint)
     : samples_(samples), paint_(paint), words_(samples.words()), height_(samples.box.height * samples.per_side), near_(samples.bits) {
   for (std::size_t level = 0; level < 256; ++level)
     faded_[level] = std::uint8_t(std::min(255.0, paint.opacity * double(level) + 0.5));
-  if (paint.is_shadow)
-    blur();
-  else if (paint.radius > 0)
-    find_near();
-}
-
-namespace {
-
-// Sums over `reach` numbers to each side, twice, along a line of `count` numbers that are `step` apart; beyond its ends there is
-// nothing. The sums are rounded to sixteenths of the mean.
-void blur_line(std::span<const std::uint32_t> from, int reach, std::vector<std::uint64_t>& once, std::span<std::uint32_t> to) {
-  const int count = int(from.size());
-  const std::uint64_t width = std::uint64_t(2 * reach + 1);
-  // The first sums are known as far beyond the ends as they are not zero.
-  once.assign(std::size_t(count + 2 * reach), 0);
-  std::uint64_t sum = 0;
-  for (int i = -reach; i < count + reach; ++i) {
-    if (i + reach < count) sum += from[std::size_t(i + reach)];
-    if (i - reach - 1 >= 0) sum -= from[std::size_t(i - reach - 1)];
-    once[std::size_t(i + reach)] = sum;
-  }
-  sum = 0;
-  for (int i = 0; i < 2 * reach; ++i) sum += once[std::size_t(i)];
-  for (int i = 0; i < count; ++i) {
-    sum += once[std::size_t(i + 2 * reach)];
-    to[std::size_t(i)] = std::uint32_t((sum + width * width / 2) / (width * width));
-    sum -= once[std::size_t(i)];
-  }
-}
-
-// The least box, from the samples' own corner, that holds all pixels that show something.
-PixelBox shown_pixels(const BodySamples& samples) {
-  PixelBox shown;
-  const int width = samples.box.width;
-  for (int y = 0; y < samples.box.height; ++y) {
-    const std::uint32_t* const row = &samples.pixels[std::size_t(y) * std::size_t(width)];
-    std::uint32_t any = 0;
-    for (int x = 0; x < width; ++x) any |= row[x];
-    if (any == 0) continue;
-    int first = 0, last = width - 1;
-    while (row[first] == 0) ++first;
-    while (row[last] == 0) --last;
-    shown = box_around(shown, {first, y, last + 1 - first, 1});
-  }
-  return shown;
-}
-
-PixelBox grown(const PixelBox& box, int x, int y) {
-  return box.empty() ? box : box_between(box.x - x, box.y - y, box.right() + x, box.bottom() + y);
-}
-
-}  // namespace
-
-// Coverage becomes soft, twice as far along rows as across them, since what lies on the ground is seen from the side. Numbers are
-// whole and depend on nothing farther away than the radius, so that parts have the bytes of the whole.
-void BodyPixels::blur() {
-  constexpr std::uint32_t kFine = 256;  // parts of a level
-  const int reach = int(paint_.radius / 2), reach_across = reach / 2;
-  soft_box_ = common_part(grown(shown_pixels(samples_), 2 * reach, 2 * reach_across), {0, 0, samples_.box.width, samples_.box.height});
-  const int width = soft_box_.width, rows = soft_box_.height;
-  const auto first_of = [&](int y) { return std::size_t(soft_box_.y + y) * std::size_t(samples_.box.width) + std::size_t(soft_box_.x); };
-  soft_.assign(std::size_t(width) * std::size_t(rows), 0);
-  std::vector<std::uint64_t> once;
-  std::vector<std::uint32_t> line(std::size_t(std::max(width, rows)));
-  for (int y = 0; y < rows; ++y) {
-    const std::span<std::uint32_t> row(&soft_[std::size_t(y) * std::size_t(width)], std::size_t(width));
-    const std::uint32_t* const pixels = &samples_.pixels[first_of(y)];
-    std::uint32_t any = 0;
-    for (std::size_t x = 0; x < row.size(); ++x) any |= row[x] = kFine * (pixels[x] >> 24);
-    if (any == 0) continue;
-    blur_line(row, reach, once, {line.data(), row.size()});
-    std::copy_n(line.begin(), width, row.begin());
-  }
-  std::vector<std::uint32_t> column(static_cast<std::size_t>(rows));
-  for (int x = 0; x < width; ++x) {
-    std::uint32_t any = 0;
-    for (int y = 0; y < rows; ++y) any |= column[std::size_t(y)] = soft_[std::size_t(y) * std::size_t(width) + std::size_t(x)];
-    if (any == 0) continue;
-    blur_line(column, reach_across, once, {line.data(), column.size()});
-    for (int y = 0; y < rows; ++y) soft_[std::size_t(y) * std::size_t(width) + std::size_t(x)] = line[std::size_t(y)];
-  }
-  const Rect whole = paint_.fade.inset(1);
-  const double unit = paint_.page_height;
-  const float own = std::max(1e-6F, paint_.line[3]);
-  for (int y = 0; y < rows; ++y) {
-    const double at_y = 1 - (samples_.box.y + soft_box_.y + y + 0.5) / unit;
-    for (int x = 0; x < width; ++x) {
-      std::uint32_t& pixel = soft_[std::size_t(y) * std::size_t(width) + std::size_t(x)];
-      if (pixel == 0) continue;
-      double opacity = paint_.opacity * pixel / (255.0 * kFine);
-      const double at_x = (samples_.box.x + soft_box_.x + x + 0.5) / unit;
-      if (paint_.fade.any() && (at_x < whole.x0 || at_x > whole.x1 || at_y < whole.y0 || at_y > whole.y1))
-        opacity *= paint_.fade.opacity_at({at_x, at_y});
-      const auto byte = [&](std::size_t channel) { return std::uint32_t(opacity * 255 * (paint_.line[channel] / own) + 0.5); };
-      pixel = byte(2) | byte(1) << 8 | byte(0) << 16 | std::uint32_t(opacity * 255 + 0.5) << 24;
-    }
-  }
-}
-
-// Of a shadow; x and y from the box's corner.
-std::uint32_t BodyPixels::soft_pixel(int x, int y) const {
-  const int column = x - soft_box_.x, row = y - soft_box_.y;
-  if (column < 0 || row < 0 || column >= soft_box_.width || row >= soft_box_.height) return 0;
-  return soft_[std::size_t(row) * std::size_t(soft_box_.width) + std::size_t(column)];
+  if (paint.radius > 0) find_near();
 }
 
 void BodyPixels::find_near() {
@@ -185,13 +82,6 @@ void BodyPixels::find_near() {
 }
 
 bool BodyPixels::is_empty(const PixelBox& part) const {
-  if (paint_.is_shadow) {
-    const PixelBox here = common_part({part.x - samples_.box.x, part.y - samples_.box.y, part.width, part.height}, soft_box_);
-    for (int y = here.y; y < here.bottom(); ++y)
-      for (int x = here.x; x < here.right(); ++x)
-        if (soft_pixel(x, y) != 0) return false;
-    return true;
-  }
   const int n = samples_.per_side, per_word = 64 / n;
   const int first = (part.x - samples_.box.x) / per_word, end = (part.right() - samples_.box.x) / per_word;
   const int top = n * (part.y - samples_.box.y);
@@ -220,7 +110,7 @@ void BodyPixels::draw_over(const PixelBox& part, std::uint32_t* pixels, std::ptr
   for (int y = part.y - samples_.box.y, end = y + part.height; y < end; ++y, pixels += stride)
     for (int x = left, behind = 0; x < right; x = behind) {
       behind = std::min(right, (x / per_word + 1) * per_word);
-      if (!paint_.is_shadow && is_empty(y, x / per_word)) continue;
+      if (is_empty(y, x / per_word)) continue;
       if (copies_inside(y, x, behind, pixels + (x - left))) continue;
       for (int k = x; k < behind; ++k) {
         const std::uint32_t above = pixel(k, y);
@@ -231,7 +121,7 @@ void BodyPixels::draw_over(const PixelBox& part, std::uint32_t* pixels, std::ptr
 
 // Where opaque bodies fill all pixels from x to behind, which lie in one word of samples, they are the page's.
 bool BodyPixels::copies_inside(int y, int x, int behind, std::uint32_t* pixels) const {
-  if (paint_.opacity != 1 || paint_.is_shadow) return false;
+  if (paint_.opacity != 1) return false;
   const std::uint32_t* const from = &samples_.pixels[std::size_t(y) * std::size_t(samples_.box.width) + std::size_t(x)];
   std::uint32_t common = 0xff000000U;
   for (int k = 0; k < behind - x; ++k) common &= from[k];
@@ -249,7 +139,6 @@ bool BodyPixels::is_empty(int y, int word) const {
 }
 
 std::uint32_t BodyPixels::pixel(int x, int y) const {
-  if (paint_.is_shadow) return soft_pixel(x, y);
   const std::uint32_t mean = samples_.pixels[std::size_t(y) * std::size_t(samples_.box.width) + std::size_t(x)];
   int around = 0;  // samples of the line
   // Where all samples show opaque bodies there is none.

@@ -16,14 +16,14 @@ struct BodyPaint {
   double opacity = 1;
   double radius = 0;                // of the line around them, px; 0: none
   std::array<float, 4> line{};      // its colour, premultiplied, r g b a
-  bool is_shadow = false;           // no line: as far are edges blurred, in the line's colour, and fade with `fade`
+  bool is_shadow = false;           // no line: as far are edges blurred, in the line's colour, and fade with `fade` (SoftShadow)
   Fade fade{};
   int page_height = 1;  // px
 };
 
 // What samples have shown in a part of the page that is a multiple of 64 samples wide.
 struct BodySamples {
-  PixelBox box;       // of the page's pixels; beyond it there is no body
+  PixelBox box;       // of the page's pixels, or of a shadow's cells; beyond it there is no body
   int per_side = 2;   // samples along a pixel's side: 2 or 4
   std::vector<std::uint32_t> pixels;  // the means of their samples: blue, green, red, opacity from the lowest byte on, premultiplied
   std::vector<std::uint64_t> bits;    // row by row, for each sample whether it shows a body, the first in the lowest bit
@@ -47,11 +47,9 @@ class BodyPixels {
 
  private:
   void find_near();
-  void blur();
   bool is_empty(int y, int word) const;
   bool copies_inside(int y, int x, int behind, std::uint32_t* pixels) const;
   std::uint32_t pixel(int x, int y) const;
-  std::uint32_t soft_pixel(int x, int y) const;
   std::uint32_t with_line(std::uint32_t mean, int around) const;
 
   const BodySamples& samples_;
@@ -59,8 +57,6 @@ class BodyPixels {
   int words_, height_;               // of rows of samples
   std::vector<std::uint64_t> near_;  // bodies and all within the radius of one
   std::array<std::uint8_t, 256> faded_;  // levels times the opacity
-  PixelBox soft_box_;                // of a shadow, from the corner of the samples: where it is
-  std::vector<std::uint32_t> soft_;  // its pixels there
 };
 
 }  // namespace chainreel

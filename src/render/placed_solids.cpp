@@ -1,6 +1,7 @@
 #include "render/placed_solids.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -55,6 +56,14 @@ SampleGrid::SampleGrid(int page_width, int page_height)
       height(page_height),
       cells(page_height <= kFinePage && 2 * std::max(page_width, page_height) <= kLongestPage ? 2 : 1) {}
 
+SampleGrid SampleGrid::coarser(int pixels_a_cell) const {
+  SampleGrid grid = *this;
+  if (pixels_a_cell == 1) return grid;
+  grid.cells = 1;
+  grid.pixels = pixels_a_cell;
+  return grid;
+}
+
 void mark_difference(const SolidTraces* before, const SolidTraces* now, TileMask& changed) {
   const bool in_parts = before != nullptr && now != nullptr && are_seen_alike(*before, *now);
   for (const SolidTraces* side : {before, now}) {
@@ -79,7 +88,7 @@ struct PlacedSolids::Part {
 void PlacedSolids::set(const Solids& solids, double rim, const SampleGrid& grid, const MeshOf& mesh_of) {
   traces_.solids = solids;
   traces_.rim = rim;
-  rim_ = int(std::ceil((rim + kFringe) * grid.cells * kCellUnits));
+  rim_ = int(std::ceil(grid.units(rim + kFringe)));
   traces_.tiles.clear();
   traces_.tiles.resize(solids.parts.size(), TileMask(grid.width, grid.height));
   grid_ = grid;
@@ -126,7 +135,7 @@ void PlacedSolids::place_vertices(const Part& part) {
   const SolidMesh& mesh = part.mesh;
   std::array<float, 12> m;
   for (std::size_t i = 0; i < 12; ++i) m[i] = float(part.solid.to_view[i]);
-  const double unit = double(grid_.height) * grid_.cells * kCellUnits;  // a page height's
+  const double unit = grid_.units(grid_.height);  // a page height's
   const float left = float(unit * solids.origin.x), top = float(unit * (1 - solids.origin.y));
   const float scale = float(unit * solids.scale);
   std::array<float, 3> nearing;
@@ -193,8 +202,8 @@ std::int64_t turn(const PageVertex& a, const PageVertex& b, const PageVertex& c)
 
 // Thin lines where a surface bends sharply, as far before it as they are wide.
 void PlacedSolids::add_creases(const Part& part) {
-  const double unit = double(grid_.height) * grid_.cells * kCellUnits;
-  const double half = std::max(kCreaseLine * grid_.height, kThinnestCrease) / 2 * grid_.cells * kCellUnits;
+  const double unit = grid_.units(grid_.height);
+  const double half = grid_.units(std::max(kCreaseLine * grid_.height, kThinnestCrease) / 2);
   const float before = float(2 * half / (unit * traces_.solids.scale));
   for (const Crease& crease : part.mesh.creases) {
     const auto at = [&](std::uint32_t index) { return vertices_[part.first + index]; };
@@ -248,7 +257,7 @@ std::vector<ViewCorner> cut(const std::vector<ViewCorner>& outline, const Value&
 // Triangles that reach behind the eye, or so far out that their places are no more told exactly.
 void PlacedSolids::add_clipped(const Part& part, const Triangle& corners, bool is_culled) {
   const Solids& solids = traces_.solids;
-  const double unit = double(grid_.height) * grid_.cells * kCellUnits;
+  const double unit = grid_.units(grid_.height);
   std::vector<ViewCorner> outline;
   for (const std::uint32_t corner : corners) {
     const std::array<float, 3>& p = part.mesh.mesh->vertices[corner - part.first].position;
@@ -305,26 +314,36 @@ void PlacedSolids::add_to_tiles(const Triangle& corners, TileMask& touched) {
   const std::array<const PageVertex*, 3> at = {&vertices_[corners[0]], &vertices_[corners[1]], &vertices_[corners[2]]};
   const PlaceRange range(*at[0], *at[1], *at[2]);
   if (!range.has_samples()) return;
-  const auto first_tile = [](int place) { return std::max(0, place >> 10); };
+  mark_touched(corners, range, touched);
   static_assert(kTileUnits == 1 << 10);
-  const int first_column = first_tile(range.left - rim_), last_column = std::min(columns_ - 1, (range.right + rim_) >> 10);
-  const int first_row = first_tile(range.top - rim_), last_row = std::min(rows_ - 1, (range.bottom + rim_) >> 10);
+  const int first_column = std::max(0, range.left >> 10), last_column = std::min(columns_ - 1, range.right >> 10);
+  const int first_row = std::max(0, range.top >> 10), last_row = std::min(rows_ - 1, range.bottom >> 10);
   if (first_column > last_column || first_row > last_row) return;
   const auto triangle = std::uint32_t(triangles_.size());
-  const int per_tile = TileMask::kSide / grid_.tile_side();
   const bool is_large = range.longest() > kTileUnits / 2;  // it may leave out tiles that its range meets
   bool is_seen = false;
   for (int row = first_row; row <= last_row; ++row)
     for (int column = first_column; column <= last_column; ++column) {
       const int x = column * kTileUnits, y = row * kTileUnits;
-      if (is_large && !meets(at, x - rim_, y - rim_, x + kTileUnits + rim_, y + kTileUnits + rim_)) continue;
-      touched.mark(column / per_tile, row / per_tile);
-      if (range.right < x || range.left > x + kTileUnits || range.bottom < y || range.top > y + kTileUnits) continue;
       if (is_large && !meets(at, x, y, x + kTileUnits, y + kTileUnits)) continue;
       bins_[place(column, row)].push_back(triangle);
       is_seen = true;
     }
   if (is_seen) triangles_.push_back(corners);
+}
+
+// The page's tiles that a triangle or its rim may colour.
+void PlacedSolids::mark_touched(const Triangle& corners, const PlaceRange& range, TileMask& touched) const {
+  const int side = int(grid_.units(TileMask::kSide)), shift = std::countr_zero(unsigned(side));
+  const int first_column = std::max(0, (range.left - rim_) >> shift), last_column = std::min(touched.columns() - 1, (range.right + rim_) >> shift);
+  const int first_row = std::max(0, (range.top - rim_) >> shift), last_row = std::min(touched.rows() - 1, (range.bottom + rim_) >> shift);
+  const bool is_large = range.longest() > side / 2;
+  const std::array<const PageVertex*, 3> at = {&vertices_[corners[0]], &vertices_[corners[1]], &vertices_[corners[2]]};
+  for (int row = first_row; row <= last_row; ++row)
+    for (int column = first_column; column <= last_column; ++column) {
+      const int x = column * side, y = row * side;
+      if (!is_large || meets(at, x - rim_, y - rim_, x + side + rim_, y + side + rim_)) touched.mark(column, row);
+    }
 }
 
 void PlacedSolids::draw(int column, int row, TileSamples& samples) const {

@@ -17,9 +17,13 @@ namespace chainreel {
 struct SampleGrid {
   int width = 0, height = 0;  // of the page, px
   int cells = 1;              // along a pixel's side, each of 2 x 2 samples
+  int pixels = 1;             // along a cell's side: more than one where there is one cell a pixel
 
   SampleGrid(int page_width, int page_height);
-  int tile_side() const { return kTileCells / cells; }  // px
+  // Of the same page, with cells of so many pixels: a power of two. With one it is as fine as this.
+  SampleGrid coarser(int pixels) const;
+  int tile_side() const { return kTileCells * pixels / cells; }  // px
+  double units(double px) const { return px * cells * kCellUnits / pixels; }
   int columns() const { return (width + tile_side() - 1) / tile_side(); }
   int rows() const { return (height + tile_side() - 1) / tile_side(); }
 };
@@ -43,6 +47,7 @@ class PlacedSolids {
 
   SolidTraces& traces() { return traces_; }
   const SolidTraces& traces() const { return traces_; }
+  const SampleGrid& grid() const { return grid_; }
   // Whether a tile of the grid holds anything, and its samples.
   bool is_empty(int column, int row) const { return bins_[place(column, row)].empty(); }
   void draw(int column, int row, TileSamples& samples) const;
@@ -58,6 +63,7 @@ class PlacedSolids {
   void add_clipped(const Part& part, const Triangle& corners, bool is_culled);
   void add(Triangle corners, bool is_culled, TileMask& touched);
   void add_to_tiles(const Triangle& corners, TileMask& touched);
+  void mark_touched(const Triangle& corners, const PlaceRange& range, TileMask& touched) const;
 
   SolidTraces traces_;
   SampleGrid grid_{1, 1};

@@ -26,8 +26,9 @@ class SolidLayer {
 
  private:
   const SolidMesh& mesh_of(const std::shared_ptr<const TriangleMesh>& mesh);
-  PixelBox tiles_around(const PixelBox& box, double rim) const;
+  static PixelBox tiles_around(const PixelBox& box, double rim, const SampleGrid& grid);
   void fill(const PlacedSolids& placed, double rim, const std::vector<PixelBox>& boxes);
+  void draw_bodies(const BodyPaint& paint, const std::vector<PixelBox>& boxes, std::uint32_t* page);
   void find_shown(const PixelBox& box, const BodyPixels& pixels, BoxJoiner& shown) const;
 
   SampleGrid grid_;
