@@ -32,6 +32,12 @@ Int4 rounded(Float4 x) {
   return load4<Int4>(&sum) - load4<Int4>(std::array{kMagic, kMagic, kMagic, kMagic}.data());
 }
 
+// To the nearest place midway between samples: what is smaller than they are apart loses most of its triangles.
+Int4 on_lattice(Int4 place) {
+  constexpr int kApart = kCellUnits / 2;
+  return (place + kApart / 2) & -kApart;
+}
+
 std::uint32_t bytes_of(const Color& color) {
   const auto level = [&color](int c) { return std::uint32_t(std::lround(color.a * c)); };
   return level(color.b) | level(color.g) << 8 | level(color.r) << 16 | std::uint32_t(std::lround(255 * color.a)) << 24;
@@ -89,6 +95,8 @@ void PlacedSolids::set(const Solids& solids, double rim, const SampleGrid& grid,
   traces_.solids = solids;
   traces_.rim = rim;
   rim_ = int(std::ceil(grid.units(rim + kFringe)));
+  touched_side_ = int(grid.units(TileMask::kSide));
+  touched_shift_ = std::countr_zero(unsigned(touched_side_));
   traces_.tiles.clear();
   traces_.tiles.resize(solids.parts.size(), TileMask(grid.width, grid.height));
   grid_ = grid;
@@ -96,8 +104,11 @@ void PlacedSolids::set(const Solids& solids, double rim, const SampleGrid& grid,
   rows_ = grid.rows();
   vertices_.clear();
   triangles_.clear();
-  bins_.resize(std::size_t(columns_) * std::size_t(rows_));
-  for (std::vector<std::uint32_t>& bin : bins_) bin.clear();
+  are_translucent_ = false;
+  for (auto& bins : bins_) {
+    bins.resize(std::size_t(columns_) * std::size_t(rows_));
+    for (std::vector<std::uint32_t>& bin : bins) bin.clear();
+  }
 
   std::vector<Part> parts;
   for (std::size_t i = 0; i < solids.parts.size(); ++i) {
@@ -113,18 +124,20 @@ void PlacedSolids::set(const Solids& solids, double rim, const SampleGrid& grid,
   // The inside of a closed part is never seen. A colour of its own holds for all triangles.
   for (const Part& part : parts) {
     const SortedTriangles& sorted = part.mesh.triangles;
+    touched_last_ = {};
     if (part.is_translucent()) continue;
     add_triangles(part, 0, sorted.closed, true);
     add_triangles(part, sorted.closed, part.color ? sorted.indices.size() / 3 : sorted.opaque, false);
     if (!solids.is_shadow) add_creases(part);
   }
   // What shines through comes last, farthest first, and hides nothing.
-  first_translucent_ = triangles_.size();
+  are_translucent_ = true;
   std::vector<const Part*> from_far;
   for (const Part& part : parts) from_far.push_back(&part);
   std::stable_sort(from_far.begin(), from_far.end(), [](const Part* a, const Part* b) { return a->middle < b->middle; });
   for (const Part* part : from_far) {
     const SortedTriangles& sorted = part->mesh.triangles;
+    touched_last_ = {};
     if (!part->color) add_triangles(*part, sorted.opaque, sorted.indices.size() / 3, false);
     if (part->is_translucent()) add_triangles(*part, 0, sorted.indices.size() / 3, false);
   }
@@ -153,7 +166,9 @@ void PlacedSolids::place_vertices(const Part& part) {
     const Float4 w = 1.0F - (right * nearing[0] + up * nearing[1] + toward * nearing[2]), inverse = 1.0F / w;
     const Float4 x = left + scale * right * inverse, y = top - scale * up * inverse, depth = toward * inverse;
     const Int4 is_in = (w > kNearestToEye) & (x > least_place) & (x < largest_place) & (y > least_place) & (y < largest_place);
-    const Int4 to_x = is_in ? rounded(x) : all4(kOut), to_y = rounded(y);
+    Int4 to_x = rounded(x), to_y = rounded(y);
+    if (grid_.pixels > 1) to_x = on_lattice(to_x), to_y = on_lattice(to_y);
+    to_x = is_in ? to_x : all4(kOut);
     Int4 color = all4(std::int32_t(own_color));
     if (!solids.is_shadow) {
       const Float4 nx = at(mesh.normal[0]), ny = at(mesh.normal[1]), nz = at(mesh.normal[2]);
@@ -293,7 +308,8 @@ void PlacedSolids::add(Triangle corners, bool is_culled, TileMask& touched) {
   // Counter-clockwise triangles, in pictures whose y points down.
   if (area == 0 || (area > 0 && is_culled)) return;
   if (area < 0) std::swap(corners[1], corners[2]);
-  add_to_tiles(corners, touched);
+  // What one sees from inside is mostly hidden, which is found out soonest when it comes last.
+  add_to_tiles(corners, are_translucent_ ? translucent : area < 0 ? facing : averted, touched);
 }
 
 namespace {
@@ -310,7 +326,7 @@ bool meets(const std::array<const PageVertex*, 3>& corners, int left, int top, i
 
 }  // namespace
 
-void PlacedSolids::add_to_tiles(const Triangle& corners, TileMask& touched) {
+void PlacedSolids::add_to_tiles(const Triangle& corners, Group group, TileMask& touched) {
   const std::array<const PageVertex*, 3> at = {&vertices_[corners[0]], &vertices_[corners[1]], &vertices_[corners[2]]};
   const PlaceRange range(*at[0], *at[1], *at[2]);
   if (!range.has_samples()) return;
@@ -326,32 +342,39 @@ void PlacedSolids::add_to_tiles(const Triangle& corners, TileMask& touched) {
     for (int column = first_column; column <= last_column; ++column) {
       const int x = column * kTileUnits, y = row * kTileUnits;
       if (is_large && !meets(at, x, y, x + kTileUnits, y + kTileUnits)) continue;
-      bins_[place(column, row)].push_back(triangle);
+      bins_[group][place(column, row)].push_back(triangle);
       is_seen = true;
     }
   if (is_seen) triangles_.push_back(corners);
 }
 
 // The page's tiles that a triangle or its rim may colour.
-void PlacedSolids::mark_touched(const Triangle& corners, const PlaceRange& range, TileMask& touched) const {
-  const int side = int(grid_.units(TileMask::kSide)), shift = std::countr_zero(unsigned(side));
-  const int first_column = std::max(0, (range.left - rim_) >> shift), last_column = std::min(touched.columns() - 1, (range.right + rim_) >> shift);
-  const int first_row = std::max(0, (range.top - rim_) >> shift), last_row = std::min(touched.rows() - 1, (range.bottom + rim_) >> shift);
-  const bool is_large = range.longest() > side / 2;
+void PlacedSolids::mark_touched(const Triangle& corners, const PlaceRange& range, TileMask& touched) {
+  const TileRange tiles{std::max(0, (range.left - rim_) >> touched_shift_), std::max(0, (range.top - rim_) >> touched_shift_),
+                        std::min(touched.columns(), ((range.right + rim_) >> touched_shift_) + 1),
+                        std::min(touched.rows(), ((range.bottom + rim_) >> touched_shift_) + 1)};
+  const bool is_large = range.longest() > touched_side_ / 2;  // it may leave out tiles that its range meets
+  if (!is_large && tiles == touched_last_) return;
+  touched_last_ = is_large ? TileRange{} : tiles;
   const std::array<const PageVertex*, 3> at = {&vertices_[corners[0]], &vertices_[corners[1]], &vertices_[corners[2]]};
-  for (int row = first_row; row <= last_row; ++row)
-    for (int column = first_column; column <= last_column; ++column) {
-      const int x = column * side, y = row * side;
-      if (!is_large || meets(at, x - rim_, y - rim_, x + side + rim_, y + side + rim_)) touched.mark(column, row);
+  for (int row = tiles.top; row < tiles.bottom; ++row)
+    for (int column = tiles.left; column < tiles.right; ++column) {
+      const int x = column * touched_side_, y = row * touched_side_;
+      if (!is_large || meets(at, x - rim_, y - rim_, x + touched_side_ + rim_, y + touched_side_ + rim_)) touched.mark(column, row);
     }
 }
 
+bool PlacedSolids::is_empty(int column, int row) const {
+  return std::all_of(bins_.begin(), bins_.end(), [at = place(column, row)](const auto& bins) { return bins[at].empty(); });
+}
+
 void PlacedSolids::draw(int column, int row, TileSamples& samples) const {
-  const Fill fill = traces_.solids.is_shadow ? Fill::flat : Fill::nearest;
-  for (const std::uint32_t index : bins_[place(column, row)]) {
-    const Triangle& t = triangles_[index];
-    samples.draw(vertices_[t[0]], vertices_[t[1]], vertices_[t[2]], column * kTileUnits, row * kTileUnits,
-                 index < first_translucent_ ? fill : Fill::translucent);
+  for (const Group group : {facing, averted, translucent}) {
+    const Fill fill = group == translucent ? Fill::translucent : traces_.solids.is_shadow ? Fill::flat : Fill::nearest;
+    for (const std::uint32_t index : bins_[group][place(column, row)]) {
+      const Triangle& t = triangles_[index];
+      samples.draw(vertices_[t[0]], vertices_[t[1]], vertices_[t[2]], column * kTileUnits, row * kTileUnits, fill);
+    }
   }
 }
 

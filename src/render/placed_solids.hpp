@@ -49,7 +49,7 @@ class PlacedSolids {
   const SolidTraces& traces() const { return traces_; }
   const SampleGrid& grid() const { return grid_; }
   // Whether a tile of the grid holds anything, and its samples.
-  bool is_empty(int column, int row) const { return bins_[place(column, row)].empty(); }
+  bool is_empty(int column, int row) const;
   void draw(int column, int row, TileSamples& samples) const;
 
  private:
@@ -58,21 +58,25 @@ class PlacedSolids {
 
   std::size_t place(int column, int row) const { return std::size_t(row) * std::size_t(columns_) + std::size_t(column); }
   void place_vertices(const Part& part);
+  // In the order in which they are drawn.
+  enum Group { facing, averted, translucent };
   void add_triangles(const Part& part, std::size_t first, std::size_t end, bool is_culled);
   void add_creases(const Part& part);
   void add_clipped(const Part& part, const Triangle& corners, bool is_culled);
   void add(Triangle corners, bool is_culled, TileMask& touched);
-  void add_to_tiles(const Triangle& corners, TileMask& touched);
-  void mark_touched(const Triangle& corners, const PlaceRange& range, TileMask& touched) const;
+  void add_to_tiles(const Triangle& corners, Group group, TileMask& touched);
+  void mark_touched(const Triangle& corners, const PlaceRange& range, TileMask& touched);
 
   SolidTraces traces_;
   SampleGrid grid_{1, 1};
   int columns_ = 0, rows_ = 0;
   int rim_ = 0;  // in which pixels may be touched, in units of a cell
+  int touched_side_ = 1, touched_shift_ = 0;  // of a tile of the page, in units of a cell, and its logarithm
+  TileRange touched_last_;                    // of the triangle before, all marked
   std::vector<PageVertex> vertices_;
   std::vector<Triangle> triangles_;
-  std::size_t first_translucent_ = 0;
-  std::vector<std::vector<std::uint32_t>> bins_;  // of each tile its triangles, in the order in which they are drawn
+  bool are_translucent_ = false;       // those that are added
+  std::array<std::vector<std::vector<std::uint32_t>>, 3> bins_;  // of each group and tile its triangles
 };
 
 }  // namespace chainreel

@@ -12,6 +12,7 @@ namespace chainreel {
 // Which tiles a box of pixels meets: columns and rows, the last ones outside.
 struct TileRange {
   int left = 0, top = 0, right = 0, bottom = 0;
+  friend bool operator==(const TileRange&, const TileRange&) = default;
 };
 
 class TileMask {

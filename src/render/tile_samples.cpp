@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
 
 #include "render/lanes.hpp"
 
@@ -11,7 +16,6 @@ namespace {
 
 // Of the four samples of a cell, in units.
 constexpr int kNear = kCellUnits / 4, kFar = 3 * kCellUnits / 4;
-constexpr Int4 kSampleX = {kNear, kFar, kNear, kFar}, kSampleY = {kNear, kNear, kFar, kFar};
 
 // A side of a triangle: value(x, y) = start + dx x + dy y is not negative at samples that belong to the triangle's side of it. A
 // sample on the line belongs to one of the two triangles that share it.
@@ -43,24 +47,55 @@ struct Plane4 {
   Float4 start{}, dx{}, dy{};
 };
 
-}  // namespace
-
-struct TileSamples::Triangle {
-  int first_column, last_column, first_row, last_row;  // cells
-  std::array<Edge, 3> edges;
+// What a triangle colours in a tile: between which cells, and how.
+struct TileTriangle {
+  int first_column, last_column, first_row, last_row;  // cells that have samples in the triangle's range
   Plane depth;
-  float nearest, farthest;
+  float nearest = 0, farthest = 0;
   Plane4 color;
-  Float4 darkest, brightest;
-  std::uint32_t even;
+  Float4 darkest{}, brightest{};
+  std::uint32_t even = 0;
+
+  TileTriangle(const PlaceRange& range, int left, int top)
+      : first_column(first_cell(range.left - left)),
+        last_column(last_cell(range.right - left)),
+        first_row(first_cell(range.top - top)),
+        last_row(last_cell(range.bottom - top)) {}
+
+  // Whether all of it gets one colour.
+  bool shade(const PageVertex& a, const PageVertex& b, const PageVertex& c, int left, int top, Fill fill, std::int32_t longest) {
+    even = a.color;
+    if (fill == Fill::flat) return true;
+    const float abx = float(b.x - a.x), aby = float(b.y - a.y), acx = float(c.x - a.x), acy = float(c.y - a.y);
+    const float inverse = 1 / float(std::int64_t(b.x - a.x) * (c.y - a.y) - std::int64_t(c.x - a.x) * (b.y - a.y));
+    const float ab = b.depth - a.depth, ac = c.depth - a.depth;
+    const float to_left = float(left - a.x), to_top = float(top - a.y);
+    depth.dx = (ab * acy - ac * aby) * inverse;
+    depth.dy = (ac * abx - ab * acx) * inverse;
+    depth.start = a.depth + (depth.dx * to_left + depth.dy * to_top);
+    nearest = std::max({a.depth, b.depth, c.depth});
+    farthest = std::min({a.depth, b.depth, c.depth});
+    if (a.color == b.color && a.color == c.color) return true;
+    const Float4 at_a = unpacked(a.color), at_b = unpacked(b.color), at_c = unpacked(c.color);
+    if (longest <= kCellUnits) {
+      even = packed((at_a + at_b + at_c) * (1 / 3.0F) + 0.5F);
+      return true;
+    }
+    color.dx = ((at_b - at_a) * acy - (at_c - at_a) * aby) * inverse;
+    color.dy = ((at_c - at_a) * abx - (at_b - at_a) * acx) * inverse;
+    // At the middle of a cell, which may lie outside of the triangle, but its colours are bounded by those of the corners.
+    constexpr float kMiddle = kCellUnits / 2.0F;
+    color.start = at_a + (color.dx * (to_left + kMiddle) + color.dy * (to_top + kMiddle));
+    darkest = least(at_a, least(at_b, at_c));
+    brightest = most(at_a, most(at_b, at_c));
+    return false;
+  }
+
+ private:
+  static int first_cell(int place) { return std::max(0, (place - kFar + kCellUnits - 1) >> 5); }
+  static int last_cell(int place) { return std::min(kTileCells - 1, (place - kNear) >> 5); }
+  static_assert(kCellUnits == 1 << 5);
 };
-
-void TileSamples::clear() {
-  depth_.fill(std::numeric_limits<float>::lowest());
-  color_.fill(0);
-}
-
-namespace {
 
 // Where an edge crosses rows of cells, in columns: what lies beyond has no sample inside. It is widened by more than rounding takes.
 class Crossing {
@@ -102,109 +137,53 @@ std::uint32_t blended(std::uint32_t above, std::uint32_t below) {
 
 }  // namespace
 
-template <Fill fill, bool is_even>
-void TileSamples::fill_cells(const Triangle& t) {
-  constexpr int kNarrowing = 4;  // columns: what finding out more of a row costs
-  std::array<Int4, 3> offset, step;
-  for (std::size_t i = 0; i < 3; ++i) {
-    offset[i] = all4(t.edges[i].dx) * kSampleX + all4(t.edges[i].dy) * kSampleY;
-    step[i] = all4(t.edges[i].dx * kCellUnits);
-  }
-  const Float4 depth_offset = all4(t.depth.dx) * __builtin_convertvector(kSampleX, Float4) +
-                              all4(t.depth.dy) * __builtin_convertvector(kSampleY, Float4);
-  const Float4 depth_dx = all4(t.depth.dx);
-  const bool narrows = t.last_column - t.first_column >= kNarrowing;
-  std::array<Crossing, 3> crossings;
-  if (narrows)
-    for (std::size_t i = 0; i < 3; ++i) crossings[i] = Crossing(t.edges[i]);
-  for (int row = t.first_row; row <= t.last_row; ++row) {
-    int first = t.first_column, last = t.last_column;
-    if (narrows) {
-      for (const Crossing& crossing : crossings) crossing.narrow(row, first, last);
-      if (first > last) continue;
-    }
-    const int y = row * kCellUnits;
-    std::array<Int4, 3> value;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Edge& edge = t.edges[i];
-      value[i] = offset[i] + all4(std::int32_t(edge.start + std::int64_t(edge.dx) * first * kCellUnits + std::int64_t(edge.dy) * y));
-    }
-    const Float4 row_depth = depth_offset + all4(t.depth.start + t.depth.dy * float(y));
-    const Float4 row_color = t.color.start + t.color.dy * float(y);
-    Float4 x = all4(float(first * kCellUnits));
-    for (int column = first; column <= last; ++column, x += float(kCellUnits)) {
-      const std::size_t cell = std::size_t(4) * std::size_t(row * kTileCells + column);
-      Int4 wins = (value[0] | value[1] | value[2]) >= 0;
-      for (std::size_t i = 0; i < 3; ++i) value[i] += step[i];
-      std::uint32_t color = t.even;
-      if constexpr (fill == Fill::flat) {
-        if (bits_of(wins) == 0) continue;
-      } else {
-        const Float4 depth = least(most(row_depth + depth_dx * x, all4(t.farthest)), all4(t.nearest));
-        const Float4 before = load4<Float4>(&depth_[cell]);
-        wins &= depth > before;
-        if (bits_of(wins) == 0) continue;
-        if constexpr (fill == Fill::nearest) store4(&depth_[cell], wins ? depth : before);
-        if constexpr (!is_even) color = packed(least(most(row_color + t.color.dx * x, t.darkest), t.brightest) + 0.5F);
-      }
-      if constexpr (fill == Fill::translucent) {
-        const unsigned bits = bits_of(wins);
-        for (std::size_t k = 0; k < 4; ++k)
-          if (bits >> k & 1) color_[cell + k] = blended(color, color_[cell + k]);
-      } else {
-        store4(&color_[cell], wins ? all4(std::int32_t(color)) : load4<Int4>(&color_[cell]));
-      }
-    }
-  }
+namespace tiles4 {
+using Floats = Float4;
+using Ints = Int4;
+constexpr int kCells = 1;
+constexpr Ints kSampleX = {kNear, kFar, kNear, kFar}, kSampleY = {kNear, kNear, kFar, kFar};
+constexpr Ints kCellX = {};
+inline Floats in_each_cell(Float4 four) { return four; }
+inline unsigned any_of(Ints lanes) { return bits_of(lanes); }
+inline Ints packed_in_each_cell(Floats colors) { return all4(std::int32_t(packed(colors))); }
+#include "render/tile_fill.hpp"
+}  // namespace tiles4
+
+#if defined(__x86_64__)
+#pragma GCC push_options
+#pragma GCC target("avx2")
+namespace tiles8 {
+using Floats [[gnu::vector_size(32)]] = float;
+using Ints [[gnu::vector_size(32)]] = std::int32_t;
+constexpr int kCells = 2;
+constexpr Ints kSampleX = {kNear, kFar, kNear, kFar, kNear, kFar, kNear, kFar}, kSampleY = {kNear, kNear, kFar, kFar, kNear, kNear, kFar, kFar};
+constexpr Ints kCellX = {0, 0, 0, 0, kCellUnits, kCellUnits, kCellUnits, kCellUnits};
+inline Floats in_each_cell(Float4 four) { return Floats(_mm256_broadcast_ps(reinterpret_cast<const __m128*>(&four))); }
+inline unsigned any_of(Ints lanes) { return unsigned(_mm256_movemask_ps(__m256(lanes))); }
+inline Ints packed_in_each_cell(Floats colors) {
+  const __m256i whole = _mm256_cvttps_epi32(__m256(colors));
+  const __m256i words = _mm256_packs_epi32(whole, whole);
+  return Ints(_mm256_shuffle_epi32(_mm256_packus_epi16(words, words), 0));
+}
+#include "render/tile_fill.hpp"
+}  // namespace tiles8
+#pragma GCC pop_options
+#endif
+
+std::span<const TileFiller> tile_fillers() {
+#if defined(__x86_64__)
+  static constexpr std::array<TileFiller, 2> kAll = {tiles8::draw_triangle, tiles4::draw_triangle};
+  static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
+  return std::span(kAll).subspan(has_avx2 ? 0 : 1);
+#else
+  static constexpr std::array<TileFiller, 1> kAll = {tiles4::draw_triangle};
+  return kAll;
+#endif
 }
 
-void TileSamples::draw(const PageVertex& a, const PageVertex& b, const PageVertex& c, int left, int top, Fill fill) {
-  // The cells that have samples between the first and the last place.
-  const auto first_cell = [](int place) { return std::max(0, (place - kFar + kCellUnits - 1) >> 5); };
-  const auto last_cell = [](int place) { return std::min(kTileCells - 1, (place - kNear) >> 5); };
-  static_assert(kCellUnits == 1 << 5);
-  const PlaceRange range(a, b, c);
-  const int first_column = first_cell(range.left - left), last_column = last_cell(range.right - left);
-  const int first_row = first_cell(range.top - top), last_row = last_cell(range.bottom - top);
-  if (first_column > last_column || first_row > last_row) return;
-  Triangle t;
-  t.first_column = first_column, t.last_column = last_column, t.first_row = first_row, t.last_row = last_row;
-  t.edges = {Edge(a, b, left, top), Edge(b, c, left, top), Edge(c, a, left, top)};
-  t.even = a.color;
-  if (range.longest() > kTileUnits)
-    for (Edge& edge : t.edges)
-      if (edge.leaves_tile_out()) return;
-  if (fill == Fill::flat) return fill_cells<Fill::flat, true>(t);
-
-  const float abx = float(b.x - a.x), aby = float(b.y - a.y), acx = float(c.x - a.x), acy = float(c.y - a.y);
-  const float inverse = 1 / float(std::int64_t(b.x - a.x) * (c.y - a.y) - std::int64_t(c.x - a.x) * (b.y - a.y));
-  const float ab = b.depth - a.depth, ac = c.depth - a.depth;
-  const float to_left = float(left - a.x), to_top = float(top - a.y);
-  t.depth.dx = (ab * acy - ac * aby) * inverse;
-  t.depth.dy = (ac * abx - ab * acx) * inverse;
-  t.depth.start = a.depth + (t.depth.dx * to_left + t.depth.dy * to_top);
-  t.nearest = std::max({a.depth, b.depth, c.depth});
-  t.farthest = std::min({a.depth, b.depth, c.depth});
-  bool is_even = a.color == b.color && a.color == c.color;
-  if (!is_even) {
-    const Float4 at_a = unpacked(a.color), at_b = unpacked(b.color), at_c = unpacked(c.color);
-    if (range.longest() <= kCellUnits) {
-      t.even = packed((at_a + at_b + at_c) * (1 / 3.0F) + 0.5F);
-      is_even = true;
-    } else {
-      t.color.dx = ((at_b - at_a) * acy - (at_c - at_a) * aby) * inverse;
-      t.color.dy = ((at_c - at_a) * abx - (at_b - at_a) * acx) * inverse;
-      // At the middle of a cell, which may lie outside of the triangle, but its colours are bounded by those of the corners.
-      constexpr float kMiddle = kCellUnits / 2.0F;
-      t.color.start = at_a + (t.color.dx * (to_left + kMiddle) + t.color.dy * (to_top + kMiddle));
-      t.darkest = least(at_a, least(at_b, at_c));
-      t.brightest = most(at_a, most(at_b, at_c));
-    }
-  }
-  if (fill == Fill::nearest)
-    is_even ? fill_cells<Fill::nearest, true>(t) : fill_cells<Fill::nearest, false>(t);
-  else
-    is_even ? fill_cells<Fill::translucent, true>(t) : fill_cells<Fill::translucent, false>(t);
+void TileSamples::clear() {
+  samples_.depth.fill(std::numeric_limits<float>::lowest());
+  samples_.color.fill(0);
 }
 
 namespace {
@@ -226,7 +205,7 @@ void TileSamples::resolve(int per_pixel, std::uint32_t* pixels, std::ptrdiff_t p
   for (int row = 0; row < kTileCells; ++row) {
     std::uint64_t upper = 0, lower = 0;
     for (int column = 0; column < kTileCells; ++column) {
-      const std::uint32_t* const samples = &color_[std::size_t(4) * std::size_t(row * kTileCells + column)];
+      const std::uint32_t* const samples = &samples_.color[std::size_t(4) * std::size_t(row * kTileCells + column)];
       const Int4 cell = load4<Int4>(samples);
       const unsigned is_body = bits_of((cell & std::int32_t(0xff000000U)) != 0);
       upper |= std::uint64_t(is_body & 3) << (2 * column);
@@ -243,7 +222,7 @@ void TileSamples::resolve(int per_pixel, std::uint32_t* pixels, std::ptrdiff_t p
     for (int x = 0; x < kTileCells / 2; ++x) {
       std::array<std::uint32_t, 16> samples;
       for (std::size_t row = 0; row < 2; ++row)
-        std::copy_n(&color_[4 * (std::size_t(2 * y) + row) * kTileCells + std::size_t(8 * x)], 8, &samples[8 * row]);
+        std::copy_n(&samples_.color[4 * (std::size_t(2 * y) + row) * kTileCells + std::size_t(8 * x)], 8, &samples[8 * row]);
       pixels[y * pixel_stride + x] = mean_of<16>(samples);
     }
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace chainreel {
 
@@ -50,12 +51,29 @@ enum class Fill {
   flat          // one colour, without depth
 };
 
+// A tile's samples: four a cell, cell by cell and row by row.
+struct TileArrays {
+  static constexpr std::size_t kCount = 4 * kTileCells * kTileCells;
+  alignas(32) std::array<float, kCount> depth;
+  alignas(32) std::array<std::uint32_t, kCount> color;
+};
+
+// Draws a triangle that runs clockwise, as one sees it. `left`, `top`: the tile's corner, in units of a cell.
+using TileFiller = void (*)(const PageVertex& a, const PageVertex& b, const PageVertex& c, int left, int top, Fill fill, TileArrays& samples);
+
+// Those that this processor has, with the same bytes, the fastest first.
+std::span<const TileFiller> tile_fillers();
+
 class TileSamples {
  public:
+  explicit TileSamples(TileFiller filler = tile_fillers().front()) : filler_(filler) {}
+
   void clear();
 
-  // The triangle runs clockwise, as one sees it. `left`, `top`: the tile's corner, in units of a cell.
-  void draw(const PageVertex& a, const PageVertex& b, const PageVertex& c, int left, int top, Fill fill);
+  // As a TileFiller does.
+  void draw(const PageVertex& a, const PageVertex& b, const PageVertex& c, int left, int top, Fill fill) {
+    filler_(a, b, c, left, top, fill, samples_);
+  }
 
   // The means of each `per_pixel` x `per_pixel` cells, which is 1 or 2, into rows of pixels, and of each row of samples a word with a bit for each
   // that shows a body.
@@ -63,13 +81,8 @@ class TileSamples {
                std::ptrdiff_t bit_stride) const;
 
  private:
-  struct Triangle;
-  template <Fill fill, bool is_even>
-  void fill_cells(const Triangle& triangle);
-
-  static constexpr std::size_t kSamples = 4 * kTileCells * kTileCells;
-  alignas(16) std::array<float, kSamples> depth_;
-  alignas(16) std::array<std::uint32_t, kSamples> color_;
+  TileFiller filler_;
+  TileArrays samples_;
 };
 
 }  // namespace chainreel

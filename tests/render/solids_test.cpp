@@ -10,6 +10,7 @@
 #include "encode/png.hpp"
 #include "mesh/primitives.hpp"
 #include "render/drawing.hpp"
+#include "render/soft_shadow.hpp"
 #include "render/solid_bounds.hpp"
 #include "render/vector_shapes.hpp"
 #include "support/picture_compare.hpp"
@@ -87,6 +88,40 @@ TEST(Solids, ShadowsHaveSoftEdges) {
   EXPECT_GE(across.size(), 6u);
   EXPECT_GT(along.size(), across.size());
   EXPECT_NEAR(darkness(soft, kSide / 2, kSide / 2), 1, 0.01);
+}
+
+// On cells of one, two and four pixels: as dark in sum as with hard edges, half as dark at the edge, darker and darker to the
+// middle, and nothing beyond what the blur says.
+TEST(Solids, SoftShadowsLookTheSameOnCellsOfAnySize) {
+  constexpr int kPage = 512;
+  Canvas canvas(kPage, kPage, fonts());
+  for (const auto& [blur, pixels] : {std::pair{12.0, 1}, {20.0, 2}, {32.0, 4}, {60.0, 4}}) {
+    SCOPED_TRACE(blur);
+    EXPECT_EQ(ShadowBlur(blur).pixels, pixels);
+    for (const double moved : {0.0, 1.0, 2.5}) {  // px
+      const double side = 200.3, metre = 0.5 * kPage;
+      Solids shadow = silhouette({at(cube(side / metre), moved / metre, 0, 0)});
+      shadow.outline_width = blur / kPage;
+      Picture picture;
+      picture.background = color_of(0xFFFFFF);
+      picture.add(shadow);
+      Image image;
+      canvas.draw(picture, image);
+      EXPECT_NEAR(covered_area(image), side * side, 0.02 * side * side);  // an edge is off by half a sample's distance at most
+      const int middle = kPage / 2, rim = ShadowBlur(blur).rim();
+      const double edge = middle + moved + side / 2;
+      double before = 1;
+      for (int x = middle; x < kPage; ++x) {
+        const double dark = darkness(image, x, middle);
+        EXPECT_LE(dark, before + 1e-9) << x;
+        before = dark;
+        if (x > edge + rim) EXPECT_EQ(dark, 0) << x;
+      }
+      // Half a sample's distance aside of a slope of one over a radius.
+      const double slope = 1 / blur;
+      EXPECT_NEAR(darkness(image, int(edge), middle), 0.5, slope * (pixels / 2.0 + 1)) << moved;
+    }
+  }
 }
 
 TEST(Solids, SoftShadowsFadeBeforeTheEdgesOfTheirScene) {

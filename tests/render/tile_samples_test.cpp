@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <random>
 #include <vector>
 
@@ -75,6 +77,40 @@ TEST(TileSamples, NearerTrianglesHideOthersSampleBySample) {
       for (int x = 0; x < kTileCells; ++x)
         ASSERT_EQ(resolved.pixels[std::size_t(y * kTileCells + x)], x < kTileCells / 2 ? kOther : kOne) << x << " " << y;
   }
+}
+
+// Small and large ones, slivers, before and behind one another, of one colour and of several, at tiles' edges, too.
+TEST(TileSamples, AllWidthsOfVectorsGiveTheSameBytes) {
+  std::mt19937 random(11);
+  const auto number = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+  std::vector<TileSamples> tiles;
+  for (const TileFiller filler : tile_fillers()) tiles.emplace_back(filler).clear();
+  std::vector<std::uint32_t> colors;
+  for (int k = 0; k < 4000; ++k) {
+    const int size = std::array{20, 60, 130, 500, 3000, 40000}[std::size_t(number(0, 5))];
+    const int x = number(-40, kTileUnits + 40), y = number(-40, kTileUnits + 40);
+    const int wide = number(0, 3) == 0 ? size / 20 + 1 : size;
+    std::array<PageVertex, 3> at;
+    for (PageVertex& v : at) {
+      const unsigned opacity = k % 3 == 2 ? unsigned(number(0, 255)) : 255;
+      v = {kTileUnits + x + number(-wide, wide), 2 * kTileUnits + y + number(-size, size), float(number(-1000, 1000)) / 1000, opacity << 24};
+      for (int shift = 0; shift < 24; shift += 8) v.color |= unsigned(number(0, int(opacity))) << shift;
+    }
+    if (number(0, 1) == 0) at[1].color = at[2].color = at[0].color;
+    const Fill fill = std::array{Fill::nearest, Fill::nearest, Fill::translucent, Fill::flat}[std::size_t(k % 3 + (k % 50 == 0 && k % 3 == 2))];
+    for (TileSamples& tile : tiles) draw_clockwise(tile, at[0], at[1], at[2], kTileUnits, 2 * kTileUnits, fill);
+    if (k % 100 != 99) continue;
+    const Resolved first(tiles.front());
+    colors.insert(colors.end(), first.pixels.begin(), first.pixels.end());
+    for (TileSamples& tile : tiles) {
+      const Resolved resolved(tile);
+      ASSERT_EQ(resolved.pixels, first.pixels) << k;
+      ASSERT_EQ(resolved.bits, first.bits) << k;
+      tile.clear();
+    }
+  }
+  std::sort(colors.begin(), colors.end());
+  EXPECT_GT(std::unique(colors.begin(), colors.end()) - colors.begin(), 1000);  // something was drawn
 }
 
 }  // namespace
