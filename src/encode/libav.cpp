@@ -5,8 +5,10 @@
 #include <array>
 #include <cstdarg>
 #include <mutex>
+#include <string_view>
 #include <utility>
 
+#include "core/loaded_libraries.hpp"
 #include "encode/library_versions.hpp"
 
 namespace chainreel {
@@ -89,6 +91,12 @@ std::vector<LibraryVersion> encode_library_versions(Writes writes) {
           {"libavformat", version_text(libav().avformat_version())},
           {"libavutil", version_text(libav().avutil_version())},
           {"libpng", png_get_libpng_ver(nullptr)}};
+}
+
+std::vector<std::string> encoder_builds() {
+  constexpr std::array<std::string_view, 3> kBehind = {"libavcodec.so", "libvpx.so", "libx264.so"};
+  libav();  // which loads them
+  return loaded_libraries(kBehind);
 }
 
 std::vector<std::string> available_encoders() {

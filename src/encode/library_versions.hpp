@@ -16,6 +16,10 @@ struct LibraryVersion {
 enum class Writes { pictures, films };
 std::vector<LibraryVersion> encode_library_versions(Writes writes = Writes::films);
 
+// Which builds of the libraries behind FFmpeg's encode films: "libx264.so.164 5f1c..", by their build ids, as these libraries tell no
+// version that names all that bytes hang on.
+std::vector<std::string> encoder_builds();
+
 // The encoders that are there, of those that the program cares for.
 std::vector<std::string> available_encoders();
 

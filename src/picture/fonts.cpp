@@ -24,6 +24,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/hash.hpp"
+#include "core/own_environment.hpp"
 #include "picture/find_font.hpp"
 #include "picture/shaping.hpp"
 #include "picture/text.hpp"
@@ -83,6 +84,10 @@ struct Fonts::State {
   std::mutex outlines;  // loading a glyph writes into the FreeType face
 
   State() {
+    // Both libraries read when they start how they are to hint and shape.
+    constexpr std::array<std::string_view, 2> kOfFonts = {"FREETYPE_PROPERTIES", "HB_"};
+    static std::once_flag once;
+    std::call_once(once, [&] { clear_variables(kOfFonts); });
     if (FT_Init_FreeType(&library) != 0) throw Error(ExitCode::no_renderer, "FreeType does not start");
   }
   State(const State&) = delete;

@@ -1,9 +1,11 @@
 #include "render/renderer_pins.hpp"
 
 #include <array>
-#include <cstdlib>
 #include <mutex>
 #include <string_view>
+#include <vector>
+
+#include "core/own_environment.hpp"
 
 namespace chainreel {
 namespace {
@@ -24,25 +26,23 @@ const std::array kPins = {
 #endif
     RendererPin{"LP_NATIVE_VECTOR_WIDTH", has_avx() ? "256" : "128"},  // bits
     RendererPin{"LIBGL_ALWAYS_SOFTWARE", "true"},  // EGL would take a graphics card
-    RendererPin{"GALLIUM_NOSSE", nullptr},
-    RendererPin{"GALLIVM_PERF", nullptr},
-    RendererPin{"LP_PERF", nullptr},
-    RendererPin{"LP_NO_RAST", nullptr},
+    RendererPin{"GALLIUM_*", nullptr}, RendererPin{"GALLIVM_*", nullptr}, RendererPin{"LP_*", nullptr},
+    RendererPin{"DRAW_*", nullptr},    RendererPin{"MESA_*", nullptr},    RendererPin{"ST_DEBUG", nullptr},
+    RendererPin{"NIR_*", nullptr},     RendererPin{"TGSI_*", nullptr},
 };
 
-std::vector<std::string>& overruled() {
-  static std::vector<std::string> settings;
-  return settings;
-}
+// Another renderer for who names one, threads, where compiled shaders are kept.
+constexpr std::array<std::string_view, 5> kKept = {"GALLIUM_DRIVER", "LP_NUM_THREADS", "MESA_SHADER_CACHE", "MESA_GLSL_CACHE",
+                                                   "MESA_DISK_CACHE"};
 
 void set_pin(const RendererPin& one) {
-  const char* const before = std::getenv(one.name);
-  if (before != nullptr && (one.value == nullptr || std::string_view(before) != one.value))
-    overruled().push_back(std::string(one.name) + "=" + before);
-  if (one.value != nullptr)
-    setenv(one.name, one.value, /*overwrite=*/1);
-  else
-    unsetenv(one.name);
+  const std::string_view name(one.name);
+  if (!name.ends_with('*')) return set_own_variable(one.name, one.value);
+  std::vector<std::string_view> kept(kKept.begin(), kKept.end());
+  for (const RendererPin& other : kPins)
+    if (other.value != nullptr) kept.emplace_back(other.name);
+  const std::array beginnings = {name.substr(0, name.size() - 1)};
+  clear_variables(beginnings, kept);
 }
 
 }  // namespace
@@ -56,11 +56,6 @@ void pin_renderer() {
   std::call_once(done, [] {
     for (const RendererPin& one : kPins) set_pin(one);
   });
-}
-
-std::vector<std::string> overruled_settings() {
-  pin_renderer();
-  return overruled();
 }
 
 }  // namespace chainreel

@@ -7,17 +7,16 @@
 //   interpolated; what shaders themselves compute is never fused. More than AVX would bring little, and more kinds of code.
 // - The width of vectors, that which belongs to these instructions: of any other, code may come out of Mesa's cache of
 //   shaders that was compiled for this one, and crashes.
-// - Switches for developers of Mesa that leave parts of a picture out, or all of it.
+// - Switches for developers of Mesa, which leave parts of a picture out, draw it as wires, by other code or never to an end. There
+//   are hundreds, so that whole families of names are cleared.
 #pragma once
 
 #include <span>
-#include <string>
-#include <vector>
 
 namespace chainreel {
 
 struct RendererPin {
-  const char* name;
+  const char* name;   // with * at its end: all that begin so, but those that are set here or change no byte
   const char* value;  // null: must not be set
 };
 
@@ -25,8 +24,5 @@ std::span<const RendererPin> renderer_pins();
 
 // Sets them for this process and what it starts, once; later calls change nothing.
 void pin_renderer();
-
-// "NAME=value" of those that the environment had otherwise; what it says of them is not followed.
-std::vector<std::string> overruled_settings();
 
 }  // namespace chainreel

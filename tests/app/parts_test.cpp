@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "core/json.hpp"
 #include "support/run_program.hpp"
@@ -181,7 +182,7 @@ TEST_F(Parts, OfAnotherFilmOrTooFewAreRefused) {
                         {.environment = {{"GALLIUM_DRIVER", "softpipe"}}})
                 .status,
             0);
-  EXPECT_THAT(trouble({first, folder.file("h.part-2-of-2.mp4")}), HasSubstr("by another renderer"));
+  EXPECT_THAT(trouble({first, folder.file("h.part-2-of-2.mp4")}), HasSubstr("it was drawn or encoded by softpipe"));
   // A part whose second half is lost, and one that is no part.
   const std::string bytes = read_whole_file(second);
   EXPECT_THAT(trouble({first, folder.write("f.mp4", bytes.substr(0, bytes.size() * 9 / 10))}), HasSubstr("3 "));
@@ -193,6 +194,10 @@ TEST_F(Parts, OfAnotherFilmOrTooFewAreRefused) {
   ASSERT_EQ(join({first, second}, folder.file("whole.mp4")).status, 0);
   EXPECT_THAT(trouble({folder.file("whole.mp4")}), HasSubstr("is no part of a film"));
   EXPECT_EQ(join({first, second}, folder.file("x.webm")).status, 2);
+  const ProgramResult renamed = join({folder.write("1.mov", read_whole_file(first)), folder.write("2.mov", bytes)}, folder.file("x.mov"));
+  EXPECT_EQ(renamed.status, 3) << "a .mov of H.264 would be none of ours";
+  EXPECT_THAT(renamed.err, HasSubstr("is not what its ending says"));
+  EXPECT_FALSE(fs::exists(folder.file("x.mov")));
   EXPECT_EQ(join({first, second}, second).status, 6) << "an output never replaces an input";
 }
 
@@ -254,7 +259,105 @@ TEST(Resume, TakesNoChunksOfAnotherScene) {
             137);
   ASSERT_EQ(run_program(with(words(folder, "B"), {"--resume"})).status, 0);
   expect_same_files(whole.path(), folder.path());
-  EXPECT_EQ(run_program(with(words(folder, "B"), {"--resume", "--force", "-o", folder.file("c.gif")})).status, 2);
+  const ProgramResult clip = run_program(with(words(folder, "B"), {"--resume", "--force", "-o", folder.file("c.gif")}));
+  EXPECT_EQ(clip.status, 2);
+  EXPECT_THAT(clip.err, testing::AllOf(HasSubstr("each of its frames builds on all before it"), HasSubstr("without --resume")));
+}
+
+// Ends the program as soon as a chunk lies in the folder.
+ProgramResult killed_behind_a_chunk(const std::string& store, const Words& words) {
+  return run_command(with({"bash", "-c", "\"$0\" \"$@\" & p=$!; while kill -0 $p 2>/dev/null; do if ls " + store +
+                                              " 2>/dev/null | grep -q '[.]chunk$'; then kill -9 $p; fi; done; wait $p",
+                           program_path()},
+                          words));
+}
+
+TEST(Resume, OfPicturesOfEveryFrameToo) {
+  const TemporaryFolder whole, folder, shares;
+  const auto words = [](const TemporaryFolder& to) {
+    return render_of("rr_ellipse", {"--set", "duration=8", "--jobs", "1", "-o", to.file("f/k_000000.png"), "-o", to.file("a.mp4")});
+  };
+  ASSERT_EQ(run_program(words(whole)).status, 0);
+  const Words resumed = with(words(folder), {"--resume"});
+  ASSERT_EQ(killed_behind_a_chunk(folder.file("f/.k_000000.png.resume"), resumed).status, 137);
+  ASSERT_EQ(run_program(resumed).status, 0);
+  expect_same_files(whole.path(), folder.path());
+  for (const char* shard : {"1/2", "2/2"})
+    ASSERT_EQ(run_program(render_of("rr_ellipse", {"--set", "duration=8", "-o", shares.file("f/k_000000.png"), "--resume", "--shard", shard}))
+                  .status,
+              0);
+  EXPECT_EQ(files_in(shares.path() / "f").size(), files_in(whole.path() / "f").size());
+  EXPECT_EQ(files_in(shares.path() / "f").at("k_000479.png"), files_in(whole.path() / "f").at("k_000479.png"));
+}
+
+TEST(Resume, LeavesNothingWhereTheFilmIsThenRenderedWithoutIt) {
+  const TemporaryFolder folder;
+  const Words words = render_of("rr_ellipse", {"--set", "duration=10", "--jobs", "1", "-o", folder.file("a.mp4")});
+  ASSERT_EQ(killed_behind_a_chunk(folder.file(".a.mp4.resume"), with(words, {"--resume"})).status, 137);
+  // Somebody's own file stays.
+  folder.write(".a.mp4.resume/my.chunk", "mine");
+  ASSERT_EQ(run_program(words).status, 0);
+  std::vector<std::string> left;
+  for (const auto& entry : fs::directory_iterator(folder.path() / ".a.mp4.resume")) left.push_back(entry.path().filename().string());
+  EXPECT_THAT(left, testing::ElementsAre("my.chunk"));
+  fs::remove_all(folder.path() / ".a.mp4.resume");
+  ASSERT_EQ(killed_behind_a_chunk(folder.file(".a.mp4.resume"), with(words, {"--resume", "--force"})).status, 137);
+  ASSERT_EQ(run_program(with(words, {"--force"})).status, 0);
+  EXPECT_FALSE(fs::exists(folder.path() / ".a.mp4.resume"));
+}
+
+// A copy of this machine's libx264 with another build id, as a newer package has; false where none is found.
+bool copy_other_x264(const TemporaryFolder& folder) {
+  const Json doctor = Json::parse(run_program({"doctor", "--json"}).out);
+  for (const Json& build : doctor["builds"]) {
+    const std::string text = build.get<std::string>(), name = text.substr(0, text.find(' ')), id = text.substr(text.find(' ') + 1);
+    if (!name.starts_with("libx264")) continue;
+    std::string bytes;
+    for (std::size_t k = 0; k + 1 < id.size(); k += 2) bytes += char(std::stoi(id.substr(k, 2), nullptr, 16));
+    for (const auto& place : fs::directory_iterator("/usr/lib")) {
+      if (!fs::exists(place.path() / name)) continue;
+      std::string library = read_whole_file((place.path() / name).string());
+      const std::size_t at = library.find(bytes);
+      if (at == std::string::npos) continue;
+      library[at] ^= 1;
+      folder.write(name, library);
+      return true;
+    }
+  }
+  return false;
+}
+
+// No version tells of the encoder behind FFmpeg.
+TEST(Resume, TakesNoChunksOfAnotherEncoderAndPartsOfItAreNotJoined) {
+  const TemporaryFolder library, folder;
+  if (!copy_other_x264(library)) GTEST_SKIP() << "no libx264 with a build id lies below /usr/lib";
+  const RunOptions other{.folder = "", .environment = {{"LD_LIBRARY_PATH", library.path().string()}}};
+  const Words film = render_of("rr_ellipse", {"-o", folder.file("a.mp4")});
+  ASSERT_EQ(run_program(with(film, {"--shard", "1/2"})).status, 0);
+  ASSERT_EQ(run_program(with(film, {"--shard", "2/2"}), other).status, 0);
+  const ProgramResult joined =
+      run_program({"join", folder.file("a.part-1-of-2.mp4"), folder.file("a.part-2-of-2.mp4"), "-o", folder.file("a.mp4")});
+  EXPECT_EQ(joined.status, 3);
+  EXPECT_THAT(joined.err, HasSubstr("it was drawn or encoded by libx264"));
+  // Chunks of a killed run are taken away by one with the other encoder, and found by one with the same.
+  const Words longer = render_of("rr_ellipse", {"--set", "duration=10", "--jobs", "1", "--resume", "--force", "-o", folder.file("a.mp4")});
+  ASSERT_EQ(killed_behind_a_chunk(folder.file(".a.mp4.resume"), longer).status, 137);
+  const auto kept = [&] {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder.path() / ".a.mp4.resume"))
+      if (entry.path().extension() == ".chunk") names.insert(entry.path().filename().string());
+    return names;
+  };
+  const std::set<std::string> before = kept();
+  const std::string first = *before.begin();
+  ASSERT_EQ(run_command(with({"bash", "-c", "\"$0\" \"$@\" & p=$!; while kill -0 $p 2>/dev/null && [ -e " +
+                                                folder.file(".a.mp4.resume/" + first) + " ]; do :; done; kill -9 $p; wait $p",
+                              program_path()},
+                             longer),
+                        other)
+                .status,
+            137);
+  EXPECT_FALSE(kept().contains(first));
 }
 
 }  // namespace

@@ -105,6 +105,48 @@ TEST(SweepTable, GoesOnBehindTheLastWholeRow) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1) << "nothing is left";
 }
 
+// As a disk leaves them that lost power, and as no killed run does.
+TEST(SweepTable, TakesRowsOnlyUpToTheFirstThatIsNotItsOwn) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(sweep(folder.file("a.csv")).status, 0);
+  const std::string whole = read_whole_file(folder.file("a.csv"));
+  const std::size_t third = whole.find("\n2,") + 1, fourth = whole.find("\n3,") + 1, fifth = whole.find("\n4,") + 1;
+  std::string zeros = whole.substr(0, fifth);
+  zeros.replace(third + 4, 8, std::string(8, '\0'));
+  for (const std::string& left : {whole.substr(0, third) + whole.substr(fourth), whole.substr(0, fourth) + whole.substr(third), zeros}) {
+    fs::remove(folder.file("a.csv"));
+    folder.write(".a.csv.rows", left);
+    ASSERT_EQ(sweep(folder.file("a.csv")).status, 0);
+    EXPECT_EQ(read_whole_file(folder.file("a.csv")), whole);
+  }
+  folder.write("a.csv", whole.substr(0, third) + whole.substr(fourth) + whole.substr(whole.rfind("\n7,") + 1));
+  EXPECT_EQ(sweep(folder.file("a.csv")).status, 6) << "a table of the right length that misses a run";
+  // Rows are kept over nothing that is somebody's.
+  folder.write(".b.csv.rows", "mine");
+  const ProgramResult result = sweep(folder.file("b.csv"));
+  EXPECT_EQ(result.status, 6);
+  EXPECT_THAT(result.err, HasSubstr("this program did not write it"));
+  EXPECT_EQ(read_whole_file(folder.file(".b.csv.rows")), "mine");
+}
+
+TEST(SweepTable, TakesValuesThatAreListsAndHoldNamesOfFiles) {
+  const TemporaryFolder folder;
+  folder.write("a.csv", "t,tau1,tau2\n0,1,2\n9,3,1\n");
+  folder.write("b.csv", "t,tau1,tau2\n0,0,0\n9,0,0\n");
+  folder.write("m.urdf", read_whole_file("models/rr.urdf"));
+  const std::string scene = folder.write("s.yaml", "model: m.urdf\nmethod: rk4\nstep: 0.01\nduration: 0.1\n");
+  const Words words{"sweep", scene, "--over", "torque={csv: a.csv},{csv: \"b.csv\"},[\"max(t, 1)\", 0],[0]", "-o", folder.file("t.csv")};
+  const ProgramResult result = run_program(words);
+  EXPECT_EQ(result.status, 5) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("1 of the runs failed, first at torque=[0]")) << "commas of a value are none of the row's";
+  const std::vector<std::string> lines = lines_of(folder.file("t.csv"));
+  ASSERT_EQ(lines.size(), 8u);
+  EXPECT_THAT(lines[4], HasSubstr("0,{csv: a.csv},1,finished"));
+  EXPECT_THAT(lines[6], HasSubstr("2,\"[\"\"max(t, 1)\"\", 0]\",1,finished"));
+  folder.write("b.csv", "t,tau1,tau2\n0,0,0\n9,0,8\n");
+  EXPECT_EQ(run_program(words).status, 6) << "its rows are of another torque";
+}
+
 TEST(SweepTable, RunsThatFailAreRowsAndToldAtTheEnd) {
   const TemporaryFolder folder;
   const ProgramResult result =
@@ -177,6 +219,36 @@ TEST(SweepFolder, MakesAnewWhatShowsAnythingElse) {
   EXPECT_THAT(made(png), HasSubstr("1 of them done before"));
   EXPECT_TRUE(fs::exists(folder.file("out/s_start.q.1_1.json")));
   EXPECT_THAT(made(with(png, {"--at", "5"})), HasSubstr("outside the duration"));
+}
+
+TEST(SweepFolder, MakesAnewWhatWasCutOffOrLostItsWords) {
+  const TemporaryFolder folder;
+  Words words{"--over", "start.q.1=0,1", "--set", "duration=0.2", "--set", "video.width=96", "--set", "video.height=54"};
+  for (const char* kind : {"mp4", "mov", "webm", "png", "apng", "svg"}) words = with(words, {"--each", kind});
+  const std::string runs = folder.file("runs/");
+  ASSERT_EQ(sweep(runs, words).status, 0);
+  for (const char* ending : {"mp4", "mov", "webm", "png", "apng", "svg", "txt"}) {
+    const std::string path = runs + "rr_free_start.q.1_1." + ending, bytes = read_whole_file(path);
+    if (std::string(ending) == "txt")
+      fs::remove(path);
+    else
+      fs::resize_file(path, bytes.size() * 2 / 3);
+    const ProgramResult result = sweep(runs, words);
+    EXPECT_EQ(result.status, 0) << ending << result.err;
+    EXPECT_THAT(result.out, HasSubstr("1 of them done before")) << ending;
+    EXPECT_TRUE(read_whole_file(path) == bytes) << ending;
+    EXPECT_THAT(sweep(runs, words).out, HasSubstr("2 of them done before")) << ending;
+  }
+}
+
+TEST(SweepFolder, SaysWhichRunIsDoubtful) {
+  const TemporaryFolder folder;
+  const ProgramResult result = sweep(folder.file("runs/"), {"--over", "start.q.1=0:1:7", "--each", "csv", "--set", "duration=0.2", "--set",
+                                                            "method=explicit_euler", "--set", "step=0.01", "--quiet"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, HasSubstr("WARNING: start.q.1=0")) << result.err;
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 6) << "five, and how many more: " << result.err;
+  EXPECT_THAT(result.err, HasSubstr("2 more runs are as doubtful"));
 }
 
 TEST(SweepFolder, OfTwoAtOnceIsThatOfOne) {
@@ -253,6 +325,7 @@ TEST(Sweep, SaysWhatItCannotDoBeforeTheFirstRun) {
   EXPECT_THAT(trouble(with(over, {"-o", folder.file("f/"), "--each", "png", "--each", "png"})), HasSubstr("twice"));
   EXPECT_THAT(trouble(with(with(over, over), {"-o", folder.file("a.csv")})), HasSubstr("varies already"));
   EXPECT_THAT(trouble({"--over", "a=0:1:9999", "--over", "b=0:1:9999", "--over", "c=0:1:9999"}), HasSubstr("7 "));
+  EXPECT_THAT(trouble({"--over", "title=" + std::string(300, 'x') + ",b", "-o", folder.file("f/")}), HasSubstr("names of more than"));
   EXPECT_THAT(trouble({"--over", "nothing=0,1", "-o", folder.file("a.csv")}), HasSubstr("3 "));
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }

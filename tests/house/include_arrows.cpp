@@ -10,8 +10,8 @@ namespace {
 
 // POSIX, the compiler and the processor: open to every folder.
 const std::set<std::string> kSystemHeaders = {
-    "cpuid.h",        "dlfcn.h",    "emmintrin.h", "fcntl.h",    "fnmatch.h",    "immintrin.h", "malloc.h", "poll.h",
-    "pthread.h",      "quadmath.h", "sched.h",     "signal.h",   "spawn.h",     "sys/mman.h",
+    "cpuid.h",        "dlfcn.h",    "elf.h",      "emmintrin.h", "fcntl.h",    "fnmatch.h",    "immintrin.h", "malloc.h", "poll.h",
+    "link.h",         "pthread.h",      "quadmath.h", "sched.h",     "signal.h",   "spawn.h",     "sys/mman.h",
     "linux/fs.h",     "sys/auxv.h", "sys/file.h", "sys/syscall.h", "sys/random.h", "sys/resource.h", "sys/stat.h", "sys/types.h", "sys/wait.h", "unistd.h"};
 
 bool is_standard_or_system(const std::string& header) {

@@ -31,6 +31,16 @@ TEST(Sweep, TakesListsOfWordsAndNumbers) {
   EXPECT_THAT(parse_sweep("torque.1=1,-2.5", "--x").numbers, ElementsAre(1, -2.5));
 }
 
+TEST(Sweep, CommasAndColonsWithinBracketsAndQuotesBelongToAValue) {
+  EXPECT_THAT(parse_sweep("start.q=[0, 1],[2,3]", "--x").values, ElementsAre("[0, 1]", "[2,3]"));
+  EXPECT_THAT(parse_sweep("torque={csv: a.csv},[\"max(t, 1)\", 0],0", "--x").values,
+              ElementsAre("{csv: a.csv}", "[\"max(t, 1)\", 0]", "0"));
+  EXPECT_THAT(parse_sweep("title='a, b: c',d", "--x").values, ElementsAre("'a, b: c'", "d"));
+  EXPECT_EQ(parse_sweep("step=max(1, 2):3:2", "--x").numbers.size(), 2u);
+  // What does not close is words.
+  EXPECT_THAT(parse_sweep("title=don't,f(x,]", "--x").values, ElementsAre("don't", "f(x", "]"));
+}
+
 TEST(Sweep, RangesHoldBothEndsAndEqualDistances) {
   const Sweep range = parse_sweep("parameters.k=0:90deg:4", "--x");
   ASSERT_EQ(range.numbers.size(), 4u);

@@ -9,6 +9,7 @@
 #include "app/cli/result.hpp"
 #include "app/report/report.hpp"
 #include "core/error.hpp"
+#include "core/own_environment.hpp"
 #include "encode/library_versions.hpp"
 #include "picture/text.hpp"
 #include "render/canvas.hpp"
@@ -36,7 +37,7 @@ void examine_fonts(Examination& examination) {
         {"backend", info.backend}, {"renderer", info.renderer}, {"version", info.version}};
     for (const RendererPin& pin : renderer_pins())
       examination.report["renderer"]["pinned"][pin.name] = pin.value == nullptr ? Json() : Json(pin.value);
-    examination.report["renderer"]["overruled"] = overruled_settings();
+    examination.report["renderer"]["overruled"] = overruled_variables();
   } catch (const Error& error) {
     examination.missing.insert(examination.missing.end(), error.problems().begin(), error.problems().end());
   }
@@ -45,6 +46,7 @@ void examine_fonts(Examination& examination) {
 void examine_encoders(Examination& examination) {
   const std::vector<std::string> encoders = available_encoders();
   examination.report["encoders"] = encoders;
+  examination.report["builds"] = encoder_builds();
   if (std::find(encoders.begin(), encoders.end(), "libx264") == encoders.end())
     examination.missing.push_back(
         {"no H.264 encoder: install Debian's libavcodec with libx264 (package libavcodec59)", {}});
@@ -55,7 +57,7 @@ void print_renderer(const Json& renderer) {
   std::printf("renderer  %s, %s, OpenGL %s\n", renderer["backend"].get<std::string>().c_str(),
               renderer["renderer"].get<std::string>().c_str(), renderer["version"].get<std::string>().c_str());
   for (const auto& [name, value] : renderer["pinned"].items())
-    std::printf("pinned    %s\n", value.is_null() ? (name + " not set").c_str() : (name + "=" + value.get<std::string>()).c_str());
+    std::printf("pinned    %s\n", value.is_null() ? ((name.ends_with('*') ? "no other " + name : name + " not set")).c_str() : (name + "=" + value.get<std::string>()).c_str());
   for (const Json& setting : renderer["overruled"])
     std::printf("overruled %s of the environment: pictures would have other bytes\n", setting.get<std::string>().c_str());
 }
@@ -75,6 +77,8 @@ void run_doctor(const CommonOptions& options) {
         std::printf("font      %-10s %s\n", name.c_str(), font["file"].get<std::string>().c_str());
     for (const Json& encoder : report["encoders"])
       std::printf("encoder   %s\n", encoder.get<std::string>().c_str());
+    for (const Json& build : report["builds"])
+      std::printf("build     %s\n", build.get<std::string>().c_str());
     for (const auto& [name, version] : report["versions"].items())
       std::printf("version   %-14s %s\n", name.c_str(), version.get<std::string>().c_str());
   }

@@ -9,6 +9,7 @@
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/sweep_table.hpp"
+#include "app/film/formats.hpp"
 #include "app/report/sidecar.hpp"
 #include "app/works/part.hpp"
 #include "core/error.hpp"
@@ -49,6 +50,12 @@ Part read_part(const std::string& path) {
   return part;
 }
 
+// The first in the lists that is not the same.
+std::string other_library(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  const auto [mine, others] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  return (others == b.end() ? "nothing more" : *others) + ", not " + (mine == a.end() ? "nothing more" : *mine);
+}
+
 // What two parts of one film say alike, in the order in which it is worth telling.
 void require_same_film(const Part& a, const Part& b) {
   const auto differ = [&](const std::string& what) {
@@ -65,10 +72,12 @@ void require_same_film(const Part& a, const Part& b) {
   if (a.facts.program != b.facts.program)
     differ("it was rendered by chainreel " + b.facts.program + ", not " + a.facts.program);
   if (word(a, "versions") != word(b, "versions")) differ("it was rendered with other versions of libraries");
+  if (a.facts.libraries != b.facts.libraries)
+    differ("it was drawn or encoded by " + other_library(a.facts.libraries, b.facts.libraries));
   if (word(a, "style") != word(b, "style")) differ("its style's logo or font files are others");
   if (a.tags != b.tags) differ("its scene differs");
   if (a.facts.film_sha256 != b.facts.film_sha256 || a.facts.audit != b.facts.audit)
-    differ("it was rendered with other meshes or fonts, or by another renderer (GALLIUM_DRIVER)");
+    differ("it was rendered with other meshes or fonts");
 }
 
 // In the order of the film, each frame once.
@@ -124,6 +133,8 @@ void write_film(const std::vector<Part>& parts, const std::string& path) {
     PacketReader reader(part.path, settings.fps);
     if (!writer) {
       settings.codec = reader.codec();
+      if (const OutputFormat* format = find_output_format(part.path); format == nullptr || format->codec != settings.codec)
+        throw Error(ExitCode::bad_input, "is not what its ending says: give it back the one that it was rendered with", {part.path});
       head = reader.head();
       writer = std::make_unique<FilmWriter>(path, settings, head);
     } else if (reader.codec() != settings.codec || reader.head() != head) {

@@ -77,9 +77,10 @@ void make_parts(std::vector<Target>& targets, const PartRequest& part) {
 
 void require_resumable(const std::vector<Target>& targets) {
   for (const Target& target : targets)
-    if (target.format->shows == Shows::motion && !target.format->codec)
-      throw Error(ExitCode::usage, target.path + ": --resume is for films: .mp4, .webm and .mov" +
-                                       (target.format->is_sequence ? "; render the frames that are missing with --frames A:B" : ""));
+    if (target.format->make_clip != nullptr)
+      throw Error(ExitCode::usage, target.path + ": --resume keeps finished chunks, which such a clip has none of: each of its frames "
+                                                 "builds on all before it; render it without --resume, or render the film " +
+                                       "as .mp4, .webm, .mov or NAME_000000.png");
 }
 
 std::vector<RenderJob> jobs_of(const RenderOptions& options, const std::vector<PreparedFilm>& films) {
@@ -163,8 +164,8 @@ void add_render_command(CommandLine& app) {
   command->add_option("--shard", options->shard,
                       "an equal share of the film, like 3/8: NAME.part-3-of-8.mp4; slurm: that of the array job's task");
   command->add_flag("--resume", options->resume,
-                    "keep finished chunks of films in a hidden folder beside them until they are whole, and go on from those of a "
-                    "run that was killed");
+                    "keep finished chunks of films and sequences in a hidden folder beside them until they are whole, and go on "
+                    "from those of a run that was killed");
   add_vary_option(*command, options->vary);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);

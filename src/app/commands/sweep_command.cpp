@@ -26,6 +26,7 @@
 #include "core/input_file.hpp"
 #include "core/machine.hpp"
 #include "core/parallel.hpp"
+#include "encode/cut_off.hpp"
 #include "scene/quantity.hpp"
 #include "scene/text/picture_names.hpp"
 #include "scene/text/scene_paths.hpp"
@@ -39,7 +40,8 @@ constexpr std::size_t kMostFiles = 1'000'000;
 constexpr std::uintmax_t kLargestTable = std::uintmax_t(1) << 32;  // bytes
 constexpr int kLooks = 20;
 constexpr std::chrono::milliseconds kBetweenLooks(50);
-constexpr std::size_t kMostTold = 5;  // runs that failed
+constexpr std::size_t kMostTold = 5;  // runs that failed, and runs that are doubtful
+constexpr std::size_t kLongestName = 255 - 16;  // bytes of a file's name, with room for its ending and .partial
 
 struct SweepOptions {
   std::string scene;
@@ -83,6 +85,11 @@ std::string name_of(const std::string& scene, const Grid& grid, std::size_t run)
 bool is_there(const std::string& path) {
   std::error_code code;
   return fs::exists(path, code);
+}
+
+bool has_sidecars(const Target& target) {
+  const fs::path path(target.path);
+  return is_there(fs::path(path).replace_extension(".json").string()) && is_there(fs::path(path).replace_extension(".txt").string());
 }
 
 // What a run's files say of themselves, to tell those that are there already.
@@ -170,6 +177,8 @@ class FilmsOfGrid {
       if (ticker.is_due())
         ticker.say(std::to_string(outcome_.done + outcome_.skipped + outcome_.failed) + " of " + std::to_string(count) + " runs");
     });
+    if (doubtful_ > kMostTold)
+      tell_warnings({std::to_string(doubtful_ - kMostTold) + " more runs are as doubtful: `warnings` in their .json says why"});
     return outcome_;
   }
 
@@ -182,6 +191,11 @@ class FilmsOfGrid {
     for (std::size_t k = 0; k < count; ++k)
       if (const std::string name = name_of("", grid_, k); !names.insert(name).second)
         throw Error(ExitCode::usage, "two runs would both be written to " + name + ": values of --over are too much alike");
+    const auto longest = std::max_element(names.begin(), names.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    const std::string scene = fs::path(options_.scene).stem().string();
+    if (scene.size() + longest->size() > kLongestName)
+      throw Error(ExitCode::usage, "a run's files would have names of more than " + std::to_string(kLongestName) +
+                                       " bytes, like " + scene + longest->substr(0, 60) + "..: give shorter values to --over, or take -o TABLE.csv");
   }
 
   // Whether all its files were there.
@@ -199,7 +213,8 @@ class FilmsOfGrid {
       if (is_there(is_table ? panel_table_path(target.path, 0, film.panels.size() == 1) : target.path)) {
         if (!expected) expected.emplace(film, at_);
         const bool is_ours = expected->is(target);
-        if (is_ours && is_there(FilesOfRun::audit_beside(target))) continue;
+        // What was cut off since, or has lost its words, is made again.
+        if (is_ours && has_sidecars(target) && !is_cut_off(target.path)) continue;
         are_ours = are_ours && is_ours;
       }
       job.targets.push_back(std::move(target));
@@ -210,8 +225,9 @@ class FilmsOfGrid {
     // Of a run that was killed between its files the first ones are made again.
     job.overwrite = options_.common.force || (expected && are_ours);
     job.quiet = true;
+    job.tells = false;
     try {
-      render_film(film, job);
+      tell_doubts(run, render_film(film, job).warnings);
     } catch (const Error& error) {
       // Another sweep over the same folder may have been quicker; its audit comes last.
       if (error.code() != ExitCode::file) throw;
@@ -243,6 +259,14 @@ class FilmsOfGrid {
     }
   }
 
+  // Which of the runs it is; the audits beside the files tell of all.
+  void tell_doubts(std::size_t run, const std::vector<std::string>& warnings) {
+    if (warnings.empty()) return;
+    const std::lock_guard guard(lock_);
+    if (doubtful_++ >= kMostTold) return;
+    for (const std::string& warning : warnings) tell_warnings({joined(grid_.settings(run), " ") + ": " + warning});
+  }
+
   void has_failed(std::size_t run, const std::string& why) {
     const std::lock_guard guard(lock_);
     const std::string line = joined(grid_.settings(run), " ") + ": " + why;
@@ -259,6 +283,7 @@ class FilmsOfGrid {
   double at_;
   std::mutex lock_;
   SweepOutcome outcome_;
+  std::size_t doubtful_ = 0;
 };
 
 std::string with_suffix(const std::string& path, const std::string& suffix) {

@@ -47,7 +47,7 @@ Scene scene_of(SceneFile& file, const std::vector<std::string>& overrides) {
 
 // A value as a cell: what is no number may hold anything.
 std::string cell_of(const std::string& value) {
-  return value.find_first_of("\"\n\r") == std::string::npos ? value : csv_words(value);
+  return value.find_first_of(",\"\n\r") == std::string::npos ? value : csv_words(value);
 }
 
 // What a thread computes rows with.
@@ -100,14 +100,24 @@ class RowMaker {
   std::size_t events_;
 };
 
-// Where values name files, these, as the scene finds them.
+// Where values are or hold names of files, as in {csv: tau.csv}, these, as the scene finds them.
 std::vector<std::string> files_named(const SweepTableJob& job) {
   std::vector<std::string> files;
-  std::error_code code;
+  const auto look = [&](const std::string& name) {
+    std::error_code code;
+    if (const fs::path file = fs::path(job.scene).parent_path() / name; !name.empty() && fs::is_regular_file(file, code))
+      files.push_back(file.string());
+  };
   for (const Sweep& axis : job.grid.axes())
-    for (const std::string& value : axis.numbers.empty() ? axis.values : std::vector<std::string>{})
-      if (const fs::path file = fs::path(job.scene).parent_path() / value; fs::is_regular_file(file, code))
-        files.push_back(file.string());
+    for (const std::string& value : axis.numbers.empty() ? axis.values : std::vector<std::string>{}) {
+      look(value);
+      constexpr const char* kAround = " \t{}[],:\"'";
+      for (std::size_t begin = 0; (begin = value.find_first_not_of(kAround, begin)) != std::string::npos;) {
+        const std::size_t end = std::min(value.find_first_of(kAround, begin), value.size());
+        if (end - begin < value.size()) look(value.substr(begin, end - begin));
+        begin = end;
+      }
+    }
   return files;
 }
 
@@ -141,15 +151,22 @@ std::string head_of(const SweepTableJob& job, const Scene& first, const std::str
   return head + ",trouble\n";
 }
 
+// Where the comma behind the cell that begins there stands; commas in quotes are none.
+std::size_t end_of_cell(const std::string& row, std::size_t begin) {
+  bool is_quoted = false;
+  for (; begin < row.size() && (is_quoted || row[begin] != ','); ++begin) is_quoted = is_quoted != (row[begin] == '"');
+  return begin;
+}
+
 // Counts what failed, and keeps what the first in the grid's order says.
 class Failures {
  public:
   explicit Failures(const Grid& grid) : grid_(grid) {}
 
   void look(const std::string& row) {
-    std::size_t comma = row.find(',');
-    for (std::size_t k = 0; k < grid_.axes().size() && comma != std::string::npos; ++k) comma = row.find(',', comma + 1);
-    if (comma == std::string::npos || row.compare(comma, 3, ",0,") != 0) return;
+    std::size_t comma = end_of_cell(row, 0);
+    for (std::size_t k = 0; k < grid_.axes().size() && comma < row.size(); ++k) comma = end_of_cell(row, comma + 1);
+    if (comma >= row.size() || row.compare(comma, 3, ",0,") != 0) return;
     const std::lock_guard guard(lock_);
     ++outcome_.failed;
     const std::size_t run = std::strtoull(row.c_str(), nullptr, 10);
@@ -179,7 +196,8 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
   require_possible(simulation, double(job.runs.behind - job.runs.first));
   const std::string states = state_names(simulation.chain);
 
-  GrowingTable table(job.path, head_of(job, first, states), std::size_t(job.runs.behind - job.runs.first), job.overwrite);
+  GrowingTable table(job.path, head_of(job, first, states), std::size_t(job.runs.first),
+                     std::size_t(job.runs.behind - job.runs.first), job.overwrite);
   Failures failures(job.grid);
   table.for_each_before([&](const std::string& row) { failures.look(row); });
   SweepOutcome outcome;

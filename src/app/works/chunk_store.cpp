@@ -11,6 +11,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string_view>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
@@ -22,7 +24,8 @@ namespace {
 
 constexpr std::string_view kHead = "chainreel chunk 1\n";
 constexpr const char* kEnding = ".chunk";
-constexpr std::size_t kHash = 64;  // hexadecimal digits
+constexpr std::size_t kHash = 64;       // hexadecimal digits
+constexpr std::size_t kKeyInName = 16;  // of them
 
 void put(std::string& bytes, std::int64_t number) {
   for (int k = 0; k < 8; ++k) bytes += char(std::uint64_t(number) >> (8 * k));
@@ -87,6 +90,27 @@ fs::path folder_beside(const fs::path& film) {
   return film.parent_path() / ("." + film.filename().string() + ".resume");
 }
 
+// FIRST-BEHIND-KEY.chunk; what else lies there is somebody's.
+bool is_chunk(const std::string& name) {
+  const std::size_t one = name.find('-'), two = name.find('-', one + 1);
+  const auto are_all = [](std::string_view text, const char* of) {
+    return !text.empty() && text.find_first_not_of(of) == std::string_view::npos;
+  };
+  if (one == std::string::npos || two == std::string::npos || !name.ends_with(kEnding)) return false;
+  const std::string_view text(name);
+  return name.size() == two + 1 + kKeyInName + std::string_view(kEnding).size() && are_all(text.substr(0, one), "0123456789") &&
+         are_all(text.substr(one + 1, two - one - 1), "0123456789") && are_all(text.substr(two + 1, kKeyInName), "0123456789abcdef");
+}
+
+template <class Wanted>
+void remove_chunks(const std::string& folder, const Wanted& is_wanted) {
+  std::error_code code, ignored;
+  std::vector<fs::path> chunks;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
+    if (const std::string name = entry.path().filename().string(); is_chunk(name) && is_wanted(name)) chunks.push_back(entry.path());
+  for (const fs::path& chunk : chunks) fs::remove(chunk, ignored);
+}
+
 }  // namespace
 
 ChunkStore::ChunkStore(const std::string& film, std::string key)
@@ -102,11 +126,7 @@ ChunkStore::ChunkStore(const std::string& film, std::string key)
     throw Error(ExitCode::file, "is being rendered by another process with --resume", {film_});
   }
   remove_leftovers(folder_);
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, code)) {
-    const std::string name = entry.path().filename().string();
-    std::error_code ignored;
-    if (name.ends_with(kEnding) && name.find(key_.substr(0, 16)) == std::string::npos) fs::remove(entry.path(), ignored);
-  }
+  remove_chunks(folder_, [&](const std::string& name) { return name.find(key_.substr(0, kKeyInName)) == std::string::npos; });
 }
 
 ChunkStore::~ChunkStore() {
@@ -114,7 +134,7 @@ ChunkStore::~ChunkStore() {
 }
 
 std::string ChunkStore::path_of(int first, int behind) const {
-  return (fs::path(folder_) / (std::to_string(first) + "-" + std::to_string(behind) + "-" + key_.substr(0, 16) + kEnding))
+  return (fs::path(folder_) / (std::to_string(first) + "-" + std::to_string(behind) + "-" + key_.substr(0, kKeyInName) + kEnding))
       .string();
 }
 
@@ -143,11 +163,17 @@ void ChunkStore::keep(int first, int behind, const FilmChunk& chunk) const {
   file.let_go();
 }
 
-void ChunkStore::clear() {
-  std::error_code code, ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, code))
-    if (entry.path().filename().string().ends_with(kEnding)) fs::remove(entry.path(), ignored);
-  fs::remove(folder_, ignored);  // unless somebody put something else there
+void ChunkStore::forget(const std::string& film) {
+  const std::string folder = folder_beside(film).string();
+  const int lock = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (lock < 0) return;
+  if (flock(lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
+    remove_leftovers(folder);
+    remove_chunks(folder, [](const std::string&) { return true; });
+    std::error_code ignored;
+    fs::remove(folder, ignored);  // unless somebody put something else there
+  }
+  close(lock);
 }
 
 }  // namespace chainreel

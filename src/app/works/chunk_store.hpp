@@ -22,8 +22,8 @@ class ChunkStore {
   std::optional<FilmChunk> find(int first, int behind) const;
   // Throws Error (exit 6).
   void keep(int first, int behind, const FilmChunk& chunk) const;
-  // The film is whole: nothing stays.
-  void clear();
+  // The film is whole: nothing stays of what any run kept for it, unless another process is at it.
+  static void forget(const std::string& film);
 
  private:
   std::string path_of(int first, int behind) const;

@@ -2,15 +2,21 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <mutex>
 #include <optional>
 
 #include "app/cli/streams.hpp"
 #include "app/works/joined_film.hpp"
+#include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/input_file.hpp"
 #include "core/machine.hpp"
 #include "core/parallel.hpp"
+#include "core/temporary_file.hpp"
 #include "encode/png.hpp"
 #include "render/canvas.hpp"
 
@@ -33,6 +39,39 @@ std::string chunk_key(const VideoSettings& s, const std::string& film_key) {
   static const std::string program = sha256_of_file("/proc/self/exe");
   const Json json{s.width, s.height, s.fps.num, s.fps.den, crf_of(s), int(s.codec), s.alpha};
   return sha256_of(program + film_key + json.dump());
+}
+
+// What chunks are kept beside. Parts of a sequence go into one folder, and have a store each.
+std::string store_place(const Output& output, FrameRange range, int frames) {
+  const bool is_share = output.folder && (range.first > 0 || range.behind < frames);
+  return output.target.path + (is_share ? "." + std::to_string(range.first) + "-" + std::to_string(range.behind) : "");
+}
+
+// The pictures of a sequence from frame `first` to the one before `behind`: where they are being written.
+std::vector<std::string> picture_paths(const Output& output, int first, int behind) {
+  std::vector<std::string> paths;
+  for (int frame = first; frame < behind; ++frame)
+    paths.push_back((std::filesystem::path(output.folder->temporary_folder()) /
+                     PngSequence::file_name(place_of_sequence(output.target.path).stem, frame))
+                        .string());
+  return paths;
+}
+
+// They are kept like the packets of a film, a file each.
+FilmChunk chunk_of_pictures(const std::vector<std::string>& paths) {
+  FilmChunk chunk{int(paths.size()), {}};
+  for (const std::string& path : paths)
+    chunk.packets.push_back({.data = read_plain_file(path), .opacity = "", .pts = std::int64_t(chunk.packets.size()), .is_key = true});
+  return chunk;
+}
+
+void write_pictures(const FilmChunk& chunk, const std::vector<std::string>& paths) {
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    std::ofstream stream(paths[k], std::ios::binary);
+    stream << chunk.packets[k].data;
+    stream.close();
+    if (!stream) throw Error(ExitCode::file, with_final_names(paths[k] + ": could not be written whole: is the disk full?"));
+  }
 }
 
 // What lies under all frames. The renderer, which takes more memory than all else, goes when this is drawn.
@@ -105,6 +144,7 @@ class Workshop {
   const FilmWork& work_;
   std::vector<Output>& outputs_;
   std::vector<std::unique_ptr<JoinedFilm>> films_;  // beside the outputs; none of what is no film
+  std::vector<std::unique_ptr<const ChunkStore>> pictures_;  // likewise: of sequences, where finished chunks are kept
   std::vector<int> bounds_;                         // of the chunks
   std::vector<Piece> pieces_;
   Tags tags_;
@@ -121,9 +161,13 @@ Workshop::Workshop(const FilmWork& work, std::vector<Output>& outputs)
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const OutputFormat& format = *outputs[i].target.format;
     films_.emplace_back();
+    pictures_.emplace_back();
     has_stills = has_stills || format.shows == Shows::still;
     if (format.shows != Shows::motion) continue;
     if (format.codec && work.tapes == nullptr) films_.back() = joined_film(outputs[i]);
+    if (outputs[i].folder && !work.film_key.empty())
+      pictures_.back() = std::make_unique<ChunkStore>(store_place(outputs[i], work.range, work.schedule.total()),
+                                                      chunk_key(settings_of(format, work.scene, tags_), work.film_key));
     has_chunks = has_chunks || format.codec || format.is_sequence;
     if (format.make_clip == nullptr) continue;
     pieces_.push_back({Kind::clip, i});  // first, as they take longest
@@ -182,6 +226,7 @@ void Workshop::run(StageTimes& times) {
   for (const auto& film : films_)
     if (film) film->finish();
   films_.clear();
+  pictures_.clear();
   for (const Output& output : outputs_)
     if (output.target.format->codec && !work_.part.empty()) seal_part(output.temporary_path(), output.target.path);
   times.mux += clock.lap();
@@ -240,6 +285,7 @@ void Workshop::draw_chunk(std::size_t index, Pen& pen) {
   const int first = bounds_[index], behind = bounds_[index + 1];
   std::vector<std::unique_ptr<FrameSink>> sinks;
   std::vector<std::pair<JoinedFilm*, ChunkEncoder*>> encoders;
+  std::vector<std::size_t> sequences;  // which outputs
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     const Output& output = outputs_[i];
     JoinedFilm* const film = films_[i].get();
@@ -256,6 +302,12 @@ void Workshop::draw_chunk(std::size_t index, Pen& pen) {
       sinks.push_back(std::make_unique<ChunkEncoder>(settings_of(*output.target.format, work_.scene, tags_),
                                                      &(*work_.tapes)[index]));
     } else if (output.folder) {
+      if (pictures_[i])
+        if (const std::optional<FilmChunk> kept = pictures_[i]->find(first, behind)) {
+          write_pictures(*kept, picture_paths(output, first, behind));
+          continue;
+        }
+      sequences.push_back(i);
       sinks.push_back(std::make_unique<PngSequence>(
           output.folder->temporary_folder(), place_of_sequence(output.target.path).stem, tags_, first));
     }
@@ -276,6 +328,8 @@ void Workshop::draw_chunk(std::size_t index, Pen& pen) {
     if (film->store() != nullptr) film->store()->keep(first, behind, chunk);
     film->take(index, std::move(chunk));
   }
+  for (const std::size_t i : sequences)
+    if (pictures_[i]) pictures_[i]->keep(first, behind, chunk_of_pictures(picture_paths(outputs_[i], first, behind)));
   pen.times.mux += pen.clock.lap();
 }
 
@@ -326,9 +380,9 @@ void draw_film(const FilmWork& work, std::vector<Output>& outputs, StageTimes& t
   Workshop(work, outputs).run(times);
 }
 
-void forget_chunks(const std::vector<Output>& outputs) {
+void forget_chunks(const std::vector<Output>& outputs, FrameRange range, int frames) {
   for (const Output& output : outputs)
-    if (output.target.format->codec) ChunkStore(output.target.path, std::string(64, '0')).clear();
+    if (output.target.format->codec || output.folder) ChunkStore::forget(store_place(output, range, frames));
 }
 
 }  // namespace chainreel

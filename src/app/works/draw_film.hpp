@@ -63,10 +63,10 @@ FilmCuts cuts_of(const std::vector<Output>& outputs, int frames, FrameRate fps);
 int affordable_jobs(int wanted, const Scene& scene, const std::vector<Output>& outputs);
 
 // All that the outputs show, whole under their temporary names. The first error of a thread ends all of them and is thrown,
-// as is the signal's. With a key, films are begun where a killed run of the program left them; what is kept for that goes
-// by forget_chunks().
+// as is the signal's. With a key, films and sequences of pictures are begun where a killed run of the program left them; what is
+// kept for that, now or by earlier runs, goes by forget_chunks().
 void draw_film(const FilmWork& work, std::vector<Output>& outputs, StageTimes& times);
-void forget_chunks(const std::vector<Output>& outputs);
+void forget_chunks(const std::vector<Output>& outputs, FrameRange range, int frames);
 
 VideoSettings settings_of(const OutputFormat& format, const Scene& scene, const Tags& tags);
 

@@ -22,7 +22,8 @@ struct Found {
   std::size_t rows = 0, bytes = 0;  // of the head and whole rows
 };
 
-Found look_at(const std::string& path, const std::string& head) {
+// Rows begin with their numbers, and hold no zero bytes, which a disk that lost power leaves: behind one that does not, none is.
+Found look_at(const std::string& path, const std::string& head, std::size_t first) {
   Found found;
   std::error_code code;
   if (!fs::is_regular_file(path, code)) return found;
@@ -32,18 +33,28 @@ Found look_at(const std::string& path, const std::string& head) {
   if (!stream || text != head) return found;
   found = {true, 0, head.size()};
   for (std::string line; std::getline(stream, line) && !stream.eof();) {  // a line without its end is half a row
+    if (!line.starts_with(std::to_string(first + found.rows) + ",") || line.find('\0') != std::string::npos) break;
     ++found.rows;
     found.bytes += line.size() + 1;
   }
   return found;
 }
 
+// Of any sweep, maybe of another one.
+bool is_table_like(const std::string& path, const std::string& head) {
+  std::string text(head.find(':') + 1, '\0');
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(text.data(), std::streamsize(text.size()));
+  text.resize(std::size_t(stream.gcount()));  // its begin may be all that was written
+  return head.starts_with(text);
+}
+
 }  // namespace
 
-GrowingTable::GrowingTable(const std::string& path, const std::string& head, std::size_t rows, bool overwrite)
+GrowingTable::GrowingTable(const std::string& path, const std::string& head, std::size_t first, std::size_t rows, bool overwrite)
     : path_(path), hidden_((fs::path(path).parent_path() / ("." + fs::path(path).filename().string() + ".rows")).string()),
       head_size_(head.size()), overwrite_(overwrite) {
-  if (const Found whole = look_at(path, head); whole.has_head && whole.rows == rows) {
+  if (const Found whole = look_at(path, head, first); whole.has_head && whole.rows == rows) {
     finished_ = true;
     before_ = whole.rows;
     return;
@@ -60,7 +71,11 @@ GrowingTable::GrowingTable(const std::string& path, const std::string& head, std
     close(file_);
     throw Error(ExitCode::file, "was finished by another process at this moment: run the command again", {path});
   }
-  Found found = look_at(hidden_, head);
+  if (named.st_size > 0 && !is_table_like(hidden_, head)) {
+    close(file_);
+    throw Error(ExitCode::file, "lies where rows are kept, and this program did not write it: move it away", {hidden_});
+  }
+  Found found = look_at(hidden_, head, first);
   if (found.rows > rows) found = {};  // nobody's
   before_ = found.rows;
   if (ftruncate(file_, off_t(found.bytes)) != 0 || lseek(file_, 0, SEEK_END) < 0) {

@@ -13,9 +13,9 @@ namespace chainreel {
 class GrowingTable {
  public:
   // `head`: the lines above the rows, which say all that they depend on; rows under another head are not taken. A table with
-  // fewer than `rows` of them is none that is finished. Throws Error (exit 6) as OutputFile does, and where another process
-  // is at it.
-  GrowingTable(const std::string& path, const std::string& head, std::size_t rows, bool overwrite);
+  // fewer than `rows` of them is none that is finished. Each begins with its number, the first with `first`: where one does not, rows
+  // are taken up to there. Throws Error (exit 6) as OutputFile does, and where another process is at it.
+  GrowingTable(const std::string& path, const std::string& head, std::size_t first, std::size_t rows, bool overwrite);
   ~GrowingTable();
   GrowingTable(const GrowingTable&) = delete;
   GrowingTable& operator=(const GrowingTable&) = delete;

@@ -13,6 +13,8 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/hash.hpp"
+#include "encode/library_versions.hpp"
+#include "render/canvas.hpp"
 
 namespace chainreel {
 namespace {
@@ -75,7 +77,8 @@ PartRequest PartRequest::of_shard(const std::string& text) {
   if (request.first_ < 1 || request.first_ > request.second_)
     throw Error(ExitCode::usage, "--shard takes which share of how many, like 1/8 to 8/8, or slurm; not '" + text + "'" +
                                      (text == "slurm" ? " with task " + std::to_string(request.first_) + " of " +
-                                                            std::to_string(request.second_)
+                                                            std::to_string(request.second_) +
+                                                            ": of an array whose numbers have gaps, say --shard k/n"
                                                       : ""));
   return request;
 }
@@ -122,6 +125,7 @@ Json to_json(const PartFacts& part) {
           {"alpha", s.alpha},
           {"film_sha256", part.film_sha256},
           {"program", part.program},
+          {"libraries", part.libraries},
           {"audit", part.audit},
           {"words", part.words},
           {"captions", part.captions}};
@@ -189,6 +193,7 @@ PartFacts part_facts(const std::string& text, const std::string& path) {
     s.alpha = json.at("alpha").get<bool>();
     part.film_sha256 = json.at("film_sha256").get<std::string>();
     part.program = json.at("program").get<std::string>();
+    part.libraries = json.at("libraries").get<std::vector<std::string>>();
     part.audit = json.at("audit");
     part.words = json.at("words").get<std::string>();
     part.captions = json.at("captions").get<std::string>();
@@ -216,15 +221,19 @@ std::string meshes_hash(const PreparedFilm& film) {
   return has_some ? hash.finish() : "";
 }
 
+std::vector<std::string> libraries_behind(const Fonts& fonts) {
+  std::vector<std::string> libraries = encoder_builds();
+  const RendererInfo info = Canvas(16, 16, fonts).info();
+  libraries.push_back(info.renderer + ", OpenGL " + info.version);  // alike whichever library brings it
+  return libraries;
+}
+
 std::string film_hash(const ClipMemory& memory, const Fonts& fonts) {
   Sha256 hash;
   const auto add = [&hash](const auto& values) { hash.add(std::as_bytes(std::span(values))); };
   add(memory.scene);
   add(memory.audit.dump());
   for (const Face face : {Face::label, Face::label_bold, Face::math}) add(fonts.sha256(face));
-  // Mesa's other renderers, which are for whoever names them, give other bytes.
-  if (const char* driver = std::getenv("GALLIUM_DRIVER"); driver != nullptr && std::string_view(driver) != "llvmpipe")
-    add(std::string(driver));
   return hash.finish();
 }
 

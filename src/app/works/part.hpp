@@ -50,6 +50,7 @@ struct PartFacts {
   int frames = 0;  // of the whole film
   VideoSettings settings;
   std::string film_sha256, program;
+  std::vector<std::string> libraries;  // that drew and encoded it, see libraries_behind
   Json audit;                  // NAME.json of the film, without what depends on the clock
   std::string words, captions;  // NAME.txt, NAME.srt
 };
@@ -69,8 +70,11 @@ inline constexpr const char* kMeshesHash = "meshes_sha256";  // in the audits of
 // Of the meshes of all panels; "" where there are none.
 std::string meshes_hash(const PreparedFilm& film);
 
-// Of all that the film's pictures depend on: its memory, which holds hashes of models, meshes and motions, fonts, and a renderer
-// that the environment names.
+// The builds of encoders, and what renders: parts and chunks by others are not joined, whatever versions these tell of.
+std::vector<std::string> libraries_behind(const Fonts& fonts);
+
+// Of all that the film's pictures depend on but what draws and encodes them: its memory, which holds hashes of models, meshes and
+// motions, and fonts.
 std::string film_hash(const ClipMemory& memory, const Fonts& fonts);
 
 }  // namespace chainreel

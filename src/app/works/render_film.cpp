@@ -64,8 +64,9 @@ void tell(const FilmReport& report, const RenderJob& job, RenderResult& result) 
   const Scene& page = report.film().scene;
   add_stops(report.runs, result.notes);
   add_missing_events(report.runs, result.notes);
+  result.warnings = warning_lines(report);
   if (job.tells) {
-    tell_warnings(warning_lines(report));
+    tell_warnings(result.warnings);
     tell_left_out(report.left_out, page, job.quiet);
     if (job.quiet) return;
     for (const std::string& note : result.notes) std::fprintf(stderr, "%s\n", note.c_str());
@@ -172,6 +173,7 @@ std::string part_text(const FilmReport& report, const ClipMemory& memory, FrameR
                             .alpha = is_transparent(film.scene)},
                            film_hash(memory, fonts),
                            std::string(program_version()) + " (" + program_revision() + ")",
+                           libraries_behind(fonts),
                            audit,
                            alt_text(report),
                            captions(report)})
@@ -199,7 +201,8 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   const FrameRate fps = scene.video.fps;
   const Schedule schedule = schedule_of(runs);
   const Film pictures = runs.pictures(schedule.frames, fonts);
-  result.frames = schedule.total();
+  const int total_frames = schedule.total();
+  result.frames = total_frames;
   result.film_seconds = frame_time(result.frames, fps);
   const FilmReport report = film_report(runs, pictures, result.frames);
   ClipMemory memory = memory_of(report);
@@ -231,7 +234,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
     if (range.first == 0) sidecars = open_sidecars(job, film, true);
     result.frames = range.behind - range.first;
   }
-  const std::string key = job.resume ? film_hash(memory, fonts) : "";
+  const std::string key = job.resume ? sha256_of(film_hash(memory, fonts) + joined(libraries_behind(fonts), "\n")) : "";
 
   const int still = std::clamp(runs.clock().frame_at(job.at), 0, schedule.frames - 1);
   result.jobs = affordable_jobs(job.jobs, scene, outputs);
@@ -247,13 +250,13 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   } catch (const Error& error) {
     if (error.code() == ExitCode::numerical) {  // a signal leaves nothing
       keep_partial(outputs);
-      if (job.resume) forget_chunks(outputs);
+      forget_chunks(outputs, range, total_frames);
     }
     throw;
   }
   tell(report, job, result);
   result.files = commit(outputs);
-  if (job.resume) forget_chunks(outputs);
+  forget_chunks(outputs, range, total_frames);
   write_sidecars(sidecars, report, result);
   return result;
 }

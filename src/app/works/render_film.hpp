@@ -22,11 +22,12 @@ struct RenderJob {
   int jobs = 0;   // threads that draw and encode; 0: all processors
   bool overwrite = false;
   bool quiet = false;
-  bool tells = true;  // on standard error; false: the caller tells of the runs and of the notes
+  bool tells = true;  // on standard error; false: the caller tells of the runs, their warnings and the notes
 };
 
 struct RenderResult {
   std::vector<std::string> files;     // of the targets, in their order
+  std::vector<std::string> warnings;  // of runs that are not to be believed
   std::vector<std::string> notes;     // that its maker may want to know
   std::vector<std::string> sidecars;  // NAME.json, NAME.txt, and maybe NAME.srt and NAME.tex
   int frames = 0;                     // with those that are held; of the part

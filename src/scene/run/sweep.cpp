@@ -1,6 +1,7 @@
 #include "scene/run/sweep.hpp"
 
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
@@ -12,11 +13,32 @@ namespace {
 
 constexpr int kMostValues = 10000;
 
+// What stands outside of brackets, and of quotes that open a value or an entry; all of it where these do not close, as in words.
+std::string outside_text(const std::string& text) {
+  std::string outside = text, closing;
+  char before = ',';
+  for (char& c : outside) {
+    const char sign = c;
+    const bool is_quote = sign == '"' || sign == '\'', is_quoted = !closing.empty() && (closing.back() == '"' || closing.back() == '\'');
+    const std::size_t bracket = std::string_view("[{(").find(sign);
+    if (!closing.empty()) c = ' ';
+    if (!closing.empty() && sign == closing.back())
+      closing.pop_back();
+    else if (!is_quoted && bracket != std::string_view::npos)
+      closing += "]})"[bracket];
+    else if (!is_quoted && is_quote && std::string_view(",[{(:").find(before) != std::string_view::npos)
+      closing += sign;
+    if (sign != ' ') before = sign;
+  }
+  return closing.empty() ? outside : text;
+}
+
 std::vector<std::string> split(const std::string& text, char separator) {
+  const std::string outside = outside_text(text);
   std::vector<std::string> parts;
   std::size_t begin = 0;
   for (;;) {
-    const std::size_t end = text.find(separator, begin);
+    const std::size_t end = outside.find(separator, begin);
     parts.push_back(text.substr(begin, end - begin));
     if (end == std::string::npos) return parts;
     begin = end + 1;
@@ -67,7 +89,7 @@ Sweep parse_sweep(const std::string& text, const std::string& option) {
     refuse(text, option, "names no key or no values");
   sweep.key = text.substr(0, equals);
   const std::string list = text.substr(equals + 1);
-  if (list.find(':') != std::string::npos) {
+  if (outside_text(list).find(':') != std::string::npos) {
     fill_range(sweep, split(list, ':'), text, option);
     return sweep;
   }

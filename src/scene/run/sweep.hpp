@@ -1,6 +1,6 @@
 // One grammar for everything that varies a scene: KEY=a,b,c or KEY=from:to:count (equal distances) or
 // KEY=from:to:count:log (equal factors), with dotted keys and indices as in --set: step, torque.1,
-// parameters.k.
+// parameters.k. Commas and colons within brackets or quotes belong to a value: torque=[1, 0],[0, 1].
 #pragma once
 
 #include <string>
