@@ -156,9 +156,7 @@ void take_apart(urdf::ModelInterface& model) {
   }
 }
 
-}  // namespace
-
-void read_urdf_values(const std::string& plain, UrdfFile& file) {
+void read_values(const std::string& plain, UrdfFile& file) {
   LogCapture log;
   const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(plain);
   if (!model) throw Error(ExitCode::bad_input, "is refused by urdfdom: " + log.text(), file.at(0));
@@ -177,6 +175,16 @@ void read_urdf_values(const std::string& plain, UrdfFile& file) {
     read_joint(*found->second, joint);
   }
   take_apart(*model);
+}
+
+}  // namespace
+
+void read_urdf_values(const std::string& plain, UrdfFile& file) {
+  try {
+    read_values(plain, file);
+  } catch (const Error&) {
+    read_values(plain, file);  // urdfdom takes want of memory, which may have passed, for a number that is none
+  }
 }
 
 }  // namespace chainreel

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <sstream>
 
@@ -76,10 +77,11 @@ std::string read_text(const std::string& path) {
     throw Error(ExitCode::limit, "is larger than 1 MiB: some 25 lines are enough", {path});
   note_input(path);
   std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw Error(ExitCode::bad_input, "cannot be read", {path});
-  return text.str();
+  // Not through a stream of text, which takes want of memory for the file's end.
+  std::string text;
+  if (stream) text.assign(std::istreambuf_iterator<char>(stream), {});
+  if (!stream || stream.bad()) throw Error(ExitCode::bad_input, "cannot be read", {path});
+  return text;
 }
 
 void refuse_duplicates(const YAML::Node& node, const std::string& file) {
