@@ -430,6 +430,18 @@ TEST(Outputs, AQualityThatNoFileHasIsSaid) {
   EXPECT_THAT(said("b.mp4"), Not(HasSubstr("video.crf")));
 }
 
+// One may be read: an event a millisecond behind another shares its caption, one half a second behind it has its own.
+TEST(Outputs, CaptionsStandForAsLongAsOneReadsThem) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(render({"--set", "duration=3", "--set",
+                    "events=[{when: t - 0.5, name: a}, {when: t - 0.501, name: b}, {when: t - 1, name: c}, {when: t - 1.6, name: d}]", "-o",
+                    folder.file("a.gif")})
+                .status,
+            0);
+  EXPECT_EQ(read_whole_file(folder.file("a.srt")),
+            "1\n00:00:00,500 --> 00:00:01,000\na\nb\n\n2\n00:00:01,000 --> 00:00:01,600\nc\n\n3\n00:00:01,600 --> 00:00:03,000\nd\n\n");
+}
+
 TEST(Outputs, EventsAreCaptions) {
   const TemporaryFolder folder;
   const ProgramResult result =
@@ -438,9 +450,8 @@ TEST(Outputs, EventsAreCaptions) {
               "9\", name: never}]",
               "--hold", "{first: 1}", "-o", folder.file("a.mp4"), "-o", folder.file("a.gif")});
   ASSERT_EQ(result.status, 0) << result.err;
-  // Times of the film: the first frame stands for a second; the last caption ends with the film.
-  EXPECT_EQ(read_whole_file(folder.file("a.srt")),
-            "1\n00:00:01,050 --> 00:00:01,150\na > b\n\n2\n00:00:01,150 --> 00:00:01,200\nlate\n\n");
+  // Times of the film, whose first frame stands for a second: what comes just before its end is told half a second before it.
+  EXPECT_EQ(read_whole_file(folder.file("a.srt")), "1\n00:00:00,700 --> 00:00:01,200\na > b\nlate\n\n");
   EXPECT_THAT(read_whole_file(folder.file("a.txt")), HasSubstr("t = 0.050 s: a > b\n  t = 0.150 s: late\n"));
   // None came: no captions.
   ASSERT_EQ(render({"--set", "events=[{when: \"t > 9\", name: never}]", "-o", folder.file("b.mp4")}).status,

@@ -110,9 +110,8 @@ TEST_F(SlowMotionFilm, FollowsAnEventThatOnlyTheRunKnows) {
   EXPECT_EQ(audit["events"], plain["events"]);
   EXPECT_FALSE(plain.contains("slow_motion"));
   // Captions at the times of the film: the event lies half a second behind the change; what comes behind the
-  // instant of the last frame is told with that frame, and nothing is told behind the end.
-  EXPECT_THAT(text("srt"), HasSubstr("1\n00:00:00,769 --> 00:00:01,383\nhalf\n"));
-  EXPECT_THAT(text("srt"), HasSubstr("2\n00:00:01,383 --> 00:00:01,400\nlate\n"));
+  // instant of the last frame is told before the end, here with what is being read then.
+  EXPECT_THAT(text("srt"), HasSubstr("1\n00:00:00,769 --> 00:00:01,400\nhalf\nlate\n"));
   EXPECT_THAT(text("txt"), HasSubstr("not at its own speed: t = 0.269275 s to 0.369275 s at 0.1\u00D7"));
   EXPECT_THAT(text("txt"), HasSubstr("84 frames"));
 }
@@ -199,8 +198,8 @@ TEST_F(SlowMotionFilm, HoldsAndSmallClipsGoByTheTimeOfTheFilm) {
   EXPECT_EQ(probe_video(file("gif")).frames, 35);
   EXPECT_NEAR(audit["slow_motion"][0]["film_from"].get<double>(), 0.3, 1e-12);
   EXPECT_NEAR(audit["slow_motion"][0]["film_until"].get<double>(), 0.7, 1e-12);
-  // `late` at 0.495 s of the motion is 0.995 s of the film, and ends with the film.
-  EXPECT_THAT(text("srt"), HasSubstr("00:00:00,995 --> 00:00:01,400\nlate\n"));
+  // `late` at 0.495 s of the motion is 0.995 s of the film, which leaves too little time to read it alone.
+  EXPECT_THAT(text("srt"), HasSubstr("00:00:00,819 --> 00:00:01,400\nhalf\nlate\n"));
 }
 
 TEST_F(SlowMotionFilm, TheTableOfAFilmEndsWhereThatOfARunDoes) {
@@ -251,6 +250,14 @@ TEST_F(SlowMotionFilm, StandsStillForWordsWhichItsAuditAndItsTextTell) {
   EXPECT_FALSE(audit.contains("slow_motion"));
   EXPECT_THAT(text("txt"), HasSubstr("stands still at t = 0.319275 s for 0.4 s, at 0.4 s for 0.2 s"));
   EXPECT_FALSE(render("", {"gif"}).contains("pauses"));
+}
+
+TEST_F(SlowMotionFilm, ItsTableHasEachInstantOnce) {
+  render(kWords, {"mp4", "csv"});
+  const auto rows = table_of(text("csv"));
+  for (std::size_t k = 1; k < rows.size(); ++k) EXPECT_LT(rows[k - 1][0], rows[k][0]) << k;
+  EXPECT_LT(rows.size(), 66u) << "which is how many frames there are";
+  EXPECT_GT(rows.size(), 30u);
 }
 
 TEST_F(SlowMotionFilm, OfWordsThatComeBehindItsEndHasNoPause) {

@@ -14,6 +14,7 @@ namespace chainreel {
 namespace {
 
 constexpr double kCaptionSeconds = 2;  // at most; the next event ends it
+constexpr double kLeastCaption = 0.5;  // s that one stands, so that it can be read
 
 struct Moment {
   double t = 0;  // of the run, or of the film, s
@@ -182,22 +183,21 @@ std::string captions(const FilmReport& report) {
   add_words(moments, report);
   sort_by_time(moments);
   const double start = held_first(scene), film_end = report.film_seconds();
-  // An event behind the last frame's instant is told while that frame stands.
-  const double latest = film_end - frame_time(1, scene.video.fps);
+  // What comes at the film's end is told a little before it.
+  const double latest = std::max(0.0, film_end - kLeastCaption);
   for (Moment& moment : moments) moment.t = std::min(start + report.clock.film_time(moment.t), latest);
   std::string text;
   int number = 0;
   for (std::size_t i = 0; i < moments.size(); ++i) {
-    // Events of one instant share a caption.
-    if (i > 0 && moments[i].t == moments[i - 1].t) continue;
+    // What follows sooner than one can read shares the caption.
     std::string words;
     std::size_t next = i;
-    for (; next < moments.size() && moments[next].t == moments[i].t; ++next)
-      words += moments[next].text + "\n";
+    for (; next < moments.size() && moments[next].t < moments[i].t + kLeastCaption; ++next) words += moments[next].text + "\n";
     double end = std::min(moments[i].t + kCaptionSeconds, film_end);
     if (next < moments.size()) end = std::min(end, moments[next].t);
     text += std::to_string(++number) + "\n" + srt_time(moments[i].t) + " --> " + srt_time(end) + "\n" + words +
             "\n";
+    i = next - 1;
   }
   return text;
 }

@@ -199,6 +199,25 @@ void add_column(DataTable& table, MotionColumn column, const Simulation& simulat
   }
 }
 
+// Of a film that stands still, whose frames are samples of one instant, the first alone.
+void keep_instants_once(DataTable& table, const Trajectory& trajectory) {
+  const auto is_again = [&](int k) {
+    return k > 0 && trajectory.t[std::size_t(k)] == trajectory.t[std::size_t(k) - 1] &&
+           std::ranges::equal(trajectory.q_at(k), trajectory.q_at(k - 1)) && std::ranges::equal(trajectory.qd_at(k), trajectory.qd_at(k - 1));
+  };
+  std::vector<std::size_t> kept;
+  for (int k = 0; k < trajectory.size(); ++k)
+    if (!is_again(k)) kept.push_back(std::size_t(k));
+  if (kept.size() == table.rows) return;
+  for (DataArray& array : table.arrays) {
+    const std::size_t count = table.rows == 0 ? 0 : array.values.size() / table.rows;
+    for (std::size_t to = 0; to < kept.size(); ++to)
+      std::copy_n(array.values.begin() + std::ptrdiff_t(kept[to] * count), count, array.values.begin() + std::ptrdiff_t(to * count));
+    array.values.resize(kept.size() * count);
+  }
+  table.rows = kept.size();
+}
+
 }  // namespace
 
 std::vector<std::string> torque_columns(const Chain& chain) {
@@ -260,6 +279,7 @@ DataTable motion_table(const Simulation& simulation, const Trajectory& trajector
     const std::size_t i = index_in_tip(column);
     table.add(to_string(column), i < 3 ? "m" : "m/s", tip[i]);
   }
+  keep_instants_once(table, trajectory);
   return table;
 }
 

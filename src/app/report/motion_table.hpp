@@ -26,7 +26,7 @@ std::vector<MotionColumn> parse_columns(const std::string& text, const std::stri
 // Throws Error (usage) where the run has none of them: the end effector's without one, lambda without constraints.
 void require_columns(const Simulation& simulation, const std::vector<MotionColumn>& columns, const std::string& option);
 
-// A row a sample. q1.. of a serial chain, q.NAME of trees and floating bases; likewise qd, qdd and tau. Instants that are
+// A row a sample; samples of one instant, as of a film that stands still, are one. q1.. of a serial chain, q.NAME of trees and floating bases; likewise qd, qdd and tau. Instants that are
 // decimals but for the rounding of sums are given as these: 0.3, not 0.30000000000000004.
 DataTable motion_table(const Simulation& simulation, const Trajectory& trajectory, const std::vector<MotionColumn>& columns);
 DataTable motion_table(const Simulation& simulation, const Trajectory& trajectory);  // with the usual ones

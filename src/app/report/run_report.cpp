@@ -126,8 +126,10 @@ std::vector<std::string> warning_lines(const FilmReport& report) {
 
 std::string left_out_words(const std::vector<std::string>& layers, const Scene& page) {
   if (layers.empty()) return "";
+  // Smaller pages are those of that height made smaller, words and all.
+  const std::string where = page.video.height < kLeastPagePixels ? " on pages from " + std::to_string(kLeastPagePixels) + " px of height on" : "";
   return page.name + ": " + joined(layers) + ": not drawn, as no word may be lower than " + format_shortest(kLeastWordPixels) +
-         " px and " + std::to_string(page.video.width) + " x " + std::to_string(page.video.height) + " px have no room for more";
+         " px" + where + " and " + std::to_string(page.video.width) + " x " + std::to_string(page.video.height) + " px have no room for more";
 }
 
 void tell_left_out(const std::vector<std::string>& layers, const Scene& page, bool quiet) {
