@@ -118,6 +118,14 @@ TEST(Interrupt, LeavesNothingHalfWritten) {
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
+TEST(Interrupt, OfWhatKeepsFinishedPartsSaysThatItGoesOn) {
+  const TemporaryFolder folder;
+  const ProgramResult result = interrupted_when(kIsWriting, folder, with(kLongRender, {folder.file("a.mp4"), "--resume"}), kInterrupt);
+  EXPECT_EQ(result.status, 130) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("what is finished is, and the same command goes on from there"));
+  EXPECT_FALSE(fs::exists(folder.file("a.mp4")));
+}
+
 // As `timeout` signals its child and then the group of both: one signal, come twice.
 TEST(Interrupt, ThatComesTwiceAtOnceLeavesNothingEither) {
   const TemporaryFolder folder;

@@ -178,6 +178,7 @@ constexpr std::array<Ending, 4> kEndings = {{{SIGINT, "interrupted", false},
                                              {SIGQUIT, "told to quit", true}}};
 
 std::atomic<int> received = 0;
+std::atomic<bool> goes_on = false;  // when it is given again
 std::atomic<double> first_time = 0;  // s, of the monotonic clock
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<double>::is_always_lock_free);
 
@@ -260,7 +261,12 @@ void throw_if_interrupted() {
   const int signal = received;
   for (const Ending& ending : kEndings)
     if (ending.signal == signal)
-      throw Error(ExitCode(128 + signal), std::string(ending.word) + ": nothing half-written was kept");
+      throw Error(ExitCode(128 + signal), std::string(ending.word) + ": nothing half-written was kept" +
+                                             (goes_on ? "; what is finished is, and the same command goes on from there" : ""));
+}
+
+void keeps_what_is_finished() {
+  goes_on = true;
 }
 
 }  // namespace chainreel

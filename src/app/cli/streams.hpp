@@ -48,5 +48,7 @@ class InterruptWatch {
 // Throws Error once a signal has come, with 128 and its number for an exit code: 129 SIGHUP, 130 SIGINT, 131 SIGQUIT,
 // 143 SIGTERM.
 void throw_if_interrupted();
+// This command keeps what it has finished, and goes on from there when it is given again: which is said where a signal ends it.
+void keeps_what_is_finished();
 
 }  // namespace chainreel

@@ -8,6 +8,7 @@
 
 #include "app/cli/command.hpp"
 #include "app/cli/result.hpp"
+#include "app/cli/streams.hpp"
 #include "app/film/automatic.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
@@ -125,6 +126,7 @@ void run_render(const RenderOptions& options) {
   check_outputs(options.outputs, options.scenes.size());
   const std::vector<PreparedFilm> films = load_all(options);
   const std::vector<RenderJob> jobs = jobs_of(options, films);
+  if (options.resume) keeps_what_is_finished();
 
   Json reports = Json::array();
   std::vector<std::vector<std::string>> table{{"scene", "frames", "film s", "taken s", "file"}};

@@ -311,6 +311,7 @@ void check_outputs(const SweepOptions& options) {
 void run_sweep(SweepOptions options) {
   if (options.outputs.empty()) options.outputs.push_back("out/" + fs::path(options.scene).stem().string() + "_sweep.csv");
   check_outputs(options);
+  keeps_what_is_finished();
   const Grid grid(options.over, "--over");
   FrameRange runs{0, int(grid.size())};
   std::string suffix;
