@@ -79,6 +79,14 @@ inline Point center_of(const Rect& r) {
   return {(r.x0 + r.x1) / 2, (r.y0 + r.y1) / 2};
 }
 
+inline bool is_within(const Rect& a, const Rect& b) {
+  return a.x0 >= b.x0 && a.x1 <= b.x1 && a.y0 >= b.y0 && a.y1 <= b.y1;
+}
+
+inline Rect moved(const Rect& box, Point by) {
+  return {box.x0 + by.x, box.y0 + by.y, box.x1 + by.x, box.y1 + by.y};
+}
+
 inline Rect widened(const Rect& box, double by) {
   return {box.x0 - by, box.y0 - by, box.x1 + by, box.y1 + by};
 }

@@ -9,6 +9,9 @@ namespace chainreel {
 namespace {
 
 constexpr const char* kFirstToGo[] = {"equation", "torque_label", "legend", "mass_matrix", "scale_bar"};
+constexpr double kWidestPlots = 0.62;  // of the page's width
+constexpr double kKeptBeside = 0.12;   // units of H, of the scene for words and the arrow of gravity
+constexpr double kWorthwhile = 0.02;   // ... of the width
 constexpr double kLeastOfWidth = 0.6;  // pages still narrower keep the words of this one
 
 // The first in the order that the page still shows; null where none is left.
@@ -39,9 +42,11 @@ struct Shown {
   const std::vector<double>& times;
   const Fonts& fonts;
   const FilmClock& clock;
+  ArrowShares arrows;
 };
 
-Composition with_readable_words(const Scene& page, const Shown& film, const std::vector<PlotCurves>& story) {
+Composition with_readable_words(const Scene& page, const Shown& film, const std::vector<PlotCurves>& story,
+                                double beside = kPlotsBeside) {
   Scene shown = page;
   shown.text_scale = text_scale_of_page(page);
   const bool is_enlarged = shown.text_scale > page.text_scale;
@@ -49,9 +54,9 @@ Composition with_readable_words(const Scene& page, const Shown& film, const std:
   while (true) {
     const char* next = is_enlarged ? next_to_go(shown) : nullptr;
     try {
-      auto stage = std::make_unique<const Stage>(shown, film.runs, film.times, film.fonts, film.clock);
+      auto stage = std::make_unique<const Stage>(shown, film.runs, film.times, film.fonts, film.clock, film.arrows);
       Layers layers = layers_of(*stage);
-      FilmSheet sheet(*stage, layers, story);
+      FilmSheet sheet(*stage, layers, story, beside);
       if (next == nullptr || sheet.sheet.scene.height() >= kLeastScene) {
         FilmView view(*stage, layers, sheet);
         return {std::move(stage), std::move(layers), std::move(sheet), std::move(view), std::move(left_out)};
@@ -64,25 +69,53 @@ Composition with_readable_words(const Scene& page, const Shown& film, const std:
   }
 }
 
-}  // namespace
+// Plots beside a narrow motion have the width that it leaves.
+Composition with_wide_plots(const Scene& page, const Shown& film, const std::vector<PlotCurves>& story) {
+  Composition usual = with_readable_words(page, film, story);
+  if (!usual.sheet.has_plots_beside || page.camera.fit) return usual;
+  const double spare = usual.sheet.sheet.scene.width() - usual.view.width_used() - kKeptBeside;
+  const double beside = std::min(kPlotsBeside + spare / usual.sheet.sheet.aspect, kWidestPlots);
+  return beside > kPlotsBeside + kWorthwhile ? with_readable_words(page, film, story, beside) : std::move(usual);
+}
 
-Composition compose(const Scene& page, const std::vector<PanelRun>& runs, const std::vector<double>& times, const Fonts& fonts,
-                    const FilmClock& clock) {
-  Composition plain = with_readable_words(page, {runs, times, fonts, clock}, {});
-  if (page.layout != PageLayout::automatic || page.plot.size() > 1) return plain;
+// What is shown of a page: its layout, and what is plotted where it names nothing.
+struct Layout {
+  Scene page;
+  std::vector<PlotCurves> story;
+};
+
+// With a plot where the motion keeps its size. `plain`: without one; it becomes what is shown.
+Layout with_story(const Scene& page, const Shown& film, Composition& plain) {
+  if (page.layout != PageLayout::automatic || page.plot.size() > 1) return {page, {}};
   const std::vector<PlotCurves> story = page.plot.empty() ? story_of(*plain.stage) : std::vector<PlotCurves>();
-  if (page.plot.empty() && story.empty()) return plain;
+  if (page.plot.empty() && story.empty()) return {page, {}};
   for (const PageLayout layout : {PageLayout::scene_right, PageLayout::scene_below}) {
     Scene with_plot = page;
     with_plot.layout = layout;
     try {
-      Composition told = with_readable_words(with_plot, {runs, times, fonts, clock}, story);
-      if (told.left_out == plain.left_out && told.view.camera.scale >= kLeastKept * plain.view.camera.scale) return told;
+      Composition told = with_wide_plots(with_plot, film, story);
+      if (told.left_out != plain.left_out || !(told.view.camera.scale >= kLeastKept * plain.view.camera.scale)) continue;
+      plain = std::move(told);
+      return {with_plot, story};
     } catch (const Error& error) {
       if (!tells_of_no_room(error)) throw;
     }
   }
-  return plain;
+  return {page, {}};
+}
+
+}  // namespace
+
+Composition compose(const Scene& page, const std::vector<PanelRun>& runs, const std::vector<double>& times, const Fonts& fonts,
+                    const FilmClock& clock) {
+  Shown film{runs, times, fonts, clock, {}};
+  Composition composition = with_wide_plots(page, film, {});
+  const Layout layout = with_story(page, film, composition);
+  const ArrowShares& shares = composition.view.arrows;
+  if (std::all_of(shares.begin(), shares.end(), [](const auto& one) { return one.second == 1; })) return composition;
+  // The scale that is printed is that of the arrows as they are drawn.
+  film.arrows = shares;
+  return with_wide_plots(layout.page, film, layout.story);
 }
 
 }  // namespace chainreel

@@ -34,7 +34,7 @@ struct Composition {
 // With layout `auto` a plot stands beside the scene, else below it, where the motion keeps kLeastKept of its size and no further
 // layer goes: the scene's only plot, or the story that it has (draw/film/story).
 inline constexpr double kLeastScene = 0.45;
-inline constexpr double kLeastKept = 0.9;
+inline constexpr double kLeastKept = 0.8;
 Composition compose(const Scene& page, const std::vector<PanelRun>& runs, const std::vector<double>& times, const Fonts& fonts,
                     const FilmClock& clock);
 

@@ -109,10 +109,17 @@ void Film::draw_notes(Picture& picture, int k) const {
     const TextStyle style{Face::label, scaled(size::kAxis, text_scale), stage_->theme.ink, Align::left};
     const std::string whose = stage_->is_ghost() ? panels_[i].title() + ": " : "";
     TextLine line;
-    // In a narrow row the last event alone.
-    for (const int events : {2, 1}) {
+    // In a narrow row the last event alone, and where that is still too long its name.
+    for (const int events : {2, 1, 0}) {
       line = fit_text(stage_->fonts, whose + panels_[i].note(k, events), style, row.width(), text_scale);
       if (line.advance <= row.width() + kRoundOff) break;
+    }
+    // One that is still too long is as small as it must be, down to what can be read.
+    if (line.advance > row.width() + kRoundOff) {
+      TextStyle small = style;
+      small.size = std::max(scaled(kSmallestText, text_scale) * row.width() / line.advance,
+                            kLeastWordPixels / std::max(stage_->page.video.height, kLeastPagePixels));
+      line = lay_out_text(stage_->fonts, whose + panels_[i].note(k, 0), small);
     }
     draw_text(picture, line, {row.x0, row.y0 + kTitleDescent * style.size});
   }

@@ -53,12 +53,12 @@ double title_size(const Stage& stage, const std::vector<PanelCell>& cells) {
 
 }  // namespace
 
-FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const std::vector<PlotCurves>& story) {
+FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const std::vector<PlotCurves>& story, double beside) {
   const Scene& page = stage.page;
   const SheetText text = words_of(stage, layers);
   const double aspect = double(page.video.width) / page.video.height;
   sheet = lay_out_sheet(text, aspect, page.text_scale, stage.theme, stage.fonts);
-  if (!(page.plot.empty() && story.empty()) && !is_transparent(page)) lay_out_plots(stage, story);
+  if (!(page.plot.empty() && story.empty()) && !is_transparent(page)) lay_out_plots(stage, story, beside);
   has_panel_titles = text.with_panel_titles && stage.has_cells();
   if (has_panel_titles) rows.title = kTitleRow * scaled(size::kSymbol, page.text_scale);
   if (text.with_panel_titles && stage.is_ghost()) {
@@ -69,7 +69,7 @@ FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const std::vector
 }
 
 // One plot below the scene, more beside it, unless the layout says otherwise; below several panels.
-void FilmSheet::lay_out_plots(const Stage& stage, const std::vector<PlotCurves>& story) {
+void FilmSheet::lay_out_plots(const Stage& stage, const std::vector<PlotCurves>& story, double beside) {
   const Scene& page = stage.page;
   std::vector<StripRun> runs;
   for (const StagedRun& motion : stage.motions) runs.push_back(strip_run(motion, story));
@@ -79,7 +79,8 @@ void FilmSheet::lay_out_plots(const Stage& stage, const std::vector<PlotCurves>&
   const bool narrow = page.video.width < kLeastBeside * page.video.height;
   const PlotPlace place = narrow ? PlotPlace::stacked : right ? PlotPlace::right : PlotPlace::below;
   const PlotAreas areas = plot_areas(sheet.scene, count, place,
-                                     stage.is_comparison() ? kPlotOfComparison : 0, page.text_scale);
+                                     stage.is_comparison() ? kPlotOfComparison : 0, page.text_scale, beside);
+  has_plots_beside = place == PlotPlace::right;
   sheet.scene = areas.scene;
   const PlotStyle style{&stage.fonts, &stage.theme, page.text_scale};
   for (std::size_t i = 0; i < areas.plots.size(); ++i)
@@ -91,6 +92,15 @@ void FilmSheet::lay_out_plots(const Stage& stage, const std::vector<PlotCurves>&
     x1 = std::min(x1, plot.frame().box.x1);
   }
   for (PlotStrip& plot : plots) plot.narrow_to(x0, x1);
+}
+
+double FilmSheet::widest_title(const Stage& stage) const {
+  double widest = 0;
+  if (!has_panel_titles) return widest;
+  const TextStyle style{Face::label_bold, scaled(kSmallestText, stage.page.text_scale), stage.theme.ink};
+  for (const StagedRun& motion : stage.motions)
+    widest = std::max(widest, lay_out_text(stage.fonts, motion.title(), style).advance);
+  return widest;
 }
 
 std::vector<PlacedText> FilmSheet::panel_titles(const Stage& stage, const std::vector<PanelCell>& cells) const {

@@ -16,21 +16,24 @@ namespace chainreel {
 inline constexpr double kTitleDescent = 0.40;
 
 struct FilmSheet {
-  // `story`: what is plotted where the scene names no plot, see story.hpp. Throws Error (bad input) where the words leave no
-  // room.
-  FilmSheet(const Stage& stage, const Layers& layers, const std::vector<PlotCurves>& story = {});
+  // `story`: what is plotted where the scene names no plot, see story.hpp. `beside`: share of the width of plots beside the
+  // scene. Throws Error (bad input) where the words leave no room.
+  FilmSheet(const Stage& stage, const Layers& layers, const std::vector<PlotCurves>& story = {}, double beside = kPlotsBeside);
 
   Sheet sheet;  // its scene is what is left for all panels
   std::vector<PlotStrip> plots;
   std::optional<GhostKey> key;  // of layout `ghost`
   PanelRows rows;               // that panels keep free for words of their own
   bool has_panel_titles = false;
+  bool has_plots_beside = false;
 
+  // Of the panels' titles in the smallest letters, units of H.
+  double widest_title(const Stage& stage) const;
   // The titles of panels in cells of their own. Throws Error (bad input) where one does not fit.
   std::vector<PlacedText> panel_titles(const Stage& stage, const std::vector<PanelCell>& cells) const;
 
  private:
-  void lay_out_plots(const Stage& stage, const std::vector<PlotCurves>& story);
+  void lay_out_plots(const Stage& stage, const std::vector<PlotCurves>& story, double beside);
 };
 
 }  // namespace chainreel

@@ -58,7 +58,7 @@ std::vector<PanelCell> cells_of(const Stage& stage, const FilmSheet& sheet, doub
   const std::vector<PanelCell> cells =
       stage.is_ghost()                  ? ghost_cells(area, sheet.rows, stage.motions)
       : stage.page.layout == PageLayout::compare ? panel_cells(area, count, is_portrait(stage.page) ? 1 : count, sheet.rows)
-                                        : best_cells(area, count, sheet.rows, box);
+                                        : best_cells(area, count, sheet.rows, box, sheet.widest_title(stage));
   if (cells.empty())
     throw Error(ExitCode::bad_input,
                 "the panels get too small on this page: compare fewer, or lower text_scale",
@@ -96,6 +96,7 @@ bool is_free(const Rect& part, const StagedRun& motion, const Layers& layers, co
 FilmView::FilmView(const Stage& stage, const Layers& layers, const FilmSheet& sheet) {
   place_camera(stage, layers, sheet);
   place_rooms(stage, layers);
+  shorten_arrows(stage, layers);
 }
 
 Camera FilmView::camera_of(std::size_t panel) const {
@@ -155,6 +156,18 @@ void FilmView::place_rooms(const Stage& stage, const Layers& layers) {
       scene.x1 -= inset + width + size::kGutter;
     }
     fit_to_area(camera, stage, box_, cells.front().scene);
+  }
+}
+
+void FilmView::shorten_arrows(const Stage& stage, const Layers& layers) {
+  for (std::size_t i = 0; i < stage.motions.size(); ++i) {
+    const StagedRun& motion = stage.motions[i];
+    const Camera seen = camera_of(i);
+    for (int k = 0; k < motion.counted(); ++k) {
+      const Sight sight{motion, motion.pose_at(k), k, seen, marks};
+      for (const auto& layer : layers)
+        if (layer->is_of(motion)) layer->shorten_arrows(cells[i].scene, sight, arrows);
+    }
   }
 }
 

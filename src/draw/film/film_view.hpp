@@ -18,7 +18,10 @@ struct FilmView {
   Camera camera;  // of the first panel
   std::vector<PanelCell> cells;
   double marks = 1;  // size of marks, as in ChainLook
+  ArrowShares arrows;  // of the lengths they were laid out with: so that they stay in the scenes
 
+  // Of a panel's scene the part, units of H, that the fitted motion with its margins is wide.
+  double width_used() const { return camera.scale * box_.box(camera.scale, size::kFitMargin).width(); }
   // All panels see the same part of the world at the same place of their cells.
   Camera camera_of(std::size_t panel) const;
   // Lower left of the room that a layer asked for in or beside the scene of a panel.
@@ -28,6 +31,7 @@ struct FilmView {
  private:
   void place_camera(const Stage& stage, const Layers& layers, const FilmSheet& sheet);
   void place_rooms(const Stage& stage, const Layers& layers);
+  void shorten_arrows(const Stage& stage, const Layers& layers);
 
   FitBox box_;  // that the camera holds
   double row_below_ = 0;  // units of H, that layers keep for themselves below all scenes

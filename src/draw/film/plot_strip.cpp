@@ -8,8 +8,7 @@ namespace {
 
 constexpr double kTotalLine = 0.0045;
 constexpr double kPale = 0.45;   // of a curve that is still to come
-constexpr double kShareBelow = 0.30;  // of the page's height, right: of its width
-constexpr double kRight = 0.38;
+constexpr double kShareBelow = 0.30;  // of the page's height
 constexpr double kMostLabels = 0.4;  // of a plot's width may be taken by the names of its curves
 constexpr double kShareStacked = 0.22, kMostStacked = 0.50;  // of the height: of each plot, and of all
 constexpr double kLongestFrame = 0.05;  // s
@@ -174,7 +173,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
 }
 
 PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_below,
-                     double text_scale) {
+                     double text_scale, double beside) {
   PlotAreas areas{page, {}};
   if (count == 0) return areas;
   const double gap = size::kGutter;
@@ -201,7 +200,7 @@ PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_
     }
     return areas;
   }
-  all.x0 = page.x1 - kRight * page.width();
+  all.x0 = page.x1 - beside * page.width();
   areas.scene.x1 = all.x0 - gap;
   const double height = (all.height() - gap * (count - 1)) / count;
   for (int i = 0; i < count; ++i) {

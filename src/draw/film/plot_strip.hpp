@@ -58,7 +58,9 @@ struct PlotAreas {
   std::vector<Rect> plots;
 };
 // `least_below`: height of plots below the scene, units of H, where the room allows. Words that grow with `text_scale` take
-// their room from the scene, not from the plots below it.
-PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_below = 0, double text_scale = 1);
+// their room from the scene, not from the plots below it. `beside`: share of the width of plots beside the scene.
+inline constexpr double kPlotsBeside = 0.38;
+PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_below = 0, double text_scale = 1,
+                     double beside = kPlotsBeside);
 
 }  // namespace chainreel

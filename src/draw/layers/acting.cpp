@@ -31,11 +31,12 @@ using KindsOf = std::function<std::vector<VectorKind>(const Chain& chain)>;
 
 class VectorLayer : public Layer {
  public:
-  VectorLayer(const Stage& stage, VectorsAt vectors_at, KindsOf kinds_of)
+  VectorLayer(const Stage& stage, const char* name, VectorsAt vectors_at, KindsOf kinds_of)
       : stage_(&stage),
+        name_(name),
         vectors_at_(std::move(vectors_at)),
         kinds_of_(std::move(kinds_of)),
-        scales_(scales_of(stage, vectors_at_)),
+        scales_(scales_of(stage, name, vectors_at_)),
         pen_(stage.theme, stage.fonts, stage.page.text_scale, scales_) {}
 
   bool has_words() const override { return true; }
@@ -56,15 +57,27 @@ class VectorLayer : public Layer {
 
   void measure(const Sight& sight, FitBox& box) const override {
     for (const WorldVector& vector : vectors_at_(sight.motion, sight.ws, sight.k))
-      pen_.add_to(box, vector, sight.camera, sight.marks);
+      pen_.add_to(box, vector, sight.camera, sight.marks, kLeastArrows / stage_->share_of_arrows(name_));
+  }
+
+  // Those that begin elsewhere, where a scene names the part that it shows, are not to be seen anyhow.
+  void shorten_arrows(const Rect& scene, const Sight& sight, ArrowShares& shares) const override {
+    constexpr double kStep = 0.05;
+    double& share = shares.emplace(name_, 1).first->second;
+    for (const WorldVector& vector : vectors_at_(sight.motion, sight.ws, sight.k)) {
+      const Point place = sight.camera.project(vector.place);
+      if (vector.kind == VectorKind::torque || !is_within({place.x, place.y, place.x, place.y}, scene)) continue;
+      const auto leaves = [&] {
+        return !is_within(moved(pen_.extent(vector, sight.camera, sight.marks, share), place), scene);
+      };
+      while (share > kLeastArrows && leaves()) share = std::max(kLeastArrows, share - kStep);
+    }
   }
 
   bool covers(const Sight& sight, const Rect& part, bool) const override {
     for (const WorldVector& vector : vectors_at_(sight.motion, sight.ws, sight.k)) {
       const Rect extent = pen_.extent(vector, sight.camera, sight.marks);
-      const Point place = sight.camera.project(vector.place);
-      if (overlap(part, {extent.x0 + place.x, extent.y0 + place.y, extent.x1 + place.x, extent.y1 + place.y}))
-        return true;
+      if (overlap(part, moved(extent, sight.camera.project(vector.place)))) return true;
     }
     return false;
   }
@@ -83,7 +96,7 @@ class VectorLayer : public Layer {
 
  private:
   // Runs that diverge do not decide on it, unless all do: their arrows are cut.
-  static VectorScales scales_of(const Stage& stage, const VectorsAt& vectors_at) {
+  static VectorScales scales_of(const Stage& stage, const char* name, const VectorsAt& vectors_at) {
     VectorMagnitudes magnitudes;
     for (std::size_t i = 0; i < stage.full_panels(); ++i) {
       const StagedRun& motion = stage.motions[i];
@@ -96,12 +109,11 @@ class VectorLayer : public Layer {
         for (const WorldVector& vector : vectors_at(motion, ws, k)) magnitudes.add(vector);
       }
     }
-    // Lengths are shares of a page's height; on one higher than wide, of its width.
-    const double narrow = std::min(1.0, double(stage.page.video.width) / stage.page.video.height);
-    return {magnitudes.full(), narrow / std::sqrt(double(stage.full_panels()))};
+    return {magnitudes.full(), stage.share_of_arrows(name) * stage.share_of_lengths()};
   }
 
   const Stage* stage_;
+  const char* name_;  // of the layer
   VectorsAt vectors_at_;
   KindsOf kinds_of_;
   VectorScales scales_;
@@ -242,13 +254,13 @@ std::map<const StagedRun*, Value> along_runs(const Stage& stage, Compute compute
 
 std::unique_ptr<const Layer> make_layer_gravity(const Stage& stage) {
   return std::make_unique<VectorLayer>(
-      stage, [](const StagedRun& motion, const Workspace& ws, int) { return weights_at(motion.chain(), ws); },
+      stage, "gravity", [](const StagedRun& motion, const Workspace& ws, int) { return weights_at(motion.chain(), ws); },
       always(VectorKind::weight));
 }
 
 std::unique_ptr<const Layer> make_layer_torque(const Stage& stage) {
   return std::make_unique<VectorLayer>(
-      stage,
+      stage, "torque",
       [runs = along_runs<TorqueRun>(stage, [&](const StagedRun& motion) { return TorqueRun(stage, motion); })](
           const StagedRun& motion, const Workspace& ws, int k) {
         const auto run = runs.find(&motion);
@@ -259,13 +271,13 @@ std::unique_ptr<const Layer> make_layer_torque(const Stage& stage) {
 
 std::unique_ptr<const Layer> make_layer_velocity(const Stage& stage) {
   return std::make_unique<VectorLayer>(
-      stage, [](const StagedRun& motion, const Workspace& ws, int) { return velocity_at(motion.chain(), ws); },
+      stage, "velocity", [](const StagedRun& motion, const Workspace& ws, int) { return velocity_at(motion.chain(), ws); },
       always(VectorKind::velocity));
 }
 
 std::unique_ptr<const Layer> make_layer_constraint_force(const Stage& stage) {
   return std::make_unique<VectorLayer>(
-      stage,
+      stage, "constraint_force",
       [forces = along_runs<std::vector<std::vector<Reaction>>>(
            stage, [](const StagedRun& motion) { return reactions_along(*motion.simulation(), motion.trajectory()); })](
           const StagedRun& motion, const Workspace& ws, int k) {

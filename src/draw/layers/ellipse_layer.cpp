@@ -29,8 +29,7 @@ class MassAlong {
         is_section_(stage.page.ellipse.shape == EllipseShape::section) {
     for (const StagedRun& motion : stage.motions)
       if (!motion.is_outlined()) masses_.emplace(&motion, motion);
-    // Panels share the page, so their sides shrink with the root of their number.
-    const double share = 1 / std::sqrt(double(stage.full_panels()));
+    const double share = stage.share_of_lengths();
     scale_ = body() == EllipseBody::solid ? solid_scale(share * kSolidAxis)
                                           : ellipse_scale(bounded_semi_axes(), share * kEllipseBar, reading_);
   }

@@ -60,6 +60,8 @@ class Layer {
   // Height of a row below all scenes, above what is written at the page's foot, that it needs for itself.
   virtual double row_below() const { return 0; }
   virtual std::string no_room() const { return ""; }  // what to say where it leaves none to the chain
+  // Lowers the share of its arrows' length to the largest one that keeps all of them within the scene.
+  virtual void shorten_arrows(const Rect& /*scene*/, const Sight&, ArrowShares&) const {}
   // Covers: whether any of it comes into this part of the page, which may be at the lower left of its scene.
   virtual bool covers(const Sight&, const Rect& part, bool at_lower_left) const;
 

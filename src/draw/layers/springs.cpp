@@ -111,7 +111,8 @@ class SliderSprings : public Layer {
     const Point carriage = panel.camera().project(pose_of(shot.ws, device.body).translation());
     if (!is_drawable(line.a) || !is_drawable(line.b) || !is_drawable(carriage)) return;
     const Point away = device.from_upper ? unit(line.b - line.a) : unit(line.a - line.b), side = normal_to(away);
-    const Point anchor = (device.from_upper ? line.b : line.a) + (look.rails * kAnchorAway) * away;
+    const Point anchor = within((device.from_upper ? line.b : line.a) + (look.rails * kAnchorAway) * away, carriage,
+                                panel.area(), look.rails * kAnchorAway / 2);
     const Point end = carriage + (look.rails * carriage_length(rail->carrier) / 2) * away;
     const Color color = toned(look.theme->torque, look);
     const Point half = (look.rails * kAnchorWidth / 2) * side;
@@ -125,6 +126,12 @@ class SliderSprings : public Layer {
     if (device.drive.damping > 0)
       draw_dashpot(picture, anchor - apart, end - apart, look.rails * (both ? 0.6 : 1), color,
                    look.theme->background, panel.clip());
+  }
+
+  // Beyond what the panel shows, as in runs that leave it, an anchor would be cut: it stands at the edge.
+  static Point within(Point anchor, Point carriage, const Rect& area, double room) {
+    Point a = carriage, b = anchor;
+    return cut_segment(widened(area, -room), a, b) ? b : anchor;
   }
 
   // Dashes across the rail.

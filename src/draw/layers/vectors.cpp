@@ -176,14 +176,14 @@ const TextLine& VectorPen::label(const WorldVector& vector, double marks) const 
   return labels_.emplace(key, lay_out_math(*fonts_, vector.label, style)).first->second;
 }
 
-VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera& camera, double marks) const {
+VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera& camera, double marks, double share) const {
   const VectorScale scale = scales_.of(vector.kind);
   const double magnitude = vector.value.norm();
   double length = scale.on_page(magnitude);
   Straight arrow;
   const double most = scales_.shrink * size::kArrowCut;
   arrow.broken = broken(length, most);
-  length = std::min(length, most);
+  length = share * std::min(length, most);
   if (!(magnitude > 0) || !std::isfinite(magnitude)) return arrow;
   const Camera seen = camera.seen_at(vector.place);
   arrow.v = (length / magnitude) * on_page(vector.value, seen);
@@ -197,13 +197,13 @@ VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera&
   return arrow;
 }
 
-Rect VectorPen::extent(const WorldVector& vector, const Camera& camera, double marks) const {
+Rect VectorPen::extent(const WorldVector& vector, const Camera& camera, double marks, double share) const {
   if (vector.kind == VectorKind::torque) {
     const double r = marks * (size::kTorqueArc + size::kArrowHeadWidth / 2);
     const Rect round{-r, -r, r, r};
     return vector.label.empty() ? round : around(round, label_box(label(vector, marks), {0, r}, {0, 1}));
   }
-  const Straight arrow = straight(vector, camera, marks);
+  const Straight arrow = straight(vector, camera, marks, share);
   if (norm(arrow.v) < size::kShortestArrow) return {};
   const double half = marks * size::kArrowHeadWidth / 2;
   const Point tail = arrow.shift, tip = arrow.shift + arrow.v;
@@ -213,14 +213,15 @@ Rect VectorPen::extent(const WorldVector& vector, const Camera& camera, double m
   return around(shaft, label_box(label(vector, marks), tip, unit(arrow.v)));
 }
 
-void VectorPen::add_to(FitBox& box, const WorldVector& vector, const Camera& camera, double marks) const {
-  const Rect r = extent(vector, camera, marks);
+void VectorPen::add_to(FitBox& box, const WorldVector& vector, const Camera& camera, double marks, double share) const {
+  const Rect r = extent(vector, camera, marks, share);
   const Point place = camera.flat(vector.place);
   const std::array<double, 4> sides{-r.x0, r.x1, -r.y0, r.y1};
   for (int side = 0; side < 4; ++side) {
     const int steps = int(std::ceil(sides[std::size_t(side)] / kRoomStep));
     if (steps <= 0) continue;
     Room room;
+    room.in_margin = true;
     (side == 0 ? room.left : side == 1 ? room.right : side == 2 ? room.down : room.up) = steps * kRoomStep;
     box.add(room, place);
   }

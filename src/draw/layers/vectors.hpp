@@ -1,6 +1,7 @@
 // Vectors over a chain: torques as arcs, forces and velocities as arrows. Each kind has one scale a clip, which no single
 // peak decides on: the magnitude below which 95 % of those lie that the clip has measures 0.20 H, or turns by 240 degrees.
-// Larger ones grow with it up to 1.25 times that; beyond, a break in the shaft says that they are cut.
+// Larger ones grow with it up to 1.25 times that; beyond, a break in the shaft says that they are cut. No arrow leaves its
+// scene: the camera holds them at kLeastArrows of these lengths, and they are as long as what it then shows has room for.
 #pragma once
 
 #include <array>
@@ -49,6 +50,8 @@ struct VectorScales {
   VectorScale of(VectorKind kind) const;
 };
 inline constexpr double kTurnOfFull = 240, kWidestTurn = 300;  // degrees
+// Of their lengths, for which the camera makes room.
+inline constexpr double kLeastArrows = 0.5;
 // Below this fraction of the full one a torque rests.
 inline constexpr double kRestBelow = 0.01;
 
@@ -86,10 +89,11 @@ class VectorPen {
  public:
   VectorPen(const Theme& theme, const Fonts& fonts, double text_scale, const VectorScales& scales);
 
-  // Adds the place of a vector to `box` with the room that it and its label take.
-  void add_to(FitBox& box, const WorldVector& vector, const Camera& camera, double marks) const;
+  // Adds the place of a vector to `box` with the room that it and its label take, in the margin where there is one. `share`: of
+  // an arrow's length.
+  void add_to(FitBox& box, const WorldVector& vector, const Camera& camera, double marks, double share) const;
   // What it covers on the page, label included, about the projection of its place; empty if it is not drawn.
-  Rect extent(const WorldVector& vector, const Camera& camera, double marks) const;
+  Rect extent(const WorldVector& vector, const Camera& camera, double marks, double share = 1) const;
   // Its label goes to `labels`, which are drawn over all vectors.
   void draw(Picture& picture, const WorldVector& vector, const Camera& camera, double marks, int clip,
             MarkLabels& labels) const;
@@ -99,7 +103,7 @@ class VectorPen {
     Point shift, v;  // of the tail from the place; units of H
     double broken = 0;
   };
-  Straight straight(const WorldVector& vector, const Camera& camera, double marks) const;
+  Straight straight(const WorldVector& vector, const Camera& camera, double marks, double share = 1) const;
   const TextLine& label(const WorldVector& vector, double marks) const;
   void draw_torque(Picture& picture, const WorldVector& vector, const Camera& camera, double marks, int clip,
                    MarkLabels& labels) const;

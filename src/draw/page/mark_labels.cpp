@@ -13,10 +13,6 @@ constexpr int kRounds = 80;
 constexpr std::size_t kCrowd = 60;  // labels; pushing more apart takes longer than drawing them
 constexpr double kTouch = 1e-6;
 
-Rect moved(const Rect& r, Point by) {
-  return {r.x0 + by.x, r.y0 + by.y, r.x1 + by.x, r.y1 + by.y};
-}
-
 Point turned(Point v, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * v.x - s * v.y, s * v.x + c * v.y};

@@ -127,6 +127,7 @@ std::string Panel::event_note(int k, int events) const {
     const EventEntry& event = scene().events[std::size_t(hits.event[std::size_t(i)])];
     text += (text.empty() ? "" : ";  ") + event.title() + " at " + time_text(hits.t[std::size_t(i)]);
   }
+  if (events == 0 && end != begin) text = scene().events[std::size_t(hits.event[std::size_t(end - begin - 1)])].title();
   return text;
 }
 

@@ -7,6 +7,7 @@ namespace {
 
 // Marks have their full size in a panel of this height and shrink with it, down to a limit.
 constexpr double kFullPanel = 0.6, kSmallestMarks = 0.45;
+constexpr double kWorthOfFull = 1.25;   // a grid without an empty cell is taken up to that much smaller
 constexpr double kSmallestSide = 0.06;  // of a panel that shows anything
 
 bool is_large_enough(const Rect& scene) {
@@ -34,9 +35,9 @@ std::vector<PanelCell> panel_cells(const Rect& area, int count, int columns, con
   return cells;
 }
 
-std::vector<PanelCell> best_cells(const Rect& area, int count, const PanelRows& rows, const FitBox& box) {
+std::vector<PanelCell> best_cells(const Rect& area, int count, const PanelRows& rows, const FitBox& box, double least_width) {
   std::vector<PanelCell> best;
-  double best_scale = 0;
+  double best_worth = 0;
   for (int lines = 1; lines <= count; ++lines) {
     const int columns = (count + lines - 1) / lines;  // as few as these lines allow: no line is nearly empty
     if ((lines - 1) * columns >= count) continue;     // a line would stay empty
@@ -44,8 +45,10 @@ std::vector<PanelCell> best_cells(const Rect& area, int count, const PanelRows& 
     if (!is_large_enough(cells[0].scene)) continue;
     Camera camera;
     fit_to(camera, box, cells[0].scene, size::kFitMargin);
-    if (camera.scale > best_scale) {
-      best_scale = camera.scale;
+    const bool is_full = lines * columns == count && cells[0].scene.width() >= least_width;
+    const double worth = (is_full ? kWorthOfFull : 1) * camera.scale;
+    if (worth > best_worth) {
+      best_worth = worth;
       best = std::move(cells);
     }
   }

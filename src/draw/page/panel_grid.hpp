@@ -23,8 +23,9 @@ struct PanelRows {
 // Row by row from the top, `columns` in a row.
 std::vector<PanelCell> panel_cells(const Rect& area, int count, int columns, const PanelRows& rows);
 
-// The arrangement in which what is in `box`, the same for all panels, is largest.
-std::vector<PanelCell> best_cells(const Rect& area, int count, const PanelRows& rows, const FitBox& box);
+// The arrangement in which what is in `box`, the same for all panels, is largest; one without empty cells is taken where it is
+// nearly as large and its panels are at least `least_width` wide.
+std::vector<PanelCell> best_cells(const Rect& area, int count, const PanelRows& rows, const FitBox& box, double least_width = 0);
 
 // Size of the marks of joints and ground in a panel this large, or in one of these: 1 for one that fills the page.
 double marks_in(const Rect& scene);

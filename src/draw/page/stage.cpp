@@ -81,12 +81,13 @@ void StagedRun::extend(MotionBox& box) const {
 }
 
 Stage::Stage(const Scene& shown_page, const std::vector<PanelRun>& runs, std::vector<double> shown_times,
-             const Fonts& all_fonts, FilmClock film_clock)
+             const Fonts& all_fonts, FilmClock film_clock, ArrowShares shares)
     : page(shown_page),
       fonts(all_fonts),
       theme(page_theme(page)),
       times(std::move(shown_times)),
-      clock(std::move(film_clock)) {
+      clock(std::move(film_clock)),
+      arrows(std::move(shares)) {
   const int count = int(runs.size());
   const bool ghost = count > 1 && is_ghost_layout(page);
   const auto is_good = [](const PanelRun& run) { return is_complete(run.trajectory.status); };
@@ -108,6 +109,15 @@ Stage::Stage(const Scene& shown_page, const std::vector<PanelRun>& runs, std::ve
 
 bool Stage::is_ghost() const {
   return is_comparison() && motions.back().is_outlined();
+}
+
+double Stage::share_of_lengths() const {
+  return std::min(1.0, double(page.video.width) / page.video.height) / std::sqrt(double(full_panels()));
+}
+
+double Stage::share_of_arrows(std::string_view layer) const {
+  const auto known = arrows.find(layer);
+  return known == arrows.end() ? 1 : known->second;
 }
 
 bool Stage::shows(const LayerRow& layer) const {

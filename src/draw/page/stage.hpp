@@ -1,6 +1,7 @@
 // What a film shows, before anyone knows from where: the motions of its runs, and what all of them share.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -91,17 +92,22 @@ class StagedRun {
 // Some of the samples of a clip, equally spaced: enough to decide on the scale of what all of them show.
 std::vector<int> some_of(int samples);
 
+// Which share of the length that they have where there is room for it the arrows of a layer have, by its name; 1 of those
+// that are not named.
+using ArrowShares = std::map<std::string_view, double>;
+
 struct Stage {
   // `page` says what all panels share. Sample k of each trajectory is its frame k, shown at times[k]; the clock says
   // how fast the motion passes there. Throws Error (bad input) where there is no frame.
   Stage(const Scene& page, const std::vector<PanelRun>& runs, std::vector<double> times, const Fonts& fonts,
-        FilmClock clock);
+        FilmClock clock, ArrowShares arrows = {});
 
   const Scene page;  // as it is drawn: its text_scale is that of its size
   const Fonts& fonts;
   const Theme& theme;
   std::vector<double> times;
   FilmClock clock;
+  ArrowShares arrows;
   std::vector<StagedRun> motions;
   std::optional<MotionBox> space;  // around all that counts, where it takes an eye or a ground in space
 
@@ -109,6 +115,10 @@ struct Stage {
   bool is_ghost() const;  // all in one place, all but the first in outline
   bool has_cells() const { return is_comparison() && !is_ghost(); }
   std::size_t full_panels() const { return is_ghost() ? 1 : motions.size(); }
+  // Of the lengths, in units of H, that arrows and ellipses have alone on a page: panels share it, and one higher than wide
+  // gives lengths by its width.
+  double share_of_lengths() const;
+  double share_of_arrows(std::string_view layer) const;
   bool shows(const LayerRow& layer) const;    // the page names it, or it is always there, and nothing forbids it
   bool shows(std::string_view name) const;    // the same of the layers of a name
 };

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "picture/point.hpp"
 
@@ -19,7 +20,7 @@ Room room_at(const Room& room, double scale) {
   if (room.metres < 0) return room;
   const double bound = room.metres * scale + room.beyond;
   return {std::min(room.left, bound), std::min(room.right, bound), std::min(room.down, bound),
-          std::min(room.up, bound)};
+          std::min(room.up, bound), -1, 0, room.in_margin};
 }
 
 }  // namespace
@@ -38,17 +39,19 @@ void FitBox::add(const FitBox& other) {
   }
 }
 
-Rect FitBox::box(double scale) const {
-  bool first = true;
-  Rect all;
+Rect FitBox::box(double scale, double margin) const {
+  std::optional<Rect> bare, over;
   for (const auto& [any_scale, places] : places_) {
     const Room room = room_at(any_scale, scale);
     const Rect r{places.x0 - room.left / scale, places.y0 - room.down / scale, places.x1 + room.right / scale,
                  places.y1 + room.up / scale};
-    all = first ? r : around(all, r);
-    first = false;
+    std::optional<Rect>& whole = room.in_margin ? over : bare;
+    whole = whole ? around(*whole, r) : r;
   }
-  return all;
+  if (!bare) return over.value_or(Rect{});
+  const double dx = margin * bare->width(), dy = margin * bare->height();
+  const Rect wide{bare->x0 - dx, bare->y0 - dy, bare->x1 + dx, bare->y1 + dy};
+  return over ? around(wide, *over) : wide;
 }
 
 void fit_to(Camera& camera, const FitBox& box, const Rect& area, double margin) {
@@ -59,7 +62,7 @@ void fit_to(Camera& camera, const FitBox& box, const Rect& area, double margin) 
     return;
   }
   fit(camera, bare, area, margin);
-  for (int pass = 0; pass < kPasses; ++pass) fit(camera, box.box(camera.scale), area, margin);
+  for (int pass = 0; pass < kPasses; ++pass) fit(camera, box.box(camera.scale, margin), area, 0);
 }
 
 using Eigen::Vector3d;

@@ -17,6 +17,7 @@ struct Room {
   double left = 0, right = 0, down = 0, up = 0;  // units of H
   double metres = -1;                            // negative: no such bound
   double beyond = 0;                             // units of H
+  bool in_margin = false;                        // it may stand in the margin around all the rest
 
   auto operator<=>(const Room&) const = default;
 };
@@ -34,14 +35,15 @@ class FitBox {
   void add(const FitBox& other);  // everything that it holds
 
   bool empty() const { return places_.empty(); }
-  // The whole in metres when one metre measures `scale`.
-  Rect box(double scale) const;
+  // The whole in metres when one metre measures `scale`, with that margin, a fraction of its sides, around it.
+  Rect box(double scale, double margin = 0) const;
 
  private:
   std::map<Room, Rect> places_;
 };
 
-// Scale and origin of the camera such that everything, margins included, just fills `area`.
+// Scale and origin of the camera such that everything, margins included, just fills `area`; where what may stand in the margin
+// needs more, that.
 void fit_to(Camera& camera, const FitBox& box, const Rect& area, double margin);
 
 // Against gravity; +z where there is none.

@@ -69,6 +69,33 @@ TEST(Fit, TakesTheSmallerOfRoomOnThePageAndRoomInMetres) {
   EXPECT_NEAR(box.box(1.0).width(), 1 + 2 * 0.02, 1e-15);  // 0.05 m would be 0.05: the page's bound holds
 }
 
+TEST(Fit, MarksInTheMarginTakeRoomOnlyBeyondIt) {
+  constexpr double kWide = 0.1;
+  FitBox bare;
+  bare.add({}, {0, 0});
+  bare.add({}, {1, 1});
+  Camera without;
+  fit_to(without, bare, kFitArea, kWide);
+  const double margin = kWide * without.scale;  // units of H, as wide above as below
+  for (const double reach : {0.5 * margin, 2 * margin}) {
+    FitBox box = bare;
+    Room mark;
+    mark.up = reach;
+    mark.in_margin = true;
+    box.add(mark, {0.5, 1});
+    Camera camera;
+    fit_to(camera, box, kFitArea, kWide);
+    const double top = camera.project({0.5, 1, 0}).y + reach;
+    if (reach < margin) {
+      EXPECT_NEAR(camera.scale, without.scale, kConverged);
+      EXPECT_LT(top, kFitArea.y1 - 0.4 * margin);
+    } else {
+      EXPECT_LT(camera.scale, without.scale);
+      EXPECT_NEAR(top, kFitArea.y1, kConverged);
+    }
+  }
+}
+
 TEST(Fit, ShowsOneMetreWhereNothingHasAnExtent) {
   FitBox box;
   box.add(room_around(0.03), {5, 5});
