@@ -15,7 +15,7 @@ install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" -DPROGRAM=$<TARGET_FI
   -P \"${CMAKE_SOURCE_DIR}/assets/package/manual.cmake\" COMMAND_ERROR_IS_FATAL ANY)" COMPONENT runtime)
 install(TARGETS chainreel RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
 install(TARGETS chainreel-equations RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/chainreel COMPONENT runtime)
-install(DIRECTORY assets/scenes assets/styles assets/guide assets/ci assets/cluster assets/library assets/notebooks DESTINATION ${CMAKE_INSTALL_DATADIR}/chainreel/assets COMPONENT runtime)
+install(DIRECTORY assets/scenes assets/styles assets/guide assets/ci assets/cluster assets/library assets/notebooks assets/ros DESTINATION ${CMAKE_INSTALL_DATADIR}/chainreel/assets COMPONENT runtime)
 install(DIRECTORY models DESTINATION ${CMAKE_INSTALL_DATADIR}/chainreel COMPONENT runtime)
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT runtime)

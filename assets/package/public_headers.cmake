@@ -6,7 +6,7 @@ set(dynamics_headers
   dynamics/effective_mass.hpp dynamics/energy.hpp dynamics/equation_of_motion.hpp dynamics/friction.hpp
   dynamics/inverse_kinematics.hpp dynamics/kinematics.hpp dynamics/lagrange.hpp dynamics/workspace.hpp)
 set(sim_headers
-  core/scalar.hpp expr/affine.hpp expr/corners.hpp expr/expression.hpp expr/program.hpp
+  core/csv.hpp core/scalar.hpp expr/affine.hpp expr/corners.hpp expr/expression.hpp expr/program.hpp
   integrate/dense_lu.hpp integrate/integrator.hpp integrate/method.hpp integrate/system.hpp model/constraint.hpp
   model/urdf_file.hpp model/urdf_problems.hpp model/visuals.hpp dynamics/algebra.hpp
   dynamics/constraints/constrained_dynamics.hpp dynamics/constraints/constrained_workspace.hpp

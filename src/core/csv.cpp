@@ -1,13 +1,16 @@
 #include "core/csv.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <numbers>
+#include <span>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/hash.hpp"
 #include "core/input_file.hpp"
 
 namespace chainreel {
@@ -40,6 +43,26 @@ std::string take_unit(std::string& name) {
   return unit;
 }
 
+// What a column's numbers are above its first one. Large ones are told apart by their text, in as many digits as the
+// machine has (64 bits where this is tested): of 1.7e9 s a double keeps but 0.2 us.
+class FirstSubtracted {
+ public:
+  double operator()(const std::string& text, double value) {
+    if (!first_) first_ = wide(text, value);
+    return *first_ == 0 ? value : double(wide(text, value) - *first_);
+  }
+  double first() const { return double(first_.value_or(0)); }
+
+ private:
+  static long double wide(const std::string& text, double otherwise) {
+    long double value = otherwise;
+    const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+    std::from_chars(begin, text.data() + text.size(), value);
+    return value;
+  }
+  std::optional<long double> first_;
+};
+
 // A column in the program's units.
 std::vector<double> in_our_units(const Table& table, std::size_t column) {
   std::vector<double> values = table.columns[column];
@@ -61,7 +84,7 @@ int Table::find(const std::string& name) const {
   return found == names.end() ? -1 : int(found - names.begin());
 }
 
-Table read_csv(const std::string& path) {
+Table read_csv(const std::string& path, const std::string& since_first) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
     throw Error(ExitCode::bad_input, "there is no such file", {path});
@@ -69,10 +92,13 @@ Table read_csv(const std::string& path) {
     throw Error(ExitCode::limit, "is larger than 256 MiB", {path});
   note_input(path);
   std::ifstream stream(path, std::ios::binary);
-  Table table{path, {}, {}, {}, {}};
+  Table table{path, {}, {}, {}, {}, 0};
   int number = 0;
+  FirstSubtracted from_first;
+  std::size_t relative = std::string::npos;
   for (std::string line; std::getline(stream, line);) {
     ++number;
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // the mark of UTF-8 that spreadsheets write
     if (trimmed(line).empty() || trimmed(line).starts_with('#')) continue;
     const std::vector<std::string> fields = fields_of(line);
     if (table.names.empty()) {
@@ -82,6 +108,7 @@ Table read_csv(const std::string& path) {
         if (table.find(table.names[i]) != int(i))
           throw Error(ExitCode::bad_input, "two columns are named '" + table.names[i] + "': rename or remove one", {path, number});
       table.columns.resize(fields.size());
+      if (const int column = since_first.empty() ? -1 : table.find(since_first); column >= 0) relative = std::size_t(column);
       continue;
     }
     if (fields.size() != table.names.size())
@@ -97,12 +124,23 @@ Table read_csv(const std::string& path) {
         throw Error(ExitCode::bad_input,
                     "'" + fields[i] + "' under '" + table.names[i] + "' is not a finite number",
                     {path, number});
-      table.columns[i].push_back(*value);
+      table.columns[i].push_back(i == relative ? from_first(fields[i], *value) : *value);
     }
   }
   if (table.rows() == 0)
     throw Error(ExitCode::bad_input, "holds no row of numbers below a line of names", {path});
+  table.first = from_first.first();
   return table;
+}
+
+std::string sha256_of(const Table& table) {
+  Sha256 hash;
+  for (std::size_t i = 0; i < table.names.size(); ++i) {
+    const std::string head = table.names[i] + (table.units[i].empty() ? "" : " [" + table.units[i] + "]");
+    hash.add(std::as_bytes(std::span(head)));
+    hash.add(std::span<const double>(table.columns[i]));
+  }
+  return hash.finish();
 }
 
 std::optional<double> factor_of_unit(const std::string& unit) {
@@ -118,37 +156,112 @@ std::optional<double> factor_of_unit(const std::string& unit) {
   return is_known ? std::optional(found->second) : std::nullopt;
 }
 
-TimeTable read_time_table(const std::string& path, const std::vector<std::string>& wanted, int n) {
-  const Table table = read_csv(path);
+namespace {
+
+// Where the numbers of one quantity stand.
+class Quantity {
+ public:
+  Quantity(const Table& table, std::string name, const std::vector<std::string>& freedoms, const ColumnNames& names)
+      : table_(table), name_(std::move(name)), freedoms_(freedoms), names_(names) {}
+
+  // A column a freedom; none where the table has not a single one.
+  std::vector<std::size_t> columns() const {
+    std::vector<std::size_t> found;
+    std::string missing;
+    for (std::size_t i = 0; i < freedoms_.size(); ++i) {
+      const int column = column_of(i);
+      if (column >= 0)
+        found.push_back(std::size_t(column));
+      else
+        missing = freedoms_[i];
+    }
+    const std::string last = std::to_string(freedoms_.size()), next = name_ + std::to_string(freedoms_.size() + 1);
+    if (!found.empty() && found.size() != freedoms_.size())
+      throw Error(ExitCode::bad_input,
+                  "needs the columns " + name_ + "1 to " + name_ + last + ", one a freedom, or " + name_ + "." +
+                      freedoms_.front() + " and so on by their names; there is none of '" + missing + "'",
+                  {table_.file});
+    if (!found.empty() && table_.find(next) >= 0)
+      throw Error(ExitCode::bad_input,
+                  "has a column " + next + ", but the mechanism has " + last + (freedoms_.size() == 1 ? " freedom" : " freedoms") +
+                      ": is it a table of another one?",
+                  {table_.file});
+    return found;
+  }
+
+ private:
+  int column_of(std::size_t i) const {
+    for (const ColumnNames::Column& one : names_.list) {
+      if (one.freedom != freedoms_[i] || one.quantity != name_) continue;
+      const int column = table_.find(one.name);
+      if (column < 0)
+        throw Error(ExitCode::bad_input, "has no column '" + one.name + "', which is to be " + name_ + " of '" + one.freedom + "':" +
+                                             did_you_mean(one.name, table_.names) + " There are " + joined(table_.names),
+                    {table_.file});
+      return column;
+    }
+    const std::string by_number = name_ + std::to_string(i + 1), by_name = name_ + "." + freedoms_[i];
+    const int column = table_.find(by_number), named = table_.find(by_name);
+    if (column >= 0 && named >= 0)
+      throw Error(ExitCode::bad_input, "has both a column '" + by_number + "' and '" + by_name + "', which mean the same: remove one",
+                  {table_.file});
+    return std::max(column, named);
+  }
+
+  const Table& table_;
+  std::string name_;
+  const std::vector<std::string>& freedoms_;
+  const ColumnNames& names_;
+};
+
+// What is named must be a freedom, and each column is one thing alone.
+void check_names(const Table& table, const std::vector<std::string>& freedoms, const ColumnNames& names) {
+  for (const ColumnNames::Column& one : names.list) {
+    if (std::find(freedoms.begin(), freedoms.end(), one.freedom) == freedoms.end())
+      throw Error(ExitCode::bad_input,
+                  "`columns` names '" + one.freedom + "', but no joint of the mechanism is called so:" +
+                      did_you_mean(one.freedom, freedoms) + " There are " + joined(freedoms),
+                  {table.file});
+    const auto means_it = [&](const ColumnNames::Column& other) { return other.name == one.name; };
+    if (one.name == names.time || std::count_if(names.list.begin(), names.list.end(), means_it) > 1)
+      throw Error(ExitCode::bad_input, "`columns` takes the column '" + one.name + "' for two things", {table.file});
+  }
+}
+
+}  // namespace
+
+TimeTable time_table_of(const Table& table, const std::vector<std::string>& wanted, const std::vector<std::string>& freedoms,
+                        const ColumnNames& names) {
+  check_names(table, freedoms, names);
   TimeTable result;
-  const int time = table.find("t");
-  if (time < 0) throw Error(ExitCode::bad_input, "has no column 't'", {path});
+  const int time = table.find(names.time);
+  if (time < 0)
+    throw Error(ExitCode::bad_input,
+                "has no column '" + names.time + "': of the time's another name say `columns: {time: NAME}`; there are " +
+                    joined(table.names),
+                {table.file});
+  const std::string& unit = table.units[std::size_t(time)];
+  if (!unit.empty() && !unit.ends_with('s'))
+    throw Error(ExitCode::bad_input, "'" + names.time + " [" + unit + "]' is to be the time: in s, ms, us or ns", {table.file});
   result.t = in_our_units(table, std::size_t(time));
   result.lines = table.lines;
   for (std::size_t k = 1; k < result.t.size(); ++k)
     if (result.t[k] <= result.t[k - 1])
       throw Error(ExitCode::bad_input,
-                  "'t' does not rise: " + format_shortest(result.t[k]) + " stands below " +
+                  "'" + names.time + "' does not rise: " + format_shortest(result.t[k]) + " stands below " +
                       format_shortest(result.t[k - 1]) + "; each instant takes one row, later ones below",
-                  {path, table.lines[k]});
+                  {table.file, table.lines[k]});
   for (const std::string& name : wanted) {
-    std::vector<std::vector<double>> group;
-    for (int i = 1; i <= n; ++i) {
-      const int column = table.find(name + std::to_string(i));
-      if (column >= 0) group.push_back(in_our_units(table, std::size_t(column)));
-    }
-    if (!group.empty() && group.size() != std::size_t(n))
-      throw Error(ExitCode::bad_input,
-                  "needs the columns " + name + "1 to " + name + std::to_string(n) + ", one a freedom",
-                  {path});
-    if (!group.empty() && table.find(name + std::to_string(n + 1)) >= 0)
-      throw Error(ExitCode::bad_input,
-                  "has a column " + name + std::to_string(n + 1) + ", but the mechanism has " + std::to_string(n) +
-                      (n == 1 ? " freedom" : " freedoms") + ": is it a table of another one?",
-                  {path});
-    result.groups.push_back(std::move(group));
+    result.columns.push_back(Quantity(table, name, freedoms, names).columns());
+    auto& group = result.groups.emplace_back();
+    for (const std::size_t column : result.columns.back()) group.push_back(in_our_units(table, column));
   }
   return result;
+}
+
+TimeTable read_time_table(const std::string& path, const std::vector<std::string>& wanted, const std::vector<std::string>& freedoms,
+                          const ColumnNames& names) {
+  return time_table_of(read_csv(path), wanted, freedoms, names);
 }
 
 std::string csv_words(const std::string& words) {

@@ -13,27 +13,49 @@ struct Table {
   std::vector<std::string> units;  // "rad"; "" where none is told
   std::vector<std::vector<double>> columns;  // one a name, all of the same length
   std::vector<int> lines;                    // of the file, where each row stands
+  double first = 0;                          // what the first row held of the column that is told from it on
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
   int find(const std::string& name) const;  // index of a column, or -1
 };
 
-// Throws Error with file and line for what is no table of finite numbers under names that differ.
-Table read_csv(const std::string& path);
+// Throws Error with file and line for what is no table of finite numbers under names that differ. Of the column `since_first`
+// the numbers are told from the first row's on, which is subtracted before they are rounded: seconds since 1970 keep
+// their nanoseconds, and nanoseconds theirs.
+Table read_csv(const std::string& path, const std::string& since_first = "");
+
+// Of names, units and numbers.
+std::string sha256_of(const Table& table);
 
 // How many of the program's units (s, rad, m, N and what is made of them) one of `unit` is: pi/180 of deg, 1e-3 of ms. None
 // of those that it does not know; 1 of "".
 std::optional<double> factor_of_unit(const std::string& unit);
 
-// The same with columns `t` (rising) and `NAME1..NAMEn`, no more and no fewer, for each wanted name that the file has,
-// in the program's units.
+// Which columns are meant, where a table has names of its maker's own: of the time, and of a freedom's quantity.
+struct ColumnNames {
+  struct Column {
+    std::string freedom, quantity, name;  // "elbow", "q", "position_2"
+    friend bool operator==(const Column&, const Column&) = default;
+  };
+  std::string time = "t";
+  std::vector<Column> list;
+
+  friend bool operator==(const ColumnNames&, const ColumnNames&) = default;
+};
+
+// A table's columns `t` (rising) and, for each wanted quantity that it has, one a freedom, no more and no fewer: `NAME2` of
+// the second one, `NAME.elbow` of the one that is so called, or what `names` says. In the program's units.
 struct TimeTable {
   std::vector<double> t;
   std::vector<int> lines;  // of the file, where each row stands
   std::vector<std::vector<std::vector<double>>>
-      groups;  // [wanted][1..n]; empty where the file has none of that name
+      groups;  // [wanted][freedom]; empty where the file has none of that name
+  std::vector<std::vector<std::size_t>> columns;  // of the file, where these numbers stand, likewise
 };
-TimeTable read_time_table(const std::string& path, const std::vector<std::string>& wanted, int n);
+TimeTable time_table_of(const Table& table, const std::vector<std::string>& wanted, const std::vector<std::string>& freedoms,
+                        const ColumnNames& names = {});
+TimeTable read_time_table(const std::string& path, const std::vector<std::string>& wanted, const std::vector<std::string>& freedoms,
+                          const ColumnNames& names = {});
 
 // A field of words: in quotes, on one line.
 std::string csv_words(const std::string& words);

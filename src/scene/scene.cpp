@@ -1,6 +1,7 @@
 #include "scene/scene.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <map>
 
@@ -69,7 +70,16 @@ void require_single_run(const Scene& scene) {
               scene.place_of("compare"));
 }
 
+void require_computed_run(const Scene& scene, const std::string& command) {
+  if (!scene.motion) return;
+  throw Error(ExitCode::bad_input,
+              "shows a recorded motion, of which nothing is computed by any method: `" + command +
+                  "` takes a scene without `motion:`",
+              scene.place_of("motion"));
+}
+
 std::string method_text(const Scene& scene) {
+  if (scene.motion) return "replay of " + std::filesystem::path(scene.motion->csv).filename().string();
   std::string text = scene.method;
   if (scene.order) text += ", order " + std::to_string(*scene.order);
   if (scene.step) text += ", step " + format_shortest(*scene.step) + " s";

@@ -12,6 +12,7 @@
 #include "model/model_source.hpp"
 #include "scene/constraint_entry.hpp"
 #include "scene/layers.hpp"
+#include "scene/motion_entry.hpp"
 #include "scene/style.hpp"
 #include "scene/words.hpp"
 #include "sim/accuracy.hpp"
@@ -83,6 +84,7 @@ struct Scene {
   std::optional<double> massless;  // kg given to moving links without inertia; absent: they are an error
   LimitPolicy limit = LimitPolicy::report;
   std::map<std::string, std::string> packages;  // package:// name -> folder
+  std::optional<MotionEntry> motion;  // absent: it is computed
   StartState start;
   std::vector<TorqueEntry> torque;  // one a degree of freedom; empty: none acts, or `control` does
   std::optional<Control> control;   // `torque:` as a mapping: for the whole chain
@@ -128,11 +130,14 @@ struct Scene {
   // For errors found later: the key's place, or the file where the scene left it out.
   Place place_of(const std::string& key) const;
 
-  bool chooses_method() const { return method == "auto"; }
+  bool chooses_method() const { return method == "auto" && !motion; }
 };
 
 // Throws Error (bad input) where the scene compares several runs.
 void require_single_run(const Scene& scene);
+
+// The same for a command that is about methods, where the scene shows a recorded motion; `command` is named.
+void require_computed_run(const Scene& scene, const std::string& command);
 
 // "rk4, step 0.001 s", "dop853, tolerance 1e-9".
 std::string method_text(const Scene& scene);

@@ -174,6 +174,7 @@ std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& tra
   const auto add = [&](std::optional<Doubt> doubt) {
     if (doubt) doubts.push_back(std::move(*doubt));
   };
+  if (simulation.motion) return doubts;  // no method erred: what a table does not tell truly, its remarks say
   add(doubt_energy(simulation, trajectory, audit, chosen_by));
   if (trajectory.rows > 0) add(doubt_constraints(trajectory, chosen_by));
   if (simulation.step > 0 && !follows_a_curve(simulation)) add(StepsAgain(simulation, trajectory).doubt(chosen_by));

@@ -92,8 +92,8 @@ class InverseWalk {
 }  // namespace
 
 InverseAlong inverse_along(const Chain& chain, const ConstraintPlan& constraints, const std::string& trajectory) {
-  const std::unique_ptr<Reference> reference = make_table_reference(trajectory, chain.nv);
-  const TimeTable table = read_time_table(trajectory, {}, chain.nv);
+  const std::unique_ptr<Reference> reference = make_table_reference(trajectory, chain.coordinate_names);
+  const TimeTable table = read_time_table(trajectory, {}, chain.coordinate_names);
   InverseAlong result;
   result.nv = std::size_t(chain.nv);
   result.t = table.t;

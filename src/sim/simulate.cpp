@@ -9,6 +9,7 @@
 #include "core/format.hpp"
 #include "core/machine.hpp"
 #include "sim/drive/limits.hpp"
+#include "sim/drive/recorded_motion.hpp"
 #include "sim/step_grid.hpp"
 #include "sim/system/chain_system.hpp"
 #include "sim/system/forms.hpp"
@@ -41,7 +42,8 @@ class Run {
         system_(simulation.chain, *simulation.torque, simulation.limit, simulation.constraints),
         constrained_(system_.constrained()),
         forms_(system_, *simulation.method),
-        integrator_(make_integrator(*simulation.method, forms_.forms(), simulation.options)),
+        integrator_(simulation.motion ? make_player(simulation.motion, simulation.chain.nv)
+                                      : make_integrator(*simulation.method, forms_.forms(), simulation.options)),
         grid_(simulation),
         q_(simulation.q0),
         qd_(simulation.qd0),

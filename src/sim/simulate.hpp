@@ -18,9 +18,12 @@
 
 namespace chainreel {
 
+class RecordedMotion;
+
 // Everything that a run needs, resolved and checked.
 struct Simulation {
   Chain chain;
+  std::shared_ptr<const RecordedMotion> motion;  // null: it is computed; else shown as it was, see `replay`
   std::vector<double> q0;   // nq
   std::vector<double> qd0;  // nv
   std::unique_ptr<TorqueLaw> torque;
@@ -44,6 +47,9 @@ struct MethodSetting {
   MethodOptions options;
   double step = 0;  // s; 0: by the tolerance
 };
+
+// The run is that of a recorded motion until `duration`: its method, start and torques.
+void replay(Simulation& simulation, std::shared_ptr<const RecordedMotion> motion);
 
 void apply(const MethodSetting& setting, Simulation& simulation);
 

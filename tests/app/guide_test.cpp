@@ -109,6 +109,8 @@ TEST(Guide, ExamplesOfScenesAreRead) {
   fs::create_directory_symlink(fs::absolute("models"), folder.path() / "models");
   fs::create_directory_symlink(fs::absolute("assets/scenes"), folder.path() / "assets/scenes");
   fs::create_directory(folder.path() / "assets/mine");
+  // The motion that examples show.
+  std::ofstream(folder.path() / "assets/mine/log.csv") << "t,stamp,q1,q2,pos_1,pos_2,vel_1,vel_2\n0,0,0,0,0,0,1,1\n1,1,1,1,1,1,1,1\n";
   for (const GuideBlock& block : blocks) {
     const bool is_whole = block.text.find("model:") != std::string::npos;
     const std::string path = (folder.path() / "assets/mine/scene.yaml").string();

@@ -125,6 +125,21 @@ TEST(PhysicsRecord, NamesTheTableWhoseNumbersChanged) {
                                 HasSubstr(": torque: the numbers in table tau.csv differ"))));
 }
 
+TEST(PhysicsRecord, NamesTheRecordedMotionThatChanged) {
+  const Workshop shop;
+  const std::string scene = shop.folder.write("replay.yaml", "model: rr.urdf\nmotion: log.csv\n");
+  const auto log = [&](const char* q, const char* qdd) {
+    shop.folder.write("log.csv", std::string("t,q1,q2,qd1,qd2,qdd1,qdd2\n0,0,0,0,0,0,0\n1,") + q + ",0,0,0," + qdd + ",0\n");
+    return record_of(scene);
+  };
+  const Json before = log("1", "0");
+  EXPECT_EQ(before.dump(), log("1.0", "0").dump());
+  EXPECT_THAT(explain_runs(before, log("1.1", "0")),
+              ElementsAre(AllOf(StartsWith("q1 (joint1) differs by"), HasSubstr(": motion: the numbers in table log.csv differ"))));
+  // Torques alone are others: the states are the same.
+  EXPECT_THAT(explain_runs(before, log("1", "0.5")), ElementsAre("motion: the numbers in table log.csv differ"));
+}
+
 // A change beside another one that moves is told by itself where it cannot have moved anything.
 TEST(PhysicsRecord, TakesNothingForACauseThatDoesNotAct) {
   const TemporaryFolder folder;

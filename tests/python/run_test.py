@@ -107,6 +107,11 @@ class Runs(FolderTest):
             cr.Scene(self.write("again.yaml", run.scene)).run()
         with self.assertRaisesRegex(cr.Error, "torque of its own"):
             cr.Scene({**FALL, "torque": [1, 1]}, torque=push).run()
+        log = self.write("log.csv", "t,q1,q2\n0,0,0\n0.5,0.1,0\n1,0.4,0\n")
+        replay = cr.Scene({"model": RR, "motion": log}).run()
+        self.assertEqual(replay.t[-1], 1)
+        with self.assertRaisesRegex(cr.Error, "recorded motion"):
+            cr.Scene({"model": RR, "motion": log}, torque=push).run()
         kept = []
         cr.Scene(FALL, torque=lambda t, q, qd: kept.append(q) or [0, 0]).run()
         self.assertFalse(np.array_equal(kept[0], kept[-1]))  # copies: they may be kept

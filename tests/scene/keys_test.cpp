@@ -107,7 +107,7 @@ TEST_F(Keys, WithNullAreAbsentWhereTheyCanBe) {
 }
 
 TEST_F(Keys, WhoseValueIsAPathAreKnownByName) {
-  EXPECT_THAT(path_keys(), testing::UnorderedElementsAre("model", "csv", "inverse_of", "trajectory", "style", "file"));
+  EXPECT_THAT(path_keys(), testing::UnorderedElementsAre("model", "csv", "inverse_of", "trajectory", "motion", "style", "file"));
 }
 
 TEST_F(Keys, OfModelsAreThoseOfTheMechanismAndOfItsPicture) {

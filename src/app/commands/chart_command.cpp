@@ -212,6 +212,7 @@ void run_chart(const ChartOptions& options) {
   const std::vector<const Method*> chosen = parse_methods(options.methods);
   const std::vector<std::string> lit = highlighted(options, chosen);
   PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false, options.common.quiet);
+  require_computed_run(prepared.scene, "chart");
   std::string output = options.figure.output;
   if (output.empty()) output = "out/" + prepared.scene.name + "_chart.png";
   check_figure_path(output);

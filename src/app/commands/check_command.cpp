@@ -193,7 +193,11 @@ void print_run(const PreparedScene& prepared, const ExaminedRun& report, bool al
   if (report.model.contains("constraints"))
     std::printf("%s\n", constraint_plan_text(report.model["constraints"]).c_str());
   const Json& cost = report.cost;
-  std::printf("%s: order %d, %ld steps, %ld evaluations of the dynamics, %d frames\n",
+  if (prepared.simulation.motion)
+    std::printf("%s: nothing is computed but what the motion takes, %ld steps from row to row, %d frames\n",
+                method_text(prepared.scene).c_str(), cost["steps"].get<long>(), cost["frames"].get<int>());
+  else
+    std::printf("%s: order %d, %ld steps, %ld evaluations of the dynamics, %d frames\n",
               to_string(MethodSetting{prepared.simulation.method, prepared.simulation.options,
                                       prepared.simulation.step})
                   .c_str(),
@@ -218,7 +222,7 @@ void print_run(const PreparedScene& prepared, const ExaminedRun& report, bool al
 void check_scene(const CheckOptions& options) {
   const PreparedFilm film = load_film(options.file, overrides_of(options.common), true, options.common.quiet);
   if (options.all && std::none_of(film.panels.begin(), film.panels.end(), [](const PreparedScene& panel) { return panel.choice.has_value(); }))
-    throw Error(ExitCode::usage, "--all shows what `method: auto` tried, and the scene names its method: take --set method=auto");
+    throw Error(ExitCode::usage, "--all shows what `method: auto` tried, and the scene names its method or shows a recorded motion: take --set method=auto --set motion=");
   const int frames = clock_of(film).frame_count();
   std::vector<ExaminedRun> reports;
   for (const PreparedScene& panel : film.panels) {

@@ -190,6 +190,7 @@ void require_all_possible(Simulation& simulation, const std::vector<const Method
 void run_energy(const EnergyOptions& options) {
   const std::vector<const Method*> chosen = parse_methods(options.methods);
   PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false, options.common.quiet);
+  require_computed_run(prepared.scene, "energy");
   const Settings settings = settings_of(options, prepared.scene);
   Simulation& simulation = prepared.simulation;
   if (!options.until.empty()) simulation.duration = parse_positive_seconds(options.until, "--until", "1000s");

@@ -42,6 +42,10 @@ Mechanism load_mechanism(const InverseOptions& options) {
   }
   Scene scene = read_scene(options.file, overrides);
   require_single_run(scene);
+  if (scene.motion)
+    throw Error(ExitCode::bad_input,
+                "shows a recorded motion of its own: `chainreel simulate` writes its torques, by inverse dynamics, too",
+                scene.place_of("motion"));
   Simulation simulation = prepare(scene, false);
   return {std::move(simulation.chain), std::move(simulation.constraints)};
 }

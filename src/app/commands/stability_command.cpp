@@ -264,6 +264,7 @@ void print_linearisation(const Linearisation& start) {
 // "Who fails here": every method at three steps or tolerances.
 void compare_methods(const StabilityOptions& options) {
   PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false, options.common.quiet);
+  require_computed_run(prepared.scene, "stability");
   Simulation& simulation = prepared.simulation;
   const Linearisation start = linearise(simulation);
   std::vector<std::vector<std::string>> table{

@@ -59,6 +59,10 @@ std::vector<PreparedScene> prepare_panels(const std::vector<Scene>& scenes, bool
 }
 
 void drive(Scene& scene, const OwnTorque& torque) {
+  if (scene.motion)
+    throw Error(ExitCode::usage, "the scene shows a recorded motion, whose torques follow from it, and is given " + torque.words +
+                                     ": leave one of them out",
+                scene.place_of("motion"));
   if (!scene.torque.empty() || scene.control)
     throw Error(ExitCode::usage, "the scene has a torque of its own, and is given " + torque.words + ": leave one of them out",
                 scene.place_of("torque"));

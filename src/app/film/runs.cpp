@@ -115,7 +115,7 @@ void require_expected_end(const Trajectory& trajectory, const Scene& scene) {
   }
   if (is_complete(trajectory.status)) return;
   throw Error(ExitCode::numerical,
-              trajectory.trouble + " with " + method_text(scene) + ": try a smaller step or another method",
+              trajectory.trouble + " with " + method_text(scene) + (scene.motion ? "" : ": try a smaller step or another method"),
               {scene.file});
 }
 

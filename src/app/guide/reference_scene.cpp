@@ -53,6 +53,7 @@ std::string value_words(const KeyText& text) {
       if (text.parts[0].form == KeyForm::list && is_short(text)) return "list of lists" + value_words(text.parts[0]).substr(4);
       return is_short(text) ? "list of " + value_cell(text.parts[0]) + "s" : "list, see below";
     case KeyForm::mapping:
+      if (text.parts[0].form == KeyForm::either && !is_short(text)) return "names, each with a text, or keys";
       return "names, each with a " + value_words(text.parts[0]);
     case KeyForm::record:
       return "see below";

@@ -29,6 +29,7 @@ std::string vector_text(const std::vector<double>& values) {
 }
 
 std::string torque_words(const Scene& scene) {
+  if (scene.motion) return "the torques that a recorded motion takes (inverse dynamics)";
   if (scene.control && scene.control->function) return "torques of " + scene.control->function->words;
   if (scene.control) return "a control of all joints";
   std::string text;

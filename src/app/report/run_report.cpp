@@ -11,6 +11,7 @@
 #include "draw/film/compose.hpp"
 #include "render/canvas.hpp"
 #include "scene/run/fall.hpp"
+#include "sim/drive/recorded_motion.hpp"
 
 namespace chainreel {
 
@@ -43,6 +44,19 @@ void add_events(Json& json, const Scene& scene, const Trajectory& trajectory) {
   json["end_time"] = trajectory.end_time;
 }
 
+// Of a recorded motion. The hash makes films of another table others, also where q and qd are the same.
+Json motion_report(const RecordedMotion& motion) {
+  Json json{{"sha256", motion.sha256()},
+            {"rows", motion.rows()},
+            {"end", motion.end()},
+            {"rates", motion.has_rates() ? "recorded" : "derivatives of a spline"},
+            {"accelerations", motion.has_accelerations() ? "recorded" : "derivatives of a spline"},
+            {"torques", "inverse dynamics"}};
+  if (const auto& own = motion.own_torques())
+    json["recorded_torques"] = {{"largest_difference", own->largest}, {"t", own->t}, {"freedom", own->freedom}};
+  return json;
+}
+
 }  // namespace
 
 RunReport run_report(const PreparedScene& prepared, const Trajectory& trajectory) {
@@ -72,6 +86,7 @@ Json to_json(const RunReport& report) {
   if (simulation.options.tolerance > 0) json["tolerance"] = simulation.options.tolerance;
   if (simulation.options.order > 0) json["order"] = simulation.options.order;
   if (prepared.choice) json["auto"] = choice_report(*prepared.choice, scene.accuracy, false);
+  if (simulation.motion) json["motion"] = motion_report(*simulation.motion);
   json["steps"] = trajectory.steps;
   json["evaluations"] = trajectory.evaluations;
   json["duration"] = scene.duration;

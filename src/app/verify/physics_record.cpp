@@ -28,6 +28,7 @@ bool is_recorded(const SceneKey& key) {
 // Of the tables that drive a scene: their names as they stand in its keys, and a hash of their numbers.
 class Tables {
  public:
+  void take(MotionEntry& motion) { add(motion.csv, sha256_of(*motion.table)); }
   void take(Control& control) {
     take(control.csv);
     take(control.inverse_of);
@@ -39,22 +40,19 @@ class Tables {
  private:
   // Names alone stay in the key.
   void take(std::string& path) {
-    if (path.empty()) return;
-    const Table table = read_csv(path);
-    Sha256 hash;
-    for (std::size_t i = 0; i < table.names.size(); ++i) {
-      hash.add(std::as_bytes(std::span(table.names[i].data(), table.names[i].size())));
-      hash.add(std::span<const double>(table.columns[i]));
-    }
+    if (!path.empty()) add(path, sha256_of(read_csv(path)));
+  }
+  void add(std::string& path, const std::string& hash) {
     path = file_name(path);
     const std::string others = hashes_.value(path, "");  // of another folder
-    hashes_[path] = others + (others.empty() ? "" : " ") + hash.finish();
+    hashes_[path] = others + (others.empty() ? "" : " ") + hash;
   }
 
   Json hashes_ = Json::object();
 };
 
 Json keys_of(Scene scene, KeyOf of, Tables& tables) {
+  if (scene.motion) tables.take(*scene.motion);
   if (scene.control) tables.take(*scene.control);
   for (TorqueEntry& entry : scene.torque)
     if (entry.control) tables.take(*entry.control);

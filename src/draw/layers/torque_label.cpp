@@ -111,6 +111,11 @@ std::vector<std::string> torque_notations(const Chain& chain, const std::vector<
 
 namespace {
 
+// What the torques of a recorded motion are.
+std::vector<std::string> notations_of_replay() {
+  return {"tau = M(q) qdd + h(q, qd) of the recorded motion", "tau = M(q) qdd + h(q, qd)"};
+}
+
 class TorqueLabel : public Layer {
  public:
   explicit TorqueLabel(const Stage& stage) : forms_(common_torque(stage)) {}
@@ -120,6 +125,7 @@ class TorqueLabel : public Layer {
   // What acts at the joints of all panels; nothing where they differ, since then their titles say it.
   static std::vector<std::string> common_torque(const Stage& stage) {
     const auto notations = [](const StagedRun& motion) {
+      if (motion.scene().motion) return notations_of_replay();
       return torque_notations(motion.chain(), motion.scene().torque, motion.scene().control);
     };
     const std::vector<std::string> first = notations(stage.motions.front());

@@ -23,6 +23,10 @@ bool holds_by_baumgarte(const Scene& scene) {
   return has_constraints(scene) && scene.stabilize == Stabilization::baumgarte;
 }
 
+bool is_computed(const Scene& scene) {
+  return !scene.motion;
+}
+
 bool is_auto(const Scene& scene) {
   return scene.chooses_method();
 }
@@ -60,15 +64,21 @@ std::vector<Chapter> chapters() {
         Row("start.q", &Scene::start, &StartState::q, "joint positions, a number a coordinate")
             .in("rad or m")
             .absent("all at zero")
+            .where(is_computed)
             .caption("q(0) = @"),
         Row("start.qd", &Scene::start, &StartState::qd, "joint rates, a number a freedom")
             .in("rad/s or m/s")
             .absent("at rest")
+            .where(is_computed)
             .caption("qd(0) = @"),
         Row(told_torque(), read_torque, torque_text)
             .example("torque: [0, -100 * y_G]")
             .absent("none acts")
+            .where(is_computed)
             .caption("\u03C4 = @"),
+        Row(told_motion(), read_motion, motion_text)
+            .absent("it is computed")
+            .caption("motion @"),
         Row(told_parameters(), read_parameters, write_parameters).example("parameters: {k: 100}")}},
       {"Constraints",
        {Row(told_constraints(), read_constraints, constraints_text)
@@ -102,6 +112,7 @@ std::vector<Chapter> chapters() {
       {"The method",
        {Row("method", &Scene::method, "`auto`, the cheapest that keeps `accuracy`, or a row of `chainreel methods`")
             .example("method: dop853")
+            .where(is_computed)
             .caption("@"),
         Row("step", &Scene::step, "of time")
             .in("s")

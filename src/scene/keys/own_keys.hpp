@@ -32,6 +32,15 @@ KeyText told_torque();
 void read_torque(Fields& fields, Scene& scene);
 std::string torque_text(const Scene& scene);
 
+// --- what was recorded of it: motion_keys.cpp
+KeyText told_motion();
+void read_motion(Fields& fields, Scene& scene);
+std::string motion_text(const Scene& scene);
+// Names of a table's columns, of `time` and of joints; the first quantity is meant where none is named.
+KeyText told_columns(const std::vector<std::string>& quantities);
+ColumnNames read_columns(Fields& fields, const std::vector<std::string>& quantities);
+void emit_columns(YAML::Emitter& out, const ColumnNames& columns, const std::string& usual);
+
 // --- what ties it: constraint_keys.cpp
 KeyText told_constraints();
 void read_constraints(Fields& fields, Scene& scene);

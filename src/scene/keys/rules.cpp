@@ -77,6 +77,26 @@ void check_method_keys(Fields& fields, Scene& scene) {
   }
 }
 
+// What would be computed, tied or cut means nothing where all is shown as it was.
+void check_motion(Fields& fields, const Scene& scene) {
+  if (!scene.motion) return;
+  std::vector<std::string> vain;
+  for (const char* key : {"start", "torque", "constraints", "stabilize", "baumgarte", "contact_force", "method", "step", "tolerance",
+                          "order", "accuracy"})
+    if (fields.has(key)) vain.push_back(key);
+  if (fields.has("limit") && scene.limit != LimitPolicy::report) vain.push_back("limit");
+  if (fields.has("expect") && scene.expect != Outcome::finish) vain.push_back("expect");
+  if (!vain.empty()) {
+    std::string remedy;
+    for (const std::string& key : vain) remedy += (remedy.empty() ? "" : " ") + ("--set " + key + "=");
+    fields.problem_at(vain.front(), "'motion' shows what was recorded, and nothing is computed: beside it " + joined(vain) +
+                                        (vain.size() == 1 ? " means" : " mean") + " nothing; leave " +
+                                        (vain.size() == 1 ? "it" : "them") + " out (" + remedy + ")");
+  }
+  if (scene.base == RootLink::floating)
+    fields.problem_at("base", "'motion' tells the places of joints, and a floating base has none: leave `base: floating` out");
+}
+
 void check_foot(Fields& fields, Scene& scene) {
   if (!fields.find("foot").IsMap()) return;
   if (!scene.foot) scene.foot.emplace();
@@ -102,6 +122,11 @@ void check_sides(Fields& fields, const Scene& scene) {
 
 void check_frames(Fields& fields, const Scene& scene) {
   const double frames = scene.duration * scene.video.fps.value();
+  if (scene.motion && !fields.has("duration") && (frames > kMostFrames || frames < 0.5))
+    return fields.problem_at("motion", "the motion " + scene.motion->csv + " lasts " + format_shortest(scene.duration) +
+                                           " s, which makes no film: is '" + scene.motion->columns.time +
+                                           "' told in another unit? Name it in the table's header, like '" + scene.motion->columns.time +
+                                           " [ms]' or [ns]");
   if (frames > kMostFrames) fields.problem_at("duration", "'duration' is longer than ten million frames");
   if (frames < 0.5 && scene.duration > 0)
     fields.problem_at("duration", "'duration' is shorter than half a frame: the film would be empty");
@@ -110,7 +135,8 @@ void check_frames(Fields& fields, const Scene& scene) {
 }  // namespace
 
 void check_together(Fields& fields, Scene& scene) {
-  check_method_keys(fields, scene);
+  if (!scene.motion) check_method_keys(fields, scene);
+  check_motion(fields, scene);
   check_foot(fields, scene);
   check_baumgarte(fields, scene);
   check_sides(fields, scene);

@@ -76,6 +76,9 @@ Control read_control(Fields& fields, const YAML::Node& node, const std::string& 
   Control control;
   control.place = fields.place_of(node, key);
   inner.read_path("csv", control.csv);
+  control.columns = read_columns(inner, {"tau"});
+  if (control.csv.empty() && inner.has("columns"))
+    inner.problem_at("columns", "'" + inner.path("columns") + "' names the columns of `csv`, and there is none: leave it out");
   inner.read_path("inverse_of", control.inverse_of);
   control.outside = read_outside(inner, !control.csv.empty() || !control.inverse_of.empty(), "csv or inverse_of");
   control.pd = read_feedback(inner, "pd");
@@ -113,6 +116,7 @@ void emit_feedback(YAML::Emitter& out, const std::string& key, const std::option
 void emit_control(YAML::Emitter& out, const Control& control) {
   out << YAML::Flow << YAML::BeginMap;
   if (!control.csv.empty()) out << YAML::Key << "csv" << YAML::Value << control.csv;
+  emit_columns(out, control.columns, "tau");
   if (!control.inverse_of.empty()) out << YAML::Key << "inverse_of" << YAML::Value << control.inverse_of;
   if (control.outside) out << YAML::Key << "outside" << YAML::Value << to_string(*control.outside);
   emit_feedback(out, "pd", control.pd);
@@ -144,6 +148,7 @@ KeyText told_feedback(const char* name, const char* help) {
 KeyText told_control(const char* name) {
   return told_record(name,
                      {told("csv", KeyForm::path, "a table with t,tau1..; linear between its rows, where steps end"),
+                      told_columns({"tau"}),
                       told("inverse_of", KeyForm::path, "a table with t,q1..: the torques that this motion takes"),
                       told_word("outside", names_of(Outside{}), "what these tables are taken for beyond their rows"),
                       told_feedback("pd", "kp (q_ref - q) + kd (qd_ref - qd)"),

@@ -27,7 +27,7 @@ void check_length(std::vector<double>& values, const std::vector<double>& absent
 }
 
 void check_torque(Scene& scene, const Chain& chain, ProblemList& problems) {
-  if (scene.control) return;
+  if (scene.control || scene.motion) return;
   if (scene.torque.empty()) scene.torque.resize(std::size_t(chain.nv));
   if (scene.torque.size() == std::size_t(chain.nv)) return;
   std::string joints;
@@ -179,6 +179,7 @@ Simulation prepare(Scene& scene, bool meshes, LastChain& last) {
   scene.gravity = chain.gravity;
   if (chain.end_effector >= 0) scene.end_effector = chain.frames[std::size_t(chain.end_effector)].name;
 
+  if (scene.motion) prepare_motion(scene, simulation);
   prepare_tables(scene, chain);
   ProblemList problems;
   check_length(scene.start.q, zero_configuration(chain), "start.q", scene, problems);
@@ -192,10 +193,11 @@ Simulation prepare(Scene& scene, bool meshes, LastChain& last) {
 
   simulation.q0 = scene.start.q;
   simulation.qd0 = scene.start.qd;
-  simulation.torque = scene.control ? make_control(chain, *scene.control, scene.parameters)
-                                    : make_torque_law(chain, scene.torque, scene.parameters, frames);
+  if (!scene.motion)
+    simulation.torque = scene.control ? make_control(chain, *scene.control, scene.parameters)
+                                      : make_torque_law(chain, scene.torque, scene.parameters, frames);
   prepare_constraints(scene, simulation);
-  if (!scene.chooses_method()) set_method(scene, simulation);
+  if (!scene.motion && !scene.chooses_method()) set_method(scene, simulation);
   simulation.limit = scene.limit;
   simulation.duration = scene.duration;
   const int rows = constraint_rows(simulation);

@@ -38,6 +38,10 @@ Simulation prepare(Scene& scene, bool meshes, LastChain& last);
 // unless `outside:` has said it. Throws Error.
 void prepare_tables(Scene& scene, const Chain& chain);
 
+// The scene's recorded motion becomes the run, its first row the start; what one should know of it is said in scene.notices.
+// Throws Error where the table is no motion of the chain, or ends before the scene does.
+void prepare_motion(Scene& scene, Simulation& simulation);
+
 // A scene's constraints made ready for a run. Internal.
 
 // Fills simulation.constraints and brings its start state onto them: a start that lies a little beside is

@@ -5,7 +5,7 @@
 #include "core/format.hpp"
 #include "dynamics/kinematics.hpp"
 #include "scene/run/prepare.hpp"
-#include "sim/drive/reference.hpp"
+#include "sim/drive/recorded_motion.hpp"
 
 namespace chainreel {
 namespace {
@@ -28,9 +28,9 @@ std::vector<NamedControl> controls_of(const Scene& scene, const Chain& chain) {
 
 // What a table is taken for beyond its ends.
 void look_at_span(Scene& scene, const Chain& chain, const std::string& path, const std::optional<Outside>& outside,
-                  const std::string& what, const Place& place) {
+                  const std::string& what, const Place& place, const ColumnNames& columns = {}) {
   if (path.empty() || outside == Outside::hold || outside == Outside::zero) return;
-  const std::vector<double> t = read_time_table(path, {}, chain.nv).t;
+  const std::vector<double> t = read_time_table(path, {}, chain.coordinate_names, columns).t;
   const bool late = t.front() > kSame * scene.duration, early = t.back() < (1 - kSame) * scene.duration;
   if (!late && !early) return;
   const std::string span = "the table " + path + " speaks of " + format_shortest(t.front()) + " to " +
@@ -50,7 +50,7 @@ void look_at_spans(Scene& scene, const Chain& chain) {
   for (const NamedControl& one : controls_of(scene, chain)) {
     const Control& control = *one.control;
     const std::string torque = "the torque of its nearest row is", pose = "the pose of its nearest row is";
-    look_at_span(scene, chain, control.csv, control.outside, torque, control.place);
+    look_at_span(scene, chain, control.csv, control.outside, torque, control.place, control.columns);
     look_at_span(scene, chain, control.inverse_of, control.outside, pose, control.place);
     for (const std::optional<Feedback>& feedback : {control.pd, control.computed_torque})
       if (feedback) look_at_span(scene, chain, feedback->trajectory, feedback->outside, pose, control.place);
@@ -66,7 +66,7 @@ bool take_motion(const Scene& scene, const Chain& chain, std::vector<double>& q,
     found = true;
     path = one.control->inverse_of;
     std::vector<double> at(std::size_t(chain.nv)), rate(at), acceleration(at);
-    make_table_reference(path, chain.nv)->evaluate(0, at, rate, acceleration);
+    make_table_reference(path, chain.coordinate_names)->evaluate(0, at, rate, acceleration);
     for (std::size_t i = one.first; i < one.end; ++i) {
       q[i] = at[i];
       qd[i] = rate[i];
@@ -100,6 +100,23 @@ void take_start(Scene& scene, const Chain& chain) {
 }
 
 }  // namespace
+
+void prepare_motion(Scene& scene, Simulation& simulation) {
+  const MotionEntry& entry = *scene.motion;
+  const auto motion = std::make_shared<const RecordedMotion>(simulation.chain, entry.table, entry.columns);
+  const double end = motion->end();
+  if (scene.duration > end * (1 + kSame)) {
+    const Place place = scene.place_of("duration");
+    throw Error(ExitCode::bad_input,
+                "the motion " + entry.csv + " ends at " + format_shortest(end) + " s, and nothing is known of what comes behind: take a "
+                "duration of at most that, or leave it out, which is all of it",
+                place.line > 0 ? place : entry.place);
+  }
+  scene.duration = std::min(scene.duration, end);
+  replay(simulation, motion);
+  scene.start = {simulation.q0, simulation.qd0};
+  scene.notices.insert(scene.notices.end(), motion->remarks().begin(), motion->remarks().end());
+}
 
 void prepare_tables(Scene& scene, const Chain& chain) {
   take_start(scene, chain);

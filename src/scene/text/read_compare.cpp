@@ -54,6 +54,17 @@ void check_list(Fields& page, const YAML::Node& list) {
   }
 }
 
+// Where the page does not say how long it is, all panels are as long as the shortest recorded motion among them.
+void share_duration(const YamlDocument& document, std::vector<Scene>& panels) {
+  if (document.root["duration"].IsDefined() && !document.root["duration"].IsNull()) return;
+  const Scene* shortest = nullptr;
+  for (const Scene& panel : panels)
+    if (panel.motion && (!shortest || panel.duration < shortest->duration)) shortest = &panel;
+  if (!shortest) return;
+  const double duration = shortest->duration;
+  for (Scene& panel : panels) panel.duration = duration;
+}
+
 }  // namespace
 
 bool is_comparison(const YamlDocument& document) {
@@ -78,6 +89,7 @@ Scene read_comparison(const YamlDocument& document, const PanelReader& read_pane
   }
   collected.throw_if_any();
 
+  share_duration(document, panels);
   // What the page shares is the same in all panels.
   Scene scene = panels.front();
   scene.title.clear();

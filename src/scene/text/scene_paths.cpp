@@ -27,8 +27,8 @@ void visit_paths(const YAML::Node& node, bool is_path, const Visit& visit) {
   } else if (node.IsMap()) {
     for (const auto& pair : node) {
       const std::string& key = pair.first.Scalar();
-      // Parameters may bear any name; they are numbers.
-      if (key == "parameters") continue;
+      // What bears names of one's own: parameters are numbers, columns words.
+      if (key == "parameters" || key == "columns") continue;
       if (key == "packages" && pair.second.IsMap()) {
         for (const auto& package : pair.second) visit_paths(package.second, true, visit);
         continue;

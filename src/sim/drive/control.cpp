@@ -204,9 +204,9 @@ class WithinTable final : public TorqueLaw {
 
 // `law` is driven by the table at `path`; where there is none it acts always.
 std::unique_ptr<TorqueLaw> within(std::unique_ptr<TorqueLaw> law, const std::string& path,
-                                  const std::optional<Outside>& outside, int n) {
+                                  const std::optional<Outside>& outside) {
   if (path.empty() || outside != Outside::zero) return law;
-  const std::vector<double> t = read_time_table(path, {}, n).t;
+  const std::vector<double> t = law->breaks(0);  // which are its rows
   return std::make_unique<WithinTable>(std::move(law), t.front(), t.back());
 }
 
@@ -223,7 +223,7 @@ std::vector<T> spread(const std::vector<T>& given, int n, const std::string& key
 
 std::unique_ptr<Reference> reference_of(const Chain& chain, const Feedback& feedback,
                                         const Parameters& parameters, const Place& place) {
-  if (!feedback.trajectory.empty()) return make_table_reference(feedback.trajectory, chain.nv);
+  if (!feedback.trajectory.empty()) return make_table_reference(feedback.trajectory, chain.coordinate_names);
   const auto entries = [&](const std::vector<Entry>& given, const char* key) {
     return given.empty() ? given : spread(given, chain.nv, key, place);
   };
@@ -250,28 +250,29 @@ std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& contr
         control.place);
   std::vector<std::unique_ptr<TorqueLaw>> parts;
   if (!control.csv.empty()) {
-    TimeTable table = read_time_table(control.csv, {"tau"}, chain.nv);
+    TimeTable table = read_time_table(control.csv, {"tau"}, chain.coordinate_names, control.columns);
     if (table.groups[0].empty())
-      throw Error(ExitCode::bad_input, "has no columns tau1 to tau" + std::to_string(chain.nv),
+      throw Error(ExitCode::bad_input, "has no columns tau1 to tau" + std::to_string(chain.nv) + 
+                      ": of other names say `columns: {time: stamp, " + chain.coordinate_names.front() + ": NAME}`",
                   {control.csv});
-    parts.push_back(within(std::make_unique<CsvTorque>(std::move(table)), control.csv, control.outside, chain.nv));
+    parts.push_back(within(std::make_unique<CsvTorque>(std::move(table)), control.csv, control.outside));
   }
   if (!control.inverse_of.empty())
     parts.push_back(
-        within(std::make_unique<InverseTorque>(chain, make_table_reference(control.inverse_of, chain.nv)),
-               control.inverse_of, control.outside, chain.nv));
+        within(std::make_unique<InverseTorque>(chain, make_table_reference(control.inverse_of, chain.coordinate_names)),
+               control.inverse_of, control.outside));
   const auto gains = [&](const std::vector<double>& given, const char* key) {
     return spread(given, chain.nv, key, control.place);
   };
   if (const auto& pd = control.pd)
     parts.push_back(within(std::make_unique<PdTorque>(reference_of(chain, *pd, parameters, control.place),
                                                       gains(pd->kp, "kp"), gains(pd->kd, "kd")),
-                           pd->trajectory, pd->outside, chain.nv));
+                           pd->trajectory, pd->outside));
   if (const auto& ct = control.computed_torque)
     parts.push_back(
         within(std::make_unique<ComputedTorque>(chain, reference_of(chain, *ct, parameters, control.place),
                                                 gains(ct->kp, "kp"), gains(ct->kd, "kd")),
-               ct->trajectory, ct->outside, chain.nv));
+               ct->trajectory, ct->outside));
   if (control.gravity_compensation) parts.push_back(std::make_unique<GravityCompensation>());
   if (control.function) parts.push_back(make_function_torque(*control.function));
   return std::make_unique<SumOfTorques>(std::move(parts), chain.nv);

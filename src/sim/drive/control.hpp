@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/csv.hpp"
 #include "core/names.hpp"
 #include "sim/drive/reference.hpp"
 #include "sim/drive/torque_function.hpp"
@@ -32,6 +33,7 @@ struct Feedback {
 
 struct Control {
   std::string csv;                          // t,tau1..: linear between the rows
+  ColumnNames columns{};                    // of the csv, where its maker has names of his own
   std::string inverse_of;                   // t,q1..: the torques that this motion takes
   std::optional<Outside> outside{};         // of these two tables; absent: held, and said
   std::optional<Feedback> pd;               // kp (q_ref - q) + kd (qd_ref - qd)

@@ -64,7 +64,7 @@ class ExpressionReference final : public Reference {
 
 class TableReference final : public Reference {
  public:
-  TableReference(std::vector<double> t, std::vector<Spline> q, std::vector<Spline> qd,
+  TableReference(std::shared_ptr<const std::vector<double>> t, std::vector<Spline> q, std::vector<Spline> qd,
                  std::vector<Spline> qdd)
       : t_(std::move(t)), q_(std::move(q)), qd_(std::move(qd)), qdd_(std::move(qdd)) {}
 
@@ -78,10 +78,10 @@ class TableReference final : public Reference {
     }
   }
   // The accelerations of a spline bend at its rows.
-  std::vector<double> breaks(double) const override { return t_; }
+  std::vector<double> breaks(double) const override { return *t_; }
 
  private:
-  std::vector<double> t_;
+  std::shared_ptr<const std::vector<double>> t_;
   std::vector<Spline> q_, qd_, qdd_;
 };
 
@@ -98,9 +98,9 @@ std::vector<Expression> parse_all(const std::vector<Entry>& entries, const std::
   return parsed;
 }
 
-std::vector<Spline> splines(const TimeTable& table, std::size_t group) {
+std::vector<Spline> splines(const std::shared_ptr<const std::vector<double>>& t, const std::vector<std::vector<double>>& columns) {
   std::vector<Spline> all;
-  for (const std::vector<double>& column : table.groups[group]) all.emplace_back(table.t, column);
+  for (const std::vector<double>& column : columns) all.push_back(Spline::over(t, column));
   return all;
 }
 
@@ -136,14 +136,20 @@ std::unique_ptr<Reference> make_expression_reference(const std::vector<Entry>& q
   return reference;
 }
 
-std::unique_ptr<Reference> make_table_reference(const std::string& path, int n) {
-  const TimeTable table = read_time_table(path, {"q", "qd", "qdd"}, n);
-  if (table.groups[0].empty())
-    throw Error(ExitCode::bad_input, "has no columns q1 to q" + std::to_string(n) + ", one a freedom",
-                {path});
-  auto reference = std::make_unique<TableReference>(table.t, splines(table, 0), splines(table, 1), splines(table, 2));
-  require_finite(*reference, table, n, path);
+std::unique_ptr<Reference> make_table_reference(const TimeTable& table, const std::string& path) {
+  const auto t = std::make_shared<const std::vector<double>>(table.t);
+  auto reference =
+      std::make_unique<TableReference>(t, splines(t, table.groups[0]), splines(t, table.groups[1]), splines(t, table.groups[2]));
+  require_finite(*reference, table, int(table.groups[0].size()), path);
   return reference;
+}
+
+std::unique_ptr<Reference> make_table_reference(const std::string& path, const std::vector<std::string>& freedoms) {
+  const TimeTable table = read_time_table(path, {"q", "qd", "qdd"}, freedoms);
+  if (table.groups[0].empty())
+    throw Error(ExitCode::bad_input, "has no columns q1 to q" + std::to_string(freedoms.size()) + ", one a freedom",
+                {path});
+  return make_table_reference(table, path);
 }
 
 namespace {
@@ -196,19 +202,28 @@ std::vector<double> curvatures(const std::vector<double>& t, const std::vector<d
 
 }  // namespace
 
-Spline::Spline(std::vector<double> t, std::vector<double> y)
-    : t_(std::move(t)), y_(std::move(y)), curvature_(curvatures(t_, y_)) {}
+Spline Spline::over(std::shared_ptr<const std::vector<double>> t, std::vector<double> y) {
+  Spline spline;
+  spline.curvature_ = curvatures(*t, y);
+  spline.t_ = std::move(t);
+  spline.y_ = std::move(y);
+  return spline;
+}
 
-Spline::Value Spline::at(double t) const {
-  if (t < t_.front() || t_.size() == 1) return {y_.front(), 0, 0};
-  if (t > t_.back()) return {y_.back(), 0, 0};
-  const auto above = std::upper_bound(t_.begin() + 1, t_.end() - 1, t);
-  const auto i = std::size_t(above - t_.begin()) - 1;
-  const double h = t_[i + 1] - t_[i], s = t - t_[i], r = t_[i + 1] - t;
+Spline::Spline(std::vector<double> t, std::vector<double> y)
+    : Spline(over(std::make_shared<const std::vector<double>>(std::move(t)), std::move(y))) {}
+
+Spline::Value Spline::at(double instant) const {
+  const std::vector<double>& t = *t_;
+  if (instant < t.front() || t.size() == 1) return {y_.front(), 0, 0};
+  if (instant > t.back()) return {y_.back(), 0, 0};
+  const auto above = std::upper_bound(t.begin() + 1, t.end() - 1, instant);
+  const auto i = std::size_t(above - t.begin()) - 1;
+  const double h = t[i + 1] - t[i], s = instant - t[i], r = t[i + 1] - instant;
   const double c0 = curvature_[i], c1 = curvature_[i + 1];
   const double a0 = y_[i] / h - c0 * h / 6, a1 = y_[i + 1] / h - c1 * h / 6;
-  return {c0 * r * r * r / (6 * h) + c1 * s * s * s / (6 * h) + a0 * r + a1 * s,
-          (c1 * s * s - c0 * r * r) / (2 * h) + a1 - a0, (c0 * r + c1 * s) / h};
+  const double y = s == 0 ? y_[i] : r == 0 ? y_[i + 1] : c0 * r * r * r / (6 * h) + c1 * s * s * s / (6 * h) + a0 * r + a1 * s;
+  return {y, (c1 * s * s - c0 * r * r) / (2 * h) + a1 - a0, (c0 * r + c1 * s) / h};
 }
 
 }  // namespace chainreel

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/csv.hpp"
 #include "core/error.hpp"
 #include "sim/drive/probe.hpp"
 
@@ -33,8 +34,11 @@ std::unique_ptr<Reference> make_expression_reference(const std::vector<Entry>& q
                                                      const std::vector<Entry>& qdd,
                                                      const Parameters& parameters);
 
-// From a CSV with t,q1.. and maybe qd1.., qdd1..: cubic splines; what is absent is the spline's derivative.
-std::unique_ptr<Reference> make_table_reference(const std::string& path, int n);
+// From a CSV with t,q1.. and maybe qd1.., qdd1.., or q.NAME of each freedom: cubic splines; what is absent is the spline's
+// derivative. Beyond the rows it stands still at the nearest one.
+std::unique_ptr<Reference> make_table_reference(const std::string& path, const std::vector<std::string>& freedoms);
+// The same of a table with the quantities q, qd, qdd, in the file `path`.
+std::unique_ptr<Reference> make_table_reference(const TimeTable& table, const std::string& path);
 
 // Cubic spline through samples, second derivative continuous, not-a-knot ends (C. de Boor, A Practical Guide
 // to Splines, ch. IV): exact for cubics. Two samples give a line, three a parabola, one a constant. Outside
@@ -44,14 +48,17 @@ class Spline {
  public:
   Spline() = default;
   Spline(std::vector<double> t, std::vector<double> y);  // t rising, same length
+  // Of instants that many share.
+  static Spline over(std::shared_ptr<const std::vector<double>> t, std::vector<double> y);
 
   struct Value {
     double y = 0, yd = 0, ydd = 0;
   };
-  Value at(double t) const;
+  Value at(double t) const;  // at a sample its very number
 
  private:
-  std::vector<double> t_, y_, curvature_;  // second derivatives at the samples
+  std::shared_ptr<const std::vector<double>> t_;
+  std::vector<double> y_, curvature_;  // second derivatives at the samples
 };
 
 }  // namespace chainreel

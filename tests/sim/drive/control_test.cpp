@@ -232,7 +232,7 @@ TEST(Control, NamesTheRowWhereAMotionOverflows) {
   const TemporaryFolder folder;
   const auto error = [&](const std::string& rows) -> std::string {
     try {
-      make_table_reference(folder.write("q.csv", "t,q1,q2\n" + rows), 2);
+      make_table_reference(folder.write("q.csv", "t,q1,q2\n" + rows), {"a", "b"});
       return "";
     } catch (const Error& caught) {
       EXPECT_EQ(caught.code(), ExitCode::numerical);

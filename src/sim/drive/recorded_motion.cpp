@@ -1,0 +1,272 @@
+#include "sim/drive/recorded_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "dynamics/equation_of_motion.hpp"
+#include "dynamics/friction.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kDoubtfulRate = 0.2;  // of the root of the mean square: rates in degrees are off by 57 times
+constexpr double kStill = 1e-9;        // rad/s, m/s: no motion, whose rate is rounding
+constexpr double kRounding = 1e-10;    // of the largest nle: a torque that is less is none
+constexpr double kGap = 5;             // of the usual distance of rows
+constexpr std::size_t kFewWords = 6;   // that are named
+const std::vector<std::string> kQuantities{"q", "qd", "qdd", "tau"};
+
+std::string in_row(const Table& table, std::size_t k) {
+  return "line " + std::to_string(table.lines[k]);
+}
+
+// Whether the freedom turns; none of one that several joints read, each in its own way.
+bool turns(const Chain& chain, std::size_t freedom) {
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
+    const Joint& joint = chain.bodies[b].joint;
+    if (std::size_t(joint.v_index) == freedom && joint.ratio == 1 && joint.offset == 0) return joint.kind == JointKind::revolute;
+  }
+  return false;
+}
+
+// What turns is no length, and what slides no angle.
+void check_units(const Chain& chain, const Table& table, const TimeTable& motion) {
+  for (std::size_t group = 0; group < motion.columns.size(); ++group)
+    for (std::size_t i = 0; i < motion.columns[group].size(); ++i) {
+      const std::size_t column = motion.columns[group][i];
+      const std::string& unit = table.units[column];
+      if (unit.empty()) continue;
+      const std::string base = unit.substr(0, unit.find('/'));
+      const bool is_angle = base == "rad" || base == "deg", is_length = base == "m" || base == "mm" || base == "cm";
+      const bool is_torque = base == "N m" || base == "Nm" || base == "N*m";
+      const bool fits = group == 3 ? (turns(chain, i) ? is_torque : base == "N") : (turns(chain, i) ? is_angle : is_length);
+      const std::string below = unit.find('/') == std::string::npos ? "" : unit.substr(unit.find('/') + 1);
+      const bool is_of_order = group == 1 ? below == "s" : group == 2 ? below == "s^2" || below == "s2" : below.empty();
+      if (fits && is_of_order) continue;
+      throw Error(ExitCode::bad_input,
+                  "'" + table.names[column] + " [" + unit + "]' is to be " + kQuantities[group] + " of '" + chain.coordinate_names[i] +
+                      "', which " + (turns(chain, i) ? "turns: rad, rad/s, rad/s^2 and N m, or deg" : "slides: m, m/s, m/s^2 and N, or mm"),
+                  {table.file});
+    }
+}
+
+// Angles that begin again behind a turn would be taken for a motion back through all of it.
+void check_turns(const Chain& chain, const Table& table, const TimeTable& motion) {
+  const auto& q = motion.groups[0];
+  const auto& qd = motion.groups[1];
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    if (!turns(chain, i)) continue;
+    for (std::size_t k = 1; k < motion.t.size(); ++k) {
+      const double jump = q[i][k] - q[i][k - 1], h = motion.t[k] - motion.t[k - 1];
+      if (!(std::fabs(jump) > std::numbers::pi)) continue;
+      // Rates that say so make it a fast motion.
+      const double told = qd.empty() ? 0 : 0.5 * h * (qd[i][k] + qd[i][k - 1]);
+      if (std::fabs(jump - told) < std::fabs(jump) / 2) continue;
+      throw Error(ExitCode::bad_input,
+                  "'" + table.names[motion.columns[0][i]] + "' jumps by " + format_significant(jump, 3) +
+                      " rad within " + format_significant(h, 3) +
+                      " s, more than half a turn: angles of a motion must go on behind a turn (unwrap them), in rad or with [deg] in the header",
+                  {table.file, table.lines[k]});
+    }
+  }
+}
+
+// Numbers of the table that are to be derivatives of others: how far are they from those?
+class Derivatives {
+ public:
+  Derivatives(const Table& table, const TimeTable& motion) : table_(table), motion_(motion) {}
+
+  void compare(std::size_t lower, std::size_t upper, std::vector<std::string>& remarks) const {
+    const auto& of = motion_.groups[lower];
+    const auto& told = motion_.groups[upper];
+    if (of.empty() || told.empty()) return;
+    const auto t = std::make_shared<const std::vector<double>>(motion_.t);
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      const Spline spline = Spline::over(t, of[i]);
+      double difference = 0, size = 0, worst = 0;
+      std::size_t at = 0;
+      for (std::size_t k = 0; k < t->size(); ++k) {
+        const double rate = spline.at((*t)[k]).yd, off = std::fabs(told[i][k] - rate);
+        difference += off * off;
+        size += std::max(told[i][k] * told[i][k], rate * rate);
+        if (off > worst) worst = off, at = k;
+      }
+      const double count = double(t->size());
+      if (!(std::sqrt(difference / count) > std::max(kStill, kDoubtfulRate * std::sqrt(size / count)))) continue;
+      const auto name = [&](std::size_t group) { return "'" + table_.names[motion_.columns[group][i]] + "'"; };
+      remarks.push_back(name(upper) + " is not the rate of " + name(lower) + " in " + table_.file + ": they differ by " +
+                        format_significant(worst, 3) + " at t = " + format_significant((*t)[at], 4) + " s (" + in_row(table_, at) +
+                        "); is a unit missing in the header, like [deg/s], or are rows too far apart? The torques follow " +
+                        (upper == 2 ? name(upper) : name(upper) + " and its derivative"));
+    }
+  }
+
+ private:
+  const Table& table_;
+  const TimeTable& motion_;
+};
+
+void remark_gap(const Table& table, const std::vector<double>& t, std::vector<std::string>& remarks) {
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < t.size(); ++k) steps.push_back(t[k] - t[k - 1]);
+  const auto largest = std::max_element(steps.begin(), steps.end());
+  const std::size_t at = std::size_t(largest - steps.begin());
+  const double gap = *largest;
+  std::nth_element(steps.begin(), steps.begin() + std::ptrdiff_t(steps.size() / 2), steps.end());
+  const double usual = steps[steps.size() / 2];
+  if (gap > kGap * usual)
+    remarks.push_back("there is nothing between t = " + format_significant(t[at], 6) + " and " + format_significant(t[at + 1], 6) +
+                      " s in " + table.file + " (" + in_row(table, at + 1) + "), where rows are " + format_significant(usual, 3) +
+                      " s apart: what is shown there is the spline's");
+}
+
+void remark_unused(const Table& table, const TimeTable& motion, const ColumnNames& names, std::vector<std::string>& remarks) {
+  std::vector<bool> is_used(table.names.size());
+  is_used[std::size_t(table.find(names.time))] = true;
+  for (const auto& group : motion.columns)
+    for (const std::size_t column : group) is_used[column] = true;
+  std::vector<std::string> unused;
+  for (std::size_t i = 0; i < is_used.size(); ++i)
+    if (!is_used[i]) unused.push_back(table.names[i]);
+  if (unused.empty()) return;
+  const std::size_t more = unused.size() > kFewWords ? unused.size() - kFewWords : 0;
+  if (more > 0) unused.resize(kFewWords);
+  remarks.push_back("a replay makes no use of these columns of " + table.file + ": " + joined(unused) +
+                    (more > 0 ? " and " + std::to_string(more) + " others" : ""));
+}
+
+// tau from q, qd, qdd.
+void inverse_torque(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec qdd, Vec tau) {
+  compute_nle(chain, ws, q, qd);
+  double size = 0;
+  for (const double part : ws.nle) size = std::max(size, std::fabs(part));
+  compute_inverse_dynamics(chain, ws, q, qd, qdd);
+  compute_friction(chain, ws, qd);
+  for (std::size_t i = 0; i < tau.size(); ++i) {
+    tau[i] = ws.tau[i] + ws.tau_f[i];
+    if (std::fabs(tau[i]) < kRounding * size) tau[i] = 0;
+  }
+}
+
+RecordedMotion::OwnTorques compare_torques(const Chain& chain, const Reference& motion, const TimeTable& table) {
+  const auto n = std::size_t(chain.nv);
+  Workspace ws(chain);
+  std::vector<double> q(n), qd(n), qdd(n), tau(n);
+  RecordedMotion::OwnTorques worst;
+  worst.freedom = chain.coordinate_names.front();
+  for (std::size_t k = 0; k < table.t.size(); ++k) {
+    motion.evaluate(table.t[k], q, qd, qdd);
+    inverse_torque(chain, ws, q, qd, qdd, tau);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double off = std::fabs(table.groups[3][i][k] - tau[i]);
+      if (off > worst.largest) worst = {off, table.t[k], chain.coordinate_names[i]};
+    }
+  }
+  return worst;
+}
+
+std::string words_of(const RecordedMotion::OwnTorques& own, const std::string& file) {
+  return "torques are those of inverse dynamics, not those that " + file + " tells, which differ by " +
+         format_significant(own.largest, 3) + " N m or N at most" +
+         (own.largest > 0 ? " ('" + own.freedom + "', t = " + format_significant(own.t, 4) + " s)" : "");
+}
+
+}  // namespace
+
+RecordedMotion::RecordedMotion(const Chain& chain, std::shared_ptr<const Table> table, const ColumnNames& names)
+    : table_(std::move(table)) {
+  const std::string& file = table_->file;
+  if (chain.has_floating || chain.nq != chain.nv)
+    throw Error(ExitCode::bad_input, "a recorded motion tells the places of joints alone: a floating base has none; take base: fixed",
+                {file});
+  const TimeTable motion = time_table_of(*table_, kQuantities, chain.coordinate_names, names);
+  const std::string n = std::to_string(chain.nv);
+  if (motion.groups[0].empty())
+    throw Error(ExitCode::bad_input,
+                "has no columns q1 to q" + n + ", one a freedom, nor q." + chain.coordinate_names.front() +
+                    " and so on: of other names say `columns: {time: " + names.time + ", " + chain.coordinate_names.front() +
+                    ": NAME}`; there are " + joined(table_->names),
+                {file});
+  if (motion.t.size() < 2)
+    throw Error(ExitCode::bad_input, "holds one row, which is a pose and no motion: a motion takes two rows or more", {file});
+  check_units(chain, *table_, motion);
+  check_turns(chain, *table_, motion);
+  end_ = motion.t.back();
+  has_rates_ = !motion.groups[1].empty();
+  has_accelerations_ = !motion.groups[2].empty();
+  splines_ = make_table_reference(motion, file);
+
+  if (table_->first != 0)
+    remarks_.push_back("t = 0 is the first row of " + file + ", whose '" + names.time + "' is " + format_shortest(table_->first));
+  const Derivatives derivatives(*table_, motion);
+  derivatives.compare(0, 1, remarks_);
+  derivatives.compare(1, 2, remarks_);
+  remark_gap(*table_, motion.t, remarks_);
+  if (!motion.groups[3].empty()) {
+    own_torques_ = compare_torques(chain, *splines_, motion);
+    remarks_.push_back(words_of(*own_torques_, file));
+  }
+  remark_unused(*table_, motion, names, remarks_);
+}
+
+void RecordedMotion::evaluate(double t, Vec q, Vec qd, Vec qdd) const {
+  splines_->evaluate(std::clamp(t, 0.0, end_), q, qd, qdd);
+}
+
+namespace {
+
+class ReplayTorque final : public TorqueLaw {
+ public:
+  ReplayTorque(std::shared_ptr<const RecordedMotion> motion, int nv)
+      : motion_(std::move(motion)), q_(std::size_t(nv)), qd_(q_), qdd_(q_) {}
+
+  void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec, ConstVec, Vec tau) override {
+    motion_->evaluate(t, q_, qd_, qdd_);
+    inverse_torque(chain, ws, q_, qd_, qdd_, tau);
+  }
+  // Where splines bend; its accelerations do not jump.
+  std::vector<double> breaks(double end) const override { return motion_->breaks(end); }
+
+ private:
+  std::shared_ptr<const RecordedMotion> motion_;
+  std::vector<double> q_, qd_, qdd_;
+};
+
+class Player final : public Integrator {
+ public:
+  Player(std::shared_ptr<const RecordedMotion> motion, int nv)
+      : Integrator(nv, nv), motion_(std::move(motion)), qdd_(std::size_t(nv)) {}
+
+  void start(double t, std::span<const double> q, std::span<const double> v) override {
+    begin_ = time_ = t;
+    std::copy(q.begin(), q.end(), q_.begin());
+    std::copy(v.begin(), v.end(), v_.begin());
+  }
+  StepResult step(double end, double) override {
+    begin_ = time_;
+    time_ = end;
+    motion_->evaluate(end, q_, v_, qdd_);
+    return StepResult::ok;
+  }
+  void interpolate(double t, std::span<double> q, std::span<double> v) override { motion_->evaluate(t, q, v, qdd_); }
+  int dense_order() const override { return 3; }
+
+ private:
+  std::shared_ptr<const RecordedMotion> motion_;
+  std::vector<double> qdd_;
+};
+
+}  // namespace
+
+std::unique_ptr<TorqueLaw> make_replay_torque(const Chain& chain, std::shared_ptr<const RecordedMotion> motion) {
+  return std::make_unique<ReplayTorque>(std::move(motion), chain.nv);
+}
+
+std::unique_ptr<Integrator> make_player(std::shared_ptr<const RecordedMotion> motion, int nv) {
+  return std::make_unique<Player>(std::move(motion), nv);
+}
+
+}  // namespace chainreel

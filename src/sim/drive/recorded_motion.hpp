@@ -1,0 +1,65 @@
+// A motion that was recorded and is shown as it was: nothing is computed of it but what it takes. Its coordinates are those of
+// a table, between the rows cubic splines; rates and accelerations the table's own where it has them, else the derivatives
+// of the spline of what it has. Its first row is t = 0.
+//
+// Of a smooth motion sampled every h, errors are those of the spline (C. de Boor, A Practical Guide to Splines, ch. V): of
+// q h^4, of a first derivative h^3 and of a second h^2; at the rows within, a first derivative has h^4.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/csv.hpp"
+#include "integrate/integrator.hpp"
+#include "model/chain.hpp"
+#include "sim/drive/reference.hpp"
+#include "sim/drive/torque.hpp"
+
+namespace chainreel {
+
+class RecordedMotion final : public Reference {
+ public:
+  // `table` as read_csv tells it since its first instant. Throws Error (bad input) where it is no motion of the chain: a floating
+  // base, fewer than two rows, missing columns, a unit of another kind, an angle that jumps by more than half a turn.
+  RecordedMotion(const Chain& chain, std::shared_ptr<const Table> table, const ColumnNames& names);
+
+  // Beyond the ends, where instants are but rounded, the state at that end.
+  void evaluate(double t, Vec q, Vec qd, Vec qdd) const override;
+  std::vector<double> breaks(double end) const override { return splines_->breaks(end); }
+
+  double end() const { return end_; }  // s, of its last row
+  std::size_t rows() const { return table_->rows(); }
+  bool has_rates() const { return has_rates_; }
+  bool has_accelerations() const { return has_accelerations_; }
+  std::string sha256() const { return sha256_of(*table_); }  // of the table
+
+  // How far the table's own torques are at most from those of inverse dynamics at its rows; nothing where it has none.
+  struct OwnTorques {
+    double largest = 0;  // N m or N
+    double t = 0;        // s
+    std::string freedom;
+  };
+  const std::optional<OwnTorques>& own_torques() const { return own_torques_; }
+
+  // What one should know who believes its picture, a sentence each.
+  const std::vector<std::string>& remarks() const { return remarks_; }
+
+ private:
+  std::shared_ptr<const Table> table_;
+  std::unique_ptr<Reference> splines_;
+  double end_ = 0;
+  bool has_rates_ = false, has_accelerations_ = false;
+  std::optional<OwnTorques> own_torques_;
+  std::vector<std::string> remarks_;
+};
+
+// M qdd + nle + tau_f along it, zero where it is rounding of the parts that it is the sum of: what nothing drives is to be
+// seen as such.
+std::unique_ptr<TorqueLaw> make_replay_torque(const Chain& chain, std::shared_ptr<const RecordedMotion> motion);
+
+// What a run is stepped by that shows a recorded motion: from row to row.
+std::unique_ptr<Integrator> make_player(std::shared_ptr<const RecordedMotion> motion, int nv);
+
+}  // namespace chainreel

@@ -1,0 +1,193 @@
+// A motion that was recorded: its states, what it takes, and what of a table is none.
+#include "sim/drive/recorded_motion.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "core/format.hpp"
+#include "sim/audit.hpp"
+#include "sim/doubts.hpp"
+#include "sim/runs.hpp"
+#include "sim/torques_along.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// The rr's motion under torques of 1 and -0.5 N m, whose inverse dynamics must give them back.
+const std::vector<double> kTau{1, -0.5};
+
+// Rows every `h` of 1 s, of the quantities that are named.
+std::string table_text(double h, const std::vector<std::string>& quantities) {
+  std::ostringstream text;
+  text << "t";
+  for (const std::string& name : quantities) text << "," << name << "1," << name << "2";
+  text << "\n";
+  Simulation run = run_of("rr", {"1", "-0.5"}, 1, "dop853", 0);
+  run.options.tolerance = 1e-13;
+  const Trajectory motion = simulate(run, instants(1, h));
+  ChainSystem system(run);
+  std::vector<double> qdd(2);
+  for (int k = 0; k < motion.size(); ++k) {
+    const double t = motion.t[std::size_t(k)];
+    system.acceleration(t, motion.q_at(k), motion.qd_at(k), qdd);
+    text << format_shortest(t);
+    for (const std::string& name : quantities)
+      for (const double x : name == "q" ? motion.q_at(k) : name == "qd" ? motion.qd_at(k) : std::span<const double>(qdd))
+        text << "," << format_shortest(x);
+    text << "\n";
+  }
+  return text.str();
+}
+
+class Recorded : public ::testing::Test {
+ protected:
+  std::shared_ptr<const RecordedMotion> motion(const std::string& text, const ColumnNames& names = {}) {
+    const std::string path = folder_.write("log.csv", text);
+    const Chain chain = run_of("rr", {"0", "0"}, 1).chain;
+    return std::make_shared<const RecordedMotion>(chain, std::make_shared<const Table>(read_csv(path, names.time)), names);
+  }
+  std::string error(const std::string& text, const ColumnNames& names = {}) {
+    try {
+      motion(text, names);
+      return "";
+    } catch (const Error& caught) {
+      EXPECT_EQ(caught.code(), ExitCode::bad_input);
+      return caught.what();
+    }
+  }
+  Simulation replayed(const std::string& text) {
+    Simulation run = run_of("rr", {"0", "0"}, 1);
+    replay(run, motion(text));
+    run.duration = run.motion->end();
+    return run;
+  }
+  // The largest difference of the torques at the rows from those that made the motion.
+  double torque_error(double h, const std::vector<std::string>& quantities) {
+    const Simulation run = replayed(table_text(h, quantities));
+    const Trajectory shown = simulate(run, instants(1, h));
+    const std::vector<double> tau = torques_along(run, shown);
+    double largest = 0;
+    for (std::size_t i = 0; i < tau.size(); ++i) largest = std::max(largest, std::fabs(tau[i] - kTau[i % 2]));
+    return largest;
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(Recorded, StatesAreTheTablesAndTorquesThoseThatMadeThem) {
+  const Simulation run = replayed(table_text(0.02, {"q", "qd", "qdd"}));
+  const Table table = read_csv(TemporaryFolder().write("again.csv", table_text(0.02, {"q", "qd", "qdd"})));
+  const Trajectory shown = simulate_audited(run, instants(1, 0.02));
+  ASSERT_EQ(shown.size(), 51);
+  EXPECT_EQ(shown.evaluations, 0);
+  EXPECT_EQ(shown.steps, 50);
+  for (int k = 0; k < shown.size(); ++k)
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(shown.q_at(k)[i], table.columns[1 + i][std::size_t(k)]);
+      EXPECT_EQ(shown.qd_at(k)[i], table.columns[3 + i][std::size_t(k)]);
+    }
+  const std::vector<double> tau = torques_along(run, shown);
+  // Sums of terms of some 30 N m in doubles; those of the forward dynamics before.
+  for (std::size_t i = 0; i < tau.size(); ++i) EXPECT_NEAR(tau[i], kTau[i % 2], 1e-12);
+  EXPECT_THAT(run.motion->remarks(), IsEmpty());
+  EXPECT_THAT(doubts_of(run, shown, audit_of(run, shown), {}), IsEmpty());
+}
+
+TEST_F(Recorded, TorquesHaveTheOrderOfTheDerivatives) {
+  // Halving h divides the error of a second derivative of a spline by 4, of a first derivative at the ends by 8.
+  const double q_alone = torque_error(0.01, {"q"}) / torque_error(0.005, {"q"});
+  const double with_rates = torque_error(0.01, {"q", "qd"}) / torque_error(0.005, {"q", "qd"});
+  EXPECT_NEAR(std::log2(q_alone), 2, 0.4);
+  EXPECT_NEAR(std::log2(with_rates), 3, 0.4);
+  EXPECT_LT(torque_error(0.005, {"q", "qd", "qdd"}), 1e-12);
+  EXPECT_GT(torque_error(0.005, {"q"}), 1e-6);  // negative control: derivatives are no knowledge
+}
+
+TEST_F(Recorded, EnergyIsThatOfTheStatesAndItsChangeTheWorkOfTheTorques) {
+  const Simulation run = replayed(table_text(0.005, {"q", "qd", "qdd"}));
+  const Trajectory shown = simulate_audited(run, instants(1, 0.005));
+  EnergyBalance balance(run);
+  const double last = shown.work.back();
+  const auto end = balance.at(shown.q_at(200), shown.qd_at(200), last);
+  // tau . (q - q(0)) of constant torques; between rows tau is off by the spline's h^2, some 1e-3 N m.
+  EXPECT_NEAR(last, kTau[0] * shown.q_at(200)[0] + kTau[1] * shown.q_at(200)[1], 1e-3);
+  EXPECT_NEAR(end.error, 0, 1e-3);
+}
+
+TEST_F(Recorded, WhatNothingDrivesHasNoTorque) {
+  // Hanging still: gravity's torques are rounding of nothing, and of a free swing that of some 30 N m.
+  const Simulation still = replayed("t,q1,q2,qd1,qd2,qdd1,qdd2\n0,-1.5707963267948966,0,0,0,0,0\n1,-1.5707963267948966,0,0,0,0,0\n");
+  const Trajectory shown = simulate(still, instants(1, 0.25));
+  EXPECT_THAT(torques_along(still, shown), testing::Each(testing::DoubleNear(0, 1e-14)));
+  const Simulation held = replayed("t,q1,q2\n0,0,0\n1,0,0\n");
+  EXPECT_GT(torques_along(held, simulate(held, instants(1, 0.25)))[0], 9);  // N m: held out level it takes some
+}
+
+TEST_F(Recorded, FirstRowIsTheStartAndItsStampMayBeLarge) {
+  const ColumnNames names{"stamp", {{"joint1", "q", "a"}, {"joint2", "q", "b"}}};
+  const auto since = motion("stamp [ns],b,a\n1700000000000000001,0,0\n1700000000100000002,0.5,0.1\n1700000000200000004,1,0.2\n", names);
+  EXPECT_DOUBLE_EQ(since->end(), 0.200000003);  // doubles of that size are 256 ns apart
+  std::vector<double> q(2), qd(2), qdd(2);
+  since->evaluate(0.100000001, q, qd, qdd);
+  EXPECT_DOUBLE_EQ(q[0], 0.1);
+  EXPECT_DOUBLE_EQ(q[1], 0.5);
+  EXPECT_THAT(since->remarks(), ElementsAre(HasSubstr("t = 0 is the first row")));
+  const auto seconds = motion("stamp,b,a\n1700000000.000000001,0,0\n1700000000.100000002,0,0\n", names);
+  EXPECT_NEAR(seconds->end(), 0.100000001, 2e-10);  // 64 bits tell 1e-10 s apart there
+}
+
+TEST_F(Recorded, NamesOfJointsDoNotDependOnTheOrder) {
+  const auto by_name = motion("t,q.joint2,q.joint1\n0,0,0\n1,0.5,0.25\n");
+  const auto in_degrees = motion("t [ms],q1 [deg],q2 [deg]\n0,0,0\n1000,45,90\n");
+  std::vector<double> q(2), qd(2), qdd(2);
+  by_name->evaluate(1, q, qd, qdd);
+  EXPECT_THAT(q, ElementsAre(0.25, 0.5));
+  EXPECT_THAT(qd, ElementsAre(0.25, 0.5));  // of two rows, a line
+  in_degrees->evaluate(1, q, qd, qdd);
+  EXPECT_DOUBLE_EQ(q[1], std::acos(-1) / 2);
+  EXPECT_THAT(error("t,q1,q.joint1,q2\n0,0,0,0\n1,0,0,0\n"), HasSubstr("mean the same"));
+}
+
+TEST_F(Recorded, WhatIsNoMotionIsRefusedWithItsPlace) {
+  EXPECT_THAT(error("t,q1,q2\n0,0,0\n"), HasSubstr("a motion takes two rows"));
+  EXPECT_THAT(error("t,q1,q2\n0,0,0\n0,0,0\n"), HasSubstr("log.csv:3: 't' does not rise"));
+  EXPECT_THAT(error("t,q1,q2\n0,0,0\n1,nan,0\n"), HasSubstr("log.csv:3: 'nan' under 'q1'"));
+  EXPECT_THAT(error("t,q1\n0,0\n1,0\n"), HasSubstr("there is none of 'joint2'"));
+  EXPECT_THAT(error("t,q1,q2,qd1\n0,0,0,0\n1,0,0,0\n"), HasSubstr("needs the columns qd1 to qd2"));
+  EXPECT_THAT(error("t,q1,q2,q3\n0,0,0,0\n1,0,0,0\n"), HasSubstr("has a column q3"));
+  EXPECT_THAT(error("time,q1,q2\n0,0,0\n1,0,0\n"), HasSubstr("has no column 't'"));
+  EXPECT_THAT(error("t,x,y\n0,0,0\n1,0,0\n"), HasSubstr("has no columns q1 to q2"));
+  EXPECT_THAT(error("t [m],q1,q2\n0,0,0\n1,0,0\n"), HasSubstr("is to be the time"));
+  EXPECT_THAT(error("t,q1 [m],q2\n0,0,0\n1,0,0\n"), HasSubstr("which turns"));
+  EXPECT_THAT(error("t,q1 [rad/s],q2\n0,0,0\n1,0,0\n"), HasSubstr("which turns"));
+  EXPECT_THAT(error("t,q1,q2\n0,3.1,0\n0.1,-3.1,0\n"), HasSubstr("log.csv:3: 'q1' jumps by -6.2 rad"));
+  EXPECT_THAT(error("t,q1,q2\n0,0,0\n1,0,0\n", {"t", {{"knee", "q", "q1"}}}), HasSubstr("no joint of the mechanism is called so"));
+  EXPECT_THAT(error("t,q1,q2\n0,0,0\n1,0,0\n", {"t", {{"joint1", "q", "p"}}}), HasSubstr("has no column 'p'"));
+  EXPECT_THAT(error("t,q1,q2\n0,0,0\n1,0,0\n", {"t", {{"joint1", "q", "q2"}, {"joint2", "q", "q2"}}}), HasSubstr("for two things"));
+  EXPECT_EQ(error("t,q1,q2\n0,0,0\n1,0,0\n"), "");  // negative control
+  // Fast, but the rates say so.
+  EXPECT_EQ(error("t,q1,q2,qd1,qd2\n0,0,0,40,0\n0.1,4,0,40,0\n"), "");
+}
+
+TEST_F(Recorded, WhatOneWouldNotBelieveIsRemarked) {
+  const auto remarks = [&](const std::string& text) { return motion(text)->remarks(); };
+  EXPECT_THAT(remarks("t,q1,q2,qd1,qd2\n0,0,0,57.3,0\n1,1,0,57.3,0\n2,2,0,57.3,0\n"),
+              ElementsAre(AllOf(HasSubstr("'qd1' is not the rate of 'q1'"), HasSubstr("differ by 56.3"))));
+  EXPECT_THAT(remarks("t,q1,q2\n0,0,0\n0.1,0.1,0\n0.2,0.2,0\n0.3,0.3,0\n2,2,0\n"), ElementsAre(HasSubstr("there is nothing between t = 0.3 and 2 s")));
+  EXPECT_THAT(remarks("t,q1,q2,tau1,tau2\n0,0,0,5,0\n1,0,0,5,0\n"), ElementsAre(HasSubstr("torques are those of inverse dynamics, not those that")));
+  EXPECT_THAT(remarks("t,q1,q2,volts\n0,0,0,5\n1,0,0,5\n"), ElementsAre(HasSubstr("no use of these columns")));
+  EXPECT_THAT(remarks("t,q1,q2\n0,0,0\n1,0.1,0.1\n2,0.2,0.1\n"), IsEmpty());  // negative control
+}
+
+}  // namespace
+}  // namespace chainreel
