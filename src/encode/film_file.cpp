@@ -107,7 +107,8 @@ void FilmFile::attach(AVFormatContext& format) {
   format.io_close2 = &close_reader;
 }
 
-int FilmFile::write(void* self, std::uint8_t* bytes, int count) {
+template <class Byte>
+int FilmFile::write(void* self, Byte* bytes, int count) {
   FilmFile& film = *static_cast<FilmFile*>(self);
   for (int done = 0; done < count;) {
     const ssize_t written = pwrite(film.file_, bytes + done, std::size_t(count - done), film.position_);

@@ -26,7 +26,9 @@ class FilmFile {
   int close();
 
  private:
-  static int write(void* self, std::uint8_t* bytes, int count);
+  // FFmpeg 7 hands over constant bytes, those before it did not.
+  template <class Byte>
+  static int write(void* self, Byte* bytes, int count);
   static std::int64_t seek(void* self, std::int64_t offset, int whence);
 
   std::string path_;

@@ -8,6 +8,7 @@
 // from them instead, as the collocation polynomial through 0 and the Z_i at the step's end, since y' would
 // multiply their rounding errors.
 
+#include <algorithm>
 #include <array>
 
 #include "integrate/implicit_equation.hpp"

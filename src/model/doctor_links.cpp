@@ -1,4 +1,5 @@
 // The doctor's look at links: masses, inertias, shapes, and how they fit together.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>

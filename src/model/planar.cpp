@@ -1,5 +1,6 @@
 #include "model/planar.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -1,5 +1,6 @@
 #include "model/regularity.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 

@@ -1,5 +1,6 @@
 // chainreel._native.SceneRun: a scene that is run, its numbers as views of the run's own memory.
 
+#include <algorithm>
 #include <memory>
 
 #include "app/library/scene_run.hpp"

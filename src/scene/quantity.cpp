@@ -1,5 +1,6 @@
 #include "scene/quantity.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <numbers>
 #include <optional>

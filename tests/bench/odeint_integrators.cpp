@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <boost/numeric/odeint.hpp>
 #include <boost/version.hpp>

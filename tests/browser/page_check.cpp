@@ -1,5 +1,6 @@
 #include "browser/page_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace chainreel {

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "compare/envelope.hpp"
 
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 // at the ends.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 

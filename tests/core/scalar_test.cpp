@@ -1,4 +1,6 @@
 // sin and cos against libquadmath, whose 113 bits leave 60 to judge a double by.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "core/hash.hpp"

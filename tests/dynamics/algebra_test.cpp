@@ -1,4 +1,6 @@
 // One text, several algebras: they must agree.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "dynamics/compare.hpp"

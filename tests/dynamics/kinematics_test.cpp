@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "dynamics/kinematics.hpp"
 
 #include <gtest/gtest.h>

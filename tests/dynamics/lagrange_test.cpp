@@ -1,4 +1,6 @@
 // Newton-Euler and Lagrange lead to the same equations of motion.
+#include <algorithm>
+
 #include "dynamics/lagrange.hpp"
 
 #include <gtest/gtest.h>

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <sched.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>

@@ -90,7 +90,7 @@ TEST(House, DevWithoutAWordItKnowsPrintsItsUsage) {
     command.insert(command.end(), words.begin(), words.end());
     const ProgramResult result = run_command(command, {.folder = "/"});
     EXPECT_EQ(result.status, 2);
-    EXPECT_THAT(result.err, HasSubstr("./dev build|test|demo|sheets|package|bench|sanitize|cluster|format|setup"));
+    EXPECT_THAT(result.err, HasSubstr("./dev build|test|demo|sheets|deb|package|bench|sanitize|cluster|format|setup"));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <random>
 

@@ -2,6 +2,7 @@
 // given in px.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 

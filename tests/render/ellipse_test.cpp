@@ -1,4 +1,6 @@
 // The ellipse's edge against the exact distance, for shapes from a disc to a needle.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "render/drawing.hpp"

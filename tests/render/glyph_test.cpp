@@ -1,4 +1,6 @@
 // Text against FreeType itself, and the sheet that keeps its bitmaps.
+#include <algorithm>
+
 #include <ft2build.h>
 #include <gtest/gtest.h>
 #include FT_FREETYPE_H

@@ -1,6 +1,7 @@
 // Bodies in space: what of them is seen, where, and how bright.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>

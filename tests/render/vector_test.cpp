@@ -2,6 +2,7 @@
 #include <cairo.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <regex>
 

@@ -1,5 +1,7 @@
 // The loop allocates nothing after the first step.
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "sim/runs.hpp"

@@ -1,5 +1,7 @@
 // What speaks against a run: each fault is found, and sound runs are let be.
 
+#include <algorithm>
+
 #include "sim/doubts.hpp"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,7 @@
 // Frames that a test makes one by one to a film, in chunks of two seconds.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>

@@ -1,4 +1,5 @@
 // Marks that say where something is: axes of frames and the centre of mass.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>

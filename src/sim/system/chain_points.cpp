@@ -1,5 +1,6 @@
 #include "sim/system/chain_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"

@@ -2,6 +2,7 @@
 // eigenvectors, taken to the page by the camera that two known places of the chain give away.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "core/error.hpp"

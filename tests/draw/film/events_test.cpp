@@ -1,5 +1,7 @@
 // What films say of events, and the foot with what the ground answers.
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "draw/film/film.hpp"
 
 #include <gmock/gmock.h>

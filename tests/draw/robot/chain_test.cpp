@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "draw/robot/chain.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,6 @@
 // Forward dynamics under constraints.
+#include <algorithm>
+
 #include "dynamics/constraints/constrained_dynamics.hpp"
 
 #include <gtest/gtest.h>

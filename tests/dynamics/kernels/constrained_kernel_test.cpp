@@ -1,4 +1,6 @@
 // The kernels for constrained chains, in the plane and in space, against the general way.
+#include <algorithm>
+
 #include "dynamics/kernels/constrained_kernel.hpp"
 
 #include <gtest/gtest.h>
