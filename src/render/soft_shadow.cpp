@@ -140,7 +140,7 @@ class Inks {
 }  // namespace
 
 // The cells' levels at the middle of a row of pixels, one more to each side than there are; whether there are any.
-bool SoftShadow::is_there(int row, std::vector<float>& line) const {
+bool SoftShadow::find_levels(int row, std::vector<float>& line) const {
   line.assign(std::size_t(box_.width) + 2, 0);
   const int half = blur_.pixels / 2, upper = (row + half) / blur_.pixels - (blur_.pixels > 1 ? 1 : 0);
   const float share = blur_.pixels == 1 ? 0 : (float((row + half) % blur_.pixels) + 0.5F) / float(blur_.pixels);
@@ -163,7 +163,7 @@ void SoftShadow::draw_over(const PixelBox& part, std::uint32_t* pixels, std::ptr
   const Inks inks(paint_.line);
   std::vector<float> line, stretched(std::size_t(end - start) + 4);
   for (int y = part.y; y < part.bottom(); ++y, pixels += stride) {
-    if (!is_there(y, line)) continue;
+    if (!find_levels(y, line)) continue;
     (p == 1 ? stretch<1> : p == 2 ? stretch<2> : stretch<4>)(line, stretched.data());
     for (int x = left; x < right; x += 4) {
       const int count = std::min(4, right - x);

@@ -33,7 +33,7 @@ class SoftShadow {
  private:
   void blur(const BodySamples& samples);
   void take_levels();
-  bool is_there(int row, std::vector<float>& line) const;
+  bool find_levels(int row, std::vector<float>& line) const;
 
   BodyPaint paint_;
   ShadowBlur blur_;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # This tree on another Debian, or on Ubuntu: a fresh root of that release, a copy of what is committed, and there `./dev test`.
 #   tests/package/other_system.sh trixie|noble [FOLDER]
-# FOLDER is kept, with the root in it, to be looked at. Needs root, mmdebstrap and the network, and some 30 minutes on two cores.
+# FOLDER is kept, with the system in it, to be looked at. Needs root, mmdebstrap and the network, and some 30 minutes on two cores.
 set -euo pipefail
 release=$1
 here=$(realpath "$(dirname "$0")/../..")
@@ -13,12 +13,12 @@ esac
 if [[ -n ${2:-} ]]; then
   mkdir -p "$2"
   folder=$(realpath "$2")
-  trap 'umount "$folder/root/proc" "$folder/root/dev" 2>/dev/null || true' EXIT
+  trap 'umount "$folder/system/proc" "$folder/system/dev" 2>/dev/null || true' EXIT
 else
   folder=$(mktemp -d)
-  trap 'umount "$folder/root/proc" "$folder/root/dev" 2>/dev/null || true; rm -rf --one-file-system "$folder"' EXIT
+  trap 'umount "$folder/system/proc" "$folder/system/dev" 2>/dev/null || true; rm -rf --one-file-system "$folder"' EXIT
 fi
-root=$folder/root
+root=$folder/system
 
 [[ -e $root/usr/bin ]] ||
   mmdebstrap --quiet --variant=minbase --mode=root --include=ca-certificates --skip=cleanup/apt/lists "$release" "$root" "${sources[@]}"
