@@ -3,6 +3,10 @@
 
 #include <gmock/gmock.h>
 
+extern "C" {
+#include <libavcodec/version.h>
+}
+
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -86,7 +90,9 @@ TEST_P(EveryFilm, DecodesToItsFramesInItsColours) {
   EXPECT_EQ(facts.fps, (Ratio{25, 1}));
   EXPECT_TRUE(facts.regular);
   for (const std::string& tag : {facts.primaries, facts.transfer, facts.matrix}) EXPECT_EQ(tag, "bt709");
-  EXPECT_EQ(facts.range, "tv");
+  // ProRes has no place for its range, which is always that of television; readers since FFmpeg 7 say no more than is written.
+  const bool says_range = facts.codec != "prores" || LIBAVCODEC_VERSION_MAJOR < 61;
+  EXPECT_EQ(facts.range, says_range ? "tv" : "unknown");
   EXPECT_EQ(facts.alpha_mode, facts.pixel_format == "yuva420p" ? "1" : "");
   // 4:2:0 blurs the edge of the disc; the mean over the page stays small. Opacity is seen on black and on
   // white.
