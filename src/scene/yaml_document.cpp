@@ -11,12 +11,12 @@
 
 #include "core/format.hpp"
 #include "core/input_file.hpp"
+#include "scene/yaml_aliases.hpp"
 
 namespace chainreel {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = 1 << 20;  // bytes
-constexpr int kDeepestNesting = 32;
 
 // Walks the parser's events without building anything, so that hostile nesting is refused before it costs
 // memory.
@@ -31,33 +31,26 @@ class Guard final : public YAML::EventHandler {
            mark);
   }
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { refuse_anchor(mark, anchor); }
-  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
-                const std::string&) override {
-    refuse_anchor(mark, anchor);
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string& tag, YAML::anchor_t, const std::string& text) override {
+    needs_expansion_ = needs_expansion_ || is_merge_key(tag, text);
   }
-  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
-    fail("aliases (*name) are not allowed: write the value out", mark);
-  }
-  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
-                       YAML::EmitterStyle::value) override {
-    descend(mark, anchor);
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override { needs_expansion_ = true; }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    descend(mark);
   }
   void OnSequenceEnd() override { --depth_; }
-  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
-                  YAML::EmitterStyle::value) override {
-    descend(mark, anchor);
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    descend(mark);
   }
   void OnMapEnd() override { --depth_; }
 
+  bool needs_expansion() const { return needs_expansion_; }
+
  private:
-  void descend(const YAML::Mark& mark, YAML::anchor_t anchor) {
-    refuse_anchor(mark, anchor);
+  void descend(const YAML::Mark& mark) {
     if (++depth_ > kDeepestNesting)
       fail("nested deeper than " + std::to_string(kDeepestNesting) + " levels: four are enough", mark);
-  }
-  void refuse_anchor(const YAML::Mark& mark, YAML::anchor_t anchor) {
-    if (anchor != YAML::NullAnchor) fail("anchors (&name) are not allowed: write the value out", mark);
   }
   [[noreturn]] void fail(const std::string& message, const YAML::Mark& mark) {
     throw Error(ExitCode::bad_input, message, {file_, mark.line + 1, mark.column + 1});
@@ -65,6 +58,7 @@ class Guard final : public YAML::EventHandler {
 
   std::string file_;
   int depth_ = 0, documents_ = 0;
+  bool needs_expansion_ = false;
 };
 
 std::string read_text(const std::string& path) {
@@ -84,20 +78,33 @@ std::string read_text(const std::string& path) {
   return text;
 }
 
-void refuse_duplicates(const YAML::Node& node, const std::string& file) {
+// Of a node whose line counts in a text with aliases written out.
+YAML::Mark true_mark(const YAML::Mark& mark, const std::vector<YAML::Mark>& marks) {
+  return !mark.is_null() && std::size_t(mark.line) < marks.size() ? marks[std::size_t(mark.line)] : mark;
+}
+
+// What was read, and where the lines of the text it was read from stand in the file, if that is another text.
+struct Parsed {
+  YAML::Node root;
+  std::vector<YAML::Mark> marks{};
+
+  Place place_of(const YAML::Node& node, const std::string& file) const {
+    const YAML::Mark mark = true_mark(node.Mark(), marks);
+    return {file, mark.line + 1, mark.column + 1};
+  }
+};
+
+void refuse_duplicates(const Parsed& parsed, const YAML::Node& node, const std::string& file) {
   if (node.IsSequence())
-    for (const YAML::Node& child : node) refuse_duplicates(child, file);
+    for (const YAML::Node& child : node) refuse_duplicates(parsed, child, file);
   if (!node.IsMap()) return;
   std::set<std::string> seen;
   for (const auto& pair : node) {
-    const YAML::Mark mark = pair.first.Mark();
-    if (!pair.first.IsScalar())
-      throw Error(ExitCode::bad_input, "a key must be a plain word", {file, mark.line + 1, mark.column + 1});
+    const Place place = parsed.place_of(pair.first, file);
+    if (!pair.first.IsScalar()) throw Error(ExitCode::bad_input, "a key must be a plain word", place);
     if (!seen.insert(pair.first.Scalar()).second)
-      throw Error(ExitCode::bad_input,
-                  "the key '" + pair.first.Scalar() + "' stands here twice: keep one of them",
-                  {file, mark.line + 1, mark.column + 1});
-    refuse_duplicates(pair.second, file);
+      throw Error(ExitCode::bad_input, "the key '" + pair.first.Scalar() + "' stands here twice: keep one of them", place);
+    refuse_duplicates(parsed, pair.second, file);
   }
 }
 
@@ -106,16 +113,22 @@ std::string name_of(const Override& one) {
 }
 
 // Parses one whole document of text; `where` names it in errors.
-YAML::Node parse(const std::string& text, const std::string& where) {
+Parsed parse(const std::string& text, const std::string& where) {
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
     Guard guard(where);
     while (parser.HandleNextDocument(guard)) {
     }
-    const YAML::Node root = YAML::Load(text);
-    refuse_duplicates(root, where);
-    return root;
+    Parsed parsed;
+    if (guard.needs_expansion()) {
+      ExpandedYaml expanded = expand_aliases(text, where);
+      parsed = {YAML::Load(expanded.text), std::move(expanded.marks)};
+    } else {
+      parsed.root = YAML::Load(text);
+    }
+    refuse_duplicates(parsed, parsed.root, where);
+    return parsed;
   } catch (const YAML::Exception& error) {
     throw Error(ExitCode::bad_input, "is not valid YAML: " + error.msg,
                 {where, error.mark.line + 1, error.mark.column + 1});
@@ -199,8 +212,17 @@ Override parse_override(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+std::string in_one_line(std::string words) {
+  if (words.find_first_of("\t\r\n") == std::string::npos) return words;
+  const std::size_t last = words.find_last_not_of(" \t\r\n");
+  words.resize(last == std::string::npos ? 0 : last + 1);
+  for (char& c : words)
+    if (c == '\t' || c == '\r' || c == '\n') c = ' ';
+  return words;
+}
+
 Place YamlDocument::place_of(const YAML::Node& node, const std::string& key) const {
-  const YAML::Mark mark = node.Mark();
+  const YAML::Mark mark = true_mark(node.Mark(), marks);
   const Place here = mark.is_null() ? Place{file, 0, 0} : Place{file, mark.line + 1, mark.column + 1};
   for (auto one = origins.rbegin(); one != origins.rend(); ++one) {
     if (key == one->key) return one->place;
@@ -217,7 +239,8 @@ std::map<std::string, Place> YamlDocument::places() const {
 
 YamlDocument yaml_document_of(const std::string& text, const std::string& path,
                               const std::vector<Override>& overrides, const std::string& lacking) {
-  YamlDocument document{parse(text, path), path, text, overrides, {}};
+  Parsed parsed = parse(text, path);
+  YamlDocument document{parsed.root, path, text, overrides, {}, false, std::move(parsed.marks)};
   if (!document.root.IsMap()) throw Error(ExitCode::bad_input, lacking, {path});
   replace_overrides(document, overrides);
   return document;
@@ -232,7 +255,7 @@ void replace_overrides(YamlDocument& document, const std::vector<Override>& over
       if (take_away(document.root, one.key, {one.key, {}, place})) continue;
       // It was not there: null, so that a key that nobody knows is told.
     }
-    apply(document.root, one.key, {one.key, parse(one.value, name_of(one)), place});
+    apply(document.root, one.key, {one.key, parse(one.value, name_of(one)).root, place});
     document.origins.push_back({one.key, place});
   }
 }
@@ -253,7 +276,7 @@ YamlDocument panel_document(const YamlDocument& whole, std::size_t index) {
   const std::string prefix = "compare." + std::to_string(index + 1) + ".";
   for (const auto& pair : changes) {
     const std::string& key = pair.first.Scalar();
-    const YAML::Mark mark = pair.first.Mark();
+    const YAML::Mark mark = true_mark(pair.first.Mark(), panel.marks);
     const Place place{panel.file, mark.line + 1, mark.column + 1};
     if (key.find('.') == std::string::npos) {
       panel.root.remove(key);

@@ -1,6 +1,5 @@
-// A YAML file as a node tree, with what is dangerous or ambiguous refused first: aliases and anchors, nesting
-// deeper than 32, files over 1 MiB, duplicate keys, several documents. Internal to this floor: the only
-// header with yaml-cpp.
+// A YAML file as a node tree, aliases and merge keys written out, with what is dangerous or ambiguous refused first: nesting
+// deeper than 32, files over 1 MiB, aliases of aliases without end, duplicate keys, several documents. Internal to this floor.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -36,6 +35,7 @@ struct YamlDocument {
   std::vector<Override> overrides;
   std::vector<Origin> origins;
   bool is_panel = false;  // one of several on the page
+  std::vector<YAML::Mark> marks{};  // of the lines that nodes count, where aliases were written out; else empty
 
   // Where a node stands; `key` is its dotted path, so that overridden values name the command line.
   Place place_of(const YAML::Node& node, const std::string& key) const;
@@ -43,6 +43,9 @@ struct YamlDocument {
   // Where each key stands, by its dotted path, as deep as mappings lie in mappings.
   std::map<std::string, Place> places() const;
 };
+
+// Words of a block (`title: >` or `|`) in one line: line breaks and tabs are spaces, none at its end.
+std::string in_one_line(std::string words);
 
 inline constexpr const char* kNoScene = "holds no scene: write `model: ...` and what else it needs, or see `chainreel init`";
 

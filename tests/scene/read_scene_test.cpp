@@ -7,12 +7,14 @@
 #include <set>
 
 #include "scene/quantity.hpp"
+#include "scene/text/scene_paths.hpp"
 #include "scene/text/write_scene.hpp"
 #include "written_scenes.hpp"
 
 namespace chainreel {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -188,6 +190,57 @@ TEST_F(ReadScene, ReadsAModelInASceneSPlace) {
   EXPECT_EQ(scene.packages.at("parts"), "models/meshes") << "beside the model";
   EXPECT_THROW(read_model_scene("models/rr.urdf", {"gravty=[0, 0, 0]"}), Error);
   EXPECT_THROW(read_model_scene("models/none.urdf"), Error);
+}
+
+TEST_F(ReadScene, WritesAliasesAndMergeKeysOut) {
+  const Scene scene = read(
+      "torque: &push [1, &spring \"-2 * q1\"]\nvideo: &small {width: 320, height: 180}\n"
+      "compare:\n  - &one {title: one, method: rk4, step: 0.01, torque: *push}\n"
+      "  - <<: *one\n    title: other\n    step: 0.02\n"
+      "  - {<<: [{step: 0.03}, *one], title: third, torque.1: *spring}\n");
+  ASSERT_EQ(scene.compare.size(), 3u);
+  EXPECT_EQ(scene.compare[1].method, "rk4");
+  EXPECT_EQ(scene.compare[1].step, 0.02) << "what stands beside << holds";
+  EXPECT_EQ(scene.compare[2].step, 0.03) << "then the first of its list";
+  EXPECT_EQ(scene.compare[1].torque[1].text, "-2 * q1");
+  EXPECT_EQ(scene.compare[2].torque[0].text, "-2 * q1");
+  EXPECT_EQ(scene.compare[0].torque[0].text, "1") << "a change of one panel reaches no other";
+  EXPECT_EQ(scene.video.width, 320);
+}
+
+TEST_F(ReadScene, ChangesTheAliasAloneBySet) {
+  const std::string text = "start: {q: &here [1, 2], qd: *here}\n";
+  const Scene scene = read(text, {"start.qd.2=7"});
+  EXPECT_THAT(scene.start.qd, ElementsAre(1, 7));
+  EXPECT_THAT(scene.start.q, ElementsAre(1, 2));
+  EXPECT_THAT(read(text, {"start.q=[3, 4]"}).start.qd, ElementsAre(1, 2));
+  EXPECT_THAT(error(text, {"start.qd=*here"}), HasSubstr("--set start.qd=*here"));
+}
+
+// Places are those of the file as it was written, whatever stands between.
+TEST_F(ReadScene, NamesTrueLinesOfFilesWithAliases) {
+  const std::string text = "duration: &two 2\n\n# a comment\nhold: *two\nparameters: {a: &bad xyz, b: *bad}\nstep: 0.01\nmethod: rk5\n";
+  EXPECT_THAT(error(text), AllOf(HasSubstr(":8:9: unknown method 'rk5'"), HasSubstr(":6:17: parameter 'b'")));
+  EXPECT_THAT(error("video: &v {wdth: 3}\nellipse: {<<: *v}\n"), AllOf(HasSubstr(":2:"), HasSubstr("'ellipse.wdth'")));
+  EXPECT_THAT(error("video: {<<: [1, 2]}\n"), HasSubstr(":2:14: `<<` takes the alias of a mapping"));
+  EXPECT_THAT(error("video: {<<: {width: 640}, <<: {height: 360}}\n"), HasSubstr("stands here twice"));
+  EXPECT_THAT(error("hold: &h 1\nduration: *h\nduration: 2\n"), HasSubstr(":4:1: the key 'duration' stands here twice"));
+  EXPECT_THAT(error("hold: &h 1\nduration: *h\n\"<<\": {step: 1}\n"), HasSubstr("unknown key '<<'")) << "quoted it is a key";
+  EXPECT_EQ(error("title: \"<<: no merge\"\n"), "");
+}
+
+TEST(SceneWithModel, PutsThePathBehindQuotesAndAnchorsAndKeepsComments) {
+  for (const char* path : {"arm.urdf", "\"arm.urdf\"", "'arm.urdf'", "&m arm.urdf", "&m 'arm.urdf'"})
+    EXPECT_EQ(scene_with_model("# mine\nmodel: " + std::string(path) + "  # the arm\nduration: 2\n", "new.urdf"),
+              "# mine\nmodel: " + std::string(path[0] == '&' ? "&m " : "") + "\"new.urdf\"  # the arm\nduration: 2\n");
+}
+
+TEST_F(ReadScene, TakesBlocksOfWordsAsOneLine) {
+  EXPECT_EQ(read("title: >\n  two lines\n  folded\n").title, "two lines folded");
+  EXPECT_EQ(read("title: |\n  two lines\n  kept\n").title, "two lines kept");
+  EXPECT_EQ(read("title: >-\n  without end\n").title, "without end");
+  const Scene scene = read("torque:\n  - >\n    -2 * q1\n    - 3 * qd1\n  - 0\n");
+  EXPECT_EQ(scene.torque[0].text, "-2 * q1 - 3 * qd1");
 }
 
 TEST_F(ReadScene, RefusesLargeFilesBeforeParsingThem) {

@@ -41,7 +41,7 @@ Place Fields::place_of(const YAML::Node& node, const std::string& key) const {
 
 std::optional<std::string> Fields::scalar(const YAML::Node& node, const std::string& key,
                                           const std::string& wanted) {
-  if (node.IsScalar()) return node.Scalar();
+  if (node.IsScalar()) return in_one_line(node.Scalar());
   problems_->add("'" + path(key) + "' must be " + wanted, place_of(node, key));
   return std::nullopt;
 }

@@ -184,7 +184,7 @@ void read_torque(Fields& fields, Scene& scene) {
     const std::string key = "torque." + std::to_string(i + 1);
     const Place place = fields.place_of(node[i], key);
     if (node[i].IsScalar())
-      scene.torque.push_back({node[i].Scalar(), place, {}});
+      scene.torque.push_back({in_one_line(node[i].Scalar()), place, {}});
     else if (node[i].IsMap())
       scene.torque.push_back({"control", place, read_control(fields, node[i], key)});
     else

@@ -51,11 +51,23 @@ std::map<std::size_t, std::string> paths_in(const std::string& text) {
   return found;
 }
 
+// Where the scalar itself begins: behind an anchor's name or a tag.
+std::size_t behind_properties(const std::string& text, std::size_t at) {
+  while (text[at] == '&' || text[at] == '!') {
+    at = text.find_first_of(" \t\r\n", at);
+    at = text.find_first_not_of(" \t\r\n", at);
+    if (at == std::string::npos) throw Error(ExitCode::bad_input, "a path of the scene has no end");
+  }
+  return at;
+}
+
 // Characters that the scalar takes in the text, with its quotes.
 std::size_t length_of(const std::string& text, std::size_t at, const std::string& scalar) {
-  if (text[at] != '"') return scalar.size();
+  const char quote = text[at];
+  if (quote != '"' && quote != '\'') return scalar.size();
   std::size_t end = at + 1;
-  while (end < text.size() && text[end] != '"') end += text[end] == '\\' ? 2 : 1;
+  while (end < text.size() && (text[end] != quote || (quote == '\'' && text[end + 1] == quote)))
+    end += text[end] == quote || (quote == '"' && text[end] == '\\') ? 2 : 1;
   return end + 1 - at;
 }
 
@@ -65,9 +77,10 @@ std::string with_paths(const std::string& text,
   std::string result = text;
   const auto found = paths_in(text);
   for (auto one = found.rbegin(); one != found.rend(); ++one)
-    if (const std::optional<std::string> path = moved(one->second))
-      result.replace(one->first, length_of(text, one->first, one->second),
-                     Json(*path).dump());  // a JSON text is YAML too
+    if (const std::optional<std::string> path = moved(one->second)) {
+      const std::size_t at = behind_properties(text, one->first);
+      result.replace(at, length_of(text, at, one->second), Json(*path).dump());  // a JSON text is YAML too
+    }
   return result;
 }
 
