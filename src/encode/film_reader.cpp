@@ -8,6 +8,11 @@
 namespace chainreel {
 namespace {
 
+// Times are told to a thousandth of a second in some containers.
+constexpr double kSameTime = 1e-3;  // s
+// Files order frames by when they are decoded, which is so much before they are shown, at most.
+constexpr double kDecodedBefore = 0.5;  // s
+
 struct FreeReaderScaler {
   void operator()(SwsContext* p) const { libav().sws_freeContext(p); }
 };
@@ -52,6 +57,7 @@ Image image_of(const AVFrame& frame, int width, int height) {
 
 struct FilmReader::State {
   std::string path;
+  bool small_clips = true;
   FilmInputPtr input;
   int stream = 0;
   CodecContextPtr decoder;
@@ -63,6 +69,10 @@ struct FilmReader::State {
 
   // Decodes the next frame into `frame`; false behind the last.
   bool decode();
+  double time() const;  // s from the first frame to `frame`
+  // Goes on from a key frame that is shown no later than `seconds`; false where none is found, and then from anywhere.
+  bool go_to_key_before(double seconds);
+  Image image(int widest) const;  // of `frame`
 };
 
 bool FilmReader::State::decode() {
@@ -85,9 +95,28 @@ bool FilmReader::State::decode() {
   }
 }
 
+double FilmReader::State::time() const {
+  return double(frame->best_effort_timestamp - first_time) * av_q2d(input->streams[stream]->time_base);
+}
+
+bool FilmReader::State::go_to_key_before(double seconds) {
+  const auto target = first_time + std::int64_t(seconds / av_q2d(input->streams[stream]->time_base));
+  if (libav().av_seek_frame(input.get(), stream, target, AVSEEK_FLAG_BACKWARD) < 0) return false;
+  libav().avcodec_flush_buffers(decoder.get());
+  ended = false;
+  return decode() && time() <= seconds + kSameTime;
+}
+
+Image FilmReader::State::image(int widest) const {
+  const int width = std::min(frame->width, widest);
+  const double scale = double(width) / frame->width;
+  return image_of(*frame, width, std::max(1, int(std::lround(frame->height * scale))));
+}
+
 FilmReader::FilmReader(const std::string& path, bool small_clips) : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.path = path;
+  s.small_clips = small_clips;
   s.input = open_film(path, small_clips ? FilmKinds::films_and_small_clips : FilmKinds::films);
   check_libav(libav().avformat_find_stream_info(s.input.get(), nullptr), ExitCode::bad_input,
               "holds no readable film", path);
@@ -100,6 +129,7 @@ FilmReader::FilmReader(const std::string& path, bool small_clips) : state_(std::
 
 FilmReader::~FilmReader() = default;
 FilmReader::FilmReader(FilmReader&&) noexcept = default;
+FilmReader& FilmReader::operator=(FilmReader&&) noexcept = default;
 
 double FilmReader::seconds() const {
   return state_->input->duration == AV_NOPTS_VALUE ? 0 : double(state_->input->duration) / AV_TIME_BASE;
@@ -118,15 +148,29 @@ int FilmReader::height() const {
 }
 
 double FilmReader::time() const {
-  return double(state_->frame->best_effort_timestamp - state_->first_time) *
-         av_q2d(state_->input->streams[state_->stream]->time_base);
+  return state_->time();
 }
 
 bool FilmReader::next(Image& image, int widest) {
   if (!state_->decode()) return false;
-  const int width = std::min(state_->frame->width, widest);
-  const double scale = double(width) / state_->frame->width;
-  image = image_of(*state_->frame, width, std::max(1, int(std::lround(state_->frame->height * scale))));
+  image = state_->image(widest);
+  return true;
+}
+
+bool FilmReader::find(double seconds, Image& image, int widest) {
+  if (!state_->decode()) return false;
+  // Within the first second nothing is saved; a film that cannot be searched is read from its start.
+  if (seconds > 2 * kDecodedBefore && !state_->go_to_key_before(seconds - kDecodedBefore)) {
+    *this = FilmReader(state_->path, state_->small_clips);
+    state_->decode();
+  }
+  State& s = *state_;
+  FramePtr shown(check_allocated(libav().av_frame_alloc(), "a frame"));
+  do
+    std::swap(s.frame, shown);
+  while (s.decode() && s.time() <= seconds + kSameTime);
+  std::swap(s.frame, shown);
+  image = s.image(widest);
   return true;
 }
 

@@ -15,6 +15,7 @@ class FilmReader {
   explicit FilmReader(const std::string& path, bool small_clips = true);
   ~FilmReader();
   FilmReader(FilmReader&&) noexcept;
+  FilmReader& operator=(FilmReader&&) noexcept;
 
   double seconds() const;  // of the film, as its file says; 0 where it does not
   double fps() const;      // frames a second, as its file says; 0 where it does not
@@ -25,6 +26,10 @@ class FilmReader {
   // The next frame as a player would show it, with its opacity; where it is wider than `widest`, scaled down
   // to that. False behind the last. Throws Error (exit 3) where a frame cannot be decoded.
   bool next(Image& image, int widest = 1 << 20);
+
+  // Likewise the frame that is shown `seconds` from the first on, or the last one. Of what lies before it only what it is
+  // coded from is decoded. False where the film has no frame. The last thing that a reader is asked.
+  bool find(double seconds, Image& image, int widest = 1 << 20);
 
  private:
   struct State;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <utility>
 
 #include "encode/film_input.hpp"
 #include "encode/film_reader.hpp"
@@ -12,13 +11,7 @@ namespace chainreel {
 FilmStart read_film_start(const std::string& path, int widest, double at) {
   FilmReader reader(path, false);
   FilmStart start;
-  if (!reader.next(start.frame, widest))
-    throw Error(ExitCode::bad_input, "holds no frame that can be decoded", {path});
-  if (at > 0) {
-    // Times are told to a thousandth of a second in some containers.
-    Image next;
-    while (reader.next(next, widest) && reader.time() <= at + 1e-3) std::swap(start.frame, next);
-  }
+  if (!reader.find(at, start.frame, widest)) throw Error(ExitCode::bad_input, "holds no frame that can be decoded", {path});
   for (std::size_t i = 3; i < start.frame.bgra.size(); i += 4) start.frame.bgra[i] = 255;
   start.width = reader.width();
   start.height = reader.height();

@@ -15,7 +15,7 @@ struct FilmStart {
 };
 
 // The frame that is shown `at` seconds from the start on, or the last one. Reads MP4, MOV or WebM. Throws Error (exit 3)
-// where the file is no such film or a frame up to there cannot be decoded.
+// where the file is no such film or the frame cannot be decoded.
 FilmStart read_film_start(const std::string& path, int widest, double at = 0);
 
 // What a film says of itself, read from MP4, MOV and WebM.

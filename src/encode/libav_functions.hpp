@@ -20,11 +20,11 @@ namespace chainreel {
   X(av_packet_alloc) X(av_packet_free) X(av_packet_get_side_data) X(av_packet_new_side_data)                 \
   X(av_packet_rescale_ts) X(av_packet_unref) X(avcodec_alloc_context3) \
   X(avcodec_find_decoder) X(avcodec_find_decoder_by_name) X(avcodec_find_encoder_by_name)                   \
-  X(avcodec_free_context) X(avcodec_open2)                                                                  \
+  X(avcodec_flush_buffers) X(avcodec_free_context) X(avcodec_open2)                                                                  \
   X(avcodec_parameters_from_context) X(avcodec_parameters_to_context) X(avcodec_receive_frame)              \
   X(avcodec_receive_packet) X(avcodec_send_frame) X(avcodec_send_packet) X(avcodec_version)
 #define CHAINREEL_LIBAV_FORMAT(X)                                                            \
-  X(av_find_best_stream) X(av_read_frame) X(av_write_frame) X(av_write_trailer)              \
+  X(av_find_best_stream) X(av_read_frame) X(av_seek_frame) X(av_write_frame) X(av_write_trailer) \
   X(avformat_alloc_output_context2) X(avformat_close_input) X(avformat_find_stream_info)     \
   X(avformat_free_context) X(avformat_new_stream) X(avformat_open_input) X(avformat_version) \
   X(avformat_write_header) X(avio_alloc_context) X(avio_context_free) X(avio_flush)
