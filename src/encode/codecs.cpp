@@ -50,6 +50,15 @@ AVDictionary* h264_options(AVCodecContext& context, const VideoSettings& setting
   return options;
 }
 
+// As programs ask for it that take the preset as it is.
+AVDictionary* preset_options(AVCodecContext& context, const VideoSettings& settings) {
+  context.pix_fmt = AV_PIX_FMT_YUV420P;
+  AVDictionary* options = nullptr;
+  libav().av_dict_set(&options, "preset", "veryfast", 0);
+  libav().av_dict_set(&options, "crf", format_shortest(crf_of(settings)).c_str(), 0);
+  return options;
+}
+
 AVDictionary* vp9_options(AVCodecContext& context, const VideoSettings& settings) {
   context.pix_fmt = settings.alpha ? AV_PIX_FMT_YUVA420P : AV_PIX_FMT_YUV420P;
   context.bit_rate = 0;  // constant quality
@@ -78,6 +87,32 @@ constexpr CodecRow kH264{"libx264", &kMp4, 18, 51, false, false, false, h264_opt
 constexpr CodecRow kVp9{"libvpx-vp9", &kWebm, 28, 63, true, false, false, vp9_options};
 constexpr CodecRow kProres{"prores_ks", &kMov, {}, {}, true, true, true, prores_options};
 
+
+CodecContextPtr open_codec(const CodecRow& row, decltype(CodecRow::options) options_of, const VideoSettings& settings, int threads) {
+  CodecContextPtr context = make_context(row.encoder);
+  context->width = settings.width;
+  context->height = settings.height;
+  context->color_primaries = AVCOL_PRI_BT709;
+  context->color_trc = AVCOL_TRC_BT709;
+  context->colorspace = AVCOL_SPC_BT709;
+  context->color_range = AVCOL_RANGE_MPEG;
+  if (!row.every_pixel)
+    context->chroma_sample_location = AVCHROMA_LOC_CENTER;  // as yuv.hpp computes it
+  // One tick is one frame: frame k is shown from k * den / num on, exactly.
+  context->time_base = {settings.fps.den, settings.fps.num};
+  context->framerate = {settings.fps.num, settings.fps.den};
+  context->thread_count = threads;
+
+  AVDictionary* options = options_of(*context, settings);
+  const int code = libav().avcodec_open2(context.get(), context->codec, &options);
+  libav().av_dict_free(&options);
+  check_libav(code, ExitCode::no_renderer,
+              std::string(row.encoder) + " refuses a film of " + std::to_string(settings.width) + "x" +
+                  std::to_string(settings.height) + " at " + std::to_string(settings.fps.num) + "/" +
+                  std::to_string(settings.fps.den) + " frames/s");
+  return context;
+}
+
 }  // namespace
 
 int gop_of(FrameRate fps) {
@@ -97,29 +132,11 @@ const CodecRow& row_of(VideoCodec codec) {
 }
 
 CodecContextPtr open_encoder(const VideoSettings& settings) {
-  const CodecRow& row = row_of(settings.codec);
-  CodecContextPtr context = make_context(row.encoder);
-  context->width = settings.width;
-  context->height = settings.height;
-  context->color_primaries = AVCOL_PRI_BT709;
-  context->color_trc = AVCOL_TRC_BT709;
-  context->colorspace = AVCOL_SPC_BT709;
-  context->color_range = AVCOL_RANGE_MPEG;
-  if (!row.every_pixel)
-    context->chroma_sample_location = AVCHROMA_LOC_CENTER;  // as yuv.hpp computes it
-  // One tick is one frame: frame k is shown from k * den / num on, exactly.
-  context->time_base = {settings.fps.den, settings.fps.num};
-  context->framerate = {settings.fps.num, settings.fps.den};
-  context->thread_count = kEncoderThreads;
+  return open_codec(row_of(settings.codec), row_of(settings.codec).options, settings, kEncoderThreads);
+}
 
-  AVDictionary* options = row.options(*context, settings);
-  const int code = libav().avcodec_open2(context.get(), context->codec, &options);
-  libav().av_dict_free(&options);
-  check_libav(code, ExitCode::no_renderer,
-              std::string(row.encoder) + " refuses a film of " + std::to_string(settings.width) + "x" +
-                  std::to_string(settings.height) + " at " + std::to_string(settings.fps.num) + "/" +
-                  std::to_string(settings.fps.den) + " frames/s");
-  return context;
+CodecContextPtr open_preset_h264(const VideoSettings& settings, int threads) {
+  return open_codec(kH264, preset_options, settings, threads);
 }
 
 CodecContextPtr open_small_encoder(const char* name, AVPixelFormat format, int width, int height,

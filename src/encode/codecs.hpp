@@ -28,6 +28,9 @@ int gop_of(FrameRate fps);
 // The encoder of a film; settings are checked. Throws Error (exit 4) where FFmpeg has none or refuses.
 CodecContextPtr open_encoder(const VideoSettings& settings);
 
+// x264 as programs have it that ask for its preset veryfast and this quality, with threads of its own.
+CodecContextPtr open_preset_h264(const VideoSettings& settings, int threads);
+
 // GIF (pal8) and APNG (bgra or rgb24) of one small size.
 CodecContextPtr open_small_encoder(const char* name, AVPixelFormat format, int width, int height,
                                    AVRational frame_time);

@@ -83,6 +83,19 @@ double ChunkTape::bytes_of_frame(const VideoSettings& settings) {
   return pixels * (row_of(settings.codec).every_pixel ? 6 : 1.5) * (settings.alpha ? 1.7 : 1);
 }
 
+void encode_by_preset(const std::vector<ChunkTape>& tapes, const VideoSettings& settings, int threads) {
+  const CodecContextPtr encoder = open_preset_h264(settings, threads);
+  const auto send = [&](const AVFrame* frame) { encode_frame(*encoder, frame, "", [](const AVPacket&) {}); };
+  std::int64_t count = 0;
+  for (const ChunkTape& tape : tapes)
+    for (const FramePtr& kept : tape.state_->frames) {
+      const FramePtr frame(check_allocated(libav().av_frame_clone(kept.get()), "a frame"));
+      frame->pts = count++;  // it was that of its chunk
+      send(frame.get());
+    }
+  send(nullptr);
+}
+
 struct ChunkEncoder::State {
   VideoSettings settings;
   CodecContextPtr encoder;

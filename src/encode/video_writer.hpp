@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/frame_rate.hpp"
 #include "core/stage_clock.hpp"
@@ -56,9 +57,14 @@ class ChunkTape {
 
  private:
   friend class ChunkEncoder;
+  friend void encode_by_preset(const std::vector<ChunkTape>&, const VideoSettings&, int);
   struct State;
   std::unique_ptr<State> state_;
 };
+
+// All of a film by one encoder of H.264 as other programs have it: x264's preset veryfast and the quality, so many threads of
+// its own, packets thrown away.
+void encode_by_preset(const std::vector<ChunkTape>& tapes, const VideoSettings& settings, int threads);
 
 // Frames to a chunk of a film, see film_chunk.
 class ChunkEncoder final : public FrameSink {

@@ -39,6 +39,9 @@ TEST(Bench, StagesAndTheRestAreTheWholeOfTheProcessorsTime) {
   EXPECT_GT(report["encoder_alone"]["cpu"].get<double>(), 0);
   EXPECT_DOUBLE_EQ(report["ratio"]["wall"].get<double>(),
                    report["whole"]["wall"].get<double>() / report["encoder_alone"]["wall"].get<double>());
+  EXPECT_GT(report["one_encoder"]["cpu"].get<double>(), 0);
+  EXPECT_DOUBLE_EQ(report["ratio_to_one_encoder"]["cpu"].get<double>(),
+                   report["whole"]["cpu"].get<double>() / report["one_encoder"]["cpu"].get<double>());
 }
 
 TEST(Bench, OfAFilmWhoseFramesDoNotFitIsThatOfItsFirstChunksAndSaysSo) {

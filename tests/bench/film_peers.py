@@ -138,6 +138,7 @@ def measure_scenes(chainreel, scenes, rounds):
     with open(HERE / "results" / "films.csv", "w", newline="") as file:
         rows = csv.writer(file, lineterminator="\n")
         rows.writerow(["film", "frames", "threads", "ours s", "encoder alone s", "ratio", "ours CPU s", "encoder alone CPU s", "ratio of CPU",
+                       "one encoder s", "ratio to it",
                        *(f"{stage} CPU ms a frame" for stage in stages)])
         for scene in scenes:
             run = subprocess.run([chainreel, "bench", str(scene), "--json", "--quiet", "--rounds", str(rounds), "--set", "video.width=1920",
@@ -146,9 +147,10 @@ def measure_scenes(chainreel, scenes, rounds):
                 print(f"{scene.stem}: {run.stderr.strip()}", flush=True)
                 continue
             film = json.loads(run.stdout)[0]
-            ours, alone, ratio = film["whole"], film["encoder_alone"], film["ratio"]
+            ours, alone, ratio, one = film["whole"], film["encoder_alone"], film["ratio"], film["one_encoder"]
             rows.writerow([scene.stem, film["frames"], film["jobs"], f"{ours['wall']:.2f}", f"{alone['wall']:.2f}", f"{ratio['wall']:.3f}",
                            f"{ours['cpu']:.2f}", f"{alone['cpu']:.2f}", f"{ratio['cpu']:.3f}",
+                           f"{one['wall']:.2f}", f"{film['ratio_to_one_encoder']['wall']:.3f}",
                            *(f"{film['stages'][stage]['cpu_ms']:.3f}" for stage in stages)])
             file.flush()
             print(f"{scene.stem:20} {film['frames']:5} frames {ours['wall']:6.2f} s, encoder alone {alone['wall']:6.2f} s: "
