@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <new>
 
+#include "app/cli/last_words.hpp"
 #include "app/cli/streams.hpp"
 #include "app/guide/reference.hpp"
 #include "app/report/version.hpp"

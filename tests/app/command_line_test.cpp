@@ -11,6 +11,7 @@
 #include <regex>
 #include <sstream>
 
+#include "app/cli/last_words.hpp"
 #include "app/cli/streams.hpp"
 #include "core/json.hpp"
 #include "encode/png.hpp"
@@ -148,6 +149,21 @@ TEST(InterruptDeathTest, AgainAfterAWhileEndsTheProgramAtOnce) {
   EXPECT_EXIT(raise_twice(1000, SIGINT), testing::ExitedWithCode(7), "");
   EXPECT_EXIT(raise_twice(600000, SIGINT), testing::KilledBySignal(SIGINT), "");
   EXPECT_EXIT(raise_twice(600000, SIGTERM), testing::KilledBySignal(SIGINT), "");
+}
+
+// Tools that look for faults have handlers of their own.
+TEST(FaultDeathTest, EndsWithALineAndAsTheSystemEndsIt) {
+  const auto fault = [](int signal) {
+    install_last_words();
+    std::raise(signal);
+    std::_Exit(0);  // nobody goes on after a fault
+  };
+  for (const auto& [signal, name] : {std::pair{SIGSEGV, "SIGSEGV"}, {SIGBUS, "SIGBUS"}, {SIGFPE, "SIGFPE"}, {SIGABRT, "SIGABRT"}}) {
+    struct sigaction usual = {};
+    sigaction(signal, nullptr, &usual);
+    if (usual.sa_handler == SIG_DFL)
+      EXPECT_EXIT(fault(signal), testing::KilledBySignal(signal), std::string("chainreel: .*") + name + ".*: what it was writing is not finished");
+  }
 }
 
 // While the encoder finishes: that of VP9 has looked at the frames so far, and takes seconds to write them.

@@ -12,8 +12,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
-#include <exception>
-#include <new>
 #include <string>
 #include <string_view>
 
@@ -102,30 +100,6 @@ void guard_streams() {
   for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) hold_if_closed(file);
   if (std::FILE* out = guarded(STDOUT_FILENO, isatty(STDOUT_FILENO) == 1 ? _IOLBF : _IOFBF)) stdout = out;
   if (std::FILE* err = guarded(STDERR_FILENO, _IOLBF)) stderr = err;
-}
-
-namespace {
-
-pid_t own_process = 0;  // children that read files for it have none of its files
-
-[[noreturn]] void end_at_once() {
-  if (getpid() == own_process) remove_unfinished();
-  try {
-    if (const std::exception_ptr problem = std::current_exception()) std::rethrow_exception(problem);
-  } catch (const std::bad_alloc&) {
-    const std::string_view line(kOutOfMemory);
-    if (write(STDERR_FILENO, line.data(), line.size()) < 0) _exit(int(ExitCode::file));
-    _exit(int(ExitCode::limit));
-  } catch (...) {
-  }
-  std::abort();
-}
-
-}  // namespace
-
-void install_last_words() {
-  own_process = getpid();
-  std::set_terminate(end_at_once);
 }
 
 namespace {

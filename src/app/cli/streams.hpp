@@ -7,16 +7,10 @@
 
 namespace chainreel {
 
-inline constexpr const char* kOutOfMemory = "chainreel: out of memory: take a shorter duration or a smaller picture\n";
-
 // From now on whatever is printed is fit for a terminal (core/printable), and no line of standard error is longer than
 // some lines of a terminal. Streams that the caller closed are held by ones that take nothing, so that no file of ours
 // gets their number. To be called first.
 void guard_streams();
-
-// What cannot be unwound still ends with a line, an exit code and nothing half-written: libraries take memory in destructors,
-// which may not throw. Faults that are no want of memory end as the system ends them.
-void install_last_words();
 
 // Every problem on standard error: each some lines long at most, temporary files under their final names.
 void print_error(const Error& error);
