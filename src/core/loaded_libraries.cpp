@@ -2,9 +2,13 @@
 
 #include <elf.h>
 #include <link.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
+#include <functional>
 
 #include "core/hash.hpp"
 
@@ -41,28 +45,47 @@ std::string build_id(const dl_phdr_info& library) {
 
 struct Search {
   std::span<const std::string_view> beginnings;
-  std::vector<std::string> found;
+  std::function<void(const dl_phdr_info& library, const std::string& path)> take;
 };
 
 int look_at(dl_phdr_info* library, std::size_t, void* data) {
-  auto& search = *static_cast<Search*>(data);
+  const auto& search = *static_cast<const Search*>(data);
   const std::string path = library->dlpi_name == nullptr ? "" : library->dlpi_name;
   const std::string name = path.substr(path.rfind('/') + 1);
-  const bool is_wanted = std::any_of(search.beginnings.begin(), search.beginnings.end(),
-                                     [&](std::string_view beginning) { return name.starts_with(beginning); });
-  if (!is_wanted) return 0;
-  const std::string id = build_id(*library);
-  search.found.push_back(name + " " + (id.empty() ? sha256_of_file(path) : id));
+  if (std::any_of(search.beginnings.begin(), search.beginnings.end(),
+                  [&](std::string_view beginning) { return name.starts_with(beginning); }))
+    search.take(*library, path);
   return 0;
+}
+
+void for_each_library(Search search) {
+  dl_iterate_phdr(look_at, &search);
 }
 
 }  // namespace
 
 std::vector<std::string> loaded_libraries(std::span<const std::string_view> beginnings) {
-  Search search{beginnings, {}};
-  dl_iterate_phdr(look_at, &search);
-  std::sort(search.found.begin(), search.found.end());
-  return search.found;
+  std::vector<std::string> found;
+  for_each_library({beginnings, [&](const dl_phdr_info& library, const std::string& path) {
+                      const std::string id = build_id(library);
+                      found.push_back(path.substr(path.rfind('/') + 1) + " " + (id.empty() ? sha256_of_file(path) : id));
+                    }});
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+void give_code_back(std::span<const std::string_view> beginnings) {
+  const auto page = std::uintptr_t(sysconf(_SC_PAGESIZE));
+  for_each_library({beginnings, [&](const dl_phdr_info& library, const std::string&) {
+                      for (int i = 0; i < library.dlpi_phnum; ++i) {
+                        const ElfW(Phdr)& part = library.dlpi_phdr[i];
+                        if (part.p_type != PT_LOAD || (part.p_flags & PF_W) != 0) continue;
+                        const std::uintptr_t begin = (library.dlpi_addr + part.p_vaddr) / page * page;
+                        const std::uintptr_t end = library.dlpi_addr + part.p_vaddr + part.p_memsz;
+                        // Of pages that nobody may write: they are in the file as they were here.
+                        madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED);
+                      }
+                    }});
 }
 
 }  // namespace chainreel

@@ -12,4 +12,7 @@ namespace chainreel {
 // else the hash of its file.
 std::vector<std::string> loaded_libraries(std::span<const std::string_view> beginnings);
 
+// Has the system take back the memory in which these libraries' code lies; what of it is called again comes back from the file.
+void give_code_back(std::span<const std::string_view> beginnings);
+
 }  // namespace chainreel

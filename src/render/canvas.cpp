@@ -1,10 +1,13 @@
 #include "render/canvas.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <optional>
 #include <span>
+#include <string_view>
 
+#include "core/loaded_libraries.hpp"
 #include "render/batch.hpp"
 #include "render/changes.hpp"
 #include "render/gl_painter.hpp"
@@ -208,6 +211,11 @@ const CanvasFrame& Canvas::draw(const Picture& picture) {
 
 void Canvas::draw(const Picture& picture, Image& image) {
   image = draw(picture).image;
+}
+
+void give_renderer_back() {
+  constexpr std::array<std::string_view, 3> kLibraries = {"libLLVM", "libOSMesa", "libgallium"};
+  give_code_back(kLibraries);
 }
 
 RendererInfo probe_renderer() {

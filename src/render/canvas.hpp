@@ -22,6 +22,9 @@ struct RendererInfo {
 // Makes a context for a moment. Throws Error (exit 4) where there is none.
 RendererInfo probe_renderer();
 
+// While no canvas draws by OpenGL: its libraries' code, some 60 MB, need not lie in memory.
+void give_renderer_back();
+
 // What a canvas has drawn, and where it may differ from what it had drawn before.
 struct CanvasFrame {
   Image image;

@@ -76,9 +76,14 @@ void write_pictures(const FilmChunk& chunk, const std::vector<std::string>& path
 
 // What lies under all frames. The renderer, which takes more memory than all else, goes when this is drawn.
 std::shared_ptr<const StaticLayer> layer_under(const FilmWork& work) {
-  Canvas canvas(work.scene.video.width, work.scene.video.height, work.fonts);
-  canvas.set_static_layer(work.film.static_layer());
-  return canvas.static_layer();
+  std::shared_ptr<const StaticLayer> layer;
+  {
+    Canvas canvas(work.scene.video.width, work.scene.video.height, work.fonts);
+    canvas.set_static_layer(work.film.static_layer());
+    layer = canvas.static_layer();
+  }
+  give_renderer_back();
+  return layer;
 }
 
 // What one thread draws with.
