@@ -43,4 +43,4 @@ install(FILES ${CMAKE_BINARY_DIR}/chainreelConfig.cmake ${CMAKE_BINARY_DIR}/chai
   DESTINATION ${config} COMPONENT dev)
 
 # What the libraries are linked with, for the Debian package.
-set(CPACK_CHAINREEL_DEV_PACKAGES "libassimp-dev, libcairo2-dev, libconsole-bridge-dev, libdeflate-dev, libeigen3-dev, libfreetype-dev, libharfbuzz-dev, libimagequant-dev, libjpeg-dev, libminizip-dev, libpng-dev, libssl-dev, libtinyxml2-dev, liburdfdom-dev, libyaml-cpp-dev, pkg-config, zlib1g-dev")
+set(CPACK_CHAINREEL_DEV_PACKAGES "libassimp-dev, libcairo2-dev, libconsole-bridge-dev, libdeflate-dev, libeigen3-dev, libfreetype-dev, libfribidi-dev, libharfbuzz-dev, libimagequant-dev, libjpeg-dev, libminizip-dev, libpng-dev, libssl-dev, libtinyxml2-dev, liburdfdom-dev, libyaml-cpp-dev, pkg-config, zlib1g-dev")

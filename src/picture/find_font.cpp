@@ -20,23 +20,17 @@ namespace fs = std::filesystem;
 
 constexpr int kRegular = 400, kBold = 700, kNormalWidth = 5;  // OS/2: usWeightClass, usWidthClass
 
-std::vector<fs::path> font_folders() {
-  std::vector<fs::path> folders{"/usr/local/share/fonts", "/usr/share/fonts", "/usr/share/texmf/fonts/opentype"};
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home != 0)
-    folders.push_back(fs::path(home) / ".local/share/fonts");
-  return folders;
-}
-
 // Sorted, so that the order in which a file system lists names means nothing.
-std::vector<std::string> font_files() {
+std::vector<std::string> font_files(const std::vector<std::string>& folders) {
   std::set<std::string> files;
-  for (const fs::path& folder : font_folders()) {
+  for (const std::string& folder : folders) {
     std::error_code code;
     for (fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, code), end;
          !code && entry != end; entry.increment(code)) {
       std::error_code ignored;
       const std::string ending = entry->path().extension().string();
-      if ((ending == ".ttf" || ending == ".otf") && entry->is_regular_file(ignored)) files.insert(entry->path().string());
+      if ((ending == ".ttf" || ending == ".otf" || ending == ".ttc") && entry->is_regular_file(ignored))
+        files.insert(entry->path().string());
     }
   }
   return {files.begin(), files.end()};
@@ -55,23 +49,44 @@ int width_of(FT_Face face) {
 
 }  // namespace
 
-std::string find_font(FT_LibraryRec_* library, const std::string& family, WantedFace wanted) {
-  const bool is_bold = wanted == WantedFace::bold;
-  std::vector<std::tuple<int, int, std::string>> found;
-  std::set<std::string> families;
-  for (const std::string& file : font_files()) {
-    FT_Face face = nullptr;
-    if (FT_New_Face(library, file.c_str(), 0, &face) != 0) continue;
-    const std::string name = face->family_name != nullptr ? face->family_name : "";
-    const bool is_upright = (face->style_flags & FT_STYLE_FLAG_ITALIC) == 0 && FT_IS_SCALABLE(face);
-    if (is_upright) families.insert(name);
-    const int weight = weight_of(face), width = width_of(face);
-    // A light face is no bold one, nor the other way round.
-    if (is_upright && name == family && (weight > (kRegular + kBold) / 2) == is_bold)
-      found.emplace_back(std::abs(weight - (is_bold ? kBold : kRegular)), std::abs(width - kNormalWidth), file);
-    FT_Done_Face(face);
+std::vector<std::string> font_folders() {
+  std::vector<std::string> folders{"/usr/local/share/fonts", "/usr/share/fonts", "/usr/share/texmf/fonts/opentype"};
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != 0)
+    folders.push_back((fs::path(home) / ".local/share/fonts").string());
+  return folders;
+}
+
+std::vector<InstalledFace> installed_faces(FT_LibraryRec_* library, const std::vector<std::string>& folders) {
+  std::vector<InstalledFace> faces;
+  for (const std::string& file : font_files(folders)) {
+    long count = 1;
+    for (int index = 0; index < count; ++index) {
+      FT_Face face = nullptr;
+      if (FT_New_Face(library, file.c_str(), index, &face) != 0) break;
+      count = face->num_faces;
+      if ((face->style_flags & FT_STYLE_FLAG_ITALIC) == 0 && FT_IS_SCALABLE(face) && !FT_HAS_COLOR(face))
+        faces.push_back({{file, index}, face->family_name != nullptr ? face->family_name : "", weight_of(face), width_of(face)});
+      FT_Done_Face(face);
+    }
   }
-  if (!found.empty()) return std::get<2>(*std::min_element(found.begin(), found.end()));
+  return faces;
+}
+
+FontFile find_font(FT_LibraryRec_* library, const std::string& family, WantedFace wanted) {
+  const bool is_bold = wanted == WantedFace::bold;
+  std::vector<std::tuple<int, int, std::string, int>> found;
+  std::set<std::string> families;
+  for (const InstalledFace& face : installed_faces(library, font_folders())) {
+    families.insert(face.family);
+    // A light face is no bold one, nor the other way round.
+    if (face.family == family && (face.weight > (kRegular + kBold) / 2) == is_bold)
+      found.emplace_back(std::abs(face.weight - (is_bold ? kBold : kRegular)), std::abs(face.width - kNormalWidth),
+                         face.at.file, face.at.index);
+  }
+  if (!found.empty()) {
+    const auto& [weight, width, file, index] = *std::min_element(found.begin(), found.end());
+    return {file, index};
+  }
   const bool is_known = families.contains(family);
   const std::vector<std::string> names(families.begin(), families.end());
   throw Error(ExitCode::no_renderer,
@@ -79,7 +94,7 @@ std::string find_font(FT_LibraryRec_* library, const std::string& family, Wanted
                   (is_known ? std::string("has no upright ") + (is_bold ? "bold" : "regular") + " face: name another family for `" +
                                   (is_bold ? "bold" : "label") + "`"
                             : "is not installed:" + did_you_mean(family, names) +
-                                  " install it in /usr/local/share/fonts (.ttf, .otf), or name one that is there"));
+                                  " install it in /usr/local/share/fonts (.ttf, .otf, .ttc), or name one that is there"));
 }
 
 }  // namespace chainreel

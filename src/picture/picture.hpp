@@ -107,8 +107,9 @@ struct Trail {
   Color color;
 };
 
-// The faces that the program opens, each by its file.
+// The faces that the program opens, each by its file. Those behind them are what `Fonts` found for characters that these lack.
 enum class Face { label, label_bold, math };
+inline constexpr int kOwnFaces = 3;
 
 struct Glyph {
   std::uint32_t index = 0;  // in the face, not a character
@@ -126,6 +127,8 @@ struct GlyphRun {
   Color color;
   std::string text;  // what it says, for outputs with selectable text
   double stroke_width = 0;  // above 0: the edges of the glyphs as lines instead, a halo below words; none selects it
+  bool right_to_left = false;  // the glyphs stand as they are seen, the text as it is read
+  bool joins = false;          // letters change with their neighbours, so that none may be set by itself
 };
 
 // Flat coloured cells that fill a rectangle, never smoothed; row by row from the lower left.

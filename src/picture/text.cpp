@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 
 #include "core/error.hpp"
 #include "picture/shaping.hpp"
@@ -69,14 +70,6 @@ TextLine LineBuilder::finish(double advance) {
   return std::move(line_);
 }
 
-TextLine lay_out_text(const Fonts& fonts, const std::string& utf8, const TextStyle& style) {
-  const std::u32string text = decode_utf8(utf8);
-  const ShapedText shaped = shape(fonts, style.face, text);
-  LineBuilder line(style.face, style.size, style.color, style.align);
-  if (!shaped.glyphs.empty()) line.add(shaped, text, 1, 0, 0);
-  return line.finish(style.size * shaped.advance);
-}
-
 namespace {
 
 constexpr double kFormulaSize = 1.2;  // of the text's: small letters of the math face are lower
@@ -98,7 +91,48 @@ void append(TextLine& line, TextLine part) {
   line.advance += part.advance;
 }
 
+// Words of any script, with what stands at the places of kObject in them; from the left.
+TextLine lay_out_mixed(const Fonts& fonts, std::u32string_view words, const std::map<std::size_t, TextLine>& objects,
+                       const TextStyle& style) {
+  TextLine line;
+  for (const TextRun& run : runs_of(fonts, style.face, words)) {
+    if (const auto object = objects.find(run.begin); object != objects.end()) {
+      append(line, object->second);
+      continue;
+    }
+    const ShapedText shaped = shape(fonts, run, words);
+    LineBuilder builder(run.face, style.size, style.color, Align::left);
+    if (!shaped.glyphs.empty()) builder.add(shaped, words.substr(run.begin, run.end - run.begin), 1, 0, 0);
+    TextLine part = builder.finish(style.size * shaped.advance);
+    for (GlyphRun& glyphs : part.runs) {
+      glyphs.right_to_left = run.right_to_left;
+      glyphs.joins = run.joins;
+    }
+    append(line, std::move(part));
+  }
+  return line;
+}
+
+// From the left to where the style says.
+TextLine aligned(TextLine line, Align align) {
+  const double shift = align == Align::left ? 0 : align == Align::center ? -line.advance / 2 : -line.advance;
+  for (GlyphRun& run : line.runs) run.origin.x += shift;
+  for (Shape& mark : line.marks) shift_shape(mark, {shift, 0});
+  line.box.x0 += shift;
+  line.box.x1 += shift;
+  return line;
+}
+
 }  // namespace
+
+TextLine lay_out_text(const Fonts& fonts, const std::string& utf8, const TextStyle& style) {
+  const std::u32string text = decode_utf8(utf8);
+  if (!is_plain(fonts, style.face, text)) return aligned(lay_out_mixed(fonts, text, {}, style), style.align);
+  const ShapedText shaped = shape(fonts, style.face, text);
+  LineBuilder line(style.face, style.size, style.color, style.align);
+  if (!shaped.glyphs.empty()) line.add(shaped, text, 1, 0, 0);
+  return line.finish(style.size * shaped.advance);
+}
 
 std::string without_formulas(const std::string& text) {
   std::string escaped;
@@ -107,13 +141,9 @@ std::string without_formulas(const std::string& text) {
 }
 
 TextLine lay_out_words(const Fonts& fonts, const std::string& words, const TextStyle& style) {
-  TextLine line;
-  const TextStyle plain{style.face, style.size, style.color, Align::left};
   std::string text;
-  const auto flush = [&] {
-    if (!text.empty()) append(line, lay_out_text(fonts, text, plain));
-    text.clear();
-  };
+  std::map<std::size_t, TextLine> formulas;  // by their bytes' place in the text, each kObject's there
+  const std::string object = encode_utf8(std::u32string_view(&kObject, 1));
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words.compare(i, 2, "\\$") == 0) {
       text += words[++i];
@@ -125,22 +155,37 @@ TextLine lay_out_words(const Fonts& fonts, const std::string& words, const TextS
       continue;
     }
     try {
-      TextLine formula = lay_out_math(fonts, words.substr(i + 1, end - i - 1),
-                                      {Face::math, kFormulaSize * style.size, style.color, Align::left});
-      flush();
-      append(line, std::move(formula));
+      formulas[text.size()] = lay_out_math(fonts, words.substr(i + 1, end - i - 1),
+                                           {Face::math, kFormulaSize * style.size, style.color, Align::left});
+      text += object;
     } catch (const Error&) {
       text += words.substr(i + 1, end - i - 1);
     }
     i = end;
   }
-  flush();
-  const double shift = style.align == Align::left ? 0 : style.align == Align::center ? -line.advance / 2 : -line.advance;
-  for (GlyphRun& run : line.runs) run.origin.x += shift;
-  for (Shape& mark : line.marks) shift_shape(mark, {shift, 0});
-  line.box.x0 += shift;
-  line.box.x1 += shift;
-  return line;
+  const TextStyle plain{style.face, style.size, style.color, Align::left};
+  TextLine line;
+  std::string without;
+  for (std::size_t from = 0, next = 0; from <= text.size(); from = next + object.size()) {
+    const auto formula = formulas.lower_bound(from);
+    next = formula == formulas.end() ? text.size() : formula->first;
+    without += text.substr(from, next - from);
+  }
+  if (is_plain(fonts, style.face, decode_utf8(without))) {
+    // Formulas part the words, which are shaped one by one.
+    std::size_t from = 0;
+    for (auto& [at, formula] : formulas) {
+      if (at > from) append(line, lay_out_text(fonts, text.substr(from, at - from), plain));
+      append(line, std::move(formula));
+      from = at + object.size();
+    }
+    if (from < text.size()) append(line, lay_out_text(fonts, text.substr(from), plain));
+  } else {
+    std::map<std::size_t, TextLine> objects;
+    for (auto& [at, formula] : formulas) objects[decode_utf8(std::string_view(text).substr(0, at)).size()] = std::move(formula);
+    line = lay_out_mixed(fonts, decode_utf8(text), objects, plain);
+  }
+  return aligned(std::move(line), style.align);
 }
 
 void draw_text(Picture& picture, const TextLine& line, Point anchor, int clip) {

@@ -25,15 +25,21 @@ class Fonts {
   // A family is looked for by the names that font files (.ttf, .otf) themselves bear, in the folders of fonts in the order of
   // their paths; of its upright faces that nearest to the wanted weight and to normal width is taken. Nothing stands in
   // for a family that is not there: Error (exit 4).
+  // Characters that a face lacks are taken from other faces of these folders (`fallback_for`).
   explicit Fonts(const FontFamilies& families);
-  explicit Fonts(const std::vector<std::string>& folders);  // searched in this order instead of Debian's
+  explicit Fonts(const std::vector<std::string>& folders);  // searched in this order instead of Debian's, for all of it
   ~Fonts();
   Fonts(const Fonts&) = delete;
   Fonts& operator=(const Fonts&) = delete;
 
   FT_FaceRec_* ft_face(Face face) const;  // for the rasteriser; its size may be changed by anyone
   const std::string& file(Face face) const;
+  int index(Face face) const;  // in its file: collections hold several
   const std::string& sha256(Face face) const;  // of the font file
+
+  // The faces that stood in so far for characters which the program's own lack, by the paths of their files. Which these are
+  // hangs on the texts and on what is installed, not on the order in which texts are laid out.
+  std::vector<Face> fallbacks() const;
 
   struct State;
   State& state() const { return *state_; }
@@ -63,8 +69,8 @@ struct TextLine {
   double advance = 0;
 };
 
-// Plain running text in one face. Throws Error (exit 4) where the face has no glyph for a character, exit 3
-// where the text is not UTF-8.
+// Plain running text; of characters that the face lacks in another installed one, in the order of Unicode's bidirectional
+// algorithm. Throws Error (exit 4) where no installed font has a glyph for a character, exit 3 where the text is not UTF-8.
 TextLine lay_out_text(const Fonts& fonts, const std::string& utf8, const TextStyle& style);
 
 // A symbol of a formula that takes the colour of the thing it names.

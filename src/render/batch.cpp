@@ -365,6 +365,7 @@ void Batch::add(const GlyphRun& run) {
     piece.look = more(piece.look, std::uint64_t(run.face) << 62 | std::uint64_t(glyph.index) << 30 |
                                       std::uint64_t(em) << 4 | std::uint64_t(step));
     if (stroke > 0) piece.look = more(piece.look, std::uint64_t(stroke));
+    if (int(run.face) >= kOwnFaces) piece.look = more(piece.look, std::uint64_t(run.face));  // beyond the two bits above
   }
 }
 

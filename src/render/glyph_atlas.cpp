@@ -7,7 +7,6 @@
 #include FT_STROKER_H
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 
@@ -19,8 +18,11 @@ namespace chainreel {
 struct GlyphAtlas::Rasteriser {
   FT_Library library = nullptr;
   FT_Stroker stroker = nullptr;
-  std::array<FT_Face, 3> faces{};
-  std::array<int, 3> sizes{};
+  struct Opened {
+    FT_Face face = nullptr;
+    int size = 0;
+  };
+  std::map<Face, Opened> faces;
   const Fonts& fonts;
 
   explicit Rasteriser(const Fonts& opened) : fonts(opened) {
@@ -35,14 +37,14 @@ struct GlyphAtlas::Rasteriser {
 
   // Row by row without gaps.
   std::vector<std::uint8_t> draw(Face face, std::uint32_t index, int size, int step, int stroke, AtlasGlyph& glyph) {
-    FT_Face& ft_face = faces[std::size_t(face)];
+    auto& [ft_face, last_size] = faces[face];
     errno = 0;
-    if (ft_face == nullptr && FT_New_Face(library, fonts.file(face).c_str(), 0, &ft_face) != 0)
+    if (ft_face == nullptr && FT_New_Face(library, fonts.file(face).c_str(), fonts.index(face), &ft_face) != 0)
       throw Error(ExitCode::no_renderer, "font file " + fonts.file(face) + " cannot be opened" +
                                              (errno != 0 ? std::string(": ") + std::strerror(errno) : ""));
     bool good = true;
-    if (sizes[std::size_t(face)] != size) good = FT_Set_Char_Size(ft_face, 0, size, 72, 72) == 0;
-    sizes[std::size_t(face)] = size;
+    if (last_size != size) good = FT_Set_Char_Size(ft_face, 0, size, 72, 72) == 0;
+    last_size = size;
     good = good && FT_Load_Glyph(ft_face, index, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) == 0;
     if (good) FT_Outline_Translate(&ft_face->glyph->outline, step * 64 / kSteps, 0);
     FT_Glyph shape = nullptr;

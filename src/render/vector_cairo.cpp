@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -35,13 +36,13 @@ class CairoFaces {
   CairoFaces(const CairoFaces&) = delete;
   CairoFaces& operator=(const CairoFaces&) = delete;
   ~CairoFaces() {
-    for (cairo_font_face_t* face : faces_)
-      if (face != nullptr) cairo_font_face_destroy(face);
+    for (const auto& [face, opened] : faces_)
+      if (opened != nullptr) cairo_font_face_destroy(opened);
   }
 
   cairo_font_face_t* get(Face face) {
-    cairo_font_face_t*& cairo_face = faces_[std::size_t(face)];
-    if (cairo_face == nullptr) cairo_face = open(fonts_.file(face));
+    cairo_font_face_t*& cairo_face = faces_[face];
+    if (cairo_face == nullptr) cairo_face = open(fonts_.file(face), fonts_.index(face));
     return cairo_face;
   }
 
@@ -52,11 +53,11 @@ class CairoFaces {
     ~Opened() { FT_Done_FreeType(library); }
   };
 
-  static cairo_font_face_t* open(const std::string& file) {
+  static cairo_font_face_t* open(const std::string& file, int index) {
     static const cairo_user_data_key_t key{};
     auto opened = std::make_unique<Opened>();
     if (FT_Init_FreeType(&opened->library) != 0 ||
-        FT_New_Face(opened->library, file.c_str(), 0, &opened->face) != 0)
+        FT_New_Face(opened->library, file.c_str(), index, &opened->face) != 0)
       throw Error(ExitCode::no_renderer, "font file " + file + " cannot be read");
     cairo_font_face_t* face =
         cairo_ft_font_face_create_for_ft_face(opened->face, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP);
@@ -68,7 +69,7 @@ class CairoFaces {
   }
 
   const Fonts& fonts_;
-  std::array<cairo_font_face_t*, 3> faces_{};
+  std::map<Face, cairo_font_face_t*> faces_;
 };
 
 class Painter {
@@ -246,7 +247,9 @@ class Painter {
     }
     std::string text;
     std::vector<cairo_text_cluster_t> clusters;
-    for (const GlyphCluster& cluster : clusters_of(run)) {
+    std::vector<GlyphCluster> as_read = clusters_of(run);
+    if (run.right_to_left) std::reverse(as_read.begin(), as_read.end());
+    for (const GlyphCluster& cluster : as_read) {
       const std::string part = encode_utf8(cluster.text);
       clusters.push_back({int(part.size()), int(cluster.count)});
       text += part;
@@ -255,7 +258,8 @@ class Painter {
     cairo_set_font_size(cr_, scale_ * run.size);
     set_color(run.color);
     cairo_show_text_glyphs(cr_, text.data(), int(text.size()), glyphs.data(), int(glyphs.size()),
-                           clusters.data(), int(clusters.size()), cairo_text_cluster_flags_t(0));
+                           clusters.data(), int(clusters.size()),
+                           run.right_to_left ? CAIRO_TEXT_CLUSTER_FLAG_BACKWARD : cairo_text_cluster_flags_t(0));
   }
 
   // A picture in the picture: its light has no vector form.

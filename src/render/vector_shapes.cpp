@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "picture/text.hpp"
 #include "render/solid_bounds.hpp"
@@ -98,14 +99,17 @@ std::vector<FadeLevel> fade_levels(const Fade& fade) {
 
 std::vector<GlyphCluster> clusters_of(const GlyphRun& run) {
   const std::u32string text = decode_utf8(run.text);
+  std::set<std::size_t> starts{text.size()};
+  for (const Glyph& glyph : run.glyphs) starts.insert(std::min<std::size_t>(glyph.character, text.size()));
   std::vector<GlyphCluster> clusters;
   for (std::size_t i = 0; i < run.glyphs.size();) {
     GlyphCluster cluster{i, 0, {}};
     const std::size_t from = std::min<std::size_t>(run.glyphs[i].character, text.size());
     while (i < run.glyphs.size() && run.glyphs[i].character == from) ++i, ++cluster.count;
     if (cluster.count == 0) ++i, ++cluster.count;  // a glyph without a character of its own
-    const std::size_t to = i < run.glyphs.size() ? std::size_t(run.glyphs[i].character) : text.size();
-    if (to > from) cluster.text = text.substr(from, to - from);
+    // Up to where the next begins as it is read, which to the left may be the one before.
+    const auto next = starts.upper_bound(from);
+    if (next != starts.end()) cluster.text = text.substr(from, *next - from);
     clusters.push_back(std::move(cluster));
   }
   return clusters;

@@ -21,7 +21,7 @@ struct FamilyRow {
   const char* fallbacks;  // for readers that take installed fonts alone
   const char* weight;
 };
-constexpr std::array<FamilyRow, 3> kFamilies = {
+constexpr std::array<FamilyRow, kOwnFaces> kFamilies = {
     {{"chainreel-label", "'DejaVu Sans',Verdana,sans-serif", "normal"},
      {"chainreel-bold", "'DejaVu Sans',Verdana,sans-serif", "bold"},
      {"chainreel-math", "'Latin Modern Math','STIX Two Math','Cambria Math',serif", "normal"}}};
@@ -273,10 +273,12 @@ class SvgWriter {
   // count as one or as two from reader to reader, and clusters that are not one glyph for one character.
   void add(const GlyphRun& run) {
     if (run.glyphs.empty()) return;
-    const FamilyRow& family = kFamilies[std::size_t(run.face)];
-    body_ += "<text y=\"" + number(y(run.origin.y)) + "\" font-family=\"" + family.name + "," +
-             family.fallbacks + "\" font-size=\"" + number(scale_ * run.size) + "\"" +
-             (std::string_view(family.weight) == "bold" ? " font-weight=\"bold\"" : "") +
+    if (run.joins || run.right_to_left) return add_outlines(run);
+    const bool is_own = int(run.face) < kOwnFaces;
+    const std::string weight = is_own ? kFamilies[std::size_t(run.face)].weight : "normal";
+    body_ += "<text y=\"" + number(y(run.origin.y)) + "\" font-family=\"" + family_name(run.face) + "," +
+             (is_own ? kFamilies[std::size_t(run.face)].fallbacks : "sans-serif") + "\" font-size=\"" +
+             number(scale_ * run.size) + "\"" + (weight == "bold" ? " font-weight=\"bold\"" : "") +
              (run.stroke_width > 0 ? line_text(run.color, run.stroke_width, true) + " pointer-events=\"none\"" +
                                          " style=\"user-select:none\""
                                    : paint_text("fill", run.color)) +
@@ -288,7 +290,7 @@ class SvgWriter {
       words.clear();
     };
     for (const GlyphCluster& cluster : clusters_of(run)) {
-      for (const char32_t c : cluster.text) used_[std::size_t(run.face)].insert(c);
+      for (const char32_t c : cluster.text) used_[run.face].insert(c);
       const bool is_simple = run.face != Face::math && cluster.count == 1 && cluster.text.size() == 1 &&
                              cluster.text[0] < 0x10000;
       if (!is_simple) flush();
@@ -298,6 +300,29 @@ class SvgWriter {
     }
     flush();
     body_ += "</text>\n";
+  }
+
+  // Letters that join, or run to the left, as what they look like: readers differ in how they set these letter by letter.
+  void add_outlines(const GlyphRun& run) {
+    std::string path;
+    for (const Glyph& glyph : run.glyphs)
+      for (const OutlinePiece& piece : outline_of(fonts_, run.face, glyph.index)) {
+        path += piece.kind;
+        for (int i = 0; i < piece.count; ++i)
+          path += (i > 0 ? " " : "") + at(run.origin + Point{glyph.x, glyph.y} + run.size * piece.points[std::size_t(i)]);
+      }
+    if (path.empty()) return;  // spaces
+    body_ += "<path role=\"img\" aria-label=\"" + escaped(run.text) + "\" d=\"" + path + "\"" +
+             (run.stroke_width > 0 ? line_text(run.color, run.stroke_width, true) : paint_text("fill", run.color)) + "/>\n";
+  }
+
+  // The others by their place among those that the page uses, so that it does not hang on other pages.
+  std::string family_name(Face face) {
+    if (int(face) < kOwnFaces) return kFamilies[std::size_t(face)].name;
+    const auto known = std::find(others_.begin(), others_.end(), face);
+    const std::string name = "chainreel-other" + std::to_string(known - others_.begin() + 1);
+    if (known == others_.end()) others_.push_back(face);
+    return name;
   }
 
   // One path a colour, in units of cells; edges are left to whole pixels, else neighbours would show seams.
@@ -322,14 +347,16 @@ class SvgWriter {
     body_ += "</g>\n";
   }
 
-  std::string font_rules() const {
+  std::string font_rules() {
     std::string rules;
-    for (std::size_t i = 0; i < used_.size(); ++i) {
-      if (used_[i].empty()) continue;
-      rules += std::string("@font-face{font-family:") + kFamilies[i].name +
-               ";font-weight:" + kFamilies[i].weight + ";src:url(data:font/otf;base64," +
-               base64(font_subset(fonts_, Face(i), used_[i])) + ")}\n";
-    }
+    const auto add_rule = [&](Face face, const std::string& weight) {
+      const auto characters = used_.find(face);
+      if (characters == used_.end()) return;
+      rules += "@font-face{font-family:" + family_name(face) + ";font-weight:" + weight + ";src:url(data:font/otf;base64," +
+               base64(font_subset(fonts_, face, characters->second)) + ")}\n";
+    };
+    for (std::size_t i = 0; i < kFamilies.size(); ++i) add_rule(Face(i), kFamilies[i].weight);
+    for (const Face face : others_) add_rule(face, "normal");
     return rules.empty() ? "" : "<style>\n" + rules + "</style>\n";
   }
 
@@ -337,7 +364,8 @@ class SvgWriter {
   double scale_;
   std::optional<SolidImages> bodies_;
   std::string defs_, body_;
-  std::array<std::set<char32_t>, 3> used_;
+  std::map<Face, std::set<char32_t>> used_;
+  std::vector<Face> others_;  // beyond the program's own, as the page came to use them
   std::vector<Fade> edges_;
   int clip_ = -1, fades_ = 0;
 };

@@ -55,6 +55,19 @@ TEST_F(HouseStyleFilm, SaysWhatCannotBeReadAndInItsReport) {
   EXPECT_THAT(report["style"]["low_contrast"][0].get<std::string>(), HasSubstr("ink"));
 }
 
+TEST_F(HouseStyleFilm, TellsWhichFontsStandInForScriptsThatItsOwnLack) {
+  const auto report_of = [&](const std::string& title) {
+    const ProgramResult run = run_program({"render", kStyledScene, "--force", "--quiet", "-o", folder_.file("a.gif"), "--set", "title=" + title,
+                                           "--set", "duration=0.1", "--set", "video.width=320", "--set", "video.height=180"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    return parse_json(read_whole_file(folder_.file("a.json")));
+  };
+  const Json report = report_of("\u6a5f\u68b0");  // fonts-droid-fallback, or whatever else has them
+  ASSERT_EQ(report["style"]["fallback_fonts"].size(), 1u) << report["style"];
+  EXPECT_EQ(report["style"]["fallback_fonts"][0]["sha256"].get<std::string>().size(), 64u);
+  EXPECT_TRUE(report_of("\u03c4 \u00e9").value("style", Json()).is_null()) << "these are the program's own";
+}
+
 TEST_F(HouseStyleFilm, PartsDependOnTheLogosBytes) {
   const auto part = [&](const std::string& which) {
     return run_program(with_style({"render", kStyledScene, "--quiet", "-o", folder_.file("a.mp4"), "--shard", which}, "logo: {file: logo.svg}\n"));

@@ -121,6 +121,7 @@ const House& house() {
                    {"ginac/", {"symbols"}},
                    {"cln/", {"symbols"}},
                    {"hb", {"picture"}},
+                   {"fribidi/", {"picture"}},
                    {"ft2build.h", {"picture", "render"}},
                    {"freetype/", {"picture", "render"}},
                    {"libav", {"encode"}},

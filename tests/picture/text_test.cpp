@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <set>
 #include FT_FREETYPE_H
 #include FT_OUTLINE_H
@@ -17,6 +19,7 @@
 namespace chainreel {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 // Positions are a few sums of whole font units divided by the em: round-off of numbers of size 1.
@@ -93,22 +96,136 @@ TEST(Text, TextWithoutInkHasAnAdvanceAndNoBox) {
   EXPECT_TRUE(lay_out_text(fonts(), "", label(1)).runs.empty());
 }
 
-TEST(Text, MissingGlyphIsAnErrorThatNamesCharacterFaceAndPackage) {
+const std::vector<std::string> kOwnFolders = {"/usr/share/fonts/truetype/dejavu", "/usr/share/texmf/fonts/opentype/public/lm-math"};
+
+std::string refusal(const Fonts& fonts, const std::string& text) {
   try {
-    lay_out_text(fonts(), "arm \u5b57", label(1));
-    FAIL() << "no error";
+    lay_out_text(fonts, text, label(1));
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::no_renderer);
-    EXPECT_THAT(error.what(), HasSubstr("U+5B57"));
-    EXPECT_THAT(error.what(), HasSubstr("DejaVu Sans"));
-    EXPECT_THAT(error.what(), HasSubstr("fonts-dejavu-core"));
+    return error.what();
   }
-  // The same sign may be missing in one face only: subscript one is.
-  EXPECT_NO_THROW(lay_out_text(fonts(), "q\u2081", label(1)));
-  EXPECT_THROW(lay_out_text(fonts(), "q\u2081", {Face::math, 1, color_of(0), Align::left}), Error);
+  return "";
+}
+
+TEST(Text, CharactersThatNoFontHasNameTheirPackage) {
+  const Fonts own(kOwnFolders);
+  EXPECT_THAT(refusal(own, "arm \u5b57"), AllOf(HasSubstr("U+5B57 in 'arm \u5b57'"), HasSubstr("install the Debian package fonts-noto-cjk")));
+  EXPECT_THAT(refusal(own, "\u306e"), HasSubstr("fonts-noto-cjk"));
+  EXPECT_THAT(refusal(own, "\u0928\u092e"), HasSubstr("U+0928"));
+  EXPECT_THAT(refusal(own, "\u0928\u092e"), HasSubstr("fonts-noto-core"));
+  EXPECT_THAT(refusal(own, "\U0001F980"), HasSubstr("fonts-symbola"));
+  EXPECT_THAT(refusal(own, "\ue000"), HasSubstr("which Unicode gives no meaning"));
+  EXPECT_THAT(refusal(own, "a\x01"), HasSubstr("control character"));
+  EXPECT_EQ(refusal(own, "q\u2081"), "");
+  // The same sign may be missing in one face only: subscript one is, and formulas have no other.
+  EXPECT_THROW(lay_out_math(own, "q\u5b57", {Face::math, 1, color_of(0), Align::left}), Error);
+}
+
+// A folder with the program's own fonts and one more.
+class OtherScripts : public testing::Test {
+ protected:
+  const Fonts& with(const std::string& file, const std::string& package) {
+    if (!std::filesystem::exists(file)) ADD_FAILURE() << "install the Debian package " << package;
+    std::vector<std::string> folders = kOwnFolders;
+    folders.push_back(std::filesystem::path(file).parent_path().string());
+    fonts_ = std::make_unique<Fonts>(folders);
+    return *fonts_;
+  }
+  const Fonts& with_chinese() {
+    return with("/usr/share/fonts/truetype/droid/DroidSansFallbackFull.ttf", "fonts-droid-fallback");
+  }
+  const Fonts& with_devanagari() { return with("/usr/share/fonts/truetype/lohit-devanagari/Lohit-Devanagari.ttf", "fonts-lohit-deva"); }
+
+ private:
+  std::unique_ptr<Fonts> fonts_;
+};
+
+std::string all_words(const TextLine& line) {
+  std::string words;
+  for (const GlyphRun& run : line.runs) words += (words.empty() ? "" : "|") + run.text;
+  return words;
+}
+
+TEST_F(OtherScripts, TakeWhatIsMissingFromAnotherFaceAndTheRestFromTheOwn) {
+  const Fonts& fonts = with_chinese();
+  const TextLine line = lay_out_text(fonts, "arm \u6a5f\u68b0 2", label(0.1));
+  ASSERT_EQ(line.runs.size(), 3u) << all_words(line);
+  EXPECT_EQ(all_words(line), "arm |\u6a5f\u68b0| 2");
+  EXPECT_EQ(line.runs[0].face, Face::label);
+  EXPECT_EQ(int(line.runs[1].face), kOwnFaces);
+  EXPECT_EQ(line.runs[2].face, Face::label);
+  EXPECT_FALSE(line.runs[1].joins || line.runs[1].right_to_left);
+  EXPECT_GT(line.runs[2].origin.x, line.runs[1].origin.x + 0.15) << "two of some 0.1";
+  EXPECT_EQ(lay_out_text(fonts, "arm", label(0.1)).runs[0].face, Face::label);
+  // Aligned as a whole.
+  EXPECT_NEAR(lay_out_text(fonts, "arm \u6a5f\u68b0 2", label(0.1, Align::right)).runs[0].origin.x, -line.advance, kTextRoundOff);
+}
+
+TEST_F(OtherScripts, FacesThatStandInAreToldByFileAndHash) {
+  const Fonts& fonts = with_chinese();
+  lay_out_text(fonts, "arm", label(1));
+  EXPECT_TRUE(fonts.fallbacks().empty());
+  lay_out_text(fonts, "\u6a5f", label(1));
+  lay_out_text(fonts, "\u68b0", label(1));
+  ASSERT_EQ(fonts.fallbacks().size(), 1u);
+  EXPECT_THAT(fonts.file(fonts.fallbacks()[0]), HasSubstr("DroidSansFallbackFull.ttf"));
+  EXPECT_NE(fonts.sha256(fonts.fallbacks()[0]), fonts.sha256(Face::label));
+}
+
+TEST_F(OtherScripts, RightToLeftWordsStandInTheOrderInWhichTheyAreSeen) {
+  // Hebrew, which DejaVu has: read shin, lamed; seen lamed, shin.
+  const TextLine line = lay_out_text(fonts(), "ab \u05e9\u05dc 12 cd", label(0.1));
+  EXPECT_EQ(all_words(line), "ab |12|\u05e9\u05dc | |cd") << "the number stands left of the word that is read before it";
+  const GlyphRun& hebrew = line.runs.at(2);
+  EXPECT_TRUE(hebrew.right_to_left);
+  EXPECT_GT(hebrew.glyphs.front().character, hebrew.glyphs.back().character);
+  // Words that begin to the right lead the whole line there.
+  EXPECT_EQ(all_words(lay_out_text(fonts(), "\u05e9\u05dc ab", label(0.1))), "ab|\u05e9\u05dc ");
+}
+
+TEST_F(OtherScripts, ArabicLettersJoin) {
+  const auto glyph = [](const TextLine& line, std::size_t i) { return line.runs.at(0).glyphs.at(i).index; };
+  const TextLine word = lay_out_text(fonts(), "\u0628\u0628\u0628", label(1));  // three times beh
+  ASSERT_EQ(word.runs.at(0).glyphs.size(), 3u);
+  EXPECT_TRUE(word.runs[0].joins && word.runs[0].right_to_left);
+  EXPECT_NE(glyph(word, 0), glyph(word, 1));
+  EXPECT_NE(glyph(word, 1), glyph(word, 2));
+  EXPECT_NE(glyph(word, 0), glyph(lay_out_text(fonts(), "\u0628", label(1)), 0));
+}
+
+TEST_F(OtherScripts, DevanagariSignsChangePlaces) {
+  const Fonts& fonts = with_devanagari();
+  const TextLine line = lay_out_text(fonts, "\u0915\u093f", label(1));  // ka with i, which is written before it
+  ASSERT_EQ(line.runs.size(), 1u);
+  EXPECT_TRUE(line.runs[0].joins);
+  const TextLine ka = lay_out_text(fonts, "\u0915", label(1));
+  ASSERT_EQ(line.runs[0].glyphs.size(), 2u);
+  EXPECT_EQ(line.runs[0].glyphs[1].index, ka.runs[0].glyphs[0].index);
+  EXPECT_EQ(line.runs[0].glyphs[0].character, 0u) << "both stand for the whole";
+}
+
+TEST_F(OtherScripts, FormulasKeepTheirPlaceAmongWords) {
+  const TextLine line = lay_out_words(fonts(), "\u05e9\u05dc $tau$ \u05d0", label(0.1));
+  ASSERT_EQ(line.runs.size(), 3u);
+  EXPECT_EQ(line.runs[0].text, " \u05d0") << "read last, seen first";
+  EXPECT_EQ(line.runs[1].face, Face::math);
+  EXPECT_EQ(line.runs[2].text, "\u05e9\u05dc ");
+  EXPECT_LT(line.runs[0].origin.x, line.runs[1].origin.x);
+  EXPECT_LT(line.runs[1].origin.x, line.runs[2].origin.x);
+}
+
+// Whatever is given, no glyph is the box of a missing one.
+TEST_F(OtherScripts, NoGlyphIsMissing) {
+  const Fonts& fonts = with_chinese();
+  for (const char* text : {"\u200f", "\u200d", "a\u0301\u0323", "\u0628\u200c\u0628", "\u202eabc\u202c \u6a5f", "\u2067\u05e9\u2069 a",
+                           "(\u05e9) [\u6a5f]", "\u6a5f\ufe00", "\u06f1\u06f2\u06f3 \u0661\u0662", " \u6a5f ", "\u5b57\u3002\uff0c"})
+    for (const GlyphRun& run : lay_out_text(fonts, text, label(1)).runs)
+      for (const Glyph& glyph : run.glyphs) EXPECT_NE(glyph.index, 0u) << text;
 }
 
 TEST(Text, ALineBreakIsAnErrorToo) {
+  EXPECT_THAT(refusal(fonts(), "one\ntwo"), HasSubstr("U+000A in 'one\ntwo' is a control character"));
   EXPECT_THROW(lay_out_text(fonts(), "one\ntwo", label(1)), Error);
 }
 

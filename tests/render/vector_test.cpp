@@ -121,6 +121,28 @@ TEST_P(VectorPictures, AMissingShapeIsNoticed) {
   EXPECT_GT(worst_of_blurred(drawn(less), expected), kWorstOfBlurred);
 }
 
+// Large, so that a lost, moved or wrong letter is more than an edge.
+Picture page_of_scripts() {
+  Picture page;
+  double y = 0.75;
+  for (const char* words : {"\u0645\u0631\u062d\u0628\u0627 abc 12", "\u05e9\u05dc\u05d5\u05dd (ab)", "\u6a5f\u68b0 arm"}) {
+    draw_text(page, lay_out_text(fonts(), words, {Face::label, 0.2, kBlack, Align::left}), {0.1, y});
+    y -= 0.3;
+  }
+  return page;
+}
+
+TEST_P(VectorPictures, LettersOfOtherScriptsStandWhereTheCanvasHasThem) {
+  const Image expected = by_canvas(page_of_scripts());
+  EXPECT_LT(worst_of_blurred(drawn(page_of_scripts()), expected), kWorstOfBlurred);
+  // Negative control: the words as they are read, not as they are seen.
+  Picture turned = page_of_scripts();
+  for (Item& item : turned.items)
+    if (auto* run = std::get_if<GlyphRun>(&item.shape); run != nullptr && run->right_to_left)
+      for (std::size_t i = 0, k = run->glyphs.size() - 1; i < k; ++i, --k) std::swap(run->glyphs[i].index, run->glyphs[k].index);
+  EXPECT_GT(worst_of_blurred(drawn(turned), expected), kWorstOfBlurred);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, VectorPictures, ::testing::Values("cairo", "svg", "pdf"));
 
 TEST(Vector, CellsAreFlatAndExact) {
@@ -217,6 +239,13 @@ TEST(Pdf, LigaturesAreFoundByTheirLetters) {
   EXPECT_THAT(words_of_pdf(pdf_text(page, fonts(), {})), HasSubstr("final office"));
 }
 
+TEST(Pdf, WordsThatRunToTheLeftAreFoundAsTheyAreRead) {
+  const std::string words = words_of_pdf(pdf_text(page_of_scripts(), fonts(), {}));
+  EXPECT_THAT(words, HasSubstr("\u0645\u0631\u062d\u0628\u0627"));
+  EXPECT_THAT(words, HasSubstr("\u05e9\u05dc\u05d5\u05dd"));
+  EXPECT_THAT(words, HasSubstr("\u6a5f\u68b0"));
+}
+
 TEST(Pdf, EqualPicturesGiveEqualBytesWithoutATime) {
   const std::string bytes = pdf_text(card(), fonts(), {540, "Card", "", ""});
   EXPECT_EQ(bytes, pdf_text(card(), fonts(), {540, "Card", "", ""}));
@@ -230,6 +259,15 @@ TEST(Svg, HoldsItsWordsAsTextAndItsFonts) {
   EXPECT_THAT(svg, HasSubstr(">Every primitive, once</tspan>"));
   EXPECT_THAT(svg, HasSubstr("font-family:chainreel-math"));
   EXPECT_EQ(svg, svg_text(card(), fonts(), {540, "A <card>", "all & any", "kept"}));
+}
+
+TEST(Svg, LettersThatJoinAreOutlinesAndTheOthersTextInTheirFont) {
+  const std::string svg = svg_text(page_of_scripts(), fonts(), {1000, "", "", ""});
+  EXPECT_THAT(svg, HasSubstr("aria-label=\"\u0645\u0631\u062d\u0628\u0627"));
+  EXPECT_THAT(svg, Not(HasSubstr(">\u0645")));
+  EXPECT_THAT(svg, HasSubstr("font-family=\"chainreel-other1,sans-serif\""));
+  EXPECT_THAT(svg, HasSubstr(">\u6a5f\u68b0</tspan>"));
+  EXPECT_THAT(svg, HasSubstr("@font-face{font-family:chainreel-other1"));
 }
 
 TEST(Svg, EveryCharacterHasItsPlace) {

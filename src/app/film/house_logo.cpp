@@ -1,14 +1,18 @@
 #include "app/film/house_logo.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/input_file.hpp"
 #include "draw/page/house_style.hpp"
 #include "encode/png.hpp"
+#include "picture/text.hpp"
 #include "render/svg_image.hpp"
 
 namespace chainreel {
@@ -22,6 +26,40 @@ constexpr int kPixelsOfSvg = 1024;  // high: more than a logo takes of any page
 std::string family_of(const StyleFonts& fonts, Face face) {
   if (face == Face::math) return fonts.math;
   return face == Face::label || fonts.bold.empty() ? fonts.label : fonts.bold;
+}
+
+bool has_letters_beyond_ascii(const std::string& words) {
+  return std::any_of(words.begin(), words.end(), [](char c) { return static_cast<unsigned char>(c) > 0x7F; });
+}
+
+// What a scene has to say in words of one's own.
+void collect_words(const Scene& scene, std::vector<std::string>& words) {
+  words.push_back(scene.title);
+  for (const AnnotationEntry& one : scene.annotate) words.push_back(one.text);
+  for (const PlotEntry& one : scene.plot) words.push_back(one.title);
+  for (const EventEntry& one : scene.events) words.push_back(one.title());
+  for (const Scene& panel : scene.compare) collect_words(panel, words);
+}
+
+// The faces that stand in for what those of the scene lack, in both weights: which of them it is decided by what is installed.
+Json fallback_report(const Scene& scene) {
+  std::vector<std::string> words;
+  collect_words(scene, words);
+  std::erase_if(words, [](const std::string& one) { return !has_letters_beyond_ascii(one); });
+  Json report = Json::array();
+  if (words.empty()) return report;
+  const Fonts fonts(families_of(scene));
+  for (const std::string& one : words)
+    for (const Face face : {Face::label, Face::label_bold}) {
+      try {
+        lay_out_words(fonts, one, {.face = face});
+      } catch (const Error&) {
+        // Told where it is drawn.
+      }
+    }
+  for (const Face face : fonts.fallbacks())
+    report.push_back({{"file", fs::path(fonts.file(face)).filename().string()}, {"face", fonts.index(face)}, {"sha256", fonts.sha256(face)}});
+  return report;
 }
 
 }  // namespace
@@ -39,8 +77,10 @@ void load_logo(Scene& scene) {
 
 Json style_report(const Scene& scene) {
   const Style& style = scene.style;
-  if (style.empty()) return nullptr;
+  const Json fallbacks = fallback_report(scene);
+  if (style.empty() && fallbacks.empty()) return nullptr;
   Json report = Json::object();
+  if (!fallbacks.empty()) report["fallback_fonts"] = fallbacks;
   if (!style.fonts.empty()) {
     const Fonts fonts(families_of(scene));
     for (const auto& [role, face] : {std::pair{"label", Face::label}, {"bold", Face::label_bold}, {"math", Face::math}})

@@ -9,8 +9,9 @@ namespace chainreel {
 // Reads the style's logo, if it has one. Throws Error where the file is none.
 void load_logo(Scene& scene);
 
-// {fonts: {label: {family, file, sha256}, ..}, logo: {sha256, pixels_sha256}, low_contrast: [..]}: what a film depends on
-// that its scene's text does not hold. Null where there is no style.
+// {fonts: {label: {family, file, sha256}, ..}, fallback_fonts: [{file, face, sha256}, ..], logo: {sha256, pixels_sha256},
+// low_contrast: [..]}: what a film depends on that its scene's text does not hold. Null where there is no style, and no word that
+// the faces lack.
 Json style_report(const Scene& scene);
 
 }  // namespace chainreel

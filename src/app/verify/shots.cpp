@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "app/film/instants.hpp"
 #include "app/film/model_scene.hpp"
@@ -56,12 +57,15 @@ Json camera_of(const Suite& suite, const std::array<double, 4>* part) {
   return suite.fit ? Json(*suite.fit) : part ? Json(*part) : Json(nullptr);
 }
 
-// What all pictures of the program depend on.
-Json page_of(const Fonts& fonts, const RendererInfo& renderer) {
+// What a picture depends on beyond its own: the program, the machine and the faces of fonts, those included that stand in.
+Json page_of(const Picture& picture, const Fonts& fonts, const RendererInfo& renderer) {
   Json page{{"program", program_version()}};
   page["processor"] = processor_architecture();
   page["renderer"] = renderer.renderer + ", " + renderer.version;  // whichever library brought it
-  for (const Face face : {Face::label, Face::label_bold, Face::math})
+  std::set<Face> faces{Face::label, Face::label_bold, Face::math};
+  for (const Item& item : picture.items)
+    if (const auto* run = std::get_if<GlyphRun>(&item.shape)) faces.insert(run->face);
+  for (const Face face : faces)
     page["fonts"][fs::path(fonts.file(face)).filename().string()] = fonts.sha256(face);
   return page;
 }
@@ -278,7 +282,7 @@ SuiteShot Studio::shoot(const SuitePicture& picture) {
   SuiteShot shot = source.draw(picture, fonts);
   shot.fonts = &fonts;
   shot.image = rasterise(shot.picture, shot.width, shot.height, fonts);
-  shot.page.update(page_of(fonts, canvas_->info()));
+  shot.page.update(page_of(shot.picture, fonts, canvas_->info()));
   return shot;
 }
 

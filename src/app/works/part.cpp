@@ -234,6 +234,7 @@ std::string film_hash(const ClipMemory& memory, const Fonts& fonts) {
   add(memory.scene);
   add(memory.audit.dump());
   for (const Face face : {Face::label, Face::label_bold, Face::math}) add(fonts.sha256(face));
+  for (const Face face : fonts.fallbacks()) add(fonts.sha256(face) + std::to_string(fonts.index(face)));
   return hash.finish();
 }
 
