@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <optional>
+#include <sstream>
 
 #include "core/csv.hpp"
 #include "core/error.hpp"
@@ -33,11 +36,13 @@ std::string csv_number(double value) {
 
 std::string csv_bytes(const DataTable& table) {
   std::string text;
+  for (const WordArray& array : table.words) text += (text.empty() ? "" : ",") + csv_name(array.name);
   for (const DataArray& array : table.arrays)
     for (const std::string& column : array.columns) text += (text.empty() ? "" : ",") + csv_name(column);
   text += "\n";
   for (std::size_t row = 0; row < table.rows; ++row) {
     const char* between = "";
+    for (const WordArray& array : table.words) text += between + csv_name(array.values[row]), between = ",";
     for (const DataArray& array : table.arrays)
       for (std::size_t i = 0; i < array.columns.size(); ++i, between = ",")
         text += between + csv_number(array.values[row * array.columns.size() + i]);
@@ -56,6 +61,10 @@ Json nested(const DataArray& array, std::size_t level, std::size_t& at) {
 
 std::string json_bytes(const DataTable& table) {
   Json json{{"columns", Json::array()}};
+  for (const WordArray& array : table.words) {
+    json["columns"].push_back(array.name);
+    json[array.name] = array.values;
+  }
   for (const DataArray& array : table.arrays) {
     for (const std::string& column : array.columns) json["columns"].push_back(column);
     Json& list = json[array.name] = Json::array();
@@ -65,7 +74,61 @@ std::string json_bytes(const DataTable& table) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+// The cells of a line. In quotes, commas and doubled quotes are letters.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"' && is_quoted && i + 1 < line.size() && line[i + 1] == '"')
+      cells.back() += line[++i];
+    else if (line[i] == '"')
+      is_quoted = !is_quoted;
+    else if (line[i] == ',' && !is_quoted)
+      cells.emplace_back();
+    else
+      cells.back() += line[i];
+  }
+  return cells;
+}
+
+std::optional<double> number_of(const std::string& cell) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN(), kInfinite = std::numeric_limits<double>::infinity();
+  if (cell.empty() || cell == "nan") return kNone;
+  if (cell == "inf") return kInfinite;
+  if (cell == "-inf") return -kInfinite;
+  return parse_number(cell);
+}
+
 }  // namespace
+
+DataTable table_of_csv(const std::string& csv) {
+  std::vector<std::string> names;
+  std::vector<std::vector<std::string>> columns;
+  std::istringstream stream(csv);
+  DataTable table;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.empty() || line.front() == '#') continue;
+    std::vector<std::string> cells = cells_of(line);
+    if (names.empty()) {
+      names = std::move(cells);
+      columns.resize(names.size());
+      continue;
+    }
+    cells.resize(names.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) columns[i].push_back(std::move(cells[i]));
+    ++table.rows;
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::vector<double> numbers;
+    for (const std::string& cell : columns[i])
+      if (const std::optional<double> number = number_of(cell)) numbers.push_back(*number);
+    if (numbers.size() == table.rows)
+      table.add(names[i], "", std::move(numbers));
+    else
+      table.words.push_back({names[i], std::move(columns[i])});
+  }
+  return table;
+}
 
 std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : name + " [" + unit + "]";

@@ -150,6 +150,10 @@ void add_texts(Archive& archive, const std::string& name, const std::vector<std:
 std::string npz_bytes(const DataTable& table) {
   Archive archive;
   std::vector<std::string> columns;
+  for (const WordArray& array : table.words) {
+    add_texts(archive, array.name, array.values);
+    columns.push_back(array.name);
+  }
   for (const DataArray& array : table.arrays) {
     std::vector<std::size_t> shape{table.rows};
     shape.insert(shape.end(), array.shape.begin(), array.shape.end());

@@ -117,7 +117,7 @@ TEST(ChartCommand, RefusesUnknownMethodsAndEndings) {
   EXPECT_THAT(method.err, HasSubstr("did you mean 'rk4'?"));
   const ProgramResult ending = run_program({"chart", "assets/scenes/rr_free.yaml", "-o", "chart.gif"});
   EXPECT_EQ(ending.status, 2);
-  EXPECT_THAT(ending.err, HasSubstr(".png, .svg, .pdf or .csv"));
+  EXPECT_THAT(ending.err, HasSubstr(".png, .svg or .pdf, their numbers as .csv, .json or .npz"));
 }
 
 TEST(EnergyCommand, ShowsWhoGainsEnergyAndWhoKeepsIt) {

@@ -308,7 +308,7 @@ TEST(Outputs, SnapshotsAndEllipsesAreVectorPages) {
   const ProgramResult bad =
       run_program({"ellipse", "models/rr.urdf", "--pose", "0,0", "-o", folder.file("e.eps")});
   EXPECT_EQ(bad.status, 2);
-  EXPECT_THAT(bad.err, HasSubstr(".png, .svg, .pdf"));
+  EXPECT_THAT(bad.err, HasSubstr(".png, .svg or .pdf, their numbers as .csv, .json or .npz"));
 }
 
 // A figure of a model says what made it, so does a sheet; what it says makes it again.

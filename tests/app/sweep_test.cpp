@@ -164,6 +164,48 @@ TEST(SweepTable, RunsThatFailAreRowsAndToldAtTheEnd) {
         << lines[k];
 }
 
+// Whichever of the values it is.
+TEST(SweepTable, ABadFirstValueIsARowLikeAnyOther) {
+  const TemporaryFolder folder;
+  const auto rows = [&](const std::string& values) {
+    const ProgramResult result = sweep(folder.file("a.csv"), {"--over", "step=" + values, "--set", "duration=0.1", "--force", "--quiet"});
+    EXPECT_EQ(result.status, 5) << result.err;
+    std::vector<std::string> lines = lines_of(folder.file("a.csv"));
+    lines.erase(lines.begin(), lines.begin() + 4);
+    for (std::string& line : lines) line.erase(0, line.find(',') + 1);  // its number
+    std::sort(lines.begin(), lines.end());
+    return lines;
+  };
+  const std::vector<std::string> first = rows("-1,0.001,0.002"), last = rows("0.001,0.002,-1");
+  EXPECT_EQ(first.size(), 3u);
+  EXPECT_EQ(first, last);
+  const std::string shared = folder.file("b.csv");
+  for (const char* shard : {"1/3", "2/3", "3/3"})
+    sweep(shared, {"--over", "step=-1,0.001,0.002", "--set", "duration=0.1", "--quiet", "--shard", shard});
+  EXPECT_EQ(run_program({"join", folder.file("b.part-1-of-3.csv"), folder.file("b.part-2-of-3.csv"), folder.file("b.part-3-of-3.csv"),
+                         "-o", shared}).status, 0);
+  rows("-1,0.001,0.002");
+  EXPECT_EQ(read_whole_file(shared), read_whole_file(folder.file("a.csv")));
+}
+
+TEST(SweepTable, WhatNoValueMakesGoodIsOneErrorAtOnce) {
+  const TemporaryFolder folder;
+  const auto error = [&](const std::string& output, const Words& over) {
+    const ProgramResult result = sweep(output, over);
+    EXPECT_NE(result.status, 0);
+    EXPECT_NE(result.status, 5) << "no run";
+    EXPECT_FALSE(std::filesystem::exists(folder.file("a.csv")));
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    return result.err;
+  };
+  for (const std::string& output : {folder.file("a.csv"), folder.file("films/")}) {
+    EXPECT_THAT(error(output, {"--over", "stepp=0:1:10000"}), HasSubstr("unknown key 'stepp'")) << output;
+    EXPECT_THAT(error(output, {"--over", "start.q.7=0:1:1000"}), HasSubstr("no index from 1 to 2")) << output;
+  }
+  EXPECT_THAT(error(folder.file("a.csv"), {"--over", "step=-1,-2"}), HasSubstr("'step' must be above 0 s"));
+  EXPECT_THAT(error(folder.file("a.csv"), {"--over", "step=0.01,0.02", "--set", "model=none.urdf"}), HasSubstr("none.urdf"));
+}
+
 TEST(SweepFolder, SkipsWhatShowsTheSameSceneAndNothingElse) {
   const TemporaryFolder folder;
   const Words small{"--over", "start.q.1=0,0.5", "--each", "mp4", "--each", "png", "--set", "video.width=64", "--set",

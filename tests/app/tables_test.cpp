@@ -39,6 +39,58 @@ const std::vector<double>& column(const Table& table, const std::string& name) {
   return at < 0 ? none : table.columns[std::size_t(at)];
 }
 
+// Commands whose numbers are tables: each in all three formats, the same numbers in all of them.
+struct Tabled {
+  const char* name;
+  Words words;
+  std::string column;  // of numbers
+  bool is_measured = false;  // anew each time, so that files of two runs differ
+};
+
+class TabledCommand : public testing::TestWithParam<Tabled> {};
+
+TEST_P(TabledCommand, HasTheSameNumbersInEveryFormat) {
+  const TemporaryFolder folder;
+  const auto made = [&](const std::string& ending) {
+    const std::string file = folder.file("a" + ending);
+    const ProgramResult run = run_program(with(GetParam().words, {"-o", file, "--quiet"}));
+    EXPECT_EQ(run.status, 0) << ending << ": " << run.err;
+    return file;
+  };
+  const std::string csv = made(".csv"), npz = made(".npz"), json = made(".json");
+  const ProgramResult numpy = run_command(
+      {"/usr/bin/python3", "-c",
+       "import csv, json, numpy, sys\n"
+       "d = numpy.load(sys.argv[1])\n"
+       "rows = list(csv.DictReader(line for line in open(sys.argv[2]) if not line.startswith('#')))\n"
+       "json.load(open(sys.argv[3]))\n"
+       "name = sys.argv[4]\n"
+       "assert list(d['columns']) and set(d['columns']) == set(rows[0]), (list(d['columns']), list(rows[0]))\n"
+       "assert d[name].dtype == numpy.float64\n"
+       "assert sys.argv[5] == '1' or len(d[name]) == len(rows)\n"
+       "assert sys.argv[5] == '1' or all((numpy.isnan(x) and r[name] == '') or x == float(r[name]) for x, r in zip(d[name], rows))\n"
+       "print(numpy.isfinite(d[name]).any())\n",
+       npz, csv, json, GetParam().column, GetParam().is_measured ? "1" : "0"});
+  EXPECT_EQ(numpy.out, "True\n") << numpy.err;
+  const std::string other = folder.file("a.xlsx");
+  const ProgramResult refused = run_program(with(GetParam().words, {"-o", other}));
+  EXPECT_EQ(refused.status, 2) << refused.err;
+  EXPECT_THAT(refused.err, HasSubstr(".npz")) << "the endings that there are";
+  EXPECT_FALSE(fs::exists(other));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, TabledCommand,
+    testing::Values(
+        Tabled{"fall", {"fall", "assets/scenes/humanoid_fall.yaml", "--sweep", "parameters.k=0,600"}, "fall_time"},
+        Tabled{"sweep", {"sweep", "assets/scenes/rr_free.yaml", "--over", "start.q.1=0,1", "--over", "method=rk4,dop853", "--set", "duration=0.2"}, "q1"},
+        Tabled{"ellipse", {"ellipse", "models/rr.urdf", "--pose", "0,90deg", "--pose", "0,60deg"}, "q.joint2"},
+        Tabled{"chart", {"chart", "assets/scenes/rr_free.yaml", "--methods", "rk4,explicit_euler", "--set", "duration=0.2", "--runs", "1", "--longest", "2ms"}, "error", true},
+        Tabled{"energy", {"energy", "assets/scenes/rr_free.yaml", "--methods", "rk4,explicit_euler", "--set", "duration=0.2"}, "energy_error"},
+        Tabled{"stability", {"stability", "assets/scenes/pp_spring.yaml", "--set", "duration=0.2", "--x", "step=0.01:0.02:2", "--y", "parameters.k=25:50:2"}, "energy_error"},
+        Tabled{"methods", {"stability", "assets/scenes/pp_spring.yaml", "--methods", "rk4,dop853", "--set", "duration=0.2"}, "energy_error"}),
+    [](const auto& param) { return std::string(param.param.name); });
+
 TEST(SimulateTables, AreTheSameMotionInEveryFormat) {
   const TemporaryFolder folder;
   const std::string csv = folder.file("a.csv"), json = folder.file("a.json"), npz = folder.file("a.npz");

@@ -10,6 +10,7 @@
 #include "app/commands/figure.hpp"
 #include "app/film/automatic.hpp"
 #include "app/film/prepared.hpp"
+#include "app/film/progress.hpp"
 #include "app/report/report.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -68,11 +69,13 @@ Measured measure_all(PreparedScene& prepared, const std::vector<const Method*>& 
   ladder.runs = options.runs;
   ladder.longest_run = parse_positive_seconds(options.longest, "--longest", "100ms");
   const EndState& end = measured.reference.state;
+  WorkTicker ticker(prepared.scene.name + ": measuring", options.common.quiet);
   for (const Method* method : chosen) {
-    measured.ladders.push_back(climb(simulation, *method, end, ladder, stop_asked));
+    measured.ladders.push_back(climb(simulation, *method, end, ladder, [&](double) {
+      ticker.tell(double(measured.ladders.size()) / double(chosen.size()), method->name);
+      return interrupted();
+    }));
     throw_if_interrupted();
-    if (!options.common.quiet)
-      std::fprintf(stderr, "%s: %zu rungs\n", method->name.c_str(), measured.ladders.back().rungs.size());
   }
   return measured;
 }
@@ -226,9 +229,10 @@ void run_chart(const ChartOptions& options) {
   const ChartLook look = chart_look(options.figure, prepared.scene, fonts);
   const ChartCost panels[] = {ChartCost::seconds, ChartCost::evaluations};
   light_curves(data, panels, lit);
-  const auto files = write_figure(work_precision_chart(data, panels, look), csv_of(options.scene, measured),
+  const auto report = [&] { return json_of(options.scene, measured); };
+  const auto files = write_figure(work_precision_chart(data, panels, look), {csv_of(options.scene, measured), report},
                                   options.figure, output, fonts, options.common.force);
-  tell_files(options.common, files, [&] { return json_of(options.scene, measured); }, [&] { print_summary(data, measured); });
+  tell_files(options.common, files, report, [&] { print_summary(data, measured); });
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "app/cli/streams.hpp"
 #include "app/commands/comparison.hpp"
+#include "app/film/progress.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/input_file.hpp"
@@ -55,8 +56,11 @@ FilmDifference difference_of(const CompareOptions& options) {
     found.seconds[i] = readers[i].seconds();
   }
   Image images[2];
+  const double expected = std::max(1.0, std::max(found.seconds[0] * found.fps[0], found.seconds[1] * found.fps[1]));
+  WorkTicker ticker("comparing frames", options.common.quiet);
   for (;;) {
     throw_if_interrupted();
+    ticker.tell(std::min(1.0, std::max(found.frames[0], found.frames[1]) / expected));
     bool there[2];
     for (int i = 0; i < 2; ++i)
       if ((there[i] = readers[i].next(images[i]))) ++found.frames[i];

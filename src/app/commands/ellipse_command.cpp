@@ -86,9 +86,8 @@ std::string output_of(const EllipseOptions& options) {
   const std::string& named = options.model.empty() ? options.sources.along : options.model;
   if (output.empty()) output = "out/" + std::filesystem::path(named).stem().string() + "_ellipse.png";
   check_figure_path(output);
-  if (options.joint_space && output.ends_with(".csv"))
-    throw Error(ExitCode::usage,
-                "-o " + output + ": --joint-space is written as .png, .svg or .pdf; --json prints its numbers");
+  if (options.joint_space && (output.ends_with(".csv") || output.ends_with(".npz")))
+    throw Error(ExitCode::usage, "-o " + output + ": --joint-space is written as .png, .svg or .pdf, its numbers as .json");
   return output;
 }
 
@@ -205,24 +204,26 @@ void run_ellipse(const EllipseOptions& options) {
   ClipMemory memory = memory_of_figure(*options.command, figure.title, options.model, poses.q);
   if (options.width_mm != kNotGiven) memory.width_mm = options.width_mm;
   const std::array<int, 2> joints = options.joint_space ? joints_of(chain, options.joints) : std::array<int, 2>{};
-  if (options.joint_space) {
-    const Fonts fonts(motion.families);
-    write_picture(draw_joint_space_figure(chain, poses.q, joints, figure, fonts), figure.width,
-                  figure.height, fonts, output, options.common.force, memory);
-  } else if (output.ends_with(".csv")) {
-    write_text_file(output, ellipse_csv(tip, poses, options.form(motion)), options.common.force);
-  } else {
-    const Fonts fonts(motion.families);
-    write_picture(draw_ellipse_figure(tip, poses.q, figure, fonts), figure.width,
-                  figure.height, fonts, output, options.common.force, memory);
-  }
-  tell_files(options.common, {output}, [&] {
+  const auto report = [&] {
     if (options.joint_space) return Json{{"poses", joint_space_json(chain, poses, joints)}};
     return Json{{"reading", to_string(options.read_as(motion))},
                 {"shape", options.form(motion).section ? "section" : "ellipsoid"},
                 {"unit", options.read_as(motion) == EllipseReading::energy ? "m/s" : "kg"},
                 {"poses", ellipse_json(tip, poses, options.form(motion))}};
-  });
+  };
+  if (is_table_path(output)) {
+    const std::string csv = options.joint_space ? "" : ellipse_csv(tip, poses, options.form(motion));
+    write_numbers(output, {csv, report}, options.common.force);
+  } else if (options.joint_space) {
+    const Fonts fonts(motion.families);
+    write_picture(draw_joint_space_figure(chain, poses.q, joints, figure, fonts), figure.width,
+                  figure.height, fonts, output, options.common.force, memory);
+  } else {
+    const Fonts fonts(motion.families);
+    write_picture(draw_ellipse_figure(tip, poses.q, figure, fonts), figure.width,
+                  figure.height, fonts, output, options.common.force, memory);
+  }
+  tell_files(options.common, {output}, report);
 }
 
 }  // namespace
@@ -249,7 +250,7 @@ void add_ellipse_command(CommandLine& app) {
   command->add_flag("--joint-space", options->joint_space, "the unit circle of accelerations beside its image under M(q)");
   command->add_option("--joints", options->joints, "the two joints of --joint-space: --joints 1,2");
   command->add_option("-o,--output", options->output,
-                      "a .png, .svg, .pdf or .csv file (default out/NAME_ellipse.png)");
+                      "a .png, .svg, .pdf, .csv, .json or .npz file (default out/NAME_ellipse.png)");
   command->add_option("--end-effector", options->end_effector, "the link whose mass is felt");
   command->add_option("--title", options->title, "above the figure");
   add_scene_flags(*command, options->common.flags, FlagGroup::look);

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
+#include "app/film/progress.hpp"
 #include "app/film/prepared.hpp"
 #include "app/report/report.hpp"
 #include "core/error.hpp"
@@ -101,14 +103,15 @@ class Columns {
   std::size_t column_ = 0;
 };
 
-MethodRun run_method(Simulation& simulation, const MethodSetting& setting, const std::vector<double>& times) {
+MethodRun run_method(Simulation& simulation, const MethodSetting& setting, const std::vector<double>& times,
+                     const StopRequest& stop) {
   apply(setting, simulation);
   MethodRun run;
   run.setting = setting;
   EnergyBalance balance(simulation);
   Columns columns(times, run.curve);
   const Trajectory trajectory = simulate(
-      simulation, times, [](double) { return interrupted(); },
+      simulation, times, stop,
       [&](double t, ConstVec q, ConstVec qd, double work) {
         run.at_end = balance.at(q, qd, work).error;
         run.largest = std::max(run.largest, std::abs(run.at_end));
@@ -203,6 +206,7 @@ void run_energy(const EnergyOptions& options) {
   const std::vector<double> times = times_until(simulation.duration);
   std::vector<MethodRun> runs;
   std::vector<std::string> left_out;
+  std::optional<WorkTicker> ticker(std::in_place, prepared.scene.name + ": simulating", options.common.quiet);
   for (const Method* method : chosen) {
     simulation.method = method;
     try {
@@ -211,16 +215,21 @@ void run_energy(const EnergyOptions& options) {
       left_out.push_back(error.problems().front().message);
       continue;
     }
-    runs.push_back(run_method(simulation, settings.of(*method), times));
+    const double before = double(runs.size() + left_out.size());
+    runs.push_back(run_method(simulation, settings.of(*method), times, [&](double t) {
+      ticker->tell((before + std::min(1.0, t / simulation.duration)) / double(chosen.size()), method->name);
+      return interrupted();
+    }));
   }
+  ticker.reset();
 
   const Fonts fonts(families_of(prepared.scene));
   const ChartLook look = chart_look(options.figure, prepared.scene, fonts);
   const EnergyChart chart = chart_of(prepared, settings, simulation.duration, runs);
-  const auto files = write_figure(energy_chart(chart, look), csv_of(options.scene, runs), options.figure,
+  const auto report = [&] { return json_of(options.scene, simulation.duration, runs, left_out); };
+  const auto files = write_figure(energy_chart(chart, look), {csv_of(options.scene, runs), report}, options.figure,
                                   output, fonts, options.common.force);
-  tell_files(options.common, files, [&] { return json_of(options.scene, simulation.duration, runs, left_out); },
-             [&] { print_table(runs, left_out); });
+  tell_files(options.common, files, report, [&] { print_table(runs, left_out); });
 }
 
 }  // namespace

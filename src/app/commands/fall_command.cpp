@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "app/cli/command.hpp"
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
+#include "app/film/progress.hpp"
 #include "app/report/report.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
@@ -15,6 +17,7 @@
 #include "core/machine.hpp"
 #include "core/output_file.hpp"
 #include "scene/run/fall.hpp"
+#include "table/data_table.hpp"
 
 namespace chainreel {
 namespace {
@@ -123,23 +126,31 @@ void run_fall(const FallOptions& options) {
   Sweep sweep;
   sweep.values = {""};
   if (!options.sweep.empty()) sweep = parse_sweep(options.sweep, "--sweep");
-  if (!options.output.empty() && !options.output.ends_with(".csv"))
-    throw Error(ExitCode::usage, "-o " + options.output + ": tables are written as .csv");
-  std::unique_ptr<OutputFile> file;
-  if (!options.output.empty()) file = std::make_unique<OutputFile>(options.output, options.common.force);
+  const bool writes = !options.output.empty();
+  if (writes) {
+    refuse_dash(options.output);
+    table_format_of(options.output);  // throws for others
+    const OutputFile allowed(options.output, options.common.force);  // throws where it is not, before anything is computed
+  }
   const int cores = usable_cores();
   const int threads = std::min(options.threads > 0 ? options.threads : cores, int(sweep.values.size()));
-  const FallTable table = run_fall_table(options.scene, overrides_of(options.common), sweep, threads,
-                                         [](double) { return interrupted(); });
+  FallTable table;
+  {
+    WorkTicker ticker(std::filesystem::path(options.scene).stem().string() + ": simulating", options.common.quiet);
+    table = run_fall_table(options.scene, overrides_of(options.common), sweep, threads, [&](double part) {
+      ticker.tell(part);
+      return interrupted();
+    });
+  }
   throw_if_interrupted();
-  if (file) write_whole(*file, csv_of(options.scene, table));
   Json report = report_of(options.scene, table);
-  if (file) report["file"] = options.output;
+  if (writes) write_numbers(options.output, {csv_of(options.scene, table), [&] { return report; }}, options.common.force);
+  if (writes) report["file"] = options.output;
   if (options.common.json)
     print_json(report);
-  else if (!options.common.quiet || !file)
+  else if (!options.common.quiet || !writes)
     print_table(table);
-  if (file && !options.common.quiet && !options.common.json) std::printf("%s\n", options.output.c_str());
+  if (writes && !options.common.quiet && !options.common.json) std::printf("%s\n", options.output.c_str());
   const auto failed = std::find_if(table.rows.begin(), table.rows.end(), has_failed);
   if (failed == table.rows.end()) return;
   const std::string setting = sweep.key.empty() ? "" : " at " + sweep.key + "=" + failed->value;
@@ -154,7 +165,7 @@ void add_fall_command(CommandLine& app) {
   command->add_option("scene", options->scene, "a scene file with an event of kind fall").required().names_input();
   command->add_option("--sweep", options->sweep,
                       "KEY=a,b,c or KEY=from:to:count, maybe with :log behind it, like torque.1=0:60:7");
-  command->add_option("-o,--output", options->output, "a .csv file");
+  command->add_option("-o,--output", options->output, "a .csv, .json or .npz file");
   command->add_option("--jobs", options->threads, "threads (default: all cores)").range(1, 256);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);

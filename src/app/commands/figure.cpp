@@ -14,6 +14,7 @@
 #include "core/output_file.hpp"
 #include "draw/page/house_style.hpp"
 #include "scene/text/scene_paths.hpp"
+#include "table/data_table.hpp"
 
 namespace chainreel {
 namespace {
@@ -27,7 +28,7 @@ std::string version_text() {
 void add_figure_options(Command& command, FigureOptions& options, CommonOptions& common,
                         const std::string& default_output) {
   command.add_option("-o,--output", options.output,
-                     "a .png, .svg, .pdf or .csv file (default " + default_output +
+                     "a .png, .svg, .pdf, .csv, .json or .npz file (default " + default_output +
                          "); the numbers are "
                          "written as CSV beside the picture");
   command.add_option("--width", options.width, "pixels").range(16, 16384);
@@ -40,19 +41,37 @@ ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fon
   return {double(options.width) / options.height, scene.text_scale, &page_theme(scene), &fonts};
 }
 
-void check_figure_path(const std::string& path) {
-  if (find_output_format(path, Shows::still) || path.ends_with(".csv")) return;
-  const auto is_chart = [](const OutputFormat& row) { return row.shows == Shows::still || row.ending == std::string(".csv"); };
-  throw Error(ExitCode::usage, "-o " + path + ": charts are written as " + endings_of(is_chart, "or"));
+bool is_table_path(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  return ending == ".csv" || ending == ".json" || ending == ".npz";
 }
 
-std::vector<std::string> write_figure(const Picture& picture, const std::string& csv,
+void check_figure_path(const std::string& path) {
+  if (find_output_format(path, Shows::still) || is_table_path(path)) return;
+  const auto is_picture = [](const OutputFormat& row) { return row.shows == Shows::still; };
+  throw Error(ExitCode::usage, "-o " + path + ": charts are written as " + endings_of(is_picture, "or") +
+                                   ", their numbers as .csv, .json or .npz");
+}
+
+void write_numbers(const std::string& path, const FigureNumbers& numbers, bool overwrite) {
+  const TableFormat format = table_format_of(path);
+  write_text_file(path,
+                  format == TableFormat::csv   ? numbers.csv
+                  : format == TableFormat::npz ? table_bytes(table_of_csv(numbers.csv), format)
+                                               : numbers.report().dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
+                  overwrite);
+}
+
+std::vector<std::string> write_figure(const Picture& picture, const FigureNumbers& numbers,
                                       const FigureOptions& options, const std::string& path,
                                       const Fonts& fonts, bool overwrite) {
+  if (is_table_path(path)) {
+    write_numbers(path, numbers, overwrite);
+    return {path};
+  }
   const std::string table = std::filesystem::path(path).replace_extension(".csv").string();
-  if (path != table) require_own_sidecar(table, overwrite);
-  write_text_file(table, csv, overwrite);
-  if (path == table) return {table};
+  require_own_sidecar(table, overwrite);
+  write_text_file(table, numbers.csv, overwrite);
   write_picture(picture, options.width, options.height, fonts, path, overwrite,
                 memory_of_figure(*options.command, std::filesystem::path(path).stem().string()));
   return {path, table};

@@ -1,12 +1,14 @@
 // Charts as files: what several commands that draw one share.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "app/cli/command.hpp"
 #include "app/film/clip_memory.hpp"
 #include "core/frame_rate.hpp"
+#include "core/json.hpp"
 #include "draw/charts/chart_page.hpp"
 #include "integrate/method.hpp"
 #include "picture/picture.hpp"
@@ -25,14 +27,22 @@ struct FigureOptions {
 void add_figure_options(Command& command, FigureOptions& options, CommonOptions& common,
                         const std::string& default_output);
 
-// Throws Error (usage) unless the ending is .png, .svg, .pdf or .csv.
+// Throws Error (usage) unless the ending is .png, .svg, .pdf or one of a table: .csv, .json, .npz.
 void check_figure_path(const std::string& path);
+
+// What a command found, for files without a picture: .csv as it is, .npz its columns, .json the report that --json prints.
+struct FigureNumbers {
+  std::string csv;
+  std::function<Json()> report;
+};
+bool is_table_path(const std::string& path);
+void write_numbers(const std::string& path, const FigureNumbers& numbers, bool overwrite);
 
 ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fonts& fonts);
 
 // The picture as the path's ending says, and the numbers as CSV beside it: out/x.png and out/x.csv. Where the
-// path ends in .csv, the numbers alone. Returns what was written.
-std::vector<std::string> write_figure(const Picture& picture, const std::string& csv,
+// path has the ending of a table, the numbers alone. Returns what was written.
+std::vector<std::string> write_figure(const Picture& picture, const FigureNumbers& numbers,
                                       const FigureOptions& options, const std::string& path,
                                       const Fonts& fonts, bool overwrite);
 

@@ -6,12 +6,15 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
+#include "app/film/progress.hpp"
 #include "app/film/prepared.hpp"
 #include "app/report/report.hpp"
+#include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/machine.hpp"
@@ -144,8 +147,8 @@ std::string csv_of(const std::string& scene, const StabilityCells& cells) {
       text += cells.x.values[ix] + "," + cells.y.values[iy] + "," + to_string(cell.status) + "," +
               (cell.failed ? "1," : "0,") +
               (std::isfinite(cell.energy_error) ? format_shortest(cell.energy_error) : "") + "," +
-              (std::isfinite(cell.energy_scale) ? format_shortest(cell.energy_scale) : "") + ",\"" +
-              cell.trouble + "\"\n";
+              (std::isfinite(cell.energy_scale) ? format_shortest(cell.energy_scale) : "") + "," +
+              csv_words(cell.trouble) + "\n";
     }
   return text;
 }
@@ -190,15 +193,22 @@ void draw_map(const StabilityOptions& options, const std::string& output) {
   check_axis(y, "--y");
   const std::vector<std::string> overrides = overrides_of(options.common);
   const int threads = options.threads > 0 ? options.threads : usable_cores();
-  const StabilityCells cells =
-      run_stability_cells(options.scene, overrides, x, y, threads, [](double) { return interrupted(); });
+  StabilityCells cells;
+  {
+    WorkTicker ticker(std::filesystem::path(options.scene).stem().string() + ": simulating", options.common.quiet);
+    cells = run_stability_cells(options.scene, overrides, x, y, threads, [&](double part) {
+      ticker.tell(part, std::to_string(x.values.size() * y.values.size()) + " cells");
+      return interrupted();
+    });
+  }
   throw_if_interrupted();
   const Scene scene = read_scene(options.scene, overrides);
   const Fonts fonts(families_of(scene));
   const ChartLook look = chart_look(options.figure, scene, fonts);
-  const auto files = write_figure(stability_map(map_of(scene, cells), look), csv_of(options.scene, cells),
+  const auto report = [&] { return json_of(cells); };
+  const auto files = write_figure(stability_map(map_of(scene, cells), look), {csv_of(options.scene, cells), report},
                                   options.figure, output, fonts, options.common.force);
-  tell_files(options.common, files, [&] { return json_of(cells); }, [&] { print_map_summary(cells); });
+  tell_files(options.common, files, report, [&] { print_map_summary(cells); });
 }
 
 // What became of a run with one setting: in words, and as numbers.
@@ -207,10 +217,10 @@ struct Verdict {
   Json json;
 };
 
-Verdict verdict(Simulation& simulation, const MethodSetting& setting) {
+Verdict verdict(Simulation& simulation, const MethodSetting& setting, const StopRequest& stop) {
   apply(setting, simulation);
   const double end[] = {simulation.duration};
-  const Trajectory trajectory = simulate_audited(simulation, end, [](double) { return interrupted(); });
+  const Trajectory trajectory = simulate_audited(simulation, end, stop);
   throw_if_interrupted();
   Json json{{"setting", to_string(setting)}, {"status", to_string(trajectory.status)}, {"end_time", trajectory.end_time}};
   if (trajectory.status != RunStatus::finished || trajectory.size() == 0)
@@ -261,6 +271,18 @@ void print_linearisation(const Linearisation& start) {
                 rate_text(*grows).c_str());
 }
 
+// A row a run.
+std::string csv_of_methods(const std::string& scene, const Json& found) {
+  const auto number = [](const Json& value) { return value.is_number() ? format_shortest(value.get<double>()) : ""; };
+  std::string text = csv_facts(scene) + "method,setting,status,end_time,energy_error,longest_stable_step\n";
+  for (const Json& method : found["methods"])
+    for (const Json& run : method["runs"])
+      text += method["method"].get<std::string>() + "," + csv_words(run["setting"].get<std::string>()) + "," +
+              run["status"].get<std::string>() + "," + number(run["end_time"]) + "," + number(run.value("energy_error", Json())) + "," +
+              (method["longest_stable_step"] == "none" ? "inf" : number(method["longest_stable_step"])) + "\n";
+  return text;
+}
+
 // "Who fails here": every method at three steps or tolerances.
 void compare_methods(const StabilityOptions& options) {
   PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false, options.common.quiet);
@@ -270,19 +292,29 @@ void compare_methods(const StabilityOptions& options) {
   std::vector<std::vector<std::string>> table{
       {"method", "coarse", "middle", "fine", "limit of the step, s"}};
   Json found{{"scene", options.scene}, {"methods", Json::array()}, {"left_out", Json::array()}};
-  for (const Method* method : parse_methods(options.methods)) {
+  const std::vector<const Method*> chosen = parse_methods(options.methods);
+  std::optional<WorkTicker> ticker(std::in_place, prepared.scene.name + ": simulating", options.common.quiet);
+  double runs_done = 0;
+  for (const Method* method : chosen) {
     simulation.method = method;
     try {
       check_method(simulation);
     } catch (const Error& error) {
       found["left_out"].push_back(error.problems().front().message);
+      runs_done += 3;
       continue;
     }
     std::vector<std::string> row{method->name};
     Json runs = Json::array();
     for (std::size_t k = 0; k < 3; ++k) {
       Verdict one = verdict(simulation, method->adaptive ? MethodSetting{method, {kTableTolerances[k], 0}, 0}
-                                                         : MethodSetting{method, {}, kTableSteps[k]});
+                                                         : MethodSetting{method, {}, kTableSteps[k]},
+                            [&](double t) {
+                              const double share = std::min(1.0, t / simulation.duration);
+                              ticker->tell((runs_done + share) / (3 * double(chosen.size())), method->name);
+                              return interrupted();
+                            });
+      ++runs_done;
       row.push_back(std::move(one.words));
       runs.push_back(std::move(one.json));
     }
@@ -291,8 +323,15 @@ void compare_methods(const StabilityOptions& options) {
     table.push_back(row);
     found["methods"].push_back({{"method", method->name}, {"runs", runs}, {"longest_stable_step", limit_json(limit)}});
   }
+  ticker.reset();
   found["start"] = linearisation_json(start);
-  if (options.common.json) return print_json(found);
+  if (!options.figure.output.empty())
+    write_numbers(options.figure.output, {csv_of_methods(options.scene, found), [&] { return found; }}, options.common.force);
+  if (options.common.json) {
+    if (!options.figure.output.empty()) found["file"] = options.figure.output;
+    return print_json(found);
+  }
+  if (options.common.quiet && !options.figure.output.empty()) return;
   std::printf(
       "Who fails here: the largest energy error with steps of 0.1, 0.01 and 0.001 s, or tolerances of "
       "1e-3, 1e-6 and 1e-9\n");
@@ -304,7 +343,12 @@ void compare_methods(const StabilityOptions& options) {
 void run_stability(const StabilityOptions& options) {
   if (options.x.empty() != options.y.empty())
     throw Error(ExitCode::usage, "a map needs both --x and --y; without them the methods are compared");
-  if (options.x.empty()) return compare_methods(options);
+  if (options.x.empty()) {
+    if (!options.figure.output.empty() && !is_table_path(options.figure.output))
+      throw Error(ExitCode::usage, "-o " + options.figure.output +
+                                       ": without --x and --y methods are compared, whose table is written as .csv, .json or .npz");
+    return compare_methods(options);
+  }
   std::string output = options.figure.output;
   if (output.empty())
     output = "out/" + std::filesystem::path(options.scene).stem().string() + "_stability.png";

@@ -14,6 +14,7 @@
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/works/render_film.hpp"
+#include "app/commands/figure.hpp"
 #include "app/commands/sweep_table.hpp"
 #include "app/film/house_logo.hpp"
 #include "app/film/runs.hpp"
@@ -157,6 +158,7 @@ class FilmsOfGrid {
   }
 
   SweepOutcome run() {
+    refuse_unknown_keys(options_.scene, overrides_of(options_.common), grid_);
     const std::size_t count = std::size_t(runs_.behind - runs_.first);
     const int beside = std::max(1, std::min(threads_, int(count)));
     Ticker ticker(options_.common.quiet);
@@ -175,7 +177,8 @@ class FilmsOfGrid {
       }
       const std::lock_guard guard(lock_);
       if (ticker.is_due())
-        ticker.say(std::to_string(outcome_.done + outcome_.skipped + outcome_.failed) + " of " + std::to_string(count) + " runs");
+        ticker.say(std::to_string(outcome_.done + outcome_.skipped + outcome_.failed) + " of " + std::to_string(count) + " runs",
+                   double(outcome_.done + outcome_.skipped + outcome_.failed) / double(count));
     });
     if (doubtful_ > kMostTold)
       tell_warnings({std::to_string(doubtful_ - kMostTold) + " more runs are as doubtful: `warnings` in their .json says why"});
@@ -294,14 +297,16 @@ std::string with_suffix(const std::string& path, const std::string& suffix) {
 void check_outputs(const SweepOptions& options) {
   int tables = 0, folders = 0;
   for (const std::string& output : options.outputs) {
-    const std::string ending = fs::path(output).extension().string();
     refuse_dash(output);
-    if (ending == ".csv")
+    if (is_table_path(output)) {
       ++tables;
-    else if (ending.empty() || output.ends_with('/'))
+      if (!options.shard.empty() && fs::path(output).extension() != ".csv")
+        throw Error(ExitCode::usage, "-o " + output + ": shares of a table are joined as .csv, so that --shard writes them so");
+    } else if (fs::path(output).extension().empty() || output.ends_with('/')) {
       ++folders;
-    else
-      throw Error(ExitCode::usage, "-o " + output + ": a sweep writes a .csv table, or files into a FOLDER/, as --each says");
+    } else {
+      throw Error(ExitCode::usage, "-o " + output + ": a sweep writes a table (.csv, .json, .npz), or files into a FOLDER/, as --each says");
+    }
   }
   if (tables > 1 || folders > 1) throw Error(ExitCode::usage, "-o takes one table and one folder");
   if (folders == 0 && !options.each.empty())
@@ -325,13 +330,12 @@ void run_sweep(SweepOptions options) {
     }
   }
   const int threads = options.jobs > 0 ? options.jobs : usable_cores();
-  const auto is_table_of = [](const std::string& output) { return fs::path(output).extension() == ".csv"; };
   // A table depends on the files that were read up to there, which must be the same for all shares.
-  std::stable_partition(options.outputs.begin(), options.outputs.end(), is_table_of);
+  std::stable_partition(options.outputs.begin(), options.outputs.end(), is_table_path);
   Json report = Json::array();
   SweepOutcome worst;
   for (const std::string& output : options.outputs) {
-    const bool is_table = is_table_of(output);
+    const bool is_table = is_table_path(output);
     const std::string path = is_table ? with_suffix(output, suffix) : output;
     const SweepOutcome outcome =
         is_table ? write_sweep_table({options.scene, overrides_of(options.common), grid, runs, threads, path,
@@ -363,7 +367,7 @@ void add_sweep_command(CommandLine& app) {
                           "KEY=a,b,c or KEY=from:to:count, maybe with :log behind it (repeatable: all combinations)")
       .required();
   command->add_repeatable("-o,--output", options->outputs,
-                          "a .csv table with a row a run, or a FOLDER/ with files a run, or both (default out/NAME_sweep.csv)");
+                          "a .csv, .json or .npz table with a row a run, or a FOLDER/ with files a run, or both (default out/NAME_sweep.csv)");
   command->add_repeatable("--each", options->each, "what a run becomes in the folder: mp4 (default), png, svg, gif, csv, ..; repeatable");
   command->add_option("--at", options->at, "instant that pictures show, in seconds (default 0)");
   command->add_option("--shard", options->shard, "an equal share of the runs, like 3/8; slurm: that of the array job's task");

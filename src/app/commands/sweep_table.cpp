@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <mutex>
+#include <optional>
 
 #include "app/cli/streams.hpp"
 #include "app/film/progress.hpp"
@@ -21,6 +22,7 @@
 #include "scene/run/prepare.hpp"
 #include "scene/text/read_scene.hpp"
 #include "sim/workload.hpp"
+#include "table/data_table.hpp"
 
 namespace chainreel {
 namespace fs = std::filesystem;
@@ -28,10 +30,26 @@ namespace {
 
 constexpr int kRunsOfPiece = 16;  // that a thread takes at a time
 
-std::vector<std::string> settings_of(const SweepTableJob& job, std::size_t run) {
-  std::vector<std::string> all = job.overrides;
-  for (const std::string& setting : job.grid.settings(run)) all.push_back(setting);
+std::vector<std::string> settings_of(const std::vector<std::string>& overrides, const Grid& grid, std::size_t run) {
+  std::vector<std::string> all = overrides;
+  for (const std::string& setting : grid.settings(run)) all.push_back(setting);
   return all;
+}
+
+std::vector<std::string> settings_of(const SweepTableJob& job, std::size_t run) {
+  return settings_of(job.overrides, job.grid, run);
+}
+
+// Said of keys, which no other value makes better.
+bool is_about_keys(const Error& error) {
+  return std::any_of(error.problems().begin(), error.problems().end(), [](const Problem& problem) {
+    return problem.message.starts_with("unknown key") || problem.message.find("is no index from") != std::string::npos ||
+           problem.message.find("is sought in a value") != std::string::npos;
+  });
+}
+
+std::string first_words(const Error& error) {
+  return error.problems().front().message;
 }
 
 // With `auto` all runs take the same method, as those of `fall` do.
@@ -43,6 +61,39 @@ Scene scene_of(SceneFile& file, const std::vector<std::string>& overrides) {
     scene.tolerance = 1e-10;
   }
   return scene;
+}
+
+// The first run of the grid that can be made ready, from which the table has its columns: the same for all shares of it.
+struct FirstRun {
+  Scene scene;
+  Simulation simulation;
+};
+FirstRun first_good_run(const SweepTableJob& job) {
+  constexpr std::size_t kMostTried = 10000;  // a second or so
+  SceneFile file(job.scene);
+  std::optional<Error> first;
+  const std::size_t count = std::min(job.grid.size(), kMostTried);
+  for (std::size_t run = 0; run < count; ++run) {
+    throw_if_interrupted();
+    try {
+      Scene scene = scene_of(file, settings_of(job, run));
+      Simulation simulation = prepare(scene, false);
+      return {std::move(scene), std::move(simulation)};
+    } catch (const Error& error) {
+      if (is_about_keys(error) || error.code() == ExitCode::limit) throw;
+      if (!first) first = error;
+    }
+    // What the scene is refused for without any of the values, too, none of them brings about.
+    if (run == 0) {
+      try {
+        Scene scene = scene_of(file, job.overrides);
+        prepare(scene, false);
+      } catch (const Error& error) {
+        if (first_words(error) == first_words(*first)) throw Error(*first);
+      }
+    }
+  }
+  throw Error(*first);
 }
 
 // A value as a cell: what is no number may hold anything.
@@ -188,11 +239,16 @@ class Failures {
 
 }  // namespace
 
+void refuse_unknown_keys(const std::string& scene, const std::vector<std::string>& overrides, const Grid& grid) {
+  try {
+    SceneFile(scene).read(settings_of(overrides, grid, 0));
+  } catch (const Error& error) {
+    if (is_about_keys(error)) throw;
+  }
+}
+
 SweepOutcome write_sweep_table(const SweepTableJob& job) {
-  // The first run's scene alone: one that cannot be read says so once.
-  SceneFile file(job.scene);
-  Scene first = scene_of(file, settings_of(job, 0));
-  const Simulation simulation = prepare(first, false);
+  const auto [first, simulation] = first_good_run(job);
   require_possible(simulation, double(job.runs.behind - job.runs.first));
   const std::string states = state_names(simulation.chain);
 
@@ -223,10 +279,15 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
         outcome.done += until - from;
         if (ticker.is_due())
           ticker.say(first.name + ": " + std::to_string(outcome.skipped + outcome.done) + " of " +
-                     std::to_string(job.runs.behind - job.runs.first) + " runs");
+                         std::to_string(job.runs.behind - job.runs.first) + " runs",
+                     double(outcome.done) / double(behind - begin));
       };
     });
-    table.commit();
+    const TableFormat format = table_format_of(job.path);
+    if (format == TableFormat::csv)
+      table.commit();
+    else
+      table.commit([format](const std::string& csv) { return table_bytes(table_of_csv(csv), format); });
   }
   const SweepOutcome seen = failures.outcome();
   outcome.failed = seen.failed;

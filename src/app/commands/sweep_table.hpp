@@ -26,8 +26,12 @@ struct SweepOutcome {
   std::string first_failure;  // "torque.1=5: diverged at .."
 };
 
+// Throws Error where the keys themselves lead nowhere, whatever their values: said once, not of each run.
+void refuse_unknown_keys(const std::string& scene, const std::vector<std::string>& overrides, const Grid& grid);
+
+// A run that cannot be made ready is a row that says why, wherever in the grid it stands; where none can, nothing is written.
 // Rows are written as they come, in the order of the grid; what a run of the program that was ended has done is not done again,
-// as long as the scene, its model and all that they read are the same. Throws what reading the first scene throws, Error (exit
+// as long as the scene, its model and all that they read are the same. Throws what the first run is refused for where all are, Error (exit
 // 6), and the signal's.
 SweepOutcome write_sweep_table(const SweepTableJob& job);
 

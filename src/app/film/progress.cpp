@@ -97,4 +97,10 @@ void Ticker::say(const std::string& text, double part) {
   say(text + "  " + bar_text(part) + (left.empty() ? "" : "  " + left));
 }
 
+void WorkTicker::tell(double part, const std::string& now) {
+  // Who would have to wait has other things to do.
+  const std::unique_lock lock(lock_, std::try_to_lock);
+  if (lock.owns_lock() && ticker_.is_due()) ticker_.say(now.empty() ? what_ : what_ + ", " + now, part);
+}
+
 }  // namespace chainreel

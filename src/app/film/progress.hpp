@@ -3,7 +3,9 @@
 #pragma once
 
 #include <chrono>
+#include <mutex>
 #include <string>
+#include <utility>
 
 namespace chainreel {
 
@@ -49,6 +51,20 @@ class Ticker {
   bool terminal_;
   std::size_t printed_ = 0;  // characters of the line that stands on the terminal
   Clock::time_point start_, next_;
+};
+
+// What a command does that computes many runs, told by whichever of its threads comes first: "rr_free: 12 methods  [==>   ] .."
+class WorkTicker {
+ public:
+  WorkTicker(std::string what, bool quiet) : what_(std::move(what)), ticker_(quiet) {}
+
+  // Of all that is to be done that part is. `now`: what is at work.
+  void tell(double part, const std::string& now = "");
+
+ private:
+  std::string what_;
+  Ticker ticker_;
+  std::mutex lock_;
 };
 
 }  // namespace chainreel

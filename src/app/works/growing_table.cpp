@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 #include "core/output_file.hpp"
 
 namespace chainreel {
@@ -115,9 +116,14 @@ void GrowingTable::append(const std::string& text) {
   }
 }
 
-void GrowingTable::commit() {
+void GrowingTable::commit(const std::function<std::string(const std::string& csv)>& file_of) {
   OutputFile output(path_, overwrite_);
   std::error_code code;
+  if (file_of) {
+    write_whole(output, file_of(read_plain_file(hidden_)));
+    fs::remove(hidden_, code);
+    return;
+  }
   fs::copy_file(hidden_, output.temporary_path(), fs::copy_options::overwrite_existing, code);
   if (code) throw Error(ExitCode::file, "could not be written whole (" + code.message() + ")", {path_});
   output.commit();

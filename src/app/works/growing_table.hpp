@@ -29,8 +29,9 @@ class GrowingTable {
   // Row lines number `piece`, counted from 0 in this run of the program, in any order and from any thread. Throws Error
   // (exit 6).
   void take(std::size_t piece, std::string lines);
-  // All rows are there.
-  void commit();
+  // All rows are there. `file_of`: the bytes that the table becomes, else it stays as it is; a table that became something else is
+  // none that is known to be finished.
+  void commit(const std::function<std::string(const std::string& csv)>& file_of = nullptr);
 
  private:
   void append(const std::string& text);

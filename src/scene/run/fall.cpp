@@ -1,6 +1,7 @@
 #include "scene/run/fall.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 #include "core/format.hpp"
 #include "core/parallel.hpp"
@@ -124,10 +125,14 @@ FallTable run_fall_table(const std::string& scene, const std::vector<std::string
   table.method = method_text(first);
   Scene counted = first;
   require_possible(prepare(counted, false), double(table.rows.size()));
+  std::atomic<std::size_t> done = 0;
+  const auto part_done = [&](double share) { return std::min(1.0, (double(done) + share) / double(table.rows.size())); };
   for_each_index(table.rows.size(), threads, [&](std::size_t k) {
-    if (stop && stop(0)) return;
-    table.rows[k] = run_row(read_one(scene, settings(k)), stop);
+    if (stop && stop(part_done(0))) return;
+    const Scene one = read_one(scene, settings(k));
+    table.rows[k] = run_row(one, [&](double t) { return stop && stop(part_done(std::min(1.0, t / one.duration))); });
     table.rows[k].value = sweep.values[k];
+    ++done;
   });
   return table;
 }

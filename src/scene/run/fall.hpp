@@ -45,7 +45,7 @@ struct FallTable {
   std::vector<FallRow> rows;
 };
 
-// A run for each value, on `threads` threads. `method: auto` means dop853 with a tolerance of 1e-10 here: the
+// A run for each value, on `threads` threads, which ask `stop` with the share of all work that is done. `method: auto` means dop853 with a tolerance of 1e-10 here: the
 // same for all rows. Throws what reading or preparing a row's scene throws, and Error (bad input) where the
 // scene has no event of kind `fall`.
 FallTable run_fall_table(const std::string& scene, const std::vector<std::string>& overrides,

@@ -41,7 +41,7 @@ void look_at_span(Scene& scene, const Chain& chain, const std::string& path, con
                 place);
   const std::string end = late && early ? "before and behind it" : late ? "before it" : "behind it";
   const std::string notice =
-      span + "; " + end + " " + what + " held: write `outside: hold` if it is meant, or zero, or refuse";
+      span + "; " + end + " " + what + " held: write `outside: hold` beside the table if it is meant, or zero, or refuse";
   if (std::find(scene.notices.begin(), scene.notices.end(), notice) == scene.notices.end())
     scene.notices.push_back(notice);
 }

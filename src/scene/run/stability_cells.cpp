@@ -1,6 +1,7 @@
 #include "scene/run/stability_cells.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -167,7 +168,7 @@ class CellRuns {
         if (sweep->key == "step")
           simulation.step = *std::max_element(sweep->numbers.begin(), sweep->numbers.end());
       lengthen(simulation);
-      scales[i] = energy_scale(simulation, stop_).value_or(std::numeric_limits<double>::quiet_NaN());
+      scales[i] = energy_scale(simulation, [&](double) { return stop_ && stop_(0); }).value_or(std::numeric_limits<double>::quiet_NaN());
     });
     for (std::size_t iy = 0; iy < ny; ++iy)
       for (std::size_t ix = 0; ix < nx; ++ix)
@@ -192,15 +193,19 @@ class CellRuns {
       lengthen(*simulation);
       run_one(*simulation, cell({ix, iy}));
       simulation->duration = duration;
-      if (stop_ && stop_(0)) return;
+      ++done_;
+      if (stop_ && stop_(part_done(0))) return;
     }
   }
+
+  // Of all cells, and of the one that is at work that share of its run.
+  double part_done(double share) const { return std::min(1.0, (double(done_) + share) / double(result_.cells.size())); }
 
   void run_one(Simulation& simulation, StabilityCell& cell) {
     EnergyBalance balance(simulation);
     EnergySeen seen;
     const Trajectory trajectory =
-        simulate(simulation, {}, stop_,
+        simulate(simulation, {}, [&](double t) { return stop_ && stop_(part_done(std::min(1.0, t / simulation.duration))); },
                  [&](double, ConstVec q, ConstVec qd, double work) { seen.add(balance.at(q, qd, work)); });
     cell.status = trajectory.status;
     cell.trouble = trajectory.trouble;
@@ -231,7 +236,7 @@ class CellRuns {
     for (int k = 1; k <= kInstants; ++k) {
       batch.run(steps * k / kInstants - steps * (k - 1) / kInstants, threads_);
       for_each_index(count, threads_, [&](std::size_t i) { look_at(batch, int(i), *all[i], seen[i]); });
-      if (stop_ && stop_(0)) return;
+      if (stop_ && stop_(double(k) / kInstants)) return;
     }
     for (std::size_t i = 0; i < count; ++i) {
       StabilityCell& cell = result_.cells[i];
@@ -277,6 +282,7 @@ class CellRuns {
   mutable std::vector<std::unique_ptr<Reader>> readers_;
   int threads_;
   StopRequest stop_;
+  std::atomic<std::size_t> done_ = 0;  // cells
   StabilityCells result_;
 };
 

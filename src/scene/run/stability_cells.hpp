@@ -41,7 +41,7 @@ struct StabilityCells {
 // A run takes the scene's duration, and at least kLeastSteps steps of a fixed step: slow growth shows then.
 inline constexpr int kLeastSteps = 1000;
 
-// Both sweeps need numbers. On `threads` threads. Throws what reading or preparing a cell's scene throws.
+// Both sweeps need numbers. On `threads` threads, which ask `stop` with the share of all work that is done. Throws what reading or preparing a cell's scene throws.
 StabilityCells run_stability_cells(const std::string& scene, const std::vector<std::string>& overrides,
                                    const Sweep& x, const Sweep& y, int threads, const StopRequest& stop = {});
 
