@@ -237,7 +237,7 @@ TimeTable time_table_of(const Table& table, const std::vector<std::string>& want
   const int time = table.find(names.time);
   if (time < 0)
     throw Error(ExitCode::bad_input,
-                "has no column '" + names.time + "': of the time's another name say `columns: {time: NAME}`; there are " +
+                "has no column '" + names.time + "' of the time: call one so, or in a scene beside `csv:` say `columns: {time: NAME}`; there are " +
                     joined(table.names),
                 {table.file});
   const std::string& unit = table.units[std::size_t(time)];

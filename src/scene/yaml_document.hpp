@@ -47,7 +47,7 @@ struct YamlDocument {
 // Words of a block (`title: >` or `|`) in one line: line breaks and tabs are spaces, none at its end.
 std::string in_one_line(std::string words);
 
-inline constexpr const char* kNoScene = "holds no scene: write `model: ...` and what else it needs, or see `chainreel init`";
+inline constexpr const char* kNoScene = "holds no scene: write `model: {links: [0.5, 0.4]}` and what else it needs, or let `chainreel init my_arm` write one";
 
 // `lacking`: what is said of a file without keys.
 YamlDocument load_yaml(const std::string& path, const std::vector<Override>& overrides,

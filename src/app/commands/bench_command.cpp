@@ -95,6 +95,12 @@ MeasuredFilm measure(const std::string& path, const BenchOptions& options, Scene
   ProcessClock clock;
   StageClock own;
   const PreparedFilm film = load_film(path, overrides_of(options.common), true, true);
+  if (is_transparent(film.scene)) {
+    const bool is_overlay = film.scene.video.preset == Preset::overlay;
+    throw Error(ExitCode::usage, path + ": is measured as .mp4, which has no opacity: take" +
+                                     (is_overlay ? " --set video.preset=slides" : "") +
+                                     (film.scene.layout == PageLayout::transparent ? " --set layout=auto" : ""));
+  }
   measured.prepare = own.lap();
   const StageTime prepared = clock.lap();
   scene = film.scene;

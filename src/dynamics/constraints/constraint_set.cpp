@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "dynamics/kinematics.hpp"
 
 namespace chainreel {
@@ -76,7 +77,8 @@ class ConstraintSetMaker {
     if (frame >= 0) return frame;
     std::vector<std::string> names;
     for (const Frame& f : chain_.frames) names.push_back(f.name);
-    fault("no frame '" + name + "';" + did_you_mean(name, names));
+    const std::string near = did_you_mean(name, names);
+    fault("no frame '" + name + (near.empty() ? "'; there are " + joined(names) : "':" + near));
     return -1;
   }
 

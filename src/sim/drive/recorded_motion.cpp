@@ -187,7 +187,7 @@ RecordedMotion::RecordedMotion(const Chain& chain, std::shared_ptr<const Table> 
   if (motion.groups[0].empty())
     throw Error(ExitCode::bad_input,
                 "has no columns q1 to q" + n + ", one a freedom, nor q." + chain.coordinate_names.front() +
-                    " and so on: of other names say `columns: {time: " + names.time + ", " + chain.coordinate_names.front() +
+                    " and so on: of other names, beside `csv:`, say `columns: {time: " + names.time + ", " + chain.coordinate_names.front() +
                     ": NAME}`; there are " + joined(table_->names),
                 {file});
   if (motion.t.size() < 2)
