@@ -361,6 +361,8 @@ TEST(Audit, HasTheKeysThatOthersRead) {
                                                                  "auto.accuracy",
                                                                  "auto.attainable",
                                                                  "auto.cost_ns",
+                                                                 "auto.curve",
+                                                                 "auto.curve_error",
                                                                  "auto.error",
                                                                  "auto.evaluations",
                                                                  "auto.holds_until",

@@ -26,6 +26,17 @@ std::string bound_text(double x) {
   return format_significant(x + 0.49 * std::pow(10, std::floor(std::log10(x)) - 1), 2);
 }
 
+// What is plotted and tabled over time: ", tau2 by 0.08 % of its range".
+std::string curve_text(const Choice::Candidate& best) {
+  if (!best.curve_error || best.curve.empty()) return "";
+  return ", " + best.curve + " by " + bound_text(100 * *best.curve_error) + " % of its range,";
+}
+
+std::string curves_asked_for(const Choice& choice) {
+  if (!choice.best.curve_error || *choice.best.curve_error <= choice.curve_allowed) return "";
+  return ", and so " + format_significant(100 * choice.curve_allowed, 2) + " % of curves' ranges";
+}
+
 std::string price_text(const Choice& choice) {
   std::string price = microseconds(choice.best.cost);
   if (choice.counted_until) price += " until t = " + format_significant(*choice.counted_until, 4) + " s";
@@ -36,6 +47,8 @@ std::string price_text(const Choice& choice) {
 Json candidate_report(const Choice::Candidate& candidate) {
   Json json{{"setting", to_string(candidate.setting)},
             {"error", std::isfinite(candidate.error) ? Json(candidate.error) : Json(nullptr)},
+            {"curve_error", candidate.curve_error && std::isfinite(*candidate.curve_error) ? Json(*candidate.curve_error) : Json(nullptr)},
+            {"curve", candidate.curve},
             {"cost_ns", candidate.cost},
             {"steps", candidate.steps},
             {"evaluations", candidate.evaluations}};
@@ -102,11 +115,11 @@ std::string choice_text(const Choice& choice, const Accuracy& accuracy) {
   const Choice::Candidate& best = choice.best;
   std::string text = "auto: " + to_string(best.setting);
   if (choice.is_met)
-    text += " is off by at most " + bound_text(best.error) + unit + " and costs some " + price_text(choice) + "; " +
-            std::to_string(choice.tried.size()) + " candidates";
+    text += " is off by at most " + bound_text(best.error) + unit + curve_text(best) + " and costs some " +
+            price_text(choice) + "; " + std::to_string(choice.tried.size()) + " candidates";
   else if (std::isfinite(best.error))
-    text += " is the most exact that was found, off by up to " + bound_text(best.error) + unit + " where " +
-            to_string(accuracy) + " was asked for";
+    text += " is the most exact that was found, off by up to " + bound_text(best.error) + unit + curve_text(best) +
+            " where " + to_string(accuracy) + " was asked for" + curves_asked_for(choice);
   else
     text += " is taken, though nothing is known of its error";
   if (choice.out_of_budget)

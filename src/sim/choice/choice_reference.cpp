@@ -66,6 +66,7 @@ class Finder {
     const bool end_alike = compare(first, second, reference);
     if (first.setting.method == second.setting.method) ask_another_kind(first, reference);
     reference.run = first.run;
+    reference.other = second.run;
     if (!end_alike && !reference.is_whole && first.setting.method->form == Form::series && came_to_an_end(first.run))
       go_on_in_quads(reference);
     if (reference.has_parted && reference.samples < 2 && !runs_.is_stopped()) refuse(reference);
@@ -230,6 +231,8 @@ class Finder {
     std::size_t k = 0;
     while (k < parted && reference.uncertainty[k] <= kShareOfQuads * accuracy_.value) ++k;
     std::vector<double> uncertainty(reference.uncertainty.begin(), reference.uncertainty.begin() + std::ptrdiff_t(k));
+    std::copy_n(reference.other.q.begin(), k * std::size_t(other.nq), other.q.begin());
+    std::copy_n(reference.other.qd.begin(), k * std::size_t(other.nv), other.qd.begin());
     bool left = false;
     for (; k < std::size_t(doubles.size()) && !left; ++k) {
       if (!better.run_to(times_[k]) || !worse.run_to(times_[k])) break;
@@ -244,6 +247,7 @@ class Finder {
       reference.run = doubles;
       return;
     }
+    reference.other = std::move(other);
     reference.uncertainty = std::move(uncertainty);
     reference.samples = int(reference.uncertainty.size());
     reference.how += ", then the series in quadruple precision";
@@ -267,7 +271,10 @@ class Finder {
 
   static void put_row(const QuadSeries& series, std::size_t k, Trajectory& run) {
     const auto n = std::size_t(run.nq);
-    for (std::size_t i = 0; i < n; ++i) run.q[k * n + i] = double(series.q()[i]);
+    for (std::size_t i = 0; i < n; ++i) {
+      run.q[k * n + i] = double(series.q()[i]);
+      run.qd[k * n + i] = double(series.v()[i]);
+    }
   }
 
   [[noreturn]] void refuse(const ChoiceReference& reference) const {

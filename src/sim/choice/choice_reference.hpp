@@ -15,7 +15,8 @@ namespace chainreel {
 
 struct ChoiceReference {
   Trajectory run;                   // what candidates are compared with
-  MethodSetting setting;            // that gave it
+  Trajectory other;                 // that confirms it: by how much its rates may be off
+  MethodSetting setting;            // that gave the first
   std::string how;                  // in words
   MotionSize size;
   int samples = 0;                  // the first so many can be believed; the rest is unknown

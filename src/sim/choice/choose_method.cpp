@@ -7,6 +7,7 @@
 #include "core/format.hpp"
 #include "core/scalar.hpp"
 #include "sim/choice/choice_reference.hpp"
+#include "sim/choice/curve_deviation.hpp"
 
 namespace chainreel {
 namespace {
@@ -77,6 +78,8 @@ class Chooser {
     choice_.best.error = kInfinity;
     if (reference_.samples < 2) return;  // the start alone tells nothing
     deviation_.emplace(simulation_, accuracy_, reference_.size);
+    choice_.curve_allowed = share_of_curves(accuracy_, reference_.size);
+    curves_.emplace(simulation_, reference_, choice_.curve_allowed);
     shorten();
     for (const Method* method : methods_) {
       if (has_ended()) break;
@@ -118,17 +121,34 @@ class Chooser {
   }
 
   Choice::Candidate candidate_of(const MethodSetting& setting, const Trajectory& trajectory) {
-    Choice::Candidate candidate{setting,
-                                error_of(trajectory),
-                                runs_.cost_of(setting, trajectory),
-                                trajectory.steps,
-                                trajectory.evaluations,
-                                {}};
+    Choice::Candidate candidate;
+    candidate.setting = setting;
+    candidate.error = error_of(trajectory);
+    candidate.cost = runs_.cost_of(setting, trajectory);
+    candidate.steps = trajectory.steps;
+    candidate.evaluations = trajectory.evaluations;
+    if (candidate.error <= accuracy_.value) {
+      const CurveDeviation::Worst worst = curves_->largest(trajectory);
+      candidate.curve_error = worst.share;
+      candidate.curve = worst.name;
+    }
     if (trajectory.status == RunStatus::out_of_budget)
       candidate.trouble = choice_.is_met ? "given up: dearer than the best" : "given up: out of the budget";
     else if (!ran(trajectory))
       candidate.trouble = trajectory.trouble.empty() ? "does not end where the motion does" : trajectory.trouble;
     return candidate;
+  }
+
+  bool holds(const Choice::Candidate& candidate) const {
+    return candidate.trouble.empty() && candidate.error <= accuracy_.value &&
+           candidate.curve_error && *candidate.curve_error <= choice_.curve_allowed;
+  }
+
+  // Of two that do not hold: points first, then curves.
+  static bool is_more_exact(const Choice::Candidate& one, const Choice::Candidate& other) {
+    if (one.curve_error && other.curve_error) return *one.curve_error < *other.curve_error;
+    if (one.curve_error || other.curve_error) return one.curve_error.has_value();
+    return one.error < other.error;
   }
 
   enum class Verdict {
@@ -149,9 +169,9 @@ class Chooser {
     const Trajectory trajectory = runs_.run(setting, samples_, ceiling());
     if (runs_.is_stopped()) return Verdict::stopped;
     const Choice::Candidate candidate = candidate_of(setting, trajectory);
-    const bool met = candidate.trouble.empty() && candidate.error <= accuracy_.value;
+    const bool met = holds(candidate);
     const bool better = met ? !choice_.is_met || candidate.cost < choice_.best.cost
-                            : !choice_.is_met && candidate.error < choice_.best.error;
+                            : !choice_.is_met && is_more_exact(candidate, choice_.best);
     if (better) {
       choice_.best = candidate;
       choice_.is_met = met;
@@ -171,7 +191,7 @@ class Chooser {
     simulation_.duration = duration_;
     std::vector<Choice::Candidate> racers;
     for (const Choice::Candidate& one : choice_.tried)
-      if (one.trouble.empty() && one.error <= accuracy_.value) racers.push_back(one);
+      if (holds(one)) racers.push_back(one);
     std::stable_sort(racers.begin(), racers.end(),
                      [](const auto& one, const auto& other) { return one.cost < other.cost; });
     if (racers.empty()) return;
@@ -186,7 +206,7 @@ class Chooser {
         if (whole.status == RunStatus::out_of_budget) {
           others.push_back(one);
           keep_furthest(one, run, whole.end_time);
-        } else if (run.trouble.empty() && run.error <= accuracy_.value) {
+        } else if (holds(run)) {
           winner = run;
         }
       }
@@ -207,6 +227,8 @@ class Chooser {
     if (!(end_time > samples_.back()) || (choice_.cost_to_end && !longer && cost_to_end >= *choice_.cost_to_end)) return;
     choice_.best = run;
     choice_.best.error = candidate.error;
+    choice_.best.curve_error = candidate.curve_error;
+    choice_.best.curve = candidate.curve;
     choice_.best.trouble.clear();
     choice_.counted_until = end_time;
     choice_.cost_to_end = cost_to_end;
@@ -257,6 +279,7 @@ class Chooser {
   }
 
   void tell_what_is_not_judged() {
+    if (curves_ && !curves_->remark().empty()) choice_.remarks.push_back(curves_->remark());
     if (const auto& links = simulation_.outline.unmeasured; !links.empty())
       choice_.remarks.push_back("in place of meshes that cannot be read, of " + quoted_list(links) +
                                 ", boxes of the same mass and inertia are judged");
@@ -275,6 +298,7 @@ class Chooser {
   std::vector<const Method*> methods_;
   ChoiceReference reference_;
   std::optional<Deviation> deviation_;
+  std::optional<CurveDeviation> curves_;
   bool left_out_ = false;  // something, for its price
   Choice choice_;
 };

@@ -1,5 +1,5 @@
 // `method: auto`: the cheapest method and step whose error stays below what the scene allows, at every
-// point that can be seen, in every frame and halfway between. Cost is counted (cost_table.hpp), never timed.
+// point that can be seen and of every curve over time, in every frame and halfway between. Cost is counted (cost_table.hpp), never timed.
 #pragma once
 
 #include <optional>
@@ -16,6 +16,10 @@ struct Choice {
   struct Candidate {
     MethodSetting setting;
     double error = 0;  // no larger over the samples, in the accuracy's unit; the reference's own is added
+    // The largest of rates, torques and what else is plotted, a share of the curve's range, likewise with the reference's
+    // own; none: not looked at, since the points are too far off already.
+    std::optional<double> curve_error;
+    std::string curve;  // that is it: "tau2"
     double cost = 0;   // ns by the table
     long steps = 0, evaluations = 0;
     std::string trouble;  // "" where it ran to the end
@@ -24,7 +28,8 @@ struct Choice {
   // s: the best one's cost and counts are those until there, since no candidate came to the end; none: of the whole run.
   std::optional<double> counted_until;
   std::optional<double> cost_to_end;  // ns: at that rate, where the budget alone kept it from the end
-  bool is_met = false;                // the best one's error is below the accuracy
+  bool is_met = false;                // the best one's errors are below the accuracy and what that allows of curves
+  double curve_allowed = 0;           // a share of a curve's range; see share_of_curves
   std::optional<double> holds_until;  // s: what is said of errors holds until there only; none: to the end
   std::string why_until;              // then a clause without end mark: what happens behind that
   std::string reference;              // what they were compared with
