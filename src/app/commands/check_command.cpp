@@ -145,7 +145,9 @@ std::vector<Choice::Candidate> ranked(const Choice& choice, const Accuracy& accu
   std::vector<Choice::Candidate> all;
   for (const Choice::Candidate& one : choice.tried)
     if (to_string(one.setting) != to_string(choice.best.setting)) all.push_back(one);
-  const auto keeps = [&](const Choice::Candidate& one) { return one.trouble.empty() && one.error <= accuracy.value; };
+  const auto keeps = [&](const Choice::Candidate& one) {
+    return one.trouble.empty() && one.error <= accuracy.value && one.curve_error && *one.curve_error <= choice.curve_allowed;
+  };
   std::stable_sort(all.begin(), all.end(), [&](const Choice::Candidate& a, const Choice::Candidate& b) {
     if (keeps(a) != keeps(b)) return keeps(a);
     return keeps(a) ? a.cost < b.cost : a.error < b.error;
@@ -155,12 +157,13 @@ std::vector<Choice::Candidate> ranked(const Choice& choice, const Accuracy& accu
 
 void print_candidates(const Choice& choice, const Accuracy& accuracy, bool all) {
   std::vector<std::vector<std::string>> table{
-      {all ? "next best" : "the next best", "off by, " + to_string(accuracy.unit), "us", "evaluations", ""}};
+      {all ? "next best" : "the next best", "off by, " + to_string(accuracy.unit), "curves, %", "us", "evaluations", ""}};
   const std::vector<Choice::Candidate> others = ranked(choice, accuracy);
   const std::size_t shown = all ? others.size() : std::min(others.size(), kNextBest);
   for (std::size_t i = 0; i < shown; ++i) {
     const Choice::Candidate& one = others[i];
     table.push_back({to_string(one.setting), format_significant(one.error, 2),
+                     one.curve_error ? format_significant(100 * *one.curve_error, 2) : "-",
                      format_significant(one.cost / 1000, 3), std::to_string(one.evaluations), one.trouble});
   }
   if (shown > 0) std::fputs(table_text(table).c_str(), stdout);
