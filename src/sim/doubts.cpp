@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "core/format.hpp"
+#include "sim/between_samples.hpp"
 #include "sim/system/chain_system.hpp"
 #include "sim/system/forms.hpp"
 
@@ -178,6 +179,7 @@ std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& tra
   add(doubt_energy(simulation, trajectory, audit, chosen_by));
   if (trajectory.rows > 0) add(doubt_constraints(trajectory, chosen_by));
   if (simulation.step > 0 && !follows_a_curve(simulation)) add(StepsAgain(simulation, trajectory).doubt(chosen_by));
+  add(doubt_between(simulation, trajectory));
   return doubts;
 }
 

@@ -18,8 +18,8 @@ inline constexpr double kDoubtfulConstraint = 1e-3;
 inline constexpr double kDoubtfulStep = 0.1;
 
 struct Doubt {
-  std::string kind;    // "energy", "constraint" or "step"
-  double amount = 0;   // of what the constants above measure
+  std::string kind;    // "energy", "constraint", "step" or "samples" (between_samples.hpp)
+  double amount = 0;   // of what the constants above measure, and those of between_samples
   std::string words;   // what, and how much
   std::string remedy;  // what to type instead
 };

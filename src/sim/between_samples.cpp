@@ -1,0 +1,178 @@
+#include "sim/between_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/format.hpp"
+#include "core/scalar.hpp"
+#include "dynamics/kinematics.hpp"
+#include "sim/plots.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr int kBetween = 7;             // instants between two samples
+constexpr std::size_t kMostBetween = 20'000;  // of a run, where torques are asked
+constexpr double kFlat = 0.1;           // of its plot's range: a curve that moves less is judged by so much
+constexpr double kRounding = 1e-9;      // of the size of the numbers, and in rad/s, N m, ..: no motion
+
+// The instants looked at between the samples a and b: evenly, at kinks and halfway between those.
+std::vector<double> instants_between(double a, double b, int evenly, std::span<const double> kinks) {
+  std::vector<double> times;
+  for (int i = 1; i <= evenly; ++i) times.push_back(a + (b - a) * i / (evenly + 1));
+  double before = a;
+  for (const double kink : kinks) {
+    times.push_back(0.5 * (before + kink));
+    times.push_back(kink);
+    before = kink;
+  }
+  if (!kinks.empty()) times.push_back(0.5 * (before + b));
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
+// A run with more samples: those of `run`, each followed by what lies between it and the next.
+struct Denser {
+  Trajectory run;
+  std::vector<int> samples;  // rows of `run` that are the samples of the first
+  int evenly = 1;            // rows between two of them; where there are more, the torques have kinks
+};
+
+class Filler {
+ public:
+  Filler(const Simulation& simulation, const Trajectory& run) : chain_(simulation.chain), run_(run) {
+    kinks_ = simulation.torque->breaks(simulation.duration);
+    std::sort(kinks_.begin(), kinks_.end());
+    const auto room = std::clamp<std::size_t>(kMostBetween / std::size_t(std::max(run.size(), 1)), 1, kBetween);
+    evenly_ = int(room);
+    stride_ = 1 + kinks_.size() / kMostBetween;
+  }
+
+  Denser fill() {
+    denser_.run.nq = run_.nq, denser_.run.nv = run_.nv, denser_.run.holds = run_.holds;
+    for (int k = 0; k < run_.size(); ++k) {
+      denser_.samples.push_back(denser_.run.size());
+      put(run_.t[std::size_t(k)], run_.q_at(k), run_.qd_at(k));
+      if (k + 1 < run_.size() && run_.t[std::size_t(k) + 1] > run_.t[std::size_t(k)]) fill_behind(k);
+    }
+    denser_.evenly = evenly_;
+    return std::move(denser_);
+  }
+
+ private:
+  void put(double t, ConstVec q, ConstVec qd) {
+    Trajectory& run = denser_.run;
+    run.t.push_back(t);
+    run.q.insert(run.q.end(), q.begin(), q.end());
+    run.qd.insert(run.qd.end(), qd.begin(), qd.end());
+  }
+
+  void fill_behind(int k) {
+    const double a = run_.t[std::size_t(k)], b = run_.t[std::size_t(k) + 1];
+    std::vector<double> within;
+    const auto first = std::upper_bound(kinks_.begin(), kinks_.end(), a), last = std::lower_bound(first, kinks_.end(), b);
+    for (auto kink = first; kink < last; kink += std::min<std::ptrdiff_t>(std::ptrdiff_t(stride_), last - kink))
+      within.push_back(*kink);
+    for (const double t : instants_between(a, b, evenly_, within)) {
+      state_between(k, (t - a) / (b - a), b - a);
+      put(t, q_, qd_);
+    }
+  }
+
+  // At the part s of the way from sample k to the next, h apart.
+  void state_between(int k, double s, double h) {
+    const ConstVec qa = run_.q_at(k), qb = run_.q_at(k + 1), va = run_.qd_at(k), vb = run_.qd_at(k + 1);
+    q_.assign(qa.begin(), qa.end());
+    qd_.resize(va.size());
+    if (run_.nq != run_.nv || chain_.has_floating) {
+      std::vector<double> mean(va.size());
+      for (std::size_t i = 0; i < va.size(); ++i) {
+        qd_[i] = va[i] + s * (vb[i] - va[i]);
+        mean[i] = 0.5 * (va[i] + qd_[i]);
+      }
+      advance(chain_, q_, mean, s * h);
+      return;
+    }
+    for (std::size_t i = 0; i < q_.size(); ++i) {
+      const double step = qb[i] - qa[i], bend_a = h * va[i] - step, bend_b = step - h * vb[i];
+      const double bend = bend_a + s * (bend_b - bend_a);
+      q_[i] = qa[i] + s * step + s * (1 - s) * bend;
+      qd_[i] = (step + (1 - 2 * s) * bend + s * (1 - s) * (bend_b - bend_a)) / h;
+    }
+  }
+
+  const Chain& chain_;
+  const Trajectory& run_;
+  std::vector<double> kinks_;
+  int evenly_ = 1;
+  std::size_t stride_ = 1;
+  Denser denser_;
+  std::vector<double> q_, qd_;
+};
+
+struct Hidden {
+  std::string name;
+  double share = 0, amount = 0, t = 0;
+  double excess = 1;  // the share over what is let be
+};
+
+double span_of(const std::vector<double>& y, double& size) {
+  double low = kInfinity, high = -kInfinity;
+  for (const double one : y)
+    if (std::isfinite(one)) low = std::min(low, one), high = std::max(high, one);
+  if (!(low <= high)) return 0;
+  size = std::max({size, std::abs(low), std::abs(high)});
+  return high - low;
+}
+
+void look_at(const PlotCurves& plot, const Denser& denser, Hidden& worst) {
+  double widest = 0, size = 0;
+  for (const PlotCurve& curve : plot.curves) widest = std::max(widest, span_of(curve.y, size));
+  if (!(widest > kRounding * std::max(1.0, size))) return;
+  for (const PlotCurve& curve : plot.curves) {
+    const double unit = std::max(span_of(curve.y, size), kFlat * widest);
+    for (std::size_t k = 0; k + 1 < denser.samples.size(); ++k) {
+      const int first = denser.samples[k], last = denser.samples[k + 1];
+      const bool has_kinks = plot.quantity == PlotQuantity::tau && last - first - 1 > denser.evenly;
+      const double let_be = unit * (has_kinks ? kDoubtfulPulse : kDoubtfulSamples);
+      const auto [low, high] = std::minmax(curve.y[std::size_t(first)], curve.y[std::size_t(last)]);
+      for (int i = first + 1; i < last; ++i) {
+        const double beyond = std::max(low - curve.y[std::size_t(i)], curve.y[std::size_t(i)] - high);
+        if (beyond > worst.excess * let_be)
+          worst = {curve.name.empty() ? plot.title : curve.name, beyond / unit, beyond, denser.run.t[std::size_t(i)], beyond / let_be};
+      }
+    }
+  }
+}
+
+// Frames a second at which as many frames stand where this looked.
+long rate_for(const Trajectory& run) {
+  double longest = 0;
+  for (std::size_t k = 1; k < run.t.size(); ++k) longest = std::max(longest, run.t[k] - run.t[k - 1]);
+  return std::lround((kBetween + 1) / longest);
+}
+
+}  // namespace
+
+std::optional<Doubt> doubt_between(const Simulation& simulation, const Trajectory& trajectory) {
+  if (trajectory.size() < 3 || trajectory.steps + 1 == trajectory.size() || !simulation.torque) return {};
+  const Denser denser = Filler(simulation, trajectory).fill();
+  Hidden worst;
+  const auto look = [&](const PlotSet& plots) {
+    for (const PlotCurves& plot : plot_curves(plots, simulation, denser.run, denser.run.size())) look_at(plot, denser, worst);
+  };
+  look(*make_plots(simulation.chain, {{"qd", "", {}}, {"tau", "", {}}}, {}));
+  if (simulation.plots && trajectory.rows == 0) {
+    PlotSet expressions = *simulation.plots;
+    std::erase_if(expressions.list, [](const PlotSet::Plot& plot) { return plot.quantity != PlotQuantity::expression; });
+    look(expressions);
+  }
+  if (worst.name.empty()) return {};
+  return Doubt{"samples", worst.share,
+               "between the frames " + worst.name + " goes " + format_significant(worst.amount, 3) +
+                   " beyond what they show, " + std::to_string(std::lround(100 * worst.share)) + " % of its range, at t = " +
+                   format_significant(worst.t, 5) + " s: plots, arrows and tables miss that",
+               "--set video.fps=" + std::to_string(rate_for(trajectory)) + ", of a table also simulate --every-step"};
+}
+
+}  // namespace chainreel

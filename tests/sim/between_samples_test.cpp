@@ -1,0 +1,62 @@
+#include "sim/between_samples.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/runs.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::optional<Doubt> doubt_of(const std::vector<std::string>& torque, double fps, double duration = 2) {
+  Simulation run = run_of("rr", torque, duration, "dop853", 0);
+  run.options.tolerance = 1e-9;
+  run.q0 = {-std::acos(0.0), 0.3};
+  return doubt_between(run, simulate(run, instants(duration, 1 / fps)));
+}
+
+// 29 Hz at 30 frames a second look like 1 Hz.
+TEST(BetweenSamples, FindsATorqueFasterThanTheFrames) {
+  const std::optional<Doubt> doubt = doubt_of({"8*sin(2*pi*29*t)", "0"}, 30);
+  ASSERT_TRUE(doubt);
+  EXPECT_EQ(doubt->kind, "samples");
+  // Of a range of 16 N m up to all may lie beyond both frames; near the zeros of the slow wave it is nearly half.
+  EXPECT_GT(doubt->amount, 0.3);
+  EXPECT_THAT(doubt->words, AllOf(HasSubstr("tau1"), HasSubstr("between the frames")));
+  EXPECT_THAT(doubt->remedy, AllOf(HasSubstr("--set video.fps=240"), HasSubstr("--every-step")));
+}
+
+// Pulses have kinks, between which the torque is looked at, however short they are.
+TEST(BetweenSamples, FindsAPulseThatNoFrameMeets) {
+  for (const char* pulse : {"20*(t>1.005)*(t<1.020)", "20*(t>1.0101)*(t<1.0102)"}) {
+    const std::optional<Doubt> doubt = doubt_of({pulse, "0"}, 30);
+    ASSERT_TRUE(doubt) << pulse;
+    EXPECT_NEAR(doubt->amount, 1, 1e-9) << pulse;
+  }
+}
+
+// Negative controls: smooth motions, torques that jump once and what rests say nothing.
+TEST(BetweenSamples, SaysNothingOfWhatTheFramesShow) {
+  for (const char* smooth : {"0", "5*sin(3*t)", "8*(t>1.01)", "30*(0.5-q1)-8*qd1", "-qd1"})
+    EXPECT_FALSE(doubt_of({smooth, "0"}, 30)) << smooth << ": " << doubt_of({smooth, "0"}, 30)->words;
+  Simulation still = run_of("rr", {"-qd1", "-qd2"}, 1, "dop853", 0);
+  still.options.tolerance = 1e-9;
+  still.q0 = {-std::acos(0.0), 0};
+  EXPECT_FALSE(doubt_between(still, simulate(still, instants(1, 1.0 / 30))));
+}
+
+// The same torque is well shown at what the remedy names, and by a row a step.
+TEST(BetweenSamples, IsContentWithTheRemedy) {
+  EXPECT_FALSE(doubt_of({"8*sin(2*pi*29*t)", "0"}, 480));
+  Simulation run = run_of("rr", {"8*sin(2*pi*29*t)", "0"}, 1, "dop853", 0);
+  run.options.tolerance = 1e-9;
+  EXPECT_FALSE(doubt_between(run, simulate_every_step(run)));
+}
+
+}  // namespace
+}  // namespace chainreel
