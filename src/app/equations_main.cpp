@@ -1,6 +1,9 @@
 // chainreel-equations: the one command that computes in symbols.
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <set>
+#include <utility>
 
 #include "app/cli/result.hpp"
 #include "app/commands/equations_command.hpp"
@@ -88,20 +91,42 @@ Json json_of(const SymbolicEquation& equation) {
   return json;
 }
 
-void run_equations(const EquationsOptions& options) {
+enum class Form { text, latex, python, json };
+
+// What flags ask for, or else a file's ending: one of them.
+Form form_of(const EquationsOptions& options) {
+  std::set<Form> asked;
+  if (options.latex) asked.insert(Form::latex);
+  if (options.python) asked.insert(Form::python);
   // Of a file, --json tells on standard output what is in it.
-  const bool prints_json = options.common.json && options.output.empty();
-  const bool is_json = prints_json || options.output.ends_with(".json");
-  if (int(options.latex) + int(options.python) + int(is_json) > 1)
-    throw Error(ExitCode::usage, "--latex, --python and JSON are three forms of one thing: take one of them");
-  if (options.theta && (options.python || is_json))
+  if (options.common.json && options.output.empty()) asked.insert(Form::json);
+  const std::string ending = std::filesystem::path(options.output).extension().string();
+  const std::pair<const char*, Form> endings[] = {{".tex", Form::latex}, {".py", Form::python}, {".json", Form::json}};
+  for (const auto& [name, form] : endings)
+    if (ending == name) asked.insert(form);
+  if (asked.empty() && !options.output.empty() && options.output != "-" && ending != ".txt")
+    throw Error(ExitCode::usage, "-o " + options.output + ": give it the ending .tex, .py, .json or .txt");
+  if (asked.size() > 1)
+    throw Error(ExitCode::usage, "--latex (.tex), --python (.py) and JSON are three forms of one thing: take one of them");
+  return asked.empty() ? Form::text : *asked.begin();
+}
+
+std::string text_in(Form form, const SymbolicEquation& equation, const std::string& angle) {
+  switch (form) {
+    case Form::text: break;
+    case Form::latex: return latex_of(equation, angle);
+    case Form::python: return python_of(equation);
+    case Form::json: return json_of(equation).dump(2) + "\n";
+  }
+  return text_of(equation, angle);
+}
+
+void run_equations(const EquationsOptions& options) {
+  const Form form = form_of(options);
+  if (options.theta && (form == Form::python || form == Form::json))
     throw Error(ExitCode::usage, "--theta is for text and LaTeX: the angles are q in Python and JSON");
   const SymbolicEquation equation = equation_of(options);
-  const std::string angle = options.theta ? "theta" : "q";
-  const std::string text = is_json          ? json_of(equation).dump(2) + "\n"
-                           : options.latex  ? latex_of(equation, angle)
-                           : options.python ? python_of(equation)
-                                            : text_of(equation, angle);
+  const std::string text = text_in(form, equation, options.theta ? "theta" : "q");
   if (options.output.empty()) return void(std::fputs(text.c_str(), stdout));
   write_text_file(options.output, text, options.common.force);
   if (options.common.json) tell_files(options.common, {options.output}, [&] { return json_of(equation); });

@@ -70,7 +70,9 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
   std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     const std::size_t distance = edit_distance(folded(name), folded(candidate));
-    if (distance < best_distance) {
+    // Of equal ones that of as many letters: dq was to be qd, not q.
+    const bool is_like = distance == best_distance && candidate.size() == name.size() && !best.empty() && best.size() != name.size();
+    if (distance < best_distance || is_like) {
       best_distance = distance;
       best = candidate;
     }

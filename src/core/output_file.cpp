@@ -112,9 +112,11 @@ void OutputFile::commit() {
   rename_to(target_, replace_);
 }
 
-void OutputFile::keep_as_partial() {
+std::string OutputFile::keep_as_partial() {
   const fs::path path(target_);
-  rename_to((path.parent_path() / (path.stem().string() + ".partial" + path.extension().string())).string(), true);
+  const std::string partial = (path.parent_path() / (path.stem().string() + ".partial" + path.extension().string())).string();
+  rename_to(partial, true);
+  return partial;
 }
 
 void write_temporary(const OutputFile& output, std::string_view text) {

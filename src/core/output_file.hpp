@@ -31,7 +31,8 @@ class OutputFile {
   // Done when the disk has it. Throws Error (exit 6), also where a file has come to `path` since that may not be
   // replaced.
   void commit();
-  void keep_as_partial();  // a run that failed: keep what there is as `path` with .partial before its ending
+  // A run that failed: keeps what there is as `path` with .partial before its ending, and returns that.
+  std::string keep_as_partial();
 
  private:
   void rename_to(const std::string& target, bool replace);

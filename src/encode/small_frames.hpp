@@ -1,5 +1,4 @@
 // The frames of a film that a small clip shows: every n-th, at most 25 a second, at most 800 pixels wide.
-// Internal to this floor.
 #pragma once
 
 #include <memory>
@@ -13,6 +12,18 @@ struct SwsContext;
 
 namespace chainreel {
 
+inline constexpr const char* kSmallClipLimits = "at most 25 frames/s and 800 pixels wide";
+
+// What becomes of a film of this size and rate.
+struct SmallSize {
+  int width = 0, height = 0;  // pixels
+  FrameRate fps{};
+  long every = 1;  // of so many frames the first is shown
+
+  long frames(long of_film) const { return (of_film + every - 1) / every; }
+};
+SmallSize small_size_of(int width, int height, FrameRate fps);
+
 class SmallFrames {
  public:
   SmallFrames(int width, int height, FrameRate fps);
@@ -20,20 +31,20 @@ class SmallFrames {
   SmallFrames(const SmallFrames&) = delete;
   SmallFrames& operator=(const SmallFrames&) = delete;
 
-  int width() const { return width_; }
-  int height() const { return height_; }
-  FrameRate fps() const { return fps_; }
+  int width() const { return size_.width; }
+  int height() const { return size_.height; }
+  FrameRate fps() const { return size_.fps; }
 
   // Whether the next frame is shown.
-  bool takes_next() const { return count_ % every_ == 0; }
+  bool takes_next() const { return count_ % size_.every == 0; }
   void count() { ++count_; }
   // The frame at the clip's size, by the mean of the pixels that fall into one; valid until the next call.
   const Image& shrink(const Image& frame);
 
  private:
-  int full_width_, full_height_, width_, height_;
-  FrameRate fps_;
-  long every_ = 1, count_ = 0;
+  int full_width_, full_height_;
+  SmallSize size_;
+  long count_ = 0;
   SwsContext* scaler_ = nullptr;  // none where the size stays
   Image bled_, small_;
 };

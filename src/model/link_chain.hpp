@@ -19,6 +19,7 @@ enum class DhConvention { standard, modified };
 std::span<const Name> names_of(DhConvention);
 
 using DhRow = std::array<double, 4>;  // a (m), alpha (rad), d (m), theta (rad); the joint adds to theta or d
+inline constexpr std::array<bool, 4> kDhAngle = {false, true, false, true};
 
 inline constexpr std::size_t kMostLinks = 100;
 

@@ -91,9 +91,28 @@ std::vector<DescribedCoordinate> coordinates_of(const Chain& chain) {
   return coordinates;
 }
 
+namespace {
+
+// Those of the text that numbers became: nobody can look them up.
+void forget_lines(UrdfFile& file) {
+  for (UrdfLink& link : file.links) {
+    link.line = 0;
+    if (link.inertial) link.inertial->line = 0;
+    for (UrdfShape& shape : link.visuals) shape.line = 0;
+    for (UrdfShape& shape : link.collisions) shape.line = 0;
+  }
+  for (UrdfJoint& joint : file.joints) {
+    joint.line = joint.limit.line = 0;
+    if (joint.mimic) joint.mimic->line = 0;
+  }
+}
+
+}  // namespace
+
 ModelDescription describe_model(const ModelSource& source, const ModelOptions& options,
                                 DescribeCollisions collisions) {
-  const UrdfFile file = read_urdf_file(source);
+  UrdfFile file = read_urdf_file(source);
+  if (source.links) forget_lines(file);
   const Chain chain = chain_of(file, options);
   ModelDescription model;
   model.name = file.name;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <string_view>
 
+#include "core/format.hpp"
 #include "expr/expression.hpp"
 
 namespace chainreel {
@@ -73,6 +75,19 @@ double parse_quantity(const std::string& text, const Place& place, const std::st
   if (!in.empty() && !is_among(unit->si, in))
     throw Error(ExitCode::bad_input, "'" + text + "' is in " + std::string(unit->name) + ", but this is in " + in, place);
   return *number * unit->factor;
+}
+
+std::string doubt_of_angle(const std::string& text, double value, const std::string& of) {
+  const double turns = std::abs(value) / (2 * std::numbers::pi);
+  if (!(turns > 1) || has_unit(text)) return "";
+  return text + of + " is in radians, " + format_significant(turns, 3) + " turns: for degrees write " + text + "deg, for radians " + text +
+         "rad";
+}
+
+double parse_angle(const std::string& text, const Place& place) {
+  const double angle = parse_quantity(text, place, "rad");
+  if (const std::string doubt = doubt_of_angle(text, angle); !doubt.empty()) throw Error(ExitCode::bad_input, doubt, place);
+  return angle;
 }
 
 }  // namespace chainreel

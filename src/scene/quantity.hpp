@@ -14,4 +14,10 @@ double parse_quantity(const std::string& text, const Place& place, const std::st
 // Whether a unit stands behind the number.
 bool has_unit(const std::string& text);
 
+// "90 is in radians, 14.3 turns: for degrees write 90deg, for radians 90rad": of a number without a unit of more than a whole turn,
+// which likely are degrees; "" of others. `of`: put behind the number, " of joint1".
+std::string doubt_of_angle(const std::string& text, double value, const std::string& of = "");
+// An angle, where nobody means more than a turn. Throws Error of what is doubtful, too.
+double parse_angle(const std::string& text, const Place& place);
+
 }  // namespace chainreel

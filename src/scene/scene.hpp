@@ -27,6 +27,7 @@ namespace chainreel {
 struct StartState {
   std::vector<double> q;   // empty: every joint at zero
   std::vector<double> qd;  // empty: at rest
+  std::vector<std::string> written_q;  // the numbers of q as they stand in the file; not a key
 };
 
 struct Video {

@@ -84,8 +84,8 @@ class Agreement : public ::testing::Test {
     EXPECT_NEAR(run["energy_start"].get<double>(), start["kinetic"].get<double>() + start["potential"].get<double>(), 1e-12);
     if (!run.contains("constraint_error")) return;
     const Json end = json_of(with({"dynamics", scene, "--at", "1", "--json", "--quiet"}, common));
-    expect_same(start["constraint_forces"], run["constraint_error"]["force_at_start"], 1e-9, "force at the start");
-    expect_same(end["constraint_forces"], run["constraint_error"]["force_at_end"], 1e-9, "force at the end");
+    expect_same(start["contact_forces"], run["constraint_error"]["force_at_start"], 1e-9, "force at the start");
+    expect_same(end["contact_forces"], run["constraint_error"]["force_at_end"], 1e-9, "force at the end");
   }
 
   TemporaryFolder folder_;

@@ -24,6 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(Usage, ErrorsAreExitTwo) {
   EXPECT_EQ(run_program({}).status, 2);
@@ -249,6 +250,20 @@ TEST(CommandLine, TakesPosesByNameAndSaysWhatIsMeantInDegrees) {
   const ProgramResult degrees = run_program({"dynamics", "models/rr.urdf", "--q", "30,0.2"});
   EXPECT_THAT(degrees.err, HasSubstr("WARNING: --q: 30 of joint1 is in radians, 4.77 turns: for degrees write 30deg"));
   EXPECT_EQ(run_program({"dynamics", "models/rr.urdf", "--q", "30rad,6.2"}).err, "") << "negative control";
+  EXPECT_THAT(run_program({"dynamics", "models/arm.urdf", "--q", "joint2=150deg"}).err,
+              HasSubstr("WARNING: --q: joint2 at 150 deg is beyond its limits, "));
+}
+
+TEST(CommandLine, SaysWhatIsMeantInDegreesAndWhatIsBeyondLimitsOfAStart) {
+  const TemporaryFolder folder;
+  const auto said = [&](const std::string& model, const std::string& q) {
+    const std::string scene = folder.write("a.yaml", "model: " + std::string(CHAINREEL_SOURCE_FOLDER) + "/models/" + model + "\nstart: {q: [" + q + "]}\n");
+    return run_program({"simulate", scene, "--set", "duration=0.1", "-o", folder.file("a.csv"), "--force"}).err;
+  };
+  EXPECT_THAT(said("rr.urdf", "90, 0.2"), HasSubstr("a: start.q: 90 of joint1 is in radians, 14.3 turns: for degrees write 90deg, for radians 90rad"));
+  EXPECT_THAT(said("rr.urdf", "90rad, 720deg"), Not(HasSubstr("start.q")));
+  EXPECT_THAT(said("arm.urdf", "0, 150deg, 0, 0, 0, 0"), HasSubstr("a: start.q: joint2 at 150 deg is beyond its limits, "));
+  EXPECT_THAT(said("arm.urdf", "0, 0, 0, 0, 0, 0"), Not(HasSubstr("start.q")));
 }
 
 // A file or a folder of that name is nobody's wish; `simulate` and `inverse` write there.

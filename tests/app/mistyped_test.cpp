@@ -33,7 +33,14 @@ TEST(Mistyped, WordsAreAnsweredByTheNearestNames) {
       {{"simulate", scene, "--set", "method=semi-implicit-euler"}, 3, "did you mean 'semi_implicit_euler'?"},
       {{"simulate", scene, "--set", "draw=[chian]"}, 3, "did you mean 'chain'?"},
       {{"simulate", scene, "--set", "tau=[0, 0]"}, 3, "unknown key 'tau'"},
-      {{"simulate", scene, "--set", "Duration=1"}, 3, "did you mean 'duration'?"}};
+      {{"simulate", scene, "--set", "Duration=1"}, 3, "did you mean 'duration'?"},
+      {{"render", scene, "--width", "640"}, 2, "scenes have the key 'video.width': --set video.width=VALUE"},
+      {{"render", "--nosuch"}, 2, "The following argument was not expected: --nosuch"},
+      {{"render", "rr_fre"}, 3, "did you mean 'rr_free'?"},
+      {{"snapshot", "rrr.urfd"}, 3, "did you mean 'rrr.urdf'?"},
+      {{"snapshot", "models/rr.urdf", "--pose", "jiont2=30deg", "-o", "a.png"}, 2, "did you mean 'joint2'?"},
+      {{"simulate", scene, "--set", "start.dq=[0, 0]"}, 3, "did you mean 'qd'?"},
+      {{"ellipse", scene}, 2, "`--along "}};
   for (const auto& [words, status, text] : slips) {
     const ProgramResult result = run_program(words);
     EXPECT_EQ(result.status, status) << result.err;

@@ -12,6 +12,7 @@
 #include "model/chain.hpp"
 #include "scene/quantity.hpp"
 #include "scene/run/grid.hpp"
+#include "scene/run/pose_doubts.hpp"
 #include "scene/scene.hpp"
 
 namespace chainreel {
@@ -123,31 +124,13 @@ std::vector<double> parse_counted(std::size_t count, const Chain& chain, const s
   return values;
 }
 
-// The joint that owns a coordinate; none of a floating or planar joint's.
-const Joint* joint_of(const Chain& chain, std::size_t coordinate) {
-  for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
-    const Joint& joint = chain.bodies[i].joint;
-    const bool is_own = joint.kind != JointKind::floating && joint.ratio == 1 && joint.offset == 0;
-    if (is_own && joint.q_index == int(coordinate)) return &joint;
-  }
-  return nullptr;
-}
-
-// 30 where 30deg is meant: more than a turn, in figures without a unit.
-void warn_of_degrees(const Chain& chain, std::size_t coordinate, const std::string& number, double value,
-                     const std::string& what) {
-  const Joint* joint = joint_of(chain, coordinate);
-  if (joint == nullptr || joint->kind != JointKind::revolute || has_unit(number) || std::abs(value) <= 2 * std::numbers::pi) return;
-  std::fprintf(stderr, "WARNING: %s: %s of %s is in radians, %s turns: for degrees write %sdeg, for radians %srad\n", what.c_str(),
-               number.c_str(), joint->name.c_str(), format_significant(std::abs(value) / (2 * std::numbers::pi), 3).c_str(),
-               number.c_str(), number.c_str());
-}
-
+// `written`: the numbers as they stand in the text, "" where they do not.
 std::vector<double> pose_by_name(const Chain& chain, const std::vector<std::string>& entries, const std::string& text,
-                                 const std::string& what) {
+                                 const std::string& what, std::vector<std::string>& written) {
   const std::vector<std::string> names = position_names(chain);
   std::vector<double> q = zero_configuration(chain);
   std::vector<bool> is_set(q.size());
+  written.assign(q.size(), "");
   for (const std::string& entry : entries) {
     const std::size_t equals = entry.find('=');
     if (equals == std::string::npos)
@@ -162,7 +145,7 @@ std::vector<double> pose_by_name(const Chain& chain, const std::vector<std::stri
     const std::vector<double> value = parse_list(number, what);
     if (value.empty()) throw Error(ExitCode::usage, what + " " + text + ": " + name + " has no number behind the =");
     q[*at] = value[0];
-    warn_of_degrees(chain, *at, number, q[*at], what);
+    written[*at] = number;
   }
   return q;
 }
@@ -185,14 +168,12 @@ double parse_positive_seconds(const std::string& text, const std::string& option
 
 std::vector<double> parse_pose(const Chain& chain, const std::string& text, const std::string& what) {
   if (text.empty()) return zero_configuration(chain);
-  const std::vector<std::string> entries = separated(text, ',');
-  std::vector<double> q;
-  if (text.find('=') != std::string::npos) {
-    q = pose_by_name(chain, entries, text, what);
-  } else {
-    q = parse_counted(std::size_t(chain.nq), chain, text, what);
-    for (std::size_t i = 0; i < q.size(); ++i) warn_of_degrees(chain, i, entries[i], q[i], what);
-  }
+  std::vector<std::string> written = separated(text, ',');
+  const std::vector<double> q = text.find('=') != std::string::npos
+                                    ? pose_by_name(chain, separated(text, ','), text, what, written)
+                                    : parse_counted(std::size_t(chain.nq), chain, text, what);
+  for (const std::string& doubt : doubts_of_pose(chain, q, written))
+    std::fprintf(stderr, "WARNING: %s: %s\n", what.c_str(), doubt.c_str());
   if (const std::string trouble = trouble_of_pose(chain, q); !trouble.empty())
     throw Error(ExitCode::usage, what + " " + text + ": " + trouble);
   return q;

@@ -10,6 +10,7 @@
 #include "app/cli/streams.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "scene/keys/keys.hpp"
 
 namespace chainreel {
 namespace {
@@ -147,6 +148,14 @@ std::string words_not_expected(const std::vector<std::string>& words) {
   return text;
 }
 
+// " a scene has the key 'video.width': --set video.width=.." where a key's last word is the option's.
+std::string key_like(const std::string& name, const CLI::App& command) {
+  if (command.get_option_no_throw("--set") == nullptr) return "";
+  for (const SceneKey& key : scene_keys())
+    if (!key.is_section && key.leaf() == name) return " scenes have the key '" + key.name + "': --set " + key.name + "=VALUE";
+  return "";
+}
+
 // Of the first option that the command does not have: those that resemble it.
 std::string options_like(const std::vector<std::string>& words, const CLI::App& command, const CLI::App& app) {
   std::vector<std::string> known;
@@ -158,9 +167,19 @@ std::string options_like(const std::vector<std::string>& words, const CLI::App& 
     const std::string name = word.substr(2, word.find('=') - 2);
     std::string near = did_you_mean(name, known);
     for (std::size_t at = 0; (at = near.find(" '", at)) != std::string::npos; at += 4) near.insert(at + 2, "--");
+    if (near.empty()) near = key_like(name, command);
     return near.empty() ? "" : ";" + near;
   }
   return "";
+}
+
+// The words that a command does not know, in their order.
+std::string words_unknown_to(const CLI::App& app) {
+  const std::vector<std::string> words = app.remaining(true);
+  const CLI::App& command = *app.get_subcommands().front();
+  const bool is_former = std::any_of(words.begin(), words.end(), [](const std::string& word) { return word.starts_with("--threads"); });
+  return words_not_expected(words) + (is_former && command.get_option_no_throw("--jobs") != nullptr ? "; --threads is called --jobs"
+                                                                                                    : options_like(words, command, app));
 }
 
 // A scene in a command's place means its film.
@@ -256,14 +275,13 @@ int CommandLine::run(int argc, char** argv) {
   try {
     parser_->app.parse(int(given.size()), given.data());
   } catch (const CLI::ExtrasError&) {
-    // CLI11 lists them backwards.
-    const std::vector<std::string> words = parser_->app.remaining(true);
-    const CLI::App& command = *parser_->app.get_subcommands().front();
-    const bool is_former = std::any_of(words.begin(), words.end(), [](const std::string& word) { return word.starts_with("--threads"); });
-    return refuse(words_not_expected(words) + (is_former && command.get_option_no_throw("--jobs") != nullptr
-                                                   ? "; --threads is called --jobs"
-                                                   : options_like(words, command, parser_->app)));
+    return refuse(words_unknown_to(parser_->app));
   } catch (const CLI::RequiredError& error) {
+    // Of a command without what it needs it says so first, though a word may have been mistyped.
+    const auto is_option = [](const std::string& word) { return word.starts_with("--"); };
+    const std::vector<std::string> unknown = parser_->app.remaining(true);
+    if (!parser_->app.get_subcommands().empty() && std::any_of(unknown.begin(), unknown.end(), is_option))
+      return refuse(words_unknown_to(parser_->app));
     // Of an unknown command it says that there is none.
     if (!parser_->app.get_subcommands().empty() || argc < 2) return refuse(error.what());
     const std::vector<std::string> words = parser_->app.remaining();

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/error.hpp"
+
 namespace chainreel {
 namespace {
 
@@ -47,14 +49,29 @@ std::string data_folder() {
   return "";
 }
 
-std::vector<std::string> shipped_scenes() {
+namespace {
+
+std::vector<std::string> names_in(const char* folder, const char* ending, bool with_ending) {
   std::vector<std::string> names;
   std::error_code code;
-  for (fs::directory_iterator entry(fs::path(data_folder()) / "assets/scenes", code), end; !code && entry != end;
-       entry.increment(code))
-    if (entry->path().extension() == ".yaml") names.push_back(entry->path().stem().string());
+  for (fs::directory_iterator entry(fs::path(data_folder()) / folder, code), end; !code && entry != end; entry.increment(code))
+    if (entry->path().extension() == ending)
+      names.push_back(with_ending ? entry->path().filename().string() : entry->path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
+}
+
+// Of scenes and models, as they may be given.
+std::vector<std::string> shipped_names() {
+  std::vector<std::string> names = shipped_scenes();
+  for (std::string& model : names_in("models", ".urdf", true)) names.push_back(std::move(model));
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::string> shipped_scenes() {
+  return names_in("assets/scenes", ".yaml", false);
 }
 
 std::string shipped_file(const std::string& name) {
@@ -70,7 +87,11 @@ std::string found_file(const std::string& named) {
   std::error_code ignored;
   if (fs::exists(named, ignored)) return named;
   const std::string shipped = shipped_file(named);
-  return shipped.empty() ? named : shipped;
+  if (!shipped.empty()) return shipped;
+  const bool is_word = named.find('/') == std::string::npos;
+  if (const std::string near = is_word ? did_you_mean(named, shipped_names()) : ""; !near.empty())
+    throw Error(ExitCode::bad_input, "there is no such file here, and none of that name comes with the program:" + near, {named});
+  return named;
 }
 
 }  // namespace chainreel

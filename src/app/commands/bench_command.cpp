@@ -258,7 +258,7 @@ void add_bench_command(CommandLine& app) {
       "Times of stages are of all threads together; the processor's (CPU) are those of the threads themselves, all else holds what\n"
       "the renderer's own threads took. The encoder alone: as films are made, in chunks by an encoder each; one encoder: x264's preset\n"
       "veryfast at the film's quality with as many threads of its own, as other recorders have it. Files are written to a folder that goes, in TMPDIR.\n"
-      "Example: chainreel bench assets/scenes/rr_torque.yaml --set video.width=1920 --set video.height=1080");
+      "Example: chainreel bench rr_torque --set video.width=1920 --set video.height=1080");
   command->callback([options] { run_bench(*options); });
 }
 

@@ -251,7 +251,7 @@ void add_chart_command(CommandLine& app) {
   add_figure_options(*command, options->figure, options->common, "out/NAME_chart.png");
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
-  command->footer("Example: chainreel chart assets/scenes/rr_free.yaml -o out/chart.svg");
+  command->footer("Example: chainreel chart rr_free -o out/chart.svg");
   command->callback([options] { run_chart(*options); });
 }
 

@@ -290,7 +290,7 @@ void add_check_command(CommandLine& app) {
   add_scene_options(*command, options->common);
   command->add_flag("--all", options->all, "of a method that is chosen, all candidates instead of the three next best");
   add_json_option(*command, options->common);
-  command->footer("Example: chainreel check assets/scenes/rr_free.yaml --set method=rk4");
+  command->footer("Example: chainreel check rr_free --set method=rk4");
   command->callback(
       [options] { is_model_file(options->file) ? check_model(*options) : check_scene(*options); });
 }

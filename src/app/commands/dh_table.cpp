@@ -65,7 +65,8 @@ DhTable read_dh_table(const std::string& path) {
       throw Error(ExitCode::bad_input,
                   "has " + std::to_string(cells.size()) + " cells under " + std::to_string(header.size()) + " names", place);
     DhRow& row = table.rows.emplace_back();
-    for (std::size_t k = 0; k < 4; ++k) row[k] = parse_quantity(cells[columns[k]], place);
+    for (std::size_t k = 0; k < 4; ++k)
+      row[k] = kDhAngle[k] ? parse_angle(cells[columns[k]], place) : parse_quantity(cells[columns[k]], place);
     if (columns[4] < header.size()) table.masses.push_back(parse_quantity(cells[columns[4]], place));
   }
   if (table.rows.empty())

@@ -159,7 +159,8 @@ Json report(const TipMass& tip, const State& state, const DynamicsOptions& optio
   return json;
 }
 
-// What ties the mechanism, and the motion that it then has.
+// What ties the mechanism, and the motion that it then has. Contact forces are what it presses on its ties with, in the sign of lambda and of
+// the key contact_force; what the layer constraint_force shows, on the robot, is their opposite.
 void add_constraints(Json& json, const Instant& now, const ConstraintPlan& plan) {
   json["constraint_rows"] = now.rows;
   json["constraint_status"] = now.status;
@@ -168,9 +169,9 @@ void add_constraints(Json& json, const Instant& now, const ConstraintPlan& plan)
   json["J_c"] = to_json(now.Jc);
   json["Jcd_qd"] = list(now.Jcd_qd);
   json["lambda"] = list(now.lambda);
-  json["constraint_forces"] = Json::array();
+  json["contact_forces"] = Json::array();
   for (std::size_t k = 0; k < now.forces.size(); ++k)
-    json["constraint_forces"].push_back({{"constraint", now.constraints[k]}, {"force", to_json(now.forces[k])}});
+    json["contact_forces"].push_back({{"constraint", now.constraints[k]}, {"force", to_json(now.forces[k])}});
 }
 
 // The run's own state at that instant, as a film shows it.
@@ -245,9 +246,9 @@ void run_dynamics(const DynamicsOptions& options) {
     return;
   }
   for (const auto& [key, value] : json.items()) {
-    if (key == "constraint_forces")
+    if (key == "contact_forces")
       for (const Json& one : value)
-        std::printf("%-20s %s of %s\n", "constraint_force", text_of(one["force"]).c_str(),
+        std::printf("%-20s %s on %s\n", "contact_force", text_of(one["force"]).c_str(),
                     one["constraint"].get<std::string>().c_str());
     else if (key == "end_effector" && value.is_null())
       std::puts("end_effector         none: choose a link with --end-effector NAME for x, J and Lambda");
@@ -280,7 +281,7 @@ void add_dynamics_command(CommandLine& app) {
   add_scene_options(*command, options->common);
   add_json_option(*command, options->common);
   add_quiet_option(*command, options->common);
-  command->footer("Example: chainreel dynamics models/rr.urdf --q 0,90deg --json");
+  command->footer("Example: chainreel dynamics rr.urdf --q 0,90deg --json");
   command->callback([options] { run_dynamics(*options); });
 }
 

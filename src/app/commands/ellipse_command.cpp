@@ -136,6 +136,8 @@ EllipseJob job_of_scene(const EllipseOptions& options) {
 
 EllipseJob job_of_model(const EllipseOptions& options) {
   if (options.model.empty()) throw Error(ExitCode::usage, "which model? Name a .urdf, or a scene by --along");
+  if (!is_model_file(options.model))
+    throw Error(ExitCode::usage, options.model + " is no model (.urdf): of a scene, the ellipses along its motion are `--along " + options.model + "`");
   std::vector<std::string> honoured = keys_of_models(OfModel::picture);
   honoured.insert(honoured.end(), {"title", "ellipse"});
   const ModelScene model = model_scene_of(options.model, model_overrides(options), "ellipse", honoured);
@@ -233,7 +235,7 @@ void add_ellipse_command(CommandLine& app) {
   Command* command = app.add_subcommand("ellipse", "a figure of the effective mass at chosen poses");
   command->add_option("model", options->model, "a model (.urdf); not with --along").names_input();
   PoseSources& sources = options->sources;
-  command->add_repeatable("--pose", sources.poses, "q of the chain: --pose 0,90deg (repeatable)");
+  command->add_repeatable("--pose", sources.poses, "q of the chain: --pose 0,90deg, or by joints: --pose joint2=90deg (repeatable)");
   command->add_option("--sweep", sources.sweep, "poses that differ in one coordinate: --sweep q2=0:180deg:9");
   command->add_option("--along", sources.along, "poses along the motion of a scene (.yaml)").names_input();
   command->add_flag("--field", sources.field, "a grid of points of the workspace, of planar chains of 2 or 3 joints");
@@ -266,7 +268,7 @@ void add_ellipse_command(CommandLine& app) {
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
   command->footer(
-      "Example: chainreel ellipse models/rr.urdf --pose 0,90deg --pose 0,150deg -o out/ellipse.png");
+      "Example: chainreel ellipse rr.urdf --pose 0,90deg --pose 0,150deg -o out/ellipse.png");
   options->command = command;
   command->callback([options] { run_ellipse(*options); });
 }

@@ -248,7 +248,7 @@ void add_energy_command(CommandLine& app) {
   add_figure_options(*command, options->figure, options->common, "out/NAME_energy.png");
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
-  command->footer("Example: chainreel energy assets/scenes/rr_free.yaml --until 100s --step 0.01");
+  command->footer("Example: chainreel energy rr_free --until 100s --step 0.01");
   command->callback([options] { run_energy(*options); });
 }
 

@@ -61,17 +61,17 @@ void add_equations_command(CommandLine& app, void (*run)(const EquationsOptions&
   Command* command = app.add_subcommand(
       "equations", "M(q), C(q, qd), g(q), J and Lambda of a chain of up to four joints in symbols, as text, LaTeX or Python");
   command->add_option("file", options->file, "a model (.urdf) or a scene (.yaml)").required().names_input();
-  command->add_flag("--latex", options->latex, "as LaTeX");
+  command->add_flag("--latex", options->latex, "as LaTeX, for amsmath");
   command->add_flag("--python", options->python, "as a module of Python with functions of numpy arrays");
   command->add_flag("--theta", options->theta, "angles are called theta, not q");
   command->add_option("--panel", options->panel, "one panel of a scene that compares several, from 1").range(1, 12);
   command->add_option("--gravity", options->gravity, "world x,y,z in m/s^2");
   command->add_option("--end-effector", options->end_effector, "the link that J and Lambda speak of");
-  command->add_option("-o,--output", options->output, "a file, of JSON where it ends in .json (default: standard output)");
+  command->add_option("-o,--output", options->output, "a .tex (LaTeX), .py (Python), .json or .txt file (default: standard output)");
   add_scene_options(*command, options->common);
   add_json_option(*command, options->common);
   add_force_option(*command, options->common);
-  command->footer("Example: chainreel equations models/rr.urdf --latex -o rr.tex");
+  command->footer("Example: chainreel equations rr.urdf -o rr.tex");
   command->callback([options, run] { run(*options); });
 }
 

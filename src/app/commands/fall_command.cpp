@@ -169,7 +169,7 @@ void add_fall_command(CommandLine& app) {
   command->add_option("--jobs", options->threads, "threads (default: all cores)").range(1, 256);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
-  command->footer("Example: chainreel fall assets/scenes/humanoid_fall.yaml --sweep parameters.k=0:1200:7");
+  command->footer("Example: chainreel fall humanoid_fall --sweep parameters.k=0:1200:7");
   command->callback([options] { run_fall(*options); });
 }
 

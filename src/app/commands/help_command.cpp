@@ -1,13 +1,17 @@
 // chainreel help [TOPIC]: the reference, page by page.
+#include <array>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "app/cli/command.hpp"
+#include "app/cli/data_folder.hpp"
 #include "app/cli/result.hpp"
 #include "app/guide/manual.hpp"
 #include "app/guide/reference.hpp"
 #include "app/report/version.hpp"
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 #include "core/json.hpp"
 #include "scene/keys/schema.hpp"
 
@@ -30,6 +34,25 @@ std::string commands_page(const CommandLine& app) {
   return "# Commands\n\n" + markdown_table(table) + texts;
 }
 
+// Pages that people wrote, as far as they lie beside the program.
+std::vector<GuidePage> written_pages() {
+  constexpr std::array<std::pair<const char*, const char*>, 6> kWritten = {
+      {{"using", "what the keys of a scene can do together"},
+       {"snapshots", "suites of pictures for CI: what verify reads"},
+       {"which-method", "which integrator when"},
+       {"cluster", "parts of films and sweeps on many machines"},
+       {"library", "the same from C++ and Python"},
+       {"trust", "what can be trusted, and how it is tested"}}};
+  std::vector<GuidePage> pages;
+  const std::string folder = data_folder() + "/assets/guide/";
+  for (const auto& [topic, about] : kWritten) {
+    const std::string path = folder + topic + ".md";
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(path, ignored)) pages.push_back({topic, about, [path] { return read_plain_file(path); }});
+  }
+  return pages;
+}
+
 void list_topics(const std::vector<GuidePage>& pages, bool json) {
   Json list = Json::array();
   std::vector<std::vector<std::string>> table{{"topic", "what it tells"}};
@@ -47,7 +70,9 @@ void list_topics(const std::vector<GuidePage>& pages, bool json) {
 void run_help(const HelpOptions& options, const CommandLine& app) {
   if (options.man && options.common.json) throw Error(ExitCode::usage, "--man prints a manual page, --json the same as JSON: take one");
   if (options.man) return void(std::fputs(manual_page(app, program_version(), options.topic).c_str(), stdout));
-  const std::vector<GuidePage> pages = guide_pages(app);
+  std::vector<GuidePage> pages = guide_pages(app);
+  for (GuidePage& page : written_pages()) pages.push_back(std::move(page));
+  const std::string topic = options.topic == "suite" ? "snapshots" : options.topic;
   if (options.topic.empty()) return list_topics(pages, options.common.json);
   std::vector<std::string> known;
   const auto tell = [&](const std::string& text) {
@@ -57,7 +82,7 @@ void run_help(const HelpOptions& options, const CommandLine& app) {
       std::fputs(text.c_str(), stdout);
   };
   for (const GuidePage& page : pages) {
-    if (page.topic == options.topic) return tell(page.text());
+    if (page.topic == topic) return tell(page.text());
     known.push_back(page.topic);
   }
   for (const CommandLine::CommandText& command : app.texts()) {
@@ -83,7 +108,7 @@ std::vector<GuidePage> guide_pages(const CommandLine& app) {
 
 void add_help_command(CommandLine& app) {
   auto options = std::make_shared<HelpOptions>();
-  Command* command = app.add_subcommand("help", "the reference: scene, methods, constraints, outputs, ..");
+  Command* command = app.add_subcommand("help", "the reference and the guide: scene, methods, using, snapshots, ..");
   command->add_option("topic", options->topic, "a topic or a command; without it the topics are listed");
   command->add_flag("--man", options->man, "print chainreel(1), or the manual page of a command: chainreel help render --man | man -l -");
   add_json_option(*command, options->common);

@@ -65,6 +65,11 @@ std::string with_comments(std::string text) {
   return text;
 }
 
+// Whether they describe a chain of their own.
+bool is_in_numbers(const InitOptions& options) {
+  return !(options.links + options.masses + options.joints + options.damping + options.shape + options.dh + options.convention).empty();
+}
+
 // The options' numbers, complete.
 LinkChain chain_of(const InitOptions& options) {
   LinkChain chain;
@@ -100,8 +105,8 @@ std::string list_of(const std::vector<std::string>& words) {
   return "[" + joined(words) + "]";
 }
 
-// A start out of the stretched pose, and a damper on the last joint.
-std::string scene_of(const LinkChain& chain, const std::string& name, bool is_in_plane) {
+// A start out of the stretched pose, and a damper on the last joint, which is only shown in comments where the chain moves freely.
+std::string scene_of(const LinkChain& chain, const std::string& name, bool is_in_plane, bool moves_freely) {
   std::vector<std::string> q, qd(chain.size(), "0");
   for (const char letter : chain.joints) {
     if (letter != 'R' && letter != 'P') continue;
@@ -113,6 +118,11 @@ std::string scene_of(const LinkChain& chain, const std::string& name, bool is_in
   for (std::size_t i = 1; i < chain.size(); ++i) torque += "  - 0\n";
   torque += "  - -k * qd" + last + "                 # t, q1.., qd1.., x_G y_G z_G, xd_G yd_G zd_G, the parameters";
   std::string text = kStarterScene;
+  if (moves_freely) {  // an example for those who want one
+    replace_all(text, "parameters: {k: 0.2} ", "# parameters: {k: 0.2} ");
+    replace_all(text, "torque:  ", "# torque:  ");
+    replace_all(torque, "  - ", "#   - ");
+  }
   replace_all(text, "@Q@", list_of(q));
   replace_all(text, "@QD@", list_of(qd));
   replace_all(text, "@TORQUE@", torque);
@@ -134,7 +144,7 @@ StarterFiles files_of_chain(const InitOptions& options, const std::string& name)
   source.place = {name};
   source.links = chain;
   const Chain read = read_chain(source);  // what moves no mass is told before anything is written
-  return {scene_of(chain, name, read.gravity.y() != 0), urdf_of(chain, name)};
+  return {scene_of(chain, name, read.gravity.y() != 0, is_in_numbers(options)), urdf_of(chain, name)};
 }
 
 // A scene of the program's and its model, which then lies beside it.
@@ -162,8 +172,7 @@ void run_init(const InitOptions& options) {
   const std::string name = base.filename().string();
   if (name.empty() || name.find_first_of("<>&\"'\\\n") != std::string::npos || name.front() == '-')
     throw Error(ExitCode::usage, "'" + options.name + "' cannot name a scene: take letters, digits, - and _");
-  const bool has_numbers = !(options.links + options.masses + options.joints + options.damping + options.shape + options.dh + options.convention).empty();
-  if (!options.from.empty() && has_numbers)
+  if (!options.from.empty() && is_in_numbers(options))
     throw Error(ExitCode::usage, "--from copies a scene with its model: --links, --dh and what goes with them describe another one");
   const StarterFiles files = options.from.empty() ? files_of_chain(options, name) : copied_files(options.from, name);
   // Both are opened before either is written: an existing one keeps both as they are.

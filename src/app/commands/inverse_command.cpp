@@ -103,7 +103,7 @@ void add_inverse_command(CommandLine& app) {
   command->add_option("--gravity", options->gravity, "world x,y,z in m/s^2");
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
-  command->footer("Example: chainreel inverse models/rr.urdf --trajectory out/rr_free.csv -o out/tau.csv");
+  command->footer("Example: chainreel inverse rr.urdf --trajectory out/rr_free.csv -o out/tau.csv");
   command->callback([options] { run_inverse(*options); });
 }
 

@@ -16,6 +16,7 @@
 #include "app/works/render_film.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "encode/small_frames.hpp"
 #include "scene/quantity.hpp"
 
 namespace chainreel {
@@ -122,6 +123,27 @@ void tell_of_unused_quality(const RenderJob& job, const Scene& scene) {
                  scene.name.c_str());
 }
 
+// GIF and APNG are not of the size and rate that the scene asks for: said, and told with the files.
+Json small_clips(const RenderJob& job, const PreparedFilm& film, int frames) {
+  Json clips = Json::array();
+  const Video& video = film.scene.video;
+  for (const Target& target : job.targets) {
+    if (target.format->make_clip == nullptr) continue;
+    const SmallSize size = small_size_of(video.width, video.height, video.fps);
+    clips.push_back({{"file", target.path},
+                     {"width", size.width},
+                     {"height", size.height},
+                     {"fps", size.fps.value()},
+                     {"frames", size.frames(frames)}});
+    const std::string is_width = size.width == video.width ? "" : std::to_string(size.width) + "x" + std::to_string(size.height) + " pixels";
+    const std::string is_rate = size.every == 1 ? "" : format_significant(size.fps.value(), 4) + " frames/s";
+    if (job.quiet || (is_width.empty() && is_rate.empty())) continue;
+    std::fprintf(stderr, "note: %s: %s has %s%s%s, as %s files are %s\n", film.scene.name.c_str(), target.path.c_str(), is_width.c_str(),
+                 is_width.empty() || is_rate.empty() ? "" : " and ", is_rate.c_str(), target.format->ending, kSmallClipLimits);
+  }
+  return clips;
+}
+
 void run_render(const RenderOptions& options) {
   check_outputs(options.outputs, options.scenes.size());
   const std::vector<PreparedFilm> films = load_all(options);
@@ -139,6 +161,7 @@ void run_render(const RenderOptions& options) {
     reports.back()["files"] = result.files;
     if (result.part) reports.back()["part"] = {{"first", result.part->first}, {"behind", result.part->behind}};
     reports.back()["sidecars"] = result.sidecars;
+    if (const Json clips = small_clips(jobs[i], films[i], result.frames); !clips.empty()) reports.back()["small_clips"] = clips;
     table.push_back({films[i].scene.name, std::to_string(result.frames), format_fixed(result.film_seconds, 2),
                      format_fixed(result.times.total, 2), joined(result.files, " ")});
   }
@@ -172,7 +195,7 @@ void add_render_command(CommandLine& app) {
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
   command->footer(
-      "Example: chainreel render assets/scenes/rr_free.yaml -o out/rr.mp4 -o out/rr.gif --set duration=2");
+      "Example: chainreel render rr_free -o out/rr.mp4 -o out/rr.gif --set duration=2");
   command->callback([options] { run_render(*options); });
 }
 

@@ -149,7 +149,7 @@ void add_sheet_command(CommandLine& app) {
   add_scene_flags(*command, options->common.flags, FlagGroup::look);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
-  command->footer("Example: chainreel sheet assets/scenes/*.yaml -o out/sheet.png");
+  command->footer("Example: chainreel sheet rr_free rr_torque pen -o out/sheet.png");
   options->command = command;
   command->callback([options] { run_sheet(*options); });
 }

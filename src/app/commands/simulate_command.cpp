@@ -123,7 +123,7 @@ void add_simulate_command(CommandLine& app) {
   command->add_flag("--every-step", options->every_step, "a row a step instead of a row a frame");
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
-  command->footer("Example: chainreel simulate assets/scenes/pp_free.yaml -o out/pp_free.csv -o out/pp_free.npz\n"
+  command->footer("Example: chainreel simulate pp_free -o out/pp_free.csv -o out/pp_free.npz\n"
       "         chainreel simulate rr_free --columns t,q,qdd,tau -o -");
   command->callback([options] { run_simulate(*options); });
 }

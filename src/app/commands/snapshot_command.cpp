@@ -145,6 +145,16 @@ Named named_pose(const Chain& chain, const std::string& text) {
   return is_joint ? Named{"", text} : named;
 }
 
+// The name of a pose may have been to be a joint's, where one number is no pose.
+void refuse_mistyped_joints(const Chain& chain, const std::vector<std::string>& poses) {
+  for (const std::string& text : poses) {
+    const Named named = named_pose(chain, text);
+    if (named.name.empty() || named.text.find_first_of(",=") != std::string::npos || chain.nq == 1) continue;
+    if (const std::string near = did_you_mean(named.name, position_names(chain)); !near.empty())
+      throw Error(ExitCode::usage, "--pose " + text + ": " + chain.name + " has no coordinate '" + named.name + "':" + near);
+  }
+}
+
 // Commas part instants, but not within brackets: max(1, 2).
 std::vector<std::string> parted(const std::string& text) {
   std::vector<std::string> parts{""};
@@ -256,6 +266,7 @@ void snapshot_model(const SnapshotOptions& options) {
   const ModelScene model =
       model_scene_of(options.file, overrides_of(options), "snapshot", keys_of_models(OfModel::picture));
   const Chain chain = read_chain(options.file, model.options);
+  refuse_mistyped_joints(chain, options.poses);
   const bool is_named = std::any_of(options.poses.begin(), options.poses.end(), [&](const std::string& text) {
     return !named_pose(chain, text).name.empty();
   });
@@ -305,7 +316,7 @@ void add_snapshot_command(CommandLine& app) {
                           "instants of the scene: 1.2s, `event NAME`, or several between commas, maybe "
                           "named: hit=1.2s (default 0)");
   command->add_repeatable("--pose", options->poses,
-                          "q of a model: --pose 0,90deg, named --pose home=0,90deg (repeatable)");
+                          "q of a model: --pose 0,90deg, by joints: --pose joint2=90deg, named: --pose home=0,90deg (repeatable)");
   command->add_option(
       "-o,--output", options->output,
       "a .png, .svg or .pdf file, which holds all poses at once; or a folder for a picture each (default "
@@ -321,8 +332,8 @@ void add_snapshot_command(CommandLine& app) {
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
   command->footer(
-      "Example: chainreel snapshot assets/scenes/rrr_torque.yaml --at 1.2 -o out/rrr.png\n"
-      "         chainreel snapshot models/rr.urdf --pose home=0,0 --pose reach=40deg,-90deg -o out/poses/");
+      "Example: chainreel snapshot rrr_torque --at 1.2 -o out/rrr.png\n"
+      "         chainreel snapshot rr.urdf --pose home=0,0 --pose reach=40deg,-90deg -o out/poses/");
   options->command = command;
   command->callback([options] { run_snapshot(*options); });
 }

@@ -371,7 +371,7 @@ void add_stability_command(CommandLine& app) {
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
   command->footer(
-      "Example: chainreel stability assets/scenes/pp_spring.yaml --set 'torque=[0, -k * y_G]'\n"
+      "Example: chainreel stability pp_spring --set 'torque=[0, -k * y_G]'\n"
       "         --set parameters.k=100 --x step=0.02:0.4:96 --y parameters.k=25:400:60");
   command->callback([options] { run_stability(*options); });
 }

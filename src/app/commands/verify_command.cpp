@@ -400,7 +400,8 @@ void add_verify_command(CommandLine& app) {
       "-o,--output", options->output,
       "a folder for the pictures of what failed: NAME.expected.png, NAME.actual.png, NAME.difference.png");
   add_result_options(*command, options->common);
-  command->footer("Example: chainreel verify arm.yaml --junit out/junit.xml --html out/report.html");
+  command->footer("What a suite may say: chainreel help snapshots\n"
+                  "Example: chainreel verify arm.yaml --junit out/junit.xml --html out/report.html");
   command->callback([options] { run_verify(*options); });
 }
 

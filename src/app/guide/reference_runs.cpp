@@ -83,7 +83,7 @@ std::string expressions_page() {
       {"xd_G yd_G zd_G", "its velocity, m/s"},
       {"x_H .. zd_H", "the same of each name H of `frames:`"},
       {"k", "each name of `parameters:`"},
-      {"lambda1 ..", "multipliers of the constraints' rows, N or N m; in events and plots"},
+      {"lambda1 ..", "multipliers of the constraints' rows, N or N m, as tau = M qdd + nle + J_c^T lambda has them: what the robot presses on its ties with; in events and plots"},
       {"cop heel toe", "with a `foot:`: the centre of pressure and the foot's ends, m along the ground; in events and plots"},
       {"s", "in a constraint's curve: the way along it"},
       {"pi", "3.14159.."}};
@@ -110,7 +110,7 @@ std::string outputs_page() {
          code_block("yaml", "video: {width: 1280, height: 720, fps: 50, preset: web, crf: 24}\n") +
          "\nBeside a film lies NAME.json, its audit, and NAME.txt, its words. What a command does not overwrite without\n"
          "`--force`: files outside of a folder named `out`.\n\n" +
-         code_block("sh", "build/chainreel render assets/scenes/rr_free.yaml -o out/rr.webm -o out/rr.gif\n");
+         code_block("sh", "chainreel render rr_free -o out/rr.webm -o out/rr.gif\n");
 }
 
 std::string exit_codes_page() {

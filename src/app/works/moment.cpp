@@ -8,9 +8,13 @@
 #include "app/report/instant_report.hpp"
 #include "app/report/run_report.hpp"
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "scene/run/fall.hpp"
 
 namespace chainreel {
+namespace {
+constexpr double kSameInstant = 1e-9;  // s
+}
 
 // A film with its pictures, as far as they are asked for.
 struct Moments::State {
@@ -48,9 +52,19 @@ struct Moments::State {
     moment.memory = memory;
     moment.memory.audit["at"] = moment.at;
     moment.warnings = warnings;
+    if (moment.at > last_end() + kSameInstant)
+      moment.warnings.push_back(film.scene.name + ": every run had ended by t = " + format_significant(last_end(), 4) +
+                                " s: the picture for t = " + format_significant(moment.at, 4) + " s shows how");
     moment.left_out = report.left_out;
     moment.numbers = numbers(frame);
     return moment;
+  }
+
+  // When the last run ended.
+  double last_end() const {
+    double end = 0;
+    for (std::size_t i = 0; i < runs.size(); ++i) end = std::max(end, runs[i].end_time);
+    return end;
   }
 
   // A panel whose run ended before stands still as it ended.

@@ -1,5 +1,6 @@
 #include "app/works/outputs.hpp"
 
+#include <cstdio>
 #include <filesystem>
 
 #include "app/report/sidecar.hpp"
@@ -58,7 +59,8 @@ std::vector<std::string> commit(std::vector<Output>& outputs) {
 void keep_partial(std::vector<Output>& outputs) {
   for (Output& output : outputs)
     if (!output.shows(Shows::still))
-      for (auto& file : output.files) file->keep_as_partial();
+      for (auto& file : output.files)
+        std::fprintf(stderr, "note: what there is of it: %s\n", file->keep_as_partial().c_str());
 }
 
 }  // namespace chainreel

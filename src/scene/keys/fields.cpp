@@ -208,13 +208,13 @@ std::optional<Fields> Fields::section(const std::string& key, const std::string&
   return std::nullopt;
 }
 
-void Fields::finish() {
+void Fields::finish(const std::string& topic) {
   for (const auto& pair : map_) {
     const std::string& key = pair.first.Scalar();
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
     constexpr std::size_t kFewKeys = 12;
     const std::string others =
-        known_.size() > kFewKeys ? " `chainreel help scene` lists all keys." : " The keys here are " + joined(known_) + ".";
+        known_.size() > kFewKeys ? " `chainreel help " + topic + "` tells of all keys." : " The keys here are " + joined(known_) + ".";
     problems_->add("unknown key '" + path(key) + "':" + did_you_mean(key, known_) + others, place_of(pair.first, key));
   }
 }

@@ -62,7 +62,7 @@ class Fields {
   std::optional<Fields> section(const std::string& key, const std::string& what_it_holds);
 
   // Unknown keys are problems that name the nearest known one.
-  void finish();
+  void finish(const std::string& topic = "scene");
 
   // Numbers that are read from now on are told in this unit; "": in any.
   void measure_in(std::string unit) { unit_ = std::move(unit); }

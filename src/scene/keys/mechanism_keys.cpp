@@ -57,7 +57,7 @@ bool read_dh(Fields& fields, std::vector<DhRow>& rows) {
       DhRow& row = rows.emplace_back();
       for (std::size_t k = 0; k < 4; ++k) {
         if (!node[i][k].IsScalar()) throw Error(ExitCode::bad_input, "must be four numbers a, alpha, d, theta");
-        row[k] = parse_quantity(node[i][k].Scalar(), place);
+        row[k] = kDhAngle[k] ? parse_angle(node[i][k].Scalar(), place) : parse_quantity(node[i][k].Scalar(), place);
       }
     } catch (const Error& error) {
       fields.problems().add("'model." + key + "': " + error.problems().front().message, place);

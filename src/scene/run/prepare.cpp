@@ -6,6 +6,7 @@
 #include "model/chain.hpp"
 #include "model/read_chain.hpp"
 #include "scene/annotation.hpp"
+#include "scene/run/pose_doubts.hpp"
 #include "sim/system/constrained_chain.hpp"
 
 namespace chainreel {
@@ -190,6 +191,8 @@ Simulation prepare(Scene& scene, bool meshes, LastChain& last) {
   problems.throw_if_any();
   if (const std::string trouble = trouble_of_pose(chain, scene.start.q); !trouble.empty())
     throw Error(ExitCode::bad_input, "start.q: " + trouble, scene.place_of("start.q"));
+  for (const std::string& doubt : doubts_of_pose(chain, scene.start.q, scene.start.written_q))
+    scene.notices.push_back("start.q: " + doubt);
 
   simulation.q0 = scene.start.q;
   simulation.qd0 = scene.start.qd;

@@ -12,6 +12,8 @@ namespace {
 
 // Less is rounding, of an instant as a share of the duration, of a coordinate in rad or m.
 constexpr double kSame = 1e-9;
+// A table that goes on for so many times the run is likely told in another unit.
+constexpr double kOtherUnit = 10;
 
 struct NamedControl {
   const Control* control;
@@ -32,6 +34,12 @@ void look_at_span(Scene& scene, const Chain& chain, const std::string& path, con
   if (path.empty() || outside == Outside::hold || outside == Outside::zero) return;
   const std::vector<double> t = read_time_table(path, {}, chain.coordinate_names, columns).t;
   const bool late = t.front() > kSame * scene.duration, early = t.back() < (1 - kSame) * scene.duration;
+  const auto notice = [&](const std::string& text) {
+    if (std::find(scene.notices.begin(), scene.notices.end(), text) == scene.notices.end()) scene.notices.push_back(text);
+  };
+  if (t.back() > kOtherUnit * scene.duration)
+    notice("the table " + path + " goes on until " + format_shortest(t.back()) + " s, of which the run of " + format_shortest(scene.duration) +
+           " s sees the beginning: are its times in seconds?");
   if (!late && !early) return;
   const std::string span = "the table " + path + " speaks of " + format_shortest(t.front()) + " to " +
                            format_shortest(t.back()) + " s, but the run of 0 to " + format_shortest(scene.duration) + " s";
@@ -40,10 +48,7 @@ void look_at_span(Scene& scene, const Chain& chain, const std::string& path, con
                 span + ", and `outside: refuse` stands there: take another duration or table, or outside: hold or zero",
                 place);
   const std::string end = late && early ? "before and behind it" : late ? "before it" : "behind it";
-  const std::string notice =
-      span + "; " + end + " " + what + " held: write `outside: hold` beside the table if it is meant, or zero, or refuse";
-  if (std::find(scene.notices.begin(), scene.notices.end(), notice) == scene.notices.end())
-    scene.notices.push_back(notice);
+  notice(span + "; " + end + " " + what + " held: write `outside: hold` beside the table if it is meant, or zero, or refuse");
 }
 
 void look_at_spans(Scene& scene, const Chain& chain) {

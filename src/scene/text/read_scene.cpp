@@ -41,6 +41,17 @@ void read_keys(Fields& fields, Scene& scene) {
   leave_section();
 }
 
+// Numbers as people wrote them, with the units that they have.
+std::vector<std::string> numbers_of_start(const YamlDocument& document) {
+  std::vector<std::string> texts;
+  const YAML::Node start = document.root["start"];
+  if (!start || !start.IsMap()) return texts;
+  const YAML::Node q = start["q"];
+  if (q && q.IsSequence())
+    for (const YAML::Node& one : q) texts.push_back(one.IsScalar() ? one.Scalar() : "");
+  return texts;
+}
+
 // A scene of one panel.
 Scene read_document(const YamlDocument& document) {
   Scene scene;
@@ -53,6 +64,7 @@ Scene read_document(const YamlDocument& document) {
   check_together(fields, scene);
   fields.finish();
   problems.throw_if_any();
+  scene.start.written_q = numbers_of_start(document);
   scene.places = document.places();
   scene.absolute_paths = absolute_paths_of(document);
   return scene;

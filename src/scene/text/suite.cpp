@@ -88,7 +88,7 @@ class SuiteReader {
     if (const auto index = root_.read_word("physics", kPhysicsAlone)) physics = PhysicsAlone(*index);
     suite_.physics_alone_fails = physics == PhysicsAlone::fail;
     read_own_settings();
-    root_.finish();
+    root_.finish("snapshots");
     check_together();
     make_pictures();
     problems_.throw_if_any();

@@ -1,0 +1,107 @@
+// What people write and mean otherwise: it is said, or done.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/json.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+const std::string kChain = "model: {links: [0.5, 0.4], masses: [2, 1]}\n";
+
+TEST(Meant, EquationsAreInTheFormOfTheirFilesEnding) {
+  const TemporaryFolder folder;
+  const auto text_in = [&](const std::string& name, const Words& more = {}) {
+    const ProgramResult result = run_program(with({"equations", "models/rr.urdf", "-o", folder.file(name)}, more));
+    return result.status == 0 ? read_whole_file(folder.file(name)) : result.err;
+  };
+  EXPECT_THAT(text_in("a.tex"), HasSubstr("\\begin{"));
+  EXPECT_THAT(text_in("a.py"), HasSubstr("def "));
+  EXPECT_THAT(text_in("a.json"), StartsWith("{"));
+  EXPECT_THAT(text_in("a.txt"), Not(HasSubstr("\\begin{")));
+  EXPECT_THAT(text_in("b.tex", {"--python"}), HasSubstr("take one of them"));
+  EXPECT_THAT(text_in("a.dat"), HasSubstr("give it the ending .tex, .py, .json or .txt"));
+}
+
+TEST(Meant, AnAngleOfAHundredTurnsIsNoneOfATable) {
+  const TemporaryFolder folder;
+  const std::string table = folder.write("dh.csv", "a,alpha,d,theta\n0.5,90,0,0\n0.4,0,0,0\n");
+  const ProgramResult made = run_program({"init", folder.file("arm"), "--dh", table});
+  EXPECT_EQ(made.status, 3);
+  EXPECT_THAT(made.err, HasSubstr("dh.csv:2: 90 is in radians, 14.3 turns: for degrees write 90deg, for radians 90rad"));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("arm.urdf")));
+  const std::string scene = folder.write("a.yaml", "model: {dh: [[0.5, 90, 0, 0], [0.4, 0, 0, 0]]}\n");
+  EXPECT_THAT(run_program({"check", scene}).err, HasSubstr("for degrees write 90deg"));
+  for (const char* good : {"90deg", "90rad", "1.5"}) {
+    const std::string well = folder.write("b.yaml", std::string("model: {dh: [[0.5, ") + good + ", 0, 0], [0.4, 0, 0, 0]]}\n");
+    EXPECT_EQ(run_program({"check", well}).status, 0) << good;
+  }
+}
+
+// A chain of one's own has the torques that one asks for.
+TEST(Meant, AChainInNumbersMovesFreely) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"init", folder.file("arm"), "--links", "0.5,0.4", "--masses", "2,1"}).status, 0);
+  const ProgramResult run = run_program({"simulate", folder.file("arm.yaml"), "--json", "-o", folder.file("a.csv"), "--set", "duration=1",
+                                         "--columns", "t,tau"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(read_whole_file(folder.file("a.csv")), Not(testing::ContainsRegex("\n[0-9.]+,[^\n]*[1-9]\n")));
+  ASSERT_EQ(run_program({"init", folder.file("start")}).status, 0);
+  EXPECT_THAT(read_whole_file(folder.file("start.yaml")), HasSubstr("\ntorque:")) << "an example has one";
+}
+
+TEST(Meant, SizeAndRateOfASmallClipAreSaid) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("a.yaml", kChain + "duration: 0.2\nvideo: {width: 1280, height: 720, fps: 60}\n");
+  const ProgramResult made = run_program({"render", scene, "-o", folder.file("a.gif"), "--json"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.err, HasSubstr("a.gif has 800x450 pixels and 20 frames/s, as .gif files are at most 25 frames/s and 800 pixels wide"));
+  const Json clip = Json::parse(made.out).at(0).at("small_clips").at(0);
+  EXPECT_EQ(clip["width"], 800);
+  EXPECT_EQ(clip["height"], 450);
+  EXPECT_EQ(clip["fps"], 20);
+  EXPECT_EQ(clip["frames"], 4);
+  const ProgramResult small = run_program({"render", scene, "-o", folder.file("b.gif"), "--set", "video={width: 64, height: 36, fps: 20}"});
+  EXPECT_THAT(small.err, Not(HasSubstr("note:"))) << "negative control";
+}
+
+TEST(Meant, APictureOfWhatIsOverIsSaidToBe) {
+  const TemporaryFolder folder;
+  const std::string scene =
+      folder.write("a.yaml", kChain + "duration: 2\nevents: [{when: \"t - 0.5\", kind: stop, name: half}]\n");
+  const auto said = [&](const char* at) {
+    return run_program({"snapshot", scene, "--at", at, "--width", "64", "--height", "36", "-o", folder.file("a.png"), "--force"}).err;
+  };
+  EXPECT_THAT(said("1.5"), HasSubstr("a: every run had ended by t = 0.5 s: the picture for t = 1.5 s shows how"));
+  EXPECT_THAT(said("0.4"), Not(HasSubstr("had ended"))) << "negative control";
+}
+
+TEST(Meant, ATableOfMillisecondsIsDoubted) {
+  const TemporaryFolder folder;
+  const auto said = [&](const std::string& last) {
+    folder.write("log.csv", "t,tau1,tau2\n0,0,0\n" + last + ",1,1\n");
+    const std::string scene = folder.write("a.yaml", kChain + "duration: 2\ntorque: {csv: log.csv}\n");
+    return run_program({"simulate", scene, "-o", folder.file("a.csv"), "--force"}).err;
+  };
+  EXPECT_THAT(said("2000"), HasSubstr("goes on until 2000 s, of which the run of 2 s sees the beginning: are its times in seconds?"));
+  EXPECT_THAT(said("3"), Not(HasSubstr("in seconds?"))) << "negative control";
+}
+
+TEST(Meant, HelpHasThePagesThatLieBesideTheProgram) {
+  EXPECT_THAT(run_program({"help"}).out, AllOf(HasSubstr("snapshots"), HasSubstr("which-method"), HasSubstr("scene")));
+  EXPECT_THAT(run_program({"help", "suite"}).out, HasSubstr("poses:"));
+  EXPECT_EQ(run_program({"help", "suite"}).out, run_program({"help", "snapshots"}).out);
+}
+
+}  // namespace
+}  // namespace chainreel
