@@ -9,12 +9,12 @@ namespace {
 constexpr double kSameInstant = 1e-9;  // s of the film: a frame this close before a change stands on it
 constexpr double kRoundOff = 1e-12;    // of a sum of stretches: half a frame is half a frame
 
-// The slowest of those that hold at `t`; 1 where there is none.
-double speed_of(const std::vector<Stretch>& stretches, double t) {
-  double speed = 0;
+// The slowest of those that hold at `t`; one of speed 1 where there is none.
+Stretch slowest_of(const std::vector<Stretch>& stretches, double t) {
+  const Stretch* slowest = nullptr;
   for (const Stretch& one : stretches)
-    if (one.from <= t && t < one.until) speed = speed == 0 ? one.speed : std::min(speed, one.speed);
-  return speed == 0 ? 1 : speed;
+    if (one.from <= t && t < one.until && (slowest == nullptr || one.speed < slowest->speed)) slowest = &one;
+  return slowest != nullptr ? *slowest : Stretch{};
 }
 
 // Without overlaps, and neighbours of one speed as one.
@@ -26,16 +26,48 @@ std::vector<Stretch> merged(const std::vector<Stretch>& stretches, double durati
   std::vector<Stretch> all;
   for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
     if (!(bounds[i] < bounds[i + 1])) continue;
-    const double speed = speed_of(stretches, bounds[i]);
-    if (!all.empty() && all.back().speed == speed)
-      all.back().until = bounds[i + 1];
+    Stretch one = slowest_of(stretches, bounds[i]);
+    one.from = bounds[i];
+    one.until = bounds[i + 1];
+    if (!all.empty() && all.back().speed == one.speed)
+      all.back().until = one.until;
     else
-      all.push_back({bounds[i], bounds[i + 1], speed});
+      all.push_back(std::move(one));
   }
   return all;
 }
 
 }  // namespace
+
+double FilmClock::Piece::speed_at(double t) const {
+  return gain == 0 ? speed : std::sqrt(std::max(0.0, speed * speed + 2 * gain * (t - from)));
+}
+
+// (speed_at(t) - speed) / gain without its cancellation.
+double FilmClock::Piece::film_time(double t) const {
+  return film_from + (gain == 0 ? (t - from) / speed : 2 * (t - from) / (speed + speed_at(t)));
+}
+
+double FilmClock::Piece::time_at(double film) const {
+  const double since = std::max(0.0, film - film_from);
+  return from + since * speed + gain / 2 * since * since;
+}
+
+// The film's time is not yet in them.
+std::vector<FilmClock::Piece> FilmClock::pieces_of(const Stretch& one, double duration) {
+  const double ease = std::min(one.ease, (one.until - one.from) / 2);
+  if (!(ease > 0)) return {{one.from, 0, one.speed}};
+  const double gain = (1 - one.speed * one.speed) / (2 * ease);
+  std::vector<Piece> pieces;
+  double from = one.from;
+  if (one.from > 0) {
+    pieces.push_back({from, 0, 1, -gain});
+    from += ease;
+  }
+  pieces.push_back({from, 0, one.speed});
+  if (one.until < duration) pieces.push_back({one.until - ease, 0, one.speed, gain});
+  return pieces;
+}
 
 FilmClock::FilmClock(double duration, FrameRate fps, const std::vector<Stretch>& stretches, std::vector<Pause> pauses)
     : duration_(duration), fps_(fps) {
@@ -45,25 +77,29 @@ FilmClock::FilmClock(double duration, FrameRate fps, const std::vector<Stretch>&
   std::stable_sort(pauses.begin(), pauses.end(), [](const Pause& a, const Pause& b) { return a.at < b.at; });
   double film = 0;
   auto pause = pauses.begin();
-  const std::vector<Stretch> all = merged(stretches, duration);
-  if (!all.empty()) pieces_.clear();
-  for (const Stretch& one : all) {
-    pieces_.push_back({one.from, film, one.speed});
+  std::vector<Piece> all;
+  for (const Stretch& one : merged(stretches, duration)) {
+    for (const Piece& piece : pieces_of(one, duration)) all.push_back(piece);
     if (one.speed != 1) slow_.push_back(one);
-    double from = one.from;
-    for (; pause != pauses.end() && (pause->at < one.until || one.until >= duration); ++pause) {
-      film += (pause->at - from) / one.speed;
-      from = pause->at;
-      pieces_.push_back({from, film, 0});
-      film += pause->seconds;
-      pieces_.push_back({from, film, one.speed});
+  }
+  if (!all.empty()) pieces_.clear();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Piece piece = all[i];
+    const double until = i + 1 < all.size() ? all[i + 1].from : duration;
+    piece.film_from = film;
+    pieces_.push_back(piece);
+    for (; pause != pauses.end() && (pause->at < until || until >= duration); ++pause) {
+      const double stands = piece.film_time(pause->at);
+      pieces_.push_back({pause->at, stands, 0});
+      piece = {pause->at, stands + pause->seconds, piece.speed_at(pause->at), piece.gain};
+      pieces_.push_back(piece);
     }
-    film += (one.until - from) / one.speed;
+    film = piece.film_time(until);
   }
 }
 
 double FilmClock::film_seconds() const {
-  return pieces_.back().film_from + (duration_ - pieces_.back().from) / pieces_.back().speed;
+  return pieces_.back().film_time(duration_);
 }
 
 const FilmClock::Piece& FilmClock::piece_at(double t) const {
@@ -80,8 +116,7 @@ double FilmClock::time_of_frame(int k) const {
   const double film = frame_time(k, fps_);
   const auto next = std::upper_bound(pieces_.begin() + 1, pieces_.end(), film + kSameInstant,
                                      [](double now, const Piece& piece) { return now < piece.film_from; });
-  const Piece& piece = *(next - 1);
-  return piece.from + std::max(0.0, film - piece.film_from) * piece.speed;
+  return (next - 1)->time_at(film);
 }
 
 std::vector<double> FilmClock::frame_times() const {
@@ -91,8 +126,7 @@ std::vector<double> FilmClock::frame_times() const {
 }
 
 int FilmClock::frame_at(double t) const {
-  const Piece& piece = piece_at(t);  // behind pauses at t
-  const double film = piece.film_from + (t - piece.from) / piece.speed;
+  const double film = piece_at(t).film_time(t);  // behind pauses at t
   return int(std::floor(film * fps_.value() + kSameInstant));
 }
 
@@ -100,18 +134,24 @@ double FilmClock::film_time(double t) const {
   const auto standing = std::find_if(pieces_.begin(), pieces_.end(),
                                      [&](const Piece& piece) { return piece.speed == 0 && piece.from == t; });
   if (standing != pieces_.end()) return standing->film_from;
-  const Piece& piece = piece_at(t);
-  return piece.film_from + (t - piece.from) / piece.speed;
+  return piece_at(t).film_time(t);
 }
 
 double FilmClock::speed_at(double t) const {
-  return piece_at(t).speed;
+  return piece_at(t).speed_at(t);
+}
+
+const Stretch* FilmClock::stretch_at(double t) const {
+  for (const Stretch& one : slow_)
+    if (one.from <= t && t < one.until) return &one;
+  return nullptr;
 }
 
 double FilmClock::shortest_step() const {
   double slowest = pieces_.front().speed;
   for (const Piece& piece : pieces_)
     if (piece.speed > 0) slowest = std::min(slowest, piece.speed);
+  for (const Stretch& one : slow_) slowest = std::min(slowest, one.speed);
   return slowest / fps_.value();
 }
 

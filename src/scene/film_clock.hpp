@@ -1,14 +1,15 @@
 // Which instant of the motion each frame of a film shows, where `slow_motion:` lets parts of it pass slower
 // or faster.
 //
-// Film time is the integral of dt / speed over the motion, so that the motion's time is a piecewise linear
-// function of it. Frame k shows the instant that its own film time k / fps belongs to: a change of speed
-// takes effect on the first frame at or after it, and nothing is repeated but where `annotate:` lets the motion stand
-// still, a piece of speed 0. Without stretches frame k shows k
-// / fps to the last bit.
+// Film time is the integral of dt / speed over the motion. Frame k shows the instant that its own film time k / fps
+// belongs to: a change of speed takes effect on the first frame at or after it, and nothing is repeated but where
+// `annotate:` lets the motion stand still, a piece of speed 0. Where a stretch has an ease, the speed changes evenly in
+// film time over that part of the motion at either end, so that speed^2 is linear in the motion's time there.
+// Without stretches frame k shows k / fps to the last bit.
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/frame_rate.hpp"
@@ -24,6 +25,9 @@ inline constexpr double kMostFrames = 1e7;  // of a film: beyond, the scene is a
 struct Stretch {
   double from = 0, until = 0;
   double speed = 1;
+  // Within either end, s of the motion, on which the speed comes from 1 and goes back to it; not at the ends of the motion.
+  double ease = 0;
+  std::string cause = {};  // why the film has it by itself; "": the scene asks for it
   friend bool operator==(const Stretch&, const Stretch&) = default;
 };
 
@@ -36,7 +40,7 @@ class FilmClock {
  public:
   FilmClock() = default;  // speed 1 all the time; has no frames
   // Stretches and pauses in any order, as far as they lie within [0, duration]; where stretches overlap the slowest
-  // holds, and pauses at one instant add up.
+  // holds, and pauses at one instant add up. Stretches with an ease overlap no others.
   FilmClock(double duration, FrameRate fps, const std::vector<Stretch>& stretches = {}, std::vector<Pause> pauses = {});
 
   bool is_plain() const { return slow_.empty() && pieces_.size() == 1; }
@@ -52,14 +56,22 @@ class FilmClock {
 
   double film_time(double t) const;  // when the film comes to instant t of the motion, s
   double speed_at(double t) const;   // a stretch holds from its first instant on, and no more at its last
+  // The one that holds at t; null where the motion passes at its own speed.
+  const Stretch* stretch_at(double t) const;
   // How much of the motion lies between the two frames that are closest in it, s.
   double shortest_step() const;
 
  private:
+  // `speed` where it begins, and how that grows, 1/s of the film.
   struct Piece {
-    double from = 0, film_from = 0, speed = 1;
+    double from = 0, film_from = 0, speed = 1, gain = 0;
+
+    double speed_at(double t) const;
+    double film_time(double t) const;
+    double time_at(double film) const;
   };
   const Piece& piece_at(double t) const;
+  static std::vector<Piece> pieces_of(const Stretch& one, double duration);
 
   double duration_ = 0;
   FrameRate fps_;

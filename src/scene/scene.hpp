@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,6 +58,14 @@ struct SlowMotionEntry {
   std::string event;  // "": `from` and `until` are instants; else seconds from its instants on
   double from = 0, until = 0;  // s
   double speed = 1;   // 0.25: four times slower
+};
+
+// By which a film slows down where the scene names no stretches: see scene/slow_motion.
+struct SlowMotionRule {
+  double speed = 0.25;
+  double turn = std::numbers::pi / 12;        // rad a frame: of a link, beyond which it is slowed down
+  std::optional<double> around;  // s of the motion before and behind; absent: 0.2, at most a twentieth of the motion
+  bool is_asked = false;         // the scene says so, by whatever numbers
 };
 
 // Words that point at something, while the film stands still for a while.
@@ -118,6 +127,7 @@ struct Scene {
   double text_scale = 1;  // for clips used smaller than drawn
   Style style;            // of the house; what a file said of it stands here, too
   Video video;
+  std::optional<SlowMotionRule> slow_motion_rule = SlowMotionRule{};  // absent: the stretches below, or none
   std::vector<SlowMotionEntry> slow_motion;
   std::vector<AnnotationEntry> annotate;
   Hold hold;

@@ -166,7 +166,7 @@ void add_films(std::vector<AnyPicture>& list) {
                           {"torque.1=1,2", "torque.2=-1,1"}));
   list.push_back(frame_of("grid_twelve", "rr_torque", {}, {"torque.1=-1,0,1,2", "torque.2=-1,0,1"}));
   list.push_back(
-      frame_of("plots_right", "rrr_torque", {"plot=[energy, q, tau]", "layout=scene-right", forces}));
+      frame_of("plots_right", "rrr_torque", {"plot=[energy, q, tau]", "layout=scene-right", forces, "slow_motion=none"}));
   list.push_back(frame_of("plot_below", "rr_forces", {"plot=energy", "layout=scene-below"}));
   list.push_back(frame_of("compare_plot", "rr_torque", {"plot=energy"}, {"torque.1=2,-2"}));
   list.push_back(frame_of("arm_section", "arm_ellipsoid",

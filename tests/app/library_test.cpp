@@ -47,6 +47,17 @@ TEST(Library, AFunctionMovesAChainAsTheExpressionThatItIs) {
   EXPECT_NE(by_function.torques().back(), 0);
 }
 
+// Slow motion that nobody asked for is the film's: arrays are those of `simulate`.
+TEST(Library, ARunHasItsOwnTimeHoweverSlowItsFilmIs) {
+  const SceneRun fast({.path = "assets/scenes/rrr_torque.yaml", .overrides = {"duration=1"}});
+  const std::vector<double>& t = fast.trajectory().t;
+  ASSERT_EQ(t.size(), 61u);
+  for (std::size_t k = 0; k < t.size(); ++k) EXPECT_NEAR(t[k], double(k) / 60, 1e-15);
+  const SceneRun asked({.path = "assets/scenes/rrr_torque.yaml",
+                        .overrides = {"duration=1", "slow_motion=[{from: 0.5, until: 1, speed: 0.5}]"}});
+  EXPECT_EQ(asked.trajectory().t.size(), 91u) << "what the scene asks for is part of it";
+}
+
 TEST(Library, WhatAFunctionThrowsIsThrown) {
   for (const char* method : {"rk4", "auto"}) {
     SceneRequest request = scene_of({std::string("method=") + method, "step="});

@@ -433,7 +433,7 @@ TEST(Outputs, AQualityThatNoFileHasIsSaid) {
 // One may be read: an event a millisecond behind another shares its caption, one half a second behind it has its own.
 TEST(Outputs, CaptionsStandForAsLongAsOneReadsThem) {
   const TemporaryFolder folder;
-  ASSERT_EQ(render({"--set", "duration=3", "--set",
+  ASSERT_EQ(render({"--set", "duration=3", "--set", "slow_motion=none", "--set",
                     "events=[{when: t - 0.5, name: a}, {when: t - 0.501, name: b}, {when: t - 1, name: c}, {when: t - 1.6, name: d}]", "-o",
                     folder.file("a.gif")})
                 .status,
@@ -445,7 +445,7 @@ TEST(Outputs, CaptionsStandForAsLongAsOneReadsThem) {
 TEST(Outputs, EventsAreCaptions) {
   const TemporaryFolder folder;
   const ProgramResult result =
-      render({"--set",
+      render({"--set", "slow_motion=none", "--set",
               "events=[{when: \"t > 0.05\", name: \"a > b\"}, {when: \"t > 0.15\", name: late}, {when: \"t > "
               "9\", name: never}]",
               "--hold", "{first: 1}", "-o", folder.file("a.mp4"), "-o", folder.file("a.gif")});

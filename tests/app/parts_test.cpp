@@ -93,13 +93,14 @@ class Parts : public ::testing::Test {
  protected:
   // Renders into `folder` and expects it to go well.
   static void render(const std::string& output, const Words& more = {}) {
-    const ProgramResult result = run_program(render_of("rr_ellipse", with({"--set", kEvents, "-o", output}, more)));
+    const ProgramResult result = run_program(render_of("rr_ellipse", with({"--set", kEvents, "--set", kPlainSpeed, "-o", output}, more)));
     ASSERT_EQ(result.status, 0) << result.err;
   }
   static ProgramResult join(const Words& parts, const std::string& output) {
     return run_program(with(with({"join"}, parts), {"--quiet", "-o", output}));
   }
   static constexpr const char* kEvents = "events=[{when: \"t - 1\", name: half}]";
+  static constexpr const char* kPlainSpeed = "slow_motion=none";  // 128 frames, also about the event
 };
 
 TEST_F(Parts, JoinedAreTheWholeFilmByteForByte) {
@@ -178,7 +179,7 @@ TEST_F(Parts, OfAnotherFilmOrTooFewAreRefused) {
   EXPECT_THAT(trouble({first, folder.file("c.part-2-of-2.mp4")}), HasSubstr("its scene differs"));
   EXPECT_THAT(trouble({first, folder.file("d.part-2-of-2.mp4")}), HasSubstr("quality"));
   EXPECT_THAT(trouble({first, folder.write("e.mp4", "no film")}), HasSubstr("is no film"));
-  ASSERT_EQ(run_program(render_of("rr_ellipse", {"--set", kEvents, "-o", folder.file("h.mp4"), "--shard", "2/2"}),
+  ASSERT_EQ(run_program(render_of("rr_ellipse", {"--set", kEvents, "--set", kPlainSpeed, "-o", folder.file("h.mp4"), "--shard", "2/2"}),
                         {.environment = {{"GALLIUM_DRIVER", "softpipe"}}})
                 .status,
             0);

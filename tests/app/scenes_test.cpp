@@ -167,7 +167,7 @@ struct TwoPages {
       overrides.insert(overrides.end(), more.begin(), more.end());
       const PreparedFilm film = load_film("assets/scenes/" + name + ".yaml", overrides);
       const Runs runs(film);
-      const Film pictures = runs.pictures(film.scene.video.fps.num * 2, fonts);
+      const Film pictures = runs.pictures(runs.clock().frame_count(), fonts);
       (scales.empty() ? area : whole) = pictures.scene_area();
       scales.push_back(pictures.camera().scale);
     }

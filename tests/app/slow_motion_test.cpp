@@ -11,6 +11,7 @@
 #include "app/film/runs.hpp"
 #include "app/film/target.hpp"
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "core/json.hpp"
 #include "encode/png.hpp"
 #include "support/picture_compare.hpp"
@@ -34,6 +35,8 @@ constexpr char kFalling[] = "model: " CHAINREEL_SOURCE_FOLDER
 constexpr char kSlow[] = "slow_motion: [{from: 0.1, until: 0.2, speed: 0.25}]\n";
 // From 0.05 s before the event to as long after it ten times slower: 0.4 + 1 s.
 constexpr char kAround[] = "slow_motion: [{event: half, from: -0.05, until: 0.05, speed: 0.1}]\n";
+// Not even about the events.
+constexpr char kNone[] = "slow_motion: none\n";
 const double kHalf = std::sqrt(1 / 9.81);
 
 std::vector<std::vector<double>> table_of(const std::string& csv) {
@@ -91,13 +94,13 @@ TEST_F(SlowMotionFilm, IsSampledAnewFromTheMotion) {
   }
   EXPECT_EQ(rows.back()[0], 0.5);
   // Negative control.
-  render("", {"mp4", "csv"});
+  render(kNone, {"mp4", "csv"});
   EXPECT_EQ(probe_video(file("mp4")).frames, 30);
   EXPECT_EQ(table_of(text("csv")).size(), 31u);
 }
 
 TEST_F(SlowMotionFilm, FollowsAnEventThatOnlyTheRunKnows) {
-  const Json plain = render("", {"mp4"});
+  const Json plain = render(kNone, {"mp4"});
   const Json audit = render(kAround, {"mp4", "csv"});
   EXPECT_EQ(probe_video(file("mp4")).frames, 84);
   ASSERT_EQ(audit["slow_motion"].size(), 1u);
@@ -139,7 +142,7 @@ TEST_F(SlowMotionFilm, SaysSoBesideTheTimeForAsLongAsItHolds) {
   EXPECT_THAT(words_at("0.199"), HasSubstr("0.25\u00D7"));
   EXPECT_THAT(words_at("0.099"), testing::AllOf(Not(HasSubstr("\u00D7")), HasSubstr("t = 0.099 s")));
   EXPECT_THAT(words_at("0.2"), Not(HasSubstr("\u00D7")));
-  EXPECT_THAT(words_at("0.15", ""), testing::AllOf(Not(HasSubstr("\u00D7")), HasSubstr("t = 0.15 s")));
+  EXPECT_THAT(words_at("0.15", kNone), testing::AllOf(Not(HasSubstr("\u00D7")), HasSubstr("t = 0.15 s")));
   EXPECT_THAT(words_at("0.15", "slow_motion: [{from: 0, until: 0.5, speed: 4}]\n"),
               testing::AllOf(HasSubstr("4\u00D7"), HasSubstr("t = 0.15 s")));
 }
@@ -170,7 +173,7 @@ TEST_F(SlowMotionFilm, IsCountedByCheckAndOfNoMatterToSimulate) {
   };
   EXPECT_EQ(Json::parse(checked(kAround).out)["cost"]["frames"], 84);
   EXPECT_THAT(checked(kAround).out, HasSubstr("slow_motion: ["));
-  EXPECT_EQ(Json::parse(checked("").out)["cost"]["frames"], 30);
+  EXPECT_EQ(Json::parse(checked(kNone).out)["cost"]["frames"], 30);
   // Only the run can tell how long that gets.
   const ProgramResult endless = checked("slow_motion: [{event: half, from: -1, until: 1000, speed: 0.001}]\n",
                                         {"--set", "duration=100", "--set", "video.fps=240"});
@@ -203,10 +206,10 @@ TEST_F(SlowMotionFilm, HoldsAndSmallClipsGoByTheTimeOfTheFilm) {
 }
 
 TEST_F(SlowMotionFilm, TheTableOfAFilmEndsWhereThatOfARunDoes) {
-  const Json audit = render("", {"csv"});
-  const std::string states = run_program({"simulate", scene(""), "-o", "-", "--quiet"}).out;
+  const Json audit = render(kNone, {"csv"});
+  const std::string states = run_program({"simulate", scene(kNone), "-o", "-", "--quiet"}).out;
   EXPECT_EQ(text("csv"), states);
-  const ProgramResult run = run_program({"simulate", scene(""), "-o", file("b.csv"), "--json", "--quiet"});
+  const ProgramResult run = run_program({"simulate", scene(kNone), "-o", file("b.csv"), "--json", "--quiet"});
   EXPECT_EQ(Json::parse(run.out)["trajectory_sha256"], audit["trajectory_sha256"]);
 }
 
@@ -235,6 +238,7 @@ TEST_F(SlowMotionFilm, LooksLikeItsGolden) {
 
 // Stands still at the event for 0.4 s, and at 0.4 s for 0.2 s.
 constexpr char kWords[] =
+    "slow_motion: none\n"
     "annotate: [{event: half, text: \"half a metre\", point: gripper, hold: 0.4s}, "
     "{at: 0.4s, text: \"$g t^2 / 2$\", point: [0.2, -0.5], hold: 0.2s}, {event: late, text: late, point: gripper, hold: 0}]\n";
 
@@ -249,7 +253,7 @@ TEST_F(SlowMotionFilm, StandsStillForWordsWhichItsAuditAndItsTextTell) {
   EXPECT_NEAR(double(audit["pauses"][1]["film_from"]), 0.8, 1e-9) << "behind the first pause";
   EXPECT_FALSE(audit.contains("slow_motion"));
   EXPECT_THAT(text("txt"), HasSubstr("stands still at t = 0.319275 s for 0.4 s, at 0.4 s for 0.2 s"));
-  EXPECT_FALSE(render("", {"gif"}).contains("pauses"));
+  EXPECT_FALSE(render(kNone, {"gif"}).contains("pauses"));
 }
 
 TEST_F(SlowMotionFilm, ItsTableHasEachInstantOnce) {
@@ -283,6 +287,103 @@ TEST_F(SlowMotionFilm, APictureOfAnInstantAtWhichItStandsStillHasTheWords) {
   EXPECT_THAT(picture("0"), Not(HasSubstr("half a metre"))) << "they come 0.3 s before";
   EXPECT_THAT(picture("event half"), HasSubstr("half a metre"));
   EXPECT_THAT(picture("event half", ""), Not(HasSubstr("half a metre")));
+}
+
+// By itself: 0.05 s, a tenth of the motion, before and behind `half`. With `late`, which is near and would be one with it, the
+// film would be more than twice as long as the motion.
+constexpr char kAuto[] = "";
+
+TEST_F(SlowMotionFilm, IsThereByItselfAboutEventsAndSaysSo) {
+  const Json audit = render(kAuto, {"mp4", "csv"});
+  ASSERT_EQ(audit["slow_motion"].size(), 1u) << audit["slow_motion"].dump();
+  const Json& half = audit["slow_motion"][0];
+  EXPECT_NEAR(half["from"].get<double>(), kHalf - 0.05, 1e-11);
+  EXPECT_NEAR(half["until"].get<double>(), kHalf + 0.05, 1e-11);
+  EXPECT_EQ(half["speed"], 0.25);
+  EXPECT_EQ(half["ease"], 0.025);
+  EXPECT_EQ(half["because"], "'half'");
+  // A quarter of the speed for half of it; as long as 1 / 0.625 of the motion where it changes.
+  EXPECT_NEAR(half["film_until"].get<double>() - half["film_from"].get<double>(), 0.05 / 0.25 + 0.05 / 0.625, 1e-9);
+  EXPECT_EQ(probe_video(file("mp4")).frames, audit["frames"]);
+  EXPECT_EQ(table_of(text("csv")).size(), audit["frames"].get<std::size_t>() + 1) << "a row a frame, and the end";
+  EXPECT_THAT(text("txt"), HasSubstr("s at 0.25\u00D7 ('half')"));
+  const ProgramResult loud = run_program({"render", file("yaml"), "-o", file("csv"), "--force"});
+  EXPECT_THAT(loud.err, HasSubstr("falls: in slow motion: t = 0.269275 s to 0.369275 s at 0.25\u00D7 ('half')"));
+  EXPECT_THAT(loud.err, HasSubstr("slow_motion=none takes that away"));
+  const ProgramResult check = run_program({"check", file("yaml"), "--json"});
+  EXPECT_EQ(Json::parse(check.out)["cost"]["frames"], audit["frames"]);
+  EXPECT_EQ(Json::parse(check.out)["slow_motion"][0]["because"], "'half'");
+  EXPECT_THAT(run_program({"check", file("yaml")}).out, HasSubstr("slow motion from t = 0.269275 s"));
+  EXPECT_FALSE(render(kNone, {"mp4"}).contains("slow_motion"));
+}
+
+TEST_F(SlowMotionFilm, ByItselfShowsTheSameInstantsAsPicturesAndParts) {
+  // Two groups of pictures, so that there are two parts.
+  const std::vector<std::string> longer{"--set", "duration=3", "--quiet"};
+  const auto run = [&](std::vector<std::string> words) {
+    words.insert(words.end(), longer.begin(), longer.end());
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.status, 0) << result.err;
+  };
+  render(kAuto, {"mp4", "csv"}, longer);
+  const std::string whole = text("mp4"), still = folder_.file("still.png");
+  // Frame 12 lies where the speed changes.
+  const double t = table_of(text("csv"))[12][0];
+  run({"render", file("yaml"), "--frames", "12:13", "-o", folder_.file("f_000000.png")});
+  run({"snapshot", file("yaml"), "--at", format_shortest(t), "-o", still});
+  EXPECT_EQ(read_png(folder_.file("f_000012.png")).bgra, read_png(still).bgra);
+  for (const char* shard : {"1/2", "2/2"}) run({"render", file("yaml"), "--shard", shard, "-o", folder_.file("part.mp4")});
+  std::vector<std::string> join{"join", "-o", folder_.file("joined.mp4"), "--quiet"};
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+    if (entry.path().filename().string().starts_with("part.")) join.push_back(entry.path().string());
+  const ProgramResult joined = run_program(join);
+  ASSERT_EQ(joined.status, 0) << joined.err;
+  EXPECT_TRUE(read_whole_file(folder_.file("joined.mp4")) == whole);
+}
+
+TEST_F(SlowMotionFilm, ByItselfIsThatOfAllPanelsButNotOfThoseThatGoWild) {
+  // The second falls slower: through -0.5 m at 0.85 s.
+  const Json both = render("compare: [{title: a}, {title: b, gravity: [0, -1.384083045, 0]}]\n", {"gif"},
+                           {"--set", "duration=1", "--set", "events=[{when: \"q2 < -0.5\", name: half}]"});
+  ASSERT_EQ(both["slow_motion"].size(), 2u) << both["slow_motion"].dump();
+  EXPECT_NEAR(both["slow_motion"][1]["from"].get<double>(), 0.75, 1e-8);
+  EXPECT_EQ(both["slow_motion"][1]["because"], "'half'");
+  const Json wild = render("compare: [{title: a, events: []}, {title: b, torque: [0, \"1e6 * q2 * abs(q2)\"], expect: diverge}]\n", {"gif"});
+  EXPECT_FALSE(wild.contains("slow_motion")) << wild["slow_motion"].dump();
+  EXPECT_EQ(wild["frames"], 30);
+}
+
+TEST_F(SlowMotionFilm, ByItselfIsNotWhereNoWordsCanSaySo) {
+  const auto frames = [&](const std::string& more) {
+    return Json::parse(run_program({"check", scene(more), "--json"}).out)["cost"]["frames"].get<int>();
+  };
+  EXPECT_EQ(frames("layout: transparent\n"), 30);
+  EXPECT_GT(frames("layout: transparent\nslow_motion: {}\n"), 30) << "unless it is asked for";
+  EXPECT_GT(frames(kAuto), 30);
+}
+
+TEST(OwnSlowMotionOfScenes, IsWhereLinksTurnTooFastAndNowhereElse) {
+  const auto checked = [](const std::string& scene, const std::vector<std::string>& options = {}) {
+    std::vector<std::string> command{"check", "assets/scenes/" + scene + ".yaml", "--json"};
+    for (const std::string& option : options) command.insert(command.end(), {"--set", option});
+    return Json::parse(run_program(command).out);
+  };
+  for (const char* calm : {"rr_free", "rr_torque", "big_steps", "pen", "euler_gains_energy"}) {
+    const Json json = checked(calm);
+    EXPECT_FALSE(json.contains("slow_motion")) << calm;
+  }
+  EXPECT_EQ(checked("rr_free")["cost"]["frames"], 600);
+  // Nearly all of it is too fast: slow where that begins, and twice as long as the motion.
+  const Json fast = checked("rrr_torque");
+  ASSERT_EQ(fast["slow_motion"].size(), 1u);
+  EXPECT_LT(fast["slow_motion"][0]["from"].get<double>(), 0.5);
+  EXPECT_EQ(fast["cost"]["frames"], 600);
+  EXPECT_EQ(fast["slow_motion"][0]["because"], "a link turns more than 15 degrees a frame");
+  EXPECT_FALSE(checked("rrr_torque", {"slow_motion=none"}).contains("slow_motion"));
+  EXPECT_FALSE(checked("rrr_torque", {"slow_motion={turn: 90deg}"}).contains("slow_motion"));
+  // A whirl of a few frames: so it is shown.
+  EXPECT_EQ(checked("rrr_free")["slow_motion"].size(), 5u);
+  EXPECT_EQ(checked("redundant")["slow_motion"].size(), 1u);
 }
 
 }  // namespace

@@ -52,7 +52,8 @@ class GalleryPage : public ::testing::Test {
     const auto render = [](const std::string& scene, const std::string& seconds, const std::string& title) {
       must_run(with_size({"render", "assets/scenes/" + scene + ".yaml", "-o", folder_->file(scene + ".mp4"),
                           "--quiet", "--set", "video.fps=30", "--set", "duration=" + seconds, "--set",
-                          "title=" + Json(title).dump()}));
+                          "title=" + Json(title).dump(), "--set", "slow_motion=none", "--set",
+                          "events=" + std::string(scene == "rr_ellipse" ? "[{when: \"t > 0.75\", name: late}]" : "[]")}));
     };
     render("rr_ellipse", "1", "An ellipse");
     render("rr_free", "1.5", kHostileTitle);
@@ -200,6 +201,91 @@ TEST_F(GalleryPage, IsPlayedByTheKeyboard) {
     return [second, hidden, start, shown, plays];
   )js");
   EXPECT_EQ(went, (Json{1, true, 0, true, true}));
+}
+
+// The first film has an event at 0.75 s; the others have none. `poster_time` has tests of its own: here the picture is what counts.
+TEST_F(GalleryPage, ShowsTheEventOrTwoFifthsOfTheFilmUntilItIsPlayed) {
+  browser().open("file://" + page());
+  const Json off = browser().run_async(R"js(
+    const pixels = (source) => {
+      const canvas = document.createElement('canvas');
+      canvas.width = 320; canvas.height = 180;
+      const pen = canvas.getContext('2d');
+      pen.drawImage(source, 0, 0, 320, 180);
+      return pen.getImageData(0, 0, 320, 180).data;
+    };
+    const off = [];
+    for (const [i, video] of [...document.querySelectorAll('video')].entries()) {
+      const poster = new Image();
+      poster.src = video.poster;
+      await poster.decode();
+      const wanted = pixels(poster);
+      const at = async (seconds) => {
+        const there = new Promise((done) => video.addEventListener('seeked', done, {once: true}));
+        video.currentTime = seconds;
+        await there;
+        const shown = pixels(video);
+        let sum = 0;
+        for (let k = 0; k < shown.length; ++k) sum += Math.abs(shown[k] - wanted[k]);
+        return sum / shown.length;
+      };
+      if (video.readyState < 2) await new Promise((done) => video.addEventListener('loadeddata', done, {once: true}));
+      const middle = 0.5 / 30;  // of a frame
+      off.push([await at([0.75, 0.6, 0.8][i] + middle), await at(0.2), await at([0.4, 1.2, 1.6][i])]);
+    }
+    return off;
+  )js");
+  ASSERT_EQ(off.size(), 3u);
+  for (const Json& one : off) {
+    // The poster is larger than the film is encoded with, and H.264 blurs: half a level. A motion of some frames is several times that.
+    EXPECT_LT(one[0].get<double>(), 1.5) << off.dump();
+    EXPECT_GT(one[1].get<double>(), 1.5 * one[0].get<double>()) << off.dump();
+    EXPECT_GT(one[2].get<double>(), 1.5 * one[0].get<double>()) << off.dump();
+  }
+}
+
+TEST_F(GalleryPage, ReadsWellOnAPhone) {
+  browser().resize(390, 844);
+  browser().open("file://" + page());
+  const Json found = browser().run(R"js(
+    for (const details of document.querySelectorAll('details')) details.open = true;
+    const small = [], wide = [], pale = [];
+    const luminance = (color) => {
+      const [r, g, b] = color.match(/[\d.]+/g).map((c) => { c /= 255; return c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4; });
+      return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    };
+    const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+      const element = node.parentElement, box = element.getBoundingClientRect(), style = getComputedStyle(element);
+      if (!node.data.trim() || box.width === 0 || ['SCRIPT', 'STYLE'].includes(element.tagName)) continue;
+      if (parseFloat(style.fontSize) < 13) small.push(element.className || element.tagName);
+      if (box.right > 390.5 && !element.closest('.wide, pre')) wide.push(element.className || element.tagName);
+      const [a, b] = [luminance(style.color), 1].sort();
+      if (!element.closest('pre') && (b + 0.05) / (a + 0.05) < 4.5) pale.push(element.className || element.tagName);
+    }
+    const film = document.querySelector('.film').getBoundingClientRect();
+    return {small, wide, pale, share: film.width / 390, words: walker.root.innerText.length};
+  )js");
+  EXPECT_EQ(found["small"], Json::array());
+  EXPECT_EQ(found["wide"], Json::array());
+  EXPECT_EQ(found["pale"], Json::array());
+  EXPECT_GT(found["share"].get<double>(), 0.9) << "the film has the width";
+  EXPECT_GT(found["words"].get<int>(), 1000) << "and there are words that were looked at";
+}
+
+TEST_F(GalleryPage, ItsButtonsAreReachedByTheTabKeyInTheirOrder) {
+  browser().open("file://" + page());
+  const Json order = browser().run(
+      "const film = document.querySelector('.film');"
+      "return [...film.querySelectorAll('video, button, input')].filter((e) => !e.hidden && e.tabIndex >= 0)"
+      ".map((e) => e.className || e.tagName.toLowerCase() + (e.ariaLabel ? '' : ' ?'))");
+  // Each of them has a name that is read out; the film's is its title.
+  EXPECT_EQ(order[0], "video ?");
+  EXPECT_EQ(order[1], "start");
+  EXPECT_EQ(order[2], "play");
+  EXPECT_EQ(order[3], "input");
+  EXPECT_EQ(browser().run("return document.getElementById(document.querySelector('video').getAttribute('aria-labelledby')).textContent"),
+            "An ellipse");
 }
 
 // Negative controls: the same check finds what is wrong on purpose.

@@ -226,7 +226,8 @@ void check_scene(const CheckOptions& options) {
   const PreparedFilm film = load_film(options.file, overrides_of(options.common), true, options.common.quiet);
   if (options.all && std::none_of(film.panels.begin(), film.panels.end(), [](const PreparedScene& panel) { return panel.choice.has_value(); }))
     throw Error(ExitCode::usage, "--all shows what `method: auto` tried, and the scene names its method or shows a recorded motion: take --set method=auto --set motion=");
-  const int frames = clock_of(film).frame_count();
+  const FilmClock clock = clock_of(film);
+  const int frames = clock.frame_count();
   std::vector<ExaminedRun> reports;
   for (const PreparedScene& panel : film.panels) {
     say_notices(panel, false);
@@ -240,6 +241,7 @@ void check_scene(const CheckOptions& options) {
     for (std::size_t i = 0; i < reports.size() && !alone; ++i)
       json["panels"].push_back(
           {{"title", film.panels[i].scene.title}, {"model", reports[i].model}, {"cost", reports[i].cost}});
+    for (const Stretch& one : clock.stretches()) json["slow_motion"].push_back(to_json(one));
     print_json(json);
     return;
   }
@@ -249,6 +251,8 @@ void check_scene(const CheckOptions& options) {
       std::printf("%spanel %d: %s\n", i > 0 ? "\n" : "", int(i) + 1, film.panels[i].scene.title.c_str());
     print_run(film.panels[i], reports[i], options.all);
   }
+  for (const Stretch& one : clock.stretches())
+    std::printf("slow motion from %s\n", to_words(one).c_str());
 }
 
 void check_model(const CheckOptions& options) {

@@ -1,11 +1,13 @@
 #include "app/film/runs.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "app/cli/streams.hpp"
 #include "app/film/progress.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "scene/slow_motion.hpp"
 
 namespace chainreel {
 namespace {
@@ -30,20 +32,64 @@ std::vector<double> shown_times(const std::vector<Trajectory>& runs, const std::
   return shown;
 }
 
-}  // namespace
+// A trajectory a panel, at these instants; unless it is only looked at for the clock, with its energy at steps.
+enum class RunUse { whole, for_clock };
+std::vector<Trajectory> runs_of(const PreparedFilm& film, const std::vector<double>& times, RunUse use = RunUse::whole) {
+  std::vector<Trajectory> list;
+  Ticker ticker(film.quiet);
+  for (const PreparedScene& panel : film.panels) {
+    const auto part_of_all = [&](double t) {
+      return (double(list.size()) + part_done(panel.simulation, t)) / double(film.panels.size());
+    };
+    const auto stop = [&](double t) {
+      if (ticker.is_due()) ticker.say(simulating_text(film, panel), part_of_all(t));
+      return interrupted();
+    };
+    list.push_back(use == RunUse::whole ? simulate_audited(panel.simulation, times, stop) : simulate(panel.simulation, times, stop));
+    throw_if_interrupted();
+  }
+  return list;
+}
 
-FilmClock clock_of(const PreparedFilm& film) {
+// Whether the film must know its motion to find out where it is slow by itself. Not where no words can say that it is,
+// unless the scene asks for it.
+bool may_slow_down(const PreparedFilm& film) {
+  const std::optional<SlowMotionRule>& rule = film.scene.slow_motion_rule;
+  if (!rule || (is_transparent(film.scene) && !rule->is_asked)) return false;
+  return std::any_of(film.panels.begin(), film.panels.end(), [](const PreparedScene& panel) {
+    return may_be_hasty(panel.scene, panel.simulation.chain);
+  });
+}
+
+// By the runs of all panels at the frames of their own speed.
+std::vector<Stretch> own_stretches(const PreparedFilm& film, const std::vector<Trajectory>& runs) {
+  const SlowMotionRule& rule = *film.scene.slow_motion_rule;
+  std::vector<Haste> events, turns;
+  double end = 0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const PreparedScene& panel = film.panels[i];
+    std::ranges::move(notable_instants(panel.scene.events, runs[i]), std::back_inserter(events));
+    std::ranges::move(fast_turns(panel.simulation.chain, runs[i], rule.turn, film.scene.video.fps), std::back_inserter(turns));
+    if (is_complete(runs[i].status)) end = std::max(end, runs[i].end_time);
+  }
+  return end > 0 ? stretches_by(rule, end, events, turns) : std::vector<Stretch>{};
+}
+
+// `runs`: as above; null where none was needed for that.
+FilmClock clock_after(const PreparedFilm& film, const std::vector<Trajectory>* runs) {
   const Scene& scene = film.scene;
   const PreparedScene& first = film.panels.front();
   EventHits hits;
   const auto is_of_event = [](const auto& entry) { return !entry.event.empty(); };
-  if (std::any_of(scene.slow_motion.begin(), scene.slow_motion.end(), is_of_event) ||
-      std::any_of(scene.annotate.begin(), scene.annotate.end(), is_of_event)) {
+  if (runs != nullptr) {
+    hits = runs->front().events;
+  } else if (std::any_of(scene.slow_motion.begin(), scene.slow_motion.end(), is_of_event) ||
+             std::any_of(scene.annotate.begin(), scene.annotate.end(), is_of_event)) {
     hits = simulate(first.simulation, {}, [](double) { return interrupted(); }).events;
     throw_if_interrupted();
   }
   const FilmClock clock(scene.duration, scene.video.fps,
-                        stretches_of(scene.slow_motion, first.scene.events, hits),
+                        runs != nullptr ? own_stretches(film, *runs) : stretches_of(scene.slow_motion, first.scene.events, hits),
                         pauses_of(scene.annotate, first.scene.events, hits));
   if (clock.is_plain()) return clock;
   const double frames = clock.film_seconds() * scene.video.fps.value();
@@ -56,6 +102,18 @@ FilmClock clock_of(const PreparedFilm& film) {
   return clock;
 }
 
+}  // namespace
+
+std::vector<double> plain_times(const PreparedFilm& film) {
+  return with_end(frame_times(film.scene), film);
+}
+
+FilmClock clock_of(const PreparedFilm& film) {
+  if (!may_slow_down(film)) return clock_after(film, nullptr);
+  const std::vector<Trajectory> runs = runs_of(film, plain_times(film), RunUse::for_clock);
+  return clock_after(film, &runs);
+}
+
 std::string simulating_text(const PreparedFilm& film, const PreparedScene& panel) {
   return film.scene.name + ": simulating" + (film.panels.size() == 1 ? "" : " '" + panel.scene.title + "'");
 }
@@ -64,23 +122,21 @@ double part_done(const Simulation& simulation, double t) {
   return simulation.duration > 0 ? std::clamp(t / simulation.duration, 0.0, 1.0) : 0;
 }
 
-Runs::Runs(const PreparedFilm& film) : Runs(film, clock_of(film), {}) {}
+Runs::Runs(const PreparedFilm& film) : film_(film) {
+  if (may_slow_down(film)) {
+    times_ = plain_times(film);
+    list_ = runs_of(film, times_);
+    clock_ = clock_after(film, &list_);
+    if (clock_.is_plain()) return;  // these are its frames
+  } else {
+    clock_ = clock_after(film, nullptr);
+  }
+  times_ = with_end(clock_.frame_times(), film);
+  list_ = runs_of(film, times_);
+}
 
 Runs::Runs(const PreparedFilm& film, FilmClock clock, std::vector<double> times)
-    : film_(film), clock_(std::move(clock)), times_(std::move(times)) {
-  if (times_.empty()) times_ = with_end(clock_.frame_times(), film);
-  Ticker ticker(film.quiet);
-  for (const PreparedScene& panel : film.panels) {
-    const auto part_of_all = [&](double t) {
-      return (double(list_.size()) + part_done(panel.simulation, t)) / double(film.panels.size());
-    };
-    list_.push_back(simulate_audited(panel.simulation, times_, [&](double t) {
-      if (ticker.is_due()) ticker.say(simulating_text(film, panel), part_of_all(t));
-      return interrupted();
-    }));
-    throw_if_interrupted();
-  }
-}
+    : film_(film), clock_(std::move(clock)), times_(std::move(times)), list_(runs_of(film, times_)) {}
 
 int Runs::frames_shown(int frames) const {
   int shown = 0;

@@ -13,9 +13,13 @@
 
 namespace chainreel {
 
-// Which instant each frame shows. Slow motion about events follows those of the first panel, whose run is computed for
-// them. Throws Error (exit 7) where the film would be too long, (bad input) where it would be empty.
+// Which instant each frame shows. Slow motion that a scene asks for follows the events of the first panel; where the film
+// has it by itself, the runs of all panels are looked at. They are computed for that. Throws Error (exit 7) where the
+// film would be too long, (bad input) where it would be empty.
 FilmClock clock_of(const PreparedFilm& film);
+
+// 0, 1/fps, 2/fps, .. and the end of the motion, however slow its film is.
+std::vector<double> plain_times(const PreparedFilm& film);
 
 // A trajectory a panel, sampled at the same instants; the film must outlive them. Runs that fail are kept as far as they
 // came. The constructors throw what clock_of throws, and the signal's Error.

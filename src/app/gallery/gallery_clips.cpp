@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/input_file.hpp"
+#include "scene/film_clock.hpp"
 
 namespace chainreel {
 namespace {
@@ -125,15 +126,30 @@ void add_charts(std::vector<GalleryClip>& clips) {
   }
 }
 
+// The film's, as its audit tells of it; of a motion that came to `end`.
+FilmClock clock_of(const Json& audit, double end) {
+  std::vector<Stretch> stretches;
+  for (const Json& slow : audit.value("slow_motion", Json::array()))
+    stretches.push_back({slow.at("from").get<double>(), slow.at("until").get<double>(), slow.at("speed").get<double>(),
+                         slow.value("ease", 0.0)});
+  for (const Stretch& one : stretches) end = std::max(end, one.until);
+  std::vector<Pause> pauses;
+  for (const Json& pause : audit.value("pauses", Json::array()))
+    pauses.push_back({pause.at("at").get<double>(), pause.at("seconds").get<double>()});
+  return FilmClock(end, {}, stretches, pauses);
+}
+
 }  // namespace
 
 double poster_time(const Json& audit, double film_seconds) {
   const double otherwise = kTellingShare * film_seconds;
   try {
     std::optional<double> last;  // of the motion
+    double end = 0;
     const auto look = [&](const Json& run) {
       for (const Json& event : run.value("events", Json::array()))
         last = std::max(last.value_or(0), event.at("t").get<double>());
+      end = std::max({end, last.value_or(0), run.value("end_time", 0.0)});
     };
     look(audit);
     for (const Json& panel : audit.value("panels", Json::array())) look(panel);
@@ -141,13 +157,7 @@ double poster_time(const Json& audit, double film_seconds) {
     double held = 0;
     if (audit.contains("held_frames"))
       held = audit["held_frames"].at("first").get<double>() * film_seconds / audit.at("frames").get<double>();
-    double film = held + *last;
-    for (const Json& slow : audit.value("slow_motion", Json::array())) {
-      const double from = slow.at("from").get<double>(), until = slow.at("until").get<double>();
-      if (*last < from) continue;
-      film = *last <= until ? slow.at("film_from").get<double>() + (*last - from) / slow.at("speed").get<double>()
-                            : slow.at("film_until").get<double>() + *last - until;
-    }
+    const double film = held + clock_of(audit, end).film_time(*last);
     return film >= 0 && film <= film_seconds ? film : otherwise;
   } catch (const Json::exception&) {
     return otherwise;  // an audit of a strange kind

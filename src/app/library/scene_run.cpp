@@ -44,7 +44,7 @@ void require_rising(const std::vector<double>& times, double duration) {
 
 struct SceneRun::State {
   std::shared_ptr<std::exception_ptr> failure;  // of the scene's torque function
-  bool has_times = false;                       // of the caller, which are not the film's
+  bool has_times = false;                       // of the run, which are not the film's
   PreparedFilm film{};
   std::optional<Runs> runs{};
   std::vector<Courses> courses{};
@@ -122,9 +122,14 @@ SceneRun::SceneRun(SceneRequest request, std::vector<double> times) : state_(std
     state.film = film_of(scene_of(request), true, true, std::move(request.torque));
     require_rising(times, state.film.scene.duration);
     if (state.has_times)
-      state.runs.emplace(state.film, clock_of(state.film), std::move(times));
+      state.runs.emplace(state.film, FilmClock(state.film.scene.duration, state.film.scene.video.fps), std::move(times));
     else
       state.runs.emplace(state.film);
+    // Slow motion that nobody asked for is the film's, no part of the motion.
+    if (!state.has_times && state.film.scene.slow_motion_rule && !state.runs->clock().stretches().empty()) {
+      state.runs.emplace(state.film, FilmClock(state.film.scene.duration, state.film.scene.video.fps), plain_times(state.film));
+      state.has_times = true;
+    }
     state.throw_failure();
     state.runs->require_expected_ends();
   });

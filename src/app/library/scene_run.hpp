@@ -46,7 +46,8 @@ struct EnergyCourse {
 // All of it may be asked for by several threads, one after the other. Everything throws Error.
 class SceneRun {
  public:
-  // Reads, checks and runs the scene, sampled at the frames of its film and at the end of its motion; or at `times`, which rise
+  // Reads, checks and runs the scene, sampled at the frames of its film, but for slow motion that the
+  // film has by itself, and at the end of its motion; or at `times`, which rise
   // within its duration. Throws Error where it cannot be read or does not end as the scene expects, and what the torque
   // function threw.
   explicit SceneRun(SceneRequest request, std::vector<double> times = {});

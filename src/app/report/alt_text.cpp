@@ -114,8 +114,7 @@ std::string srt_time(double t) {
 std::string speed_words(const FilmReport& report) {
   std::vector<std::string> stretches;
   for (const Stretch& one : report.slow_motion)
-    stretches.push_back("t = " + format_significant(one.from, 6) + " s to " + format_significant(one.until, 6) +
-                        " s at " + speed_text(one.speed));
+    stretches.push_back(to_words(one));
   return stretches.empty() ? "" : "; not at its own speed: " + joined(stretches);
 }
 

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/film/compose.hpp"
+#include "draw/layers/speed_box.hpp"
 #include "render/canvas.hpp"
 #include "scene/run/fall.hpp"
 #include "sim/drive/recorded_motion.hpp"
@@ -155,6 +156,19 @@ double held_first(const Scene& scene) {
   return frame_time(frame_count(scene.hold.first, scene.video.fps), scene.video.fps);
 }
 
+Json to_json(const Stretch& one) {
+  Json json{{"from", one.from}, {"until", one.until}, {"speed", one.speed}};
+  if (one.cause.empty()) return json;
+  json["ease"] = one.ease;
+  json["because"] = one.cause;
+  return json;
+}
+
+std::string to_words(const Stretch& one) {
+  return "t = " + format_significant(one.from, 6) + " s to " + format_significant(one.until, 6) + " s at " + speed_text(one.speed) +
+         (one.cause.empty() ? "" : " (" + one.cause + ")");
+}
+
 FilmReport film_report(const Runs& runs, const Film& pictures, int frames) {
   FilmReport report{runs, {}, frames, pictures.clock(), {}, {}, Writes::films, pictures.left_out()};
   double end = 0;
@@ -164,7 +178,10 @@ FilmReport film_report(const Runs& runs, const Film& pictures, int frames) {
     end = std::max(end, runs[i].end_time);
   }
   for (const Stretch& one : report.clock.stretches())
-    if (one.from < end) report.slow_motion.push_back({one.from, std::min(one.until, end), one.speed});
+    if (one.from < end) {
+      report.slow_motion.push_back(one);
+      report.slow_motion.back().until = std::min(one.until, end);
+    }
   const Scene& page = report.film().scene;
   for (const Pause& one : pauses_of(page.annotate, report.film().panels.front().scene.events, runs[0].events))
     if (one.seconds > 0 && one.at <= end) report.pauses.push_back(one);
@@ -196,15 +213,15 @@ Json to_json(const FilmReport& report) {
   json["film_seconds"] = report.film_seconds();
   if (!report.left_out.empty()) json["left_out"] = report.left_out;
   if (const Json style = style_report(scene); !style.is_null()) json["style"] = style;
-  if (!scene.slow_motion.empty()) {
+  if (!scene.slow_motion.empty() || !report.slow_motion.empty()) {
     const double held = held_first(scene);
     json["slow_motion"] = Json::array();
-    for (const Stretch& one : report.slow_motion)
-      json["slow_motion"].push_back({{"from", one.from},
-                                     {"until", one.until},
-                                     {"speed", one.speed},
-                                     {"film_from", held + report.clock.film_time(one.from)},
-                                     {"film_until", held + report.clock.film_time(one.until)}});
+    for (const Stretch& one : report.slow_motion) {
+      Json entry = to_json(one);
+      entry["film_from"] = held + report.clock.film_time(one.from);
+      entry["film_until"] = held + report.clock.film_time(one.until);
+      json["slow_motion"].push_back(std::move(entry));
+    }
   }
   if (!scene.annotate.empty()) {
     json["pauses"] = Json::array();

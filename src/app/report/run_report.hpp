@@ -28,6 +28,10 @@ RunReport run_report(const PreparedScene& prepared, const Trajectory& trajectory
 std::string title_of(const RunReport& run);  // the scene's, with what it leaves open: when it falls
 Json to_json(const RunReport& report);
 
+// A stretch of slow motion with its reason, if the film has it by itself; "t = 1 s to 1.5 s at 0.25x ('touch')".
+Json to_json(const Stretch& one);
+std::string to_words(const Stretch& one);
+
 struct FilmReport {
   const Runs& runs;
   std::vector<RunReport> panels;

@@ -59,11 +59,27 @@ void add_missing_events(const Runs& runs, std::vector<std::string>& notes) {
       notes.push_back(film.scene.name + ": '" + entry.text + "' is not said, as '" + entry.event + "' does not happen");
 }
 
+// Slow motion that nobody asked for, and how to be without it; or that there is none by the scene's own numbers.
+void add_own_slow_motion(const FilmReport& report, std::vector<std::string>& notes) {
+  const Scene& scene = report.film().scene;
+  if (!scene.slow_motion_rule) return;
+  if (scene.slow_motion_rule->is_asked) {
+    if (report.slow_motion.empty())
+      notes.push_back(scene.name + ": no slow motion: nothing turns that fast and no event happens, or the film would be more than twice as long as its motion");
+    return;
+  }
+  std::vector<std::string> stretches;
+  for (const Stretch& one : report.slow_motion) stretches.push_back(to_words(one));
+  if (!stretches.empty())
+    notes.push_back(scene.name + ": in slow motion: " + joined(stretches) + "; slow_motion=none takes that away");
+}
+
 // What is to be said of a film that became what it is, to its caller or on standard error.
 void tell(const FilmReport& report, const RenderJob& job, RenderResult& result) {
   const Scene& page = report.film().scene;
   add_stops(report.runs, result.notes);
   add_missing_events(report.runs, result.notes);
+  add_own_slow_motion(report, result.notes);
   result.warnings = warning_lines(report);
   if (job.tells) {
     tell_warnings(result.warnings);

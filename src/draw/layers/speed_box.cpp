@@ -40,7 +40,8 @@ class TimeLayer : public Layer {
 };
 
 // "0.25x" in a rounded box beside the time, for as long as the film shows the motion slower or faster than it was; as
-// wide as the widest of the film's speeds asks for, so that nothing moves when they change.
+// wide as the widest of the film's speeds asks for, so that nothing moves when they change. It comes and goes with its speed
+// where that changes over several frames.
 class SpeedBox : public Layer {
  public:
   explicit SpeedBox(const Stage& stage) : stage_(&stage), text_size_(scaled(size::kAxis, stage.page.text_scale)) {
@@ -54,17 +55,20 @@ class SpeedBox : public Layer {
   void write(SheetText& text) const override { text.beside_time = width_; }
 
   void draw_page(Picture& picture, const SharedPage& page, int k) const override {
-    const double speed = stage_->clock.speed_at(stage_->times[std::size_t(k)]);
-    if (stage_->clock.is_plain() || speed == 1) return;
+    const double t = stage_->times[std::size_t(k)];
+    const Stretch* stretch = stage_->clock.stretch_at(t);
+    if (stretch == nullptr) return;
+    const double opacity = std::clamp((1 - stage_->clock.speed_at(t)) / (1 - stretch->speed), 0.0, 1.0);
+    if (!(opacity > 0)) return;
     const Theme& theme = stage_->theme;
     const Point right = page.sheet.time_left;  // its right end, on the base line of the text beside it
     const double r = kBoxHeight * text_size_ / 2, middle = right.y + kCapHeight / 2 * text_size_;
     picture.add(Capsule{{right.x - width_ + r, middle},
                         {right.x - r, middle},
                         r,
-                        {theme.background, theme.ink, size::kLinkOutline}});
-    const TextStyle style{Face::label, text_size_, theme.ink, Align::center};
-    draw_text(picture, lay_out_text(stage_->fonts, speed_text(speed), style), {right.x - width_ / 2, right.y});
+                        {theme.background.faded(opacity), theme.ink.faded(opacity), size::kLinkOutline}});
+    const TextStyle style{Face::label, text_size_, theme.ink.faded(opacity), Align::center};
+    draw_text(picture, lay_out_text(stage_->fonts, speed_text(stretch->speed), style), {right.x - width_ / 2, right.y});
   }
 
  private:

@@ -49,7 +49,7 @@ class Scene:
         return f"<chainreel.Scene {self._path!r}>"
 
     def run(self, times: Optional[ArrayLike] = None) -> "Run":
-        """Runs it, at the frames of its film and at the end of its motion, or sampled at `times` (s, rising).
+        """Runs it, at the frames of its film (but for slow motion that it has by itself) and at the end, or sampled at `times` (s, rising).
 
         Throws Error, with file and line, of whatever is wrong with the scene, and where the run does not end as the scene
         expects; what the torque function raises is raised. What speaks against the run is a RunWarning. Other threads go on.

@@ -219,7 +219,7 @@ std::vector<Chapter> chapters() {
             .flag(FlagGroup::output, "--crf"),
         Row(told_slow_motion(), read_slow_motion, slow_motion_text)
             .example("slow_motion: [{from: 1s, until: 1.5s, speed: 0.25}]")
-            .absent("none")
+            .absent("auto")
             .of_page(),
         Row(told_annotate(), read_annotate, annotate_text)
             .example("annotate: [{at: 1.2s, text: \"heaviest along the arm\", point: gripper, hold: 1s}]")

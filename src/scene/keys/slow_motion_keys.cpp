@@ -1,6 +1,7 @@
 // The key slow_motion.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "scene/film_clock.hpp"
 #include "scene/keys/own_keys.hpp"
@@ -9,6 +10,10 @@ namespace chainreel {
 namespace {
 
 constexpr const char* kExample = "{from: 1s, until: 1.5s, speed: 0.25}";
+constexpr Name kWords[] = {{"auto", "slower where a link turns fast and about events, where the picture has words to say so"},
+                           {"none", "nowhere"}};
+constexpr double kLeastSlow = 0.9;  // beyond, it is no slow motion
+constexpr KeyRange kSpeeds{kSlowest, kLeastSlow}, kTurns{0, std::numbers::pi, true}, kArounds{0, 1000, true};
 
 // One entry of the list; `key` is its dotted path.
 class StretchReader {
@@ -105,11 +110,43 @@ void check_length(Fields& fields, const YAML::Node& node, const Scene& scene) {
                           fields.place_of(node, "slow_motion"));
 }
 
+// Null where something is wrong that has been told.
+std::optional<SlowMotionRule> read_rule(Fields& fields, const YAML::Node& node) {
+  SlowMotionRule rule;
+  rule.is_asked = true;
+  Fields inner(fields.document(), node, "slow_motion", fields.problems());
+  bool is_right = true;
+  const auto within = [&](const char* key, const KeyRange& range, double value, const char* unit) {
+    if (range.holds(value)) return;
+    inner.problem_at(key, "'slow_motion." + std::string(key) + "' must lie " + range_text(range, unit));
+    is_right = false;
+  };
+  if (inner.read("speed", rule.speed)) within("speed", kSpeeds, rule.speed, "");
+  if (inner.read("turn", rule.turn)) within("turn", kTurns, rule.turn, "rad");
+  double around = 0;
+  if (inner.read_seconds("around", around)) {
+    rule.around = around;
+    within("around", kArounds, around, "s");
+  }
+  inner.finish();
+  return is_right ? std::optional(rule) : std::nullopt;
+}
+
+std::string rule_text(const SlowMotionRule& rule) {
+  return flow_text([&](YAML::Emitter& out) {
+    out << YAML::Flow << YAML::BeginMap;
+    out << YAML::Key << "speed" << YAML::Value << format_shortest(rule.speed);
+    out << YAML::Key << "turn" << YAML::Value << format_shortest(rule.turn);
+    if (rule.around) out << YAML::Key << "around" << YAML::Value << format_shortest(*rule.around);
+    out << YAML::EndMap;
+  });
+}
+
 }  // namespace
 
 KeyText told_slow_motion() {
-  return told_list("slow_motion",
-                   told_record("",
+  KeyText list =
+      told_list("", told_record("",
                                {told("event", KeyForm::text, "a name of `events:`; `from` and `until` are seconds from its "
                                                           "instants on, before it with a minus"),
                                 told("from", KeyForm::number, "the first instant").in("s").required(),
@@ -118,11 +155,24 @@ KeyText told_slow_motion() {
                                     .within({kSlowest, kFastest})
                                     .required()},
                                "a stretch"),
-                   "stretches of the motion that the film shows slower, or faster");
+                "stretches of the motion");
+  KeyText rule = told_record(
+      "",
+      {told("speed", KeyForm::number, "0.25 where it is left out").within(kSpeeds),
+       told("turn", KeyForm::number, "how far a link may turn from frame to frame; 15deg where it is left out").in("rad").within(kTurns),
+       told("around", KeyForm::number, "of the motion before and behind what is slowed down, half of which the speed takes to change; "
+                                       "0.2, at most a tenth of the motion, where it is left out")
+           .in("s")
+           .within(kArounds)},
+      "as auto, with numbers of its own");
+  return told_either("slow_motion", {told_word("", kWords, ""), std::move(rule), std::move(list)},
+                     "where the film shows the motion slower, or faster, than it was");
 }
 
 std::string slow_motion_text(const Scene& scene) {
-  if (scene.slow_motion.empty()) return "";
+  if (scene.slow_motion_rule && scene.slow_motion_rule->is_asked) return rule_text(*scene.slow_motion_rule);
+  if (scene.slow_motion_rule) return kWords[0].name;
+  if (scene.slow_motion.empty()) return kWords[1].name;
   return flow_text([&](YAML::Emitter& out) {
     out << YAML::Flow << YAML::BeginSeq;
     for (const SlowMotionEntry& one : scene.slow_motion) {
@@ -139,12 +189,17 @@ std::string slow_motion_text(const Scene& scene) {
 void read_slow_motion(Fields& fields, Scene& scene) {
   const YAML::Node node = fields.find("slow_motion");
   if (!node.IsDefined() || node.IsNull()) return;
-  if (!node.IsSequence()) {
-    fields.problems().add(std::string("'slow_motion' must be a list of stretches: [") + kExample +
-                              ", {event: NAME, from: -0.2s, until: 0.3s, speed: 0.1}]",
-                          fields.place_of(node, "slow_motion"));
+  if (node.IsScalar() && node.Scalar() == kWords[0].name) return;
+  if (node.IsMap()) {
+    scene.slow_motion_rule = read_rule(fields, node);
     return;
   }
+  scene.slow_motion_rule.reset();
+  if (node.IsScalar() && node.Scalar() == kWords[1].name) return;
+  if (!node.IsSequence())
+    return fields.problem_at("slow_motion", std::string("'slow_motion' must be auto, none, numbers for what is slowed down by itself: "
+                                                        "{speed: 0.25, turn: 15deg}, or a list of stretches: [") +
+                                                kExample + ", {event: NAME, from: -0.2s, until: 0.3s, speed: 0.1}]");
   for (std::size_t i = 0; i < node.size(); ++i) {
     const std::string key = "slow_motion." + std::to_string(i + 1);
     SlowMotionEntry entry;
