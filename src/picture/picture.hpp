@@ -41,6 +41,8 @@ struct Solid {
   std::array<double, 12>
       to_view{};  // rows of the 3x4 matrix from the mesh's coordinates; a pose, scales are the mesh's own
   std::optional<Color> color;  // instead of the mesh's own
+  // Of each vertex of the mesh, how much of the sky it sees, 255: all of what is above its surface. None: all do.
+  std::shared_ptr<const std::vector<std::uint8_t>> openness{};
 };
 
 struct Solids {

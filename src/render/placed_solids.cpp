@@ -16,13 +16,24 @@ constexpr double kFringe = 1;             // px around bodies and their line tha
 constexpr std::int32_t kOut = std::numeric_limits<std::int32_t>::min();  // in a vertex's place that it has none
 
 // One key light from the upper left in front, one weak fill from the right. Surfaces that turn away from the
-// viewer darken, so that a white body has an edge on a white page.
-Float4 light(Float4 x, Float4 y, Float4 z) {
+// viewer darken, so that a white body has an edge on a white page. `open`: to how much of the sky, of which comes what is no
+// key light; that is dimmed half as much, since openings are seen from where it comes.
+Float4 light(Float4 x, Float4 y, Float4 z, Float4 open) {
   const Float4 none = all4(0.0F);
   const Float4 key = most(-0.485F * x + 0.647F * y + 0.588F * z, none);
   const Float4 fill = most(0.700F * x - 0.140F * y + 0.700F * z, none);
   const Float4 facing = 0.62F + 0.38F * most(z, none);
-  return least(all4(1.0F), (0.43F + (0.52F * key + 0.18F * fill)) * facing + 0.08F);
+  const Float4 lamps = 0.5F + 0.5F * open;
+  return least(all4(1.0F), (0.43F * open + (0.52F * key + 0.18F * fill) * lamps) * facing + 0.08F * open);
+}
+
+// Of four vertices, 0 to 1.
+Float4 openness_at(const Solid& solid, std::size_t first) {
+  if (!solid.openness) return all4(1.0F);
+  const std::vector<std::uint8_t>& all = *solid.openness;
+  std::array<std::uint8_t, 4> own{};
+  std::copy_n(&all[first], std::min<std::size_t>(4, all.size() - first), own.begin());
+  return unpacked(load4<std::uint32_t>(own.data())) / 255.0F;
 }
 
 // To the nearest whole number; of less than 2^22.
@@ -44,7 +55,7 @@ std::uint32_t bytes_of(const Color& color) {
 }
 
 bool is_same(const Solid& a, const Solid& b) {
-  return a.mesh == b.mesh && a.to_view == b.to_view && a.color == b.color;
+  return a.mesh == b.mesh && a.to_view == b.to_view && a.color == b.color && a.openness == b.openness;
 }
 
 // But for their parts.
@@ -173,7 +184,7 @@ void PlacedSolids::place_vertices(const Part& part) {
     if (!solids.is_shadow) {
       const Float4 nx = at(mesh.normal[0]), ny = at(mesh.normal[1]), nz = at(mesh.normal[2]);
       const auto turned = [&](std::size_t r) { return m[r] * nx + m[r + 1] * ny + m[r + 2] * nz; };
-      const Float4 level = light(turned(0), turned(4), turned(8));
+      const Float4 level = light(turned(0), turned(4), turned(8), openness_at(part.solid, i));
       const Int4 bytes = part.color ? color : load4<Int4>(&mesh.color[i]);
       color = bytes & std::int32_t(0xff000000U);
       for (int c = 0; c < 3; ++c) {

@@ -28,7 +28,7 @@ bool is_drawable(const Solids& solids) {
       !std::all_of(solids.nearing.begin(), solids.nearing.end(), good) || !good(solids.opacity) || !good(solids.outline_width))
     return false;
   return std::all_of(solids.parts.begin(), solids.parts.end(), [&](const Solid& solid) {
-    return solid.mesh && std::all_of(solid.to_view.begin(), solid.to_view.end(), good);
+    return solid.mesh && (!solid.openness || solid.openness->size() == solid.mesh->vertices.size()) && std::all_of(solid.to_view.begin(), solid.to_view.end(), good);
   });
 }
 

@@ -17,7 +17,7 @@ struct MeshBounds {
 };
 MeshBounds bounds_of(const TriangleMesh& mesh);
 
-// All numbers are finite and all parts have a mesh. Whether its indices are right is seen when it is drawn.
+// All numbers are finite, all parts have a mesh, and as many numbers of its vertices as there are, if any. Whether its indices are right is seen when it is drawn.
 bool is_drawable(const Solids& solids);
 
 // The triangles in another order.

@@ -33,6 +33,7 @@ PixelBox SolidLayer::tiles_around(const PixelBox& box, double rim, const SampleG
 void SolidLayer::fill(const PlacedSolids& placed, double rim, const std::vector<PixelBox>& boxes) {
   const SampleGrid& grid = placed.grid();
   const int side = grid.tile_side(), side_there = side / grid.pixels;
+  const bool is_shadow = placed.traces().solids.is_shadow;  // of which only how much is covered is asked
   const PixelBox all = tiles_around(box_around(boxes), rim, grid);
   samples_.reset({all.x / grid.pixels, all.y / grid.pixels, all.width / grid.pixels, all.height / grid.pixels}, 2 * grid.cells);
   const int columns = all.width / side;
@@ -51,7 +52,7 @@ void SolidLayer::fill(const PlacedSolids& placed, double rim, const std::vector<
       placed.draw(x, y, tile_);
       const int width = samples_.box.width;
       tile_.resolve(grid.cells, &samples_.pixels[std::size_t(row * side_there) * std::size_t(width) + std::size_t(column * side_there)], width,
-                    &samples_.bits[std::size_t(row * 2 * kTileCells) * std::size_t(columns) + std::size_t(column)], columns);
+                    is_shadow ? nullptr : &samples_.bits[std::size_t(row * 2 * kTileCells) * std::size_t(columns) + std::size_t(column)], columns);
     }
 }
 

@@ -207,13 +207,16 @@ void TileSamples::resolve(int per_pixel, std::uint32_t* pixels, std::ptrdiff_t p
     for (int column = 0; column < kTileCells; ++column) {
       const std::uint32_t* const samples = &samples_.color[std::size_t(4) * std::size_t(row * kTileCells + column)];
       const Int4 cell = load4<Int4>(samples);
-      const unsigned is_body = bits_of((cell & std::int32_t(0xff000000U)) != 0);
-      upper |= std::uint64_t(is_body & 3) << (2 * column);
-      lower |= std::uint64_t(is_body >> 2) << (2 * column);
+      if (bits != nullptr) {
+        const unsigned is_body = bits_of((cell & std::int32_t(0xff000000U)) != 0);
+        upper |= std::uint64_t(is_body & 3) << (2 * column);
+        lower |= std::uint64_t(is_body >> 2) << (2 * column);
+      }
       if (per_pixel > 1) continue;
       const bool is_even = bits_of(cell == all4(cell[0])) == 15;
       pixels[row * pixel_stride + column] = is_even ? samples[0] : mean_of<4>({samples[0], samples[1], samples[2], samples[3]});
     }
+    if (bits == nullptr) continue;
     bits[2 * row * bit_stride] = upper;
     bits[(2 * row + 1) * bit_stride] = lower;
   }

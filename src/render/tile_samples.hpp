@@ -76,7 +76,7 @@ class TileSamples {
   }
 
   // The means of each `per_pixel` x `per_pixel` cells, which is 1 or 2, into rows of pixels, and of each row of samples a word with a bit for each
-  // that shows a body.
+  // that shows a body, if `bits` is not null.
   void resolve(int per_pixel, std::uint32_t* pixels, std::ptrdiff_t pixel_stride, std::uint64_t* bits,
                std::ptrdiff_t bit_stride) const;
 

@@ -37,7 +37,7 @@ Mesh cube(double edge) {
 
 // At (x, y, z) of the view, upright.
 Solid at(const Mesh& mesh, double x, double y, double z, std::optional<Color> color = {}) {
-  return {mesh, {1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z}, color};
+  return {mesh, {1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z}, color, {}};
 }
 
 // A metre is 64 px, and the view's origin the middle of the page.
@@ -55,6 +55,22 @@ Solids silhouette(std::vector<Solid> parts, double nearness = 0) {
   solids.is_shadow = true;
   solids.outline = kBlack;
   return solids;
+}
+
+TEST(Solids, AreDarkerWhereTheySeeLessOfTheSky) {
+  const Mesh mesh = cube(1);
+  Solid part = at(mesh, 0, 0, 0);
+  const auto middle = [&](std::optional<int> openness) {
+    part.openness = openness ? std::make_shared<const std::vector<std::uint8_t>>(mesh->vertices.size(), std::uint8_t(*openness)) : nullptr;
+    const Image image = draw_items({scene({part})});
+    return int(image.at(image.width / 2, image.height / 2).g);
+  };
+  EXPECT_EQ(middle(255), middle(std::nullopt));
+  EXPECT_LT(middle(128), middle(255) - 30);
+  EXPECT_LT(middle(0), middle(128) - 30);
+  // Numbers of another mesh are not believed.
+  part.openness = std::make_shared<const std::vector<std::uint8_t>>(3, std::uint8_t(0));
+  EXPECT_FALSE(is_drawable(scene({part})));
 }
 
 TEST(Solids, CoverTheAreaOfTheirOutline) {

@@ -9,6 +9,7 @@
 #include "core/format.hpp"
 #include "core/machine.hpp"
 #include "core/parallel.hpp"
+#include "draw/robot/daylight.hpp"
 #include "draw/robot/made_bodies.hpp"
 #include "mesh/primitives.hpp"
 
@@ -44,19 +45,20 @@ void stretch(TriangleMesh& mesh, const Vector3d& scale) {
 // farther.
 std::vector<Vector3d> corners_of(const TriangleMesh& mesh) {
   std::set<std::size_t> farthest;
-  for (int x = -1; x <= 1; ++x)
-    for (int y = -1; y <= 1; ++y)
-      for (int z = -1; z <= 1; ++z) {
-        if (x == 0 && y == 0 && z == 0) continue;
-        const Vector3d direction(x, y, z);
-        std::size_t best = 0;
-        double most = -HUGE_VAL;
-        for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-          const double reach = direction.dot(position(mesh.vertices[v]));
-          if (reach > most) most = reach, best = v;
-        }
-        if (!mesh.vertices.empty()) farthest.insert(best);
-      }
+  std::array<double, 13> most, least;  // along the half of them; the others are opposite
+  std::array<std::size_t, 13> at_most{}, at_least{};
+  most.fill(-HUGE_VAL), least.fill(HUGE_VAL);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vector3d p = position(mesh.vertices[v]);
+    const double x = p[0], y = p[1], z = p[2];
+    const std::array<double, 13> reach = {x, y, z, x + y, x - y, y + z, y - z, x + z, x - z, x + y + z, x + y - z, x - y + z, x - y - z};
+    for (std::size_t i = 0; i < reach.size(); ++i) {
+      if (reach[i] > most[i]) most[i] = reach[i], at_most[i] = v;
+      if (reach[i] < least[i]) least[i] = reach[i], at_least[i] = v;
+    }
+  }
+  if (!mesh.vertices.empty())
+    for (const auto* found : {&at_most, &at_least}) farthest.insert(found->begin(), found->end());
   std::vector<Vector3d> corners;
   for (const std::size_t v : farthest) corners.push_back(position(mesh.vertices[v]));
   return corners;
@@ -144,7 +146,7 @@ BodyShapes load_body_shapes(const std::vector<Visual>& visuals, MeshUp up, MeshS
   ExitCode code = ExitCode::bad_input;
   shelf.read_ahead(visuals, up);
   for (const Visual& visual : visuals) {
-    BodyShape shape{visual.body, visual.X_BV, nullptr, std::nullopt, {}};
+    BodyShape shape{visual.body, visual.X_BV, nullptr, std::nullopt, {}, nullptr, nullptr};
     try {
       shape.mesh = shelf.mesh_of(visual, up);
     } catch (const Error& error) {
@@ -215,6 +217,7 @@ std::shared_ptr<const BodyShapes> shapes_for(const BodyLook& look, const ModelSo
   if (look.links == LinkShapes::automatic && !any_moves) {
     BodyShapes made = made_bodies(chain);
     if (made.shapes.empty()) return nullptr;
+    put_in_daylight(made, chain);
     return std::make_shared<const BodyShapes>(std::move(made));
   }
   if (visuals.empty())
@@ -224,6 +227,7 @@ std::shared_ptr<const BodyShapes> shapes_for(const BodyLook& look, const ModelSo
         look.place);
   BodyShapes shapes = load_body_shapes(visuals, look.mesh_up, shelf);
   if (look.links == LinkShapes::automatic && any_moves && are_of_one_grey(shapes)) tint_in_turn(shapes, chain);
+  put_in_daylight(shapes, chain);
   return std::make_shared<const BodyShapes>(std::move(shapes));
 }
 
@@ -248,7 +252,7 @@ Solids solids_seen_by(const Camera& camera) {
 void add_bodies(Solids& solids, const BodyShapes& shapes, const Workspace& ws, const Camera& camera) {
   for (const BodyShape& shape : shapes.shapes) {
     const Eigen::Affine3d X_WM(pose_of(ws, shape.body) * shape.X_BM);
-    solids.parts.push_back({shape.mesh, to_view(camera, X_WM), shape.color});
+    solids.parts.push_back({shape.lit ? shape.lit : shape.mesh, to_view(camera, X_WM), shape.color, shape.openness});
   }
 }
 
@@ -258,7 +262,7 @@ void add_shadows(Solids& solids, const BodyShapes& shapes, const Workspace& ws, 
   onto_ground.linear() -= up * up.transpose();
   for (const BodyShape& shape : shapes.shapes) {
     const Eigen::Affine3d X_WM(pose_of(ws, shape.body) * shape.X_BM);
-    solids.parts.push_back({shape.mesh, to_view(camera, onto_ground * X_WM), std::nullopt});
+    solids.parts.push_back({shape.mesh, to_view(camera, onto_ground * X_WM), std::nullopt, nullptr});
   }
 }
 

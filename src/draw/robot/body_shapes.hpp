@@ -24,6 +24,8 @@ struct BodyShape {
   std::optional<Color> color;  // instead of the mesh's own
   std::vector<Eigen::Vector3d>
       corners;  // in the body's frame: vertices that lie farthest out in many directions
+  std::shared_ptr<const TriangleMesh> lit;  // the same surface, of finer triangles where need be, with the openness of its vertices
+  std::shared_ptr<const std::vector<std::uint8_t>> openness;  // (draw/robot/daylight); without them, none is in any shade
 };
 
 struct BodyShapes {

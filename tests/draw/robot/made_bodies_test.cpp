@@ -8,6 +8,7 @@
 #include <regex>
 #include <string>
 
+#include "dynamics/kinematics.hpp"
 #include "mesh/primitives.hpp"
 #include "render/solid_bounds.hpp"
 #include "support/temporary_folder.hpp"
