@@ -40,7 +40,7 @@ using StyleColors = std::map<std::string, std::vector<std::uint32_t>>;
 
 struct Style {
   StyleColors light, dark;  // of the theme of that name
-  double lines = 1;         // times the widths of outlines, curves and ellipses
+  double lines = 1;         // times the widths of outlines, curves, ellipses, trails and the shafts of arrows
   StyleFonts fonts;
   std::optional<Logo> logo;
 

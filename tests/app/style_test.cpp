@@ -68,6 +68,19 @@ TEST_F(HouseStyleFilm, TellsWhichFontsStandInForScriptsThatItsOwnLack) {
   EXPECT_TRUE(report_of("\u03c4 \u00e9").value("style", Json()).is_null()) << "these are the program's own";
 }
 
+TEST_F(HouseStyleFilm, LogoStandsOnFiguresAndChartsToo) {
+  write("logo.svg", colored_square("#12AB34"));
+  const std::string style = "style=" + write("lab.yaml", "logo: {file: logo.svg}\n"), svg = folder_.file("a.svg");
+  const Words scene{kStyledScene, "--set", "duration=0.5"};
+  for (const Words& words : {with({"snapshot"}, scene), Words{"snapshot", "models/rr.urdf", "--pose", "0.3,0.4"}, Words{"ellipse", "models/rr.urdf", "--pose", "0.3,0.4"},
+                             Words{"ellipse", "models/rr.urdf", "--joint-space", "--pose", "0.3,0.4"}, Words{"ellipse", "--along", kStyledScene, "--set", "duration=0.5"},
+                             with({"energy"}, scene), with({"chart", "--methods", "rk4"}, scene)}) {
+    const ProgramResult run = run_program(with(words, {"--set", style, "--force", "-o", svg}));
+    ASSERT_EQ(run.status, 0) << words.front() << run.err;
+    EXPECT_THAT(read_whole_file(svg), HasSubstr("#12ab34")) << words.front() << words.back();
+  }
+}
+
 TEST_F(HouseStyleFilm, PartsDependOnTheLogosBytes) {
   const auto part = [&](const std::string& which) {
     return run_program(with_style({"render", kStyledScene, "--quiet", "-o", folder_.file("a.mp4"), "--shard", which}, "logo: {file: logo.svg}\n"));

@@ -129,6 +129,7 @@ EllipseJob job_of_scene(const EllipseOptions& options) {
   job.figure.theme = motion.theme;
   job.figure.camera = motion.camera;
   job.figure.shapes = motion.shapes;
+  job.figure.logo = motion.logo;
   job.figure.width = motion.video.width;
   job.figure.height = motion.video.height;
   return job;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/film/automatic.hpp"
+#include "app/film/house_logo.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
 #include "app/report/report.hpp"
@@ -191,7 +192,8 @@ Motion motion_of(const PoseSources& sources, const CommonOptions& common) {
   const Trajectory& run = runs[0];
   Motion motion{film.panels.front().simulation.chain, {}, &page_theme(film.scene), film.scene.text_scale,
                 film.scene.camera, film.scene.ellipse, film.panels.front().shapes,
-                film.panels.front().simulation.constraints, film.scene.video, families_of(film.scene)};
+                film.panels.front().simulation.constraints, film.scene.video, families_of(film.scene),
+                page_logo(film.scene, film.scene.video.height)};
   const Chain& chain = motion.chain;
   require_end_effector(chain);
   Workspace ws(chain);

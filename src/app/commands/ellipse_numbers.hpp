@@ -2,12 +2,14 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/cli/command.hpp"
 #include "core/json.hpp"
 #include "draw/layers/ellipse.hpp"
+#include "draw/page/sheet.hpp"
 #include "draw/robot/body_shapes.hpp"
 #include "picture/text.hpp"
 #include "picture/theme.hpp"
@@ -50,6 +52,7 @@ struct Motion {
   ConstraintPlan constraints = {};  // of the scene
   Video video = {};
   FontFamilies families = {};
+  std::optional<PageLogo> logo = {};
 };
 Motion motion_of(const PoseSources& sources, const CommonOptions& common);
 

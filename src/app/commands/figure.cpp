@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 
+#include "app/film/house_logo.hpp"
 #include "app/film/target.hpp"
 #include "app/report/sidecar.hpp"
 #include "app/report/version.hpp"
@@ -38,7 +39,7 @@ void add_figure_options(Command& command, FigureOptions& options, CommonOptions&
 }
 
 ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fonts& fonts) {
-  return {double(options.width) / options.height, scene.text_scale, &page_theme(scene), &fonts};
+  return {double(options.width) / options.height, scene.text_scale, &page_theme(scene), &fonts, page_logo(scene, options.height)};
 }
 
 bool is_table_path(const std::string& path) {

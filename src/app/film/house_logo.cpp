@@ -62,17 +62,26 @@ Json fallback_report(const Scene& scene) {
   return report;
 }
 
-}  // namespace
-
-void load_logo(Scene& scene) {
-  if (!scene.style.logo) return;
-  Logo& logo = *scene.style.logo;
+void read_logo(Logo& logo) {
   note_input(logo.file);
   const std::string bytes = read_plain_file(logo.file, kLargestLogoFile);
   logo.image = std::make_shared<const Image>(fs::path(logo.file).extension() == ".svg"
                                                  ? svg_image(bytes, logo.file, kPixelsOfSvg)
                                                  : decode_png(bytes, logo.file));
   logo.sha256 = sha256_of(bytes);
+}
+
+}  // namespace
+
+void load_logo(Scene& scene) {
+  if (scene.style.logo) read_logo(*scene.style.logo);
+}
+
+std::optional<PageLogo> page_logo(const Scene& scene, int page_height) {
+  if (!scene.style.logo) return std::nullopt;
+  Logo logo = *scene.style.logo;
+  if (!logo.image) read_logo(logo);
+  return PageLogo{logo.image, logo.corner, logo.height, page_height};
 }
 
 Json style_report(const Scene& scene) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/film/house_logo.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/page/house_style.hpp"
@@ -54,6 +55,7 @@ void set_look(PoseFigureOptions& figure, const ModelScene& model, const Chain& c
   figure.text_scale = scene.text_scale;
   figure.theme = &page_theme(scene);
   figure.camera = scene.camera;
+  figure.logo = page_logo(scene, figure.height);
   MeshShelf shelf;
   const BodyLook look{scene.links, scene.mesh_up, is_oblique(chain, scene.camera), scene.place_of("links")};
   figure.shapes = shapes_for(look, scene.model, chain, model.options, shelf);

@@ -1,6 +1,10 @@
 #include "draw/charts/chart_page.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "core/error.hpp"
+#include "draw/page/house_style.hpp"
 #include "draw/page/sheet.hpp"
 
 namespace chainreel {
@@ -15,8 +19,16 @@ Rect draw_chart_page(Picture& picture, const ChartText& text, const ChartLook& l
   picture.aspect = look.aspect;
   picture.background = look.theme->background;
   const PlotStyle style = look.plot_style();
-  const double left = size::kMargin, right = look.aspect - size::kMargin, width = right - left;
-  double top = 1 - size::kMargin, bottom = size::kMargin;
+  const Rect inside{size::kMargin, size::kMargin, look.aspect - size::kMargin, 1 - size::kMargin};
+  double top = inside.y1, bottom = inside.y0;
+  const std::optional<Rect> logo = look.logo ? std::optional(box_of(*look.logo, inside)) : std::nullopt;
+  // From where to where words run at the top and at the bottom.
+  const auto row_at = [&](bool at_top) -> std::pair<double, double> {
+    if (!logo || is_at_top(look.logo->corner) != at_top) return {inside.x0, inside.x1};
+    return is_at_left(look.logo->corner) ? std::pair(logo->x1 + kBesideLogo, inside.x1) : std::pair(inside.x0, logo->x0 - kBesideLogo);
+  };
+  const auto [left, upper_right] = row_at(true);
+  const double width = upper_right - left;
   if (!text.title.empty()) {
     const TextStyle bold{Face::label_bold, style.text(size::kTitle), look.theme->ink, Align::left};
     const TextLine line = fit_text(*look.fonts, text.title, bold, width, look.text_scale);
@@ -30,15 +42,23 @@ Rect draw_chart_page(Picture& picture, const ChartText& text, const ChartLook& l
     top -= kAfterSubtitle * muted.size;
   }
   if (!text.footer.empty()) {
+    const auto [lower_left, lower_right] = row_at(false);
     const TextStyle small{Face::label, style.text(size::kTick), look.theme->muted, Align::left};
-    const auto lines = double(wrapped(*look.fonts, text.footer, small, width).size());
+    const auto lines = double(wrapped(*look.fonts, text.footer, small, lower_right - lower_left).size());
     const double above = (lines - 1) * kLinePitch * small.size;
-    draw_paragraph(picture, *look.fonts, text.footer, small, {left, bottom + above}, width);
+    draw_paragraph(picture, *look.fonts, text.footer, small, {lower_left, bottom + above}, lower_right - lower_left);
     bottom += above + (kCapHeight + kBeforeFooter) * small.size;
+  }
+  if (logo) {
+    draw_logo(picture, *look.logo->image, *logo, look.logo->page_height);
+    if (is_at_top(look.logo->corner))
+      top = std::min(top, logo->y0 - size::kMarkToText);
+    else
+      bottom = std::max(bottom, logo->y1 + size::kMarkToText);
   }
   if (top - bottom < kLeastHeight)
     throw Error(ExitCode::bad_input, "title and notes leave no room for the chart: lower text_scale");
-  return {left, bottom, right, top};
+  return {inside.x0, bottom, inside.x1, top};
 }
 
 }  // namespace chainreel

@@ -1,8 +1,10 @@
 // The page of a chart: what it shows above, how it came about below, and the room between the two.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "draw/page/sheet.hpp"
 #include "picture/plot.hpp"
 
 namespace chainreel {
@@ -19,12 +21,13 @@ struct ChartLook {
   double text_scale = 1;
   const Theme* theme = nullptr;
   const Fonts* fonts = nullptr;
+  std::optional<PageLogo> logo{};
 
   PlotStyle plot_style() const { return {fonts, theme, text_scale}; }
 };
 
 // An empty page with the chart's words. The title shrinks to its row; subtitle and footer are broken into
-// lines. Returns what is left for the axes. Throws Error (exit 3) where the words leave no room.
+// lines, and end beside the logo. Returns what is left for the axes. Throws Error (exit 3) where the words leave no room.
 Rect draw_chart_page(Picture& picture, const ChartText& text, const ChartLook& look);
 
 }  // namespace chainreel

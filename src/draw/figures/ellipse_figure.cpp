@@ -271,6 +271,7 @@ Sheet sheet_of(const Chain& chain, const PoseFigureOptions& options, const Ellip
                const Fonts& fonts) {
   SheetText text;
   text.title = options.title;
+  text.logo = logo_of(options);
   text.bar = scale.label();
   text.bar_length = scale.bar_length;
   text.legend = ellipse_legend(options.reading, chain.planar      ? EllipseBody::flat

@@ -72,7 +72,7 @@ void draw_image(Picture& picture, const PlotFrame& frame, const Eigen::Matrix2d&
   for (int k = 0; k < 2; ++k) {
     const Point v{unit * map(0, k), unit * map(1, k)};
     const Color arrow = style.theme->curve[std::size_t(k)];
-    draw_arrow(picture, center, v, {arrow}, clip);
+    draw_arrow(picture, center, v, {arrow, 1, false, 0, style.theme->lines}, clip);
     const TextStyle text{Face::math, style.text(size::kAxis), arrow, Align::center};
     const std::string name = symbol + std::to_string(joints[std::size_t(k)] + 1);
     TextLine label = lay_out_math(*style.fonts, name + " = 1", text);
@@ -130,6 +130,7 @@ Picture draw_joint_space_figure(const Chain& chain, const std::vector<std::vecto
 
   SheetText text;
   text.title = options.title;
+  text.logo = logo_of(options);
   text.legend = "mass matrix M(q): accelerations of unit length, and the torques that they take";
   const Theme& theme = *options.theme;
   const Sheet sheet =

@@ -33,6 +33,7 @@ struct PoseStage {
 Sheet sheet_of(const PoseFigureOptions& options, const Fonts& fonts) {
   SheetText text;
   text.title = options.title;
+  text.logo = logo_of(options);
   return lay_out_sheet(text, double(options.width) / options.height, options.text_scale, *options.theme, fonts);
 }
 
@@ -116,6 +117,12 @@ Picture draw_pose_figure(const Chain& chain, const std::vector<std::vector<doubl
   }
   draw_sheet(picture, sheet);
   return picture;
+}
+
+std::optional<PageLogo> logo_of(const PoseFigureOptions& options) {
+  std::optional<PageLogo> logo = options.logo;
+  if (logo) logo->page_height = options.height;
+  return logo;
 }
 
 }  // namespace chainreel

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "draw/layers/ellipse.hpp"
+#include "draw/page/sheet.hpp"
 #include "draw/robot/body_shapes.hpp"
 #include "model/chain.hpp"
 #include "picture/text.hpp"
@@ -26,6 +28,7 @@ struct PoseFigureOptions {
   const Theme* theme = &light_theme();
   CameraEntry camera;
   std::shared_ptr<const BodyShapes> shapes;  // drawn instead of bars
+  std::optional<PageLogo> logo{};            // on whole pixels of the page, whatever it says of them
 
   // For figures with ellipses:
   EllipseReading reading = EllipseReading::mass;
@@ -38,6 +41,7 @@ struct PoseFigureOptions {
   double cell = 0;  // m: above 0 the poses are a field, each ellipse in a square of this side about its point
 };
 const std::vector<std::string>& figure_layout_names();
+std::optional<PageLogo> logo_of(const PoseFigureOptions& options);
 
 // The chain at every pose in one place: the last one in full, those before it as onion skins of 25 %.
 Picture draw_pose_figure(const Chain& chain, const std::vector<std::vector<double>>& poses,

@@ -78,7 +78,7 @@ class OutlinedTrail : public Outlined {
 
   void draw(Picture& picture, const Shot& shot) const override {
     const Color color = shot.panel.motion().variant()->color;
-    draw_trail(picture, shot.panel.tip(), shot.k, toned(color, outline_look(shot)), shot.panel.clip());
+    draw_trail(picture, shot.panel.tip(), shot.k, toned(color, outline_look(shot)), shot.panel.clip(), shot.panel.look().theme->lines);
   }
 };
 

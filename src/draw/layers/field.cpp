@@ -47,7 +47,7 @@ class Field : public Layer {
                             {letter.x - half_width, letter.y - half_height, letter.x + half_width, letter.y + half_height});
     const std::optional<Point> tail = free_place(panel, ink);
     if (!tail) return;
-    draw_arrow(picture, *tail, v, {stage_->theme.force, marks * kFieldSize}, panel.clip());
+    draw_arrow(picture, *tail, v, {stage_->theme.force, marks * kFieldSize, false, 0, stage_->theme.lines}, panel.clip());
     const Point middle{(text_.box.x0 + text_.box.x1) / 2, (text_.box.y0 + text_.box.y1) / 2};
     draw_text(picture, text_, *tail + letter - middle, panel.clip());
   }

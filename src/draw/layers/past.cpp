@@ -18,9 +18,9 @@ double freshness(double age) {
   return std::clamp(1 - age / kTrailSeconds, 0.0, 1.0);
 }
 
-TrailPoint trail_point(const TipPath& path, double t, double now) {
+TrailPoint trail_point(const TipPath& path, double t, double now, double lines) {
   const double fresh = freshness(now - t);
-  return {path.at(t), size::kTrailTail + fresh * (size::kTrailHead - size::kTrailTail),
+  return {path.at(t), lines * (size::kTrailTail + fresh * (size::kTrailHead - size::kTrailTail)),
           kTrailOpacity * fresh};
 }
 
@@ -31,7 +31,7 @@ class TrailLayer : public Layer {
   UnderWords under_words() const override { return UnderWords::freely; }
 
   void draw(Picture& picture, const Shot& shot) const override {
-    draw_trail(picture, shot.panel.tip(), shot.k, color_of(shot.panel.motion()), shot.panel.clip());
+    draw_trail(picture, shot.panel.tip(), shot.k, color_of(shot.panel.motion()), shot.panel.clip(), theme_->lines);
   }
 
  private:
@@ -72,7 +72,7 @@ std::unique_ptr<const Layer> make_layer_ghosts(const Stage&) {
   return std::make_unique<GhostsLayer>();
 }
 
-void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip) {
+void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip, double lines) {
   const double now = path.time(k);
   const double since = path.gapless_since(k, now - kTrailSeconds);
   if (!(since < now)) return;
@@ -82,15 +82,15 @@ void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int c
     const double from = std::max(since, path.time(i)), to = path.time(i + 1);
     const int pieces = path.pieces(i, kPiece, kMostPieces);
     for (int j = 0; j < pieces; ++j)
-      trail.points.push_back(trail_point(path, from + j * ((to - from) / pieces), now));
+      trail.points.push_back(trail_point(path, from + j * ((to - from) / pieces), now, lines));
   }
-  trail.points.push_back(trail_point(path, now, now));
+  trail.points.push_back(trail_point(path, now, now, lines));
   picture.add(std::move(trail), clip);
 
   // The dots stand still while the trail moves on: they belong to whole tenths of a second of the film.
-  const double r = size::kTrailDot / 2;
+  const double r = lines * size::kTrailDot / 2;
   for (int i = int(std::ceil(since * kTrailDotsPerSecond)); double(i) / kTrailDotsPerSecond <= now; ++i) {
-    const TrailPoint at = trail_point(path, double(i) / kTrailDotsPerSecond, now);
+    const TrailPoint at = trail_point(path, double(i) / kTrailDotsPerSecond, now, lines);
     if (at.alpha > 0) picture.add(Ellipse{at.p, {r, 0}, {0, r}, {color.faded(at.alpha), {}, 0}}, clip);
   }
 }

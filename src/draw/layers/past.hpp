@@ -12,8 +12,8 @@ namespace chainreel {
 inline constexpr double kTrailSeconds = 1.0;
 inline constexpr int kTrailDotsPerSecond = 10;
 inline constexpr double kTrailOpacity = 0.7;
-// The trail as it stands at frame k.
-void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip);
+// The trail as it stands at frame k; `lines`: times its width.
+void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip, double lines = 1);
 
 // Onion skins: the chain at earlier instants, equally spaced in time, fainter with age.
 inline constexpr int kMostGhosts = 6;

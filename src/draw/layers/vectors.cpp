@@ -236,7 +236,7 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   const Point u = radius * on_page(circle.top, seen), w = radius * on_page(circle.quarter, seen);
   const VectorScale scale = scales_.of(vector.kind);
   const double value = vector.value.dot(vector.axis);
-  ArrowStyle style{color_of(vector.kind, *theme_), marks * std::sqrt(vector.size)};
+  ArrowStyle style{color_of(vector.kind, *theme_), marks * std::sqrt(vector.size), false, 0, theme_->lines};
   const double widest = kWidestTurn * std::numbers::pi / 180, whole = kWholeRadius * std::numbers::pi / 180;
   const double wished = scale.on_page(std::abs(value)), turn = std::min(wished, widest);
   style.broken = broken(wished, widest);
@@ -265,7 +265,7 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   if (norm(arrow.v) < size::kShortestArrow) return;
   const Point tail = place + arrow.shift;
   draw_arrow(picture, tail, arrow.v,
-             {color_of(vector.kind, *theme_), marks, vector.kind == VectorKind::constraint, arrow.broken},
+             {color_of(vector.kind, *theme_), marks, vector.kind == VectorKind::constraint, arrow.broken, theme_->lines},
              clip);
   if (vector.label.empty()) return;
   const TextLine& text = label(vector, marks);

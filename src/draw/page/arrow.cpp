@@ -28,13 +28,13 @@ void draw_break(Picture& picture, Point middle, Point along, const ArrowStyle& s
   const Point stroke = (length / 2) * (normal_to(along) + kBreakSlant * along);
   for (const double side : {-0.5, 0.5}) {
     const Point at = middle + (side * gap) * along;
-    draw_line(picture, {at - stroke, at + stroke}, 0.6 * style.size * size::kArrowShaft, style.color, clip);
+    draw_line(picture, {at - stroke, at + stroke}, 0.6 * style.lines * style.size * size::kArrowShaft, style.color, clip);
   }
 }
 
 // Round ends count as part of a dash.
 void draw_dashes(Picture& picture, Point from, Point to, const ArrowStyle& style, int clip) {
-  const double width = style.size * size::kArrowShaft, r = width / 2;
+  const double width = style.lines * style.size * size::kArrowShaft, r = width / 2;
   const double dash = style.size * size::kDash, pitch = dash + style.size * size::kDashGap;
   const Point along = unit(to - from);
   const double length = norm(to - from);
@@ -80,7 +80,7 @@ void draw_arrow(Picture& picture, Point tail, Point v, const ArrowStyle& style, 
   const Point base = tip - head * along;
   // The shaft ends inside of the head, so that no seam shows; round ends begin behind the tail.
   const Point end = base + 0.2 * head * along;
-  const double width = std::min(style.size, grow) * size::kArrowShaft;
+  const double width = style.lines * std::min(style.size, grow) * size::kArrowShaft;
   const auto draw_shaft = [&](Point from, Point to) {
     if (style.dashed)
       draw_dashes(picture, from, to, style, clip);
@@ -105,7 +105,7 @@ void draw_turn(Picture& picture, Point center, Point u, Point w, double turn, co
   const double sign = turn > 0 ? 1 : -1;
   // The angle that a head takes.
   const double head = std::min(style.size * size::kArrowHead / radius, kHeadOfShort * std::abs(turn));
-  const double grow = head * radius / size::kArrowHead, width = std::min(style.size, grow) * size::kArrowShaft;
+  const double grow = head * radius / size::kArrowHead, width = style.lines * std::min(style.size, grow) * size::kArrowShaft;
   const double begin = -turn / 2, tip_at = turn / 2, end = tip_at - 0.8 * sign * head;
   if (style.broken > 0) {
     const double middle = begin + kBreakAt * turn, half = sign * style.broken * style.size * kBreakGap / 2 / radius;

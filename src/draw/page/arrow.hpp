@@ -10,6 +10,7 @@ struct ArrowStyle {
   double size = 1;  // of shaft, head and dashes; below 1 in small panels
   bool dashed = false;
   double broken = 0;  // 0 to 1: how far a break in the shaft is open, which says that it is longer than it is drawn
+  double lines = 1;   // times the width of the shaft: a style's, at most 2, where a head is still wider
 };
 
 // From `tail` to tail + v. The head of a short arrow shrinks with it.

@@ -43,7 +43,7 @@ void draw_entry(Picture& picture, const EntryLine& line, Point left, const Theme
   const double r = turn_radius(em);
   switch (line.entry.mark) {
     case ScaleEntry::Mark::turn:
-      draw_turn(picture, middle, {0, r}, {-r, 0}, line.entry.measure, {line.entry.color, 0.6}, -1);
+      draw_turn(picture, middle, {0, r}, {-r, 0}, line.entry.measure, {line.entry.color, 0.6, false, 0, theme.lines}, -1);
       break;
     case ScaleEntry::Mark::center_of_mass: {
       ChainLook look;
@@ -53,7 +53,7 @@ void draw_entry(Picture& picture, const EntryLine& line, Point left, const Theme
     }
     default:
       draw_arrow(picture, left, {line.entry.measure, 0},
-                 {line.entry.color, 1, line.entry.mark == ScaleEntry::Mark::dashed_arrow}, -1);
+                 {line.entry.color, 1, line.entry.mark == ScaleEntry::Mark::dashed_arrow, 0, theme.lines}, -1);
   }
   draw_text(picture, line.text, {left.x + line.width - line.text.advance, left.y - kCapHeight / 2 * em});
 }

@@ -247,6 +247,19 @@ std::string time_text(double t, int decimals) {
   return "t = " + format_fixed(t, decimals) + " s";
 }
 
+bool is_at_top(PageCorner corner) { return corner == PageCorner::top_right || corner == PageCorner::top_left; }
+bool is_at_left(PageCorner corner) { return corner == PageCorner::top_left || corner == PageCorner::bottom_left; }
+
+Rect box_of(const PageLogo& logo, const Rect& inside) {
+  const double pixel = 1.0 / logo.page_height, aspect = double(logo.image->width) / logo.image->height;
+  const double high = std::min(logo.height, inside.width() / 3 / aspect);
+  const auto whole = [&](double length) { return std::max(1.0, std::round(length / pixel)) * pixel; };
+  const double width = whole(high * aspect), height = whole(high);
+  const double x0 = std::floor((is_at_left(logo.corner) ? inside.x0 : inside.x1 - width) / pixel) * pixel;
+  const double y0 = std::floor((is_at_top(logo.corner) ? inside.y1 - height : inside.y0) / pixel) * pixel;
+  return {x0, y0, x0 + width, y0 + height};
+}
+
 namespace {
 
 // Bands with the logo in one of their corners: they are as high as it at least, and their words end beside it.
@@ -256,10 +269,13 @@ class LogoCorner {
 
   template <class Build>
   void build(bool at_top, Build build_band) {
-    if (!logo_ || at_top != is_at_top()) return build_band();
-    const Rect box = box_in_corner();
+    if (!logo_ || at_top != is_at_top(logo_->corner)) return build_band();
+    const Rect box = box_of(*logo_, {b_->left, b_->bottom, b_->right, b_->top});
     const double left = b_->left, right = b_->right;
-    (is_at_left() ? b_->left : b_->right) = is_at_left() ? box.x1 + kTextGap : box.x0 - kTextGap;
+    if (is_at_left(logo_->corner))
+      b_->left = box.x1 + kBesideLogo;
+    else
+      b_->right = box.x0 - kBesideLogo;
     build_band();
     b_->left = left;
     b_->right = right;
@@ -272,20 +288,6 @@ class LogoCorner {
   }
 
  private:
-  bool is_at_top() const { return logo_->corner == PageCorner::top_right || logo_->corner == PageCorner::top_left; }
-  bool is_at_left() const { return logo_->corner == PageCorner::top_left || logo_->corner == PageCorner::bottom_left; }
-
-  // On whole pixels; not wider than a third of the page.
-  Rect box_in_corner() const {
-    const double pixel = 1.0 / logo_->page_height, aspect = double(logo_->image->width) / logo_->image->height;
-    const double most = b_->width() / 3, high = std::min(logo_->height, most / aspect);
-    const auto whole = [&](double length) { return std::max(1.0, std::round(length / pixel)) * pixel; };
-    const double width = whole(high * aspect), height = whole(high);
-    const double x0 = std::floor((is_at_left() ? b_->left : b_->right - width) / pixel) * pixel;
-    const double y0 = std::floor((is_at_top() ? b_->top - height : b_->bottom) / pixel) * pixel;
-    return {x0, y0, x0 + width, y0 + height};
-  }
-
   Builder* b_;
   const std::optional<PageLogo>& logo_;
 };

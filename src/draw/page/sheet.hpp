@@ -31,6 +31,12 @@ struct PageLogo {
   int page_height = 1080;  // px: its sides lie on whole pixels
 };
 
+// Where it stands within the margins: in its corner, on whole pixels, not wider than a third of them.
+Rect box_of(const PageLogo& logo, const Rect& inside);
+bool is_at_top(PageCorner corner);
+bool is_at_left(PageCorner corner);
+inline constexpr double kBesideLogo = 0.05;  // units of H: words end so far from it
+
 // What a page says. Empty texts are left out, and bands without a text, too.
 struct SheetText {
   std::string title;

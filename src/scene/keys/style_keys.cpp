@@ -168,7 +168,7 @@ std::span<const Name> names_of(PageCorner) {
 KeyText told_style() {
   KeyText style = told_record(
       "", {told_colors("light", "colours of the light theme, like \"#1A1A1A\""), told_colors("dark", "colours of the dark theme"),
-           told("lines", KeyForm::number, "times the widths of outlines, curves and ellipses").within({kThinnest, kThickest}),
+           told("lines", KeyForm::number, "times the widths of outlines, curves, ellipses, trails and shafts of arrows").within({kThinnest, kThickest}),
            told_record("fonts",
                        {told("label", KeyForm::text, "family of words"),
                         told("bold", KeyForm::text, "family of titles, in its bold face; left out: that of `label`"),

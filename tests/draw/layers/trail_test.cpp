@@ -37,6 +37,18 @@ TEST(Trail, GoesBackOneSecondAndNoFurther) {
   for (const TrailPoint& p : points) EXPECT_NEAR(test::distance(p.p, {0.8, 0.5}), 0.3, 1e-8);
 }
 
+TEST(Trail, IsAsWideAsTheLinesOfAStyle) {
+  const TipPath path = circle(200);
+  Picture plain, wide;
+  draw_trail(plain, path, 150, light_theme().curve[1], -1);
+  draw_trail(wide, path, 150, light_theme().curve[1], -1, 1.5);
+  const Trail one = test::all_of<Trail>(plain).at(0), other = test::all_of<Trail>(wide).at(0);
+  ASSERT_EQ(one.points.size(), other.points.size());
+  for (std::size_t i = 0; i < one.points.size(); ++i) EXPECT_DOUBLE_EQ(other.points[i].width, 1.5 * one.points[i].width);
+  const Ellipse dot = test::all_of<Ellipse>(plain).at(0), wide_dot = test::all_of<Ellipse>(wide).at(0);
+  EXPECT_DOUBLE_EQ(wide_dot.u.x, 1.5 * dot.u.x);
+}
+
 TEST(Trail, ThinsAndFadesFromHeadToEnd) {
   const TipPath path = circle(200);
   Picture picture;

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "draw/charts/chart_page.hpp"
 #include "draw/page/sheet.hpp"
+#include "draw/shapes.hpp"
 
 namespace chainreel {
 namespace {
@@ -88,6 +90,27 @@ TEST(Logo, StandsInItsCornerOnWholePixelsAndWordsEndBesideIt) {
     }
     EXPECT_TRUE(sheet.time_anchor.y < box.y0 || sheet.time_anchor.x <= box.x0 || sheet.time_anchor.y >= box.y1 || sheet.time_anchor.x > box.x1) << to_string(corner);
     EXPECT_LE(sheet.scene.height(), plain.scene.height());
+  }
+}
+
+TEST(Logo, StandsOnChartsAndTheirWordsEndBesideIt) {
+  const Fonts fonts;
+  const ChartText text{"A title that fills most of the width of this page, or so", "what is below it, which is as long as that, and a little longer, so that it needs a second row",
+                       "small words at the foot, which take more than one row of a page as narrow as this one is: machine, compiler, revision, and so on"};
+  for (const PageCorner corner : {PageCorner::top_right, PageCorner::top_left, PageCorner::bottom_right, PageCorner::bottom_left}) {
+    Picture picture;
+    const Rect left = draw_chart_page(picture, text, {16.0 / 9, 1, &light_theme(), &fonts, PageLogo{two_halves(), corner, 0.1, 1080}});
+    ASSERT_EQ(test::all_of<Cells>(picture).size(), 1u);
+    const Rect box = test::all_of<Cells>(picture).front().rect;
+    const auto is_off = [&](const Rect& r) { return r.x1 <= box.x0 || r.x0 >= box.x1 || r.y1 <= box.y0 || r.y0 >= box.y1; };
+    EXPECT_TRUE(is_off(left)) << to_string(corner);
+    EXPECT_EQ(box.y0 > 0.5, is_at_top(corner));
+    EXPECT_EQ(box.x0 < 0.5, is_at_left(corner));
+    for (const GlyphRun& run : test::all_of<GlyphRun>(picture)) {
+      ASSERT_FALSE(run.glyphs.empty());
+      // From the first glyph to an em behind the last one's origin at most.
+      EXPECT_TRUE(is_off({run.origin.x, run.origin.y, run.origin.x + run.glyphs.back().x + run.size / 2, run.origin.y + run.size / 2})) << to_string(corner) << run.text;
+    }
   }
 }
 
