@@ -284,7 +284,7 @@ TEST_F(SlowMotionFilm, APictureOfAnInstantAtWhichItStandsStillHasTheWords) {
     const std::string svg = text("svg");
     return svg.substr(svg.find("</metadata>"));  // which holds the scene
   };
-  EXPECT_THAT(picture("0"), Not(HasSubstr("half a metre"))) << "they come 0.3 s before";
+  EXPECT_THAT(picture("0"), Not(HasSubstr("half a metre"))) << "they come with the pause";
   EXPECT_THAT(picture("event half"), HasSubstr("half a metre"));
   EXPECT_THAT(picture("event half", ""), Not(HasSubstr("half a metre")));
 }

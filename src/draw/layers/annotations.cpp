@@ -11,7 +11,8 @@
 namespace chainreel {
 namespace {
 
-constexpr double kAhead = 0.3;  // s of the film that words come before their instant, and go after it
+// s of the film that words come before their instant, and go after it. While it stands still they are true, and hardly longer.
+constexpr double kAhead = 0.3, kAheadOfPause = 0.1;
 constexpr double kStay = 2;    // s of the film, of those that do not hold it
 constexpr double kSame = 1e-9;  // s
 constexpr double kFarPlaces[] = {0.09, 0.14, 0.20, 0.28};  // of words from what they speak of, units of H
@@ -85,8 +86,9 @@ class Annotations : public Layer {
 
   bool is_shown(const Note& note, double t) const {
     const double begin = stage_->clock.film_time(note.at), now = stage_->clock.film_time(t);
-    const double stay = note.entry->hold > 0 ? note.entry->hold + kAhead : kStay;
-    return now >= begin - kAhead - kSame && now <= begin + stay + kSame;
+    const bool holds = note.entry->hold > 0;
+    const double ahead = holds ? kAheadOfPause : kAhead, stay = holds ? note.entry->hold + kAheadOfPause : kStay;
+    return now >= begin - ahead - kSame && now <= begin + stay + kSame;
   }
 
   // What is spoken of, in W.
