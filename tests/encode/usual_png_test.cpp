@@ -61,7 +61,7 @@ std::string png_of(const Image& image, const Kind& kind = {}) {
                   d = x > 0 && y > 0 ? byte(x - 1, y - 1, c) : 0;
         const int p = a + b - d, pa = std::abs(p - a), pb = std::abs(p - b), pd = std::abs(p - d);
         const int guesses[] = {0, a, b, (a + b) / 2, pa <= pb && pa <= pd ? a : pb <= pd ? b : d};
-        raw += char(byte(x, y, c) - guesses[filter]);
+        raw += char(byte(x, y, c) - (filter < 5 ? guesses[filter] : 0));  // there are no others
       }
   }
   const std::string pixels = squeezed(raw);
