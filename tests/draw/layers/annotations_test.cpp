@@ -50,7 +50,7 @@ TEST_F(AnnotatedRr, HasALeaderToItsPointWhileTheClockStandsStillAndALittleAround
   const Camera& camera = one.camera();
   for (int k = 0; k < 30; ++k) {
     const std::vector<Point> ends = dots(one.frame(k));
-    ASSERT_EQ(ends.size(), k >= 7 && k <= 23 ? 1u : 0u) << k;
+    ASSERT_EQ(ends.size(), k >= 9 && k <= 21 ? 1u : 0u) << k;
     if (!ends.empty()) {
       EXPECT_LT(norm(ends[0] - camera.project({0.5, -0.75, 0})), 1e-12) << k;
     }
