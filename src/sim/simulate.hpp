@@ -1,6 +1,7 @@
 // A run: chain, start state, torque and method give a trajectory.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <span>
@@ -58,6 +59,11 @@ double same_instant(const Simulation& simulation);
 
 // Throws Error (bad input) where the method does not take this chain or torque; says which to take instead.
 void check_method(const Simulation& simulation);
+
+// How much of the run lies before t, from 0 to 1.
+inline double part_done(const Simulation& simulation, double t) {
+  return simulation.duration > 0 ? std::clamp(t / simulation.duration, 0.0, 1.0) : 0;
+}
 
 // Asked now and then during a run, every some thousand evaluations; true stops it with RunStatus::interrupted.
 using StopRequest = std::function<bool(double t)>;

@@ -217,7 +217,7 @@ void run_energy(const EnergyOptions& options) {
     }
     const double before = double(runs.size() + left_out.size());
     runs.push_back(run_method(simulation, settings.of(*method), times, [&](double t) {
-      ticker->tell((before + std::min(1.0, t / simulation.duration)) / double(chosen.size()), method->name);
+      ticker->tell((before + part_done(simulation, t)) / double(chosen.size()), method->name);
       return interrupted();
     }));
   }

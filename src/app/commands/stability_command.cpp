@@ -310,8 +310,7 @@ void compare_methods(const StabilityOptions& options) {
       Verdict one = verdict(simulation, method->adaptive ? MethodSetting{method, {kTableTolerances[k], 0}, 0}
                                                          : MethodSetting{method, {}, kTableSteps[k]},
                             [&](double t) {
-                              const double share = std::min(1.0, t / simulation.duration);
-                              ticker->tell((runs_done + share) / (3 * double(chosen.size())), method->name);
+                              ticker->tell((runs_done + part_done(simulation, t)) / (3 * double(chosen.size())), method->name);
                               return interrupted();
                             });
       ++runs_done;

@@ -118,16 +118,17 @@ std::string simulating_text(const PreparedFilm& film, const PreparedScene& panel
   return film.scene.name + ": simulating" + (film.panels.size() == 1 ? "" : " '" + panel.scene.title + "'");
 }
 
-double part_done(const Simulation& simulation, double t) {
-  return simulation.duration > 0 ? std::clamp(t / simulation.duration, 0.0, 1.0) : 0;
-}
-
-Runs::Runs(const PreparedFilm& film) : film_(film) {
+Runs::Runs(const PreparedFilm& film, OwnSlowMotion own) : film_(film) {
   if (may_slow_down(film)) {
     times_ = plain_times(film);
     list_ = runs_of(film, times_);
     clock_ = clock_after(film, &list_);
     if (clock_.is_plain()) return;  // these are its frames
+    leaves_slow_motion_out_ = own == OwnSlowMotion::left_out && !clock_.stretches().empty();
+    if (leaves_slow_motion_out_) {
+      clock_ = FilmClock(film.scene.duration, film.scene.video.fps);
+      return;
+    }
   } else {
     clock_ = clock_after(film, nullptr);
   }

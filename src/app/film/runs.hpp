@@ -25,10 +25,14 @@ std::vector<double> plain_times(const PreparedFilm& film);
 // came. The constructors throw what clock_of throws, and the signal's Error.
 class Runs {
  public:
-  explicit Runs(const PreparedFilm& film);  // at its frames and at the end of its motion
+  // At its frames and at the end of its motion. Where slow motion that a film has by itself is left out, these are the frames
+  // that it would have without.
+  enum class OwnSlowMotion { shown, left_out };
+  explicit Runs(const PreparedFilm& film, OwnSlowMotion own = OwnSlowMotion::shown);
   Runs(const PreparedFilm& film, FilmClock clock, std::vector<double> times);
 
   const PreparedFilm& film() const { return film_; }
+  bool leaves_slow_motion_out() const { return leaves_slow_motion_out_; }
   const FilmClock& clock() const { return clock_; }
   const std::vector<double>& times() const { return times_; }
   const std::vector<Trajectory>& list() const { return list_; }
@@ -49,6 +53,7 @@ class Runs {
  private:
   const PreparedFilm& film_;
   FilmClock clock_;
+  bool leaves_slow_motion_out_ = false;  // some that there would be
   std::vector<double> times_;
   std::vector<Trajectory> list_;
 };
@@ -56,9 +61,8 @@ class Runs {
 // The same for one run: it finished or was stopped by a limit, or diverged.
 void require_expected_end(const Trajectory& trajectory, const Scene& scene);
 
-// What is said while a panel runs, and how much of its run lies before t, from 0 to 1.
+// What is said while a panel runs.
 std::string simulating_text(const PreparedFilm& film, const PreparedScene& panel);
-double part_done(const Simulation& simulation, double t);
 
 // "panel 2 (rk4): message"
 std::string in_panel(const Scene& scene, std::size_t i, const std::string& message);

@@ -123,13 +123,9 @@ SceneRun::SceneRun(SceneRequest request, std::vector<double> times) : state_(std
     require_rising(times, state.film.scene.duration);
     if (state.has_times)
       state.runs.emplace(state.film, FilmClock(state.film.scene.duration, state.film.scene.video.fps), std::move(times));
-    else
-      state.runs.emplace(state.film);
-    // Slow motion that nobody asked for is the film's, no part of the motion.
-    if (!state.has_times && state.film.scene.slow_motion_rule && !state.runs->clock().stretches().empty()) {
-      state.runs.emplace(state.film, FilmClock(state.film.scene.duration, state.film.scene.video.fps), plain_times(state.film));
-      state.has_times = true;
-    }
+    else  // slow motion by a rule is the film's, no part of the motion
+      state.runs.emplace(state.film, Runs::OwnSlowMotion::left_out);
+    state.has_times = state.has_times || state.runs->leaves_slow_motion_out();
     state.throw_failure();
     state.runs->require_expected_ends();
   });

@@ -92,14 +92,16 @@ Moment Moments::moment(double at) {
   return of_frames_->moment(frame);
 }
 
+Moment Moments::telling() {
+  return moment(telling_instant(Runs(film_, clock_, clock_.frame_times())));
+}
+
 Moment moment_at(const PreparedFilm& film, double at, const Fonts& fonts) {
   return Moments(film, fonts).moment(at);
 }
 
 Moment telling_moment(const PreparedFilm& film, const Fonts& fonts) {
-  const FilmClock clock = clock_of(film);
-  const Runs runs(film, clock, clock.frame_times());
-  return moment_at(film, telling_instant(runs), fonts);
+  return Moments(film, fonts).telling();
 }
 
 std::vector<double> instants_asked(const PreparedFilm& film, const std::vector<AskedInstant>& asked) {

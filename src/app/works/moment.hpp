@@ -34,6 +34,8 @@ class Moments {
   // Throws Error (exit 5) where a run does not come that far or does not end as the scene expects; what fails
   // later does not spoil the picture.
   Moment moment(double at);
+  // The one that says most: when the last event happened, else the middle of the longest run.
+  Moment telling();
 
  private:
   struct State;
@@ -46,7 +48,6 @@ class Moments {
 // One alone.
 Moment moment_at(const PreparedFilm& film, double at, const Fonts& fonts);
 
-// The moment that says most: when the last event happened, else the middle of the longest run.
 Moment telling_moment(const PreparedFilm& film, const Fonts& fonts);
 
 // The instants in seconds: events by their first time in any panel. Throws Error where the scene has none

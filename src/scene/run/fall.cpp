@@ -1,7 +1,6 @@
 #include "scene/run/fall.hpp"
 
 #include <algorithm>
-#include <atomic>
 
 #include "core/format.hpp"
 #include "core/parallel.hpp"
@@ -65,12 +64,13 @@ void find_tipping(FallRow& row, const Simulation& simulation, const Foot& foot, 
   }
 }
 
+// `stop` is asked with the part of the run that is done.
 FallRow run_row(Scene scene, const StopRequest& stop) {
   const std::size_t events = scene.events.size();
   if (scene.foot) scene.events.push_back({.when = kPressureLeavesTheFoot, .name = {}, .place = {}});
   const Simulation simulation = prepare(scene, false);
   const double end[] = {simulation.duration};
-  const Trajectory run = simulate(simulation, end, stop);
+  const Trajectory run = simulate(simulation, end, [&](double t) { return stop && stop(part_done(simulation, t)); });
   FallRow row;
   row.status = run.status;
   row.end_time = run.end_time;
@@ -125,14 +125,12 @@ FallTable run_fall_table(const std::string& scene, const std::vector<std::string
   table.method = method_text(first);
   Scene counted = first;
   require_possible(prepare(counted, false), double(table.rows.size()));
-  std::atomic<std::size_t> done = 0;
-  const auto part_done = [&](double share) { return std::min(1.0, (double(done) + share) / double(table.rows.size())); };
+  DoneShare done(table.rows.size());
   for_each_index(table.rows.size(), threads, [&](std::size_t k) {
-    if (stop && stop(part_done(0))) return;
-    const Scene one = read_one(scene, settings(k));
-    table.rows[k] = run_row(one, [&](double t) { return stop && stop(part_done(std::min(1.0, t / one.duration))); });
+    if (stop && stop(done.with())) return;
+    table.rows[k] = run_row(read_one(scene, settings(k)), [&](double part) { return stop && stop(done.with(part)); });
     table.rows[k].value = sweep.values[k];
-    ++done;
+    done.add();
   });
   return table;
 }

@@ -1,7 +1,6 @@
 #include "scene/run/stability_cells.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -73,7 +72,7 @@ class CellRuns {
  public:
   CellRuns(const std::string& scene, const std::vector<std::string>& overrides, const Sweep& x,
            const Sweep& y, int threads, const StopRequest& stop)
-      : scene_(scene), overrides_(overrides), threads_(threads), stop_(stop) {
+      : scene_(scene), overrides_(overrides), threads_(threads), stop_(stop), done_(x.values.size() * y.values.size()) {
     result_.x = x;
     result_.y = y;
     result_.threads = threads;
@@ -193,19 +192,16 @@ class CellRuns {
       lengthen(*simulation);
       run_one(*simulation, cell({ix, iy}));
       simulation->duration = duration;
-      ++done_;
-      if (stop_ && stop_(part_done(0))) return;
+      done_.add();
+      if (stop_ && stop_(done_.with())) return;
     }
   }
-
-  // Of all cells, and of the one that is at work that share of its run.
-  double part_done(double share) const { return std::min(1.0, (double(done_) + share) / double(result_.cells.size())); }
 
   void run_one(Simulation& simulation, StabilityCell& cell) {
     EnergyBalance balance(simulation);
     EnergySeen seen;
     const Trajectory trajectory =
-        simulate(simulation, {}, [&](double t) { return stop_ && stop_(part_done(std::min(1.0, t / simulation.duration))); },
+        simulate(simulation, {}, [&](double t) { return stop_ && stop_(done_.with(part_done(simulation, t))); },
                  [&](double, ConstVec q, ConstVec qd, double work) { seen.add(balance.at(q, qd, work)); });
     cell.status = trajectory.status;
     cell.trouble = trajectory.trouble;
@@ -282,7 +278,7 @@ class CellRuns {
   mutable std::vector<std::unique_ptr<Reader>> readers_;
   int threads_;
   StopRequest stop_;
-  std::atomic<std::size_t> done_ = 0;  // cells
+  DoneShare done_;  // of the cells
   StabilityCells result_;
 };
 
