@@ -34,6 +34,7 @@ struct Place {
 struct Problem {
   std::string message;  // what is wrong and what to do about it
   Place place;
+  bool is_of_key = false;  // a key leads nowhere: no other value makes it better
 };
 
 // "file:line:column: message", leaving out what is unknown.
@@ -57,7 +58,8 @@ class Error : public std::exception {
 // Gathers the problems of one file.
 class ProblemList {
  public:
-  void add(std::string message, Place place) { problems_.push_back({std::move(message), std::move(place)}); }
+  void add(std::string message, Place place) { add(Problem{std::move(message), std::move(place)}); }
+  void add(Problem problem) { problems_.push_back(std::move(problem)); }
   bool empty() const { return problems_.empty(); }
   void throw_if_any(ExitCode code = ExitCode::bad_input) const;
 

@@ -141,17 +141,18 @@ struct Change {
   YAML::Node value;
   Place place;
   ExitCode code = ExitCode::usage;
+
+  [[noreturn]] void refuse_key(std::string why) const { throw Error(code, std::vector<Problem>{{std::move(why), place, true}}); }
 };
 
 // The element that a part of a key names: an index from 1 in lists, a key elsewhere.
 YAML::Node child_of(YAML::Node node, const std::string& part, const Change& change) {
   if (node.IsMap()) return node[part];
   if (!node.IsSequence())
-    throw Error(change.code, "'" + part + "' is sought in a value that has no parts", change.place);
+    change.refuse_key("'" + part + "' is sought in a value that has no parts");
   const std::optional<double> index = parse_number(part);
   if (!index || *index < 1 || *index > double(node.size()) || *index != double(std::size_t(*index)))
-    throw Error(change.code, "'" + part + "' is no index from 1 to " + std::to_string(node.size()),
-                change.place);
+    change.refuse_key("'" + part + "' is no index from 1 to " + std::to_string(node.size()));
   return node[std::size_t(*index) - 1];
 }
 

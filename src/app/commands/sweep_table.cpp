@@ -40,12 +40,8 @@ std::vector<std::string> settings_of(const SweepTableJob& job, std::size_t run) 
   return settings_of(job.overrides, job.grid, run);
 }
 
-// Said of keys, which no other value makes better.
 bool is_about_keys(const Error& error) {
-  return std::any_of(error.problems().begin(), error.problems().end(), [](const Problem& problem) {
-    return problem.message.starts_with("unknown key") || problem.message.find("is no index from") != std::string::npos ||
-           problem.message.find("is sought in a value") != std::string::npos;
-  });
+  return std::any_of(error.problems().begin(), error.problems().end(), [](const Problem& problem) { return problem.is_of_key; });
 }
 
 std::string first_words(const Error& error) {

@@ -215,7 +215,7 @@ void Fields::finish(const std::string& topic) {
     constexpr std::size_t kFewKeys = 12;
     const std::string others =
         known_.size() > kFewKeys ? " `chainreel help " + topic + "` tells of all keys." : " The keys here are " + joined(known_) + ".";
-    problems_->add("unknown key '" + path(key) + "':" + did_you_mean(key, known_) + others, place_of(pair.first, key));
+    problems_->add({"unknown key '" + path(key) + "':" + did_you_mean(key, known_) + others, place_of(pair.first, key), true});
   }
 }
 
