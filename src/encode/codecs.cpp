@@ -87,7 +87,6 @@ constexpr CodecRow kH264{"libx264", &kMp4, 18, 51, false, false, false, h264_opt
 constexpr CodecRow kVp9{"libvpx-vp9", &kWebm, 28, 63, true, false, false, vp9_options};
 constexpr CodecRow kProres{"prores_ks", &kMov, {}, {}, true, true, true, prores_options};
 
-
 CodecContextPtr open_codec(const CodecRow& row, decltype(CodecRow::options) options_of, const VideoSettings& settings, int threads) {
   CodecContextPtr context = make_context(row.encoder);
   context->width = settings.width;

@@ -12,8 +12,6 @@ struct SwsContext;
 
 namespace chainreel {
 
-inline constexpr const char* kSmallClipLimits = "at most 25 frames/s and 800 pixels wide";
-
 // What becomes of a film of this size and rate.
 struct SmallSize {
   int width = 0, height = 0;  // pixels

@@ -261,11 +261,14 @@ float OpenSky::openness(const Point3& place, const Point3& normal) const {
   return sky / (1 - kReturned * (1 - sky));
 }
 
+std::uint8_t OpenSky::openness_of(const TriangleMesh::Vertex& vertex, const PoseRows& pose) const {
+  return std::uint8_t(255 * openness(placed(pose, vertex.position), turned(pose, vertex.normal)) + 0.5F);
+}
+
 std::vector<std::uint8_t> OpenSky::openness_of(const PlacedTriangles& shape) const {
   std::vector<std::uint8_t> result;
   result.reserve(shape.mesh->vertices.size());
-  for (const TriangleMesh::Vertex& vertex : shape.mesh->vertices)
-    result.push_back(std::uint8_t(255 * openness(placed(shape.pose, vertex.position), turned(shape.pose, vertex.normal)) + 0.5F));
+  for (const TriangleMesh::Vertex& vertex : shape.mesh->vertices) result.push_back(openness_of(vertex, shape.pose));
   return result;
 }
 

@@ -50,7 +50,8 @@ class OpenSky {
 
   // At a place of the body's surface, in its frame, with a unit normal: 0, nothing of the sky above it, to 1, all.
   float openness(const std::array<float, 3>& place, const std::array<float, 3>& normal) const;
-  // Of each vertex, 0 to 255.
+  // The same of a vertex of a mesh that stands so in the body, and of each of a mesh: 0 to 255.
+  std::uint8_t openness_of(const TriangleMesh::Vertex& vertex, const PoseRows& pose) const;
   std::vector<std::uint8_t> openness_of(const PlacedTriangles& shape) const;
   // m; what is finer is not seen.
   float cell() const { return cell_; }

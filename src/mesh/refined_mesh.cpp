@@ -63,11 +63,6 @@ class Refinement {
     place_.push_back(places_.index_of(at));
   }
 
-  std::uint8_t openness_at(const Vertex& vertex) const {
-    const TriangleMesh one{{vertex}, {}, false};
-    return sky_.openness_of({&one, pose_}).front();
-  }
-
   bool find_cuts() {
     is_cut_.clear();
     const float shortest = kShortest * sky_.cell();
@@ -78,7 +73,7 @@ class Refinement {
         const float x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
         if (x * x + y * y + z * z <= shortest * shortest) continue;
         const int mean = (openness_[a] + openness_[b] + 1) / 2;
-        if (std::abs(openness_at(middle_of(mesh_.vertices[a], mesh_.vertices[b])) - mean) > kUneven) is_cut_.insert(edge_of(a, b));
+        if (std::abs(sky_.openness_of(middle_of(mesh_.vertices[a], mesh_.vertices[b]), pose_) - mean) > kUneven) is_cut_.insert(edge_of(a, b));
       }
     return !is_cut_.empty();
   }
@@ -122,7 +117,7 @@ class Refinement {
     if (!is_new) return known->second;
     const Vertex vertex = middle_of(mesh_.vertices[a], mesh_.vertices[b]);
     mesh_.vertices.push_back(vertex);
-    openness_.push_back(openness_at(vertex));
+    openness_.push_back(sky_.openness_of(vertex, pose_));
     add_place(vertex);
     return known->second;
   }

@@ -143,14 +143,18 @@ void DataTable::add(const std::string& name, std::vector<std::string> columns, s
   arrays.push_back({name, std::move(columns), std::move(shape), std::move(values)});
 }
 
+std::optional<TableFormat> find_table_format(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  for (const Ending& one : kEndings)
+    if (ending == one.ending) return one.format;
+  return std::nullopt;
+}
+
 TableFormat table_format_of(const std::string& path) {
   if (path == "-") return TableFormat::csv;
-  const std::string ending = std::filesystem::path(path).extension().string();
+  if (const std::optional<TableFormat> format = find_table_format(path)) return *format;
   std::vector<std::string> known;
-  for (const Ending& one : kEndings) {
-    if (ending == one.ending) return one.format;
-    known.push_back(one.ending);
-  }
+  for (const Ending& one : kEndings) known.push_back(one.ending);
   throw Error(ExitCode::usage, "-o " + path + ": tables are written as " + joined(known) + ", by the file's ending, or as CSV to -");
 }
 

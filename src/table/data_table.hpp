@@ -1,6 +1,7 @@
 // Numbers in columns that belong together, and the files that they become: CSV, JSON and NumPy's NPZ.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,9 @@ enum class TableFormat {
   npz,   // an array each, of doubles or of texts, and `columns`: names as in CSV
 };
 
-// By the path's ending; "-" is standard output, which takes CSV. Throws Error (usage) naming the endings.
+// By the path's ending; none of others.
+std::optional<TableFormat> find_table_format(const std::string& path);
+// The same; "-" is standard output, which takes CSV. Throws Error (usage) naming the endings.
 TableFormat table_format_of(const std::string& path);
 
 // What a table says as CSV, lines that begin with # left out: a column is numbers where all its cells are (empty ones are nan), else words.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <numbers>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -168,10 +167,10 @@ double parse_positive_seconds(const std::string& text, const std::string& option
 
 std::vector<double> parse_pose(const Chain& chain, const std::string& text, const std::string& what) {
   if (text.empty()) return zero_configuration(chain);
-  std::vector<std::string> written = separated(text, ',');
-  const std::vector<double> q = text.find('=') != std::string::npos
-                                    ? pose_by_name(chain, separated(text, ','), text, what, written)
-                                    : parse_counted(std::size_t(chain.nq), chain, text, what);
+  const std::vector<std::string> entries = separated(text, ',');
+  std::vector<std::string> written = entries;
+  const std::vector<double> q = text.find('=') != std::string::npos ? pose_by_name(chain, entries, text, what, written)
+                                                                    : parse_counted(std::size_t(chain.nq), chain, text, what);
   for (const std::string& doubt : doubts_of_pose(chain, q, written))
     std::fprintf(stderr, "WARNING: %s: %s\n", what.c_str(), doubt.c_str());
   if (const std::string trouble = trouble_of_pose(chain, q); !trouble.empty())

@@ -32,8 +32,9 @@ constexpr std::array<FaultLine, 5> kFaults = {
 // Of the thread that runs main, whose stack may be what has ended.
 alignas(16) std::array<char, 1 << 16> spare_stack;
 
-void tell(std::string_view line) {
-  if (write(STDERR_FILENO, line.data(), line.size()) < 0) return;  // nobody is left to be told
+// False where nobody takes it.
+bool tell(std::string_view line) {
+  return write(STDERR_FILENO, line.data(), line.size()) >= 0;
 }
 
 // Takes no memory and no lock: either may be what is broken.
@@ -41,7 +42,7 @@ void tell_fault(int signal) {
   const int saved = errno;
   if (getpid() == own_process)
     for (const FaultLine& fault : kFaults)
-      if (fault.signal == signal) tell(fault.line);
+      if (fault.signal == signal && !tell(fault.line)) break;
   std::raise(signal);  // comes when this handler returns, as the system has it
   errno = saved;
 }
@@ -51,9 +52,7 @@ void tell_fault(int signal) {
   try {
     if (const std::exception_ptr problem = std::current_exception()) std::rethrow_exception(problem);
   } catch (const std::bad_alloc&) {
-    const std::string_view line(kOutOfMemory);
-    if (write(STDERR_FILENO, line.data(), line.size()) < 0) _exit(int(ExitCode::file));
-    _exit(int(ExitCode::limit));
+    _exit(int(tell(kOutOfMemory) ? ExitCode::limit : ExitCode::file));
   } catch (...) {
   }
   std::abort();

@@ -43,8 +43,7 @@ ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fon
 }
 
 bool is_table_path(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  return ending == ".csv" || ending == ".json" || ending == ".npz";
+  return find_table_format(path).has_value();
 }
 
 void check_figure_path(const std::string& path) {

@@ -139,7 +139,7 @@ Json small_clips(const RenderJob& job, const PreparedFilm& film, int frames) {
     const std::string is_rate = size.every == 1 ? "" : format_significant(size.fps.value(), 4) + " frames/s";
     if (job.quiet || (is_width.empty() && is_rate.empty())) continue;
     std::fprintf(stderr, "note: %s: %s has %s%s%s, as %s files are %s\n", film.scene.name.c_str(), target.path.c_str(), is_width.c_str(),
-                 is_width.empty() || is_rate.empty() ? "" : " and ", is_rate.c_str(), target.format->ending, kSmallClipLimits);
+                 is_width.empty() || is_rate.empty() ? "" : " and ", is_rate.c_str(), target.format->ending, target.format->told);
   }
   return clips;
 }

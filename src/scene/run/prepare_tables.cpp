@@ -119,7 +119,7 @@ void prepare_motion(Scene& scene, Simulation& simulation) {
   }
   scene.duration = std::min(scene.duration, end);
   replay(simulation, motion);
-  scene.start = {simulation.q0, simulation.qd0};
+  scene.start = {simulation.q0, simulation.qd0, {}};
   scene.notices.insert(scene.notices.end(), motion->remarks().begin(), motion->remarks().end());
 }
 
