@@ -1,6 +1,6 @@
 // A formula of a scene: parsed once, evaluated at every instant over double, Quad and Dual.
 //
-//   numbers        1, 0.5, .5, 2e-3; always with a decimal point
+//   numbers        1, 0.5, .5, 2e-3; always with a decimal point; 45deg is 45 * (pi / 180), 2rad is 2
 //   names          the variables given to parse, and pi
 //   operators      in rising order: < <= > >= == != (1 or 0; not chained), + -, * /, unary + -, ^ (right to
 //   left)

@@ -5,7 +5,7 @@
 //   product    = factor {("*" | "/") factor}
 //   factor     = ("+" | "-") factor | power
 //   power      = primary ["^" factor]
-//   primary    = number | name | name "(" comparison {"," comparison} ")" | "(" comparison ")"
+//   primary    = number ["deg" | "rad"] | name | name "(" comparison {"," comparison} ")" | "(" comparison ")"
 //
 // Each function appends the instructions of what it has read, so that the program is in postfix order.
 #include <algorithm>
@@ -19,6 +19,7 @@ namespace chainreel {
 namespace {
 
 constexpr std::size_t kMaxText = 10000;
+constexpr std::array<std::string_view, 13> kUnits = {"m", "mm", "cm", "km", "s", "ms", "us", "min", "h", "kg", "N", "J", "Hz"};  // of scenes
 
 struct Function {
   std::string_view name;
@@ -213,8 +214,10 @@ class Parser {
       fail(begin, quoted(digits) + " is outside the range of numbers");
     if (code != std::errc() || end != digits.data() + digits.size())
       fail(begin, quoted(digits) + " is not a number");
+    if (take_unit("deg") || take_unit("\u00b0")) return emit_degrees(value);
+    take_unit("rad");
     emit(Operation::number, 0, value);
-    if (!at_end() && starts_name(text_[offset_])) fail_at_unit(begin);
+    if (!at_end() && starts_name(text_[offset_])) fail_at_unit();
   }
 
   // "e5", "e+5" or "e-5"; a bare e begins a name.
@@ -231,10 +234,30 @@ class Parser {
     return text_.substr(begin, offset_ - begin);
   }
 
-  [[noreturn]] void fail_at_unit(std::size_t begin) {
+  // Right behind the digits, as in 45deg.
+  bool take_unit(std::string_view unit) {
+    const std::string_view behind = text_.substr(offset_);
+    if (!behind.starts_with(unit)) return false;
+    if (behind.size() > unit.size() && (starts_name(behind[unit.size()]) || is_digit(behind[unit.size()]))) return false;
+    offset_ += unit.size();
+    return true;
+  }
+
+  // pi / 180 first: the same bits as an angle of a scene has.
+  void emit_degrees(double value) {
+    emit(Operation::pi);
+    emit(Operation::number, 0, 180);
+    emit(Operation::divide);
+    emit(Operation::number, 0, value);
+    emit(Operation::multiply);
+  }
+
+  [[noreturn]] void fail_at_unit() {
     const std::size_t end = offset_;
     const std::string_view name = take_name();
-    if (name == "deg") fail(begin, "angles in expressions are in radians: write * pi / 180 instead of deg");
+    const bool is_unit = std::find(kUnits.begin(), kUnits.end(), name) != kUnits.end();
+    if (is_unit && std::find(names_.begin(), names_.end(), name) == names_.end())
+      fail(end, "numbers in expressions have no unit but deg or rad: they are in SI units and radians");
     fail(end, "an operator is missing before " + quoted(name));
   }
 

@@ -48,9 +48,9 @@ struct Instruction {
   double number = 0;
 };
 
-// Nesting costs at most one waiting value for each of the five levels of precedence.
+// Nesting costs at most one waiting value for each of the five levels of precedence; the unit of the innermost number one more.
 inline constexpr int kMaxNesting = 200;
-inline constexpr int kMaxStack = 5 * (kMaxNesting + 1);
+inline constexpr int kMaxStack = 5 * (kMaxNesting + 1) + 1;
 
 struct Program {
   std::vector<Instruction> instructions;

@@ -6,8 +6,10 @@
 
 #include <bit>
 #include <functional>
+#include <numbers>
 #include <random>
 
+#include "core/format.hpp"
 #include "support/allocation_count.hpp"
 
 namespace chainreel {
@@ -119,6 +121,7 @@ TEST(Values, KnowWhichVariablesTheyUse) {
   EXPECT_FALSE(parsed("0*q1").is_constant());
   EXPECT_EQ(parsed("0*q1").constant(), std::nullopt);
   EXPECT_TRUE(parsed("2*pi").is_constant());
+  EXPECT_TRUE(parsed("45deg").is_constant());
   EXPECT_TRUE(parsed("2*pi").used_variables().empty());
   EXPECT_EQ(parsed(" 2 * pi").text(), " 2 * pi");
 }
@@ -151,6 +154,20 @@ TEST(Values, HaveTheBitsOfTheScalarsOwnFunctions) {
   }
   // In another order of operations the bits differ, and that is seen.
   EXPECT_FALSE(same_bits(value_at<double>("(t + q1) + q2", {0.1, 0.2, 0.3, 0, 0, 0}), 0.1 + (0.2 + 0.3)));
+}
+
+// 45deg is a number, which binds closer than any operator, with the bits that an angle of a scene has.
+TEST(Values, DegreesBelongToTheNumberBeforeThem) {
+  const double degree = std::numbers::pi / 180;
+  for (const double angle : {45.0, 0.1, 7.0, 1e-3, 359.99}) EXPECT_TRUE(same_bits(constant_of(format_shortest(angle) + "deg"), angle * degree)) << angle;
+  EXPECT_TRUE(same_bits(constant_of("90/2deg"), 90 / (2 * degree)));
+  EXPECT_TRUE(same_bits(constant_of("-45\u00b0"), -(45 * degree)));
+  EXPECT_TRUE(same_bits(constant_of("1e2deg+.5deg"), 100 * degree + 0.5 * degree));
+  // As deep as text may nest, and there the stack holds what it needs.
+  const std::string deep = std::string(200, '(') + "45deg" + std::string(200, ')');
+  EXPECT_TRUE(same_bits(constant_of(deep), 45 * degree));
+  const std::vector<Quad> values(6, 0);
+  EXPECT_LT(fabsq(value_at("sin(30deg)", values) - 0.5Q), 0x1p-110Q);
 }
 
 TEST(Values, OverQuadAreExactToQuadsDigits) {

@@ -92,7 +92,8 @@ std::string expressions_page() {
                                        {"< <= > >= == !=", "1 where it holds, else 0"},
                                        {"( )", ""}};
   return "# Expressions\n\n"
-         "Torques, references, events and plots may be expressions. They are in SI units and radians: `* pi / 180`, not `deg`.\n"
+         "Torques, references, events and plots may be expressions. They are in SI units and radians; of units a number may have `deg` or `rad`:\n"
+         "`q1 - 45deg`.\n"
          "Where a torque has corners (comparisons, abs, min, max), steps end at them.\n\n" +
          table_of("name", variables) + "\n" + table_of("operator", operators) + "\n" +
          table_of("function", expression_functions()) + "\n" +
