@@ -24,14 +24,41 @@ std::string trimmed(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
 }
 
-std::vector<std::string> fields_of(const std::string& line) {
+// A field in quotes may hold commas, and quotes as two of them. Throws Error at `place` where they do not close.
+std::vector<std::string> fields_of(const std::string& line, const Place& place) {
   std::vector<std::string> fields;
   for (std::size_t begin = 0;;) {
+    const std::size_t first = line.find_first_not_of(" \t\r", begin);
+    if (first != std::string::npos && line[first] == '"') {
+      std::string& field = fields.emplace_back();
+      std::size_t at = first + 1;
+      for (; at < line.size() && (line[at] != '"' || line.compare(at, 2, "\"\"") == 0); ++at) {
+        field += line[at];
+        at += line[at] == '"';
+      }
+      const std::size_t behind = line.find_first_not_of(" \t\r", std::min(at + 1, line.size()));
+      if (at >= line.size() || (behind != std::string::npos && line[behind] != ','))
+        throw Error(ExitCode::bad_input, "a field begins with a quote that does not close before its comma", place);
+      field = trimmed(field);
+      if (behind == std::string::npos) return fields;
+      begin = behind + 1;
+      continue;
+    }
     const std::size_t comma = line.find(',', begin);
     fields.push_back(trimmed(line.substr(begin, comma - begin)));
     if (comma == std::string::npos) return fields;
     begin = comma + 1;
   }
+}
+
+// Of a line of names that holds but one: what separates its values instead.
+void require_commas(const std::vector<std::string>& names, const Place& place) {
+  if (names.size() > 1) return;
+  for (const auto& [sign, words] : {std::pair{';', "semicolons"}, {'\t', "tabs"}})
+    if (names.front().find(sign) != std::string::npos)
+      throw Error(ExitCode::bad_input,
+                  std::string("its values are separated by ") + words + ": chainreel reads tables separated by commas, with points in decimals",
+                  place);
 }
 
 // "q1 [rad]" in two; nothing where it names no unit.
@@ -100,8 +127,9 @@ Table read_csv(const std::string& path, const std::string& since_first) {
     ++number;
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // the mark of UTF-8 that spreadsheets write
     if (trimmed(line).empty() || trimmed(line).starts_with('#')) continue;
-    const std::vector<std::string> fields = fields_of(line);
+    const std::vector<std::string> fields = fields_of(line, {path, number});
     if (table.names.empty()) {
+      require_commas(fields, {path, number});
       table.names = fields;
       for (std::string& name : table.names) table.units.push_back(take_unit(name));
       for (std::size_t i = 0; i < fields.size(); ++i)

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr double kRadius = 0.03;       // of rods, of the longest link
 constexpr double kLoneRadius = 0.05;   // m, where no link has a length
-constexpr double kMostMetres = 1e6, kMostKilograms = 1e9, kMostDamping = 1e9;
+constexpr double kMostMetres = 1e6, kMostKilograms = 1e9, kMostDamping = 1e9, kMostEffort = 1e12;
 constexpr const char* kMaterials =
     "  <material name=\"sky\"><color rgba=\"0.337 0.706 0.914 1\"/></material>\n"
     "  <material name=\"orange\"><color rgba=\"0.902 0.624 0.000 1\"/></material>\n";
@@ -92,6 +92,7 @@ std::vector<LinkProblem> complete(LinkChain& chain) {
     }
   complete_list(chain.masses, "masses", count, 1, 1e-12, kMostKilograms, "kg", problems);
   complete_list(chain.damping, "damping", count, 0, 0, kMostDamping, "N m s/rad", problems);
+  if (!chain.efforts.empty()) complete_list(chain.efforts, "efforts", count, 0, 1e-12, kMostEffort, "N m or N", problems);
   if (chain.joints.empty()) chain.joints.assign(count, 'R');
   const std::vector<LetterJoint> joints = joints_of(chain.joints);
   if (joints.empty())
@@ -129,6 +130,7 @@ std::string text_of(const LinkChain& chain) {
   text += ", masses: " + list_text(chain.masses) + ", joints: " + chain.joints + ", shape: " + to_string(chain.shape);
   if (std::any_of(chain.damping.begin(), chain.damping.end(), [](double d) { return d != 0; }))
     text += ", damping: " + list_text(chain.damping);
+  if (!chain.efforts.empty()) text += ", efforts: " + list_text(chain.efforts);
   return text + "}";
 }
 
@@ -152,6 +154,11 @@ std::string joint_tag(const std::string& name, const std::string& type, const st
 
 std::string line(const std::string& tag) {
   return tag.empty() ? "" : "    " + tag + "\n";
+}
+
+// A joint that slides needs a way, too, which is as good as endless.
+std::string limit_tag(bool slides, double effort) {
+  return std::string("<limit") + (slides ? " lower=\"-1e9\" upper=\"1e9\"" : "") + " effort=\"" + format_shortest(effort) + "\"/>";
 }
 
 class Writer {
@@ -221,6 +228,7 @@ class Writer {
   void add_joint(std::size_t i, const std::string& parent, const Vector3d& at, const Vector3d& rpy) {
     const std::string number = std::to_string(i + 1);
     std::string rest = line(origin_tag(at, rpy)) + line("<axis xyz=\"" + numbers(Vector3d::Unit(joints_[i].axis)) + "\"/>");
+    if (!chain_.efforts.empty()) rest += line(limit_tag(joints_[i].slides, chain_.efforts[i]));
     if (chain_.damping[i] != 0) rest += line("<dynamics damping=\"" + format_shortest(chain_.damping[i]) + "\"/>");
     text_ += joint_tag("joint" + number, joints_[i].slides ? "prismatic" : "continuous", parent, "link" + number, rest);
   }

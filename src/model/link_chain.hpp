@@ -30,6 +30,7 @@ struct LinkChain {
   DhConvention convention = DhConvention::standard;
   std::vector<double> masses;   // kg; empty: 1 each
   std::vector<double> damping;  // N m s/rad, of sliding joints N s/m; empty: none
+  std::vector<double> efforts;  // that the joints are limited to, N m or N; empty: without end
   std::string joints;           // a letter each, R or P, maybe with its axis: "RRP", "RzPx"; "": all turn
   LinkMass shape = LinkMass::rod;
 

@@ -1,5 +1,7 @@
 #include "model/read_chain.hpp"
 
+#include <cmath>
+
 #include "model/planar.hpp"
 #include "model/reduce.hpp"
 #include "model/regularity.hpp"
@@ -49,6 +51,9 @@ Chain chain_of(const UrdfFile& file, const ModelOptions& options) {
   const Eigen::Vector3d down =
       moves_in_xy_plane(chain) ? Eigen::Vector3d(0, -9.81, 0) : Eigen::Vector3d(0, 0, -9.81);
   chain.gravity = options.gravity.value_or(down);
+  // A component that is no number was left out.
+  for (int i = 0; i < 3; ++i)
+    if (std::isnan(chain.gravity[i])) chain.gravity[i] = down[i];
   chain.planar = planar_form_of(chain, chain.why_algebra);
   return chain;
 }

@@ -28,7 +28,7 @@ namespace chainreel {
 struct StartState {
   std::vector<double> q;   // empty: every joint at zero
   std::vector<double> qd;  // empty: at rest
-  std::vector<std::string> written_q;  // the numbers of q as they stand in the file; not a key
+  std::vector<std::string> written_q, written_qd;  // their numbers as they stand in the file; not keys
 };
 
 struct Video {
@@ -135,6 +135,7 @@ struct Scene {
   std::string file;                     // where it was read; not a key
   std::string name;                     // the file's name without its ending; not a key
   std::vector<std::string> notices;     // what was changed of it when it was made ready; not a key
+  std::vector<std::string> doubts;      // what speaks against it, found at the same time: warnings; not a key
   std::vector<std::string> absolute_paths;  // that the file itself has as such; not a key
   std::map<std::string, Place> places;  // where each key stood, by its dotted path; not a key
 

@@ -87,7 +87,8 @@ INSTANTIATE_TEST_SUITE_P(
         Tabled{"ellipse", {"ellipse", "models/rr.urdf", "--pose", "0,90deg", "--pose", "0,60deg"}, "q.joint2"},
         Tabled{"chart", {"chart", "assets/scenes/rr_free.yaml", "--methods", "rk4,explicit_euler", "--set", "duration=0.2", "--runs", "1", "--longest", "2ms"}, "error", true},
         Tabled{"energy", {"energy", "assets/scenes/rr_free.yaml", "--methods", "rk4,explicit_euler", "--set", "duration=0.2"}, "energy_error"},
-        Tabled{"stability", {"stability", "assets/scenes/pp_spring.yaml", "--set", "duration=0.2", "--x", "step=0.01:0.02:2", "--y", "parameters.k=25:50:2"}, "energy_error"},
+        Tabled{"stability", {"stability", "assets/scenes/pp_spring.yaml", "--set", "duration=0.2", "--set", "torque=[0, -k * y_G]", "--set",
+                             "parameters.k=25", "--x", "step=0.01:0.02:2", "--y", "parameters.k=25:50:2"}, "energy_error"},
         Tabled{"methods", {"stability", "assets/scenes/pp_spring.yaml", "--methods", "rk4,dop853", "--set", "duration=0.2"}, "energy_error"}),
     [](const auto& param) { return std::string(param.param.name); });
 

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "model/doctor.hpp"
 #include "model/read_chain.hpp"
 #include "model/urdf_file.hpp"
@@ -42,6 +44,25 @@ TEST(LinkChain, SaysWhichListDoesNotFit) {
   EXPECT_THAT(first_problem({.dh = {{1, 0, 0, 0}}, .joints = "Rx"}), HasSubstr("turn about z"));
   EXPECT_THAT(first_problem({.links = std::vector<double>(101, 1.0)}), HasSubstr("beyond 100 write a URDF file"));
   EXPECT_EQ(first_problem({.links = std::vector<double>(100, 1.0)}), "");
+}
+
+TEST(LinkChain, MayLimitTheEffortsOfItsJointsAndNothingElse) {
+  LinkChain links{.links = {0.5, 0.4}, .efforts = {20}, .joints = "RP"};
+  ASSERT_TRUE(complete(links).empty());
+  EXPECT_THAT(text_of(links), HasSubstr("efforts: [20, 20]}"));
+  ModelSource source("scene.yaml");
+  source.links = links;
+  EXPECT_TRUE(read_urdf_file(source).remarks.empty());
+  const Chain chain = read_chain(source);
+  for (std::size_t i = 1; i <= 2; ++i) {
+    const JointLimit& limit = chain.bodies[i].joint.limit;
+    EXPECT_EQ(limit.effort, 20);
+    EXPECT_EQ(limit.velocity, std::numeric_limits<double>::infinity());
+    EXPECT_GE(limit.upper, 1e9) << "as good as none";
+    EXPECT_LE(limit.lower, -1e9);
+  }
+  EXPECT_THAT(first_problem({.links = {1}, .efforts = {0}}), HasSubstr("efforts holds 0"));
+  EXPECT_THAT(first_problem({.links = {1, 1}, .efforts = {1, 2, 3}}), HasSubstr("efforts has 3 numbers"));
 }
 
 TEST(LinkChain, HasLinksThatScenesCanName) {

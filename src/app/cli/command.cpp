@@ -11,7 +11,7 @@
 #include "model/chain.hpp"
 #include "scene/quantity.hpp"
 #include "scene/run/grid.hpp"
-#include "scene/run/pose_doubts.hpp"
+#include "scene/run/unread.hpp"
 #include "scene/scene.hpp"
 
 namespace chainreel {
@@ -93,11 +93,17 @@ void add_comparison(const std::vector<std::string>& vary, std::vector<std::strin
   overrides.push_back("compare=[" + list + "]");
 }
 
-std::vector<double> parse_list(const std::string& text, const std::string& what) {
+void require_varied_read(const std::vector<std::string>& vary, const Scene& scene) {
+  if (vary.empty()) return;
+  const Grid grid(vary, "--vary");
+  for (const Sweep& axis : grid.axes()) require_read(axis.key, scene, "--vary");
+}
+
+std::vector<double> parse_list(const std::string& text, const std::string& what, const std::string& in) {
   std::vector<double> values;
   for (const std::string& entry : separated(text, ',')) {
     try {
-      values.push_back(parse_quantity(entry, {}));
+      values.push_back(parse_quantity(entry, {}, in));
     } catch (const Error& error) {
       throw Error(ExitCode::usage, what + " " + text + ": " + error.problems().front().message);
     }
@@ -171,6 +177,8 @@ std::vector<double> parse_pose(const Chain& chain, const std::string& text, cons
   std::vector<std::string> written = entries;
   const std::vector<double> q = text.find('=') != std::string::npos ? pose_by_name(chain, entries, text, what, written)
                                                                     : parse_counted(std::size_t(chain.nq), chain, text, what);
+  if (const std::string trouble = trouble_of_units(chain, written, StateNumbers::q); !trouble.empty())
+    throw Error(ExitCode::usage, what + " " + text + ": " + trouble);
   for (const std::string& doubt : doubts_of_pose(chain, q, written))
     std::fprintf(stderr, "WARNING: %s: %s\n", what.c_str(), doubt.c_str());
   if (const std::string trouble = trouble_of_pose(chain, q); !trouble.empty())
@@ -185,13 +193,16 @@ std::vector<std::vector<double>> parse_poses(const Chain& chain, const std::vect
   return poses;
 }
 
-std::vector<double> parse_freedoms(const Chain& chain, const std::string& text, const std::string& what) {
+std::vector<double> parse_freedoms(const Chain& chain, const std::string& text, const std::string& what, StateNumbers numbers) {
   if (text.empty()) return std::vector<double>(std::size_t(chain.nv));
-  return parse_counted(std::size_t(chain.nv), chain, text, what);
+  const std::vector<double> values = parse_counted(std::size_t(chain.nv), chain, text, what);
+  if (const std::string trouble = trouble_of_units(chain, separated(text, ','), numbers); !trouble.empty())
+    throw Error(ExitCode::usage, what + " " + text + ": " + trouble);
+  return values;
 }
 
 std::string gravity_override(const std::string& text) {
-  const std::vector<double> g = parse_list(text, "--gravity");
+  const std::vector<double> g = parse_list(text, "--gravity", "m/s^2");
   if (g.size() != 3)
     throw Error(ExitCode::usage, "--gravity takes three numbers, world x,y,z: --gravity 0,-9.81,0");
   return "gravity=[" + format_exact(g[0]) + ", " + format_exact(g[1]) + ", " + format_exact(g[2]) + "]";

@@ -9,6 +9,7 @@
 
 #include "app/cli/command_line.hpp"
 #include "model/read_chain.hpp"
+#include "scene/run/pose_doubts.hpp"
 #include "scene/keys/keys.hpp"
 
 namespace chainreel {
@@ -55,9 +56,11 @@ void add_vary_option(Command& command, std::vector<std::string>& vary);
 // Adds what --vary KEY=a,b,c says in the words of a scene, as its key `compare`: a panel a value, with several
 // options a panel a combination. Throws Error (usage) for more than twelve panels.
 void add_comparison(const std::vector<std::string>& vary, std::vector<std::string>& overrides);
+// Throws Error (usage) where what varies is a parameter that nothing in the scene reads.
+void require_varied_read(const std::vector<std::string>& vary, const Scene& scene);
 
-// "0,90deg" as numbers; `what` names the option in the error.
-std::vector<double> parse_list(const std::string& text, const std::string& what);
+// "0,90deg" as numbers; `what` names the option in the error, `in` the unit as parse_quantity has it.
+std::vector<double> parse_list(const std::string& text, const std::string& what, const std::string& in = "");
 
 // An instant or a span of the command line, s: 1.2, 1.2s, 20ms. Throws Error (usage) naming the option.
 double parse_seconds(const std::string& text, const std::string& option);
@@ -73,8 +76,8 @@ std::vector<double> parse_pose(const Chain& chain, const std::string& text, cons
 // The same for each text of a repeatable option.
 std::vector<std::vector<double>> parse_poses(const Chain& chain, const std::vector<std::string>& texts,
                                              const std::string& what);
-// One number a freedom; empty text gives zeros.
-std::vector<double> parse_freedoms(const Chain& chain, const std::string& text, const std::string& what);
+// One number a freedom, rates or torques; empty text gives zeros.
+std::vector<double> parse_freedoms(const Chain& chain, const std::string& text, const std::string& what, StateNumbers numbers);
 
 // "gravity=[0, -9.81, 0]" from "0,-9.81,0", as scenes say it.
 std::string gravity_override(const std::string& text);

@@ -23,6 +23,12 @@ CLI::App* app_of(void* pointer) {
   return static_cast<CLI::App*>(pointer);
 }
 
+// On what was found elsewhere than where it was named; said when the command begins, unless it is to be quiet.
+std::vector<std::string>& notes() {
+  static std::vector<std::string> list;
+  return list;
+}
+
 template <class Target>
 Option add_to(void* command, const std::string& name, Target& target, const std::string& help) {
   return Option(app_of(command)->add_option(name, target, help));
@@ -58,7 +64,13 @@ Option Option::show_default() {
 Option Option::names_input() {
   option_of(option_)->transform(CLI::Validator(
       [](std::string& named) {
-        named = named == "-" ? read_standard_input() : found_file(named);
+        if (named == "-") {
+          named = read_standard_input();
+          return std::string();
+        }
+        const std::string found = found_file(named);
+        if (const std::string note = found_elsewhere(named, found); !note.empty()) notes().push_back(note);
+        named = found;
         return std::string();
       },
       ""));
@@ -108,7 +120,14 @@ void Command::footer(const std::string& text) {
 }
 
 void Command::callback(std::function<void()> run) {
-  app_of(command_)->callback(std::move(run));
+  CLI::App* const app = app_of(command_);
+  app->callback([app, run = std::move(run)] {
+    const CLI::Option* const quiet = app->get_option_no_throw("--quiet");
+    if (quiet == nullptr || quiet->count() == 0)
+      for (const std::string& note : notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
+    notes().clear();
+    run();
+  });
 }
 
 std::vector<std::string> Command::words() const {
@@ -145,6 +164,11 @@ namespace {
 std::string words_not_expected(const std::vector<std::string>& words) {
   std::string text = words.size() == 1 ? "The following argument was not expected:" : "The following arguments were not expected:";
   for (const std::string& word : words) text += " " + word;
+  const auto is_number = [](const std::string& word) {
+    const std::size_t digit = word.find_first_not_of("+-.");
+    return digit != std::string::npos && digit <= 2 && word[digit] >= '0' && word[digit] <= '9';
+  };
+  if (std::all_of(words.begin(), words.end(), is_number)) text += "; the numbers of an option stand together, with commas: --q 0,-45deg";
   return text;
 }
 

@@ -94,4 +94,9 @@ std::string found_file(const std::string& named) {
   return named;
 }
 
+std::string found_elsewhere(const std::string& named, const std::string& found) {
+  if (named == found || fs::path(named).extension().empty()) return "";
+  return "there is no file " + named + " here: the program's own is taken, " + found;
+}
+
 }  // namespace chainreel

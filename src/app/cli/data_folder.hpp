@@ -23,4 +23,7 @@ std::string shipped_file(const std::string& name);
 // `named` itself where there is such a file or it is a path; else the file of that name which comes with the program.
 std::string found_file(const std::string& named);
 
+// Of a name with an ending, which looks like a file here, and of which found_file gave another one: what is to be said. "": nothing.
+std::string found_elsewhere(const std::string& named, const std::string& found);
+
 }  // namespace chainreel

@@ -66,8 +66,8 @@ DhTable read_dh_table(const std::string& path) {
                   "has " + std::to_string(cells.size()) + " cells under " + std::to_string(header.size()) + " names", place);
     DhRow& row = table.rows.emplace_back();
     for (std::size_t k = 0; k < 4; ++k)
-      row[k] = kDhAngle[k] ? parse_angle(cells[columns[k]], place) : parse_quantity(cells[columns[k]], place);
-    if (columns[4] < header.size()) table.masses.push_back(parse_quantity(cells[columns[4]], place));
+      row[k] = kDhAngle[k] ? parse_angle(cells[columns[k]], place) : parse_quantity(cells[columns[k]], place, "m");
+    if (columns[4] < header.size()) table.masses.push_back(parse_quantity(cells[columns[4]], place, "kg"));
   }
   if (table.rows.empty())
     throw Error(ExitCode::bad_input, "holds no row: write a,alpha,d,theta and below it a row for each joint", {path});

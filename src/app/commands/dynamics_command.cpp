@@ -13,6 +13,7 @@
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
 #include "app/report/report.hpp"
+#include "app/report/run_report.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "dynamics/energy.hpp"
@@ -22,6 +23,7 @@
 #include "dynamics/lagrange.hpp"
 #include "model/read_chain.hpp"
 #include "scene/quantity.hpp"
+#include "scene/run/scene_doubts.hpp"
 #include "sim/instant.hpp"
 
 namespace chainreel {
@@ -55,7 +57,9 @@ Chain load_chain(const DynamicsOptions& options) {
   honoured.push_back("end_effector");
   ModelScene model = model_scene_of(options.file, overrides_of(options), "dynamics", honoured);
   model.options.meshes = false;
-  return read_chain(options.file, model.options);
+  Chain chain = read_chain(options.file, model.options);
+  if (const std::string doubt = doubt_of_gravity(chain); !doubt.empty()) tell_warnings({doubt});
+  return chain;
 }
 
 Json list(const std::vector<double>& values) {
@@ -224,8 +228,8 @@ Json model_report(const DynamicsOptions& options) {
   if (!options.at.empty() || options.panel > 0)
     throw Error(ExitCode::usage, "--at and --panel go with a scene; the state of a model is what --q, --qd and --tau say");
   const Chain chain = load_chain(options);
-  const State state{parse_pose(chain, options.q, "--q"), parse_freedoms(chain, options.qd, "--qd"),
-                    parse_freedoms(chain, options.tau, "--tau")};
+  const State state{parse_pose(chain, options.q, "--q"), parse_freedoms(chain, options.qd, "--qd", StateNumbers::qd),
+                    parse_freedoms(chain, options.tau, "--tau", StateNumbers::tau)};
   return report(TipMass(chain), state, options);
 }
 

@@ -11,6 +11,7 @@
 #include "app/commands/figure.hpp"
 #include "app/film/progress.hpp"
 #include "app/report/report.hpp"
+#include "app/report/run_report.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -143,6 +144,7 @@ void run_fall(const FallOptions& options) {
     });
   }
   throw_if_interrupted();
+  tell_warnings(table.doubts);
   Json report = report_of(options.scene, table);
   if (writes) write_numbers(options.output, {csv_of(options.scene, table), [&] { return report; }}, options.common.force);
   if (writes) report["file"] = options.output;

@@ -73,9 +73,9 @@ bool is_in_numbers(const InitOptions& options) {
 // The options' numbers, complete.
 LinkChain chain_of(const InitOptions& options) {
   LinkChain chain;
-  if (!options.links.empty()) chain.links = parse_list(options.links, "--links");
-  if (!options.masses.empty()) chain.masses = parse_list(options.masses, "--masses");
-  if (!options.damping.empty()) chain.damping = parse_list(options.damping, "--damping");
+  if (!options.links.empty()) chain.links = parse_list(options.links, "--links", "m");
+  if (!options.masses.empty()) chain.masses = parse_list(options.masses, "--masses", "kg");
+  if (!options.damping.empty()) chain.damping = parse_list(options.damping, "--damping", "N m s/rad or N s/m");
   if (!options.shape.empty()) chain.shape = *value_named<LinkMass>(options.shape);
   if (!options.convention.empty()) chain.convention = *value_named<DhConvention>(options.convention);
   chain.joints = options.joints;

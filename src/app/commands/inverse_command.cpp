@@ -8,9 +8,11 @@
 #include "app/cli/table_files.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/report/motion_table.hpp"
+#include "app/report/run_report.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "scene/run/prepare.hpp"
+#include "scene/run/scene_doubts.hpp"
 #include "scene/text/read_scene.hpp"
 #include "sim/drive/reference.hpp"
 #include "sim/inverse_along.hpp"
@@ -38,7 +40,9 @@ Mechanism load_mechanism(const InverseOptions& options) {
   if (is_model_file(options.file)) {
     ModelScene model = model_scene_of(options.file, overrides, "inverse", keys_of_models(OfModel::mechanism));
     model.options.meshes = false;
-    return {read_chain(options.file, model.options), {}};
+    Mechanism mechanism{read_chain(options.file, model.options), {}};
+    if (const std::string doubt = doubt_of_gravity(mechanism.chain); !doubt.empty()) tell_warnings({doubt});
+    return mechanism;
   }
   Scene scene = read_scene(options.file, overrides);
   require_single_run(scene);
@@ -47,6 +51,7 @@ Mechanism load_mechanism(const InverseOptions& options) {
                 "shows a recorded motion of its own: `chainreel simulate` writes its torques, by inverse dynamics, too",
                 scene.place_of("motion"));
   Simulation simulation = prepare(scene, false);
+  for (const std::string& doubt : scene.doubts) tell_warnings({scene.name + ": " + doubt});
   return {std::move(simulation.chain), std::move(simulation.constraints)};
 }
 

@@ -49,6 +49,7 @@ std::vector<PreparedFilm> load_all(const RenderOptions& options) {
   for (const std::string& scene : options.scenes) {
     try {
       films.push_back(load_film(scene, overrides_of(options), true, options.common.quiet));
+      require_varied_read(options.vary, films.back().scene);
     } catch (const Error& error) {
       code = error.code();
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());

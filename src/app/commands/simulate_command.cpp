@@ -1,6 +1,7 @@
 // chainreel simulate SCENE -o FILE.csv
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <numeric>
@@ -62,7 +63,10 @@ Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, Tab
     files.write_partial(table);
   require_expected_end(trajectory, prepared.scene);
   const RunReport run = run_report(prepared, trajectory);
-  tell_warnings(warning_lines(prepared.scene.name + (alone ? "" : ", '" + prepared.scene.title + "'"), run));
+  const std::string name = prepared.scene.name + (alone ? "" : ", '" + prepared.scene.title + "'");
+  tell_warnings(warning_lines(name, run));
+  if (!options.common.quiet)
+    for (const std::string& note : notes_of(prepared, trajectory)) std::fprintf(stderr, "%s: %s\n", name.c_str(), note.c_str());
   Json report = to_json(run);
   report["rows"] = trajectory.size();
   report.update(files_json(files.paths()));

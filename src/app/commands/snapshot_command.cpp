@@ -197,6 +197,7 @@ void snapshot_scene(const SnapshotOptions& options) {
   std::vector<std::string> overrides = overrides_of(options);
   add_comparison(options.vary, overrides);
   PreparedFilm film = load_film(options.file, overrides, true, options.common.quiet);
+  require_varied_read(options.vary, film.scene);
   for (const PreparedScene& panel : film.panels) say_notices(panel, options.common.quiet);
   Video& video = film.scene.video;
   if (options.width > 0) video.width = options.width;

@@ -376,6 +376,8 @@ void add_sweep_command(CommandLine& app) {
   add_result_options(*command, options->common);
   command->footer("Tables are computed by dop853 with tolerance 1e-10 where a scene leaves its method to auto, which asks what a page shows;\n"
                   "films and pictures by what auto takes.\n"
+                  "A .csv table begins with three lines of facts, `# ..`: pandas.read_csv(file, comment='#'), or numpy.genfromtxt(file,\n"
+                  "delimiter=',', names=True, skip_header=3); .npz and .json have none.\n"
                   "Example: chainreel sweep rr_free --over start.q.1=0:90deg:4 --over gravity.2=-9.81,-1.62 -o out/grid.csv");
   command->callback([options] { run_sweep(*options); });
 }

@@ -10,6 +10,7 @@
 #include "app/cli/streams.hpp"
 #include "app/film/progress.hpp"
 #include "app/report/motion_table.hpp"
+#include "app/report/run_report.hpp"
 #include "app/report/version.hpp"
 #include "app/works/growing_table.hpp"
 #include "core/csv.hpp"
@@ -20,6 +21,7 @@
 #include "core/output_file.hpp"
 #include "core/parallel.hpp"
 #include "scene/run/prepare.hpp"
+#include "scene/run/unread.hpp"
 #include "scene/text/read_scene.hpp"
 #include "sim/workload.hpp"
 #include "table/data_table.hpp"
@@ -237,16 +239,19 @@ class Failures {
 
 void refuse_unknown_keys(const std::string& scene, const std::vector<std::string>& overrides, const Grid& grid) {
   try {
-    SceneFile(scene).read(settings_of(overrides, grid, 0));
+    const Scene first = SceneFile(scene).read(settings_of(overrides, grid, 0));
+    for (const Sweep& axis : grid.axes()) require_read(axis.key, first, "--over");
   } catch (const Error& error) {
-    if (is_about_keys(error)) throw;
+    if (is_about_keys(error) || error.code() == ExitCode::usage) throw;
   }
 }
 
 SweepOutcome write_sweep_table(const SweepTableJob& job) {
   const auto [first, simulation] = first_good_run(job);
   require_possible(simulation, double(job.runs.behind - job.runs.first));
+  for (const Sweep& axis : job.grid.axes()) require_read(axis.key, first, "--over");
   const std::string states = state_names(simulation.chain);
+  for (const std::string& doubt : first.doubts) tell_warnings({first.name + ": " + doubt});
 
   GrowingTable table(job.path, head_of(job, first, states), std::size_t(job.runs.first),
                      std::size_t(job.runs.behind - job.runs.first), job.overwrite);

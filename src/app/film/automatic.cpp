@@ -133,7 +133,14 @@ std::string choice_text(const Choice& choice, const Accuracy& accuracy) {
   return text;
 }
 
+std::vector<std::string> doubt_lines(const PreparedScene& prepared) {
+  std::vector<std::string> lines;
+  for (const std::string& doubt : prepared.scene.doubts) lines.push_back(prepared.scene.name + ": " + doubt);
+  return lines;
+}
+
 void say_notices(const PreparedScene& prepared, bool quiet) {
+  for (const std::string& line : doubt_lines(prepared)) std::fprintf(stderr, "WARNING: %s\n", line.c_str());
   if (quiet) return;
   for (const std::string& notice : prepared.scene.notices)
     std::fprintf(stderr, "%s: %s\n", prepared.scene.name.c_str(), notice.c_str());

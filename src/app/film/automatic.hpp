@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/film/prepared.hpp"
 #include "core/json.hpp"
@@ -17,7 +18,9 @@ Choice choose_with_progress(Simulation& simulation, const Scene& scene, std::spa
 // One sentence: the choice, a bound of its error and its price; until when that holds, and what happens there.
 std::string choice_text(const Choice& choice, const Accuracy& accuracy);
 
-// What was changed of the scene when it was made ready, on standard error.
+// "NAME: what speaks against the scene", a line each.
+std::vector<std::string> doubt_lines(const PreparedScene& prepared);
+// On standard error: these as warnings, however quiet; and what was changed of the scene when it was made ready.
 void say_notices(const PreparedScene& prepared, bool quiet);
 // The same, and that sentence, unless there was nothing to choose or all is to be quiet.
 void say_choice(const PreparedScene& prepared, bool quiet);

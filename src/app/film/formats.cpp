@@ -82,10 +82,13 @@ std::span<const OutputFormat> output_formats() {
 }
 
 const OutputFormat* find_output_format(const std::string& path, std::optional<Shows> shows) {
-  const std::filesystem::path file(path);
+  // As cameras and editors write them: .MP4
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
   for (const OutputFormat& row : kFormats)
     if (shows.value_or(row.shows) == row.shows &&
-        (row.is_sequence ? path.ends_with(row.ending) : file.extension() == row.ending))
+        (row.is_sequence ? path.ends_with(row.ending) : ending == row.ending))
       return &row;
   return nullptr;
 }

@@ -128,6 +128,7 @@ PreparedScene load_scene(const std::string& path, const std::vector<std::string>
   require_single_run(scene);
   PreparedScene prepared = prepare_panel(std::move(scene), meshes, quiet);
   prepared.simulation.events = nullptr;
+  say_notices(prepared, quiet);
   return prepared;
 }
 

@@ -34,8 +34,8 @@ PreparedFilm load_film(const std::string& path, const std::vector<std::string>& 
                        bool quiet = true);
 // The same of a scene that has been read. `torque` drives the joints of every panel: Error (usage) where one has its own.
 PreparedFilm film_of(Scene scene, bool meshes = true, bool quiet = true, const std::optional<OwnTorque>& torque = {});
-// For charts and tables of a single run, which compare whole durations: events do not act. Throws Error where
-// the scene compares several.
+// For charts and tables of a single run, which compare whole durations: events do not act. What is to be known of the scene is
+// said. Throws Error where it compares several.
 PreparedScene load_scene(const std::string& path, const std::vector<std::string>& overrides,
                          bool meshes = true, bool quiet = true);
 

@@ -159,7 +159,9 @@ std::string scene_page() {
       "# Keys of a scene\n\n"
       "A scene is a YAML file. Each key may also be given on the command line: `--set video.width=640`; some have flags of\n"
       "their own; `--set tolerance=` takes a key away, and `--set method=rk4` those of step, tolerance, order and accuracy that do\n"
-      "not go with rk4. Numbers are in SI units and radians, or constant expressions: `90deg`, `pi/2`, `1e-3`. Paths are relative\n"
+      "not go with rk4; `--set start.q.2=90deg` sets one entry of a list, counted from 1, of one that was left out beside the\n"
+      "defaults of the others; words (`title`) are taken as they stand. Numbers are in SI units and radians, or constant\n"
+      "expressions: `90deg`, `pi/2`, `1e-3`. Paths are relative\n"
       "to the scene file. A key with * may differ from panel to panel of a comparison; the others belong to the whole\n"
       "picture. `chainreel check SCENE` prints a scene with every key; `chainreel schema` prints a JSON Schema for editors.\n";
   for (const std::string& chapter : chapters()) text += chapter_text(chapter);

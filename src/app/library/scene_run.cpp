@@ -206,6 +206,7 @@ std::vector<std::string> SceneRun::warnings() const {
     for (int panel = 0; panel < panels(); ++panel) {
       const PreparedScene& prepared = state_->film.panels[std::size_t(panel)];
       const std::string named = prepared.scene.name + (panels() > 1 ? ", '" + prepared.scene.title + "'" : "");
+      for (const std::string& doubt : prepared.scene.doubts) lines.push_back(named + ": " + doubt);
       for (const std::string& notice : prepared.scene.notices) lines.push_back(named + ": " + notice);
       for (const std::string& line : warning_lines(named, run_report(prepared, trajectory(panel)))) lines.push_back(line);
     }

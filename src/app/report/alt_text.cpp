@@ -47,7 +47,7 @@ std::string motion_words(const PreparedScene& panel, double seconds) {
   const Chain& chain = panel.simulation.chain;
   const bool starts_at_rest =
       std::all_of(scene.start.qd.begin(), scene.start.qd.end(), [](double qd) { return qd == 0; });
-  return "the chain " + chain.name + " with " + std::to_string(chain.nv) +
+  return "the chain" + (chain.name == "chain" ? "" : " " + chain.name) + " with " + std::to_string(chain.nv) +
          (chain.nv == 1 ? " freedom" : " freedoms") + " moves for " + format_significant(seconds, 4) + " s" +
          " under " +
          (chain.gravity.norm() > 0
@@ -88,7 +88,7 @@ std::string pause_words(const FilmReport& report) {
 
 void add_troubles(std::vector<Moment>& moments, const RunReport& run, const std::string& where) {
   for (const LimitEvent& limit : run.trajectory.limits)
-    moments.push_back({limit.t, where + "joint " + limit.joint + " passes its limit of " + limit.quantity});
+    moments.push_back({limit.t, where + "joint " + limit.joint + " " + limit_words(limit, run.prepared.scene.limit)});
   if (run.left_picture_at) moments.push_back({*run.left_picture_at, where + "the chain leaves the picture"});
 }
 

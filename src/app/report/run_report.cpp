@@ -103,6 +103,8 @@ Json to_json(const RunReport& report) {
   }
   json["energy_moved"] = audit.energy_moved;
   json["warnings"] = Json::array();
+  for (const std::string& doubt : scene.doubts)
+    json["warnings"].push_back({{"kind", "scene"}, {"amount", nullptr}, {"what", doubt}, {"remedy", ""}});
   for (const Doubt& doubt : warnings)
     json["warnings"].push_back(
         {{"kind", doubt.kind}, {"amount", doubt.amount}, {"what", doubt.words}, {"remedy", doubt.remedy}});
@@ -138,6 +140,30 @@ std::vector<std::string> warning_lines(const FilmReport& report) {
   for (const RunReport& panel : report.panels)
     for (std::string& line : warning_lines(name + ", '" + title_of(panel) + "'", panel)) lines.push_back(std::move(line));
   return lines;
+}
+
+std::string limit_words(const LimitEvent& limit, LimitPolicy policy) {
+  if (policy == LimitPolicy::clamp && limit.quantity == "effort") return "is asked for more than its limit of effort: the torque is cut to that";
+  return "passes its limit of " + limit.quantity;
+}
+
+std::vector<std::string> notes_of(const PreparedScene& prepared, const Trajectory& trajectory) {
+  constexpr std::size_t kMostLimits = 6;  // the audit tells of all
+  std::vector<std::string> notes;
+  const Scene& scene = prepared.scene;
+  const bool has_stopped = trajectory.status == RunStatus::stopped;
+  const std::vector<LimitEvent>& limits = trajectory.limits;
+  const bool by_limit = has_stopped && scene.limit == LimitPolicy::stop && trajectory.ending_event < 0;
+  for (std::size_t i = 0; i < limits.size() && !by_limit; ++i) {
+    if (i == kMostLimits) {
+      notes.push_back(std::to_string(limits.size() - i) + " more limits are passed: see `limits_passed` of --json");
+      break;
+    }
+    const bool is_cut = scene.limit == LimitPolicy::clamp && limits[i].quantity == "effort";
+    notes.push_back(to_string(limits[i]) + (is_cut ? ": by limit: clamp, torques beyond it are cut" : ""));
+  }
+  if (!trajectory.trouble.empty() && is_complete(trajectory.status)) notes.push_back("stopped: " + trajectory.trouble);
+  return notes;
 }
 
 std::string left_out_words(const std::vector<std::string>& layers, const Scene& page) {

@@ -61,6 +61,12 @@ std::string left_out_words(const std::vector<std::string>& layers, const Scene& 
 // The same on standard error.
 void tell_left_out(const std::vector<std::string>& layers, const Scene& page, bool quiet);
 
+// What a run met with that one may not see in it, half a sentence each: limits that were passed, unless their passing ended it, and
+// what ended it before its time, unless that is a failure. The same of films and of tables.
+std::vector<std::string> notes_of(const PreparedScene& prepared, const Trajectory& trajectory);
+// "passes its limit of effort", or that the torque is cut there.
+std::string limit_words(const LimitEvent& limit, LimitPolicy policy);
+
 // For how long the first frame is held: whole frames, s.
 double held_first(const Scene& scene);
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 
+#include "app/film/automatic.hpp"
 #include "app/report/alt_text.hpp"
 #include "app/report/report.hpp"
 #include "app/report/sidecar.hpp"
@@ -34,14 +36,12 @@ void write_tables(const Runs& runs, std::vector<Output>& outputs) {
                                                       table_format_of(output.target.path)));
 }
 
-// Runs that a limit stopped: no failure, but not what one may think either.
-void add_stops(const Runs& runs, std::vector<std::string>& notes) {
+// Limits that were passed and runs that were stopped: no failure, but not what one may think either.
+void add_run_notes(const Runs& runs, std::vector<std::string>& notes) {
   const PreparedFilm& film = runs.film();
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (runs[i].trouble.empty() || !is_complete(runs[i].status)) continue;
-    const std::string text = "stopped: " + runs[i].trouble;
-    notes.push_back(film.scene.name + ": " + (runs.size() == 1 ? text : in_panel(film.panels[i].scene, i, text)));
-  }
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (const std::string& text : notes_of(film.panels[i], runs[i]))
+      notes.push_back(film.scene.name + ": " + (runs.size() == 1 ? text : in_panel(film.panels[i].scene, i, text)));
 }
 
 // Slow motion about an event that never comes is none, nor are its words, which their author may want to know.
@@ -77,7 +77,7 @@ void add_own_slow_motion(const FilmReport& report, std::vector<std::string>& not
 // What is to be said of a film that became what it is, to its caller or on standard error.
 void tell(const FilmReport& report, const RenderJob& job, RenderResult& result) {
   const Scene& page = report.film().scene;
-  add_stops(report.runs, result.notes);
+  add_run_notes(report.runs, result.notes);
   add_missing_events(report.runs, result.notes);
   add_own_slow_motion(report, result.notes);
   result.warnings = warning_lines(report);
@@ -86,9 +86,11 @@ void tell(const FilmReport& report, const RenderJob& job, RenderResult& result) 
     tell_left_out(report.left_out, page, job.quiet);
     if (job.quiet) return;
     for (const std::string& note : result.notes) std::fprintf(stderr, "%s\n", note.c_str());
-  } else if (!report.left_out.empty()) {
-    result.notes.push_back(left_out_words(report.left_out, page));
+    return;
   }
+  // Nothing has been said of the scenes either.
+  for (const PreparedScene& panel : report.film().panels) std::ranges::move(doubt_lines(panel), std::back_inserter(result.warnings));
+  if (!report.left_out.empty()) result.notes.push_back(left_out_words(report.left_out, page));
 }
 
 // For LaTeX's package animate, which takes a frame rate as a number and frames by their first and last.

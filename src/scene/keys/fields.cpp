@@ -174,6 +174,44 @@ bool Fields::read(const std::string& key, std::vector<double>& value) {
   return value.size() == node.size();
 }
 
+bool Fields::read_some(const std::string& key, std::vector<double>& value) {
+  const YAML::Node node = find(key);
+  if (!node.IsMap() || node.size() == 0) return read(key, value);
+  constexpr double kMostEntries = 1000;  // more than chains have
+  std::vector<double> some;
+  bool is_good = true;
+  for (const auto& pair : node) {
+    const std::string& index = pair.first.Scalar();
+    const std::optional<double> at = parse_number(index);
+    if (!at || *at < 1 || *at > kMostEntries || *at != std::floor(*at)) {
+      problems_->add({"'" + path(key) + "' is a list, whose entries are counted from 1: '" + index + "' is none", place_of(pair.second, key + "." + index), true});
+      is_good = false;
+      continue;
+    }
+    some.resize(std::max(some.size(), std::size_t(*at)), std::nan(""));
+    const std::optional<double> one = number(pair.second, key + "." + index);
+    if (one) some[std::size_t(*at) - 1] = *one;
+    is_good &= one.has_value();
+  }
+  some.push_back(std::nan(""));
+  if (is_good) value = std::move(some);
+  return is_good;
+}
+
+bool Fields::read_some(const std::string& key, std::optional<Eigen::Vector3d>& value) {
+  const YAML::Node node = find(key);
+  if (!node.IsMap() || node.size() == 0) return read(key, value);
+  std::vector<double> some;
+  if (!read_some(key, some)) return false;
+  if (some.size() > 4) {
+    problems_->add("'" + path(key) + "' has three numbers, world x y z: there is no '" + std::to_string(some.size() - 1) + "'", place_of(node, key));
+    return false;
+  }
+  some.resize(3, std::nan(""));
+  value = Eigen::Vector3d(some[0], some[1], some[2]);
+  return true;
+}
+
 bool Fields::read(const std::string& key, Eigen::Vector3d& value) {
   const YAML::Node node = find(key);
   if (!node.IsDefined()) return false;

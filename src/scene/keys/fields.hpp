@@ -40,6 +40,10 @@ class Fields {
   bool read(const std::string& key, Accuracy& value);
   bool read(const std::string& key, std::vector<double>& value);  // numbers, `90deg`, `pi/2`
   bool read(const std::string& key, Eigen::Vector3d& value);
+  // The same, or single ones by their indices from 1, {2: 90deg}, as `--set start.q.2=90deg` makes where there is no list: those
+  // that are left out are NaN, which stand for the default.
+  bool read_some(const std::string& key, std::vector<double>& value);  // behind them one more NaN, as their count is not known
+  bool read_some(const std::string& key, std::optional<Eigen::Vector3d>& value);
   bool read(const std::string& key, std::vector<std::string>& value);
   bool read_seconds(const std::string& key, double& value);       // `1.5`, `1.5s` or `1.5 s`
   bool read_path(const std::string& key, std::string& value);  // relative to the scene file

@@ -141,7 +141,12 @@ class KeyRow {
       if constexpr (std::is_same_v<T, std::optional<double>>)
         if (is_endless(key, fields)) return void(value = std::numeric_limits<double>::infinity());
       fields.measure_in(key.unit);
-      const bool is_read = fields.read(key.leaf(), value);
+      const bool is_read = [&] {
+        if constexpr (std::is_same_v<T, std::vector<double>> || std::is_same_v<T, std::optional<Eigen::Vector3d>>)
+          return fields.read_some(key.leaf(), value);
+        else
+          return fields.read(key.leaf(), value);
+      }();
       fields.measure_in("");
       if (!is_read) return;
       if (const auto number = number_in(value)) check_range(key, fields, *number);

@@ -24,6 +24,7 @@ KeyText told_model() {
                         "RzPx; all R where left out"),
                    told_word("shape", names_of(LinkMass{}), "where the mass is; rod where left out"),
                    for_all_or_each("damping", "of the joints, N m s/rad or N s/m; none where left out"),
+                   for_all_or_each("efforts", "that the joints are limited to, for `limit:`, N m or N; without end where left out"),
                    told_list("dh", told_list("", number, ""),
                              "in the place of `links`: a, alpha, d, theta of each joint (Denavit and Hartenberg), m and rad"),
                    told_word("convention", names_of(DhConvention{}), "of `dh`; standard where left out")},
@@ -35,12 +36,14 @@ KeyText told_model() {
 namespace {
 
 // A number for all, or a list of one each.
-void read_numbers(Fields& fields, const std::string& key, std::vector<double>& values) {
+void read_numbers(Fields& fields, const std::string& key, const char* unit, std::vector<double>& values) {
   double one = 0;
+  fields.measure_in(unit);
   if (fields.find(key).IsScalar() && fields.read(key, one))
     values = {one};
   else if (!fields.find(key).IsScalar())
     fields.read(key, values);
+  fields.measure_in("");
 }
 
 bool read_dh(Fields& fields, std::vector<DhRow>& rows) {
@@ -57,7 +60,7 @@ bool read_dh(Fields& fields, std::vector<DhRow>& rows) {
       DhRow& row = rows.emplace_back();
       for (std::size_t k = 0; k < 4; ++k) {
         if (!node[i][k].IsScalar()) throw Error(ExitCode::bad_input, "must be four numbers a, alpha, d, theta");
-        row[k] = kDhAngle[k] ? parse_angle(node[i][k].Scalar(), place) : parse_quantity(node[i][k].Scalar(), place);
+        row[k] = kDhAngle[k] ? parse_angle(node[i][k].Scalar(), place) : parse_quantity(node[i][k].Scalar(), place, "m");
       }
     } catch (const Error& error) {
       fields.problems().add("'model." + key + "': " + error.problems().front().message, place);
@@ -73,9 +76,11 @@ ModelSource read_links(Fields& fields, const YAML::Node& node) {
   source.place = fields.place_of(node, "model");
   LinkChain chain;
   const bool has_links = inner.has("links");
+  inner.measure_in("m");
   bool is_good = !has_links || inner.read("links", chain.links);
-  read_numbers(inner, "masses", chain.masses);
-  read_numbers(inner, "damping", chain.damping);
+  read_numbers(inner, "masses", "kg", chain.masses);
+  read_numbers(inner, "damping", "N m s/rad or N s/m", chain.damping);
+  read_numbers(inner, "efforts", "N m or N", chain.efforts);
   inner.read("joints", chain.joints);
   inner.read("shape", chain.shape);
   is_good &= read_dh(inner, chain.dh);
@@ -84,6 +89,11 @@ ModelSource read_links(Fields& fields, const YAML::Node& node) {
     inner.problem_at("convention", "'model.convention' means nothing without rows of `dh`");
   inner.finish();
   if (!is_good) return source;
+  // A number in brackets is that of one link.
+  for (const char* key : {"masses", "damping", "efforts"})
+    if (const YAML::Node list = inner.find(key); list.IsSequence() && list.size() == 1 && chain.size() > 1)
+      inner.problem_at(key, "'model." + std::string(key) + "' is a list of one entry, but the chain has " + std::to_string(chain.size()) +
+                                " links: write one for each, or one for all without brackets");
   for (const LinkProblem& problem : complete(chain)) {
     const std::string message = "'model." + problem.key + "' " + problem.message;
     if (inner.find(problem.key).IsDefined())

@@ -108,6 +108,8 @@ void emit_list(YAML::Emitter& out, const Values& values, Text text) {
 inline void emit_numbers(YAML::Emitter& out, const std::vector<double>& values) {
   emit_list(out, values, format_shortest);
 }
+// The text of an entry behind single torques of a list: how many others there are is not known before the model is.
+inline constexpr const char* kOtherTorques = "\x01";
 std::string word_text(const std::string& word);    // quoted where YAML wants it
 std::string quoted_text(const std::string& words);  // always
 

@@ -1,5 +1,6 @@
 // What two keys of a scene say together.
 #include <algorithm>
+#include <cmath>
 
 #include "integrate/method.hpp"
 #include "scene/film_clock.hpp"
@@ -129,7 +130,8 @@ void check_frames(Fields& fields, const Scene& scene) {
                                            " [ms]' or [ns]");
   if (frames > kMostFrames) fields.problem_at("duration", "'duration' is longer than ten million frames");
   if (frames < 0.5 && scene.duration > 0)
-    fields.problem_at("duration", "'duration' is shorter than half a frame: the film would be empty");
+    fields.problem_at("duration", "'duration' is shorter than half a frame, of which neither a film nor a table has anything: take video.fps=" +
+                                       std::to_string(long(std::ceil(1 / scene.duration))) + " for one");
 }
 
 }  // namespace

@@ -1,21 +1,25 @@
 // The key torque: numbers, expressions and controls.
+#include <algorithm>
+#include <cmath>
+
+#include "core/format.hpp"
 #include "scene/keys/own_keys.hpp"
 
 namespace chainreel {
 namespace {
 
 // One number, or a list with one a freedom.
-std::vector<double> read_gains(Fields& fields, const std::string& key) {
-  std::vector<double> gains;
+std::vector<double> read_gains(Fields& fields, const std::string& key, const std::string& unit) {
   const YAML::Node node = fields.find(key);
   if (!node.IsDefined()) return {0};
-  if (node.IsSequence()) {
+  std::vector<double> gains(1);
+  fields.measure_in(unit);
+  if (node.IsSequence())
     fields.read(key, gains);
-    return gains;
-  }
-  double gain = 0;
-  fields.read(key, gain);
-  return {gain};
+  else
+    fields.read(key, gains.front());
+  fields.measure_in("");
+  return gains;
 }
 
 // One expression, or a list with one a freedom.
@@ -46,7 +50,8 @@ std::optional<Outside> read_outside(Fields& fields, bool has_table, const std::s
   return outside;
 }
 
-std::optional<Feedback> read_feedback(Fields& fields, const std::string& key) {
+// `kp`, `kd`: what these gains are told in.
+std::optional<Feedback> read_feedback(Fields& fields, const std::string& key, const std::string& kp, const std::string& kd) {
   const YAML::Node node = fields.find(key);
   if (!node.IsDefined()) return std::nullopt;
   if (!node.IsMap()) {
@@ -56,11 +61,13 @@ std::optional<Feedback> read_feedback(Fields& fields, const std::string& key) {
   }
   Fields inner(fields.document(), node, fields.path(key), fields.problems());
   Feedback feedback;
-  feedback.kp = read_gains(inner, "kp");
-  feedback.kd = read_gains(inner, "kd");
+  feedback.kp = read_gains(inner, "kp", kp);
+  feedback.kd = read_gains(inner, "kd", kd);
   feedback.q = read_entries(inner, "q");
   feedback.qd = read_entries(inner, "qd");
   feedback.qdd = read_entries(inner, "qdd");
+  for (const char* one : {"kp", "kd", "q", "qd", "qdd"})
+    if (const YAML::Node list = inner.find(one); list.IsSequence() && list.size() == 1) feedback.lists_of_one.push_back(one);
   inner.read_path("trajectory", feedback.trajectory);
   if (!feedback.trajectory.empty() && !(feedback.q.empty() && feedback.qd.empty() && feedback.qdd.empty()))
     fields.problems().add(
@@ -81,8 +88,8 @@ Control read_control(Fields& fields, const YAML::Node& node, const std::string& 
     inner.problem_at("columns", "'" + inner.path("columns") + "' names the columns of `csv`, and there is none: leave it out");
   inner.read_path("inverse_of", control.inverse_of);
   control.outside = read_outside(inner, !control.csv.empty() || !control.inverse_of.empty(), "csv or inverse_of");
-  control.pd = read_feedback(inner, "pd");
-  control.computed_torque = read_feedback(inner, "computed_torque");
+  control.pd = read_feedback(inner, "pd", "N m/rad or N/m", "N m s/rad or N s/m");
+  control.computed_torque = read_feedback(inner, "computed_torque", "1/s^2", "1/s");
   inner.read("gravity_compensation", control.gravity_compensation);
   // Films of such a run remember what it was called.
   if (const YAML::Node function = inner.find("function"); function.IsDefined())
@@ -96,14 +103,19 @@ Control read_control(Fields& fields, const YAML::Node& node, const std::string& 
 void emit_feedback(YAML::Emitter& out, const std::string& key, const std::optional<Feedback>& feedback) {
   if (!feedback) return;
   out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginMap;
-  out << YAML::Key << "kp" << YAML::Value;
-  emit_numbers(out, feedback->kp);
-  out << YAML::Key << "kd" << YAML::Value;
-  emit_numbers(out, feedback->kd);
-  const auto entries = [&](const char* name, const std::vector<Entry>& list) {
+  // One for all stands without brackets.
+  const auto write = [&](const char* name, const auto& list, auto text) {
     if (list.empty()) return;
     out << YAML::Key << name << YAML::Value;
-    emit_list(out, list, [](const Entry& entry) { return entry.text; });
+    if (list.size() == 1)
+      out << text(list.front());
+    else
+      emit_list(out, list, text);
+  };
+  write("kp", feedback->kp, format_shortest);
+  write("kd", feedback->kd, format_shortest);
+  const auto entries = [&](const char* name, const std::vector<Entry>& list) {
+    write(name, list, [](const Entry& entry) { return entry.text; });
   };
   entries("q", feedback->q);
   entries("qd", feedback->qd);
@@ -166,9 +178,37 @@ KeyText told_torque() {
                      "what drives the joints, N m or N");
 }
 
+namespace {
+
+// Single ones by their indices from 1, {2: 5}, as `--set torque.2=5` makes where there is no list: joints that are left out have none.
+// Behind them stands kOtherTorques.
+bool read_single_torques(Fields& fields, const YAML::Node& node, Scene& scene) {
+  constexpr double kMostEntries = 1000;  // more than chains have
+  const auto index_of = [&](const YAML::Node& key) {
+    const std::optional<double> at = parse_number(key.Scalar());
+    return at && *at >= 1 && *at <= kMostEntries && *at == std::floor(*at) ? std::size_t(*at) : 0;
+  };
+  if (!node.IsMap() || node.size() == 0 || std::any_of(node.begin(), node.end(), [&](const auto& pair) { return index_of(pair.first) == 0; }))
+    return false;
+  for (const auto& pair : node) {
+    const std::size_t at = index_of(pair.first);
+    const std::string key = "torque." + pair.first.Scalar();
+    scene.torque.resize(std::max(scene.torque.size(), at));
+    if (pair.second.IsScalar())
+      scene.torque[at - 1] = {in_one_line(pair.second.Scalar()), fields.place_of(pair.second, key), {}};
+    else
+      fields.problems().add("'" + key + "' must be a number or an expression", fields.place_of(pair.second, key));
+  }
+  scene.torque.push_back({kOtherTorques, fields.place_of(node, "torque"), {}});
+  return true;
+}
+
+}  // namespace
+
 void read_torque(Fields& fields, Scene& scene) {
   const YAML::Node node = fields.find("torque");
   if (!node.IsDefined()) return;
+  if (read_single_torques(fields, node, scene)) return;
   if (node.IsMap()) {
     scene.control = read_control(fields, node, "torque");
     return;

@@ -5,6 +5,7 @@
 #include "core/format.hpp"
 #include "core/parallel.hpp"
 #include "scene/run/prepare.hpp"
+#include "scene/run/unread.hpp"
 #include "scene/text/read_scene.hpp"
 #include "sim/system/chain_system.hpp"
 #include "sim/workload.hpp"
@@ -119,12 +120,14 @@ FallTable run_fall_table(const std::string& scene, const std::vector<std::string
   };
   // The first row's scene alone: one that cannot be read says so once.
   const Scene first = read_one(scene, settings(0));
+  if (!sweep.key.empty()) require_read(sweep.key, first, "--sweep");
   table.events = first.events;
   table.duration = first.duration;
   table.has_foot = first.foot.has_value();
   table.method = method_text(first);
   Scene counted = first;
   require_possible(prepare(counted, false), double(table.rows.size()));
+  for (const std::string& doubt : counted.doubts) table.doubts.push_back(first.name + ": " + doubt);
   DoneShare done(table.rows.size());
   for_each_index(table.rows.size(), threads, [&](std::size_t k) {
     if (stop && stop(done.with())) return;

@@ -42,6 +42,7 @@ struct FallTable {
   bool has_foot = false;
   std::string method;
   int threads = 1;
+  std::vector<std::string> doubts;  // "NAME: what speaks against the scene", of its first row
   std::vector<FallRow> rows;
 };
 

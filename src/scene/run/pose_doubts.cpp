@@ -1,5 +1,6 @@
 #include "scene/run/pose_doubts.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -25,7 +26,43 @@ std::string doubt_of_limits(const Joint& joint, double value) {
          told(limit.upper, turns);
 }
 
+// One a coordinate or a freedom; "" of a quaternion's numbers, which have none.
+std::vector<std::string> units_of(const Chain& chain, StateNumbers numbers) {
+  const auto unit = [&](bool turns) {
+    if (numbers == StateNumbers::q) return turns ? "rad" : "m";
+    if (numbers == StateNumbers::qd) return turns ? "rad/s" : "m/s";
+    return turns ? "N m" : "N";
+  };
+  const bool is_q = numbers == StateNumbers::q;
+  std::vector<std::string> units(std::size_t(is_q ? chain.nq : chain.nv));
+  for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
+    const Joint& joint = chain.bodies[i].joint;
+    const auto at = std::size_t(is_q ? joint.q_index : joint.v_index);
+    if (joint.kind != JointKind::floating) {
+      units[at] = unit(joint.kind == JointKind::revolute);
+      continue;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      units[at + k] = unit(false);
+      if (!is_q) units[at + 3 + k] = unit(true);
+    }
+  }
+  return units;
+}
+
 }  // namespace
+
+std::string trouble_of_units(const Chain& chain, std::span<const std::string> written, StateNumbers numbers) {
+  const std::vector<std::string> units = units_of(chain, numbers);
+  const std::vector<std::string> names = numbers == StateNumbers::q ? position_names(chain) : chain.coordinate_names;
+  for (std::size_t i = 0; i < std::min(units.size(), written.size()); ++i) {
+    const std::string kind = unit_kind(written[i]);
+    if (kind.empty() || kind == units[i]) continue;
+    return written[i] + " of " + names[i] + " is in the unit " + kind + ", but " +
+           (units[i].empty() ? "a quaternion's numbers have none" : "this is in " + units[i]);
+  }
+  return "";
+}
 
 std::vector<std::string> doubts_of_pose(const Chain& chain, std::span<const double> q, std::span<const std::string> written) {
   std::vector<std::string> doubts;

@@ -1,12 +1,16 @@
 #include "scene/run/prepare.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <tuple>
 
 #include "expr/expression.hpp"
 #include "model/chain.hpp"
 #include "model/read_chain.hpp"
 #include "scene/annotation.hpp"
+#include "scene/keys/own_keys.hpp"
 #include "scene/run/pose_doubts.hpp"
+#include "scene/run/scene_doubts.hpp"
 #include "sim/system/constrained_chain.hpp"
 
 namespace chainreel {
@@ -18,6 +22,11 @@ constexpr double kDefaultTolerance = 1e-9;
 // Fills what is absent and refuses what has the wrong length.
 void check_length(std::vector<double>& values, const std::vector<double>& absent, const std::string& key,
                   const Scene& scene, ProblemList& problems) {
+  const bool is_partial = !values.empty() && std::isnan(values.back());  // see Fields::read_some
+  if (is_partial) {
+    values.pop_back();
+    if (values.size() < absent.size()) values.resize(absent.size(), std::nan(""));
+  }
   if (values.empty()) {
     values = absent;
   } else if (values.size() != absent.size()) {
@@ -25,10 +34,28 @@ void check_length(std::vector<double>& values, const std::vector<double>& absent
                      scene.model.words() + " needs " + std::to_string(absent.size()),
                  scene.place_of(key));
   }
+  for (std::size_t i = 0; i < std::min(values.size(), absent.size()); ++i)
+    if (std::isnan(values[i])) values[i] = absent[i];
+}
+
+// A control of the whole chain: a number in brackets is that of one freedom, and of several it would be a slip.
+void check_lists(const Scene& scene, const Chain& chain, ProblemList& problems) {
+  if (!scene.control || chain.nv == 1) return;
+  for (const auto& [name, feedback] : {std::pair{"pd", &scene.control->pd}, {"computed_torque", &scene.control->computed_torque}})
+    for (const std::string& key : *feedback ? (*feedback)->lists_of_one : std::vector<std::string>{}) {
+      const std::string path = std::string("torque.") + name + "." + key;
+      problems.add("'" + path + "' is a list of one entry, but the model " + scene.model.words() + " has " + std::to_string(chain.nv) +
+                       " freedoms: write one for each, or one for all without brackets",
+                   scene.place_of(path));
+    }
 }
 
 void check_torque(Scene& scene, const Chain& chain, ProblemList& problems) {
   if (scene.control || scene.motion) return;
+  if (!scene.torque.empty() && scene.torque.back().text == kOtherTorques) {
+    scene.torque.pop_back();
+    if (scene.torque.size() < std::size_t(chain.nv)) scene.torque.resize(std::size_t(chain.nv));
+  }
   if (scene.torque.empty()) scene.torque.resize(std::size_t(chain.nv));
   if (scene.torque.size() == std::size_t(chain.nv)) return;
   std::string joints;
@@ -186,13 +213,17 @@ Simulation prepare(Scene& scene, bool meshes, LastChain& last) {
   check_length(scene.start.q, zero_configuration(chain), "start.q", scene, problems);
   check_length(scene.start.qd, std::vector<double>(std::size_t(chain.nv)), "start.qd", scene, problems);
   check_torque(scene, chain, problems);
+  check_lists(scene, chain, problems);
   const NamedFrames frames = find_frames(scene, chain, problems);
   check_parameters(scene, chain, frames, problems);
+  for (const auto& [key, written, numbers] : {std::tuple{"start.q", &scene.start.written_q, StateNumbers::q},
+                                              std::tuple{"start.qd", &scene.start.written_qd, StateNumbers::qd}})
+    if (const std::string trouble = trouble_of_units(chain, *written, numbers); !trouble.empty())
+      problems.add(std::string("'") + key + "': " + trouble, scene.place_of(key));
   problems.throw_if_any();
   if (const std::string trouble = trouble_of_pose(chain, scene.start.q); !trouble.empty())
     throw Error(ExitCode::bad_input, "start.q: " + trouble, scene.place_of("start.q"));
-  for (const std::string& doubt : doubts_of_pose(chain, scene.start.q, scene.start.written_q))
-    scene.notices.push_back("start.q: " + doubt);
+  for (std::string& doubt : doubts_of_scene(scene, chain)) scene.doubts.push_back(std::move(doubt));
 
   simulation.q0 = scene.start.q;
   simulation.qd0 = scene.start.qd;

@@ -119,7 +119,8 @@ void prepare_motion(Scene& scene, Simulation& simulation) {
   }
   scene.duration = std::min(scene.duration, end);
   replay(simulation, motion);
-  scene.start = {simulation.q0, simulation.qd0, {}};
+  scene.start = {simulation.q0, simulation.qd0, {}, {}};
+  scene.doubts.insert(scene.doubts.end(), motion->doubts().begin(), motion->doubts().end());
   scene.notices.insert(scene.notices.end(), motion->remarks().begin(), motion->remarks().end());
 }
 

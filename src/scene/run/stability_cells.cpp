@@ -11,6 +11,7 @@
 #include "core/parallel.hpp"
 #include "integrate/stability_limit.hpp"
 #include "scene/run/prepare.hpp"
+#include "scene/run/unread.hpp"
 #include "scene/text/read_scene.hpp"
 #include "sim/audit.hpp"
 #include "sim/batch.hpp"
@@ -107,6 +108,10 @@ class CellRuns {
     const auto reader = take_reader();
     Scene scene = reader->file.read(settings);
     require_single_run(scene);
+    if (at.x == 0 && at.y == 0) {
+      require_read(result_.x.key, scene, "--x");
+      require_read(result_.y.key, scene, "--y");
+    }
     if (scene.chooses_method())
       throw Error(ExitCode::bad_input,
                   "a stability map needs a method of its own: auto would choose another one in every cell; "

@@ -65,6 +65,12 @@ void fill_range(Sweep& sweep, const std::vector<std::string>& parts, const std::
   if (parts.size() < 3 || parts.size() > 4 || (sweep.logarithmic && parts[3] != "log"))
     refuse(text, option, "is no range");
   const double from = number_in(parts[0], text, option), to = number_in(parts[1], text, option);
+  // Kept beside the numbers, so that the key sees whether it is one of its own.
+  sweep.unit = unit_kind(parts[1]);
+  if (const std::string first = unit_kind(parts[0]); !first.empty() && !sweep.unit.empty() && first != sweep.unit)
+    refuse(text, option, "goes from " + first + " to " + sweep.unit);
+  else if (sweep.unit.empty())
+    sweep.unit = first;
   const auto count = parse_number(parts[2]);
   if (!count || *count != std::floor(*count) || *count < 2 || *count > kMostValues)
     refuse(text, option, "needs a count between 2 and " + std::to_string(kMostValues));

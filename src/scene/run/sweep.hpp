@@ -13,8 +13,9 @@ struct Sweep {
   std::vector<std::string> values;  // as they are written into the scene
   std::vector<double> numbers;      // the same; empty where one of them is no number
   bool logarithmic = false;
+  std::string unit{};  // SI, of a range whose ends have one: 0:90deg:4 is in rad
 
-  std::string setting(std::size_t k) const { return key + "=" + values[k]; }
+  std::string setting(std::size_t k) const { return key + "=" + values[k] + unit; }
 };
 
 // Throws Error (usage) naming the option.

@@ -42,13 +42,19 @@ void read_keys(Fields& fields, Scene& scene) {
 }
 
 // Numbers as people wrote them, with the units that they have.
-std::vector<std::string> numbers_of_start(const YamlDocument& document) {
+std::vector<std::string> numbers_of_start(const YamlDocument& document, const char* key) {
   std::vector<std::string> texts;
   const YAML::Node start = document.root["start"];
   if (!start || !start.IsMap()) return texts;
-  const YAML::Node q = start["q"];
-  if (q && q.IsSequence())
-    for (const YAML::Node& one : q) texts.push_back(one.IsScalar() ? one.Scalar() : "");
+  const YAML::Node list = start[key];
+  if (list && list.IsMap())  // single entries by their indices
+    for (const auto& pair : list) {
+      const auto at = std::size_t(parse_number(pair.first.Scalar()).value_or(1));
+      texts.resize(std::max(texts.size(), at));
+      if (pair.second.IsScalar()) texts[at - 1] = pair.second.Scalar();
+    }
+  if (list && list.IsSequence())
+    for (const YAML::Node& one : list) texts.push_back(one.IsScalar() ? one.Scalar() : "");
   return texts;
 }
 
@@ -64,7 +70,8 @@ Scene read_document(const YamlDocument& document) {
   check_together(fields, scene);
   fields.finish();
   problems.throw_if_any();
-  scene.start.written_q = numbers_of_start(document);
+  scene.start.written_q = numbers_of_start(document, "q");
+  scene.start.written_qd = numbers_of_start(document, "qd");
   scene.places = document.places();
   scene.absolute_paths = absolute_paths_of(document);
   return scene;
@@ -74,9 +81,33 @@ Scene read_either(const YamlDocument& document) {
   return is_comparison(document) ? read_comparison(document, &read_document) : read_document(document);
 }
 
+// Whether a value of a key that holds words is what YAML would take for something else: a colon and a blank, a bracket, a comment.
+// Words in quotes are YAML's, as is null, which takes the key away.
+bool is_text_as_it_stands(const Override& one) {
+  std::string key = one.key;
+  if (key.starts_with("compare."))
+    if (const std::size_t dot = key.find('.', std::string("compare.").size()); dot != std::string::npos) key = key.substr(dot + 1);
+  const SceneKey* row = find_key(key);
+  if (row == nullptr || row->name != key || row->form != KeyForm::text) return false;
+  const std::size_t begin = one.value.find_first_not_of(' ');
+  if (begin == std::string::npos) return false;
+  try {
+    const YAML::Node node = YAML::Load(one.value);
+    if (one.value[begin] == '"' || one.value[begin] == '\'') return !node.IsScalar();
+    const std::string words = one.value.substr(begin, one.value.find_last_not_of(' ') + 1 - begin);
+    return words != "null" && words != "~" && !(node.IsScalar() && node.Scalar() == words);
+  } catch (const YAML::Exception&) {
+    return true;
+  }
+}
+
 std::vector<Override> parse_overrides(const std::vector<std::string>& texts) {
   std::vector<Override> parsed;
-  for (const std::string& text : texts) parsed.push_back(parse_override(text));
+  for (const std::string& text : texts) {
+    Override one = parse_override(text);
+    if (is_text_as_it_stands(one)) one.value = quoted_text(one.value);
+    parsed.push_back(std::move(one));
+  }
   return parsed;
 }
 

@@ -29,6 +29,7 @@ struct Feedback {
   std::vector<Entry> q, qd, qdd;
   std::string trajectory;  // path of a CSV instead of q, qd, qdd; "": none
   std::optional<Outside> outside{};  // of the CSV; absent: held, and said
+  std::vector<std::string> lists_of_one{};  // keys of it whose number stands in brackets, which is none for all
 };
 
 struct Control {

@@ -74,6 +74,27 @@ void check_turns(const Chain& chain, const Table& table, const TimeTable& motion
   }
 }
 
+// Nobody's log has so few rows; and of an angle nobody means more than a turn without saying so, in a unit.
+void doubt_units(const Chain& chain, const Table& table, const TimeTable& motion, const ColumnNames& names, std::vector<std::string>& doubts) {
+  constexpr double kSlowestLog = 1;  // s a row
+  const std::size_t time = std::size_t(table.find(names.time));
+  const double step = (motion.t.back() - motion.t.front()) / double(motion.t.size() - 1);
+  if (table.units[time].empty() && step > kSlowestLog)
+    doubts.push_back("the rows of " + table.file + " are " + format_significant(step, 3) + " s apart: is '" + names.time +
+                     "' in seconds? For milliseconds its header is '" + names.time + " [ms]' (or us, ns), for seconds '" + names.time + " [s]'");
+  for (std::size_t i = 0; i < motion.groups[0].size(); ++i) {
+    const std::size_t column = motion.columns[0][i];
+    if (!table.units[column].empty() || !turns(chain, i)) continue;
+    double largest = 0;
+    for (const double q : motion.groups[0][i]) largest = std::max(largest, std::fabs(q));
+    if (!(largest > 2 * std::numbers::pi)) continue;
+    const std::string& name = table.names[column];
+    doubts.push_back("'" + name + "' of " + table.file + " goes to " + format_significant(largest, 4) + ", which is in radians, " +
+                     format_significant(largest / (2 * std::numbers::pi), 3) + " turns: for degrees its header is '" + name +
+                     " [deg]', for radians '" + name + " [rad]'");
+  }
+}
+
 // Numbers of the table that are to be derivatives of others: how far are they from those?
 class Derivatives {
  public:
@@ -201,6 +222,7 @@ RecordedMotion::RecordedMotion(const Chain& chain, std::shared_ptr<const Table> 
 
   if (table_->first != 0)
     remarks_.push_back("t = 0 is the first row of " + file + ", whose '" + names.time + "' is " + format_shortest(table_->first));
+  doubt_units(chain, *table_, motion, names, doubts_);
   const Derivatives derivatives(*table_, motion);
   derivatives.compare(0, 1, remarks_);
   derivatives.compare(1, 2, remarks_);

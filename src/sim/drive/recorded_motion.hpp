@@ -45,6 +45,8 @@ class RecordedMotion final : public Reference {
 
   // What one should know who believes its picture, a sentence each.
   const std::vector<std::string>& remarks() const { return remarks_; }
+  // What speaks against its units, likewise: angles of more than a turn and rows far apart, where no unit is told.
+  const std::vector<std::string>& doubts() const { return doubts_; }
 
  private:
   std::shared_ptr<const Table> table_;
@@ -52,7 +54,7 @@ class RecordedMotion final : public Reference {
   double end_ = 0;
   bool has_rates_ = false, has_accelerations_ = false;
   std::optional<OwnTorques> own_torques_;
-  std::vector<std::string> remarks_;
+  std::vector<std::string> remarks_, doubts_;
 };
 
 // M qdd + nle + tau_f along it, zero where it is rounding of the parts that it is the sum of: what nothing drives is to be

@@ -1,0 +1,51 @@
+#include "scene/run/scene_doubts.hpp"
+
+#include <cmath>
+
+#include "core/format.hpp"
+#include "scene/run/pose_doubts.hpp"
+#include "sim/drive/limits.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kAcross = 1e-9;  // of gravity: what lies in the plane is rounding
+
+std::string vector_words(const Eigen::Vector3d& v) {
+  return bracketed({v.x() + 0.0, v.y() + 0.0, v.z() + 0.0});  // never -0
+}
+
+// `limit: clamp` and `stop` ask for limits: of a model without any nothing comes of them.
+std::string doubt_of_limit(LimitPolicy policy, const Chain& chain) {
+  const LimitWatch watch(chain);
+  if (policy == LimitPolicy::clamp && !watch.have_effort())
+    return "limit: clamp cuts nothing, as no joint of the model has a limit of its effort: in a URDF write <limit effort=\"20\"/>, "
+           "in `model: {links: ..}` write efforts: 20";
+  if (policy == LimitPolicy::stop && watch.are_none())
+    return "limit: stop stops nothing, as no joint of the model has a limit: in a URDF write <limit lower=.. upper=.. effort=.. "
+           "velocity=../>, or end the run by an event of kind stop";
+  return "";
+}
+
+}  // namespace
+
+std::string doubt_of_gravity(const Chain& chain) {
+  const Eigen::Vector3d& g = chain.gravity;
+  if (!chain.planar || !(g.norm() > 0)) return "";
+  const Plane& plane = chain.planar->plane;
+  if (std::hypot(g.dot(plane.ex), g.dot(plane.ey)) > kAcross * g.norm()) return "";
+  // The plane's own basis was turned by this gravity: down in the picture is -y where y lies in it.
+  const Eigen::Vector3d down = -plane.ey * g.norm();
+  return "gravity " + vector_words(g) + " is perpendicular to the plane in which the chain moves, so that nothing of it acts: for down in the "
+         "picture write gravity: " + vector_words(down) + ", for none [0, 0, 0]";
+}
+
+std::vector<std::string> doubts_of_scene(const Scene& scene, const Chain& chain) {
+  std::vector<std::string> doubts;
+  for (const std::string& doubt : doubts_of_pose(chain, scene.start.q, scene.start.written_q)) doubts.push_back("start.q: " + doubt);
+  for (std::string doubt : {doubt_of_gravity(chain), doubt_of_limit(scene.limit, chain)})
+    if (!doubt.empty()) doubts.push_back(std::move(doubt));
+  return doubts;
+}
+
+}  // namespace chainreel

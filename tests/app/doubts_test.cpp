@@ -1,0 +1,148 @@
+// What a scene says and nothing comes of, or something else than was meant, is warned of by every command that runs it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/json.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string kRoot = CHAINREEL_SOURCE_FOLDER;
+
+std::string short_scene(const std::string& more) {
+  return "model: " + kRoot + "/models/rr.urdf\nduration: 0.1\nmethod: rk4\nvideo: {width: 320, height: 180}\n" + more;
+}
+
+// The line of the standard error with these words; "" where there is none.
+std::string line_with(const std::string& words, const std::string& err) {
+  const std::size_t at = err.find(words);
+  if (at == std::string::npos) return "";
+  const std::size_t begin = err.rfind('\n', at) + 1;
+  return err.substr(begin, err.find('\n', at) - begin);
+}
+
+TEST(Doubts, OfAStartAreWarningsOfEveryCommandAndOfItsReport) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("a.yaml", short_scene("start: {q: [60, -30]}\n"));
+  const std::string said = "WARNING: a: start.q: 60 of joint1 is in radians, 9.55 turns: for degrees write 60deg";
+  const std::vector<Words> commands{{"simulate", scene, "-o", folder.file("a.csv")},
+                                    {"render", scene, "-o", folder.file("a.mp4")},
+                                    {"snapshot", scene, "-o", folder.file("a.png")},
+                                    {"sheet", scene, "-o", folder.file("s.png")},
+                                    {"energy", scene, "-o", folder.file("e.png"), "--methods", "rk4"},
+                                    {"stability", scene, "--methods", "rk4"},
+                                    {"dynamics", scene},
+                                    {"sweep", scene, "--over", "start.qd.1=0,1", "-o", folder.file("t.csv")}};
+  for (const Words& command : commands) {
+    const ProgramResult run = run_program(with(command, {"--quiet"}));
+    EXPECT_EQ(run.status, 0) << command[0] << run.err;
+    EXPECT_THAT(line_with("start.q", run.err), HasSubstr(said)) << command[0];
+  }
+  const ProgramResult films = run_program({"sweep", scene, "--over", "torque.1=0", "-o", folder.file("films/"), "--each", "png", "--quiet"});
+  EXPECT_THAT(films.err, HasSubstr("WARNING: torque.1=0: a: start.q: 60 of joint1")) << "of the run";
+  const Json report = Json::parse(run_program({"simulate", scene, "-o", folder.file("j.csv"), "--json"}).out);
+  ASSERT_EQ(report["warnings"].size(), 2u) << "one a joint";
+  EXPECT_EQ(report["warnings"][0]["kind"], "scene");
+  EXPECT_THAT(report["warnings"][0]["what"].get<std::string>(), HasSubstr("60deg"));
+  const ProgramResult meant = run_program({"simulate", scene, "--set", "start.q=[60deg, -30deg]", "-o", folder.file("m.csv"), "--quiet"});
+  EXPECT_EQ(meant.err, "") << "negative control";
+}
+
+TEST(Doubts, OfGravityAcrossThePlaneOfTheChain) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("a.yaml", short_scene("gravity: [0, 0, -9.81]\n"));
+  const auto said = [&](const std::string& gravity) {
+    return run_program({"simulate", scene, "--set", "gravity=" + gravity, "-o", folder.file("a.csv"), "--force", "--quiet"}).err;
+  };
+  EXPECT_THAT(said("[0, 0, -9.81]"), HasSubstr("WARNING: a: gravity [0, 0, -9.81] is perpendicular to the plane in which the chain moves"));
+  EXPECT_THAT(said("[0, 0, 1.62]"), HasSubstr("write gravity: [0, -1.62, 0], for none [0, 0, 0]"));
+  // What is advised is silent, and so is a plane that is inclined, and a chain in space.
+  for (const char* gravity : {"[0, -9.81, 0]", "[0, 0, 0]", "[0, -1, -9]"}) EXPECT_EQ(said(gravity), "") << gravity;
+  EXPECT_EQ(run_program({"simulate", scene, "--set", "model=" + kRoot + "/models/arm.urdf", "-o", folder.file("b.csv"), "--quiet"}).err, "");
+  EXPECT_THAT(run_program({"dynamics", "models/rr.urdf", "--gravity", "0,0,-9.81", "--json"}).err, HasSubstr("WARNING: gravity [0, 0, -9.81] is"));
+  EXPECT_EQ(run_program({"dynamics", "models/rr.urdf", "--gravity", "0,-9.81,0", "--json"}).err, "");
+}
+
+TEST(Doubts, OfLimitsThatTheModelDoesNotHave) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("a.yaml", "model: {links: [0.5, 0.4], masses: [2, 1]}\nduration: 0.1\nmethod: rk4\ntorque: [141, 0]\n");
+  const auto said = [&](const std::string& set) {
+    return run_program({"simulate", scene, "--set", set, "-o", folder.file("a.csv"), "--force", "--quiet"}).err;
+  };
+  EXPECT_THAT(said("limit=clamp"), HasSubstr("WARNING: a: limit: clamp cuts nothing, as no joint of the model has a limit of its effort"));
+  EXPECT_THAT(said("limit=stop"), HasSubstr("WARNING: a: limit: stop stops nothing"));
+  EXPECT_EQ(said("limit=report"), "");
+  const ProgramResult check = run_program({"check", scene, "--set", "limit=clamp"});
+  EXPECT_THAT(check.err, HasSubstr("WARNING: a: limit: clamp cuts nothing"));
+  // As advised: the torque is cut, which is said, and the joints keep all their way.
+  const Words limited{"simulate", scene, "--set", "model={links: [0.5, 0.4], masses: [2, 1], joints: RP, efforts: 20}", "--set", "limit=clamp",
+                      "-o", folder.file("c.csv"), "--columns", "t,tau", "--force"};
+  const ProgramResult cut = run_program(limited);
+  EXPECT_EQ(cut.status, 0) << cut.err;
+  EXPECT_THAT(cut.err, HasSubstr("a: joint 'joint1' passed its effort limit 20 with 141 at t = 0 s: by limit: clamp, torques beyond it are cut"));
+  EXPECT_THAT(cut.err, Not(HasSubstr("position limit")));
+  EXPECT_EQ(run_program(with(limited, {"--quiet"})).err, "");
+}
+
+// `simulate` and `render` say the same of one run.
+TEST(Doubts, LimitsAndEarlyEndsAreSaidOfTablesAsOfFilms) {
+  const TemporaryFolder folder;
+  const std::string model = kRoot + "/models/arm.urdf";
+  const std::string scene = folder.write("a.yaml", "model: " + model + "\nduration: 0.2\nmethod: rk4\nvideo: {width: 320, height: 180}\nstart: {qd: [0, 30, 0, 0, 0, 0]}\n"
+                                                   "events: [{when: \"t > 0.15\", kind: stop, name: late}]\n");
+  const auto lines = [&](const std::string& command, const std::string& ending, const std::string& set) {
+    const ProgramResult run = run_program({command, scene, "--set", set, "-o", folder.file("a" + ending), "--force"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    std::string found;
+    for (std::size_t begin = 0; begin < run.err.size(); begin = run.err.find('\n', begin) + 1) {
+      const std::string line = run.err.substr(begin, run.err.find('\n', begin) - begin);
+      if (line.find("passed its") != std::string::npos || line.find("stopped:") != std::string::npos) found += line + "\n";
+    }
+    return found;
+  };
+  for (const char* set : {"limit=report", "limit=stop", "limit=clamp"}) {
+    const std::string said = lines("simulate", ".csv", set);
+    EXPECT_THAT(said, HasSubstr("a: stopped: ")) << set;
+    EXPECT_THAT(said, HasSubstr("limit")) << set;
+    EXPECT_EQ(said, lines("render", ".mp4", set)) << set;
+  }
+  EXPECT_EQ(lines("simulate", ".csv", "start.qd=[0, 0, 0, 0, 0, 0]").find("passed"), std::string::npos) << "negative control";
+}
+
+TEST(Doubts, OfLogsWithoutUnits) {
+  const TemporaryFolder folder;
+  const auto said = [&](const std::string& table, const std::string& more) {
+    folder.write("log.csv", table);
+    const std::string scene = folder.write("a.yaml", "model: " + kRoot + "/models/rr.urdf\nmotion: " + more + "\n");
+    return run_program({"simulate", scene, "-o", folder.file("a.csv"), "--force", "--quiet"}).err;
+  };
+  const std::string rows = ",10\n0.5,2,11\n1,4.5,12\n1.5,7,12\n2,8,12\n";  // no jumps, which are refused
+  EXPECT_THAT(said("t,q1,q2\n0,0" + rows, "log.csv"), HasSubstr("WARNING: a: 'q1' of "));
+  EXPECT_THAT(said("t,q1,q2\n0,0" + rows, "log.csv"), HasSubstr("for degrees its header is 'q1 [deg]', for radians 'q1 [rad]'"));
+  EXPECT_EQ(said("t,q1 [deg],q2 [deg]\n0,0" + rows, "log.csv"), "") << "negative control";
+  const std::string slow = "0,0,0\n20,0.1,0.1\n40,0.2,0.1\n60,0.2,0\n";
+  EXPECT_THAT(said("t,q1,q2\n" + slow, "log.csv"), HasSubstr("are 20 s apart: is 't' in seconds? For milliseconds its header is 't [ms]'"));
+  EXPECT_EQ(said("t [ms],q1,q2\n" + slow, "log.csv"), "");
+  EXPECT_EQ(said("\"stamp [ms]\",\"q1\",q2\n" + slow, "{csv: log.csv, columns: {time: stamp}}"), "") << "names in quotes";
+  EXPECT_THAT(said("t;q1;q2\n0;0;0\n1;0;0\n", "log.csv"), HasSubstr("separated by semicolons: chainreel reads tables separated by commas"));
+  EXPECT_THAT(said("t,\"q1,q2\n0,0,0\n1,0,0\n", "log.csv"), HasSubstr("log.csv:1: a field begins with a quote"));
+}
+
+TEST(Doubts, OfNamesWithAnEndingThatAreNoFilesHere) {
+  const TemporaryFolder folder;
+  const RunOptions there{.folder = folder.path().string()};
+  EXPECT_THAT(run_program({"dynamics", "rr.urdf"}, there).err, HasSubstr("note: there is no file rr.urdf here: the program's own is taken, "));
+  EXPECT_EQ(run_program({"dynamics", "rr.urdf", "--quiet"}, there).err, "");
+  EXPECT_THAT(run_program({"check", "pen.yaml", "--json"}, there).err, HasSubstr("there is no file pen.yaml here"));
+  EXPECT_THAT(run_program({"check", "pen", "--json"}, there).err, Not(HasSubstr("here: the program's own"))) << "a plain name is meant so";
+  EXPECT_THAT(run_program({"dynamics", kRoot + "/models/rr.urdf"}, there).err, Not(HasSubstr("note:")));
+}
+
+}  // namespace
+}  // namespace chainreel
