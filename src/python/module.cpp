@@ -35,6 +35,7 @@ PYBIND11_MODULE(_native, module) {
   module.attr("version") = chainreel::program_version();
   module.attr("revision") = chainreel::program_revision();
   module.def("found_file", &chainreel::found_file);
+  module.def("found_elsewhere", &chainreel::found_elsewhere);
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);

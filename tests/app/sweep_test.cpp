@@ -40,6 +40,16 @@ std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
+// As many lines of facts as its help tells numpy to skip, which takes a first `#` line for the names.
+TEST(SweepTable, HasItsNamesBehindThreeLinesOfFacts) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(sweep(folder.file("a.csv")).status, 0);
+  const std::vector<std::string> lines = lines_of(folder.file("a.csv"));
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(lines.at(k)[0], '#');
+  EXPECT_TRUE(lines.at(3).starts_with("run,start.q.1,"));
+  EXPECT_THAT(run_program({"sweep", "--help"}).out, HasSubstr("skip_header=3"));
+}
+
 TEST(SweepTable, RowsAreTheLastOfTheRunsByThemselves) {
   const TemporaryFolder folder;
   ASSERT_EQ(sweep(folder.file("a.csv")).status, 0);

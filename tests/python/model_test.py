@@ -5,6 +5,7 @@ import inspect
 import os
 import pickle
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -71,6 +72,18 @@ class Models(FolderTest):
         with self.assertRaises(cr.Error) as caught:
             cr.load(links=[-1])
         self.assertEqual((caught.exception.code, caught.exception.line), (3, 0))
+
+    def test_a_file_that_is_not_here_is_said_to_be_the_programs_own(self):
+        for ask in (lambda: cr.load("rr.urdf"), lambda: cr.Scene({"model": "rr.urdf"}), lambda: cr.Scene("pp_free.yaml").run([0, 0.1])):
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                ask()
+            said = [one for one in caught if "the program's own is taken" in str(one.message)]
+            self.assertEqual([one.filename for one in said], [__file__], [str(one.message) for one in caught])
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            cr.load("models/rr.urdf")
+            cr.Scene("pp_free").run([0, 0.1])
 
     def test_arrays_are_copies(self):
         model = cr.load("rr.urdf")

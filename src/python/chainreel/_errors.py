@@ -44,7 +44,8 @@ class Error(Exception):
 
 
 class RunWarning(UserWarning):
-    """What speaks against a run that came to its end, was changed of its scene, or is not shown of it."""
+    """What speaks against a run that came to its end, was changed of its scene, or is not shown of it; or that a file which is not
+    there was taken for the one of that name that comes with chainreel."""
 
 
 def _text(problem: Problem) -> str:

@@ -4,7 +4,20 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from typing import Any, List, Mapping
+
+from . import _native
+from ._errors import RunWarning
+
+
+def found(named: str, level: int = 3) -> str:
+    """The file of that name, or that which comes with chainreel: what looks like a file here and is none is said to who called us."""
+    file = _native.found_file(named)
+    note = _native.found_elsewhere(named, file)
+    if note:
+        warnings.warn(note, RunWarning, stacklevel=level)
+    return file
 
 
 def _plain(value: Any) -> Any:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._errors import Error
-from ._keys import overrides_of, text_of
+from ._keys import found, overrides_of, text_of
 
 
 def load(model: Union[str, os.PathLike, None] = None, *, links: Optional[Sequence[float]] = None,
@@ -29,7 +29,7 @@ def load(model: Union[str, os.PathLike, None] = None, *, links: Optional[Sequenc
         raise TypeError("load takes a file, or links=, masses=, joints= and shape= in its place")
     overrides = overrides_of(keys)
     if model is not None:
-        return Model(_native.Model(os.fspath(model), None, overrides))
+        return Model(_native.Model(found(os.fspath(model)), None, overrides))
     try:
         return Model(_native.Model("model", text_of({"model": numbers}), overrides))
     except Error as error:

@@ -7,6 +7,7 @@ version: str
 revision: str
 
 def found_file(named: str) -> str: ...
+def found_elsewhere(named: str, found: str) -> str: ...
 
 _Array = NDArray[np.float64]
 

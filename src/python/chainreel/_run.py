@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._errors import Error, RunWarning
-from ._keys import overrides_of, text_of
+from ._keys import found, overrides_of, text_of
 
 Torque = Callable[[float, NDArray[np.float64], NDArray[np.float64]], ArrayLike]
 
@@ -58,7 +58,8 @@ class Scene:
         if times is not None and not at:
             raise ValueError("times is empty: leave it out for those of the film")
         try:
-            native = _native.SceneRun(self._path, self._text, self._overrides, self._torque, _words_of(self._torque), at)
+            path = found(self._path) if self._text is None else self._path
+            native = _native.SceneRun(path, self._text, self._overrides, self._torque, _words_of(self._torque), at)
         except Error as error:
             if self._text is None:
                 raise
@@ -220,7 +221,7 @@ def _with_model(scene: Mapping[str, Any]) -> Dict[str, Any]:
     """The scene with the path of a model that comes with chainreel, where it names one."""
     model = scene.get("model")
     named = isinstance(model, (str, os.PathLike))
-    return {**scene, "model": _native.found_file(os.fspath(model))} if named else dict(scene)
+    return {**scene, "model": found(os.fspath(model), 4)} if named else dict(scene)
 
 
 def _words_of(torque: Optional[Torque]) -> str:
