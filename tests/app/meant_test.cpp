@@ -91,7 +91,7 @@ TEST(Meant, ATableOfMillisecondsIsDoubted) {
   const auto said = [&](const std::string& last) {
     folder.write("log.csv", "t,tau1,tau2\n0,0,0\n" + last + ",1,1\n");
     const std::string scene = folder.write("a.yaml", kChain + "duration: 2\ntorque: {csv: log.csv}\n");
-    return run_program({"simulate", scene, "-o", folder.file("a.csv"), "--force"}).err;
+    return run_program({"simulate", scene, "-o", folder.file("a.csv"), "--force", "--quiet"}).err;
   };
   EXPECT_THAT(said("2000"), HasSubstr("goes on until 2000 s, of which the run of 2 s sees the beginning: are its times in seconds?"));
   EXPECT_THAT(said("3"), Not(HasSubstr("in seconds?"))) << "negative control";

@@ -34,11 +34,11 @@ void look_at_span(Scene& scene, const Chain& chain, const std::string& path, con
   if (path.empty() || outside == Outside::hold || outside == Outside::zero) return;
   const std::vector<double> t = read_time_table(path, {}, chain.coordinate_names, columns).t;
   const bool late = t.front() > kSame * scene.duration, early = t.back() < (1 - kSame) * scene.duration;
-  const auto notice = [&](const std::string& text) {
-    if (std::find(scene.notices.begin(), scene.notices.end(), text) == scene.notices.end()) scene.notices.push_back(text);
+  const auto say = [](std::vector<std::string>& list, const std::string& text) {
+    if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
   };
   if (t.back() > kOtherUnit * scene.duration)
-    notice("the table " + path + " goes on until " + format_shortest(t.back()) + " s, of which the run of " + format_shortest(scene.duration) +
+    say(scene.doubts, "the table " + path + " goes on until " + format_shortest(t.back()) + " s, of which the run of " + format_shortest(scene.duration) +
            " s sees the beginning: are its times in seconds?");
   if (!late && !early) return;
   const std::string span = "the table " + path + " speaks of " + format_shortest(t.front()) + " to " +
@@ -48,7 +48,7 @@ void look_at_span(Scene& scene, const Chain& chain, const std::string& path, con
                 span + ", and `outside: refuse` stands there: take another duration or table, or outside: hold or zero",
                 place);
   const std::string end = late && early ? "before and behind it" : late ? "before it" : "behind it";
-  notice(span + "; " + end + " " + what + " held: write `outside: hold` beside the table if it is meant, or zero, or refuse");
+  say(scene.notices, span + "; " + end + " " + what + " held: write `outside: hold` beside the table if it is meant, or zero, or refuse");
 }
 
 void look_at_spans(Scene& scene, const Chain& chain) {
