@@ -138,6 +138,26 @@ TEST_F(Units, ParametersThatNobodyReadsDoNotVary) {
   }
 }
 
+// And it is what its ending says.
+TEST_F(Units, EndingsMayBeInCapitals) {
+  const std::string scene = folder_.write("c.yaml", "model: " + kModels + "rr.urdf\nduration: 0.1\nmethod: rk4\nvideo: {width: 320, height: 180}\n");
+  const std::pair<const char*, const char*> starts[] = {{"a.MP4", "ftyp"}, {"a.Gif", "GIF89a"}, {"a.PNG", "PNG"}, {"a.WEBM", "webm"}, {"a.SVG", "<svg"}};
+  for (const auto& [name, start] : starts) {
+    const ProgramResult made = run_program({"render", scene, "-o", folder_.file(name), "--force"});
+    EXPECT_EQ(made.status, 0) << made.err;
+    EXPECT_THAT(read_whole_file(folder_.file(name)).substr(0, 400), HasSubstr(start)) << name;
+  }
+  EXPECT_EQ(run_program({"extract", folder_.file("a.MP4")}).status, 0);
+  EXPECT_NE(run_program({"render", scene, "-o", folder_.file("a.MP5")}).status, 0) << "negative control";
+}
+
+TEST_F(Units, NumbersThatSpacesPartAreToldToStandTogether) {
+  const Words command{"dynamics", kModels + "rr.urdf", "--q", "0"};
+  EXPECT_THAT(run_program(with(command, {"-45deg"})).err, HasSubstr("the numbers of an option stand together, with commas: --q 0,-45deg"));
+  EXPECT_THAT(run_program(with(command, {"0.3"})).err, HasSubstr("stand together"));
+  EXPECT_THAT(run_program(with(command, {"more"})).err, Not(HasSubstr("stand together"))) << "negative control";
+}
+
 TEST_F(Units, WordsAreTakenAsTheyStand) {
   const auto title = [&](const std::string& words) {
     const ProgramResult result = run({"title=" + words});
