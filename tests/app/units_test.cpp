@@ -118,6 +118,11 @@ TEST_F(Units, OfRangesReachTheirKey) {
     EXPECT_EQ(status(good), 0) << good;
   for (const char* bad : {"start.q.1=0:90cm:3", "start.q.1=0:2s:3", "step=1ms:2deg:2", "torque.pd.kp=0:60deg:3", "torque.pd.q.1=0:2s:2"})
     EXPECT_NE(status(bad), 0) << bad;
+  const auto varied = [&](const std::string& vary) {
+    return run_program({"snapshot", scene, "--vary", vary, "-o", folder_.file("v.png"), "--force", "--quiet"}).status;
+  };
+  EXPECT_EQ(varied("start.q.1=0:90deg:2"), 0);
+  EXPECT_NE(varied("start.q.1=0:90cm:2"), 0);
 }
 
 TEST_F(Units, ParametersThatNobodyReadsDoNotVary) {

@@ -87,7 +87,7 @@ void add_comparison(const std::vector<std::string>& vary, std::vector<std::strin
     const std::vector<std::size_t> at = grid.places(k);
     std::string panel;
     for (std::size_t i = 0; i < at.size(); ++i)
-      panel += (i == 0 ? "" : ", ") + Json(grid.axes()[i].key).dump() + ": " + grid.axes()[i].values[at[i]];
+      panel += (i == 0 ? "" : ", ") + Json(grid.axes()[i].key).dump() + ": " + grid.axes()[i].values[at[i]] + grid.axes()[i].unit;
     list += (list.empty() ? "{" : ", {") + panel + "}";
   }
   overrides.push_back("compare=[" + list + "]");
