@@ -28,10 +28,6 @@ constexpr double kLeastSide = 0.08;    // units of H, of a panel that can be rea
 constexpr double kLabelInset = 0.014;
 // How long the bounded semi-axes (their median) are drawn, as a share of the shorter side of a panel.
 constexpr double kSmallerAxis = 0.14, kLargerAxis = 0.24;
-// In an ordinary pose the largest mass is at most so many times the smallest one. Nearer to a singular pose
-// it has no bound, and to show it would make all ellipses needles: it is written where it leaves its panel.
-constexpr double kOrdinaryRatio = 32;
-constexpr int kBeltSamples = 64;
 
 // Panels of equal size, row by row from the top.
 std::vector<Rect> panels_of(const Rect& area, int count, int most_across) {
@@ -238,11 +234,6 @@ std::vector<std::vector<double>> configurations_of(const std::vector<Pose>& pose
   return configurations;
 }
 
-bool is_ordinary(const std::vector<MassAxis>& axes) {
-  return !axes.empty() && axes.front().mass && axes.back().mass &&
-         *axes.front().mass <= kOrdinaryRatio * *axes.back().mass;
-}
-
 EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReading reading) {
   // Those of the curves that have an end, where there are any.
   const auto is_finite = [](const Pose& pose) { return !pose.axes.empty() && pose.axes.front().mass; };
@@ -280,30 +271,6 @@ Sheet sheet_of(const Chain& chain, const PoseFigureOptions& options, const Ellip
   if (options.cell > 0) text.legend += "; cut where longer than its cell";
   return lay_out_sheet(text, double(options.width) / options.height, options.text_scale, *options.theme,
                        fonts);
-}
-
-Room room_of(const std::vector<MassAxis>& axes, const Camera& camera, const EllipseScale& scale,
-             double most) {
-  double x = 0, y = 0;
-  std::vector<Point> ends;  // of the semi-axes on the page, cut to `most`
-  for (const MassAxis& axis : axes) {
-    const auto length = semi_axis(axis, scale.reading);
-    const double drawn = length ? std::min(*length * scale.per_unit(), most) : 0;
-    ends.push_back(drawn * Point{camera.right.dot(axis.direction), camera.up.dot(axis.direction)});
-    x = std::hypot(x, ends.back().x);
-    y = std::hypot(y, ends.back().y);
-  }
-  if (scale.reading != EllipseReading::belt) return {x, x, y, y};
-  // Between the axes a belt lies outside of its ellipse: in the plane of its first and last axis at most.
-  const auto long_axis = axes.front().mass, short_axis = axes.back().mass;
-  for (int i = 0; long_axis && short_axis && i < kBeltSamples; ++i) {
-    const double a = i * 2 * std::numbers::pi / kBeltSamples, c = std::cos(a), s = std::sin(a);
-    const double r = std::min(scale.per_unit() / (c * c / *long_axis + s * s / *short_axis), most);
-    const Eigen::Vector3d p = r * (c * axes.front().direction + s * axes.back().direction);
-    x = std::max(x, std::abs(camera.right.dot(p)));
-    y = std::max(y, std::abs(camera.up.dot(p)));
-  }
-  return {x, x, y, y};
 }
 
 Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& configurations,

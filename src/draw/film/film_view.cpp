@@ -22,33 +22,40 @@ bool is_portrait(const Scene& page) {
 
 // What a camera with these axes must hold of a motion: the chain, and what layers draw over it. Wild ones count with
 // their start, unless all are.
-FitBox fit_box(const StagedRun& motion, const Layers& layers, const Camera& view, double marks) {
+ViewBoxes fit_boxes(const StagedRun& motion, const Layers& layers, const Camera& view, double marks) {
   ChainFit fit(motion.chain(), motion.skeleton(), view, marks, motion.shapes());
-  FitBox over;
+  ViewBoxes boxes;
   if (motion.is_constrained()) {
     const double half = marks * size::kGroundLength / 2;
     for (const Eigen::Vector3d& place : closure_pins(motion.chain(), motion.simulation()->constraints))
-      over.add({half, half, marks * pin_depth(), 0}, view.flat(place));
+      boxes.must.add({half, half, marks * pin_depth(), 0}, view.flat(place));
   }
   for (int k = 0; k < motion.counted(); ++k) {
     const Workspace& ws = motion.pose_at(k);
     if (!fit.add_pose(ws, motion.limit())) continue;
-    for (const auto& layer : layers)
-      if (layer->is_of(motion)) layer->measure({motion, ws, k, view, marks}, over);
+    for (const auto& layer : layers) {
+      if (!layer->is_of(motion)) continue;
+      layer->measure({motion, ws, k, view, marks}, boxes.must);
+      layer->wish({motion, ws, k, view, marks}, boxes.wishes);
+    }
   }
-  over.add(fit.box());
-  return over;
+  boxes.must.add(fit.box());
+  return boxes;
 }
 
-FitBox fit_box(const Stage& stage, const Layers& layers, const Camera& view, double marks) {
-  FitBox box;
-  for (const StagedRun& motion : stage.motions) box.add(fit_box(motion, layers, view, marks));
-  return box;
+ViewBoxes fit_boxes(const Stage& stage, const Layers& layers, const Camera& view, double marks) {
+  ViewBoxes boxes;
+  for (const StagedRun& motion : stage.motions) {
+    const ViewBoxes its = fit_boxes(motion, layers, view, marks);
+    boxes.must.add(its.must);
+    boxes.wishes.add(its.wishes);
+  }
+  return boxes;
 }
 
 // What is to be seen just fills `area`, or what the scene says.
-void fit_to_area(Camera& camera, const Stage& stage, const FitBox& box, const Rect& area) {
-  if (!fit_as_told(camera, stage.page.camera, area)) fit_to(camera, box, area, size::kFitMargin);
+void fit_to_area(Camera& camera, const Stage& stage, const ViewBoxes& boxes, const Rect& area) {
+  if (!fit_as_told(camera, stage.page.camera, area)) fit_to(camera, boxes.must, boxes.wishes, area, size::kFitMargin);
 }
 
 std::vector<PanelCell> cells_of(const Stage& stage, const FilmSheet& sheet, double row_below, const FitBox& box) {
@@ -99,6 +106,12 @@ FilmView::FilmView(const Stage& stage, const Layers& layers, const FilmSheet& sh
   shorten_arrows(stage, layers);
 }
 
+double FilmView::width_used() const {
+  FitBox all = boxes_.must;
+  all.add(boxes_.wishes);
+  return camera.scale * all.box(camera.scale, size::kFitMargin).width();
+}
+
 Camera FilmView::camera_of(std::size_t panel) const {
   const Rect &from = cells.front().scene, &to = cells[panel].scene;
   Camera shifted = camera;
@@ -110,18 +123,18 @@ void FilmView::place_camera(const Stage& stage, const Layers& layers, const Film
   const Chain& chain = stage.motions.front().chain();
   const CameraEntry& entry = stage.page.camera;
   camera = view_of(chain, entry);
-  box_ = fit_box(stage, layers, camera, 1);
+  boxes_ = fit_boxes(stage, layers, camera, 1);
   for (const auto& layer : layers) row_below_ = std::max(row_below_, layer->row_below());
-  cells = cells_of(stage, sheet, row_below_, box_);
+  cells = cells_of(stage, sheet, row_below_, boxes_.must);
   marks = is_portrait(stage.page) ? marks_in(cells.front().scene) : stage.is_ghost() ? 1 : marks_in(cells);
   const Rect& first = cells.front().scene;
   if (has_eye(chain, entry))
     place_eye(
         camera, *stage.space, entry, first.height(),
-        [&](Camera& seen) { fit_to_area(seen, stage, fit_box(stage, layers, seen, marks), first); },
+        [&](Camera& seen) { fit_to_area(seen, stage, fit_boxes(stage, layers, seen, marks), first); },
         stage.page.place_of("camera.distance"));
-  if (marks != 1 || camera.has_eye()) box_ = fit_box(stage, layers, camera, marks);
-  fit_to_area(camera, stage, box_, first);
+  if (marks != 1 || camera.has_eye()) boxes_ = fit_boxes(stage, layers, camera, marks);
+  fit_to_area(camera, stage, boxes_, first);
 }
 
 // In a corner that nothing ever comes into; else right of the scenes, which become narrower.
@@ -155,7 +168,7 @@ void FilmView::place_rooms(const Stage& stage, const Layers& layers) {
         throw Error(ExitCode::bad_input, layers[l]->no_room(), stage.page.place_of("draw"));
       scene.x1 -= inset + width + size::kGutter;
     }
-    fit_to_area(camera, stage, box_, cells.front().scene);
+    fit_to_area(camera, stage, boxes_, cells.front().scene);
   }
 }
 

@@ -11,6 +11,11 @@ namespace chainreel {
 
 inline constexpr double kBarInset = 0.014;  // of what stands in a corner of a panel from its frame
 
+// What the camera holds, and what it holds as far as that costs little.
+struct ViewBoxes {
+  FitBox must, wishes;
+};
+
 struct FilmView {
   // Throws Error (bad input) where there is no room for the panels, or for what stands beside their scenes.
   FilmView(const Stage& stage, const Layers& layers, const FilmSheet& sheet);
@@ -21,7 +26,7 @@ struct FilmView {
   ArrowShares arrows;  // of the lengths they were laid out with: so that they stay in the scenes
 
   // Of a panel's scene the part, units of H, that the fitted motion with its margins is wide.
-  double width_used() const { return camera.scale * box_.box(camera.scale, size::kFitMargin).width(); }
+  double width_used() const;
   // All panels see the same part of the world at the same place of their cells.
   Camera camera_of(std::size_t panel) const;
   // Lower left of the room that a layer asked for in or beside the scene of a panel.
@@ -33,7 +38,7 @@ struct FilmView {
   void place_rooms(const Stage& stage, const Layers& layers);
   void shorten_arrows(const Stage& stage, const Layers& layers);
 
-  FitBox box_;  // that the camera holds
+  ViewBoxes boxes_;
   double row_below_ = 0;  // units of H, that layers keep for themselves below all scenes
   std::vector<std::vector<Point>> corners_;  // by layer and panel
 };

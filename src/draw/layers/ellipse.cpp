@@ -9,9 +9,16 @@
 #include "core/format.hpp"
 #include "draw/layers/ellipsoid.hpp"
 #include "draw/layers/fading.hpp"
+#include "draw/page/scales.hpp"
 
 namespace chainreel {
 namespace {
+
+// In an ordinary pose the largest mass is at most so many times the smallest one. Nearer to a singular pose
+// it has no bound, and to show it would make all ellipses needles: it is written where it leaves its scene.
+constexpr double kOrdinaryRatio = 32;
+constexpr int kBeltSamples = 64;
+constexpr double kMostBounded = 0.8;  // of the ellipses of a film have long axes that are bounded
 
 // A semi-axis on the page: the whole vector, or the direction of an infinite one (projected, not unit).
 struct PageAxis {
@@ -198,6 +205,11 @@ std::optional<double> bounded_semi_axis(const std::vector<MassAxis>& axes, Ellip
   return axes.empty() ? std::nullopt : semi_axis(axes.back(), reading);
 }
 
+bool is_ordinary(const std::vector<MassAxis>& axes) {
+  return !axes.empty() && axes.front().mass && axes.back().mass &&
+         *axes.front().mass <= kOrdinaryRatio * *axes.back().mass;
+}
+
 std::string EllipseScale::label() const {
   return format_shortest(bar) + (reading == EllipseReading::energy ? " m/s" : " kg");
 }
@@ -217,6 +229,38 @@ EllipseScale ellipse_scale(std::vector<double> bounded, double bar_length, Ellip
   }
   scale.bar = nearest;
   return scale;
+}
+
+EllipseScale bounded_scale(const EllipseScale& scale, std::vector<double> longest_axes, double longest) {
+  if (longest_axes.empty()) return scale;
+  const auto at = longest_axes.begin() + std::ptrdiff_t(kMostBounded * double(longest_axes.size() - 1));
+  std::nth_element(longest_axes.begin(), at, longest_axes.end());
+  const double per_unit = longest / *at;
+  if (!(per_unit < scale.per_unit())) return scale;
+  const double bar = round_length(kLongestBar / per_unit);
+  return {bar, bar * per_unit, scale.reading};
+}
+
+Room room_of(const std::vector<MassAxis>& axes, const Camera& camera, const EllipseScale& scale,
+             double most) {
+  double x = 0, y = 0;
+  for (const MassAxis& axis : axes) {
+    const auto length = semi_axis(axis, scale.reading);
+    const double drawn = length ? std::min(*length * scale.per_unit(), most) : 0;
+    x = std::hypot(x, drawn * camera.right.dot(axis.direction));
+    y = std::hypot(y, drawn * camera.up.dot(axis.direction));
+  }
+  if (scale.reading != EllipseReading::belt) return {x, x, y, y};
+  // Between the axes a belt lies outside of its ellipse: in the plane of its first and last axis at most.
+  const auto long_axis = axes.front().mass, short_axis = axes.back().mass;
+  for (int i = 0; long_axis && short_axis && i < kBeltSamples; ++i) {
+    const double a = i * 2 * std::numbers::pi / kBeltSamples, c = std::cos(a), s = std::sin(a);
+    const double r = std::min(scale.per_unit() / (c * c / *long_axis + s * s / *short_axis), most);
+    const Eigen::Vector3d p = r * (c * axes.front().direction + s * axes.back().direction);
+    x = std::max(x, std::abs(camera.right.dot(p)));
+    y = std::max(y, std::abs(camera.up.dot(p)));
+  }
+  return {x, x, y, y};
 }
 
 void draw_mass_ellipse(Picture& picture, const std::vector<MassAxis>& axes, Point center,

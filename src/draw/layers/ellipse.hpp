@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "draw/robot/fit.hpp"
 #include "dynamics/effective_mass.hpp"
 #include "picture/camera.hpp"
 #include "picture/picture.hpp"
@@ -52,6 +53,11 @@ std::optional<double> semi_axis(const MassAxis& axis, EllipseReading reading);
 // the larger one.
 std::optional<double> bounded_semi_axis(const std::vector<MassAxis>& axes, EllipseReading reading);
 
+// Far from singular poses.
+bool is_ordinary(const std::vector<MassAxis>& axes);
+
+inline constexpr double kLongestBar = 0.12;  // units of H
+
 // Fixed for a whole clip or figure: a bar of 1, 2 or 5 x 10^n kg, or m/s.
 struct EllipseScale {
   double bar = 1;
@@ -65,6 +71,13 @@ struct EllipseScale {
 // none.
 EllipseScale ellipse_scale(std::vector<double> bounded_semi_axes, double bar_length,
                            EllipseReading reading = EllipseReading::mass);
+// The same, or as much smaller as lets four of five of these semi-axes be no longer than `longest` units of H; the bar is
+// then at most kLongestBar long.
+EllipseScale bounded_scale(const EllipseScale& scale, std::vector<double> long_semi_axes, double longest);
+
+// What a closed curve takes around its middle; none of its axes counts beyond `most` units of H, open ones count for
+// nothing along themselves.
+Room room_of(const std::vector<MassAxis>& axes, const Camera& camera, const EllipseScale& scale, double most);
 
 // What lies below the chain, its inside, and what over it, lines and words; or both where nothing lies between.
 enum class EllipsePart { whole, below, above };

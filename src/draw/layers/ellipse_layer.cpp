@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kEllipseBar = 0.10;  // units of H: the bounded semi-axis measures about as much
 constexpr double kSolidAxis = 0.25;   // ... of an ellipsoid, which is to be read in space
-constexpr double kLongestSolidBar = 0.12;  // units of H
+constexpr double kLongAxis = 0.30;    // ... at most, of the long semi-axes at most ordinary poses
+constexpr double kRoomStep = 0.005;   // units of H: rooms are rounded up, lest the fit have one a frame
 constexpr double kMuchRounder = 1.5;  // in the ratio of its axes: then the other pose is worth a ghost
 constexpr double kGhost = 0.25;       // opacity of that pose
 constexpr double kGhostLine = 0.45;   // ... and of its lines
@@ -29,9 +30,12 @@ class MassAlong {
         is_section_(stage.page.ellipse.shape == EllipseShape::section) {
     for (const StagedRun& motion : stage.motions)
       if (!motion.is_outlined()) masses_.emplace(&motion, motion);
+    for (const auto& [motion, mass] : masses_)
+      for (const int k : some_of(motion->samples())) some_axes_[{motion, k}] = axes_at(*motion, k);
     const double share = stage.share_of_lengths();
     scale_ = body() == EllipseBody::solid ? solid_scale(share * kSolidAxis)
                                           : ellipse_scale(bounded_semi_axes(), share * kEllipseBar, reading_);
+    scale_ = bounded_scale(scale_, ordinary_long_axes(), share * kLongAxis);
   }
 
   const EllipseScale& scale() const { return scale_; }
@@ -47,6 +51,15 @@ class MassAlong {
     const EffectiveMass effective = along.mass.at(*along.ws, motion.trajectory().q_at(k));
     if (!is_section_) return mass_axes(effective);
     return section_axes(effective, tip_plane(motion.chain(), motion.pose_at(k)), reading_);
+  }
+
+  // What the curve takes around the end effector at this sample, of those that decide on the scale.
+  std::optional<Room> room_at(const Sight& sight, const Eigen::Vector3d& tip) const {
+    const auto known = some_axes_.find({&sight.motion, sight.k});
+    if (known == some_axes_.end()) return std::nullopt;
+    const Room exact = room_of(known->second, sight.camera.seen_at(tip), scale_, stage_->share_of_lengths() * kLongAxis);
+    const double x = std::ceil(exact.right / kRoomStep) * kRoomStep, y = std::ceil(exact.up / kRoomStep) * kRoomStep;
+    return Room{x, x, y, y, -1, 0, true};
   }
 
   void draw(Picture& picture, const Panel& panel, int k, EllipseStyle style) const {
@@ -75,13 +88,20 @@ class MassAlong {
     std::unique_ptr<Workspace> ws;  // its own: the mass needs more than the pose, and spoils it
   };
 
-  // At some of the frames, kg or m/s.
+  // kg or m/s.
   std::vector<double> bounded_semi_axes() const {
     std::vector<double> bounded;
-    for (const auto& [motion, mass] : masses_)
-      for (const int k : some_of(motion->samples()))
-        if (const auto length = bounded_semi_axis(axes_at(*motion, k), reading_)) bounded.push_back(*length);
+    for (const auto& [at, axes] : some_axes_)
+      if (const auto length = bounded_semi_axis(axes, reading_)) bounded.push_back(*length);
     return bounded;
+  }
+  // Velocities of equal energy are bounded everywhere, and their scale is that of their long axes.
+  std::vector<double> ordinary_long_axes() const {
+    std::vector<double> longest;
+    if (reading_ == EllipseReading::energy) return longest;
+    for (const auto& [at, axes] : some_axes_)
+      if (is_ordinary(axes)) longest.push_back(*axes.front().mass);
+    return longest;
   }
 
   // The median of the bounded semi-axes is `length` long, the bar round.
@@ -93,7 +113,7 @@ class MassAlong {
     if (bounded.empty()) return {1, kEllipseBar, reading_};
     const auto middle = bounded.begin() + std::ptrdiff_t(bounded.size() / 2);
     std::nth_element(bounded.begin(), middle, bounded.end());
-    const double bar = round_length(kLongestSolidBar * *middle / length);
+    const double bar = round_length(kLongestBar * *middle / length);
     return {bar, bar * length / *middle, reading_};
   }
 
@@ -101,6 +121,7 @@ class MassAlong {
   EllipseReading reading_;
   bool is_section_;
   std::map<const StagedRun*, Mass> masses_;
+  std::map<std::pair<const StagedRun*, int>, std::vector<MassAxis>> some_axes_;  // at some of the samples
   EllipseScale scale_;
 };
 
@@ -124,6 +145,12 @@ class EllipseInside : public Layer {
       y = std::hypot(y, length * seen.up.dot(axis.direction));
     }
     box.add({x, x, y, y}, sight.camera.flat(tip));
+  }
+
+  // Others have none near singular poses.
+  void wish(const Sight& sight, FitBox& box) const override {
+    const Eigen::Vector3d tip = tip_position(sight.motion.chain(), sight.ws);
+    if (const auto room = along_.room_at(sight, tip)) box.add(*room, sight.camera.flat(tip));
   }
 
   void draw_once(Picture& picture, const Panel& panel) const override {

@@ -55,6 +55,8 @@ class Layer {
 
   // Measure: what the camera must hold of it, beside the chain itself.
   virtual void measure(const Sight&, FitBox&) const {}
+  // Wish: what it is to hold, too, as far as that costs little of the scale.
+  virtual void wish(const Sight&, FitBox&) const {}
   // Width and height of a part of each scene in a corner, or beside it, that it needs for itself. One layer of a film.
   virtual std::optional<Point> room_beside(const StagedRun&) const { return std::nullopt; }
   // Height of a row below all scenes, above what is written at the page's foot, that it needs for itself.

@@ -65,6 +65,31 @@ void fit_to(Camera& camera, const FitBox& box, const Rect& area, double margin) 
   for (int pass = 0; pass < kPasses; ++pass) fit(camera, box.box(camera.scale, margin), area, 0);
 }
 
+namespace {
+
+// Where the origin of an axis lies on the page: the middle of what is wished for is that of the area, but what must be
+// seen stays inside.
+double placed(double must_low, double must_high, double low, double high, double area_low, double area_high) {
+  const double origin = (area_low + area_high - low - high) / 2;
+  return std::clamp(origin, std::min(area_low - must_low, area_high - must_high), std::max(area_low - must_low, area_high - must_high));
+}
+
+}  // namespace
+
+void fit_to(Camera& camera, const FitBox& box, const FitBox& wishes, const Rect& area, double margin) {
+  fit_to(camera, box, area, margin);
+  if (wishes.empty()) return;
+  FitBox all = box;
+  all.add(wishes);
+  const double least = kKeptForWishes * camera.scale;
+  fit_to(camera, all, area, margin);
+  if (camera.scale >= least) return;
+  const double s = camera.scale = least;
+  const Rect must = box.box(s, margin), whole = all.box(s, margin);
+  camera.origin = {placed(s * must.x0, s * must.x1, s * whole.x0, s * whole.x1, area.x0, area.x1),
+                   placed(s * must.y0, s * must.y1, s * whole.y0, s * whole.y1, area.y0, area.y1)};
+}
+
 using Eigen::Vector3d;
 
 Vector3d up_of(const Chain& chain) {

@@ -45,6 +45,10 @@ class FitBox {
 // Scale and origin of the camera such that everything, margins included, just fills `area`; where what may stand in the margin
 // needs more, that.
 void fit_to(Camera& camera, const FitBox& box, const Rect& area, double margin);
+// The same; what is wished for is held, too, where that takes at most a share 1 - kKeptForWishes of the scale. Else
+// that is what it has, and the rest is cut at opposite edges alike, as far as the box leaves room to move.
+inline constexpr double kKeptForWishes = 0.85;
+void fit_to(Camera& camera, const FitBox& box, const FitBox& wishes, const Rect& area, double margin);
 
 // Against gravity; +z where there is none.
 Eigen::Vector3d up_of(const Chain& chain);

@@ -10,6 +10,7 @@
 
 #include "core/format.hpp"
 #include "draw/chains.hpp"
+#include "draw/film/film.hpp"
 #include "draw/layers/fading.hpp"
 #include "draw/layers/ellipsoid.hpp"
 #include "draw/shapes.hpp"
@@ -364,6 +365,42 @@ TEST(EllipseScale, DrawsARoundMassNearTheMedianAsTheBar) {
     const double drawn = m * ellipse_scale({m}, 0.1).per_unit() / 0.1;
     EXPECT_LT(std::max(drawn, 1 / drawn), std::sqrt(2.5) + 1e-12) << m;
   }
+}
+
+// Four of five long axes are no longer than they may be; the bar is round, and shorter than its longest.
+TEST(EllipseScale, IsBoundedByTheLongAxesToo) {
+  const EllipseScale usual = ellipse_scale({0.2}, 0.1);
+  EXPECT_EQ(bounded_scale(usual, {}, 0.3).per_unit(), usual.per_unit());
+  EXPECT_EQ(bounded_scale(usual, {0.4, 0.5, 0.6}, 0.3).per_unit(), usual.per_unit()) << "0.6 kg is 0.3 H at 0.5 H/kg";
+  const std::vector<double> longest{4.0, 4.1, 4.2, 4.3, 4.4, 30};
+  const EllipseScale bounded = bounded_scale(usual, longest, 0.3);
+  EXPECT_NEAR(bounded.per_unit(), 0.3 / 4.4, 1e-12);
+  EXPECT_EQ(bounded.bar, 1);
+  EXPECT_LE(bounded.bar_length, kLongestBar + 1e-12);
+  EXPECT_NEAR(bounded.bar_length, bounded.bar * bounded.per_unit(), 1e-12);
+}
+
+// The whole clip of a nearly stretched chain, whose ellipses are five times as long as wide and more: by their width alone they
+// would be longer than half of the page is high. The tip goes to the right of its base, the ellipses stand across.
+TEST(EllipseLayer, KeepsLongEllipsesOnItsPage) {
+  const Chain chain = test::model("rr");
+  const auto q = [](double t) { return std::vector<double>{1.2 + 0.1 * t, 0.4 + 0.1 * std::sin(t)}; };
+  constexpr int kFrames = 120;
+  const Trajectory run = test::run_of(q, kFrames);
+  Scene scene;
+  scene.draw = {"chain", "ellipse"};
+  const Film film(scene, chain, run, kFrames, fonts());
+  std::vector<double> lengths;
+  for (int k = 0; k < kFrames; k += 10) {
+    const auto ellipses = test::all_of<Ellipse>(film.frame(k), [](const Ellipse& e) { return e.paint.stroke == light_theme().ellipse; });
+    ASSERT_EQ(ellipses.size(), 1u);
+    EXPECT_GT(test::length(ellipses[0].u), 5 * test::length(ellipses[0].v)) << "else the test says nothing";
+    lengths.push_back(test::length(ellipses[0].u));
+  }
+  std::sort(lengths.begin(), lengths.end());
+  // Twelve frames of those that decide: the 80th percentile lies between two of them.
+  EXPECT_LE(lengths[8], 0.30);
+  EXPECT_GE(lengths[10], 0.30) << "no smaller than they need be";
 }
 
 }  // namespace

@@ -70,6 +70,56 @@ TEST(Fit, TakesTheSmallerOfRoomOnThePageAndRoomInMetres) {
   EXPECT_NEAR(box.box(1.0).width(), 1 + 2 * 0.02, 1e-15);  // 0.05 m would be 0.05: the page's bound holds
 }
 
+// What is wished for is held where that is cheap; else the camera gives no more than its share of the scale, moves as far as
+// what must be seen lets it, and cuts at opposite edges alike.
+TEST(Fit, HoldsWishesAsFarAsTheyCostLittle) {
+  FitBox box;
+  box.add({}, {0, 0});
+  box.add({}, {1, 2});
+  Camera bare;
+  fit_to(bare, box, kFitArea, kMargin);
+  const auto wished = [&](Point place, double room) {
+    FitBox wishes;
+    wishes.add({room, room, room, room, -1, 0, true}, place);
+    Camera camera;
+    fit_to(camera, box, wishes, kFitArea, kMargin);
+    return std::pair{camera, wishes};
+  };
+  const auto holds = [&](const Camera& camera, const Rect& metres) {
+    return test::is_inside(test::shifted(kFitArea, {}), page_box(camera, metres)) ||
+           std::max({kFitArea.x0 - page_box(camera, metres).x0, page_box(camera, metres).x1 - kFitArea.x1,
+                     kFitArea.y0 - page_box(camera, metres).y0, page_box(camera, metres).y1 - kFitArea.y1}) < kConverged;
+  };
+  // Beside a high motion there is room: it moves, and keeps its scale.
+  {
+    const auto [camera, wishes] = wished({3, 1}, 0.1);
+    EXPECT_DOUBLE_EQ(camera.scale, bare.scale);
+    EXPECT_TRUE(holds(camera, wishes.box(camera.scale)));
+    EXPECT_FALSE(holds(bare, wishes.box(bare.scale))) << "else the test says nothing";
+  }
+  // Above it a little is given.
+  {
+    const auto [camera, wishes] = wished({0.5, 2}, 0.12);
+    EXPECT_LT(camera.scale, bare.scale);
+    EXPECT_GT(camera.scale, kKeptForWishes * bare.scale);
+    EXPECT_TRUE(holds(camera, wishes.box(camera.scale)));
+  }
+  // Much too much: what must be seen is seen, with its margin.
+  for (const Point place : {Point{0.5, 9}, {0.5, -9}, {40, 1}, {-40, 1}}) {
+    const auto [camera, wishes] = wished(place, 0.1);
+    EXPECT_DOUBLE_EQ(camera.scale, kKeptForWishes * bare.scale);
+    EXPECT_TRUE(holds(camera, box.box(camera.scale, kMargin)));
+    const Rect seen = page_box(camera, box.box(camera.scale, kMargin));
+    const double nearest = std::abs(place.y) > 5 ? (place.y > 0 ? seen.y0 - kFitArea.y0 : kFitArea.y1 - seen.y1)
+                                                 : (place.x > 0 ? seen.x0 - kFitArea.x0 : kFitArea.x1 - seen.x1);
+    EXPECT_NEAR(nearest, 0, kConverged) << "it moved as far towards the wish as it could";
+  }
+  Camera same;
+  fit_to(same, box, {}, kFitArea, kMargin);
+  EXPECT_EQ(same.scale, bare.scale);
+  EXPECT_EQ(same.origin.x, bare.origin.x);
+}
+
 TEST(Fit, MarksInTheMarginTakeRoomOnlyBeyondIt) {
   constexpr double kWide = 0.1;
   FitBox bare;
