@@ -6,7 +6,9 @@
 #include "core/error.hpp"
 #include "draw/figures/caption.hpp"
 #include "draw/figures/ellipse_figure.hpp"
+#include "draw/figures/pose_labels.hpp"
 #include "draw/layers/ellipsoid.hpp"
+#include "draw/layers/fading.hpp"
 #include "draw/page/mark_labels.hpp"
 #include "draw/page/scales.hpp"
 #include "draw/robot/chain.hpp"
@@ -24,9 +26,6 @@ constexpr double kLeastRoom = 0.4;     // of the page for an ellipse, however ma
 constexpr double kInCell = 0.46;       // of a cell's side: the circle that holds what is seen of its ellipse
 constexpr double kMostWhole = 0.7;     // of a field's ellipses have their long axes inside of their cells
 constexpr double kCellOfFullLines = 0.2, kThinnestLines = 0.5;  // units of H; of the style guide's widths
-constexpr double kLabelOff = 0.022;  // units of H, from an end effector
-constexpr double kLabelAir = 0.008, kFarReach = 0.3;  // units of H: off a curve; longer curves are written on
-constexpr double kLabelFarthest = 5;  // heights of a label
 constexpr double kSmallestCell = 0.02;  // units of H: below, ellipses cannot be read
 
 // The pose whose ellipse is nearest to a circle.
@@ -149,41 +148,38 @@ struct Overlay {
     draw_mass_ellipse(picture, pose.axes, tip, camera.seen_at(place), style, clip);
   }
 
-  // Each pose by its name, or its q, off its end effector: away from the middle of them all.
+  // Each pose by its name, or its q, near its end effector; a line leads there where names stand closely.
   void draw_labels(Picture& picture, const Rect& scene) {
-    std::vector<Point> tips;
-    Point mean;
-    for (const Pose& pose : poses) {
-      stand_in(pose);
-      tips.push_back(camera.project(tip_position(chain, ws)));
-      mean = mean + (1.0 / double(poses.size())) * tips.back();
-    }
-    MarkLabels labels;
+    std::vector<NamedPlace> places;
+    std::vector<Bar> bars;
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      const TextLine line = label_of(i);
-      const Point way = tips[i] - mean;
-      const double length = norm(way);
-      const Point out = length > kLabelOff ? (1 / length) * way : Point{0, 1};
-      const double half_width = line.box.width() / 2, half_height = line.box.height() / 2;
-      const double off = std::max(kLabelOff, reach_of(poses[i], out)) + kLabelAir + std::abs(out.x) * half_width +
-                         std::abs(out.y) * half_height;
-      const Point middle = tips[i] + off * out;
-      labels.add("pose", line,
-                 {middle.x - half_width, middle.y - half_height, middle.x + half_width, middle.y + half_height});
+      stand_in(poses[i]);
+      const Eigen::Vector3d tip = tip_position(chain, ws);
+      places.push_back({camera.project(tip), label_of(i), curve_of(poses[i], camera.seen_at(tip))});
+      for (const LinkSegment& link : skeleton.links)
+        bars.push_back({camera.project(pose_of(ws, link.body) * link.from), camera.project(pose_of(ws, link.body) * link.to),
+                        size::kLinkWidth / 2});
     }
-    labels.draw(picture, scene, options.theme->background, kSceneClip, kLabelFarthest);
+    const std::vector<PlacedName> placed = place_names(places, bars, scene);
+    std::vector<StandingWord> plan;
+    for (const PlacedName& one : placed) plan.push_back(one.word);
+    MarkLabels labels(plan);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      MarkWord word{"pose", places[i].name, {placed[i].word.box}};
+      if (placed[i].has_leader) word.leader = Leader{places[i].tip, options.theme->ink};
+      labels.add(std::move(word));
+    }
+    labels.draw(picture, scene, options.theme->background, kSceneClip);
   }
 
-  // How far the curve of a pose goes that way; open ones are written on.
-  double reach_of(const Pose& pose, Point way) const {
-    double squared = 0;
+  // Its semi-axes on the page; open ones lead beyond it.
+  std::array<Point, 2> curve_of(const Pose& pose, const Camera& seen) const {
+    Spread spread;
     for (const MassAxis& axis : pose.axes) {
-      const auto length = semi_axis(axis, options.reading);
-      if (!length || *length * scale.per_unit() > kFarReach) return 0;
-      const double along = camera.right.dot(axis.direction) * way.x + camera.up.dot(axis.direction) * way.y;
-      squared += std::pow(*length * scale.per_unit() * along, 2);
+      const double length = std::min(semi_axis(axis, options.reading).value_or(kLongest) * scale.per_unit(), kLongest);
+      spread.add(length * Point{seen.right.dot(axis.direction), seen.up.dot(axis.direction)});
     }
-    return std::sqrt(squared);
+    return spread.axes();
   }
 
   TextLine label_of(std::size_t i) const {

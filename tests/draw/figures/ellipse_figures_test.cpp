@@ -9,6 +9,7 @@
 #include "draw/chains.hpp"
 #include "draw/figures/caption.hpp"
 #include "draw/figures/ellipse_figure.hpp"
+#include "draw/figures/pose_labels.hpp"
 #include "draw/figures/poses.hpp"
 #include "draw/shapes.hpp"
 #include "dynamics/equation_of_motion.hpp"
@@ -49,6 +50,77 @@ TEST(Superposed, HasEveryEllipseAtItsTipWithItsOwnAxes) {
   EXPECT_NEAR(test::length(ellipses[1].u), 5 * per_kg, 1e-12);
   const double angle = 150 * kOneDegree + 0.4;
   EXPECT_NEAR(std::abs(ellipses[1].u.x * std::cos(angle) + ellipses[1].u.y * std::sin(angle)), 5 * per_kg, 1e-12);
+}
+
+// Seven poses along a short straight way, as a hand that starts and stops stands there: no name lies on another, and for each
+// the eye finds its tip. A name is nearest to its own tip, or a line leads from it there that crosses no other.
+TEST(Superposed, NamesEachPoseWhereTheEyeFindsIt) {
+  PoseFigureOptions options = with_layout("superposed");
+  std::vector<std::vector<double>> poses;
+  const Chain chain = test::model("rr");
+  for (const double x : {1.20, 1.22, 1.30, 1.42, 1.54, 1.60, 1.615}) {
+    // The tip at (x, 1) by the law of cosines, links of 1 m.
+    const double q2 = -std::acos((x * x + 1 - 2) / 2);
+    poses.push_back({std::atan2(1, x) - q2 / 2, q2});
+    options.labels.push_back("t = " + std::to_string(options.labels.size()) + " s");
+  }
+  const Picture picture = draw_ellipse_figure(TipMass(chain), poses, options, fonts());
+  const auto ellipses = test::all_of<Ellipse>(picture, is_mass_ellipse);
+  ASSERT_EQ(ellipses.size(), 7u);
+  struct Name {
+    std::size_t pose;
+    Rect box;
+  };
+  std::vector<Name> names;
+  for (const GlyphRun& run : test::all_of<GlyphRun>(picture))
+    for (std::size_t i = 0; i < 7; ++i)
+      if (run.stroke_width == 0 && run.text == options.labels[i])
+        names.push_back({i, {run.origin.x, run.origin.y, run.origin.x + run.glyphs.back().x + 0.5 * run.size, run.origin.y + 0.7 * run.size}});
+  ASSERT_EQ(names.size(), 7u) << "all of them are named";
+  for (std::size_t i = 0; i < 7; ++i)
+    for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(test::overlap(names[i].box, names[j].box)) << i << " " << j;
+  const auto leaders = test::all_of<Capsule>(picture, [](const Capsule& c) { return c.paint.fill == light_theme().ink && c.radius < 0.002; });
+  const auto to_box = [](const Rect& r, Point p) {
+    return test::distance(p, {std::clamp(p.x, r.x0, r.x1), std::clamp(p.y, r.y0, r.y1)});
+  };
+  for (const Name& name : names) {
+    const Point own = ellipses[name.pose].center;
+    const bool is_led = std::any_of(leaders.begin(), leaders.end(), [&](const Capsule& line) {
+      return test::distance(line.b, own) < 1e-9 && to_box(name.box, line.a) < 0.02;
+    });
+    double nearest = HUGE_VAL;
+    for (std::size_t i = 0; i < 7; ++i)
+      if (i != name.pose) nearest = std::min(nearest, to_box(name.box, ellipses[i].center));
+    EXPECT_TRUE(is_led || to_box(name.box, own) < 0.7 * nearest) << options.labels[name.pose];
+  }
+  EXPECT_GE(leaders.size(), 3u) << "else the test says nothing of lines";
+}
+
+// Where there is room no lines are needed, and what is named is not covered.
+TEST(Superposed, NamesPosesFarFromOneAnotherWithoutLines) {
+  const Picture picture = draw_ellipse_figure(TipMass(test::model("rr")), kPoses, with_layout("superposed"), fonts());
+  EXPECT_TRUE(test::all_of<Capsule>(picture, [](const Capsule& c) { return c.paint.fill == light_theme().ink && c.radius < 0.002; }).empty());
+}
+
+// Very many, on one another, or none at all: no name covers another, and it comes to an end.
+TEST(PoseLabels, StandOffOneAnotherInAnyCrowd) {
+  const Rect area{0, 0, 1.7, 1};
+  for (const std::size_t count : {0u, 1u, 2u, 40u, 200u}) {
+    std::vector<NamedPlace> places;
+    for (std::size_t i = 0; i < count; ++i)
+      places.push_back({{0.8 + 1e-4 * double(i % 7), 0.5}, lay_out_text(fonts(), "t = 1 s", {Face::label, 0.028, light_theme().ink, Align::left}), {}});
+    const auto placed = place_names(places, {}, area);
+    ASSERT_EQ(placed.size(), count);
+    std::size_t standing = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!(placed[i].word.opacity > 0)) continue;
+      ++standing;
+      EXPECT_TRUE(test::is_inside(area, placed[i].word.box));
+      for (std::size_t j = 0; j < i; ++j)
+        EXPECT_FALSE(placed[j].word.opacity > 0 && test::overlap(placed[i].word.box, placed[j].word.box));
+    }
+    EXPECT_GE(standing, std::min<std::size_t>(count, 8));
+  }
 }
 
 TEST(Superposed, ShowsChainsAsOnionSkinsAndEllipsesInFull) {

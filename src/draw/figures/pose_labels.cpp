@@ -1,0 +1,145 @@
+// Each name has places in 24 directions about its tip, ever farther out. Names take the cheapest one in turn, given where the
+// others stand, until none moves: their cost falls with each move, so that comes to an end.
+#include "draw/figures/pose_labels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace chainreel {
+namespace {
+
+constexpr int kDirections = 24, kCurvePlaces = 48;
+constexpr double kOff[] = {0.022, 0.04, 0.06, 0.09, 0.13, 0.18, 0.24};  // units of H, from the tip to the name
+constexpr int kRounds = 20;
+constexpr double kAir = 0.010, kTipAir = 0.010;  // units of H, around a name and a tip
+// What a name pays for what it does, inwards from the middle of all tips at most kInward: for a unit it goes 0.1 H farther to
+// avoid it.
+constexpr double kOnName = 50, kCrossing = 8, kOnTip = 8, kOnCurve = 1.2, kOnBar = 0.5, kInward = 0.3, kPerH = 10;
+constexpr double kOwnByFar = 0.6;  // of the way to the next tip: nearer names need no leader
+
+struct Candidate {
+  Rect box;
+  Point foot;  // where its leader begins
+  double cost = 0;  // whatever the others do
+};
+
+Point nearest_in(const Rect& r, Point p) {
+  return {std::clamp(p.x, r.x0, r.x1), std::clamp(p.y, r.y0, r.y1)};
+}
+
+bool segments_cross(Point a, Point b, Point c, Point d) {
+  const double s = cross(b - a, c - a), t = cross(b - a, d - a), u = cross(d - c, a - c), v = cross(d - c, b - c);
+  return s * t < 0 && u * v < 0;
+}
+
+double distance_to(Point p, Point a, Point b) {
+  const Point way = b - a;
+  const double squared = dot(way, way);
+  const double share = squared > 0 ? std::clamp(dot(p - a, way) / squared, 0.0, 1.0) : 0;
+  return norm(p - (a + share * way));
+}
+
+// Any of some places in the box within the curve, or of the curve within the box.
+bool is_on_curve(const Rect& box, const NamedPlace& place) {
+  const Point u = place.curve[0], v = place.curve[1];
+  const double uu = dot(u, u), vv = dot(v, v);
+  if (!(uu > 0) || !(vv > 0)) return false;
+  for (int i = 0; i < 15; ++i) {
+    const Point p = Point{box.x0 + (i % 5) * box.width() / 4, box.y0 + (i / 5) * box.height() / 2} - place.tip;
+    if (std::hypot(dot(p, u) / uu, dot(p, v) / vv) < 1) return true;
+  }
+  for (int i = 0; i < kCurvePlaces; ++i) {
+    const double angle = i * 2 * std::numbers::pi / kCurvePlaces;
+    const Point p = place.tip + std::cos(angle) * u + std::sin(angle) * v;
+    if (overlap(box, {p.x, p.y, p.x, p.y})) return true;
+  }
+  return false;
+}
+
+// A copy of the segment is cut.
+bool meets(const Rect& box, Point a, Point b) {
+  return cut_segment(box, a, b);
+}
+
+std::vector<Candidate> candidates_of(std::size_t i, std::span<const NamedPlace> places, std::span<const Bar> bars,
+                                     const Rect& area) {
+  const NamedPlace& own = places[i];
+  Point mean;
+  for (const NamedPlace& place : places) mean = mean + (1.0 / double(places.size())) * place.tip;
+  const Point outward = unit(own.tip - mean);
+  std::vector<Candidate> candidates;
+  for (const double off : kOff)
+    for (int k = 0; k < kDirections; ++k) {
+      const double angle = std::numbers::pi / 2 + k * 2 * std::numbers::pi / kDirections;
+      const Point way{std::cos(angle), std::sin(angle)};
+      const Rect box = place_beyond(own.name, own.tip, off, way);
+      if (box.x0 < area.x0 || box.x1 > area.x1 || box.y0 < area.y0 || box.y1 > area.y1) continue;
+      Candidate one{box, nearest_in(box, own.tip), 0};
+      one.cost = kPerH * norm(own.tip - one.foot) + kInward * (1 - dot(way, outward)) / 2;
+      for (std::size_t j = 0; j < places.size(); ++j) {
+        if (is_on_curve(widened(box, kAir / 2), places[j])) one.cost += kOnCurve;
+        if (j == i || norm(places[j].tip - own.tip) < kTipAir) continue;
+        if (norm(places[j].tip - nearest_in(box, places[j].tip)) < kTipAir) one.cost += kOnTip;
+        if (distance_to(places[j].tip, one.foot, own.tip) < kTipAir) one.cost += kCrossing;
+      }
+      for (const Bar& bar : bars)
+        if (meets(widened(box, bar.half_width), bar.a, bar.b)) one.cost += kOnBar;
+      candidates.push_back(one);
+    }
+  if (candidates.empty()) {
+    const Rect box = moved_into(area, place_beyond(own.name, own.tip, kOff[0], {0, 1}));
+    candidates.push_back({box, nearest_in(box, own.tip), 0});
+  }
+  return candidates;
+}
+
+double cost_beside(const Candidate& one, Point tip, const Candidate& other, Point its_tip) {
+  double cost = 0;
+  if (overlap(widened(one.box, kAir / 2), widened(other.box, kAir / 2))) cost += kOnName;
+  if (segments_cross(one.foot, tip, other.foot, its_tip)) cost += kCrossing;
+  if (meets(one.box, other.foot, its_tip)) cost += kCrossing;
+  if (meets(other.box, one.foot, tip)) cost += kCrossing;
+  return cost;
+}
+
+}  // namespace
+
+std::vector<PlacedName> place_names(std::span<const NamedPlace> places, std::span<const Bar> bars, const Rect& area) {
+  const std::size_t count = places.size();
+  std::vector<std::vector<Candidate>> candidates;
+  for (std::size_t i = 0; i < count; ++i) candidates.push_back(candidates_of(i, places, bars, area));
+  std::vector<std::size_t> taken(count, 0);
+  const auto at = [&](std::size_t i) -> const Candidate& { return candidates[i][taken[i]]; };
+  for (int round = 0; round < kRounds; ++round) {
+    bool rests = true;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto cost_of = [&](const Candidate& one) {
+        double cost = one.cost;
+        // In the first round those that follow have no place yet.
+        for (std::size_t j = 0; j < (round == 0 ? i : count); ++j)
+          if (j != i) cost += cost_beside(one, places[i].tip, at(j), places[j].tip);
+        return cost;
+      };
+      std::size_t best = taken[i];
+      double least = cost_of(candidates[i][best]);
+      for (std::size_t c = 0; c < candidates[i].size(); ++c)
+        if (const double cost = cost_of(candidates[i][c]); cost < least) least = cost, best = c;
+      rests = rests && best == taken[i];
+      taken[i] = best;
+    }
+    if (rests && round > 0) break;
+  }
+  std::vector<PlacedName> placed;
+  for (std::size_t i = 0; i < count; ++i) {
+    double next = HUGE_VAL;
+    for (std::size_t j = 0; j < count; ++j)
+      if (j != i) next = std::min(next, norm(places[j].tip - nearest_in(at(i).box, places[j].tip)));
+    bool stands = true;
+    for (std::size_t j = 0; j < i; ++j) stands = stands && !(placed[j].word.opacity > 0 && overlap(at(i).box, at(j).box));
+    placed.push_back({{at(i).box, stands ? 1.0 : 0.0}, norm(places[i].tip - at(i).foot) > kOwnByFar * next});
+  }
+  return placed;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,35 @@
+// Where the names of poses stand that share one picture. Internal.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "draw/page/mark_labels.hpp"
+#include "picture/point.hpp"
+
+namespace chainreel {
+
+// What is named: a place on the page with the curve about it, as two perpendicular semi-axes; those of open ones lead
+// beyond the page.
+struct NamedPlace {
+  Point tip;
+  TextLine name;
+  std::array<Point, 2> curve{};
+};
+// What names keep off, if they can: the links of all poses, `half_width` wide to each side.
+struct Bar {
+  Point a, b;
+  double half_width = 0;
+};
+
+struct PlacedName {
+  StandingWord word;  // of opacity 0 where it has no place without covering another
+  bool has_leader = false;  // its place alone would not tell whose name it is
+};
+
+// For each its place within `area`: near to its own tip, off other names, tips, curves and bars, with leaders that cross no
+// other. The same for the same places, whatever was drawn before.
+std::vector<PlacedName> place_names(std::span<const NamedPlace> places, std::span<const Bar> bars, const Rect& area);
+
+}  // namespace chainreel
