@@ -14,6 +14,7 @@ constexpr double kSuperscriptScale = 0.70, kSuperscriptUp = 0.38;  // of the em,
 constexpr double kPitchX = 1.7;  // of the widest label: distance of labels along x
 constexpr double kPitchY = 3.0, kLeastPitchY = 1.3;  // of the em, along y
 constexpr int kFewestLabels = 3, kMostLinear = 5, kMostLog = 6;
+constexpr std::size_t kFewestOfScale = 2;
 constexpr double kLastAir = 0.6;  // of the em, before the last number with its unit
 
 Color tick_color(const PlotStyle& style) {
@@ -48,8 +49,23 @@ double widest_label(const std::vector<Tick>& ticks, const PlotStyle& style) {
 }
 
 int most_labels(const Axis& axis, double length, double pitch) {
-  const int most = axis.scale == Scale::log ? kMostLog : kMostLinear;
-  return std::clamp(int(length / pitch), kFewestLabels, most);
+  const bool is_log = axis.scale == Scale::log;
+  return std::clamp(int(length / pitch), is_log ? int(kFewestOfScale) : kFewestLabels, is_log ? kMostLog : kMostLinear);
+}
+
+// A lone number is no scale: of finer ticks those have theirs that stand `pitch` apart, zero among them, even where that are two.
+std::vector<Tick> thinned_ticks(const Axis& axis, double length, double pitch) {
+  std::vector<Tick> ticks = ticks_of(axis, kMostLinear);
+  if (ticks.size() < kFewestOfScale) return ticks;
+  const double step = ticks[1].value - ticks[0].value;
+  const auto labelled = [&](long stride) {
+    return std::count_if(ticks.begin(), ticks.end(), [&](const Tick& tick) { return std::lround(tick.value / step) % stride == 0; });
+  };
+  long stride = 1;
+  while (double(stride) * step / (axis.high - axis.low) * length < pitch && labelled(stride + 1) >= long(kFewestOfScale)) ++stride;
+  for (Tick& tick : ticks)
+    if (std::lround(tick.value / step) % stride != 0) tick.label = tick.superscript = "";
+  return ticks;
 }
 
 // At most so many, but at least three where a finer step has them and they stand `pitch` apart on the axis' `length`.
@@ -62,7 +78,7 @@ std::vector<Tick> enough_ticks(const Axis& axis, int most, double length, double
     if (step / (axis.high - axis.low) * length < pitch) break;
     ticks = std::move(finer);
   }
-  return ticks;
+  return ticks.size() < kFewestOfScale && axis.scale != Scale::log ? thinned_ticks(axis, length, pitch) : ticks;
 }
 
 Tick last_tick(const Axis& axis) {

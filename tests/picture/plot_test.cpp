@@ -84,6 +84,23 @@ TEST(Ticks, NeverMoreThanAskedForAndNeverOutside) {
   }
 }
 
+// Of however small a plot, symmetric about zero or not, each axis has two numbers at least: one is no scale. They stand apart.
+TEST(Ticks, AreAScaleInTheSmallestPlots) {
+  for (const double side : {0.16, 0.2, 0.3})
+    for (double most = 0.11; most < 2000; most *= 1.07)
+      for (const double low : {-most, 0.0, 0.3 * most}) {
+        const PlotStyle style = style_of(3);
+        PlotFrame frame = lay_out_plot({0.2, 0.2, 1, 1}, {Scale::linear, low, most}, {Scale::linear, low, most}, style);
+        frame.box = {0.5, 0.5, 0.5 + side, 0.5 + side};
+        Picture picture;
+        draw_axes(picture, frame, style);
+        std::vector<Rect> across, up;
+        for (const GlyphRun& run : all_of<GlyphRun>(picture)) (run.origin.y < frame.box.y0 - 0.05 ? across : up).push_back(box_of(run));
+        EXPECT_GE(up.size(), 2u) << low << " .. " << most << " on " << side;
+        EXPECT_GE(across.size(), 2u) << low << " .. " << most << " on " << side;
+      }
+}
+
 TEST(Ticks, LargeAndSmallNumbersShareAPowerOfTen) {
   EXPECT_THAT(labels({Scale::linear, 0, 2e6}, 5),
               ElementsAre("0", "0.5\u00D710^6", "1.0\u00D710^6", "1.5\u00D710^6", "2.0\u00D710^6"));
