@@ -127,6 +127,14 @@ TEST_F(CompareScene, NamesPanelsByWhatDiffers) {
   EXPECT_THAT(titles(read("parameters: {k: 1}\ncompare: [{parameters.k: 5}, {}]\n")),
               ElementsAre("k = 5", "k = 1"));
   EXPECT_THAT(titles(read("compare: [{}, {}]\n")), ElementsAre("panel 1", "panel 2"));
+  // Of a torque in several words, what differs within it.
+  EXPECT_THAT(titles(read("torque: {gravity_compensation: true, pd: {kp: 60, kd: 10, q: [0.5, 0.5]}}\n"
+                          "compare: [{torque.pd.kp: 10}, {}]\n")),
+              ElementsAre("kp = 10", "kp = 60"));
+  EXPECT_THAT(titles(read("torque: {pd: {kp: [60, 30], kd: 10, q: [0.5, 0.5]}}\ncompare: [{torque.pd.kp: [1, 2], torque.pd.kd: 3}, {}]\n")),
+              ElementsAre("kd = 3, kp = (1, 2)", "kd = 10, kp = (60, 30)"));
+  EXPECT_THAT(titles(read("torque: {pd: {kp: 60, kd: 10, q: [0.5, 0.5]}}\ncompare: [{torque: [1, 0]}, {}]\n")).front(),
+              HasSubstr("(1, 0)"));
   // Degrees are read as rad: as many digits as one reads, and all of them where that would not tell panels apart.
   EXPECT_THAT(titles(read("compare: [{start.q: [-20deg, 0]}, {start.q: [-40deg, 0]}]\n")),
               ElementsAre("q(0) = (-0.3491, 0)", "q(0) = (-0.6981, 0)"));

@@ -51,6 +51,24 @@ double title_size(const Stage& stage, const std::vector<PanelCell>& cells) {
   return std::max(common, std::min(full, scaled(kSmallestText, stage.page.text_scale)));
 }
 
+// Whoever wrote a title is told that it is too long; one that says what a panel differs in was made up, at first or when the
+// film was made whose words these are.
+bool is_made_up(const StagedRun& motion) {
+  return !motion.scene().places.contains("title") || motion.title().find(" = ") != std::string::npos;
+}
+
+// One that is too long at the smallest size says its beginning and its end, where what differs stands; or nothing.
+TextLine abbreviated(const Fonts& fonts, const std::string& title, const TextStyle& style, double width) {
+  constexpr std::size_t kLeastKept = 6;  // characters
+  const std::u32string letters = decode_utf8(title);
+  for (std::size_t kept = letters.size(); kept-- > kLeastKept;) {
+    const std::u32string shorter = letters.substr(0, kept / 2) + U"\u2026" + letters.substr(letters.size() - (kept - kept / 2));
+    TextLine line = lay_out_text(fonts, encode_utf8(shorter), style);
+    if (line.advance <= width + kRoundOff) return line;
+  }
+  return {};
+}
+
 }  // namespace
 
 FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const std::vector<PlotCurves>& story, double beside) {
@@ -111,8 +129,12 @@ std::vector<PlacedText> FilmSheet::panel_titles(const Stage& stage, const std::v
     const Rect& row = cells[i].title;
     const auto& variant = stage.motions[i].variant();
     const Color color = variant ? variant->color : stage.theme.ink;
-    TextLine line = lay_out_text(stage.fonts, stage.motions[i].title(), {Face::label_bold, text_size, color});
-    if (line.advance > row.width() + kRoundOff)
+    const TextStyle style{Face::label_bold, text_size, color};
+    const std::string title = stage.motions[i].title();
+    TextLine line = lay_out_text(stage.fonts, title, style);
+    if (line.advance > row.width() + kRoundOff && is_made_up(stage.motions[i]))
+      line = abbreviated(stage.fonts, title, style, row.width());
+    if (line.advance > row.width() + kRoundOff || (line.runs.empty() && !title.empty()))
       throw Error(ExitCode::bad_input,
                   "the title of panel " + std::to_string(i + 1) +
                       " does not fit above it: give the panel a short `title:`",

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <map>
 #include <set>
+
+#include <yaml-cpp/yaml.h>
 
 #include "core/format.hpp"
 #include "integrate/method.hpp"
@@ -47,26 +50,93 @@ std::string words_of(const SceneEntry& entry) {
   return words.replace(words.find('@'), 1, value);
 }
 
-std::string title_of(const Scene& panel, const std::vector<SceneEntry>& shared) {
-  std::string title;
-  for (const SceneEntry& entry : entries_of(panel)) {
-    if (!find_key(entry.key)->is_captioned || std::find(shared.begin(), shared.end(), entry) != shared.end()) continue;
-    title += (title.empty() ? "" : ", ") + words_of(entry);
+// The values within a mapping, each by the way to it: {"pd.kp", "10"}.
+void add_leaves(const YAML::Node& node, const std::string& way, std::map<std::string, std::string>& leaves) {
+  if (!node.IsMap()) {
+    YAML::Emitter text;
+    text << YAML::Flow << node;
+    leaves[way] = node.IsScalar() ? node.Scalar() : text.c_str();
+    return;
   }
-  return title;
+  for (const auto& entry : node)
+    add_leaves(entry.second, (way.empty() ? "" : way + ".") + entry.first.Scalar(), leaves);
+}
+
+using Leaves = std::map<std::string, std::string>;
+
+std::string last_part(const std::string& way) {
+  return way.substr(way.rfind('.') + 1);
+}
+
+// As in_words, but a list of one entry as that entry.
+std::string leaf_in_words(const std::string& text) {
+  const bool is_of_one = text.starts_with('[') && text.ends_with(']') && text.find(',') == std::string::npos;
+  return is_of_one ? text.substr(1, text.size() - 2) : in_words(text);
+}
+
+// What a key says of each panel, where it says a mapping of all: only what differs in it, "kp = 10" rather than all of the
+// torque, by the whole way where two values have one name. Empty where it is no mapping of all panels.
+std::vector<std::string> words_within(const std::vector<const SceneEntry*>& entries) {
+  std::vector<Leaves> all;
+  for (const SceneEntry* entry : entries) {
+    if (entry == nullptr || !entry->text.starts_with('{')) return {};
+    add_leaves(YAML::Load(entry->text), "", all.emplace_back());
+  }
+  std::set<std::string> ways;
+  std::map<std::string, int> names;
+  for (const Leaves& leaves : all)
+    for (const auto& [way, text] : leaves) {
+      const bool is_shared = std::all_of(all.begin(), all.end(), [&, &way = way, &text = text](const Leaves& other) {
+        const auto known = other.find(way);
+        return known != other.end() && known->second == text;
+      });
+      if (!is_shared && ways.insert(way).second) ++names[last_part(way)];
+    }
+  std::vector<std::string> words;
+  for (const Leaves& leaves : all) {
+    std::string& own = words.emplace_back();
+    for (const std::string& way : ways)
+      if (const auto known = leaves.find(way); known != leaves.end())
+        own += (own.empty() ? "" : ", ") + (names[last_part(way)] > 1 ? way : last_part(way)) + " = " + leaf_in_words(known->second);
+  }
+  return words;
+}
+
+// By what they differ in, key by key.
+std::vector<std::string> titles_of(const std::vector<Scene>& panels) {
+  const std::vector<SceneEntry> shared = shared_entries(panels);
+  std::vector<std::vector<SceneEntry>> own;
+  for (const Scene& panel : panels) {
+    own.push_back(entries_of(panel));
+    std::erase_if(own.back(), [&](const SceneEntry& entry) {
+      return !find_key(entry.key)->is_captioned || std::find(shared.begin(), shared.end(), entry) != shared.end();
+    });
+  }
+  const auto find = [](const std::vector<SceneEntry>& entries, const std::string& key) {
+    const auto entry = std::find_if(entries.begin(), entries.end(), [&](const SceneEntry& one) { return one.key == key; });
+    return entry == entries.end() ? nullptr : &*entry;
+  };
+  std::vector<std::string> titles;
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    std::string& title = titles.emplace_back();
+    for (const SceneEntry& entry : own[i]) {
+      std::vector<const SceneEntry*> of_all;
+      for (const auto& entries : own) of_all.push_back(find(entries, entry.key));
+      const std::vector<std::string> within = words_within(of_all);
+      const std::string words = within.empty() ? words_of(entry) : within[i];
+      if (!words.empty()) title += (title.empty() ? "" : ", ") + words;
+    }
+  }
+  return titles;
 }
 
 }  // namespace
 
 void name_panels(std::vector<Scene>& panels) {
   if (panels.empty()) return;
-  const std::vector<SceneEntry> shared = shared_entries(panels);
-  std::vector<std::string> titles;
+  const std::vector<std::string> titles = titles_of(panels);
   std::set<std::string> short_ones;
-  for (const Scene& panel : panels) {
-    titles.push_back(title_of(panel, shared));
-    short_ones.insert(rounded(titles.back()));
-  }
+  for (const std::string& title : titles) short_ones.insert(rounded(title));
   const bool told_apart = short_ones.size() == panels.size();
   for (std::size_t i = 0; i < panels.size(); ++i) {
     if (!panels[i].title.empty()) continue;
