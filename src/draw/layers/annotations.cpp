@@ -1,9 +1,12 @@
 // Words of `annotate:` with a line to what they speak of. They stand at one place of the page while that moves on.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "draw/layers/layer.hpp"
+#include "draw/robot/view.hpp"
 #include "dynamics/kinematics.hpp"
 #include "picture/point.hpp"
 #include "scene/annotation.hpp"
@@ -11,8 +14,9 @@
 namespace chainreel {
 namespace {
 
-// s of the film that words come before their instant, and go after it. While it stands still they are true, and hardly longer.
-constexpr double kAhead = 0.3, kAheadOfPause = 0.1;
+// s of the film that words come before their instant, and go after it: those that hold it are true while it stands still, and
+// hardly longer; of others nothing is true before.
+constexpr double kAheadOfPause = 0.1;
 constexpr double kStay = 2;    // s of the film, of those that do not hold it
 constexpr double kSame = 1e-9;  // s
 constexpr double kFarPlaces[] = {0.09, 0.14, 0.20, 0.28};  // of words from what they speak of, units of H
@@ -87,7 +91,7 @@ class Annotations : public Layer {
   bool is_shown(const Note& note, double t) const {
     const double begin = stage_->clock.film_time(note.at), now = stage_->clock.film_time(t);
     const bool holds = note.entry->hold > 0;
-    const double ahead = holds ? kAheadOfPause : kAhead, stay = holds ? note.entry->hold + kAheadOfPause : kStay;
+    const double ahead = holds ? kAheadOfPause : 0, stay = holds ? note.entry->hold + kAheadOfPause : kStay;
     return now >= begin - ahead - kSame && now <= begin + stay + kSame;
   }
 
@@ -116,6 +120,7 @@ class Annotations : public Layer {
     const Point then = panel.camera().project(point_of(*note.entry, panel, then_ws));
     panel.motion().pose_at(shot.k);  // the workspace of the shot is the same one
     if (!std::isfinite(now.x + now.y + then.x + then.y)) return;
+    require_in_picture(note, panel, then);
     const Point inward = center_of(area) - then;
     const Point first = norm(inward) > 0.05 ? unit(inward) : unit({1, 1});
     std::vector<Rect> places;
@@ -123,6 +128,21 @@ class Annotations : public Layer {
       for (const Rect& place : places_about(note.line, then, off, first)) places.push_back(moved_into(area, place));
     shot.labels.add({"annotation " + std::to_string(note.number), note.line, std::move(places),
                      Leader{now, stage_->theme.ink}});
+  }
+
+  // A fixed point beyond the picture has no line that leads to it; what moves may leave the picture.
+  static void require_in_picture(const Note& note, const Panel& panel, Point then) {
+    const Rect& area = panel.area();
+    if (note.entry->spot.empty() || overlap(widened(area, kSame), {then.x, then.y, then.x, then.y})) return;
+    const std::array<double, 4> part = part_shown(panel.camera(), area);
+    const auto range = [](double low, double high) { return format_significant(low, 3) + " to " + format_significant(high, 3); };
+    const bool is_flat = note.entry->spot.size() == 2;
+    throw Error(ExitCode::bad_input,
+                "'annotate." + std::to_string(note.number) + ".point' lies outside of the picture, which shows " +
+                    (is_flat ? "x from " + range(part[0], part[2]) + " m and y from " + range(part[1], part[3]) + " m"
+                             : range(part[0], part[2]) + " m to the right and " + range(part[1], part[3]) + " m up") +
+                    ": name a point in there, or a link",
+                note.entry->place);
   }
 
   const Stage* stage_;

@@ -21,6 +21,9 @@ constexpr std::size_t kCrowdOfWords = 60;      // words: of more each has its be
 // change of places.
 constexpr double kHidden = 5, kPoorGround = 2, kWorsePlace = 0.12, kChange = 1.2;
 constexpr double kWorseOfMany = 0.01;  // the same of a place of words with a leader, which have many
+constexpr double kCrossedByLeader = 0.3;  // the same for each piece of what is drawn that its line crosses
+constexpr double kEndOfLeader = 0.03;  // units of H: what lies so near to its end is what it leads to
+constexpr int kMostCrossed = 5;
 constexpr int kPlanRounds = 2;  // each word is placed again when all others have places
 
 struct ShapeObstacles {
@@ -97,6 +100,22 @@ bool moves_on(const Rect& before, const Rect& now) {
   return norm(center_of(now) - center_of(before)) <= kWordStep;
 }
 
+// What a word's line crosses on its way, but at its end.
+double cost_of_leader(const Leader& leader, const Rect& box, const std::vector<Obstacle>& obstacles) {
+  const Point from{std::clamp(leader.to.x, box.x0, box.x1), std::clamp(leader.to.y, box.y0, box.y1)};
+  const double length = norm(leader.to - from);
+  if (!(length > kEndOfLeader)) return 0;
+  const Point to = leader.to - (kEndOfLeader / length) * (leader.to - from);
+  int crossed = 0;
+  for (const Obstacle& obstacle : obstacles) {
+    const Point line = to - from, piece = obstacle.b - obstacle.a;
+    const double s = cross(line, obstacle.a - from), t = cross(line, obstacle.b - from);
+    const double u = cross(piece, from - obstacle.a), v = cross(piece, to - obstacle.a);
+    if (s * t < 0 && u * v < 0 && ++crossed == kMostCrossed) break;
+  }
+  return crossed * kCrossedByLeader;
+}
+
 constexpr int kNowhere = -1;
 
 }  // namespace
@@ -130,7 +149,7 @@ void WordPlan::add(const std::vector<MarkWord>& words, const std::vector<Obstacl
   counts_.push_back(int(words.size()));
   const std::size_t most = words.size() > kCrowdOfWords ? 1 : std::numeric_limits<std::size_t>::max();
   for (std::size_t i = 0; i < words.size(); ++i) {
-    Moment now{frame, int(i), {}, {}, words[i].leader.has_value()};
+    Moment now{frame, int(i), {}, {}, words[i].leader.has_value(), {}};
     for (const Rect& wish : words[i].places) {
       if (now.places.size() == most) break;
       const Rect box = moved_into(area_, wish);
@@ -139,6 +158,7 @@ void WordPlan::add(const std::vector<MarkWord>& words, const std::vector<Obstacl
         if (touches(box, obstacles[o])) ground = obstacles[o].may_yield || now.insists ? Ground::poor : Ground::taken;
       now.places.push_back(box);
       now.grounds.push_back(ground);
+      if (now.insists) now.leaders.push_back(cost_of_leader(*words[i].leader, box, obstacles));
     }
     track_of(words[i], frame).push_back(std::move(now));
   }
@@ -238,7 +258,7 @@ std::vector<std::vector<StandingWord>> WordPlan::standing() const {
         const bool meets = std::any_of(words[std::size_t(now.frame)].begin(), words[std::size_t(now.frame)].end(),
                             [&](const StandingWord& other) { return other.opacity > 0 && overlap(box, other.box); });
         const double poor = ground == Ground::poor ? kPoorGround : 0;
-        if (now.insists) return p * kWorseOfMany + poor + (meets ? kPoorGround : 0);
+        if (now.insists) return p * kWorseOfMany + now.leaders[std::size_t(p)] + poor + (meets ? kPoorGround : 0);
         return meets ? never : p * kWorsePlace + poor;
       };
       const std::vector<int> way = best_way(track, fps_, cost_of);

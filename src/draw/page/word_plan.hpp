@@ -44,6 +44,7 @@ class WordPlan {
     std::vector<Rect> places;      // moved into the area
     std::vector<Ground> grounds;  // what lies there
     bool insists = false;         // rather on anything than nowhere
+    std::vector<double> leaders;  // of those that insist: what the lines from the places cost
   };
   // One word from frame to frame.
   using Track = std::vector<Moment>;

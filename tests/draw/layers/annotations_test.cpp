@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/error.hpp"
 #include "draw/chains.hpp"
 #include "draw/film/film.hpp"
 #include "draw/shapes.hpp"
@@ -62,6 +63,27 @@ TEST_F(AnnotatedRr, FramesOfAPauseAreOnePictureAndAnyFrameIsDrawnAlone) {
   const std::size_t items = one.frame(15).items.size();
   for (int k = 11; k < 20; ++k) EXPECT_EQ(one.frame(k).items.size(), items) << k;
   EXPECT_EQ(other.frame(15).items.size(), items);
+}
+
+// Of words that hold nothing none is true before their instant; here frame k shows k / 10 s.
+TEST_F(AnnotatedRr, WordsThatDoNotHoldTheFilmBeginAtTheirInstant) {
+  scene.annotate[0].hold = 0;
+  const Film one = film();
+  for (int k = 0; k < one.frame_count(); ++k) EXPECT_EQ(dots(one.frame(k)).size(), k >= 10 ? 1u : 0u) << k;
+}
+
+// A line that would lead out of the picture is none: it used to be left out, and its words stood alone.
+TEST_F(AnnotatedRr, APointBeyondThePictureIsAnErrorThatSaysWhatIsShown) {
+  scene.annotate[0].place = {"scenes/test.yaml", 7, 3};
+  for (const std::vector<double>& spot : {std::vector<double>{50, 50}, {0, -9}, {50, 50, 0}}) {
+    scene.annotate[0].spot = spot;
+    try {
+      film();
+      FAIL() << "no error";
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("scenes/test.yaml:7:3: 'annotate.1.point' lies outside of the picture, which shows "));
+    }
+  }
 }
 
 TEST_F(AnnotatedRr, WordsWiderThanThePictureAreAnErrorAtTheirEntry) {

@@ -42,6 +42,20 @@ TEST(WordPlan, StaysAtTheBestPlaceWhileItIsFree) {
   }
 }
 
+// A word with a line stands where that crosses nothing, but at its end, where what it speaks of is.
+TEST(WordPlan, LinesOfWordsKeepOffWhatIsDrawn) {
+  const std::vector<Obstacle> bars{bar(0.35), {{0.48, 0.2}, {0.52, 0.8}, 0.01, false}};
+  MarkWord word = word_at("v", {{0.2, 0.5}, {0.8, 0.5}});
+  word.leader = Leader{{0.5, 0.5}, {}};
+  WordPlan plan(kPlanArea, kPlanFps);
+  for (int k = 0; k < 30; ++k) plan.add({word}, bars);
+  EXPECT_EQ(plan.standing()[15][0].box.x0, 0.8 - kHalfWidth);
+  // Negative control: without that bar it has its best place.
+  WordPlan free(kPlanArea, kPlanFps);
+  for (int k = 0; k < 30; ++k) free.add({word}, {bars[1]});
+  EXPECT_EQ(free.standing()[15][0].box.x0, 0.2 - kHalfWidth);
+}
+
 // A bar comes over the best place for a second: the word is elsewhere before it comes, and fades on its way.
 TEST(WordPlan, LeavesForWhatComesAndFades) {
   WordPlan plan(kPlanArea, kPlanFps);
