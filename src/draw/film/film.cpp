@@ -7,6 +7,8 @@
 namespace chainreel {
 namespace {
 
+constexpr double kVeil = 0.55;  // opacity
+
 std::vector<double> first_times(const Trajectory& trajectory, int frames) {
   const auto count = std::size_t(std::clamp(frames, 0, trajectory.size()));
   return {trajectory.t.begin(), trajectory.t.begin() + std::ptrdiff_t(count)};
@@ -86,6 +88,14 @@ void Film::draw_panel(Picture& picture, std::size_t i, int k) const {
   for (std::size_t l = 0; l < layers_.size(); ++l)
     if (layers_[l]->is_of(panel.motion()))
       layers_[l]->draw(picture, {panel, panel.motion().pose_at(shown), shown, k > shown, view_.corner(l, i), labels});
+  if (k > shown && panel.motion().may_freeze() && stage_->has_cells() && !is_transparent(stage_->page)) draw_veil(picture, i);
+}
+
+// Over a panel whose run came to an end that it should not have: what stands there is no more what happens.
+void Film::draw_veil(Picture& picture, std::size_t i) const {
+  const Rect& r = view_.cells[i].scene;
+  picture.add(Polygon{{Point{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}, 4, {stage_->theme.background.faded(kVeil), {}, 0}},
+              int(i));
 }
 
 Picture Film::frame(int k) const {
@@ -118,7 +128,7 @@ void Film::draw_notes(Picture& picture, int k) const {
     if (line.advance > row.width() + kRoundOff) {
       TextStyle small = style;
       small.size = std::max(scaled(kSmallestText, text_scale) * row.width() / line.advance,
-                            kLeastWordPixels / std::max(stage_->page.video.height, kLeastPagePixels));
+                            least_word(stage_->page.video));
       line = lay_out_text(stage_->fonts, whose + panels_[i].note(k, 0), small);
     }
     draw_text(picture, line, {row.x0, row.y0 + kTitleDescent * style.size});

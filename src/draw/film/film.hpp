@@ -47,6 +47,7 @@ class Film {
  private:
   Picture page() const;
   std::lock_guard<std::mutex> alone() const { return std::lock_guard(*drawing_); }
+  void draw_veil(Picture& picture, std::size_t i) const;
   void draw_panel(Picture& picture, std::size_t i, int k) const;
   void draw_cell_frames(Picture& picture) const;
   void draw_notes(Picture& picture, int k) const;

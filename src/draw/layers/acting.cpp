@@ -109,7 +109,19 @@ class VectorLayer : public Layer {
         for (const WorldVector& vector : vectors_at(motion, ws, k)) magnitudes.add(vector);
       }
     }
-    return {magnitudes.full(), stage.share_of_arrows(name) * stage.share_of_lengths()};
+    auto full = magnitudes.full();
+    leave_out_noise(full, stage.motions.front().skeleton().reach);
+    return {full, stage.share_of_arrows(name) * stage.share_of_lengths()};
+  }
+
+  // What is rounding beside the other drives, of which nobody asked for an arrow at a scale of its own: sliders that rest while
+  // torques act, or the other way round.
+  static void leave_out_noise(std::array<double, kVectorKinds.size()>& full, double reach) {
+    constexpr double kNoise = 1e-5;
+    double &turning = full[std::size_t(VectorKind::torque)], &pushing = full[std::size_t(VectorKind::joint_force)];
+    if (!(reach > 0)) return;
+    if (pushing < kNoise * turning / reach) pushing = 0;
+    if (turning < kNoise * pushing * reach) turning = 0;
   }
 
   const Stage* stage_;

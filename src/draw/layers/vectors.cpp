@@ -21,6 +21,7 @@ constexpr double kShareBelowFull = 0.95;  // of a clip's magnitudes
 constexpr double kRoundOffBelow = 1e-6;   // of the largest
 constexpr double kRestBeforeRing = 0.3, kRingFade = 0.15;  // s
 constexpr double kRingRadius = 0.026;     // units of H: close about a joint's disc
+constexpr double kLeastLabelled = 0.026;  // units of H: words of torques stand off their joints by more
 constexpr double kWholeRadius = 60;       // degrees: an arc that turns by less has a smaller radius, down to a dot
 constexpr double kTorqueDot = 0.0062;     // radius, units of H
 constexpr double kBreakOpens = 0.1;       // a break is open where this much of the length is cut
@@ -250,7 +251,8 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   picture.add(Ellipse{center, {dot, 0}, {0, dot}, {style.color, {}, 0}}, clip);
   if (vector.label.empty()) return;
   const TextLine& text = label(vector, marks);
-  const double off = radius + marks * size::kArrowHeadWidth / 2 + kVectorLabelGap;
+  // Beside the arc as it is: that of a torque near rest is small, and a word where a full one would be stands alone.
+  const double off = std::max(grown * radius, kLeastLabelled * marks) + marks * size::kArrowHeadWidth / 2 + kVectorLabelGap;
   std::vector<Rect> places = places_about(text, center, off, {0, 1});
   for (const Rect& far : places_about(text, center, off + kFarLabelGap, {0, 1})) places.push_back(far);
   labels.add({word_name(vector), text, std::move(places)});

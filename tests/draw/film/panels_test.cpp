@@ -81,6 +81,38 @@ TEST_F(PanelFilm, ShowsEveryRunAtTheSameScaleInPanelsOfTheSameSize) {
   EXPECT_LT(test::distance(in_a, in_b), 1e-12);
 }
 
+// What stands still since its run went wrong is paler than what moves, from that frame on and in its own panel alone.
+TEST_F(PanelFilm, VeilsAPanelWhoseRunCameToABadEnd) {
+  add("calm", sliding);
+  add("wild", growing, true);
+  const Film both = film();
+  const auto veils = [&](int k) {
+    std::vector<int> clips;
+    for (const Item& item : both.frame(k).items)
+      if (const auto* p = std::get_if<Polygon>(&item.shape);
+          p && p->count == 4 && p->paint.fill.a > 0.3 && p->paint.fill == light_theme().background.faded(p->paint.fill.a))
+        clips.push_back(item.clip);
+    return clips;
+  };
+  EXPECT_TRUE(veils(0).empty());
+  EXPECT_EQ(veils(kFrames - 1), std::vector<int>{1});
+}
+
+// Whoever wrote a title is told that it does not fit; one that was made up is cut in its middle, so that panels stay apart.
+TEST_F(PanelFilm, AbbreviatesTitlesThatWereMadeUp) {
+  const std::string end = " and a long way to what differs at its end, which nobody could have in a panel as narrow as this one is: k = ";
+  add("torque" + end + "10", sliding);
+  add("torque" + end + "60", sliding);
+  const std::string words = test::words_of(film().static_layer());
+  EXPECT_THAT(words, HasSubstr("torque"));
+  EXPECT_THAT(words, HasSubstr("\u2026"));
+  EXPECT_THAT(words, HasSubstr("k = 10"));
+  EXPECT_THAT(words, HasSubstr("k = 60"));
+  scenes[0]->title = "Said in so many words that no panel could hold them, however small their letters, as small as they may be, and smaller";
+  scenes[0]->places["title"] = {"scenes/test.yaml", 3, 4};
+  EXPECT_THROW(film(), Error);
+}
+
 TEST_F(PanelFilm, ShowsEachGripperWhereItsOwnRunHasIt) {
   add("left", sliding);
   add("right", [](double t) { return std::vector<double>{0.5 * t, 0.2}; });

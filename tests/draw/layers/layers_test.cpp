@@ -247,6 +247,38 @@ TEST_F(LayerFilm, ATorqueThatRestsIsADotAndHasARingFromThreeTenthsOfASecondOn) {
   }
 }
 
+// The word of a torque that is hardly there is near its arc, which is hardly more than a dot: where a whole arc would be it
+// would stand alone.
+TEST_F(LayerFilm, WordsOfSmallTorquesStandBesideTheirSmallArcs) {
+  const auto way_to_word = [&](const std::string& second) {
+    make("rr", {"10", second}, [](double) { return std::vector<double>{-1.2, 0.9}; }, 60);
+    scene.draw = {"chain", "torque"};
+    const Film pictures = film();
+    const Point elbow = pictures.camera().project({std::cos(-1.2), std::sin(-1.2), 0});
+    double nearest = HUGE_VAL;
+    for (const GlyphRun& glyphs : test::all_of<GlyphRun>(pictures.frame(30)))
+      if (glyphs.color == light.torque) nearest = std::min(nearest, test::distance(glyphs.origin, elbow));
+    return nearest;
+  };
+  // Off the joint: 0.026 H, half of a head and 0.010 H; of a whole arc 0.058 H and those. The origin of a word is its lower left.
+  EXPECT_LT(way_to_word("0.3"), 0.058 + 0.009 + 0.010 - 0.004);
+  EXPECT_GT(way_to_word("9"), 0.058 + 0.009 + 0.010 - 0.004);
+}
+
+// A slider that rests to within rounding has no arrow, and its kind no scale of its own; nor have torques beside forces.
+TEST_F(LayerFilm, DrivesThatAreRoundingBesideOthersHaveNoScale) {
+  const auto scales = [&](const std::string& torque, const std::string& force) {
+    make("slider_crank", {torque, "0", force}, [](double t) { return std::vector<double>{0.5 + t, -0.8, 0.3}; }, 60);
+    scene.draw = {"chain", "torque", "legend"};
+    return test::words_of(film().static_layer());
+  };
+  EXPECT_THAT(scales("10", "1e-6*sin(9*t)"), testing::AllOf(HasSubstr("torque"), Not(HasSubstr("joint force"))));
+  EXPECT_THAT(scales("1e-6*sin(9*t)", "10"), testing::AllOf(HasSubstr("joint force"), Not(HasSubstr("torque"))));
+  // Negative control: small ones that are no rounding have theirs, and so have the smallest where nothing else acts.
+  EXPECT_THAT(scales("10", "0.01*sin(9*t)"), testing::AllOf(HasSubstr("torque"), HasSubstr("joint force")));
+  EXPECT_THAT(scales("0", "1e-6*sin(9*t)"), HasSubstr("joint force"));
+}
+
 TEST_F(LayerFilm, AnArcThatPassesZeroHasNeitherARingNorAJump) {
   make("rr", {"10*sin(3*t)", "10*(t > 2)"}, test::swing);
   draw({"torque"});
