@@ -18,7 +18,7 @@ struct ChartPoint {
   double seconds = 0;      // median of the repetitions
   double evaluations = 0;  // of the dynamics
   bool failed = false;     // diverged or gave up: its cost is shown, its error is not
-  std::string label;       // "h = 1 ms"; not drawn, for files beside the picture
+  std::string label;       // "h = 1 ms" or "rk4, step 0.001 s"; drawn at the ends of curves in colour
 };
 
 struct ChartCurve {
@@ -65,7 +65,8 @@ void light_curves(WorkPrecision& data, std::span<const ChartCost> panels, const 
 double cost_of(const ChartPoint& point, ChartCost cost);
 
 // What lies behind the curves: the least cost for each error and ten and a hundred times as much, a triangle
-// for each order whose slope some curve really shows, a ring around the choice of `auto`. Words and triangles
+// for each order whose slope some curve really shows, a ring around the choice of `auto`, the settings at the ends of curves in
+// colour, the names of grey ones. Words and triangles
 // stand where no curve crosses them, or are left out; the word of the choice always stands.
 // Returns whether there are triangles.
 bool draw_marks(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,

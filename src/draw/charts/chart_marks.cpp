@@ -257,6 +257,60 @@ void draw_choice(Picture& picture, const PlotFrame& frame, const WorkPrecision& 
   obstacles.boxes.push_back({best.x - half, best.y, best.x + half, best.y + em});
 }
 
+// --- words at the ends of curves ---
+
+// "h = 0.01 s" of "rk4, step 0.01 s".
+std::string setting_of(const std::string& label) {
+  const std::size_t comma = label.rfind(", ");
+  std::string text = comma == std::string::npos ? label : label.substr(comma + 2);
+  for (const auto& [word, shorter] : {std::pair{"step ", "h = "}, {"tolerance ", "tol. "}})
+    if (text.starts_with(word)) text.replace(0, std::string(word).size(), shorter);
+  return text;
+}
+
+// Beside a point, where neither curves nor other words are; else nowhere.
+void draw_word_beside(Picture& picture, const std::string& text, Color color, Point at, Obstacles& obstacles, const ChartLook& look) {
+  if (text.empty()) return;
+  const double em = look.plot_style().text(size::kTick);
+  const TextLine line = lay_out_text(*look.fonts, text, {Face::label, em, color, Align::left});
+  const double wide = line.advance, high = kCapHeight * em, off = 2 * kClearance;
+  for (const Point corner : {Point{off, -high / 2}, {-off - wide, -high / 2}, {-wide / 2, off}, {-wide / 2, -off - high}, {off, off},
+                             {off, -off - high}, {-off - wide, off}, {-off - wide, -off - high}}) {
+    const Point p = at + corner;
+    const Rect box{p.x, p.y - 0.2 * em, p.x + wide, p.y + em};
+    if (!obstacles.is_free(box)) continue;
+    draw_text(picture, line, p);
+    obstacles.boxes.push_back(box);
+    return;
+  }
+}
+
+// With which steps or tolerances highlighted curves begin and end; and the names of the others at their most exact ends, since
+// grey does not tell them apart.
+void draw_end_words(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost, Obstacles& obstacles,
+                    const ChartLook& look) {
+  for (const bool lit : {true, false})
+    for (std::size_t k = 0; k < data.curves.size(); ++k) {
+      const ChartCurve& curve = data.curves[k];
+      const ChartPoint *first = nullptr, *last = nullptr;
+      for (const ChartPoint& point : curve.points) {
+        if (point.failed || !(point.error >= frame.x.low) || !frame.can_show({point.error, cost_of(point, cost)})) continue;
+        if (!first || point.error < first->error) first = &point;
+        if (!last || point.error > last->error) last = &point;
+      }
+      if (curve.is_lit != lit || !first) continue;
+      const auto place = [&](const ChartPoint& point) { return frame.at({point.error, cost_of(point, cost)}); };
+      if (!lit) {
+        draw_word_beside(picture, without_formulas(curve.title.empty() ? curve.method : curve.title), look.theme->muted, place(*first),
+                         obstacles, look);
+        continue;
+      }
+      const Color color = curve_style(curve.look < 0 ? int(k) : curve.look, *look.theme).color;
+      draw_word_beside(picture, setting_of(first->label), color, place(*first), obstacles, look);
+      if (last != first) draw_word_beside(picture, setting_of(last->label), color, place(*last), obstacles, look);
+    }
+}
+
 }  // namespace
 
 double cost_of(const ChartPoint& point, ChartCost cost) {
@@ -289,6 +343,7 @@ bool draw_marks(Picture& picture, const PlotFrame& frame, const WorkPrecision& d
   draw_choice(picture, frame, data, cost, obstacles, look);
   const bool triangles = draw_slopes(picture, frame, data, cost, obstacles, look);
   draw_guide_words(picture, frame, best, obstacles, look);
+  draw_end_words(picture, frame, data, cost, obstacles, look);
   return triangles;
 }
 
