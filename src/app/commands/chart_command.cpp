@@ -212,6 +212,7 @@ std::vector<std::string> highlighted(const ChartOptions& options, const std::vec
 }
 
 void run_chart(const ChartOptions& options) {
+  check_figure_size(options.figure);
   const std::vector<const Method*> chosen = parse_methods(options.methods);
   const std::vector<std::string> lit = highlighted(options, chosen);
   PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false, options.common.quiet);

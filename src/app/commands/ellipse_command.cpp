@@ -10,6 +10,7 @@
 #include "app/cli/result.hpp"
 #include "app/commands/ellipse_numbers.hpp"
 #include "app/commands/figure.hpp"
+#include "app/commands/paper.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/film/target.hpp"
 #include "core/error.hpp"
@@ -22,8 +23,6 @@
 namespace chainreel {
 namespace {
 
-constexpr double kNotGiven = -1;
-
 struct EllipseOptions {
   std::string model;
   PoseSources sources;
@@ -32,12 +31,11 @@ struct EllipseOptions {
   std::string layout;   // "": superposed along a motion, else grid
   bool joint_space = false;
   std::string joints;  // "1,2"
-  std::string output;
+  std::vector<std::string> outputs;
   std::string end_effector;
   std::string title;
   int width = 0, height = 0;  // 0: as the scene says
-  double width_mm = kNotGiven, height_mm = kNotGiven;  // on paper
-  int dpi = 0;                // of a .png on paper; 0: kPrintDpi
+  PaperOptions paper;
   bool letters = false;
   CommonOptions common;
   const Command* command = nullptr;
@@ -53,10 +51,6 @@ struct EllipseOptions {
   }
 };
 
-constexpr int kPrintDpi = 300, kMostPixels = 16384;
-constexpr double kMmPerInch = 25.4, kPointsPerMm = 72 / kMmPerInch;
-constexpr double kSmallestPrint = 7;  // pt: what a paper's figure may say
-
 // How tall a figure of `panels` panels is to be on paper, mm: so many across as columns of a paper hold, each with its caption.
 double paper_height(double width, int panels, bool is_one_picture, bool is_joint_space) {
   constexpr double kShape = 0.75, kCaption = 6, kMatrix = 17, kFoot = 16;
@@ -66,29 +60,27 @@ double paper_height(double width, int panels, bool is_one_picture, bool is_joint
   return rows * (kShape * width / across + (panels < 5 ? kMatrix : kCaption)) + kFoot;
 }
 
-// Nothing that is written at its usual size is smaller than kSmallestPrint.
 void set_on_paper(PoseFigureOptions& figure, const EllipseOptions& options, int poses) {
-  const double height = options.height_mm != kNotGiven
-                            ? options.height_mm
-                            : paper_height(options.width_mm, figure.layout == "row" ? 1 : poses,
-                                           options.sources.field || figure.layout == "superposed", options.joint_space);
-  const double per_mm = (options.dpi > 0 ? options.dpi : kPrintDpi) / kMmPerInch;
-  figure.width = int(std::lround(options.width_mm * per_mm));
-  figure.height = int(std::lround(height * per_mm));
-  if (std::max(figure.width, figure.height) > kMostPixels)
-    throw Error(ExitCode::usage, "--width-mm: that makes " + std::to_string(figure.width) + " x " + std::to_string(figure.height) +
-                                     " pixels, more than " + std::to_string(kMostPixels) + " a side: take a smaller --dpi");
-  figure.text_scale = std::max(1.0, figure.text_scale) * kSmallestPrint / (kSmallestText * height * kPointsPerMm);
+  const PaperPage page = paper_page(
+      options.paper, paper_height(options.paper.width_mm, figure.layout == "row" ? 1 : poses,
+                                  options.sources.field || figure.layout == "superposed", options.joint_space));
+  figure.width = page.width;
+  figure.height = page.height;
+  figure.text_scale = text_scale_on(page, figure.text_scale);
 }
 
-std::string output_of(const EllipseOptions& options) {
-  std::string output = options.output;
+std::vector<std::string> outputs_of(const EllipseOptions& options) {
+  std::vector<std::string> outputs = options.outputs;
   const std::string& named = options.model.empty() ? options.sources.along : options.model;
-  if (output.empty()) output = "out/" + std::filesystem::path(named).stem().string() + "_ellipse.png";
-  check_figure_path(output);
-  if (options.joint_space && (output.ends_with(".csv") || output.ends_with(".npz")))
-    throw Error(ExitCode::usage, "-o " + output + ": --joint-space is written as .png, .svg or .pdf, its numbers as .json");
-  return output;
+  if (outputs.empty()) outputs = {"out/" + std::filesystem::path(named).stem().string() + "_ellipse.png"};
+  for (const std::string& output : outputs) {
+    check_figure_path(output);
+    if (std::count(outputs.begin(), outputs.end(), output) > 1)
+      throw Error(ExitCode::usage, "-o " + output + " is named twice");
+    if (options.joint_space && (output.ends_with(".csv") || output.ends_with(".npz")))
+      throw Error(ExitCode::usage, "-o " + output + ": --joint-space is written as .png, .svg or .pdf, its numbers as .json");
+  }
+  return outputs;
 }
 
 // Two joints, counted from 0.
@@ -170,21 +162,14 @@ EllipseJob job_of(const EllipseOptions& options) {
   figure.letters = options.letters;
   if (options.letters && !options.joint_space && (figure.cell > 0 || figure.layout == "superposed"))
     throw Error(ExitCode::usage, "--letters name panels: with --field leave them out, else take --layout grid or row");
-  if (options.width_mm != kNotGiven) set_on_paper(figure, options, int(poses.q.size()));
+  if (options.paper.is_given()) set_on_paper(figure, options, int(poses.q.size()));
   return job;
 }
 
 void check_combination(const EllipseOptions& options) {
   if (options.joint_space && (!options.reading.empty() || !options.layout.empty() || options.sources.field))
     throw Error(ExitCode::usage, "--joint-space shows M(q) itself: leave out --reading, --layout and --field");
-  for (const auto& [name, mm] : {std::pair{"--width-mm", options.width_mm}, {"--height-mm", options.height_mm}})
-    if (mm != kNotGiven && !(mm >= 20 && mm <= 2000))
-      throw Error(ExitCode::usage, std::string(name) + " takes millimetres between 20 and 2000, like 84");
-  const bool on_paper = options.width_mm != kNotGiven;
-  if (on_paper && (options.width > 0 || options.height > 0))
-    throw Error(ExitCode::usage, "--width-mm is the size on paper: leave out --width and --height, --dpi says how many pixels");
-  if (!on_paper && (options.height_mm != kNotGiven || options.dpi > 0))
-    throw Error(ExitCode::usage, "--height-mm and --dpi go with --width-mm");
+  check_paper(options.paper, options.width > 0 || options.height > 0);
   if (!options.joint_space && !options.joints.empty())
     throw Error(ExitCode::usage, "--joints goes with --joint-space");
   if (options.sources.field && !options.layout.empty())
@@ -193,7 +178,7 @@ void check_combination(const EllipseOptions& options) {
 
 void run_ellipse(const EllipseOptions& options) {
   check_combination(options);
-  const std::string output = output_of(options);
+  const std::vector<std::string> outputs = outputs_of(options);
   const EllipseJob job = job_of(options);
   const Motion& motion = job.motion;
   const PoseFigureOptions& figure = job.figure;
@@ -205,7 +190,7 @@ void run_ellipse(const EllipseOptions& options) {
                 "--joint-space shows M(q), which says of a constrained mechanism only what its cut chain would do: leave "
                 "one of the two out; `chainreel dynamics " + options.sources.along + " --at T` prints M, Jc and Lambda");
   ClipMemory memory = memory_of_figure(*options.command, figure.title, options.model, poses.q);
-  if (options.width_mm != kNotGiven) memory.width_mm = options.width_mm;
+  if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;
   const std::array<int, 2> joints = options.joint_space ? joints_of(chain, options.joints) : std::array<int, 2>{};
   const auto report = [&] {
     if (options.joint_space) return Json{{"poses", joint_space_json(chain, poses, joints)}};
@@ -214,19 +199,20 @@ void run_ellipse(const EllipseOptions& options) {
                 {"unit", options.read_as(motion) == EllipseReading::energy ? "m/s" : "kg"},
                 {"poses", ellipse_json(tip, poses, options.form(motion))}};
   };
-  if (is_table_path(output)) {
-    const std::string csv = options.joint_space ? "" : ellipse_csv(tip, poses, options.form(motion));
-    write_numbers(output, {csv, report}, options.common.force);
-  } else if (options.joint_space) {
-    const Fonts fonts(motion.families);
-    write_picture(draw_joint_space_figure(chain, poses.q, joints, figure, fonts), figure.width,
-                  figure.height, fonts, output, options.common.force, memory);
-  } else {
-    const Fonts fonts(motion.families);
-    write_picture(draw_ellipse_figure(tip, poses.q, figure, fonts), figure.width,
-                  figure.height, fonts, output, options.common.force, memory);
+  const std::string csv = options.joint_space ? "" : ellipse_csv(tip, poses, options.form(motion));
+  const Fonts fonts(motion.families);
+  std::optional<Picture> picture;
+  for (const std::string& output : outputs) {
+    if (is_table_path(output)) {
+      write_numbers(output, {csv, report}, options.common.force);
+      continue;
+    }
+    if (!picture)
+      picture = options.joint_space ? draw_joint_space_figure(chain, poses.q, joints, figure, fonts)
+                                    : draw_ellipse_figure(tip, poses.q, figure, fonts);
+    write_picture(*picture, figure.width, figure.height, fonts, output, options.common.force, memory);
   }
-  tell_files(options.common, {output}, report);
+  tell_files(options.common, outputs, report);
 }
 
 }  // namespace
@@ -252,8 +238,8 @@ void add_ellipse_command(CommandLine& app) {
       .one_of(figure_layout_names());
   command->add_flag("--joint-space", options->joint_space, "the unit circle of accelerations beside its image under M(q)");
   command->add_option("--joints", options->joints, "the two joints of --joint-space: --joints 1,2");
-  command->add_option("-o,--output", options->output,
-                      "a .png, .svg, .pdf, .csv, .json or .npz file (default out/NAME_ellipse.png)");
+  command->add_repeatable("-o,--output", options->outputs,
+                          "a .png, .svg, .pdf, .csv, .json or .npz file (repeatable; default out/NAME_ellipse.png)");
   command->add_option("--end-effector", options->end_effector, "the link whose mass is felt");
   command->add_option("--title", options->title, "above the figure");
   add_scene_flags(*command, options->common.flags, FlagGroup::look);
@@ -262,9 +248,7 @@ void add_ellipse_command(CommandLine& app) {
       .one_of(words_of(names_of(EllipseShape{})));
   command->add_option("--width", options->width, "pixels").range(16, 16384);
   command->add_option("--height", options->height, "pixels").range(16, 16384);
-  command->add_option("--width-mm", options->width_mm, "millimetres on paper: 84 for a column; nothing is written below 7 pt");
-  command->add_option("--height-mm", options->height_mm, "goes with --width-mm (default: what suits the poses)");
-  command->add_option("--dpi", options->dpi, "of a .png with --width-mm (default 300)").range(50, 2400);
+  add_paper_options(*command, options->paper, "what suits the poses");
   command->add_flag("--letters", options->letters, "(a), (b), .. before the captions of panels");
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);

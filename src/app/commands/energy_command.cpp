@@ -191,6 +191,7 @@ void require_all_possible(Simulation& simulation, const std::vector<const Method
 }
 
 void run_energy(const EnergyOptions& options) {
+  check_figure_size(options.figure);
   const std::vector<const Method*> chosen = parse_methods(options.methods);
   PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false, options.common.quiet);
   require_computed_run(prepared.scene, "energy");

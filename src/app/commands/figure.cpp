@@ -20,6 +20,26 @@
 namespace chainreel {
 namespace {
 
+// Charts have many words beside and below their curves.
+PaperPage on_paper(const FigureOptions& options) {
+  return paper_page(options.paper, 0.75 * options.paper.width_mm);
+}
+
+struct PixelSize {
+  int width = 1920, height = 1080;
+};
+
+PixelSize size_of(const FigureOptions& options) {
+  if (options.paper.is_given()) {
+    const PaperPage page = on_paper(options);
+    return {page.width, page.height};
+  }
+  PixelSize size;
+  if (options.width > 0) size.width = options.width;
+  if (options.height > 0) size.height = options.height;
+  return size;
+}
+
 std::string version_text() {
   return std::string(program_version()) + ", " + program_revision();
 }
@@ -34,12 +54,20 @@ void add_figure_options(Command& command, FigureOptions& options, CommonOptions&
                          "written as CSV beside the picture");
   command.add_option("--width", options.width, "pixels").range(16, 16384);
   command.add_option("--height", options.height, "pixels").range(16, 16384);
+  add_paper_options(command, options.paper, "three quarters of the width");
   add_scene_flags(command, common.flags, FlagGroup::look);
   options.command = &command;
 }
 
+void check_figure_size(const FigureOptions& options) {
+  check_paper(options.paper, options.width > 0 || options.height > 0);
+  size_of(options);
+}
+
 ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fonts& fonts) {
-  return {double(options.width) / options.height, scene.text_scale, &page_theme(scene), &fonts, page_logo(scene, options.height)};
+  const PixelSize size = size_of(options);
+  const double text_scale = options.paper.is_given() ? text_scale_on(on_paper(options), scene.text_scale) : scene.text_scale;
+  return {double(size.width) / size.height, text_scale, &page_theme(scene), &fonts, page_logo(scene, size.height), options.paper.is_given()};
 }
 
 bool is_table_path(const std::string& path) {
@@ -72,8 +100,10 @@ std::vector<std::string> write_figure(const Picture& picture, const FigureNumber
   const std::string table = std::filesystem::path(path).replace_extension(".csv").string();
   require_own_sidecar(table, overwrite);
   write_text_file(table, numbers.csv, overwrite);
-  write_picture(picture, options.width, options.height, fonts, path, overwrite,
-                memory_of_figure(*options.command, std::filesystem::path(path).stem().string()));
+  ClipMemory memory = memory_of_figure(*options.command, std::filesystem::path(path).stem().string());
+  if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;
+  const PixelSize size = size_of(options);
+  write_picture(picture, size.width, size.height, fonts, path, overwrite, memory);
   return {path, table};
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/cli/command.hpp"
+#include "app/commands/paper.hpp"
 #include "app/film/clip_memory.hpp"
 #include "core/frame_rate.hpp"
 #include "core/json.hpp"
@@ -19,13 +20,17 @@ namespace chainreel {
 
 struct FigureOptions {
   std::string output;
-  int width = 1920, height = 1080;
+  int width = 0, height = 0;  // 0: 1920 x 1080
+  PaperOptions paper;
   const Command* command = nullptr;  // what it was given is remembered by the picture
 };
 
 // With the flags --theme and --text-scale: a chart has the look of its scene unless they say otherwise.
 void add_figure_options(Command& command, FigureOptions& options, CommonOptions& common,
                         const std::string& default_output);
+
+// Throws Error (usage) of a size that cannot be: before anything is measured.
+void check_figure_size(const FigureOptions& options);
 
 // Throws Error (usage) unless the ending is .png, .svg, .pdf or one of a table: .csv, .json, .npz.
 void check_figure_path(const std::string& path);

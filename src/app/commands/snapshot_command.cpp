@@ -11,6 +11,7 @@
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
+#include "app/commands/paper.hpp"
 #include "app/works/moment.hpp"
 #include "app/film/automatic.hpp"
 #include "app/film/model_scene.hpp"
@@ -40,6 +41,7 @@ struct SnapshotOptions {
   std::string end_effector;
   std::vector<std::string> vary;
   int width = 0, height = 0;
+  PaperOptions paper;
   CommonOptions common;
   const Command* command = nullptr;
 };
@@ -177,6 +179,11 @@ void require_own_names(const std::vector<std::string>& names, const std::string&
   problems.throw_if_any(ExitCode::usage);
 }
 
+// A page of that shape on paper.
+PaperPage page_of(const SnapshotOptions& options, int width, int height) {
+  return paper_page(options.paper, options.paper.width_mm * height / width);
+}
+
 void snapshot_scene(const SnapshotOptions& options) {
   std::vector<AskedInstant> asked;
   std::vector<std::string> names;
@@ -202,13 +209,20 @@ void snapshot_scene(const SnapshotOptions& options) {
   Video& video = film.scene.video;
   if (options.width > 0) video.width = options.width;
   if (options.height > 0) video.height = options.height;
+  if (options.paper.is_given()) {
+    const PaperPage page = page_of(options, video.width, video.height);
+    video.width = page.width;
+    video.height = page.height;
+    video.least_text = page.least_text;
+  }
   const std::vector<double> instants = instants_asked(film, asked);
   Pictures pictures(options, place, names);
   const Fonts fonts(families_of(film.scene));
   Moments moments(film, fonts);
   std::vector<Json> numbers;
   for (std::size_t i = 0; i < instants.size(); ++i) {
-    const Moment shown = moments.moment(instants[i]);
+    Moment shown = moments.moment(instants[i]);
+    if (options.paper.is_given()) shown.memory.width_mm = options.paper.width_mm;
     if (i == 0) tell_warnings(shown.warnings);
     if (i == 0) tell_left_out(shown.left_out, film.scene, options.common.quiet);
     pictures.write(i, shown.picture, video.width, video.height, fonts, shown.memory);
@@ -258,6 +272,7 @@ ClipMemory memory_of_pose(const SnapshotOptions& options, const Chain& chain,
       words.erase(words.size() - 1);
   }
   memory.figure["arguments"] = words;
+  if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;
   return memory;
 }
 
@@ -289,6 +304,12 @@ void snapshot_model(const SnapshotOptions& options) {
   set_look(figure, model, chain);
   if (options.width > 0) figure.width = options.width;
   if (options.height > 0) figure.height = options.height;
+  if (options.paper.is_given()) {
+    const PaperPage page = page_of(options, figure.width, figure.height);
+    figure.width = page.width;
+    figure.height = page.height;
+    figure.text_scale = text_scale_on(page, figure.text_scale);
+  }
   std::vector<Json> numbers;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     pictures.write(i, draw_pose_figure(chain, shown[i].poses, figure, fonts), figure.width, figure.height,
@@ -301,6 +322,7 @@ void snapshot_model(const SnapshotOptions& options) {
 }
 
 void run_snapshot(const SnapshotOptions& options) {
+  check_paper(options.paper, options.width > 0 || options.height > 0);
   if (is_model_file(options.file)) return snapshot_model(options);
   if (!options.poses.empty()) throw Error(ExitCode::usage, "--pose goes with a model; a scene takes --at");
   snapshot_scene(options);
@@ -326,6 +348,7 @@ void add_snapshot_command(CommandLine& app) {
                       "the link that is marked, where there are several ends");
   command->add_option("--width", options->width, "pixels").range(16, 16384);
   command->add_option("--height", options->height, "pixels").range(16, 16384);
+  add_paper_options(*command, options->paper, "by the page's shape");
   add_scene_flags(*command, options->common.flags, FlagGroup::look);
   add_scene_flags(*command, options->common.flags, FlagGroup::page);
   add_scene_flags(*command, options->common.flags, FlagGroup::view);

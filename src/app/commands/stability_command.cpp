@@ -340,6 +340,7 @@ void compare_methods(const StabilityOptions& options) {
 }
 
 void run_stability(const StabilityOptions& options) {
+  check_figure_size(options.figure);
   if (options.x.empty() != options.y.empty())
     throw Error(ExitCode::usage, "a map needs both --x and --y; without them the methods are compared");
   if (options.x.empty()) {

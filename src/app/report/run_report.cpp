@@ -168,6 +168,9 @@ std::vector<std::string> notes_of(const PreparedScene& prepared, const Trajector
 
 std::string left_out_words(const std::vector<std::string>& layers, const Scene& page) {
   if (layers.empty()) return "";
+  if (page.video.least_text > 0)
+    return page.name + ": " + joined(layers) + ": not drawn, as nothing is written below 7 pt and the page has no room for more: take "
+           "a larger --height-mm or --width-mm";
   // Smaller pages are those of that height made smaller, words and all.
   const std::string where = page.video.height < kLeastPagePixels ? " on pages from " + std::to_string(kLeastPagePixels) + " px of height on" : "";
   return page.name + ": " + joined(layers) + ": not drawn, as no word may be lower than " + format_shortest(kLeastWordPixels) +

@@ -10,6 +10,7 @@ namespace {
 // A share of the page's width; where it is not enough for all panels, they share the labels of the last.
 constexpr double kMostForLabels = 0.30;
 constexpr double kQuietMarker = 0.7;
+constexpr double kLeastPanel = 20;  // ems of a tick's text, on paper
 constexpr double kZonePad = 0.012;
 constexpr double kWidestZone = 0.34;  // of the panel
 constexpr double kZoneOpacity = 0.14;
@@ -112,6 +113,7 @@ void draw_floor_words(Picture& picture, const PlotFrame& frame, const WorkPrecis
   const double right = std::min(frame.at_x(data.floor), frame.box.x1), left = frame.box.x0;
   const double width = right - left - 2 * kZonePad * 0.99;
   const auto lines = double(wrapped(*look.fonts, kZoneWords, style, width).size());
+  if (lines * kLinePitch * style.size + 2 * kZonePad > frame.box.height()) return;
   draw_paragraph(picture, *look.fonts, kZoneWords, style,
                  {(left + right) / 2, frame.box.y0 + kZonePad + (lines - 0.7) * kLinePitch * style.size},
                  width);
@@ -223,16 +225,27 @@ std::string footer_of(const WorkPrecision& data, bool triangles) {
   return text;
 }
 
+// On paper, a panel that is too narrow to be read has none beside it: evaluations, which every machine counts alike, stay.
+std::span<const ChartCost> readable_panels(std::span<const ChartCost> panels, const std::vector<std::string>& methods, const ChartLook& look) {
+  if (!look.is_on_paper || panels.size() < 2) return panels;
+  const Rect area{size::kMargin, size::kMargin, look.aspect - size::kMargin, 1 - size::kMargin};
+  const PlotStyle style = look.plot_style();
+  const Columns columns = columns_of(area, panels.size(), end_labels_width(methods, style));
+  return columns.panels.front().width() < kLeastPanel * style.text(size::kTick) ? panels.last(1) : panels;
+}
+
 }  // namespace
 
-Picture work_precision_chart(const WorkPrecision& data, std::span<const ChartCost> panels,
+Picture work_precision_chart(const WorkPrecision& data, std::span<const ChartCost> all_panels,
                              const ChartLook& look) {
   std::vector<std::string> methods;
   for (const ChartCurve& curve : data.curves) methods.push_back(title_of(curve));
+  const std::span<const ChartCost> panels = readable_panels(all_panels, methods, look);
   const auto draw = [&](bool explains_triangles, bool& triangles) {
     Picture picture;
     const ChartText text{data.title, data.subtitle, footer_of(data, explains_triangles)};
     const Rect area = draw_chart_page(picture, text, look);
+    require_room_for_names(methods.size(), area, look);
     const Columns columns = columns_of(area, panels.size(), end_labels_width(methods, look.plot_style()));
     triangles = false;
     for (std::size_t i = 0; i < panels.size(); ++i) {

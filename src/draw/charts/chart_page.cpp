@@ -15,7 +15,9 @@ constexpr double kLeastHeight = 0.25;
 
 }  // namespace
 
-Rect draw_chart_page(Picture& picture, const ChartText& text, const ChartLook& look) {
+namespace {
+
+Rect draw_words(Picture& picture, const ChartText& text, const ChartLook& look) {
   picture.aspect = look.aspect;
   picture.background = look.theme->background;
   const PlotStyle style = look.plot_style();
@@ -56,9 +58,30 @@ Rect draw_chart_page(Picture& picture, const ChartText& text, const ChartLook& l
     else
       bottom = std::max(bottom, logo->y1 + size::kMarkToText);
   }
-  if (top - bottom < kLeastHeight)
-    throw Error(ExitCode::bad_input, "title and notes leave no room for the chart: lower text_scale");
   return {inside.x0, bottom, inside.x1, top};
+}
+
+}  // namespace
+
+Rect draw_chart_page(Picture& picture, const ChartText& text, const ChartLook& look) {
+  ChartText shown = text;
+  const auto height = [&] {
+    Picture measured;
+    return draw_words(measured, shown, look).height();
+  };
+  if (look.is_on_paper && height() < kMostlyChart) shown.footer.clear();
+  if (look.is_on_paper && height() < kMostlyChart) shown.subtitle.clear();
+  const Rect area = draw_words(picture, shown, look);
+  if (area.height() < kLeastHeight)
+    throw Error(ExitCode::bad_input, look.is_on_paper ? "the title leaves no room for the chart: take a larger --height-mm"
+                                                      : "title and notes leave no room for the chart: lower text_scale");
+  return area;
+}
+
+void require_room_for_names(std::size_t curves, const Rect& area, const ChartLook& look) {
+  if (!look.is_on_paper || double(curves) * kLinePitch * look.plot_style().text(size::kTick) <= area.height()) return;
+  throw Error(ExitCode::bad_input, "the names of " + std::to_string(curves) +
+                                       " methods have no room on this page: name fewer by --methods, or take a larger --height-mm");
 }
 
 }  // namespace chainreel

@@ -109,6 +109,7 @@ Picture energy_chart(const EnergyChart& data, const ChartLook& look) {
   Picture picture;
   const std::string footer = data.footer.empty() ? kNote : data.footer + "; " + kNote;
   const Rect area = draw_chart_page(picture, {data.title, data.subtitle, footer}, look);
+  require_room_for_names(data.curves.size(), area, look);
   const PlotStyle style = look.plot_style();
   const double last = last_time(data), first = first_time(data, last);
   std::vector<std::vector<Point>> curves;

@@ -23,10 +23,14 @@ const char* next_to_go(const Scene& page) {
 
 }  // namespace
 
+double least_word(const Video& video) {
+  return video.least_text > 0 ? video.least_text : kLeastWordPixels / std::max(video.height, kLeastPagePixels);
+}
+
 double text_scale_of_page(const Scene& page) {
   const double aspect = double(page.video.width) / page.video.height;
   const double wanted = page.text_scale * std::clamp(aspect, kLeastOfWidth, 1.0);
-  return std::max(wanted, kLeastWordPixels / (kSmallestText * std::max(page.video.height, kLeastPagePixels)));
+  return std::max(wanted, least_word(page.video) / kSmallestText);
 }
 
 namespace {

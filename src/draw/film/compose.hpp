@@ -15,8 +15,11 @@ namespace chainreel {
 inline constexpr double kLeastWordPixels = 9;
 inline constexpr int kLeastPagePixels = 270;
 
+// The same in units of H; on paper what the page says.
+double least_word(const Video& video);
+
 // The text_scale at which a page is drawn: the scene's, smaller by the width of pages higher than wide, and no less than
-// what makes the smallest word kLeastWordPixels high.
+// what makes the smallest word as high as that.
 double text_scale_of_page(const Scene& page);
 
 struct Composition {

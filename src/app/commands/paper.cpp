@@ -1,0 +1,51 @@
+#include "app/commands/paper.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.hpp"
+#include "draw/page/sheet.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr int kPrintDpi = 300, kMostPixels = 16384;
+constexpr double kMmPerInch = 25.4, kPointsPerMm = 72 / kMmPerInch;
+constexpr double kSmallestPrint = 7;  // pt: what a paper's figure may say
+constexpr double kLeastMm = 20, kMostMm = 2000;
+
+}  // namespace
+
+void add_paper_options(Command& command, PaperOptions& options, const std::string& default_height) {
+  command.add_option("--width-mm", options.width_mm, "millimetres on paper: 84 for a column; nothing is written below 7 pt");
+  command.add_option("--height-mm", options.height_mm, "goes with --width-mm (default: " + default_height + ")");
+  command.add_option("--dpi", options.dpi, "of a .png with --width-mm (default 300)").range(50, 2400);
+}
+
+void check_paper(const PaperOptions& options, bool in_pixels) {
+  for (const auto& [name, mm] : {std::pair{"--width-mm", options.width_mm}, {"--height-mm", options.height_mm}})
+    if (mm != PaperOptions::kNotGiven && !(mm >= kLeastMm && mm <= kMostMm))
+      throw Error(ExitCode::usage, std::string(name) + " takes millimetres between 20 and 2000, like 84");
+  if (options.is_given() && in_pixels)
+    throw Error(ExitCode::usage, "--width-mm is the size on paper: leave out --width and --height, --dpi says how many pixels");
+  if (!options.is_given() && (options.height_mm != PaperOptions::kNotGiven || options.dpi > 0))
+    throw Error(ExitCode::usage, "--height-mm and --dpi go with --width-mm");
+}
+
+PaperPage paper_page(const PaperOptions& options, double height_mm) {
+  if (options.height_mm != PaperOptions::kNotGiven) height_mm = options.height_mm;
+  const double per_mm = (options.dpi > 0 ? options.dpi : kPrintDpi) / kMmPerInch;
+  const PaperPage page{options.width_mm, int(std::lround(options.width_mm * per_mm)), int(std::lround(height_mm * per_mm)),
+                       kSmallestPrint / (height_mm * kPointsPerMm)};
+  if (std::max(page.width, page.height) > kMostPixels)
+    throw Error(ExitCode::usage, "--width-mm: that makes " + std::to_string(page.width) + " x " + std::to_string(page.height) +
+                                     " pixels, more than " + std::to_string(kMostPixels) + " a side: take a smaller --dpi");
+  return page;
+}
+
+double text_scale_on(const PaperPage& page, double text_scale) {
+  return std::max(1.0, text_scale) * page.least_text / kSmallestText;
+}
+
+}  // namespace chainreel

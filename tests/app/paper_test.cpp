@@ -1,0 +1,188 @@
+// Figures with a size on paper: what their PDF says, read back from its content: its page, and how large each word stands on it.
+#include <gmock/gmock.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <sstream>
+
+#include "encode/png.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::HasSubstr;
+
+// All content of a PDF, inflated, one stream behind the other.
+std::string content_of(const std::string& pdf) {
+  std::string all;
+  for (std::size_t at = pdf.find("stream\n"); at != std::string::npos; at = pdf.find("stream\n", at + 7)) {
+    if (at >= 3 && pdf.compare(at - 3, 3, "end") == 0) continue;
+    std::string part(1 << 16, '\0');
+    z_stream inflater{};
+    if (inflateInit(&inflater) != Z_OK) continue;
+    inflater.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(pdf.data() + at + 7));
+    inflater.avail_in = uInt(pdf.size() - at - 7);
+    int state = Z_OK;
+    std::string stream;
+    while (state == Z_OK) {
+      inflater.next_out = reinterpret_cast<Bytef*>(part.data());
+      inflater.avail_out = uInt(part.size());
+      state = inflate(&inflater, Z_NO_FLUSH);
+      stream.append(part, 0, part.size() - inflater.avail_out);
+    }
+    inflateEnd(&inflater);
+    if (state == Z_STREAM_END && stream.find(" Tf") != std::string::npos) all += stream + "\n";
+  }
+  return all;
+}
+
+// In pt, how tall the em of each text is: by the matrix that holds for the page, that of the text, and the size of its font.
+std::vector<double> text_sizes(const std::string& pdf) {
+  std::istringstream words(content_of(pdf));
+  std::vector<double> sizes, numbers, outer{1};
+  double page = 1, text = 1, font = 0;
+  for (std::string word; words >> word;) {
+    const auto height = [&] {
+      return numbers.size() < 6 ? 1 : std::hypot(numbers[numbers.size() - 4], numbers[numbers.size() - 3]);
+    };
+    char* end = nullptr;
+    const double number = std::strtod(word.c_str(), &end);
+    if (*end == 0) {
+      numbers.push_back(number);
+      continue;
+    }
+    if (word == "q") outer.push_back(page);
+    if (word == "Q" && outer.size() > 1) page = outer.back(), outer.pop_back();
+    if (word == "cm") page *= height();
+    if (word == "Tm") text = height();
+    if (word == "Tf" && !numbers.empty()) font = numbers.back();
+    if (word.ends_with("Tj") || word.ends_with("TJ")) sizes.push_back(page * text * font);
+    if (word != "/f-0-0" && !word.starts_with('/')) numbers.clear();
+  }
+  return sizes;
+}
+
+struct PaperFigure {
+  std::string name;
+  std::vector<std::string> words;
+};
+
+// As each command has them; the scene's own words are in all of them.
+std::vector<PaperFigure> figures() {
+  return {
+      {"scene", {"snapshot", "assets/scenes/rr_torque.yaml", "--at", "0.5"}},
+      {"panels", {"snapshot", "assets/scenes/euler_gains_energy.yaml", "--at", "1", "--set", "compare.1.title=step", "--set", "compare.2.title=half", "--set", "compare.3.title=truth", "--height-mm", "60"}},
+      {"pose", {"snapshot", "models/rr.urdf", "--pose", "0.3,1"}},
+      {"chart", {"chart", "assets/scenes/rr_free.yaml", "--set", "duration=0.2", "--methods", "rk4,dop853", "--runs", "1", "--longest", "20ms"}},
+      {"energy", {"energy", "assets/scenes/rr_free.yaml", "--until", "1s", "--step", "0.01", "--methods", "rk4,symplectic_euler"}},
+      {"stability", {"stability", "assets/scenes/pp_spring.yaml", "--x", "step=0.05:0.3:4", "--y", "start.q.2=0.1:0.4:4"}},
+      {"ellipse", {"ellipse", "models/rr.urdf", "--sweep", "q2=30deg:150deg:3"}},
+  };
+}
+
+// Indices in formulas, and those of powers of ten, are 0.7 of their letters; no other words are smaller than 7 pt.
+TEST(OnPaper, NoWordIsSmallerThanSevenPoints) {
+  const TemporaryFolder folder;
+  for (const double width : {84.0, 174.0})
+    for (PaperFigure figure : figures()) {
+      const std::string file = folder.file(figure.name + ".pdf");
+      figure.words.insert(figure.words.end(), {"--width-mm", std::to_string(int(width)), "-o", file, "--force", "--quiet"});
+      const ProgramResult result = run_program(figure.words);
+      ASSERT_EQ(result.status, 0) << figure.name << " " << width << result.err;
+      const std::string pdf = text_of(file);
+      EXPECT_THAT(pdf, HasSubstr(width < 100 ? "238.11" : "493.2")) << figure.name << ": as wide as it says, in pt";
+      const std::vector<double> sizes = text_sizes(pdf);
+      if (figure.name != "pose") {
+        EXPECT_GT(sizes.size(), 2u) << figure.name;
+      }
+      for (const double size : sizes) {
+        EXPECT_GE(size, 0.7 * 7 - 0.01) << figure.name << " " << width;
+        EXPECT_LT(size, 40) << figure.name << ": what is read is no size of a font";
+      }
+      std::size_t words = 0;
+      for (const double size : sizes) words += size >= 7 - 0.01 ? 1 : 0;
+      EXPECT_GE(double(words), 0.5 * double(sizes.size())) << figure.name << ": most are no indices";
+    }
+}
+
+// Negative control: what the test above reads is smaller where the page has no size on paper but that of a column's shape.
+TEST(OnPaper, TheSameReadsSmallWords) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.pdf");
+  ASSERT_EQ(run_program({"snapshot", "assets/scenes/rr_torque.yaml", "--at", "0.5", "--width", "480", "--height", "270", "-o", file}).status, 0);
+  const std::vector<double> sizes = text_sizes(text_of(file));
+  ASSERT_FALSE(sizes.empty());
+  EXPECT_LT(*std::min_element(sizes.begin(), sizes.end()), *std::max_element(sizes.begin(), sizes.end()));
+}
+
+TEST(OnPaper, PagesHaveTheShapeThatIsAskedFor) {
+  const TemporaryFolder folder;
+  const auto svg = [&](std::vector<std::string> words) {
+    words.insert(words.end(), {"--width-mm", "84", "-o", folder.file("a.svg"), "--force", "--quiet"});
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return text_of(folder.file("a.svg"));
+  };
+  EXPECT_THAT(svg({"snapshot", "assets/scenes/rr_torque.yaml"}), HasSubstr("width=\"84mm\" height=\"47.2"));
+  EXPECT_THAT(svg({"snapshot", "assets/scenes/rr_torque.yaml", "--set", "video={width: 800, height: 800}"}), HasSubstr("height=\"84"));
+  EXPECT_THAT(svg({"snapshot", "assets/scenes/rr_torque.yaml", "--height-mm", "70"}), HasSubstr("width=\"84mm\" height=\"70"));
+  // A .png says how large it is: 100 dots an inch are 331 pixels of 84 mm.
+  ASSERT_EQ(run_program({"snapshot", "models/rr.urdf", "--width-mm", "84", "--dpi", "100", "-o", folder.file("a.png")}).status, 0);
+  EXPECT_EQ(read_png(folder.file("a.png")).width, 331);
+  EXPECT_THAT(text_of(folder.file("a.png")), HasSubstr("pHYs"));
+}
+
+TEST(OnPaper, SizesThatDoNotGoTogetherAreNamed) {
+  const TemporaryFolder folder;
+  for (const auto& figure : figures()) {
+    const auto error = [&](std::vector<std::string> more) {
+      std::vector<std::string> words = figure.words;
+      words.insert(words.end(), more.begin(), more.end());
+      words.insert(words.end(), {"-o", folder.file("x.pdf")});
+      const ProgramResult result = run_program(words);
+      EXPECT_EQ(result.status, 2) << figure.name << result.err;
+      EXPECT_FALSE(std::filesystem::exists(folder.file("x.pdf")));
+      return result.err;
+    };
+    EXPECT_THAT(error({"--width-mm", "84", "--width", "200"}), HasSubstr("leave out --width")) << figure.name;
+    EXPECT_THAT(error({"--dpi", "600"}), HasSubstr("go with --width-mm")) << figure.name;
+    EXPECT_THAT(error({"--width-mm", "5"}), HasSubstr("between 20 and 2000")) << figure.name;
+    EXPECT_THAT(error({"--width-mm", "2000", "--dpi", "2400"}), HasSubstr("smaller --dpi")) << figure.name;
+  }
+}
+
+// Fifteen names of 7 pt are higher than a column's chart: an error that says so, rather than names on one another.
+TEST(OnPaper, MoreMethodsThanHaveRoomAreRefused) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program({"energy", "assets/scenes/rr_free.yaml", "--until", "0.2s", "--step", "0.01", "--width-mm",
+                                            "84", "--height-mm", "40", "-o", folder.file("a.pdf")});
+  EXPECT_EQ(result.status, 3) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("name fewer by --methods, or take a larger --height-mm"));
+}
+
+// One reading, one picture, several files.
+TEST(EllipseOutputs, MayBeSeveral) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> files{folder.file("a.png"), folder.file("a.pdf"), folder.file("a.csv"), folder.file("a.json")};
+  std::vector<std::string> words{"ellipse", "models/rr.urdf", "--pose", "0,1", "--json"};
+  for (const std::string& file : files) words.insert(words.end(), {"-o", file});
+  const ProgramResult result = run_program(words);
+  ASSERT_EQ(result.status, 0) << result.err;
+  for (const std::string& file : files) {
+    EXPECT_GT(std::filesystem::file_size(file), 100u) << file;
+    EXPECT_THAT(result.out, HasSubstr(file));
+  }
+  const ProgramResult bad = run_program({"ellipse", "models/rr.urdf", "--pose", "0,1", "-o", folder.file("b.png"), "-o", folder.file("b.bmp")});
+  EXPECT_EQ(bad.status, 2);
+  EXPECT_THAT(bad.err, HasSubstr("b.bmp"));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("b.png"))) << "nothing is begun before all of them can be written";
+}
+
+}  // namespace
+}  // namespace chainreel
