@@ -88,6 +88,21 @@ TEST(FallCommand, SaysWhatItNeeds) {
   EXPECT_EQ(run_program({"fall", kHuman, "-o", "x.txt"}).status, 2);
 }
 
+// The scale of the ground's reaction stands while there is one that a ground can give: it pushes while he stands, and at the
+// end, where it had to pull, there is neither an arrow nor its scale.
+TEST(Events, TheGroundsScaleStandsWithItsArrow) {
+  const TemporaryFolder folder;
+  const auto picture_at = [&](const std::string& instant) {
+    const std::string file = folder.file("a.svg");
+    const ProgramResult result =
+        run_program({"snapshot", "assets/scenes/humanoid_fall.yaml", "--at", instant, "-o", file, "--force", "--quiet"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return read_whole_file(file);
+  };
+  EXPECT_NE(picture_at("0.5").find("ground reaction"), std::string::npos);
+  EXPECT_EQ(picture_at("event hip at knee height").find("ground reaction"), std::string::npos);
+}
+
 TEST(Events, AreInTheAuditWithNameTimeAndState) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("falling.yaml", kFalling), csv = folder.file("fall.csv");

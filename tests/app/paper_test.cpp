@@ -95,7 +95,7 @@ TEST(OnPaper, NoWordIsSmallerThanSevenPoints) {
       figure.words.insert(figure.words.end(), {"--width-mm", std::to_string(int(width)), "-o", file, "--force", "--quiet"});
       const ProgramResult result = run_program(figure.words);
       ASSERT_EQ(result.status, 0) << figure.name << " " << width << result.err;
-      const std::string pdf = text_of(file);
+      const std::string pdf = read_whole_file(file);
       EXPECT_THAT(pdf, HasSubstr(width < 100 ? "238.11" : "493.2")) << figure.name << ": as wide as it says, in pt";
       const std::vector<double> sizes = text_sizes(pdf);
       if (figure.name != "pose") {
@@ -116,7 +116,7 @@ TEST(OnPaper, TheSameReadsSmallWords) {
   const TemporaryFolder folder;
   const std::string file = folder.file("a.pdf");
   ASSERT_EQ(run_program({"snapshot", "assets/scenes/rr_torque.yaml", "--at", "0.5", "--width", "480", "--height", "270", "-o", file}).status, 0);
-  const std::vector<double> sizes = text_sizes(text_of(file));
+  const std::vector<double> sizes = text_sizes(read_whole_file(file));
   ASSERT_FALSE(sizes.empty());
   EXPECT_LT(*std::min_element(sizes.begin(), sizes.end()), *std::max_element(sizes.begin(), sizes.end()));
 }
@@ -127,7 +127,7 @@ TEST(OnPaper, PagesHaveTheShapeThatIsAskedFor) {
     words.insert(words.end(), {"--width-mm", "84", "-o", folder.file("a.svg"), "--force", "--quiet"});
     const ProgramResult result = run_program(words);
     EXPECT_EQ(result.status, 0) << result.err;
-    return text_of(folder.file("a.svg"));
+    return read_whole_file(folder.file("a.svg"));
   };
   EXPECT_THAT(svg({"snapshot", "assets/scenes/rr_torque.yaml"}), HasSubstr("width=\"84mm\" height=\"47.2"));
   EXPECT_THAT(svg({"snapshot", "assets/scenes/rr_torque.yaml", "--set", "video={width: 800, height: 800}"}), HasSubstr("height=\"84"));
@@ -135,7 +135,7 @@ TEST(OnPaper, PagesHaveTheShapeThatIsAskedFor) {
   // A .png says how large it is: 100 dots an inch are 331 pixels of 84 mm.
   ASSERT_EQ(run_program({"snapshot", "models/rr.urdf", "--width-mm", "84", "--dpi", "100", "-o", folder.file("a.png")}).status, 0);
   EXPECT_EQ(read_png(folder.file("a.png")).width, 331);
-  EXPECT_THAT(text_of(folder.file("a.png")), HasSubstr("pHYs"));
+  EXPECT_THAT(read_whole_file(folder.file("a.png")), HasSubstr("pHYs"));
 }
 
 TEST(OnPaper, SizesThatDoNotGoTogetherAreNamed) {

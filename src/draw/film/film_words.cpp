@@ -8,7 +8,8 @@
 namespace chainreel {
 namespace {
 
-constexpr double kBone = 0.010;  // units of H, radius: what stands for a link that has a shape in space
+// Units of H, radius: what stands for a link that has a shape in space, and the shape about it, on which words stand if need be.
+constexpr double kBone = 0.010, kFlesh = 0.030;
 
 // What layers draw, by what it means to words.
 struct Pictures {
@@ -40,9 +41,12 @@ class Gatherer {
     }
     pictures.add_to(obstacles);
     if (panel.motion().shapes())
-      for (const LinkSegment& link : panel.motion().skeleton().links)
-        obstacles.push_back({panel.camera().project(pose_of(ws, link.body) * link.from),
-                             panel.camera().project(pose_of(ws, link.body) * link.to), kBone, false});
+      for (const LinkSegment& link : panel.motion().skeleton().links) {
+        const Point from = panel.camera().project(pose_of(ws, link.body) * link.from);
+        const Point to = panel.camera().project(pose_of(ws, link.body) * link.to);
+        obstacles.push_back({from, to, kBone, false});
+        obstacles.push_back({from, to, kFlesh, true});
+      }
   }
 
   std::vector<Obstacle> once(std::size_t i, const SharedPage& page) const {

@@ -154,13 +154,13 @@ class TorqueRun {
   TorqueRun(const Stage& stage, const StagedRun& motion)
       : nv_(std::size_t(motion.chain().nv)),
         tau_(torques_along(*motion.simulation(), motion.trajectory())),
+        most_(nv_),
         shown_(nv_),
         rings_(nv_) {
     const std::vector<double>& t = motion.trajectory().t;
-    std::vector<double> most(nv_);
     for (std::size_t at = 0; at < tau_.size(); ++at)
-      if (std::isfinite(tau_[at])) most[at % nv_] = std::max(most[at % nv_], std::abs(tau_[at]));
-    for (std::size_t i = 0; i < nv_; ++i) shown_[i] = most[i] > 0;
+      if (std::isfinite(tau_[at])) most_[at % nv_] = std::max(most_[at % nv_], std::abs(tau_[at]));
+    for (std::size_t i = 0; i < nv_; ++i) shown_[i] = most_[i] > 0;
     for (const Device& device : devices_of(stage, motion))
       if (device.is_all_of_it()) shown_[std::size_t(device.drive.freedom)] = false;
     // Pictures to be laid over others have no words but those that were asked for.
@@ -179,11 +179,13 @@ class TorqueRun {
   // Whether anything ever acts at the freedom, and no spring stands for it.
   bool shows(int freedom) const { return shown_[std::size_t(freedom)]; }
   double ring(int freedom, int k) const { return rings_[std::size_t(freedom)][std::size_t(k)]; }
+  double most(int freedom) const { return most_[std::size_t(freedom)]; }
   bool is_labelled() const { return labelled_; }
 
  private:
   std::size_t nv_;
   std::vector<double> tau_;                 // nv a sample
+  std::vector<double> most_;                // a freedom: of |tau| over the samples
   std::vector<bool> shown_;                 // a freedom
   std::vector<std::vector<double>> rings_;  // a freedom, a sample
   bool labelled_ = true;
@@ -212,7 +214,7 @@ std::vector<WorldVector> torques_at(const Chain& chain, const Workspace& ws, con
     const Vector3d axis = X_WB.linear() * joint.axis;
     if (joint.kind == JointKind::revolute)
       vectors.push_back({VectorKind::torque, place, *own * axis, axis, Vector3d::Zero(), label,
-                         run.ring(joint.v_index, k)});
+                         run.ring(joint.v_index, k), 1, run.most(joint.v_index)});
     else
       vectors.push_back({VectorKind::joint_force, place, *own * axis, Vector3d::Zero(), axis, label});
   }

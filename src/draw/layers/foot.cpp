@@ -90,7 +90,17 @@ class FootLayer : public Layer {
     if (!weight_) return;
     const double force = round_length(kShare * *weight_);
     text.scales.push_back({ScaleEntry::Mark::arrow, kWeightArrow * force / *weight_, theme_->constraint,
-                           "ground reaction " + format_shortest(force) + " N", kAfterVectors});
+                           "ground reaction " + format_shortest(force) + " N", kAfterVectors, true});
+  }
+
+  // Its scale stands with it: while any run shows an arrow.
+  void draw_page(Picture& picture, const SharedPage& page, int k) const override {
+    const bool is_shown = std::any_of(runs_.begin(), runs_.end(), [k](const auto& one) {
+      const std::vector<FootRun::Push>& pushes = one.second.pushes;
+      return one.second.is_shown(pushes[std::size_t(std::clamp(k, 0, int(pushes.size()) - 1))]);
+    });
+    for (const PlacedEntry& entry : page.sheet.scales)
+      if (is_shown && entry.line.entry.by_frame) draw_entry(picture, entry.line, entry.left, *theme_);
   }
 
   void measure(const Sight& sight, FitBox& box) const override {

@@ -251,8 +251,9 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   picture.add(Ellipse{center, {dot, 0}, {0, dot}, {style.color, {}, 0}}, clip);
   if (vector.label.empty()) return;
   const TextLine& text = label(vector, marks);
-  // Beside the arc as it is: that of a torque near rest is small, and a word where a full one would be stands alone.
-  const double off = std::max(grown * radius, kLeastLabelled * marks) + marks * size::kArrowHeadWidth / 2 + kVectorLabelGap;
+  // Beside the largest arc of the clip: where all are small, a word where a full one would be stands alone.
+  const double largest = std::min(1.0, scale.on_page(vector.most) / whole);
+  const double off = std::max(largest * radius, kLeastLabelled * marks) + marks * size::kArrowHeadWidth / 2 + kVectorLabelGap;
   std::vector<Rect> places = places_about(text, center, off, {0, 1});
   for (const Rect& far : places_about(text, center, off + kFarLabelGap, {0, 1})) places.push_back(far);
   labels.add({word_name(vector), text, std::move(places)});

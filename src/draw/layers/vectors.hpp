@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <map>
 #include <string>
 #include <tuple>
@@ -34,6 +35,7 @@ struct WorldVector {
   std::string label{};                              // a symbol in math notation
   double ring = 0;  // of a torque: opacity of the ring which says that it rests
   double size = 1;  // of a torque's arc: less where links are short on the page
+  double most = std::numeric_limits<double>::infinity();  // of a torque, N m: over the clip; decides where its word stands
 };
 
 // What an arrow on the page is worth.
