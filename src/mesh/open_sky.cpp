@@ -46,7 +46,7 @@ float longest_side(const Point3& lower, const Point3& upper) {
   return std::max({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]});
 }
 
-Point3 face_normal(const std::array<Point3, 3>& p) {
+Point3 normal_of_face(const std::array<Point3, 3>& p) {
   Point3 n = cross({p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]}, {p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]});
   const float length = std::sqrt(dot(n, n));
   for (float& x : n) x = length > 0 ? x / length : 0;
@@ -66,7 +66,7 @@ class PointGrid {
     std::uint8_t& taken = is_taken_[(at[2] * count_[1] + at[1]) * count_[0] + at[0]];
     if (taken != 0) return;
     to_.points.push_back(p);
-    to_.normals.push_back(face_normal(triangle_));
+    to_.normals.push_back(normal_of_face(triangle_));
     taken = 1;
   }
   // Rows of points, from the longest side to the corner opposite of it.

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -13,6 +14,7 @@
 #include "core/equal_items.hpp"
 #include "core/error.hpp"
 #include "mesh/mesh_file.hpp"
+#include "mesh/painted_mesh.hpp"
 #include "mesh/smooth_normals.hpp"
 
 namespace chainreel {
@@ -264,16 +266,20 @@ std::vector<Eigen::Vector3f> normals_of(const aiMesh& mesh, const Placement& pla
 
 }  // namespace
 
-TriangleMesh collect_triangles(const std::vector<PlacedMesh>& placed, MaterialColors& colors) {
-  TriangleMesh result;
+namespace {
+
+// Vertices that are equal to the last bit are one; `item_of` makes one of a vertex and its index in its mesh.
+template <class Item, class ItemOf>
+std::vector<Item> collect(const std::vector<PlacedMesh>& placed, MaterialColors& colors, TriangleMesh& result, const ItemOf& item_of) {
   std::size_t given = 0;
   for (const PlacedMesh& mesh : placed) given += mesh.mesh->mNumVertices;
-  EqualItems<Vertex> vertices(given / 2);  // files that give each triangle its own have six times too many
+  EqualItems<Item> items(given / 2);  // files that give each triangle its own have six times too many
   for (const auto& [mesh, X] : placed) {
     const Placement placement(X);
     const Corners corners = corners_of(*mesh, placement);
     const std::vector<Eigen::Vector3f> normals = normals_of(*mesh, placement, corners);
     const MaterialColor material = colors.of(*mesh);
+    const auto coordinates = colors.coordinates(*mesh);
     result.has_colors |= material.is_given && !corners.indices.empty();
     for (std::size_t c = 0; c < corners.indices.size(); ++c) {
       Vertex vertex;
@@ -281,10 +287,30 @@ TriangleMesh collect_triangles(const std::vector<PlacedMesh>& placed, MaterialCo
       vertex.normal = floats_of(normals[c].cast<double>());
       vertex.color =
           mesh->HasVertexColors(0) ? bytes_of(mesh->mColors[0][corners.indices[c]]) : material.color;
-      result.triangles.push_back(vertices.index_of(vertex));
+      result.triangles.push_back(items.index_of(item_of(vertex, coordinates, corners.indices[c])));
     }
   }
-  result.vertices = std::move(vertices.items);
+  return std::move(items.items);
+}
+
+}  // namespace
+
+TriangleMesh collect_triangles(const std::vector<PlacedMesh>& placed, MaterialColors& colors) {
+  using Coordinates = std::optional<MaterialColors::Coordinates>;
+  TriangleMesh result;
+  if (std::none_of(placed.begin(), placed.end(), [&](const PlacedMesh& one) { return colors.coordinates(*one.mesh); })) {
+    result.vertices = collect<Vertex>(placed, colors, result, [](const Vertex& vertex, const Coordinates&, unsigned) { return vertex; });
+    return result;
+  }
+  PaintedMesh mesh;
+  mesh.vertices = collect<PaintedVertex>(placed, colors, result, [](const Vertex& vertex, const Coordinates& on, unsigned index) {
+    return on ? PaintedVertex{vertex, on->uv[index].x + 0.0F, on->uv[index].y + 0.0F, on->texture} : PaintedVertex{vertex};
+  });
+  mesh.triangles = std::move(result.triangles);
+  mesh.textures = colors.textures();
+  const bool has_colors = result.has_colors;
+  result = painted(std::move(mesh));
+  result.has_colors = has_colors;
   return result;
 }
 

@@ -21,8 +21,8 @@ std::span<const Name> names_of(MeshUp);
 // Normals are the file's where they tell of a surface; where they only repeat the faces' (as in every STL),
 // or are missing, those of the faces, smoothed over edges below 35 degrees. Colours are the file's for each
 // vertex, else the materials' diffuse ones with their opacity (one of 0 counts as 1: such files mean
-// transparency). A texture, PNG or JPEG, gives its mean; one that is missing, of another kind or inside the
-// mesh file leaves the material's colour. Errors as of mesh_extents; exit 7 also for more than
+// transparency). A texture, PNG or JPEG, is painted onto the triangles (mesh/painted_mesh), or gives its mean where the
+// mesh has no coordinates on it; one that is missing, of another kind or inside the mesh file leaves the material's colour. Errors as of mesh_extents; exit 7 also for more than
 // kMostTriangles.
 TriangleMesh read_mesh(const std::string& path, MeshUp up = MeshUp::rviz);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/material_color.hpp"
+#include "mesh/texture.hpp"
 
 namespace chainreel {
 

@@ -2,19 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
-// clang-format off: libjpeg's header needs <cstdio> before it
-#include <jpeglib.h>
-// clang-format on
-
 #include "core/error.hpp"
-#include "mesh/material_color.hpp"
 #include "mesh/primitives.hpp"
 #include "mesh_files.hpp"
 #include "support/public_robots.hpp"
@@ -219,83 +212,6 @@ TEST_F(ReadMesh, ColoursOfVerticesAndOfBinaryStlWin) {
   const TriangleMesh green = read_mesh(file("g.stl", binary_stl(one, "", 0x8000 | (31 << 5))));
   EXPECT_TRUE(green.has_colors);
   EXPECT_THAT(colors_of(green), ElementsAre(std::array<std::uint8_t, 4>{0, 255, 0, 255}));
-}
-
-// A PNG of two pixels.
-void write_two_pixels(const std::string& path, const std::array<std::uint8_t, 8>& rgba) {
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  png.width = 2;
-  png.height = 1;
-  png.format = PNG_FORMAT_RGBA;
-  ASSERT_NE(png_image_write_to_file(&png, path.c_str(), 0, rgba.data(), 0, nullptr), 0);
-}
-
-TEST_F(ReadMesh, ATextureCountsAsItsMean) {
-  const std::vector<Triangle> box = box_triangles(kLower, kUpper);
-  std::filesystem::create_directories(folder_ / "textures");
-  // Half of the light of white is 188 in sRGB: ((0.5 ^ (1 / 2.4)) * 1.055 - 0.055) * 255.
-  write_two_pixels((folder_ / "textures/half.png").string(), {255, 0, 0, 255, 0, 0, 0, 255});
-  write_two_pixels((folder_ / "clear.png").string(), {0, 200, 0, 255, 255, 255, 255, 0});
-  file("bad.png", "\x89PNG and nothing more");
-  file("t.mtl",
-       "newmtl a\nKd 0 0 1\nmap_Kd textures/half.png\nnewmtl b\nKd 0 0 1\nmap_Kd clear.png\n"
-       "newmtl c\nKd 0 0 1\nmap_Kd none.png\nnewmtl d\nKd 0 0 1\nmap_Kd bad.png\n");
-  const auto color = [&](const std::string& name) {
-    return *colors_of(read_mesh(file(name + ".obj", obj(box, "mtllib t.mtl\nusemtl " + name + "\n"))))
-                .begin();
-  };
-  EXPECT_THAT(color("a"), ElementsAre(188, 0, 0, 255));
-  EXPECT_THAT(color("b"), ElementsAre(0, 200, 0, 255));
-  EXPECT_THAT(color("c"), ElementsAre(0, 0, 255, 255));
-  EXPECT_THAT(color("d"), ElementsAre(0, 0, 255, 255));
-
-  Collada with;
-  with.images =
-      "<library_images><image id=\"i\"><init_from>textures/half.png</init_from></image></library_images>";
-  with.params =
-      "<newparam sid=\"s1\"><surface type=\"2D\"><init_from>i</init_from></surface></newparam>"
-      "<newparam sid=\"s2\"><sampler2D><source>s1</source></sampler2D></newparam>";
-  with.effect = "<diffuse><texture texture=\"s2\" texcoord=\"UV\"/></diffuse>";
-  EXPECT_THAT(colors_of(read_mesh(file("t.dae", collada(box, with)))),
-              ElementsAre(std::array<std::uint8_t, 4>{188, 0, 0, 255}));
-}
-
-TEST_F(ReadMesh, AJpegIsReadToo) {
-  // 16 x 16 pixels of one colour; what remains of it after compression is within 3 of 255.
-  const std::vector<std::uint8_t> row = [] {
-    std::vector<std::uint8_t> pixels;
-    for (int x = 0; x < 16; ++x) pixels.insert(pixels.end(), {200, 100, 50});
-    return pixels;
-  }();
-  std::FILE* out = std::fopen((folder_ / "t.jpg").c_str(), "wb");
-  ASSERT_NE(out, nullptr);
-  jpeg_compress_struct jpeg;
-  jpeg_error_mgr trouble;
-  jpeg.err = jpeg_std_error(&trouble);
-  jpeg_create_compress(&jpeg);
-  jpeg_stdio_dest(&jpeg, out);
-  jpeg.image_width = jpeg.image_height = 16;
-  jpeg.input_components = 3;
-  jpeg.in_color_space = JCS_RGB;
-  jpeg_set_defaults(&jpeg);
-  jpeg_start_compress(&jpeg, TRUE);
-  for (int y = 0; y < 16; ++y) {
-    JSAMPROW pixels = const_cast<JSAMPROW>(row.data());
-    jpeg_write_scanlines(&jpeg, &pixels, 1);
-  }
-  jpeg_finish_compress(&jpeg);
-  jpeg_destroy_compress(&jpeg);
-  std::fclose(out);
-
-  const auto mean = read_mean_color((folder_ / "t.jpg").string());
-  ASSERT_TRUE(mean);
-  EXPECT_NEAR((*mean)[0], 200, 3);
-  EXPECT_NEAR((*mean)[1], 100, 3);
-  EXPECT_NEAR((*mean)[2], 50, 3);
-  EXPECT_FALSE(read_mean_color(file("cut.jpg", "\xff\xd8\xff\xe0")));
-  EXPECT_FALSE(read_mean_color((folder_ / "none.png").string()));
-  EXPECT_FALSE(read_mean_color(folder_.string()));
 }
 
 TEST_F(ReadMesh, PublicRobotsHaveTheirMeasures) {
