@@ -98,7 +98,8 @@ void aba(Links<A>& links, const typename A::Motion& base, ConstScalarSpan<A> qd,
 CHAINREEL_FOR_EACH_ALGEBRA(INSTANTIATE)
 #undef INSTANTIATE
 
-void compute_aba([[maybe_unused]] const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau) {
+void compute_aba(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau) {
+  ws.require_sizes(chain, q, qd, tau);
   assert(!chain.has_mimic);
   with_links(ws, [&](auto& links) {
     place(links, q);

@@ -53,6 +53,7 @@ CHAINREEL_FOR_EACH_ALGEBRA(INSTANTIATE)
 #undef INSTANTIATE
 
 void compute_mass_matrix(const Chain& chain, Workspace& ws, ConstVec q) {
+  ws.require_sizes(chain, q);
   ws.M.resize(chain.nv, chain.nv);  // symmetric: its order in memory does not matter
   with_links(ws, [&](auto& links) {
     place(links, q);

@@ -70,11 +70,13 @@ void choose_forward_dynamics(const Chain& chain, Workspace::Scratch& scratch) {
 }
 
 void compute_forward_dynamics(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau) {
+  ws.require_sizes(chain, q, qd, tau);
   ws.scratch->forward_dynamics(chain, ws, q, qd, tau, ws.qdd.data());
 }
 
 void compute_forward_dynamics(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec tau,
                               Vec qdd) {
+  ws.require_sizes(chain, q, qd, tau, qdd);
   ws.scratch->forward_dynamics(chain, ws, q, qd, tau, qdd.data());
 }
 

@@ -82,6 +82,7 @@ void write_body(const Chain&, Workspace& ws, std::size_t i, const Spatial<double
 }  // namespace
 
 void compute_kinematics(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd) {
+  ws.require_sizes(chain, q, qd);
   with_links(ws, [&](auto& links) {
     place(links, q);
     locate(links);
@@ -173,6 +174,7 @@ TaskBasis task_basis(const Chain& chain, Task task) {
 }
 
 void compute_jacobian(const Chain& chain, Workspace& ws, ConstVec q, int frame, Task task) {
+  ws.require_sizes(chain, q);
   const Frame& f = chain.frames[std::size_t(frame)];
   with_links(ws, [&](auto& links) {
     using A = typename std::decay_t<decltype(links)>::Algebra;
@@ -187,6 +189,7 @@ void compute_jacobian(const Chain& chain, Workspace& ws, ConstVec q, int frame, 
 }
 
 void compute_jacobian_rate(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, int frame, Task task) {
+  ws.require_sizes(chain, q, qd);
   const Frame& f = chain.frames[std::size_t(frame)];
   with_links(ws, [&](auto& links) {
     using A = typename std::decay_t<decltype(links)>::Algebra;

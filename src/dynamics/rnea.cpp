@@ -55,21 +55,24 @@ void rnea(Links<A>& links, const typename A::Motion& base, ConstScalarSpan<A> qd
 CHAINREEL_FOR_EACH_ALGEBRA(INSTANTIATE)
 #undef INSTANTIATE
 
-void compute_inverse_dynamics(const Chain&, Workspace& ws, ConstVec q, ConstVec qd, ConstVec qdd) {
+void compute_inverse_dynamics(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec qdd) {
+  ws.require_sizes(chain, q, qd, qdd);
   with_links(ws, [&](auto& links) {
     place(links, q);
     rnea(links, links.base_acceleration, qd, qdd, Vec(ws.tau));
   });
 }
 
-void compute_nle(const Chain&, Workspace& ws, ConstVec q, ConstVec qd) {
+void compute_nle(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd) {
+  ws.require_sizes(chain, q, qd);
   with_links(ws, [&](auto& links) {
     place(links, q);
     rnea(links, links.base_acceleration, qd, ConstVec(ws.scratch->zeros), Vec(ws.nle));
   });
 }
 
-void compute_gravity_torque(const Chain&, Workspace& ws, ConstVec q) {
+void compute_gravity_torque(const Chain& chain, Workspace& ws, ConstVec q) {
+  ws.require_sizes(chain, q);
   const ConstVec zeros = ws.scratch->zeros;
   with_links(ws, [&](auto& links) {
     place(links, q);
@@ -98,6 +101,7 @@ void add(Wrench& sum, const Chain&, const Spatial<double>::Force& f) {
 }  // namespace
 
 Wrench compute_ground_reaction(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, ConstVec qdd) {
+  ws.require_sizes(chain, q, qd, qdd);
   Wrench sum;
   const Inertia& fixed = chain.bodies[0].inertia;
   Vector3d support = -fixed.mass * chain.gravity;

@@ -1,5 +1,8 @@
 #include "dynamics/workspace.hpp"
 
+#include <string>
+
+#include "core/error.hpp"
 #include "dynamics/equation_of_motion.hpp"
 #include "dynamics/scratch.hpp"
 
@@ -31,6 +34,12 @@ Workspace::Workspace(const Chain& chain) : scratch(std::make_unique<Scratch>(cha
   X_WB.resize(chain.bodies.size(), Eigen::Isometry3d::Identity());
   v_WB.resize(chain.bodies.size(), Eigen::Vector3d::Zero());
   w_WB.resize(chain.bodies.size(), Eigen::Vector3d::Zero());
+}
+
+void Workspace::refuse_sizes(const Chain& chain) const {
+  if (qdd.size() != std::size_t(chain.nv)) throw Error(ExitCode::bad_input, "the workspace is one of another chain: make one of this, Workspace ws(chain)");
+  throw Error(ExitCode::bad_input, "a vector is of another size than the chain's: q has nq = " + std::to_string(chain.nq) +
+                                       " numbers, qd, qdd and tau have nv = " + std::to_string(chain.nv) + " each");
 }
 
 Workspace::~Workspace() = default;

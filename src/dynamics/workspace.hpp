@@ -34,8 +34,18 @@ struct Workspace {
   std::vector<Eigen::Isometry3d> X_WB;      // per body; compute_kinematics
   std::vector<Eigen::Vector3d> v_WB, w_WB;  // per body: velocity of its origin and angular velocity, in W
 
+  // Throws Error (bad input) unless the workspace is one of a chain like this, q has nq numbers, and each of the others nv.
+  template <class... Rates>
+  void require_sizes(const Chain& chain, ConstVec q, const Rates&... rates) const {
+    const std::size_t nv = std::size_t(chain.nv);
+    if (q.size() != std::size_t(chain.nq) || qdd.size() != nv || ((rates.size() != nv) || ...)) [[unlikely]] refuse_sizes(chain);
+  }
+
   struct Scratch;  // planar or spatial arrays of the recursions
   std::unique_ptr<Scratch> scratch;
+
+ private:
+  [[noreturn]] void refuse_sizes(const Chain& chain) const;
 };
 
 }  // namespace chainreel

@@ -14,8 +14,12 @@ class ExplicitEuler final : public Stepper {
 
   void step(SecondOrder& system, double t, double h, std::span<double> q, std::span<double> v) override {
     system.acceleration(t, q, v, vd_);
+    step_shorter(system, h, q, v);
+  }
+  bool step_shorter(SecondOrder& system, double h, std::span<double> q, std::span<double> v) override {
     system.advance(q, v, h);
     for (std::size_t i = 0; i < v.size(); ++i) v[i] += h * vd_[i];
+    return true;
   }
 
  private:
@@ -40,8 +44,12 @@ class SemiImplicitEuler final : public Stepper {
 
   void step(SecondOrder& system, double t, double h, std::span<double> q, std::span<double> v) override {
     system.acceleration(t, q, v, vd_);
+    step_shorter(system, h, q, v);
+  }
+  bool step_shorter(SecondOrder& system, double h, std::span<double> q, std::span<double> v) override {
     for (std::size_t i = 0; i < v.size(); ++i) v[i] += h * vd_[i];
     system.advance(q, v, h);
+    return true;
   }
 
  private:

@@ -21,6 +21,10 @@ class HermiteSpan {
   // first called.
   void interpolate(SecondOrder& system, double t, std::span<double> q, std::span<double> v);
 
+  // The state at its beginning.
+  const std::vector<double>& first_q() const { return q0_; }
+  const std::vector<double>& first_v() const { return v0_; }
+
   int order() const { return q0_.size() == v0_.size() ? 5 : 3; }
 
  private:

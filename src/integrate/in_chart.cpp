@@ -72,11 +72,12 @@ namespace {
 
 class Stepped final : public Integrator {
  public:
-  Stepped(SecondOrder& system, std::unique_ptr<Stepper> stepper)
+  Stepped(SecondOrder& system, std::unique_ptr<Stepper> stepper, int dense_order)
       : Integrator(system.nq(), system.nv()),
         system_(system),
         stepper_(std::move(stepper)),
-        span_(system.nq(), system.nv()) {}
+        span_(system.nq(), system.nv()),
+        dense_order_(std::min(dense_order, span_.order())) {}
 
   void start(double t, std::span<const double> q, std::span<const double> v) override {
     begin_ = time_ = t;
@@ -95,21 +96,27 @@ class Stepped final : public Integrator {
   }
 
   void interpolate(double t, std::span<double> q, std::span<double> v) override {
-    span_.interpolate(system_, t, q, v);
+    std::copy(span_.first_q().begin(), span_.first_q().end(), q.begin());
+    std::copy(span_.first_v().begin(), span_.first_v().end(), v.begin());
+    if (!stepper_->step_shorter(system_, t - begin_, q, v)) span_.interpolate(system_, t, q, v);
   }
 
-  int dense_order() const override { return span_.order(); }
+  int dense_order() const override { return dense_order_; }
+
+  void path(double t, std::span<double> q, std::span<double> v) override { span_.interpolate(system_, t, q, v); }
+  int path_order() const override { return span_.order(); }
 
  private:
   SecondOrder& system_;
   std::unique_ptr<Stepper> stepper_;
   HermiteSpan span_;
+  int dense_order_;
 };
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_stepped(SecondOrder& system, std::unique_ptr<Stepper> stepper) {
-  return std::make_unique<Stepped>(system, std::move(stepper));
+std::unique_ptr<Integrator> make_stepped(SecondOrder& system, std::unique_ptr<Stepper> stepper, int dense_order) {
+  return std::make_unique<Stepped>(system, std::move(stepper), dense_order);
 }
 
 }  // namespace chainreel

@@ -15,8 +15,9 @@ namespace chainreel {
 // `inside` works in the coordinates of `chart`, which must outlive it.
 std::unique_ptr<Integrator> make_in_chart(Chart& chart, std::unique_ptr<Integrator> inside);
 
-// A stepper with its state and dense output: what turns a bare step into an integrator.
-
-std::unique_ptr<Integrator> make_stepped(SecondOrder& system, std::unique_ptr<Stepper> stepper);
+// A stepper with its state and dense output: what turns a bare step into an integrator. A polynomial through the ends of a crude
+// step would move and swing as the method never does (energies of explicit Euler off by ten times their own error): a method
+// of order 1 says itself what lies between.
+std::unique_ptr<Integrator> make_stepped(SecondOrder& system, std::unique_ptr<Stepper> stepper, int dense_order);
 
 }  // namespace chainreel

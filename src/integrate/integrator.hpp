@@ -40,6 +40,11 @@ class Integrator {
   virtual void interpolate(double t, std::span<double> q, std::span<double> v) = 0;
   virtual int dense_order() const = 0;
 
+  // A path from the last step's begin to its end of which v is the rate: what work is reckoned along. It is the dense output where
+  // that has such rates.
+  virtual void path(double t, std::span<double> q, std::span<double> v) { interpolate(t, q, v); }
+  virtual int path_order() const { return dense_order(); }
+
  protected:
   double begin_ = 0, time_ = 0;
   std::vector<double> q_, v_;

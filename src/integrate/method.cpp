@@ -21,6 +21,7 @@ const std::vector<Method>& methods() {
        .title = "explicit Euler",
        .order = 1,
        .kind = "explicit",
+       .dense_order = 1,
        .evaluations_per_step = 1,
        .price = {10, 2, 1, 30, 0},
        .source = "L. Euler, Institutionum calculi integralis I (1768), ch. 7",
@@ -29,6 +30,7 @@ const std::vector<Method>& methods() {
        .title = "semi-implicit Euler",
        .order = 1,
        .kind = "semi-implicit in (q, qd)",
+       .dense_order = 1,
        .evaluations_per_step = 1,
        .price = {10, 2, 1, 30, 0},
        .source =
@@ -204,7 +206,7 @@ std::unique_ptr<Integrator> make_integrator(const Method& method, const Forms& f
   if (forms.chart) return make_in_chart(*forms.chart, method.make(forms, options));
   if (method.make) return method.make(forms, options);
   return make_stepped(*forms.second_order,
-                      method.make_stepper(forms.second_order->nq(), forms.second_order->nv()));
+                      method.make_stepper(forms.second_order->nq(), forms.second_order->nv()), method.dense_order);
 }
 
 }  // namespace chainreel

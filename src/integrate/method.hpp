@@ -17,6 +17,9 @@ class Stepper {
   virtual ~Stepper() = default;
   // Moves (q, v) from t to t + h.
   virtual void step(SecondOrder& system, double t, double h, std::span<double> q, std::span<double> v) = 0;
+  // Moves (q, v), where the last step began, by a shorter one of the same rates: what the method itself says of the motion
+  // within its step. False where it says nothing, and the motion is interpolated.
+  virtual bool step_shorter(SecondOrder&, double /*h*/, std::span<double> /*q*/, std::span<double> /*v*/) { return false; }
 };
 
 // Below it an adaptive method would chase the rounding of doubles.

@@ -18,6 +18,10 @@ namespace chainreel {
 
 struct Simulation;
 
+// Numbers that are no larger, in SI units, are the rounding of others, as of a place that constraints hold: "y_G - 0.7": nothing
+// is judged by how they move.
+inline constexpr double kRoundedZero = 1e-12;
+
 enum class PlotQuantity {
   energy,        // kinetic, potential and their sum, J
   energy_error,  // E(t) - E(0) - work, J

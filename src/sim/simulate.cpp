@@ -31,6 +31,11 @@ constexpr double kLostConstraint = 1e-6;  // m or rad, behind a projection
 constexpr double kCutTolerance = 1e-13;
 constexpr int kMostCuts = 12;
 constexpr double kNearCut = 1e-6;  // of the step that ends there: good enough where no more can be had
+// So many steps that at their pace the run would need 100,000 times as many more end it, or 1,000 times where they are shorter on
+// average than any machine's motion asks for: it makes no headway.
+constexpr long kStepsOfHeadway = 1 << 17;
+constexpr double kHopeless = 1e5, kDoubtful = 1e3;
+constexpr double kShortStep = 1e-6;  // s
 // Evaluations times freedoms, and steps: a long run listens as soon as a short one, whatever its mechanism.
 constexpr double kWorkBetweenStopRequests = 1 << 15;
 
@@ -47,7 +52,7 @@ class Run {
         grid_(simulation),
         q_(simulation.q0),
         qd_(simulation.qd0),
-        work_(simulation, system_, integrator_->dense_order()) {
+        work_(simulation, system_, integrator_->path_order()) {
     require_possible(simulation);
     if (system_.corners()) corners_.emplace(system_, simulation.duration, simulation.method->order <= 2);
     simulation.torque->enter_piece(grid_.middle_of_piece(0));
@@ -88,7 +93,7 @@ class Run {
     if (watch_ && !look_for_events(begin)) return false;
     look_at_limits();
     start_anew_ = next.is_break && now() == next.end;
-    return true;
+    return makes_headway();
   }
 
   // Behind a break of the torques what the method remembers of them is old, and so is the state that it has
@@ -239,6 +244,21 @@ class Run {
   ConstVec q_now() const { return projected_ ? ConstVec(q_end_) : integrator_->q(); }
   ConstVec qd_now() const { return projected_ ? ConstVec(qd_end_) : integrator_->v(); }
 
+  // Steps that a method chooses can become so small that the end is out of reach, and yet not small enough to be lost.
+  bool makes_headway() {
+    if (simulation_.step > 0 || steps() % kStepsOfHeadway != 0) return true;
+    const double done = now() - headway_;
+    headway_ = now();
+    const double patience = done < kShortStep * kStepsOfHeadway ? kDoubtful : kHopeless;
+    if (done * patience >= simulation_.duration - now()) return true;
+    set_trouble(RunStatus::step_too_small,
+                "the last " + std::to_string(kStepsOfHeadway) + " steps came forward by " + format_significant(done, 3) + " s: " +
+                    (constrained_ ? "the constraints are singular near this pose, as of a chain stretched out along them"
+                                  : "the tolerance is too small for this motion, or a stiff part needs an implicit method"),
+                now());
+    return false;
+  }
+
   // After a step under constraints: back onto them, and whether they can be met there.
   bool settle() {
     if (constrained_->projects()) {
@@ -291,7 +311,7 @@ class Run {
   }
 
   bool look_for_events(double begin) {
-    const bool good = (steps() > 1 || watch_->start(0, simulation_.q0, simulation_.qd0)) &&
+    const bool good = (steps() > 1 || watch_->start(0, simulation_.q0, simulation_.qd0, trajectory_.events)) &&
                       watch_->check_step(*integrator_, trajectory_.events);
     system_.forget_bad_torque();
     if (!good) {
@@ -397,6 +417,7 @@ class Run {
   std::vector<LimitEvent> seen_limits_;    // but not found on a step yet
   double next_request_ = 0;  // the work at which the next stop request is asked
   bool start_anew_ = false;
+  double headway_ = 0;  // the time at which that was looked at last
   Trajectory trajectory_;
 };
 

@@ -74,9 +74,9 @@ void gauss_rule(int n, std::vector<double>& nodes, std::vector<double>& weights)
 
 }  // namespace
 
-WorkIntegral::WorkIntegral(const Simulation& simulation, ChainSystem& system, int dense_order)
+WorkIntegral::WorkIntegral(const Simulation& simulation, ChainSystem& system, int path_order)
     : q0_(simulation.q0), tau_(std::size_t(simulation.chain.nv)), q_(simulation.q0), qd_(simulation.qd0) {
-  gauss_rule(std::clamp((dense_order + 2) / 2, kFewestNodes, kMostNodes), nodes_, weights_);
+  gauss_rule(std::clamp((path_order + 2) / 2, kFewestNodes, kMostNodes), nodes_, weights_);
   const Chain& chain = simulation.chain;
   if (!simulation.torque->is_constant() || chain.has_dissipation) return;
   if (!simulation.constraints.contact_forces.empty()) return;
@@ -97,7 +97,7 @@ double WorkIntegral::integral(ChainSystem& system, Integrator& integrator, doubl
   double sum = 0;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     const double t = begin + nodes_[k] * (end - begin);
-    integrator.interpolate(t, q_, qd_);
+    integrator.path(t, q_, qd_);
     sum += weights_[k] * system.power(t, q_, qd_);
   }
   return sum * (end - begin);

@@ -26,11 +26,11 @@ void require_possible(double work, double runs);
 
 // The work of the joint torques less friction, W = integral of qd^T (tau - tau_f) dt, accumulated step by
 // step. Constant torques on joints without friction: tau . (q - q(0)), exact and free. Else Gauss's rule on
-// the dense output of each step, with as many points as the order of that output deserves.
+// each step's path, with as many points as the order of that path deserves.
 
 class WorkIntegral {
  public:
-  WorkIntegral(const Simulation& simulation, ChainSystem& system, int dense_order);
+  WorkIntegral(const Simulation& simulation, ChainSystem& system, int path_order);
 
   // After each step, which leads to q: work up to its end.
   void add_step(ChainSystem& system, Integrator& integrator, ConstVec q);

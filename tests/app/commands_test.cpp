@@ -342,6 +342,9 @@ TEST(Audit, HasTheKeysThatOthersRead) {
                      "warnings"};
   const Words of_film{"duration",        "film_seconds",     "fps",
                       "frames",          "height",           "scene",
+                      "outputs",         "outputs.bytes",    "outputs.file",
+                      "outputs.fps",     "outputs.frames",   "outputs.height",
+                      "outputs.sha256",  "outputs.width",
                       "seconds",         "seconds.draw",     "seconds.encode",
                       "seconds.render",  "seconds.simulate", "seconds.total",
                       "sidecars_sha256", "versions",         "width"};

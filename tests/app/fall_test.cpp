@@ -57,6 +57,23 @@ TEST(FallCommand, SaysThatHeStandsOnlyWhileThePressureIsWithinTheFoot) {
   EXPECT_THAT(text.out, HasSubstr("tips over the toe at 0.0000, not down within 5 s"));
 }
 
+TEST(FallCommand, SaysWhatHoldsFromTheStart) {
+  // A push so strong that the pressure is outside of the foot at once: as an event it waits, here it is no "never".
+  const TemporaryFolder folder;
+  const std::string csv = folder.file("push.csv");
+  const ProgramResult result = run_program({"fall", kHuman, "--set", "parameters.k=600", "--set", "start.qd=[0, 0, 0]", "--sweep", "start.qd.1=0,-1", "-o", csv});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("from the start"));
+  EXPECT_THAT(result.out, testing::Not(HasSubstr("never   tips")));
+  const std::string text = read_whole_file(csv);
+  EXPECT_THAT(text, HasSubstr(",stands,tips_at,tips_over\n"));
+  EXPECT_THAT(text, HasSubstr(",false,0,toe\n"));
+
+  const std::string scene = folder.write("falling.yaml", kFalling);
+  const ProgramResult lying = run_program({"fall", scene, "--set", "start.q=[0, -2]"});
+  EXPECT_THAT(lying.out, HasSubstr("lies from the start"));
+}
+
 TEST(FallCommand, GivesTheClosedFormInJsonAndCsv) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("falling.yaml", kFalling), csv = folder.file("fall.csv");

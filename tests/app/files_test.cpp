@@ -35,7 +35,7 @@ std::string render_to(const std::string& file) {
 }
 
 std::map<std::string, std::string> failing(const std::string& name, const std::string& value) {
-  return {{"LD_PRELOAD", CHAINREEL_FAILING_CALLS}, {"ASAN_OPTIONS", "verify_asan_link_order=0"}, {name, value}};
+  return {{"LD_PRELOAD", preloaded(CHAINREEL_FAILING_CALLS)}, {"ASAN_OPTIONS", "verify_asan_link_order=0"}, {name, value}};
 }
 
 TEST(StandardOutput, ThatIsLostIsExitSixInEveryCommand) {
@@ -188,6 +188,9 @@ class EveryCall : public testing::TestWithParam<const char*> {
 
 TEST_P(EveryCall, ThatFailsOnceLeavesWholeFilesAndIsToldInALine) {
   const bool is_memory = std::string(GetParam()) == "memory";
+#ifdef __SANITIZE_ADDRESS__
+  if (is_memory) GTEST_SKIP() << "the sanitizer's memory does not fail";
+#endif
   const TemporaryFolder whole;
   const ProgramResult good = render(whole, {{"FAIL_COUNTED", whole.file("count")}});
   ASSERT_EQ(good.status, 0) << good.err;

@@ -9,6 +9,7 @@
 
 #include "app/film/clip_memory.hpp"
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "core/json.hpp"
 #include "encode/png.hpp"
 #include "support/picture_compare.hpp"
@@ -271,6 +272,30 @@ TEST(Outputs, PresetsNameTheirFiles) {
   EXPECT_THAT(files_of("frames"), ElementsAre("rr_torque_frames"));
   EXPECT_THAT(files_of("still"), ElementsAre("rr_torque.pdf", "rr_torque.png", "rr_torque.svg"));
   EXPECT_THAT(files_of("overlay"), ElementsAre("rr_torque.mov", "rr_torque.webm"));
+}
+
+// What an audit tells of, by name, size and hash; who has a film of the same name made again as something else is told.
+TEST(Outputs, AreInTheirAuditWithSizeAndHash) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(render({"-o", folder.file("a.mp4"), "-o", folder.file("a.gif")}).status, 0);
+  const auto outputs = [&] { return Json::parse(read_whole_file(folder.file("a.json")))["outputs"]; };
+  ASSERT_EQ(outputs().size(), 2u);
+  for (const Json& one : outputs()) {
+    const std::string path = folder.file(one["file"]);
+    EXPECT_EQ(one["sha256"], sha256_of_file(path));
+    EXPECT_EQ(one["bytes"], std::filesystem::file_size(path));
+  }
+  const Json small = outputs()[1];
+  EXPECT_EQ(small["frames"], probe_video(folder.file("a.gif")).frames);
+
+  const Words again{"render", "assets/scenes/rr_torque.yaml", "--set", "video.width=160", "--set", "video.height=90", "--set", "video.fps=25",
+                    "--set", "duration=0.2", "-o", folder.file("a.gif"), "--force"};
+  const ProgramResult same = run_program(again);
+  EXPECT_THAT(same.err, Not(HasSubstr("told of")));
+  EXPECT_EQ(outputs().size(), 2u) << "both show the same";
+  const ProgramResult other = run_program(with(again, {"--set", "video.width=320"}));
+  EXPECT_THAT(other.err, HasSubstr("a.json told of " + folder.file("a.mp4")));
+  EXPECT_EQ(outputs().size(), 1u);
 }
 
 TEST(Outputs, StillsShowTheFrameThatIsAskedFor) {

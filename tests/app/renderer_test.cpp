@@ -19,7 +19,7 @@ using testing::StartsWith;
 using Environment = std::map<std::string, std::string>;
 
 Environment without(const std::string& libraries) {
-  return {{"LD_PRELOAD", CHAINREEL_FAILING_CALLS}, {"ASAN_OPTIONS", "verify_asan_link_order=0"}, {"FAIL_OPEN", libraries}};
+  return {{"LD_PRELOAD", preloaded(CHAINREEL_FAILING_CALLS)}, {"ASAN_OPTIONS", "verify_asan_link_order=0"}, {"FAIL_OPEN", libraries}};
 }
 
 ProgramResult doctor(const Words& words, const Environment& environment = {}) {

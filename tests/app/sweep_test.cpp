@@ -293,6 +293,24 @@ TEST(SweepFolder, MakesAnewWhatWasCutOffOrLostItsWords) {
   }
 }
 
+TEST(SweepFolder, MakesAnewWhatHasOtherBytesThanItsAuditSays) {
+  const TemporaryFolder folder;
+  const Words words{"--over", "start.q.1=0,1", "--set", "duration=0.2", "--set", "video.width=96", "--set", "video.height=54", "--each", "mp4", "--each", "png"};
+  const std::string runs = folder.file("runs/"), film = runs + "rr_free_start.q.1_1.mp4";
+  ASSERT_EQ(sweep(runs, words).status, 0);
+  const std::string bytes = read_whole_file(film);
+  for (int damages = 0; damages < 2; ++damages) {  // the second time, the audit is of files that were made at two times
+    std::string damaged = bytes;
+    damaged[damaged.size() / 3] = char(damaged[damaged.size() / 3] ^ 8);
+    std::ofstream(film, std::ios::binary) << damaged;
+    EXPECT_THAT(sweep(runs, words).out, HasSubstr("1 of them done before")) << damages;
+    EXPECT_TRUE(read_whole_file(film) == bytes);
+    EXPECT_THAT(sweep(runs, words).out, HasSubstr("2 of them done before")) << damages;
+  }
+  const Json audit = Json::parse(read_whole_file(runs + "rr_free_start.q.1_1.json"));
+  EXPECT_EQ(audit["outputs"].size(), 2u) << audit["outputs"].dump();
+}
+
 TEST(SweepFolder, SaysWhichRunIsDoubtful) {
   const TemporaryFolder folder;
   const ProgramResult result = sweep(folder.file("runs/"), {"--over", "start.q.1=0:1:7", "--each", "csv", "--set", "duration=0.2", "--set",

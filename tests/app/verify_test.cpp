@@ -357,6 +357,24 @@ TEST_F(Verify, RemovesNothingThatIsNotItsOwn) {
   EXPECT_EQ(verify({}, "arm.yml").status, 0);
 }
 
+TEST_F(Verify, ReplacesWhatItWroteBeforeAndNothingElse) {
+  accept_all();
+  replace("rr.urdf", "<mass value=\"1\"/>", "<mass value=\"1.1\"/>");
+  const Words all = {"-o", "differences", "--junit", "j.xml", "--markdown", "s.md", "--html", "r.html"};
+  ASSERT_EQ(verify(all).status, 1);
+  const ProgramResult again = verify(all);
+  EXPECT_EQ(again.status, 1) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("to take what is drawn now: "));
+  for (const char* own : {"j.xml", "s.md", "r.html"}) {
+    const std::string before = read_whole_file(folder_.file(own));
+    write(own, "## Pictures of my holidays\n");
+    const ProgramResult result = verify(all);
+    EXPECT_EQ(result.status, 6) << own;
+    EXPECT_THAT(result.err, HasSubstr(own));
+    write(own, before);
+  }
+}
+
 TEST_F(Verify, SurvivesFactsThatAreNone) {
   accept_all();
   replace("arm.baselines/home.json", "\"q\"", "\"zz\"");

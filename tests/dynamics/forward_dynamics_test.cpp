@@ -2,7 +2,10 @@
 
 #include <Eigen/Cholesky>
 
+#include "core/error.hpp"
 #include "dynamics/compare.hpp"
+#include "dynamics/effective_mass.hpp"
+#include "dynamics/energy.hpp"
 #include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
 #include "support/chains.hpp"
@@ -148,6 +151,36 @@ TEST(ForwardDynamicsTest, SmoothedFrictionIsOddAndFollowsTanh) {
     compute_friction(chain, ws, std::vector<double>{-speed, 0});
     EXPECT_EQ(ws.tau_f[0], -forward);
   }
+}
+
+TEST(ForwardDynamicsTest, RefusesVectorsAndWorkspacesOfOtherChains) {
+  const Chain chain = planar_serial_chain(2), other = planar_serial_chain(3);
+  Workspace ws(chain), foreign(other);
+  const std::vector<double> two(2), one(1), three(3), none;
+  const auto refuses = [](const auto& call) {
+    try {
+      call();
+    } catch (const Error& error) {
+      return error.code() == ExitCode::bad_input;
+    }
+    return false;
+  };
+  for (const std::vector<double>& wrong : {one, three, none}) {
+    EXPECT_TRUE(refuses([&] { compute_forward_dynamics(chain, ws, wrong, two, two); }));
+    EXPECT_TRUE(refuses([&] { compute_forward_dynamics(chain, ws, two, wrong, two); }));
+    EXPECT_TRUE(refuses([&] { compute_forward_dynamics(chain, ws, two, two, wrong); }));
+    EXPECT_TRUE(refuses([&] { compute_aba(chain, ws, two, two, wrong); }));
+    EXPECT_TRUE(refuses([&] { compute_inverse_dynamics(chain, ws, two, two, wrong); }));
+    EXPECT_TRUE(refuses([&] { compute_nle(chain, ws, two, wrong); }));
+    EXPECT_TRUE(refuses([&] { compute_gravity_torque(chain, ws, wrong); }));
+    EXPECT_TRUE(refuses([&] { compute_mass_matrix(chain, ws, wrong); }));
+    EXPECT_TRUE(refuses([&] { compute_kinematics(chain, ws, two, wrong); }));
+    EXPECT_TRUE(refuses([&] { compute_ground_reaction(chain, ws, two, two, wrong); }));
+    EXPECT_TRUE(refuses([&] { energy_of(chain, ws, two, wrong); }));
+    EXPECT_TRUE(refuses([&] { effective_mass_of(chain, ws, wrong, 0, Task::linear); }));
+  }
+  EXPECT_TRUE(refuses([&] { compute_forward_dynamics(chain, foreign, two, two, two); }));
+  EXPECT_FALSE(refuses([&] { compute_forward_dynamics(chain, ws, two, two, two); }));
 }
 
 TEST(ForwardDynamicsTest, TenThousandLinksFall) {

@@ -48,7 +48,7 @@ TEST(Counter, SeesALawThatAllocates) {
       std::copy(fresh.begin(), fresh.end(), tau.begin());
     }
   };
-  Simulation run = run_of("rr", {"0", "0"}, 20, "semi_implicit_euler");
+  Simulation run = run_of("rr", {"0", "0"}, 100, "semi_implicit_euler");
   run.torque = std::make_unique<Wasteful>();
   EXPECT_GT(allocations_in_loop(run, {}), 1000);
 }

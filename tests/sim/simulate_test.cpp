@@ -1,3 +1,4 @@
+#include "dynamics/energy.hpp"
 #include "sim/simulate.hpp"
 
 #include <gmock/gmock.h>
@@ -97,6 +98,49 @@ TEST(Simulate, SamplesBetweenStepsToFourthOrder) {
       EXPECT_NEAR(coarse.q_at(k)[i], fine.q_at(k)[i], 1e-10);
       EXPECT_NEAR(coarse.qd_at(k)[i], fine.qd_at(k)[i], 1e-7);  // one order less
     }
+}
+
+TEST(Simulate, BetweenEulersStepsIsAShorterStepOfTheSameMethod) {
+  constexpr double kStep = 0.02;
+  for (const char* method : {"explicit_euler", "semi_implicit_euler"}) {
+    const auto start = [&] { return run_of("rr", {"3", "-q2"}, 1, method, kStep); };
+    const Simulation run = start();
+    const Trajectory all = simulate_every_step(run);
+    for (const double share : {0.25, 0.6}) {
+      for (const int k : {0, 7, 40}) {
+        const double t[] = {(k + share) * kStep};
+        Simulation shorter = start();
+        shorter.q0.assign(all.q_at(k).begin(), all.q_at(k).end());
+        shorter.qd0.assign(all.qd_at(k).begin(), all.qd_at(k).end());
+        shorter.step = shorter.duration = share * kStep;
+        const Trajectory inside = simulate(run, t), own = simulate_every_step(shorter);
+        for (std::size_t i = 0; i < 2; ++i) {  // the length of the step is rounded: 1e-15 of rates of some 10
+          EXPECT_NEAR(inside.q_at(0)[i], own.q_at(1)[i], 1e-13) << method << k;
+          EXPECT_NEAR(inside.qd_at(0)[i], own.qd_at(1)[i], 1e-13) << method << k;
+        }
+      }
+    }
+  }
+}
+
+// A polynomial through the ends of Euler's steps had energies that the method does not: ten times its own error.
+TEST(Simulate, EnergiesBetweenEulersStepsAreBetweenThoseAtTheirEnds) {
+  Simulation run = run_of("rr", {"0", "0"}, 5, "explicit_euler", 0.02);
+  run.q0 = {-0.785, 0};
+  const Trajectory all = simulate_every_step(run);
+  std::vector<double> times;
+  for (int k = 0; k + 1 < all.size(); ++k) times.push_back((k + 0.5) * 0.02);
+  const Trajectory inside = simulate(run, times);
+  Workspace ws(run.chain);
+  double farthest = 0, step = 0;
+  for (int k = 0; k < inside.size(); ++k) {
+    const double begin = energy_of(run.chain, ws, all.q_at(k), all.qd_at(k)).total(), end = energy_of(run.chain, ws, all.q_at(k + 1), all.qd_at(k + 1)).total();
+    const double middle = energy_of(run.chain, ws, inside.q_at(k), inside.qd_at(k)).total();
+    farthest = std::max({farthest, middle - std::max(begin, end), std::min(begin, end) - middle});
+    step = std::max(step, std::abs(end - begin));
+  }
+  EXPECT_GT(step, 0.05);  // it is a crude method
+  EXPECT_LT(farthest, 0.5 * step);
 }
 
 TEST(Simulate, GivesTheStepsOwnValuesAtTheirEnds) {

@@ -27,6 +27,15 @@ struct RunOptions {
   double timeout_s = 120;
 };
 
+// For LD_PRELOAD: the library, behind the sanitizer's where the program has that, which keeps its own memory.
+inline std::string preloaded(const std::string& library) {
+#ifdef __SANITIZE_ADDRESS__
+  return "libasan.so.8 " + library;
+#else
+  return library;
+#endif
+}
+
 // The path of the built program, whether it has been built or not.
 std::string program_path();
 

@@ -7,10 +7,13 @@
 #include "app/cli/streams.hpp"
 #include "app/commands/comparison.hpp"
 #include "app/film/progress.hpp"
+#include "app/report/sidecar.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/input_file.hpp"
+#include "core/machine.hpp"
 #include "core/output_file.hpp"
+#include "core/parallel.hpp"
 #include "encode/film_reader.hpp"
 #include "encode/png.hpp"
 
@@ -48,6 +51,72 @@ FilmReader open(const std::string& path) {
   return FilmReader(path);
 }
 
+// A frame of each film, and when it is shown, s.
+struct FramePair {
+  Image images[2];
+  double times[2] = {0, 0};
+  ImageDifference difference;
+};
+
+// What is known of the films so far; pairs come in the order of the frames.
+void add_pair(FramePair& pair, const CompareOptions& options, FilmDifference& found) {
+  const int index = int(found.errors.size());
+  if (!found.other_time && std::abs(pair.times[0] - pair.times[1]) > kSameTime) {
+    found.other_time = index;
+    std::copy_n(pair.times, 2, found.times);
+  }
+  const ImageDifference& difference = pair.difference;
+  const bool fails = !difference.passes(options.tolerance);
+  found.errors.push_back(difference.same_size ? difference.worst : 1);
+  found.failed.push_back(fails);
+  if (difference.is_equal()) return;
+  ++found.unequal;
+  if (fails) ++found.beyond;
+  const bool is_worst = !found.worst || is_worse(difference, found.worst->difference);
+  if (found.first && !is_worst) return;
+  const ToldFrame frame{index, difference, pair.images[0], pair.images[1]};
+  if (!found.first) found.first = frame;
+  if (is_worst) found.worst = frame;
+}
+
+// Frames are decoded one after the other and compared by all threads.
+void compare_frames(FilmReader* readers, const CompareOptions& options, FilmDifference& found) {
+  const double expected = std::max(1.0, std::max(found.seconds[0] * found.fps[0], found.seconds[1] * found.fps[1]));
+  WorkTicker ticker("comparing frames", options.common.quiet);
+  const int threads = usable_cores();
+  std::vector<FramePair> pairs(2 * std::size_t(threads));
+  for (bool is_more = true; is_more;) {
+    std::size_t count = 0;
+    while (is_more && count < pairs.size()) {
+      throw_if_interrupted();
+      ticker.tell(std::min(1.0, std::max(found.frames[0], found.frames[1]) / expected));
+      FramePair& pair = pairs[count];
+      bool there[2];
+      for (int i = 0; i < 2; ++i) {
+        if ((there[i] = readers[i].next(pair.images[i]))) ++found.frames[i];
+        pair.times[i] = readers[i].time();
+      }
+      is_more = there[0] || there[1];
+      if (there[0] && there[1]) ++count;  // the longer one is counted to its end
+    }
+    for_each_index(count, threads, [&](std::size_t k) { pairs[k].difference = compare_images(pairs[k].images[0], pairs[k].images[1], options.tolerance); });
+    for (std::size_t k = 0; k < count; ++k) add_pair(pairs[k], options, found);
+  }
+}
+
+// Of two files with the same bytes the frames of one are counted.
+void count_frames(FilmReader& reader, const CompareOptions& options, FilmDifference& found) {
+  const double expected = std::max(1.0, found.seconds[0] * found.fps[0]);
+  WorkTicker ticker("counting frames", options.common.quiet);
+  for (Image image; reader.next(image); ++found.frames[0]) {
+    throw_if_interrupted();
+    ticker.tell(std::min(1.0, found.frames[0] / expected));
+    found.errors.push_back(0);
+    found.failed.push_back(false);
+  }
+  found.frames[1] = found.frames[0];
+}
+
 FilmDifference difference_of(const CompareOptions& options) {
   FilmReader readers[2] = {open(options.before), open(options.after)};
   FilmDifference found;
@@ -55,35 +124,10 @@ FilmDifference difference_of(const CompareOptions& options) {
     found.fps[i] = readers[i].fps();
     found.seconds[i] = readers[i].seconds();
   }
-  Image images[2];
-  const double expected = std::max(1.0, std::max(found.seconds[0] * found.fps[0], found.seconds[1] * found.fps[1]));
-  WorkTicker ticker("comparing frames", options.common.quiet);
-  for (;;) {
-    throw_if_interrupted();
-    ticker.tell(std::min(1.0, std::max(found.frames[0], found.frames[1]) / expected));
-    bool there[2];
-    for (int i = 0; i < 2; ++i)
-      if ((there[i] = readers[i].next(images[i]))) ++found.frames[i];
-    if (!there[0] && !there[1]) break;
-    if (!there[0] || !there[1]) continue;  // the longer one is counted to its end
-    if (!found.other_time && std::abs(readers[0].time() - readers[1].time()) > kSameTime) {
-      found.other_time = found.frames[0] - 1;
-      for (int i = 0; i < 2; ++i) found.times[i] = readers[i].time();
-    }
-    const ImageDifference difference = compare_images(images[0], images[1], options.tolerance);
-    const bool fails = !difference.passes(options.tolerance);
-    found.errors.push_back(difference.same_size ? difference.worst : 1);
-    found.failed.push_back(fails);
-    if (difference.is_equal()) continue;
-    ++found.unequal;
-    if (fails) ++found.beyond;
-    const bool is_worst = !found.worst || is_worse(difference, found.worst->difference);
-    if (!found.first || is_worst) {
-      const ToldFrame frame{found.frames[0] - 1, difference, images[0], images[1]};
-      if (!found.first) found.first = frame;
-      if (is_worst) found.worst = frame;
-    }
-  }
+  if (audited_file(options.before)["sha256"] == audited_file(options.after)["sha256"])
+    count_frames(readers[0], options, found);
+  else
+    compare_frames(readers, options, found);
   for (int i = 0; i < 2; ++i)
     if (found.frames[i] == 0)
       throw Error(ExitCode::bad_input, "holds no frame that can be decoded",

@@ -35,14 +35,24 @@ bool has_failed(const FallRow& row) {
   return !is_complete(row.status);
 }
 
+bool stands(const FallRow& row) {
+  return !row.tips && !row.fall_time && row.status == RunStatus::finished;
+}
+
+std::string tips_over(const FallRow& row) {
+  return !row.tips ? "" : row.over_toe ? "toe" : "heel";
+}
+
 std::string verdict(const FallTable& table, const FallRow& row) {
   if (row.fall_time) return format_fixed(*row.fall_time, 4);
   if (has_failed(row)) return row.trouble;
   if (row.status == RunStatus::stopped) return "stopped: " + row.trouble;
+  for (std::size_t i = 0; i < table.events.size(); ++i)
+    if (table.events[i].kind == EventKind::fall && row.first[i] == 0.0) return "lies from the start";
   const std::string within = format_quantity(table.duration, "s");
   if (!table.has_foot) return "does not fall within " + within;
   if (!row.tips) return "stands for " + within;
-  return std::string("tips over the ") + (row.over_toe ? "toe" : "heel") + " at " + format_fixed(*row.tips, 4) +
+  return "tips over the " + tips_over(row) + " at " + format_fixed(*row.tips, 4) +
          ", not down within " + within;
 }
 
@@ -67,7 +77,7 @@ void print_table(const FallTable& table) {
       rows.back().push_back(number ? format_significant(*number, 6) : row.value);
     }
     for (const std::size_t i : others)
-      rows.back().push_back(row.first[i] ? format_fixed(*row.first[i], 4) : "never");
+      rows.back().push_back(!row.first[i] ? "never" : *row.first[i] == 0 ? "from the start" : format_fixed(*row.first[i], 4));
     rows.back().push_back(verdict(table, row));
   }
   std::fputs(table_text(rows).c_str(), stdout);
@@ -97,9 +107,9 @@ Json report_of(const std::string& scene, const FallTable& table) {
     one["first"] = Json::array();
     for (const std::optional<double>& time : row.first) one["first"].push_back(optional_json(time));
     if (table.has_foot) {
-      one["stands"] = !row.tips && !row.fall_time && row.status == RunStatus::finished;
+      one["stands"] = stands(row);
       one["tips_at"] = optional_json(row.tips);
-      one["tips_over"] = row.tips ? Json(row.over_toe ? "toe" : "heel") : Json(nullptr);
+      one["tips_over"] = row.tips ? Json(tips_over(row)) : Json(nullptr);
     }
     if (!row.trouble.empty()) one["trouble"] = row.trouble;
     json["rows"].push_back(one);
@@ -113,11 +123,13 @@ std::string csv_of(const std::string& scene, const FallTable& table) {
   const bool swept = !table.sweep.key.empty();
   std::string text = csv_facts(scene) + (swept ? table.sweep.key + "," : "") + "fall_time,status,end_time";
   for (const EventEntry& event : table.events) text += "," + csv_words(event.title());
+  if (table.has_foot) text += ",stands,tips_at,tips_over";
   text += "\n";
   for (const FallRow& row : table.rows) {
     if (swept) text += row.value + ",";
     text += field(row.fall_time) + "," + to_string(row.status) + "," + format_exact(row.end_time);
     for (const std::optional<double>& time : row.first) text += "," + field(time);
+    if (table.has_foot) text += std::string(stands(row) ? ",true," : ",false,") + field(row.tips) + "," + tips_over(row);
     text += "\n";
   }
   return text;

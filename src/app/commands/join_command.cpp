@@ -175,6 +175,7 @@ void run_join(const JoinOptions& options) {
   write_film(parts, files.film.temporary_path());
   files.film.commit();
   Json audit = facts.audit;
+  audit[kAuditedFiles] = Json::array({audited_file(options.output)});
   audit[kSidecarHashes] = Json::object();
   write_whole(files.words, facts.words);
   audit[kSidecarHashes][".txt"] = sha256_of(facts.words);

@@ -19,6 +19,7 @@
 #include "app/film/house_logo.hpp"
 #include "app/film/runs.hpp"
 #include "app/report/report.hpp"
+#include "app/report/sidecar.hpp"
 #include "app/report/motion_table.hpp"
 #include "app/report/version.hpp"
 #include "app/works/draw_film.hpp"
@@ -216,8 +217,8 @@ class FilmsOfGrid {
       if (is_there(is_table ? panel_table_path(target.path, 0, film.panels.size() == 1) : target.path)) {
         if (!expected) expected.emplace(film, at_);
         const bool is_ours = expected->is(target);
-        // What was cut off since, or has lost its words, is made again.
-        if (is_ours && has_sidecars(target) && !is_cut_off(target.path)) continue;
+        // What was cut off or changed since, or has lost its words, is made again.
+        if (is_ours && has_sidecars(target) && !is_cut_off(target.path) && !is_changed_since(target.path)) continue;
         are_ours = are_ours && is_ours;
       }
       job.targets.push_back(std::move(target));
@@ -337,10 +338,13 @@ void run_sweep(SweepOptions options) {
   for (const std::string& output : options.outputs) {
     const bool is_table = is_table_path(output);
     const std::string path = is_table ? with_suffix(output, suffix) : output;
-    const SweepOutcome outcome =
-        is_table ? write_sweep_table({options.scene, overrides_of(options.common), grid, runs, threads, path,
-                                      options.common.force, options.common.quiet})
-                 : FilmsOfGrid(options, grid, runs, output).run();
+    SweepOutcome outcome;
+    if (is_table) {  // no `?:`, of which GCC 12 destroys what was not made yet where an exception leaves it
+      const SweepTableJob job{options.scene, overrides_of(options.common), grid, runs, threads, path, options.common.force, options.common.quiet};
+      outcome = write_sweep_table(job);
+    } else {
+      outcome = FilmsOfGrid(options, grid, runs, output).run();
+    }
     throw_if_interrupted();
     report.push_back({{"file", path},
                       {"runs", runs.behind - runs.first},

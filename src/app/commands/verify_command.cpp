@@ -273,6 +273,11 @@ void update(const VerifyOptions& options, const Cameras& cameras, Acceptance& ac
   if (options.prune) std::swap(result.pruned, result.unused);
 }
 
+// What an earlier run left there is replaced.
+bool replaces(const VerifyOptions& options, const std::string& report) {
+  return options.common.force || is_own_report(report);
+}
+
 // Pictures of what failed, for who has no report.
 void write_pictures(const std::string& folder, const SuiteResult& result, bool overwrite) {
   for (const PictureVerdict& one : result.pictures) {
@@ -281,7 +286,7 @@ void write_pictures(const std::string& folder, const SuiteResult& result, bool o
       if (one.passes || png.empty())  // what an earlier run left there is no more true
         remove_compared_picture(path);
       else
-        write_text_file(path, with_png_text(png, compared_picture_text()), overwrite);
+        write_text_file(path, with_png_text(png, compared_picture_text()), overwrite || is_compared_picture(path));
     };
     write(".expected.png", one.expected_png);
     write(".actual.png", one.actual_png);
@@ -305,7 +310,7 @@ void require_writable_outputs(const VerifyOptions& options, const Baselines& bas
     const fs::path target = fs::weakly_canonical(path);
     if (std::mismatch(folder.begin(), folder.end(), target.begin(), target.end()).first == folder.end())
       throw Error(ExitCode::usage, path + " lies in the folder of the baselines: name another place");
-    if (path != options.output) const OutputFile allowed(path, options.common.force);  // throws where it is not
+    if (path != options.output) const OutputFile allowed(path, replaces(options, path));  // throws where it is not
   }
   if (!options.output.empty() && fs::exists(options.output) && !fs::is_directory(options.output))
     throw Error(ExitCode::usage, "-o " + options.output + " is a file: name a folder");
@@ -324,11 +329,11 @@ VerifyReport page_of(const SuiteResult& result) {
 }
 
 void write_reports(const VerifyOptions& options, const SuiteResult& result) {
-  const bool overwrite = options.common.force;
-  if (!options.junit.empty()) write_text_file(options.junit, junit_text(result), overwrite);
-  if (!options.markdown.empty()) write_text_file(options.markdown, markdown_text(result), overwrite);
-  if (!options.html.empty()) write_html_report(options.html, page_of(result), overwrite);
-  if (!options.output.empty()) write_pictures(options.output, result, overwrite);
+  const auto write = [&](const std::string& path, const std::string& text) { write_text_file(path, text, replaces(options, path)); };
+  if (!options.junit.empty()) write(options.junit, junit_text(result));
+  if (!options.markdown.empty()) write(options.markdown, markdown_text(result));
+  if (!options.html.empty()) write_html_report(options.html, page_of(result), replaces(options, options.html));
+  if (!options.output.empty()) write_pictures(options.output, result, options.common.force);
 }
 
 void tell_verdicts(const VerifyOptions& options, const SuiteResult& result) {

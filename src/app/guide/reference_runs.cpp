@@ -109,8 +109,8 @@ std::string outputs_page() {
          "Without it, `video.preset` decides.\n\n" +
          table_of("ending", endings) + "\n" + table_of("preset", names_of(Preset{})) + "\n" +
          code_block("yaml", "video: {width: 1280, height: 720, fps: 50, preset: web, crf: 24}\n") +
-         "\nBeside a film lies NAME.json, its audit, and NAME.txt, its words. What a command does not overwrite without\n"
-         "`--force`: files outside of a folder named `out`.\n\n" +
+         "\nBeside a film lies NAME.json, its audit, with the size and SHA-256 of each of its files, and NAME.txt, its words. What a command\n"
+         "does not overwrite without `--force`: files outside of a folder named `out`.\n\n" +
          code_block("sh", "chainreel render rr_free -o out/rr.webm -o out/rr.gif\n");
 }
 

@@ -7,7 +7,6 @@
 #include "encode/png.hpp"
 
 namespace chainreel {
-namespace {
 
 bool is_compared_picture(const std::string& path) {
   std::error_code code;
@@ -19,8 +18,6 @@ bool is_compared_picture(const std::string& path) {
     return false;  // no picture, whatever its name
   }
 }
-
-}  // namespace
 
 const std::map<std::string, std::string>& compared_picture_text() {
   static const std::map<std::string, std::string> text{{"chainreel_compared", "what a comparison showed"}};

@@ -10,6 +10,9 @@ namespace chainreel {
 // The text for write_png and with_png_text.
 const std::map<std::string, std::string>& compared_picture_text();
 
+// Whether a comparison of this program wrote the file at `path`.
+bool is_compared_picture(const std::string& path);
+
 // Removes the file where it bears that text and is no input of this run; anything else stays.
 void remove_compared_picture(const std::string& path);
 

@@ -1,6 +1,10 @@
 #include "app/report/sidecar.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
+#include <fstream>
+#include <span>
 
 #include "app/film/clip_memory.hpp"
 #include "core/error.hpp"
@@ -48,6 +52,61 @@ bool is_own(const fs::path& path) {
 }
 
 }  // namespace
+
+Json audited_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<char> piece(std::size_t(1) << 18);
+  Sha256 hash;
+  std::uintmax_t bytes = 0;
+  while (file.read(piece.data(), std::streamsize(piece.size())), file.gcount() > 0) {
+    const std::span<const char> read(piece.data(), std::size_t(file.gcount()));
+    hash.add(std::as_bytes(read));
+    bytes += read.size();
+  }
+  return {{"file", fs::path(path).filename().string()}, {"bytes", bytes}, {"sha256", hash.finish()}};
+}
+
+OtherFiles others_audited(const std::string& path, const std::vector<std::string>& files, const Json& audit) {
+  OtherFiles others;
+  try {
+    const Json before = audit_at(path);
+    if (before.is_null()) return others;
+    const auto shown = [](Json json) {
+      for (const char* own : {kAuditedFiles, kSidecarHashes, "seconds"}) json.erase(own);
+      return json;
+    };
+    const bool is_same = shown(before) == shown(audit);
+    for (const Json& one : before.value(kAuditedFiles, Json::array())) {
+      const fs::path file = fs::path(path).parent_path() / one.value("file", "");
+      std::error_code code;
+      if (std::find(files.begin(), files.end(), file.string()) != files.end() || !fs::is_regular_file(file, code)) continue;
+      if (is_same)
+        others.entries.push_back(one);
+      else
+        others.are_others.push_back(file.string());
+    }
+  } catch (const Error&) {
+    return {};  // what cannot be read as ours
+  } catch (const Json::exception&) {
+    return {};
+  }
+  return others;
+}
+
+bool is_changed_since(const std::string& path) {
+  try {
+    const Json audit = audit_at(fs::path(path).replace_extension(".json"));
+    if (audit.is_null()) return false;
+    const Json now = audited_file(path);
+    for (const Json& one : audit.value(kAuditedFiles, Json::array()))
+      if (one.value("file", "") == now["file"]) return one.value("sha256", "") != now["sha256"];
+    return false;
+  } catch (const Error&) {
+    return true;
+  } catch (const Json::exception&) {
+    return true;
+  }
+}
 
 bool is_own_sidecar(const std::string& path) {
   try {

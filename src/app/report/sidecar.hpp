@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/json.hpp"
 
@@ -10,6 +11,18 @@ namespace chainreel {
 
 // NAME.json says of the texts beside it which they are, by their hashes, under this key: {".txt": .., ".srt": ..}.
 inline constexpr const char* kSidecarHashes = "sidecars_sha256";
+
+// The files that NAME.json tells of, under this key: [{file, bytes, sha256}]; names alone, since they lie beside it.
+inline constexpr const char* kAuditedFiles = "outputs";
+Json audited_file(const std::string& path);
+// What an audit at `path` tells of besides `files`, as far as it is still there.
+struct OtherFiles {
+  Json entries = Json::array();         // of those that show the same as `audit` says, to be told of on
+  std::vector<std::string> are_others;  // names of those that show something else
+};
+OtherFiles others_audited(const std::string& path, const std::vector<std::string>& files, const Json& audit);
+// Whether the file at `path` has other bytes than the audit beside it says.
+bool is_changed_since(const std::string& path);
 
 // Whether this program wrote the file at `path`: a .json that is an audit; a .txt or .srt that NAME.json knows (or,
 // where it knows none, one as older versions wrote); a .csv and .tex by their first lines; films and pictures that

@@ -3,12 +3,18 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "app/cli/shell_word.hpp"
 #include "core/format.hpp"
 
 namespace chainreel {
 namespace {
+
+// By which reports are known as ours.
+const char* const kJunitName = "chainreel verify";
+const char* const kAccepted = "Pictures as accepted";
+const char* const kChanged = "Pictures changed";
 
 std::string plain(const PictureState state) {
   return to_string(state);
@@ -87,6 +93,7 @@ std::string junit_text(const SuiteResult& result) {
   tinyxml2::XMLPrinter printer;
   printer.PushHeader(false, true);
   printer.OpenElement("testsuites");
+  printer.PushAttribute("name", kJunitName);
   printer.OpenElement("testsuite");
   printer.PushAttribute("name", printable(result.suite).c_str());
   printer.PushAttribute("tests", int(result.pictures.size()));
@@ -111,7 +118,7 @@ std::string junit_text(const SuiteResult& result) {
 }
 
 std::string markdown_text(const SuiteResult& result) {
-  std::string text = "## " + std::string(result.failed() == 0 ? "Pictures as accepted" : "Pictures changed") +
+  std::string text = "## " + std::string(result.failed() == 0 ? kAccepted : kChanged) +
                      ": " + markdown_words(result.suite) + "\n\n" + summary_of(result) + "\n";
   if (result.failed() == 0) return text;
   text += "\n| picture | state | why |\n| --- | --- | --- |\n";
@@ -120,6 +127,17 @@ std::string markdown_text(const SuiteResult& result) {
       text += "| " + markdown_words(one.name) + " | " + plain(one.state) + " | " +
               markdown_words(joined(one.words, "; ")) + " |\n";
   return text + "\nTo take what is drawn now:\n\n" + markdown_code(accept_command(result));
+}
+
+bool is_own_report(const std::string& path) {
+  constexpr std::size_t kHead = 1024;  // bytes: all marks stand in front
+  std::string head(kHead, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), std::streamsize(head.size()));
+  head.resize(std::size_t(file.gcount()));
+  const auto holds = [&](const std::string& words) { return head.find(words) != std::string::npos; };
+  return holds("<testsuites name=\"" + std::string(kJunitName) + "\"") || head.starts_with("## " + std::string(kAccepted) + ": ") ||
+         head.starts_with("## " + std::string(kChanged) + ": ") || (holds("<!DOCTYPE html>") && holds("content=\"chainreel ") && holds(" verify\">"));
 }
 
 }  // namespace chainreel

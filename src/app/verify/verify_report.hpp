@@ -26,6 +26,9 @@ std::string accept_command(const SuiteResult& result);
 Json to_json(const SuiteResult& result);
 std::string junit_text(const SuiteResult& result);
 std::string markdown_text(const SuiteResult& result);
+
+// Whether the file at `path` is such a report, or one as HTML: what a later run replaces.
+bool is_own_report(const std::string& path);
 // "2 of 24 pictures failed: 1 changed, 1 missing"
 std::string summary_of(const SuiteResult& result);
 

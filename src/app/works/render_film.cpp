@@ -22,6 +22,7 @@
 #include "core/output_file.hpp"
 #include "draw/page/house_style.hpp"
 #include "encode/png.hpp"
+#include "encode/small_frames.hpp"
 
 namespace chainreel {
 namespace {
@@ -148,9 +149,53 @@ std::string sidecar_text(const Sidecar& sidecar, const FilmReport& report) {
   return animate_snippet(sidecar.target, report.frames, report.film().scene.video.fps);
 }
 
+// The files as they lie there, in their order: small clips with their own size, null for sequences.
+Json audited_files(const RenderJob& job, const std::vector<std::string>& paths, const FilmReport& report) {
+  Json files = Json::array();
+  const Video& video = report.film().scene.video;
+  for (const std::string& path : paths) {
+    std::error_code code;
+    if (!fs::is_regular_file(path, code)) {
+      files.push_back(nullptr);
+      continue;
+    }
+    Json& file = files.emplace_back(audited_file(path));
+    const auto is_it = [&](const Target& target) { return target.path == path && target.format->make_clip != nullptr; };
+    if (std::none_of(job.targets.begin(), job.targets.end(), is_it)) continue;
+    const SmallSize size = small_size_of(video.width, video.height, video.fps);
+    file.update({{"width", size.width}, {"height", size.height}, {"fps", size.fps.value()}, {"frames", size.frames(report.frames)}});
+  }
+  return files;
+}
+
+// Other files that an audit of ours tells of already stay in it where they show the very same; where they do not it tells of
+// these alone from now on, which is said.
+std::map<std::string, Json> others_kept(const std::vector<Sidecar>& sidecars, const RenderJob& job, RenderResult& result) {
+  std::map<std::string, Json> kept;  // by NAME.json
+  std::vector<std::string> files;
+  for (const Target& target : job.targets) files.push_back(target.path);
+  for (const Sidecar& sidecar : sidecars) {
+    if (sidecar.what != Sidecar::audit) continue;
+    const std::string path = sidecar.file->path();
+    const OtherFiles others = others_audited(path, files, result.audit);
+    kept[path] = others.entries;
+    if (!others.are_others.empty())
+      result.notes.push_back(path + " told of " + joined(others.are_others) + ", which is still there and shows something else: give both files in one command, or other names");
+  }
+  return kept;
+}
+
+// Whether NAME.json is the one that tells of the file: by its name, or as the only one there is.
+bool tells_of(const std::vector<Sidecar>& sidecars, const std::string& audit, const std::string& file) {
+  const auto is_audit = [](const Sidecar& sidecar) { return sidecar.what == Sidecar::audit; };
+  return fs::path(file).replace_extension(".json") == fs::path(audit) ||
+         (std::count_if(sidecars.begin(), sidecars.end(), is_audit) == 1 && fs::path(file).parent_path() == fs::path(audit).parent_path());
+}
+
 // Texts first: each audit tells of those beside it.
-void write_sidecars(std::vector<Sidecar>& sidecars, const FilmReport& report, RenderResult& result) {
+void write_sidecars(std::vector<Sidecar>& sidecars, const FilmReport& report, const std::map<std::string, Json>& others, RenderResult& result) {
   std::map<fs::path, Json> hashes;  // by NAME.json
+  const Json files = result.audit[kAuditedFiles];
   for (Sidecar& sidecar : sidecars) {
     if (sidecar.what == Sidecar::audit) continue;
     const std::string text = sidecar_text(sidecar, report);
@@ -162,7 +207,11 @@ void write_sidecars(std::vector<Sidecar>& sidecars, const FilmReport& report, Re
   for (Sidecar& sidecar : sidecars) {
     if (sidecar.what != Sidecar::audit) continue;
     Json audit = result.audit;
-    audit[kSidecarHashes] = hashes[sidecar.file->path()];
+    const std::string path = sidecar.file->path();
+    audit[kSidecarHashes] = hashes[path];
+    audit[kAuditedFiles] = others.at(path);
+    for (std::size_t i = 0; i < result.files.size(); ++i)
+      if (!files[i].is_null() && tells_of(sidecars, path, result.files[i])) audit[kAuditedFiles].push_back(files[i]);
     write_whole(*sidecar.file, audit.dump(2) + "\n");
   }
   for (const Sidecar& sidecar : sidecars)
@@ -204,10 +253,10 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   const Scene& scene = film.scene;
   const bool is_part = job.part.has_value();
   std::vector<Output> outputs = open_outputs(job.targets, film.panels.size(), job.overwrite, is_part);
+  RenderResult result;
   std::vector<Sidecar> sidecars;
   if (!is_part) sidecars = open_sidecars(job, film);
 
-  RenderResult result;
   StageClock total, clock;
   std::optional<Runs> own;
   const Runs& runs = done != nullptr ? *done : own.emplace(film);
@@ -272,10 +321,12 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
     }
     throw;
   }
+  const std::map<std::string, Json> others = others_kept(sidecars, job, result);
   tell(report, job, result);
   result.files = commit(outputs);
+  result.audit[kAuditedFiles] = audited_files(job, result.files, report);
   forget_chunks(outputs, range, total_frames);
-  write_sidecars(sidecars, report, result);
+  write_sidecars(sidecars, report, others, result);
   return result;
 }
 

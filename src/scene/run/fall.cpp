@@ -82,6 +82,7 @@ FallRow run_row(Scene scene, const StopRequest& stop) {
   if (scene.foot) find_tipping(row, simulation, *scene.foot, run, int(events));
   for (int k = run.events.size() - 1; k >= 0; --k)
     row.first[std::size_t(run.events.event[std::size_t(k)])] = run.events.t[std::size_t(k)];
+  for (const int event : run.events.from_start) row.first[std::size_t(event)] = 0;
   row.first.resize(events);
   return row;
 }

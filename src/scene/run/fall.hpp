@@ -26,7 +26,7 @@ struct FallRow {
   double end_time = 0;                       // s
   std::optional<double> fall_time;           // s
   int ending_event = -1;                     // index into FallTable::events
-  std::vector<std::optional<double>> first;  // the first time of each event, s
+  std::vector<std::optional<double>> first;  // the first time of each event, s; 0 of one that holds from the start
   std::string trouble;
 
   // When the centre of pressure first left the scene's foot, s, over toe or heel. From then on a flat foot

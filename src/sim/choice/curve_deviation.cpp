@@ -127,7 +127,7 @@ void CurveDeviation::set_units(std::vector<PlotCurves>& plots) {
     Range all;
     for (const PlotCurve& curve : plot.curves) all.extend(curve.y);
     const bool is_constant = all.span() <= kConstant * all.size();
-    const double shared = !is_constant ? all.span() : all.size() > 0 ? kOfConstant * all.size() : 1;
+    const double shared = all.size() <= kRoundedZero ? 1 : !is_constant ? all.span() : kOfConstant * all.size();
     for (PlotCurve& curve : plot.curves) {
       Range own;
       own.extend(curve.y);

@@ -48,6 +48,7 @@ struct EventHits {
   std::vector<double> t;   // s
   std::vector<double> q;   // nq numbers a hit: the state at that instant
   std::vector<double> qd;  // nv numbers a hit
+  std::vector<int> from_start;  // those that held at t = 0 already
 
   int size() const { return int(t.size()); }
   std::span<const double> q_at(int k) const { return row(q, k); }

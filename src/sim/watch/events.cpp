@@ -182,10 +182,13 @@ bool EventWatch::read(double t, ConstVec q, ConstVec qd) {
   return true;
 }
 
-bool EventWatch::start(double t, ConstVec q, ConstVec qd) {
+bool EventWatch::start(double t, ConstVec q, ConstVec qd, EventHits& hits) {
   if (!read(t, q, qd)) return false;
-  for (std::size_t i = 0; i < now_.size(); ++i)
-    before_[i] = {now_[i], holds(events_.list[i].test, now_[i]), sign_of(now_[i])};
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    const Event::Test test = events_.list[i].test;
+    before_[i] = {now_[i], holds(test, now_[i]), sign_of(now_[i])};
+    if (before_[i].holds && test != Event::Test::changes_side) hits.from_start.push_back(int(i));
+  }
   return true;
 }
 

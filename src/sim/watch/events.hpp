@@ -112,9 +112,9 @@ class EventWatch {
   // References must outlive it.
   EventWatch(const EventSet& events, ChainSystem& system);
 
-  // Where the run begins: what holds here does not happen until it has been false. False where an event's
+  // Where the run begins: what holds here does not happen until it has been false, and `hits` says so. False where an event's
   // value is no finite number, here and in check_step.
-  bool start(double t, ConstVec q, ConstVec qd);
+  bool start(double t, ConstVec q, ConstVec qd, EventHits& hits);
   // After a step: looks through it, up to the first event that ends the run. What happens is added to `hits`,
   // in the order of time; allocates only there.
   bool check_step(Integrator& integrator, EventHits& hits);
