@@ -93,6 +93,22 @@ py::tuple film_of_run(const SceneRun& run, std::vector<std::string> files, doubl
   return py::make_tuple(made.files, made.sidecars, made.notes, made.frames, made.seconds);
 }
 
+// Arrays by their names, (rows, ...).
+py::dict table_of_run(const SceneRun& run, const std::string& columns, int panel) {
+  const std::vector<RunArray> arrays = without_lock([&] { return run.table(columns, panel); });
+  py::dict table;
+  for (const RunArray& one : arrays) {
+    std::size_t numbers = 1;
+    for (const std::size_t size : one.shape) numbers *= size;
+    std::vector<py::ssize_t> shape{numbers == 0 ? 0 : py::ssize_t(one.values.size() / numbers)};
+    shape.insert(shape.end(), one.shape.begin(), one.shape.end());
+    py::array_t<double> array(shape);
+    std::copy(one.values.begin(), one.values.end(), array.mutable_data());
+    table[py::str(one.name)] = array;
+  }
+  return table;
+}
+
 // (height, width, 4), RGBA; and notes.
 py::tuple pixels(const SceneRun& run, double at, int width, int height) {
   std::vector<std::string> notes;
@@ -142,6 +158,7 @@ void bind_run(py::module_& module) {
                                                                   : energy.total;
         return view(values, self);
       })
+      .def("table", &table_of_run)
       .def("film", &film_of_run)
       .def("frame", &pixels)
       .def("picture", [](const SceneRun& run, double at, const std::string& path, bool overwrite) {

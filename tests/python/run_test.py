@@ -31,6 +31,23 @@ class Runs(FolderTest):
             self.assertEqual({key: ours[key] for key in ("trajectory_sha256", "method", "energy_start", "audit_error")},
                              {key: report[key] for key in ("trajectory_sha256", "method", "energy_start", "audit_error")})
 
+    def test_a_table_has_what_simulate_writes_and_the_equation_of_motion_holds_in_it(self):
+        run = cr.Scene("assets/scenes/four_bar.yaml", duration=0.5).run()
+        table = run.table("t,q,qd,qdd,tau,lambda,frames")
+        rows = len(table["t"])
+        self.assertEqual(table["qdd"].shape, run.q.shape)
+        self.assertEqual(table["lambda"].shape[0], rows)
+        self.assertEqual(table["frames"].shape[0], rows)
+        pendulum = cr.Scene(dict(FALL)).run()
+        model, table = cr.load(RR), pendulum.table()
+        for row in range(0, len(table["t"]), 7):
+            q, qd, qdd = table["q"][row], table["qd"][row], table["qdd"][row]
+            # Two ways to the same torque: some 30 N m, rounded.
+            np.testing.assert_allclose(model.inverse(q, qd, qdd), table["tau"][row], atol=1e-11)
+        for wrong in ("t,colour", "lambda", ""):
+            with self.assertRaises(cr.Error):
+                pendulum.table(wrong)
+
     def test_a_dict_is_a_scene(self):
         text = "\n".join(f"{key}: {value}" for key, value in
                          {**FALL, "start": "{q: [0.3, 1]}", "torque": "[sin(t), 0]"}.items())

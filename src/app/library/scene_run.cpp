@@ -9,6 +9,7 @@
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
 #include "app/film/target.hpp"
+#include "app/report/motion_table.hpp"
 #include "app/report/run_report.hpp"
 #include "app/works/moment.hpp"
 #include "app/works/render_film.hpp"
@@ -182,6 +183,19 @@ const EnergyCourse& SceneRun::energy(int panel) const {
     energy->error.push_back(now.error);
   }
   return *energy;
+}
+
+std::vector<RunArray> SceneRun::table(const std::string& columns, int panel) const {
+  const std::vector<MotionColumn> chosen = parse_columns(columns, "columns");
+  const Asked asked(*state_);
+  return state_->watched([&] {
+    const Simulation& simulation = state_->film.panels.at(std::size_t(panel)).simulation;
+    require_columns(simulation, chosen, "columns");
+    std::vector<RunArray> arrays;
+    for (DataArray& one : motion_table(simulation, trajectory(panel), chosen).arrays)
+      arrays.push_back({std::move(one.name), std::move(one.shape), std::move(one.values)});
+    return arrays;
+  });
 }
 
 std::string SceneRun::name() const {

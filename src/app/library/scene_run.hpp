@@ -43,6 +43,13 @@ struct EnergyCourse {
   std::vector<double> error;  // total - total at the start - work of the torques and of friction
 };
 
+// An array of a table: an entry a row, of that shape; empty: one number.
+struct RunArray {
+  std::string name;                // "qdd"
+  std::vector<std::size_t> shape;  // of an entry
+  std::vector<double> values;      // row by row
+};
+
 // All of it may be asked for by several threads, one after the other. Everything throws Error.
 class SceneRun {
  public:
@@ -64,6 +71,9 @@ class SceneRun {
   // nv numbers a sample, N m or N, as the run felt them, friction left out.
   const std::vector<double>& torques(int panel = 0) const;
   const EnergyCourse& energy(int panel = 0) const;
+
+  // What `simulate --columns` writes, "t,qdd,lambda,x_G": a row a sample, but one of samples at one instant.
+  std::vector<RunArray> table(const std::string& columns, int panel = 0) const;
 
   std::string name() const;               // of the scene's file, without its ending
   std::string effective_scene() const;    // YAML with every default filled in

@@ -135,6 +135,11 @@ class Panel:
         """(n,) energy - energy[0] - work, J: 0 but for the method's error."""
         return self._native.energy(self._index, "error")
 
+    def table(self, columns: str = "t,q,qd,qdd,tau") -> Dict[str, NDArray[np.float64]]:
+        """Arrays by name, as `chainreel simulate --columns` writes them: t, q, qd, qdd, tau, energy, energy_error, x_G, y_G, z_G,
+        xd_G, yd_G, zd_G, lambda, frames; (rows, ..) each, m, rad, s, N, N m, J. Samples at one instant are one row."""
+        return self._native.table(columns, self._index)
+
     @property
     def events(self) -> List[Tuple[str, float]]:
         """What happened, and when, s."""
