@@ -10,6 +10,7 @@
 #include "core/machine.hpp"
 #include "sim/drive/limits.hpp"
 #include "sim/drive/recorded_motion.hpp"
+#include "sim/headway.hpp"
 #include "sim/step_grid.hpp"
 #include "sim/system/chain_system.hpp"
 #include "sim/system/forms.hpp"
@@ -31,11 +32,6 @@ constexpr double kLostConstraint = 1e-6;  // m or rad, behind a projection
 constexpr double kCutTolerance = 1e-13;
 constexpr int kMostCuts = 12;
 constexpr double kNearCut = 1e-6;  // of the step that ends there: good enough where no more can be had
-// So many steps that at their pace the run would need 100,000 times as many more end it, or 1,000 times where they are shorter on
-// average than any machine's motion asks for: it makes no headway.
-constexpr long kStepsOfHeadway = 1 << 17;
-constexpr double kHopeless = 1e5, kDoubtful = 1e3;
-constexpr double kShortStep = 1e-6;  // s
 // Evaluations times freedoms, and steps: a long run listens as soon as a short one, whatever its mechanism.
 constexpr double kWorkBetweenStopRequests = 1 << 15;
 
@@ -244,15 +240,12 @@ class Run {
   ConstVec q_now() const { return projected_ ? ConstVec(q_end_) : integrator_->q(); }
   ConstVec qd_now() const { return projected_ ? ConstVec(qd_end_) : integrator_->v(); }
 
-  // Steps that a method chooses can become so small that the end is out of reach, and yet not small enough to be lost.
   bool makes_headway() {
-    if (simulation_.step > 0 || steps() % kStepsOfHeadway != 0) return true;
-    const double done = now() - headway_;
-    headway_ = now();
-    const double patience = done < kShortStep * kStepsOfHeadway ? kDoubtful : kHopeless;
-    if (done * patience >= simulation_.duration - now()) return true;
+    if (simulation_.step > 0) return true;
+    const double done = headway_.hopeless(steps(), now(), simulation_.duration);
+    if (done == 0) return true;
     set_trouble(RunStatus::step_too_small,
-                "the last " + std::to_string(kStepsOfHeadway) + " steps came forward by " + format_significant(done, 3) + " s: " +
+                "the last " + std::to_string(Headway::kSteps) + " steps came forward by " + format_significant(done, 3) + " s: " +
                     (constrained_ ? "the constraints are singular near this pose, as of a chain stretched out along them"
                                   : "the tolerance is too small for this motion, or a stiff part needs an implicit method"),
                 now());
@@ -417,7 +410,7 @@ class Run {
   std::vector<LimitEvent> seen_limits_;    // but not found on a step yet
   double next_request_ = 0;  // the work at which the next stop request is asked
   bool start_anew_ = false;
-  double headway_ = 0;  // the time at which that was looked at last
+  Headway headway_;
   Trajectory trajectory_;
 };
 
@@ -425,30 +418,18 @@ class Run {
 
 std::string to_string(RunStatus status) {
   switch (status) {
-    case RunStatus::finished:
-      return "finished";
-    case RunStatus::diverged:
-      return "diverged";
-    case RunStatus::torque_not_finite:
-      return "torque_not_finite";
-    case RunStatus::stopped:
-      return "stopped";
-    case RunStatus::event_not_finite:
-      return "event_not_finite";
-    case RunStatus::not_converged:
-      return "not_converged";
-    case RunStatus::step_too_small:
-      return "step_too_small";
-    case RunStatus::inconsistent:
-      return "inconsistent";
-    case RunStatus::constraint_lost:
-      return "constraint_lost";
-    case RunStatus::chattering:
-      return "chattering";
-    case RunStatus::out_of_budget:
-      return "out_of_budget";
-    case RunStatus::interrupted:
-      return "interrupted";
+    case RunStatus::finished: return "finished";
+    case RunStatus::diverged: return "diverged";
+    case RunStatus::torque_not_finite: return "torque_not_finite";
+    case RunStatus::stopped: return "stopped";
+    case RunStatus::event_not_finite: return "event_not_finite";
+    case RunStatus::not_converged: return "not_converged";
+    case RunStatus::step_too_small: return "step_too_small";
+    case RunStatus::inconsistent: return "inconsistent";
+    case RunStatus::constraint_lost: return "constraint_lost";
+    case RunStatus::chattering: return "chattering";
+    case RunStatus::out_of_budget: return "out_of_budget";
+    case RunStatus::interrupted: return "interrupted";
   }
   return "unknown";
 }

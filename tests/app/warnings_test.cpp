@@ -154,5 +154,23 @@ TEST(Check, SaysThatFrictionLetsCreep) {
   EXPECT_THAT(plain.out, Not(HasSubstr("friction")));
 }
 
+// A pen at the end of its reach: the only pose there, where no step of a tolerance leads on.
+TEST(Headway, OfARunThatMakesNoneIsAnErrorThatNamesThePose) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("stretched.yaml",
+                                         "model: {links: [0.6, 0.5], masses: [2, 1]}\nstart: {q: [90deg, 0]}\n"
+                                         "constraints: [{line: {frame: gripper, point: [0, 1.1], direction: [1, 0]}}]\nduration: 3\n");
+  const ProgramResult result = run_program({"simulate", scene, "--set", "method=dop853", "--set", "torque=[1, 0]", "-o", folder.file("a.csv")},
+                                           {.folder = "", .environment = {}, .timeout_s = 60});
+  EXPECT_EQ(result.status, 5) << result.err;
+  EXPECT_FALSE(result.timed_out);
+  EXPECT_THAT(result.err, HasSubstr("the constraints are singular near this pose"));
+  // Many short steps of a run that goes on are none: 400,000 of them.
+  EXPECT_EQ(run_program({"simulate", "rr_free", "--set", "method=dop853", "--set", "step=null", "--set", "tolerance=1e-9", "--set", "duration=8000",
+                         "--set", "video.fps=1", "--quiet", "-o", folder.file("b.csv")})
+                .status,
+            0);
+}
+
 }  // namespace
 }  // namespace chainreel
