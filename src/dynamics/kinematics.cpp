@@ -7,6 +7,7 @@
 #include <string>
 #include <type_traits>
 
+#include "core/error.hpp"
 #include "core/scalar.hpp"
 #include "dynamics/floating.hpp"
 #include "dynamics/recursions.hpp"
@@ -256,6 +257,8 @@ void q_rate(const Chain& chain, ConstVec q, ConstVec qd, Vec q_dot) {
 }
 
 void advance(const Chain& chain, Vec q, ConstVec qd, double h) {
+  if (q.size() != std::size_t(chain.nq) || qd.size() != std::size_t(chain.nv)) [[unlikely]]
+    throw Error(ExitCode::bad_input, "a step is from q of nq = " + std::to_string(chain.nq) + " numbers by qd of nv = " + std::to_string(chain.nv));
   for_each_coordinate(
       chain, [&](std::size_t i, std::size_t v) { q[i] += h * qd[v]; },
       [&](std::size_t i, std::size_t v) { advance_floating(&q[i], &qd[v], h); });

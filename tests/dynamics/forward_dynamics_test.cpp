@@ -177,6 +177,8 @@ TEST(ForwardDynamicsTest, RefusesVectorsAndWorkspacesOfOtherChains) {
     EXPECT_TRUE(refuses([&] { compute_kinematics(chain, ws, two, wrong); }));
     EXPECT_TRUE(refuses([&] { compute_ground_reaction(chain, ws, two, two, wrong); }));
     EXPECT_TRUE(refuses([&] { energy_of(chain, ws, two, wrong); }));
+    EXPECT_TRUE(refuses([&] { std::vector<double> q = wrong; advance(chain, q, two, 0.1); }));
+    EXPECT_TRUE(refuses([&] { std::vector<double> q = two; advance(chain, q, wrong, 0.1); }));
     EXPECT_TRUE(refuses([&] { effective_mass_of(chain, ws, wrong, 0, Task::linear); }));
   }
   EXPECT_TRUE(refuses([&] { compute_forward_dynamics(chain, foreign, two, two, two); }));

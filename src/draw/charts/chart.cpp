@@ -14,7 +14,7 @@ constexpr double kLeastPanel = 20;  // ems of a tick's text, on paper
 constexpr double kZonePad = 0.012;
 constexpr double kWidestZone = 0.34;  // of the panel
 constexpr double kZoneOpacity = 0.14;
-constexpr const char* kZoneWords = "no double-precision method can be here";
+constexpr const char* kZoneWords = "under the growth of one rounding";
 
 // The longest form that fits.
 std::string cost_title(ChartCost cost, double width, const PlotStyle& style) {

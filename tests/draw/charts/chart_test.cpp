@@ -84,14 +84,14 @@ TEST(Chart, NamesEveryMethodAndWhatItShows) {
   const Picture picture = work_precision_chart(data, kBoth, look_of(light_theme()));
   for (const ChartCurve& curve : data.curves) EXPECT_TRUE(says(picture, curve.method)) << curve.method;
   for (const char* words : {"time per run [s]", "evaluations of the dynamics", "final error [rad]", "auto",
-                            "double-", "2\u00D710\u207B\u00B2\u2074", "failed", "revision 1a2b3c4"})
+                            "rounding", "2\u00D710\u207B\u00B2\u2074", "failed", "revision 1a2b3c4"})
     EXPECT_TRUE(says(picture, words)) << words;
   WorkPrecision less = data;
   less.choice.reset();
   less.floor = 0;
   const Picture without = work_precision_chart(less, kBoth, look_of(light_theme()));
   EXPECT_FALSE(says(without, "auto"));
-  EXPECT_FALSE(says(without, "double-"));
+  EXPECT_FALSE(says(without, "rounding"));
 }
 
 // A method whose marker is a disc, so that its points can be counted.
