@@ -236,9 +236,10 @@ TEST(Resume, OfAKilledRenderGivesTheSameBytesAndLeavesNothing) {
   const ProgramResult killed = run_command(with({"bash", "-c", kill, program_path()}, resumed));
   EXPECT_EQ(killed.status, 137) << killed.err;
   EXPECT_FALSE(fs::exists(folder.file("a.mp4")));
-  // One of those is spoilt since.
+  // Those that are whole are spoilt since; one of which the kill left but a beginning (a hidden name, at times no byte) stays.
   for (const auto& entry : fs::directory_iterator(folder.file(".b.mov.resume")))
-    if (entry.path().extension() == ".chunk") fs::resize_file(entry.path(), fs::file_size(entry.path()) - 1);
+    if (entry.path().extension() == ".chunk" && !entry.path().filename().string().starts_with('.'))
+      fs::resize_file(entry.path(), fs::file_size(entry.path()) - 1);
   const ProgramResult result = run_program(resumed);
   ASSERT_EQ(result.status, 0) << result.err;
   expect_same_files(whole.path(), folder.path());
