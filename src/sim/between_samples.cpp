@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/format.hpp"
 #include "core/scalar.hpp"
 #include "dynamics/kinematics.hpp"
 #include "sim/plots.hpp"
+#include "sim/torques_along.hpp"
 
 namespace chainreel {
 namespace {
@@ -40,7 +42,8 @@ struct Denser {
 
 class Filler {
  public:
-  Filler(const Simulation& simulation, const Trajectory& run) : chain_(simulation.chain), run_(run) {
+  Filler(const Simulation& simulation, const Trajectory& run)
+      : simulation_(simulation), chain_(simulation.chain), run_(run), system_(simulation), qdd_(std::size_t(chain_.nv)) {
     kinks_ = simulation.torque->breaks(simulation.duration);
     std::sort(kinks_.begin(), kinks_.end());
     const auto room = std::clamp<std::size_t>(kMostBetween / std::size_t(std::max(run.size(), 1)), 1, kBetween);
@@ -50,12 +53,15 @@ class Filler {
 
   Denser fill() {
     denser_.run.nq = run_.nq, denser_.run.nv = run_.nv, denser_.run.holds = run_.holds;
+    denser_.run.rows = run_.lambda.empty() ? 0 : run_.rows;
     for (int k = 0; k < run_.size(); ++k) {
       denser_.samples.push_back(denser_.run.size());
       put(run_.t[std::size_t(k)], run_.q_at(k), run_.qd_at(k));
+      if (denser_.run.rows > 0) put_multipliers(run_.lambda_at(k));
       if (k + 1 < run_.size() && run_.t[std::size_t(k) + 1] > run_.t[std::size_t(k)]) fill_behind(k);
     }
     denser_.evenly = evenly_;
+    simulation_.torque->leave_pieces();
     return std::move(denser_);
   }
 
@@ -67,6 +73,23 @@ class Filler {
     run.qd.insert(run.qd.end(), qd.begin(), qd.end());
   }
 
+  void put_multipliers(ConstVec lambda) {
+    denser_.run.lambda.insert(denser_.run.lambda.end(), lambda.begin(), lambda.end());
+  }
+
+  // The state at t back onto the constraints, where the run does so, and the multipliers there: no number where it does
+  // not come back.
+  std::vector<double> meet_constraints(double t) {
+    ConstrainedChain& constrained = *system_.constrained();
+    Workspace& ws = system_.workspace();
+    hold_as_then(system_, simulation_, run_, t);
+    if (constrained.projects() && !constrained.project(ws, q_, qd_).reached)
+      return std::vector<double>(std::size_t(run_.rows), std::numeric_limits<double>::quiet_NaN());
+    constrained.accelerate(ws, q_, qd_, system_.torque(t, q_, qd_), qdd_);
+    const ConstVec lambda = constrained.lambda();
+    return {lambda.begin(), lambda.end()};
+  }
+
   void fill_behind(int k) {
     const double a = run_.t[std::size_t(k)], b = run_.t[std::size_t(k) + 1];
     std::vector<double> within;
@@ -75,7 +98,10 @@ class Filler {
       within.push_back(*kink);
     for (const double t : instants_between(a, b, evenly_, within)) {
       state_between(k, (t - a) / (b - a), b - a);
+      std::vector<double> lambda;
+      if (denser_.run.rows > 0) lambda = meet_constraints(t);
       put(t, q_, qd_);
+      put_multipliers(lambda);
     }
   }
 
@@ -101,13 +127,15 @@ class Filler {
     }
   }
 
+  const Simulation& simulation_;
   const Chain& chain_;
   const Trajectory& run_;
+  ChainSystem system_;
   std::vector<double> kinks_;
   int evenly_ = 1;
   std::size_t stride_ = 1;
   Denser denser_;
-  std::vector<double> q_, qd_;
+  std::vector<double> q_, qd_, qdd_;
 };
 
 struct Hidden {
@@ -161,8 +189,10 @@ std::optional<Doubt> doubt_between(const Simulation& simulation, const Trajector
   const auto look = [&](const PlotSet& plots) {
     for (const PlotCurves& plot : plot_curves(plots, simulation, denser.run, denser.run.size())) look_at(plot, denser, worst);
   };
-  look(*make_plots(simulation.chain, {{"qd", "", {}}, {"tau", "", {}}}, {}));
-  if (simulation.plots && trajectory.rows == 0) {
+  std::vector<PlotEntry> always{{"qd", "", {}}, {"tau", "", {}}};
+  if (denser.run.rows > 0) always.push_back({"lambda", "", {}});
+  look(*make_plots(simulation.chain, always, {}, {}, {}, denser.run.rows));
+  if (simulation.plots && trajectory.rows == denser.run.rows) {
     PlotSet expressions = *simulation.plots;
     std::erase_if(expressions.list, [](const PlotSet::Plot& plot) { return plot.quantity != PlotQuantity::expression; });
     look(expressions);

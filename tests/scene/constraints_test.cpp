@@ -13,6 +13,7 @@ namespace chainreel {
 namespace {
 
 using testing::AllOf;
+using testing::AnyOf;
 using testing::HasSubstr;
 
 template <class Form>
@@ -132,6 +133,26 @@ TEST_F(SceneConstraints, WhatCannotBeReachedIsRefusedWithTheDistance) {
       error(kPenStart + "constraints: [{line: {frame: gripper, point: [0, 2.5], direction: [1, 0]}}]\n"),
       HasSubstr("if it is meant"))
       << "far, but not out of reach";
+}
+
+// Stretched out towards its line a chain leaves it by its angles squared: no first derivative shows the way (rr and rrr have
+// links of 1 m). Whether there is a pose is known in closed form: the line's height is below the chain's length or not.
+TEST_F(SceneConstraints, AStretchedStartFindsThePosesThatThereAre) {
+  const auto line = [](const char* height) {
+    return std::string("constraints: [{line: {frame: gripper, point: [0, ") + height + "], direction: [1, 0]}}]\n";
+  };
+  const std::string up = "start: {q: [90deg, 0, 0]}\n", level = "start: {q: [0, 0, 0]}\n";
+  const Simulation near = ready(up + line("2.9999"));
+  ASSERT_EQ(notices_.size(), 1u);
+  EXPECT_THAT(notices_[0], HasSubstr("0.0001 off 'line gripper' and was moved"));
+  const double y = std::sin(near.q0[0]) + std::sin(near.q0[0] + near.q0[1]) + std::sin(near.q0[0] + near.q0[1] + near.q0[2]);
+  EXPECT_NEAR(y, 2.9999, 1e-13);  // places to 64 round-offs
+  for (const char* height : {"2.9999", "2.99", "1.5", "0.2", "-2.9999"})
+    for (const std::string& start : {up, level})
+      EXPECT_THAT(error(start + line(height)), AnyOf("", HasSubstr("if it is meant"))) << height << " " << start;
+  EXPECT_THAT(error(level + line("3")), HasSubstr("at the very end of reach"));
+  for (const std::string& start : {up, level})
+    EXPECT_THAT(error(start + line("3.1")), HasSubstr("is out of reach: the nearest pose that was found leaves it 0.1 away"));
 }
 
 TEST_F(SceneConstraints, BadInputNamesPlaceAndRemedy) {

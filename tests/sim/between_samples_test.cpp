@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/runs.hpp"
@@ -38,6 +39,37 @@ TEST(BetweenSamples, FindsAPulseThatNoFrameMeets) {
     ASSERT_TRUE(doubt) << pulse;
     EXPECT_NEAR(doubt->amount, 1, 1e-9) << pulse;
   }
+}
+
+// A pen whose chain is all but stretched for an instant presses on its line with a peak that is narrower than a frame.
+// Oracle: the same run with a row a step, whose multipliers are the run's own.
+TEST(BetweenSamples, FindsAPeakOfMultipliersThatNoFrameMeets) {
+  Simulation run = run_of("rrr", {"-6*sin(2*t)", "0", "0"}, 2, "dop853", 0);
+  run.options.tolerance = 1e-10;
+  run.q0 = {std::acos(0.0), -std::acos(0.0), -std::acos(0.0) / 3};
+  run.constraints.list = {LineConstraint{"gripper", {0, 0.5, 0}, {1, 0, 0}}};
+  const auto range = [](const Trajectory& trajectory) {
+    const auto [low, high] = std::minmax_element(trajectory.lambda.begin(), trajectory.lambda.end());
+    return std::pair(*low, *high);
+  };
+  const auto [low, high] = range(simulate_every_step(run));
+  int found = 0;
+  for (const double fps : {20.0, 30.0, 960.0}) {
+    const Trajectory framed = simulate(run, instants(2, 1 / fps));
+    const auto [least, most] = range(framed);
+    const double hidden = std::max(high - most, least - low);
+    const std::optional<Doubt> doubt = doubt_between(run, framed);
+    if (fps > 900) {
+      EXPECT_FALSE(doubt) << doubt->words;
+    } else if (hidden > 0.2 * (most - least)) {
+      ++found;
+      ASSERT_TRUE(doubt) << fps;
+      EXPECT_THAT(doubt->words, HasSubstr("lambda"));
+      // Eight looks a frame see most of a peak, and a cubic through the frames is off by a part of it.
+      EXPECT_GT(doubt->amount, 0.5 * hidden / (high - low)) << fps;
+    }
+  }
+  EXPECT_GT(found, 0) << "a test that looks at nothing";
 }
 
 // Negative controls: smooth motions, torques that jump once and what rests say nothing.

@@ -6,6 +6,7 @@
 #include "dynamics/constraints/constrained_dynamics.hpp"
 #include "dynamics/constraints/constraint_projection.hpp"
 #include "dynamics/constraints/constraint_rows.hpp"
+#include "dynamics/constraints/pose_search.hpp"
 #include "scene/keys/constraints/kind.hpp"
 #include "scene/run/prepare.hpp"
 #include "sim/system/constraint_plan.hpp"
@@ -17,6 +18,8 @@ namespace {
 constexpr double kFarthestMove = 0.5;  // of a coordinate, rad or m
 // Less is the rounding of a start that was written with all its digits.
 constexpr double kNoteworthy = 1e-9;  // m or rad, and per second
+// What is left of a way to a stretched chain is of order two: where this is left, half of all digits of q are right.
+constexpr double kEndOfReach = 1e-6;  // m or rad
 // A share of a force: less than it is the rounding of a direction.
 constexpr double kBorne = 1e-9;
 
@@ -50,18 +53,18 @@ ConstraintPlan plan_of(const Scene& scene, const Chain& chain) {
 // Why no pose fulfils all constraints: one of them that none fulfils, or that they contradict each other.
 [[noreturn]] void refuse_unreachable(const Scene& scene, const Simulation& simulation,
                                      const ConstraintSet& all, const Projection& together) {
-  const Chain& chain = simulation.chain;
-  Workspace ws(chain);
   ProblemList problems;
   for (std::size_t k = 0; k < simulation.constraints.list.size(); ++k) {
-    const ConstraintSet one(chain, {simulation.constraints.list[k]});
-    ConstrainedWorkspace cws(chain, one);
-    std::vector<double> q = simulation.q0;
-    const Projection alone = project_positions(chain, ws, one, cws, q);
+    const ConstraintSet one(simulation.chain, {simulation.constraints.list[k]});
+    const Projection alone = find_pose(simulation.chain, one, simulation.q0).way;
     if (alone.reached) continue;
-    problems.add("constraint '" + name_of(simulation.constraints.list[k]) +
-                     "' is out of reach: the nearest pose that was found leaves it " +
-                     format_significant(alone.after, 3) + " away; move it, or start elsewhere",
+    const std::string name = "constraint '" + name_of(simulation.constraints.list[k]) + "' ";
+    const std::string away = format_significant(alone.after, 3);
+    problems.add(alone.after < kEndOfReach
+                     ? name + "lies at the very end of reach (the nearest pose that was found leaves it " + away +
+                           " away), where the chain can bear any force along itself; move it inwards"
+                     : name + "is out of reach: the nearest pose that was found leaves it " + away +
+                           " away; move it, or start elsewhere",
                  scene.constraints[k].place);
   }
   problems.throw_if_any();
@@ -109,11 +112,12 @@ void prepare_constraints(Scene& scene, Simulation& simulation) {
   const ConstraintSet set(chain, simulation.constraints.list);
   ConstrainedWorkspace cws(chain, set);
   Workspace ws(chain);
-  std::vector<double> q = simulation.q0, qd = simulation.qd0;
-  const Projection way = project_positions(chain, ws, set, cws, q);
+  std::vector<double> qd = simulation.qd0;
+  auto [way, q] = find_pose(chain, set, simulation.q0);
   const Place start =
       scene.place_of("start.q").line > 0 ? scene.place_of("start.q") : scene.place_of("constraints");
   if (!way.reached) refuse_unreachable(scene, simulation, set, way);
+  compute_constraints(chain, ws, set, cws, q, qd);
   if (const int row = reversed_row(ws, set); row >= 0)
     throw Error(ExitCode::bad_input,
                 "the start holds '" + set.row_names()[std::size_t(row)] +
