@@ -12,6 +12,7 @@
 namespace chainreel {
 namespace {
 
+constexpr double kMostAdded = 0.25, kAlwaysAdded = 2;  // of the motion; s, up to the motion's own length
 constexpr double kAround = 0.2;             // s of the motion
 constexpr double kAroundOfMotion = 0.1;     // at most: short motions have short events
 constexpr double kEase = 0.5, kApart = 2;   // of `around`
@@ -64,7 +65,7 @@ class Windows {
   bool add_where_it_fits(const Window& one) {
     Windows with = *this;
     with.add(one);
-    if (!(FilmClock(end_, {}, with.stretches()).film_seconds() <= kLongestFilm * end_)) return false;
+    if (!(FilmClock(end_, {}, with.stretches()).film_seconds() <= longest_film(end_, rule_.is_asked))) return false;
     list_ = std::move(with.list_);
     return true;
   }
@@ -100,6 +101,10 @@ void add_beginning(Windows& windows, const Window& whole, double around) {
 }
 
 }  // namespace
+
+double longest_film(double motion, bool is_asked) {
+  return is_asked ? 2 * motion : motion + std::max(kMostAdded * motion, std::min(kAlwaysAdded, motion));
+}
 
 bool may_be_hasty(const Scene& scene, const Chain& chain) {
   const auto turns = [](const Body& body) { return body.joint.kind != JointKind::prismatic; };

@@ -6,7 +6,7 @@
 //
 // Each is shown slowed down from `around` before it until `around` behind it, half of which the speed takes to change.
 // Of what lies nearer to one another than twice `around`, one stretch is made: the speed does not swing. A film never
-// becomes more than kLongestFilm times as long as its motion. Events come first, those that fit, then turns in the order of
+// becomes longer than longest_film says: whoever asks for some seconds gets about these. Events come first, those that fit, then turns in the order of
 // time; the first that does not fit is cut where the room ends, and no others follow, so that a motion that is fast
 // throughout is seen slowly where it begins to be.
 #pragma once
@@ -19,7 +19,9 @@
 
 namespace chainreel {
 
-inline constexpr double kLongestFilm = 2;  // of the motion
+// s. By itself: a quarter more than the motion, or two seconds more, which let a short one be twice as long and no longer. By
+// numbers of the scene's own twice as long.
+double longest_film(double motion, bool is_asked = false);
 
 // A part of the motion that asks for slow motion, s.
 struct Haste {

@@ -72,7 +72,9 @@ void add_own_slow_motion(const FilmReport& report, std::vector<std::string>& not
   std::vector<std::string> stretches;
   for (const Stretch& one : report.slow_motion) stretches.push_back(to_words(one));
   if (!stretches.empty())
-    notes.push_back(scene.name + ": in slow motion: " + joined(stretches) + "; slow_motion=none takes that away");
+    notes.push_back(scene.name + ": film lasts " + format_fixed(report.clock.film_seconds(), 1) + " s, its motion " +
+                    format_shortest(scene.duration) + " s: slow motion at " + (stretches.size() == 1 ? "1 place" : std::to_string(stretches.size()) + " places") +
+                    " (--set slow_motion=none): " + joined(stretches));
 }
 
 // What is to be said of a film that became what it is, to its caller or on standard error.
