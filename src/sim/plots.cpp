@@ -36,6 +36,14 @@ std::string with_unit(const std::string& words, JointUnits units, const char* tu
   return words + " [" + turning + ", " + sliding + "]";
 }
 
+}  // namespace
+
+std::string with_joint_units(const std::string& words, const Chain& chain, const char* turning, const char* sliding) {
+  return with_unit(words, units_of(chain), turning, sliding);
+}
+
+namespace {
+
 std::string title_of(PlotQuantity quantity, const Chain& chain) {
   const JointUnits units = units_of(chain);
   switch (quantity) {

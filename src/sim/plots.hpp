@@ -57,6 +57,9 @@ struct PlotSet {
 // The names of all but `expression`, which has none.
 std::span<const Name> names_of(PlotQuantity);
 
+// A quantity of joints with its unit as their kinds have it: "q [rad]", "q [m]", "q [rad, m]".
+std::string with_joint_units(const std::string& words, const Chain& chain, const char* turning, const char* sliding);
+
 // Null where there are none. `rows` of the constraints. Throws Error with every problem.
 std::shared_ptr<const PlotSet> make_plots(const Chain& chain, const std::vector<PlotEntry>& entries,
                                           const Parameters& parameters, const NamedFrames& frames = {},

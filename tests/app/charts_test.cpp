@@ -80,7 +80,7 @@ TEST(ChartCommand, WritesAPictureAndTheNumbersBesideIt) {
                    "0.005", "--methods", "rk4,dop853", "-o", folder.file("chart.svg")});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, AllOf(HasSubstr("reference: "), HasSubstr("uncertainty"), HasSubstr("auto: ")));
-  EXPECT_THAT(read_whole_file(folder.file("chart.svg")), AllOf(HasSubstr("<svg"), HasSubstr("rk4")));
+  EXPECT_THAT(read_whole_file(folder.file("chart.svg")), AllOf(HasSubstr("<svg"), HasSubstr("rk4"), HasSubstr("[rad]<"), testing::Not(HasSubstr("[rad, m]"))));
   const std::string text = read_whole_file(folder.file("chart.csv"));
   EXPECT_THAT(text, AllOf(HasSubstr("# machine: "), HasSubstr("# compiler: "), HasSubstr("# revision: ")));
   const Csv csv(text);

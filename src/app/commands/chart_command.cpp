@@ -17,6 +17,7 @@
 #include "draw/charts/chart.hpp"
 #include "draw/page/house_style.hpp"
 #include "sim/choice/work_precision.hpp"
+#include "sim/plots.hpp"
 
 namespace chainreel {
 namespace {
@@ -91,7 +92,7 @@ WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOp
   data.title = "Speed against accuracy";
   data.subtitle = (prepared.scene.title.empty() ? prepared.scene.name : prepared.scene.title) + ", " +
                   format_shortest(prepared.simulation.duration) + " s; reference: " + measured.reference.how;
-  data.error_title = "final error [rad, m]";
+  data.error_title = with_joint_units("final error", prepared.simulation.chain, "rad", "m");
   data.error_meaning = "error: " + scale_text(measured);
   data.floor = measured.reference.amplification * 0x1p-53;
   data.reference_uncertainty = measured.reference.uncertainty;
