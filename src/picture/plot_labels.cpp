@@ -95,10 +95,15 @@ double end_labels_width(std::span<const std::string> texts, const PlotStyle& sty
   return kKeyLength + kKeyToText + widest;
 }
 
+// Ends that differ by rounding alone keep their order, whatever else a run was sampled at.
+static double same_height(const EndLabel& label) {
+  return std::round(label.end.y * 1e6);
+}
+
 void draw_end_labels(Picture& picture, const PlotFrame& frame, std::vector<EndLabel> labels, double x,
                      const PlotStyle& style) {
   std::stable_sort(labels.begin(), labels.end(),
-                   [](const EndLabel& a, const EndLabel& b) { return a.end.y < b.end.y; });
+                   [](const EndLabel& a, const EndLabel& b) { return same_height(a) < same_height(b); });
   // Closer than lines of a paragraph where the frame is low; what it cannot hold stands out above it, not below, where
   // the numbers are.
   const double em = style.text(size::kTick), count = double(std::max<std::size_t>(labels.size(), 1));

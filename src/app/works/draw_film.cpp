@@ -30,7 +30,7 @@ constexpr double kBytesOfProcess = 300e6, kBytesOfThread = 100e6, kBytesOfPixel 
 // The whole picture of a frame, for pages of shapes.
 Picture picture_of(const Film& film, int frame) {
   Picture picture = film.static_layer();
-  picture.append(film.frame(frame));
+  picture.append(film.still(frame));
   return picture;
 }
 

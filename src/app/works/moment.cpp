@@ -47,7 +47,7 @@ struct Moments::State {
     Moment moment;
     moment.at = runs.times()[std::size_t(frame)];
     moment.picture = pictures.static_layer();
-    moment.picture.append(pictures.frame(frame));
+    moment.picture.append(pictures.still(frame));
     moment.title = runs.size() == 1 ? title_of(film.panels.front().scene, runs[0]) : film.scene.title;
     moment.memory = memory;
     moment.memory.audit["at"] = moment.at;

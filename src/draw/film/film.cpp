@@ -7,7 +7,8 @@
 namespace chainreel {
 namespace {
 
-constexpr double kVeil = 0.55;  // opacity
+constexpr double kVeil = 0.55;       // opacity
+constexpr double kNotePitch = 1.35;  // of the em
 
 std::vector<double> first_times(const Trajectory& trajectory, int frames) {
   const auto count = std::size_t(std::clamp(frames, 0, trajectory.size()));
@@ -81,10 +82,13 @@ Picture Film::static_layer() const {
   return picture;
 }
 
-void Film::draw_panel(Picture& picture, std::size_t i, int k) const {
+void Film::draw_panel(Picture& picture, std::size_t i, int k, bool is_still) const {
   const Panel& panel = panels_[i];
   const int shown = std::clamp(k, 0, panel.last());
-  MarkLabels labels(words_.at(i, shown));
+  std::vector<StandingWord> words(words_.at(i, shown).begin(), words_.at(i, shown).end());
+  if (is_still)
+    for (StandingWord& word : words) word.opacity = word.opacity > 0 ? 1 : 0;
+  MarkLabels labels(words);
   for (std::size_t l = 0; l < layers_.size(); ++l)
     if (layers_[l]->is_of(panel.motion()))
       layers_[l]->draw(picture, {panel, panel.motion().pose_at(shown), shown, k > shown, view_.corner(l, i), labels});
@@ -99,10 +103,18 @@ void Film::draw_veil(Picture& picture, std::size_t i) const {
 }
 
 Picture Film::frame(int k) const {
+  return drawn(k, false);
+}
+
+Picture Film::still(int k) const {
+  return drawn(k, true);
+}
+
+Picture Film::drawn(int k, bool is_still) const {
   const auto guard = alone();
   k = std::clamp(k, 0, frame_count() - 1);
   Picture picture = page();
-  for (std::size_t i = 0; i < panels_.size(); ++i) draw_panel(picture, i, k);
+  for (std::size_t i = 0; i < panels_.size(); ++i) draw_panel(picture, i, k, is_still);
   draw_notes(picture, k);
   for (const PlotStrip& plot : sheet_.plots) plot.draw_frame(picture, stage_->times[std::size_t(k)]);
   for (const auto& layer : layers_) layer->draw_page(picture, view_.shared_page(*stage_, sheet_), k);
@@ -119,9 +131,19 @@ void Film::draw_notes(Picture& picture, int k) const {
     const TextStyle style{Face::label, scaled(size::kAxis, text_scale), stage_->theme.ink, Align::left};
     const std::string whose = stage_->is_ghost() ? panels_[i].title() + ": " : "";
     TextLine line;
-    // In a narrow row the last event alone, and where that is still too long its name.
+    // A row of two lines has an event each; in a narrow one of one line stands the last alone, and where that is still too long
+    // its name.
+    const double pitch = kNotePitch * style.size;
     for (const int events : {2, 1, 0}) {
-      line = fit_text(stage_->fonts, whose + panels_[i].note(k, events), style, row.width(), text_scale);
+      const std::string note = whose + panels_[i].note(k, events);
+      if (const std::size_t end = note.find(kBetweenEvents); end != std::string::npos && row.height() > 1.5 * pitch) {
+        const TextLine first = fit_text(stage_->fonts, note.substr(0, end), style, row.width(), text_scale);
+        if (first.advance > row.width() + kRoundOff) continue;
+        draw_text(picture, first, {row.x0, row.y0 + kTitleDescent * style.size + pitch});
+        line = fit_text(stage_->fonts, note.substr(end + std::string_view(kBetweenEvents).size()), style, row.width(), text_scale);
+      } else {
+        line = fit_text(stage_->fonts, note, style, row.width(), text_scale);
+      }
       if (line.advance <= row.width() + kRoundOff) break;
     }
     // One that is still too long is as small as it must be, down to what can be read.

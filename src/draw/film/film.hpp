@@ -33,6 +33,9 @@ class Film {
   Picture static_layer() const;  // background, words, ground marks: what no frame changes
   Picture frame(int k) const;    // everything that moves, painter's order, drawn over the static layer
 
+  // The same for a picture that stands alone: words of marks that come or go then are there in full.
+  Picture still(int k) const;
+
   const FilmClock& clock() const { return stage_->clock; }
   int frame_count() const { return int(stage_->times.size()); }
   int panel_count() const { return int(panels_.size()); }
@@ -48,7 +51,8 @@ class Film {
   Picture page() const;
   std::lock_guard<std::mutex> alone() const { return std::lock_guard(*drawing_); }
   void draw_veil(Picture& picture, std::size_t i) const;
-  void draw_panel(Picture& picture, std::size_t i, int k) const;
+  void draw_panel(Picture& picture, std::size_t i, int k, bool is_still) const;
+  Picture drawn(int k, bool is_still) const;
   void draw_cell_frames(Picture& picture) const;
   void draw_notes(Picture& picture, int k) const;
 

@@ -24,6 +24,8 @@ constexpr double kNumberGap = 0.010;                 // units of H, beyond the e
 constexpr double kLeastAxis =
     0.02;  // units of H: shorter ones, seen from their end, have no room for a number
 
+constexpr double kAside[] = {0, 0.8, -0.8, 1.5, -1.5};  // rad: where its number stands about that end
+
 // A semi-axis in W, units of H on a page that it is parallel to.
 struct SolidAxis {
   Vector3d v, direction;
@@ -205,10 +207,12 @@ class Ellipsoid {
       MarkWord word{"semi-axis", number, {}};
       for (const double side : {toward, -toward}) {
         const Point d = side * unit(v), end = center_ + side * v;
-        const Rect place = place_beyond(number, end, kNumberGap, d);
-        const Rect& scene = style_.scene;
-        if (place.x0 >= scene.x0 && place.x1 <= scene.x1 && place.y0 >= scene.y0 && place.y1 <= scene.y1)
-          word.places.push_back(place);
+        for (const double aside : kAside) {
+          const Rect place = place_beyond(number, end, kNumberGap, std::cos(aside) * d + std::sin(aside) * normal_to(d));
+          const Rect& scene = style_.scene;
+          if (place.x0 >= scene.x0 && place.x1 <= scene.x1 && place.y0 >= scene.y0 && place.y1 <= scene.y1)
+            word.places.push_back(place);
+        }
       }
       if (!word.places.empty()) style_.labels->add(std::move(word));
     }

@@ -37,7 +37,7 @@ class Target : public Layer {
     }
   }
 
-  UnderWords under_words() const override { return UnderWords::if_need_be; }
+  UnderWords under_words() const override { return UnderWords::never; }
 
   void measure(const Sight& sight, FitBox& box) const override {
     const auto found = followed_.find(&sight.motion);

@@ -48,6 +48,8 @@ struct PanelView {
 };
 
 // A motion as a camera sees it: until when it is in the picture, and where its end effector goes on the page.
+inline constexpr char kBetweenEvents[] = ";  ";
+
 class Panel {
  public:
   // Rails become as long as those of the panels `over` it, whose motion they show, too.
@@ -67,7 +69,7 @@ class Panel {
   ChainDrawing drawing() const { return drawing(look_); }
 
   // "left the picture at t = 1.24 s" from that frame on, or what happened last: "elbow straight at t = 1.24 s".
-  std::string note(int k, int events = 2) const;
+  std::string note(int k, int events = 2) const;  // of several kBetweenEvents
   std::string title() const { return motion_->title(); }
   // The instant at which the panel stood still.
   std::optional<double> left_at() const;

@@ -267,5 +267,43 @@ TEST(DefaultLayers, ShowTheCauseAndLeaveSmallPanelsAlone) {
   EXPECT_TRUE(has(read_scene("assets/scenes/pen_drift.yaml", {"draw=[+torque]"}), "torque")) << "who asks gets it";
 }
 
+// Whatever pulls there, no word lies on the pose that feedback follows.
+TEST(TargetLayer, KeepsWordsOffItsOutline) {
+  const Cause cause("rr_free", {"torque={pd: {kp: 20, kd: 2, q: [\"-0.3 + 0.8*sin(t)\", -0.5]}}"}, 3);
+  const Film pictures = cause.film();
+  const std::vector<double> followed = references_along(cause.simulation, cause.run);
+  const Chain& chain = cause.simulation.chain;
+  Workspace ws(chain);
+  int seen = 0;
+  for (int k = 0; k < cause.run.size(); ++k) {
+    const std::vector<double> target(followed.begin() + 2 * k, followed.begin() + 2 * k + 2), rest(2);
+    compute_kinematics(chain, ws, target, rest);
+    for (const StandingWord& word : pictures.words(0, k)) {
+      if (!(word.opacity > 0)) continue;
+      ++seen;
+      for (const LinkSegment& link : pictures.panel(0).motion().skeleton().links) {
+        Point a = pictures.camera().project(pose_of(ws, link.body) * link.from), b = pictures.camera().project(pose_of(ws, link.body) * link.to);
+        EXPECT_FALSE(cut_segment(word.box, a, b)) << k;
+      }
+    }
+  }
+  EXPECT_GT(seen, cause.run.size()) << "the words of both torques most of the time";
+}
+
+// In a film words come and go within some frames; a picture alone has them in full.
+TEST(Stills, HaveWordsInFull) {
+  const Cause cause("rr_torque", {"layout=scene"}, 4);
+  const Film pictures = cause.film();
+  const auto pale = [](const Picture& picture) {
+    return test::all_of<GlyphRun>(picture, [](const GlyphRun& run) { return run.color.a > 0 && run.color.a < 1; }).size();
+  };
+  int fading = 0;
+  for (int k = 0; k < cause.run.size(); ++k) {
+    fading += pale(pictures.frame(k)) > 0;
+    EXPECT_EQ(pale(pictures.still(k)), 0u) << k;
+  }
+  EXPECT_GT(fading, 0) << "else this shows nothing";
+}
+
 }  // namespace
 }  // namespace chainreel
