@@ -200,7 +200,7 @@ void draw_tick_label(Picture& picture, const Tick& tick, Point at, Align align, 
 }
 
 double PlotStyle::text(double size) const {
-  return std::max(size * text_scale, size::kTick);
+  return scaled(size, text_scale);
 }
 
 bool PlotFrame::can_show(Point data) const {

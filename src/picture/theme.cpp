@@ -1,6 +1,19 @@
 #include "picture/theme.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace chainreel {
+
+double grown(double part, double size, double text_scale) {
+  if (!(text_scale > kEvenGrowth)) return part * text_scale;
+  const double held = std::clamp(std::log2(size / size::kTick), 0.0, 1.0);
+  return part * text_scale * std::pow(kEvenGrowth / text_scale, held);
+}
+
+double scaled(double size, double text_scale) {
+  return std::max(grown(size, size, text_scale), size::kTick);
+}
 
 const Theme& light_theme() {
   static const Theme theme = {

@@ -48,4 +48,12 @@ inline constexpr double kAxisShaft = 0.0045, kAxisLength = 0.075, kAxisHead = 0.
 inline constexpr double kFitMargin = 0.06;  // fraction of the fitted box
 }  // namespace size
 
+// A text size of the style guide at this text_scale, no less than the smallest of the guide. From kEvenGrowth on sizes come
+// nearer to one another: the smallest grow on in full and those twice as large no more, so that a page on which words are
+// large has room for more than its title.
+inline constexpr double kEvenGrowth = 1.6;
+double scaled(double size, double text_scale);
+// The same without a least size: of what is as high as words of `size` are at text_scale 1, times `part`.
+double grown(double part, double size, double text_scale);
+
 }  // namespace chainreel

@@ -198,5 +198,21 @@ TEST(GhostLayout, LooksLikeItsGoldenInTheDark) {
   EXPECT_TRUE(matches_golden(ghosts.image(kFrame), "ghost_euler_dark", {.max = 24, .mean = 0.05}));
 }
 
+// Runs over one another leave room beside them, or below them upright: for what tells them apart. Not where that would make
+// them smaller.
+TEST(GhostStory, IsPlottedWhereItCostsTheRunsNothing) {
+  const TemporaryFolder folder;
+  const auto drawn = [&](const char* width, const char* height, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"snapshot", kGhostScene, "--at", "2", "--width", width, "--height", height, "-o", folder.file("a.svg"), "--force"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return read_whole_file(folder.file("a.svg"));
+  };
+  EXPECT_THAT(drawn("1280", "720"), HasSubstr("energy [J]"));
+  EXPECT_THAT(drawn("1080", "1920"), HasSubstr("energy [J]"));
+  EXPECT_THAT(drawn("1280", "720", {"--set", "draw=[ellipse]"}), testing::Not(HasSubstr("energy [J]"))) << "the picture shows masses";
+}
+
 }  // namespace
 }  // namespace chainreel

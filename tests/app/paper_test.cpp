@@ -17,6 +17,7 @@ namespace chainreel {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 // All content of a PDF, inflated, one stream behind the other.
 std::string content_of(const std::string& pdf) {
@@ -77,7 +78,7 @@ struct PaperFigure {
 std::vector<PaperFigure> figures() {
   return {
       {"scene", {"snapshot", "assets/scenes/rr_torque.yaml", "--at", "0.5"}},
-      {"panels", {"snapshot", "assets/scenes/euler_gains_energy.yaml", "--at", "1", "--set", "compare.1.title=step", "--set", "compare.2.title=half", "--set", "compare.3.title=truth", "--height-mm", "60"}},
+      {"panels", {"snapshot", "assets/scenes/euler_gains_energy.yaml", "--at", "1"}},
       {"pose", {"snapshot", "models/rr.urdf", "--pose", "0.3,1"}},
       {"chart", {"chart", "assets/scenes/rr_free.yaml", "--set", "duration=0.2", "--methods", "rk4,dop853", "--runs", "1", "--longest", "20ms"}},
       {"energy", {"energy", "assets/scenes/rr_free.yaml", "--until", "1s", "--step", "0.01", "--methods", "rk4,symplectic_euler"}},
@@ -136,6 +137,44 @@ TEST(OnPaper, PagesHaveTheShapeThatIsAskedFor) {
   ASSERT_EQ(run_program({"snapshot", "models/rr.urdf", "--width-mm", "84", "--dpi", "100", "-o", folder.file("a.png")}).status, 0);
   EXPECT_EQ(read_png(folder.file("a.png")).width, 331);
   EXPECT_THAT(read_whole_file(folder.file("a.png")), HasSubstr("pHYs"));
+}
+
+// The page of a comparison in a column is as high as its panels and plot need; a height that is asked for holds, and what is
+// too small on it is told with the height that is not.
+TEST(OnPaper, PagesAreAsHighAsPanelsAndPlotsNeed) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.svg");
+  const auto drawn = [&](const std::string& scene, std::vector<std::string> more) {
+    std::vector<std::string> words{"snapshot", "assets/scenes/" + scene + ".yaml", "--at", "1", "--width-mm", "84", "-o", file, "--force"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.status, 0) << scene << result.err;
+    const std::string svg = read_whole_file(file);
+    const std::size_t at = svg.find("height=\"");
+    return std::pair(std::strtod(svg.c_str() + at + 8, nullptr), result.err);
+  };
+  for (const char* scene : {"big_steps", "pen_drift", "euler_gains_energy"}) {
+    const auto [height, words] = drawn(scene, {});
+    EXPECT_GT(height, 60) << scene;
+    EXPECT_LE(height, 2.5 * 84 * 1.001) << scene;
+    EXPECT_THAT(words, HasSubstr(" mm high, so that plots and panels have room beside words of 7 pt")) << scene;
+    EXPECT_THAT(words, Not(HasSubstr("not drawn"))) << scene;
+  }
+  const auto [usual, quiet] = drawn("rr_free", {"--set", "layout=scene"});
+  EXPECT_NEAR(usual, 47.2, 0.1) << "one that has room keeps its shape";
+  EXPECT_THAT(quiet, Not(HasSubstr("so that plots")));
+  const auto [asked, told] = drawn("pen_drift", {"--height-mm", "47"});
+  EXPECT_NEAR(asked, 47, 0.1);
+  EXPECT_THAT(told, HasSubstr(" mm high on a page of this size: take --height-mm "));
+}
+
+// Titles that no column holds, however high the page: the least width that does.
+TEST(OnPaper, NamesTheWidthThatHasRoom) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program({"snapshot", "assets/scenes/euler_gains_energy.yaml", "--width-mm", "30", "-o", folder.file("a.pdf")});
+  EXPECT_EQ(result.status, 3) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("a page 30 mm wide has no room for this beside words of 7 pt, however high it is"));
+  EXPECT_THAT(result.err, HasSubstr("take --width-mm "));
 }
 
 TEST(OnPaper, SizesThatDoNotGoTogetherAreNamed) {

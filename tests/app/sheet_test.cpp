@@ -114,6 +114,22 @@ TEST(Sheet, IsAVectorPageToo) {
   EXPECT_TRUE(read_whole_file(folder.file("a.pdf")).starts_with("%PDF"));
 }
 
+// Three panels of a cell, told apart; not where the cells are too small for words.
+TEST(Sheet, NamesThePanelsOfComparisonsWhereThereIsRoom) {
+  const TemporaryFolder folder;
+  const auto drawn = [&](int columns) {
+    const std::string file = folder.file("a.svg");
+    const ProgramResult result = run_program({"sheet", "assets/scenes/pen_drift.yaml", "assets/scenes/euler_gains_energy.yaml", "--columns",
+                                              std::to_string(columns), "--width", columns > 1 ? "600" : "1920", "--height", columns > 1 ? "2000" : "1080",
+                                              "-o", file, "--force"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return read_whole_file(file);
+  };
+  const std::string large = drawn(1);
+  for (const char* name : {"none: it drifts", "Baumgarte", "projected", "truth (Taylor series)"}) EXPECT_THAT(large, HasSubstr(name));
+  EXPECT_THAT(drawn(2), testing::Not(HasSubstr("Baumgarte<")));
+}
+
 TEST(Sheet, TellsTheProblemsOfAllScenes) {
   const TemporaryFolder folder;
   const std::string bad = folder.write("bad.yaml", "model: none.urdf\ndurration: 3\n");

@@ -44,6 +44,12 @@ PaperPage paper_page(const PaperOptions& options, double height_mm) {
   return page;
 }
 
+void give_size(Video& video, const PaperPage& page) {
+  video.width = page.width;
+  video.height = page.height;
+  video.least_text = page.least_text;
+}
+
 double text_scale_on(const PaperPage& page, double text_scale) {
   return std::max(1.0, text_scale) * page.least_text / kSmallestText;
 }

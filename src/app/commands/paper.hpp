@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/cli/command.hpp"
+#include "scene/scene.hpp"
 
 namespace chainreel {
 
@@ -29,6 +30,8 @@ struct PaperPage {
 };
 // `height_mm`: where the options name none. Throws Error (usage) of too many pixels.
 PaperPage paper_page(const PaperOptions& options, double height_mm);
+
+void give_size(Video& video, const PaperPage& page);
 
 // The scale of text at which its smallest is as large, at least 1.
 double text_scale_on(const PaperPage& page, double text_scale);

@@ -46,6 +46,7 @@ void set_for_cell(Scene& scene, ThemeName theme, double text_scale) {
   scene.video.height = 1000;
   scene.video.width = int(std::lround(scene.video.height * kCellPageAspect));
   scene.video.preset = Preset::overlay;
+  scene.video.names_panels = text_scale >= 1;  // words can be read there
   scene.theme = theme;
   scene.text_scale = text_scale;
   scene.plot.clear();

@@ -12,6 +12,7 @@
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
 #include "app/commands/paper.hpp"
+#include "app/commands/paper_film.hpp"
 #include "app/works/moment.hpp"
 #include "app/film/automatic.hpp"
 #include "app/film/model_scene.hpp"
@@ -209,15 +210,10 @@ void snapshot_scene(const SnapshotOptions& options) {
   Video& video = film.scene.video;
   if (options.width > 0) video.width = options.width;
   if (options.height > 0) video.height = options.height;
-  if (options.paper.is_given()) {
-    const PaperPage page = page_of(options, video.width, video.height);
-    video.width = page.width;
-    video.height = page.height;
-    video.least_text = page.least_text;
-  }
   const std::vector<double> instants = instants_asked(film, asked);
   Pictures pictures(options, place, names);
   const Fonts fonts(families_of(film.scene));
+  if (options.paper.is_given()) set_paper_page(film, options.paper, fonts, options.common.quiet);
   Moments moments(film, fonts);
   std::vector<Json> numbers;
   for (std::size_t i = 0; i < instants.size(); ++i) {

@@ -148,12 +148,20 @@ int Runs::frames_shown(int frames) const {
   return shown;
 }
 
-Film Runs::pictures(int frames, const Fonts& fonts) const {
+std::vector<PanelRun> Runs::panels() const {
   std::vector<PanelRun> panels;
   for (std::size_t i = 0; i < list_.size(); ++i)
     panels.push_back({film_.panels[i].scene, film_.panels[i].simulation.chain, list_[i],
                       &film_.panels[i].simulation, film_.panels[i].shapes.get()});
-  return Film(film_.scene, panels, shown_times(list_, times_, frames), fonts, clock_);
+  return panels;
+}
+
+Film Runs::pictures(int frames, const Fonts& fonts) const {
+  return Film(film_.scene, panels(), shown_times(list_, times_, frames), fonts, clock_);
+}
+
+Composition Runs::composition(const Scene& page, int frames, const Fonts& fonts) const {
+  return compose(page, panels(), shown_times(list_, times_, frames), fonts, clock_);
 }
 
 std::string in_panel(const Scene& scene, std::size_t i, const std::string& message) {

@@ -49,8 +49,12 @@ class Runs {
 
   // Station four: the pictures of the first `frames` instants.
   Film pictures(int frames, const Fonts& fonts) const;
+  // Only where what they show stands on `page`, which is the film's but for its size.
+  Composition composition(const Scene& page, int frames, const Fonts& fonts) const;
 
  private:
+  std::vector<PanelRun> panels() const;
+
   const PreparedFilm& film_;
   FilmClock clock_;
   bool leaves_slow_motion_out_ = false;  // some that there would be

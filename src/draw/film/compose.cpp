@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "draw/film/room.hpp"
 #include "draw/film/story.hpp"
 
 namespace chainreel {
@@ -49,7 +50,7 @@ struct Shown {
   ArrowShares arrows;
 };
 
-Composition with_readable_words(const Scene& page, const Shown& film, const std::vector<PlotCurves>& story,
+Composition with_readable_words(const Scene& page, const Shown& film, const Story& story,
                                 double beside = kPlotsBeside) {
   Scene shown = page;
   shown.text_scale = text_scale_of_page(page);
@@ -74,7 +75,7 @@ Composition with_readable_words(const Scene& page, const Shown& film, const std:
 }
 
 // Plots beside a narrow motion have the width that it leaves.
-Composition with_wide_plots(const Scene& page, const Shown& film, const std::vector<PlotCurves>& story) {
+Composition with_wide_plots(const Scene& page, const Shown& film, const Story& story) {
   Composition usual = with_readable_words(page, film, story);
   if (!usual.sheet.has_plots_beside || page.camera.fit) return usual;
   const double spare = usual.sheet.sheet.scene.width() - usual.view.width_used() - kKeptBeside;
@@ -85,20 +86,24 @@ Composition with_wide_plots(const Scene& page, const Shown& film, const std::vec
 // What is shown of a page: its layout, and what is plotted where it names nothing.
 struct Layout {
   Scene page;
-  std::vector<PlotCurves> story;
+  Story story;
 };
 
 // With a plot where the motion keeps its size. `plain`: without one; it becomes what is shown.
 Layout with_story(const Scene& page, const Shown& film, Composition& plain) {
-  if (page.layout != PageLayout::automatic || page.plot.size() > 1) return {page, {}};
-  const std::vector<PlotCurves> story = page.plot.empty() ? story_of(*plain.stage) : std::vector<PlotCurves>();
+  const bool is_comparison = plain.stage->is_comparison();
+  if (is_comparison ? !(is_narrow(page) || plain.stage->is_ghost()) || !page.plot.empty() : page.layout != PageLayout::automatic || page.plot.size() > 1) return {page, {}};
+  const Story story = page.plot.empty() ? story_of(*plain.stage) : Story();
   if (page.plot.empty() && story.empty()) return {page, {}};
-  for (const PageLayout layout : {PageLayout::scene_right, PageLayout::scene_below}) {
+  const double kept = is_comparison && !plain.stage->is_ghost() ? kLeastKeptOfPanels : kLeastKept;
+  for (const PageLayout layout : {is_comparison ? page.layout : PageLayout::scene_right, PageLayout::scene_below}) {
+    if (is_comparison && layout != page.layout) break;  // FilmSheet knows where plots of a comparison stand
     Scene with_plot = page;
     with_plot.layout = layout;
     try {
       Composition told = with_wide_plots(with_plot, film, story);
-      if (told.left_out != plain.left_out || !(told.view.camera.scale >= kLeastKept * plain.view.camera.scale)) continue;
+      if (told.left_out != plain.left_out || !(told.view.camera.scale >= kept * plain.view.camera.scale)) continue;
+      if (page.video.least_text > 0 && page.plot.empty() && !lack_of_room(told).what.empty()) continue;
       plain = std::move(told);
       return {with_plot, story};
     } catch (const Error& error) {

@@ -8,12 +8,15 @@ namespace chainreel {
 namespace {
 
 constexpr double kPlotOfComparison = 0.28;  // of the page's height: there the plot is the message
-constexpr double kLeastBeside = 1.2;  // of a page's aspect: a narrower one has no room for plots beside the scene
+constexpr double kPlotInWords = 9.5;  // heights of the smallest words, with the plot's own
 constexpr double kTitleRow = 1.55;  // of the em: a panel's title or note with the air around it
 
 SheetText words_of(const Stage& stage, const Layers& layers) {
   SheetText text;
-  if (is_transparent(stage.page)) return text;  // nothing above or below the scene
+  if (is_transparent(stage.page)) {  // nothing above or below the scene
+    text.with_panel_titles = stage.page.video.names_panels && stage.has_cells();
+    return text;
+  }
   text.title_place = stage.page.place_of("title");
   for (const auto& layer : layers) layer->write(text);
   if (const auto& logo = stage.page.style.logo; logo && logo->image)
@@ -71,7 +74,7 @@ TextLine abbreviated(const Fonts& fonts, const std::string& title, const TextSty
 
 }  // namespace
 
-FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const std::vector<PlotCurves>& story, double beside) {
+FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const Story& story, double beside) {
   const Scene& page = stage.page;
   const SheetText text = words_of(stage, layers);
   const double aspect = double(page.video.width) / page.video.height;
@@ -83,21 +86,28 @@ FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const std::vector
     key.emplace(stage, sheet.scene.width());
     rows.title = key->height();
   }
-  if (has_notes(stage)) rows.note = kTitleRow * scaled(size::kAxis, page.text_scale);
+  if (has_notes(stage)) rows.note = (is_narrow(page) && !stage.is_ghost() ? 2 : 1) * kTitleRow * scaled(size::kAxis, page.text_scale);
 }
 
-// One plot below the scene, more beside it, unless the layout says otherwise; below several panels.
-void FilmSheet::lay_out_plots(const Stage& stage, const std::vector<PlotCurves>& story, double beside) {
+// On paper, where the page is as high as it must be.
+double least_plot(const Scene& page) {
+  return page.video.least_text > 0 ? kPlotInWords * scaled(kSmallestText, page.text_scale) : 0;
+}
+
+// One plot below the scene, more beside it, unless the layout says otherwise; below several panels. What the scene did not ask for
+// stands beside runs that lie over one another.
+void FilmSheet::lay_out_plots(const Stage& stage, const Story& story, double beside) {
   const Scene& page = stage.page;
   std::vector<StripRun> runs;
-  for (const StagedRun& motion : stage.motions) runs.push_back(strip_run(motion, story));
-  const int count = int(story.empty() ? page.plot.size() : story.size());
-  const bool right = !stage.is_comparison() && page.layout != PageLayout::scene_below &&
-                     (count > 1 || page.layout == PageLayout::scene_right);
-  const bool narrow = page.video.width < kLeastBeside * page.video.height;
-  const PlotPlace place = narrow ? PlotPlace::stacked : right ? PlotPlace::right : PlotPlace::below;
+  for (std::size_t i = 0; i < stage.motions.size(); ++i)
+    runs.push_back(strip_run(stage.motions[i], story.empty() ? std::vector<PlotCurves>() : story[i]));
+  const int count = int(story.empty() ? page.plot.size() : story.front().size());
+  const bool right = stage.is_ghost() ? !story.empty()
+                                      : !stage.is_comparison() && page.layout != PageLayout::scene_below &&
+                                            (count > 1 || page.layout == PageLayout::scene_right);
+  const PlotPlace place = is_narrow(page) ? PlotPlace::stacked : right ? PlotPlace::right : PlotPlace::below;
   const PlotAreas areas = plot_areas(sheet.scene, count, place,
-                                     stage.is_comparison() ? kPlotOfComparison : 0, page.text_scale, beside);
+                                     stage.is_comparison() ? kPlotOfComparison : 0, page.text_scale, beside, least_plot(page));
   has_plots_beside = place == PlotPlace::right;
   sheet.scene = areas.scene;
   const PlotStyle style{&stage.fonts, &stage.theme, page.text_scale};
@@ -132,8 +142,9 @@ std::vector<PlacedText> FilmSheet::panel_titles(const Stage& stage, const std::v
     const TextStyle style{Face::label_bold, text_size, color};
     const std::string title = stage.motions[i].title();
     TextLine line = lay_out_text(stage.fonts, title, style);
-    if (line.advance > row.width() + kRoundOff && is_made_up(stage.motions[i]))
+    if (line.advance > row.width() + kRoundOff && (stage.page.video.names_panels || is_made_up(stage.motions[i])))
       line = abbreviated(stage.fonts, title, style, row.width());
+    if (line.runs.empty() && stage.page.video.names_panels) continue;  // a cell of a sheet too small for names
     if (line.advance > row.width() + kRoundOff || (line.runs.empty() && !title.empty()))
       throw Error(ExitCode::bad_input,
                   "the title of panel " + std::to_string(i + 1) +

@@ -6,6 +6,7 @@
 
 #include "draw/film/ghost_layout.hpp"
 #include "draw/film/plot_strip.hpp"
+#include "draw/film/story.hpp"
 #include "draw/layers/layer.hpp"
 #include "draw/page/panel_grid.hpp"
 #include "draw/page/sheet.hpp"
@@ -18,7 +19,7 @@ inline constexpr double kTitleDescent = 0.40;
 struct FilmSheet {
   // `story`: what is plotted where the scene names no plot, see story.hpp. `beside`: share of the width of plots beside the
   // scene. Throws Error (bad input) where the words leave no room.
-  FilmSheet(const Stage& stage, const Layers& layers, const std::vector<PlotCurves>& story = {}, double beside = kPlotsBeside);
+  FilmSheet(const Stage& stage, const Layers& layers, const Story& story = {}, double beside = kPlotsBeside);
 
   Sheet sheet;  // its scene is what is left for all panels
   std::vector<PlotStrip> plots;
@@ -33,7 +34,7 @@ struct FilmSheet {
   std::vector<PlacedText> panel_titles(const Stage& stage, const std::vector<PanelCell>& cells) const;
 
  private:
-  void lay_out_plots(const Stage& stage, const std::vector<PlotCurves>& story, double beside);
+  void lay_out_plots(const Stage& stage, const Story& story, double beside);
 };
 
 }  // namespace chainreel

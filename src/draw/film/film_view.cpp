@@ -20,6 +20,17 @@ bool is_portrait(const Scene& page) {
   return page.video.height > page.video.width;
 }
 
+// Pages of paper may be as high as they need, so that titles there have their width.
+bool is_paper(const Scene& page) {
+  return page.video.least_text > 0;
+}
+
+bool side_by_side(const Stage& stage, const FilmSheet& sheet, const Rect& area) {
+  if (is_portrait(stage.page)) return false;
+  const int count = int(stage.motions.size());
+  return !is_paper(stage.page) || panel_cells(area, count, count, sheet.rows)[0].scene.width() >= sheet.widest_title(stage);
+}
+
 // What a camera with these axes must hold of a motion: the chain, and what layers draw over it. Wild ones count with
 // their start, unless all are.
 ViewBoxes fit_boxes(const StagedRun& motion, const Layers& layers, const Camera& view, double marks) {
@@ -64,8 +75,8 @@ std::vector<PanelCell> cells_of(const Stage& stage, const FilmSheet& sheet, doub
   area.y0 += row_below;
   const std::vector<PanelCell> cells =
       stage.is_ghost()                  ? ghost_cells(area, sheet.rows, stage.motions)
-      : stage.page.layout == PageLayout::compare ? panel_cells(area, count, is_portrait(stage.page) ? 1 : count, sheet.rows)
-                                        : best_cells(area, count, sheet.rows, box, sheet.widest_title(stage));
+      : stage.page.layout == PageLayout::compare ? panel_cells(area, count, side_by_side(stage, sheet, area) ? count : 1, sheet.rows)
+                                        : best_cells(area, count, sheet.rows, box, sheet.widest_title(stage), is_paper(stage.page));
   if (cells.empty())
     throw Error(ExitCode::bad_input,
                 "the panels get too small on this page: compare fewer, or lower text_scale",

@@ -10,6 +10,7 @@ constexpr double kTotalLine = 0.0045;
 constexpr double kPale = 0.45;   // of a curve that is still to come
 constexpr double kShareBelow = 0.30;  // of the page's height
 constexpr double kMostLabels = 0.4;  // of a plot's width may be taken by the names of its curves
+constexpr double kMostOwnLabels = 0.6;  // ... of the curves of one run, which are named nowhere else
 constexpr double kShareStacked = 0.22, kMostStacked = 0.50;  // of the height: of each plot, and of all
 constexpr double kLongestFrame = 0.05;  // s
 constexpr double kPlotLabelGap = 0.012;
@@ -116,7 +117,8 @@ PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
     : data_(std::move(data)), style_(style) {
   std::vector<std::string> labels = labels_of(data_);
   // The names of runs stand above their panels, too, in the colours of the curves.
-  if (!labels.empty() && end_labels_width(labels, style_) > kMostLabels * area.width()) {
+  const double most = data_.of_runs ? kMostLabels : kMostOwnLabels;
+  if (!labels.empty() && end_labels_width(labels, style_) > most * area.width()) {
     for (StripCurve& curve : data_.curves) curve.label.clear();
     labels.clear();
   }
@@ -150,6 +152,7 @@ void PlotStrip::draw_frame(Picture& picture, double t) const {
 StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double end, const Theme& theme) {
   StripData data;
   data.end = end;
+  data.of_runs = runs.size() > 1;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const StripRun& run = runs[r];
     if (i >= run.plots.size()) continue;
@@ -173,13 +176,13 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
 }
 
 PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_below,
-                     double text_scale, double beside) {
+                     double text_scale, double beside, double least_each) {
   PlotAreas areas{page, {}};
   if (count == 0) return areas;
   const double gap = size::kGutter;
   Rect all = page;
   if (place == PlotPlace::stacked) {
-    all.y1 = page.y0 + std::min(kShareStacked * count, kMostStacked) * page.height();
+    all.y1 = page.y0 + std::min(std::max(kShareStacked * page.height(), least_each) * count, kMostStacked * page.height());
     areas.scene.y0 = all.y1 + gap;
     const double each = (all.height() - gap * (count - 1)) / count;
     for (int i = 0; i < count; ++i) {
@@ -191,7 +194,7 @@ PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_
   if (place == PlotPlace::below) {
     const double height = page.height(), words = std::max(0.0, text_scale - 1) * kWordsOfPlot;
     all.y1 = page.y0 + std::max(kShareBelow * height,
-                                std::min(std::max(kShareBelow * height, least_below) + words, kMostBelow * height));
+                                std::min(std::max({kShareBelow * height + words, least_below + words, least_each}), kMostBelow * height));
     areas.scene.y0 = all.y1 + gap;
     const double width = (all.width() - gap * (count - 1)) / count;
     for (int i = 0; i < count; ++i) {

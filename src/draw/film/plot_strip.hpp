@@ -21,7 +21,8 @@ struct StripData {
   std::string title;
   bool angles = false;
   std::vector<StripCurve> curves;
-  double end = 0;  // of the clip, s
+  bool of_runs = false;  // several: a curve is a run's
+  double end = 0;        // of the clip, s
 };
 
 class PlotStrip {
@@ -58,9 +59,10 @@ struct PlotAreas {
   std::vector<Rect> plots;
 };
 // `least_below`: height of plots below the scene, units of H, where the room allows. Words that grow with `text_scale` take
-// their room from the scene, not from the plots below it. `beside`: share of the width of plots beside the scene.
+// their room from the scene, not from the plots below it. `beside`: share of the width of plots beside the scene. `least_each`: height of a
+// plot below the scene with its words, where the room allows.
 inline constexpr double kPlotsBeside = 0.38;
 PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_below = 0, double text_scale = 1,
-                     double beside = kPlotsBeside);
+                     double beside = kPlotsBeside, double least_each = 0);
 
 }  // namespace chainreel

@@ -14,6 +14,12 @@ std::vector<PlotCurves> curves_of(const StagedRun& motion, PlotQuantity quantity
   return plot_curves(*plots, simulation, motion.trajectory(), motion.samples());
 }
 
+Story of_all(const Stage& stage, PlotQuantity quantity) {
+  Story story;
+  for (const StagedRun& motion : stage.motions) story.push_back(curves_of(motion, quantity));
+  return story;
+}
+
 // Of the coordinates those that springs drive; empty where there are no springs, or more than springs.
 std::vector<PlotCurves> sprung_coordinates(const Stage& stage, const StagedRun& motion) {
   std::vector<bool> is_driven(std::size_t(motion.chain().nq), false);
@@ -37,13 +43,16 @@ bool shows_masses(const Stage& stage) {
 
 }  // namespace
 
-std::vector<PlotCurves> story_of(const Stage& stage) {
-  const StagedRun& motion = stage.motions.front();
-  if (stage.is_comparison() || motion.samples() < 2 || !motion.simulation() || is_transparent(stage.page) || shows_masses(stage))
-    return {};
-  if (motion.trajectory().rows > 0) return curves_of(motion, PlotQuantity::lambda);
-  if (std::vector<PlotCurves> sprung = sprung_coordinates(stage, motion); !sprung.empty()) return sprung;
-  return curves_of(motion, motion.simulation()->torque->is_constant() ? PlotQuantity::energy : PlotQuantity::tau);
+Story story_of(const Stage& stage) {
+  const auto is_told = [](const StagedRun& motion) { return motion.samples() > 1 && motion.simulation() != nullptr; };
+  if (!std::all_of(stage.motions.begin(), stage.motions.end(), is_told) || is_transparent(stage.page) || shows_masses(stage)) return {};
+  const StagedRun& first = stage.motions.front();
+  const auto is_constrained = [](const StagedRun& motion) { return motion.trajectory().rows > 0; };
+  if (std::all_of(stage.motions.begin(), stage.motions.end(), is_constrained)) return of_all(stage, PlotQuantity::lambda);
+  Story sprung;
+  for (const StagedRun& motion : stage.motions) sprung.push_back(sprung_coordinates(stage, motion));
+  if (std::none_of(sprung.begin(), sprung.end(), [](const auto& plots) { return plots.empty(); })) return sprung;
+  return of_all(stage, first.simulation()->torque->is_constant() ? PlotQuantity::energy : PlotQuantity::tau);
 }
 
 }  // namespace chainreel

@@ -9,8 +9,10 @@
 namespace chainreel {
 
 // Its curves along the run: lambda under constraints, tau of feedback and of torques that change, the driven coordinates
-// of springs, else the energies. Empty where there is none to tell: of several runs, of a single frame, of motions that no
-// simulation is known of, on pages without words, and where the picture itself shows masses (ellipse, mass_matrix).
-std::vector<PlotCurves> story_of(const Stage& stage);
+// of springs, else the energies; of several runs the same of each. Empty where there is none to tell: of a single frame, of motions
+// that no simulation is known of, on pages without words, and where the picture itself shows masses (ellipse, mass_matrix).
+// A list for each motion, all of one length; empty where there is nothing to tell.
+using Story = std::vector<std::vector<PlotCurves>>;
+Story story_of(const Stage& stage);
 
 }  // namespace chainreel

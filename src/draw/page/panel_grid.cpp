@@ -35,7 +35,7 @@ std::vector<PanelCell> panel_cells(const Rect& area, int count, int columns, con
   return cells;
 }
 
-std::vector<PanelCell> best_cells(const Rect& area, int count, const PanelRows& rows, const FitBox& box, double least_width) {
+std::vector<PanelCell> best_cells(const Rect& area, int count, const PanelRows& rows, const FitBox& box, double least_width, bool keeps_width) {
   std::vector<PanelCell> best;
   double best_worth = 0;
   for (int lines = 1; lines <= count; ++lines) {
@@ -43,6 +43,7 @@ std::vector<PanelCell> best_cells(const Rect& area, int count, const PanelRows& 
     if ((lines - 1) * columns >= count) continue;     // a line would stay empty
     std::vector<PanelCell> cells = panel_cells(area, count, columns, rows);
     if (!is_large_enough(cells[0].scene)) continue;
+    if (keeps_width && columns > 1 && cells[0].scene.width() < least_width) continue;
     Camera camera;
     fit_to(camera, box, cells[0].scene, size::kFitMargin);
     const bool is_full = lines * columns == count && cells[0].scene.width() >= least_width;

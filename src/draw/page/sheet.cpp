@@ -58,7 +58,7 @@ void build_title_band(Builder& b, const SheetText& text) {
   const Theme& theme = *b.sheet.theme;
   const double title_size = scaled(size::kTitle, b.sheet.text_scale);
   const double torque_size = scaled(size::kEquation, b.sheet.text_scale);
-  double row_bottom = b.top - size::kTitleBand * b.sheet.text_scale;
+  double row_bottom = b.top - grown(size::kTitleBand, size::kTitle, b.sheet.text_scale);
   double title_end = b.left;
   if (!text.title.empty()) {
     const TextStyle style = b.style(Face::label_bold, size::kTitle, theme.ink);
@@ -176,7 +176,7 @@ void build_footer_band(Builder& b, const SheetText& text) {
   const bool has_time = !text.longest_time.empty() || text.beside_time > 0;
   if (!has_time && text.bar.empty() && text.legend.empty() && text.scales.empty()) return;
   const Theme& theme = *b.sheet.theme;
-  const double row = size::kFooterBand * b.sheet.text_scale, axis = scaled(size::kAxis, b.sheet.text_scale);
+  const double row = grown(size::kFooterBand, size::kAxis, b.sheet.text_scale), axis = scaled(size::kAxis, b.sheet.text_scale);
   const TextLine time =
       lay_out_text(b.fonts, text.longest_time, b.style(Face::label, size::kAxis, theme.ink));
   TextLine bar = lay_out_text(b.fonts, text.bar, b.style(Face::label, size::kTick, theme.ink));
@@ -218,10 +218,6 @@ void build_footer_band(Builder& b, const SheetText& text) {
 }
 
 }  // namespace
-
-double scaled(double size, double text_scale) {
-  return std::max(size * text_scale, kSmallestText);
-}
 
 TextLine fit_text(const Fonts& fonts, const std::string& text, TextStyle style, double width,
                   double text_scale) {
@@ -296,7 +292,8 @@ class LogoCorner {
 
 Sheet lay_out_sheet(const SheetText& text, double aspect, double text_scale, const Theme& theme,
                     const Fonts& fonts) {
-  Builder b{{}, fonts, size::kMargin, aspect - size::kMargin, 1 - size::kMargin, size::kMargin};
+  const double margin = size::kMargin * std::min(1.0, aspect);  // of a page higher than wide that of one as high as it is wide
+  Builder b{{}, fonts, margin, aspect - margin, 1 - margin, margin};
   b.sheet.aspect = aspect;
   b.sheet.text_scale = text_scale;
   b.sheet.theme = &theme;

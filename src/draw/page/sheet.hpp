@@ -89,9 +89,6 @@ void draw_time(Picture& picture, const Sheet& sheet, double t, const Fonts& font
 // "t = 1.24 s"
 std::string time_text(double t, int decimals = 2);
 
-// A text size of the style guide at this text_scale.
-double scaled(double size, double text_scale);
-
 // The line at its style's size, or smaller where it is wider than `width`, down to the smallest size times
 // text_scale. The caller looks whether it fits now.
 TextLine fit_text(const Fonts& fonts, const std::string& text, TextStyle style, double width,

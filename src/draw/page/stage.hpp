@@ -28,6 +28,11 @@ struct PanelRun {
   const BodyShapes* shapes = nullptr;      // drawn instead of bars
 };
 
+// Pages that have no room for plots beside the scene: what they show stands one above the other.
+inline bool is_narrow(const Scene& page) {
+  return page.video.width < 1.2 * page.video.height;
+}
+
 // Outlines of links lie this far outside the edges of filled ones, units of H.
 inline constexpr double kOutlineAway = 1.4 * size::kLinkOutline;
 

@@ -47,8 +47,8 @@ std::vector<Rect> ink_boxes(const Sheet& sheet, const SheetText& text) {
 constexpr double kBearing = 0.004;
 
 void expect_tidy(const Sheet& sheet, const SheetText& text) {
-  const Rect page{size::kMargin - kBearing, size::kMargin, sheet.aspect - size::kMargin + kBearing,
-                  1 - size::kMargin};
+  const double margin = size::kMargin * std::min(1.0, sheet.aspect);
+  const Rect page{margin - kBearing, margin, sheet.aspect - margin + kBearing, 1 - margin};
   const std::vector<Rect> boxes = ink_boxes(sheet, text);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     EXPECT_TRUE(test::is_inside(page, boxes[i])) << i;
