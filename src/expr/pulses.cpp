@@ -145,7 +145,7 @@ class Search {
       double inside = middle;
       for (;;) {
         const double t = 0.5 * (inside + outside);
-        if (!(std::fabs(inside - outside) > 1e-3 * std::fabs(middle - outside))) return outside;
+        if (!(std::fabs(inside - outside) > 1e-3 * std::fabs(middle - outside)) || t == inside || t == outside) return outside;
         const double y = value_at(t);
         (beyond(y, y) > kFoot * height ? inside : outside) = t;
       }

@@ -170,5 +170,11 @@ TEST(Pulses, AreNotSeenInSlowFunctionsNorInFastWaves) {
     EXPECT_TRUE(pulses(text, 3).empty()) << text;
 }
 
+// Waves that no double resolves: a value of its own at each instant. What matters is that it ends.
+TEST(Pulses, OfNoiseAreSoughtInBoundedTime) {
+  for (const char* text : {"3*sin(18446744073709551616*t)", "sin(1e18*t)", "sin(1e300*t)", "cos(1e22*t)*exp(-t)"})
+    for (const double end : {0.05, 3.0, 1e6}) EXPECT_LT(pulses(text, end).size(), 100u * 34) << text;
+}
+
 }  // namespace
 }  // namespace chainreel

@@ -99,7 +99,7 @@ bool is_changed_since(const std::string& path) {
     if (audit.is_null()) return false;
     const Json now = audited_file(path);
     for (const Json& one : audit.value(kAuditedFiles, Json::array()))
-      if (one.value("file", "") == now["file"]) return one.value("sha256", "") != now["sha256"];
+      if (one.value("file", "") == now.value("file", "")) return one.value("sha256", "") != now.value("sha256", "");
     return false;
   } catch (const Error&) {
     return true;
