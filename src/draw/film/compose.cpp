@@ -12,6 +12,8 @@ namespace {
 constexpr const char* kFirstToGo[] = {"equation", "torque_label", "legend", "mass_matrix", "scale_bar"};
 constexpr double kWidestPlots = 0.62;  // of the page's width
 constexpr double kKeptBeside = 0.12;   // units of H, of the scene for words and the arrow of gravity
+constexpr double kPlotsOfSpare = 0.6;  // ... of the height that a motion leaves, for plots below it
+constexpr double kHighestPlots = 0.34;
 constexpr double kWorthwhile = 0.02;   // ... of the width
 constexpr double kLeastOfWidth = 0.6;  // pages still narrower keep the words of this one
 
@@ -51,7 +53,7 @@ struct Shown {
 };
 
 Composition with_readable_words(const Scene& page, const Shown& film, const Story& story,
-                                double beside = kPlotsBeside) {
+                                PlotRoom room = {}) {
   Scene shown = page;
   shown.text_scale = text_scale_of_page(page);
   const bool is_enlarged = shown.text_scale > page.text_scale;
@@ -61,7 +63,7 @@ Composition with_readable_words(const Scene& page, const Shown& film, const Stor
     try {
       auto stage = std::make_unique<const Stage>(shown, film.runs, film.times, film.fonts, film.clock, film.arrows);
       Layers layers = layers_of(*stage);
-      FilmSheet sheet(*stage, layers, story, beside);
+      FilmSheet sheet(*stage, layers, story, room);
       if (next == nullptr || sheet.sheet.scene.height() >= kLeastScene) {
         FilmView view(*stage, layers, sheet);
         return {std::move(stage), std::move(layers), std::move(sheet), std::move(view), std::move(left_out)};
@@ -74,13 +76,23 @@ Composition with_readable_words(const Scene& page, const Shown& film, const Stor
   }
 }
 
-// Plots beside a narrow motion have the width that it leaves.
+// Plots beside a narrow motion have the width that it leaves; those below a flat one, on pages that are narrow, of its height.
 Composition with_wide_plots(const Scene& page, const Shown& film, const Story& story) {
   Composition usual = with_readable_words(page, film, story);
-  if (!usual.sheet.has_plots_beside || page.camera.fit) return usual;
-  const double spare = usual.sheet.sheet.scene.width() - usual.view.width_used() - kKeptBeside;
-  const double beside = std::min(kPlotsBeside + spare / usual.sheet.sheet.aspect, kWidestPlots);
-  return beside > kPlotsBeside + kWorthwhile ? with_readable_words(page, film, story, beside) : std::move(usual);
+  if (page.camera.fit) return usual;
+  const Rect& scene = usual.sheet.sheet.scene;
+  PlotRoom room;
+  if (usual.sheet.has_plots_beside) {
+    const double spare = scene.width() - usual.view.size_used().x - kKeptBeside;
+    room.beside = std::min(kPlotsBeside + spare / usual.sheet.sheet.aspect, kWidestPlots);
+    return room.beside > kPlotsBeside + kWorthwhile ? with_readable_words(page, film, story, room) : std::move(usual);
+  }
+  if (!usual.sheet.has_plots_stacked || usual.stage->has_cells()) return usual;
+  const double count = double(usual.sheet.plots.size());
+  const double high = (scene.y0 - size::kGutter - usual.sheet.plots.back().area().y0 - (count - 1) * size::kGutter) / count;
+  const double spare = usual.view.cells.front().scene.height() - usual.view.size_used().y - kKeptBeside;
+  room.each = std::min(high + kPlotsOfSpare * spare / count, kHighestPlots / count);
+  return room.each > high + kWorthwhile ? with_readable_words(page, film, story, room) : std::move(usual);
 }
 
 // What is shown of a page: its layout, and what is plotted where it names nothing.

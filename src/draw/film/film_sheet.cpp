@@ -74,12 +74,12 @@ TextLine abbreviated(const Fonts& fonts, const std::string& title, const TextSty
 
 }  // namespace
 
-FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const Story& story, double beside) {
+FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const Story& story, PlotRoom room) {
   const Scene& page = stage.page;
   const SheetText text = words_of(stage, layers);
   const double aspect = double(page.video.width) / page.video.height;
   sheet = lay_out_sheet(text, aspect, page.text_scale, stage.theme, stage.fonts);
-  if (!(page.plot.empty() && story.empty()) && !is_transparent(page)) lay_out_plots(stage, story, beside);
+  if (!(page.plot.empty() && story.empty()) && !is_transparent(page)) lay_out_plots(stage, story, room);
   has_panel_titles = text.with_panel_titles && stage.has_cells();
   if (has_panel_titles) rows.title = kTitleRow * scaled(size::kSymbol, page.text_scale);
   if (text.with_panel_titles && stage.is_ghost()) {
@@ -96,7 +96,7 @@ double least_plot(const Scene& page) {
 
 // One plot below the scene, more beside it, unless the layout says otherwise; below several panels. What the scene did not ask for
 // stands beside runs that lie over one another.
-void FilmSheet::lay_out_plots(const Stage& stage, const Story& story, double beside) {
+void FilmSheet::lay_out_plots(const Stage& stage, const Story& story, const PlotRoom& room) {
   const Scene& page = stage.page;
   std::vector<StripRun> runs;
   for (std::size_t i = 0; i < stage.motions.size(); ++i)
@@ -107,8 +107,9 @@ void FilmSheet::lay_out_plots(const Stage& stage, const Story& story, double bes
                                             (count > 1 || page.layout == PageLayout::scene_right);
   const PlotPlace place = is_narrow(page) ? PlotPlace::stacked : right ? PlotPlace::right : PlotPlace::below;
   const PlotAreas areas = plot_areas(sheet.scene, count, place,
-                                     stage.is_comparison() ? kPlotOfComparison : 0, page.text_scale, beside, least_plot(page));
+                                     stage.is_comparison() ? kPlotOfComparison : 0, page.text_scale, room.beside, std::max(least_plot(page), room.each));
   has_plots_beside = place == PlotPlace::right;
+  has_plots_stacked = place == PlotPlace::stacked && !areas.plots.empty();
   sheet.scene = areas.scene;
   const PlotStyle style{&stage.fonts, &stage.theme, page.text_scale};
   for (std::size_t i = 0; i < areas.plots.size(); ++i)

@@ -19,14 +19,14 @@ inline constexpr double kTitleDescent = 0.40;
 struct FilmSheet {
   // `story`: what is plotted where the scene names no plot, see story.hpp. `beside`: share of the width of plots beside the
   // scene. Throws Error (bad input) where the words leave no room.
-  FilmSheet(const Stage& stage, const Layers& layers, const Story& story = {}, double beside = kPlotsBeside);
+  FilmSheet(const Stage& stage, const Layers& layers, const Story& story = {}, PlotRoom room = {});
 
   Sheet sheet;  // its scene is what is left for all panels
   std::vector<PlotStrip> plots;
   std::optional<GhostKey> key;  // of layout `ghost`
   PanelRows rows;               // that panels keep free for words of their own
   bool has_panel_titles = false;
-  bool has_plots_beside = false;
+  bool has_plots_beside = false, has_plots_stacked = false;
 
   // Of the panels' titles in the smallest letters, units of H.
   double widest_title(const Stage& stage) const;
@@ -34,7 +34,7 @@ struct FilmSheet {
   std::vector<PlacedText> panel_titles(const Stage& stage, const std::vector<PanelCell>& cells) const;
 
  private:
-  void lay_out_plots(const Stage& stage, const Story& story, double beside);
+  void lay_out_plots(const Stage& stage, const Story& story, const PlotRoom& room);
 };
 
 }  // namespace chainreel

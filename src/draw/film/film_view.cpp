@@ -117,10 +117,11 @@ FilmView::FilmView(const Stage& stage, const Layers& layers, const FilmSheet& sh
   shorten_arrows(stage, layers);
 }
 
-double FilmView::width_used() const {
+Point FilmView::size_used() const {
   FitBox all = boxes_.must;
   all.add(boxes_.wishes);
-  return camera.scale * all.box(camera.scale, size::kFitMargin).width();
+  const Rect box = all.box(camera.scale, size::kFitMargin);
+  return {camera.scale * box.width(), camera.scale * box.height()};
 }
 
 Camera FilmView::camera_of(std::size_t panel) const {

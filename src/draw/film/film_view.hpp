@@ -25,8 +25,8 @@ struct FilmView {
   double marks = 1;  // size of marks, as in ChainLook
   ArrowShares arrows;  // of the lengths they were laid out with: so that they stay in the scenes
 
-  // Of a panel's scene the part, units of H, that the fitted motion with its margins is wide.
-  double width_used() const;
+  // Of a panel's scene the part, units of H, that the fitted motion with its margins is wide, and high.
+  Point size_used() const;
   // All panels see the same part of the world at the same place of their cells.
   Camera camera_of(std::size_t panel) const;
   // Lower left of the room that a layer asked for in or beside the scene of a panel.

@@ -114,7 +114,7 @@ void draw_part(Picture& picture, const PlotFrame& frame, std::span<const Point> 
 }  // namespace
 
 PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
-    : data_(std::move(data)), style_(style) {
+    : data_(std::move(data)), area_(area), style_(style) {
   std::vector<std::string> labels = labels_of(data_);
   // The names of runs stand above their panels, too, in the colours of the curves.
   const double most = data_.of_runs ? kMostLabels : kMostOwnLabels;

@@ -32,11 +32,13 @@ class PlotStrip {
   void draw_static(Picture& picture) const;  // axes, labels and all curves, pale
   void draw_frame(Picture& picture, double t) const;
   const PlotFrame& frame() const { return frame_; }
+  const Rect& area() const { return area_; }  // with its words
   // Plots above one another begin and end at the same places.
   void narrow_to(double x0, double x1) { frame_.box.x0 = x0, frame_.box.x1 = x1; }
 
  private:
   StripData data_;
+  Rect area_;
   PlotStyle style_;
   PlotFrame frame_;
 };
@@ -62,6 +64,10 @@ struct PlotAreas {
 // their room from the scene, not from the plots below it. `beside`: share of the width of plots beside the scene. `least_each`: height of a
 // plot below the scene with its words, where the room allows.
 inline constexpr double kPlotsBeside = 0.38;
+// What a motion leaves to plots: that share, and a height in units of H for each where they stand above one another.
+struct PlotRoom {
+  double beside = kPlotsBeside, each = 0;
+};
 PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_below = 0, double text_scale = 1,
                      double beside = kPlotsBeside, double least_each = 0);
 
