@@ -200,6 +200,40 @@ TEST_F(Verify, NamesWhatTheSuiteItselfSaysOfTheLook) {
   EXPECT_THAT(words(json, "home"), HasSubstr("the suite now says theme=dark"));
 }
 
+// Bars have no colours of the file: a suite that lets other physics pass says so, and which key shows them.
+TEST_F(Verify, SaysThatBarsDoNotShowAColourOfTheModel) {
+  write("swing.yaml", "model: rr.urdf\nmethod: rk4\nduration: 0.2\n");
+  const auto suite = [&](const std::string& more) {
+    write("arm.yaml", "model: rr.urdf\nscene: swing.yaml\nsize: 320x180\nposes: {home: [0, 0]}\nat: 0.1s\nphysics: note\n" + more);
+    accept_all();
+    replace("rr.urdf", "0.902 0.624 0.000 1", "0.100 0.900 0.100 1");
+    const Json json = results();
+    replace("rr.urdf", "0.100 0.900 0.100 1", "0.902 0.624 0.000 1");
+    return json;
+  };
+  const Json bars = suite("");
+  ASSERT_EQ(bars["pictures"].size(), 2u);
+  for (const Json& one : bars["pictures"]) {
+    EXPECT_EQ(one["state"], "physics") << one;
+    EXPECT_TRUE(one["passed"].get<bool>()) << one;
+    EXPECT_THAT(one["words"].dump(), HasSubstr("`links: visual` in the suite shows them")) << one;
+  }
+  std::filesystem::remove_all(folder_.path() / "arm.baselines");
+  const Json shapes = suite("links: visual\n");
+  ASSERT_EQ(shapes["pictures"].size(), 2u);
+  for (const Json& one : shapes["pictures"]) {
+    EXPECT_EQ(one["state"], "changed") << one;
+    EXPECT_FALSE(one["passed"].get<bool>()) << one;
+    EXPECT_THAT(one["words"].dump(), Not(HasSubstr("bars"))) << one;
+  }
+  // A mass that differs is no matter of looks.
+  write("arm.yaml", "model: rr.urdf\nsize: 320x180\nposes: {home: [0, 0]}\n");
+  std::filesystem::remove_all(folder_.path() / "arm.baselines");
+  accept_all();
+  replace("rr.urdf", "<mass value=\"1\"/>", "<mass value=\"2\"/>");
+  EXPECT_THAT(words(results(), "home"), Not(HasSubstr("bars")));
+}
+
 TEST_F(Verify, RefusesToComparePicturesOfTwoSizes) {
   accept_all();
   replace("arm.yaml", "320x180", "640x360");

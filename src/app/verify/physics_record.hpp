@@ -26,6 +26,9 @@ Json run_record(const PreparedFilm& film, const Runs& runs);
 // no such record.
 std::vector<std::string> explain_models(const Json& before, const Json& after);
 
+// Whether shapes or colours of a model differ, be the records of models or of runs.
+bool have_other_looks(const Json& before, const Json& after);
+
 // A trajectory that differs for one reason is told together with it: "q2 (elbow) differs by 3.1e-4 rad from t
 // = 0.81 s on (largest 0.02 rad at t = 3.2 s): method rk4 -> dop853".
 std::vector<std::string> explain_runs(const Json& before, const Json& after);

@@ -238,6 +238,19 @@ std::vector<std::string> explain_models(const Json& before, const Json& after) {
   return sentences;
 }
 
+bool have_other_looks(const Json& before, const Json& after) {
+  if (before == after) return false;
+  if (!after.contains("models")) {
+    const std::vector<ModelDifference> all = differences(model_description_of(before), model_description_of(after));
+    return std::any_of(all.begin(), all.end(),
+                       [](const ModelDifference& one) { return one.change == ModelChange::looks; });
+  }
+  const Json &old = before.at("models"), &now = after.at("models");
+  for (std::size_t i = 0; i < std::min(old.size(), now.size()); ++i)
+    if (have_other_looks(old[i], now[i])) return true;
+  return false;
+}
+
 std::vector<std::string> explain_runs(const Json& before, const Json& after) {
   if (before == after) return {};
   try {

@@ -113,6 +113,7 @@ class Studio::ModelSource : public Source {
     shot.width = options.width;
     shot.height = options.height;
     shot.picture = draw_pose_figure(chain_, {picture.q}, options, fonts);
+    shot.has_bars = figure_.shapes == nullptr;
     shot.leaves_camera = is_pinned_ && leaves_page(chain_, picture.q, options, fonts);
     shot.physics = {
         {"source", name_}, {"names", position_names(chain_)}, {"q", picture.q}, {"model", record_}};
@@ -190,6 +191,7 @@ class Studio::SceneSource : public Source {
     shot.memory.audit["at"] = at;
     shot.physics = {{"source", name_}, {"t", at}, {"run", record_}};
     shot.page = {{"theme", to_string(film_.scene.theme)}};
+    for (const PreparedScene& panel : film_.panels) shot.has_bars = shot.has_bars || !panel.shapes;
     for (const RunReport& run : report.panels)
       shot.leaves_camera = shot.leaves_camera || (run.left_picture_at && *run.left_picture_at <= at);
     return shot;

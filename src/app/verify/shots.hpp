@@ -27,6 +27,7 @@ struct SuiteShot {
   // (app/verify/physics_record).
   Json physics;
   Json page;  // all else that pixels depend on: theme, fonts, renderer, program
+  bool has_bars = false;  // what it shows of a model are bars, which have none of its file's shapes and colours
   bool leaves_camera =
       false;  // the suite's camera, which was fitted to what the baselines show, cuts something off
 };

@@ -73,6 +73,16 @@ std::vector<std::string> physics_words(const Json& before, const Json& now) {
   return words;
 }
 
+// Of a model that is drawn as bars: why its other shapes or colours are not seen.
+std::vector<std::string> bar_words(const Json& before, const SuiteShot& shot) {
+  for (const char* record : {"model", "run"})
+    if (shot.has_bars && before.contains(record) && shot.physics.contains(record) &&
+        have_other_looks(before.at(record), shot.physics[record]))
+      return {"the model is drawn as bars, which show neither shapes nor colours of its file: "
+              "`links: visual` in the suite shows them"};
+  return {};
+}
+
 // All else that pixels depend on.
 std::vector<std::string> page_words(const Json& before, const Json& now) {
   std::vector<std::string> words;
@@ -164,6 +174,7 @@ PictureVerdict judge(const Suite& suite, const SuitePicture& picture, const Suit
   if (verdict.state == PictureState::same) return verdict;
   for (std::string& words : page_words(baseline.page, shot.page)) verdict.words.push_back(std::move(words));
   if (difference.same_size) verdict.words.push_back(pixel_words(picture, difference));
+  for (std::string& words : bar_words(baseline.physics, shot)) verdict.words.push_back(std::move(words));
   if (same_physics && is_exact && difference.same_size && !same_pixels)
     verdict.words.push_back(
         "program, renderer, processor and fonts are those of the baseline, so its very pixels are expected");
