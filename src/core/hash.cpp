@@ -59,15 +59,24 @@ std::string sha256_of(std::string_view text) {
   return hash.finish();
 }
 
+HashedBytes hash_of_stream(std::istream& stream, const std::string& path) {
+  if (!stream) throw Error(ExitCode::bad_input, "cannot be read", {path});
+  Sha256 hash;
+  HashedBytes hashed;
+  std::array<char, 65536> buffer;
+  while (stream.read(buffer.data(), buffer.size()), stream.gcount() > 0) {
+    hash.add(std::as_bytes(std::span(buffer.data(), std::size_t(stream.gcount()))));
+    hashed.bytes += std::uintmax_t(stream.gcount());
+  }
+  if (stream.bad()) throw Error(ExitCode::bad_input, "cannot be read to its end", {path});
+  hashed.sha256 = hash.finish();
+  return hashed;
+}
+
 std::string sha256_of_file(const std::string& path) {
   require_plain_file(path);
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw Error(ExitCode::bad_input, "cannot be read", {path});
-  Sha256 hash;
-  std::array<char, 65536> buffer;
-  while (stream.read(buffer.data(), buffer.size()), stream.gcount() > 0)
-    hash.add(std::as_bytes(std::span(buffer.data(), std::size_t(stream.gcount()))));
-  return hash.finish();
+  return hash_of_stream(stream, path).sha256;
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <iosfwd>
 #include <memory>
 #include <span>
@@ -27,6 +28,14 @@ class Sha256 {
 };
 
 std::string sha256_of(std::string_view text);
+
+// Of all bytes that are left in a stream. Throws Error (exit 3) naming `path` where it cannot be read to its end, as one
+// that was not opened.
+struct HashedBytes {
+  std::string sha256;
+  std::uintmax_t bytes = 0;
+};
+HashedBytes hash_of_stream(std::istream& stream, const std::string& path);
 
 // The hash of a plain file's bytes. Throws Error (exit 3) where it cannot be read, (exit 7) where it is
 // larger than any input.

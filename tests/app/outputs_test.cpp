@@ -274,6 +274,48 @@ TEST(Outputs, PresetsNameTheirFiles) {
   EXPECT_THAT(files_of("overlay"), ElementsAre("rr_torque.mov", "rr_torque.webm"));
 }
 
+// Where a GIF has other frames than were drawn, the audit beside it begins with its own.
+TEST(Outputs, AuditsBeginWithTheFirstClip) {
+  const TemporaryFolder folder;
+  const auto audits = [&](const Words& files) {
+    Words words{"render", "assets/scenes/rr_torque.yaml", "--set", "video.width=1000", "--set", "video.height=500", "--set", "video.fps=60",
+                "--set", "duration=0.2", "--force", "--json"};
+    for (const std::string& file : files) words = with(words, {"-o", folder.file(file)});
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return Json::parse(result.out)[0];
+  };
+  const auto beside = [&](const char* name) { return Json::parse(read_whole_file(folder.file(name))); };
+  const auto expect_clip = [&](const Json& audit, const char* clip) {
+    const VideoFacts facts = probe_video(folder.file(clip));
+    EXPECT_EQ(audit["frames"], facts.frames) << clip;
+    EXPECT_EQ(audit["width"], facts.width) << clip;
+    EXPECT_EQ(audit["height"], facts.height) << clip;
+    EXPECT_EQ(audit["fps"].get<double>() * facts.fps.den, facts.fps.num) << clip;
+    EXPECT_NEAR(audit["film_seconds"].get<double>() * audit["fps"].get<double>(), facts.frames, 1e-12) << "round-off of one quotient";
+  };
+  const Json gif_alone = audits({"a.gif"});
+  expect_clip(gif_alone, "a.gif");
+  expect_clip(beside("a.json"), "a.gif");
+  EXPECT_EQ(gif_alone["frames"], 4) << "every third of twelve";
+  EXPECT_EQ(gif_alone["drawn"]["frames"], 12);
+
+  // Of other files that lie there already the audit tells on, as they show the same.
+  const Json film_beside = audits({"a.mp4"});
+  expect_clip(film_beside, "a.mp4");
+  EXPECT_FALSE(film_beside.contains("drawn"));
+  const Json both = beside("a.json");
+  ASSERT_EQ(both["outputs"].size(), 2u) << both;
+  for (const Json& one : both["outputs"]) expect_clip(one, one["file"].get<std::string>().c_str());
+
+  // Two names: the report's is the first clip's, each audit's that beside it. Pictures and tables come in between.
+  expect_clip(audits({"p.png", "c.csv", "b.gif", "d.mp4"}), "b.gif");
+  expect_clip(beside("b.json"), "b.gif");
+  expect_clip(beside("d.json"), "d.mp4");
+  expect_clip(audits({"d.mp4", "b.gif"}), "d.mp4");
+  expect_clip(beside("b.json"), "b.gif");
+}
+
 // What an audit tells of, by name, size and hash; who has a film of the same name made again as something else is told.
 TEST(Outputs, AreInTheirAuditWithSizeAndHash) {
   const TemporaryFolder folder;
@@ -287,6 +329,7 @@ TEST(Outputs, AreInTheirAuditWithSizeAndHash) {
   }
   const Json small = outputs()[1];
   EXPECT_EQ(small["frames"], probe_video(folder.file("a.gif")).frames);
+  EXPECT_EQ(Json::parse(read_whole_file(folder.file("a.json")))["drawn"], Json()) << "the film is no smaller than its frames";
 
   const Words again{"render", "assets/scenes/rr_torque.yaml", "--set", "video.width=160", "--set", "video.height=90", "--set", "video.fps=25",
                     "--set", "duration=0.2", "-o", folder.file("a.gif"), "--force"};

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <fstream>
+#include <sstream>
 #include <string_view>
 
+#include "core/error.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace chainreel {
@@ -46,6 +49,21 @@ TEST(Sha256, OfAFileIsThatOfAllItsBytes) {
     std::string text(size, 'x');
     if (size > 0) text.back() = 'y';
     EXPECT_EQ(sha256_of_file(folder.write("file", text)), hash_of(text)) << size;
+  }
+}
+
+TEST(Sha256, OfAStreamTellsItsBytesAndOfOneThatIsNotOpenNothing) {
+  std::istringstream text("abc");
+  const HashedBytes hashed = hash_of_stream(text, "text");
+  EXPECT_EQ(hashed.sha256, hash_of("abc"));
+  EXPECT_EQ(hashed.bytes, 3u);
+  std::ifstream none("/no/such/file");
+  try {
+    hash_of_stream(none, "/no/such/file");
+    FAIL() << "a file that cannot be opened has no hash, not that of no bytes";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_input);
+    EXPECT_EQ(error.problems().front().place.file, "/no/such/file");
   }
 }
 

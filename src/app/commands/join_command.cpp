@@ -151,7 +151,7 @@ struct JoinedFiles {
 };
 
 void run_join(const JoinOptions& options) {
-  if (fs::path(options.output).extension() == ".csv") {
+  if (lower_case_ending(options.output) == ".csv") {
     join_tables(options.parts, options.output, options.common.force);
     tell_result(options.common, [&] { return Json{{"file", options.output}, {"parts", options.parts.size()}}; },
                 [&] { std::printf("%s: the table of %zu parts\n", options.output.c_str(), options.parts.size()); });
@@ -159,7 +159,7 @@ void run_join(const JoinOptions& options) {
   }
   const std::vector<Part> parts = parts_of(options);
   const PartFacts& facts = parts.front().facts;
-  if (fs::path(options.output).extension() != fs::path(parts.front().path).extension())
+  if (lower_case_ending(options.output) != lower_case_ending(parts.front().path))
     throw Error(ExitCode::usage, "-o " + options.output + ": its parts are " +
                                      fs::path(parts.front().path).extension().string() + " files, and joining encodes nothing");
   const bool force = options.common.force;
@@ -175,7 +175,9 @@ void run_join(const JoinOptions& options) {
   write_film(parts, files.film.temporary_path());
   files.film.commit();
   Json audit = facts.audit;
-  audit[kAuditedFiles] = Json::array({audited_file(options.output)});
+  Json film = audited_file(options.output);
+  film.update(clip_facts(facts.settings.width, facts.settings.height, facts.settings.fps, facts.frames));
+  audit[kAuditedFiles] = Json::array({std::move(film)});
   audit[kSidecarHashes] = Json::object();
   write_whole(files.words, facts.words);
   audit[kSidecarHashes][".txt"] = sha256_of(facts.words);

@@ -109,8 +109,10 @@ std::string outputs_page() {
          "Without it, `video.preset` decides.\n\n" +
          table_of("ending", endings) + "\n" + table_of("preset", names_of(Preset{})) + "\n" +
          code_block("yaml", "video: {width: 1280, height: 720, fps: 50, preset: web, crf: 24}\n") +
-         "\nBeside a film lies NAME.json, its audit, with the size and SHA-256 of each of its files, and NAME.txt, its words. What a command\n"
-         "does not overwrite without `--force`: files outside of a folder named `out`.\n\n" +
+         "\nBeside a film lies NAME.json, its audit, and NAME.txt, its words. The audit's `outputs` are its files, each with bytes, SHA-256\n"
+         "and, of clips, `frames`, `fps`, `width`, `height` and `film_seconds` of its own. Those on top of the audit are of the first clip that\n"
+         "was asked for with -o and that the audit tells of; where that is a GIF or APNG, `drawn` has those of the frames that it was made of.\n\n"
+         "What a command does not overwrite without `--force`: files outside of a folder named `out`.\n\n" +
          code_block("sh", "chainreel render rr_free -o out/rr.webm -o out/rr.gif\n");
 }
 

@@ -6,6 +6,7 @@
 #include "app/film/automatic.hpp"
 #include "app/film/house_logo.hpp"
 #include "app/report/report.hpp"
+#include "app/report/sidecar.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/film/compose.hpp"
@@ -88,6 +89,7 @@ Json to_json(const RunReport& report) {
   if (simulation.options.order > 0) json["order"] = simulation.options.order;
   if (prepared.choice) json["auto"] = choice_report(*prepared.choice, scene.accuracy, false);
   if (simulation.motion) json["motion"] = motion_report(*simulation.motion);
+  if (scene.control && scene.control->function) json["torque_function"] = scene.control->function->words;
   json["steps"] = trajectory.steps;
   json["evaluations"] = trajectory.evaluations;
   json["duration"] = scene.duration;
@@ -234,12 +236,7 @@ Json to_json(const FilmReport& report) {
       if (is_ghost_layout(scene)) json["panels"].back()["look"] = &panel == &report.panels.front() ? "filled" : "outline";
     }
   }
-  const FrameRate fps = scene.video.fps;
-  json["frames"] = report.frames;
-  json["fps"] = fps.den == 1 ? Json(fps.num) : Json(std::to_string(fps.num) + "/" + std::to_string(fps.den));
-  json["width"] = scene.video.width;
-  json["height"] = scene.video.height;
-  json["film_seconds"] = report.film_seconds();
+  json.update(clip_facts(scene.video.width, scene.video.height, scene.video.fps, report.frames));
   if (!report.left_out.empty()) json["left_out"] = report.left_out;
   if (const Json style = style_report(scene); !style.is_null()) json["style"] = style;
   if (!scene.slow_motion.empty() || !report.slow_motion.empty()) {

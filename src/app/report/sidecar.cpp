@@ -1,10 +1,9 @@
 #include "app/report/sidecar.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <filesystem>
 #include <fstream>
-#include <span>
+#include <numeric>
 
 #include "app/film/clip_memory.hpp"
 #include "core/error.hpp"
@@ -55,15 +54,17 @@ bool is_own(const fs::path& path) {
 
 Json audited_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::vector<char> piece(std::size_t(1) << 18);
-  Sha256 hash;
-  std::uintmax_t bytes = 0;
-  while (file.read(piece.data(), std::streamsize(piece.size())), file.gcount() > 0) {
-    const std::span<const char> read(piece.data(), std::size_t(file.gcount()));
-    hash.add(std::as_bytes(read));
-    bytes += read.size();
-  }
-  return {{"file", fs::path(path).filename().string()}, {"bytes", bytes}, {"sha256", hash.finish()}};
+  const HashedBytes hashed = hash_of_stream(file, path);
+  return {{"file", fs::path(path).filename().string()}, {"bytes", hashed.bytes}, {"sha256", hashed.sha256}};
+}
+
+Json clip_facts(int width, int height, FrameRate fps, int frames) {
+  const int common = std::gcd(fps.num, fps.den), num = fps.num / common, den = fps.den / common;
+  return {{"frames", frames},
+          {"fps", den == 1 ? Json(num) : Json(std::to_string(num) + "/" + std::to_string(den))},
+          {"width", width},
+          {"height", height},
+          {"film_seconds", frame_time(frames, fps)}};
 }
 
 OtherFiles others_audited(const std::string& path, const std::vector<std::string>& files, const Json& audit) {
@@ -73,6 +74,8 @@ OtherFiles others_audited(const std::string& path, const std::vector<std::string
     if (before.is_null()) return others;
     const auto shown = [](Json json) {
       for (const char* own : {kAuditedFiles, kSidecarHashes, "seconds"}) json.erase(own);
+      if (json.contains(kDrawnFrames)) json.update(Json(json[kDrawnFrames]));
+      json.erase(kDrawnFrames);
       return json;
     };
     const bool is_same = shown(before) == shown(audit);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/frame_rate.hpp"
 #include "core/json.hpp"
 
 namespace chainreel {
@@ -12,9 +13,14 @@ namespace chainreel {
 // NAME.json says of the texts beside it which they are, by their hashes, under this key: {".txt": .., ".srt": ..}.
 inline constexpr const char* kSidecarHashes = "sidecars_sha256";
 
-// The files that NAME.json tells of, under this key: [{file, bytes, sha256}]; names alone, since they lie beside it.
+// The files that NAME.json tells of, under this key: [{file, bytes, sha256}], of clips with clip_facts; names alone, since
+// they lie beside it. Throws Error (exit 3) where it cannot be read.
 inline constexpr const char* kAuditedFiles = "outputs";
 Json audited_file(const std::string& path);
+// What an audit says of a clip's frames: frames, fps (15 or "30000/1001"), width, height, film_seconds.
+Json clip_facts(int width, int height, FrameRate fps, int frames);
+// The same of the frames that a smaller clip was made of, under this key, where the audit begins with such a clip's.
+inline constexpr const char* kDrawnFrames = "drawn";
 // What an audit at `path` tells of besides `files`, as far as it is still there.
 struct OtherFiles {
   Json entries = Json::array();         // of those that show the same as `audit` says, to be told of on

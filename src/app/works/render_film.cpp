@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "app/film/automatic.hpp"
 #include "app/report/alt_text.hpp"
@@ -92,7 +93,7 @@ void tell(const FilmReport& report, const RenderJob& job, RenderResult& result) 
     return;
   }
   // Nothing has been said of the scenes either.
-  for (const PreparedScene& panel : report.film().panels) std::ranges::move(doubt_lines(panel), std::back_inserter(result.warnings));
+  std::ranges::move(doubt_lines(report.film().panels), std::back_inserter(result.warnings));
   if (!report.left_out.empty()) result.notes.push_back(left_out_words(report.left_out, page));
 }
 
@@ -151,10 +152,17 @@ std::string sidecar_text(const Sidecar& sidecar, const FilmReport& report) {
   return animate_snippet(sidecar.target, report.frames, report.film().scene.video.fps);
 }
 
-// The files as they lie there, in their order: small clips with their own size, null for sequences.
+// Frames, rate and size of a clip: small ones have their own.
+Json clip_facts_of(const Target& target, const FilmReport& report) {
+  const Video& video = report.film().scene.video;
+  if (target.format->make_clip == nullptr) return clip_facts(video.width, video.height, video.fps, report.frames);
+  const SmallSize small = small_size_of(video.width, video.height, video.fps);
+  return clip_facts(small.width, small.height, small.fps, int(small.frames(report.frames)));
+}
+
+// The files as they lie there, in their order, clips with what is in them; null for sequences.
 Json audited_files(const RenderJob& job, const std::vector<std::string>& paths, const FilmReport& report) {
   Json files = Json::array();
-  const Video& video = report.film().scene.video;
   for (const std::string& path : paths) {
     std::error_code code;
     if (!fs::is_regular_file(path, code)) {
@@ -162,10 +170,8 @@ Json audited_files(const RenderJob& job, const std::vector<std::string>& paths, 
       continue;
     }
     Json& file = files.emplace_back(audited_file(path));
-    const auto is_it = [&](const Target& target) { return target.path == path && target.format->make_clip != nullptr; };
-    if (std::none_of(job.targets.begin(), job.targets.end(), is_it)) continue;
-    const SmallSize size = small_size_of(video.width, video.height, video.fps);
-    file.update({{"width", size.width}, {"height", size.height}, {"fps", size.fps.value()}, {"frames", size.frames(report.frames)}});
+    for (const Target& target : job.targets)
+      if (target.path == path && target.format->shows == Shows::motion) file.update(clip_facts_of(target, report));
   }
   return files;
 }
@@ -194,8 +200,21 @@ bool tells_of(const std::vector<Sidecar>& sidecars, const std::string& audit, co
          (std::count_if(sidecars.begin(), sidecars.end(), is_audit) == 1 && fs::path(file).parent_path() == fs::path(audit).parent_path());
 }
 
+// What an audit says first of frames, rate and size is of the first clip among those that it tells of; without one it stays
+// the film's.
+void put_first_clip(Json& audit, const RenderJob& job, const FilmReport& report, const auto& is_told) {
+  for (const Target& target : job.targets) {
+    if (target.format->shows != Shows::motion || !is_told(target)) continue;
+    if (target.format->make_clip == nullptr) return;
+    const Json clip = clip_facts_of(target, report);
+    for (const auto& [key, value] : clip.items()) audit[kDrawnFrames][key] = std::exchange(audit[key], value);
+    return;
+  }
+}
+
 // Texts first: each audit tells of those beside it.
-void write_sidecars(std::vector<Sidecar>& sidecars, const FilmReport& report, const std::map<std::string, Json>& others, RenderResult& result) {
+void write_sidecars(std::vector<Sidecar>& sidecars, const RenderJob& job, const FilmReport& report,
+                    const std::map<std::string, Json>& others, RenderResult& result) {
   std::map<fs::path, Json> hashes;  // by NAME.json
   const Json files = result.audit[kAuditedFiles];
   for (Sidecar& sidecar : sidecars) {
@@ -210,6 +229,9 @@ void write_sidecars(std::vector<Sidecar>& sidecars, const FilmReport& report, co
     if (sidecar.what != Sidecar::audit) continue;
     Json audit = result.audit;
     const std::string path = sidecar.file->path();
+    put_first_clip(audit, job, report, [&](const Target& target) {
+      return base_of(target) + ".json" == path || tells_of(sidecars, path, target.path);
+    });
     audit[kSidecarHashes] = hashes[path];
     audit[kAuditedFiles] = others.at(path);
     for (std::size_t i = 0; i < result.files.size(); ++i)
@@ -328,7 +350,8 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   result.files = commit(outputs);
   result.audit[kAuditedFiles] = audited_files(job, result.files, report);
   forget_chunks(outputs, range, total_frames);
-  write_sidecars(sidecars, report, others, result);
+  write_sidecars(sidecars, job, report, others, result);
+  if (!is_part) put_first_clip(result.audit, job, report, [](const Target&) { return true; });
   return result;
 }
 
