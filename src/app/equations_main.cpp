@@ -1,7 +1,6 @@
 // chainreel-equations: the one command that computes in symbols.
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <set>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include "app/film/prepared.hpp"
 #include "app/main_program.hpp"
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "core/json.hpp"
 #include "core/output_file.hpp"
 #include "model/read_chain.hpp"
@@ -100,7 +100,7 @@ Form form_of(const EquationsOptions& options) {
   if (options.python) asked.insert(Form::python);
   // Of a file, --json tells on standard output what is in it.
   if (options.common.json && options.output.empty()) asked.insert(Form::json);
-  const std::string ending = std::filesystem::path(options.output).extension().string();
+  const std::string ending = lower_case_ending(options.output);
   const std::pair<const char*, Form> endings[] = {{".tex", Form::latex}, {".py", Form::python}, {".json", Form::json}};
   for (const auto& [name, form] : endings)
     if (ending == name) asked.insert(form);

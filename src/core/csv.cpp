@@ -24,8 +24,9 @@ std::string trimmed(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
 }
 
-// A field in quotes may hold commas, and quotes as two of them. Throws Error at `place` where they do not close.
-std::vector<std::string> fields_of(const std::string& line, const Place& place) {
+}  // namespace
+
+std::vector<std::string> csv_fields(const std::string& line, const Place& place) {
   std::vector<std::string> fields;
   for (std::size_t begin = 0;;) {
     const std::size_t first = line.find_first_not_of(" \t\r", begin);
@@ -50,6 +51,8 @@ std::vector<std::string> fields_of(const std::string& line, const Place& place) 
     begin = comma + 1;
   }
 }
+
+namespace {
 
 // Of a line of names that holds but one: what separates its values instead.
 void require_commas(const std::vector<std::string>& names, const Place& place) {
@@ -127,7 +130,7 @@ Table read_csv(const std::string& path, const std::string& since_first) {
     ++number;
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // the mark of UTF-8 that spreadsheets write
     if (trimmed(line).empty() || trimmed(line).starts_with('#')) continue;
-    const std::vector<std::string> fields = fields_of(line, {path, number});
+    const std::vector<std::string> fields = csv_fields(line, {path, number});
     if (table.names.empty()) {
       require_commas(fields, {path, number});
       table.names = fields;

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
+
 namespace chainreel {
 
 struct Table {
@@ -56,6 +58,10 @@ TimeTable time_table_of(const Table& table, const std::vector<std::string>& want
                         const ColumnNames& names = {});
 TimeTable read_time_table(const std::string& path, const std::vector<std::string>& wanted, const std::vector<std::string>& freedoms,
                           const ColumnNames& names = {});
+
+// The fields of a line, without blanks around them. One in quotes may hold commas, and quotes as two of them. Throws Error at
+// `place` where they do not close.
+std::vector<std::string> csv_fields(const std::string& line, const Place& place);
 
 // A field of words: in quotes, on one line.
 std::string csv_words(const std::string& words);

@@ -1,10 +1,12 @@
 #include "core/format.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <sstream>
 #include <utility>
 
@@ -36,6 +38,13 @@ std::string format_fixed(double value, int decimals) {
 
 std::string format_significant(double value, int digits) {
   return print(value == 0 ? 0.0 : value, std::chars_format::general, digits);
+}
+
+std::string lower_case_ending(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  return ending;
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& between) {

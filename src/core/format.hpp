@@ -14,6 +14,9 @@ std::string format_exact(double value);                // 17 significant digits
 std::string format_fixed(double value, int decimals);  // never "-0.00"
 std::string format_significant(double value, int digits);
 
+// ".mp4" of "a/B.MP4", as cameras and editors write it; "" where there is none.
+std::string lower_case_ending(const std::string& path);
+
 std::string joined(const std::vector<std::string>& words, const std::string& between = ", ");
 // What stands between the signs: "a,,b" is three, nothing none; behind the last sign nothing is counted.
 std::vector<std::string> separated(const std::string& text, char sign);

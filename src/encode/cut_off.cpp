@@ -6,6 +6,8 @@
 #include <fstream>
 #include <optional>
 
+#include "core/format.hpp"
+
 namespace chainreel {
 namespace {
 
@@ -74,7 +76,7 @@ bool ends_with_an_element(Reader& file) {
 
 bool is_cut_off(const std::string& path) {
   Reader file(path);
-  const std::string ending = std::filesystem::path(path).extension().string();
+  const std::string ending = lower_case_ending(path);
   if (ending == ".mp4" || ending == ".mov") return file.size() > 0 && !ends_with_a_box(file);
   if (ending == ".webm") return file.size() > 0 && !ends_with_an_element(file);
   if (ending == ".png" || ending == ".apng") return file.size() > 0 && !file.ends_with(std::string("IEND\xAE\x42\x60\x82"));

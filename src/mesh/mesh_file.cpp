@@ -10,19 +10,13 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "core/input_file.hpp"
 #include "mesh/mesh_extents.hpp"
 
 namespace chainreel {
 namespace fs = std::filesystem;
 namespace {
-
-std::string lower_case_ending(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return ending;
-}
 
 // A mesh may name further files; opening a pipe or a terminal, as assimp does also to see whether it is
 // there, would wait for ever. Links count as what they lead to.

@@ -232,6 +232,12 @@ Place YamlDocument::place_of(const YAML::Node& node, const std::string& key) con
   return here;
 }
 
+bool YamlDocument::is_of_command_line(const std::string& key) const {
+  const auto one = std::find_if(origins.rbegin(), origins.rend(),
+                                [&](const Origin& origin) { return key == origin.key || lies_below(key, origin.key); });
+  return one != origins.rend() && one->command_line;
+}
+
 std::map<std::string, Place> YamlDocument::places() const {
   std::map<std::string, Place> places;
   collect_places(*this, root, "", places);

@@ -40,6 +40,9 @@ struct YamlDocument {
   // Where a node stands; `key` is its dotted path, so that overridden values name the command line.
   Place place_of(const YAML::Node& node, const std::string& key) const;
 
+  // Whether --set put it there, or what it lies in.
+  bool is_of_command_line(const std::string& key) const;
+
   // Where each key stands, by its dotted path, as deep as mappings lie in mappings.
   std::map<std::string, Place> places() const;
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -74,23 +73,6 @@ std::string json_bytes(const DataTable& table) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-// The cells of a line. In quotes, commas and doubled quotes are letters.
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool is_quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"' && is_quoted && i + 1 < line.size() && line[i + 1] == '"')
-      cells.back() += line[++i];
-    else if (line[i] == '"')
-      is_quoted = !is_quoted;
-    else if (line[i] == ',' && !is_quoted)
-      cells.emplace_back();
-    else
-      cells.back() += line[i];
-  }
-  return cells;
-}
-
 std::optional<double> number_of(const std::string& cell) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN(), kInfinite = std::numeric_limits<double>::infinity();
   if (cell.empty() || cell == "nan") return kNone;
@@ -108,7 +90,7 @@ DataTable table_of_csv(const std::string& csv) {
   DataTable table;
   for (std::string line; std::getline(stream, line);) {
     if (line.empty() || line.front() == '#') continue;
-    std::vector<std::string> cells = cells_of(line);
+    std::vector<std::string> cells = csv_fields(line, {});
     if (names.empty()) {
       names = std::move(cells);
       columns.resize(names.size());
@@ -144,7 +126,7 @@ void DataTable::add(const std::string& name, std::vector<std::string> columns, s
 }
 
 std::optional<TableFormat> find_table_format(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
+  const std::string ending = lower_case_ending(path);
   for (const Ending& one : kEndings)
     if (ending == one.ending) return one.format;
   return std::nullopt;

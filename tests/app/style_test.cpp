@@ -47,6 +47,40 @@ TEST_F(HouseStyleFilm, ExampleIsDrawnAndSaysNothingAgainstItself) {
   }
 }
 
+// Files that the command line names lie where it is typed, else where the scene's own do: models, styles, logos, tables alike.
+TEST(PathsOfTheCommandLine, StartInTheWorkingFolderAndThenBesideTheScene) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "here");
+  fs::create_directories(folder.path() / "scenes");
+  const std::string rr = read_whole_file("models/rr.urdf"), rrr = read_whole_file("models/rrr.urdf");
+  folder.write("here/mine.urdf", rr);
+  folder.write("here/both.urdf", rr);
+  folder.write("scenes/both.urdf", rrr);
+  folder.write("scenes/theirs.urdf", rrr);
+  folder.write("here/uni.yaml", "light: {ink: \"#102030\"}\n");
+  folder.write("here/push.csv", "t,tau1,tau2\n0,1,0\n1,2,0\n");
+  folder.write("scenes/s.yaml", "model: theirs.urdf\nmethod: rk4\nstep: 0.01\nduration: 0.1\n");
+  const RunOptions here{.folder = (folder.path() / "here").string()};
+  const auto check = [&](const Words& more) { return run_program(with({"check", "../scenes/s.yaml"}, more), here); };
+  const auto model_of = [&](const std::string& name) {
+    const ProgramResult run = run_program({"simulate", "../scenes/s.yaml", "-o", "a.csv", "--force", "--json", "--set", "model=" + name}, here);
+    EXPECT_EQ(run.status, 0) << run.err;
+    const std::string head = read_whole_file((folder.path() / "here/a.csv").string()).substr(0, 200);
+    return head.find("q3") == std::string::npos ? 2 : 3;
+  };
+  EXPECT_EQ(model_of("mine.urdf"), 2);
+  EXPECT_EQ(model_of("both.urdf"), 2) << "here comes first";
+  EXPECT_EQ(model_of("theirs.urdf"), 3) << "else as in the scene's file";
+  EXPECT_EQ(check({"--set", "style=uni.yaml"}).status, 0);
+  EXPECT_EQ(check({"--set", "model=mine.urdf", "--set", "torque={csv: push.csv}"}).status, 0) << "what lies in a value, too";
+  EXPECT_EQ(run_program({"check", "rr_free", "--set", "style=uni.yaml"}, here).status, 0) << "of a scene that comes with the program";
+  EXPECT_THAT(check({"--set", "style=none.yaml"}).err, HasSubstr("paths of --set are looked for from the working folder, then from the scene's"));
+  EXPECT_THAT(check({"--set", "model=none.urdf"}).err, HasSubstr("paths of --set are looked for from the working folder"));
+  // What stands in the file is never looked for here.
+  folder.write("scenes/s.yaml", "model: mine.urdf\nmethod: rk4\nduration: 0.1\n");
+  EXPECT_THAT(check({}).err, HasSubstr("paths are relative to the scene file"));
+}
+
 TEST_F(HouseStyleFilm, SaysWhatCannotBeReadAndInItsReport) {
   const ProgramResult run = run_program(with_style({"render", kStyledScene, "-o", folder_.file("a.gif")}, "light: {ink: \"#AAAAAA\"}\n"));
   ASSERT_EQ(run.status, 0) << run.err;

@@ -116,7 +116,7 @@ TEST(SimulateTables, AreTheSameMotionInEveryFormat) {
 
 TEST(SimulateTables, OfOtherKindsAreRefusedBeforeAnythingIsComputed) {
   const TemporaryFolder folder;
-  for (const std::string name : {"a", "a.txt", "a.csv.gz", "a.CSV"}) {
+  for (const std::string name : {"a", "a.txt", "a.csv.gz", "a.CSV.gz"}) {
     const ProgramResult refused = simulate("assets/scenes/rr_free.yaml", {"-o", folder.file("good.csv"), "-o", folder.file(name)});
     EXPECT_EQ(refused.status, 2) << name;
     EXPECT_THAT(refused.err, HasSubstr(".csv, .json, .npz")) << name;

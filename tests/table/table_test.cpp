@@ -99,8 +99,10 @@ TEST(DataTable, PutsNamesWithCommasIntoQuotes) {
 TEST(TableFormat, IsKnownByItsEndingAndTellsTheKnownOnes) {
   EXPECT_EQ(table_format_of("a.b/c.npz"), TableFormat::npz);
   EXPECT_EQ(table_format_of("x.json"), TableFormat::json);
+  EXPECT_EQ(table_format_of("A.CSV"), TableFormat::csv);
+  EXPECT_EQ(table_format_of("a.Npz"), TableFormat::npz);
   EXPECT_EQ(table_format_of("-"), TableFormat::csv);
-  for (const std::string path : {"a", "a.csv.gz", "a.CSV", "a.csv/b", ".csv", "a.xlsx"}) {
+  for (const std::string path : {"a", "a.csv.gz", "a.CSV.GZ", "a.csv/b", ".csv", "a.xlsx"}) {
     try {
       table_format_of(path);
       ADD_FAILURE() << path;

@@ -301,7 +301,7 @@ void check_outputs(const SweepOptions& options) {
     refuse_dash(output);
     if (is_table_path(output)) {
       ++tables;
-      if (!options.shard.empty() && fs::path(output).extension() != ".csv")
+      if (!options.shard.empty() && lower_case_ending(output) != ".csv")
         throw Error(ExitCode::usage, "-o " + output + ": shares of a table are joined as .csv, so that --shard writes them so");
     } else if (fs::path(output).extension().empty() || output.ends_with('/')) {
       ++folders;

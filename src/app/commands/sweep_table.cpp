@@ -149,13 +149,13 @@ class RowMaker {
   std::size_t events_;
 };
 
-// Where values are or hold names of files, as in {csv: tau.csv}, these, as the scene finds them.
+// Where values are or hold names of files, as in {csv: tau.csv}, these, as the scene finds them: here, else beside it.
 std::vector<std::string> files_named(const SweepTableJob& job) {
   std::vector<std::string> files;
   const auto look = [&](const std::string& name) {
     std::error_code code;
-    if (const fs::path file = fs::path(job.scene).parent_path() / name; !name.empty() && fs::is_regular_file(file, code))
-      files.push_back(file.string());
+    for (const fs::path& file : {fs::path(name), fs::path(job.scene).parent_path() / name})
+      if (!name.empty() && fs::is_regular_file(file, code)) return files.push_back(file.string());
   };
   for (const Sweep& axis : job.grid.axes())
     for (const std::string& value : axis.numbers.empty() ? axis.values : std::vector<std::string>{}) {

@@ -82,13 +82,10 @@ std::span<const OutputFormat> output_formats() {
 }
 
 const OutputFormat* find_output_format(const std::string& path, std::optional<Shows> shows) {
-  // As cameras and editors write them: .MP4
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  const std::string ending = lower_case_ending(path), name = std::filesystem::path(path).stem().string() + ending;
   for (const OutputFormat& row : kFormats)
     if (shows.value_or(row.shows) == row.shows &&
-        (row.is_sequence ? path.ends_with(row.ending) : ending == row.ending))
+        (row.is_sequence ? name.ends_with(row.ending) : ending == row.ending))
       return &row;
   return nullptr;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "core/hash.hpp"
 #include "core/input_file.hpp"
 #include "draw/page/house_style.hpp"
@@ -65,7 +66,7 @@ Json fallback_report(const Scene& scene) {
 void read_logo(Logo& logo) {
   note_input(logo.file);
   const std::string bytes = read_plain_file(logo.file, kLargestLogoFile);
-  logo.image = std::make_shared<const Image>(fs::path(logo.file).extension() == ".svg"
+  logo.image = std::make_shared<const Image>(lower_case_ending(logo.file) == ".svg"
                                                  ? svg_image(bytes, logo.file, kPixelsOfSvg)
                                                  : decode_png(bytes, logo.file));
   logo.sha256 = sha256_of(bytes);

@@ -139,7 +139,7 @@ constexpr std::size_t kSealSize = kSeal.size() + 64;  // bytes, with the hash's 
 // MP4's and MOV's `free`, Matroska's Void.
 std::string head_of_box(const std::string& path) {
   static_assert(kSealSize < 127);
-  if (path.ends_with(".webm")) return {char(0xEC), char(0x80 | kSealSize)};
+  if (lower_case_ending(path) == ".webm") return {char(0xEC), char(0x80 | kSealSize)};
   return std::string(3, '\0') + char(8 + kSealSize) + "free";
 }
 

@@ -113,9 +113,18 @@ bool Fields::read(const std::string& key, bool& value) {
   return is_truth;
 }
 
+std::string Fields::paths_start(const std::string& key) const {
+  return document_->is_of_command_line(path(key)) ? "paths of --set are looked for from the working folder, then from the scene's"
+                                                  : "paths are relative to the scene file";
+}
+
 bool Fields::read_path(const std::string& key, std::string& value) {
   if (!read(key, value)) return false;
-  if (!value.empty()) value = beside(document_->file, value);
+  if (value.empty()) return true;
+  // What the command line names lies where it is typed; else it is meant as in the file.
+  std::error_code ignored;
+  const bool is_here = document_->is_of_command_line(path(key)) && std::filesystem::is_regular_file(value, ignored);
+  if (!is_here) value = beside(document_->file, value);
   return true;
 }
 

@@ -46,7 +46,8 @@ class Fields {
   bool read_some(const std::string& key, std::optional<Eigen::Vector3d>& value);
   bool read(const std::string& key, std::vector<std::string>& value);
   bool read_seconds(const std::string& key, double& value);       // `1.5`, `1.5s` or `1.5 s`
-  bool read_path(const std::string& key, std::string& value);  // relative to the scene file
+  std::string paths_start(const std::string& key) const;  // in words, for a path that leads nowhere
+  bool read_path(const std::string& key, std::string& value);  // relative to the scene file; of --set first to the working folder
   std::optional<std::size_t> read_word(const std::string& key, std::span<const Name> words);  // its index
   template <Named Enum>
   bool read(const std::string& key, Enum& value) {

@@ -120,7 +120,7 @@ void read_model(Fields& fields, Scene& scene) {
   if (scene.model.path.empty())
     fields.problem_at("model", "the scene names no model: write `model: ../../models/rr.urdf`, or `model: {links: [0.5, 0.4]}`");
   else if (!std::filesystem::is_regular_file(scene.model.path, ignored))
-    fields.problem_at("model", "there is no model file " + scene.model.path + ": paths are relative to the scene file");
+    fields.problem_at("model", "there is no model file " + scene.model.path + ": " + fields.paths_start("model"));
 }
 
 std::string model_text(const Scene& scene) {

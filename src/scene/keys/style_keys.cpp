@@ -82,7 +82,7 @@ void read_logo(Fields& style, std::optional<Logo>& logo) {
   fields->read("height", read.height);
   fields->finish();
   std::error_code ignored;
-  const std::string ending = std::filesystem::path(read.file).extension().string();
+  const std::string ending = lower_case_ending(read.file);
   if (read.file.empty())
     return complain(*fields, "file", "must name the picture: logo: {file: lab.png}");
   if (!std::filesystem::is_regular_file(read.file, ignored))
@@ -196,7 +196,7 @@ void read_style(Fields& fields, Scene& scene) {
   if (!fields.read_path("style", path)) return;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
-    return fields.problem_at("style", "there is no style file " + path + ": paths are relative to the scene file");
+    return fields.problem_at("style", "there is no style file " + path + ": " + fields.paths_start("style"));
   read_file(fields, path, scene.style);
 }
 
