@@ -112,6 +112,33 @@ TEST(Compare, AMoveByAPixelIsExitOneAndSaysWhere) {
   EXPECT_EQ(run_program({"compare", a, b, "--tolerance", "1"}).status, 0);
 }
 
+// What exit code 0 means is said where something differs all the same.
+TEST(Compare, SaysWhyADifferenceIsExitZero) {
+  const TemporaryFolder folder;
+  const std::string a = picture(folder, "a.png", square_at(10)), b = picture(folder, "b.png", square_at(10.3));
+  const ProgramResult near = run_program({"compare", a, b});
+  EXPECT_EQ(near.status, 0);
+  EXPECT_THAT(near.out, HasSubstr("within the tolerance, which exit code 0 means"));
+  const ProgramResult every = run_program({"compare", a, b, "--tolerance", "0", "--count-edges"});
+  EXPECT_EQ(every.status, 1) << "the remedy works";
+  EXPECT_THAT(every.out, Not(HasSubstr("within")));
+
+  std::string urdf = read_whole_file("models/rr.urdf");
+  const std::string light = folder.write("light.urdf", urdf);
+  urdf.replace(urdf.find("mass value=\"1\""), 14, "mass value=\"2\"");
+  const std::string heavy = folder.write("heavy.urdf", urdf);
+  const auto figure = [&](const std::string& model, const char* name) {
+    EXPECT_EQ(run_program({"snapshot", model, "--pose", "30deg,40deg", "-o", folder.file(name)}).status, 0);
+    return folder.file(name);
+  };
+  const ProgramResult same = run_program({"compare", figure(light, "light.png"), figure(heavy, "heavy.png")});
+  EXPECT_EQ(same.status, 0);
+  EXPECT_THAT(same.out, testing::StartsWith("equal\n"));
+  EXPECT_THAT(same.out, HasSubstr("the model file is another one"));
+  EXPECT_THAT(same.out, HasSubstr("the pixels do not show it, and they alone are judged"));
+  EXPECT_EQ(run_program({"compare", light, heavy}).status, 1) << "the remedy works";
+}
+
 TEST(Compare, AFractionOfAPixelIsAntiAliasingUnlessEdgesCount) {
   const TemporaryFolder folder;
   const std::string a = picture(folder, "a.png", square_at(10)),

@@ -140,7 +140,8 @@ void add_compare_command(CommandLine& app) {
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
   command->footer(
-      "Exit code 1 where they differ beyond the tolerance.\n"
+      "Exit code 1 where they differ beyond the tolerance. Of pictures and films pixels alone are judged, what they remember of\n"
+      "their scenes and models is told: a mass that no pixel shows is a difference for `verify` and of two .urdf files.\n"
       "Example: chainreel compare before.png after.png -o out/difference.png");
   command->callback([options] { run_compare(*options); });
 }

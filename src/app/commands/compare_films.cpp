@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 
 #include "app/cli/streams.hpp"
@@ -124,7 +125,8 @@ FilmDifference difference_of(const CompareOptions& options) {
     found.fps[i] = readers[i].fps();
     found.seconds[i] = readers[i].seconds();
   }
-  if (audited_file(options.before)["sha256"] == audited_file(options.after)["sha256"])
+  if (std::filesystem::file_size(options.before) == std::filesystem::file_size(options.after) &&
+      audited_file(options.before)["sha256"] == audited_file(options.after)["sha256"])
     count_frames(readers[0], options, found);
   else
     compare_frames(readers, options, found);

@@ -81,6 +81,11 @@ Comparison compare_pair(const CompareOptions& options, const std::string& output
   const std::vector<std::string> remembered = explain_memories(options.before, options.after);
   found.words.insert(found.words.end(), remembered.begin(), remembered.end());
   found.report["explained"] = remembered;
+  if (!found.equal && found.passes)
+    found.words.push_back("within the tolerance, which exit code 0 means: --tolerance 0 --count-edges takes every pixel for a difference");
+  else if (found.equal && std::ranges::any_of(remembered, [](const std::string& words) { return words.ends_with(kByHash); }))
+    found.words.push_back("the pixels do not show it, and they alone are judged: `verify` judges what stands behind pictures, "
+                          "`compare` of two .urdf files models");
   if (!output.empty()) write_difference(options, before, after, output);
   return found;
 }

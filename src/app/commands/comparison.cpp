@@ -1,9 +1,7 @@
 #include "app/commands/comparison.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
-#include <filesystem>
 #include <optional>
 
 #include "app/film/clip_memory.hpp"
@@ -117,17 +115,15 @@ std::vector<std::string> explain_memories(const std::string& before, const std::
   const Json& facts = old->figure.is_null() ? old->audit : old->figure;
   const Json& other_facts = now->figure.is_null() ? now->audit : now->figure;
   for (const auto& [key, told] :
-       {std::pair("model_sha256", "the model file is another one, by its hash"),
-        std::pair("trajectory_sha256", "the motion is another one, by its hash"),
-        std::pair("versions", "versions of the program or its libraries are others")})
+       {std::pair("model_sha256", std::string("the model file is another one") + kByHash),
+        std::pair("trajectory_sha256", std::string("the motion is another one") + kByHash),
+        std::pair("versions", std::string("versions of the program or its libraries are others"))})
     if (facts.value(key, Json()) != other_facts.value(key, Json())) sentences.push_back(told);
   return sentences;
 }
 
 bool ends_in(const std::string& path, std::initializer_list<const char*> endings) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = lower_case_ending(path);
   return std::any_of(endings.begin(), endings.end(), [&](const char* one) { return ending == one; });
 }
 
