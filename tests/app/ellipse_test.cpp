@@ -54,6 +54,40 @@ std::string golden(const std::vector<std::string>& words, const std::string& nam
   return same ? "" : same.message();
 }
 
+// A scene lends its model where that stands in it in numbers, as everything else takes it.
+TEST(Ellipse, TakesTheModelOfAScene) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write(
+      "two.yaml", "title: of the film\nmodel: {links: [1, 1], masses: 1, shape: point}\nmethod: rk4\nduration: 1\n");
+  const std::string rows = folder.write("dh.yaml", "model: {dh: [[1, 0, 0, 0], [1, 0, 0, 0]], masses: 1, shape: point}\n");
+  const Json of_file = report_of({"models/rr.urdf", "--pose", "0.3,1.2"});
+  for (const std::string& named : {scene, rows}) {
+    const Json of_numbers = report_of({named, "--pose", "0.3,1.2"});
+    for (int i = 0; i < 2; ++i)  // the round-off of two writings of one chain
+      EXPECT_NEAR(of_numbers["poses"][0]["eigenvalues"][std::size_t(i)].get<double>(), of_file["poses"][0]["eigenvalues"][std::size_t(i)].get<double>(), 1e-12) << named;
+    EXPECT_EQ(report_of({named, "--field", "--samples", "5"})["poses"].size(), report_of({"models/rr.urdf", "--field", "--samples", "5"})["poses"].size()) << named;
+    EXPECT_EQ(report_of({named, "--sweep", "q2=30deg:150deg:4"})["poses"].size(), 4u);
+    EXPECT_EQ(draw({named, "--pose", "0.3,1.2", "--joint-space", "--force"}, folder.file("j.svg")).status, 0);
+  }
+  EXPECT_EQ(draw({scene, "--pose", "0,1"}, folder.file("t.svg")).status, 0);
+  EXPECT_THAT(text_of(folder.file("t.svg")), testing::Not(HasSubstr("of the film")));
+  EXPECT_THAT(draw({scene}, folder.file("x.png")).err, HasSubstr("the ellipses along its motion are `--along " + scene + "`"));
+  EXPECT_THAT(draw({"assets/scenes/pen.yaml", "--pose", "0,0,0"}, folder.file("x.png")).err, HasSubstr("has constraints"));
+  EXPECT_THAT(draw({"rr", "--pose", "0,1"}, folder.file("x.png")).err, HasSubstr("the model that comes with the program is rr.urdf"));
+  EXPECT_THAT(draw({"nothing", "--pose", "0,1"}, folder.file("x.png")).err, HasSubstr("neither a model (.urdf) nor a scene (.yaml)"));
+  EXPECT_EQ(draw({"assets/scenes/compare.yaml", "--pose", "0,1"}, folder.file("x.png")).status == 0, false) << "which panel's?";
+}
+
+TEST(Ellipse, SweepsRefuseUnitsOfAnotherKindAndDoubtRadians) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(draw({"models/rr.urdf", "--sweep", "q2=1m,2m"}, folder.file("a.png")).err, HasSubstr("is in the unit m, but this is in rad"));
+  EXPECT_THAT(draw({"models/rr.urdf", "--sweep", "q2=0:1m:3"}, folder.file("a.png")).err, HasSubstr("is in the unit m, but this is in rad"));
+  EXPECT_THAT(draw({"models/pp.urdf", "--sweep", "q2=0:90deg:3"}, folder.file("a.png")).err, HasSubstr("is in the unit rad, but this is in m"));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.png")));
+  EXPECT_THAT(draw({"models/rr.urdf", "--sweep", "q2=0:90:3"}, folder.file("b.png")).err, HasSubstr("WARNING: --sweep: 45 of joint2 is in radians"));
+  EXPECT_EQ(draw({"models/rr.urdf", "--sweep", "q2=0:90deg:3"}, folder.file("c.png")).err, "");
+}
+
 TEST(EllipseGoldens, OfEachKindOfFigure) {
   EXPECT_EQ(golden({"models/rr.urdf", "--pose", "0,90deg", "--pose", "0,150deg", "--reading", "belt"}, "ellipse_belt"), "");
   EXPECT_EQ(golden({"models/rr.urdf", "--pose", "0,90deg", "--pose", "0,0", "--reading", "energy"}, "ellipse_energy"), "");

@@ -199,7 +199,7 @@ std::vector<Remedy> remedies() {
       {"end_effector_of_a_model", {"ellipse", "two.urdf", "--pose", "0,0", "-o", "out.svg"}, "`(--set end_effector=NAME)`", Typed::behind, "", "a"},
       {"end_effector_of_a_scene", {"snapshot", "SCENE", "-o", "out.svg", "--force"}, "`(--set end_effector=NAME)`", Typed::behind,
        "model: two.urdf\nmethod: rk4\nduration: 0.1\n", "a"},
-      {"end_effector_of_numbers", {"dynamics", "two.urdf"}, "choose a link with (--end-effector NAME)", Typed::behind, "", "a"},
+      {"end_effector_of_numbers", {"dynamics", "two.urdf"}, "choose one with (--end-effector NAME)", Typed::behind, "", "a"},
       {"end_effector_of_columns", {"simulate", "SCENE", "-o", "out.csv", "--force", "--columns", "x_G"}, "`(--set end_effector=NAME)`",
        Typed::behind, "model: two.urdf\nmethod: rk4\nduration: 0.1\n", "a"},
       {"end_effector_along", {"ellipse", "--along", "SCENE", "--end-effector", "a", "-o", "out.svg"}, "(--set end_effector=a)", Typed::behind,

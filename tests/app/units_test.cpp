@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <numbers>
 
 #include "core/json.hpp"
@@ -153,7 +154,23 @@ TEST_F(Units, EndingsMayBeInCapitals) {
     EXPECT_THAT(read_whole_file(folder_.file(name)).substr(0, 400), HasSubstr(start)) << name;
   }
   EXPECT_EQ(run_program({"extract", folder_.file("a.MP4")}).status, 0);
+  for (const char* name : {"t.CSV", "t.NPZ", "t.JSON"}) EXPECT_EQ(run_program({"simulate", scene, "-o", folder_.file(name)}).status, 0) << name;
+  EXPECT_THAT(read_whole_file(folder_.file("t.CSV")), testing::StartsWith("t [s],"));
+  EXPECT_THAT(read_whole_file(folder_.file("t.NPZ")), testing::StartsWith("PK"));
+  EXPECT_TRUE(parse_json(read_whole_file(folder_.file("t.JSON"))).is_object());
+  EXPECT_EQ(run_program({"equations", kModels + "rr.urdf", "-o", folder_.file("e.TEX")}).status, 0);
+  EXPECT_EQ(run_program({"sweep", scene, "--over", "start.q.1=1,2", "-o", folder_.file("s.CSV")}).status, 0);
+  EXPECT_EQ(run_program({"render", scene, "-o", folder_.file("k_000000.PNG")}).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_.file("k_000001.png"))) << "a sequence, not a picture of that name";
   EXPECT_NE(run_program({"render", scene, "-o", folder_.file("a.MP5")}).status, 0) << "negative control";
+}
+
+TEST_F(Units, AWrongCountOfNumbersIsToldWithTheNamesOfTheJoints) {
+  const std::string rr = kModels + "rr.urdf";
+  EXPECT_THAT(run_program({"dynamics", rr, "--q", "0"}).err, HasSubstr("--q 0 has 1 number, but rr needs 2: of joint1, joint2"));
+  EXPECT_THAT(run_program({"dynamics", rr, "--tau", "1,2,3"}).err, HasSubstr("--tau 1,2,3 has 3 numbers, but rr needs 2: of joint1, joint2"));
+  EXPECT_THAT(run_program({"snapshot", rr, "--pose", "1", "-o", folder_.file("a.png")}).err, HasSubstr("of joint1, joint2"));
+  EXPECT_EQ(run_program({"dynamics", rr, "--q", "0,1"}).status, 0) << "negative control";
 }
 
 TEST_F(Units, NumbersThatSpacesPartAreToldToStandTogether) {

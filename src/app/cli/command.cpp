@@ -120,12 +120,15 @@ std::optional<std::size_t> coordinate_of(const Chain& chain, const std::string& 
 
 namespace {
 
-std::vector<double> parse_counted(std::size_t count, const Chain& chain, const std::string& text,
+// A number for each of `names`.
+std::vector<double> parse_counted(const std::vector<std::string>& names, const Chain& chain, const std::string& text,
                                   const std::string& what) {
+  constexpr std::size_t kMostNamed = 300;  // bytes
   std::vector<double> values = parse_list(text, what);
-  if (values.size() != count)
+  if (values.size() != names.size())
     throw Error(ExitCode::usage, what + " " + text + " has " + std::to_string(values.size()) +
-                                     " numbers, but " + chain.name + " needs " + std::to_string(count));
+                                     (values.size() == 1 ? " number" : " numbers") + ", but " + chain.name + " needs " +
+                                     std::to_string(names.size()) + ": of " + shortened(joined(names), kMostNamed));
   return values;
 }
 
@@ -176,7 +179,7 @@ std::vector<double> parse_pose(const Chain& chain, const std::string& text, cons
   const std::vector<std::string> entries = separated(text, ',');
   std::vector<std::string> written = entries;
   const std::vector<double> q = text.find('=') != std::string::npos ? pose_by_name(chain, entries, text, what, written)
-                                                                    : parse_counted(std::size_t(chain.nq), chain, text, what);
+                                                                    : parse_counted(position_names(chain), chain, text, what);
   if (const std::string trouble = trouble_of_units(chain, written, StateNumbers::q); !trouble.empty())
     throw Error(ExitCode::usage, what + " " + text + ": " + trouble);
   for (const std::string& doubt : doubts_of_pose(chain, q, written))
@@ -195,7 +198,7 @@ std::vector<std::vector<double>> parse_poses(const Chain& chain, const std::vect
 
 std::vector<double> parse_freedoms(const Chain& chain, const std::string& text, const std::string& what, StateNumbers numbers) {
   if (text.empty()) return std::vector<double>(std::size_t(chain.nv));
-  const std::vector<double> values = parse_counted(std::size_t(chain.nv), chain, text, what);
+  const std::vector<double> values = parse_counted(chain.coordinate_names, chain, text, what);
   if (const std::string trouble = trouble_of_units(chain, separated(text, ','), numbers); !trouble.empty())
     throw Error(ExitCode::usage, what + " " + text + ": " + trouble);
   return values;

@@ -104,6 +104,7 @@ void add_task(Json& json, const TipMass& tip, Workspace& ws, const State& state,
   const Chain& chain = tip.chain();
   if (chain.end_effector < 0) {
     json["end_effector"] = nullptr;
+    for (const int leaf : chain.leaf_frames) json["ends"].push_back(chain.frames[std::size_t(leaf)].name);
     return;
   }
   compute_kinematics(chain, ws, state.q, state.qd);
@@ -255,7 +256,11 @@ void run_dynamics(const DynamicsOptions& options) {
         std::printf("%-20s %s on %s\n", "contact_force", text_of(one["force"]).c_str(),
                     one["constraint"].get<std::string>().c_str());
     else if (key == "end_effector" && value.is_null())
-      std::puts("end_effector         none: choose a link with --end-effector NAME for x, J and Lambda");
+      std::printf("end_effector         none, as the model has several ends and no link 'gripper': for x, J and Lambda choose one with "
+                  "--end-effector NAME: %s\n",
+                  joined(json["ends"].get<std::vector<std::string>>()).c_str());
+    else if (key == "ends")
+      continue;
     else if (key != "bodies")
       std::printf("%-20s %s\n", key.c_str(), text_of(value).c_str());
   }

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
+#include "app/cli/data_folder.hpp"
 #include "app/cli/result.hpp"
 #include "app/commands/ellipse_numbers.hpp"
 #include "app/commands/figure.hpp"
@@ -14,11 +15,13 @@
 #include "app/film/model_scene.hpp"
 #include "app/film/target.hpp"
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "draw/page/house_style.hpp"
 #include "core/output_file.hpp"
 #include "draw/figures/poses.hpp"
 #include "draw/page/sheet.hpp"
 #include "model/read_chain.hpp"
+#include "scene/text/read_scene.hpp"
 
 namespace chainreel {
 namespace {
@@ -77,7 +80,7 @@ std::vector<std::string> outputs_of(const EllipseOptions& options) {
     check_figure_path(output);
     if (std::count(outputs.begin(), outputs.end(), output) > 1)
       throw Error(ExitCode::usage, "-o " + output + " is named twice");
-    if (options.joint_space && (output.ends_with(".csv") || output.ends_with(".npz")))
+    if (options.joint_space && is_table_path(output) && lower_case_ending(output) != ".json")
       throw Error(ExitCode::usage, "-o " + output + ": --joint-space is written as .png, .svg or .pdf, its numbers as .json");
   }
   return outputs;
@@ -127,14 +130,37 @@ EllipseJob job_of_scene(const EllipseOptions& options) {
   return job;
 }
 
-EllipseJob job_of_model(const EllipseOptions& options) {
-  if (options.model.empty()) throw Error(ExitCode::usage, "which model? Name a .urdf, or a scene by --along");
-  if (!is_model_file(options.model))
-    throw Error(ExitCode::usage, options.model + " is no model (.urdf): of a scene, the ellipses along its motion are `--along " + options.model + "`");
+// A scene in the model's place lends its mechanism and its look, as where the model stands in it in numbers.
+ModelScene model_in_scene(const EllipseOptions& options) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(options.model, ignored)) {
+    const std::string model = shipped_file(options.model + ".urdf");
+    throw Error(ExitCode::usage, options.model + (model.empty() ? " is neither a model (.urdf) nor a scene (.yaml) that is there"
+                                                                : " is no file here: the model that comes with the program is " + options.model + ".urdf"));
+  }
+  ModelScene model = model_scene_of(read_scene(options.model, model_overrides(options)));
+  require_single_run(model.scene);
+  if (!model.scene.constraints.empty())
+    throw Error(ExitCode::usage, options.model + " has constraints, which few poses keep: the ellipses along its motion are `--along " +
+                                     options.model + "`, those of its model alone are of its .urdf");
+  if (options.sources.poses.empty() && options.sources.sweep.empty() && !options.sources.field)
+    throw Error(ExitCode::usage, "of a scene, the ellipses along its motion are `--along " + options.model +
+                                     "`; of its model, give --pose 0,90deg, --sweep q2=0:180deg:9 or --field");
+  model.scene.title.clear();  // is the film's
+  return model;
+}
+
+ModelScene model_of(const EllipseOptions& options) {
+  if (!is_model_file(options.model)) return model_in_scene(options);
   std::vector<std::string> honoured = keys_of_models(OfModel::picture);
   honoured.insert(honoured.end(), {"title", "ellipse"});
-  const ModelScene model = model_scene_of(options.model, model_overrides(options), "ellipse", honoured);
-  EllipseJob job{{read_chain(options.model, model.options), {}, &page_theme(model.scene), model.scene.text_scale}, {}};
+  return model_scene_of(options.model, model_overrides(options), "ellipse", honoured);
+}
+
+EllipseJob job_of_model(const EllipseOptions& options) {
+  if (options.model.empty()) throw Error(ExitCode::usage, "which model? Name a .urdf, a scene that holds one, or a scene by --along");
+  const ModelScene model = model_of(options);
+  EllipseJob job{{read_chain(model.scene.model, model.options), {}, &page_theme(model.scene), model.scene.text_scale}, {}};
   job.motion.families = families_of(model.scene);
   Motion& motion = job.motion;
   require_end_effector(motion.chain);
@@ -189,7 +215,8 @@ void run_ellipse(const EllipseOptions& options) {
     throw Error(ExitCode::usage,
                 "--joint-space shows M(q), which says of a constrained mechanism only what its cut chain would do: leave "
                 "one of the two out; `chainreel dynamics " + options.sources.along + " --at T` prints M, Jc and Lambda");
-  ClipMemory memory = memory_of_figure(*options.command, figure.title, options.model, poses.q);
+  ClipMemory memory =
+      memory_of_figure(*options.command, figure.title, is_model_file(options.model) ? options.model : "", poses.q);
   if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;
   const std::array<int, 2> joints = options.joint_space ? joints_of(chain, options.joints) : std::array<int, 2>{};
   const auto report = [&] {
@@ -220,7 +247,7 @@ void run_ellipse(const EllipseOptions& options) {
 void add_ellipse_command(CommandLine& app) {
   auto options = std::make_shared<EllipseOptions>();
   Command* command = app.add_subcommand("ellipse", "a figure of the effective mass at chosen poses");
-  command->add_option("model", options->model, "a model (.urdf); not with --along").names_input();
+  command->add_option("model", options->model, "a model (.urdf), or a scene (.yaml) for its model, as in numbers; not with --along").names_input();
   PoseSources& sources = options->sources;
   command->add_repeatable("--pose", sources.poses, "q of the chain: --pose 0,90deg, or by joints: --pose joint2=90deg (repeatable)");
   command->add_option("--sweep", sources.sweep, "poses that differ in one coordinate: --sweep q2=0:180deg:9");

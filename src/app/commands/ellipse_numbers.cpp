@@ -7,6 +7,7 @@
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
 #include "app/report/report.hpp"
+#include "app/report/run_report.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/layers/ellipse.hpp"
@@ -16,6 +17,7 @@
 #include "dynamics/inverse_kinematics.hpp"
 #include "dynamics/kinematics.hpp"
 #include "scene/quantity.hpp"
+#include "scene/run/pose_doubts.hpp"
 #include "scene/run/sweep.hpp"
 
 namespace chainreel {
@@ -129,15 +131,22 @@ GatheredPoses swept(const Chain& chain, const PoseSources& sources) {
     throw Error(ExitCode::usage, "--sweep " + sweep.key + ": " + chain.name + " has no such coordinate; it has q1 to q" +
                                      std::to_string(position_names(chain).size()));
   GatheredPoses gathered;
+  std::string doubt;  // one stands for all
   for (const std::string& value : sweep.values) {
     std::vector<double> q = from;
+    std::vector<std::string> written(q.size());
+    written[*at] = value + sweep.unit;
+    const auto refuse = [&](const std::string& why) { throw Error(ExitCode::usage, "--sweep " + sources.sweep + ": " + why); };
     try {
       q[*at] = parse_quantity(value, {});
     } catch (const Error& error) {
-      throw Error(ExitCode::usage, "--sweep " + sources.sweep + ": " + error.problems().front().message);
+      refuse(error.problems().front().message);
     }
+    if (const std::string trouble = trouble_of_units(chain, written, StateNumbers::q); !trouble.empty()) refuse(trouble);
+    if (const std::vector<std::string> doubts = doubts_of_pose(chain, q, written); doubt.empty() && !doubts.empty()) doubt = doubts.front();
     gathered.q.push_back(std::move(q));
   }
+  if (!doubt.empty()) tell_warnings({"--sweep: " + doubt});
   return gathered;
 }
 
