@@ -5,6 +5,7 @@
 
 #include "app/library/scene_run.hpp"
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "python/binding.hpp"
 
 namespace py = pybind11;
@@ -24,20 +25,29 @@ Array copied(std::span<const double> values) {
   return Array(py::ssize_t(values.size()), values.data());
 }
 
-OwnTorque torque_of(py::object function, std::string words) {
+// What a function gave that is no torque, and what it is to give.
+std::string refusal(const std::string& words, const std::string& gave, double t, std::size_t freedoms) {
+  return words + " gave " + gave + " at t = " + format_shortest(t) + " s: return " + std::to_string(freedoms) +
+         (freedoms == 1 ? " number" : " numbers, one a freedom") + " in the order of qd, N m or N";
+}
+
+OwnTorque torque_of(py::object function, std::string words, std::string name) {
   OwnTorque torque;
-  torque.words = std::move(words);
-  torque.function = [held = kept(std::move(function))](double t, std::span<const double> q, std::span<const double> qd,
+  torque.words = words;
+  torque.name = std::move(name);
+  torque.function = [held = kept(std::move(function)), words = std::move(words)](double t, std::span<const double> q, std::span<const double> qd,
                                                        std::span<double> tau) {
     const py::gil_scoped_acquire lock;
-    const Array given = Array::ensure((*held)(t, copied(q), copied(qd)));
+    const py::object answer = (*held)(t, copied(q), copied(qd));
+    if (answer.is_none()) throw py::type_error(refusal(words, "nothing (None)", t, tau.size()));
+    const Array given = Array::ensure(answer);
     if (!given) {
       PyErr_Clear();
-      throw py::type_error("a torque gives numbers, N m or N");
+      throw py::type_error(refusal(words, "what are no numbers (" + std::string(py::str(py::type::of(answer).attr("__name__"))) + ")", t, tau.size()));
     }
-    if (given.ndim() > 1 || std::size_t(given.size()) != tau.size())
-      throw py::value_error("a torque gives " + std::to_string(tau.size()) + " numbers here, one a freedom, not " +
-                            std::to_string(given.size()));
+    if (given.ndim() > 1) throw py::value_error(refusal(words, "an array of " + std::to_string(given.ndim()) + " dimensions", t, tau.size()));
+    if (std::size_t(given.size()) != tau.size())
+      throw py::value_error(refusal(words, std::to_string(given.size()) + (given.size() == 1 ? " number" : " numbers"), t, tau.size()));
     std::copy(given.data(), given.data() + given.size(), tau.begin());
   };
   return torque;
@@ -82,9 +92,9 @@ auto without_lock(Work&& work) {
 }
 
 std::unique_ptr<SceneRun> run_scene(std::string path, std::optional<std::string> text, std::vector<std::string> overrides,
-                                    py::object torque, std::string words, std::vector<double> times) {
+                                    py::object torque, std::string words, std::string name, std::vector<double> times) {
   SceneRequest request{std::move(path), std::move(text), std::move(overrides), {}};
-  if (!torque.is_none()) request.torque = torque_of(std::move(torque), std::move(words));
+  if (!torque.is_none()) request.torque = torque_of(std::move(torque), std::move(words), std::move(name));
   return without_lock([&] { return std::make_unique<SceneRun>(std::move(request), std::move(times)); });
 }
 

@@ -133,6 +133,20 @@ class Models(FolderTest):
         with self.assertRaisesRegex(cr.Error, "none of mass, energy, belt"):
             cr.load("rr.urdf").ellipse([0, 1], "weight")
 
+    def test_numbers_and_rows_of_denavit_and_hartenberg_are_models_as_files_are(self):
+        file, q = cr.load("rr.urdf"), [0.3, 1.2]
+        rows = [[1, 0, 0, 0], [1, 0, 0, 0]]
+        for model in (cr.load(links=[1, 1], masses=1, shape="point"), cr.load(dh=rows, masses=[1, 1], shape="point"),
+                      cr.load(dh=np.array(rows), masses=1, shape="point", convention="standard", efforts=20)):
+            np.testing.assert_allclose(model.Lambda_inv(q), file.Lambda_inv(q), rtol=1e-12)  # round-off of two writings
+            self.assertIn("</svg>", model.ellipse(q).svg)
+        damped = cr.load(links=[1, 1], damping=[0.5, 0])
+        np.testing.assert_allclose(damped.friction([2, 1]), [1, 0])
+        with self.assertRaisesRegex(cr.Error, "dh"):
+            cr.load(dh=[[1, 0, 0]])
+        with self.assertRaisesRegex(TypeError, r"in its place links= \(or dh=\)"):
+            cr.load("rr.urdf", dh=rows)
+
     def test_all_that_is_public_says_what_it_is(self):
         for kind in (cr.Model, cr.Ellipse, cr.Scene, cr.Run, cr.Panel, cr.Error):
             self.assertTrue(inspect.getdoc(kind), kind)

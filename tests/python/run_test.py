@@ -1,7 +1,9 @@
 """Runs: their numbers, whose memory they are, torques of Python, what goes wrong."""
 
+import functools
 import gc
 import os
+import re
 import signal
 import threading
 import time
@@ -150,6 +152,39 @@ class Runs(FolderTest):
                           (lambda: [0, 0], TypeError), (lambda t, q, qd: [float("nan"), 0], cr.Error)):
             with self.assertRaises(kind):
                 cr.Scene(FALL, torque=bad).run()
+
+    def test_a_torque_that_is_none_is_told_with_what_it_has_to_give(self):
+        def late(t, q, qd):
+            return [0, 0] if t < 0.1 else [float("nan"), 0]
+
+        wanted = r" at t = 0\.?\d* s: return 2 numbers, one a freedom in the order of qd, N m or N"
+        for bad, gave in ((lambda t, q, qd: [1], "1 number"), (lambda t, q, qd: [1, 2, 3], "3 numbers"),
+                          (lambda t, q, qd: [[1, 2]], "an array of 2 dimensions"), (lambda t, q, qd: None, r"nothing \(None\)"),
+                          (lambda t, q, qd: ["a", 1], r"what are no numbers \(list\)")):
+            with self.assertRaisesRegex((TypeError, ValueError), r"the Python function <lambda> \(run_test.py:\d+\) gave " + gave + wanted):
+                cr.Scene(FALL, torque=bad).run()
+        with self.assertRaisesRegex(cr.Error, r"joint1.*not a finite number at t = 0\.099 s .*the Python function late .* must give finite numbers") as caught:
+            cr.Scene(FALL, torque=late).run()
+        self.assertNotIn("smaller step", str(caught.exception))
+
+    def test_films_say_the_name_of_a_torque(self):
+        def hold_up_2(t, q, qd):
+            return [1.0, 0.5]
+
+        def words(torque):
+            run = cr.Scene({**FALL, "duration": 0.1}, torque=torque).run()
+            run.picture(self.path("a.svg"), 0, overwrite=True)
+            with open(self.path("a.svg"), encoding="utf-8") as file:
+                return run, "".join(re.sub(r"<[^>]*>|\s", "", text) for text in re.findall(r"<text.*?</text>", file.read(), re.S))
+
+        run, page = words(hold_up_2)
+        self.assertIn("holdup2(", page)
+        self.assertIn("the Python function hold_up_2", run.report["torque_function"])
+        self.assertIn("the Python function hold_up_2", run.scene)
+        for odd in (lambda t, q, qd: [0, 0], functools.partial(hold_up_2), type("Caller", (), {"__call__": lambda self, t, q, qd: [0, 0]})()):
+            self.assertNotIn("hold", words(odd)[1])  # tau(t, q, qd)
+        hold_up_2.__name__ = "frac{_^"
+        self.assertNotIn("frac", words(hold_up_2)[1])
 
     def test_errors_name_file_and_line(self):
         path = self.write("scene.yaml", f"model: {RR}\nduration: 1\nmethod: rk4\nstep: -1\nplott: 1\n")

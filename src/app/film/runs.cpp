@@ -168,6 +168,14 @@ std::string in_panel(const Scene& scene, std::size_t i, const std::string& messa
   return "panel " + std::to_string(i + 1) + " (" + scene.title + "): " + message;
 }
 
+// What its author can do about a run that failed.
+std::string remedy_of(const Trajectory& trajectory, const Scene& scene) {
+  if (scene.motion) return "";
+  if (trajectory.status == RunStatus::torque_not_finite && scene.control && scene.control->function)
+    return ": " + scene.control->function->words + " must give finite numbers, N m or N, wherever q and qd are finite";
+  return ": try a smaller step or another method";
+}
+
 void require_expected_end(const Trajectory& trajectory, const Scene& scene) {
   throw_if_interrupted();
   if (scene.expect == Outcome::diverge) {
@@ -180,7 +188,7 @@ void require_expected_end(const Trajectory& trajectory, const Scene& scene) {
   }
   if (is_complete(trajectory.status)) return;
   throw Error(ExitCode::numerical,
-              trajectory.trouble + " with " + method_text(scene) + (scene.motion ? "" : ": try a smaller step or another method"),
+              trajectory.trouble + " with " + method_text(scene) + remedy_of(trajectory, scene),
               {scene.file});
 }
 

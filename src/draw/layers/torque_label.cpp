@@ -76,16 +76,31 @@ std::string list_of(const std::vector<std::string>& entries, std::size_t shown) 
 
 }  // namespace
 
+namespace {
+
+// A function of the calling program by its name, where that is one which formulas can hold: words between its underscores.
+std::string function_notation(const OwnTorque& function) {
+  std::string name = function.name;
+  name.erase(0, std::min(name.find_first_not_of('_'), name.size()));
+  const auto is_plain = [](unsigned char c) { return c < 128 && (std::isalnum(c) || c == '_'); };
+  if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) || !std::all_of(name.begin(), name.end(), is_plain))
+    return "tau(t, q, qd)";
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name + "(t, q, qd)";
+}
+
+}  // namespace
+
 std::string control_notation(const Control& control) {
   std::string sum;
-  const auto add = [&](bool given, const char* term) {
-    if (given) sum += (sum.empty() ? "" : " + ") + std::string(term);
+  const auto add = [&](bool given, const std::string& term) {
+    if (given) sum += (sum.empty() ? "" : " + ") + term;
   };
   add(control.gravity_compensation, "tau_g(q)");
   add(!control.csv.empty() || !control.inverse_of.empty(), "tau(t)");
   add(control.pd.has_value(), "PD");
   add(control.computed_torque.has_value(), "computed torque");
-  add(control.function.has_value(), "tau(t, q, qd)");
+  if (control.function) add(true, function_notation(*control.function));
   return sum.empty() ? "0" : sum;
 }
 

@@ -14,19 +14,24 @@ from ._keys import found, overrides_of, text_of
 
 
 def load(model: Union[str, os.PathLike, None] = None, *, links: Optional[Sequence[float]] = None,
-         masses: Optional[Sequence[float]] = None, joints: Optional[str] = None, shape: Optional[str] = None,
-         **keys: Any) -> "Model":
+         masses: Union[float, Sequence[float], None] = None, joints: Optional[str] = None, shape: Optional[str] = None,
+         damping: Union[float, Sequence[float], None] = None, efforts: Union[float, Sequence[float], None] = None,
+         dh: Optional[Sequence[Sequence[float]]] = None, convention: Optional[str] = None, **keys: Any) -> "Model":
     """A model from a URDF file, from a name that comes with chainreel ("rr.urdf"), or from numbers.
 
-    links: lengths of a planar chain in m, masses in kg, joints like "RRP", shape "rod" or "point" (`help model`).
+    links: lengths of a serial chain in m, masses in kg, joints like "RRP", shape "rod" or "point", damping in N m s/rad or
+    N s/m, efforts in N m or N. In the place of links dh: a row a, alpha, d, theta of each joint (Denavit and Hartenberg; m and
+    rad), convention "standard" or "modified". A number for all of masses, damping or efforts, or one each (`chainreel help scene`,
+    at `model`).
     keys: what a scene says of its model: gravity=[0, -9.81, 0] (m/s^2), end_effector="tool", base="floating",
     friction=False, massless=1e-6, packages={"name": folder}.
     Throws Error, with file and line, of whatever is wrong with it.
     """
-    numbers = {"links": links, "masses": masses, "joints": joints, "shape": shape}
+    numbers = {"links": links, "masses": masses, "joints": joints, "shape": shape, "damping": damping, "efforts": efforts,
+               "dh": dh, "convention": convention}
     numbers = {key: value for key, value in numbers.items() if value is not None}
     if (model is None) == (not numbers):
-        raise TypeError("load takes a file, or links=, masses=, joints= and shape= in its place")
+        raise TypeError("load takes a file, or in its place links= (or dh=), masses=, joints=, shape=, damping=, efforts=")
     overrides = overrides_of(keys)
     if model is not None:
         return Model(_native.Model(found(os.fspath(model)), None, overrides))

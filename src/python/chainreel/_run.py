@@ -28,11 +28,11 @@ class Scene:
 
     keys, set: change keys of it, as `--set` does; None takes a key away. A dict's paths start in the working folder;
     its model may also be the name of one that comes with chainreel.
-    torque: a function of t (s), q (nq,) and qd (nv,) that gives nv numbers, N m or N, in the place of the scene's torque. It
-    must depend on its arguments alone: it is asked several times of each instant, not in the order of time. It is slow: each
+    torque: a function of t (s), q (nq,) and qd (nv,) that gives nv numbers, N m or N, for a scene without a torque of its
+    own. It must depend on its arguments alone: it is asked several times of each instant, not in the order of time. It is slow: each
     question takes some microseconds, where an expression in the scene takes some 10 ns, and `method: auto` asks a hundred
-    thousand of them; give a method, or write the torque as text where it is one. Films remember what it is called, and cannot
-    be made again from that.
+    thousand of them; give a method, or write the torque as text where it is one. Films show and remember what it is called, and
+    cannot be made again from that.
     Nothing is read before `run`.
     """
 
@@ -59,7 +59,7 @@ class Scene:
             raise ValueError("times is empty: leave it out for those of the film")
         try:
             path = found(self._path) if self._text is None else self._path
-            native = _native.SceneRun(path, self._text, self._overrides, self._torque, _words_of(self._torque), at)
+            native = _native.SceneRun(path, self._text, self._overrides, self._torque, _words_of(self._torque), getattr(self._torque, "__name__", ""), at)
         except Error as error:
             if self._text is None:
                 raise

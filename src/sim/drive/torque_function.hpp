@@ -19,6 +19,7 @@ using TorqueFunction =
 struct OwnTorque {
   TorqueFunction function;
   std::string words;  // what it is called, for films and reports
+  std::string name{};  // in pictures, "hold" for hold(t, q, qd): letters, digits and _; "": it has none
   // What it threw: then it is asked no more, and what asked for a run ends and has to throw it on.
   std::shared_ptr<std::exception_ptr> failure = std::make_shared<std::exception_ptr>();
 };
