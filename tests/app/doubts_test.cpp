@@ -27,6 +27,31 @@ std::string line_with(const std::string& words, const std::string& err) {
   return err.substr(begin, err.find('\n', at) - begin);
 }
 
+std::size_t count_of(const std::string& words, const std::string& text) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = text.find(words, at)) != std::string::npos; at += words.size()) ++count;
+  return count;
+}
+
+// What all panels of a comparison share is said once, what one has alone as well.
+TEST(Doubts, OfSeveralPanelsAreSaidOnce) {
+  const TemporaryFolder folder;
+  const std::string scene =
+      folder.write("a.yaml", short_scene("start: {q: [60, 0]}\ncompare: [{step: 0.01}, {step: 0.02}, {step: 0.05, start: {q: [0, 40]}}]\n"));
+  const std::vector<Words> commands{{"render", scene, "-o", folder.file("a.png")}, {"snapshot", scene, "-o", folder.file("b.png")},
+                                    {"sheet", scene, "-o", folder.file("s.png")}, {"check", scene}};
+  for (const Words& command : commands) {
+    const std::string err = run_program(command).err;
+    EXPECT_EQ(count_of("start.q: 60 of joint1", err), 1u) << command[0] << "\n" << err;
+    EXPECT_EQ(count_of("start.q: 40 of joint2", err), 1u) << command[0] << "\n" << err;
+  }
+  const std::string two = folder.write("two.urdf", read_whole_file(kRoot + "/models/humanoid.urdf"));
+  const std::string ends = folder.write(
+      "b.yaml", "model: two.urdf\nmethod: rk4\nduration: 0.1\nvideo: {width: 320, height: 180}\ncompare: [{step: 0.01}, {step: 0.02}]\n");
+  const std::string err = run_program({"render", ends, "-o", folder.file("c.png")}).err;
+  EXPECT_LE(count_of("has several ends", err), 1u) << err;
+}
+
 TEST(Doubts, OfAStartAreWarningsOfEveryCommandAndOfItsReport) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("a.yaml", short_scene("start: {q: [60, -30]}\n"));

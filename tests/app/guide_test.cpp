@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "core/json.hpp"
@@ -165,6 +166,20 @@ TEST(Help, OnACommandIsItsOwn) {
   const ProgramResult wrong = run_program({"help", "scenes"});
   EXPECT_EQ(wrong.status, 2);
   EXPECT_THAT(wrong.err, HasSubstr("did you mean 'scene'?"));
+}
+
+// What the program, its module and its pages tell people to type.
+TEST(Help, EveryTopicThatIsNamedAnywhereIsThere) {
+  const std::regex named("(?:chainreel help|`help) ([a-z][a-z-]*)");
+  std::set<std::string> topics;
+  for (const char* folder : {"src", "assets/guide", "assets/scenes", "assets/ci"})
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+      if (!entry.is_regular_file() || entry.path().extension() == ".png") continue;
+      const std::string text = read_whole_file(entry.path().string());
+      for (std::sregex_iterator at(text.begin(), text.end(), named), end; at != end; ++at) topics.insert((*at)[1].str());
+    }
+  EXPECT_THAT(topics, testing::IsSupersetOf({"scene", "snapshots", "layers"})) << "negative control: some are found";
+  for (const std::string& topic : topics) EXPECT_EQ(run_program({"help", topic}).status, 0) << "chainreel help " << topic;
 }
 
 TEST(Help, ToldNamesAreThoseThatExpressionsKnow) {

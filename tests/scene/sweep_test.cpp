@@ -56,6 +56,17 @@ TEST(Sweep, LogarithmicRangesHaveEqualFactors) {
   for (std::size_t k = 1; k < 4; ++k) EXPECT_NEAR(range.numbers[k] / range.numbers[k - 1], 10, 1e-13);
 }
 
+// No sums of rounding: 1 + 0.8 * -1 is 0.19999999999999996.
+TEST(Sweep, RangesHoldTheDecimalsThatTheyMean) {
+  EXPECT_THAT(parse_sweep("k=1:0:6", "--x").values, ElementsAre("1", "0.8", "0.6", "0.4", "0.2", "0"));
+  EXPECT_THAT(parse_sweep("k=-0.3:0.3:7", "--x").values, ElementsAre("-0.3", "-0.2", "-0.1", "0", "0.1", "0.2", "0.3"));
+  EXPECT_THAT(parse_sweep("k=1e-4:1e-1:4:log", "--x").values, ElementsAre("1e-04", "0.001", "0.01", "0.1"));
+  EXPECT_THAT(parse_sweep("k=1e9:1000000001:3", "--x").values, ElementsAre("1e+09", "1000000000.5", "1000000001"));
+  // What no short decimal is stays as it was computed.
+  EXPECT_EQ(parse_sweep("k=0:1:4", "--x").numbers[1], 1.0 / 3);
+  EXPECT_EQ(parse_sweep("k=0:90deg:4", "--x").numbers[2], 2.0 / 3 * std::acos(0.0));
+}
+
 TEST(Sweep, ValuesReadBackAsTheNumbers) {
   const Sweep range = parse_sweep("step=0.1:0.7:13", "--x");
   for (std::size_t k = 0; k < range.numbers.size(); ++k)

@@ -229,10 +229,8 @@ void check_scene(const CheckOptions& options) {
   const FilmClock clock = clock_of(film);
   const int frames = clock.frame_count();
   std::vector<ExaminedRun> reports;
-  for (const PreparedScene& panel : film.panels) {
-    say_notices(panel, false);
-    reports.push_back(examine_run(panel, frames));
-  }
+  say_notices(film.panels, false);
+  for (const PreparedScene& panel : film.panels) reports.push_back(examine_run(panel, frames));
   const std::string text = scene_text(film.scene);
   const bool alone = reports.size() == 1;
   if (options.common.json) {

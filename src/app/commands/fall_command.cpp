@@ -119,7 +119,7 @@ Json report_of(const std::string& scene, const FallTable& table) {
 
 // Numbers with all their digits; an empty field is what did not happen.
 std::string csv_of(const std::string& scene, const FallTable& table) {
-  const auto field = [](const std::optional<double>& value) { return value ? format_exact(*value) : ""; };
+  const auto field = [](const std::optional<double>& value) { return value ? format_shortest(*value) : ""; };
   const bool swept = !table.sweep.key.empty();
   std::string text = csv_facts(scene) + (swept ? table.sweep.key + "," : "") + "fall_time,status,end_time";
   for (const EventEntry& event : table.events) text += "," + csv_words(event.title());
@@ -127,7 +127,7 @@ std::string csv_of(const std::string& scene, const FallTable& table) {
   text += "\n";
   for (const FallRow& row : table.rows) {
     if (swept) text += row.value + ",";
-    text += field(row.fall_time) + "," + to_string(row.status) + "," + format_exact(row.end_time);
+    text += field(row.fall_time) + "," + to_string(row.status) + "," + format_shortest(row.end_time);
     for (const std::optional<double>& time : row.first) text += "," + field(time);
     if (table.has_foot) text += std::string(stands(row) ? ",true," : ",false,") + field(row.tips) + "," + tips_over(row);
     text += "\n";

@@ -154,7 +154,7 @@ void run_render(const RenderOptions& options) {
   Json reports = Json::array();
   std::vector<std::vector<std::string>> table{{"scene", "frames", "film s", "taken s", "file"}};
   for (std::size_t i = 0; i < films.size(); ++i) {
-    for (const PreparedScene& panel : films[i].panels) say_choice(panel, options.common.quiet);
+    say_choice(films[i].panels, options.common.quiet);
     if (!options.common.quiet) tell_of_unused_quality(jobs[i], films[i].scene);
     const RenderResult result = render_film(films[i], jobs[i]);
     reports.push_back(result.audit);

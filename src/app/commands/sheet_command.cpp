@@ -58,7 +58,7 @@ void set_for_cell(Scene& scene, ThemeName theme, double text_scale) {
 ContactCell cell_of(const std::string& file, const SheetOptions& options, ThemeName theme,
                     double text_scale, const Fonts& fonts, Json& told) {
   PreparedFilm film = load_film(file, overrides_of(options.common), true, options.common.quiet);
-  for (const PreparedScene& panel : film.panels) say_notices(panel, options.common.quiet);
+  say_notices(film.panels, options.common.quiet);
   leave_out_faces(film.scene, options.common.quiet);
   set_for_cell(film.scene, theme, text_scale);
   for (PreparedScene& panel : film.panels) set_for_cell(panel.scene, theme, text_scale);

@@ -206,7 +206,7 @@ void snapshot_scene(const SnapshotOptions& options) {
   add_comparison(options.vary, overrides);
   PreparedFilm film = load_film(options.file, overrides, true, options.common.quiet);
   require_varied_read(options.vary, film.scene);
-  for (const PreparedScene& panel : film.panels) say_notices(panel, options.common.quiet);
+  say_notices(film.panels, options.common.quiet);
   Video& video = film.scene.video;
   if (options.width > 0) video.width = options.width;
   if (options.height > 0) video.height = options.height;

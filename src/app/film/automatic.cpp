@@ -133,24 +133,38 @@ std::string choice_text(const Choice& choice, const Accuracy& accuracy) {
   return text;
 }
 
-std::vector<std::string> doubt_lines(const PreparedScene& prepared) {
+namespace {
+
+std::vector<std::string> lines_of(std::span<const PreparedScene> panels, std::vector<std::string> Scene::*words) {
   std::vector<std::string> lines;
-  for (const std::string& doubt : prepared.scene.doubts) lines.push_back(prepared.scene.name + ": " + doubt);
+  for (const PreparedScene& panel : panels)
+    for (const std::string& one : panel.scene.*words)
+      if (const std::string line = panel.scene.name + ": " + one; std::find(lines.begin(), lines.end(), line) == lines.end())
+        lines.push_back(line);
   return lines;
 }
 
-void say_notices(const PreparedScene& prepared, bool quiet) {
-  for (const std::string& line : doubt_lines(prepared)) std::fprintf(stderr, "WARNING: %s\n", line.c_str());
-  if (quiet) return;
-  for (const std::string& notice : prepared.scene.notices)
-    std::fprintf(stderr, "%s: %s\n", prepared.scene.name.c_str(), notice.c_str());
+}  // namespace
+
+std::vector<std::string> doubt_lines(std::span<const PreparedScene> panels) {
+  return lines_of(panels, &Scene::doubts);
 }
 
-void say_choice(const PreparedScene& prepared, bool quiet) {
-  say_notices(prepared, quiet);
-  if (quiet || !prepared.choice) return;
-  std::fprintf(stderr, "%s: %s\n", prepared.scene.name.c_str(),
-               choice_text(*prepared.choice, prepared.scene.accuracy).c_str());
+std::vector<std::string> notice_lines(std::span<const PreparedScene> panels) {
+  return lines_of(panels, &Scene::notices);
+}
+
+void say_notices(std::span<const PreparedScene> panels, bool quiet) {
+  for (const std::string& line : doubt_lines(panels)) std::fprintf(stderr, "WARNING: %s\n", line.c_str());
+  if (quiet) return;
+  for (const std::string& line : notice_lines(panels)) std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+void say_choice(std::span<const PreparedScene> panels, bool quiet) {
+  say_notices(panels, quiet);
+  for (const PreparedScene& panel : panels)
+    if (!quiet && panel.choice)
+      std::fprintf(stderr, "%s: %s\n", panel.scene.name.c_str(), choice_text(*panel.choice, panel.scene.accuracy).c_str());
 }
 
 Json choice_report(const Choice& choice, const Accuracy& accuracy, bool tried) {

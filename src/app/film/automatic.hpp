@@ -1,6 +1,7 @@
 // `method: auto` at work, and what it says about its choice.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,15 @@ Choice choose_with_progress(Simulation& simulation, const Scene& scene, std::spa
 // One sentence: the choice, a bound of its error and its price; until when that holds, and what happens there.
 std::string choice_text(const Choice& choice, const Accuracy& accuracy);
 
-// "NAME: what speaks against the scene", a line each.
-std::vector<std::string> doubt_lines(const PreparedScene& prepared);
-// On standard error: these as warnings, however quiet; and what was changed of the scene when it was made ready.
-void say_notices(const PreparedScene& prepared, bool quiet);
-// The same, and that sentence, unless there was nothing to choose or all is to be quiet.
-void say_choice(const PreparedScene& prepared, bool quiet);
+// "NAME: what speaks against the scene", and what was changed of it when it was made ready; what several panels say, once.
+std::vector<std::string> doubt_lines(std::span<const PreparedScene> panels);
+std::vector<std::string> notice_lines(std::span<const PreparedScene> panels);
+// On standard error: the first as warnings, however quiet, and the second.
+void say_notices(std::span<const PreparedScene> panels, bool quiet);
+inline void say_notices(const PreparedScene& prepared, bool quiet) { say_notices(std::span(&prepared, 1), quiet); }
+// The same, and of each that sentence, unless there was nothing to choose or all is to be quiet.
+void say_choice(std::span<const PreparedScene> panels, bool quiet);
+inline void say_choice(const PreparedScene& prepared, bool quiet) { say_choice(std::span(&prepared, 1), quiet); }
 
 // The same as JSON, and with `tried` every candidate.
 Json choice_report(const Choice& choice, const Accuracy& accuracy, bool tried);

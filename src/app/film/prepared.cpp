@@ -19,22 +19,22 @@ namespace chainreel {
 
 namespace {
 
-// Default layers of the end effector where the model has none.
-void say_what_is_left_out(const std::vector<std::string>& wanted, const PreparedScene& prepared) {
+// Default layers of the end effector where the model has none. `said`: by other panels.
+void say_what_is_left_out(const std::vector<std::string>& wanted, const PreparedScene& prepared, std::set<std::string>& said) {
   std::vector<std::string> missing;
   for (const std::string& layer : wanted)
     if (std::find(prepared.scene.draw.begin(), prepared.scene.draw.end(), layer) == prepared.scene.draw.end())
       missing.push_back(layer);
-  if (!missing.empty())
-    std::fprintf(stderr, "note: %s: not drawn, as %s has several ends: choose one with `--set end_effector=NAME`\n",
-                 joined(missing).c_str(), prepared.scene.model.words().c_str());
+  const std::string note = joined(missing) + ": not drawn, as " + prepared.scene.model.words() +
+                           " has several ends: choose one with `--set end_effector=NAME`";
+  if (!missing.empty() && said.insert(note).second) std::fprintf(stderr, "note: %s\n", note.c_str());
 }
 
-PreparedScene prepare_panel(Scene scene, bool meshes, bool quiet) {
+PreparedScene prepare_panel(Scene scene, bool meshes, bool quiet, std::set<std::string>& said) {
   PreparedScene prepared{std::move(scene), {}, {}, nullptr};
   const std::vector<std::string> wanted = prepared.scene.draw;
   prepared.simulation = prepare(prepared.scene, meshes);
-  if (!quiet) say_what_is_left_out(wanted, prepared);
+  if (!quiet) say_what_is_left_out(wanted, prepared, said);
   choose_automatically(prepared, quiet);
   return prepared;
 }
@@ -42,12 +42,12 @@ PreparedScene prepare_panel(Scene scene, bool meshes, bool quiet) {
 // Every panel is prepared, so that all problems are told at once; what several panels share is told once.
 std::vector<PreparedScene> prepare_panels(const std::vector<Scene>& scenes, bool meshes, bool quiet) {
   std::vector<PreparedScene> panels;
-  std::set<std::string> seen;
+  std::set<std::string> seen, said;
   std::vector<Problem> problems;
   ExitCode code = ExitCode::bad_input;
   for (const Scene& scene : scenes) {
     try {
-      panels.push_back(prepare_panel(scene, meshes, quiet));
+      panels.push_back(prepare_panel(scene, meshes, quiet, said));
     } catch (const Error& error) {
       code = error.code();
       for (const Problem& problem : error.problems())
@@ -106,7 +106,8 @@ PreparedFilm film_of(Scene scene, bool meshes, bool quiet, const std::optional<O
   noticed.notices.insert(noticed.notices.end(), pale.begin(), pale.end());
   if (meshes) load_logo(film.scene);
   if (film.scene.compare.empty()) {
-    film.panels.push_back(prepare_panel(std::move(film.scene), meshes, quiet));
+    std::set<std::string> said;
+    film.panels.push_back(prepare_panel(std::move(film.scene), meshes, quiet, said));
     film.scene = film.panels.front().scene;
     check_words(film);
     if (meshes) load_shapes(film);
@@ -126,7 +127,8 @@ PreparedScene load_scene(const std::string& path, const std::vector<std::string>
                          bool quiet) {
   Scene scene = read_scene(path, overrides);
   require_single_run(scene);
-  PreparedScene prepared = prepare_panel(std::move(scene), meshes, quiet);
+  std::set<std::string> said;
+  PreparedScene prepared = prepare_panel(std::move(scene), meshes, quiet, said);
   prepared.simulation.events = nullptr;
   say_notices(prepared, quiet);
   return prepared;

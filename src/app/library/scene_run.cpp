@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "app/cli/data_folder.hpp"
+#include "app/film/automatic.hpp"
 #include "app/cli/streams.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
@@ -216,12 +217,11 @@ std::string SceneRun::report(int panel) const {
 std::vector<std::string> SceneRun::warnings() const {
   const Asked asked(*state_);
   return state_->watched([&] {
-    std::vector<std::string> lines;
+    std::vector<std::string> lines = doubt_lines(state_->film.panels);
+    for (std::string& line : notice_lines(state_->film.panels)) lines.push_back(std::move(line));
     for (int panel = 0; panel < panels(); ++panel) {
       const PreparedScene& prepared = state_->film.panels[std::size_t(panel)];
       const std::string named = prepared.scene.name + (panels() > 1 ? ", '" + prepared.scene.title + "'" : "");
-      for (const std::string& doubt : prepared.scene.doubts) lines.push_back(named + ": " + doubt);
-      for (const std::string& notice : prepared.scene.notices) lines.push_back(named + ": " + notice);
       for (const std::string& line : warning_lines(named, run_report(prepared, trajectory(panel)))) lines.push_back(line);
     }
     return lines;
