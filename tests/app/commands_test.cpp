@@ -340,7 +340,10 @@ TEST(Audit, HasTheKeysThatOthersRead) {
                      "title",
                      "trajectory_sha256",
                      "warnings"};
-  const Words of_film{"duration",        "film_seconds",     "fps",
+  const Words of_film{"drawn",           "drawn.film_seconds", "drawn.fps",
+                      "drawn.frames",    "drawn.height",     "drawn.width",
+                      "outputs.film_seconds",
+                      "duration",        "film_seconds",     "fps",
                       "frames",          "height",           "scene",
                       "outputs",         "outputs.bytes",    "outputs.file",
                       "outputs.fps",     "outputs.frames",   "outputs.height",

@@ -244,7 +244,7 @@ constexpr char kWords[] =
 
 TEST_F(SlowMotionFilm, StandsStillForWordsWhichItsAuditAndItsTextTell) {
   const Json audit = render(kWords, {"gif"});
-  EXPECT_EQ(audit["frames"], 66) << "0.5 s and 0.6 s at 60 frames a second";
+  EXPECT_EQ(audit["drawn"]["frames"], 66) << "0.5 s and 0.6 s at 60 frames a second";
   ASSERT_EQ(audit["pauses"].size(), 2u) << "hold: 0 is none";
   EXPECT_NEAR(double(audit["pauses"][0]["at"]), kHalf, 1e-9);
   EXPECT_EQ(audit["pauses"][0]["seconds"], 0.4);
@@ -350,7 +350,7 @@ TEST_F(SlowMotionFilm, ByItselfIsThatOfAllPanelsButNotOfThoseThatGoWild) {
   EXPECT_EQ(both["slow_motion"][1]["because"], "'half'");
   const Json wild = render("compare: [{title: a, events: []}, {title: b, torque: [0, \"1e6 * q2 * abs(q2)\"], expect: diverge}]\n", {"gif"});
   EXPECT_FALSE(wild.contains("slow_motion")) << wild["slow_motion"].dump();
-  EXPECT_EQ(wild["frames"], 30);
+  EXPECT_EQ(wild["drawn"]["frames"], 30);
 }
 
 TEST_F(SlowMotionFilm, ByItselfIsNotWhereNoWordsCanSaySo) {

@@ -120,7 +120,7 @@ TEST(ManySnapshots, WhatIsUnclearIsRefusedBeforeAnythingIsWritten) {
   EXPECT_THAT(trouble({"models/rr.urdf", "--pose", "a=0,0", "--pose", "a=1,1"}),
               HasSubstr("two pictures are named 'a'"));
   EXPECT_THAT(trouble({"models/rr.urdf", "--pose", "=0,0"}), HasSubstr("has no name in front of the ="));
-  EXPECT_THAT(trouble({"models/rr.urdf", "--pose", "a=0,0", "--pose", "b=0"}), HasSubstr("has 1 numbers"));
+  EXPECT_THAT(trouble({"models/rr.urdf", "--pose", "a=0,0", "--pose", "b=0"}), HasSubstr("has 1 number, but rr needs 2: of joint1, joint2"));
   EXPECT_THAT(trouble({"assets/scenes/rr_free.yaml", "--at", "0,0s"}),
               HasSubstr("two pictures are named 'rr_free_0s'"));
   EXPECT_THAT(trouble({"assets/scenes/rr_free.yaml", "--at", "0,soon"}), HasSubstr("'soon' is no instant"));
