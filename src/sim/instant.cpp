@@ -2,12 +2,13 @@
 
 #include "dynamics/constraints/constrained_dynamics.hpp"
 #include "sim/system/chain_system.hpp"
+#include "sim/torques_along.hpp"
 
 namespace chainreel {
+namespace {
 
-Instant instant_of(const Simulation& simulation, double t, ConstVec q, ConstVec qd) {
-  const Chain& chain = simulation.chain;
-  ChainSystem system(simulation);
+Instant state_of(ChainSystem& system, double t, ConstVec q, ConstVec qd) {
+  const Chain& chain = system.chain();
   Instant instant;
   instant.qdd.resize(std::size_t(chain.nv));
   system.acceleration(t, q, qd, instant.qdd);
@@ -29,6 +30,22 @@ Instant instant_of(const Simulation& simulation, double t, ConstVec q, ConstVec 
     instant.forces.push_back(contact_force(chain, set, cws, k, cws.lambda));
   }
   return instant;
+}
+
+}  // namespace
+
+Instant instant_of(const Simulation& simulation, const Trajectory& trajectory, int k) {
+  ChainSystem system(simulation);
+  const double t = trajectory.t[std::size_t(k)];
+  hold_as_then(system, simulation, trajectory, t);
+  Instant instant = state_of(system, t, trajectory.q_at(k), trajectory.qd_at(k));
+  simulation.torque->leave_pieces();
+  return instant;
+}
+
+Instant instant_of(const Simulation& simulation, double t, ConstVec q, ConstVec qd) {
+  ChainSystem system(simulation);
+  return state_of(system, t, q, qd);
 }
 
 TipMass::TipMass(const Chain& chain) : chain_(&chain) {}

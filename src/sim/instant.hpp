@@ -36,7 +36,9 @@ struct Instant {
   std::vector<Eigen::Vector3d> forces;
 };
 
-// At t in the state q, qd, which lie on the constraints.
+// Of sample k of a run: what stuck there, as dry friction at rest, sticks here.
+Instant instant_of(const Simulation& simulation, const Trajectory& trajectory, int k);
+// At t in the state q, qd, which lie on the constraints, and nothing sticks.
 Instant instant_of(const Simulation& simulation, double t, ConstVec q, ConstVec qd);
 
 // The effective mass at a chain's end effector: under the run's constraints, where it has some. All that shows it,

@@ -325,6 +325,7 @@ class Run {
   // Limits that were passed in the last step, up to where the run ended; the first one ends it where the scene
   // stops at limits. An effort may be asked for in an attempt or at a stage alone: then it is looked for on.
   void look_at_limits() {
+    if (simulation_.step <= 0 && !system_.limits().are_none()) look_at_limits_within();
     system_.limits().check_state(now(), q_now(), qd_now());
     const std::vector<LimitEvent>& seen = system_.limits().events();
     while (limits_seen_ < seen.size()) seen_limits_.push_back(seen[limits_seen_++]);
@@ -337,6 +338,16 @@ class Run {
     });
     system_.forget_bad_torque();
     report(std::move(passed));
+  }
+
+  // A swing may pass a limit and come back within a long step.
+  void look_at_limits_within() {
+    const double begin = integrator_->begin_time();
+    for (int look = 1; look < kLooksPerStep; ++look) {
+      const double t = begin + (now() - begin) * look / kLooksPerStep;
+      integrator_->interpolate(t, q_, qd_);
+      system_.limits().check_state(t, q_, qd_);
+    }
   }
 
   void look_at_limits_of_start() {
@@ -432,10 +443,6 @@ std::string to_string(RunStatus status) {
     case RunStatus::interrupted: return "interrupted";
   }
   return "unknown";
-}
-
-double same_instant(const Simulation& simulation) {
-  return kSameInstant * (simulation.step > 0 ? simulation.step : simulation.duration);
 }
 
 ChainSystem::ChainSystem(const Simulation& simulation)

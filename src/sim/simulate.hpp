@@ -33,6 +33,7 @@ struct Simulation {
   double step = 0.001;   // s; 0: the method chooses, see MethodOptions::tolerance
   double duration = 10;  // s
   double longest_step = 0;    // s, that a method which chooses its steps may take; 0: any
+  double whole_duration = 0;  // s, of the run whose beginning this is, with its steps; less than duration: this is whole
   long most_evaluations = 0;  // behind that many the run ends with RunStatus::out_of_budget; 0: any number
   bool motion_only = false;   // without the torques' work and the multipliers, for who looks at q and qd alone
   LimitPolicy limit = LimitPolicy::report;
@@ -56,6 +57,14 @@ void apply(const MethodSetting& setting, Simulation& simulation);
 
 // Two instants closer than this are one, s.
 double same_instant(const Simulation& simulation);
+
+// Of a duration: what is no shorter than the part of a step that lies between two looks at the torques is seen. Shorter pulses
+// of t alone are sought (expr/pulses), shorter ones of the state are not.
+inline constexpr int kLeastWatchedSteps = 256;
+// The longest step, s, of a run whose method chooses its steps; 0: any. Where torques may change, events happen or limits be
+// passed, a part of the duration at most: a robot at rest or one that coasts lets a method take the whole run for a step,
+// and what comes on the way would never be felt.
+double longest_step_of(const Simulation& simulation);
 
 // Throws Error (bad input) where the method does not take this chain or torque; says which to take instead.
 void check_method(const Simulation& simulation);

@@ -23,7 +23,7 @@ class StepGrid {
   explicit StepGrid(const Simulation& simulation)
       : step_(simulation.step),
         duration_(simulation.duration),
-        longest_(simulation.longest_step),
+        longest_(longest_step_of(simulation)),
         breaks_(simulation.torque->breaks(duration_)) {
     std::sort(breaks_.begin(), breaks_.end());
     // A step from break to break may be as short as time can tell; one to the grid may not.

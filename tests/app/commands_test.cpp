@@ -362,7 +362,7 @@ TEST(Audit, HasTheKeysThatOthersRead) {
             "");
   // On a page this small its plots below the scene leave no room for all that it draws.
   const Words crowded{"--set", "duration=0.2", "--set", "layout=scene-below"};
-  EXPECT_EQ(difference(keys_of_audit("pen", crowded), with(plain, {"tolerance", "left_out",
+  EXPECT_EQ(difference(keys_of_audit("pen", crowded), with(plain, {"left_out",
                                                                  "auto",
                                                                  "auto.accuracy",
                                                                  "auto.attainable",

@@ -63,7 +63,7 @@ std::vector<Case> cases() {
   };
 }
 
-// Adaptive methods take a tolerance that follows the step; implicit ones, slow on an emulated processor, a
+// Adaptive methods take a tolerance and a longest step that follow the step; implicit ones, slow on an emulated processor, a
 // part of the duration. Empty where the method does not take the chain.
 std::string hash_of(const Case& c, const Method& method, double step) {
   Simulation run;
@@ -76,7 +76,7 @@ std::string hash_of(const Case& c, const Method& method, double step) {
   run.chain = c.chain;
   run.method = &method;
   run.step = method.adaptive ? 0 : step;
-  if (method.adaptive) run.options.tolerance = 1e-6 * step;
+  if (method.adaptive) run.options.tolerance = 1e-6 * step, run.longest_step = 2 * step;
   run.duration =
       method.form == Form::second_order && !method.plain_coordinates ? c.duration : 0.1 * c.duration;
   try {

@@ -107,6 +107,21 @@ TEST(Instant, ForceOfAClosureIsWhatTheRockersPinHolds) {
   }
 }
 
+// Dry friction of 2 N against 1.5 sin(5 t) N: once the slider rests nothing moves it, and friction is what the push is.
+TEST(Instant, OfWhatSticksHasTheFrictionThatHoldsIt) {
+  Simulation run = run_of("pp", {"-2*(qd1>0)+2*(qd1<0) + 1.5*sin(5*t)", "0"}, 4, "dop853", 0);
+  run.options.tolerance = 1e-9;
+  run.qd0 = {0.1, 0};
+  const double times[] = {3};
+  const Trajectory at = simulate(run, times);
+  ASSERT_NEAR(at.qd_at(0)[0], 0, 1e-12) << "it does not rest";
+  const Instant now = instant_of(run, at, 0);
+  EXPECT_NEAR(now.tau[0], 0, 1e-12);
+  EXPECT_NEAR(now.qdd[0], 0, 1e-12);
+  // Of the state alone nobody can tell: the law has the push, and friction by the sign of a rate that is rounding.
+  EXPECT_GT(std::abs(instant_of(run, 3, at.q_at(0), at.qd_at(0)).tau[0]), 0.5);
+}
+
 TEST(Instant, OfAPenOnALineHasTheClosedForm) {
   // RR, unit links and masses, at (0, 90 deg), tip at (1, 1) on a level line: M = [3 1; 1 1], Jc = (1, 0), so that q1
   // cannot accelerate, q2 does as its own pendulum, and lambda is what is left at joint 1.

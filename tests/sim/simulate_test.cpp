@@ -217,5 +217,66 @@ TEST(Simulate, TakesNoStepThatIsLongerThanItMay) {
     EXPECT_LE(trajectory.t[std::size_t(k)] - trajectory.t[std::size_t(k) - 1], 0.01 + 1e-8);
 }
 
+// A slider that coasts lets an adaptive method take the whole run for a step, and no stage of it would feel a push on the way:
+// a Gaussian of 0.3 N of half a second, of the time and of the place. In closed form the first adds its impulse A sqrt(pi/w),
+// the second its work: v^2 = 1 + 2 A sqrt(pi/w), of 1 kg each.
+TEST(Simulate, FeelsAPushOnTheWayOfWhatCoasts) {
+  const double pi = std::acos(-1.0), impulse = 0.3 * std::sqrt(pi / 50);
+  for (const char* method : {"dop853", "radau5"}) {
+    for (const double at : {20.0, 31.7, 40.0, 55.0}) {
+      const std::string place = std::to_string(at);
+      Simulation by_time = run_of("pp", {"0.3*exp(-50*(t-" + place + ")^2)", "0"}, 60, method, 0);
+      by_time.chain.gravity.setZero();
+      by_time.options.tolerance = 1e-9;
+      by_time.qd0 = {1, 0};
+      Simulation by_place = run_of("pp", {"0.3*exp(-50*(q1-" + place + ")^2)", "0"}, 60, method, 0);
+      by_place.chain.gravity.setZero();
+      by_place.options.tolerance = 1e-9;
+      by_place.qd0 = {1, 0};
+      const double end[] = {60};
+      Workspace ws(by_time.chain);
+      const double mass = 2 * energy_of(by_time.chain, ws, by_time.q0, by_time.qd0).kinetic;
+      EXPECT_NEAR(simulate(by_time, end).qd_at(0)[0], 1 + impulse / mass, 1e-6) << method << at;
+      EXPECT_NEAR(simulate(by_place, end).qd_at(0)[0], std::sqrt(1 + 2 * impulse / mass), 1e-6) << method << at;
+    }
+  }
+  // Negative control: free motion is taken in steps as long as the method likes.
+  Simulation free = run_of("pp", {"0", "0"}, 60, "dop853", 0);
+  free.options.tolerance = 1e-9;
+  EXPECT_LT(simulate_every_step(free).size(), 40);
+  EXPECT_EQ(longest_step_of(free), 0);
+}
+
+// Two instants of a long run are not taken for one: at t = 0.35 it is where the short run is.
+TEST(Simulate, SamplesOfLongRunsStandAtTheirInstants) {
+  std::vector<double> short_run, long_run;
+  for (const auto& [duration, q] : {std::pair(1.0, &short_run), {4000.0, &long_run}}) {
+    Simulation run = run_of("rr", {"0", "0"}, duration, "dop853", 0);
+    run.options.tolerance = 1e-13;
+    run.most_evaluations = 20'000;  // the rest of the long one does not matter
+    const Trajectory trajectory = simulate(run, instants(0.9, 1e-3));
+    *q = trajectory.q;
+  }
+  ASSERT_EQ(short_run.size(), long_run.size());
+  // The methods' own errors are 1e-12 at most; a millionth of a second of difference would be 1e-6.
+  for (std::size_t i = 0; i < short_run.size(); ++i) EXPECT_NEAR(short_run[i], long_run[i], 1e-10) << i;
+}
+
+// A swing that passes a limit for a fifth of a second and comes back within a step.
+TEST(Simulate, FindsALimitThatIsPassedWithinAStep) {
+  Simulation run = run_of("rr", {"0", "0"}, 5, "dop853", 0);
+  run.options.tolerance = 1e-6;
+  run.q0 = {-1, 0};
+  const Trajectory free = simulate(run, instants(5, 1e-3));
+  double highest = -1;
+  for (int k = 0; k < free.size(); ++k) highest = std::max(highest, free.q_at(k)[0]);
+  for (const double below : {1e-2, 1e-3, 1e-4}) {
+    for (auto& body : run.chain.bodies)
+      if (body.joint.v_index == 0) body.joint.limit.upper = highest - below;
+    const Trajectory trajectory = simulate(run, instants(5, 1.0 / 60));
+    EXPECT_EQ(trajectory.limits.size(), 1u) << below;
+  }
+}
+
 }  // namespace
 }  // namespace chainreel

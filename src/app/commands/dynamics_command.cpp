@@ -214,7 +214,7 @@ Json scene_report(const DynamicsOptions& options) {
                 "--formulation lagrange knows no constraints, which `" + options.file + "` has: leave it out");
   say_choice(prepared, options.common.quiet);
   const Trajectory run = state_at(prepared, at);
-  const Instant now = instant_of(simulation, at, run.q_at(0), run.qd_at(0));
+  const Instant now = instant_of(simulation, run, 0);
   const State state{{run.q_at(0).begin(), run.q_at(0).end()}, {run.qd_at(0).begin(), run.qd_at(0).end()}, now.tau};
   Json json = report(tip, state, options);
   json["scene"] = options.file;

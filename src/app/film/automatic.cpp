@@ -84,7 +84,7 @@ void choose_automatically(PreparedScene& prepared, bool quiet) {
   if (events) {
     // What comes behind the event that ends the run is nobody's concern.
     const auto end = end_by_event(simulation, times);
-    if (end && *end > 0) simulation.duration = *end;
+    if (end && *end > 0) simulation.duration = *end, simulation.whole_duration = duration;
     while (times.size() > 1 && times.back() > simulation.duration) times.pop_back();
     simulation.events = nullptr;
   }
@@ -95,6 +95,7 @@ void choose_automatically(PreparedScene& prepared, bool quiet) {
   }
   simulation.events = events;
   simulation.duration = duration;
+  simulation.whole_duration = 0;
 }
 
 Choice choose_with_progress(Simulation& simulation, const Scene& scene, std::span<const double> times, bool quiet) {

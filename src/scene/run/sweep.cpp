@@ -64,10 +64,10 @@ double number_in(const std::string& part, const std::string& text, const std::st
 // The decimal number of at most 12 digits that a value is but for rounding, else itself: of 1:0:6 the fifth is 0.2. `size`: of
 // what it was computed from.
 double meant_decimal(double value, double size) {
-  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();  // of a product, a sum, a power
-  if (std::abs(value) <= kRounding * size) return 0;
+  constexpr double kOfProducts = 8 * std::numeric_limits<double>::epsilon();  // of a product, a sum, a power
+  if (std::abs(value) <= kOfProducts * size) return 0;
   const double near = parse_number(format_significant(value, 12)).value_or(value);
-  return std::abs(near - value) <= kRounding * size ? near : value;
+  return std::abs(near - value) <= kOfProducts * size ? near : value;
 }
 
 void fill_range(Sweep& sweep, const std::vector<std::string>& parts, const std::string& text,

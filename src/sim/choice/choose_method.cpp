@@ -53,6 +53,7 @@ class Chooser {
       : simulation_(simulation),
         accuracy_(accuracy),
         duration_(simulation.duration),
+        whole_duration_(std::max(simulation.duration, simulation.whole_duration)),
         times_(with_halves(frames, duration_)),
         runs_(simulation, budget, watch) {
     for (const Method& method : methods())
@@ -65,7 +66,7 @@ class Chooser {
     check_accuracy(simulation_.chain, accuracy_);
     reference_ = find_reference(runs_, accuracy_, times_);
     if (!runs_.is_stopped()) look_through_methods();
-    simulation_.duration = duration_;
+    stay_whole();
     if (!choice_.best.setting.method) choice_.best.setting = {&find_method("dop853"), {1e-12, 0}, 0};
     apply(choice_.best.setting, simulation_);
     tell_of_reference();
@@ -98,7 +99,13 @@ class Chooser {
     samples_ = times_;
     if (reference_.is_whole) return;
     samples_.resize(std::size_t(reference_.samples));
-    if (samples_.back() > 0) simulation_.duration = samples_.back();
+    if (!(samples_.back() > 0)) return;
+    simulation_.duration = samples_.back();
+    simulation_.whole_duration = whole_duration_;
+  }
+  void stay_whole() {
+    simulation_.duration = duration_;
+    simulation_.whole_duration = whole_duration_;
   }
 
   bool is_shortened() const { return samples_.size() < times_.size(); }
@@ -188,7 +195,7 @@ class Chooser {
   // least. All have the same bound, and a larger one from round to round, until one comes to the end.
   void confirm() {
     choice_.counted_until = samples_.back();
-    simulation_.duration = duration_;
+    stay_whole();
     std::vector<Choice::Candidate> racers;
     for (const Choice::Candidate& one : choice_.tried)
       if (holds(one)) racers.push_back(one);
@@ -292,6 +299,7 @@ class Chooser {
   Simulation& simulation_;
   Accuracy accuracy_;
   double duration_;            // s, of the whole run
+  double whole_duration_;      // s, as the simulation has it, or that
   std::vector<double> times_;  // frames and what is between them
   std::vector<double> samples_;  // of candidates' runs
   CountedRuns runs_;

@@ -182,6 +182,8 @@ TEST(CsvTorque, BeginsAdaptiveMethodsAnewAtItsKnots) {
       run.method = &find_method(method);
       run.step = 0;
       run.options.tolerance = 1e-5;
+      run.longest_step = 1.5 / kLeastWatchedSteps;  // of the whole run, also for its parts
+      run.whole_duration = 1.5;
       return run;
     };
     const Trajectory whole = simulate(adaptive(controlled("rr", control, 1.5)), instants(1.5, 0.5));
