@@ -119,5 +119,12 @@ TEST_F(Keys, OfModelsAreThoseOfTheMechanismAndOfItsPicture) {
                                    "mesh_up", "camera", "theme", "text_scale", "style", "video.width", "video.height"));
 }
 
+TEST_F(Keys, OfADurationBelowHalfAFrameHaveARemedyThatIsTaken) {
+  const std::string table = "method: dop853\n";
+  EXPECT_THAT(error(table, {"duration=1e-5"}), HasSubstr("take video.fps=100000 for one"));
+  EXPECT_EQ(error(table, {"duration=1e-5", "video.fps=100000"}), "");
+  for (const char* shorter : {"duration=1e-7", "duration=1e-320"}) EXPECT_THAT(error(table, {shorter}), HasSubstr("take a longer one"));
+}
+
 }  // namespace
 }  // namespace chainreel

@@ -161,7 +161,7 @@ bool Fields::read(const std::string& key, FrameRate& value) {
       slash == std::string::npos ? std::optional<double>(1) : parse_number(text->substr(slash + 1));
   // A decimal rate is kept to a thousandth: 23.976 is 23976/1000.
   const double scale = num && *num != std::floor(*num) ? 1000 : 1;
-  const bool good = num && den && *num > 0 && *den >= 1 && *den <= 1e5 && *num * scale <= 1e6 &&
+  const bool good = num && den && *num > 0 && *den >= 1 && *den <= 1e5 && *num * scale <= kMostFps &&
                     *den == std::floor(*den) && *num * scale == std::round(*num * scale);
   if (good)
     value = {int(*num * scale), int(*den * scale)};

@@ -15,6 +15,8 @@
 
 namespace chainreel {
 
+inline constexpr double kMostFps = 1e6;  // frames/s
+
 // A path that the scene names, as found from the working folder: relative to the scene file unless absolute.
 std::string beside(const std::string& scene, const std::string& named);
 

@@ -130,8 +130,9 @@ void check_frames(Fields& fields, const Scene& scene) {
                                            " [ms]' or [ns]");
   if (frames > kMostFrames) fields.problem_at("duration", "'duration' is longer than ten million frames");
   if (frames < 0.5 && scene.duration > 0)
-    fields.problem_at("duration", "'duration' is shorter than half a frame, of which neither a film nor a table has anything: take video.fps=" +
-                                       std::to_string(long(std::ceil(1 / scene.duration))) + " for one");
+    fields.problem_at("duration", "'duration' is shorter than half a frame, of which neither a film nor a table has anything: take " +
+                                       (1 / scene.duration <= kMostFps ? "video.fps=" + std::to_string(long(std::ceil(1 / scene.duration))) + " for one"
+                                                                       : "a longer one"));
 }
 
 }  // namespace
