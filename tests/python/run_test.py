@@ -121,6 +121,9 @@ class Runs(FolderTest):
 
         run = cr.Scene(FALL, torque=push).run()
         np.testing.assert_array_equal(run.q, cr.Scene(FALL, torque=["2 * t", "-3 * qd2"]).run().q)
+        np.testing.assert_array_equal(run.q, cr.Scene({**FALL, "torque": push}).run().q)
+        with self.assertRaisesRegex(ValueError, "has a torque already"):
+            cr.Scene({**FALL, "torque": push}, torque=push)
         self.assertIn("the Python function push (run_test.py:", run.scene)
         with self.assertRaisesRegex(cr.Error, "which no file holds"):
             cr.Scene(self.write("again.yaml", run.scene)).run()

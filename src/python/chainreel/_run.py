@@ -29,7 +29,7 @@ class Scene:
     keys, set: change keys of it, as `--set` does; None takes a key away. A dict's paths start in the working folder;
     its model may also be the name of one that comes with chainreel.
     torque: a function of t (s), q (nq,) and qd (nv,) that gives nv numbers, N m or N, for a scene without a torque of its
-    own. It must depend on its arguments alone: it is asked several times of each instant, not in the order of time. It is slow: each
+    own; a dict may hold it, too. It must depend on its arguments alone: it is asked several times of each instant, not in the order of time. It is slow: each
     question takes some microseconds, where an expression in the scene takes some 10 ns, and `method: auto` asks a hundred
     thousand of them; give a method, or write the torque as text where it is one. Films show and remember what it is called, and
     cannot be made again from that.
@@ -40,6 +40,11 @@ class Scene:
                  torque: Optional[Torque] = None, name: str = "scene", **keys: Any):
         if torque is not None and not callable(torque):
             keys["torque"], torque = torque, None
+        if isinstance(scene, Mapping) and callable(scene.get("torque")):
+            if torque is not None or "torque" in keys:
+                raise ValueError("the scene has a torque already, the function of its key torque: give one of them")
+            torque = scene["torque"]
+            scene = {key: value for key, value in scene.items() if key != "torque"}
         self._text = text_of(_with_model(scene)) if isinstance(scene, Mapping) else None
         self._path = name if isinstance(scene, Mapping) else os.fspath(scene)
         self._overrides = overrides_of({**keys, **(set or {})})
