@@ -305,6 +305,8 @@ TEST_F(Verify, IsTheSameOnOneThreadAndOnSeveral) {
   fs::remove_all(folder_.path() / "arm.baselines");
   EXPECT_EQ(verify({"--missing", "write", "--jobs", "3"}).status, 0);
   EXPECT_EQ(baselines(), one);
+  const std::string told = verify({"--jobs", "1"}).out;
+  for (int time = 0; time < 3; ++time) EXPECT_EQ(verify({"--jobs", "3"}).out, told) << "in the suite's order";
 }
 
 TEST_F(Verify, ReportsForServicesAreWellFormedAndSayEverything) {

@@ -93,17 +93,26 @@ std::vector<std::string> words_of(const Error& error) {
   return words;
 }
 
-// Verdicts of pictures as they come, one line each; on a terminal those that passed leave no line.
+// Verdicts of pictures in their order, one line each, as soon as those before are there; on a terminal those that passed leave no
+// line.
 class Teller {
  public:
-  Teller(int total, const VerifyOptions& options)
-      : quiet_(options.common.quiet || options.common.json),
-        progress_("verify", total, quiet_ || !isatty(2)),
+  Teller(const std::vector<PictureVerdict>& verdicts, const VerifyOptions& options)
+      : verdicts_(verdicts),
+        is_there_(verdicts.size()),
+        quiet_(options.common.quiet || options.common.json),
+        progress_("verify", int(verdicts.size()), quiet_ || !isatty(2)),
         terminal_(isatty(1)) {}
 
-  void tell(const PictureVerdict& verdict) {
+  void tell(std::size_t which) {
     const std::lock_guard lock(mutex_);
     progress_.update(++done_);
+    is_there_[which] = true;
+    while (next_ < verdicts_.size() && is_there_[next_]) tell(verdicts_[next_++]);
+  }
+
+ private:
+  void tell(const PictureVerdict& verdict) {
     if (quiet_ || verdict.state == PictureState::accepted ||
         (terminal_ && verdict.passes && verdict.state == PictureState::same))
       return;
@@ -113,7 +122,9 @@ class Teller {
     std::fflush(stdout);
   }
 
- private:
+  const std::vector<PictureVerdict>& verdicts_;
+  std::vector<bool> is_there_;
+  std::size_t next_ = 0;
   bool quiet_;
   Progress progress_;
   bool terminal_;
@@ -164,13 +175,13 @@ class Verification {
       i = end;
     }
     std::vector<PictureVerdict> verdicts(pictures.size());
-    Teller teller(int(pictures.size()), options_);
+    Teller teller(verdicts, options_);
     for_each_index(pieces.size(), options_.jobs, [&](std::size_t piece) {
       Studio studio(suite_, cameras_);
       for (std::size_t i = pieces[piece].first; i < pieces[piece].second; ++i) {
         throw_if_interrupted();
         verdicts[i] = verdict_of(*pictures[i], studio);
-        teller.tell(verdicts[i]);
+        teller.tell(i);
       }
     });
     return verdicts;
