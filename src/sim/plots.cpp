@@ -125,11 +125,10 @@ PlotCurves values_of(const Expression& value, const PlotSet& plots, const Simula
     const ConstVec q = trajectory.q_at(k), qd = trajectory.qd_at(k);
     probe.set(chain, ws, t, q, qd, plots.needs_kinematics);
     if (trajectory.rows > 0) probe.set_multipliers(trajectory.lambda_at(k));
-    if (plots.cop_slot >= 0) {
+    if (plots.load.are_read()) {
       hold_as_then(system, simulation, trajectory, t);
       system.acceleration(t, q, qd, qdd);
-      probe.set_value(plots.cop_slot,
-                      center_of_pressure(chain, ws, plots.ground, plots.ground_height, q, qd, qdd));
+      plots.load.set(probe, ground_load(chain, ws, plots.ground, plots.ground_height, q, qd, qdd));
     }
     curve.y.push_back(value.evaluate(probe.values()));
   }
@@ -181,8 +180,11 @@ std::shared_ptr<const PlotSet> make_plots(const Chain& chain, const std::vector<
                                           const std::optional<Foot>& foot, int rows) {
   if (entries.empty()) return nullptr;
   Parameters known = parameters;
-  if (foot) known.insert(known.end(), {{"cop", 0.0}, {"heel", foot->heel}, {"toe", foot->toe}});
-  auto plots = std::make_shared<PlotSet>(PlotSet{{}, Probe(chain, known, rows, frames), false, -1, 0, {}});
+  if (foot) {
+    const Parameters of_foot = foot_parameters(*foot);
+    known.insert(known.end(), of_foot.begin(), of_foot.end());
+  }
+  auto plots = std::make_shared<PlotSet>(PlotSet{{}, Probe(chain, known, rows, frames), false, {}, 0, {}});
   ProblemList problems;
   for (const PlotEntry& entry : entries) {
     try {
@@ -194,7 +196,7 @@ std::shared_ptr<const PlotSet> make_plots(const Chain& chain, const std::vector<
   problems.throw_if_any();
   if (foot) {
     const auto& names = plots->probe.names();
-    plots->cop_slot = int(std::find(names.begin(), names.end(), "cop") - names.begin());
+    for (std::size_t i = 0; i < names.size(); ++i) plots->load.add(names[i], int(i));
     plots->ground_height = foot->height;
     plots->ground = ground_axes(chain);
   }

@@ -49,7 +49,7 @@ struct PlotSet {
   std::vector<Plot> list;
   Probe probe;
   bool needs_kinematics = false;
-  int cop_slot = -1;  // of the probe, where an expression reads it
+  GroundSlots load;  // in the probe, where there is a foot
   double ground_height = 0;
   GroundAxes ground;
 };

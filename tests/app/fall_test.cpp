@@ -66,12 +66,48 @@ TEST(FallCommand, SaysWhatHoldsFromTheStart) {
   EXPECT_THAT(result.out, HasSubstr("from the start"));
   EXPECT_THAT(result.out, testing::Not(HasSubstr("never   tips")));
   const std::string text = read_whole_file(csv);
-  EXPECT_THAT(text, HasSubstr(",stands,tips_at,tips_over\n"));
-  EXPECT_THAT(text, HasSubstr(",false,0,toe\n"));
+  EXPECT_THAT(text, HasSubstr(",stands,tips_at,tips_over,takes_off_at\n"));
+  EXPECT_THAT(text, HasSubstr(",false,0,toe,"));
 
   const std::string scene = folder.write("falling.yaml", kFalling);
   const ProgramResult lying = run_program({"fall", scene, "--set", "start.q=[0, -2]"});
   EXPECT_THAT(lying.out, HasSubstr("lies from the start"));
+}
+
+// 10 kg on a vertical slide above the middle of a foot: what drives it, F, is what the ground bears.
+TEST(FallCommand, SaysWhoTakesOffAndWhen) {
+  const TemporaryFolder folder;
+  folder.write("hop.urdf",
+               "<robot name=\"hop\"><link name=\"foot\"/><link name=\"body\"><inertial><mass value=\"10\"/>"
+               "<inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial></link>"
+               "<joint name=\"up\" type=\"prismatic\"><parent link=\"foot\"/><child link=\"body\"/>"
+               "<origin xyz=\"0.05 1 0\"/><axis xyz=\"0 1 0\"/>"
+               "<limit lower=\"-100\" upper=\"100\" effort=\"10000\" velocity=\"100\"/></joint></robot>");
+  const std::string scene = folder.write("hop.yaml",
+                                         "model: hop.urdf\ngravity: [0, -9.81, 0]\nduration: 1\nparameters: {late: -100}\n"
+                                         "torque: [\"200*(t<0.5)+late*(t>=0.5)\"]\nfoot: {heel: -0.1, toe: 0.1}\n"
+                                         "events: [{when: \"y_G < -50\", kind: fall, name: down}]\n");
+  const auto row_of = [&](const std::string& setting) {
+    const ProgramResult result = run_program({"fall", scene, "--set", setting, "--json"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return Json::parse(result.out)["rows"][0];
+  };
+  const Json hops = row_of("parameters.late=-100"), stands = row_of("parameters.late=100");
+  EXPECT_FALSE(hops["stands"].get<bool>());
+  EXPECT_TRUE(hops["tips_at"].is_null()) << "the pressure never leaves the foot";
+  EXPECT_NEAR(hops["takes_off_at"].get<double>(), 0.5, 2e-12) << "to what instants of events are found";
+  EXPECT_TRUE(stands["stands"].get<bool>());
+  EXPECT_TRUE(stands["takes_off_at"].is_null());
+  // The zero of a force that changes without a jump.
+  EXPECT_NEAR(row_of("torque=[150 - 200*t]")["takes_off_at"].get<double>(), 0.75, 2e-12);
+  const Json pushed = row_of("torque=[-100]");
+  EXPECT_FALSE(pushed["stands"].get<bool>());
+  EXPECT_EQ(pushed["takes_off_at"], 0.0);
+
+  const std::string csv = folder.file("hop.csv");
+  const ProgramResult text = run_program({"fall", scene, "-o", csv});
+  EXPECT_THAT(text.out, HasSubstr("takes off at 0.5000, not down within 1 s"));
+  EXPECT_THAT(read_whole_file(csv), HasSubstr(",false,,,0.5"));
 }
 
 TEST(FallCommand, GivesTheClosedFormInJsonAndCsv) {

@@ -36,7 +36,7 @@ bool has_failed(const FallRow& row) {
 }
 
 bool stands(const FallRow& row) {
-  return !row.tips && !row.fall_time && row.status == RunStatus::finished;
+  return !row.tips && !row.takes_off && !row.fall_time && row.status == RunStatus::finished;
 }
 
 std::string tips_over(const FallRow& row) {
@@ -51,6 +51,9 @@ std::string verdict(const FallTable& table, const FallRow& row) {
     if (table.events[i].kind == EventKind::fall && row.first[i] == 0.0) return "lies from the start";
   const std::string within = format_quantity(table.duration, "s");
   if (!table.has_foot) return "does not fall within " + within;
+  // Where it has no way down, the ground's force has no place either.
+  if (row.takes_off && (!row.tips || *row.takes_off <= *row.tips))
+    return "takes off at " + format_fixed(*row.takes_off, 4) + ", not down within " + within;
   if (!row.tips) return "stands for " + within;
   return "tips over the " + tips_over(row) + " at " + format_fixed(*row.tips, 4) +
          ", not down within " + within;
@@ -110,6 +113,7 @@ Json report_of(const std::string& scene, const FallTable& table) {
       one["stands"] = stands(row);
       one["tips_at"] = optional_json(row.tips);
       one["tips_over"] = row.tips ? Json(tips_over(row)) : Json(nullptr);
+      one["takes_off_at"] = optional_json(row.takes_off);
     }
     if (!row.trouble.empty()) one["trouble"] = row.trouble;
     json["rows"].push_back(one);
@@ -123,13 +127,13 @@ std::string csv_of(const std::string& scene, const FallTable& table) {
   const bool swept = !table.sweep.key.empty();
   std::string text = csv_facts(scene) + (swept ? table.sweep.key + "," : "") + "fall_time,status,end_time";
   for (const EventEntry& event : table.events) text += "," + csv_words(event.title());
-  if (table.has_foot) text += ",stands,tips_at,tips_over";
+  if (table.has_foot) text += ",stands,tips_at,tips_over,takes_off_at";
   text += "\n";
   for (const FallRow& row : table.rows) {
     if (swept) text += row.value + ",";
     text += field(row.fall_time) + "," + to_string(row.status) + "," + format_shortest(row.end_time);
     for (const std::optional<double>& time : row.first) text += "," + field(time);
-    if (table.has_foot) text += std::string(stands(row) ? ",true," : ",false,") + field(row.tips) + "," + tips_over(row);
+    if (table.has_foot) text += std::string(stands(row) ? ",true," : ",false,") + field(row.tips) + "," + tips_over(row) + "," + field(row.takes_off);
     text += "\n";
   }
   return text;

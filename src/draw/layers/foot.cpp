@@ -64,7 +64,7 @@ FootRun::FootRun(const StagedRun& motion)
     compute_forward_dynamics(chain, ws, q, qd, tau);
     const std::vector<double> qdd = ws.qdd;
     const Wrench wrench = compute_ground_reaction(chain, ws, q, qd, qdd);
-    pushes.push_back({center_of_pressure(chain, ws, ground, foot.height, q, qd, qdd), wrench.force / weight});
+    pushes.push_back({ground_load(chain, ws, ground, foot.height, q, qd, qdd).cop, wrench.force / weight});
   }
 }
 

@@ -37,6 +37,7 @@ Scene read_one(const std::string& path, const std::vector<std::string>& override
 
 // By an angle, so that a ground that bears nothing, where the pressure is infinitely far away, is none without number.
 constexpr const char* kPressureLeavesTheFoot = "atan2(max(heel - cop, cop - toe), 1) > 0";
+constexpr const char* kGroundPulls = "grf < 0";
 
 double pressure_at(const Simulation& simulation, const Foot& foot, double t, ConstVec q, ConstVec qd) {
   const Chain& chain = simulation.chain;
@@ -44,7 +45,7 @@ double pressure_at(const Simulation& simulation, const Foot& foot, double t, Con
   std::vector<double> qdd(qd.size());
   system.acceleration(t, q, qd, qdd);
   Workspace ws(chain);
-  return center_of_pressure(chain, ws, ground_axes(chain), foot.height, q, qd, qdd);
+  return ground_load(chain, ws, ground_axes(chain), foot.height, q, qd, qdd).cop;
 }
 
 // `event`: the one that watches the pressure; it waits where it holds from the start.
@@ -68,7 +69,8 @@ void find_tipping(FallRow& row, const Simulation& simulation, const Foot& foot, 
 // `stop` is asked with the part of the run that is done.
 FallRow run_row(Scene scene, const StopRequest& stop) {
   const std::size_t events = scene.events.size();
-  if (scene.foot) scene.events.push_back({.when = kPressureLeavesTheFoot, .name = {}, .place = {}});
+  if (scene.foot)
+    for (const char* when : {kPressureLeavesTheFoot, kGroundPulls}) scene.events.push_back({.when = when, .name = {}, .place = {}});
   const Simulation simulation = prepare(scene, false);
   const double end[] = {simulation.duration};
   const Trajectory run = simulate(simulation, end, [&](double t) { return stop && stop(part_done(simulation, t)); });
@@ -83,6 +85,7 @@ FallRow run_row(Scene scene, const StopRequest& stop) {
   for (int k = run.events.size() - 1; k >= 0; --k)
     row.first[std::size_t(run.events.event[std::size_t(k)])] = run.events.t[std::size_t(k)];
   for (const int event : run.events.from_start) row.first[std::size_t(event)] = 0;
+  if (scene.foot) row.takes_off = row.first[events + 1];
   row.first.resize(events);
   return row;
 }

@@ -33,6 +33,9 @@ struct FallRow {
   // on the ground would tip, which the model's, fixed to the world, does not.
   std::optional<double> tips;
   bool over_toe = false;
+
+  // When the ground would first have to pull at the robot, s: there it takes off, which the model's foot does not.
+  std::optional<double> takes_off;
 };
 
 struct FallTable {

@@ -78,7 +78,7 @@ void check_parameters(const Scene& scene, const Chain& chain, const NamedFrames&
   const int rows = 6 * int(scene.constraints.size());  // the most there can be
   std::vector<std::string> taken = Probe(chain, {}, rows, frames).names();
   if (scene.foot)
-    for (const std::string& name : foot_names()) taken.push_back(name);
+    for (const auto& [name, value] : foot_parameters(*scene.foot)) taken.push_back(name);
   for (const auto& [name, value] : scene.parameters) {
     if (!is_variable_name(name) || is_reserved_name(name) ||
         std::find(taken.begin(), taken.end(), name) != taken.end())

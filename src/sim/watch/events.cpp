@@ -40,7 +40,7 @@ void add_event(EventSet& events, const Chain& chain, const EventEntry& entry) {
     require_frame_of(chain, events.probe, slot, entry.place);
     events.needs_kinematics |= events.probe.is_kinematic(slot);
     events.needs_multipliers |= events.probe.is_multiplier(slot);
-    if (events.foot && events.probe.names()[std::size_t(slot)] == "cop") events.cop_slot = slot;
+    if (events.foot) events.load.add(events.probe.names()[std::size_t(slot)], slot);
   }
 }
 
@@ -58,8 +58,18 @@ std::span<const Name> names_of(Crossing) {
   return names;
 }
 
-std::vector<std::string> foot_names() {
-  return {"cop", "heel", "toe"};
+Parameters foot_parameters(const Foot& foot) {
+  return {{"cop", 0.0}, {"grf", 0.0}, {"heel", foot.heel}, {"toe", foot.toe}};
+}
+
+void GroundSlots::add(const std::string& name, int slot) {
+  if (name == "cop") cop = slot;
+  if (name == "grf") grf = slot;
+}
+
+void GroundSlots::set(Probe& probe, const GroundLoad& load) const {
+  if (cop >= 0) probe.set_value(cop, load.cop);
+  if (grf >= 0) probe.set_value(grf, load.grf);
 }
 
 std::shared_ptr<const EventSet> make_events(const Chain& chain, const std::vector<EventEntry>& entries,
@@ -72,10 +82,11 @@ std::shared_ptr<const EventSet> make_events(const Chain& chain, const std::vecto
     if (rows > 0)
       throw Error(ExitCode::bad_input, "a foot goes without constraints: they would carry part of the robot");
     ground = ground_axes(chain);
-    known.insert(known.end(), {{"cop", 0.0}, {"heel", foot->heel}, {"toe", foot->toe}});
+    const Parameters of_foot = foot_parameters(*foot);
+    known.insert(known.end(), of_foot.begin(), of_foot.end());
   }
   auto events =
-      std::make_shared<EventSet>(EventSet{Probe(chain, known, rows, frames), {}, false, false, foot, ground});
+      std::make_shared<EventSet>(EventSet{Probe(chain, known, rows, frames), {}, false, false, foot, ground, {}});
   ProblemList problems;
   for (const EventEntry& entry : entries) {
     try {
@@ -111,11 +122,12 @@ GroundAxes ground_axes(const Chain& chain) {
   return axes;
 }
 
-double center_of_pressure(const Chain& chain, Workspace& ws, const GroundAxes& axes, double height,
-                          ConstVec q, ConstVec qd, ConstVec qdd) {
+GroundLoad ground_load(const Chain& chain, Workspace& ws, const GroundAxes& axes, double height, ConstVec q,
+                       ConstVec qd, ConstVec qdd) {
   const Wrench on_robot = compute_ground_reaction(chain, ws, q, qd, qdd);
   const double moment = axes.along.cross(axes.up).dot(on_robot.moment);
-  return (moment + height * on_robot.force.dot(axes.along)) / on_robot.force.dot(axes.up);
+  const double up = on_robot.force.dot(axes.up);
+  return {(moment + height * on_robot.force.dot(axes.along)) / up, up};
 }
 
 namespace {
@@ -165,10 +177,9 @@ void EventWatch::set_probe(double t, ConstVec q, ConstVec qd) {
     constrained.look(system_.workspace(), q, qd, system_.torque(t, q, qd));
     probe_.set_multipliers(constrained.lambda());
   }
-  if (events_.cop_slot < 0) return;
+  if (!events_.load.are_read()) return;
   system_.acceleration(t, q, qd, qdd_);
-  probe_.set_value(events_.cop_slot,
-                   center_of_pressure(chain, ws_, events_.ground, events_.foot->height, q, qd, qdd_));
+  events_.load.set(probe_, ground_load(chain, ws_, events_.ground, events_.foot->height, q, qd, qdd_));
 }
 
 bool EventWatch::read(double t, ConstVec q, ConstVec qd) {

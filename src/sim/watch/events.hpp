@@ -46,11 +46,24 @@ struct GroundAxes {
 // Throws Error (bad input) for chains that move out of one plane or float, and where no gravity acts in it.
 GroundAxes ground_axes(const Chain& chain);
 
-// The place on the ground, m along it, where what the ground exerts on the robot has no moment: with force F
-// and moment n about the world's origin (n + height F_along) / F_up. Infinite or no number where the ground
-// bears nothing. The motion is the chain's own under some torque.
-double center_of_pressure(const Chain& chain, Workspace& ws, const GroundAxes& axes, double height,
-                          ConstVec q, ConstVec qd, ConstVec qdd);
+// What the ground exerts on the robot, force F and moment n about the world's origin.
+struct GroundLoad {
+  // Centre of pressure, m along the ground: the place where it has no moment, (n + height F_along) / F_up.
+  // Infinite or no number where the ground bears nothing.
+  double cop = 0;
+  double grf = 0;  // F_up, N: below zero the ground would have to pull, and who stands on it takes off
+};
+// The motion is the chain's own under some torque.
+GroundLoad ground_load(const Chain& chain, Workspace& ws, const GroundAxes& axes, double height, ConstVec q,
+                       ConstVec qd, ConstVec qdd);
+
+// Where a probe holds what the ground exerts; -1: nothing reads it.
+struct GroundSlots {
+  int cop = -1, grf = -1;
+  bool are_read() const { return cop >= 0 || grf >= 0; }
+  void add(const std::string& name, int slot);  // of cop and grf; of others nothing
+  void set(Probe& probe, const GroundLoad& load) const;
+};
 
 inline constexpr int kLooksPerStep = 8;
 
@@ -94,11 +107,11 @@ struct EventSet {
   bool needs_multipliers = false;
   std::optional<Foot> foot;
   GroundAxes ground;
-  int cop_slot = -1;  // of the probe, where an event reads it
+  GroundSlots load;  // where an event reads it
 };
 
-// What events may read beyond torques where there is a foot: cop, heel, toe.
-std::vector<std::string> foot_names();
+// What events may read beyond torques where there is a foot: cop, grf, heel, toe.
+Parameters foot_parameters(const Foot& foot);
 
 // Null where there are neither. Throws Error with every problem.
 std::shared_ptr<const EventSet> make_events(const Chain& chain, const std::vector<EventEntry>& entries,

@@ -30,7 +30,7 @@ double cop_at(const Simulation& run, double t, ConstVec q, ConstVec qd, double h
   run.torque->evaluate(run.chain, ws, t, q, qd, tau);
   compute_forward_dynamics(run.chain, ws, q, qd, tau);
   const std::vector<double> qdd = ws.qdd;
-  return center_of_pressure(run.chain, ws, ground_axes(run.chain), height, q, qd, qdd);
+  return ground_load(run.chain, ws, ground_axes(run.chain), height, q, qd, qdd).cop;
 }
 
 TEST(CenterOfPressure, OfAStillHumanLiesBelowTheCentreOfMass) {
@@ -45,7 +45,7 @@ TEST(CenterOfPressure, OfAStillHumanLiesBelowTheCentreOfMass) {
   const GroundAxes axes = ground_axes(run.chain);
   EXPECT_EQ(axes.along, Eigen::Vector3d::UnitX());
   // Some hundred roundings of numbers below 1 m.
-  EXPECT_NEAR(center_of_pressure(run.chain, ws, axes, 0, q, still, still), below, 1e-14);
+  EXPECT_NEAR(ground_load(run.chain, ws, axes, 0, q, still, still).cop, below, 1e-14);
   EXPECT_GT(std::abs(moving.position.x() - below), 1e-3) << "negative control: the foot counts";
 }
 
