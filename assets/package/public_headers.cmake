@@ -15,6 +15,7 @@ set(sim_headers
   dynamics/kernels/taylor_planar.hpp sim/audit.hpp sim/drive/control.hpp sim/drive/limits.hpp
   sim/drive/linear_drive.hpp sim/drive/probe.hpp sim/drive/reference.hpp sim/drive/state_corners.hpp
   sim/drive/torque.hpp sim/drive/torque_function.hpp sim/plots.hpp sim/simulate.hpp sim/system/chain_system.hpp
-  sim/system/constrained_chain.hpp sim/system/constraint_plan.hpp sim/system/trajectory.hpp sim/watch/events.hpp
+  sim/system/constrained_chain.hpp sim/system/constraint_plan.hpp sim/system/even_sides.hpp sim/system/trajectory.hpp
+  sim/watch/events.hpp
   sim/watch/first_instant.hpp)
 set(film_headers app/library/scene_run.hpp core/image.hpp)

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/read_chain.hpp"
 #include "support/chains.hpp"
 
 namespace chainreel {

@@ -114,8 +114,11 @@ void ChainSystem::hold(std::vector<int> held) {
   for (const int k : held_) takes_means_ = takes_means_ || torque_->corners()->is_curved(k);
   held_sides_.resize(held_.size());
   tau_branch_.resize(tau_.size());
-  change_ = DenseLu<double>(held_.size());
-  wanted_.resize(held_.size());
+  const std::size_t m = held_.size();
+  for (std::vector<double>* of_each : {&wanted_, &sought_, &sides_}) of_each->resize(m);
+  changes_.resize(m * m);
+  lu_ = DenseLu<double>(m);
+  even_ = EvenSides(m);
 }
 
 ConstVec ChainSystem::corner_rates(double t, ConstVec q, ConstVec qd) {
@@ -151,20 +154,35 @@ bool ChainSystem::find_holding_sides(double t, ConstVec q, ConstVec qd) {
       corner_rates(t, q, qd);
       corners.set_side(held_[j], side);
       for (std::size_t i = 0; i < m; ++i) {
-        change_(i, j) = rates_[std::size_t(held_[i])] + wanted_[i];
-        scale = std::max(scale, std::fabs(change_(i, j)));
+        changes_[i * m + j] = rates_[std::size_t(held_[i])] + wanted_[i];
+        scale = std::max(scale, std::fabs(changes_[i * m + j]));
       }
     }
     scale = std::max(scale, largest);
-    change_.factor();
-    change_.solve(wanted_);
+    solve_for_sides();
     for (std::size_t j = 0; j < m; ++j) {
-      const double side = corners.side(held_[j]) + wanted_[j];
-      if (!std::isfinite(side)) return false;
-      corners.set_side(held_[j], side);
+      if (!std::isfinite(sides_[j])) return false;
+      corners.set_side(held_[j], sides_[j]);
     }
   }
   return false;
+}
+
+// Into sides_, from those that stand: what makes the rates change as wanted.
+void ChainSystem::solve_for_sides() {
+  const StateCorners& corners = *torque_->corners();
+  const std::size_t m = held_.size();
+  for (std::size_t i = 0; i < m; ++i) {
+    sought_[i] = wanted_[i];
+    for (std::size_t j = 0; j < m; ++j) {
+      sought_[i] += changes_[i * m + j] * corners.side(held_[j]);
+      lu_(i, j) = changes_[i * m + j];
+    }
+  }
+  if (m > 1 && even_.solve(changes_, sought_, sides_)) return;
+  lu_.factor();
+  lu_.solve(wanted_);
+  for (std::size_t j = 0; j < m; ++j) sides_[j] = corners.side(held_[j]) + wanted_[j];
 }
 
 double ChainSystem::power(double t, ConstVec q, ConstVec qd) {

@@ -13,6 +13,7 @@
 #include "sim/drive/state_corners.hpp"
 #include "sim/drive/torque.hpp"
 #include "sim/system/constrained_chain.hpp"
+#include "sim/system/even_sides.hpp"
 
 namespace chainreel {
 
@@ -48,7 +49,7 @@ class ChainSystem final : public SecondOrder {
   StateCorners* corners() { return torque_->corners(); }
   void hold(std::vector<int> held);
   const std::vector<int>& held() const { return held_; }
-  // The sides that hold them at this state, also beyond -1 and 1; false where none do.
+  // The sides that hold them at this state, also beyond -1 and 1; where many do, those of EvenSides. False where none do.
   bool find_holding_sides(double t, ConstVec q, ConstVec qd);
   // The rates of all switching functions at the sides that stand, one a corner; valid until the next call.
   ConstVec corner_rates(double t, ConstVec q, ConstVec qd);
@@ -72,6 +73,7 @@ class ChainSystem final : public SecondOrder {
   void evaluate_uncut(double t, ConstVec q, ConstVec qd);
   void evaluate_mean(double t, ConstVec q, ConstVec qd);
   void accelerate(ConstVec q, ConstVec qd, Vec qdd);
+  void solve_for_sides();
 
   const Chain* chain_;
   TorqueLaw* torque_;
@@ -86,7 +88,9 @@ class ChainSystem final : public SecondOrder {
   bool takes_means_ = false;        // of whole torques: more than the sides between -1 and 1 make of them
   std::vector<double> tau_branch_, held_sides_;
   std::vector<double> q_dot_, qdd_, rates_, wanted_;
-  DenseLu<double> change_{0};
+  std::vector<double> changes_, sought_, sides_;  // of the rates by the sides, by rows
+  DenseLu<double> lu_{0};
+  EvenSides even_{0};
   long evaluations_ = 0;
   int bad_torque_ = -1;
 };
