@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/format.hpp"
+#include "dynamics/effective_mass.hpp"
 #include "dynamics/friction.hpp"
 
 namespace chainreel {
@@ -421,9 +422,20 @@ std::string vector_in_python(const Writer& writer, const std::vector<Formula>& l
   return text + "], dtype=float)";
 }
 
+// The quotient alone would be a number at every pose near which rounding leaves one.
 std::string lambda_in_python(const Writer& writer, const SymbolicEquation& equation) {
-  if (!equation.Lambda) return "np.linalg.inv(J(q) @ np.linalg.solve(M(q), J(q).T))";
-  return matrix_in_python(writer, equation.Lambda->numerator) + " / (" + writer.write(equation.Lambda->root) + ")**2";
+  const std::string fraction = format_shortest(kSingularFraction);
+  std::string text = "\n\ndef Lambda(q):\n    \"\"\"The effective mass of " + equation.end_effector +
+                     ", J^-T M J^-1. ValueError at poses where it is infinite in some\n"
+                     "    direction: there J M^-1 J^T has an eigenvalue below " + fraction + " of the largest.\"\"\"\n"
+                     "    mobility = J(q) @ np.linalg.solve(M(q), J(q).T)\n"
+                     "    values = np.linalg.eigvalsh(mobility)\n"
+                     "    if not values[0] > " + fraction + " * values[-1]:\n"
+                     "        raise ValueError(\"no Lambda at this pose: the effective mass of the end effector is infinite in \"\n"
+                     "                         \"some direction\")\n";
+  if (!equation.Lambda) return text + "    return np.linalg.inv(mobility)\n";
+  return text + "    return " + matrix_in_python(writer, equation.Lambda->numerator) + " / (" + writer.write(equation.Lambda->root) +
+         ")**2\n";
 }
 
 std::string dissipation_in_python(const Writer& writer, const SymbolicEquation& equation) {
@@ -458,8 +470,7 @@ std::string python_of(const SymbolicEquation& equation) {
                              "np.linalg.solve(M(q), tau - C(q, qd) @ qd - g(q) - tau_f(qd))");
   if (equation.end_effector.empty()) return text;
   text += function_in_python("J(q)", "The Jacobian of the position of " + equation.end_effector + ".", matrix_in_python(writer, equation.J));
-  return text + function_in_python("Lambda(q)", "The effective mass of " + equation.end_effector + ", J^-T M J^-1.",
-                                   lambda_in_python(writer, equation));
+  return text + lambda_in_python(writer, equation);
 }
 
 }  // namespace chainreel

@@ -61,6 +61,23 @@ TEST(Equations, AsPythonSayWhatDynamicsSays) {
   }
 }
 
+// Where dynamics has no Lambda, of one joint nowhere and of two where the arm is stretched or folded, Python has none.
+TEST(Equations, AsPythonSayWhereThereIsNoLambda) {
+  if (!std::filesystem::exists(kPython)) GTEST_SKIP() << "needs Debian's python3 with python3-numpy";
+  const TemporaryFolder folder;
+  const auto lambda_at = [&](const std::string& model, const std::string& q) {
+    EXPECT_EQ(run_program({"equations", model, "--python", "-o", folder.file("m.py"), "--force"}).status, 0);
+    folder.write("probe.py", "import sys\nsys.path.insert(0, '" + folder.file("") + "')\nimport numpy as np, m\n"
+                             "try: print(m.Lambda(np.array([" + q + "])))\nexcept ValueError as e: print('refused', e)\n");
+    return run_command({kPython, "-B", folder.file("probe.py")}).out;
+  };
+  const std::string one = folder.write("one.yaml", "model: {links: [0.5], masses: [1], joints: R}\n"), two = "models/rr.urdf";
+  for (const char* q : {"0", "0.3", "0.7", "1.5"})
+    EXPECT_THAT(lambda_at(one, q), HasSubstr("refused no Lambda at this pose: the effective mass of")) << q;
+  for (const char* q : {"0.3, 0", "0.3, 3.141592653589793"}) EXPECT_THAT(lambda_at(two, q), HasSubstr("refused")) << q;
+  EXPECT_THAT(lambda_at(two, "0.3, 1.1"), testing::Not(HasSubstr("refused"))) << "negative control";
+}
+
 TEST(Equations, TakeWhatASceneSaysOfItsMechanism) {
   const ProgramResult pen = run_program({"equations", "assets/scenes/pen.yaml"});
   EXPECT_EQ(pen.status, 0) << pen.err;
