@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "core/format.hpp"
@@ -187,6 +188,26 @@ TEST_F(Recorded, WhatOneWouldNotBelieveIsRemarked) {
   EXPECT_THAT(remarks("t,q1,q2,tau1,tau2\n0,0,0,5,0\n1,0,0,5,0\n"), ElementsAre(HasSubstr("torques are those of inverse dynamics, not those that")));
   EXPECT_THAT(remarks("t,q1,q2,volts\n0,0,0,5\n1,0,0,5\n"), ElementsAre(HasSubstr("no use of these columns")));
   EXPECT_THAT(remarks("t,q1,q2\n0,0,0\n1,0.1,0.1\n2,0.2,0.1\n"), IsEmpty());  // negative control
+}
+
+// q1 = sin(2 pi t) in `rows` rows a period, read with this much noise, and rates that are `factor` times its own.
+TEST_F(Recorded, RatesThatAreOffByAFactorAreRemarked) {
+  const auto remarks = [&](int rows, double noise, double factor) {
+    std::string text = "t,q1,q2,qd1,qd2\n";
+    const double w = 2 * std::numbers::pi;
+    for (int k = 0; k <= 3 * rows; ++k) {
+      const double t = double(k) / rows, off = noise * std::sin(1e4 * k * k);  // as good as random
+      text += format_exact(t) + "," + format_exact(std::sin(w * t) + off) + ",0," + format_exact(factor * w * std::cos(w * t)) + ",0\n";
+    }
+    return motion(text)->remarks();
+  };
+  for (const double noise : {0.0, 1e-3}) {
+    EXPECT_THAT(remarks(200, noise, 1.1), ElementsAre(HasSubstr("'qd1' is 1.1 times the rate of 'q1'"))) << noise;
+    EXPECT_THAT(remarks(200, noise, 0.9), ElementsAre(HasSubstr("'qd1' is 0.9 times the rate of 'q1'"))) << noise;
+    EXPECT_THAT(remarks(200, noise, 1), IsEmpty()) << noise;
+    EXPECT_THAT(remarks(200, noise, 1.03), IsEmpty()) << "below what is told; " << noise;
+  }
+  EXPECT_THAT(remarks(6, 0, 1), IsEmpty()) << "honest, and few rows";
 }
 
 }  // namespace
