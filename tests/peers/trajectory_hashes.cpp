@@ -63,8 +63,8 @@ std::vector<Case> cases() {
   };
 }
 
-// Adaptive methods take a tolerance and a longest step that follow the step; implicit ones, slow on an emulated processor, a
-// part of the duration. Empty where the method does not take the chain.
+// Adaptive methods take a tolerance and a longest step (of a whole run of 1000 steps) that follow the step; implicit ones, slow on
+// an emulated processor, a part of the duration. Empty where the method does not take the chain.
 std::string hash_of(const Case& c, const Method& method, double step) {
   Simulation run;
   run.q0 = zero_configuration(c.chain);
@@ -76,7 +76,7 @@ std::string hash_of(const Case& c, const Method& method, double step) {
   run.chain = c.chain;
   run.method = &method;
   run.step = method.adaptive ? 0 : step;
-  if (method.adaptive) run.options.tolerance = 1e-6 * step, run.longest_step = 2 * step;
+  if (method.adaptive) run.options.tolerance = 1e-6 * step, run.whole_duration = 1000 * step;
   run.duration =
       method.form == Form::second_order && !method.plain_coordinates ? c.duration : 0.1 * c.duration;
   try {
