@@ -104,12 +104,16 @@ struct Layout {
 // With a plot where the motion keeps its size. `plain`: without one; it becomes what is shown.
 Layout with_story(const Scene& page, const Shown& film, Composition& plain) {
   const bool is_comparison = plain.stage->is_comparison();
-  if (is_comparison ? !(is_narrow(page) || plain.stage->is_ghost()) || !page.plot.empty() : page.layout != PageLayout::automatic || page.plot.size() > 1) return {page, {}};
+  const bool is_ghost = plain.stage->is_ghost();
+  const bool may_tell = is_comparison ? page.plot.empty() && (is_ghost || is_narrow(page))
+                                      : page.plot.size() <= 1 && page.layout == PageLayout::automatic;
+  if (!may_tell) return {page, {}};
   const Story story = page.plot.empty() ? story_of(*plain.stage) : Story();
   if (page.plot.empty() && story.empty()) return {page, {}};
-  const double kept = is_comparison && !plain.stage->is_ghost() ? kLeastKeptOfPanels : kLeastKept;
-  for (const PageLayout layout : {is_comparison ? page.layout : PageLayout::scene_right, PageLayout::scene_below}) {
-    if (is_comparison && layout != page.layout) break;  // FilmSheet knows where plots of a comparison stand
+  const double kept = is_comparison && !is_ghost ? kLeastKeptOfPanels : kLeastKept;
+  // Where plots of a comparison stand FilmSheet knows.
+  const std::vector<PageLayout> layouts = is_comparison ? std::vector{page.layout} : std::vector{PageLayout::scene_right, PageLayout::scene_below};
+  for (const PageLayout layout : layouts) {
     Scene with_plot = page;
     with_plot.layout = layout;
     try {

@@ -46,10 +46,11 @@ class Search {
   }
 
   FoundPose find() {
+    if (best_.way.reached) return std::move(best_);
     const Directions ways = ways_aside(std::size_t(chain_.nv));
     const std::vector<double> first_end = best_.q;
     for (const double aside : kAside) {
-      if (best_.way.reached && (aside == kAside[0] || moved(best_) <= kNear)) break;
+      if (best_.way.reached && moved(best_) <= kNear) break;
       for (const std::vector<double>& way : ways)
         for (const bool from_end : {false, true}) {
           std::vector<double> q = from_end ? first_end : start_;
