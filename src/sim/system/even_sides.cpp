@@ -133,6 +133,7 @@ void EvenSides::fix_largest(std::span<double> x) {
 }
 
 bool EvenSides::solve(std::span<const double> a, std::span<const double> b, std::span<double> x) {
+  if (n_ > kMost) return false;
   const auto is_number = [](double one) { return std::isfinite(one); };
   if (!std::all_of(a.begin(), a.end(), is_number) || !std::all_of(b.begin(), b.end(), is_number)) return false;
   scale(a, b);

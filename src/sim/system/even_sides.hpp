@@ -20,8 +20,11 @@ class EvenSides {
 
   // Of all x with A x = b (A by rows, square) the one whose largest |x_j| is least, and of those that leave
   // others free the one where theirs is, and so on: the strict Chebyshev solution (J. Rice, Bull. Amer. Math.
-  // Soc. 68 (1962), 405). False, and x as it was, where A is regular, so that there is one alone, or a number is none. Where b is out of
-  // A's range it is that of a part of the rows. No numbers where a row is zero: no side holds that corner. Allocates nothing.
+  // Soc. 68 (1962), 405). False, and x as it was, where A is regular, so that there is one alone, a number is
+  // none, or there are more than kMost corners: choices of columns are gone through, whose number doubles with
+  // each. Where b is out of A's range it is that of a part of the rows. No numbers where a row is zero: no side
+  // holds that corner. Allocates nothing.
+  static constexpr std::size_t kMost = 12;
   bool solve(std::span<const double> a, std::span<const double> b, std::span<double> x);
 
  private:

@@ -46,6 +46,17 @@ TEST(EvenSides, LeaveRegularSystemsAlone) {
   EXPECT_EQ(x, (std::vector<double>{7, 8}));
 }
 
+// Choices of columns double with each corner: beyond kMost none are gone through, and 40 corners fit into no word of bits.
+TEST(EvenSides, OfMoreCornersThanCanBeGoneThroughAreLeftAlone) {
+  for (const std::size_t n : {EvenSides::kMost, EvenSides::kMost + 1, std::size_t(40)}) {
+    EvenSides even(n);
+    const std::vector<double> a(n * n, 1), b(n, double(n) / 2);  // all rows alike: singular
+    std::vector<double> x(n, 7);
+    EXPECT_EQ(even.solve(a, b, x), n <= EvenSides::kMost) << n;
+    for (const double one : x) EXPECT_NEAR(one, n <= EvenSides::kMost ? 0.5 : 7, 1e-12) << n;
+  }
+}
+
 // A = G D of rank r, m x m: no way along its null space has a smaller largest side (what is convex has no other lowest place).
 TEST(EvenSides, HaveTheLeastLargestSideThatThereIs) {
   test::Random random(5);
