@@ -5,9 +5,10 @@
 
 The scenes of assets/scenes at 1920x1080 and 60 frames/s by `chainreel bench` go to results/films.csv. 10 s of a double pendulum
 at 1280x720 and 60 frames/s as whole processes by turns go to results/film_peers.csv, the least of all rounds: the program
-itself; matplotlib's FuncAnimation by its own writer for ffmpeg; a loop that draws each frame whole by pycairo, and MuJoCo's
+itself; matplotlib's FuncAnimation by its own writer for ffmpeg, of what our page shows (links, trail, energies with their axes
+and legend, title, time) and of links and trail alone; a loop that draws each frame whole by pycairo, and MuJoCo's
 way to record (mujoco_film: OSMesa, with and without shadows), both with raw frames to ffmpeg through a pipe. All encode by x264
-veryfast, crf 18, 4:2:0. The others show the two links, their joints and a trail, or a floor; none of them axes or words.
+veryfast, crf 18, 4:2:0. Those but the first of matplotlib show the two links, their joints and a trail, or a floor: no axes, no words.
 """
 import argparse, csv, json, math, os, resource, subprocess, sys, tempfile, time
 from pathlib import Path
@@ -24,7 +25,8 @@ def encoder(pixels, target, more=()):
 
 
 def motion():
-    """Elbow and end of two rods of 1 m and 1 kg, a point at the end of each, at every frame; four steps of RK4 a frame."""
+    """Elbow, end [m], kinetic and potential energy [J] of two rods of 1 m, a point of 1 kg at the end of each, at every frame;
+    four steps of RK4 a frame."""
     def rate(s):
         a, b, u, v = s
         c, d, g = math.cos(a - b), math.sin(a - b), 9.81
@@ -33,33 +35,59 @@ def motion():
     s, h = (math.pi / 2, math.pi / 2, 0.0, 0.0), 1 / FPS / 4
     move = lambda k, f: tuple(x + f * y for x, y in zip(s, k))
     for _ in range(FPS * SECONDS):
-        a, b = s[:2]
+        a, b, u, v = s
         elbow = math.sin(a), -math.cos(a)
-        yield elbow, (elbow[0] + math.sin(b), elbow[1] - math.cos(b))
+        yield (elbow, (elbow[0] + math.sin(b), elbow[1] - math.cos(b)), u * u + v * v / 2 + u * v * math.cos(a - b),
+               -9.81 * (2 * math.cos(a) + math.cos(b)))
         for _ in range(4):
             k1 = rate(s); k2 = rate(move(k1, h / 2)); k3 = rate(move(k2, h / 2)); k4 = rate(move(k3, h))
             s = tuple(x + h / 6 * (p + 2 * q + 2 * r + t) for x, p, q, r, t in zip(s, k1, k2, k3, k4))
 
 
-def film_of_matplotlib(target):
+def film_of_matplotlib(target, whole_page):
     import matplotlib
     matplotlib.use("Agg")
     from matplotlib import animation, pyplot
     points = list(motion())
-    figure, axes = pyplot.subplots(figsize=(WIDTH / 100, HEIGHT / 100), dpi=100)
-    axes.set(xlim=(-3.9, 3.9), ylim=(-2.2, 2.2), aspect="equal")
+    figure = pyplot.figure(figsize=(WIDTH / 100, HEIGHT / 100), dpi=100)
+    axes = figure.add_axes((0, 0.05, 0.6, 0.85) if whole_page else (0, 0, 1, 1), xlim=(-2.2, 2.2), ylim=(-2.2, 2.2), aspect="equal")
     axes.axis("off")
     trail, = axes.plot([], [], "-", color="tab:orange", lw=1.5)
     links, = axes.plot([], [], "o-", color="tab:blue", lw=5)
+    page = page_of_matplotlib(figure, points) if whole_page else lambda k: ()
 
     def draw(k):
-        elbow, end = points[k]
+        elbow, end = points[k][:2]
         links.set_data([0, elbow[0], end[0]], [0, elbow[1], end[1]])
         past = [p[1] for p in points[:k + 1]]
         trail.set_data([p[0] for p in past], [p[1] for p in past])
-        return trail, links
+        return trail, links, *page(k)
     writer = animation.FFMpegWriter(fps=FPS, codec="libx264", extra_args=X264[2:])
     animation.FuncAnimation(figure, draw, frames=len(points), blit=True).save(target, writer=writer)
+
+
+def page_of_matplotlib(figure, points):
+    """Title, time and torques, and energies whose future is faint; a function that moves them to a frame."""
+    figure.text(0.03, 0.92, "RR without torques", fontsize=20, weight="bold")
+    figure.text(0.97, 0.92, r"$\tau = (0, 0)$ N m", fontsize=16, ha="right")
+    clock = figure.text(0.97, 0.03, "", fontsize=14, ha="right")
+    plot = figure.add_axes((0.65, 0.14, 0.32, 0.7), xlim=(0, SECONDS), xlabel="t [s]", title="energy [J]")
+    plot.grid(alpha=0.3)
+    times = [k / FPS for k in range(len(points))]
+    energies = {"kinetic": [p[2] for p in points], "potential": [p[3] for p in points], "total": [p[2] + p[3] for p in points]}
+    past = []
+    for name, values in energies.items():
+        whole, = plot.plot(times, values, alpha=0.45)
+        past.append((plot.plot([], [], color=whole.get_color(), lw=2, label=name)[0], values))
+    plot.legend(loc="upper right")
+    now = plot.axvline(0, color="black")
+
+    def move(k):
+        clock.set_text(f"t = {times[k]:.2f} s")
+        now.set_xdata([times[k], times[k]])
+        for line, values in past: line.set_data(times[:k + 1], values[:k + 1])
+        return clock, now, *(line for line, _ in past)
+    return move
 
 
 def film_of_cairo(target):
@@ -70,7 +98,7 @@ def film_of_cairo(target):
     at = lambda p: (WIDTH / 2 + 160 * p[0], HEIGHT / 2 - 160 * p[1])
     trail = []
     with subprocess.Popen(encoder("bgr0", target), stdin=subprocess.PIPE) as film:
-        for elbow, end in motion():
+        for elbow, end, *_ in motion():
             trail.append(at(end))
             pen.set_source_rgb(1, 1, 1)
             pen.paint()
@@ -115,7 +143,8 @@ def measure_peers(chainreel, mujoco, rounds):
         commands = {"chainreel": [chainreel, "render", str(SCENES / "rr_free.yaml"), "-o", film("ours"), "--force", "--quiet",
                                   "--set", f"video.width={WIDTH}", "--set", f"video.height={HEIGHT}", "--set", f"video.fps={FPS}",
                                   "--set", f"duration={SECONDS}"],
-                    "matplotlib, ffmpeg": [*itself, "matplotlib", film("matplotlib")],
+                    "matplotlib, our page": [*itself, "page", film("matplotlib")],
+                    "matplotlib, links alone": [*itself, "matplotlib", film("matplotlib")],
                     "pycairo, pipe to ffmpeg": [*itself, "cairo", film("cairo")]}
         if mujoco:
             for name, shadows in (("MuJoCo, shadows", "1"), ("MuJoCo, no shadows", "0")):
@@ -160,7 +189,7 @@ def measure_scenes(chainreel, scenes, rounds):
 def main():
     if sys.argv[1:2] == ["--make"]:
         what, target, *more = sys.argv[2:]
-        return {"matplotlib": film_of_matplotlib, "cairo": film_of_cairo,
+        return {"page": lambda film: film_of_matplotlib(film, True), "matplotlib": lambda film: film_of_matplotlib(film, False), "cairo": film_of_cairo,
                 "mujoco": lambda film: film_of_mujoco(*more, film)}[what](target)
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("chainreel")
