@@ -100,7 +100,21 @@ Rect common_part(const Rect& a, const Rect& b) {
   return {both.x0, both.y0, std::max(both.x0, both.x1), std::max(both.y0, both.y1)};
 }
 
+Shape placed_shape(const Placer& place, const Shape& shape) {
+  return std::visit([&](const auto& one) -> Shape { return place(one); }, shape);
+}
+
 }  // namespace
+
+Picture in_page_units(const Picture& picture, double height) {
+  const Placer place{1 / height, {}, 0};
+  Picture page;
+  page.aspect = picture.aspect / height;
+  page.background = picture.background;
+  for (const Rect& clip : picture.clips) page.clips.push_back(place(clip));
+  for (const Item& item : picture.items) page.items.push_back({placed_shape(place, item.shape), item.clip});
+  return page;
+}
 
 void place_picture(Picture& target, const Picture& page, const Placing& placing) {
   const Rect& cell = placing.cell;
@@ -114,8 +128,7 @@ void place_picture(Picture& target, const Picture& page, const Placing& placing)
   target.clips.push_back(edges);
   for (const Rect& clip : page.clips) target.clips.push_back(common_part(place(clip), edges));
   for (const Item& item : page.items) {
-    Item placed{std::visit([&](const auto& shape) -> Shape { return place(shape); }, item.shape),
-                first_clip + 1 + item.clip};
+    Item placed{placed_shape(place, item.shape), first_clip + 1 + item.clip};
     if (!is_unreadable(placed.shape, placing.smallest_text)) target.items.push_back(std::move(placed));
   }
 }

@@ -16,4 +16,7 @@ struct Placing {
 // Everything of `page` but its background, cut at its edges.
 void place_picture(Picture& target, const Picture& page, const Placing& placing);
 
+// A picture that was drawn `height` units high, as the page 1 high that pictures are.
+Picture in_page_units(const Picture& picture, double height);
+
 }  // namespace chainreel

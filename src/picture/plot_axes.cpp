@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/format.hpp"
 #include "picture/plot.hpp"
@@ -16,6 +17,11 @@ constexpr double kPitchY = 3.0, kLeastPitchY = 1.3;  // of the em, along y
 constexpr int kFewestLabels = 3, kMostLinear = 5, kMostLog = 6;
 constexpr std::size_t kFewestOfScale = 2;
 constexpr double kLastAir = 0.6;  // of the em, before the last number with its unit
+
+// Grows with the words: symbols with dots rise above their capitals.
+double label_to_title(const PlotStyle& style) {
+  return kLabelToTitle * style.text(size::kTick) / size::kTick;
+}
 
 Color tick_color(const PlotStyle& style) {
   return style.theme->muted;
@@ -85,10 +91,34 @@ Tick last_tick(const Axis& axis) {
   return {axis.high, format_significant(axis.high, 4) + "\u2009" + axis.last_unit, ""};
 }
 
+double place_on(const Axis& axis, double value) {
+  if (axis.scale != Scale::log) return (value - axis.low) / (axis.high - axis.low);
+  return (std::log10(value) - std::log10(axis.low)) / (std::log10(axis.high) - std::log10(axis.low));
+}
+
+// From the last number on, those that would touch the one behind them have none; two stay, the first and the last.
+std::vector<Tick> without_touching(std::vector<Tick> ticks, const Axis& axis, double width, const PlotStyle& style) {
+  const double air = kLastAir * style.text(size::kTick);
+  std::vector<std::size_t> kept, labelled;
+  double free = std::numeric_limits<double>::infinity();
+  for (std::size_t i = ticks.size(); i-- > 0;) {
+    if (ticks[i].label.empty()) continue;
+    labelled.push_back(i);
+    const double at = place_on(axis, ticks[i].value) * width, half = lay_out_tick(ticks[i], style).advance / 2;
+    if (at + half > free) continue;
+    kept.push_back(i);
+    free = at - half - air;
+  }
+  if (kept.size() < kFewestOfScale && labelled.size() >= kFewestOfScale) kept = {labelled.front(), labelled.back()};
+  for (std::size_t i = 0; i < ticks.size(); ++i)
+    if (std::find(kept.begin(), kept.end(), i) == kept.end()) ticks[i].label = ticks[i].superscript = "";
+  return ticks;
+}
+
 std::vector<Tick> x_ticks(const Axis& axis, double width, const PlotStyle& style) {
   const double pitch = kPitchX * widest_label(ticks_of(axis, kMostLog), style);
   std::vector<Tick> ticks = enough_ticks(axis, most_labels(axis, width, std::max(pitch, 1e-3)), width, pitch);
-  if (axis.last_unit.empty()) return ticks;
+  if (axis.last_unit.empty()) return without_touching(std::move(ticks), axis, width, style);
   // Numbers that the last one would touch give way to it.
   const Tick last = last_tick(axis);
   const double per_value = width / (axis.high - axis.low), air = kLastAir * style.text(size::kTick);
@@ -107,11 +137,6 @@ std::vector<Tick> y_ticks(const Axis& axis, double height, const PlotStyle& styl
 
 void draw_line(Picture& picture, Point a, Point b, double width, Color color) {
   picture.add(Capsule{a, b, width / 2, {color, {}, 0}});
-}
-
-double place_on(const Axis& axis, double value) {
-  if (axis.scale != Scale::log) return (value - axis.low) / (axis.high - axis.low);
-  return (std::log10(value) - std::log10(axis.low)) / (std::log10(axis.high) - std::log10(axis.low));
 }
 
 double value_on(const Axis& axis, double place) {
@@ -232,7 +257,7 @@ PlotFrame lay_out_plot(const Rect& area, const Axis& x, const Axis& y, const Plo
   PlotFrame frame{x, y, area};
   Rect& box = frame.box;
   box.y0 += size::kPlotTick + kTickToLabel + tick;
-  if (!x.title.empty()) box.y0 += kLabelToTitle + title;
+  if (!x.title.empty()) box.y0 += label_to_title(style) + title;
   box.y1 -= y.title.empty() ? tick / 2 : title + title_above_frame(style);
   box.x0 += size::kPlotTick + kTickToLabel + widest_label(y_ticks(y, box.height(), style), style);
   // Half of the last number hangs over the end of the axis.
@@ -251,7 +276,7 @@ void draw_axes(Picture& picture, const PlotFrame& frame, const PlotStyle& style)
   const double em = style.text(size::kAxis);
   const TextStyle text{Face::label, em, style.theme->ink, Align::center};
   const double below =
-      size::kPlotTick + kTickToLabel + style.text(size::kTick) + kLabelToTitle + kCapHeight * em;
+      size::kPlotTick + kTickToLabel + style.text(size::kTick) + label_to_title(style) + kCapHeight * em;
   draw_text(picture, lay_out_words(*style.fonts, frame.x.title, text),
             {(frame.box.x0 + frame.box.x1) / 2, frame.box.y0 - below});
   const double labels = widest_label(ys, style) + kTickToLabel + size::kPlotTick;

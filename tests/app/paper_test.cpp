@@ -84,6 +84,7 @@ std::vector<PaperFigure> figures() {
       {"energy", {"energy", "assets/scenes/rr_free.yaml", "--until", "1s", "--step", "0.01", "--methods", "rk4,symplectic_euler"}},
       {"stability", {"stability", "assets/scenes/pp_spring.yaml", "--x", "step=0.05:0.3:4", "--y", "start.q.2=0.1:0.4:4"}},
       {"ellipse", {"ellipse", "models/rr.urdf", "--sweep", "q2=30deg:150deg:3"}},
+      {"joint_space", {"ellipse", "models/rr.urdf", "--joint-space", "--letters", "--sweep", "q2=30deg:150deg:6"}},
   };
 }
 
@@ -166,6 +167,31 @@ TEST(OnPaper, PagesAreAsHighAsPanelsAndPlotsNeed) {
   const auto [asked, told] = drawn("pen_drift", {"--height-mm", "47"});
   EXPECT_NEAR(asked, 47, 0.1);
   EXPECT_THAT(told, HasSubstr(" mm high on a page of this size: take --height-mm "));
+}
+
+TEST(OnPaper, JointSpaceIsAsHighAsItsPosesNeed) {
+  const TemporaryFolder folder;
+  const auto drawn = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"ellipse", "models/rr.urdf", "--joint-space", "--sweep", "q2=30deg:150deg:6", "-o", folder.file("a.svg"), "--force"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(words);
+  };
+  const ProgramResult column = drawn({"--width-mm", "84"});
+  ASSERT_EQ(column.status, 0) << column.err;
+  EXPECT_THAT(column.err, testing::ContainsRegex("the page is 2[0-9][0-9] mm high, so that poses and axes have room"));
+  // Half as high where two blocks stand beside one another, and without a note where nothing is but a table.
+  EXPECT_THAT(drawn({"--width-mm", "174"}).err, testing::ContainsRegex("the page is 1[0-9][0-9] mm high"));
+  EXPECT_EQ(drawn({"--width-mm", "84", "--quiet"}).err, "");
+  const ProgramResult narrow = drawn({"--width-mm", "30"});
+  EXPECT_EQ(narrow.status, 2);
+  const std::size_t at = narrow.err.find("take --width-mm ");
+  ASSERT_NE(at, std::string::npos) << narrow.err;
+  const int least = std::atoi(narrow.err.c_str() + at + 16);
+  EXPECT_EQ(drawn({"--width-mm", std::to_string(least)}).status, 0) << "the width that is named has room";
+  EXPECT_EQ(drawn({"--width-mm", std::to_string(least - 1)}).status, 2) << "and is the least";
+  const ProgramResult low = drawn({"--width-mm", "84", "--height-mm", "60"});
+  EXPECT_EQ(low.status, 2);
+  EXPECT_THAT(low.err, HasSubstr("take --height-mm "));
 }
 
 // Titles that no column holds, however high the page: the least width that does.

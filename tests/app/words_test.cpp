@@ -8,7 +8,9 @@
 #include "app/all_pictures.hpp"
 #include "app/ink.hpp"
 #include "app/print_pictures.hpp"
+#include "draw/figures/poses.hpp"
 #include "draw/page/sheet.hpp"
+#include "model/read_chain.hpp"
 #include "picture/theme.hpp"
 #include "support/fonts.hpp"
 
@@ -115,6 +117,44 @@ TEST_P(EveryPicture, HasTheBackgroundOfItsTheme) {
       background.a = 1;
     }
     EXPECT_EQ(background, theme_named(theme).background);
+  }
+}
+
+// A column of a paper, 84 mm wide, for one pose and for six: no word leaves the page, lies on another or is smaller than 7 pt, and
+// letters and poses are of one size.
+TEST(Words, OfJointSpaceInAColumnAreWholeAndApart) {
+  constexpr double kWidth = 84, kSevenPoints = 7 * 25.4 / 72;  // mm
+  const Chain chain = read_chain("models/rr.urdf", {});
+  std::vector<std::vector<double>> poses;
+  double before = 0;
+  for (int count = 1; count <= 6; ++count) {
+    poses.push_back({0.4 * count, 2.6 - 0.5 * count});
+    PoseFigureOptions options;
+    options.width = 1600, options.height = 3200;
+    options.letters = true;
+    options.text_scale = kSevenPoints / (2 * kWidth) / kSmallestText;
+    const std::optional<double> height = joint_space_height(chain, poses, {0, 1}, options, fonts());
+    ASSERT_TRUE(height) << count;
+    EXPECT_GT(*height, before) << "each pose takes a row";
+    before = *height;
+    options.text_scale *= options.height / std::ceil(*height);
+    options.height = int(std::ceil(*height));
+    const Picture picture = draw_joint_space_figure(chain, poses, {0, 1}, options, fonts());
+    const double page_mm = kWidth / picture.aspect;
+    const std::vector<Written> words = test::written_on(picture, fonts());
+    std::vector<double> captions;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      const Written& w = words[i];
+      EXPECT_TRUE(holds({0, 0, picture.aspect, 1}, w.ink, 0)) << count << " leaves the page: " << say(w);
+      EXPECT_GE(w.run.size * page_mm, kSevenPoints * (w.run.face == Face::math ? kSecondScript : 1) * 0.999) << count << say(w);
+      if (w.run.face == Face::label_bold || w.run.text.find("\u00B0") != std::string::npos) captions.push_back(w.run.size);
+      for (std::size_t j = 0; j < i; ++j) {
+        const double allowed = of_one_formula(words[j], w) ? kLean * w.run.size : kTouch;
+        EXPECT_LE(depth(words[j].ink, w.ink), allowed) << count << " overlap: " << say(words[j]) << " and " << say(w);
+      }
+    }
+    ASSERT_GE(captions.size(), 2u * std::size_t(count));
+    EXPECT_DOUBLE_EQ(*std::min_element(captions.begin(), captions.end()), *std::max_element(captions.begin(), captions.end()));
   }
 }
 

@@ -54,22 +54,73 @@ struct EllipseOptions {
   }
 };
 
+// What is drawn, and how the scene, or what stands in its place, wants it to look.
+struct EllipseJob {
+  Motion motion;
+  PoseFigureOptions figure;
+};
+
+constexpr double kSlide = 9.0 / 16;   // height of a page, of its width
+constexpr double kTall = 2;           // of one that is tried: its margins are the widest
+constexpr double kWidestTried = 420;  // mm: a sheet of A3
+
 // How tall a figure of `panels` panels is to be on paper, mm: so many across as columns of a paper hold, each with its caption.
-double paper_height(double width, int panels, bool is_one_picture, bool is_joint_space) {
+double paper_height(double width, int panels, bool is_one_picture) {
   constexpr double kShape = 0.75, kCaption = 6, kMatrix = 17, kFoot = 16;
   if (is_one_picture) return kShape * width + kFoot;
-  if (is_joint_space) return panels * (width / 3 + 2 * kCaption) + kFoot;
   const int across = panels == 1 ? 1 : panels <= 4 ? 2 : panels <= 9 ? 3 : 4, rows = (panels + across - 1) / across;
   return rows * (kShape * width / across + (panels < 5 ? kMatrix : kCaption)) + kFoot;
 }
 
-void set_on_paper(PoseFigureOptions& figure, const EllipseOptions& options, int poses) {
-  const PaperPage page = paper_page(
-      options.paper, paper_height(options.paper.width_mm, figure.layout == "row" ? 1 : poses,
-                                  options.sources.field || figure.layout == "superposed", options.joint_space));
+void set_page(PoseFigureOptions& figure, const PaperPage& page, double text_scale) {
   figure.width = page.width;
   figure.height = page.height;
-  figure.text_scale = text_scale_on(page, figure.text_scale);
+  figure.text_scale = text_scale_on(page, text_scale);
+}
+
+void set_on_paper(PoseFigureOptions& figure, const EllipseOptions& options, int poses) {
+  set_page(figure,
+           paper_page(options.paper, paper_height(options.paper.width_mm, figure.layout == "row" ? 1 : poses,
+                                                  options.sources.field || figure.layout == "superposed")),
+           figure.text_scale);
+}
+
+// A page of that width which is as high as the squares of a joint-space figure need; nothing where no height is enough.
+std::optional<PoseFigureOptions> joint_space_page(const EllipseJob& job, const EllipseOptions& options, std::array<int, 2> joints,
+                                                  double width_mm, const Fonts& fonts) {
+  PoseFigureOptions figure = job.figure;
+  PaperOptions paper = options.paper;
+  paper.width_mm = width_mm;
+  paper.height_mm = PaperOptions::kNotGiven;
+  set_page(figure, paper_page(paper, kTall * width_mm), job.figure.text_scale);
+  const std::optional<double> height =
+      joint_space_height(job.motion.chain, job.motion.poses.q, joints, figure, fonts);
+  if (!height) return std::nullopt;
+  set_page(figure, paper_page(paper, std::max(kSlide, *height / figure.width) * width_mm), job.figure.text_scale);
+  return figure;
+}
+
+void set_joint_space_on_paper(EllipseJob& job, const EllipseOptions& options, std::array<int, 2> joints, const Fonts& fonts) {
+  const double width = options.paper.width_mm;
+  const std::optional<PoseFigureOptions> figure = joint_space_page(job, options, joints, width, fonts);
+  if (!figure) {
+    double enough = std::ceil(width);
+    while (enough <= kWidestTried && !joint_space_page(job, options, joints, enough, fonts)) ++enough;
+    throw Error(ExitCode::usage, "a page " + format_shortest(width) + " mm wide has no room for chain and axes beside words of 7 pt" +
+                                     (enough <= kWidestTried ? ": take --width-mm " + format_shortest(enough) : ""));
+  }
+  const double height = std::ceil(figure->height * width / figure->width);
+  if (options.paper.height_mm != PaperOptions::kNotGiven) {
+    set_page(job.figure, paper_page(options.paper, height), job.figure.text_scale);
+    if (!joint_space_has_room(job.motion.chain, job.motion.poses.q, joints, job.figure, fonts))
+      throw Error(ExitCode::usage, "a page " + format_shortest(options.paper.height_mm) + " mm high has no room for these poses: take --height-mm " +
+                                       format_shortest(height) + ", or leave it out");
+    return;
+  }
+  job.figure = *figure;
+  if (!options.common.quiet && height > kSlide * width + 1)
+    std::fprintf(stderr, "note: the page is %s mm high, so that poses and axes have room beside words of 7 pt; --height-mm says otherwise\n",
+                 format_shortest(height).c_str());
 }
 
 std::vector<std::string> outputs_of(const EllipseOptions& options) {
@@ -99,12 +150,6 @@ std::array<int, 2> joints_of(const Chain& chain, const std::string& text) {
                                      ", like --joints 1,2; not '" + text + "'");
   return {int(numbers[0]) - 1, int(numbers[1]) - 1};
 }
-
-// What is drawn, and how the scene, or what stands in its place, wants it to look.
-struct EllipseJob {
-  Motion motion;
-  PoseFigureOptions figure;
-};
 
 std::vector<std::string> model_overrides(const EllipseOptions& options) {
   std::vector<std::string> overrides = overrides_of(options.common);
@@ -188,7 +233,7 @@ EllipseJob job_of(const EllipseOptions& options) {
   figure.letters = options.letters;
   if (options.letters && !options.joint_space && (figure.cell > 0 || figure.layout == "superposed"))
     throw Error(ExitCode::usage, "--letters name panels: with --field leave them out, else take --layout grid or row");
-  if (options.paper.is_given()) set_on_paper(figure, options, int(poses.q.size()));
+  if (options.paper.is_given() && !options.joint_space) set_on_paper(figure, options, int(poses.q.size()));
   return job;
 }
 
@@ -205,7 +250,7 @@ void check_combination(const EllipseOptions& options) {
 void run_ellipse(const EllipseOptions& options) {
   check_combination(options);
   const std::vector<std::string> outputs = outputs_of(options);
-  const EllipseJob job = job_of(options);
+  EllipseJob job = job_of(options);
   const Motion& motion = job.motion;
   const PoseFigureOptions& figure = job.figure;
   const Chain& chain = motion.chain;
@@ -215,10 +260,13 @@ void run_ellipse(const EllipseOptions& options) {
     throw Error(ExitCode::usage,
                 "--joint-space shows M(q), which says of a constrained mechanism only what its cut chain would do: leave "
                 "one of the two out; `chainreel dynamics " + options.sources.along + " --at T` prints M, Jc and Lambda");
+  const std::array<int, 2> joints = options.joint_space ? joints_of(chain, options.joints) : std::array<int, 2>{};
+  const Fonts fonts(motion.families);
+  const bool is_drawn = !std::all_of(outputs.begin(), outputs.end(), is_table_path);
+  if (options.paper.is_given() && options.joint_space && is_drawn) set_joint_space_on_paper(job, options, joints, fonts);
   ClipMemory memory =
       memory_of_figure(*options.command, figure.title, is_model_file(options.model) ? options.model : "", poses.q);
   if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;
-  const std::array<int, 2> joints = options.joint_space ? joints_of(chain, options.joints) : std::array<int, 2>{};
   const auto report = [&] {
     if (options.joint_space) return Json{{"poses", joint_space_json(chain, poses, joints)}};
     return Json{{"reading", to_string(options.read_as(motion))},
@@ -227,7 +275,6 @@ void run_ellipse(const EllipseOptions& options) {
                 {"poses", ellipse_json(tip, poses, options.form(motion))}};
   };
   const std::string csv = options.joint_space ? "" : ellipse_csv(tip, poses, options.form(motion));
-  const Fonts fonts(motion.families);
   std::optional<Picture> picture;
   for (const std::string& output : outputs) {
     if (is_table_path(output)) {

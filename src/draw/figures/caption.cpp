@@ -187,47 +187,70 @@ bool line_fits(const std::string& notation, double width, double text_scale, con
   return lay_out_math(fonts, notation, style).advance <= width;
 }
 
-void draw_caption_line(Picture& picture, const std::vector<std::string>& forms, const Rect& box,
-                       double text_scale, const Theme& theme, const Fonts& fonts) {
+CaptionLines caption_lines(const std::vector<std::vector<std::string>>& forms, double width, double text_scale, const Theme& theme,
+                           const Fonts& fonts) {
   const TextStyle style{Face::math, scaled(size::kAxis, text_scale), theme.ink, Align::center};
-  draw_text(picture, fit_math(fonts, forms, style, box.width(), text_scale),
-            {(box.x0 + box.x1) / 2, box.y1 - kFirstLine * style.size});
+  CaptionLines lines;
+  std::size_t most = forms.empty() ? 0 : forms[0].size();
+  for (const std::vector<std::string>& panel : forms) most = std::min(most, panel.size());
+  for (std::size_t form = 0; form < most; ++form) {
+    lines = {{}, style.size};
+    double widest = 0;
+    for (const std::vector<std::string>& panel : forms) {
+      lines.notations.push_back(panel[form]);
+      widest = std::max(widest, lay_out_math(fonts, panel[form], style).advance);
+    }
+    if (widest <= width) return lines;
+    lines.size = std::max(style.size * width / widest, std::min(style.size, scaled(kSmallestText, text_scale)));
+    if (lines.size * widest <= (1 + kRoundOff) * style.size * width) return lines;
+  }
+  return lines;
 }
 
-Rect draw_letter(Picture& picture, std::size_t panel, const Rect& box, double text_scale, const Theme& theme,
+double mass_size(const EffectiveMass& effective, double width, double text_scale, const Theme& theme, const Fonts& fonts) {
+  const TextStyle style{Face::math, scaled(size::kAxis, text_scale), theme.ink, Align::left};
+  const double usual = effective.Lambda
+                           ? lay_out_matrix(fonts, matrix_notations(*effective.Lambda), style).width
+                           : lay_out_text(fonts, singular_text(effective), {Face::label, style.size, theme.ink, Align::left}).advance;
+  return usual <= width ? style.size : std::max(std::min(style.size, scaled(kSmallestText, text_scale)), style.size * width / usual);
+}
+
+double caption_base(const Rect& box, double text_scale) {
+  return box.y1 - kFirstLine * scaled(size::kAxis, text_scale);
+}
+
+void draw_caption_line(Picture& picture, const std::string& notation, double size, const Rect& box, double text_scale,
+                       const Theme& theme, const Fonts& fonts) {
+  draw_text(picture, lay_out_math(fonts, notation, {Face::math, size, theme.ink, Align::center}),
+            {(box.x0 + box.x1) / 2, caption_base(box, text_scale)});
+}
+
+Rect draw_letter(Picture& picture, std::size_t panel, double size, const Rect& box, double text_scale, const Theme& theme,
                  const Fonts& fonts) {
   std::string name;
   for (std::size_t left = panel + 1; left > 0; left = (left - 1) / 26)
     name.insert(name.begin(), char('a' + (left - 1) % 26));
-  const TextStyle style{Face::label_bold, scaled(size::kAxis, text_scale), theme.ink, Align::left};
+  const TextStyle style{Face::label_bold, size, theme.ink, Align::left};
   const TextLine letter = lay_out_text(fonts, "(" + name + ")", style);
-  draw_text(picture, letter, {box.x0, box.y1 - kFirstLine * style.size});
+  draw_text(picture, letter, {box.x0, caption_base(box, text_scale)});
   return {box.x0 + letter.advance + kLetterGap * style.size, box.y0, box.x1, box.y1};
 }
 
-void draw_caption(Picture& picture, const Chain& chain, const std::vector<double>& q,
-                  const EffectiveMass& effective, const Rect& box, double text_scale, const Theme& theme,
-                  const Fonts& fonts) {
-  TextStyle style{Face::math, scaled(size::kAxis, text_scale), theme.ink, Align::center};
-  const double em = style.size, middle = (box.x0 + box.x1) / 2;
-  draw_text(picture, fit_math(fonts, pose_notations(chain, q), style, box.width(), text_scale),
-            {middle, box.y1 - kFirstLine * em});
+void draw_caption(Picture& picture, const std::string& pose, const EffectiveMass& effective, double size, const Rect& box,
+                  double text_scale, const Theme& theme, const Fonts& fonts) {
+  TextStyle style{Face::math, size, theme.ink, Align::center};
+  const double em = scaled(size::kAxis, text_scale), middle = (box.x0 + box.x1) / 2;
+  draw_caption_line(picture, pose, size, box, text_scale, theme, fonts);
   const double rest = box.y1 - kToMatrix * em;
   if (!effective.Lambda) {
     style.face = Face::label;
-    draw_text(picture, fit_text(fonts, singular_text(effective), style, box.width(), text_scale),
-              {middle, rest - 0.9 * em});
+    draw_text(picture, lay_out_text(fonts, singular_text(effective), style), {middle, rest - 0.9 * em});
     return;
   }
   style.align = Align::left;
   const std::vector<std::vector<std::string>> notations = matrix_notations(*effective.Lambda);
-  MatrixLine matrix = lay_out_matrix(fonts, notations, style);
-  if (matrix.width > box.width()) {
-    style.size = std::max(scaled(kSmallestText, text_scale), style.size * box.width() / matrix.width);
-    matrix = lay_out_matrix(fonts, notations, style);
-  }
-  draw_matrix(picture, matrix, {middle, rest - double(notations.size()) * kMatrixRow * em / 2 - 0.15 * em},
-              theme.ink);
+  draw_matrix(picture, lay_out_matrix(fonts, notations, style),
+              {middle, rest - double(notations.size()) * kMatrixRow * em / 2 - 0.15 * em}, theme.ink);
 }
 
 }  // namespace chainreel

@@ -37,16 +37,29 @@ std::vector<std::string> line_notations(const Chain& chain, const std::vector<do
                                         const std::vector<std::optional<double>>& masses);
 double caption_line_height(double text_scale);
 bool line_fits(const std::string& notation, double width, double text_scale, const Theme& theme, const Fonts& fonts);
-void draw_caption_line(Picture& picture, const std::vector<std::string>& forms, const Rect& box, double text_scale,
+
+// One line a panel, all in the same form and of one size: the first of their forms that fits everywhere, no smaller than
+// the smallest text.
+struct CaptionLines {
+  std::vector<std::string> notations;
+  double size = 0;  // em, units of H
+};
+CaptionLines caption_lines(const std::vector<std::vector<std::string>>& forms, double width, double text_scale, const Theme& theme,
+                           const Fonts& fonts);
+// The size at which what stands below the pose in a caption fits: the numbers of Lambda, or along what it is infinite.
+double mass_size(const EffectiveMass& effective, double width, double text_scale, const Theme& theme, const Fonts& fonts);
+
+// The base line of the first line of a caption in `box`.
+double caption_base(const Rect& box, double text_scale);
+void draw_caption_line(Picture& picture, const std::string& notation, double size, const Rect& box, double text_scale,
                        const Theme& theme, const Fonts& fonts);
 
 // "(a)", "(b)", .. at the left end of the caption in `box`. Returns what is left of it.
-Rect draw_letter(Picture& picture, std::size_t panel, const Rect& box, double text_scale, const Theme& theme,
+Rect draw_letter(Picture& picture, std::size_t panel, double size, const Rect& box, double text_scale, const Theme& theme,
                  const Fonts& fonts);
 
-// Draws both lines centred in `box`, from its top down, smaller where its width asks for it.
-void draw_caption(Picture& picture, const Chain& chain, const std::vector<double>& q,
-                  const EffectiveMass& effective, const Rect& box, double text_scale, const Theme& theme,
-                  const Fonts& fonts);
+// Draws pose and mass centred in `box`, from its top down.
+void draw_caption(Picture& picture, const std::string& pose, const EffectiveMass& effective, double size, const Rect& box,
+                  double text_scale, const Theme& theme, const Fonts& fonts);
 
 }  // namespace chainreel

@@ -55,6 +55,7 @@ struct Panels {
   std::vector<Rect> places;
   double caption = 0;                           // height of the words below each scene
   std::vector<std::vector<std::string>> lines;  // one a panel, where that is its whole caption
+  CaptionLines words;                           // what of them is written; else the poses above their numbers
   double marks = 1;
   EllipseScale scale;
   Skeleton skeleton;
@@ -125,14 +126,13 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
                        panels.options.text_scale),
               {scene.x0 + kLabelInset, scene.y1 - kLabelInset - 0.75 * text.size}, clip);
   }
+  const double text_scale = panels.options.text_scale;
   Rect caption{scene.x0, panels.places[i].y0, scene.x1, scene.y0};
-  if (panels.options.letters)
-    caption = draw_letter(picture, i, caption, panels.options.text_scale, theme, panels.fonts);
+  if (panels.options.letters) caption = draw_letter(picture, i, panels.words.size, caption, text_scale, theme, panels.fonts);
   if (!panels.lines.empty())
-    return draw_caption_line(picture, panels.lines[i], caption, panels.options.text_scale, theme,
-                             panels.fonts);
-  draw_caption(picture, panels.chain, pose.q, pose.effective, caption, panels.options.text_scale, theme,
-               panels.fonts);
+    draw_caption_line(picture, panels.words.notations[i], panels.words.size, caption, text_scale, theme, panels.fonts);
+  else
+    draw_caption(picture, panels.words.notations[i], pose.effective, panels.words.size, caption, text_scale, theme, panels.fonts);
 }
 
 // How wide the text of a caption may be.
@@ -180,6 +180,19 @@ void name_what_differs(std::vector<std::vector<std::string>>& lines, const Panel
                 coordinate_notations(panels.chain, poses[k].q)[differing[0]]};
 }
 
+// Of one size in all panels.
+CaptionLines words_of(const Panels& panels, const std::vector<Pose>& poses) {
+  const PoseFigureOptions& options = panels.options;
+  const double width = caption_width(panels);
+  if (!panels.lines.empty()) return caption_lines(panels.lines, width, options.text_scale, *options.theme, panels.fonts);
+  std::vector<std::vector<std::string>> forms;
+  for (const Pose& pose : poses) forms.push_back(pose_notations(panels.chain, pose.q));
+  CaptionLines words = caption_lines(forms, width, options.text_scale, *options.theme, panels.fonts);
+  for (const Pose& pose : poses)
+    words.size = std::min(words.size, mass_size(pose.effective, width, options.text_scale, *options.theme, panels.fonts));
+  return words;
+}
+
 // Panels so many across; false where they are too small.
 bool lay_out(Panels& panels, const Rect& area, int across, const std::vector<Pose>& poses, Workspace& ws) {
   const PoseFigureOptions& options = panels.options;
@@ -191,6 +204,7 @@ bool lay_out(Panels& panels, const Rect& area, int across, const std::vector<Pos
                        ? caption_height(int(poses[0].effective.basis.directions.size()), options.text_scale)
                        : caption_line_height(options.text_scale);
   if (!(panels.side() > kLeastSide)) return false;
+  panels.words = words_of(panels, poses);
   panels.marks = marks_in(panels.scene(0));
   panels.scale = scale_for(poses, panels.side(), options.reading);
   fit_panels(panels, poses, ws);
@@ -286,7 +300,7 @@ Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<d
   const Rect area = sheet_of(chain, options, {0.005, kLongestBar, options.reading}, fonts).scene;
   std::optional<Panels> best;
   for (int across = options.layout == "row" ? int(poses.size()) : 1; across <= int(poses.size()); ++across) {
-    Panels panels{chain, options, fonts, {}, 0, {}, 1, {}, {}, {}};
+    Panels panels{chain, options, fonts, {}, 0, {}, {}, 1, {}, {}, {}};
     if (lay_out(panels, area, across, poses, ws) && (!best || merit(panels) > merit(*best)))
       best.emplace(std::move(panels));
   }

@@ -2,12 +2,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <span>
 #include <string>
 
 #include "core/error.hpp"
 #include "draw/figures/caption.hpp"
+#include "draw/figures/joint_space_layout.hpp"
 #include "draw/figures/poses.hpp"
 #include "draw/page/arrow.hpp"
+#include "draw/page/mark_labels.hpp"
+#include "draw/page/panel_grid.hpp"
 #include "draw/page/sheet.hpp"
 #include "draw/robot/chain.hpp"
 #include "draw/robot/chain_fit.hpp"
@@ -15,15 +20,20 @@
 #include "draw/robot/view.hpp"
 #include "dynamics/equation_of_motion.hpp"
 #include "dynamics/kinematics.hpp"
+#include "picture/place_picture.hpp"
 #include "picture/plot.hpp"
 
 namespace chainreel {
 namespace {
 
-constexpr int kMostPoses = 3;
 constexpr double kFill = 0.16;
 constexpr double kWidestLabel = 0.25;  // of a frame
 constexpr double kAirAround = 1.25;  // of what is drawn, to the frame of its axes
+constexpr double kLetterRoom = 2.5;    // of the em
+constexpr double kUsualPage = 9.0 / 16;  // what is higher is a column: its unit is the height of a slide as wide
+constexpr double kLeastSquare = 4;       // of the em of numbers: below, axes cannot be read
+constexpr double kUsualBlock = 26;       // of the em, of a page that is as high as its blocks need
+constexpr double kFullArrows = 0.25;     // units of H, of a square: arrows are smaller in smaller ones
 
 bool is_prismatic(const Chain& chain, int freedom) {
   for (const Body& body : chain.bodies)
@@ -39,22 +49,73 @@ std::string torque_title(const Chain& chain, int joint) {
   return "$tau" + std::to_string(joint + 1) + (is_prismatic(chain, joint) ? "$ [N]" : "$ [N m]");
 }
 
-PlotFrame frame_in(const Rect& area, double most, const std::string& x, const std::string& y, const PlotStyle& style) {
-  return lay_out_plot(area, {Scale::linear, -most, most, x}, {Scale::linear, -most, most, y}, style);
+JointSpaceAxes axes_of(const Chain& chain, std::array<int, 2> joints, double most) {
+  const auto axis = [](double end, const std::string& title) { return Axis{Scale::linear, -end, end, title}; };
+  const auto [i, j] = joints;
+  return {axis(kAirAround, acceleration_title(chain, i)), axis(kAirAround, acceleration_title(chain, j)),
+          axis(kAirAround * most, torque_title(chain, i)), axis(kAirAround * most, torque_title(chain, j))};
 }
 
-// Axes with the same length per unit both ways, in the middle of where they were: squares of one size on one base line.
-void make_equal_squares(PlotFrame& a, PlotFrame& b) {
-  const double side = std::min({a.box.width(), a.box.height(), b.box.width(), b.box.height()});
-  for (PlotFrame* frame : {&a, &b}) {
-    const Point middle{(frame->box.x0 + frame->box.x1) / 2, (frame->box.y0 + frame->box.y1) / 2};
-    frame->box = {middle.x - side / 2, middle.y - side / 2, middle.x + side / 2, middle.y + side / 2};
+// The part of M(q) that belongs to the two joints.
+Eigen::Matrix2d mass_of(const Workspace& ws, std::array<int, 2> joints) {
+  Eigen::Matrix2d map;
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j) map(i, j) = ws.M(joints[std::size_t(i)], joints[std::size_t(j)]);
+  return map;
+}
+
+struct Arrow {
+  Point v;
+  Color color;
+  TextLine name;
+};
+
+// What a name lies on that stands there: other arrows, the curve, the zero lines.
+double price_of(const Rect& place, const PlotFrame& frame, std::span<const Point> curve, const std::array<Arrow, 2>& arrows,
+                int own, double fraction, const std::optional<Rect>& other) {
+  constexpr int kPieces = 24;
+  constexpr double kOfCurve = 1, kOfArrow = 2, kOfZero = 0.15, kOfOther = 100, kOfEdge = 100, kOfTip = 6, kOfStray = 2;
+  const Point center = frame.at({0, 0});
+  const auto lies_in = [&](Point p) { return p.x > place.x0 && p.x < place.x1 && p.y > place.y0 && p.y < place.y1; };
+  double price = is_within(place, frame.box) ? 0 : kOfEdge;
+  if (other && overlap(place, *other)) price += kOfOther;
+  for (const Point& p : curve) price += lies_in(p) ? kOfCurve : 0;
+  for (int k = 0; k <= kPieces; ++k) {
+    const double s = double(k) / kPieces;
+    for (const Arrow& arrow : arrows) price += lies_in(center + s * arrow.v) ? kOfArrow : 0;
+    price += lies_in({frame.box.x0 + s * frame.box.width(), center.y}) ? kOfZero : 0;
+    price += lies_in({center.x, frame.box.y0 + s * frame.box.height()}) ? kOfZero : 0;
   }
+  // Nearer to its own arrow's tip than to the other one's.
+  const Point middle = center_of(place);
+  const double to_own = norm(middle - center - arrows[std::size_t(own)].v), to_other = norm(middle - center - arrows[std::size_t(1 - own)].v);
+  if (to_other < 1.3 * to_own) price += kOfStray;
+  return price + kOfTip * (1 - fraction);
+}
+
+// The name of an arrow beside it, where it lies on as little as can be.
+Rect place_of_name(const PlotFrame& frame, std::span<const Point> curve, const std::array<Arrow, 2>& arrows, int own,
+                   double em, const std::optional<Rect>& other) {
+  constexpr int kDirections = 16;
+  const Arrow& arrow = arrows[std::size_t(own)];
+  const Point center = frame.at({0, 0});
+  Rect best{};
+  double least = std::numeric_limits<double>::infinity();
+  for (const double fraction : {1.0, 0.8, 0.6})
+    for (const double gap : {0.3, 0.7, 1.3})
+      for (int k = 0; k < kDirections; ++k) {
+        const double angle = 2 * std::numbers::pi * k / kDirections;
+        const Rect place = place_beyond(arrow.name, center + fraction * arrow.v, gap * em, {std::cos(angle), std::sin(angle)});
+        const double price = price_of(widened(place, 0.1 * em), frame, curve, arrows, own, fraction, other) + gap;
+        if (price < least) least = price, best = place;
+      }
+  return best;
 }
 
 // The image of the unit circle under a symmetric positive matrix, whose eigenvectors are its axes, with the images of the unit vectors as arrows.
-void draw_image(Picture& picture, const PlotFrame& frame, const Eigen::Matrix2d& map, const std::string& symbol,
-                std::array<int, 2> joints, const PlotStyle& style) {
+void draw_image(Picture& picture, const PlotFrame& frame, const Eigen::Matrix2d& map, std::array<int, 2> joints,
+                const PlotStyle& style) {
+  constexpr int kOnCurve = 96;
   const int clip = int(picture.clips.size());
   picture.clips.push_back(frame.box);
   const Point center = frame.at({0, 0});
@@ -63,112 +124,198 @@ void draw_image(Picture& picture, const PlotFrame& frame, const Eigen::Matrix2d&
   const double mean = (map(0, 0) + map(1, 1)) / 2;
   const double deviation = std::hypot(map(0, 1), (map(0, 0) - map(1, 1)) / 2);
   const double major = unit * (mean + deviation), minor = unit * (mean - deviation);
+  const Point u{major * std::cos(angle), major * std::sin(angle)}, v{-minor * std::sin(angle), minor * std::cos(angle)};
   const Color color = style.theme->ellipse;
-  picture.add(Ellipse{center,
-                      {major * std::cos(angle), major * std::sin(angle)},
-                      {-minor * std::sin(angle), minor * std::cos(angle)},
-                      {color.faded(kFill), color, size::kEllipseLine}},
-              clip);
+  picture.add(Ellipse{center, u, v, {color.faded(kFill), color, size::kEllipseLine}}, clip);
+  std::vector<Point> curve;
+  for (int k = 0; k < kOnCurve; ++k) {
+    const double turn = 2 * std::numbers::pi * k / kOnCurve;
+    curve.push_back(center + std::cos(turn) * u + std::sin(turn) * v);
+  }
+  std::array<Arrow, 2> arrows;
+  const double em = style.text(size::kAxis);
   for (int k = 0; k < 2; ++k) {
-    const Point v{unit * map(0, k), unit * map(1, k)};
-    const Color arrow = style.theme->curve[std::size_t(k)];
-    draw_arrow(picture, center, v, {arrow, 1, false, 0, style.theme->lines}, clip);
-    const TextStyle text{Face::math, style.text(size::kAxis), arrow, Align::center};
-    const std::string name = symbol + std::to_string(joints[std::size_t(k)] + 1);
-    TextLine label = lay_out_math(*style.fonts, name + " = 1", text);
+    Arrow& arrow = arrows[std::size_t(k)];
+    arrow.v = {unit * map(0, k), unit * map(1, k)};
+    arrow.color = style.theme->curve[std::size_t(k)];
+    const TextStyle text{Face::math, em, arrow.color, Align::center};
+    const std::string name = "qdd" + std::to_string(joints[std::size_t(k)] + 1);
+    arrow.name = lay_out_math(*style.fonts, name + " = 1", text);
     // Small frames have room for the symbol alone; that it is of unit length is said below the figure.
-    if (label.advance > kWidestLabel * frame.box.width()) label = lay_out_math(*style.fonts, name, text);
-    const double length = std::max(norm(v), 1e-9), em = text.size;
-    // Beside the tip, on the side away from the other arrow.
-    const double side = k == 0 ? -1 : 1;
-    const Point out{-side * v.y / length, side * v.x / length};
-    const double off = std::abs(out.x) * label.advance / 2 + std::abs(out.y) * 0.35 * em + 0.4 * em;
-    Point at = center + 0.72 * v + off * out;
-    const double half = label.advance / 2 + 0.006;
-    at.x = std::clamp(at.x, frame.box.x0 + half, frame.box.x1 - half);
-    at.y = std::clamp(at.y - 0.3 * em, frame.box.y0 + 0.3 * em, frame.box.y1 - em);
-    draw_text(picture, label, at);
+    if (arrow.name.advance > kWidestLabel * frame.box.width()) arrow.name = lay_out_math(*style.fonts, name, text);
+    draw_arrow(picture, center, arrow.v, {arrow.color, std::clamp(frame.box.width() / kFullArrows, 0.5, 1.0), false, 0, style.theme->lines}, clip);
+  }
+  std::optional<Rect> before;
+  for (int k = 0; k < 2; ++k) {
+    const TextLine& name = arrows[std::size_t(k)].name;
+    const Rect place = place_of_name(frame, curve, arrows, k, em, before);
+    draw_text(picture, name, {place.x0 - name.box.x0, place.y0 - name.box.y0});
+    before = place;
   }
 }
 
-void draw_posture(Picture& picture, const Chain& chain, const std::vector<double>& q, const Skeleton& skeleton,
-                  Camera camera, const Rect& area, const Theme& theme) {
-  Workspace ws(chain);
-  const std::vector<double> at_rest(std::size_t(chain.nv), 0.0);
-  compute_kinematics(chain, ws, q, at_rest);
-  ChainFit fit(chain, skeleton, camera);
-  fit.add_pose(ws, kNoLimit);
-  fit_to(camera, fit.box(), area, size::kFitMargin);
-  const ChainDrawing drawing{chain, skeleton, camera, look_of(skeleton, camera, theme)};
+// All that a joint-space figure is drawn from. Its unit is the page's height, of pages higher than slides that of a slide as wide.
+class JointSpaceFigure {
+ public:
+  JointSpaceFigure(const Chain& chain, const std::vector<std::vector<double>>& poses, std::array<int, 2> joints,
+                   const PoseFigureOptions& options, const Fonts& fonts);
+
+  // Squares as large as the page has room for.
+  JointSpaceLayout layout() const;
+  // As many blocks across as are of usual width, and as high as they get.
+  JointSpaceLayout layout_by_width() const;
+  bool can_be_read(const JointSpaceLayout& layout) const { return layout.side >= kLeastSquare * style_.text(size::kTick); }
+  double height_around(const JointSpaceLayout& layout) const { return height_ - sheet_.scene.height() + layout.height; }
+  double unit_px() const { return unit_px_; }
+
+  Picture draw(const JointSpaceLayout& layout);
+
+ private:
+  int count() const { return int(poses_.size()); }
+  Sheet sheet() const;
+  Camera camera_in(const Rect& square, double marks);
+  void draw_posture(Picture& picture, const std::vector<double>& q, const Camera& camera, double marks);
+  void draw_words(Picture& picture, std::size_t pose, const Rect& box) const;
+
+  const Chain& chain_;
+  const std::vector<std::vector<double>>& poses_;
+  std::array<int, 2> joints_;
+  const PoseFigureOptions& options_;
+  const Fonts& fonts_;
+  Workspace ws_;
+  Skeleton skeleton_;
+  std::vector<Eigen::Matrix2d> maps_;
+  double unit_px_ = 1080, height_ = 1, text_scale_ = 1;
+  Sheet sheet_;
+  PlotStyle style_;
+  JointSpaceAxes axes_;
+};
+
+JointSpaceFigure::JointSpaceFigure(const Chain& chain, const std::vector<std::vector<double>>& poses, std::array<int, 2> joints,
+                                   const PoseFigureOptions& options, const Fonts& fonts)
+    : chain_(chain), poses_(poses), joints_(joints), options_(options), fonts_(fonts), ws_(chain), skeleton_(skeleton_of(chain)) {
+  if (poses.empty()) throw Error(ExitCode::usage, "a figure needs at least one pose");
+  double most = 0;
+  for (const std::vector<double>& q : poses) {
+    widen_rails(skeleton_, chain, q, kNoLimit);
+    compute_mass_matrix(chain, ws_, q);
+    maps_.push_back(mass_of(ws_, joints));
+    most = std::max(most, maps_.back().rowwise().norm().maxCoeff());
+  }
+  unit_px_ = std::min(double(options.height), std::round(kUsualPage * options.width));
+  height_ = options.height / unit_px_;
+  text_scale_ = options.text_scale * height_;
+  sheet_ = sheet();
+  style_ = {&fonts, options.theme, text_scale_};
+  axes_ = axes_of(chain, joints, most);
+}
+
+Sheet JointSpaceFigure::sheet() const {
+  SheetText text;
+  text.title = options_.title;
+  text.logo = logo_of(options_);
+  if (text.logo) text.logo->page_height = int(unit_px_);
+  text.legend = "mass matrix M(q): accelerations of unit length, and the torques that they take";
+  return lay_out_sheet(text, options_.width / unit_px_, text_scale_, *options_.theme, fonts_, height_);
+}
+
+JointSpaceLayout JointSpaceFigure::layout() const {
+  JointSpaceLayout best;
+  for (int across = 1; across <= count(); ++across) {
+    const JointSpaceLayout tried = lay_out_blocks(axes_, count(), across, sheet_.scene.width(), sheet_.scene.height(), style_);
+    if (across == 1 || tried.side > best.side) best = tried;
+  }
+  return best;
+}
+
+JointSpaceLayout JointSpaceFigure::layout_by_width() const {
+  const double block = kUsualBlock * style_.text(size::kTick);
+  const int across = std::clamp(int(sheet_.scene.width() / block), 1, count());
+  return lay_out_blocks(axes_, count(), across, sheet_.scene.width(), std::numeric_limits<double>::infinity(), style_);
+}
+
+// One for all poses, so that they can be compared by eye.
+Camera JointSpaceFigure::camera_in(const Rect& square, double marks) {
+  const std::vector<double> at_rest(std::size_t(chain_.nv), 0.0);
+  const auto fit = [&](Camera& seen) {
+    ChainFit places(chain_, skeleton_, seen, marks, options_.shapes.get());
+    for (const std::vector<double>& q : poses_) {
+      compute_kinematics(chain_, ws_, q, at_rest);
+      places.add_pose(ws_, kNoLimit);
+    }
+    fit_to(seen, places.box(), square, 0);
+  };
+  return aimed_camera(chain_, options_.camera, box_around(chain_, skeleton_, options_.shapes.get(), ws_, poses_), square, fit);
+}
+
+void JointSpaceFigure::draw_posture(Picture& picture, const std::vector<double>& q, const Camera& camera, double marks) {
+  const std::vector<double> at_rest(std::size_t(chain_.nv), 0.0);
+  compute_kinematics(chain_, ws_, q, at_rest);
+  const ChainDrawing drawing{chain_, skeleton_, camera, look_of(skeleton_, camera, *options_.theme, 1, marks), options_.shapes.get()};
   draw_base(picture, drawing, -1);
-  draw_rails(picture, drawing, ws, -1);
-  draw_links(picture, drawing, ws, -1);
-  draw_end_effector(picture, camera.project(tip_position(chain, ws)), drawing.look, -1);
+  draw_rails(picture, drawing, ws_, -1);
+  draw_links(picture, drawing, ws_, -1);
+  if (!drawing.shapes) draw_end_effector(picture, camera.project(tip_position(chain_, ws_)), drawing.look, -1);
+}
+
+void JointSpaceFigure::draw_words(Picture& picture, std::size_t pose, const Rect& box) const {
+  std::vector<std::vector<std::string>> forms;
+  for (const std::vector<double>& q : poses_) forms.push_back(pose_notations(chain_, q));
+  const double letter = options_.letters ? kLetterRoom * style_.text(size::kAxis) : 0;
+  const CaptionLines lines = caption_lines(forms, box.width() - letter, text_scale_, *options_.theme, fonts_);
+  const Rect rest = options_.letters ? draw_letter(picture, pose, lines.size, box, text_scale_, *options_.theme, fonts_) : box;
+  draw_text(picture, lay_out_math(fonts_, lines.notations[pose], {Face::math, lines.size, options_.theme->ink, Align::left}),
+            {rest.x0, caption_base(box, text_scale_)});
+}
+
+Picture JointSpaceFigure::draw(const JointSpaceLayout& layout) {
+  Picture picture;
+  picture.aspect = options_.width / unit_px_;
+  picture.background = options_.theme->background;
+  const std::vector<JointSpaceBlock> blocks = blocks_of(layout, axes_, count(), sheet_.scene, style_);
+  const double marks = marks_in(blocks[0].chain);
+  const Camera first = camera_in(blocks[0].chain, marks);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const JointSpaceBlock& block = blocks[i];
+    Camera camera = first;
+    camera.origin = camera.origin + Point{block.chain.x0 - blocks[0].chain.x0, block.chain.y0 - blocks[0].chain.y0};
+    draw_posture(picture, poses_[i], camera, marks);
+    draw_words(picture, i, block.words);
+    draw_axes(picture, block.from, style_);
+    draw_image(picture, block.from, Eigen::Matrix2d::Identity(), joints_, style_);
+    draw_axes(picture, block.to, style_);
+    draw_image(picture, block.to, maps_[i], joints_, style_);
+  }
+  draw_sheet(picture, sheet_);
+  return in_page_units(picture, height_);
 }
 
 }  // namespace
 
+bool joint_space_has_room(const Chain& chain, const std::vector<std::vector<double>>& poses, std::array<int, 2> joints,
+                          const PoseFigureOptions& options, const Fonts& fonts) {
+  const JointSpaceFigure figure(chain, poses, joints, options, fonts);
+  return figure.can_be_read(figure.layout());
+}
+
+std::optional<double> joint_space_height(const Chain& chain, const std::vector<std::vector<double>>& poses,
+                                         std::array<int, 2> joints, const PoseFigureOptions& options, const Fonts& fonts) {
+  const JointSpaceFigure figure(chain, poses, joints, options, fonts);
+  const JointSpaceLayout layout = figure.layout_by_width();
+  if (!figure.can_be_read(layout)) return std::nullopt;
+  return figure.height_around(layout) * figure.unit_px();
+}
+
 Picture draw_joint_space_figure(const Chain& chain, const std::vector<std::vector<double>>& poses,
                                 std::array<int, 2> joints, const PoseFigureOptions& options,
                                 const Fonts& fonts) {
-  if (poses.empty()) throw Error(ExitCode::usage, "a figure needs at least one pose");
-  if (int(poses.size()) > kMostPoses)
-    throw Error(ExitCode::usage, "--joint-space shows at most " + std::to_string(kMostPoses) + " poses");
-  Workspace ws(chain);
-  std::vector<Eigen::Matrix2d> maps;
-  double most = 0;
-  for (const std::vector<double>& q : poses) {
-    compute_mass_matrix(chain, ws, q);
-    Eigen::Matrix2d map;
-    for (int i = 0; i < 2; ++i)
-      for (int j = 0; j < 2; ++j) map(i, j) = ws.M(joints[std::size_t(i)], joints[std::size_t(j)]);
-    maps.push_back(map);
-    most = std::max(most, map.rowwise().norm().maxCoeff());
-  }
-  Skeleton skeleton = skeleton_of(chain);
-  for (const std::vector<double>& q : poses) widen_rails(skeleton, chain, q, kNoLimit);
-
-  SheetText text;
-  text.title = options.title;
-  text.logo = logo_of(options);
-  text.legend = "mass matrix M(q): accelerations of unit length, and the torques that they take";
-  const Theme& theme = *options.theme;
-  const Sheet sheet =
-      lay_out_sheet(text, double(options.width) / options.height, options.text_scale, theme, fonts);
-  const PlotStyle style{&fonts, &theme, options.text_scale};
-  const double row = (sheet.scene.height() - double(poses.size() - 1) * size::kGutter) / double(poses.size());
-  const double column = (sheet.scene.width() - 2 * size::kGutter) / 3;
-  const double words = 1.6 * scaled(size::kAxis, options.text_scale);
-
-  Picture picture;
-  picture.aspect = sheet.aspect;
-  picture.background = theme.background;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const double top = sheet.scene.y1 - double(i) * (row + size::kGutter), bottom = top - row;
-    const auto area = [&](int k) {
-      const double x = sheet.scene.x0 + k * (column + size::kGutter);
-      return Rect{x, bottom, x + column, top};
-    };
-    Rect body = area(0);
-    body.y0 += words;
-    draw_posture(picture, chain, poses[i], skeleton, view_of(chain), body, theme);
-    const TextStyle caption{Face::math, scaled(size::kAxis, options.text_scale), theme.ink, Align::center};
-    Rect below{body.x0, bottom, body.x1, bottom + (0.3 + 1.2) * caption.size};
-    if (options.letters) below = draw_letter(picture, i, below, options.text_scale, theme, fonts);
-    draw_text(picture, fit_math(fonts, pose_notations(chain, poses[i]), caption, below.width(), options.text_scale),
-              {(below.x0 + below.x1) / 2, bottom + 0.3 * caption.size});
-    PlotFrame from = frame_in(area(1), kAirAround, acceleration_title(chain, joints[0]),
-                              acceleration_title(chain, joints[1]), style);
-    PlotFrame to = frame_in(area(2), kAirAround * most, torque_title(chain, joints[0]), torque_title(chain, joints[1]),
-                            style);
-    make_equal_squares(from, to);
-    draw_axes(picture, from, style);
-    draw_image(picture, from, Eigen::Matrix2d::Identity(), "qdd", joints, style);
-    draw_axes(picture, to, style);
-    draw_image(picture, to, maps[i], "qdd", joints, style);
-  }
-  draw_sheet(picture, sheet);
-  return picture;
+  JointSpaceFigure figure(chain, poses, joints, options, fonts);
+  const JointSpaceLayout layout = figure.layout();
+  if (!figure.can_be_read(layout))
+    throw Error(ExitCode::usage, poses.size() == 1 ? "the page is too small for the squares of --joint-space beside their words: take a larger one"
+                                                   : "the page has no room for the squares of " + std::to_string(poses.size()) +
+                                                         " poses beside their words: take fewer, or a higher page");
+  return figure.draw(layout);
 }
 
 }  // namespace chainreel

@@ -60,11 +60,19 @@ bool leaves_page(const Chain& chain, const std::vector<double>& q, const PoseFig
 Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& poses,
                             const PoseFigureOptions& options, const Fonts& fonts);
 
-// For each pose a row: the chain, the unit circle of accelerations of two joints, and its image under M(q) in the
-// space of their torques, the other joints not accelerating. `joints` from 0. Throws Error (usage) for more than three
-// poses.
+// For each pose the chain, the unit circle of accelerations of two joints, and its image under M(q) in the space of their
+// torques, the other joints not accelerating, in blocks so many across as lets them be largest. `joints` from 0. Throws
+// Error (usage) where the page has no room for the axes beside their words.
 Picture draw_joint_space_figure(const Chain& chain, const std::vector<std::vector<double>>& poses,
                                 std::array<int, 2> joints, const PoseFigureOptions& options,
                                 const Fonts& fonts);
+
+bool joint_space_has_room(const Chain& chain, const std::vector<std::vector<double>>& poses, std::array<int, 2> joints,
+                          const PoseFigureOptions& options, const Fonts& fonts);
+
+// How high its page is to be, px, so that its squares are as large as the width allows; nothing where no height is enough.
+// `options`: a page of that width, whose words are of the size that they are to have.
+std::optional<double> joint_space_height(const Chain& chain, const std::vector<std::vector<double>>& poses,
+                                         std::array<int, 2> joints, const PoseFigureOptions& options, const Fonts& fonts);
 
 }  // namespace chainreel

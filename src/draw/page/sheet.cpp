@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/page/house_style.hpp"
+#include "picture/plot.hpp"
 
 namespace chainreel {
 namespace {
@@ -110,20 +111,25 @@ void build_title_band(Builder& b, const SheetText& text) {
   b.top = row_bottom;
 }
 
-// The legend in one line, or broken behind its colon, so that each line fits.
+// The legend in one line, or broken behind its colon, or else between words, so that each line fits; all of one size.
 std::vector<TextLine> legend_lines(const Builder& b, const std::string& legend) {
   if (legend.empty()) return {};
-  const TextStyle style = b.style(Face::label, size::kAxis, b.sheet.theme->muted);
-  TextLine whole = lay_out_text(b.fonts, legend, style);
+  TextStyle style = b.style(Face::label, size::kAxis, b.sheet.theme->muted);
+  const double smallest = std::min(style.size, scaled(kSmallestText, b.sheet.text_scale));
   const std::size_t colon = legend.find(": ");
-  std::vector<TextLine> lines;
-  if (whole.advance <= b.width() || colon == std::string::npos) {
-    lines.push_back(fit_text(b.fonts, legend, style, b.width(), b.sheet.text_scale));
-  } else {
-    for (const std::string& part : {legend.substr(0, colon + 1), legend.substr(colon + 2)}) {
-      lines.push_back(fit_text(b.fonts, part, style, b.width(), b.sheet.text_scale));
-    }
+  std::vector<std::string> parts{legend};
+  if (lay_out_text(b.fonts, legend, style).advance > b.width() && colon != std::string::npos)
+    parts = {legend.substr(0, colon + 1), legend.substr(colon + 2)};
+  double size = style.size;
+  for (const std::string& part : parts)
+    size = std::min(size, style.size * b.width() / std::max(lay_out_text(b.fonts, part, style).advance, kRoundOff));
+  if (size < smallest * (1 - kRoundOff)) {
+    size = style.size;
+    parts = wrapped(b.fonts, legend, style, b.width());
   }
+  style.size = size;
+  std::vector<TextLine> lines;
+  for (const std::string& part : parts) lines.push_back(fit_text(b.fonts, part, style, b.width(), b.sheet.text_scale));
   return lines;
 }
 
@@ -291,9 +297,9 @@ class LogoCorner {
 }  // namespace
 
 Sheet lay_out_sheet(const SheetText& text, double aspect, double text_scale, const Theme& theme,
-                    const Fonts& fonts) {
-  const double margin = size::kMargin * std::min(1.0, aspect);  // of a page higher than wide that of one as high as it is wide
-  Builder b{{}, fonts, margin, aspect - margin, 1 - margin, margin};
+                    const Fonts& fonts, double height) {
+  const double margin = size::kMargin * std::min(height, aspect);  // of a page higher than wide that of one as high as it is wide
+  Builder b{{}, fonts, margin, aspect - margin, height - margin, margin};
   b.sheet.aspect = aspect;
   b.sheet.text_scale = text_scale;
   b.sheet.theme = &theme;

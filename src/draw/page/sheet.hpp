@@ -47,7 +47,7 @@ struct SheetText {
   double beside_time = 0;           // units of H that are kept free left of the running time
   std::string bar;                  // beside the scale bar of the ellipse
   double bar_length = 0;            // units of H
-  std::string legend;               // may be broken behind ": "
+  std::string legend;               // may be broken behind ": ", and between words where it must
   std::vector<ScaleEntry> scales;   // of vectors, in rows above or beside the time
   bool with_panel_titles = false;   // where several panels share the page each has one of its own
   std::optional<PageLogo> logo;
@@ -79,8 +79,9 @@ struct Sheet {
   Point time_left;    // ... and where what stands beside it ends
 };
 
+// `height`: of a page whose unit is not its own height; `aspect` is then its width in that unit.
 Sheet lay_out_sheet(const SheetText& text, double aspect, double text_scale, const Theme& theme,
-                    const Fonts& fonts);
+                    const Fonts& fonts, double height = 1);
 
 // Everything on the sheet but the running time.
 void draw_sheet(Picture& picture, const Sheet& sheet);

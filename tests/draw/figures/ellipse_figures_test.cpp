@@ -328,7 +328,17 @@ TEST(JointSpace, TakesTheJointsThatAreNamed) {
     return test::length(ellipses.at(1).u) / test::length(ellipses.at(1).v);
   };
   EXPECT_GT(std::abs(ratio({0, 1}) - ratio({1, 2})), 0.1);
-  EXPECT_THROW(draw_joint_space_figure(test::model("rr"), std::vector<std::vector<double>>(4, {0, 1}), {0, 1}, {}, fonts()), Error);
+}
+
+// As many poses as have room: all with the same axes, their chains by one camera.
+TEST(JointSpace, RefusesPosesThatHaveNoRoom) {
+  const auto drawn = [](std::size_t count) {
+    return draw_joint_space_figure(test::model("rr"), std::vector<std::vector<double>>(count, {0, 1}), {0, 1}, {}, fonts());
+  };
+  const Picture six = drawn(6);
+  ASSERT_EQ(six.clips.size(), 12u);
+  for (const Rect& square : six.clips) EXPECT_NEAR(square.width(), six.clips[0].width(), 1e-12);
+  EXPECT_THROW(drawn(40), Error);
 }
 
 }  // namespace
