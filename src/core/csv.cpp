@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -64,33 +66,39 @@ void require_commas(const std::vector<std::string>& names, const Place& place) {
                   place);
 }
 
-// "q1 [rad]" in two; nothing where it names no unit.
-std::string take_unit(std::string& name) {
-  const std::size_t begin = name.rfind(" [");
-  if (begin == std::string::npos || begin == 0 || !name.ends_with(']')) return "";
-  const std::string unit = name.substr(begin + 2, name.size() - begin - 3);
-  name = trimmed(name.substr(0, begin));
-  return unit;
-}
-
-// What a column's numbers are above its first one. Large ones are told apart by their text, in as many digits as the
-// machine has (64 bits where this is tested): of 1.7e9 s a double keeps but 0.2 us.
+// What a column's numbers are above its first one. Decimals are told apart by their text, whole numbers and fractions each for
+// themselves: of 1.7e9 s a double keeps but 0.2 us, of which a spline's second derivative is made wrong by per cents.
 class FirstSubtracted {
  public:
   double operator()(const std::string& text, double value) {
-    if (!first_) first_ = wide(text, value);
-    return *first_ == 0 ? value : double(wide(text, value) - *first_);
+    const Decimal decimal = decimal_of(text, value);
+    if (!first_) first_ = decimal, first_value_ = value;
+    if (first_value_ == 0) return value;
+    if (!decimal.is_exact || !first_->is_exact) return value - first_value_;
+    return double(decimal.whole - first_->whole) + (decimal.rest - first_->rest);
   }
-  double first() const { return double(first_.value_or(0)); }
+  double first() const { return first_value_; }
 
  private:
-  static long double wide(const std::string& text, double otherwise) {
-    long double value = otherwise;
-    const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-    std::from_chars(begin, text.data() + text.size(), value);
-    return value;
+  struct Decimal {
+    std::int64_t whole = 0;
+    double rest = 0;
+    bool is_exact = false;  // else the text has an exponent, or too many digits
+  };
+  static Decimal decimal_of(const std::string& text, double value) {
+    const std::size_t begin = text.find_first_not_of("+-"), point = std::min(text.find('.'), text.size());
+    constexpr std::int64_t kLargest = std::int64_t(1) << 62;  // differences of such hold
+    if (begin > 1 || text.find_first_not_of("0123456789.", begin) != std::string::npos || point < begin) return {};
+    Decimal decimal{0, 0, true};
+    if (point > begin && (std::from_chars(text.data() + begin, text.data() + point, decimal.whole).ec != std::errc() || decimal.whole >= kLargest))
+      return {};
+    if (point + 1 < text.size()) std::from_chars(text.data() + point, text.data() + text.size(), decimal.rest);
+    if (std::signbit(value)) decimal.whole = -decimal.whole, decimal.rest = -decimal.rest;
+    return decimal;
   }
-  std::optional<long double> first_;
+
+  std::optional<Decimal> first_;
+  double first_value_ = 0;
 };
 
 // A column in the program's units.
@@ -109,6 +117,13 @@ std::vector<double> in_our_units(const Table& table, std::size_t column) {
 
 }  // namespace
 
+ColumnName::ColumnName(const std::string& text) : name(text) {
+  const std::size_t begin = text.rfind(" [");
+  if (begin == std::string::npos || begin == 0 || !text.ends_with(']')) return;
+  unit = text.substr(begin + 2, text.size() - begin - 3);
+  name = trimmed(text.substr(0, begin));
+}
+
 int Table::find(const std::string& name) const {
   const auto found = std::find(names.begin(), names.end(), name);
   return found == names.end() ? -1 : int(found - names.begin());
@@ -122,7 +137,7 @@ Table read_csv(const std::string& path, const std::string& since_first) {
     throw Error(ExitCode::limit, "is larger than 256 MiB", {path});
   note_input(path);
   std::ifstream stream(path, std::ios::binary);
-  Table table{path, {}, {}, {}, {}, 0};
+  Table table{path, {}, {}, {}, {}, 0, {}};
   int number = 0;
   FirstSubtracted from_first;
   std::size_t relative = std::string::npos;
@@ -133,8 +148,11 @@ Table read_csv(const std::string& path, const std::string& since_first) {
     const std::vector<std::string> fields = csv_fields(line, {path, number});
     if (table.names.empty()) {
       require_commas(fields, {path, number});
-      table.names = fields;
-      for (std::string& name : table.names) table.units.push_back(take_unit(name));
+      for (const std::string& field : fields) {
+        const ColumnName column(field);
+        table.names.push_back(column.name);
+        table.units.push_back(column.unit);
+      }
       for (std::size_t i = 0; i < fields.size(); ++i)
         if (table.find(table.names[i]) != int(i))
           throw Error(ExitCode::bad_input, "two columns are named '" + table.names[i] + "': rename or remove one", {path, number});
@@ -155,12 +173,39 @@ Table read_csv(const std::string& path, const std::string& since_first) {
         throw Error(ExitCode::bad_input,
                     "'" + fields[i] + "' under '" + table.names[i] + "' is not a finite number",
                     {path, number});
+      if (i == relative) table.told.push_back(*value);
       table.columns[i].push_back(i == relative ? from_first(fields[i], *value) : *value);
     }
   }
   if (table.rows() == 0)
     throw Error(ExitCode::bad_input, "holds no row of numbers below a line of names", {path});
   table.first = from_first.first();
+  return table;
+}
+
+namespace {
+
+// What `names` says of units, as if the table did.
+void tell_units(Table& table, const ColumnNames& names) {
+  const auto tell = [&](const ColumnName& column) {
+    const int index = table.find(column.name);
+    if (column.unit.empty() || index < 0) return;
+    std::string& unit = table.units[std::size_t(index)];
+    if (!unit.empty() && unit != column.unit)
+      throw Error(ExitCode::bad_input,
+                  "tells '" + column.name + " [" + unit + "]' in its line of names, and `columns` '" + column.text() + "': remove one of the units",
+                  {table.file});
+    unit = column.unit;
+  };
+  tell(names.time);
+  for (const ColumnNames::Column& one : names.list) tell(one.column);
+}
+
+}  // namespace
+
+Table read_log(const std::string& path, const ColumnNames& names) {
+  Table table = read_csv(path, names.time.name);
+  tell_units(table, names);
   return table;
 }
 
@@ -224,10 +269,11 @@ class Quantity {
   int column_of(std::size_t i) const {
     for (const ColumnNames::Column& one : names_.list) {
       if (one.freedom != freedoms_[i] || one.quantity != name_) continue;
-      const int column = table_.find(one.name);
+      const std::string& name = one.column.name;
+      const int column = table_.find(name);
       if (column < 0)
-        throw Error(ExitCode::bad_input, "has no column '" + one.name + "', which is to be " + name_ + " of '" + one.freedom + "':" +
-                                             did_you_mean(one.name, table_.names) + " There are " + joined(table_.names),
+        throw Error(ExitCode::bad_input, "has no column '" + name + "', which is to be " + name_ + " of '" + one.freedom + "':" +
+                                             did_you_mean(name, table_.names) + " its columns are " + joined(table_.names),
                     {table_.file});
       return column;
     }
@@ -251,11 +297,12 @@ void check_names(const Table& table, const std::vector<std::string>& freedoms, c
     if (std::find(freedoms.begin(), freedoms.end(), one.freedom) == freedoms.end())
       throw Error(ExitCode::bad_input,
                   "`columns` names '" + one.freedom + "', but no joint of the mechanism is called so:" +
-                      did_you_mean(one.freedom, freedoms) + " There are " + joined(freedoms),
+                      did_you_mean(one.freedom, freedoms) + " its joints are " + joined(freedoms),
                   {table.file});
-    const auto means_it = [&](const ColumnNames::Column& other) { return other.name == one.name; };
-    if (one.name == names.time || std::count_if(names.list.begin(), names.list.end(), means_it) > 1)
-      throw Error(ExitCode::bad_input, "`columns` takes the column '" + one.name + "' for two things", {table.file});
+    const std::string& name = one.column.name;
+    const auto means_it = [&](const ColumnNames::Column& other) { return other.column.name == name; };
+    if (name == names.time.name || std::count_if(names.list.begin(), names.list.end(), means_it) > 1)
+      throw Error(ExitCode::bad_input, "`columns` takes the column '" + name + "' for two things", {table.file});
   }
 }
 
@@ -265,21 +312,21 @@ TimeTable time_table_of(const Table& table, const std::vector<std::string>& want
                         const ColumnNames& names) {
   check_names(table, freedoms, names);
   TimeTable result;
-  const int time = table.find(names.time);
+  const int time = table.find(names.time.name);
   if (time < 0)
     throw Error(ExitCode::bad_input,
-                "has no column '" + names.time + "' of the time: call one so, or in a scene beside `csv:` say `columns: {time: NAME}`; there are " +
+                "has no column '" + names.time.name + "' of the time: call one so, or in a scene beside `csv:` say `columns: {time: NAME}`; there are " +
                     joined(table.names),
                 {table.file});
   const std::string& unit = table.units[std::size_t(time)];
   if (!unit.empty() && !unit.ends_with('s'))
-    throw Error(ExitCode::bad_input, "'" + names.time + " [" + unit + "]' is to be the time: in s, ms, us or ns", {table.file});
+    throw Error(ExitCode::bad_input, "'" + names.time.name + " [" + unit + "]' is to be the time: in s, ms, us or ns", {table.file});
   result.t = in_our_units(table, std::size_t(time));
   result.lines = table.lines;
   for (std::size_t k = 1; k < result.t.size(); ++k)
     if (result.t[k] <= result.t[k - 1])
       throw Error(ExitCode::bad_input,
-                  "'" + names.time + "' does not rise: " + format_shortest(result.t[k]) + " stands below " +
+                  "'" + names.time.name + "' does not rise: " + format_shortest(result.t[k]) + " stands below " +
                       format_shortest(result.t[k - 1]) + "; each instant takes one row, later ones below",
                   {table.file, table.lines[k]});
   for (const std::string& name : wanted) {
@@ -292,7 +339,9 @@ TimeTable time_table_of(const Table& table, const std::vector<std::string>& want
 
 TimeTable read_time_table(const std::string& path, const std::vector<std::string>& wanted, const std::vector<std::string>& freedoms,
                           const ColumnNames& names) {
-  return time_table_of(read_csv(path), wanted, freedoms, names);
+  Table table = read_csv(path);
+  tell_units(table, names);
+  return time_table_of(table, wanted, freedoms, names);
 }
 
 std::string csv_words(const std::string& words) {

@@ -16,6 +16,7 @@ struct Table {
   std::vector<std::vector<double>> columns;  // one a name, all of the same length
   std::vector<int> lines;                    // of the file, where each row stands
   double first = 0;                          // what the first row held of the column that is told from it on
+  std::vector<double> told;                  // that column as it stands in the file
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
   int find(const std::string& name) const;  // index of a column, or -1
@@ -26,6 +27,7 @@ struct Table {
 // their nanoseconds, and nanoseconds theirs.
 Table read_csv(const std::string& path, const std::string& since_first = "");
 
+
 // Of names, units and numbers.
 std::string sha256_of(const Table& table);
 
@@ -33,17 +35,31 @@ std::string sha256_of(const Table& table);
 // of those that it does not know; 1 of "".
 std::optional<double> factor_of_unit(const std::string& unit);
 
-// Which columns are meant, where a table has names of its maker's own: of the time, and of a freedom's quantity.
+// The name of a column with its unit, as lines of names have it: "q1 [rad]", or "q1" where no unit is told.
+struct ColumnName {
+  std::string name, unit;
+  explicit ColumnName(const std::string& text);
+  std::string text() const { return unit.empty() ? name : name + " [" + unit + "]"; }
+  friend bool operator==(const ColumnName&, const ColumnName&) = default;
+};
+
+// Which columns are meant, where a table has names of its maker's own: of the time, and of a freedom's quantity; and their
+// units, where it does not tell them itself.
 struct ColumnNames {
   struct Column {
-    std::string freedom, quantity, name;  // "elbow", "q", "position_2"
+    std::string freedom, quantity;  // "elbow", "q"
+    ColumnName column;              // "position_2 [deg]"
     friend bool operator==(const Column&, const Column&) = default;
   };
-  std::string time = "t";
+  ColumnName time{"t"};
   std::vector<Column> list;
 
   friend bool operator==(const ColumnNames&, const ColumnNames&) = default;
 };
+
+// A table whose time is told since its first row, with what `names` says of units as if it did. Throws Error (bad input) as
+// read_csv, and where it tells other units.
+Table read_log(const std::string& path, const ColumnNames& names);
 
 // A table's columns `t` (rising) and, for each wanted quantity that it has, one a freedom, no more and no fewer: `NAME2` of
 // the second one, `NAME.elbow` of the one that is so called, or what `names` says. In the program's units.

@@ -4,14 +4,12 @@
 #include <cmath>
 #include <memory>
 
-#include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "dynamics/constraints/constrained_dynamics.hpp"
 #include "dynamics/constraints/constraint_rows.hpp"
 #include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
-#include "sim/drive/reference.hpp"
 
 namespace chainreel {
 namespace {
@@ -91,14 +89,12 @@ class InverseWalk {
 
 }  // namespace
 
-InverseAlong inverse_along(const Chain& chain, const ConstraintPlan& constraints, const std::string& trajectory) {
-  const std::unique_ptr<Reference> reference = make_table_reference(trajectory, chain.coordinate_names);
-  const TimeTable table = read_time_table(trajectory, {}, chain.coordinate_names);
+InverseAlong inverse_along(const Chain& chain, const ConstraintPlan& constraints, const RecordedMotion& motion) {
   InverseAlong result;
   result.nv = std::size_t(chain.nv);
-  result.t = table.t;
-  InverseWalk walk(chain, constraints, trajectory, result);
-  for (std::size_t k = 0; k < table.t.size(); ++k) walk.add(*reference, table.t[k], table.lines[k]);
+  result.t = motion.told_instants();
+  InverseWalk walk(chain, constraints, motion.table().file, result);
+  for (std::size_t k = 0; k < motion.rows(); ++k) walk.add(motion, motion.instant(k), motion.table().lines[k]);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <sstream>
 
 #include "core/csv.hpp"
@@ -162,6 +163,50 @@ TEST_F(Replay, CommandsThatAreAboutMethodsSaySo) {
   scene("replay.yaml", "motion: log.csv\n");
   EXPECT_THAT(run_program({"inverse", folder.file("replay.yaml"), "--trajectory", folder.file("log.csv")}).err, HasSubstr("motion of its own"));
   EXPECT_THAT(run_program({"check", folder.file("replay.yaml"), "--all"}).err, HasSubstr("recorded motion"));
+}
+
+// The torques at the rows of a log, by its own names, in degrees, with stamps of a clock: those of the same numbers from t = 0
+// in radians. Stamps of 1.7e9 s would leave a double 2e-7 s, of which splines made 8 % of the torques.
+TEST_F(Replay, InverseTakesTheLogOfAScene) {
+  std::string plain = "t,q1,q2\n", log = "stamp,shoulder,elbow\n";
+  for (int k = 0; k <= 1000; ++k) {
+    const double t = 1e-3 * k, a = 40 * std::sin(3 * t), b = 25 * std::cos(2 * t), rad = std::numbers::pi / 180;
+    char row[200];
+    std::snprintf(row, sizeof row, "%.3f,%.17g,%.17g\n", t, a * rad, b * rad);
+    plain += row;
+    std::snprintf(row, sizeof row, "17000000%02d.%03d,%.17g,%.17g\n", k / 1000, k % 1000, a, b);
+    log += row;
+  }
+  folder.write("plain.csv", plain);
+  folder.write("log.csv", log);
+  scene("own.yaml", "motion: {csv: log.csv, columns: {time: stamp, joint1: \"shoulder [deg]\", joint2: {q: \"elbow [deg]\"}}}\n");
+  scene("bare.yaml", "gravity: [0, -9.81, 0]\n");
+  good({"inverse", folder.file("bare.yaml"), "--trajectory", folder.file("plain.csv"), "-o", folder.file("a.csv")});
+  good({"inverse", folder.file("own.yaml"), "-o", folder.file("b.csv")});
+  const Table a = read_csv(folder.file("a.csv")), b = read_csv(folder.file("b.csv"));
+  ASSERT_EQ(a.rows(), 1001u);
+  ASSERT_EQ(b.rows(), 1001u);
+  EXPECT_EQ(b.columns[0][1], 1700000000.001) << "instants as the log has them";
+  double largest = 0, off = 0;
+  for (std::size_t k = 0; k < a.rows(); ++k)
+    for (std::size_t i = 1; i < 3; ++i) {
+      largest = std::max(largest, std::fabs(a.columns[i][k]));
+      off = std::max(off, std::fabs(a.columns[i][k] - b.columns[i][k]));
+    }
+  // Second differences of angles rounded to 1e-16 rad, over 1e-6 s^2.
+  EXPECT_LT(off, 1e-7 * largest);
+  // What they are in is seen: in radians these would be turns.
+  scene("bad.yaml", "motion: {csv: log.csv, columns: {time: stamp, joint1: shoulder, joint2: elbow}}\n");
+  EXPECT_THAT(run_program({"inverse", folder.file("bad.yaml"), "-o", folder.file("c.csv")}).err,
+              AllOf(HasSubstr("turns"), HasSubstr("columns: {joint1: \"shoulder [deg]\"}")));
+  EXPECT_THAT(good({"check", folder.file("own.yaml")}).out, HasSubstr("joint1: \"shoulder [deg]\""));
+}
+
+TEST_F(Replay, OneUnitIsToldOfAColumn) {
+  folder.write("log.csv", "t,a [rad],b\n0,0,0\n1,1,1\n");
+  EXPECT_THAT(refusal("motion: {csv: log.csv, columns: {joint1: \"a [deg]\", joint2: b}}\n"), HasSubstr("remove one of the units"));
+  EXPECT_THAT(refusal("motion: {csv: log.csv, columns: {joint1: a, joint2: \"b [grad]\"}}\n"), HasSubstr("not known"));
+  EXPECT_EQ(run_program({"inverse", "models/rr.urdf", "-o", folder.file("a.csv")}).status, 2);
 }
 
 TEST_F(Replay, AllOtherCommandsShowIt) {

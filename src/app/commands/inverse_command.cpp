@@ -14,7 +14,7 @@
 #include "scene/run/prepare.hpp"
 #include "scene/run/scene_doubts.hpp"
 #include "scene/text/read_scene.hpp"
-#include "sim/drive/reference.hpp"
+#include "sim/drive/recorded_motion.hpp"
 #include "sim/inverse_along.hpp"
 
 namespace chainreel {
@@ -28,31 +28,49 @@ struct InverseOptions {
   CommonOptions common;
 };
 
-// What moves: a model, or a scene's mechanism with its constraints and the forces to press on them.
-struct Mechanism {
+// What moves, a model or a scene's mechanism with its constraints and the forces to press on them; and how.
+struct Recorded {
   Chain chain;
   ConstraintPlan constraints;
+  std::shared_ptr<const RecordedMotion> motion;
 };
 
-Mechanism load_mechanism(const InverseOptions& options) {
+std::shared_ptr<const RecordedMotion> motion_of(const Chain& chain, const InverseOptions& options) {
+  if (chain.has_floating)
+    throw Error(ExitCode::bad_input, "a floating base follows no given joint motion: take --base fixed", {options.file});
+  if (options.trajectory.empty())
+    throw Error(ExitCode::usage, "--trajectory is required: the motion, t,q1.. as CSV; or a scene with the key motion in the place of " + options.file);
+  const ColumnNames usual;
+  return std::make_shared<const RecordedMotion>(chain, std::make_shared<const Table>(read_log(options.trajectory, usual)), usual);
+}
+
+Recorded load(const InverseOptions& options) {
   std::vector<std::string> overrides = overrides_of(options.common);
   if (!options.gravity.empty()) overrides.push_back(gravity_override(options.gravity));
   if (is_model_file(options.file)) {
     ModelScene model = model_scene_of(options.file, overrides, "inverse", keys_of_models(OfModel::mechanism));
     model.options.meshes = false;
-    Mechanism mechanism{read_chain(options.file, model.options), {}};
-    if (const std::string doubt = doubt_of_gravity(mechanism.chain); !doubt.empty()) tell_warnings({doubt});
-    return mechanism;
+    Recorded recorded{read_chain(options.file, model.options), {}, nullptr};
+    if (const std::string doubt = doubt_of_gravity(recorded.chain); !doubt.empty()) tell_warnings({doubt});
+    recorded.motion = motion_of(recorded.chain, options);
+    return recorded;
   }
   Scene scene = read_scene(options.file, overrides);
   require_single_run(scene);
-  if (scene.motion)
-    throw Error(ExitCode::bad_input,
-                "shows a recorded motion of its own: `chainreel simulate` writes its torques, by inverse dynamics, too",
-                scene.place_of("motion"));
+  if (scene.motion && !options.trajectory.empty())
+    throw Error(ExitCode::bad_input, "shows a recorded motion of its own: leave --trajectory out for its torques", scene.place_of("motion"));
   Simulation simulation = prepare(scene, false);
   for (const std::string& doubt : scene.doubts) tell_warnings({scene.name + ": " + doubt});
-  return {std::move(simulation.chain), std::move(simulation.constraints)};
+  Recorded recorded{std::move(simulation.chain), std::move(simulation.constraints), simulation.motion};
+  if (!recorded.motion) recorded.motion = motion_of(recorded.chain, options);
+  return recorded;
+}
+
+// What speaks against the motion; of a scene that holds it, its doubts have been told.
+void tell_doubts(const InverseOptions& options, const RecordedMotion& motion) {
+  if (!options.trajectory.empty()) tell_warnings(motion.doubts());
+  if (options.common.quiet) return;
+  for (const std::string& remark : motion.remarks()) std::fprintf(stderr, "%s\n", remark.c_str());
 }
 
 // A row per instant of the trajectory: t,tau1.. and the multipliers that go with them.
@@ -76,15 +94,14 @@ Json report_of(const InverseAlong& inverse) {
 }
 
 void run_inverse(const InverseOptions& options) {
-  const Mechanism mechanism = load_mechanism(options);
-  if (mechanism.chain.has_floating)
-    throw Error(ExitCode::bad_input, "a floating base follows no given joint motion: take --base fixed",
-                {options.file});
+  const Recorded recorded = load(options);
+  const std::string& table = recorded.motion->table().file;
   std::vector<std::string> outputs = options.outputs;
-  if (outputs.empty()) outputs.push_back("out/" + std::filesystem::path(options.trajectory).stem().string() + "_tau.csv");
+  if (outputs.empty()) outputs.push_back("out/" + std::filesystem::path(table).stem().string() + "_tau.csv");
   TableFiles files(outputs, options.common);
-  const InverseAlong inverse = inverse_along(mechanism.chain, mechanism.constraints, options.trajectory);
-  files.write(table_of(mechanism.chain, inverse));
+  tell_doubts(options, *recorded.motion);
+  const InverseAlong inverse = inverse_along(recorded.chain, recorded.constraints, *recorded.motion);
+  files.write(table_of(recorded.chain, inverse));
   files.tell(options.common, inverse.t.size(), report_of(inverse));
 }
 
@@ -97,13 +114,13 @@ void add_inverse_command(CommandLine& app) {
   command
       ->add_option("file", options->file,
                    "a model (.urdf), or a scene (.yaml) for its mechanism with constraints and contact_force; "
-                   "constraints that are not pressed bear nothing")
+                   "constraints that are not pressed bear nothing; of a scene with `motion:` its own table, at its rows")
       .required()
       .names_input();
   command
       ->add_option("--trajectory", options->trajectory,
-                   "a .csv with t,q1.. and maybe qd1.., qdd1.. (else splines)")
-      .required();
+                   "a .csv with t,q1.. and maybe qd1.., qdd1.. (else splines); columns of other names and units are told "
+                   "in a scene: `motion: {csv: log.csv, columns: {time: stamp, shoulder: \"pos_1 [deg]\"}}`");
   add_table_option(*command, options->outputs, "out/TRAJECTORY_tau.csv");
   command->add_option("--gravity", options->gravity, "world x,y,z in m/s^2");
   add_scene_options(*command, options->common);

@@ -17,8 +17,8 @@ KeyText told_columns(const std::vector<std::string>& quantities) {
     of_freedom = told_either("", {of_freedom, told_record("", std::move(parts), "a column a quantity")}, "");
   }
   return told_mapping("columns", std::move(of_freedom),
-                      "names of the table's columns: of `time`, and of each joint; else t and " + first + "1, " + first + "2, .. or " + first +
-                          ".JOINT" + (quantities.size() > 1 ? "; of a joint's several: {" + joined(quantities, ": NAME, ") + ": NAME}" : ""));
+                      "names of the table's columns: of `time`, and of each joint, with a unit where the table tells none (\"elbow [deg]\"); "
+                      "else t and " + first + "1, " + first + "2, .. or " + first + ".JOINT" + (quantities.size() > 1 ? "; of a joint's several: {" + joined(quantities, ": NAME, ") + ": NAME}" : ""));
 }
 
 ColumnNames read_columns(Fields& fields, const std::vector<std::string>& quantities) {
@@ -36,13 +36,13 @@ ColumnNames read_columns(Fields& fields, const std::vector<std::string>& quantit
     const std::string& name = pair.first.Scalar();
     const std::string key = path + "." + name;
     if (name == "time" && pair.second.IsScalar()) {
-      columns.time = pair.second.Scalar();
+      columns.time = ColumnName(pair.second.Scalar());
     } else if (pair.second.IsScalar()) {
-      columns.list.push_back({name, quantities.front(), pair.second.Scalar()});
+      columns.list.push_back({name, quantities.front(), ColumnName(pair.second.Scalar())});
     } else if (pair.second.IsMap() && quantities.size() > 1) {
       Fields inner(fields.document(), pair.second, key, fields.problems());
       for (const std::string& quantity : quantities)
-        if (std::string column; inner.read(quantity, column)) columns.list.push_back({name, quantity, column});
+        if (std::string column; inner.read(quantity, column)) columns.list.push_back({name, quantity, ColumnName(column)});
       inner.finish();
     } else {
       complain(pair.second, key);
@@ -54,17 +54,17 @@ ColumnNames read_columns(Fields& fields, const std::vector<std::string>& quantit
 void emit_columns(YAML::Emitter& out, const ColumnNames& columns, const std::string& usual) {
   if (columns == ColumnNames{}) return;
   out << YAML::Key << "columns" << YAML::Value << YAML::Flow << YAML::BeginMap;
-  if (columns.time != ColumnNames{}.time) out << YAML::Key << "time" << YAML::Value << columns.time;
+  if (columns.time != ColumnNames{}.time) out << YAML::Key << "time" << YAML::Value << columns.time.text();
   const auto& list = columns.list;
   for (std::size_t i = 0; i < list.size();) {
     std::size_t end = i + 1;
     while (end < list.size() && list[end].freedom == list[i].freedom) ++end;
     out << YAML::Key << list[i].freedom << YAML::Value;
     if (end == i + 1 && list[i].quantity == usual) {
-      out << list[i].name;
+      out << list[i].column.text();
     } else {
       out << YAML::BeginMap;
-      for (std::size_t k = i; k < end; ++k) out << YAML::Key << list[k].quantity << YAML::Value << list[k].name;
+      for (std::size_t k = i; k < end; ++k) out << YAML::Key << list[k].quantity << YAML::Value << list[k].column.text();
       out << YAML::EndMap;
     }
     i = end;
@@ -97,7 +97,7 @@ void read_motion(Fields& fields, Scene& scene) {
   if (motion.csv.empty())
     return fields.problem_at("motion", "'motion' must be a table, or name one: motion: log.csv, or motion: {csv: log.csv, columns: {time: stamp}}");
   try {
-    motion.table = std::make_shared<const Table>(read_csv(motion.csv, motion.columns.time));
+    motion.table = std::make_shared<const Table>(read_log(motion.csv, motion.columns));
     // As long as it is, unless the scene says how much of it is meant.
     const std::vector<double> t = time_table_of(*motion.table, {}, {}, {motion.columns.time, {}}).t;
     if (t.back() > t.front()) scene.duration = t.back() - t.front();

@@ -125,9 +125,9 @@ void check_frames(Fields& fields, const Scene& scene) {
   const double frames = scene.duration * scene.video.fps.value();
   if (scene.motion && !fields.has("duration") && (frames > kMostFrames || frames < 0.5))
     return fields.problem_at("motion", "the motion " + scene.motion->csv + " lasts " + format_shortest(scene.duration) +
-                                           " s, which makes no film: is '" + scene.motion->columns.time +
-                                           "' told in another unit? Name it in the table's header, like '" + scene.motion->columns.time +
-                                           " [ms]' or [ns]");
+                                           " s, which makes no film: is '" + scene.motion->columns.time.name +
+                                           "' told in another unit? Name it in the table's header or in `columns`, like '" +
+                                           scene.motion->columns.time.name + " [ms]' or [ns]");
   if (frames > kMostFrames) fields.problem_at("duration", "'duration' is longer than ten million frames");
   if (frames < 0.5 && scene.duration > 0)
     fields.problem_at("duration", "'duration' is shorter than half a frame, of which neither a film nor a table has anything: take " +

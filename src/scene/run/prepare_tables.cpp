@@ -121,6 +121,8 @@ void prepare_motion(Scene& scene, Simulation& simulation) {
   replay(simulation, motion);
   scene.start = {simulation.q0, simulation.qd0, {}, {}};
   scene.doubts.insert(scene.doubts.end(), motion->doubts().begin(), motion->doubts().end());
+  if (const double first = entry.table->first; first != 0)
+    scene.notices.push_back("t = 0 is the first row of " + entry.csv + ", whose '" + entry.columns.time.name + "' is " + format_shortest(first));
   scene.notices.insert(scene.notices.end(), motion->remarks().begin(), motion->remarks().end());
 }
 

@@ -253,7 +253,7 @@ std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& contr
     TimeTable table = read_time_table(control.csv, {"tau"}, chain.coordinate_names, control.columns);
     if (table.groups[0].empty())
       throw Error(ExitCode::bad_input, "has no columns tau1 to tau" + std::to_string(chain.nv) + 
-                      ": of other names, beside `csv:`, say `columns: {time: " + control.columns.time + ", " + chain.coordinate_names.front() + ": NAME}`",
+                      ": of other names, beside `csv:`, say `columns: {time: " + control.columns.time.text() + ", " + chain.coordinate_names.front() + ": NAME}`",
                   {control.csv});
     parts.push_back(within(std::make_unique<CsvTorque>(std::move(table)), control.csv, control.outside));
   }

@@ -80,11 +80,13 @@ void check_turns(const Chain& chain, const Table& table, const TimeTable& motion
 // Nobody's log has so few rows; and of an angle nobody means more than a turn without saying so, in a unit.
 void doubt_units(const Chain& chain, const Table& table, const TimeTable& motion, const ColumnNames& names, std::vector<std::string>& doubts) {
   constexpr double kSlowestLog = 1;  // s a row
-  const std::size_t time = std::size_t(table.find(names.time));
+  const std::string& clock = names.time.name;
+  const std::size_t time = std::size_t(table.find(clock));
   const double step = (motion.t.back() - motion.t.front()) / double(motion.t.size() - 1);
   if (table.units[time].empty() && step > kSlowestLog)
-    doubts.push_back("the rows of " + table.file + " are " + format_significant(step, 3) + " s apart: is '" + names.time +
-                     "' in seconds? For milliseconds its header is '" + names.time + " [ms]' (or us, ns), for seconds '" + names.time + " [s]'");
+    doubts.push_back("the rows of " + table.file + " are " + format_significant(step, 3) + " s apart: is '" + clock +
+                     "' in seconds? For milliseconds its header is '" + clock + " [ms]' (or us, ns), for seconds '" + clock +
+                     " [s]'; a scene may say so, too: `columns: {time: \"" + clock + " [ms]\"}`");
   for (std::size_t i = 0; i < motion.groups[0].size(); ++i) {
     const std::size_t column = motion.columns[0][i];
     if (!table.units[column].empty() || !turns(chain, i)) continue;
@@ -94,7 +96,8 @@ void doubt_units(const Chain& chain, const Table& table, const TimeTable& motion
     const std::string& name = table.names[column];
     doubts.push_back("'" + name + "' of " + table.file + " goes to " + format_significant(largest, 4) + ", which is in radians, " +
                      format_significant(largest / (2 * std::numbers::pi), 3) + " turns: for degrees its header is '" + name +
-                     " [deg]', for radians '" + name + " [rad]'");
+                     " [deg]', for radians '" + name + " [rad]'; a scene may say so, too: `columns: {" + chain.coordinate_names[i] +
+                     ": \"" + name + " [deg]\"}`");
   }
 }
 
@@ -174,7 +177,7 @@ void remark_gap(const Table& table, const std::vector<double>& t, std::vector<st
 
 void remark_unused(const Table& table, const TimeTable& motion, const ColumnNames& names, std::vector<std::string>& remarks) {
   std::vector<bool> is_used(table.names.size());
-  is_used[std::size_t(table.find(names.time))] = true;
+  is_used[std::size_t(table.find(names.time.name))] = true;
   for (const auto& group : motion.columns)
     for (const std::size_t column : group) is_used[column] = true;
   std::vector<std::string> unused;
@@ -183,7 +186,7 @@ void remark_unused(const Table& table, const TimeTable& motion, const ColumnName
   if (unused.empty()) return;
   const std::size_t more = unused.size() > kFewWords ? unused.size() - kFewWords : 0;
   if (more > 0) unused.resize(kFewWords);
-  remarks.push_back("a replay makes no use of these columns of " + table.file + ": " + joined(unused) +
+  remarks.push_back("no use is made of these columns of " + table.file + ": " + joined(unused) +
                     (more > 0 ? " and " + std::to_string(more) + " others" : ""));
 }
 
@@ -236,20 +239,20 @@ RecordedMotion::RecordedMotion(const Chain& chain, std::shared_ptr<const Table> 
   if (motion.groups[0].empty())
     throw Error(ExitCode::bad_input,
                 "has no columns q1 to q" + n + ", one a freedom, nor q." + chain.coordinate_names.front() +
-                    " and so on: of other names, beside `csv:`, say `columns: {time: " + names.time + ", " + chain.coordinate_names.front() +
+                    " and so on: of other names, beside `csv:`, say `columns: {time: " + names.time.text() + ", " + chain.coordinate_names.front() +
                     ": NAME}`; there are " + joined(table_->names),
                 {file});
   if (motion.t.size() < 2)
     throw Error(ExitCode::bad_input, "holds one row, which is a pose and no motion: a motion takes two rows or more", {file});
   check_units(chain, *table_, motion);
   check_turns(chain, *table_, motion);
-  end_ = motion.t.back();
+  t_ = motion.t;
+  second_ = *factor_of_unit(table_->units[std::size_t(table_->find(names.time.name))]);
+  end_ = t_.back();
   has_rates_ = !motion.groups[1].empty();
   has_accelerations_ = !motion.groups[2].empty();
   splines_ = make_table_reference(motion, file);
 
-  if (table_->first != 0)
-    remarks_.push_back("t = 0 is the first row of " + file + ", whose '" + names.time + "' is " + format_shortest(table_->first));
   doubt_units(chain, *table_, motion, names, doubts_);
   const Derivatives derivatives(*table_, motion);
   derivatives.compare(0, 1, remarks_);
@@ -260,6 +263,12 @@ RecordedMotion::RecordedMotion(const Chain& chain, std::shared_ptr<const Table> 
     remarks_.push_back(words_of(*own_torques_, file));
   }
   remark_unused(*table_, motion, names, remarks_);
+}
+
+std::vector<double> RecordedMotion::told_instants() const {
+  std::vector<double> told = table_->told;
+  for (double& t : told) t *= second_;
+  return told;
 }
 
 void RecordedMotion::evaluate(double t, Vec q, Vec qd, Vec qdd) const {

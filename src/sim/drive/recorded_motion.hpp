@@ -21,7 +21,7 @@ namespace chainreel {
 
 class RecordedMotion final : public Reference {
  public:
-  // `table` as read_csv tells it since its first instant. Throws Error (bad input) where it is no motion of the chain: a floating
+  // `table` as read_log tells it. Throws Error (bad input) where it is no motion of the chain: a floating
   // base, fewer than two rows, missing columns, a unit of another kind, an angle that jumps by more than half a turn.
   RecordedMotion(const Chain& chain, std::shared_ptr<const Table> table, const ColumnNames& names);
 
@@ -31,6 +31,9 @@ class RecordedMotion final : public Reference {
 
   double end() const { return end_; }  // s, of its last row
   std::size_t rows() const { return table_->rows(); }
+  double instant(std::size_t row) const { return t_[row]; }  // s, since the first
+  std::vector<double> told_instants() const;                 // s, as the table has them
+  const Table& table() const { return *table_; }
   bool has_rates() const { return has_rates_; }
   bool has_accelerations() const { return has_accelerations_; }
   std::string sha256() const { return sha256_of(*table_); }  // of the table
@@ -51,7 +54,8 @@ class RecordedMotion final : public Reference {
  private:
   std::shared_ptr<const Table> table_;
   std::unique_ptr<Reference> splines_;
-  double end_ = 0;
+  std::vector<double> t_;
+  double end_ = 0, second_ = 1;  // s, of the last row; of one of the table's units of time
   bool has_rates_ = false, has_accelerations_ = false;
   std::optional<OwnTorques> own_torques_;
   std::vector<std::string> remarks_, doubts_;

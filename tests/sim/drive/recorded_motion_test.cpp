@@ -54,7 +54,7 @@ class Recorded : public ::testing::Test {
   std::shared_ptr<const RecordedMotion> motion(const std::string& text, const ColumnNames& names = {}) {
     const std::string path = folder_.write("log.csv", text);
     const Chain chain = run_of("rr", {"0", "0"}, 1).chain;
-    return std::make_shared<const RecordedMotion>(chain, std::make_shared<const Table>(read_csv(path, names.time)), names);
+    return std::make_shared<const RecordedMotion>(chain, std::make_shared<const Table>(read_log(path, names)), names);
   }
   std::string error(const std::string& text, const ColumnNames& names = {}) {
     try {
@@ -135,16 +135,20 @@ TEST_F(Recorded, WhatNothingDrivesHasNoTorque) {
 }
 
 TEST_F(Recorded, FirstRowIsTheStartAndItsStampMayBeLarge) {
-  const ColumnNames names{"stamp", {{"joint1", "q", "a"}, {"joint2", "q", "b"}}};
+  const ColumnNames names{ColumnName("stamp"), {{"joint1", "q", ColumnName("a")}, {"joint2", "q", ColumnName("b")}}};
   const auto since = motion("stamp [ns],b,a\n1700000000000000001,0,0\n1700000000100000002,0.5,0.1\n1700000000200000004,1,0.2\n", names);
   EXPECT_DOUBLE_EQ(since->end(), 0.200000003);  // doubles of that size are 256 ns apart
   std::vector<double> q(2), qd(2), qdd(2);
   since->evaluate(0.100000001, q, qd, qdd);
   EXPECT_DOUBLE_EQ(q[0], 0.1);
   EXPECT_DOUBLE_EQ(q[1], 0.5);
-  EXPECT_THAT(since->remarks(), ElementsAre(HasSubstr("t = 0 is the first row")));
+  EXPECT_THAT(since->remarks(), IsEmpty());
+  EXPECT_THAT(since->told_instants(), testing::Pointwise(testing::DoubleEq(), {1700000000000000001e-9, 1700000000100000002e-9, 1700000000200000004e-9}));
   const auto seconds = motion("stamp,b,a\n1700000000.000000001,0,0\n1700000000.100000002,0,0\n", names);
-  EXPECT_NEAR(seconds->end(), 0.100000001, 2e-10);  // 64 bits tell 1e-10 s apart there
+  EXPECT_DOUBLE_EQ(seconds->end(), 0.100000001);
+  EXPECT_DOUBLE_EQ(motion("t,q1,q2\n-1.25,0,0\n.5,0,0\n", {})->end(), 1.75);
+  EXPECT_DOUBLE_EQ(motion("t,q1,q2\n1e3,0,0\n1001.5,0,0\n", {})->end(), 1.5);
+  EXPECT_DOUBLE_EQ(motion("t,q1,q2\n99999999999999999999,0,0\n99999999999999999999999,0,0\n", {})->end(), 99999999999999999999999.0 - 1e20);
 }
 
 TEST_F(Recorded, NamesOfJointsDoNotDependOnTheOrder) {
@@ -172,9 +176,9 @@ TEST_F(Recorded, WhatIsNoMotionIsRefusedWithItsPlace) {
   EXPECT_THAT(error("t,q1 [m],q2\n0,0,0\n1,0,0\n"), HasSubstr("which turns"));
   EXPECT_THAT(error("t,q1 [rad/s],q2\n0,0,0\n1,0,0\n"), HasSubstr("which turns"));
   EXPECT_THAT(error("t,q1,q2\n0,3.1,0\n0.1,-3.1,0\n"), HasSubstr("log.csv:3: 'q1' jumps by -6.2 rad"));
-  EXPECT_THAT(error("t,q1,q2\n0,0,0\n1,0,0\n", {"t", {{"knee", "q", "q1"}}}), HasSubstr("no joint of the mechanism is called so"));
-  EXPECT_THAT(error("t,q1,q2\n0,0,0\n1,0,0\n", {"t", {{"joint1", "q", "p"}}}), HasSubstr("has no column 'p'"));
-  EXPECT_THAT(error("t,q1,q2\n0,0,0\n1,0,0\n", {"t", {{"joint1", "q", "q2"}, {"joint2", "q", "q2"}}}), HasSubstr("for two things"));
+  EXPECT_THAT(error("t,q1,q2\n0,0,0\n1,0,0\n", {ColumnName("t"), {{"knee", "q", ColumnName("q1")}}}), HasSubstr("no joint of the mechanism is called so"));
+  EXPECT_THAT(error("t,q1,q2\n0,0,0\n1,0,0\n", {ColumnName("t"), {{"joint1", "q", ColumnName("p")}}}), HasSubstr("has no column 'p'"));
+  EXPECT_THAT(error("t,q1,q2\n0,0,0\n1,0,0\n", {ColumnName("t"), {{"joint1", "q", ColumnName("q2")}, {"joint2", "q", ColumnName("q2")}}}), HasSubstr("for two things"));
   EXPECT_EQ(error("t,q1,q2\n0,0,0\n1,0,0\n"), "");  // negative control
   // Fast, but the rates say so.
   EXPECT_EQ(error("t,q1,q2,qd1,qd2\n0,0,0,40,0\n0.1,4,0,40,0\n"), "");
@@ -186,7 +190,7 @@ TEST_F(Recorded, WhatOneWouldNotBelieveIsRemarked) {
               ElementsAre(AllOf(HasSubstr("'qd1' is not the rate of 'q1'"), HasSubstr("differ by 56.3"))));
   EXPECT_THAT(remarks("t,q1,q2\n0,0,0\n0.1,0.1,0\n0.2,0.2,0\n0.3,0.3,0\n2,2,0\n"), ElementsAre(HasSubstr("there is nothing between t = 0.3 and 2 s")));
   EXPECT_THAT(remarks("t,q1,q2,tau1,tau2\n0,0,0,5,0\n1,0,0,5,0\n"), ElementsAre(HasSubstr("torques are those of inverse dynamics, not those that")));
-  EXPECT_THAT(remarks("t,q1,q2,volts\n0,0,0,5\n1,0,0,5\n"), ElementsAre(HasSubstr("no use of these columns")));
+  EXPECT_THAT(remarks("t,q1,q2,volts\n0,0,0,5\n1,0,0,5\n"), ElementsAre(HasSubstr("no use is made of these columns")));
   EXPECT_THAT(remarks("t,q1,q2\n0,0,0\n1,0.1,0.1\n2,0.2,0.1\n"), IsEmpty());  // negative control
 }
 
