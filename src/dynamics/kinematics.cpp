@@ -7,6 +7,7 @@
 #include <string>
 #include <type_traits>
 
+#include "core/format.hpp"
 #include "core/error.hpp"
 #include "core/scalar.hpp"
 #include "dynamics/floating.hpp"
@@ -172,6 +173,16 @@ TaskBasis task_basis(const Chain& chain, Task task) {
     add(std::string("w_") + axes[k], Eigen::Vector3d::Unit(k));
   for (int k = 0; k < 3; ++k) add(axes[k], Eigen::Vector3d::Unit(k));
   return basis;
+}
+
+std::vector<std::string> words_of(const TaskBasis& basis) {
+  std::vector<std::string> words = basis.names;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const Eigen::Vector3d& e = basis.directions[i];
+    if (name_of(e, "").empty())
+      words[i] += " = (" + format_significant(e.x(), 6) + ", " + format_significant(e.y(), 6) + ", " + format_significant(e.z(), 6) + ")";
+  }
+  return words;
 }
 
 void compute_jacobian(const Chain& chain, Workspace& ws, ConstVec q, int frame, Task task) {

@@ -37,6 +37,8 @@ struct TaskBasis {
   std::vector<Eigen::Vector3d> directions;  // one a row
 };
 TaskBasis task_basis(const Chain& chain, Task task);
+// "x", or "ex = (0.707, 0, 0.707)" of what is no axis of the world.
+std::vector<std::string> words_of(const TaskBasis& basis);
 
 // Writes ws.J (rows x nv).
 void compute_jacobian(const Chain& chain, Workspace& ws, ConstVec q, int frame, Task task);

@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace chainreel {
+namespace {
+
+constexpr double kStill = 1e-4;  // rad, of 1 + |q|, in a step
+
+}  // namespace
 
 MomentaIntegrator::MomentaIntegrator(const Forms& forms)
     : Integrator(forms.momenta->n(), forms.momenta->n()),
@@ -17,7 +22,8 @@ MomentaIntegrator::MomentaIntegrator(const Forms& forms)
       second_order_(*forms.second_order),
       span_(int(n_), int(n_)),
       p_largest_(n_),
-      force_(n_) {}
+      force_(n_),
+      mass_(n_) {}
 
 void MomentaIntegrator::start(double t, std::span<const double> q, std::span<const double> v) {
   begin_ = time_ = t;
@@ -51,21 +57,35 @@ void MomentaIntegrator::interpolate(double t, std::span<double> q, std::span<dou
 }
 
 // The largest momentum so far; before the first step, what the forces give in it. One that is a thousand
-// times smaller than another is measured by that one.
+// times smaller than another is measured by that one, and one that moves its joint by less than a ten thousandth in a step by what
+// would move it so: at rest in an equilibrium all is rounding of forces, which has no size of its own.
 void MomentaIntegrator::measure(double h) {
   for (std::size_t i = 0; i < n_; ++i) p_largest_[i] = std::max(p_largest_[i], std::fabs(p_[i]));
   const std::vector<double>& size = is_first_ ? force_ : p_largest_;
   if (is_first_) {
     system_.force(begin_, q_, v_, force_);
     for (std::size_t i = 0; i < n_; ++i) force_[i] = std::max(std::fabs(h * force_[i]), p_largest_[i]);
+    find_masses();
   }
   is_first_ = false;
   const double largest = *std::max_element(size.begin(), size.end());
   const double least = largest > 0 ? 1e-3 * largest : 1;
   for (std::size_t i = 0; i < n_; ++i) {
-    p_weight_[i] = 1 / std::max(size[i], least);
     q_weight_[i] = 1 / (1 + std::fabs(q_[i]));
+    const double still = kStill * mass_[i] / (h * q_weight_[i]);
+    p_weight_[i] = 1 / std::max({size[i], least, still});
   }
+}
+
+// Of each freedom by itself at the start; q_carry_ and p_carry_ are zero there, and so they are behind it.
+void MomentaIntegrator::find_masses() {
+  for (std::size_t i = 0; i < n_; ++i) {
+    q_carry_[i] = 1;
+    system_.momentum(q_, q_carry_, p_carry_);
+    mass_[i] = p_carry_[i];
+    q_carry_[i] = 0;
+  }
+  std::fill(p_carry_.begin(), p_carry_.end(), 0.0);
 }
 
 void MomentaIntegrator::add(std::span<const double> dx, std::span<double> x, std::span<double> carry) {

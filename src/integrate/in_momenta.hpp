@@ -39,11 +39,12 @@ class MomentaIntegrator : public Integrator {
 
  private:
   void measure(double h);
+  void find_masses();
 
   SecondOrder& second_order_;
   HermiteSpan span_;
   bool is_first_ = true;
-  std::vector<double> p_largest_, force_;
+  std::vector<double> p_largest_, force_, mass_;
 };
 
 // The next increment from those of the last two steps, where these were of equal length.

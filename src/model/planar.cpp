@@ -70,6 +70,19 @@ Vector3d normal_of_slide(const Vector3d& d, const Vector3d& gravity) {
   return Vector3d::UnitZ();
 }
 
+// Up in the plane, unless gravity acts across it. Of a plane that holds two axes of the world it is the one that is nearest,
+// so that coordinates in it do not turn with gravity.
+Vector3d up_in_plane(const Vector3d& normal, const Vector3d& up) {
+  int along = 0;
+  normal.cwiseAbs().maxCoeff(&along);
+  if (!are_parallel(normal, Vector3d::Unit(along))) return up;
+  // Of two that are as near the later one: z before y before x.
+  int nearest = along == 0 ? 1 : 0;
+  for (int i = nearest + 1; i < 3; ++i)
+    if (i != along && std::fabs(up[i]) >= std::fabs(up[nearest])) nearest = i;
+  return up[nearest] < 0 ? Vector3d(-Vector3d::Unit(nearest)) : Vector3d(Vector3d::Unit(nearest));
+}
+
 // The basis in the plane: ey is up, and ex shows x, or the first link, to the right.
 Plane plane_of(const Vector3d& normal, const Chain& chain, const std::vector<Eigen::Isometry3d>& X_WB) {
   const auto in_plane = [&](const Vector3d& v) -> Vector3d { return v - v.dot(normal) * normal; };
@@ -79,7 +92,7 @@ Plane plane_of(const Vector3d& normal, const Chain& chain, const std::vector<Eig
   if (up.norm() <= kAcross) up = in_plane(Vector3d::UnitZ());
 
   Plane plane;
-  plane.ey = cleaned(up);
+  plane.ey = cleaned(up_in_plane(normal, up));
   plane.ex = cleaned(plane.ey.cross(normal));
   // What decides between left and right: x, the first link, y, z.
   std::vector<Vector3d> to_the_right{Vector3d::UnitX()};

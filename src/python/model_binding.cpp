@@ -92,6 +92,12 @@ class PythonModel {
     compute_jacobian(chain(), ws_, pose(q), frame_of(frame), task_of(task));
     return array_of(ws_.J);
   }
+  Array basis(const std::string& task) const {
+    const TaskBasis basis = task_basis(chain(), task_of(task));
+    Eigen::MatrixXd rows(Eigen::Index(basis.directions.size()), 3);
+    for (Eigen::Index r = 0; r < rows.rows(); ++r) rows.row(r) = basis.directions[std::size_t(r)];
+    return array_of(rows);
+  }
   Array Lambda_inv(const Array& q, const std::string& task) { return array_of(mass(q, task).Lambda_inv); }
   Array Lambda(const Array& q, const std::string& task) {
     const EffectiveMass effective = mass(q, task);
@@ -179,6 +185,7 @@ void bind_model(py::module_& module) {
       .def("energy", &PythonModel::energy)
       .def("pose", &PythonModel::frame_pose_of)
       .def("jacobian", &PythonModel::jacobian)
+      .def("basis", &PythonModel::basis)
       .def("Lambda_inv", &PythonModel::Lambda_inv)
       .def("Lambda", &PythonModel::Lambda)
       .def("mobility", &PythonModel::mobility)

@@ -16,6 +16,7 @@ namespace {
 constexpr int kBetween = 7;             // instants between two samples
 constexpr std::size_t kMostBetween = 20'000;  // of a run, where torques are asked
 constexpr double kFlat = 0.1;           // of its plot's range: a curve that moves less is judged by so much
+constexpr double kShortest = 1e-9;      // of the duration: what is closer, like an event at a sample, makes rates of rounding
 constexpr double kRounding = 1e-9;      // of the size of the numbers, and in rad/s, N m, ..: no motion
 
 // The instants looked at between the samples a and b: evenly, at kinks and halfway between those.
@@ -58,7 +59,7 @@ class Filler {
       denser_.samples.push_back(denser_.run.size());
       put(run_.t[std::size_t(k)], run_.q_at(k), run_.qd_at(k));
       if (denser_.run.rows > 0) put_multipliers(run_.lambda_at(k));
-      if (k + 1 < run_.size() && run_.t[std::size_t(k) + 1] > run_.t[std::size_t(k)]) fill_behind(k);
+      if (k + 1 < run_.size() && run_.t[std::size_t(k) + 1] - run_.t[std::size_t(k)] > kShortest * simulation_.duration) fill_behind(k);
     }
     denser_.evenly = evenly_;
     simulation_.torque->leave_pieces();

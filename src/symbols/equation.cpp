@@ -319,7 +319,7 @@ SymbolicEquation symbolic_equation_of(const Chain& given) {
   add_friction(equation, chain, named, coordinates, reader);
   if (chain.end_effector >= 0) {
     equation.end_effector = chain.frames[std::size_t(chain.end_effector)].name;
-    equation.axes = basis.names;
+    equation.axes = words_of(task_basis(given, Task::linear));
     GiNaC::matrix J(unsigned(basis.names.size()), n);
     for (unsigned r = 0; r < J.rows(); ++r)
       for (unsigned c = 0; c < n; ++c) J(r, c) = derivative(derived.position[r], coordinates, c);

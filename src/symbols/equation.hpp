@@ -36,7 +36,7 @@ struct SymbolicEquation {
   std::vector<Formula> damping;     // nv: the part of tau_f that is linear in qd
   std::vector<Formula> friction;    // nv: what tanh(qd / v0) is multiplied by in the rest of tau_f
   std::string end_effector;            // "" where the chain has none
-  std::vector<std::string> axes;       // of the rows of J: x, y, z
+  std::vector<std::string> axes;       // of the rows of J: x, y, z, or what they are of the world
   FormulaMatrix J;
   std::optional<SymbolicLambda> Lambda;  // absent where J is not square, has no inverse anywhere, or one that nobody reads
   std::vector<std::string> notes;      // what was taken for what, one sentence each

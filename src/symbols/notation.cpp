@@ -288,9 +288,7 @@ std::string dissipation_in_text(const Writer& writer, const SymbolicEquation& eq
 
 std::string task_in_text(const Writer& writer, const SymbolicEquation& equation) {
   if (equation.end_effector.empty()) return "";
-  std::string axes;
-  for (const std::string& axis : equation.axes) axes += (axes.empty() ? "" : ", ") + axis;
-  std::string text = "\nJ(q), of " + equation.end_effector + " along " + axes + ":\n" + entries_in_text(writer, "J", equation.J);
+  std::string text = "\nJ(q), of " + equation.end_effector + " along " + joined(equation.axes) + ":\n" + entries_in_text(writer, "J", equation.J);
   if (!equation.Lambda)
     return text + "\nLambda(q) = (J M^-1 J^T)^-1, which has no short form: J is not square, nowhere regular, or its inverse is long\n";
   return text + "\nLambda(q) = J^-T M J^-1 = N / D^2:\n  D = " + writer.write(equation.Lambda->root) + "\n" +
@@ -427,10 +425,12 @@ std::string lambda_in_python(const Writer& writer, const SymbolicEquation& equat
   const std::string fraction = format_shortest(kSingularFraction);
   std::string text = "\n\ndef Lambda(q):\n    \"\"\"The effective mass of " + equation.end_effector +
                      ", J^-T M J^-1. ValueError at poses where it is infinite in some\n"
-                     "    direction: there J M^-1 J^T has an eigenvalue below " + fraction + " of the largest.\"\"\"\n"
+                     "    direction: there J M^-1 J^T has an eigenvalue below " + fraction + " of the largest, and its direction less than\n"
+                     "    " + format_shortest(kAcross) + " of each column of J.\"\"\"\n"
                      "    mobility = J(q) @ np.linalg.solve(M(q), J(q).T)\n"
-                     "    values = np.linalg.eigvalsh(mobility)\n"
-                     "    if not values[0] > " + fraction + " * values[-1]:\n"
+                     "    values, directions = np.linalg.eigh(mobility)\n"
+                     "    is_across = np.all(np.abs(directions[:, 0] @ J(q)) <= " + format_shortest(kAcross) + " * np.linalg.norm(J(q), axis=0))\n"
+                     "    if not values[0] > (" + fraction + " if is_across else 1e-13) * values[-1]:\n"
                      "        raise ValueError(\"no Lambda at this pose: the effective mass of the end effector is infinite in \"\n"
                      "                         \"some direction\")\n";
   if (!equation.Lambda) return text + "    return np.linalg.inv(mobility)\n";
@@ -469,7 +469,7 @@ std::string python_of(const SymbolicEquation& equation) {
   text += function_in_python("forward(q, qd, tau)", "The acceleration qdd, (" + n + ",).",
                              "np.linalg.solve(M(q), tau - C(q, qd) @ qd - g(q) - tau_f(qd))");
   if (equation.end_effector.empty()) return text;
-  text += function_in_python("J(q)", "The Jacobian of the position of " + equation.end_effector + ".", matrix_in_python(writer, equation.J));
+  text += function_in_python("J(q)", "The Jacobian of the position of " + equation.end_effector + ", along " + joined(equation.axes) + ".", matrix_in_python(writer, equation.J));
   return text + lambda_in_python(writer, equation);
 }
 

@@ -47,6 +47,38 @@ TEST(EffectiveMassTest, StretchedRrHasInfiniteMassAlongX) {
   EXPECT_TRUE(stretched.Lambda_inv.allFinite());
 }
 
+// J = 1 and M = diag(2e6 + 0.5, 0.5): an axis is heavy beside another one, and no pose is singular.
+TEST(EffectiveMassTest, HeavyAxesAreFinite) {
+  Chain gantry = pp_chain();
+  gantry.bodies[1].inertia.mass = gantry.planar->bodies[1].mass = 2e6;
+  gantry.bodies[2].inertia.mass = gantry.planar->bodies[2].mass = 0.5;
+  Workspace ws(gantry);
+  const auto at = [&](const Chain& chain) { return effective_mass_of(chain, ws, std::vector<double>{0.3, 0.1}, chain.end_effector, Task::linear); };
+  const EffectiveMass heavy = at(gantry);
+  ASSERT_TRUE(heavy.Lambda);
+  EXPECT_LT((*heavy.Lambda - Eigen::Matrix2d{{2e6 + 0.5, 0}, {0, 0.5}}).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_EQ(heavy.is_infinite, (std::vector<bool>{false, false}));
+}
+
+// All six coordinates of a flange: the smaller its inertia is, the larger are mobilities in 1/(kg m^2) beside those in 1/kg,
+// at one and the same regular pose; and so are they for a robot of millimetres.
+TEST(EffectiveMassTest, UnitsAndLightLinksMakeNoSingularPose) {
+  const std::vector<double> pose{0.3, 0.4, -0.5, 0.2, 0.8, 1};
+  for (const double inertia : {1e-3, 1e-5, 1e-7}) {
+    Chain arm = arm_chain(7);
+    Workspace sizes(arm);
+    std::vector<double> q(pose);
+    q.resize(std::size_t(arm.nq), 0.3);
+    arm.bodies.back().inertia.mass = 0.02;
+    arm.bodies.back().inertia.about_com = inertia * Eigen::Matrix3d::Identity();
+    Workspace ws(arm);
+    const EffectiveMass mass = effective_mass_of(arm, ws, q, arm.end_effector, Task::full);
+    ASSERT_TRUE(mass.Lambda) << inertia;
+    // What is lost to the condition of J and the scatter of the mobilities.
+    EXPECT_LT((*mass.Lambda * mass.Lambda_inv - Eigen::MatrixXd::Identity(6, 6)).cwiseAbs().maxCoeff(), 1e-6) << inertia;
+  }
+}
+
 // Lambda's largest eigenvalue grows as 1/eps^2 towards the stretched pose, Lambda_inv stays finite.
 TEST(EffectiveMassTest, GrowsWithTheInverseSquareOfTheDistanceToASingularPose) {
   const auto largest = [](double eps) {

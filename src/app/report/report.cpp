@@ -38,11 +38,13 @@ Json to_json(const Eigen::Vector3d& vector) {
 
 void add_effective_mass(Json& json, const EffectiveMass& mass) {
   json["basis"] = mass.basis.names;
+  json["basis_directions"] = Json::array();
+  for (const Eigen::Vector3d& direction : mass.basis.directions) json["basis_directions"].push_back(to_json(direction));
   json["Lambda_inv"] = to_json(mass.Lambda_inv);
   json["Lambda"] = mass.Lambda ? to_json(*mass.Lambda) : Json(nullptr);
   json["mobility"] =
       to_json(std::span<const double>(mass.mobility.data(), std::size_t(mass.mobility.size())));
-  json["directions"] = to_json(mass.directions);
+  json["directions"] = to_json(Eigen::MatrixXd(mass.directions.transpose()));  // one a row, like those that are singular
   Json singular = Json::array();
   for (const Eigen::VectorXd& direction : mass.singular_directions)
     singular.push_back(to_json(std::span<const double>(direction.data(), std::size_t(direction.size()))));

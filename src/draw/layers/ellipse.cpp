@@ -181,7 +181,6 @@ std::string ellipse_legend(EllipseReading reading, EllipseBody body) {
 
 std::vector<MassAxis> mass_axes(const EffectiveMass& effective) {
   const Eigen::Index rows = effective.mobility.size();
-  const double largest = rows == 0 ? 0 : effective.mobility.maxCoeff();
   std::vector<MassAxis> axes;
   for (Eigen::Index i = 0; i < rows; ++i) {
     MassAxis axis;
@@ -189,8 +188,7 @@ std::vector<MassAxis> mass_axes(const EffectiveMass& effective) {
     for (Eigen::Index j = 0; j < rows; ++j) {
       axis.direction += effective.directions(j, i) * effective.basis.directions[std::size_t(j)];
     }
-    const double mobility = effective.mobility(i);
-    if (mobility > kSingularFraction * largest) axis.mass = 1 / mobility;
+    if (!effective.is_infinite[std::size_t(i)]) axis.mass = 1 / effective.mobility(i);
     axes.push_back(axis);
   }
   return axes;
@@ -298,7 +296,7 @@ std::vector<MassAxis> section_axes(const EffectiveMass& effective, const Eigen::
                                    EllipseReading reading) {
   const double largest = effective.mobility.size() < 3 ? 0 : effective.mobility.maxCoeff();
   if (!(largest > 0)) return mass_axes(effective);
-  const double least = kSingularFraction * largest;  // 1/kg: smaller counts as none
+  const double least = effective.singular_directions.empty() ? 0 : kSingularFraction * largest;  // 1/kg: smaller counts as none
   // The form of the curve of `energy` grows without bounds at singular poses, where the curve is a segment: a
   // mass beyond all that counts stands for it.
   constexpr double kBeyondAll = 1e-3;

@@ -132,11 +132,20 @@ class Model:
         return self._native.pose(q, frame)
 
     def jacobian(self, q: ArrayLike, frame: Optional[str] = None, task: str = "linear") -> NDArray[np.float64]:
-        """(rows, nv) J of a frame's velocity, or the end effector's: xd = J qd, m/s.
+        """(rows, nv) J of a frame's velocity, or the end effector's: basis() @ xd = J qd, m/s.
 
-        task "linear": x, y of a planar chain, else x, y, z; "full": angular velocity (rad/s) in front: 3 or 6 rows.
+        task "linear": x, y of a chain in the plane z = 0, else x, y, z, see `basis`; "full": angular velocity (rad/s) in front:
+        3 or 6 rows.
         """
         return self._native.jacobian(q, frame, task)
+
+    def basis(self, task: str = "linear") -> NDArray[np.float64]:
+        """(rows, 3) unit vectors in the world along which the rows of J, Lambda_inv and Lambda are measured.
+
+        Of a planar chain two in its plane, axes of the world where it holds two, the second one that nearest to up; else up and
+        across. All three of others.
+        """
+        return self._native.basis(task)
 
     def Lambda_inv(self, q: ArrayLike, task: str = "linear") -> NDArray[np.float64]:
         """(rows, rows) J M^-1 J^T at the end effector, 1/kg: finite at every pose."""

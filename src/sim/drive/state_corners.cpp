@@ -49,6 +49,19 @@ std::vector<bool> StateCorners::corners_read_by(const CorneredProgram& value) co
   return read;
 }
 
+int StateCorners::rate_of(int k, int nq, int nv) const {
+  const CorneredProgram& value = corners_[int(index(k))].value;
+  int slot = -1;
+  for (const Instruction& one : value.instructions) {
+    if (one.operation != Operation::variable) continue;
+    if (slot >= 0 && one.slot != slot) return -1;
+    slot = one.slot;
+  }
+  const bool is_rate = !value.has_corners() && slot > nq && slot <= nq + nv;
+  const std::vector<double> rest(probe_.values().size());
+  return is_rate && evaluate<double>(value, rest, sides_) == 0 ? slot - 1 - nq : -1;
+}
+
 void StateCorners::values(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec g) {
   probe_.set(chain, ws, t, q, qd, needs_kinematics_);
   for (int k = 0; k < count(); ++k)

@@ -21,6 +21,8 @@ class StateCorners {
   bool is_curved(int k) const { return corners_[int(index(k))].is_curved; }
   // Whether the switching function of k reads the side of `other`, be it through further ones. Such come later.
   bool reads(int k, int other) const { return reads_[std::size_t(k)][std::size_t(other)]; }
+  // Which freedom's rate it is that is zero where the switching function of k is, and nothing else; -1: there is more to it.
+  int rate_of(int k, int nq, int nv) const;
   const std::string& text(int k) const { return corners_[int(index(k))].text; }
 
   // The switching functions, `count` numbers. Allocates nothing.

@@ -101,6 +101,8 @@ void ChainSystem::acceleration(double t, std::span<const double> q, std::span<co
   ++evaluations_;
   evaluate_torque(t, q, v);
   accelerate(q, v, vd);
+  // To the last bit: rounding would make rates of both signs of what rests.
+  for (const int i : resting_) vd[std::size_t(i)] = 0;
 }
 
 void ChainSystem::accelerate(ConstVec q, ConstVec qd, Vec qdd) {
@@ -110,6 +112,9 @@ void ChainSystem::accelerate(ConstVec q, ConstVec qd, Vec qdd) {
 
 void ChainSystem::hold(std::vector<int> held) {
   held_ = std::move(held);
+  resting_.clear();
+  for (const int k : held_)
+    if (const int i = torque_->corners()->rate_of(k, chain_->nq, chain_->nv); i >= 0 && !constrained_) resting_.push_back(i);
   takes_means_ = !held_.empty() && limit_ == LimitPolicy::clamp && limits_.have_effort();
   for (const int k : held_) takes_means_ = takes_means_ || torque_->corners()->is_curved(k);
   held_sides_.resize(held_.size());

@@ -85,6 +85,7 @@ class ChainSystem final : public SecondOrder {
   std::vector<double> tau_net_;   // of a chain with friction
   bool torque_is_known_ = false;  // constant and evaluated: the same tau_ at every instant
   std::vector<int> held_;
+  std::vector<int> resting_;  // freedoms whose own rates are held at zero
   bool takes_means_ = false;        // of whole torques: more than the sides between -1 and 1 make of them
   std::vector<double> tau_branch_, held_sides_;
   std::vector<double> q_dot_, qdd_, rates_, wanted_;

@@ -222,6 +222,15 @@ double EventWatch::locate(Integrator& integrator, std::size_t i, double a, doubl
       [&](double value) { return happens(event, before_[i], value); });
 }
 
+// Whether the value changes its side by way of infinity and is never zero: beside a pole it is many times what it is a part of
+// the step away, behind a jump it is of that size.
+bool EventWatch::is_pole(Integrator& integrator, std::size_t i, double t) {
+  const Event& event = events_.list[i];
+  if (event.test != Event::Test::changes_side) return false;
+  constexpr double kPole = 1e3;
+  return !(std::fabs(value_at(integrator, event, t)) <= kPole * std::max(std::fabs(before_[i].value), std::fabs(now_[i])));
+}
+
 void EventWatch::record(Integrator& integrator, const Pending& hit, EventHits& hits) {
   if (hits.t.empty()) hits.reserve(kUsualHits, q_.size(), qd_.size());
   if (hit.t == integrator.time())
@@ -241,9 +250,11 @@ bool EventWatch::check_step(Integrator& integrator, EventHits& hits) {
     if (!last) integrator.interpolate(t, q_, qd_);
     if (!(last ? read(t, integrator.q(), integrator.v()) : read(t, q_, qd_))) return false;
     pending_.clear();
-    for (std::size_t i = 0; i < now_.size(); ++i)
-      if (happens(events_.list[i], before_[i], now_[i]))
-        pending_.push_back({int(i), locate(integrator, i, instant(look - 1), t)});
+    for (std::size_t i = 0; i < now_.size(); ++i) {
+      if (!happens(events_.list[i], before_[i], now_[i])) continue;
+      const double when = locate(integrator, i, instant(look - 1), t);
+      if (!is_pole(integrator, i, when)) pending_.push_back({int(i), when});
+    }
     std::sort(pending_.begin(), pending_.end(),
               [](const Pending& x, const Pending& y) { return x.t != y.t ? x.t < y.t : x.event < y.event; });
     for (const Pending& hit : pending_) {

@@ -7,8 +7,8 @@
 //               same. With a direction: when it has risen to zero, or fallen to it.
 //
 // Each step is looked at in kLooksPerStep equal parts. An event is found where the expression differs between
-// the ends of a part; one that comes and goes within a part is not seen. Jumps are located like crossings,
-// and so are poles. The instant is exact to kInstantTolerance on the dense output, whose own error is the
+// the ends of a part; one that comes and goes within a part is not seen. Jumps are located like crossings;
+// poles, where an expression changes its sign and is never zero, are none. The instant is exact to kInstantTolerance on the dense output, whose own error is the
 // method's: see Method::dense_order.
 #pragma once
 
@@ -150,6 +150,7 @@ class EventWatch {
   void set_probe(double t, ConstVec q, ConstVec qd);
   double value_at(Integrator& integrator, const Event& event, double t);
   double locate(Integrator& integrator, std::size_t event, double begin, double end);
+  bool is_pole(Integrator& integrator, std::size_t event, double t);
   static bool happens(const Event& event, const State& before, double value);
   void record(Integrator& integrator, const Pending& hit, EventHits& hits);
 

@@ -94,6 +94,25 @@ TEST(Corners, FrictionLetsGoWhereThePushOutgrowsIt) {
   }
 }
 
+// To the last bit, so that nothing happens there: rounding made rates of both signs, events by the dozen and limits passed
+// by 1e-34 m.
+TEST(Corners, WhatIsHeldFromTheStartDoesNotMoveAtAll) {
+  for (const char* method : {"dop853", "radau5", "rk4"}) {
+    Simulation run = slider("3*sin(t) - 2*((qd1>0)-(qd1<0))", 5, method, 0.05);
+    if (run.method->adaptive) run = with(std::move(run), method, 1e-10);
+    run.events = make_events(run.chain, {{"qd1", EventKind::stop, "turns back", Crossing::either, {}}}, {});
+    const Trajectory trajectory = simulate(run, instants(5, 0.1));
+    for (int k = 0; trajectory.t[std::size_t(k)] < std::asin(2.0 / 3) - 0.06; ++k) {
+      EXPECT_EQ(trajectory.q_at(k)[0], 0) << method;
+      EXPECT_EQ(trajectory.qd_at(k)[0], 0) << method;
+    }
+    // It sets out where 3 sin t = 2 and comes to rest where the impulse since then is zero:
+    // 3 (cos t0 - cos t) = 2 (t - t0), t = 3.32312.
+    ASSERT_EQ(trajectory.events.size(), 1) << method;
+    EXPECT_NEAR(trajectory.events.t[0], 3.32312, 6e-6) << method;
+  }
+}
+
 TEST(Corners, FrictionStopsASliderUnderMethodsOfFirstOrderToo) {
   for (const char* method : {"symplectic_euler", "explicit_euler", "semi_implicit_euler"}) {
     Simulation run = slider("-2*((qd1>0)-(qd1<0))", 3, method, 1e-3);

@@ -182,6 +182,19 @@ TEST(Events, JumpsAreLocatedLikeCrossings) {
   EXPECT_NEAR(times[1], (2 + std::sqrt(4 - 2 * g * 0.15)) / g, kInstant);
 }
 
+// Beside a pole an expression changes its sign and is never zero. q1 = t.
+TEST(Events, PolesAreNoZeros) {
+  Simulation run = run_of("pp", {"0", "0"}, 4, "rk4", 0.1);
+  run.qd0[0] = 1;
+  run.chain.gravity.setZero();
+  run.torque = make_torque_law(run.chain, {{"0", {}, {}}, {"0", {}, {}}}, {});
+  look_for(run, {event("tan(q1)"), event("1 / (q1 - 0.4)"), event("1 / (q1 - 0.4) > 1000")});
+  const std::vector<double> times = times_of(run);
+  ASSERT_EQ(times.size(), 2u);
+  EXPECT_NEAR(times[0], 0.4, kInstant) << "larger than 1000 from behind the pole on";
+  EXPECT_NEAR(times[1], std::numbers::pi, 1e-9);
+}
+
 TEST(StopEvent, EndsTheRunAtItsInstantAndTheAuditHolds) {
   Simulation run = run_of("rr", {"-3 * qd1", "2 * sin(5 * t)"}, 5, "dop853", 0);
   run.options.tolerance = 1e-12;
