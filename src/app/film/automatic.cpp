@@ -98,15 +98,30 @@ void choose_automatically(PreparedScene& prepared, bool quiet) {
   simulation.whole_duration = 0;
 }
 
+namespace {
+
+// A function of the calling program takes some 20 us where the table of costs counts 60 ns: with the whole budget the search
+// would take minutes.
+constexpr double kBudgetOfFunctions = kChoiceBudget / 300;
+
+bool asks_a_function(const Scene& scene) {
+  const auto asks = [](const std::optional<Control>& control) { return control && control->function; };
+  return asks(scene.control) ||
+         std::any_of(scene.torque.begin(), scene.torque.end(), [&](const TorqueEntry& entry) { return asks(entry.control); });
+}
+
+}  // namespace
+
 Choice choose_with_progress(Simulation& simulation, const Scene& scene, std::span<const double> times, bool quiet) {
   // Bars have no extent but their own.
   simulation.outline =
       scene.links == LinkShapes::plain ? Outline{} : read_outline(scene.model, simulation.chain, model_options_of(scene));
   Ticker ticker(quiet);
-  Choice choice = choose_method(simulation, scene.accuracy, times, [&](const ChoiceProgress& now) {
+  const auto watch = [&](const ChoiceProgress& now) {
     if (ticker.is_due()) ticker.say(scene.name + ": " + progress_text(now, simulation.duration), std::clamp(now.spent, 0.0, 1.0));
     return interrupted();
-  });
+  };
+  Choice choice = choose_method(simulation, scene.accuracy, times, watch, asks_a_function(scene) ? kBudgetOfFunctions : kChoiceBudget);
   throw_if_interrupted();
   return choice;
 }

@@ -72,9 +72,11 @@ void add_own_slow_motion(const FilmReport& report, std::vector<std::string>& not
   }
   std::vector<std::string> stretches;
   for (const Stretch& one : report.slow_motion) stretches.push_back(to_words(one));
+  double motion = 0;
+  for (const RunReport& panel : report.panels) motion = std::max(motion, panel.trajectory.end_time);
   if (!stretches.empty())
-    notes.push_back(scene.name + ": film lasts " + format_fixed(report.clock.film_seconds(), 1) + " s, its motion " +
-                    format_shortest(scene.duration) + " s: slow motion at " + (stretches.size() == 1 ? "1 place" : std::to_string(stretches.size()) + " places") +
+    notes.push_back(scene.name + ": film lasts " + format_fixed(report.film_seconds(), 1) + " s, its motion " +
+                    format_significant(motion, 4) + " s: slow motion at " + (stretches.size() == 1 ? "1 place" : std::to_string(stretches.size()) + " places") +
                     " (--set slow_motion=none): " + joined(stretches));
 }
 

@@ -164,7 +164,8 @@ KeyText told_control(const char* name) {
                       told("inverse_of", KeyForm::path, "a table with t,q1..: the torques that this motion takes"),
                       told_word("outside", names_of(Outside{}), "what these tables are taken for beyond their rows"),
                       told_feedback("pd", "kp (q_ref - q) + kd (qd_ref - qd)"),
-                      told_feedback("computed_torque", "M (qdd_ref + kd (qd_ref - qd) + kp (q_ref - q)) + nle + tau_f"),
+                      told_feedback("computed_torque", "M (qdd_ref + kd (qd_ref - qd) + kp (q_ref - q)) + nle + tau_f; as the entry of one joint "
+                                                     "with one expression it asks for no acceleration of the others"),
                       told("gravity_compensation", KeyForm::truth, "tau_g(q)")},
                      "what drives the whole chain, or one joint; its parts add up");
 }

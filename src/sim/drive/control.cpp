@@ -96,14 +96,15 @@ class PdTorque final : public ReferenceLaw {
 
 class ComputedTorque final : public ReferenceLaw {
  public:
+  // `alone`: the one joint that follows the reference, the others are asked for no acceleration.
   ComputedTorque(const Chain& chain, std::unique_ptr<Reference> reference, std::vector<double> kp,
-                 std::vector<double> kd)
-      : ReferenceLaw(std::move(reference), chain.nv), kp_(std::move(kp)), kd_(std::move(kd)) {}
+                 std::vector<double> kd, std::optional<std::size_t> alone)
+      : ReferenceLaw(std::move(reference), chain.nv), kp_(std::move(kp)), kd_(std::move(kd)), alone_(alone) {}
 
   void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) override {
     move_to(t);
     for (std::size_t i = 0; i < tau.size(); ++i)
-      qdd_[i] += kp_[i] * (q_[i] - q[i]) + kd_[i] * (qd_[i] - qd[i]);
+      qdd_[i] = alone_ && i != *alone_ ? 0 : qdd_[i] + kp_[i] * (q_[i] - q[i]) + kd_[i] * (qd_[i] - qd[i]);
     compute_inverse_dynamics(chain, ws, q, qd, qdd_);
     compute_friction(chain, ws, qd);
     for (std::size_t i = 0; i < tau.size(); ++i) tau[i] = ws.tau[i] + ws.tau_f[i];
@@ -112,6 +113,7 @@ class ComputedTorque final : public ReferenceLaw {
 
  private:
   std::vector<double> kp_, kd_;
+  std::optional<std::size_t> alone_;
 };
 
 class GravityCompensation final : public TorqueLaw {
@@ -241,8 +243,8 @@ std::span<const Name> names_of(Outside) {
   return names;
 }
 
-std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& control,
-                                        const Parameters& parameters) {
+std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& control, const Parameters& parameters,
+                                        std::optional<std::size_t> joint) {
   if (chain.has_floating && (!control.inverse_of.empty() || control.pd || control.computed_torque))
     throw Error(
         ExitCode::bad_input,
@@ -268,11 +270,13 @@ std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& contr
     parts.push_back(within(std::make_unique<PdTorque>(reference_of(chain, *pd, parameters, control.place),
                                                       gains(pd->kp, "kp"), gains(pd->kd, "kd")),
                            pd->trajectory, pd->outside));
-  if (const auto& ct = control.computed_torque)
+  if (const auto& ct = control.computed_torque) {
+    const bool speaks_of_all = !joint || !ct->trajectory.empty() || std::max({ct->q.size(), ct->qd.size(), ct->qdd.size()}) > 1;
     parts.push_back(
-        within(std::make_unique<ComputedTorque>(chain, reference_of(chain, *ct, parameters, control.place),
-                                                gains(ct->kp, "kp"), gains(ct->kd, "kd")),
+        within(std::make_unique<ComputedTorque>(chain, reference_of(chain, *ct, parameters, control.place), gains(ct->kp, "kp"),
+                                                gains(ct->kd, "kd"), speaks_of_all ? std::nullopt : joint),
                ct->trajectory, ct->outside));
+  }
   if (control.gravity_compensation) parts.push_back(std::make_unique<GravityCompensation>());
   if (control.function) parts.push_back(make_function_torque(*control.function));
   return std::make_unique<SumOfTorques>(std::move(parts), chain.nv);

@@ -44,8 +44,9 @@ struct Control {
   Place place;
 };
 
-// The law for the whole chain. Throws Error with what does not fit.
-std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& control,
-                                        const Parameters& parameters);
+// The law for the whole chain, or as the entry of one joint. Computed torque of one joint that says nothing of the others
+// asks for no acceleration of theirs. Throws Error with what does not fit.
+std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& control, const Parameters& parameters,
+                                        std::optional<std::size_t> joint = {});
 
 }  // namespace chainreel

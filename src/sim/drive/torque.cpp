@@ -148,7 +148,7 @@ std::unique_ptr<TorqueLaw> make_torque_law(const Chain& chain, const std::vector
     if (!entries[i].control) continue;
     has_controls = true;
     try {
-      mixed->add(i, make_control(chain, *entries[i].control, parameters));
+      mixed->add(i, make_control(chain, *entries[i].control, parameters, i));
     } catch (const Error& error) {
       for (const Problem& problem : error.problems()) problems.add(problem.message, problem.place);
     }

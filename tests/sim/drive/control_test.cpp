@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "dynamics/equation_of_motion.hpp"
 #include "sim/audit.hpp"
 #include "sim/runs.hpp"
 #include "support/temporary_folder.hpp"
@@ -72,6 +73,32 @@ TEST(ComputedTorque, FollowsAMotionGivenByItsPositionsAlone) {
   EXPECT_NEAR(last(trajectory, 1), 1, 1e-9);
   EXPECT_NEAR(last(trajectory, 2), std::cos(2.0) - 1, 1e-9);
   EXPECT_LT(audit_of(run, trajectory).largest_error, 1e-8);
+}
+
+// M11 a + nle1, a the one that its own reference asks for: nothing is said of the other joint. Where its reference says what
+// both do, so does its torque.
+TEST(ComputedTorque, OfOneJointAsksForNoAccelerationOfTheOthers) {
+  const std::vector<double> q{0.3, 0.5}, qd{1, -2};
+  Simulation run = run_of("rr", {"0", "0"}, 1);
+  Workspace ws(run.chain);
+  const auto first_torque = [&](const std::vector<Entry>& reference) {
+    Control control;
+    control.computed_torque = Feedback{{40}, {4}, reference, {}, {}, ""};
+    std::vector<TorqueEntry> entries(2);
+    entries[0].control = control;
+    run.torque = make_torque_law(run.chain, entries, {});
+    std::vector<double> tau(2);
+    run.torque->evaluate(run.chain, ws, 0, q, qd, tau);
+    EXPECT_EQ(tau[1], 0);
+    return tau[0];
+  };
+  const double a = 40 * (0 - 0.3) + 4 * (1 - 1), b = 40 * (0 - 0.5) + 4 * (0 + 2);
+  compute_mass_matrix(run.chain, ws, q);
+  const double M11 = ws.M(0, 0), M12 = ws.M(0, 1);
+  compute_nle(run.chain, ws, q, qd);
+  const double nle1 = ws.nle[0];
+  EXPECT_NEAR(first_torque({entry("t")}), M11 * a + nle1, 1e-12);
+  EXPECT_NEAR(first_torque({entry("t"), entry("0")}), M11 * a + M12 * b + nle1, 1e-12);
 }
 
 TEST(InverseOf, BringsAMotionBack) {
