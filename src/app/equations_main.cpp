@@ -37,11 +37,7 @@ SymbolicEquation equation_of(const EquationsOptions& options) {
     return symbolic_equation_of(read_chain(options.file, model.options));
   }
   const PreparedFilm film = load_film(options.file, overrides_of(options), false);
-  if (options.panel > int(film.panels.size()))
-    throw Error(ExitCode::usage, "--panel " + std::to_string(options.panel) + ": the scene has " +
-                                     std::to_string(film.panels.size()));
-  if (options.panel == 0) require_single_run(film.scene);
-  const Simulation& simulation = film.panels[std::size_t(std::max(options.panel, 1) - 1)].simulation;
+  const Simulation& simulation = film.panels[chosen_panel(film.scene, options.panel)].simulation;
   SymbolicEquation equation = symbolic_equation_of(simulation.chain);
   if (!simulation.constraints.empty())
     equation.notes.push_back("the scene's constraints are not in it: they add J_c^T lambda to tau");
@@ -127,6 +123,7 @@ void run_equations(const EquationsOptions& options) {
     throw Error(ExitCode::usage, "--theta is for text and LaTeX: the angles are q in Python and JSON");
   const SymbolicEquation equation = equation_of(options);
   const std::string text = text_in(form, equation, options.theta ? "theta" : "q");
+  if (options.output.empty() && options.common.json) return tell_files(options.common, {}, [&] { return json_of(equation); });
   if (options.output.empty()) return void(std::fputs(text.c_str(), stdout));
   write_text_file(options.output, text, options.common.force);
   if (options.common.json) tell_files(options.common, {options.output}, [&] { return json_of(equation); });

@@ -2,7 +2,7 @@
 
 #include <exception>
 
-#include "app/cli/data_folder.hpp"
+#include "core/data_folder.hpp"
 #include "app/report/version.hpp"
 #include "core/error.hpp"
 #include "python/binding.hpp"

@@ -66,8 +66,21 @@ void require_single_run(const Scene& scene) {
   if (scene.compare.empty()) return;
   throw Error(ExitCode::bad_input,
               "compares " + std::to_string(scene.compare.size()) +
-                  " panels, but a single run is asked for: take a scene without `compare:`",
+                  " panels, but a single run is asked for: add `--set compare=` for what they share",
               scene.place_of("compare"));
+}
+
+std::size_t chosen_panel(const Scene& scene, int asked) {
+  const std::size_t count = std::max<std::size_t>(scene.compare.size(), 1);
+  if (asked > int(count))
+    throw Error(ExitCode::usage, "--panel " + std::to_string(asked) + ": the scene has " + std::to_string(count) +
+                                     (count == 1 ? " panel" : " panels"));
+  if (asked == 0 && count > 1)
+    throw Error(ExitCode::bad_input,
+                "compares " + std::to_string(count) + " panels, but a single run is asked for: choose one, `--panel 1` to `--panel " +
+                    std::to_string(count) + "`",
+                scene.place_of("compare"));
+  return std::size_t(std::max(asked, 1) - 1);
 }
 
 void require_computed_run(const Scene& scene, const std::string& command) {

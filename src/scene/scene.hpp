@@ -138,6 +138,7 @@ struct Scene {
   std::string name;                     // the file's name without its ending; not a key
   std::vector<std::string> notices;     // what was changed of it when it was made ready; not a key
   std::vector<std::string> doubts;      // what speaks against it, found at the same time: warnings; not a key
+  std::string set_words;  // "k = 200": parameters that the command line gave a single run, told behind its title; not a key
   std::vector<std::string> absolute_paths;  // that the file itself has as such; not a key
   std::map<std::string, Place> places;  // where each key stood, by its dotted path; not a key
 
@@ -149,6 +150,8 @@ struct Scene {
 
 // Throws Error (bad input) where the scene compares several runs.
 void require_single_run(const Scene& scene);
+// The same of a command with --panel, which counts from 1; 0: it was not given. Returns the panel's place, 0 of a scene of one.
+std::size_t chosen_panel(const Scene& scene, int asked);
 
 // The same for a command that is about methods, where the scene shows a recorded motion; `command` is named.
 void require_computed_run(const Scene& scene, const std::string& command);

@@ -276,6 +276,7 @@ YamlDocument panel_document(const YamlDocument& whole, std::size_t index) {
   YamlDocument panel = yaml_document_of(whole.text, whole.file, whole.overrides);
   const YAML::Node changes = panel.root["compare"][index];
   panel.is_panel = true;
+  panel.is_for_methods = whole.is_for_methods;
   for (const char* key : {"title", "layout", "compare"}) panel.root.remove(key);
   // The first panel's events decide when the film is slow or stands still; others need not have them.
   if (index > 0)

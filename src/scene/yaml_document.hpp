@@ -36,6 +36,7 @@ struct YamlDocument {
   std::vector<Origin> origins;
   bool is_panel = false;  // one of several on the page
   std::vector<YAML::Mark> marks{};  // of the lines that nodes count, where aliases were written out; else empty
+  bool is_for_methods = false;  // read by a command with methods of its own: see MethodsOf
 
   // Where a node stands; `key` is its dotted path, so that overridden values name the command line.
   Place place_of(const YAML::Node& node, const std::string& key) const;

@@ -55,6 +55,15 @@ std::string finer(const Simulation& simulation, const std::optional<Accuracy>& c
   return text;
 }
 
+// Where the curve that a frame follows bends at once the chain is struck, which takes energy: no step and no tolerance keeps it.
+std::string cornered_curve(const Simulation& simulation) {
+  for (const Constraint& one : simulation.constraints.list)
+    if (const auto* curve = std::get_if<CurveConstraint>(&one))
+      if (const auto* written = dynamic_cast<const ExpressionCurve*>(curve->curve.get()); written != nullptr && !written->cornered().empty())
+        return written->cornered();
+  return "";
+}
+
 std::optional<Doubt> doubt_energy(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit,
                                   const std::optional<Accuracy>& chosen_by) {
   double largest_work = 0;
@@ -65,11 +74,13 @@ std::optional<Doubt> doubt_energy(const Simulation& simulation, const Trajectory
   const double time = steps ? steps->time : audit.largest_error_time;
   if (!(error > kDoubtfulEnergy * audit.energy_moved && error > kAuditRounding * at_play)) return {};
   const double part = error / audit.energy_moved;
+  const std::string cornered = cornered_curve(simulation);
   return Doubt{"energy", part,
                "the energy is off by " + format_significant(error, 3) + " J at t = " +
                    format_significant(time, 4) + " s, " + percent(part) + " of the " +
-                   format_significant(audit.energy_moved, 3) + " J that this motion moves",
-               finer(simulation, chosen_by, kAim * kDoubtfulEnergy / part)};
+                   format_significant(audit.energy_moved, 3) + " J that this motion moves" +
+                   (cornered.empty() ? "" : ": a corner of its curve `" + cornered + "` strikes the chain, whatever the step"),
+               !cornered.empty() ? "a curve without corners, as sqrt(x^2 + 1e-4) in the place of abs(x)" : finer(simulation, chosen_by, kAim * kDoubtfulEnergy / part)};
 }
 
 std::optional<Doubt> doubt_constraints(const Trajectory& trajectory, const std::optional<Accuracy>& chosen_by) {

@@ -53,6 +53,8 @@ class Run {
     if (system_.corners()) corners_.emplace(system_, simulation.duration, simulation.method->order <= 2);
     simulation.torque->enter_piece(grid_.middle_of_piece(0));
     settle_corners(0);
+    for (int k = 0; corners_ && !chatters_ && k < system_.corners()->count(); ++k)
+      trajectory_.start_sides.push_back(system_.corners()->side(k));
     look_at_limits_of_start();
     integrator_->start(0, q_, qd_);
     if (simulation.events && !simulation.events->list.empty()) watch_.emplace(*simulation.events, system_);

@@ -27,9 +27,16 @@ void hold_as_then(ChainSystem& system, const Simulation& simulation, const Traje
   const auto& holds = trajectory.holds;
   const auto found = std::find_if(holds.begin(), holds.end(),
                                   [t](const auto& one) { return one.begin <= t && t <= one.end; });
-  if (found == holds.end() && system.held().empty()) return;
+  // At the start, where friction of what rests has no sign of its own, the torques are those with which the motion begins.
+  StateCorners* corners = system.corners();
+  const int count = corners == nullptr ? 0 : corners->count();
+  const bool is_start = t <= 0 && count > 0 && int(trajectory.start_sides.size()) == count;
+  bool has_sides = !system.held().empty();
+  for (int k = 0; k < count; ++k) has_sides = has_sides || !std::isnan(corners->side(k));
+  if (found == holds.end() && !has_sides && !is_start) return;
   simulation.torque->leave_pieces();
   system.hold(found == holds.end() ? std::vector<int>() : found->corners);
+  for (int k = 0; is_start && k < count; ++k) corners->set_side(k, trajectory.start_sides[std::size_t(k)]);
 }
 
 std::vector<double> torques_along(const Simulation& simulation, const Trajectory& trajectory) {

@@ -19,7 +19,7 @@ const Words kSmallFilm{"--quiet", "--set", "video.width=96", "--set", "video.hei
 Json bench(const Words& more) {
   const ProgramResult result = run_program(with(with({"bench", "assets/scenes/rr_ellipse.yaml", "--json"}, kSmallFilm), more));
   EXPECT_EQ(result.status, 0) << result.err;
-  return result.status == 0 ? Json::parse(result.out).at(0) : Json();
+  return result.status == 0 ? Json::parse(result.out).at("films").at(0) : Json();
 }
 
 TEST(Bench, StagesAndTheRestAreTheWholeOfTheProcessorsTime) {

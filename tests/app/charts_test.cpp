@@ -62,7 +62,7 @@ double number(const std::string& text) {
 TEST(MethodsCommand, ListsEveryRowOfTheRegistry) {
   const ProgramResult result = run_program({"methods", "--json"});
   ASSERT_EQ(result.status, 0) << result.err;
-  const Json list = Json::parse(result.out);
+  const Json list = Json::parse(result.out)["methods"];
   ASSERT_EQ(list.size(), methods().size());
   for (std::size_t i = 0; i < list.size(); ++i) {
     EXPECT_EQ(list[i]["name"], methods()[i].name);
@@ -140,6 +140,71 @@ TEST(EnergyCommand, ShowsWhoGainsEnergyAndWhoKeepsIt) {
   EXPECT_GT(largest.at("explicit_euler"), 1);
   EXPECT_LT(largest.at("rk4"), 0.01 * largest.at("explicit_euler"));
   EXPECT_LT(largest.at("dop853"), 0.01 * largest.at("rk4"));
+}
+
+TEST(EnergyCommand, ShowsTheCurvesOfAComparisonAsItsPanelsSay) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_program({"energy", "assets/scenes/euler_gains_energy.yaml", "--until", "1s", "-o", folder.file("a.svg"), "-o", folder.file("b.csv"), "--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json report = Json::parse(result.out);
+  ASSERT_EQ(report["runs"].size(), 3u);
+  EXPECT_EQ(report["runs"][0]["setting"], "explicit_euler, step 0.02 s");
+  EXPECT_EQ(report["runs"][2]["panel"], 3);
+  EXPECT_THAT(report["runs"][2]["setting"].get<std::string>(), HasSubstr("tolerance 1e-12"));
+  EXPECT_GT(report["runs"][0]["largest_error"], 1e6 * report["runs"][2]["largest_error"].get<double>());
+  EXPECT_THAT(read_whole_file(folder.file("a.svg")), AllOf(HasSubstr("semi-implicit Euler, 20 ms"), HasSubstr("explicit Euler, 20 ms")));
+  const Csv csv(read_whole_file(folder.file("b.csv")));
+  EXPECT_EQ(csv.rows.front().at("panel"), "1");
+  EXPECT_EQ(csv.rows.back().at("panel"), "3");
+  // A run that diverges is one of them.
+  const ProgramResult big = run_program({"energy", "assets/scenes/big_steps.yaml", "-o", folder.file("c.csv")});
+  EXPECT_EQ(big.status, 0) << big.err;
+  EXPECT_THAT(big.out, HasSubstr("diverged"));
+}
+
+TEST(EnergyCommand, RunsMethodsOnTheMotionThatPanelsShare) {
+  const TemporaryFolder folder;
+  const Words words{"--until", "0.2s", "--methods", "rk4,verlet", "-o", folder.file("a.csv"), "--force"};
+  const ProgramResult shared = run_program(with({"energy", "assets/scenes/euler_gains_energy.yaml"}, words));
+  EXPECT_EQ(shared.status, 0) << shared.err;
+  EXPECT_THAT(shared.out, HasSubstr("rk4, step 0.02 s"));
+  // Panels that differ otherwise: the first message names the flag.
+  const ProgramResult apart = run_program(with({"energy", "assets/scenes/pen_drift.yaml"}, words));
+  EXPECT_EQ(apart.status, 3);
+  EXPECT_THAT(apart.err, HasSubstr("choose one, `--panel 1` to `--panel 3`"));
+  EXPECT_EQ(run_program(with({"energy", "assets/scenes/pen_drift.yaml", "--panel", "2"}, {"--until", "0.2s", "--methods", "rk4", "-o",
+                                                                                          folder.file("a.csv"), "--force"}))
+                .status,
+            0);
+  EXPECT_EQ(run_program(with({"energy", "assets/scenes/pen_drift.yaml", "--panel", "4"}, words)).status, 2);
+  EXPECT_EQ(run_program({"stability", "assets/scenes/big_steps.yaml", "--methods", "rk4"}).status, 0);
+}
+
+// The methods are the command's: a scene's step and tolerance are what they take.
+TEST(EnergyCommand, TakesAStepOfASceneThatNamesNoMethod) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("a.yaml", "model: rr.urdf\nduration: 0.2\nstep: 0.02\ntolerance: 1e-7\n");
+  const ProgramResult result = run_program({"energy", scene, "--methods", "rk4,dop853", "-o", folder.file("a.csv")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("rk4, step 0.02 s"), HasSubstr("dop853, tolerance 1e-07")));
+  EXPECT_EQ(run_program({"simulate", scene, "-o", folder.file("b.csv")}).status, 3) << "elsewhere they go with a method";
+}
+
+TEST(FigureOutputs, MayBeSeveral) {
+  const TemporaryFolder folder;
+  const Words words{"energy", "assets/scenes/rr_free.yaml", "--until", "0.1s", "--methods", "rk4"};
+  const ProgramResult both = run_program(with(words, {"-o", folder.file("e.svg"), "-o", folder.file("e.csv"), "-o", folder.file("f.pdf"), "--json"}));
+  ASSERT_EQ(both.status, 0) << both.err;
+  EXPECT_EQ(Json::parse(both.out)["files"],
+            Json({folder.file("e.svg"), folder.file("e.csv"), folder.file("f.pdf"), folder.file("f.csv")}));
+  EXPECT_EQ(read_whole_file(folder.file("e.csv")), read_whole_file(folder.file("f.csv")));
+  // What is there already is told before anything is run.
+  const ProgramResult again = run_program({"energy", "assets/scenes/rr_free.yaml", "--until", "100000s", "-o", folder.file("e.svg")});
+  EXPECT_EQ(again.status, 6);
+  const ProgramResult twice = run_program(with(words, {"-o", folder.file("g.svg"), "-o", folder.file("./g.svg")}));
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_THAT(twice.err, HasSubstr("is named twice"));
 }
 
 // Errors stand at the ends of steps, and the largest of them all is kept however long the run is.

@@ -15,6 +15,7 @@
 #include "app/report/motion_table.hpp"
 #include "core/csv.hpp"
 #include "core/format.hpp"
+#include "app/guide/reference.hpp"
 #include "core/json.hpp"
 #include "model/read_chain.hpp"
 #include "support/run_program.hpp"
@@ -128,6 +129,56 @@ class EveryCommand : public ::testing::Test {
 };
 TemporaryFolder* EveryCommand::inputs_ = nullptr;
 std::map<std::string, std::string> EveryCommand::helps_;
+
+// The words of "frames, fps".
+std::vector<std::string> told_names(const std::string& told) {
+  std::vector<std::string> names;
+  std::istringstream stream(told);
+  for (std::string name; std::getline(stream, name, ',');) names.push_back(name.substr(name.find_first_not_of(' ')));
+  return names;
+}
+
+std::vector<std::string> top_keys(const Json& json) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : json.items()) keys.push_back(key);
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+// Commands that print what they are asked about: their keys are those of one of several kinds.
+bool has_kinds(const std::string& command) {
+  return command == "check" || command == "compare" || command == "help" || command == "stability";
+}
+
+TEST_F(EveryCommand, PrintsOneJsonObjectWithTheKeysThatTheGuideTells) {
+  const TemporaryFolder folder;
+  int looked_at = 0;
+  for (const auto& [command, use] : uses()) {
+    if (!offers(command, "--json")) continue;
+    const auto told = std::find_if(json_reports().begin(), json_reports().end(),
+                                   [&, &command = command](const JsonReport& one) { return one.command == command; });
+    ASSERT_NE(told, json_reports().end()) << command << ": its keys belong into src/app/guide/reference_json.cpp";
+    const ProgramResult made = run_program(with(command_line(command, use, folder.file("out_" + command + use.ending)), {"--json"}));
+    const Json json = Json::parse(made.out, nullptr, false);
+    ASSERT_TRUE(json.is_object()) << command << ": " << made.out << made.err;
+    ++looked_at;
+    if (has_kinds(command)) continue;
+    std::vector<std::string> wanted;
+    for (const JsonKey& key : told->keys)
+      for (const std::string& name : told_names(key.names)) wanted.push_back(name);
+    std::sort(wanted.begin(), wanted.end());
+    EXPECT_EQ(top_keys(json), wanted) << command;
+    if (json.contains("file")) EXPECT_EQ(json["file"], json["files"].empty() ? Json(nullptr) : json["files"].front()) << command;
+    if (command != "render") continue;
+    wanted.clear();
+    for (const std::vector<JsonKey>& keys : {run_keys(), film_keys()})
+      for (const JsonKey& key : keys)
+        for (const std::string& name : told_names(key.names)) wanted.push_back(name);
+    std::sort(wanted.begin(), wanted.end());
+    EXPECT_EQ(top_keys(json["films"][0]), wanted);
+  }
+  EXPECT_EQ(looked_at, int(json_reports().size()));
+}
 
 TEST_F(EveryCommand, IsKnownHereWithAnExampleInItsHelp) {
   std::vector<std::string> known;
@@ -322,7 +373,19 @@ std::string difference(const Words& keys, Words wanted) {
 
 // The audit beside a film is read by others' programs: a key that comes or goes is meant, and stands here.
 TEST(Audit, HasTheKeysThatOthersRead) {
-  const Words of_run{"audit_error",
+  const Words of_run{"auto",
+                     "constraint_error",
+                     "end_time",
+                     "events",
+                     "expect",
+                     "fall_time",
+                     "left_picture_at",
+                     "motion",
+                     "order",
+                     "tolerance",
+                     "torque_function",
+                     "trouble",
+                     "audit_error",
                      "audit_error_of_frames",
                      "audit_error_of_frames_time",
                      "audit_error_time",
@@ -340,7 +403,11 @@ TEST(Audit, HasTheKeysThatOthersRead) {
                      "title",
                      "trajectory_sha256",
                      "warnings"};
-  const Words of_film{"drawn",           "drawn.film_seconds", "drawn.fps",
+  const Words of_film{"held_frames",     "held_frames.first", "held_frames.last",
+                      "layout",          "left_out",         "meshes_sha256",
+                      "panels",          "pauses",           "slow_motion",
+                      "style",
+                      "drawn",           "drawn.film_seconds", "drawn.fps",
                       "drawn.frames",    "drawn.height",     "drawn.width",
                       "outputs.film_seconds",
                       "duration",        "film_seconds",     "fps",
@@ -354,18 +421,19 @@ TEST(Audit, HasTheKeysThatOthersRead) {
   const Words plain = with(of_run, of_film), brief{"--set", "duration=0.2"};
   EXPECT_EQ(difference(keys_of_audit("rr_free", brief), plain), "");
   EXPECT_EQ(difference(keys_of_audit("humanoid_fall", {"--set", "duration=2"}),
-                       with(plain, {"tolerance", "events", "events.kind", "events.name", "events.q",
-                                    "events.qd", "events.t", "end_time", "fall_time", "trouble",
-                                    "held_frames", "held_frames.first", "held_frames.last", "meshes_sha256",
-                                    "slow_motion", "slow_motion.film_from", "slow_motion.film_until",
+                       with(plain, {"events.kind", "events.name", "events.q", "events.qd", "events.t",
+                                    "slow_motion.because", "slow_motion.ease", "slow_motion.film_from", "slow_motion.film_until",
                                     "slow_motion.from", "slow_motion.speed", "slow_motion.until"})),
             "");
   // On a page this small its plots below the scene leave no room for all that it draws.
   const Words crowded{"--set", "duration=0.2", "--set", "layout=scene-below"};
-  EXPECT_EQ(difference(keys_of_audit("pen", crowded), with(plain, {"left_out",
-                                                                 "auto",
-                                                                 "auto.accuracy",
+  EXPECT_EQ(difference(keys_of_audit("pen", crowded), with(plain, {"auto.accuracy",
                                                                  "auto.attainable",
+                                                                 "auto.cost_to_end_ns",
+                                                                 "auto.counted_until",
+                                                                 "auto.tried",
+                                                                 "auto.trouble",
+                                                                 "auto.why_until",
                                                                  "auto.cost_ns",
                                                                  "auto.curve",
                                                                  "auto.curve_error",
@@ -380,7 +448,6 @@ TEST(Audit, HasTheKeysThatOthersRead) {
                                                                  "auto.setting",
                                                                  "auto.spent",
                                                                  "auto.steps",
-                                                                 "constraint_error",
                                                                  "constraint_error.force_at_end",
                                                                  "constraint_error.force_at_end.constraint",
                                                                  "constraint_error.force_at_end.force",
@@ -394,16 +461,15 @@ TEST(Audit, HasTheKeysThatOthersRead) {
                                                                  "constraint_error.stabilize",
                                                                  "constraint_error.velocity_error"})),
             "");
-  Words panels = with(of_film, {"layout", "panels", "title"});
+  Words panels = with(of_film, {"title"});
   for (const std::string& key : of_run) panels.push_back("panels." + key);
   EXPECT_EQ(difference(keys_of_audit("rr_free", with(brief, {"--vary", "method=rk4,verlet"})), panels), "");
   EXPECT_EQ(
       difference(
           keys_of_audit("rr_free", with(brief, {"--set", "slow_motion=[{from: 0.05, until: 0.1, speed: 0.5}]",
                                                 "--hold", "{last: 0.1}"})),
-          with(plain, {"held_frames", "held_frames.first", "held_frames.last", "slow_motion",
-                       "slow_motion.film_from", "slow_motion.film_until", "slow_motion.from",
-                       "slow_motion.speed", "slow_motion.until"})),
+          with(plain, {"slow_motion.because", "slow_motion.ease", "slow_motion.film_from", "slow_motion.film_until",
+                       "slow_motion.from", "slow_motion.speed", "slow_motion.until"})),
       "");
 }
 

@@ -169,5 +169,22 @@ TEST(Doubts, OfNamesWithAnEndingThatAreNoFilesHere) {
   EXPECT_THAT(run_program({"dynamics", kRoot + "/models/rr.urdf"}, there).err, Not(HasSubstr("note:")));
 }
 
+// Friction at rest has no sign of its own: the first row has the torque with which the motion begins.
+TEST(StartAtACorner, HasTheTorqueOfWhatFollows) {
+  const TemporaryFolder folder;
+  const auto first_torque = [&](const std::string& load) {
+    const std::string scene = folder.write("a.yaml", "model: {links: [0.5], masses: [1]}\ngravity: [0, 0, 0]\nduration: 0.1\nmethod: dop853\n"
+                                                     "tolerance: 1e-8\ntorque: [\"" + load + " + (qd1<0) - (qd1>0)\"]\n");
+    const Json state = Json::parse(run_program({"dynamics", scene, "--at", "0", "--json"}).out);
+    const std::string table = run_program({"simulate", scene, "--columns", "tau", "-o", "-", "--quiet"}).out;
+    EXPECT_NEAR(std::stod(table.substr(table.find('\n') + 1)), state["tau"][0].get<double>(), 1e-15);
+    return state["tau"][0].get<double>();
+  };
+  // A slip against 1 N m; below that it is held, and nothing acts in sum.
+  EXPECT_NEAR(first_torque("1.12"), 0.12, 1e-15);
+  EXPECT_NEAR(first_torque("-1.5"), -0.5, 1e-15);
+  EXPECT_NEAR(first_torque("0.5"), 0, 1e-12);
+}
+
 }  // namespace
 }  // namespace chainreel

@@ -238,5 +238,20 @@ TEST(EllipseScene, NamesItsReading) {
   EXPECT_THAT(snapshot("tensor"), HasSubstr("'ellipse.reading' must be mass, energy or belt"));
 }
 
+// An example in a message is one for the model that was given.
+TEST(EllipseSweep, GivesAnExampleThatTheModelTakes) {
+  for (const auto& [model, wrong] : {std::pair{"models/pp.urdf", "q1=0:90deg:3"}, {"models/pp.urdf", "q2=0:1"}, {"models/p.urdf", "q2=0:1:3"}, {"models/rr.urdf", "q2=0:1m:3"}}) {
+    const ProgramResult refused = run_program({"ellipse", model, "--sweep", wrong});
+    EXPECT_EQ(refused.status, 2);
+    const std::string like = "like --sweep ";
+    const std::size_t at = refused.err.find(like);
+    ASSERT_NE(at, std::string::npos) << refused.err;
+    const std::string example = refused.err.substr(at + like.size(), refused.err.find_first_of("; \n", at + like.size()) - at - like.size());
+    const TemporaryFolder folder;
+    const ProgramResult taken = run_program({"ellipse", model, "--sweep", example, "-o", folder.file("a.csv")});
+    EXPECT_EQ(taken.status, 0) << example << ": " << taken.err;
+  }
+}
+
 }  // namespace
 }  // namespace chainreel

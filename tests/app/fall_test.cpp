@@ -57,6 +57,21 @@ TEST(FallCommand, SaysThatHeStandsOnlyWhileThePressureIsWithinTheFoot) {
   EXPECT_THAT(text.out, HasSubstr("tips over the toe at 0.0000, not down within 5 s"));
 }
 
+// A table or picture of one value would be taken for that of another.
+TEST(FallCommand, SaysWhatTheCommandLineSet) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("fall.yaml", std::string(kFalling) + "parameters: {k: 1}\nvideo: {width: 64, height: 36, fps: 20}\n");
+  const ProgramResult told = run_program({"fall", scene, "--set", "parameters.k=200", "-o", folder.file("a.csv")});
+  EXPECT_THAT(told.out, HasSubstr("with parameters.k=200"));
+  EXPECT_THAT(read_whole_file(folder.file("a.csv")), HasSubstr("# set: parameters.k=200\n"));
+  const auto title = [&](const Words& more) {
+    const ProgramResult run = run_program(with({"simulate", scene, "-o", folder.file("b.csv"), "--force", "--json"}, more));
+    return Json::parse(run.out)["title"].get<std::string>();
+  };
+  EXPECT_EQ(title({"--set", "parameters.k=200"}), "Falls in 0.45 s, k = 200");
+  EXPECT_EQ(title({}), "Falls in 0.45 s") << "what the file says is known to who reads it";
+}
+
 TEST(FallCommand, SaysWhatHoldsFromTheStart) {
   // A push so strong that the pressure is outside of the foot at once: as an event it waits, here it is no "never".
   const TemporaryFolder folder;

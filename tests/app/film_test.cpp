@@ -72,9 +72,10 @@ TEST(Film, ShowsInItsFramesWhatASnapshotShows) {
   const std::string film = folder.file("film.mp4");
   ASSERT_EQ(render("rr_torque", film, {"--set", "duration=1"}).status, 0);
   const VideoFacts facts = probe_video(film);
-  const PreparedScene prepared =
-      load_scene("assets/scenes/rr_torque.yaml",
-                 {"video.width=320", "video.height=180", "text_scale=1.5", "duration=1"});
+  const PreparedFilm film_made =
+      load_film("assets/scenes/rr_torque.yaml",
+                {"video.width=320", "video.height=180", "text_scale=1.5", "duration=1"});
+  const PreparedScene& prepared = film_made.panels.front();
   const Trajectory trajectory = simulate(prepared.simulation, frame_times(prepared.scene));
   const Fonts fonts;
   const Film drawn(prepared.scene, {{prepared.scene, prepared.simulation.chain, trajectory, &prepared.simulation}}, trajectory.t,

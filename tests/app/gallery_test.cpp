@@ -64,7 +64,7 @@ TEST(Gallery, TakesAWebmWhereThereIsNoMp4AndLeavesPartialFilms) {
   fs::copy_file(film, folder.file("c.partial.mp4"));
   const ProgramResult result = gallery(folder, {"--json"});
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(Json::parse(result.out)["films"], 2);
+  EXPECT_EQ(Json::parse(result.out)["clips"], 2);
   EXPECT_THAT(page(folder), HasSubstr("data:video/webm;base64,"));
 }
 
@@ -75,7 +75,7 @@ TEST(Gallery, LeavesFilmsThatAreBeingWritten) {
   fs::copy_file(film, folder.file("b.4711.tmp.mp4"));
   const ProgramResult result = gallery(folder, {"--json"});
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(Json::parse(result.out)["films"], 1);
+  EXPECT_EQ(Json::parse(result.out)["clips"], 1);
 }
 
 // 20 MB more, in a box that players pass over.

@@ -33,7 +33,8 @@ std::string guide_output(std::vector<std::string> words) {
 
 std::vector<std::string> guide_topics() {
   std::vector<std::string> topics;
-  for (const Json& one : parse_json(guide_output({"--json"}))) topics.push_back(one["topic"].get<std::string>());
+  const Json all = parse_json(guide_output({"--json"}));
+  for (const Json& one : all["topics"]) topics.push_back(one["topic"].get<std::string>());
   return topics;
 }
 

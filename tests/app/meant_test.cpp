@@ -66,7 +66,7 @@ TEST(Meant, SizeAndRateOfASmallClipAreSaid) {
   const ProgramResult made = run_program({"render", scene, "-o", folder.file("a.gif"), "--json"});
   ASSERT_EQ(made.status, 0) << made.err;
   EXPECT_THAT(made.err, HasSubstr("a.gif has 800x450 pixels and 20 frames/s, as .gif files are at most 25 frames/s and 800 pixels wide"));
-  const Json clip = Json::parse(made.out).at(0).at("small_clips").at(0);
+  const Json clip = Json::parse(made.out).at("films").at(0).at("small_clips").at(0);
   EXPECT_EQ(clip["width"], 800);
   EXPECT_EQ(clip["height"], 450);
   EXPECT_EQ(clip["fps"], 20);

@@ -127,5 +127,51 @@ TEST(InitCommand, TellsItsFilesAsJson) {
   EXPECT_EQ(Json::parse(result.out)["files"][0], folder.file("my_arm.yaml"));
 }
 
+// Two fingers that move as one: who gives each a number is told which of them has none.
+TEST(MimicJoints, AreNamedWhereNumbersDoNotFit) {
+  const TemporaryFolder folder;
+  const std::string joint = "<limit lower=\"-1\" upper=\"1\" effort=\"9\" velocity=\"9\"/><axis xyz=\"0 1 0\"/>";
+  const auto link = [](const std::string& name) {
+    return "<link name=\"" + name + "\"><inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>";
+  };
+  const std::string model = folder.write(
+      "hand.urdf", "<robot name=\"hand\">" + link("palm") + link("a") + link("b") +
+                       "<joint name=\"left\" type=\"prismatic\"><parent link=\"palm\"/><child link=\"a\"/>" + joint + "</joint>" +
+                       "<joint name=\"right\" type=\"prismatic\"><parent link=\"palm\"/><child link=\"b\"/><mimic joint=\"left\"/>" + joint +
+                       "</joint></robot>");
+  const ProgramResult counted = run_program({"dynamics", model, "--q", "0.1,0.1"});
+  EXPECT_EQ(counted.status, 2);
+  EXPECT_THAT(counted.err, HasSubstr("hand needs 1: of left; right follows left and has no number of its own"));
+  EXPECT_THAT(run_program({"dynamics", model, "--q", "right=0.1"}).err, HasSubstr("right follows left"));
+  const std::string scene = folder.write("hand.yaml", "model: hand.urdf\nstart: {q: [0.1, 0.1]}\nduration: 1\n");
+  EXPECT_THAT(run_program({"check", scene}).err, HasSubstr("needs 1: right follows left and has no number of its own"));
+}
+
+// The states of an SRDF that lies beside the model, or in srdf/ beside its folder, wherever a pose is asked for.
+TEST(NamedPoses, OfAnSrdfAreTakenByEveryCommandThatTakesAPose) {
+  const TemporaryFolder folder;
+  folder.write("arm/urdf/rr.urdf", read_whole_file("models/rr.urdf"));
+  const std::string model = folder.file("arm/urdf/rr.urdf");
+  folder.write("arm/srdf/rr.srdf", "<robot name=\"rr\"><group_state name=\"ready\" group=\"all\"><joint name=\"joint1\" value=\"0.5\"/>"
+                                   "<joint name=\"joint2\" value=\"-1\"/></group_state></robot>");
+  folder.write("arm/srdf/other.srdf", "<robot name=\"another\"><group_state name=\"ready\" group=\"all\"><joint name=\"x\" value=\"1\"/></group_state></robot>");
+  const Json wanted{0.5, -1.0};
+  EXPECT_EQ(Json::parse(run_program({"dynamics", model, "--q", "ready", "--json"}).out)["q"], wanted);
+  EXPECT_EQ(Json::parse(run_program({"ellipse", model, "--pose", "ready", "-o", folder.file("a.csv"), "--json"}).out)["poses"][0]["q"], wanted);
+  const Json shot = Json::parse(run_program({"snapshot", model, "--pose", "ready", "--width", "64", "--height", "36", "-o", folder.file("a.svg"), "--json"}).out);
+  EXPECT_EQ(shot["pictures"][0]["poses"][0]["q"], wanted);
+  const ProgramResult wrong = run_program({"dynamics", model, "--q", "redy"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("rr.srdf has no state of this name: did you mean 'ready'?"));
+  EXPECT_EQ(run_program({"dynamics", "models/rr.urdf", "--q", "ready"}).status, 2) << "without an SRDF there is none";
+}
+
+TEST(DynamicsCommand, SaysWhatMassIsFixedToTheWorld) {
+  const ProgramResult words = run_program({"dynamics", "models/humanoid.urdf", "--base", "fixed"});
+  const Json json = Json::parse(run_program({"dynamics", "models/humanoid.urdf", "--base", "fixed", "--json"}).out);
+  if (json["fixed_mass"] > 0.0) EXPECT_THAT(words.out, HasSubstr("fixed to the world"));
+  EXPECT_GE(json["fixed_mass"].get<double>(), 0);
+}
+
 }  // namespace
 }  // namespace chainreel

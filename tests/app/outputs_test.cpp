@@ -283,7 +283,7 @@ TEST(Outputs, AuditsBeginWithTheFirstClip) {
     for (const std::string& file : files) words = with(words, {"-o", folder.file(file)});
     const ProgramResult result = run_program(words);
     EXPECT_EQ(result.status, 0) << result.err;
-    return Json::parse(result.out)[0];
+    return Json::parse(result.out)["films"][0];
   };
   const auto beside = [&](const char* name) { return Json::parse(read_whole_file(folder.file(name))); };
   const auto expect_clip = [&](const Json& audit, const char* clip) {

@@ -149,7 +149,7 @@ TEST_F(Parts, TellWhichFramesTheyAreAndAShareWithoutFramesLeavesNone) {
     const ProgramResult result = run_program(
         render_of("rr_ellipse", {"--set", "duration=0.3", "--json", "--shard", shard, "-o", folder.file("a.mp4")}));
     EXPECT_EQ(result.status, 0);
-    return Json::parse(result.out).front();
+    return Json::parse(result.out)["films"].front();
   };
   EXPECT_EQ(report("1/2")["file"], nullptr);
   EXPECT_TRUE(fs::is_empty(folder.path()));

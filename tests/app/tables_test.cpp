@@ -296,12 +296,40 @@ TEST(StandardInput, OfAnotherSceneIsAnotherSweep) {
   EXPECT_NE(sweep("0"), sweep("9"));
 }
 
+TEST(SnapshotNumbers, GoWithSeveralFilesOfOnePicture) {
+  const TemporaryFolder folder;
+  const Words words{"snapshot", "assets/scenes/rr_torque.yaml", "--at", "0.5", "--width", "64", "--height", "36"};
+  const ProgramResult both = run_program(with(words, {"-o", folder.file("a.svg"), "-o", folder.file("b.png"), "--json"}));
+  ASSERT_EQ(both.status, 0) << both.err;
+  EXPECT_EQ(Json::parse(both.out)["files"], Json({folder.file("a.svg"), folder.file("b.png")}));
+  EXPECT_EQ(Json::parse(both.out)["pictures"].size(), 1u);
+  EXPECT_TRUE(std::filesystem::exists(folder.file("a.svg")) && std::filesystem::exists(folder.file("b.png")));
+  const ProgramResult mixed = run_program(with(words, {"-o", folder.file("c.svg"), "-o", folder.file("d/")}));
+  EXPECT_EQ(mixed.status, 2);
+  EXPECT_THAT(mixed.err, HasSubstr("several -o name files of one picture"));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("c.svg")));
+}
+
+TEST(MotionTables, TellTheUnitsOfMultipliers) {
+  const TemporaryFolder folder;
+  const auto head = [&](const std::string& constraints) {
+    const std::string scene = folder.write("a.yaml", "model: pp.urdf\nduration: 0.1\nmethod: rk4\nconstraints:\n" + constraints);
+    const ProgramResult run = run_program({"simulate", scene, "--columns", "t,lambda", "-o", "-", "--quiet"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.out.substr(0, run.out.find('\n'));
+  };
+  EXPECT_EQ(head("  - {line: {frame: gripper, point: [0, 0], direction: [1, 0]}}\n"), "t [s],lambda1 [N]");
+  EXPECT_EQ(head("  - {joint: {name: joint1, value: 0}}\n"), "t [s],lambda1 [N]") << "a slider";
+  const std::string turning = folder.write("b.yaml", "model: rr.urdf\nduration: 0.1\nmethod: rk4\nconstraints: [{joint: {name: joint2, value: 0}}]\n");
+  EXPECT_THAT(run_program({"simulate", turning, "--columns", "lambda", "-o", "-", "--quiet"}).out, testing::StartsWith("lambda1 [N m]\n"));
+}
+
 TEST(SnapshotNumbers, AreThoseOfDynamicsAtThatInstant) {
   const TemporaryFolder folder;
   const ProgramResult shot = run_program({"snapshot", "assets/scenes/rr_torque.yaml", "--at", "0.5", "--width", "64", "--height", "36", "-o",
                                           folder.file("a.svg"), "--json"});
   ASSERT_EQ(shot.status, 0) << shot.err;
-  const Json shown = Json::parse(shot.out)["panels"][0];
+  const Json shown = Json::parse(shot.out)["pictures"][0]["panels"][0];
   const Json state = Json::parse(run_program({"dynamics", "assets/scenes/rr_torque.yaml", "--at", "0.5", "--json"}).out);
   EXPECT_EQ(shown["t"], 0.5);
   for (const char* key : {"q", "qd", "tau", "kinetic", "potential"}) EXPECT_EQ(shown[key], state[key]) << key;

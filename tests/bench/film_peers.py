@@ -175,7 +175,7 @@ def measure_scenes(chainreel, scenes, rounds):
             if run.returncode:
                 print(f"{scene.stem}: {run.stderr.strip()}", flush=True)
                 continue
-            film = json.loads(run.stdout)[0]
+            film = json.loads(run.stdout)["films"][0]
             ours, alone, ratio, one = film["whole"], film["encoder_alone"], film["ratio"], film["one_encoder"]
             rows.writerow([scene.stem, film["frames"], film["jobs"], f"{ours['wall']:.2f}", f"{alone['wall']:.2f}", f"{ratio['wall']:.3f}",
                            f"{ours['cpu']:.2f}", f"{alone['cpu']:.2f}", f"{ratio['cpu']:.3f}",

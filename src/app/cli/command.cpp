@@ -15,6 +15,11 @@
 #include "scene/scene.hpp"
 
 namespace chainreel {
+namespace {
+
+constexpr std::size_t kMostPanels = 12;
+
+}  // namespace
 
 void add_scene_options(Command& command, CommonOptions& options) {
   command.add_repeatable("--set", options.set, "override a scene key: --set video.width=640 (repeatable)");
@@ -36,6 +41,10 @@ void add_force_option(Command& command, CommonOptions& options) {
   command.add_flag("--force", options.force, "overwrite files outside a folder named out");
 }
 
+void add_panel_option(Command& command, int& panel) {
+  command.add_option("--panel", panel, "one panel of a scene that compares several, from 1").range(1, int(kMostPanels));
+}
+
 void add_result_options(Command& command, CommonOptions& options) {
   add_json_option(command, options);
   add_quiet_option(command, options);
@@ -43,8 +52,6 @@ void add_result_options(Command& command, CommonOptions& options) {
 }
 
 namespace {
-
-constexpr std::size_t kMostPanels = 12;
 
 // name=folder; folders are relative to where the program runs.
 std::pair<std::string, std::string> parse_package(const std::string& text) {
@@ -120,6 +127,10 @@ std::optional<std::size_t> coordinate_of(const Chain& chain, const std::string& 
 
 namespace {
 
+std::string after_semicolon(const std::string& words) {
+  return words.empty() ? "" : "; " + words;
+}
+
 // A number for each of `names`.
 std::vector<double> parse_counted(const std::vector<std::string>& names, const Chain& chain, const std::string& text,
                                   const std::string& what) {
@@ -128,7 +139,8 @@ std::vector<double> parse_counted(const std::vector<std::string>& names, const C
   if (values.size() != names.size())
     throw Error(ExitCode::usage, what + " " + text + " has " + std::to_string(values.size()) +
                                      (values.size() == 1 ? " number" : " numbers") + ", but " + chain.name + " needs " +
-                                     std::to_string(names.size()) + ": of " + shortened(joined(names), kMostNamed));
+                                     std::to_string(names.size()) + ": of " + shortened(joined(names), kMostNamed) +
+                                     after_semicolon(shortened(followers_of(chain), kMostNamed)));
   return values;
 }
 
@@ -147,7 +159,7 @@ std::vector<double> pose_by_name(const Chain& chain, const std::vector<std::stri
     const std::optional<std::size_t> at = coordinate_of(chain, name);
     if (!at)
       throw Error(ExitCode::usage, what + " " + text + ": " + chain.name + " has no coordinate '" + name + "':" +
-                                       did_you_mean(name, names) + " It has " + joined(names));
+                                       did_you_mean(name, names) + " It has " + joined(names) + after_semicolon(followers_of(chain)));
     if (is_set[*at]) throw Error(ExitCode::usage, what + " " + text + ": names " + name + " twice");
     is_set[*at] = true;
     const std::vector<double> value = parse_list(number, what);

@@ -49,6 +49,9 @@ void add_force_option(Command& command, CommonOptions& options);
 // The last three: of what writes a file and can tell of it.
 void add_result_options(Command& command, CommonOptions& options);
 
+// --panel, which chosen_panel takes.
+void add_panel_option(Command& command, int& panel);
+
 // `set` with what the other options say in the words of a scene.
 std::vector<std::string> overrides_of(const CommonOptions& options);
 

@@ -6,7 +6,7 @@
 #include <deque>
 #include <sstream>
 
-#include "app/cli/data_folder.hpp"
+#include "core/data_folder.hpp"
 #include "app/cli/streams.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"

@@ -18,10 +18,7 @@ void tell_result(const CommonOptions& options, const std::function<Json()>& foun
 }
 
 Json files_json(const std::vector<std::string>& files) {
-  Json json = Json::object();
-  if (!files.empty()) json["file"] = files.front();
-  if (files.size() > 1) json["files"] = files;
-  return json;
+  return {{"file", files.empty() ? Json(nullptr) : Json(files.front())}, {"files", files}};
 }
 
 void tell_files(const CommonOptions& options, const std::vector<std::string>& files, const std::function<Json()>& found,

@@ -18,7 +18,7 @@ void print_json(const Json& found);
 // With --json the first, else the second unless --quiet. Only the one that is told is made.
 void tell_result(const CommonOptions& options, const std::function<Json()>& found, const std::function<void()>& in_words);
 
-// The names of files that were written: {"file": the first}, with "files" where there are several.
+// The names of files that were written: {"file": the first, or null, "files": all}.
 Json files_json(const std::vector<std::string>& files);
 
 // What a command wrote: `in_words` where there is anything to say, then the files' names, one a line; or `files_json` with

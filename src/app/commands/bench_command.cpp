@@ -232,7 +232,7 @@ void run_bench(const BenchOptions& options) {
                      format_fixed(m.whole.wall / m.floor.wall, 2), format_fixed(m.whole.cpu / m.floor.cpu, 2), format_fixed(m.one_encoder.wall, 2),
                      format_fixed(m.whole.wall / m.one_encoder.wall, 2)});
   }
-  tell_result(options.common, [&] { return all; }, [&] {
+  tell_result(options.common, [&] { return Json{{"films", all}}; }, [&] {
     if (options.scenes.size() > 1) std::fputs(table_text(table).c_str(), stdout);
   });
 }

@@ -1,5 +1,7 @@
 // chainreel chart SCENE: speed against accuracy, every method at every rung of its ladder.
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -28,6 +30,7 @@ struct ChartOptions {
   std::string highlight;
   int runs = 5;
   std::string longest = "100ms";
+  int panel = 0;  // from 1; 0: the motion that all share
   FigureOptions figure;
   CommonOptions common;
 };
@@ -65,7 +68,12 @@ Measured measure_all(PreparedScene& prepared, const std::vector<const Method*>& 
   if (!measured.choice)
     measured.choice = choose_with_progress(simulation, prepared.scene, frame_times(prepared.scene), options.common.quiet);
   throw_if_interrupted();
-  measured.reference = end_reference(simulation);
+  {
+    // It takes seconds and cannot be asked how far it is.
+    Ticker ticker(options.common.quiet);
+    if (!options.common.quiet && isatty(STDERR_FILENO) != 0) ticker.say(prepared.scene.name + ": computing the reference");
+    measured.reference = end_reference(simulation);
+  }
   LadderOptions ladder;
   ladder.runs = options.runs;
   ladder.longest_run = parse_positive_seconds(options.longest, "--longest", "100ms");
@@ -216,11 +224,9 @@ void run_chart(const ChartOptions& options) {
   check_figure_size(options.figure);
   const std::vector<const Method*> chosen = parse_methods(options.methods);
   const std::vector<std::string> lit = highlighted(options, chosen);
-  PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false, options.common.quiet);
+  PreparedScene prepared = load_motion(options.scene, overrides_of(options.common), options.panel, options.common.quiet);
   require_computed_run(prepared.scene, "chart");
-  std::string output = options.figure.output;
-  if (output.empty()) output = "out/" + prepared.scene.name + "_chart.png";
-  check_figure_path(output);
+  const FigureFiles files(options.figure, "out/" + prepared.scene.name + "_chart.png", options.common.force);
   Measured measured = measure_all(prepared, chosen, options);
   WorkPrecision data = data_of(prepared, measured, options);
   for (const std::string& name : lit)
@@ -232,9 +238,9 @@ void run_chart(const ChartOptions& options) {
   const ChartCost panels[] = {ChartCost::seconds, ChartCost::evaluations};
   light_curves(data, panels, lit);
   const auto report = [&] { return json_of(options.scene, measured); };
-  const auto files = write_figure(work_precision_chart(data, panels, look), {csv_of(options.scene, measured), report},
-                                  options.figure, output, fonts, options.common.force);
-  tell_files(options.common, files, report, [&] { print_summary(data, measured); });
+  const auto written = files.write([&] { return work_precision_chart(data, panels, look); },
+                                   {csv_of(options.scene, measured), report}, fonts);
+  tell_files(options.common, written, report, [&] { print_summary(data, measured); });
 }
 
 }  // namespace
@@ -250,6 +256,7 @@ void add_chart_command(CommandLine& app) {
   command->add_option("--runs", options->runs, "of each rung; the median counts").range(1, 1000);
   command->add_option("--longest", options->longest, "rungs that would take longer are left out: 100ms")
       .show_default();
+  add_panel_option(*command, options->panel);
   add_figure_options(*command, options->figure, options->common, "out/NAME_chart.png");
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);

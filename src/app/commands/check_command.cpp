@@ -13,6 +13,7 @@
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
 #include "app/report/report.hpp"
+#include "app/report/run_report.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "dynamics/equation_of_motion.hpp"
@@ -56,6 +57,7 @@ Json model_report(const Chain& chain) {
                {"parent", body.parent == 0 ? "world" : chain.bodies[std::size_t(body.parent)].name},
                {"mass", body.inertia.mass}};
     const std::string& coordinate = chain.coordinate_names[std::size_t(body.joint.v_index)];
+    joint.update({{"follows", nullptr}, {"ratio", nullptr}, {"offset", nullptr}});
     if (body.joint.kind != JointKind::floating && coordinate != body.joint.name)
       joint.update({{"follows", coordinate}, {"ratio", body.joint.ratio}, {"offset", body.joint.offset}});
     json["joints"].push_back(joint);
@@ -65,9 +67,12 @@ Json model_report(const Chain& chain) {
   json["why"] = chain.why_algebra;
   json["forward_dynamics"] = forward_dynamics_algorithm(chain);
   json["gravity"] = to_json(chain.gravity);
+  json["friction"] = nullptr;
   if (std::any_of(chain.bodies.begin(), chain.bodies.end(), [](const Body& b) { return b.joint.friction > 0; }))
     json["friction"] = {{"law", "F tanh(qd / " + format_shortest(kFrictionSmoothing) + ")"},
                         {"creeps_under_three_quarters", kFrictionSmoothing * std::atanh(0.75)}};
+  json["constraints"] = nullptr;  // of a scene
+  json["end_effector"] = nullptr;
   if (chain.end_effector >= 0) json["end_effector"] = chain.frames[std::size_t(chain.end_effector)].name;
   json["ends"] = Json::array();
   for (const int frame : chain.leaf_frames) json["ends"].push_back(chain.frames[std::size_t(frame)].name);
@@ -98,7 +103,7 @@ Json cost_report(const Scene& scene, const Simulation& simulation, int frames) {
 
 // What a joint mimics: "-1 left + 0.2".
 std::string follows_text(const Json& joint) {
-  if (!joint.contains("follows")) return "";
+  if (joint["follows"].is_null()) return "";
   const double ratio = joint["ratio"].get<double>(), offset = joint["offset"].get<double>();
   std::string text = (ratio == 1 ? "" : format_shortest(ratio) + " ") + joint["follows"].get<std::string>();
   if (offset != 0) text += (offset > 0 ? " + " : " - ") + format_shortest(std::abs(offset));
@@ -121,17 +126,17 @@ void print_model(const Json& model) {
     table.push_back({joint["name"].get<std::string>(), joint["kind"].get<std::string>(),
                      joint["body"].get<std::string>(), joint["parent"].get<std::string>(),
                      joint["mass"].dump(), follows_text(joint)});
-    any_mimics |= joint.contains("follows");
+    any_mimics |= !joint["follows"].is_null();
   }
   table.front().emplace_back(any_mimics ? "mimics" : "");
   if (!any_mimics)
     for (std::vector<std::string>& row : table) row.pop_back();
   std::fputs(table_text(table).c_str(), stdout);
-  if (model.contains("friction"))
+  if (!model["friction"].is_null())
     std::printf("friction: %s, in which nothing sticks: pushed by 3/4 of its F a joint creeps at %s rad/s or m/s\n",
                 model["friction"]["law"].get<std::string>().c_str(),
                 format_significant(model["friction"]["creeps_under_three_quarters"].get<double>(), 2).c_str());
-  if (model.contains("end_effector"))
+  if (!model["end_effector"].is_null())
     std::printf("end effector: %s\n", model["end_effector"].get<std::string>().c_str());
   else
     std::printf("end effector: none of %s; choose one with `--set end_effector=NAME`\n",
@@ -187,13 +192,13 @@ ExaminedRun examine_run(const PreparedScene& prepared, int frames) {
     report.cost["shapes"] = prepared.shapes->shapes.size();
     report.cost["triangles"] = triangles;
   }
-  if (prepared.choice) report.cost["auto"] = choice_report(*prepared.choice, prepared.scene.accuracy, true);
+  report.cost["auto"] = prepared.choice ? choice_report(*prepared.choice, prepared.scene.accuracy, true) : Json(nullptr);
   return report;
 }
 
 void print_run(const PreparedScene& prepared, const ExaminedRun& report, bool all) {
   print_model(report.model);
-  if (report.model.contains("constraints"))
+  if (!report.model["constraints"].is_null())
     std::printf("%s\n", constraint_plan_text(report.model["constraints"]).c_str());
   const Json& cost = report.cost;
   if (prepared.simulation.motion)
@@ -234,7 +239,7 @@ void check_scene(const CheckOptions& options) {
   const std::string text = scene_text(film.scene);
   const bool alone = reports.size() == 1;
   if (options.common.json) {
-    Json json{{"scene", text}};
+    Json json{{"scene", text}, {"model", nullptr}, {"cost", nullptr}, {"panels", Json::array()}, {"slow_motion", Json::array()}};
     if (alone) json.update({{"model", reports[0].model}, {"cost", reports[0].cost}});
     for (std::size_t i = 0; i < reports.size() && !alone; ++i)
       json["panels"].push_back(
@@ -272,7 +277,7 @@ void check_model(const CheckOptions& options) {
     else if (!options.common.json)
       std::printf("%s: %s\n", severity.c_str(), to_string(Problem{finding.message, finding.place}).c_str());
   }
-  Json report{{"findings", list}};
+  Json report{{"findings", list}, {"model", nullptr}};
   if (errors.empty())
     report["model"] = model_report(read_chain(options.file, model.options));
   if (options.common.json)

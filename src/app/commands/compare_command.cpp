@@ -96,6 +96,7 @@ void run_compare(CompareOptions options) {
                    {"after", options.after},
                    {"equal", found.equal},
                    {"passes", found.passes}});
+    report["tolerance"] = nullptr;
     if (kind.has_picture)
       report["tolerance"] = {{"error", options.tolerance.error},
                              {"pixels", options.tolerance.pixels},
@@ -142,7 +143,8 @@ void add_compare_command(CommandLine& app) {
   command->footer(
       "Exit code 1 where they differ beyond the tolerance. Of pictures and films pixels alone are judged, what they remember of\n"
       "their scenes and models is told: a mass that no pixel shows is a difference for `verify` and of two .urdf files.\n"
-      "Example: chainreel compare before.png after.png -o out/difference.png");
+      "Example: chainreel compare out/before.png out/after.png -o out/difference.png\n"
+      "of what  chainreel snapshot rr_free -o out/before.png  and  chainreel snapshot rr_free --at 0.1 -o out/after.png  write");
   command->callback([options] { run_compare(*options); });
 }
 

@@ -64,6 +64,7 @@ void print_renderer(const Json& renderer) {
 
 void run_doctor(const CommonOptions& options) {
   Examination examination;
+  examination.report = {{"renderer", nullptr}, {"fonts", Json::object()}};
   examine_fonts(examination);
   examine_encoders(examination);
   for (const LibraryLine& line : library_versions()) examination.report["versions"][line.name] = line.version;
@@ -71,10 +72,9 @@ void run_doctor(const CommonOptions& options) {
   if (options.json) {
     print_json(report);
   } else {
-    if (report.contains("renderer")) print_renderer(report["renderer"]);
-    if (report.contains("fonts"))
-      for (const auto& [name, font] : report["fonts"].items())
-        std::printf("font      %-10s %s\n", name.c_str(), font["file"].get<std::string>().c_str());
+    if (!report["renderer"].is_null()) print_renderer(report["renderer"]);
+    for (const auto& [name, font] : report["fonts"].items())
+      std::printf("font      %-10s %s\n", name.c_str(), font["file"].get<std::string>().c_str());
     for (const Json& encoder : report["encoders"])
       std::printf("encoder   %s\n", encoder.get<std::string>().c_str());
     for (const Json& build : report["builds"])

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/cli/named_pose.hpp"
 #include "app/cli/command.hpp"
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
@@ -102,9 +103,12 @@ void add_split(Json& json, const Chain& chain, Workspace& ws, const State& state
 
 void add_task(Json& json, const TipMass& tip, Workspace& ws, const State& state, Task task) {
   const Chain& chain = tip.chain();
+  json["ends"] = Json::array();
+  for (const int leaf : chain.leaf_frames) json["ends"].push_back(chain.frames[std::size_t(leaf)].name);
   if (chain.end_effector < 0) {
-    json["end_effector"] = nullptr;
-    for (const int leaf : chain.leaf_frames) json["ends"].push_back(chain.frames[std::size_t(leaf)].name);
+    for (const char* key : {"end_effector", "x", "xd", "J", "Jd_qd", "basis", "Lambda_inv", "Lambda", "mobility", "directions",
+                            "singular_directions"})
+      json[key] = nullptr;
     return;
   }
   compute_kinematics(chain, ws, state.q, state.qd);
@@ -135,6 +139,7 @@ void add_energies(Json& json, const Chain& chain, Workspace& ws, const State& st
   json.update(
       energy_report(energy_of(chain, ws, state.q, state.qd), momentum_of(chain, ws, state.q, state.qd)));
   const std::vector<BodyEnergy> bodies = body_energies_of(chain, ws, state.q, state.qd);
+  json["fixed_mass"] = chain.bodies[0].inertia.mass;  // kg, whose energy never changes and is left out
   json["bodies"] = Json::array();
   for (std::size_t i = 1; i < bodies.size(); ++i) {
     Json body{{"name", chain.bodies[i].name}};
@@ -161,6 +166,10 @@ Json report(const TipMass& tip, const State& state, const DynamicsOptions& optio
   add_split(json, chain, ws, state);
   add_task(json, tip, ws, state, options.task == "full" ? Task::full : Task::linear);
   add_energies(json, chain, ws, state);
+  json["scene"] = json["t"] = nullptr;
+  json["h"] = sum_of(json["nle"], json["tau_f"]);
+  json["constraint_rows"] = json["phi"] = json["J_c"] = json["Jcd_qd"] = json["lambda"] = json["contact_forces"] = Json::array();
+  json["constraint_status"] = json["baumgarte_gain"] = nullptr;
   return json;
 }
 
@@ -197,12 +206,7 @@ Json scene_report(const DynamicsOptions& options) {
                 "--q, --qd and --tau go with a model; a scene has the state of its run at --at: to start elsewhere, "
                 "take --set 'start.q=[..]' and --set 'torque=[..]'");
   const PreparedFilm film = load_film(options.file, overrides_of(options), false);
-  const std::size_t count = film.panels.size();
-  if (options.panel > int(count))
-    throw Error(ExitCode::usage, "--panel " + std::to_string(options.panel) + ": the scene has " +
-                                     std::to_string(count) + (count == 1 ? " panel" : " panels"));
-  if (options.panel == 0) require_single_run(film.scene);
-  const PreparedScene& prepared = film.panels[std::size_t(std::max(options.panel, 1) - 1)];
+  const PreparedScene& prepared = film.panels[chosen_panel(film.scene, options.panel)];
   const double at = options.at.empty() ? 0 : parse_seconds(options.at, "--at");
   if (!(at >= 0 && at <= film.scene.duration))
     throw Error(ExitCode::usage, "--at " + options.at + " lies outside the scene's duration of " +
@@ -219,7 +223,6 @@ Json scene_report(const DynamicsOptions& options) {
   Json json = report(tip, state, options);
   json["scene"] = options.file;
   json["t"] = at;
-  json["h"] = sum_of(json["nle"], json["tau_f"]);
   if (options.formulation != "lagrange") json["qdd"] = list(now.qdd);
   if (tip.is_constrained()) add_constraints(json, now, simulation.constraints);
   return json;
@@ -229,7 +232,7 @@ Json model_report(const DynamicsOptions& options) {
   if (!options.at.empty() || options.panel > 0)
     throw Error(ExitCode::usage, "--at and --panel go with a scene; the state of a model is what --q, --qd and --tau say");
   const Chain chain = load_chain(options);
-  const State state{parse_pose(chain, options.q, "--q"), parse_freedoms(chain, options.qd, "--qd", StateNumbers::qd),
+  const State state{parse_pose(chain, named_pose_text(chain, options.file, options.q, "--q"), "--q"), parse_freedoms(chain, options.qd, "--qd", StateNumbers::qd),
                     parse_freedoms(chain, options.tau, "--tau", StateNumbers::tau)};
   return report(TipMass(chain), state, options);
 }
@@ -251,6 +254,8 @@ void run_dynamics(const DynamicsOptions& options) {
     return;
   }
   for (const auto& [key, value] : json.items()) {
+    const bool may_be_infinite = key == "Lambda" && !json["end_effector"].is_null();
+    if (value.empty() && key != "end_effector" && !may_be_infinite) continue;  // null, or a list of nothing
     if (key == "contact_forces")
       for (const Json& one : value)
         std::printf("%-20s %s on %s\n", "contact_force", text_of(one["force"]).c_str(),
@@ -259,8 +264,10 @@ void run_dynamics(const DynamicsOptions& options) {
       std::printf("end_effector         none, as the model has several ends and no link 'gripper': for x, J and Lambda choose one with "
                   "--end-effector NAME: %s\n",
                   joined(json["ends"].get<std::vector<std::string>>()).c_str());
-    else if (key == "ends")
+    else if (key == "ends" || (key == "fixed_mass" && value == 0.0))
       continue;
+    else if (key == "fixed_mass")
+      std::printf("%-20s %s, which `potential` and the momenta leave out: it is fixed to the world\n", key.c_str(), text_of(value).c_str());
     else if (key != "bodies")
       std::printf("%-20s %s\n", key.c_str(), text_of(value).c_str());
   }
@@ -275,8 +282,8 @@ void add_dynamics_command(CommandLine& app) {
                                      "mechanism at an instant, with J_c and lambda of its constraints");
   command->add_option("file", options->file, "a model (.urdf) or a scene (.yaml)").required().names_input();
   command->add_option("--at", options->at, "instant of the scene in seconds (default 0)");
-  command->add_option("--panel", options->panel, "one panel of a scene that compares several, from 1").range(1, 12);
-  command->add_option("--q", options->q, "of a model: joint positions, --q 0,90deg");
+  add_panel_option(*command, options->panel);
+  command->add_option("--q", options->q, "of a model: joint positions, --q 0,90deg, or a state of an SRDF beside it: --q home");
   command->add_option("--qd", options->qd, "of a model: joint rates");
   command->add_option("--tau", options->tau, "of a model: joint torques, N m or N");
   command->add_option("--gravity", options->gravity, "world x,y,z in m/s^2");

@@ -7,7 +7,8 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
-#include "app/cli/data_folder.hpp"
+#include "core/data_folder.hpp"
+#include "app/cli/named_pose.hpp"
 #include "app/cli/result.hpp"
 #include "app/commands/ellipse_numbers.hpp"
 #include "app/commands/figure.hpp"
@@ -209,7 +210,9 @@ EllipseJob job_of_model(const EllipseOptions& options) {
   job.motion.families = families_of(model.scene);
   Motion& motion = job.motion;
   require_end_effector(motion.chain);
-  motion.poses = gather_poses(motion.chain, options.sources);
+  PoseSources sources = options.sources;
+  for (std::string& pose : sources.poses) pose = named_pose_text(motion.chain, model.scene.model.path, pose, "--pose");
+  motion.poses = gather_poses(motion.chain, sources);
   motion.ellipse = model.scene.ellipse;
   set_look(job.figure, model, motion.chain);
   job.figure.title = model.scene.title;
@@ -296,7 +299,7 @@ void add_ellipse_command(CommandLine& app) {
   Command* command = app.add_subcommand("ellipse", "a figure of the effective mass at chosen poses");
   command->add_option("model", options->model, "a model (.urdf), or a scene (.yaml) for its model, as in numbers; not with --along").names_input();
   PoseSources& sources = options->sources;
-  command->add_repeatable("--pose", sources.poses, "q of the chain: --pose 0,90deg, or by joints: --pose joint2=90deg (repeatable)");
+  command->add_repeatable("--pose", sources.poses, "q of the chain: --pose 0,90deg, by joints: --pose joint2=90deg, or a state of an SRDF beside it: --pose home (repeatable)");
   command->add_option("--sweep", sources.sweep, "poses that differ in one coordinate: --sweep q2=0:180deg:9");
   command->add_option("--along", sources.along, "poses along the motion of a scene (.yaml)").names_input();
   command->add_flag("--field", sources.field, "a grid of points of the workspace, of planar chains of 2 or 3 joints");

@@ -29,10 +29,6 @@ Eigen::Vector3d point_of(const Chain& chain, Workspace& ws, const std::vector<do
   return frame_position(chain, ws, chain.end_effector);
 }
 
-Json number_or_null(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
 std::string number_or_inf(const std::optional<double>& value) {
   return value ? format_exact(*value) : "inf";
 }
@@ -54,15 +50,15 @@ Json ellipse_json(const TipMass& tip, const GatheredPoses& poses, const EllipseF
   Json list = Json::array();
   for (std::size_t i = 0; i < poses.q.size(); ++i) {
     Json entry;
-    if (i < poses.t.size()) entry["t"] = poses.t[i];
+    entry["t"] = i < poses.t.size() ? Json(poses.t[i]) : Json(nullptr);
     entry["q"] = to_json(std::span<const double>(poses.q[i]));
     const EffectiveMass mass = tip.at(ws, poses.q[i]);
     entry["point"] = to_json(point_of(chain, ws, poses.q[i]));
     add_effective_mass(entry, mass);
     entry["eigenvalues"] = entry["semi_axes"] = Json::array();
-    for (const MassAxis& axis : mass_axes(mass)) entry["eigenvalues"].push_back(number_or_null(axis.mass));
+    for (const MassAxis& axis : mass_axes(mass)) entry["eigenvalues"].push_back(or_null(axis.mass));
     for (const MassAxis& axis : drawn_axes(chain, ws, poses.q[i], mass, form))
-      entry["semi_axes"].push_back(number_or_null(semi_axis(axis, form.reading)));
+      entry["semi_axes"].push_back(or_null(semi_axis(axis, form.reading)));
     list.push_back(entry);
   }
   return list;
@@ -120,16 +116,31 @@ constexpr int kPosesAlong = 6, kPointsAcross = 12;
 // Of a motion: at 10 m/s on a turn of 1 m chords of 5 cm lie 0.3 mm off the path, less than a pixel of 4 m.
 constexpr int kPathPoints = 400, kMostPathPoints = 8000, kPathPointsPerSecond = 200;
 
+// What can be typed for this chain: "q1=0:90deg:9", of a slider "q1=0:0.5:9".
+std::string sweep_of(const Chain& chain, std::size_t coordinate) {
+  const bool slides = std::any_of(chain.bodies.begin() + 1, chain.bodies.end(), [&](const Body& body) {
+    return body.joint.kind == JointKind::prismatic && body.joint.q_index == int(coordinate);
+  });
+  return "q" + std::to_string(coordinate + 1) + (slides ? "=0:0.5:9" : "=0:90deg:9");
+}
+
+std::string pose_of_zeros(const Chain& chain) {
+  std::string pose;
+  for (const double q : zero_configuration(chain)) pose += (pose.empty() ? "" : ",") + format_shortest(q);
+  return pose;
+}
+
 GatheredPoses swept(const Chain& chain, const PoseSources& sources) {
   if (sources.poses.size() > 1)
     throw Error(ExitCode::usage, "--sweep starts from one --pose, not from several");
   const std::vector<double> from =
       sources.poses.empty() ? zero_configuration(chain) : parse_pose(chain, sources.poses[0], "--pose");
-  const Sweep sweep = parse_sweep(sources.sweep, "--sweep");
+  const Sweep sweep = parse_sweep(sources.sweep, "--sweep", sweep_of(chain, std::size_t(chain.nq - 1)));
   const std::optional<std::size_t> at = coordinate_of(chain, sweep.key);
   if (!at)
     throw Error(ExitCode::usage, "--sweep " + sweep.key + ": " + chain.name + " has no such coordinate; it has q1 to q" +
-                                     std::to_string(position_names(chain).size()));
+                                     std::to_string(position_names(chain).size()) + ", like --sweep " +
+                                     sweep_of(chain, std::size_t(chain.nq - 1)));
   GatheredPoses gathered;
   std::string doubt;  // one stands for all
   for (const std::string& value : sweep.values) {
@@ -142,7 +153,8 @@ GatheredPoses swept(const Chain& chain, const PoseSources& sources) {
     } catch (const Error& error) {
       refuse(error.problems().front().message);
     }
-    if (const std::string trouble = trouble_of_units(chain, written, StateNumbers::q); !trouble.empty()) refuse(trouble);
+    if (const std::string trouble = trouble_of_units(chain, written, StateNumbers::q); !trouble.empty())
+      refuse(trouble + ", like --sweep " + sweep_of(chain, *at));
     if (const std::vector<std::string> doubts = doubts_of_pose(chain, q, written); doubt.empty() && !doubts.empty()) doubt = doubts.front();
     gathered.q.push_back(std::move(q));
   }
@@ -177,7 +189,8 @@ GatheredPoses gather_poses(const Chain& chain, const PoseSources& sources) {
   }
   if (!sources.sweep.empty()) return swept(chain, sources);
   if (sources.poses.empty())
-    throw Error(ExitCode::usage, "which poses? Give --pose 0,90deg, --sweep q2=0:180deg:9, --along SCENE or --field");
+    throw Error(ExitCode::usage, "which poses? Give --pose " + pose_of_zeros(chain) + ", --sweep " + sweep_of(chain, std::size_t(chain.nq - 1)) +
+                                     ", --along SCENE or --field");
   GatheredPoses gathered;
   gathered.q = parse_poses(chain, sources.poses, "--pose");
   return gathered;

@@ -1,4 +1,4 @@
-// chainreel energy SCENE --until 1000s: how far the energy strays with each method.
+// chainreel energy SCENE --until 1000s: how far the energy strays with each method, or in each panel of a comparison.
 
 #include <algorithm>
 #include <cmath>
@@ -9,13 +9,15 @@
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
-#include "app/film/progress.hpp"
+#include "app/film/automatic.hpp"
 #include "app/film/prepared.hpp"
+#include "app/film/progress.hpp"
 #include "app/report/report.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/charts/energy_chart.hpp"
 #include "draw/page/house_style.hpp"
+#include "scene/text/read_scene.hpp"
 #include "sim/audit.hpp"
 #include "sim/workload.hpp"
 
@@ -28,6 +30,7 @@ struct EnergyOptions {
   std::string methods;
   std::string step;
   double tolerance = 0;
+  int panel = 0;  // from 1; 0: not given
   FigureOptions figure;
   CommonOptions common;
 };
@@ -48,23 +51,96 @@ std::vector<double> times_until(double end) {
   return times;
 }
 
-// Fixed steps and tolerances are those asked for, else the scene's, else the defaults.
-struct Settings {
-  double step, tolerance;
-  MethodSetting of(const Method& method) const {
-    const int order = method.highest_order > 0 ? method.order : 0;
-    return method.adaptive ? MethodSetting{&method, {tolerance, order}, 0} : MethodSetting{&method, {}, step};
-  }
+// One curve: a method on the motion, or a panel as its scene says it.
+struct Subject {
+  Simulation* simulation = nullptr;
+  MethodSetting setting;
+  std::string title;  // what the picture and the table call it; "": the method
+  int panel = 0;      // from 1; 0: of no panel
 };
 
-Settings settings_of(const EnergyOptions& options, const Scene& scene) {
-  Settings settings{options.step.empty() ? 0 : parse_positive_seconds(options.step, "--step", "10ms"), options.tolerance};
-  if (settings.tolerance > 0 && settings.tolerance < kLeastTolerance)
+// What is compared, and on what.
+struct EnergySubjects {
+  std::vector<PreparedScene> scenes;  // the motion, or a panel each
+  std::vector<Subject> subjects;
+  std::vector<std::string> left_out;
+  std::string title;     // of the picture of which these are panels
+  std::string settings;  // of all subjects: "steps of 0.01 s, tolerances of 1e-09"; "": each has its own
+
+  const PreparedScene& first() const { return scenes.front(); }
+};
+
+// Fixed steps and tolerances are those asked for, else the scene's, else the defaults.
+struct Settings {
+  std::optional<double> step, tolerance;
+
+  MethodSetting of(const Method& method, const Scene& scene) const {
+    const int order = method.highest_order > 0 ? scene.order && method.name == scene.method ? *scene.order : method.order : 0;
+    return method.adaptive ? MethodSetting{&method, {tolerance_in(scene), order}, 0} : MethodSetting{&method, {}, step_in(scene)};
+  }
+  double step_in(const Scene& scene) const { return step.value_or(scene.step.value_or(kDefaultStep)); }
+  double tolerance_in(const Scene& scene) const { return tolerance.value_or(scene.tolerance.value_or(kDefaultTolerance)); }
+};
+
+Settings settings_of(const EnergyOptions& options) {
+  Settings settings;
+  if (!options.step.empty()) settings.step = parse_positive_seconds(options.step, "--step", "10ms");
+  if (options.tolerance > 0 && options.tolerance < kLeastTolerance)
     throw Error(ExitCode::usage, "--tolerance is below the rounding of doubles, which no step can meet: take " +
                                      format_shortest(kLeastTolerance) + " or more");
-  if (settings.step <= 0) settings.step = scene.step.value_or(kDefaultStep);
-  if (settings.tolerance <= 0) settings.tolerance = scene.tolerance.value_or(kDefaultTolerance);
+  if (options.tolerance > 0) settings.tolerance = options.tolerance;
   return settings;
+}
+
+// All methods on one motion. Those that cannot take it are left out.
+EnergySubjects compare_methods_on(PreparedScene motion, const std::vector<const Method*>& methods, const Settings& settings) {
+  EnergySubjects all;
+  all.scenes.push_back(std::move(motion));
+  Simulation& simulation = all.scenes.front().simulation;
+  const Scene& scene = all.scenes.front().scene;
+  for (const Method* method : methods) {
+    simulation.method = method;
+    try {
+      check_method(simulation);
+      all.subjects.push_back({&simulation, settings.of(*method, scene), "", 0});
+    } catch (const Error& error) {
+      all.left_out.push_back(error.problems().front().message);
+    }
+  }
+  all.settings = "steps of " + format_shortest(settings.step_in(scene)) + " s, tolerances of " +
+                        format_shortest(settings.tolerance_in(scene));
+  return all;
+}
+
+// Each panel with its own method, step and tolerance, where the command line says no others.
+EnergySubjects compare_panels(PreparedFilm film, const Settings& settings) {
+  EnergySubjects all;
+  all.title = film.scene.title.empty() ? film.scene.name : film.scene.title;
+  all.scenes = std::move(film.panels);
+  for (PreparedScene& panel : all.scenes) {
+    Simulation& simulation = panel.simulation;
+    simulation.events = nullptr;  // curves are of one length
+    if (!simulation.method) continue;
+    MethodSetting setting{simulation.method, simulation.options, simulation.step};
+    if (settings.step && setting.step > 0) setting.step = *settings.step;
+    if (settings.tolerance && setting.options.tolerance > 0) setting.options.tolerance = *settings.tolerance;
+    all.subjects.push_back({&simulation, setting, panel.scene.title, int(all.subjects.size()) + 1});
+  }
+  return all;
+}
+
+EnergySubjects subjects_of(const EnergyOptions& options, const std::vector<const Method*>& methods, const Settings& settings) {
+  const std::vector<std::string> overrides = overrides_of(options.common);
+  if (options.methods.empty() && options.panel == 0 &&
+      !read_scene(options.scene, overrides, MethodsOf::command).compare.empty()) {
+    PreparedFilm film = load_film(options.scene, overrides, false, options.common.quiet);
+    for (const PreparedScene& panel : film.panels) require_computed_run(panel.scene, "energy");
+    say_choice(film.panels, options.common.quiet);
+    return compare_panels(std::move(film), settings);
+  }
+  PreparedScene motion = load_motion(options.scene, overrides, options.panel, options.common.quiet);
+  require_computed_run(motion.scene, "energy");
+  return compare_methods_on(std::move(motion), methods, settings);
 }
 
 std::string one_word(RunStatus status) {
@@ -72,8 +148,8 @@ std::string one_word(RunStatus status) {
 }
 
 struct MethodRun {
+  const Subject* subject = nullptr;
   EnergyCurve curve;  // at the ends of steps
-  MethodSetting setting;
   double largest = 0, at_end = 0;
   double largest_between = 0;  // on the method's dense output
   long evaluations = 0;
@@ -103,11 +179,12 @@ class Columns {
   std::size_t column_ = 0;
 };
 
-MethodRun run_method(Simulation& simulation, const MethodSetting& setting, const std::vector<double>& times,
-                     const StopRequest& stop) {
-  apply(setting, simulation);
+MethodRun run_subject(const Subject& subject, const std::vector<double>& times, const StopRequest& stop) {
+  Simulation& simulation = *subject.simulation;
+  const Method& method = *subject.setting.method;
+  apply(subject.setting, simulation);
   MethodRun run;
-  run.setting = setting;
+  run.subject = &subject;
   EnergyBalance balance(simulation);
   Columns columns(times, run.curve);
   const Trajectory trajectory = simulate(
@@ -120,43 +197,46 @@ MethodRun run_method(Simulation& simulation, const MethodSetting& setting, const
   throw_if_interrupted();
   run.largest_between = audit_of(simulation, trajectory).largest_error;
   run.evaluations = trajectory.evaluations;
-  run.curve.method = setting.method->name;
-  run.curve.title = setting.method->title;
+  run.curve.method = subject.panel > 0 ? subject.title : method.name;
+  run.curve.title = subject.panel > 0 ? subject.title : method.title;
   run.curve.trouble = one_word(trajectory.status);
-  run.curve.look = int(setting.method - methods().data());
+  run.curve.look = subject.panel > 0 ? -1 : int(&method - methods().data());
   return run;
 }
 
 std::string csv_of(const std::string& scene, const std::vector<MethodRun>& runs) {
   std::string text = csv_facts(scene);
-  for (const MethodRun& run : runs) text += "# " + to_string(run.setting) + "\n";
-  text += "method,t,energy_error\n";
+  for (const MethodRun& run : runs)
+    text += "# " + (run.subject->panel > 0 ? "panel " + std::to_string(run.subject->panel) + ": " : "") + to_string(run.subject->setting) + "\n";
+  const bool of_panels = !runs.empty() && runs.front().subject->panel > 0;
+  text += std::string(of_panels ? "panel," : "") + "method,t,energy_error\n";
   for (const MethodRun& run : runs)
     for (std::size_t k = 0; k < run.curve.t.size(); ++k)
-      text += run.curve.method + "," + format_shortest(run.curve.t[k]) + "," +
-              format_shortest(run.curve.error[k]) + "\n";
+      text += (of_panels ? std::to_string(run.subject->panel) + "," : "") + run.subject->setting.method->name + "," +
+              format_shortest(run.curve.t[k]) + "," + format_shortest(run.curve.error[k]) + "\n";
   return text;
 }
 
-EnergyChart chart_of(const PreparedScene& prepared, const Settings& settings, double until,
-                     const std::vector<MethodRun>& runs) {
+EnergyChart chart_of(const EnergySubjects& all, double until, const std::vector<MethodRun>& runs) {
+  const Scene& scene = all.first().scene;
   EnergyChart chart;
   chart.title = "Energy error until " + format_shortest(until) + " s";
-  chart.subtitle = (prepared.scene.title.empty() ? prepared.scene.name : prepared.scene.title) +
-                   "; steps of " + format_shortest(settings.step) + " s, tolerances of " +
-                   format_shortest(settings.tolerance);
+  chart.subtitle = all.settings.empty() ? all.title : (scene.title.empty() ? scene.name : scene.title) + "; " + all.settings;
   for (const MethodRun& run : runs) chart.curves.push_back(run.curve);
   return chart;
+}
+
+std::string status_of(const MethodRun& run) {
+  return run.curve.trouble.empty() ? "finished" : run.curve.trouble;
 }
 
 void print_table(const std::vector<MethodRun>& runs, const std::vector<std::string>& left_out) {
   std::vector<std::vector<std::string>> table{
       {"method", "largest error, J", "at the end, J", "between steps, J", "evaluations", "status"}};
   for (const MethodRun& run : runs)
-    table.push_back({to_string(run.setting), format_significant(run.largest, 3),
-                     format_significant(run.at_end, 3), format_significant(run.largest_between, 3),
-                     std::to_string(run.evaluations),
-                     run.curve.trouble.empty() ? "finished" : run.curve.trouble});
+    table.push_back({(run.subject->title.empty() ? "" : run.subject->title + ": ") + to_string(run.subject->setting),
+                     format_significant(run.largest, 3), format_significant(run.at_end, 3),
+                     format_significant(run.largest_between, 3), std::to_string(run.evaluations), status_of(run)});
   std::fputs(table_text(table).c_str(), stdout);
   std::printf(
       "errors are those at the ends of all steps; `between steps` is the largest on dense output, which "
@@ -167,70 +247,61 @@ void print_table(const std::vector<MethodRun>& runs, const std::vector<std::stri
 
 Json json_of(const std::string& scene, double until, const std::vector<MethodRun>& runs,
              const std::vector<std::string>& left_out) {
-  Json json{{"scene", scene}, {"until", until}, {"runs", Json::array()}, {"left_out", left_out}};
+  Json json{{"scene", scene}, {"duration", until}, {"runs", Json::array()}, {"left_out", left_out}};
   for (const MethodRun& run : runs)
-    json["runs"].push_back({{"method", run.curve.method},
-                            {"setting", to_string(run.setting)},
+    json["runs"].push_back({{"panel", run.subject->panel > 0 ? Json(run.subject->panel) : Json(nullptr)},
+                            {"title", run.subject->title},
+                            {"method", run.subject->setting.method->name},
+                            {"setting", to_string(run.subject->setting)},
                             {"largest_error", run.largest},
                             {"error_at_end", run.at_end},
                             {"largest_between_steps", run.largest_between},
                             {"evaluations", run.evaluations},
-                            {"status", run.curve.trouble.empty() ? "finished" : run.curve.trouble}});
+                            {"status", status_of(run)}});
   return json;
 }
 
 // Before the first of them runs.
-void require_all_possible(Simulation& simulation, const std::vector<const Method*>& chosen, const Settings& settings) {
+void require_all_possible(const EnergySubjects& all) {
   double work = 0;
-  for (const Method* method : chosen) {
-    apply(settings.of(*method), simulation);
-    require_possible(simulation);
-    work += least_work(simulation);
+  for (const Subject& subject : all.subjects) {
+    apply(subject.setting, *subject.simulation);
+    require_possible(*subject.simulation);
+    work += least_work(*subject.simulation);
   }
-  require_possible(work, double(chosen.size()));
+  require_possible(work, double(all.subjects.size()));
+}
+
+std::vector<MethodRun> run_all(const EnergySubjects& all, double until, bool quiet) {
+  const std::vector<double> times = times_until(until);
+  std::vector<MethodRun> runs;
+  WorkTicker ticker(all.first().scene.name + ": simulating", quiet);
+  for (const Subject& subject : all.subjects)
+    runs.push_back(run_subject(subject, times, [&](double t) {
+      ticker.tell((double(runs.size()) + part_done(*subject.simulation, t)) / double(all.subjects.size()),
+                  subject.setting.method->name);
+      return interrupted();
+    }));
+  return runs;
 }
 
 void run_energy(const EnergyOptions& options) {
   check_figure_size(options.figure);
   const std::vector<const Method*> chosen = parse_methods(options.methods);
-  PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false, options.common.quiet);
-  require_computed_run(prepared.scene, "energy");
-  const Settings settings = settings_of(options, prepared.scene);
-  Simulation& simulation = prepared.simulation;
-  if (!options.until.empty()) simulation.duration = parse_positive_seconds(options.until, "--until", "1000s");
-  std::string output = options.figure.output;
-  if (output.empty()) output = "out/" + prepared.scene.name + "_energy.png";
-  check_figure_path(output);
+  EnergySubjects all = subjects_of(options, chosen, settings_of(options));
+  const Scene& scene = all.first().scene;
+  const double until = options.until.empty() ? scene.duration : parse_positive_seconds(options.until, "--until", "1000s");
+  for (PreparedScene& one : all.scenes) one.simulation.duration = until;
+  const FigureFiles files(options.figure, "out/" + scene.name + "_energy.png", options.common.force);
+  require_all_possible(all);
+  const std::vector<MethodRun> runs = run_all(all, until, options.common.quiet);
 
-  require_all_possible(simulation, chosen, settings);
-
-  const std::vector<double> times = times_until(simulation.duration);
-  std::vector<MethodRun> runs;
-  std::vector<std::string> left_out;
-  std::optional<WorkTicker> ticker(std::in_place, prepared.scene.name + ": simulating", options.common.quiet);
-  for (const Method* method : chosen) {
-    simulation.method = method;
-    try {
-      check_method(simulation);
-    } catch (const Error& error) {
-      left_out.push_back(error.problems().front().message);
-      continue;
-    }
-    const double before = double(runs.size() + left_out.size());
-    runs.push_back(run_method(simulation, settings.of(*method), times, [&](double t) {
-      ticker->tell((before + part_done(simulation, t)) / double(chosen.size()), method->name);
-      return interrupted();
-    }));
-  }
-  ticker.reset();
-
-  const Fonts fonts(families_of(prepared.scene));
-  const ChartLook look = chart_look(options.figure, prepared.scene, fonts);
-  const EnergyChart chart = chart_of(prepared, settings, simulation.duration, runs);
-  const auto report = [&] { return json_of(options.scene, simulation.duration, runs, left_out); };
-  const auto files = write_figure(energy_chart(chart, look), {csv_of(options.scene, runs), report}, options.figure,
-                                  output, fonts, options.common.force);
-  tell_files(options.common, files, report, [&] { print_table(runs, left_out); });
+  const Fonts fonts(families_of(scene));
+  const ChartLook look = chart_look(options.figure, scene, fonts);
+  const auto report = [&] { return json_of(options.scene, until, runs, all.left_out); };
+  const auto written = files.write([&] { return energy_chart(chart_of(all, until, runs), look); },
+                                   {csv_of(options.scene, runs), report}, fonts);
+  tell_files(options.common, written, report, [&] { print_table(runs, all.left_out); });
 }
 
 }  // namespace
@@ -238,10 +309,11 @@ void run_energy(const EnergyOptions& options) {
 void add_energy_command(CommandLine& app) {
   auto options = std::make_shared<EnergyOptions>();
   Command* command =
-      app.add_subcommand("energy", "a chart of the energy error against time, a curve a method");
+      app.add_subcommand("energy", "a chart of the energy error against time, a curve a method, or of a scene that compares several a curve a panel");
   command->add_option("scene", options->scene, "a scene file").required().names_input();
   command->add_option("--until", options->until, "how long, like 1000s (default the scene's duration)");
-  command->add_option("--methods", options->methods, "rk4,taylor,.. (default all that take the scene)");
+  command->add_option("--methods", options->methods, "rk4,taylor,.. (default all that take the scene, or what its panels say)");
+  add_panel_option(*command, options->panel);
   command->add_option("--step", options->step, "of methods of fixed step, like 10ms (default the scene's, else 0.01)");
   command
       ->add_option("--tolerance", options->tolerance, "of adaptive methods (default the scene's, else 1e-9)")

@@ -11,7 +11,7 @@
 #include <iterator>
 #include <memory>
 
-#include "app/cli/data_folder.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/input_file.hpp"
 
@@ -64,7 +64,7 @@ void add_equations_command(CommandLine& app, void (*run)(const EquationsOptions&
   command->add_flag("--latex", options->latex, "as LaTeX, for amsmath");
   command->add_flag("--python", options->python, "as a module of Python with functions of numpy arrays");
   command->add_flag("--theta", options->theta, "angles are called theta, not q");
-  command->add_option("--panel", options->panel, "one panel of a scene that compares several, from 1").range(1, 12);
+  add_panel_option(*command, options->panel);
   command->add_option("--gravity", options->gravity, "world x,y,z in m/s^2");
   command->add_option("--end-effector", options->end_effector, "the link that J and Lambda speak of");
   command->add_option("-o,--output", options->output, "a .tex (LaTeX), .py (Python), .json or .txt file (default: standard output)");

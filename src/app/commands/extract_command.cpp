@@ -36,12 +36,19 @@ void tell_of_files(const ClipOrigin& origin, const ExtractOptions& options) {
     std::fprintf(stderr, "%s: the model %s has changed since: frames may differ\n", options.clip.c_str(), path.c_str());
 }
 
+// A clip has a scene and its audit, a figure its command.
+Json report_of(Json scene, Json audit, Json command, Json figure, const ExtractOptions& options) {
+  Json json{{"scene", std::move(scene)}, {"audit", std::move(audit)}, {"command", std::move(command)}, {"figure", std::move(figure)}};
+  json.update(files_json(options.output.empty() ? std::vector<std::string>{} : std::vector{options.output}));
+  return json;
+}
+
 // A figure shows no scene, a sheet many: what made it is said instead.
 void tell_of_figure(const ExtractOptions& options, const Json& figure) {
   if (!options.output.empty())
     throw Error(ExitCode::bad_input, "is a figure, not a scene; it was made by: " + command_line(figure),
                 {options.clip});
-  tell_result(options.common, [&] { return Json{{"command", command_line(figure)}, {"figure", figure}}; },
+  tell_result(options.common, [&] { return report_of(nullptr, nullptr, command_line(figure), figure, options); },
               [&] { std::printf("%s\n", command_line(figure).c_str()); });
 }
 
@@ -56,7 +63,7 @@ void run_extract(const ExtractOptions& options) {
                     moved_scene_text(memory.scene, fs::path(options.output).parent_path().string(), origin.folder),
                     options.common.force);
   const std::string scene = moved_scene_text(memory.scene, "", origin.folder);
-  tell_result(options.common, [&] { return Json{{"scene", scene}, {"audit", memory.audit}}; }, [&] {
+  tell_result(options.common, [&] { return report_of(scene, memory.audit, nullptr, nullptr, options); }, [&] {
     if (options.output.empty()) std::fputs(scene.c_str(), stdout);
   });
 }
@@ -76,7 +83,8 @@ void add_extract_command(CommandLine& app) {
                       "the folder in which the remembered paths start: that of the scene or model (default: it is looked for)");
   add_json_option(*command, options->common);
   add_force_option(*command, options->common);
-  command->footer("Example: chainreel extract out/rr_free.mp4 -o out/again.yaml");
+  command->footer("Example: chainreel extract out/rr_free.mp4 -o out/again.yaml\n"
+                  "of what  chainreel render rr_free  writes");
   command->callback([options] { run_extract(*options); });
 }
 

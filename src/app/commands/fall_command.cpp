@@ -26,7 +26,7 @@ namespace {
 struct FallOptions {
   std::string scene;
   std::string sweep;
-  std::string output;
+  std::vector<std::string> outputs;
   int threads = 0;
   CommonOptions common;
 };
@@ -67,7 +67,12 @@ std::vector<std::size_t> other_events(const FallTable& table) {
   return others;
 }
 
-void print_table(const FallTable& table) {
+// What the command line changed of the scene, which the table does not show.
+std::string set_words(const FallOptions& options) {
+  return joined(overrides_of(options.common));
+}
+
+void print_table(const FallTable& table, const std::string& set) {
   const std::vector<std::size_t> others = other_events(table);
   std::vector<std::vector<std::string>> rows{{table.sweep.key}};
   for (const std::size_t i : others) rows[0].push_back(table.events[i].title() + ", s");
@@ -84,48 +89,45 @@ void print_table(const FallTable& table) {
     rows.back().push_back(verdict(table, row));
   }
   std::fputs(table_text(rows).c_str(), stdout);
+  if (!set.empty()) std::printf("with %s\n", set.c_str());
   std::printf("%s; %d threads\n", table.method.c_str(), table.threads);
 }
 
-Json optional_json(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Json report_of(const std::string& scene, const FallTable& table) {
-  Json json{{"scene", scene}, {"duration", table.duration}, {"method", table.method}};
-  if (!table.sweep.key.empty()) json["key"] = table.sweep.key;
+Json report_of(const FallOptions& options, const FallTable& table) {
+  Json json{{"scene", options.scene}, {"duration", table.duration}, {"method", table.method}};
+  json["set"] = overrides_of(options.common);
+  json["key"] = or_null(table.sweep.key);
+  json["events"] = Json::array();
   for (const EventEntry& event : table.events)
     json["events"].push_back(
         {{"name", event.title()}, {"kind", to_string(event.kind)}, {"when", event.when}});
   json["rows"] = Json::array();
   for (const FallRow& row : table.rows) {
-    Json one{{"status", to_string(row.status)}, {"end_time", row.end_time}};
+    Json one{{"status", to_string(row.status)}, {"end_time", row.end_time}, {"value", nullptr}};
     if (!table.sweep.key.empty()) {
       const auto number = parse_number(row.value);
       one["value"] = number ? Json(*number) : Json(row.value);
     }
-    one["fall_time"] = optional_json(row.fall_time);
+    one["fall_time"] = or_null(row.fall_time);
     one["ended_by"] =
         row.ending_event < 0 ? Json(nullptr) : Json(table.events[std::size_t(row.ending_event)].title());
     one["first"] = Json::array();
-    for (const std::optional<double>& time : row.first) one["first"].push_back(optional_json(time));
-    if (table.has_foot) {
-      one["stands"] = stands(row);
-      one["tips_at"] = optional_json(row.tips);
-      one["tips_over"] = row.tips ? Json(tips_over(row)) : Json(nullptr);
-      one["takes_off_at"] = optional_json(row.takes_off);
-    }
-    if (!row.trouble.empty()) one["trouble"] = row.trouble;
+    for (const std::optional<double>& time : row.first) one["first"].push_back(or_null(time));
+    one["stands"] = table.has_foot ? Json(stands(row)) : Json(nullptr);
+    one["tips_at"] = or_null(row.tips);
+    one["tips_over"] = row.tips ? Json(tips_over(row)) : Json(nullptr);
+    one["takes_off_at"] = or_null(row.takes_off);
+    one["trouble"] = or_null(row.trouble);
     json["rows"].push_back(one);
   }
   return json;
 }
 
 // Numbers with all their digits; an empty field is what did not happen.
-std::string csv_of(const std::string& scene, const FallTable& table) {
+std::string csv_of(const FallOptions& options, const FallTable& table) {
   const auto field = [](const std::optional<double>& value) { return value ? format_shortest(*value) : ""; };
   const bool swept = !table.sweep.key.empty();
-  std::string text = csv_facts(scene) + (swept ? table.sweep.key + "," : "") + "fall_time,status,end_time";
+  std::string text = csv_facts(options.scene) + (set_words(options).empty() ? "" : "# set: " + set_words(options) + "\n") + (swept ? table.sweep.key + "," : "") + "fall_time,status,end_time";
   for (const EventEntry& event : table.events) text += "," + csv_words(event.title());
   if (table.has_foot) text += ",stands,tips_at,tips_over,takes_off_at";
   text += "\n";
@@ -143,11 +145,11 @@ void run_fall(const FallOptions& options) {
   Sweep sweep;
   sweep.values = {""};
   if (!options.sweep.empty()) sweep = parse_sweep(options.sweep, "--sweep");
-  const bool writes = !options.output.empty();
-  if (writes) {
-    refuse_dash(options.output);
-    table_format_of(options.output);  // throws for others
-    const OutputFile allowed(options.output, options.common.force);  // throws where it is not, before anything is computed
+  const bool writes = !options.outputs.empty();
+  for (const std::string& output : options.outputs) {
+    refuse_dash(output);
+    table_format_of(output);  // throws for others
+    const OutputFile allowed(output, options.common.force);  // throws where it is not, before anything is computed
   }
   const int cores = usable_cores();
   const int threads = std::min(options.threads > 0 ? options.threads : cores, int(sweep.values.size()));
@@ -161,14 +163,16 @@ void run_fall(const FallOptions& options) {
   }
   throw_if_interrupted();
   tell_warnings(table.doubts);
-  Json report = report_of(options.scene, table);
-  if (writes) write_numbers(options.output, {csv_of(options.scene, table), [&] { return report; }}, options.common.force);
-  if (writes) report["file"] = options.output;
+  Json report = report_of(options, table);
+  const FigureNumbers numbers{csv_of(options, table), [&] { return report; }};
+  for (const std::string& output : options.outputs) write_numbers(output, numbers, options.common.force);
+  report.update(files_json(options.outputs));
   if (options.common.json)
     print_json(report);
   else if (!options.common.quiet || !writes)
-    print_table(table);
-  if (writes && !options.common.quiet && !options.common.json) std::printf("%s\n", options.output.c_str());
+    print_table(table, set_words(options));
+  for (const std::string& output : options.outputs)
+    if (!options.common.quiet && !options.common.json) std::printf("%s\n", output.c_str());
   const auto failed = std::find_if(table.rows.begin(), table.rows.end(), has_failed);
   if (failed == table.rows.end()) return;
   const std::string setting = sweep.key.empty() ? "" : " at " + sweep.key + "=" + failed->value;
@@ -183,7 +187,7 @@ void add_fall_command(CommandLine& app) {
   command->add_option("scene", options->scene, "a scene file with an event of kind fall").required().names_input();
   command->add_option("--sweep", options->sweep,
                       "KEY=a,b,c or KEY=from:to:count, maybe with :log behind it, like torque.1=0:60:7");
-  command->add_option("-o,--output", options->output, "a .csv, .json or .npz file");
+  command->add_repeatable("-o,--output", options->outputs, "a .csv, .json or .npz file (repeatable)");
   command->add_option("--jobs", options->threads, "threads (default: all cores)").range(1, 256);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);

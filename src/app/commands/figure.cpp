@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <optional>
+#include <set>
 
 #include "app/film/house_logo.hpp"
 #include "app/film/target.hpp"
@@ -48,10 +50,9 @@ std::string version_text() {
 
 void add_figure_options(Command& command, FigureOptions& options, CommonOptions& common,
                         const std::string& default_output) {
-  command.add_option("-o,--output", options.output,
-                     "a .png, .svg, .pdf, .csv, .json or .npz file (default " + default_output +
-                         "); the numbers are "
-                         "written as CSV beside the picture");
+  command.add_repeatable("-o,--output", options.outputs,
+                         "a .png, .svg, .pdf, .csv, .json or .npz file (repeatable; default " + default_output +
+                             "); the numbers are written as CSV beside the picture");
   command.add_option("--width", options.width, "pixels").range(16, 16384);
   command.add_option("--height", options.height, "pixels").range(16, 16384);
   add_paper_options(command, options.paper, "three quarters of the width");
@@ -90,21 +91,51 @@ void write_numbers(const std::string& path, const FigureNumbers& numbers, bool o
                   overwrite);
 }
 
-std::vector<std::string> write_figure(const Picture& picture, const FigureNumbers& numbers,
-                                      const FigureOptions& options, const std::string& path,
-                                      const Fonts& fonts, bool overwrite) {
-  if (is_table_path(path)) {
-    write_numbers(path, numbers, overwrite);
-    return {path};
+FigureFiles::FigureFiles(const FigureOptions& options, const std::string& usual, bool overwrite)
+    : options_(options), paths_(options.outputs), overwrite_(overwrite) {
+  if (paths_.empty()) paths_.push_back(usual);
+  std::set<std::string> seen;
+  for (const std::string& path : paths_) {
+    check_figure_path(path);
+    if (!seen.insert(std::filesystem::path(path).lexically_normal().string()).second)
+      throw Error(ExitCode::usage, "-o " + path + " is named twice");
   }
-  const std::string table = std::filesystem::path(path).replace_extension(".csv").string();
-  require_own_sidecar(table, overwrite);
-  write_text_file(table, numbers.csv, overwrite);
-  ClipMemory memory = memory_of_figure(*options.command, std::filesystem::path(path).stem().string());
-  if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;
-  const PixelSize size = size_of(options);
-  write_picture(picture, size.width, size.height, fonts, path, overwrite, memory);
-  return {path, table};
+  for (const std::string& path : paths_) {
+    const OutputFile may_be_written(path, overwrite);  // throws where it may not
+    const std::string table = std::filesystem::path(path).replace_extension(".csv").string();
+    if (is_table_path(path) || is_named(table) || std::find(beside_.begin(), beside_.end(), table) != beside_.end()) continue;
+    require_own_sidecar(table, overwrite);
+    const OutputFile beside_it(table, overwrite);
+    beside_.push_back(table);
+  }
+}
+
+bool FigureFiles::is_named(const std::string& path) const {
+  return std::any_of(paths_.begin(), paths_.end(), [&](const std::string& one) {
+    return std::filesystem::path(one).lexically_normal() == std::filesystem::path(path).lexically_normal();
+  });
+}
+
+std::vector<std::string> FigureFiles::write(const std::function<Picture()>& draw, const FigureNumbers& numbers, const Fonts& fonts) const {
+  std::vector<std::string> written;
+  std::optional<Picture> picture;
+  const PixelSize size = size_of(options_);
+  for (const std::string& path : paths_) {
+    written.push_back(path);
+    if (is_table_path(path)) {
+      write_numbers(path, numbers, overwrite_);
+      continue;
+    }
+    if (!picture) picture = draw();
+    ClipMemory memory = memory_of_figure(*options_.command, std::filesystem::path(path).stem().string());
+    if (options_.paper.is_given()) memory.width_mm = options_.paper.width_mm;
+    write_picture(*picture, size.width, size.height, fonts, path, overwrite_, memory);
+  }
+  for (const std::string& table : beside_) {
+    write_text_file(table, numbers.csv, overwrite_);
+    written.push_back(table);
+  }
+  return written;
 }
 
 namespace {

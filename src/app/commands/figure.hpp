@@ -19,7 +19,7 @@
 namespace chainreel {
 
 struct FigureOptions {
-  std::string output;
+  std::vector<std::string> outputs;
   int width = 0, height = 0;  // 0: 1920 x 1080
   PaperOptions paper;
   const Command* command = nullptr;  // what it was given is remembered by the picture
@@ -45,11 +45,23 @@ void write_numbers(const std::string& path, const FigureNumbers& numbers, bool o
 
 ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fonts& fonts);
 
-// The picture as the path's ending says, and the numbers as CSV beside it: out/x.png and out/x.csv. Where the
-// path has the ending of a table, the numbers alone. Returns what was written.
-std::vector<std::string> write_figure(const Picture& picture, const FigureNumbers& numbers,
-                                      const FigureOptions& options, const std::string& path,
-                                      const Fonts& fonts, bool overwrite);
+// The files that -o names, or `usual`, checked before anything is measured: endings, doubles, and whether each may be written.
+class FigureFiles {
+ public:
+  // Throws Error (usage) as check_figure_path does and for a path that is named twice, (file) where one may not be written.
+  FigureFiles(const FigureOptions& options, const std::string& usual, bool overwrite);
+
+  // Pictures as their endings say, and beside each the numbers as CSV, out/x.png and out/x.csv, where no other -o names that
+  // file; tables alone. `draw` is called where a picture is asked for. Returns what was written.
+  std::vector<std::string> write(const std::function<Picture()>& draw, const FigureNumbers& numbers, const Fonts& fonts) const;
+
+ private:
+  bool is_named(const std::string& path) const;
+
+  const FigureOptions& options_;
+  std::vector<std::string> paths_, beside_;  // beside_: tables that lie by pictures
+  bool overwrite_;
+};
 
 // What a figure remembers that shows no scene: the words that made it, and the model and its poses where there are.
 ClipMemory memory_of_figure(const Command& command, const std::string& title);

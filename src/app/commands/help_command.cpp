@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "app/cli/command.hpp"
-#include "app/cli/data_folder.hpp"
+#include "core/data_folder.hpp"
 #include "app/cli/result.hpp"
 #include "app/guide/manual.hpp"
 #include "app/guide/reference.hpp"
@@ -61,7 +61,7 @@ void list_topics(const std::vector<GuidePage>& pages, bool json) {
     list.push_back({{"topic", page.topic}, {"about", page.about}});
   }
   if (json)
-    print_json(list);
+    print_json({{"topics", list}});
   else
     std::fputs((markdown_table(table) + "\nchainreel help TOPIC prints one of them, or how a command is called.\n").c_str(),
                stdout);
@@ -102,6 +102,7 @@ std::vector<GuidePage> guide_pages(const CommandLine& app) {
           {"constraints", "what ties a mechanism beyond its joints", constraints_page},
           {"methods", "the integrators, and how exact a run is", methods_page},
           {"outputs", "kinds of files, and presets", outputs_page},
+          {"json", "what --json prints: the keys of every command", json_page},
           {"commands", "every command with its options", [&app] { return commands_page(app); }},
           {"exit-codes", "what the program's status says", exit_codes_page}};
 }

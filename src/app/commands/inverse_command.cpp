@@ -74,17 +74,18 @@ void tell_doubts(const InverseOptions& options, const RecordedMotion& motion) {
 }
 
 // A row per instant of the trajectory: t,tau1.. and the multipliers that go with them.
-DataTable table_of(const Chain& chain, const InverseAlong& inverse) {
+DataTable table_of(const Recorded& recorded, const InverseAlong& inverse) {
   DataTable table;
   table.rows = inverse.t.size();
   table.add("t", "s", inverse.t);
-  table.add("tau", torque_columns(chain), {inverse.nv}, inverse.tau);
-  if (!inverse.rows.empty()) table.add("lambda", multiplier_columns(int(inverse.rows.size())), {inverse.rows.size()}, inverse.lambda);
+  table.add("tau", torque_columns(recorded.chain), {inverse.nv}, inverse.tau);
+  if (!inverse.rows.empty()) table.add("lambda", multiplier_columns(recorded.chain, recorded.constraints.list), {inverse.rows.size()}, inverse.lambda);
   return table;
 }
 
 Json report_of(const InverseAlong& inverse) {
   Json json{{"rows", inverse.t.size()}};
+  json["constraints"] = nullptr;
   if (!inverse.rows.empty())
     json["constraints"] = {{"rows", inverse.rows},
                            {"position_error", inverse.position_error},
@@ -101,7 +102,7 @@ void run_inverse(const InverseOptions& options) {
   TableFiles files(outputs, options.common);
   tell_doubts(options, *recorded.motion);
   const InverseAlong inverse = inverse_along(recorded.chain, recorded.constraints, *recorded.motion);
-  files.write(table_of(recorded.chain, inverse));
+  files.write(table_of(recorded, inverse));
   files.tell(options.common, inverse.t.size(), report_of(inverse));
 }
 
@@ -125,7 +126,8 @@ void add_inverse_command(CommandLine& app) {
   command->add_option("--gravity", options->gravity, "world x,y,z in m/s^2");
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
-  command->footer("Example: chainreel inverse rr.urdf --trajectory out/rr_free.csv -o out/tau.csv");
+  command->footer("Example: chainreel inverse rr.urdf --trajectory out/rr_free.csv -o out/tau.csv\n"
+                  "of what  chainreel simulate rr_free  writes");
   command->callback([options] { run_inverse(*options); });
 }
 

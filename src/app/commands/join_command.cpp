@@ -150,10 +150,16 @@ struct JoinedFiles {
   std::unique_ptr<OutputFile> captions;
 };
 
+Json joined_json(const JoinOptions& options, Json frames) {
+  Json json = files_json({options.output});
+  json.update({{"parts", options.parts.size()}, {"frames", std::move(frames)}});
+  return json;
+}
+
 void run_join(const JoinOptions& options) {
   if (lower_case_ending(options.output) == ".csv") {
     join_tables(options.parts, options.output, options.common.force);
-    tell_result(options.common, [&] { return Json{{"file", options.output}, {"parts", options.parts.size()}}; },
+    tell_result(options.common, [&] { return joined_json(options, nullptr); },
                 [&] { std::printf("%s: the table of %zu parts\n", options.output.c_str(), options.parts.size()); });
     return;
   }
@@ -187,7 +193,7 @@ void run_join(const JoinOptions& options) {
   }
   write_whole(files.audit, audit.dump(2) + "\n");
   tell_result(options.common,
-              [&] { return Json{{"file", options.output}, {"parts", parts.size()}, {"frames", facts.frames}}; },
+              [&] { return joined_json(options, facts.frames); },
               [&] { std::printf("%s: %d frames of %zu parts\n", options.output.c_str(), facts.frames, parts.size()); });
 }
 
@@ -199,7 +205,8 @@ void add_join_command(CommandLine& app) {
   command->add_option("parts", options->parts, "the parts, in any order").required();
   command->add_option("-o,--output", options->output, "the film or table, with the ending of its parts").required();
   add_result_options(*command, options->common);
-  command->footer("Example: chainreel join out/film.part-*.mp4 -o out/film.mp4");
+  command->footer("Example: chainreel join out/film.part-*.mp4 -o out/film.mp4\n"
+                  "of what  chainreel render rr_free -o out/film.mp4 --shard 1/2  and --shard 2/2 write");
   command->callback([options] { run_join(*options); });
 }
 

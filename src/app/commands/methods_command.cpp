@@ -23,6 +23,7 @@ Json to_json(const Method& method) {
             {"symplectic", method.symplectic},
             {"reversible", method.reversible},
             {"source", method.source}};
+  json["orders"] = nullptr;  // those that may be chosen
   if (method.highest_order > 0) json["orders"] = {method.lowest_order, method.highest_order};
   return json;
 }
@@ -36,7 +37,7 @@ void run_methods(const CommonOptions& options) {
                      state_words(method), method.adaptive ? "adaptive or fixed" : "fixed", method.kind,
                      method.source});
   }
-  tell_result(options, [&] { return list; }, [&] { std::fputs(table_text(table).c_str(), stdout); });
+  tell_result(options, [&] { return Json{{"methods", list}}; }, [&] { std::fputs(table_text(table).c_str(), stdout); });
 }
 
 }  // namespace

@@ -158,15 +158,15 @@ void run_render(const RenderOptions& options) {
     if (!options.common.quiet) tell_of_unused_quality(jobs[i], films[i].scene);
     const RenderResult result = render_film(films[i], jobs[i]);
     reports.push_back(result.audit);
-    reports.back()["file"] = result.files.empty() ? Json(nullptr) : Json(result.files.front());
-    reports.back()["files"] = result.files;
+    reports.back().update(files_json(result.files));
+    reports.back()["part"] = nullptr;
     if (result.part) reports.back()["part"] = {{"first", result.part->first}, {"behind", result.part->behind}};
     reports.back()["sidecars"] = result.sidecars;
-    if (const Json clips = small_clips(jobs[i], films[i], result.frames); !clips.empty()) reports.back()["small_clips"] = clips;
+    reports.back()["small_clips"] = small_clips(jobs[i], films[i], result.frames);
     table.push_back({films[i].scene.name, std::to_string(result.frames), format_fixed(result.film_seconds, 2),
                      format_fixed(result.times.total, 2), joined(result.files, " ")});
   }
-  tell_result(options.common, [&] { return reports; }, [&] { std::fputs(table_text(table).c_str(), stdout); });
+  tell_result(options.common, [&] { return Json{{"films", reports}}; }, [&] { std::fputs(table_text(table).c_str(), stdout); });
 }
 
 }  // namespace

@@ -68,6 +68,7 @@ Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, Tab
   if (!options.common.quiet)
     for (const std::string& note : notes_of(prepared, trajectory)) std::fprintf(stderr, "%s: %s\n", name.c_str(), note.c_str());
   Json report = to_json(run);
+  report["panels"] = Json::array();
   report["rows"] = trajectory.size();
   report.update(files_json(files.paths()));
   return report;
@@ -75,12 +76,8 @@ Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, Tab
 
 // The panels that are asked for, from 0.
 std::vector<std::size_t> chosen_panels(const PreparedFilm& film, const SimulateOptions& options) {
-  const std::size_t count = film.panels.size();
-  if (options.panel > int(count))
-    throw Error(ExitCode::usage, "--panel " + std::to_string(options.panel) + ": the scene has " +
-                                     std::to_string(count) + (count == 1 ? " panel" : " panels"));
-  if (options.panel > 0) return {std::size_t(options.panel) - 1};
-  std::vector<std::size_t> all(count);
+  if (options.panel > 0) return {chosen_panel(film.scene, options.panel)};
+  std::vector<std::size_t> all(film.panels.size());
   std::iota(all.begin(), all.end(), 0);
   return all;
 }
@@ -107,7 +104,16 @@ void run_simulate(const SimulateOptions& options) {
         simulate_panel(film, film.panels[i], files, wanted.empty() ? usual_columns(simulation.chain) : wanted, options, alone));
     if (!options.common.json) files.tell(options.common, reports.back()["rows"].get<std::size_t>(), {});
   }
-  if (options.common.json) print_json(alone ? reports.front() : Json{{"panels", reports}});
+  if (!options.common.json) return;
+  if (alone) return print_json(reports.front());
+  std::vector<std::string> written;
+  for (Json& panel : reports) {
+    for (const Json& file : panel["files"]) written.push_back(file.get<std::string>());
+    panel.erase("panels");
+  }
+  Json all{{"scene", film.scene.file}, {"title", film.scene.title}, {"duration", film.scene.duration}, {"panels", reports}};
+  all.update(files_json(written));
+  print_json(all);
 }
 
 }  // namespace
@@ -122,8 +128,7 @@ void add_simulate_command(CommandLine& app) {
                    "what stands in the table, like t,q,tau: " + joined(words_of(names_of(MotionColumn{})), ",") +
                        "; usual: t,q,qd,tau,energy and the end effector's")
       .show_default();
-  command->add_option("--panel", options->panel, "one panel of a scene that compares several, from 1")
-      .range(1, 12);
+  add_panel_option(*command, options->panel);
   command->add_flag("--every-step", options->every_step, "a row a step instead of a row a frame");
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);

@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
 
+#include "app/cli/named_pose.hpp"
 #include "app/cli/command.hpp"
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
@@ -38,7 +40,7 @@ struct SnapshotOptions {
   std::string file;
   std::vector<std::string> at;  // each one or several between commas; none: 0
   std::vector<std::string> poses;
-  std::string output;
+  std::vector<std::string> outputs;
   std::string end_effector;
   std::vector<std::string> vary;
   int width = 0, height = 0;
@@ -56,30 +58,38 @@ std::vector<std::string> overrides_of(const SnapshotOptions& options) {
 
 constexpr std::size_t kMostPictures = 500;  // of one command: all are held open until all are whole
 
-// Where pictures go: one file, or a folder with a file each.
+// Where pictures go: the files of one picture, or a folder with a file each.
 struct OutputPlace {
-  std::string path;
+  std::vector<std::string> paths;
   bool is_folder = false;
 };
 
 OutputPlace place_of(const SnapshotOptions& options, std::size_t pictures) {
   std::error_code ignored;
   const std::string stem = std::filesystem::path(options.file).stem().string();
-  if (options.output.empty())
-    return pictures > 1 ? OutputPlace{"out/" + stem, true} : OutputPlace{"out/" + stem + ".png", false};
-  const bool is_folder =
-      options.output.ends_with('/') || std::filesystem::is_directory(options.output, ignored);
-  if (!is_folder) picture_format_of(options.output);
-  if (!is_folder && pictures > 1)
-    throw Error(ExitCode::usage, "-o " + options.output + " names one file for " + std::to_string(pictures) +
-                                     " pictures: name a folder, like -o out/");
-  return {options.output, is_folder};
+  if (options.outputs.empty())
+    return pictures > 1 ? OutputPlace{{"out/" + stem}, true} : OutputPlace{{"out/" + stem + ".png"}, false};
+  std::set<std::string> seen;
+  bool is_folder = false;
+  for (const std::string& output : options.outputs) {
+    const bool is_one = output.ends_with('/') || std::filesystem::is_directory(output, ignored);
+    is_folder |= is_one;
+    if (is_one && options.outputs.size() > 1)
+      throw Error(ExitCode::usage, "-o " + output + ": a folder holds a picture each; several -o name files of one picture");
+    if (!is_one) picture_format_of(output);
+    if (!is_one && pictures > 1)
+      throw Error(ExitCode::usage, "-o " + output + " names one file for " + std::to_string(pictures) +
+                                       " pictures: name a folder, like -o out/");
+    if (!seen.insert(std::filesystem::path(output).lexically_normal().string()).second)
+      throw Error(ExitCode::usage, "-o " + output + " is named twice");
+  }
+  return {options.outputs, is_folder};
 }
 
 // Files that take their names together, when all are whole.
 class Pictures {
  public:
-  // `names` are those of files without ending; ignored for a single file.
+  // `names` are those of files without ending; ignored where there is one picture.
   Pictures(const SnapshotOptions& options, OutputPlace place, const std::vector<std::string>& names)
       : place_(std::move(place)) {
     if (names.size() > kMostPictures)
@@ -87,9 +97,11 @@ class Pictures {
                                        std::to_string(kMostPictures) +
                                        " are the most of one command: take several");
     for (const std::string& name : names) {
-      const auto file = place_.is_folder ? std::filesystem::path(place_.path) / (name + ".png")
-                                         : std::filesystem::path(place_.path);
-      files_.push_back(std::make_unique<OutputFile>(file.string(), options.common.force));
+      files_.emplace_back();
+      for (const std::string& path : place_.paths) {
+        const auto file = place_.is_folder ? std::filesystem::path(path) / (name + ".png") : std::filesystem::path(path);
+        files_.back().push_back(std::make_unique<OutputFile>(file.string(), options.common.force));
+      }
     }
   }
 
@@ -101,29 +113,31 @@ class Pictures {
       canvas_->draw(picture, pixels);
       return pixels;
     };
-    picture_format_of(files_[i]->path())
-        .write_still(*files_[i], {[&] { return picture; }, image, fonts}, memory);
+    for (const std::unique_ptr<OutputFile>& file : files_[i])
+      picture_format_of(file->path()).write_still(*file, {[&] { return picture; }, image, fonts}, memory);
     throw_if_interrupted();
   }
 
   // `numbers`: what each picture shows.
   void commit(const SnapshotOptions& options, const std::vector<Json>& numbers) {
-    Json list = Json::array(), pictures = Json::array();
+    std::vector<std::string> list;
+    Json pictures = Json::array();
     for (std::size_t i = 0; i < files_.size(); ++i) {
-      files_[i]->commit();
-      list.push_back(files_[i]->path());
-      pictures.push_back({{"file", files_[i]->path()}});
+      std::vector<std::string> own;
+      for (const std::unique_ptr<OutputFile>& file : files_[i]) {
+        file->commit();
+        own.push_back(file->path());
+        list.push_back(file->path());
+      }
+      pictures.push_back(files_json(own));
       pictures.back().update(numbers[i]);
     }
-    const auto found = [&] { return place_.is_folder ? Json{{"files", list}, {"pictures", pictures}} : pictures.front(); };
-    tell_result(options.common, found, [&] {
-      for (const Json& path : list) std::printf("%s\n", path.get<std::string>().c_str());
-    });
+    tell_files(options.common, list, [&] { return Json{{"pictures", pictures}}; });
   }
 
  private:
   OutputPlace place_;
-  std::vector<std::unique_ptr<OutputFile>> files_;
+  std::vector<std::vector<std::unique_ptr<OutputFile>>> files_;  // of each picture
   std::unique_ptr<Canvas> canvas_;
 };
 
@@ -238,11 +252,13 @@ std::vector<PosePicture> pose_pictures(const Chain& chain, const SnapshotOptions
   std::vector<PosePicture> pictures;
   for (const std::string& text : options.poses) {
     const Named named = named_pose(chain, text);
-    const std::vector<double> q = parse_pose(chain, named.text, "--pose");
+    const std::string numbers = named_pose_text(chain, options.file, named.text, "--pose");
+    const std::vector<double> q = parse_pose(chain, numbers, "--pose");
+    const std::string own_name = named.name.empty() && numbers != named.text ? named.text : named.name;
     const bool joins = !is_folder && !pictures.empty();
     if (!joins)
       pictures.push_back(
-          {file_name_of(named.name.empty() ? stem + "_" + std::to_string(pictures.size() + 1) : named.name),
+          {file_name_of(own_name.empty() ? stem + "_" + std::to_string(pictures.size() + 1) : own_name),
            {}});
     pictures.back().poses.push_back(q);
   }
@@ -284,10 +300,10 @@ void snapshot_model(const SnapshotOptions& options) {
   });
   // Poses without names in one file are one picture with all of them.
   OutputPlace place = place_of(options, is_named ? options.poses.size() : 1);
-  if (is_named && options.output.empty())
-    place = {"out/" + std::filesystem::path(options.file).stem().string(), true};
+  if (is_named && options.outputs.empty())
+    place = {{"out/" + std::filesystem::path(options.file).stem().string()}, true};
   if (is_named && !place.is_folder)
-    throw Error(ExitCode::usage, "-o " + options.output +
+    throw Error(ExitCode::usage, "-o " + options.outputs.front() +
                                      ": a pose with a name is a file of its own in a folder: name that, " +
                                      "like -o out/, or leave the name out");
   const std::vector<PosePicture> shown = pose_pictures(chain, options, place.is_folder);
@@ -335,10 +351,10 @@ void add_snapshot_command(CommandLine& app) {
                           "instants of the scene: 1.2s, `event NAME`, or several between commas, maybe "
                           "named: hit=1.2s (default 0)");
   command->add_repeatable("--pose", options->poses,
-                          "q of a model: --pose 0,90deg, by joints: --pose joint2=90deg, named: --pose home=0,90deg (repeatable)");
-  command->add_option(
-      "-o,--output", options->output,
-      "a .png, .svg or .pdf file, which holds all poses at once; or a folder for a picture each (default "
+                          "q of a model: --pose 0,90deg, by joints: --pose joint2=90deg, named: --pose home=0,90deg, or a state of an SRDF beside it: --pose home (repeatable)");
+  command->add_repeatable(
+      "-o,--output", options->outputs,
+      "a .png, .svg or .pdf file, which holds all poses at once (repeatable); or a folder for a picture each (default "
       "out/NAME.png, of several out/NAME/)");
   command->add_option("--end-effector", options->end_effector,
                       "the link that is marked, where there are several ends");

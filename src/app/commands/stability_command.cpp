@@ -18,6 +18,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/machine.hpp"
+#include "core/output_file.hpp"
 #include "draw/charts/stability_map.hpp"
 #include "draw/page/house_style.hpp"
 #include "scene/run/stability_cells.hpp"
@@ -33,6 +34,7 @@ struct StabilityOptions {
   std::string x, y;
   std::string methods;
   int threads = 0;
+  int panel = 0;  // of the table, from 1; 0: the motion that all share
   FigureOptions figure;
   CommonOptions common;
 };
@@ -162,8 +164,9 @@ void print_map_summary(const StabilityCells& cells) {
       cells.in_batches ? ", stepped in batches" : "");
 }
 
-Json json_of(const StabilityCells& cells) {
-  Json json{{"method", cells.method},
+Json json_of(const std::string& scene, const StabilityCells& cells) {
+  Json json{{"scene", scene},
+            {"method", cells.method},
             {"x", {{"key", cells.x.key}, {"values", cells.x.numbers}}},
             {"y", {{"key", cells.y.key}, {"values", cells.y.numbers}}},
             {"threads", cells.threads},
@@ -178,8 +181,8 @@ Json json_of(const StabilityCells& cells) {
                      {"status", to_string(cell.status)},
                      {"energy_error", cell.energy_error},
                      {"energy_scale", cell.energy_scale}});
-      if (cell.stable) row.back()["stable_by_theory"] = *cell.stable;
-      if (!cell.trouble.empty()) row.back()["trouble"] = cell.trouble;
+      row.back()["stable_by_theory"] = or_null(cell.stable);
+      row.back()["trouble"] = or_null(cell.trouble);
     }
     json["rows"].push_back(std::move(row));
   }
@@ -187,10 +190,12 @@ Json json_of(const StabilityCells& cells) {
   return json;
 }
 
-void draw_map(const StabilityOptions& options, const std::string& output) {
+void draw_map(const StabilityOptions& options) {
   const Sweep x = parse_sweep(options.x, "--x"), y = parse_sweep(options.y, "--y");
   check_axis(x, "--x");
   check_axis(y, "--y");
+  const FigureFiles files(options.figure, "out/" + std::filesystem::path(options.scene).stem().string() + "_stability.png",
+                          options.common.force);
   const std::vector<std::string> overrides = overrides_of(options.common);
   const int threads = options.threads > 0 ? options.threads : usable_cores();
   StabilityCells cells;
@@ -205,10 +210,10 @@ void draw_map(const StabilityOptions& options, const std::string& output) {
   const Scene scene = read_scene(options.scene, overrides);
   const Fonts fonts(families_of(scene));
   const ChartLook look = chart_look(options.figure, scene, fonts);
-  const auto report = [&] { return json_of(cells); };
-  const auto files = write_figure(stability_map(map_of(scene, cells), look), {csv_of(options.scene, cells), report},
-                                  options.figure, output, fonts, options.common.force);
-  tell_files(options.common, files, report, [&] { print_map_summary(cells); });
+  const auto report = [&] { return json_of(options.scene, cells); };
+  const auto written = files.write([&] { return stability_map(map_of(scene, cells), look); },
+                                   {csv_of(options.scene, cells), report}, fonts);
+  tell_files(options.common, written, report, [&] { print_map_summary(cells); });
 }
 
 // What became of a run with one setting: in words, and as numbers.
@@ -222,7 +227,8 @@ Verdict verdict(Simulation& simulation, const MethodSetting& setting, const Stop
   const double end[] = {simulation.duration};
   const Trajectory trajectory = simulate_audited(simulation, end, stop);
   throw_if_interrupted();
-  Json json{{"setting", to_string(setting)}, {"status", to_string(trajectory.status)}, {"end_time", trajectory.end_time}};
+  Json json{{"setting", to_string(setting)}, {"status", to_string(trajectory.status)}, {"end_time", trajectory.end_time},
+            {"energy_error", nullptr}};
   if (trajectory.status != RunStatus::finished || trajectory.size() == 0)
     return {to_string(trajectory.status) + " at " + format_significant(trajectory.end_time, 3) + " s", json};
   json["energy_error"] = trajectory.energy_at_steps->largest_error;
@@ -234,14 +240,14 @@ std::string limit_text(const std::optional<double>& limit) {
   return std::isfinite(*limit) ? format_significant(*limit, 4) : "none";
 }
 
-Json limit_json(const std::optional<double>& limit) {
-  if (!limit) return nullptr;
-  return std::isfinite(*limit) ? Json(*limit) : Json("none");
+bool has_no_limit(const std::optional<double>& limit) {
+  return limit && !std::isfinite(*limit);
 }
 
 Json linearisation_json(const Linearisation& start) {
-  if (!start.trouble.empty()) return {{"trouble", start.trouble}};
-  Json json{{"is_equilibrium", start.is_equilibrium}, {"qd", start.rate}, {"qdd", start.acceleration}, {"rates", Json::array()}};
+  Json json{{"trouble", or_null(start.trouble)}, {"is_equilibrium", nullptr}, {"qd", nullptr}, {"qdd", nullptr}, {"rates", Json::array()}};
+  if (!start.trouble.empty()) return json;
+  json.update({{"is_equilibrium", start.is_equilibrium}, {"qd", start.rate}, {"qdd", start.acceleration}});
   for (const std::complex<double>& rate : start.rates) json["rates"].push_back({{"real", rate.real()}, {"imag", rate.imag()}});
   return json;
 }
@@ -278,14 +284,14 @@ std::string csv_of_methods(const std::string& scene, const Json& found) {
   for (const Json& method : found["methods"])
     for (const Json& run : method["runs"])
       text += method["method"].get<std::string>() + "," + csv_words(run["setting"].get<std::string>()) + "," +
-              run["status"].get<std::string>() + "," + number(run["end_time"]) + "," + number(run.value("energy_error", Json())) + "," +
-              (method["longest_stable_step"] == "none" ? "inf" : number(method["longest_stable_step"])) + "\n";
+              run["status"].get<std::string>() + "," + number(run["end_time"]) + "," + number(run["energy_error"]) + "," +
+              (method["is_always_stable"].get<bool>() ? "inf" : number(method["longest_stable_step"])) + "\n";
   return text;
 }
 
 // "Who fails here": every method at three steps or tolerances.
 void compare_methods(const StabilityOptions& options) {
-  PreparedScene prepared = load_scene(options.scene, overrides_of(options.common), false, options.common.quiet);
+  PreparedScene prepared = load_motion(options.scene, overrides_of(options.common), options.panel, options.common.quiet);
   require_computed_run(prepared.scene, "stability");
   Simulation& simulation = prepared.simulation;
   const Linearisation start = linearise(simulation);
@@ -320,17 +326,18 @@ void compare_methods(const StabilityOptions& options) {
     const std::optional<double> limit = longest_stable_step(*method, start);
     row.push_back(limit_text(limit));
     table.push_back(row);
-    found["methods"].push_back({{"method", method->name}, {"runs", runs}, {"longest_stable_step", limit_json(limit)}});
+    found["methods"].push_back({{"method", method->name}, {"runs", runs}, {"longest_stable_step", has_no_limit(limit) ? Json(nullptr) : or_null(limit)}, {"is_always_stable", has_no_limit(limit)}});
   }
   ticker.reset();
   found["start"] = linearisation_json(start);
-  if (!options.figure.output.empty())
-    write_numbers(options.figure.output, {csv_of_methods(options.scene, found), [&] { return found; }}, options.common.force);
+  const std::vector<std::string>& outputs = options.figure.outputs;
+  const FigureNumbers numbers{csv_of_methods(options.scene, found), [&] { return found; }};
+  for (const std::string& output : outputs) write_numbers(output, numbers, options.common.force);
   if (options.common.json) {
-    if (!options.figure.output.empty()) found["file"] = options.figure.output;
+    found.update(files_json(outputs));
     return print_json(found);
   }
-  if (options.common.quiet && !options.figure.output.empty()) return;
+  if (options.common.quiet && !outputs.empty()) return;
   std::printf(
       "Who fails here: the largest energy error with steps of 0.1, 0.01 and 0.001 s, or tolerances of "
       "1e-3, 1e-6 and 1e-9\n");
@@ -344,16 +351,17 @@ void run_stability(const StabilityOptions& options) {
   if (options.x.empty() != options.y.empty())
     throw Error(ExitCode::usage, "a map needs both --x and --y; without them the methods are compared");
   if (options.x.empty()) {
-    if (!options.figure.output.empty() && !is_table_path(options.figure.output))
-      throw Error(ExitCode::usage, "-o " + options.figure.output +
-                                       ": without --x and --y methods are compared, whose table is written as .csv, .json or .npz");
+    for (const std::string& output : options.figure.outputs) {
+      if (!is_table_path(output))
+        throw Error(ExitCode::usage, "-o " + output +
+                                         ": without --x and --y methods are compared, whose table is written as .csv, .json or .npz");
+      const OutputFile may_be_written(output, options.common.force);  // throws where it may not, before anything is run
+    }
     return compare_methods(options);
   }
-  std::string output = options.figure.output;
-  if (output.empty())
-    output = "out/" + std::filesystem::path(options.scene).stem().string() + "_stability.png";
-  check_figure_path(output);
-  draw_map(options, output);
+  if (options.panel > 0)
+    throw Error(ExitCode::usage, "--panel goes with the table of methods; a map takes what all panels share: --set compare=");
+  draw_map(options);
 }
 
 }  // namespace
@@ -366,6 +374,7 @@ void add_stability_command(CommandLine& app) {
   command->add_option("--x", options->x, "KEY=from:to:count, maybe with :log behind it");
   command->add_option("--y", options->y, "the same, upward");
   command->add_option("--methods", options->methods, "of the table: rk4,taylor,.. (default all)");
+  add_panel_option(*command, options->panel);
   command->add_option("--jobs", options->threads, "threads (default: all cores)").range(1, 256);
   add_figure_options(*command, options->figure, options->common, "out/NAME_stability.png");
   add_scene_options(*command, options->common);

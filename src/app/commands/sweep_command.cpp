@@ -99,7 +99,7 @@ class FilesOfRun {
  public:
   // `at`: instant that pictures show, s.
   FilesOfRun(const PreparedFilm& film, double at)
-      : film_(film), runs_(film), scene_(placeless_scene_text(film.scene)), meshes_(meshes_hash(film)), style_(style_report(film.scene)) {
+      : film_(film), runs_(film), scene_(placeless_scene_text(film.scene)), meshes_(meshes_hash(film)), style_(style_report(film)) {
     const int still = std::clamp(runs_.clock().frame_at(at), 0, std::max(0, schedule_of(runs_).frames - 1));
     at_ = runs_.times()[std::size_t(still)];
     for (std::size_t i = 0; i < runs_.size(); ++i)
@@ -132,9 +132,10 @@ class FilesOfRun {
     return true;
   }
   bool is_same(const Json& audit) const {
-    const Json panels = audit.contains("panels") ? audit["panels"] : Json::array({audit});
+    const bool compares = audit.contains("panels") && !audit["panels"].empty();
+    const Json panels = compares ? audit["panels"] : Json::array({audit});
     if (panels.size() != hashes_.size() || audit.at("versions").at("chainreel") != program_version()) return false;
-    if (audit.value(kMeshesHash, "") != meshes_ || audit.value("style", Json()) != style_) return false;
+    if (audit.value(kMeshesHash, Json()) != or_null(meshes_) || audit.value("style", Json()) != style_) return false;
     for (std::size_t i = 0; i < hashes_.size(); ++i)
       if (panels[i].value("model_sha256", "") != hashes_[i].first || panels[i].value("trajectory_sha256", "") != hashes_[i].second)
         return false;
@@ -333,7 +334,8 @@ void run_sweep(SweepOptions options) {
   const int threads = options.jobs > 0 ? options.jobs : usable_cores();
   // A table depends on the files that were read up to there, which must be the same for all shares.
   std::stable_partition(options.outputs.begin(), options.outputs.end(), is_table_path);
-  Json report = Json::array();
+  Json report{{"runs", runs.behind - runs.first}, {"outputs", Json::array()}};
+  std::vector<std::string> written;
   SweepOutcome worst;
   for (const std::string& output : options.outputs) {
     const bool is_table = is_table_path(output);
@@ -346,15 +348,15 @@ void run_sweep(SweepOptions options) {
       outcome = FilmsOfGrid(options, grid, runs, output).run();
     }
     throw_if_interrupted();
-    report.push_back({{"file", path},
-                      {"runs", runs.behind - runs.first},
-                      {"done_before", outcome.skipped},
-                      {"failed", outcome.failed}});
+    report["outputs"].push_back({{"file", path}, {"done_before", outcome.skipped}, {"failed", outcome.failed}});
+    written.push_back(path);
     if (!options.common.json && !options.common.quiet)
       std::printf("%s: %d runs, %zu of them done before, %zu failed\n", path.c_str(), runs.behind - runs.first, outcome.skipped,
                   outcome.failed);
     if (outcome.failed > worst.failed) worst = outcome;
   }
+  report["failed"] = worst.failed;
+  report.update(files_json(written));
   if (options.common.json) print_json(report);
   if (worst.failed > 0)
     throw Error(ExitCode::numerical, std::to_string(worst.failed) + " of the runs failed, first at " + worst.first_failure,

@@ -417,7 +417,8 @@ void add_verify_command(CommandLine& app) {
       "a folder for the pictures of what failed: NAME.expected.png, NAME.actual.png, NAME.difference.png");
   add_result_options(*command, options->common);
   command->footer("What a suite may say: chainreel help snapshots\n"
-                  "Example: chainreel verify arm.yaml --junit out/junit.xml --html out/report.html");
+                  "Example: chainreel verify arm.yaml --junit out/junit.xml --html out/report.html --missing write\n"
+                  "with arm.yaml: {model: rr.urdf, poses: {home: [0, 0]}}; without --missing write from the second time on");
   command->callback([options] { run_verify(*options); });
 }
 

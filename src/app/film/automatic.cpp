@@ -52,7 +52,7 @@ Json candidate_report(const Choice::Candidate& candidate) {
             {"cost_ns", candidate.cost},
             {"steps", candidate.steps},
             {"evaluations", candidate.evaluations}};
-  if (!candidate.trouble.empty()) json["trouble"] = candidate.trouble;
+  json["trouble"] = or_null(candidate.trouble);
   return json;
 }
 
@@ -187,16 +187,17 @@ Json choice_report(const Choice& choice, const Accuracy& accuracy, bool tried) {
   Json json = candidate_report(choice.best);
   json["accuracy"] = to_string(accuracy);
   json["is_met"] = choice.is_met;
-  json["holds_until"] = choice.holds_until ? Json(*choice.holds_until) : Json(nullptr);
-  if (choice.holds_until) json["why_until"] = choice.why_until;
-  if (choice.counted_until) json["counted_until"] = *choice.counted_until;
-  if (choice.cost_to_end) json["cost_to_end_ns"] = *choice.cost_to_end;
+  json["holds_until"] = or_null(choice.holds_until);
+  json["why_until"] = or_null(choice.why_until);
+  json["counted_until"] = or_null(choice.counted_until);
+  json["cost_to_end_ns"] = or_null(choice.cost_to_end);
   json["remarks"] = choice.remarks;
   json["reference"] = choice.reference;
   json["reference_uncertainty"] = choice.reference_uncertainty;
-  if (choice.attainable) json["attainable"] = *choice.attainable;
+  json["attainable"] = or_null(choice.attainable);
   json["out_of_budget"] = choice.out_of_budget;
   json["spent"] = choice.spent / choice.budget;
+  json["tried"] = Json::array();
   if (tried)
     for (const Choice::Candidate& one : choice.tried) json["tried"].push_back(candidate_report(one));
   return json;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "model/xml_text.hpp"
@@ -79,10 +80,12 @@ std::string seen_from_here(const fs::path& path) {
   return path_from("", path.lexically_normal().string());
 }
 
-ClipOrigin look_in(const fs::path& folder, const std::vector<WantedFile>& wanted) {
+// `or_shipped`: what is not there may be what comes with the program under that name.
+ClipOrigin look_in(const fs::path& folder, const std::vector<WantedFile>& wanted, bool or_shipped = false) {
   ClipOrigin origin{seen_from_here(folder), true, {}, {}};
   for (const WantedFile& file : wanted) {
-    const fs::path path = (folder / file.path).lexically_normal();
+    fs::path path = (folder / file.path).lexically_normal();
+    if (const std::string shipped = or_shipped ? shipped_input(file.path) : ""; !shipped.empty() && !is_there(path)) path = shipped;
     if (!is_there(path))
       origin.missing.push_back(file.path);
     else if (is_changed(path, file.sha256))
@@ -120,6 +123,8 @@ ClipOrigin find_origin(const std::string& clip, const std::vector<WantedFile>& w
     if (origin.changed.empty()) return origin;
     if (!changed) changed = std::move(origin);
   }
+  ClipOrigin shipped = look_in(here, wanted, true);
+  if (shipped.is_found && shipped.changed.empty()) return shipped;
   return changed.value_or(first);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/film/prepared.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/hash.hpp"
@@ -85,7 +86,8 @@ std::optional<PageLogo> page_logo(const Scene& scene, int page_height) {
   return PageLogo{logo.image, logo.corner, logo.height, page_height};
 }
 
-Json style_report(const Scene& scene) {
+Json style_report(const PreparedFilm& film) {
+  const Scene& scene = film.scene;
   const Style& style = scene.style;
   const Json fallbacks = fallback_report(scene);
   if (style.empty() && fallbacks.empty()) return nullptr;
@@ -104,7 +106,7 @@ Json style_report(const Scene& scene) {
     pixels.add(std::as_bytes(std::span(style.logo->image->bgra)));
     report["logo"] = {{"sha256", style.logo->sha256}, {"pixels_sha256", pixels.finish()}};
   }
-  report["low_contrast"] = low_contrasts(scene);
+  report["low_contrast"] = low_contrasts(scene, bars_of(film));
   return report;
 }
 

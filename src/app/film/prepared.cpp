@@ -92,7 +92,29 @@ void check_words(const PreparedFilm& film) {
   check_annotations(film.scene, scenes, chains);
 }
 
+// What tells this run from others of the same scene: a film of a sweep shows where it stands.
+std::string words_of_set_parameters(const Scene& scene) {
+  std::string words;
+  for (const auto& [name, value] : scene.parameters) {
+    const auto is_set = [&](const std::string& key) { return scene.place_of(key).file.starts_with("--set"); };
+    if (is_set("parameters." + name) || is_set("parameters")) words += (words.empty() ? "" : ", ") + name + " = " + format_significant(value, 6);
+  }
+  return words;
+}
+
+void notice_pale_colors(PreparedFilm& film) {
+  std::vector<std::string>& notices = film.panels.front().scene.notices;
+  for (std::string& line : low_contrasts(film.scene, bars_of(film))) notices.push_back(std::move(line));
+}
+
 }  // namespace
+
+std::size_t bars_of(const PreparedFilm& film) {
+  std::size_t bars = 0;
+  for (const PreparedScene& panel : film.panels)
+    if (!panel.shapes) bars = std::max(bars, panel.simulation.chain.bodies.size() - 1);
+  return bars;
+}
 
 PreparedFilm load_film(const std::string& path, const std::vector<std::string>& overrides, bool meshes, bool quiet) {
   return film_of(read_scene(path, overrides), meshes, quiet);
@@ -101,16 +123,15 @@ PreparedFilm load_film(const std::string& path, const std::vector<std::string>& 
 PreparedFilm film_of(Scene scene, bool meshes, bool quiet, const std::optional<OwnTorque>& torque) {
   PreparedFilm film{std::move(scene), {}, quiet};
   if (torque) drive(film.scene, *torque);
-  const std::vector<std::string> pale = low_contrasts(film.scene);
-  Scene& noticed = film.scene.compare.empty() ? film.scene : film.scene.compare.front();
-  noticed.notices.insert(noticed.notices.end(), pale.begin(), pale.end());
   if (meshes) load_logo(film.scene);
   if (film.scene.compare.empty()) {
     std::set<std::string> said;
+    film.scene.set_words = words_of_set_parameters(film.scene);
     film.panels.push_back(prepare_panel(std::move(film.scene), meshes, quiet, said));
     film.scene = film.panels.front().scene;
     check_words(film);
     if (meshes) load_shapes(film);
+    notice_pale_colors(film);
     return film;
   }
   film.panels = prepare_panels(film.scene.compare, meshes, quiet);
@@ -120,15 +141,22 @@ PreparedFilm film_of(Scene scene, bool meshes, bool quiet, const std::optional<O
     film.panels[i].scene.title = film.scene.compare[i].title;
   check_words(film);
   if (meshes) load_shapes(film);
+  notice_pale_colors(film);
   return film;
 }
 
-PreparedScene load_scene(const std::string& path, const std::vector<std::string>& overrides, bool meshes,
-                         bool quiet) {
-  Scene scene = read_scene(path, overrides);
-  require_single_run(scene);
-  std::set<std::string> said;
-  PreparedScene prepared = prepare_panel(std::move(scene), meshes, quiet, said);
+PreparedScene load_motion(const std::string& path, const std::vector<std::string>& overrides, int panel, bool quiet) {
+  Scene scene = read_scene(path, overrides, MethodsOf::command);
+  if (panel == 0 && !scene.compare.empty() && differ_by_method_alone(scene.compare)) {
+    const std::string title = scene.title;
+    scene = Scene(scene.compare.front());
+    scene.title = title;
+  } else if (const std::size_t chosen = chosen_panel(scene, panel); !scene.compare.empty()) {
+    name_panels(scene.compare);
+    scene = Scene(scene.compare[chosen]);
+  }
+  PreparedScene prepared{std::move(scene), {}, {}, nullptr};
+  prepared.simulation = prepare(prepared.scene, false);
   prepared.simulation.events = nullptr;
   say_notices(prepared, quiet);
   return prepared;

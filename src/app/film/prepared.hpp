@@ -29,15 +29,18 @@ struct PreparedFilm {
   bool quiet = true;  // nothing is said while its runs are computed
 };
 
+// The most links that a panel draws as bars, in colours of the theme.
+std::size_t bars_of(const PreparedFilm& film);
+
 // `quiet`: says nothing while a method is chosen.
 PreparedFilm load_film(const std::string& path, const std::vector<std::string>& overrides, bool meshes = true,
                        bool quiet = true);
 // The same of a scene that has been read. `torque` drives the joints of every panel: Error (usage) where one has its own.
 PreparedFilm film_of(Scene scene, bool meshes = true, bool quiet = true, const std::optional<OwnTorque>& torque = {});
-// For charts and tables of a single run, which compare whole durations: events do not act. What is to be known of the scene is
-// said. Throws Error where it compares several.
-PreparedScene load_scene(const std::string& path, const std::vector<std::string>& overrides,
-                         bool meshes = true, bool quiet = true);
+// For commands that run one motion with methods of their own, over its whole duration: events do not act, and no method is
+// chosen where the scene names none. Of a scene that compares several, `panel` from 1, or 0 where they differ by their methods
+// alone; else throws Error. What is to be known of the scene is said.
+PreparedScene load_motion(const std::string& path, const std::vector<std::string>& overrides, int panel, bool quiet);
 
 // 0, 1/fps, 2/fps, ...: one a frame of a film without slow motion.
 std::vector<double> frame_times(const Scene& scene);

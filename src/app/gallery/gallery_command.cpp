@@ -48,7 +48,7 @@ void run_gallery(const GalleryOptions& options) {
   throw_if_interrupted();
   output.commit();
   if (!options.common.quiet) tell_of_long_films(clips);
-  tell_files(options.common, {options.output}, [&] { return Json{{"films", clips.size()}}; });
+  tell_files(options.common, {options.output}, [&] { return Json{{"clips", clips.size()}}; });
 }
 
 }  // namespace

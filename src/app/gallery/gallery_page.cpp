@@ -132,7 +132,7 @@ std::string method_line(const Json& run) {
   if (!order.empty()) text += ", order " + order;
   if (!tolerance.empty()) text += ", tolerance " + tolerance;
   if (!step.empty()) text += ", step " + step;
-  return run.contains("auto") ? text + " (chosen automatically)" : text;
+  return run.contains("auto") && !run["auto"].is_null() ? text + " (chosen automatically)" : text;
 }
 
 std::string status_words(const Json& run) {
@@ -180,7 +180,7 @@ const std::vector<Row>& rows() {
 
 // Each with what all of them share.
 std::vector<Json> runs_of(const Json& audit) {
-  if (!audit.contains("panels") || !audit["panels"].is_array()) return {audit};
+  if (!audit.contains("panels") || !audit["panels"].is_array() || audit["panels"].empty()) return {audit};
   std::vector<Json> runs;
   for (const Json& panel : audit["panels"]) {
     runs.push_back(audit);

@@ -1,7 +1,7 @@
 // What shells complete. Keys behind --set come from the table of keys.
 #include <algorithm>
 
-#include "app/cli/data_folder.hpp"
+#include "core/data_folder.hpp"
 #include "app/guide/manual.hpp"
 #include "core/format.hpp"
 #include "scene/keys/keys.hpp"

@@ -29,6 +29,20 @@ std::string methods_page();
 std::string expressions_page();
 std::string outputs_page();
 std::string exit_codes_page();
+// --- reference_json.cpp
+std::string json_page();
+
+// Keys between commas that are told together, and what they say.
+struct JsonKey {
+  std::string names, says;
+};
+struct JsonReport {
+  std::string command;
+  std::vector<JsonKey> keys;  // on top of what it prints
+};
+const std::vector<JsonReport>& json_reports();
+const std::vector<JsonKey>& run_keys();
+const std::vector<JsonKey>& film_keys();
 
 // "12-30", "4".
 std::string order_words(const Method& method);

@@ -1,6 +1,6 @@
 #include "app/library/loaded_model.hpp"
 
-#include "app/cli/data_folder.hpp"
+#include "core/data_folder.hpp"
 #include "app/film/prepared.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"

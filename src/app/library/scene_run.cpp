@@ -4,7 +4,7 @@
 #include <mutex>
 #include <thread>
 
-#include "app/cli/data_folder.hpp"
+#include "core/data_folder.hpp"
 #include "app/film/automatic.hpp"
 #include "app/cli/streams.hpp"
 #include "app/film/prepared.hpp"

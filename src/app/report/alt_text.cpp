@@ -134,11 +134,19 @@ Json placeless(Json audit, const Scene& scene) {
   return audit;
 }
 
+// Without keys that say nothing: FFmpeg knows an APNG only where its first picture begins within 2 KB.
+Json without_empty_keys(const Json& audit) {
+  Json brief = Json::object();
+  for (const auto& [key, value] : audit.items())
+    if (!value.empty() || key == "warnings" || key == "limits_passed") brief[key] = value;
+  return brief;
+}
+
 }  // namespace
 
 ClipMemory memory_of(const FilmReport& report) {
   const Scene& scene = report.film().scene;
-  return {scene.title, sentence_of(report), placeless_scene_text(scene), placeless(to_json(report), scene)};
+  return {scene.title, sentence_of(report), placeless_scene_text(scene), placeless(without_empty_keys(to_json(report)), scene)};
 }
 
 std::string sentence_of(const FilmReport& report) {

@@ -29,6 +29,7 @@ Json sample_report(const Simulation& simulation, const Trajectory& trajectory, i
   const Energy energy = energy_of(chain, ws, q, qd);
   json["kinetic"] = energy.kinetic;
   json["potential"] = energy.potential;
+  json["end_effector"] = nullptr;
   if (chain.end_effector < 0) return json;
   json["end_effector"] = end_effector_json(chain, ws);
   json["end_effector"]["xd"] = to_json(frame_velocity(chain, ws, chain.end_effector));
@@ -37,6 +38,7 @@ Json sample_report(const Simulation& simulation, const Trajectory& trajectory, i
 
 Json pose_report(const Chain& chain, ConstVec q) {
   Json json{{"q", to_json(q)}};
+  json["end_effector"] = nullptr;
   if (chain.end_effector < 0) return json;
   Workspace ws(chain);
   const std::vector<double> still(std::size_t(chain.nv));

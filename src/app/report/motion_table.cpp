@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "dynamics/constraints/constraint_set.hpp"
 #include "dynamics/energy.hpp"
 #include "dynamics/kinematics.hpp"
 #include "sim/audit.hpp"
@@ -163,8 +165,21 @@ void add_frames(DataTable& table, const Chain& chain, const Trajectory& trajecto
   table.add("frames", std::move(names), {chain.frames.size(), 3}, std::move(values));
 }
 
-void add_multipliers(DataTable& table, const Trajectory& trajectory) {
-  table.add("lambda", multiplier_columns(trajectory.rows), {std::size_t(trajectory.rows)}, trajectory.lambda);
+// A length that is held takes a force, a direction a torque; coordinates what moves them, where that is the same for all.
+const char* unit_of_multiplier(const ConstraintSet& set, const ConstraintSet::Row& row, const std::vector<Kind>& freedoms) {
+  if (row.kind == ConstraintSet::Kind::parallel) return "N m";
+  if (row.kind != ConstraintSet::Kind::coordinates) return "N";
+  std::optional<Kind> common;
+  for (int k = row.first_term; k < row.first_term + row.terms; ++k) {
+    const Kind kind = freedoms[std::size_t(set.terms()[std::size_t(k)].v)];
+    if (common && *common != kind) return "";
+    common = kind;
+  }
+  return common == Kind::turns ? "N m" : common == Kind::slides ? "N" : "";
+}
+
+void add_multipliers(DataTable& table, const Simulation& simulation, const Trajectory& trajectory) {
+  table.add("lambda", multiplier_columns(simulation.chain, simulation.constraints.list), {std::size_t(trajectory.rows)}, trajectory.lambda);
 }
 
 void add_column(DataTable& table, MotionColumn column, const Simulation& simulation, const Trajectory& trajectory) {
@@ -191,7 +206,7 @@ void add_column(DataTable& table, MotionColumn column, const Simulation& simulat
     case MotionColumn::energy_error:
       return table.add("energy_error", "J", audit_of(simulation, trajectory).error);
     case MotionColumn::lambda:
-      return add_multipliers(table, trajectory);
+      return add_multipliers(table, simulation, trajectory);
     case MotionColumn::frames:
       return add_frames(table, chain, trajectory);
     default:
@@ -224,9 +239,12 @@ std::vector<std::string> torque_columns(const Chain& chain) {
   return with_units(names_of_numbers(chain, "tau", chain.coordinate_names), kinds_of_freedoms(chain), "N m", "N");
 }
 
-std::vector<std::string> multiplier_columns(int rows) {
+std::vector<std::string> multiplier_columns(const Chain& chain, const std::vector<Constraint>& constraints) {
+  const ConstraintSet set(chain, constraints);
+  const std::vector<Kind> freedoms = kinds_of_freedoms(chain);
   std::vector<std::string> names;
-  for (int i = 1; i <= rows; ++i) names.push_back("lambda" + std::to_string(i));
+  for (const ConstraintSet::Row& row : set.row_list())
+    names.push_back(with_unit("lambda" + std::to_string(names.size() + 1), unit_of_multiplier(set, row, freedoms)));
   return names;
 }
 

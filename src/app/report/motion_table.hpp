@@ -31,9 +31,9 @@ void require_columns(const Simulation& simulation, const std::vector<MotionColum
 DataTable motion_table(const Simulation& simulation, const Trajectory& trajectory, const std::vector<MotionColumn>& columns);
 DataTable motion_table(const Simulation& simulation, const Trajectory& trajectory);  // with the usual ones
 
-// Of the arrays tau and lambda: "tau1 [N m]", "lambda1".
+// Of the arrays tau and lambda: "tau1 [N m]", "lambda1 [N]".
 std::vector<std::string> torque_columns(const Chain& chain);
-std::vector<std::string> multiplier_columns(int rows);
+std::vector<std::string> multiplier_columns(const Chain& chain, const std::vector<Constraint>& constraints);
 
 // "q1,q2,qd1,qd2", and the same of a sample.
 std::string state_names(const Chain& chain);

@@ -117,7 +117,7 @@ Json constraint_plan_report(const Simulation& simulation) {
   const bool by_kernel = cws.kernel.run != nullptr && plan.stabilize != Stabilization::baumgarte;
   json["dynamics"] = algorithm_of(simulation.chain, cws, by_kernel);
   json["stabilize"] = to_string(plan.stabilize);
-  if (plan.stabilize == Stabilization::baumgarte) json["gain"] = plan.gain;
+  json["gain"] = plan.stabilize == Stabilization::baumgarte ? Json(plan.gain) : Json(nullptr);
   const ConstraintCost cost = constraint_cost(simulation.chain, plan);
   json["evaluation_ns"] = cost.evaluation;
   json["projection_ns"] = cost.projection;
@@ -132,7 +132,7 @@ std::string constraint_plan_text(const Json& report) {
                      "); " + report["dynamics"].get<std::string>() + ", some " +
                      format_significant(report["evaluation_ns"].get<double>(), 2) +
                      " ns; stabilize: " + report["stabilize"].get<std::string>();
-  if (report.contains("gain")) text += ", gain " + format_shortest(report["gain"].get<double>()) + " 1/s";
+  if (report["gain"].is_number()) text += ", gain " + format_shortest(report["gain"].get<double>()) + " 1/s";
   const double projection = report["projection_ns"].get<double>();
   if (projection > 0) text += ", some " + format_significant(projection / 1000, 2) + " us a step";
   return text;
@@ -148,6 +148,7 @@ Json constraint_run_report(const Simulation& simulation, const Trajectory& traje
   const std::vector<double> largest = largest_multipliers(trajectory);
   for (std::size_t i = 0; i < largest.size(); ++i)
     json["rows"].push_back({{"name", set.row_names()[i]}, {"largest_lambda", largest[i]}});
+  json["force_at_start"] = json["force_at_end"] = Json::array();
   if (trajectory.size() == 0) return json;
   Workspace ws(chain);
   ConstrainedWorkspace cws(chain, set);

@@ -26,9 +26,8 @@ std::vector<Doubt> warnings_of(const PreparedScene& prepared, const Trajectory& 
   return doubts_of(prepared.simulation, trajectory, audit, chosen_by);
 }
 
-// What happened when, and whether it fell; nothing of a scene without events.
+// What happened when, and whether it fell.
 void add_events(Json& json, const Scene& scene, const Trajectory& trajectory) {
-  if (scene.events.empty()) return;
   json["events"] = Json::array();
   const EventHits& hits = trajectory.events;
   for (int k = 0; k < hits.size(); ++k) {
@@ -39,10 +38,7 @@ void add_events(Json& json, const Scene& scene, const Trajectory& trajectory) {
                               {"q", to_json(hits.q_at(k))},
                               {"qd", to_json(hits.qd_at(k))}});
   }
-  const bool may_fall = std::any_of(scene.events.begin(), scene.events.end(),
-                                    [](const EventEntry& event) { return event.kind == EventKind::fall; });
-  const std::optional<double> time = fall_time_of(scene, trajectory);
-  if (may_fall) json["fall_time"] = time ? Json(*time) : Json(nullptr);
+  json["fall_time"] = or_null(fall_time_of(scene, trajectory));
   json["end_time"] = trajectory.end_time;
 }
 
@@ -54,6 +50,7 @@ Json motion_report(const RecordedMotion& motion) {
             {"rates", motion.has_rates() ? "recorded" : "derivatives of a spline"},
             {"accelerations", motion.has_accelerations() ? "recorded" : "derivatives of a spline"},
             {"torques", "inverse dynamics"}};
+  json["recorded_torques"] = nullptr;
   if (const auto& own = motion.own_torques())
     json["recorded_torques"] = {{"largest_difference", own->largest}, {"t", own->t}, {"freedom", own->freedom}};
   return json;
@@ -80,16 +77,16 @@ Json to_json(const RunReport& report) {
   json["model"] = scene.model.words();
   json["model_sha256"] = scene.model.sha256();
   json["status"] = to_string(trajectory.status);
-  if (scene.expect != Outcome::finish) json["expect"] = to_string(scene.expect);
-  if (!trajectory.trouble.empty()) json["trouble"] = trajectory.trouble;
+  json["expect"] = to_string(scene.expect);
+  json["trouble"] = or_null(trajectory.trouble);
   const Simulation& simulation = prepared.simulation;
   json["method"] = simulation.method->name;
   json["step"] = simulation.step > 0 ? Json(simulation.step) : Json(nullptr);
-  if (simulation.options.tolerance > 0) json["tolerance"] = simulation.options.tolerance;
-  if (simulation.options.order > 0) json["order"] = simulation.options.order;
-  if (prepared.choice) json["auto"] = choice_report(*prepared.choice, scene.accuracy, false);
-  if (simulation.motion) json["motion"] = motion_report(*simulation.motion);
-  if (scene.control && scene.control->function) json["torque_function"] = scene.control->function->words;
+  json["tolerance"] = simulation.options.tolerance > 0 ? Json(simulation.options.tolerance) : Json(nullptr);
+  json["order"] = simulation.options.order > 0 ? simulation.options.order : simulation.method->order;
+  json["auto"] = prepared.choice ? choice_report(*prepared.choice, scene.accuracy, false) : Json(nullptr);
+  json["motion"] = simulation.motion ? motion_report(*simulation.motion) : Json(nullptr);
+  json["torque_function"] = scene.control && scene.control->function ? Json(scene.control->function->words) : Json(nullptr);
   json["steps"] = trajectory.steps;
   json["evaluations"] = trajectory.evaluations;
   json["duration"] = scene.duration;
@@ -99,10 +96,8 @@ Json to_json(const RunReport& report) {
   const auto& steps = trajectory.energy_at_steps;
   json["audit_error"] = steps ? steps->largest_error : audit.largest_error;
   json["audit_error_time"] = steps ? steps->time : audit.largest_error_time;
-  if (steps) {
-    json["audit_error_of_frames"] = audit.largest_error;
-    json["audit_error_of_frames_time"] = audit.largest_error_time;
-  }
+  json["audit_error_of_frames"] = audit.largest_error;
+  json["audit_error_of_frames_time"] = audit.largest_error_time;
   json["energy_moved"] = audit.energy_moved;
   json["warnings"] = Json::array();
   for (const std::string& doubt : scene.doubts)
@@ -110,7 +105,7 @@ Json to_json(const RunReport& report) {
   for (const Doubt& doubt : warnings)
     json["warnings"].push_back(
         {{"kind", doubt.kind}, {"amount", doubt.amount}, {"what", doubt.words}, {"remedy", doubt.remedy}});
-  if (trajectory.rows > 0) json["constraint_error"] = constraint_run_report(simulation, trajectory);
+  json["constraint_error"] = trajectory.rows > 0 ? constraint_run_report(simulation, trajectory) : Json(nullptr);
   json["limits_passed"] = Json::array();
   for (const LimitEvent& event : trajectory.limits) {
     json["limits_passed"].push_back({{"joint", event.joint},
@@ -121,7 +116,7 @@ Json to_json(const RunReport& report) {
   }
   add_events(json, scene, trajectory);
   json["trajectory_sha256"] = audit.sha256;
-  if (left_picture_at) json["left_picture_at"] = *left_picture_at;
+  json["left_picture_at"] = or_null(left_picture_at);
   return json;
 }
 
@@ -189,9 +184,8 @@ double held_first(const Scene& scene) {
 
 Json to_json(const Stretch& one) {
   Json json{{"from", one.from}, {"until", one.until}, {"speed", one.speed}};
-  if (one.cause.empty()) return json;
-  json["ease"] = one.ease;
-  json["because"] = one.cause;
+  json["ease"] = one.cause.empty() ? Json(nullptr) : Json(one.ease);
+  json["because"] = or_null(one.cause);
   return json;
 }
 
@@ -224,11 +218,13 @@ Json to_json(const FilmReport& report) {
   Json json = Json::object();  // JSON's null that becomes an object is lost where memory is short
   if (report.panels.size() == 1) {
     json = to_json(report.panels.front());
+    json["layout"] = to_string(scene.layout);
+    json["panels"] = Json::array();
   } else {
     json = {{"scene", scene.file},
             {"title", scene.title},
-            {"layout", to_string(scene.layout)},
-            {"duration", scene.duration}};
+            {"duration", scene.duration},
+            {"layout", to_string(scene.layout)}};
     json["panels"] = Json::array();
     for (const RunReport& panel : report.panels) {
       json["panels"].push_back(to_json(panel));
@@ -237,24 +233,19 @@ Json to_json(const FilmReport& report) {
     }
   }
   json.update(clip_facts(scene.video.width, scene.video.height, scene.video.fps, report.frames));
-  if (!report.left_out.empty()) json["left_out"] = report.left_out;
-  if (const Json style = style_report(scene); !style.is_null()) json["style"] = style;
-  if (!scene.slow_motion.empty() || !report.slow_motion.empty()) {
-    const double held = held_first(scene);
-    json["slow_motion"] = Json::array();
-    for (const Stretch& one : report.slow_motion) {
-      Json entry = to_json(one);
-      entry["film_from"] = held + report.clock.film_time(one.from);
-      entry["film_until"] = held + report.clock.film_time(one.until);
-      json["slow_motion"].push_back(std::move(entry));
-    }
+  json["left_out"] = report.left_out;
+  json["style"] = style_report(report.film());
+  const double held = held_first(scene);
+  json["slow_motion"] = Json::array();
+  for (const Stretch& one : report.slow_motion) {
+    Json entry = to_json(one);
+    entry["film_from"] = held + report.clock.film_time(one.from);
+    entry["film_until"] = held + report.clock.film_time(one.until);
+    json["slow_motion"].push_back(std::move(entry));
   }
-  if (!scene.annotate.empty()) {
-    json["pauses"] = Json::array();
-    for (const Pause& one : report.pauses)
-      json["pauses"].push_back(
-          {{"at", one.at}, {"seconds", one.seconds}, {"film_from", held_first(scene) + report.clock.film_time(one.at)}});
-  }
+  json["pauses"] = Json::array();
+  for (const Pause& one : report.pauses)
+    json["pauses"].push_back({{"at", one.at}, {"seconds", one.seconds}, {"film_from", held + report.clock.film_time(one.at)}});
   json["versions"] = Json::object();
   for (const LibraryLine& line : library_versions(report.writes)) json["versions"][line.name] = line.version;
   return json;

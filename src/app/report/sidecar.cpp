@@ -74,7 +74,7 @@ OtherFiles others_audited(const std::string& path, const std::vector<std::string
     if (before.is_null()) return others;
     const auto shown = [](Json json) {
       for (const char* own : {kAuditedFiles, kSidecarHashes, "seconds"}) json.erase(own);
-      if (json.contains(kDrawnFrames)) json.update(Json(json[kDrawnFrames]));
+      if (json.contains(kDrawnFrames) && json[kDrawnFrames].is_object()) json.update(Json(json[kDrawnFrames]));
       json.erase(kDrawnFrames);
       return json;
     };

@@ -14,6 +14,7 @@
 #include "app/report/alt_text.hpp"
 #include "app/report/version.hpp"
 #include "app/verify/physics_record.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/hash.hpp"
@@ -319,6 +320,10 @@ std::string source_name(const Suite& suite, const std::string& source) {
   const fs::path folder =
       fs::is_directory(suite.file) ? fs::path(suite.file) : fs::path(suite.file).parent_path();
   const fs::path from = fs::absolute(folder.empty() ? "." : folder).lexically_normal();
+  // What comes with the program goes by its name: baselines do not depend on where that is installed.
+  const std::string shipped = name_of_shipped(source);
+  std::error_code ignored;
+  if (!shipped.empty() && !fs::exists(from / shipped, ignored)) return shipped;
   const fs::path name = fs::absolute(source).lexically_normal().lexically_relative(from);
   return printable(name.empty() ? source : name.generic_string());  // a name may be no text
 }

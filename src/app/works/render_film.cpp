@@ -299,14 +299,14 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   result.film_seconds = frame_time(result.frames, fps);
   const FilmReport report = film_report(runs, pictures, result.frames);
   ClipMemory memory = memory_of(report);
-  if (schedule.first > 0 || schedule.last > 0)
-    memory.audit["held_frames"] = {{"first", schedule.first}, {"last", schedule.last}};
-  if (const std::string meshes = meshes_hash(film); !meshes.empty()) memory.audit[kMeshesHash] = meshes;
+  const Json held{{"first", schedule.first}, {"last", schedule.last}}, meshes = or_null(meshes_hash(film));
+  if (schedule.first > 0 || schedule.last > 0) memory.audit["held_frames"] = held;
+  if (!meshes.is_null()) memory.audit[kMeshesHash] = meshes;
   result.times.draw += clock.lap();
 
   result.audit = to_json(report);
-  if (memory.audit.contains(kMeshesHash)) result.audit[kMeshesHash] = memory.audit[kMeshesHash];
-  if (memory.audit.contains("held_frames")) result.audit["held_frames"] = memory.audit["held_frames"];
+  result.audit[kMeshesHash] = meshes;
+  result.audit["held_frames"] = held;
 
   FrameRange range{0, result.frames};
   std::string part;

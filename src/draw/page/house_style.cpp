@@ -88,6 +88,48 @@ Color mean_of(const Image& image, Span columns, Span rows) {
           a / (255 * pixels)};
 }
 
+// Which colours a page may show; what only some instants or layouts show counts.
+class ShownColors {
+ public:
+  explicit ShownColors(const Scene& page) : page_(page) {
+    if (page.compare.empty()) panels_.push_back(&page);
+    for (const Scene& panel : page.compare) panels_.push_back(&panel);
+  }
+
+  bool has(const std::string& name) const {
+    const auto any = [&](const auto& is_so) { return std::any_of(panels_.begin(), panels_.end(), [&](const Scene* one) { return is_so(*one); }); };
+    const bool has_foot = any([](const Scene& one) { return one.foot.has_value(); });
+    const bool is_tied = any([](const Scene& one) { return !one.constraints.empty(); });
+    if (name == "ellipse") return shows({"ellipse"});
+    if (name == "velocity") return shows({"velocity"});
+    if (name == "force") return shows({"gravity"}) || (shows({"g"}) && any([](const Scene& one) { return !one.gravity || !one.gravity->isZero(); }));
+    if (name == "constraint") return is_tied || has_foot;
+    if (name == "torque")
+      return has_foot || (shows({"torque", "torque_label", "target", "springs", "equation"}) && any(&is_driven));
+    if (name == "side_a" || name == "side_b") return panels_.size() == 2;
+    if (name == "curves")
+      return shows({"trail", "ghosts"}) || any([](const Scene& one) { return !one.plot.empty(); }) ||
+             (page_.layout != PageLayout::scene && !is_transparent(page_));
+    return true;
+  }
+
+ private:
+  static bool is_driven(const Scene& scene) {
+    return scene.control || scene.motion ||
+           std::any_of(scene.torque.begin(), scene.torque.end(), [](const TorqueEntry& one) { return !one.text.empty() && one.text != "0"; });
+  }
+  bool shows(std::initializer_list<const char*> layers) const {
+    return std::any_of(panels_.begin(), panels_.end(), [&](const Scene* one) {
+      return std::any_of(layers.begin(), layers.end(), [&](const char* layer) {
+        return std::find(one->draw.begin(), one->draw.end(), layer) != one->draw.end();
+      });
+    });
+  }
+
+  const Scene& page_;
+  std::vector<const Scene*> panels_;
+};
+
 }  // namespace
 
 const Theme& page_theme(const Scene& scene) {
@@ -107,9 +149,10 @@ double contrast(Color a, Color b) {
   return (std::max(x, y) + 0.05) / (std::min(x, y) + 0.05);
 }
 
-std::vector<std::string> low_contrasts(const Scene& scene) {
+std::vector<std::string> low_contrasts(const Scene& scene, std::size_t links) {
   const StyleColors& colors = colors_in(scene);
   Theme theme = page_theme(scene);
+  const ShownColors shown(scene);
   const bool has_background = colors.contains("background");
   const auto is_set = [&](const std::string& name) { return has_background || colors.contains(name); };
   std::vector<std::string> lines;
@@ -123,17 +166,17 @@ std::vector<std::string> low_contrasts(const Scene& scene) {
   };
   for (const Name& row : kStyleColors) {
     const std::string name = row.name;
-    if (!is_set(name) || name == "background" || name == "rule" || name == "grid") continue;
+    if (!is_set(name) || !shown.has(name) || name == "background" || name == "rule" || name == "grid") continue;
     const bool words = is_of_words(name);
     check(name, *color_named(theme, name), theme.background, "the background", words ? kContrastOfWords : kContrastOfMarks,
           words ? "words" : "marks");
   }
-  if (is_set("curves"))
+  if (is_set("curves") && shown.has("curves"))
     for (std::size_t i = 0; i < theme.curve.size(); ++i)
       check("curve " + std::to_string(i + 1), theme.curve[i], theme.background, "the background", kContrastOfWords, "words");
   // Fills of links may be pale where their outlines set them off.
   if (colors.contains("links") || colors.contains("ink"))
-    for (std::size_t i = 0; i < theme.link.size(); ++i)
+    for (std::size_t i = 0; i < std::min(links, theme.link.size()); ++i)
       if ((!colors.contains("links") || i < colors.at("links").size()) && contrast(theme.link[i], theme.background) < kContrastOfMarks)
         check("link " + std::to_string(i + 1), theme.link[i], theme.ink, "its outline, which is ink", kContrastOfMarks, "marks");
   return lines;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/data_folder.hpp"
 #include "core/format.hpp"
 #include "scene/quantity.hpp"
 
@@ -13,6 +14,14 @@ std::string beside(const std::string& scene, const std::string& named) {
   const std::filesystem::path target(named);
   if (target.is_absolute()) return named;
   return (std::filesystem::path(scene).parent_path() / target).lexically_normal().string();
+}
+
+std::string input_beside(const std::string& scene, const std::string& named) {
+  const std::string own = beside(scene, named);
+  std::error_code ignored;
+  if (std::filesystem::exists(own, ignored)) return own;
+  const std::string shipped = shipped_input(named);
+  return shipped.empty() ? own : shipped;
 }
 
 Fields::Fields(const YamlDocument& document, const YAML::Node& map, std::string prefix, ProblemList& problems)
@@ -124,7 +133,7 @@ bool Fields::read_path(const std::string& key, std::string& value) {
   // What the command line names lies where it is typed; else it is meant as in the file.
   std::error_code ignored;
   const bool is_here = document_->is_of_command_line(path(key)) && std::filesystem::is_regular_file(value, ignored);
-  if (!is_here) value = beside(document_->file, value);
+  if (!is_here) value = input_beside(document_->file, value);
   return true;
 }
 

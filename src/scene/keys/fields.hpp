@@ -19,6 +19,8 @@ inline constexpr double kMostFps = 1e6;  // frames/s
 
 // A path that the scene names, as found from the working folder: relative to the scene file unless absolute.
 std::string beside(const std::string& scene, const std::string& named);
+// The same, or where no such file lies there that of this name which comes with the program, if there is one.
+std::string input_beside(const std::string& scene, const std::string& named);
 
 // The keys of one mapping: every key must be asked for once before finish().
 class Fields {

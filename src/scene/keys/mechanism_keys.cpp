@@ -1,6 +1,7 @@
 // The keys model, packages, parameters and frames.
 #include <filesystem>
 
+#include "core/data_folder.hpp"
 #include "expr/expression.hpp"
 #include "scene/keys/own_keys.hpp"
 #include "scene/quantity.hpp"
@@ -14,7 +15,7 @@ KeyText told_model() {
   };
   return told_either(
              "model",
-             {told("", KeyForm::path, "a URDF file"),
+             {told("", KeyForm::path, "a URDF file, relative to the scene, or the name of one that comes with the program: rr.urdf"),
               told_record(
                   "",
                   {told_list("links", number, "their lengths, m; at zero all lie along x, one behind the other"),
@@ -107,6 +108,17 @@ ModelSource read_links(Fields& fields, const YAML::Node& node) {
 
 }  // namespace
 
+namespace {
+
+// Of a name without folders, which a model that comes with the program may have.
+std::string among_shipped(const std::string& name) {
+  if (name.find('/') != std::string::npos) return "";
+  const std::string near = near_shipped_models(name);
+  return near.empty() ? "" : ", and none of that name comes with the program:" + near;
+}
+
+}  // namespace
+
 void read_model(Fields& fields, Scene& scene) {
   const YAML::Node node = fields.find("model");
   if (node.IsMap()) {
@@ -118,9 +130,9 @@ void read_model(Fields& fields, Scene& scene) {
   fields.read_path("model", scene.model.path);
   std::error_code ignored;
   if (scene.model.path.empty())
-    fields.problem_at("model", "the scene names no model: write `model: ../../models/rr.urdf`, or `model: {links: [0.5, 0.4]}`");
+    fields.problem_at("model", "the scene names no model: write `model: my_robot.urdf`, `model: rr.urdf` for one that comes with the program, or `model: {links: [0.5, 0.4]}`");
   else if (!std::filesystem::is_regular_file(scene.model.path, ignored))
-    fields.problem_at("model", "there is no model file " + scene.model.path + ": " + fields.paths_start("model"));
+    fields.problem_at("model", "there is no model file " + scene.model.path + ": " + fields.paths_start("model") + among_shipped(node.Scalar()));
 }
 
 std::string model_text(const Scene& scene) {

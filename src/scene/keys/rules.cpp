@@ -62,6 +62,7 @@ void check_method_keys(Fields& fields, Scene& scene) {
   if (scene.step && *scene.step > scene.duration && scene.duration > 0)
     fields.problem_at("step", "'step' is longer than the duration");
   MethodKeys keys(fields, scene);
+  if (scene.chooses_method() && fields.document().is_for_methods) return;
   if (scene.chooses_method()) {
     for (const std::string key : {"step", "tolerance", "order"})
       if (fields.has(key))

@@ -107,8 +107,9 @@ std::string fall_time_text(const Scene& scene, const Trajectory& trajectory) {
 std::string title_of(const Scene& scene, const Trajectory& trajectory) {
   std::string title = scene.title;
   const std::size_t place = title.find(kFallInTitle);
-  if (place == std::string::npos || !has_fall(scene)) return title;
-  return title.replace(place, std::string(kFallInTitle).size(), fall_time_text(scene, trajectory));
+  if (place != std::string::npos && has_fall(scene))
+    title.replace(place, std::string(kFallInTitle).size(), fall_time_text(scene, trajectory));
+  return title + (title.empty() || scene.set_words.empty() ? "" : ", ") + scene.set_words;
 }
 
 FallTable run_fall_table(const std::string& scene, const std::vector<std::string>& overrides,

@@ -17,7 +17,7 @@ std::optional<double> fall_time_of(const Scene& scene, const Trajectory& traject
 // "0.83 s", or "more than 5 s" of a run that did not fall.
 std::string fall_time_text(const Scene& scene, const Trajectory& trajectory);
 
-// The title, `{fall}` in it replaced by that text.
+// The title, `{fall}` in it replaced by that text, and behind it the parameters that the command line gave.
 std::string title_of(const Scene& scene, const Trajectory& trajectory);
 
 struct FallRow {

@@ -80,4 +80,16 @@ std::vector<std::string> doubts_of_pose(const Chain& chain, std::span<const doub
   return doubts;
 }
 
+std::string followers_of(const Chain& chain) {
+  std::string words;
+  for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
+    const Joint& joint = chain.bodies[i].joint;
+    if (joint.kind == JointKind::floating) continue;
+    const std::string& leader = chain.coordinate_names[std::size_t(joint.v_index)];
+    if (leader == joint.name) continue;
+    words += (words.empty() ? "" : ", ") + joint.name + " follows " + leader + " and has no number of its own";
+  }
+  return words;
+}
+
 }  // namespace chainreel

@@ -19,4 +19,7 @@ enum class StateNumbers { q, qd, tau };
 // `written`: as above, one a coordinate (q) or a freedom.
 std::string trouble_of_units(const Chain& chain, std::span<const std::string> written, StateNumbers numbers);
 
+// "panda_finger_joint2 follows panda_finger_joint1 and has no number of its own", of all joints that mimic others; "" where none does.
+std::string followers_of(const Chain& chain);
+
 }  // namespace chainreel

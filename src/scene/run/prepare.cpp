@@ -21,7 +21,7 @@ constexpr double kDefaultTolerance = 1e-9;
 
 // Fills what is absent and refuses what has the wrong length.
 void check_length(std::vector<double>& values, const std::vector<double>& absent, const std::string& key,
-                  const Scene& scene, ProblemList& problems) {
+                  const Scene& scene, const Chain& chain, ProblemList& problems) {
   const bool is_partial = !values.empty() && std::isnan(values.back());  // see Fields::read_some
   if (is_partial) {
     values.pop_back();
@@ -31,7 +31,8 @@ void check_length(std::vector<double>& values, const std::vector<double>& absent
     values = absent;
   } else if (values.size() != absent.size()) {
     problems.add("'" + key + "' has " + std::to_string(values.size()) + " numbers, but the model " +
-                     scene.model.words() + " needs " + std::to_string(absent.size()),
+                     scene.model.words() + " needs " + std::to_string(absent.size()) +
+                     (followers_of(chain).empty() ? "" : ": " + followers_of(chain)),
                  scene.place_of(key));
   }
   for (std::size_t i = 0; i < std::min(values.size(), absent.size()); ++i)
@@ -210,8 +211,8 @@ Simulation prepare(Scene& scene, bool meshes, LastChain& last) {
   if (scene.motion) prepare_motion(scene, simulation);
   prepare_tables(scene, chain);
   ProblemList problems;
-  check_length(scene.start.q, zero_configuration(chain), "start.q", scene, problems);
-  check_length(scene.start.qd, std::vector<double>(std::size_t(chain.nv)), "start.qd", scene, problems);
+  check_length(scene.start.q, zero_configuration(chain), "start.q", scene, chain, problems);
+  check_length(scene.start.qd, std::vector<double>(std::size_t(chain.nv)), "start.qd", scene, chain, problems);
   check_torque(scene, chain, problems);
   check_lists(scene, chain, problems);
   const NamedFrames frames = find_frames(scene, chain, problems);

@@ -47,17 +47,22 @@ std::vector<std::string> split(const std::string& text, char separator) {
   }
 }
 
-[[noreturn]] void refuse(const std::string& text, const std::string& option, const std::string& why) {
-  throw Error(ExitCode::usage, option +
+struct Asked {
+  const std::string& option;
+  const std::string& example;
+};
+
+[[noreturn]] void refuse(const std::string& text, const Asked& asked, const std::string& why) {
+  throw Error(ExitCode::usage, asked.option +
                                    " takes KEY=a,b,c or KEY=from:to:count, maybe with :log behind it, like " +
-                                   option + " step=1e-4:0.1:30:log; '" + text + "' " + why);
+                                   asked.option + " " + asked.example + "; '" + text + "' " + why);
 }
 
-double number_in(const std::string& part, const std::string& text, const std::string& option) {
+double number_in(const std::string& part, const std::string& text, const Asked& asked) {
   try {
     return parse_quantity(part, {});
   } catch (const Error&) {
-    refuse(text, option, "holds '" + part + "', which is no number");
+    refuse(text, asked, "holds '" + part + "', which is no number");
   }
 }
 
@@ -71,22 +76,22 @@ double meant_decimal(double value, double size) {
 }
 
 void fill_range(Sweep& sweep, const std::vector<std::string>& parts, const std::string& text,
-                const std::string& option) {
+                const Asked& asked) {
   sweep.logarithmic = parts.size() == 4;
   if (parts.size() < 3 || parts.size() > 4 || (sweep.logarithmic && parts[3] != "log"))
-    refuse(text, option, "is no range");
-  const double from = number_in(parts[0], text, option), to = number_in(parts[1], text, option);
+    refuse(text, asked, "is no range");
+  const double from = number_in(parts[0], text, asked), to = number_in(parts[1], text, asked);
   // Kept beside the numbers, so that the key sees whether it is one of its own.
   sweep.unit = unit_kind(parts[1]);
   if (const std::string first = unit_kind(parts[0]); !first.empty() && !sweep.unit.empty() && first != sweep.unit)
-    refuse(text, option, "goes from " + first + " to " + sweep.unit);
+    refuse(text, asked, "goes from " + first + " to " + sweep.unit);
   else if (sweep.unit.empty())
     sweep.unit = first;
   const auto count = parse_number(parts[2]);
   if (!count || *count != std::floor(*count) || *count < 2 || *count > kMostValues)
-    refuse(text, option, "needs a count between 2 and " + std::to_string(kMostValues));
+    refuse(text, asked, "needs a count between 2 and " + std::to_string(kMostValues));
   if (sweep.logarithmic && !(from > 0 && to > 0))
-    refuse(text, option, "needs ends above 0 for equal factors");
+    refuse(text, asked, "needs ends above 0 for equal factors");
   const int n = int(*count);
   for (int k = 0; k < n; ++k) {
     const double s = double(k) / (n - 1);
@@ -99,20 +104,21 @@ void fill_range(Sweep& sweep, const std::vector<std::string>& parts, const std::
 
 }  // namespace
 
-Sweep parse_sweep(const std::string& text, const std::string& option) {
+Sweep parse_sweep(const std::string& text, const std::string& option, const std::string& example) {
+  const Asked asked{option, example};
   Sweep sweep;
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-    refuse(text, option, "names no key or no values");
+    refuse(text, asked, "names no key or no values");
   sweep.key = text.substr(0, equals);
   const std::string list = text.substr(equals + 1);
   if (outside_text(list).find(':') != std::string::npos) {
-    fill_range(sweep, split(list, ':'), text, option);
+    fill_range(sweep, split(list, ':'), text, asked);
     return sweep;
   }
   sweep.values = split(list, ',');
   for (const std::string& value : sweep.values) {
-    if (value.empty()) refuse(text, option, "has an empty value");
+    if (value.empty()) refuse(text, asked, "has an empty value");
     const auto number = parse_number(value);
     if (number) sweep.numbers.push_back(*number);
   }

@@ -18,7 +18,7 @@ struct Sweep {
   std::string setting(std::size_t k) const { return key + "=" + values[k] + unit; }
 };
 
-// Throws Error (usage) naming the option.
-Sweep parse_sweep(const std::string& text, const std::string& option);
+// Throws Error (usage) naming the option, with the example.
+Sweep parse_sweep(const std::string& text, const std::string& option, const std::string& example = "step=1e-4:0.1:30:log");
 
 }  // namespace chainreel

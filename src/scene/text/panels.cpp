@@ -132,6 +132,17 @@ std::vector<std::string> titles_of(const std::vector<Scene>& panels) {
 
 }  // namespace
 
+bool differ_by_method_alone(const std::vector<Scene>& panels) {
+  static const std::set<std::string> of_methods{"method", "step", "tolerance", "order", "accuracy", "expect"};
+  const std::vector<SceneEntry> shared = shared_entries(panels);
+  for (const Scene& panel : panels)
+    for (const SceneEntry& entry : entries_of(panel)) {
+      const bool is_free = of_methods.contains(entry.key) || !find_key(entry.key)->is_captioned;
+      if (!is_free && std::find(shared.begin(), shared.end(), entry) == shared.end()) return false;
+    }
+  return true;
+}
+
 void name_panels(std::vector<Scene>& panels) {
   if (panels.empty()) return;
   const std::vector<std::string> titles = titles_of(panels);

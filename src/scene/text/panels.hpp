@@ -11,4 +11,8 @@ namespace chainreel {
 // asked when all defaults are filled in.
 void name_panels(std::vector<Scene>& panels);
 
+// Whether all panels show one motion, computed in several ways: nothing but methods, with their steps and tolerances, and
+// what is written beside them differs.
+bool differ_by_method_alone(const std::vector<Scene>& panels);
+
 }  // namespace chainreel

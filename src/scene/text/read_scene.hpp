@@ -9,8 +9,12 @@
 
 namespace chainreel {
 
+// Who names the methods that run: the scene, or a command that has several of its own. For those a scene may say `step`,
+// `tolerance` and `order` and name no method.
+enum class MethodsOf { scene, command };
+
 // `overrides` are texts `key=value` of the command line. Throws Error with every problem of the file.
-Scene read_scene(const std::string& path, const std::vector<std::string>& overrides = {});
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides = {}, MethodsOf methods = MethodsOf::scene);
 
 // The same of a text, YAML or JSON: `file` is what errors call it, and its paths start in the folder of that name.
 Scene read_scene_text(const std::string& text, const std::string& file, const std::vector<std::string>& overrides = {});

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "scene/keys/keys.hpp"
@@ -84,6 +85,19 @@ std::string with_paths(const std::string& text,
   return result;
 }
 
+// A name of what comes with the program, in both folders.
+bool stays_shipped(const std::string& path, const fs::path& from, const fs::path& to) {
+  std::error_code ignored;
+  return !shipped_input(path).empty() && !fs::exists(from / path, ignored) && !fs::exists(to / path, ignored);
+}
+
+// Whether the scene is one of those that come with the program, and names their models by their places.
+bool lies_among_shipped(const Scene& scene) {
+  std::error_code ignored;
+  const fs::path shipped = data_folder(), file = fs::absolute(scene.file, ignored).lexically_normal();
+  return !shipped.empty() && std::mismatch(shipped.begin(), shipped.end(), file.begin(), file.end()).first == shipped.end();
+}
+
 }  // namespace
 
 std::string scene_with_model(const std::string& text, const std::string& model) {
@@ -95,7 +109,7 @@ std::string scene_with_model(const std::string& text, const std::string& model) 
 std::string moved_scene_text(const std::string& text, const std::string& to, const std::string& from) {
   const fs::path folder = to.empty() ? fs::path(".") : fs::path(to);
   return with_paths(text, [&](const std::string& path) -> std::optional<std::string> {
-    if (fs::path(path).is_absolute()) return std::nullopt;
+    if (fs::path(path).is_absolute() || stays_shipped(path, from, folder)) return std::nullopt;
     // Absolute first: of a folder that is not there yet, a relative path stays as it is.
     std::error_code code;  // names too long, loops of links: such a path stays as it is
     const fs::path moved =
@@ -130,7 +144,11 @@ std::string path_from(const std::string& folder, const std::string& path) {
 std::string placeless_path(const Scene& scene, const std::string& path) {
   const std::vector<std::string>& kept = scene.absolute_paths;
   if (std::find(kept.begin(), kept.end(), path) != kept.end()) return path;
-  return path_from(fs::path(scene.file).parent_path().string(), path);
+  const fs::path folder = fs::path(scene.file).parent_path();
+  const std::string shipped = name_of_shipped(path);
+  std::error_code ignored;
+  if (!shipped.empty() && !lies_among_shipped(scene) && !fs::exists(folder / shipped, ignored)) return shipped;
+  return path_from(folder.string(), path);
 }
 
 std::string placeless_scene_text(const Scene& scene) {

@@ -135,7 +135,7 @@ class SuiteReader {
     if (!root_.has(key)) return;
     const std::string like = is_model ? "model: my_robot.urdf" : "scene: [swing.yaml, fall.yaml]";
     for (const auto& [named, place] : texts_of(root_.find(key), key, like)) {
-      const Source source{beside(suite_.file, named), "", is_model, place};
+      const Source source{input_beside(suite_.file, named), "", is_model, place};
       if (is_yaml(source.file) == is_model) {
         problems_.add("'" + named +
                           (is_model ? "' is no model: name scenes under `scene:`"

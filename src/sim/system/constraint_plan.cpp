@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "expr/corners.hpp"
 
 namespace chainreel {
 
@@ -23,10 +24,15 @@ ExpressionCurve::ExpressionCurve(const std::string& x, const std::string& y, con
     names.push_back(name);
     values_.emplace_back(value);
   }
+  std::vector<VariableUse> uses{{}};
+  for (const auto& [name, value] : parameters) uses.push_back({VariableRole::constant, value});
   ProblemList problems;
   for (const auto& [axis, text] : {std::pair("x", x), std::pair("y", y)}) {
     try {
       entries_.push_back(Expression::parse(text, names, place));
+      Corners corners(uses);
+      corners.add(entries_.back());
+      if (corners.count() > 0 && cornered_.empty()) cornered_ = text;
     } catch (const Error& error) {
       problems.add("curve, " + std::string(axis) + ": " + error.problems().front().message, place);
     }

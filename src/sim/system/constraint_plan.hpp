@@ -47,8 +47,11 @@ class ExpressionCurve final : public PlaneCurve {
                   const chainreel::Place& place);
 
   PlaneCurve::Place at(double s) const override;
+  // Of the expressions, the first whose text jumps or bends somewhere, as abs(s) does; "": none.
+  const std::string& cornered() const { return cornered_; }
 
  private:
+  std::string cornered_;
   std::vector<Expression> entries_;  // x, y
   // s first. Twice derived: the outer dual number's part of the inner one's.
   mutable std::vector<Dual<Dual<double>>> values_;

@@ -101,6 +101,7 @@ struct Trajectory {
     std::vector<int> corners;  // see ChainSystem::hold
   };
   std::vector<Hold> holds;
+  std::vector<double> start_sides;  // of the torques' corners that depend on the state, just behind the start; empty: there are none
 
   EventHits events;
   int ending_event = -1;  // the index of the one that ended the run

@@ -55,6 +55,20 @@ TEST(HouseStyle, SaysWhatCannotBeRead) {
   EXPECT_THAT(low_contrasts(scene), testing::Contains(HasSubstr("link 1 has a contrast of 2 with its outline")));
 }
 
+TEST(HouseStyle, IsSilentAboutColoursThatThePictureDoesNotShow) {
+  Scene scene;
+  scene.draw = default_layers();
+  scene.style.light = {{"velocity", {0xFEFEFE}}, {"ellipse", {0xFEFEFE}}, {"side_a", {0xFEFEFE}}, {"torque", {0xFEFEFE}}, {"constraint", {0xFEFEFE}}};
+  EXPECT_THAT(low_contrasts(scene), IsEmpty());
+  scene.draw.push_back("velocity");
+  EXPECT_THAT(low_contrasts(scene), testing::ElementsAre(HasSubstr("velocity has a contrast of 1")));
+  scene.compare.resize(2);
+  EXPECT_THAT(low_contrasts(scene), testing::Contains(HasSubstr("side_a has a contrast of 1")));
+  Scene links;
+  links.style.light = {{"links", {0xEEEEEE}}, {"ink", {0xAAAAAA}}};
+  EXPECT_THAT(low_contrasts(links, 0), testing::Not(testing::Contains(HasSubstr("link 1")))) << "a model of meshes has none";
+}
+
 TEST(HouseStyle, ContrastIsThatOfWcag) {
   EXPECT_NEAR(contrast(color_of(0xFFFFFF), color_of(0x000000)), 21, 1e-9);
   EXPECT_NEAR(contrast(color_of(0x777777), color_of(0xFFFFFF)), 4.478, 0.001);

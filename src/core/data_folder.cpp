@@ -1,4 +1,4 @@
-#include "app/cli/data_folder.hpp"
+#include "core/data_folder.hpp"
 
 #include <dlfcn.h>
 #include <sys/auxv.h>
@@ -81,6 +81,35 @@ std::string shipped_file(const std::string& name) {
   for (const fs::path& path : {scene, fs::path(scene.string() + ".yaml"), model})
     if (is_file(path)) return path.string();
   return "";
+}
+
+namespace {
+
+constexpr const char* kInputFolders[] = {"models", "assets/styles"};
+
+}  // namespace
+
+std::string shipped_input(const std::string& name) {
+  if (name.empty() || name.find('/') != std::string::npos || name.front() == '.') return "";
+  const std::string folder = data_folder();
+  for (const char* inner : kInputFolders)
+    if (const fs::path path = fs::path(folder) / inner / name; !folder.empty() && is_file(path)) return path.string();
+  return "";
+}
+
+std::string name_of_shipped(const std::string& path) {
+  const std::string name = fs::path(path).filename().string();
+  const std::string shipped = path.find('/') == std::string::npos ? "" : shipped_input(name);
+  return !shipped.empty() && fs::path(path).lexically_normal() == fs::path(shipped).lexically_normal() ? name : "";
+}
+
+std::string near_shipped_models(const std::string& name) {
+  const std::vector<std::string> names = names_in("models", ".urdf", true);
+  const std::string near = did_you_mean(name, names);
+  if (!near.empty() || names.empty()) return near;
+  std::string all;
+  for (const std::string& one : names) all += (all.empty() ? " They are " : ", ") + one;
+  return all;
 }
 
 std::string found_file(const std::string& named) {

@@ -11,7 +11,7 @@ namespace chainreel {
 // The program's own file; where there is no /proc, as in bare roots, as it was called. Empty where neither tells.
 std::filesystem::path program_file();
 
-// Holds assets/scenes and models; "" where nothing lies where it is looked for.
+// Holds assets/scenes, assets/styles and models; "" where nothing lies where it is looked for.
 std::string data_folder();
 
 // Names of the scenes that come with the program, sorted.
@@ -19,6 +19,13 @@ std::vector<std::string> shipped_scenes();
 
 // The file of such a scene or model: "rr_free" or "rr_free.yaml", "rr.urdf"; "" where there is none of that name.
 std::string shipped_file(const std::string& name);
+
+// The file that a scene may name so: a model, a style or its logo; "" where there is none of that name.
+std::string shipped_input(const std::string& name);
+// The name by which a scene anywhere may name this file; "" where it is none of those.
+std::string name_of_shipped(const std::string& path);
+// Of the models' names, where one is near: " Did you mean 'rr.urdf'?"; else all of them.
+std::string near_shipped_models(const std::string& name);
 
 // `named` itself where there is such a file or it is a path; else the file of that name which comes with the program.
 std::string found_file(const std::string& named);

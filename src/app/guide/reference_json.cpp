@@ -1,0 +1,168 @@
+// What --json prints: the keys of each command, which a test holds against what the program prints.
+
+#include "app/guide/reference.hpp"
+
+#include <algorithm>
+
+namespace chainreel {
+namespace {
+
+using Keys = std::vector<JsonKey>;
+
+const Keys kRun{
+    {"scene", "its file"},
+    {"title", "of the scene, or of the panel"},
+    {"model", "its file, or its numbers"},
+    {"model_sha256", "of the URDF"},
+    {"status", "finished, stopped, diverged, .."},
+    {"expect", "what the scene expects: finish or diverge"},
+    {"trouble", "why it ended early, in words; or null"},
+    {"method, step, tolerance, order", "of the integrator; what it has none of is null"},
+    {"auto", "how `method: auto` chose it; or null"},
+    {"motion", "of a recorded motion, its table; or null"},
+    {"torque_function", "the name of a torque that is a function of the caller; or null"},
+    {"steps, evaluations", "how many"},
+    {"duration", "s, that was asked for"},
+    {"energy_start, largest_kinetic_energy, energy_moved", "J"},
+    {"audit_error, audit_error_time", "J and s: the largest error of the energy at the ends of steps"},
+    {"audit_error_of_frames, audit_error_of_frames_time", "the same at the frames alone"},
+    {"warnings", "what speaks against it: [{kind, amount, what, remedy}]"},
+    {"constraint_error", "how near it stayed to its constraints, and their forces; null without constraints"},
+    {"limits_passed", "[{joint, quantity, t, value, limit}]"},
+    {"events", "what happened: [{name, kind, t, q, qd}]"},
+    {"fall_time", "s, of an event of kind fall; or null"},
+    {"end_time", "s, at which it ended"},
+    {"trajectory_sha256", "of q and qd at the frames"},
+    {"left_picture_at", "s; or null, as in a table always"},
+};
+
+const Keys kFilm{
+    {"layout", "where things stand on the page"},
+    {"panels", "of a comparison a run each, with the keys of runs but scene and duration; else []"},
+    {"frames, fps, width, height, film_seconds", "of the first clip"},
+    {"left_out", "layers that the page has no room for"},
+    {"style", "fonts and logo of a `style:`; or null"},
+    {"slow_motion", "[{from, until, speed, ease, because, film_from, film_until}]"},
+    {"pauses", "[{at, seconds, film_from}]"},
+    {"versions", "of the program and of its libraries"},
+    {"meshes_sha256", "of what the model is drawn as; or null"},
+    {"held_frames", "{first, last}: how many stand still"},
+    {"seconds", "what each stage took"},
+    {"outputs", "its files: [{file, bytes, sha256, ..}]"},
+};
+
+const Keys kFiles{{"file, files", "what was written: the first, or null; and all"}};
+
+Keys with(Keys keys, const Keys& more) {
+  keys.insert(keys.end(), more.begin(), more.end());
+  return keys;
+}
+
+const Keys kState{
+    {"model", "its name"},
+    {"scene, t", "of a scene, and its instant in s; or null"},
+    {"formulation, gravity, q, qd, tau", "what was asked"},
+    {"M, nle, tau_g, qdd, C, C_qd, tau_f, h", "of the equation of motion; h = nle + tau_f"},
+    {"ends", "links at which the chain ends"},
+    {"end_effector, x, xd, J, Jd_qd", "null where there is none"},
+    {"basis, Lambda_inv, Lambda, mobility, directions, singular_directions", "of the effective mass; Lambda is null where it is infinite"},
+    {"kinetic, potential, linear_momentum, angular_momentum, bodies", "of the whole, and of each link"},
+    {"fixed_mass", "kg, of what is fixed to the world: no energy counts it"},
+    {"constraint_rows, constraint_status, phi, J_c, Jcd_qd, lambda, contact_forces, baumgarte_gain", "of constraints; [] and null without any"},
+};
+
+}  // namespace
+
+const std::vector<JsonKey>& run_keys() {
+  return kRun;
+}
+
+const std::vector<JsonKey>& film_keys() {
+  static const Keys keys = with(with(kFilm, kFiles), {{"part", "{first, behind} of --frames and --shard; or null"},
+                                                      {"sidecars", "NAME.json, NAME.txt and others beside the film"},
+                                                      {"small_clips", "GIF and APNG: [{file, width, height, fps, frames}]"}});
+  return keys;
+}
+
+const std::vector<JsonReport>& json_reports() {
+  static const std::vector<JsonReport> reports{
+      {"render", {{"films", "a scene each: the keys of runs and of films below"}}},
+      {"simulate", with(with(kRun, kFiles), {{"panels", "of a comparison scene, title, duration, panels, file and files stand on top, and a run each here; else []"},
+                                             {"rows", "of the table"}})},
+      {"snapshot", with(kFiles, {{"pictures", "[{file, files, at, panels}], of models [{file, files, poses}]: the numbers of the states that are shown"}})},
+      {"sheet", with(kFiles, {{"columns, lines", "of the page"}, {"cells", "[{scene, at, panels}]"}})},
+      {"ellipse", with(kFiles, {{"reading, shape, unit", "of the ellipses; not with --joint-space"}, {"poses", "[{t, q, point, Lambda_inv, Lambda, eigenvalues, semi_axes, ..}]"}})},
+      {"chart", with(kFiles, {{"scene, machine", "what was measured where"},
+                              {"reference, error, qd_scale", "what errors are measured by"},
+                              {"choice", "that of `method: auto`"},
+                              {"methods", "[{method, rungs}]"},
+                              {"left_out", "methods that the scene refuses, in words"}})},
+      {"energy", with(kFiles, {{"scene, duration", "s"},
+                               {"runs", "[{panel, title, method, setting, largest_error, error_at_end, largest_between_steps, evaluations, status}]; panel counts from 1, null where methods are compared"},
+                               {"left_out", "methods that the scene refuses, in words"}})},
+      {"stability", with(kFiles, {{"scene, method", "what ran"},
+                                  {"x, y", "{key, values}"},
+                                  {"threads", "how many"},
+                                  {"rows", "[[{failed, status, energy_error, energy_scale, stable_by_theory, trouble}]], from below"},
+                                  {"failed", "how many cells. Without --x and --y: methods, left_out and start, the motion linearised there"}})},
+      {"sweep", with(kFiles, {{"runs", "how many"}, {"outputs", "[{file, done_before, failed}]"}, {"failed", "how many runs"}})},
+      {"fall", with(kFiles, {{"scene, duration, method", "what ran"},
+                             {"set", "what --set says of it"},
+                             {"key", "of --sweep; or null"},
+                             {"events", "[{name, kind, when}]"},
+                             {"rows", "[{value, status, end_time, fall_time, ended_by, first, stands, tips_at, tips_over, takes_off_at, trouble}]"}})},
+      {"dynamics", kState},
+      {"inverse", with(kFiles, {{"rows", "of the table"}, {"constraints", "rows and errors of a scene's constraints; or null"}})},
+      {"equations", with(kFiles, {{"model, coordinates", "what it is about"},
+                                  {"M, C, g, damping, friction, J, Lambda", "formulas as text"},
+                                  {"end_effector", "the link of J and Lambda"},
+                                  {"symbols, notes", "what letters stand for, and what is to be known"}})},
+      {"check", {{"scene", "its text with all defaults"},
+                 {"model, cost", "of one run; null of a comparison"},
+                 {"panels", "[{title, model, cost}] of a comparison; else []"},
+                 {"slow_motion", "[{from, until, speed, ease, because}]. Of a .urdf: findings and model"}}},
+      {"compare", {{"before, after, equal, passes", "what was compared, and whether it is the same"},
+                   {"tolerance", "of pictures; or null"},
+                   {"explained", "differences that are told, in words"},
+                   {"frames, fps, seconds, unequal_frames, frames_beyond, errors", "of films; pictures, models and tables have numbers of their own"}}},
+      {"verify", {{"suite, baselines, passed, failed", "what was verified, and how it went"},
+                  {"pictures", "[{name, source, state, passed, words, tolerance, pixels}]"},
+                  {"unused, pruned, notices", "names, and what is to be known"},
+                  {"accept", "the command that takes what failed as new baselines; or null"}}},
+      {"extract", with(kFiles, {{"scene, audit", "of a clip; or null"}, {"command, figure", "of a figure; or null"}})},
+      {"join", with(kFiles, {{"parts, frames", "how many; frames is null of a table"}})},
+      {"init", kFiles},
+      {"gallery", with(kFiles, {{"clips", "how many"}})},
+      {"bench", {{"films", "[{scene, width, height, fps, frames, stages, whole, encoder_alone, ..}]"}}},
+      {"doctor", {{"renderer, fonts, encoders, builds, versions", "what is there; renderer is null where there is none"}}},
+      {"methods", {{"methods", "[{name, order, orders, kind, state, dense_order, adaptive, symplectic, reversible, source}]"}}},
+      {"help", {{"topics", "[{topic, about}]; of a topic: topic and text"}}},
+  };
+  return reports;
+}
+
+namespace {
+
+std::string table_of(const std::vector<JsonKey>& keys) {
+  std::vector<std::vector<std::string>> table{{"keys", "what they say"}};
+  for (const JsonKey& key : keys) table.push_back({key.names, key.says});
+  return markdown_table(table);
+}
+
+}  // namespace
+
+std::string json_page() {
+  std::string page =
+      "# What --json prints\n\n"
+      "One object on standard output, and nothing else; messages go to standard error. A key that is told here is always there: null or [] where\n"
+      "there is nothing to say. Numbers that are not finite are null. Times are s, angles rad, energies J. NAME.json beside a film has the\n"
+      "same keys as an entry of `films`, but for file, files, part, sidecars and small_clips, and with the hashes of its sidecars.\n\n" +
+      code_block("sh", "chainreel simulate rr_free --json --quiet | jq .audit_error\nchainreel render rr_free --json --quiet | jq '.films[0].files'\n") +
+      "\n## Of a run\n\n" + table_of(run_keys()) + "\n## Of a film\n\n" + table_of(film_keys());
+  for (const JsonReport& report : json_reports())
+    page += "\n## " + report.command + "\n\n" + (report.command == "simulate" ? "The keys of a run, and:\n\n" : "") +
+            table_of(report.command == "simulate" ? Keys(report.keys.begin() + std::ptrdiff_t(run_keys().size()), report.keys.end()) : report.keys);
+  return page;
+}
+
+}  // namespace chainreel
