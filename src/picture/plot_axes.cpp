@@ -16,6 +16,7 @@ constexpr double kPitchX = 1.7;  // of the widest label: distance of labels alon
 constexpr double kPitchY = 3.0, kLeastPitchY = 1.3;  // of the em, along y
 constexpr int kFewestLabels = 3, kMostLinear = 5, kMostLog = 6;
 constexpr std::size_t kFewestOfScale = 2;
+constexpr double kLeastAir = 0.3;  // of the em, between two numbers below a frame
 constexpr double kLastAir = 0.6;  // of the em, before the last number with its unit
 
 // Grows with the words: symbols with dots rise above their capitals.
@@ -98,7 +99,7 @@ double place_on(const Axis& axis, double value) {
 
 // From the last number on, those that would touch the one behind them have none; two stay, the first and the last.
 std::vector<Tick> without_touching(std::vector<Tick> ticks, const Axis& axis, double width, const PlotStyle& style) {
-  const double air = kLastAir * style.text(size::kTick);
+  const double air = kLeastAir * style.text(size::kTick);
   std::vector<std::size_t> kept, labelled;
   double free = std::numeric_limits<double>::infinity();
   for (std::size_t i = ticks.size(); i-- > 0;) {

@@ -91,7 +91,7 @@ std::optional<double> energy_scale(Simulation& simulation, const StopRequest& st
 }
 
 Trajectory simulate_audited(const Simulation& simulation, std::span<const double> times,
-                            const StopRequest& stop) {
+                            const StopRequest& stop, double between) {
   EnergyBalance balance(simulation);
   EnergyAtSteps seen;
   Stake stake;
@@ -104,7 +104,7 @@ Trajectory simulate_audited(const Simulation& simulation, std::span<const double
         if (std::abs(seen.at_end) <= seen.largest_error) return;
         seen.largest_error = std::abs(seen.at_end);
         seen.time = t;
-      });
+      }, between);
   seen.largest_kinetic = stake.largest_kinetic();
   seen.moved = stake.moved();
   trajectory.energy_at_steps = seen;

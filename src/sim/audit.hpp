@@ -45,8 +45,8 @@ class EnergyBalance {
 // simulation's own method is left as it is. Nothing where that run comes to no end.
 std::optional<double> energy_scale(Simulation& simulation, const StopRequest& stop = {});
 
-// A run whose energy is looked at at the end of every step, too: Trajectory::energy_at_steps.
+// A run whose energy is looked at at the end of every step, too: Trajectory::energy_at_steps. `between`: as of `simulate`.
 Trajectory simulate_audited(const Simulation& simulation, std::span<const double> times,
-                            const StopRequest& stop = {});
+                            const StopRequest& stop = {}, double between = 0);
 
 }  // namespace chainreel

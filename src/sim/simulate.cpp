@@ -11,9 +11,11 @@
 #include "sim/drive/limits.hpp"
 #include "sim/drive/recorded_motion.hpp"
 #include "sim/headway.hpp"
+#include "sim/sample_instants.hpp"
 #include "sim/step_grid.hpp"
 #include "sim/system/chain_system.hpp"
 #include "sim/system/forms.hpp"
+#include "sim/torques_along.hpp"
 #include "sim/watch/corner_watch.hpp"
 #include "sim/watch/events.hpp"
 #include "sim/watch/limit_search.hpp"
@@ -25,6 +27,7 @@ namespace {
 // A coordinate or rate beyond this has left every machine that could be drawn.
 constexpr double kDivergenceBound = 1e9;  // rad, m, rad/s, m/s
 constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kBesideCorner = 1e-5;    // of the distance of instants between samples
 constexpr double kMostNumbers = 2.5e8;    // stored in one trajectory: 2 GB
 constexpr double kNumbersThatFit = 1e7;   // everywhere
 constexpr double kLostConstraint = 1e-6;  // m or rad, behind a projection
@@ -107,6 +110,8 @@ class Run {
     start_anew_ = false;
   }
 
+  bool stands_at_break() const { return start_anew_; }
+
   // The rest of the last step is no part of the run then: it ended at end_time.
   bool ended_early() const { return trajectory_.status == RunStatus::stopped; }
   double end_time() const { return trajectory_.end_time; }
@@ -122,9 +127,18 @@ class Run {
   void sample(double t) {
     if (std::abs(t - now()) <= same_instant(simulation_))
       return append(t, q_now(), qd_now(), work_.at_end());
-    integrator_->interpolate(t, q_, qd_);
-    if (projected_) constrained_->project_sample(system_.workspace(), q_, qd_);
+    place_at(t);
     append(t, q_, qd_, simulation_.motion_only ? 0 : work_.at(system_, *integrator_, t, q_));
+  }
+
+  // From the start on: what lies between samples is kept, too.
+  void keep_between() { between_.emplace(); }
+  // t lies in the last step. Nothing that is told of the run depends on it.
+  void sample_between(double t) {
+    const long evaluations = system_.evaluations();
+    place_at(t);
+    append_to(*between_, t, q_, qd_, std::numeric_limits<double>::quiet_NaN());
+    evaluations_between_ += system_.evaluations() - evaluations;
   }
 
   bool stop_requested(const StopRequest& stop) {
@@ -144,7 +158,14 @@ class Run {
   }
 
   Trajectory finish() {
-    trajectory_.evaluations = system_.evaluations();
+    trajectory_.evaluations = system_.evaluations() - evaluations_between_;
+    if (between_) {
+      Trajectory& between = *between_;
+      between.nq = trajectory_.nq, between.nv = trajectory_.nv, between.rows = trajectory_.lambda.empty() ? 0 : trajectory_.rows;
+      between.holds = trajectory_.holds;
+      if (between.rows > 0) between.lambda = multipliers_along(simulation_, between);
+      trajectory_.between = std::make_shared<const Trajectory>(std::move(between));
+    }
     return std::move(trajectory_);
   }
 
@@ -164,11 +185,22 @@ class Run {
     trajectory_.lambda.reserve(samples * std::size_t(trajectory_.rows));
   }
 
+  // The state at t, in the last step.
+  void place_at(double t) {
+    integrator_->interpolate(t, q_, qd_);
+    if (projected_) constrained_->project_sample(system_.workspace(), q_, qd_);
+  }
+
+  static void append_to(Trajectory& trajectory, double t, ConstVec q, ConstVec qd, double work) {
+    trajectory.t.push_back(t);
+    trajectory.q.insert(trajectory.q.end(), q.begin(), q.end());
+    trajectory.qd.insert(trajectory.qd.end(), qd.begin(), qd.end());
+    trajectory.work.push_back(work);
+  }
+
   void append(double t, ConstVec q, ConstVec qd, double work) {
-    trajectory_.t.push_back(t);
-    trajectory_.q.insert(trajectory_.q.end(), q.begin(), q.end());
-    trajectory_.qd.insert(trajectory_.qd.end(), qd.begin(), qd.end());
-    trajectory_.work.push_back(work);
+    append_to(trajectory_, t, q, qd, work);
+    if (between_) append_to(*between_, t, q, qd, work);
     if (constrained_ && !simulation_.motion_only) append_multipliers(t, q, qd);
   }
 
@@ -425,55 +457,24 @@ class Run {
   bool start_anew_ = false;
   Headway headway_;
   Trajectory trajectory_;
+  std::optional<Trajectory> between_;  // these samples and what lies between
+  long evaluations_between_ = 0;
 };
 
 }  // namespace
 
-std::string to_string(RunStatus status) {
-  switch (status) {
-    case RunStatus::finished: return "finished";
-    case RunStatus::diverged: return "diverged";
-    case RunStatus::torque_not_finite: return "torque_not_finite";
-    case RunStatus::stopped: return "stopped";
-    case RunStatus::event_not_finite: return "event_not_finite";
-    case RunStatus::not_converged: return "not_converged";
-    case RunStatus::step_too_small: return "step_too_small";
-    case RunStatus::inconsistent: return "inconsistent";
-    case RunStatus::constraint_lost: return "constraint_lost";
-    case RunStatus::chattering: return "chattering";
-    case RunStatus::out_of_budget: return "out_of_budget";
-    case RunStatus::interrupted: return "interrupted";
-  }
-  return "unknown";
-}
-
-ChainSystem::ChainSystem(const Simulation& simulation)
-    : ChainSystem(simulation.chain, *simulation.torque, simulation.limit, simulation.constraints) {}
-
-void apply(const MethodSetting& setting, Simulation& simulation) {
-  simulation.method = setting.method;
-  simulation.options = setting.options;
-  simulation.step = setting.step;
-}
-
-void check_method(const Simulation& simulation) {
-  ChainSystem system(simulation.chain, *simulation.torque, simulation.limit, simulation.constraints);
-  const ChainForms forms(system, *simulation.method);
-}
-
 Trajectory simulate(const Simulation& simulation, std::span<const double> times, const StopRequest& stop,
-                    const StepObserver& observer) {
+                    const StepObserver& observer, double between) {
   Run run(simulation, times.size());
-  std::size_t next = 0;
-  while (next < times.size() && times[next] <= 0) {
-    run.sample_start();
-    ++next;
-  }
+  if (between > 0) run.keep_between();
+  SampleInstants instants(times, between, std::max(kBesideCorner * between, 4 * same_instant(simulation)));
+  while (instants.next(0)) run.sample_start();
   while (!run.at_end() && !run.ended_early() && !run.stop_requested(stop) && run.take_step()) {
     const double end = run.end_time() + same_instant(simulation);
-    while (next < times.size() && times[next] <= end) run.sample(times[next++]);
+    if (run.stands_at_break()) instants.corner_at(run.now());
+    while (const auto instant = instants.next(end)) instant->is_sample ? run.sample(instant->t) : run.sample_between(instant->t);
     if (run.ended_early()) {
-      if (next < times.size()) run.sample_event();
+      if (instants.has_samples()) run.sample_event();
       break;
     }
     if (observer) run.show(observer);

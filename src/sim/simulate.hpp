@@ -83,9 +83,9 @@ using StepObserver = std::function<void(double t, ConstVec q, ConstVec qd, doubl
 // Samples at `times` (rising, within [0, duration]) on the method's dense output; t = 0 and the ends of steps
 // give the steps' own values. Never throws for what happens during the run: see
 // Trajectory::status. Samples end where the run ended; where an event ended it, the last one stands at its
-// instant.
+// instant. `between`, s: keeps the run at more instants, some so far apart between the samples, too (Trajectory::between); 0: does not.
 Trajectory simulate(const Simulation& simulation, std::span<const double> times, const StopRequest& stop = {},
-                    const StepObserver& observer = {});
+                    const StepObserver& observer = {}, double between = 0);
 
 // Samples at 0 and at the end of every step; the last one at the event that ended the run, if one did.
 Trajectory simulate_every_step(const Simulation& simulation, const StopRequest& stop = {});

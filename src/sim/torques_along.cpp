@@ -53,6 +53,24 @@ std::vector<double> torques_along(const Simulation& simulation, const Trajectory
   return torques;
 }
 
+std::vector<double> multipliers_along(const Simulation& simulation, const Trajectory& trajectory) {
+  ChainSystem system(simulation);
+  ConstrainedChain& constrained = *system.constrained();
+  std::vector<double> multipliers;
+  multipliers.reserve(std::size_t(trajectory.size()) * std::size_t(trajectory.rows));
+  simulation.torque->leave_pieces();
+  for (int k = 0; k < trajectory.size(); ++k) {
+    const double t = trajectory.t[std::size_t(k)];
+    const ConstVec q = trajectory.q_at(k), qd = trajectory.qd_at(k);
+    hold_as_then(system, simulation, trajectory, t);
+    constrained.look(system.workspace(), q, qd, system.torque(t, q, qd));
+    const ConstVec lambda = constrained.lambda();
+    multipliers.insert(multipliers.end(), lambda.begin(), lambda.end());
+  }
+  simulation.torque->leave_pieces();
+  return multipliers;
+}
+
 std::vector<LinearDrive> linear_drives(const Simulation& simulation) {
   std::vector<LinearDrive> drives = simulation.torque->linear_drives(simulation.chain);
   std::erase_if(drives, [&](const LinearDrive& drive) {

@@ -16,6 +16,9 @@ void hold_as_then(ChainSystem& system, const Simulation& simulation, const Traje
 // constraints, cut where the limit policy says so, friction left out.
 std::vector<double> torques_along(const Simulation& simulation, const Trajectory& trajectory);
 
+// The multipliers of the constraints at each sample, as many as the run has rows (N or N m); no numbers where none answer.
+std::vector<double> multipliers_along(const Simulation& simulation, const Trajectory& trajectory);
+
 // The springs and dampers that drive the run's joints, as `LinearDrive` tells them: none whose torque the limit policy may
 // cut; those are no `whole` beside a force that presses on a constraint.
 std::vector<LinearDrive> linear_drives(const Simulation& simulation);

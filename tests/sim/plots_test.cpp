@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "sim/runs.hpp"
 #include "sim/simulate.hpp"
 #include "support/chains.hpp"
 
@@ -82,6 +84,49 @@ TEST(Plots, SayWhatTheyCannotShow) {
     EXPECT_NE(error.problems()[0].message.find("energi"), std::string::npos);
     EXPECT_NE(error.problems()[1].message.find("no constraints"), std::string::npos);
   }
+}
+
+// What is kept between the samples: torques that jump do so there where they do, a ten-thousandth of the instants' distance
+// wide; and the run is the same to the last bit.
+TEST(Between, HasBothSidesOfEachStepAndLeavesTheRunAsItIs) {
+  Simulation run = run_of("rr", {"8*(t>1.013)", "3*(q1>-0.2)-2"}, 2, "dop853", 0);
+  run.options.tolerance = 1e-9;
+  run.q0 = {0.1, 0.3};
+  run.plots = make_plots(run.chain, {{"tau", "", {}}}, {});
+  const std::vector<double> frames = instants(2, 0.1);
+  constexpr double kApart = 0.01, kEdge = 1e-4 * kApart;
+  const Trajectory plain = simulate(run, frames), kept = simulate(run, frames, {}, {}, kApart);
+  EXPECT_EQ(plain.between, nullptr);
+  EXPECT_EQ(plain.t, kept.t);
+  EXPECT_EQ(plain.q, kept.q);
+  EXPECT_EQ(plain.qd, kept.qd);
+  EXPECT_EQ(plain.work, kept.work);
+  EXPECT_EQ(plain.evaluations, kept.evaluations);
+  EXPECT_EQ(plain.steps, kept.steps);
+  ASSERT_TRUE(kept.between);
+  const Trajectory& between = *kept.between;
+  EXPECT_GT(between.size(), 190);
+  EXPECT_TRUE(std::is_sorted(between.t.begin(), between.t.end()));
+  for (int k = 0; k < kept.size(); ++k) {
+    const auto at = std::find(between.t.begin(), between.t.end(), kept.t[std::size_t(k)]);
+    ASSERT_NE(at, between.t.end());
+    EXPECT_EQ(between.q_at(int(at - between.t.begin()))[0], kept.q_at(k)[0]);
+  }
+  // How wide the jumps of a curve are, and where.
+  const auto jumps = [&](const Trajectory& of, std::size_t curve) {
+    const std::vector<double> tau = plot_curves(run, of, of.size())[0].curves[curve].y;
+    std::vector<std::pair<double, double>> found;
+    for (std::size_t k = 1; k < tau.size(); ++k)
+      if (tau[k] != tau[k - 1]) found.push_back({of.t[k - 1], of.t[k]});
+    return found;
+  };
+  const auto in_time = jumps(between, 0), in_place = jumps(between, 1);
+  ASSERT_EQ(in_time.size(), 1u);
+  EXPECT_LT(in_time[0].second - in_time[0].first, kEdge);
+  EXPECT_TRUE(in_time[0].first <= 1.013 && in_time[0].second >= 1.013);
+  ASSERT_GE(in_place.size(), 1u);
+  for (const auto& [from, until] : in_place) EXPECT_LT(until - from, kEdge) << from;
+  EXPECT_NEAR(jumps(kept, 0)[0].second - jumps(kept, 0)[0].first, 0.1, 1e-9) << "negative control: at the frames it is a ramp";
 }
 
 }  // namespace

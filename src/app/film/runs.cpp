@@ -32,6 +32,13 @@ std::vector<double> shown_times(const std::vector<Trajectory>& runs, const std::
   return shown;
 }
 
+// How far apart curves of plots are looked at between frames, s: so near that a sharp peak of multipliers is drawn within half a
+// pixel, where that is nearer than frames are.
+double between_of(const PreparedFilm& film) {
+  constexpr double kPixelsApart = 0.5;  // of the page, of which a plot has a part
+  return kPixelsApart * film.scene.duration / std::max(film.scene.video.width, 1);
+}
+
 // A trajectory a panel, at these instants; unless it is only looked at for the clock, with its energy at steps.
 enum class RunUse { whole, for_clock };
 std::vector<Trajectory> runs_of(const PreparedFilm& film, const std::vector<double>& times, RunUse use = RunUse::whole) {
@@ -45,7 +52,7 @@ std::vector<Trajectory> runs_of(const PreparedFilm& film, const std::vector<doub
       if (ticker.is_due()) ticker.say(simulating_text(film, panel), part_of_all(t));
       return interrupted();
     };
-    list.push_back(use == RunUse::whole ? simulate_audited(panel.simulation, times, stop) : simulate(panel.simulation, times, stop));
+    list.push_back(use == RunUse::whole ? simulate_audited(panel.simulation, times, stop, between_of(film)) : simulate(panel.simulation, times, stop));
     throw_if_interrupted();
   }
   return list;

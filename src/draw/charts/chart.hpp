@@ -57,7 +57,7 @@ Picture work_precision_chart(const WorkPrecision& data, std::span<const ChartCos
 std::optional<double> least_cost(const WorkPrecision& data, ChartCost cost, double error);
 
 // Lights the curves of these methods, of none named those that are cheapest at some error in one of the panels and the
-// choice of `auto`, and no others.
+// choice of `auto`, and no others. Those that are lit have colours of their own, as far as there are so many.
 void light_curves(WorkPrecision& data, std::span<const ChartCost> panels, const std::vector<std::string>& methods);
 
 // What a diagram draws beside its curves: guides, slopes, failures, the choice of `auto`. Internal.

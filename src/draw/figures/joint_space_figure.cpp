@@ -78,7 +78,7 @@ double price_of(const Rect& place, const PlotFrame& frame, std::span<const Point
   const Point center = frame.at({0, 0});
   const auto lies_in = [&](Point p) { return p.x > place.x0 && p.x < place.x1 && p.y > place.y0 && p.y < place.y1; };
   double price = is_within(place, frame.box) ? 0 : kOfEdge;
-  if (other && overlap(place, *other)) price += kOfOther;
+  if (other && overlap(place, widened(*other, 0.35 * place.height()))) price += kOfOther;
   for (const Point& p : curve) price += lies_in(p) ? kOfCurve : 0;
   for (int k = 0; k <= kPieces; ++k) {
     const double s = double(k) / kPieces;

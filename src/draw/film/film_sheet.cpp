@@ -1,6 +1,7 @@
 #include "draw/film/film_sheet.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.hpp"
 
@@ -32,13 +33,28 @@ bool has_notes(const Stage& stage) {
                      [](const StagedRun& motion) { return motion.may_have_notes(); });
 }
 
-// What the plots of the page show of a run; its simulation must be there.
+// Leaves out what is no number, which else is a gap.
+void leave_out_unknown(std::vector<double>& t, std::vector<double>& y) {
+  std::vector<double> times, values;
+  for (std::size_t k = 0; k < y.size(); ++k) {
+    if (std::isnan(y[k])) continue;
+    times.push_back(t[k]);
+    values.push_back(y[k]);
+  }
+  t = std::move(times);
+  y = std::move(values);
+}
+
+// What the plots of the page show of a run; its simulation must be there. The work, and so what is wrong with the energy, is known
+// at its samples alone.
 StripRun strip_run(const StagedRun& motion, const std::vector<PlotCurves>& story) {
-  const Trajectory& run = motion.trajectory();
-  StripRun strip{motion.title(), motion.is_wild(), {}, {}};
-  strip.times.assign(run.t.begin(), run.t.begin() + motion.samples());
-  strip.plots = story;
-  if (story.empty() && motion.simulation()) strip.plots = plot_curves(*motion.simulation(), run, motion.samples());
+  const Trajectory& run = motion.curve_run();
+  StripRun strip{motion.title(), motion.is_wild(), {}, story};
+  if (story.empty() && motion.simulation()) strip.plots = plot_curves(*motion.simulation(), run, motion.curve_samples());
+  strip.times.assign(strip.plots.size(), std::vector<double>(run.t.begin(), run.t.begin() + motion.curve_samples()));
+  for (std::size_t i = 0; i < strip.plots.size(); ++i)
+    if (strip.plots[i].quantity == PlotQuantity::energy_error && run.t.size() > motion.trajectory().t.size())
+      leave_out_unknown(strip.times[i], strip.plots[i].curves[0].y);
   return strip;
 }
 
@@ -106,14 +122,21 @@ void FilmSheet::lay_out_plots(const Stage& stage, const Story& story, const Plot
                                       : !stage.is_comparison() && page.layout != PageLayout::scene_below &&
                                             (count > 1 || page.layout == PageLayout::scene_right);
   const PlotPlace place = is_narrow(page) ? PlotPlace::stacked : right ? PlotPlace::right : PlotPlace::below;
+  std::vector<StripData> data;
+  std::vector<double> shares;
+  for (int i = 0; i < count; ++i) {
+    data.push_back(strip_data(runs, std::size_t(i), stage.times.back(), stage.theme));
+    shares.push_back(share_of_height(data.back()));
+  }
+  if (page.video.least_text > 0) shares.clear();  // each has a least height there
   const PlotAreas areas = plot_areas(sheet.scene, count, place,
-                                     stage.is_comparison() ? kPlotOfComparison : 0, page.text_scale, room.beside, std::max(least_plot(page), room.each));
+                                     stage.is_comparison() ? kPlotOfComparison : 0, page.text_scale, room.beside, std::max(least_plot(page), room.each), shares);
   has_plots_beside = place == PlotPlace::right;
   has_plots_stacked = place == PlotPlace::stacked && !areas.plots.empty();
   sheet.scene = areas.scene;
   const PlotStyle style{&stage.fonts, &stage.theme, page.text_scale};
   for (std::size_t i = 0; i < areas.plots.size(); ++i)
-    plots.emplace_back(strip_data(runs, i, stage.times.back(), stage.theme), areas.plots[i], style);
+    plots.emplace_back(std::move(data[i]), areas.plots[i], style);
   if (place == PlotPlace::below) return;
   double x0 = 0, x1 = sheet.aspect;
   for (const PlotStrip& plot : plots) {

@@ -15,6 +15,8 @@ constexpr double kShareStacked = 0.22, kMostStacked = 0.50;  // of the height: o
 constexpr double kLongestFrame = 0.05;  // s
 constexpr double kPlotLabelGap = 0.012;
 constexpr double kLeastSpan = 1e-9;  // of the size of the numbers: less is a constant
+constexpr double kConstantSpan = 1e-6, kShareOfConstant = 0.5;  // of its size, of what the eye takes for one; of other plots' height
+constexpr std::size_t kMostOnConstant = 2;  // names of curves that have room beside so low a plot
 constexpr double kRangeAir = 0.06;        // of the range, above and below
 constexpr double kMostBelow = 0.45;   // of the room, whatever is asked for
 constexpr double kWordsOfPlot = 0.075;  // units of H: what title and numbers take of a plot's height at text_scale 1
@@ -167,16 +169,46 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
       StripCurve curve{
           label_of(shown, c, run, runs.size()), style_of(shown, c, r, runs.size(), theme), {}, !run.wild};
       const std::vector<double>& y = shown.curves[c].y;
-      for (std::size_t k = 0; k < std::min(y.size(), run.times.size()); ++k)
-        curve.points.push_back({run.times[k], y[k]});
+      const std::vector<double>& t = run.times[i];
+      for (std::size_t k = 0; k < std::min(y.size(), t.size()); ++k) curve.points.push_back({t[k], y[k]});
       data.curves.push_back(std::move(curve));
     }
   }
   return data;
 }
 
+double share_of_height(const StripData& data) {
+  double widest = 0, size = 0;
+  for (const StripCurve& curve : data.curves) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const Point& p : curve.points) {
+      if (!std::isfinite(p.y)) continue;
+      low = std::min(low, p.y), high = std::max(high, p.y);
+      size = std::max(size, std::abs(p.y));
+    }
+    if (low < high) widest = std::max(widest, high - low);
+  }
+  return widest <= kConstantSpan * size && labels_of(data).size() <= kMostOnConstant ? kShareOfConstant : 1;
+}
+
+namespace {
+
+// One above the other, from the top down.
+void add_column(std::vector<Rect>& plots, const Rect& all, int count, const std::vector<double>& shares) {
+  double sum = 0;
+  for (int i = 0; i < count; ++i) sum += shares.empty() ? 1 : shares[std::size_t(i)];
+  double y1 = all.y1;
+  for (int i = 0; i < count; ++i) {
+    const double height = (all.height() - size::kGutter * (count - 1)) * (shares.empty() ? 1 : shares[std::size_t(i)]) / sum;
+    plots.push_back({all.x0, y1 - height, all.x1, y1});
+    y1 -= height + size::kGutter;
+  }
+}
+
+}  // namespace
+
 PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_below,
-                     double text_scale, double beside, double least_each) {
+                     double text_scale, double beside, double least_each, const std::vector<double>& shares) {
   PlotAreas areas{page, {}};
   if (count == 0) return areas;
   const double gap = size::kGutter;
@@ -184,11 +216,7 @@ PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_
   if (place == PlotPlace::stacked) {
     all.y1 = page.y0 + std::min(std::max(kShareStacked * page.height(), least_each) * count, kMostStacked * page.height());
     areas.scene.y0 = all.y1 + gap;
-    const double each = (all.height() - gap * (count - 1)) / count;
-    for (int i = 0; i < count; ++i) {
-      const double y1 = all.y1 - i * (each + gap);
-      areas.plots.push_back({all.x0, y1 - each, all.x1, y1});
-    }
+    add_column(areas.plots, all, count, shares);
     return areas;
   }
   if (place == PlotPlace::below) {
@@ -205,11 +233,7 @@ PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_
   }
   all.x0 = page.x1 - beside * page.width();
   areas.scene.x1 = all.x0 - gap;
-  const double height = (all.height() - gap * (count - 1)) / count;
-  for (int i = 0; i < count; ++i) {
-    const double y1 = all.y1 - i * (height + gap);
-    areas.plots.push_back({all.x0, y1 - height, all.x1, y1});
-  }
+  add_column(areas.plots, all, count, shares);
   return areas;
 }
 

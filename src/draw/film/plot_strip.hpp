@@ -47,7 +47,7 @@ class PlotStrip {
 struct StripRun {
   std::string title;  // of its panel
   bool wild = false;
-  std::vector<double> times;  // of its samples, s
+  std::vector<std::vector<double>> times;  // s, of each plot's points
   std::vector<PlotCurves> plots;
 };
 
@@ -68,7 +68,11 @@ inline constexpr double kPlotsBeside = 0.38;
 struct PlotRoom {
   double beside = kPlotsBeside, each = 0;
 };
+// `shares`: of the height that plots above one another share, one each; none: alike.
 PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_below = 0, double text_scale = 1,
-                     double beside = kPlotsBeside, double least_each = 0);
+                     double beside = kPlotsBeside, double least_each = 0, const std::vector<double>& shares = {});
+
+// How much of that a plot needs: one of a constant or two less.
+double share_of_height(const StripData& data);
 
 }  // namespace chainreel

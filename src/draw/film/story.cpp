@@ -11,7 +11,7 @@ std::vector<PlotCurves> curves_of(const StagedRun& motion, PlotQuantity quantity
   const Simulation& simulation = *motion.simulation();
   const auto plots = make_plots(motion.chain(), {{std::string(to_string(quantity)), "", {}}}, {}, {}, {},
                                 motion.trajectory().rows);
-  return plot_curves(*plots, simulation, motion.trajectory(), motion.samples());
+  return plot_curves(*plots, simulation, motion.curve_run(), motion.curve_samples());
 }
 
 Story of_all(const Stage& stage, PlotQuantity quantity) {

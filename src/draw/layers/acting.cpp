@@ -20,9 +20,9 @@ using Eigen::Vector3d;
 // More of them would hide the chain, and the legend says what they are.
 constexpr int kMostLabels = 4;         // of weights
 constexpr int kMostTorqueLabels = 6;
-constexpr double kArcOfLink = 0.42;    // an arc's radius at most, of the shortest link
-constexpr double kSmallestArc = 0.55;  // of the size that arcs have elsewhere
-constexpr double kLabelledArc = 0.7;   // between smaller ones there is no room for words
+constexpr double kArcOfLink = 0.32;    // an arc's radius at most, of the shortest link
+constexpr double kSmallestArc = 0.5;   // of the size that arcs have elsewhere
+constexpr double kLabelledArc = 0.53;  // between smaller ones there is no room for words
 
 // The vectors of a motion at sample k, after compute_kinematics there.
 using VectorsAt = std::function<std::vector<WorldVector>(const StagedRun& motion, const Workspace& ws, int k)>;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "draw/layers/layer.hpp"
 #include "draw/page/arrow.hpp"
@@ -18,13 +19,47 @@ constexpr double kFieldSize = 0.8;        // of other arrows' heads and shafts
 constexpr double kFieldAir = 0.012;       // units of H, around the arrow and its letter
 constexpr double kSeenLeast = 0.2;        // of gravity across the view: along it there is nothing to see
 constexpr int kFieldLooks = 120;          // of a clip, at which the place must be free
+constexpr int kOnEllipse = 48;            // places on an ellipse at which it is looked at
+
+bool lies_in(const Rect& part, Point p) { return p.x > part.x0 && p.x < part.x1 && p.y > part.y0 && p.y < part.y1; }
+
+// Whether ellipses, and the bands that open ones are, come into this part of the page.
+struct MeetsPart {
+  const Rect& part;
+
+  bool operator()(const Ellipse& e) const {
+    const Point d = center_of(part) - e.center;
+    const double u = dot(e.u, e.u), v = dot(e.v, e.v);
+    if (u > 0 && v > 0 && std::hypot(dot(d, e.u) / u, dot(d, e.v) / v) < 1) return true;
+    for (int i = 0; i < kOnEllipse; ++i) {
+      const double angle = 2 * std::numbers::pi * i / kOnEllipse;
+      if (lies_in(part, e.center + std::cos(angle) * e.u + std::sin(angle) * e.v)) return true;
+    }
+    return false;
+  }
+  bool operator()(const Polygon& p) const {
+    bool left = true, right = true;
+    for (int i = 0; i < p.count; ++i) {
+      Point a = p.corners[std::size_t(i)], b = p.corners[std::size_t((i + 1) % p.count)];
+      const double side = cross(b - a, center_of(part) - a);
+      left = left && side > 0;
+      right = right && side < 0;
+      if (cut_segment(part, a, b)) return true;
+    }
+    return left || right;
+  }
+  template <class Other>
+  bool operator()(const Other&) const { return false; }
+};
 
 class Field : public Layer {
  public:
   explicit Field(const Stage& stage)
       : stage_(&stage),
         text_(lay_out_math(stage.fonts, "g",
-                           {Face::math, scaled(size::kAxis, stage.page.text_scale), stage.theme.force, Align::left})) {}
+                           {Face::math, scaled(size::kAxis, stage.page.text_scale), stage.theme.force, Align::left})) {
+    if (stage.shows("ellipse")) ellipse_ = make_layer_ellipse_inside(stage);
+  }
 
   void draw_once(Picture& picture, const Panel& panel) const override {
     if (&panel.motion() != &stage_->motions.front()) return;
@@ -54,8 +89,8 @@ class Field : public Layer {
 
  private:
   // Where the arrow begins, so that no pose comes near `ink` about there: beside the motion, on a level with its upper part,
-  // else in a corner of the panel; nothing where the motion fills it all.
-  static std::optional<Point> free_place(const Panel& panel, const Rect& ink) {
+  // else in a corner of the panel; off ellipses, if it can; nothing where the motion fills it all.
+  std::optional<Point> free_place(const Panel& panel, const Rect& ink) const {
     const Rect& area = panel.area();
     const Rect motion = extent_of_motion(panel);
     const double top = std::min(motion.y1, area.y1 - kFieldAir) - ink.y1, middle = (motion.y0 + motion.y1) / 2 - (ink.y0 + ink.y1) / 2;
@@ -64,11 +99,26 @@ class Field : public Layer {
     const double high = area.y1 - kFieldAir - ink.y1, low = area.y0 + kFieldAir - ink.y0;
     const std::array<Point, 8> places{{{left, top}, {right, top}, {left, middle}, {right, middle},
                                        {first, high}, {last, high}, {last, low}, {first, low}}};
+    std::optional<Point> beside_chain;
     for (const Point& place : places) {
       const Rect covered{place.x + ink.x0, place.y + ink.y0, place.x + ink.x1, place.y + ink.y1};
-      if (holds(area, widened(covered, kFieldAir / 2)) && is_free(panel, widened(covered, kFieldAir))) return place;
+      if (!holds(area, widened(covered, kFieldAir / 2)) || !is_free(panel, widened(covered, kFieldAir))) continue;
+      if (!meets_ellipse(panel, widened(covered, kFieldAir))) return place;
+      if (!beside_chain) beside_chain = place;
     }
-    return std::nullopt;
+    return beside_chain;
+  }
+
+  bool meets_ellipse(const Panel& panel, const Rect& part) const {
+    for (int i = 0; ellipse_ && i < looks(panel); ++i) {
+      const int k = look_at(panel, i);
+      Picture picture;
+      MarkLabels labels;
+      ellipse_->draw(picture, {panel, panel.motion().pose_at(k), k, false, {}, labels});
+      for (const Item& item : picture.items)
+        if (std::visit(MeetsPart{part}, item.shape)) return true;
+    }
+    return false;
   }
 
   static int looks(const Panel& panel) { return std::min(panel.last() + 1, kFieldLooks); }
@@ -108,6 +158,7 @@ class Field : public Layer {
 
   const Stage* stage_;
   TextLine text_;
+  std::unique_ptr<const Layer> ellipse_;  // null: none is shown
 };
 
 }  // namespace

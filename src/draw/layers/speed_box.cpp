@@ -40,8 +40,8 @@ class TimeLayer : public Layer {
 };
 
 // "0.25x" in a rounded box beside the time, for as long as the film shows the motion slower or faster than it was; as
-// wide as the widest of the film's speeds asks for, so that nothing moves when they change. It comes and goes with its speed
-// where that changes over several frames.
+// wide as the widest of the film's speeds asks for, so that nothing moves when they change. Where the speed changes over several
+// frames it stands from halfway on, whole, so that no still has it half faded.
 class SpeedBox : public Layer {
  public:
   explicit SpeedBox(const Stage& stage) : stage_(&stage), text_size_(scaled(size::kAxis, stage.page.text_scale)) {
@@ -58,16 +58,15 @@ class SpeedBox : public Layer {
     const double t = stage_->times[std::size_t(k)];
     const Stretch* stretch = stage_->clock.stretch_at(t);
     if (stretch == nullptr) return;
-    const double opacity = std::clamp((1 - stage_->clock.speed_at(t)) / (1 - stretch->speed), 0.0, 1.0);
-    if (!(opacity > 0)) return;
+    if (!((1 - stage_->clock.speed_at(t)) / (1 - stretch->speed) >= 0.5)) return;
     const Theme& theme = stage_->theme;
     const Point right = page.sheet.time_left;  // its right end, on the base line of the text beside it
     const double r = kBoxHeight * text_size_ / 2, middle = right.y + kCapHeight / 2 * text_size_;
     picture.add(Capsule{{right.x - width_ + r, middle},
                         {right.x - r, middle},
                         r,
-                        {theme.background.faded(opacity), theme.ink.faded(opacity), size::kLinkOutline}});
-    const TextStyle style{Face::label, text_size_, theme.ink.faded(opacity), Align::center};
+                        {theme.background, theme.ink, size::kLinkOutline}});
+    const TextStyle style{Face::label, text_size_, theme.ink, Align::center};
     draw_text(picture, lay_out_text(stage_->fonts, speed_text(stretch->speed), style), {right.x - width_ / 2, right.y});
   }
 

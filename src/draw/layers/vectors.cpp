@@ -255,7 +255,8 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   const double largest = std::min(1.0, scale.on_page(vector.most) / whole);
   const double off = std::max(largest * radius, kLeastLabelled * marks) + marks * size::kArrowHeadWidth / 2 + kVectorLabelGap;
   std::vector<Rect> places = places_about(text, center, off, {0, 1});
-  for (const Rect& far : places_about(text, center, off + kFarLabelGap, {0, 1})) places.push_back(far);
+  for (const double far : {kFarLabelGap, 2.2 * kFarLabelGap})
+    for (const Rect& place : places_about(text, center, off + far, {0, 1})) places.push_back(place);
   labels.add({word_name(vector), text, std::move(places)});
 }
 

@@ -57,6 +57,12 @@ StagedRun::StagedRun(const PanelRun& run, int samples, bool counts, bool freezes
   let_rails_reach(skeleton_, counted());
 }
 
+int StagedRun::curve_samples() const {
+  if (samples_ == 0 || !run_.trajectory.between) return samples_;
+  const std::vector<double>& t = curve_run().t;
+  return int(std::upper_bound(t.begin(), t.end(), run_.trajectory.t[std::size_t(samples_) - 1]) - t.begin());
+}
+
 std::string StagedRun::title() const {
   return title_of(run_.scene, run_.trajectory);
 }

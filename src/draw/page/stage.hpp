@@ -67,6 +67,10 @@ class StagedRun {
   bool is_outlined() const { return variant_ && variant_->outlined; }
 
   int samples() const { return samples_; }
+  // What curves of the run show: its samples, and what lies between them where that was kept; as many as there are until the last
+  // of its frames.
+  const Trajectory& curve_run() const { return run_.trajectory.between ? *run_.trajectory.between : run_.trajectory; }
+  int curve_samples() const;
   int counted() const { return counts_ ? samples_ : 1; }  // that the camera must hold
   bool counts() const { return counts_; }
   bool is_wild() const;  // the run did not come to an end that it should have

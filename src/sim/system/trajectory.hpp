@@ -1,6 +1,7 @@
 // A run as data: the state at the sampled instants and what became of it.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -105,6 +106,10 @@ struct Trajectory {
 
   EventHits events;
   int ending_event = -1;  // the index of the one that ended the run
+
+  // The same run at these samples, between them, and just before and behind the instants where its torques jump: of curves that
+  // are seen. Between samples its work is no number. Null where it was not asked for.
+  std::shared_ptr<const Trajectory> between;
 
   int size() const { return int(t.size()); }
   std::span<const double> q_at(int k) const {

@@ -138,6 +138,31 @@ TEST(Chart, LightsTheCheapestAndTheChoiceOrWhatIsAskedFor) {
   EXPECT_GT(trails(work_precision_chart(data, kSeconds, look_of(light_theme())), curve_style(2, light_theme()).color), 0u);
 }
 
+// The third of the list and the fifteenth share a green, the third and the eighth are two greens.
+TEST(Chart, CurvesInColourHaveColoursOfTheirOwn) {
+  const auto lit = [](std::vector<std::size_t> places) {
+    WorkPrecision data;
+    for (int k = 0; k < 15; ++k) data.curves.push_back({std::to_string(k), 4, {{1e-3, 1e-3, 1e3, false, ""}}, k});
+    std::vector<std::string> names;
+    for (const std::size_t place : places) names.push_back(std::to_string(place));
+    light_curves(data, kBoth, names);
+    std::vector<Color> colors;
+    for (const std::size_t place : places) colors.push_back(curve_style(data.curves[place].look, light_theme()).color);
+    return colors;
+  };
+  for (const std::size_t other : {14u, 7u}) {
+    const std::vector<Color> colors = lit({2, other});
+    EXPECT_EQ(colors[0], curve_style(2, light_theme()).color) << "the first keeps its own";
+    EXPECT_GT(std::abs(colors[0].r - colors[1].r), 60) << other << ": no green";
+  }
+  // Negative control: those that differ keep what they have, so that a method looks the same from chart to chart.
+  EXPECT_EQ(lit({0, 1, 3})[2], curve_style(3, light_theme()).color);
+  std::vector<std::size_t> six{1, 2, 7, 9, 13, 14};
+  std::vector<Color> colors = lit(six);
+  for (std::size_t i = 0; i < colors.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(colors[i] == colors[j]) << i << " " << j;
+}
+
 TEST(Chart, ExplainsTrianglesOnlyWhereThereAreSome) {
   WorkPrecision data = one_curve(0);
   data.curves[0].order = 2;  // it falls by a half decade of cost for each of error: not as order 4 does

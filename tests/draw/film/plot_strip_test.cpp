@@ -13,8 +13,8 @@ StripRun run_of(const std::string& title, bool wild, const std::vector<double>& 
   PlotCurves plot;
   plot.title = "height [m]";
   plot.curves.push_back({"", y});
-  StripRun run{title, wild, {}, {plot}};
-  for (std::size_t k = 0; k < y.size(); ++k) run.times.push_back(double(k));
+  StripRun run{title, wild, {{}}, {plot}};
+  for (std::size_t k = 0; k < y.size(); ++k) run.times[0].push_back(double(k));
   return run;
 }
 
@@ -102,6 +102,17 @@ TEST(PlotStrip, TheAxisOfTimeEndsWithItsLastNumberAndUnit) {
     EXPECT_TRUE(says(strip_words(strip), Face::label, text));
     EXPECT_LE(strip.frame().box.x1, kStripArea.x1);
   }
+}
+
+TEST(PlotStrip, OfAConstantTakesHalfTheHeightOfOthers) {
+  const auto share = [](const std::vector<double>& y) { return share_of_height(strip_data({run_of("a", false, y)}, 0, 2, light_theme())); };
+  EXPECT_EQ(share({-5, -5 + 1e-9, -5}), 0.5);
+  EXPECT_EQ(share({0, 0, 0}), 0.5);
+  EXPECT_EQ(share({-5, -5.01, -5}), 1);
+  const PlotAreas areas = plot_areas({0, 0, 1.7, 0.9}, 2, PlotPlace::right, 0, 1, kPlotsBeside, 0, {0.5, 1});
+  EXPECT_NEAR(2 * areas.plots[0].height(), areas.plots[1].height(), 1e-12);
+  EXPECT_NEAR(areas.plots[0].y1, 0.9, 1e-12);
+  EXPECT_NEAR(areas.plots[1].y0, 0, 1e-12);
 }
 
 TEST(PlotStrip, HasThreeNumbersUpAnAngleAxisAtLeast) {

@@ -212,6 +212,74 @@ TEST(FieldLayer, IsASmallArrowBesideTheMotionAndNothingWithoutGravity) {
   EXPECT_EQ(arrows(Cause("rr_free", {"gravity=[9.81, 0, 0]"}, 0.5)).size(), 1u);
 }
 
+// An arm whose ellipse sweeps over the place beside the motion where the arrow else stands.
+TEST(FieldLayer, KeepsOffTheEllipse) {
+  const Cause arm("rr_ellipse",
+                  {"model={dh: [[0.5, 0, 0, 0], [0.4, 0, 0, 0]], masses: [3, 2]}", "start={q: [20deg, 40deg]}", "duration=3",
+                   "torque={computed_torque: {kp: 100, kd: 20, q: ['20deg + 30deg*(1 - cos(2*t))', '40deg + 45deg*sin(2*t)^2']}}"},
+                  3);
+  const Film film = arm.film();
+  const auto arrows = test::all_of<Polygon>(film.static_layer(), [](const Polygon& p) { return p.count == 3 && p.paint.fill == light().force; });
+  ASSERT_EQ(arrows.size(), 1u);
+  const Point place = center_of(test::box_of(arrows[0]));
+  int closed = 0;
+  for (int k = 0; k < arm.run.size(); k += 3)
+    for (const Ellipse& e : test::all_of<Ellipse>(film.frame(k), [](const Ellipse& one) { return one.paint.fill.a > 0 && one.paint.fill.a < 0.3; })) {
+      ++closed;
+      const Point d = place - e.center;
+      EXPECT_GT(std::hypot(dot(d, e.u) / dot(e.u, e.u), dot(d, e.v) / dot(e.v, e.v)), 1) << k;
+    }
+  EXPECT_GT(closed, 20) << "there are ellipses";
+}
+
+// How far, in pixels of a plot of 700 x 800, the curve leaves the lines between points of what is kept between frames at 30 Hz,
+// and between those frames alone.
+TEST(PlotsOfFilms, AreWithinHalfAPixelOfTheCurve) {
+  const Cause bar("four_bar", {"method=dop853", "step=null", "tolerance=1e-10"}, 0.1);
+  std::vector<double> frames, all;
+  const double end = bar.simulation.duration;
+  for (int k = 0; k <= int(30 * end); ++k) frames.push_back(k / 30.0);
+  for (int k = 0; k <= int(3000 * end); ++k) all.push_back(k / 3000.0);
+  const Trajectory film = simulate(bar.simulation, frames, {}, {}, 0.5 * end / 1920), truth = simulate(bar.simulation, all);
+  ASSERT_TRUE(film.between);
+  const auto [low, high] = std::minmax_element(truth.lambda.begin(), truth.lambda.end());
+  const auto place = [&](const Trajectory& of, std::ptrdiff_t k) {
+    return Point{700 * of.t[std::size_t(k)] / end, 800 * of.lambda_at(int(k))[1] / (*high - *low)};
+  };
+  const auto off_by = [&](const Trajectory& seen) {
+    double worst = 0;
+    for (int k = 0; k < truth.size(); ++k) {
+      const auto next = std::upper_bound(seen.t.begin(), seen.t.end(), truth.t[std::size_t(k)]) - seen.t.begin();
+      double nearest = HUGE_VAL;
+      for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(1, next - 3); i < std::min<std::ptrdiff_t>(seen.size(), next + 4); ++i) {
+        const Point p = place(truth, k), a = place(seen, i - 1), d = place(seen, i) - a;
+        const double s = std::clamp(dot(p - a, d) / std::max(dot(d, d), 1e-12), 0.0, 1.0);
+        nearest = std::min(nearest, norm(p - a - s * d));
+      }
+      worst = std::max(worst, nearest);
+    }
+    return worst;
+  };
+  EXPECT_LT(off_by(*film.between), 0.5);
+  EXPECT_GT(off_by(film), 5) << "negative control";
+}
+
+TEST(PlotsOfFilms, DrawAStepAsAnEdge) {
+  Cause cause("rr_free", {"torque=['8*(t>1.013)', 0]", "plot=[tau]", "method=dop853", "step=null"}, 2);
+  const auto widest_edge = [&] {
+    const Film film = cause.film();
+    double narrowest = 1;
+    for (const Trail& curve : wires(film.frame(film.frame_count() - 1), light().curve[0]))
+      for (std::size_t i = 1; i < curve.points.size(); ++i)
+        if (std::abs(curve.points[i].p.y - curve.points[i - 1].p.y) > 0.1)
+          narrowest = std::min(narrowest, std::abs(curve.points[i].p.x - curve.points[i - 1].p.x));
+    return narrowest;
+  };
+  EXPECT_GT(widest_edge(), 1e-3) << "negative control: from frame to frame it is a ramp";
+  cause.run = simulate(cause.simulation, cause.times, {}, {}, 0.01);
+  EXPECT_LT(widest_edge(), 1e-5);
+}
+
 TEST(AngleLayer, MeasuresFromWhereTheModelCountsZero) {
   const Cause cause("rr_free", {"draw=[chain, angles]"}, 1);
   const Film pictures = cause.film();
