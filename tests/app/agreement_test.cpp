@@ -82,7 +82,7 @@ class Agreement : public ::testing::Test {
     // What the audit says of the start and the end.
     const Json start = json_of(with({"dynamics", scene, "--json", "--quiet"}, common));
     EXPECT_NEAR(run["energy_start"].get<double>(), start["kinetic"].get<double>() + start["potential"].get<double>(), 1e-12);
-    if (!run.contains("constraint_error")) return;
+    if (run["constraint_error"].is_null()) return;
     const Json end = json_of(with({"dynamics", scene, "--at", "1", "--json", "--quiet"}, common));
     expect_same(start["contact_forces"], run["constraint_error"]["force_at_start"], 1e-9, "force at the start");
     expect_same(end["contact_forces"], run["constraint_error"]["force_at_end"], 1e-9, "force at the end");
@@ -132,7 +132,8 @@ TEST_F(Agreement, OfDynamicsOfASceneWithItsModelInThatState) {
   };
   const Json model = json_of({"dynamics", "models/rr.urdf", "--q=" + list(now["q"]), "--qd=" + list(now["qd"]),
                               "--tau=" + list(now["tau"]), "--gravity=" + list(now["gravity"]), "--json"});
-  for (const auto& [key, value] : model.items()) expect_same(value, now[key], 1e-13, key);
+  for (const auto& [key, value] : model.items())
+    if (!value.is_null()) expect_same(value, now[key], 1e-13, key);  // a model has no scene and no instant
   for (std::size_t i = 0; i < 2; ++i)
     EXPECT_EQ(now["h"][i].get<double>(), now["nle"][i].get<double>() + now["tau_f"][i].get<double>());
 }

@@ -106,7 +106,7 @@ void add_task(Json& json, const TipMass& tip, Workspace& ws, const State& state,
   json["ends"] = Json::array();
   for (const int leaf : chain.leaf_frames) json["ends"].push_back(chain.frames[std::size_t(leaf)].name);
   if (chain.end_effector < 0) {
-    for (const char* key : {"end_effector", "x", "xd", "J", "Jd_qd", "basis", "Lambda_inv", "Lambda", "mobility", "directions",
+    for (const char* key : {"end_effector", "x", "xd", "J", "Jd_qd", "basis", "basis_directions", "Lambda_inv", "Lambda", "mobility", "directions",
                             "singular_directions"})
       json[key] = nullptr;
     return;

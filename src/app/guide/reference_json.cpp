@@ -65,7 +65,7 @@ const Keys kState{
     {"M, nle, tau_g, qdd, C, C_qd, tau_f, h", "of the equation of motion; h = nle + tau_f"},
     {"ends", "links at which the chain ends"},
     {"end_effector, x, xd, J, Jd_qd", "null where there is none"},
-    {"basis, Lambda_inv, Lambda, mobility, directions, singular_directions", "of the effective mass; Lambda is null where it is infinite"},
+    {"basis, basis_directions, Lambda_inv, Lambda, mobility, directions, singular_directions", "of the effective mass, along unit vectors in the world; its eigenvectors in them, a row each; Lambda is null where it is infinite"},
     {"kinetic, potential, linear_momentum, angular_momentum, bodies", "of the whole, and of each link"},
     {"fixed_mass", "kg, of what is fixed to the world: no energy counts it"},
     {"constraint_rows, constraint_status, phi, J_c, Jcd_qd, lambda, contact_forces, baumgarte_gain", "of constraints; [] and null without any"},

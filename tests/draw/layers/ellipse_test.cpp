@@ -277,6 +277,7 @@ TEST(Ellipse, OfAPointThatCannotMoveIsInfiniteEverywhere) {
   stuck.basis = {{"x", "y"}, {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()}};
   stuck.mobility = Eigen::VectorXd::Zero(2);
   stuck.directions = Eigen::MatrixXd::Identity(2, 2);
+  stuck.is_infinite = {true, true};
   const auto axes = mass_axes(stuck);
   EXPECT_FALSE(axes.at(0).mass || axes.at(1).mass);
   EXPECT_FALSE(bounded_semi_axis(axes, EllipseReading::mass));
