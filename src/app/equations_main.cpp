@@ -1,6 +1,7 @@
 // chainreel-equations: the one command that computes in symbols.
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -89,21 +90,21 @@ Json json_of(const SymbolicEquation& equation) {
 
 enum class Form { text, latex, python, json };
 
-// What flags ask for, or else a file's ending: one of them.
-Form form_of(const EquationsOptions& options) {
+// What flags ask for, or else a file's ending: one of them. "": standard output.
+Form form_of(const EquationsOptions& options, const std::string& output) {
   std::set<Form> asked;
   if (options.latex) asked.insert(Form::latex);
   if (options.python) asked.insert(Form::python);
   // Of a file, --json tells on standard output what is in it.
-  if (options.common.json && options.output.empty()) asked.insert(Form::json);
-  const std::string ending = lower_case_ending(options.output);
+  if (options.common.json && output.empty()) asked.insert(Form::json);
+  const std::string ending = lower_case_ending(output);
   const std::pair<const char*, Form> endings[] = {{".tex", Form::latex}, {".py", Form::python}, {".json", Form::json}};
   for (const auto& [name, form] : endings)
     if (ending == name) asked.insert(form);
-  if (asked.empty() && !options.output.empty() && options.output != "-" && ending != ".txt")
-    throw Error(ExitCode::usage, "-o " + options.output + ": give it the ending .tex, .py, .json or .txt");
+  if (asked.empty() && !output.empty() && output != "-" && ending != ".txt")
+    throw Error(ExitCode::usage, "-o " + output + ": give it the ending .tex, .py, .json or .txt");
   if (asked.size() > 1)
-    throw Error(ExitCode::usage, "--latex (.tex), --python (.py) and JSON are three forms of one thing: take one of them");
+    throw Error(ExitCode::usage, "--latex (.tex), --python (.py) and JSON are three forms of one thing: take one of them for each file");
   return asked.empty() ? Form::text : *asked.begin();
 }
 
@@ -118,15 +119,24 @@ std::string text_in(Form form, const SymbolicEquation& equation, const std::stri
 }
 
 void run_equations(const EquationsOptions& options) {
-  const Form form = form_of(options);
-  if (options.theta && (form == Form::python || form == Form::json))
+  const std::vector<std::string> outputs = options.outputs.empty() ? std::vector<std::string>{""} : options.outputs;
+  std::vector<Form> forms;
+  for (const std::string& output : outputs) forms.push_back(form_of(options, output));
+  const auto has_angles = [](Form form) { return form == Form::text || form == Form::latex; };
+  if (options.theta && std::none_of(forms.begin(), forms.end(), has_angles))
     throw Error(ExitCode::usage, "--theta is for text and LaTeX: the angles are q in Python and JSON");
+  std::vector<std::unique_ptr<OutputFile>> files;
+  for (const std::string& path : options.outputs) {
+    if (std::any_of(files.begin(), files.end(), [&](const auto& file) { return file->path() == path; }))
+      throw Error(ExitCode::usage, "-o " + path + ": is named twice");
+    files.push_back(std::make_unique<OutputFile>(path, options.common.force));
+  }
   const SymbolicEquation equation = equation_of(options);
-  const std::string text = text_in(form, equation, options.theta ? "theta" : "q");
-  if (options.output.empty() && options.common.json) return tell_files(options.common, {}, [&] { return json_of(equation); });
-  if (options.output.empty()) return void(std::fputs(text.c_str(), stdout));
-  write_text_file(options.output, text, options.common.force);
-  if (options.common.json) tell_files(options.common, {options.output}, [&] { return json_of(equation); });
+  if (files.empty() && !options.common.json)
+    return void(std::fputs(text_in(forms[0], equation, options.theta ? "theta" : "q").c_str(), stdout));
+  for (std::size_t i = 0; i < files.size(); ++i) write_temporary(*files[i], text_in(forms[i], equation, options.theta ? "theta" : "q"));
+  for (const auto& file : files) file->commit();
+  if (options.common.json) tell_files(options.common, options.outputs, [&] { return json_of(equation); });
 }
 
 void add_commands(CommandLine& app) {

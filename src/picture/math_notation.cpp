@@ -160,6 +160,7 @@ class Reader {
     const char32_t c = peek();
     if (is_digit(c) || (c == U'.' && is_digit(peek(1)))) return read_number(atoms);
     if (is_letter(c)) return read_word(atoms, depth);
+    if (c == U'"') return read_quoted(atoms);
     if (c == U'_' || c == U'^') return read_script(atoms, depth);
     if (c == U'{' || c == U'}') fail("a brace without _, ^, frac, col, mat, hat or bar before it");
     if (is_small_greek(c) || is_capital_greek(c))
@@ -216,6 +217,14 @@ class Reader {
     if (before == AtomKind::slash) return atoms.size() > 1 && atoms[atoms.size() - 2].kind == AtomKind::unit;
     return blank && (before == AtomKind::number || before == AtomKind::close || before == AtomKind::unit ||
                      before == AtomKind::matrix || before == AtomKind::fraction);
+  }
+
+  // "a_name": upright, as it stands.
+  void read_quoted(std::vector<MathAtom>& atoms) {
+    const std::size_t end = text_.find(U'"', at_ + 1);
+    if (end == text_.npos) fail("a quote that does not close");
+    atoms.push_back({AtomKind::function, std::u32string(text_.substr(at_ + 1, end - at_ - 1)), 0, {}, {}, false});
+    at_ = end + 1;
   }
 
   void read_word(std::vector<MathAtom>& atoms, int depth) {

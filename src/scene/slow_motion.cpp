@@ -12,7 +12,8 @@
 namespace chainreel {
 namespace {
 
-constexpr double kMostAdded = 0.25, kAlwaysAdded = 2;  // of the motion; s, up to the motion's own length
+constexpr double kLongestBrief = 6;  // s: longer motions are seen without; asked for 8 s, a film of 10 s is a surprise
+constexpr double kAdded = 2;         // s, up to the motion's own length
 constexpr double kAround = 0.2;             // s of the motion
 constexpr double kAroundOfMotion = 0.1;     // at most: short motions have short events
 constexpr double kEase = 0.5, kApart = 2;   // of `around`
@@ -103,7 +104,8 @@ void add_beginning(Windows& windows, const Window& whole, double around) {
 }  // namespace
 
 double longest_film(double motion, bool is_asked) {
-  return is_asked ? 2 * motion : motion + std::max(kMostAdded * motion, std::min(kAlwaysAdded, motion));
+  if (is_asked) return 2 * motion;
+  return motion > kLongestBrief ? motion : motion + std::min(kAdded, motion);
 }
 
 bool may_be_hasty(const Scene& scene, const Chain& chain) {

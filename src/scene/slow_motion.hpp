@@ -19,8 +19,8 @@
 
 namespace chainreel {
 
-// s. By itself: a quarter more than the motion, or two seconds more, which let a short one be twice as long and no longer. By
-// numbers of the scene's own twice as long.
+// s. By itself two seconds more than a motion of up to six seconds, which let a short one be twice as long and no longer; longer
+// ones are as long as they are. By numbers of the scene's own twice as long.
 double longest_film(double motion, bool is_asked = false);
 
 // A part of the motion that asks for slow motion, s.

@@ -424,7 +424,7 @@ std::string vector_in_python(const Writer& writer, const std::vector<Formula>& l
 std::string lambda_in_python(const Writer& writer, const SymbolicEquation& equation) {
   const std::string fraction = format_shortest(kSingularFraction);
   std::string text = "\n\ndef Lambda(q):\n    \"\"\"The effective mass of " + equation.end_effector +
-                     ", J^-T M J^-1. ValueError at poses where it is infinite in some\n"
+                     (equation.Lambda ? ", J^-T M J^-1" : ", (J M^-1 J^T)^-1") + ". ValueError at poses where it is infinite in some\n"
                      "    direction: there J M^-1 J^T has an eigenvalue below " + fraction + " of the largest, and its direction less than\n"
                      "    " + format_shortest(kAcross) + " of each column of J.\"\"\"\n"
                      "    mobility = J(q) @ np.linalg.solve(M(q), J(q).T)\n"

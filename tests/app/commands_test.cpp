@@ -463,6 +463,7 @@ TEST(Audit, HasTheKeysThatOthersRead) {
             "");
   Words panels = with(of_film, {"title"});
   for (const std::string& key : of_run) panels.push_back("panels." + key);
+  panels.push_back("warnings");
   EXPECT_EQ(difference(keys_of_audit("rr_free", with(brief, {"--vary", "method=rk4,verlet"})), panels), "");
   EXPECT_EQ(
       difference(

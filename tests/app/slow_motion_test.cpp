@@ -381,8 +381,9 @@ TEST(OwnSlowMotionOfScenes, IsWhereLinksTurnTooFastAndNowhereElse) {
   EXPECT_EQ(fast["slow_motion"][0]["because"], "a link turns more than 15 degrees a frame");
   EXPECT_EQ(checked("rrr_torque", {"slow_motion=none"}).at("slow_motion"), Json::array());
   EXPECT_EQ(checked("rrr_torque", {"slow_motion={turn: 90deg}"}).at("slow_motion"), Json::array());
-  // A whirl of a few frames: so it is shown.
-  EXPECT_EQ(checked("rrr_free")["slow_motion"].size(), 3u) << "the first of them, a quarter of its ten seconds";
+  // A whirl of a few frames: so it is shown, of ten seconds where that is asked for.
+  EXPECT_EQ(checked("rrr_free")["slow_motion"], Json::array());
+  EXPECT_GT(checked("rrr_free", {"slow_motion={turn: 15deg}"})["slow_motion"].size(), 2u);
   EXPECT_EQ(checked("redundant")["slow_motion"].size(), 1u);
 }
 

@@ -181,7 +181,7 @@ class Runs(FolderTest):
                 return run, "".join(re.sub(r"<[^>]*>|\s", "", text) for text in re.findall(r"<text.*?</text>", file.read(), re.S))
 
         run, page = words(hold_up_2)
-        self.assertIn("holdup2(", page)
+        self.assertIn("hold_up_2(", page)
         self.assertIn("the Python function hold_up_2", run.report["torque_function"])
         self.assertIn("the Python function hold_up_2", run.scene)
         for odd in (lambda t, q, qd: [0, 0], functools.partial(hold_up_2), type("Caller", (), {"__call__": lambda self, t, q, qd: [0, 0]})()):

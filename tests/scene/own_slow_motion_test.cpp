@@ -72,6 +72,8 @@ TEST(EasedStretch, TooShortForBothEasesIsAllEase) {
 }
 
 const SlowMotionRule kRule;
+// That of a scene that asks for it, which long motions may be slowed by.
+const SlowMotionRule kAsked{.is_asked = true};
 
 Haste event_at(double t, const char* name = "touch") {
   return {t, t, false, {name}};
@@ -82,7 +84,7 @@ Haste turn_of(double from, double until) {
 
 TEST(OwnSlowMotion, IsAroundWhatAsksForIt) {
   EXPECT_THAT(stretches_by(kRule, 10, {}, {}), IsEmpty());
-  const auto all = stretches_by(kRule, 12, {event_at(2)}, {turn_of(5, 5.5)});
+  const auto all = stretches_by(kAsked, 12, {event_at(2)}, {turn_of(5, 5.5)});
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0], (Stretch{1.8, 2.2, 0.25, 0.1, "'touch'"}));
   EXPECT_NEAR(all[1].from, 4.8, 1e-12);
@@ -92,15 +94,15 @@ TEST(OwnSlowMotion, IsAroundWhatAsksForIt) {
 
 TEST(OwnSlowMotion, OfWhatLiesNearIsOne) {
   // 0.2 s around each, and less than 0.4 s between: at 2.79 s, not at 2.81 s.
-  const auto near = stretches_by(kRule, 13, {event_at(2), event_at(2.79, "off")}, {turn_of(2, 2.1)});
+  const auto near = stretches_by(kAsked, 13, {event_at(2), event_at(2.79, "off")}, {turn_of(2, 2.1)});
   ASSERT_EQ(near.size(), 1u);
   EXPECT_NEAR(near[0].until, 2.99, 1e-12);
   EXPECT_EQ(near[0].cause, "'touch', 'off', a link turns more than 15 degrees a frame");
-  EXPECT_EQ(stretches_by(kRule, 10, {event_at(2), event_at(2.81)}, {}).size(), 2u);
+  EXPECT_EQ(stretches_by(kAsked, 10, {event_at(2), event_at(2.81)}, {}).size(), 2u);
 }
 
 TEST(OwnSlowMotion, ReachesToTheEndsOfTheMotion) {
-  const auto all = stretches_by(kRule, 10, {event_at(0.1), event_at(9.95)}, {});
+  const auto all = stretches_by(kAsked, 10, {event_at(0.1), event_at(9.95)}, {});
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].from, 0);
   EXPECT_EQ(all[1].until, kInfinity) << "an event that ends a run leaves nothing behind it to speed up for";
@@ -114,10 +116,12 @@ TEST(OwnSlowMotion, OfShortMotionsIsShort) {
   EXPECT_EQ(stretches_by(rule, 2, {event_at(0.5)}, {}), (std::vector<Stretch>{{0.25, 0.75, 0.25, 0.125, "'touch'"}}));
 }
 
-// A quarter longer, or two seconds, or twice as long: 10 s, 8 s, 5 s, 1 s.
-TEST(OwnSlowMotion, AddsNoMoreThanAQuarterToAllButShortMotions) {
-  EXPECT_EQ(longest_film(20), 25);
-  EXPECT_EQ(longest_film(8), 10);
+// Two seconds, or twice as long; nothing beyond six seconds.
+TEST(OwnSlowMotion, AddsTwoSecondsAtMostToShortMotionsAndNothingToOthers) {
+  EXPECT_EQ(longest_film(20), 20);
+  EXPECT_EQ(longest_film(6.001), 6.001);
+  EXPECT_EQ(longest_film(6), 8);
+  EXPECT_THAT(stretches_by(kRule, 8, {event_at(2)}, {turn_of(0, 8)}), IsEmpty());
   EXPECT_EQ(longest_film(5), 7);
   EXPECT_EQ(longest_film(2), 4);
   EXPECT_EQ(longest_film(1), 2);
@@ -127,25 +131,25 @@ TEST(OwnSlowMotion, AddsNoMoreThanAQuarterToAllButShortMotions) {
 // Whatever asks, the film is no longer than that.
 TEST(OwnSlowMotion, NeverMakesAFilmSeveralTimesLonger) {
   const auto film = [](const std::vector<Haste>& events, const std::vector<Haste>& turns) {
-    return FilmClock(10, kTen, stretches_by(kRule, 10, events, turns)).film_seconds();
+    return FilmClock(6, kTen, stretches_by(kRule, 6, events, turns)).film_seconds();
   };
   // All the time: slow from the beginning on, for as long as it may.
-  const auto whole = stretches_by(kRule, 10, {}, {turn_of(0, 10)});
+  const auto whole = stretches_by(kRule, 6, {}, {turn_of(0, 6)});
   ASSERT_EQ(whole.size(), 1u);
   EXPECT_EQ(whole[0].from, 0);
-  EXPECT_NEAR(film({}, {turn_of(0, 10)}), 12.5, 1e-9);
-  EXPECT_NEAR(film({}, {turn_of(2, 9)}), 12.5, 1e-9);
+  EXPECT_NEAR(film({}, {turn_of(0, 6)}), 8, 1e-9);
+  EXPECT_NEAR(film({}, {turn_of(2, 5.5)}), 8, 1e-9);
   std::vector<Haste> many;
-  for (int i = 0; i < 19; ++i) many.push_back(event_at(0.5 + 0.5 * i, std::to_string(i).c_str()));
-  EXPECT_LE(film(many, {}), 12.5);
-  EXPECT_GT(film(many, {}), 11.5) << "as many as there is room for";
+  for (int i = 0; i < 11; ++i) many.push_back(event_at(0.5 + 0.5 * i, std::to_string(i).c_str()));
+  EXPECT_LE(film(many, {}), 8);
+  EXPECT_GT(film(many, {}), 7) << "as many as there is room for";
   std::vector<Haste> turns;
-  for (int i = 0; i < 9; ++i) turns.push_back(turn_of(1 + i, 1.1 + i));
-  EXPECT_LE(film({}, turns), 12.5);
+  for (int i = 0; i < 5; ++i) turns.push_back(turn_of(1 + i, 1.1 + i));
+  EXPECT_LE(film({}, turns), 8);
 }
 
 TEST(OwnSlowMotion, AboutEventsComesFirst) {
-  const auto all = stretches_by(kRule, 10, {event_at(9)}, {turn_of(0, 5)});
+  const auto all = stretches_by(kAsked, 10, {event_at(9)}, {turn_of(0, 5)});
   ASSERT_EQ(all.size(), 2u);
   EXPECT_LT(all[0].until, 5);
   EXPECT_EQ(all[1].cause, "'touch'");

@@ -119,7 +119,6 @@ EnergySubjects compare_panels(PreparedFilm film, const Settings& settings) {
   all.scenes = std::move(film.panels);
   for (PreparedScene& panel : all.scenes) {
     Simulation& simulation = panel.simulation;
-    simulation.events = nullptr;  // curves are of one length
     if (!simulation.method) continue;
     MethodSetting setting{simulation.method, simulation.options, simulation.step};
     if (settings.step && setting.step > 0) setting.step = *settings.step;
@@ -135,6 +134,7 @@ EnergySubjects subjects_of(const EnergyOptions& options, const std::vector<const
       !read_scene(options.scene, overrides, MethodsOf::command).compare.empty()) {
     PreparedFilm film = load_film(options.scene, overrides, false, options.common.quiet);
     for (const PreparedScene& panel : film.panels) require_computed_run(panel.scene, "energy");
+    for (PreparedScene& panel : film.panels) leave_events_out(panel);
     say_choice(film.panels, options.common.quiet);
     return compare_panels(std::move(film), settings);
   }

@@ -44,8 +44,11 @@ void put_on_standard_input(const std::string& text) {
 
 }  // namespace
 
-void run_equations_elsewhere(const EquationsOptions&) {
+void run_equations_elsewhere(const EquationsOptions& options) {
   std::vector<std::string> words = own_words();
+  // The file as it was found, of which has been told.
+  for (std::string& word : words)
+    if (word != "-" && word != options.file && shipped_file(word) == options.file) word = options.file;
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
@@ -67,7 +70,8 @@ void add_equations_command(CommandLine& app, void (*run)(const EquationsOptions&
   add_panel_option(*command, options->panel);
   command->add_option("--gravity", options->gravity, "world x,y,z in m/s^2");
   command->add_option("--end-effector", options->end_effector, "the link that J and Lambda speak of");
-  command->add_option("-o,--output", options->output, "a .tex (LaTeX), .py (Python), .json or .txt file (default: standard output)");
+  command->add_option("-o,--output", options->outputs,
+                      "a .tex (LaTeX, to be read by \\input), .py (Python), .json or .txt file; several -o make several (default: standard output)");
   add_scene_options(*command, options->common);
   add_json_option(*command, options->common);
   add_force_option(*command, options->common);

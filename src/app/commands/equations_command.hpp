@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/cli/command.hpp"
 
@@ -11,7 +12,8 @@ namespace chainreel {
 struct EquationsOptions {
   std::string file;
   int panel = 0;  // of a scene, from 1; 0: the only one
-  std::string gravity, end_effector, output;
+  std::string gravity, end_effector;
+  std::vector<std::string> outputs;
   bool latex = false, python = false, theta = false;
   CommonOptions common;
 };

@@ -145,6 +145,13 @@ PreparedFilm film_of(Scene scene, bool meshes, bool quiet, const std::optional<O
   return film;
 }
 
+void leave_events_out(PreparedScene& prepared) {
+  if (prepared.simulation.events && !prepared.simulation.events->list.empty())
+    prepared.scene.notices.push_back("events are not looked for here, also those that would end the run: it goes on to t = " +
+                                     format_shortest(prepared.scene.duration) + " s, by the steps that it takes without them");
+  prepared.simulation.events = nullptr;
+}
+
 PreparedScene load_motion(const std::string& path, const std::vector<std::string>& overrides, int panel, bool quiet) {
   Scene scene = read_scene(path, overrides, MethodsOf::command);
   if (panel == 0 && !scene.compare.empty() && differ_by_method_alone(scene.compare)) {
@@ -157,7 +164,7 @@ PreparedScene load_motion(const std::string& path, const std::vector<std::string
   }
   PreparedScene prepared{std::move(scene), {}, {}, nullptr};
   prepared.simulation = prepare(prepared.scene, false);
-  prepared.simulation.events = nullptr;
+  leave_events_out(prepared);
   say_notices(prepared, quiet);
   return prepared;
 }

@@ -37,6 +37,8 @@ PreparedFilm load_film(const std::string& path, const std::vector<std::string>& 
                        bool quiet = true);
 // The same of a scene that has been read. `torque` drives the joints of every panel: Error (usage) where one has its own.
 PreparedFilm film_of(Scene scene, bool meshes = true, bool quiet = true, const std::optional<OwnTorque>& torque = {});
+// For who measures methods over the whole duration: no event acts, which is said among the scene's notices.
+void leave_events_out(PreparedScene& prepared);
 // For commands that run one motion with methods of their own, over its whole duration: events do not act, and no method is
 // chosen where the scene names none. Of a scene that compares several, `panel` from 1, or 0 where they differ by their methods
 // alone; else throws Error. What is to be known of the scene is said.

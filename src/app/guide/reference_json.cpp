@@ -21,7 +21,7 @@ const Keys kRun{
     {"auto", "how `method: auto` chose it; or null"},
     {"motion", "of a recorded motion, its table; or null"},
     {"torque_function", "the name of a torque that is a function of the caller; or null"},
-    {"steps, evaluations", "how many"},
+    {"steps, evaluations", "how many, of the dynamics; the work of torques looks into steps, which of Euler and RK4 takes one more a step"},
     {"duration", "s, that was asked for"},
     {"energy_start, largest_kinetic_energy, energy_moved", "J"},
     {"audit_error, audit_error_time", "J and s: the largest error of the energy at the ends of steps"},

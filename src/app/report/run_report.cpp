@@ -226,8 +226,13 @@ Json to_json(const FilmReport& report) {
             {"duration", scene.duration},
             {"layout", to_string(scene.layout)}};
     json["panels"] = Json::array();
+    json["warnings"] = Json::array();  // of all
     for (const RunReport& panel : report.panels) {
       json["panels"].push_back(to_json(panel));
+      for (Json warning : json["panels"].back()["warnings"]) {
+        warning["panel"] = json["panels"].size();
+        json["warnings"].push_back(std::move(warning));
+      }
       for (const char* shared : {"scene", "duration"}) json["panels"].back().erase(shared);
       if (is_ghost_layout(scene)) json["panels"].back()["look"] = &panel == &report.panels.front() ? "filled" : "outline";
     }

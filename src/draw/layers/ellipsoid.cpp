@@ -21,8 +21,7 @@ constexpr double kFarLine = 0.0016;  // units of H: lines behind the middle
 constexpr double kFarOpacity = 0.75;
 constexpr double kFarDash = 0.008, kFarGap = 0.006;  // units of H
 constexpr double kNumberGap = 0.010;                 // units of H, beyond the end of a semi-axis
-constexpr double kLeastAxis =
-    0.02;  // units of H: shorter ones, seen from their end, have no room for a number
+constexpr double kLeastAxis = 0.008;  // units of H: shorter ones, seen from their end, have no room for a number
 
 constexpr double kAside[] = {0, 0.8, -0.8, 1.5, -1.5};  // rad: where its number stands about that end
 
@@ -191,7 +190,7 @@ class Ellipsoid {
     }
   }
 
-  // The length of each semi-axis at the end that faces the viewer, else at the other one.
+  // The length of each semi-axis at the end that faces the viewer, or that no robot hides, else at the other one.
   void draw_numbers(Picture& picture, int clip) const {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
       const Point v = on_page(axes_[i].v) - center_;
@@ -203,7 +202,8 @@ class Ellipsoid {
       const TextLine number = lay_out_text(
           *style_.fonts, format_significant(axes_[i].length, 2) + unit_of,
           {Face::label, scaled(size::kTick, style_.text_scale), style_.theme->ellipse, Align::left});
-      const double toward = camera_.toward_viewer.dot(axes_[i].v) < 0 ? -1 : 1;
+      double toward = camera_.toward_viewer.dot(axes_[i].v) < 0 ? -1 : 1;
+      if (style_.hides && style_.hides(toward * axes_[i].v) && !style_.hides(-toward * axes_[i].v)) toward = -toward;
       MarkWord word{"semi-axis", number, {}};
       for (const double side : {toward, -toward}) {
         const Point d = side * unit(v), end = center_ + side * v;

@@ -78,15 +78,14 @@ std::string list_of(const std::vector<std::string>& entries, std::size_t shown) 
 
 namespace {
 
-// A function of the calling program by its name, where that is one which formulas can hold: words between its underscores.
+// A function of the calling program by its name, as it stands there, where that is one which formulas can hold.
 std::string function_notation(const OwnTorque& function) {
   std::string name = function.name;
   name.erase(0, std::min(name.find_first_not_of('_'), name.size()));
   const auto is_plain = [](unsigned char c) { return c < 128 && (std::isalnum(c) || c == '_'); };
   if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) || !std::all_of(name.begin(), name.end(), is_plain))
     return "tau(t, q, qd)";
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name + "(t, q, qd)";
+  return "\"" + name + "\"(t, q, qd)";
 }
 
 }  // namespace
