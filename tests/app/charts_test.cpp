@@ -182,6 +182,21 @@ TEST(EnergyCommand, RunsMethodsOnTheMotionThatPanelsShare) {
 }
 
 // The methods are the command's: a scene's step and tolerance are what they take.
+// Nothing is left out in silence: these go on where the scene would stop.
+TEST(EnergyCommand, AndOthersThatMeasureMethodsSayThatEventsAreLeftOut) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("stops.yaml", "model: {links: [0.5, 0.4], masses: [2, 1]}\nstart: {q: [0.3, 0.5]}\nduration: 0.2\n"
+                                                       "events: [{when: q1, kind: stop}]\n");
+  const std::string said = "events are not looked for here";
+  const Words methods{scene, "--methods", "dop853"};
+  for (const char* command : {"energy", "chart", "stability"}) {
+    EXPECT_THAT(run_program(with(with({command}, methods), {"-o", folder.file(std::string(command) + ".csv")})).err, HasSubstr(said)) << command;
+    EXPECT_THAT(run_program(with(with({command}, methods), {"-o", folder.file(std::string(command) + "_none.csv"), "--set", "events=[]"})).err,
+                testing::Not(HasSubstr(said)))
+        << command;
+  }
+}
+
 TEST(EnergyCommand, TakesAStepOfASceneThatNamesNoMethod) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("a.yaml", "model: rr.urdf\nduration: 0.2\nstep: 0.02\ntolerance: 1e-7\n");

@@ -86,6 +86,19 @@ TEST(Equations, TakeWhatASceneSaysOfItsMechanism) {
   EXPECT_EQ(Json::parse(down.out)["g"], Json({"0", "0"}));
 }
 
+TEST(Equations, GoIntoAsManyFilesAsAreNamedOrIntoNone) {
+  const TemporaryFolder folder;
+  const std::string tex = folder.file("a.tex"), py = folder.file("a.py"), text = folder.file("a.txt");
+  EXPECT_EQ(run_program({"equations", "models/rr.urdf", "-o", tex, "-o", py, "--theta"}).status, 0);
+  EXPECT_THAT(read_whole_file(tex), HasSubstr("\\theta_{2}"));
+  EXPECT_THAT(read_whole_file(py), AllOf(HasSubstr("def J(q)"), HasSubstr("along x, y"), testing::Not(HasSubstr("theta"))));
+  // One of them exists, one is named twice, one has no form: nothing is written.
+  EXPECT_EQ(run_program({"equations", "models/rr.urdf", "-o", text, "-o", py}).status, 6);
+  EXPECT_EQ(run_program({"equations", "models/rr.urdf", "-o", text, "-o", text}).status, 2);
+  EXPECT_EQ(run_program({"equations", "models/rr.urdf", "-o", text, "-o", folder.file("a.png")}).status, 2);
+  EXPECT_FALSE(std::filesystem::exists(text));
+}
+
 TEST(Equations, RefuseWhatTheyCannotSay) {
   EXPECT_THAT(run_program({"equations", "models/arm.urdf"}).err, AllOf(HasSubstr("1 to 4 joints"), HasSubstr("chainreel dynamics")));
   EXPECT_EQ(run_program({"equations", "models/arm.urdf"}).status, 3);

@@ -22,6 +22,7 @@
 namespace chainreel {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -314,6 +315,10 @@ TEST_F(SlowMotionFilm, IsThereByItselfAboutEventsAndSaysSo) {
   EXPECT_EQ(Json::parse(check.out)["cost"]["frames"], audit["frames"]);
   EXPECT_EQ(Json::parse(check.out)["slow_motion"][0]["because"], "'half'");
   EXPECT_THAT(run_program({"check", file("yaml")}).out, HasSubstr("slow motion from t = 0.269275 s"));
+  // Ended by an event, it is as long as it has become, not as it might have.
+  const ProgramResult ended = run_program({"render", file("yaml"), "-o", file("csv"), "--force", "--set", "duration=5", "--set",
+                                           "events=[{when: \"q2 < -0.5\", kind: stop, name: half}]"});
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("its motion 0.3193 s"), HasSubstr("film lasts 0.")));
   EXPECT_EQ(render(kNone, {"mp4"}).at("slow_motion"), Json::array());
 }
 
