@@ -132,9 +132,10 @@ void run_equations(const EquationsOptions& options) {
     files.push_back(std::make_unique<OutputFile>(path, options.common.force));
   }
   const SymbolicEquation equation = equation_of(options);
+  const std::string angle = options.theta ? "theta" : "q";
   if (files.empty() && !options.common.json)
-    return void(std::fputs(text_in(forms[0], equation, options.theta ? "theta" : "q").c_str(), stdout));
-  for (std::size_t i = 0; i < files.size(); ++i) write_temporary(*files[i], text_in(forms[i], equation, options.theta ? "theta" : "q"));
+    return void(std::fputs(text_in(forms[0], equation, angle).c_str(), stdout));
+  for (std::size_t i = 0; i < files.size(); ++i) write_temporary(*files[i], text_in(forms[i], equation, angle));
   for (const auto& file : files) file->commit();
   if (options.common.json) tell_files(options.common, options.outputs, [&] { return json_of(equation); });
 }

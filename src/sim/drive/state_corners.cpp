@@ -28,6 +28,7 @@ StateCorners::StateCorners(const Corners& corners, std::vector<double>& sides, P
     if (corners[k].time_alone) continue;
     indices_.push_back(k);
     reads_.push_back(corners_read_by(corners[k].value));
+    lone_slots_.push_back(lone_slot_of(corners[k].value));
     for (const Instruction& one : corners[k].value.instructions) {
       if (one.operation != Operation::variable || !probe.is_kinematic(one.slot)) continue;
       needs_kinematics_ = true;
@@ -49,17 +50,15 @@ std::vector<bool> StateCorners::corners_read_by(const CorneredProgram& value) co
   return read;
 }
 
-int StateCorners::rate_of(int k, int nq, int nv) const {
-  const CorneredProgram& value = corners_[int(index(k))].value;
+int StateCorners::lone_slot_of(const CorneredProgram& value) const {
   int slot = -1;
   for (const Instruction& one : value.instructions) {
     if (one.operation != Operation::variable) continue;
     if (slot >= 0 && one.slot != slot) return -1;
     slot = one.slot;
   }
-  const bool is_rate = !value.has_corners() && slot > nq && slot <= nq + nv;
   const std::vector<double> rest(probe_.values().size());
-  return is_rate && evaluate<double>(value, rest, sides_) == 0 ? slot - 1 - nq : -1;
+  return slot >= 0 && !value.has_corners() && evaluate<double>(value, rest, sides_) == 0 ? slot : -1;
 }
 
 void StateCorners::values(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec g) {

@@ -22,7 +22,10 @@ class StateCorners {
   // Whether the switching function of k reads the side of `other`, be it through further ones. Such come later.
   bool reads(int k, int other) const { return reads_[std::size_t(k)][std::size_t(other)]; }
   // Which freedom's rate it is that is zero where the switching function of k is, and nothing else; -1: there is more to it.
-  int rate_of(int k, int nq, int nv) const;
+  int rate_of(int k, int nq, int nv) const {
+    const int slot = lone_slots_[std::size_t(k)];
+    return slot > nq && slot <= nq + nv ? slot - 1 - nq : -1;
+  }
   const std::string& text(int k) const { return corners_[int(index(k))].text; }
 
   // The switching functions, `count` numbers. Allocates nothing.
@@ -33,6 +36,8 @@ class StateCorners {
 
  private:
   std::vector<bool> corners_read_by(const CorneredProgram& value) const;
+  // Of the one variable that it reads and with which it is zero; -1.
+  int lone_slot_of(const CorneredProgram& value) const;
   std::size_t index(int k) const { return std::size_t(indices_[std::size_t(k)]); }
 
   const Corners& corners_;
@@ -40,6 +45,7 @@ class StateCorners {
   Probe& probe_;
   std::vector<int> indices_;
   std::vector<std::vector<bool>> reads_;  // [k][other]
+  std::vector<int> lone_slots_;           // one a k
   std::vector<Dual<double>> duals_;
   std::vector<int> frame_rates_;  // slots of frames' velocities that they read
   bool needs_kinematics_ = false;
