@@ -119,6 +119,26 @@ TEST_F(Verify, AcceptsWhatIsNamedAndNothingElse) {
   EXPECT_THAT(unknown.err, HasSubstr("did you mean 'up'"));
 }
 
+// Both themes, and a scene with two forces: a baseline each, and each is judged by its own.
+TEST_F(Verify, ShowsEachSourceOnceAVariant) {
+  write("both.yaml", "model: rr.urdf\nsize: 160x90\nposes: {home: [0, 0]}\ntheme: [light, dark]\n");
+  accept_all("both.yaml");
+  const auto files = baselines("both");
+  EXPECT_NE(files.at("home_light.png"), files.at("home_dark.png"));
+  EXPECT_EQ(verify({}, "both.yaml").status, 0);
+  write("swing.yaml", "model: rr.urdf\nparameters: {F: 1}\ntorque: [F, 0]\nduration: 1\n");
+  const std::string suite = "scene: swing.yaml\nsize: 160x90\nat: 1s\nvariants:\n  weak: {theme: light}\n  strong: {parameters.F: ";
+  write("swings.yaml", suite + "20}\n");
+  accept_all("swings.yaml");
+  EXPECT_NE(baselines("swings").at("1s_weak.png"), baselines("swings").at("1s_strong.png"));
+  write("swings.yaml", suite + "21}\n");
+  const Json json = results({}, "swings.yaml");
+  EXPECT_EQ(picture(json, "1s_weak")["state"], "same");
+  EXPECT_EQ(picture(json, "1s_strong")["state"], "changed");
+  EXPECT_EQ(picture(json, "1s_strong")["source"], "swing.yaml (strong)");
+  EXPECT_THAT(words(json, "1s_strong"), HasSubstr("parameters.F 20 -> 21"));
+}
+
 TEST_F(Verify, NamesUnusedBaselinesAndPrunesThemWhenAsked) {
   accept_all();
   replace("arm.yaml", ", bent: [30deg, 60deg]", "");

@@ -233,6 +233,35 @@ TEST_F(Suites, LookIsHandedOnAsKeysOfScenes) {
   EXPECT_TRUE(read("model: arm.urdf\n").physics_alone_fails);
 }
 
+TEST_F(Suites, EachSourceIsShownOnceAVariant) {
+  const Suite suite = read("scene: swing.yaml\nat: [0, 1s]\nvariants:\n  plain: {duration: 2}\n  dark: {theme: dark, start.q: [0, -2, 0]}\n");
+  ASSERT_EQ(suite.pictures.size(), 4u);
+  std::vector<std::string> names;
+  for (const SuitePicture& picture : suite.pictures) names.push_back(picture.name);
+  EXPECT_THAT(names, ElementsAre("0s_plain", "1s_plain", "0s_dark", "1s_dark"));
+  EXPECT_THAT(suite.pictures[3].overrides, ElementsAre("theme=dark", "start.q=[0, -2, 0]"));
+  EXPECT_THAT(suite.overrides, IsEmpty());
+  // A list of themes says the same, of models, too.
+  const Suite themes = read("model: arm.urdf\nposes: {rest: {}}\ntheme: [light, dark]\n");
+  ASSERT_EQ(themes.pictures.size(), 2u);
+  EXPECT_EQ(themes.pictures[1].name, "rest_dark");
+  EXPECT_THAT(themes.pictures[1].overrides, ElementsAre("theme=dark"));
+}
+
+TEST_F(Suites, VariantsThatSayNothingAreRefusedWithTheirLine) {
+  const std::string head = "scene: swing.yaml\nat: 0\nvariants:\n";
+  EXPECT_THAT(error(head + "  a: {}\n"), AllOf(HasSubstr("snapshots.yaml:4"), HasSubstr("variants.a")));
+  EXPECT_THAT(error(head + "  a: {theme: blue}\n"), AllOf(HasSubstr("snapshots.yaml:4"), HasSubstr("light")));
+  EXPECT_THAT(error(head + "  a: {thme: dark}\n"), HasSubstr("theme"));
+  EXPECT_THAT(error(head + "  a: {parameters.F: 20}\n"), AllOf(HasSubstr("snapshots.yaml:4"), HasSubstr("F")));
+  EXPECT_THAT(error(head + "  a: {start: {q: [0, 0, 0]}}\n"), HasSubstr("start.q"));
+  EXPECT_THAT(error(head + "  a: {duration: 2}\n  A: {duration: 1}\ntheme: [dark]\n"), HasSubstr("two ways"));
+  EXPECT_THAT(error("scene: swing.yaml\ntheme: []\n"), HasSubstr("empty list"));
+  EXPECT_THAT(error("scene: swing.yaml\nvariants: 3\n"), HasSubstr("must hold names"));
+  EXPECT_THAT(error("model: arm.urdf\nvariants: {a: {base: floating}}\n"), HasSubstr("says nothing of how a model is drawn"));
+  EXPECT_THAT(error("model: arm.urdf\nvariants: {a: {duration: 1}}\n"), HasSubstr("says nothing of how a model is drawn"));
+}
+
 TEST_F(Suites, AllProblemsAreToldAtOnce) {
   const std::string text = error(
       "model: arn.urdf\nposes: {a: 3, \"\": [0], srdf: none.srdf}\nthem: dark\nsize: 640\ncamera: {azimut: 1, fit: [1, 0, 0, "

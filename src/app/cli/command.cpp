@@ -11,7 +11,7 @@
 #include "model/chain.hpp"
 #include "scene/quantity.hpp"
 #include "scene/run/grid.hpp"
-#include "scene/run/unread.hpp"
+#include "scene/text/unread.hpp"
 #include "scene/scene.hpp"
 
 namespace chainreel {

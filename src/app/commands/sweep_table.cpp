@@ -9,7 +9,7 @@
 
 #include "app/cli/streams.hpp"
 #include "app/film/progress.hpp"
-#include "app/report/motion_table.hpp"
+#include "app/report/peaks.hpp"
 #include "app/report/run_report.hpp"
 #include "app/report/version.hpp"
 #include "app/works/growing_table.hpp"
@@ -21,7 +21,7 @@
 #include "core/output_file.hpp"
 #include "core/parallel.hpp"
 #include "scene/run/prepare.hpp"
-#include "scene/run/unread.hpp"
+#include "scene/text/unread.hpp"
 #include "scene/text/read_scene.hpp"
 #include "sim/workload.hpp"
 #include "table/data_table.hpp"
@@ -102,8 +102,8 @@ std::string cell_of(const std::string& value) {
 // What a thread computes rows with.
 class RowMaker {
  public:
-  RowMaker(const SweepTableJob& job, std::string states, std::size_t events)
-      : job_(job), file_(job.scene), states_(std::move(states)), events_(events) {}
+  RowMaker(const SweepTableJob& job, std::string states, std::size_t peaks, std::size_t events)
+      : job_(job), file_(job.scene), states_(std::move(states)), peaks_(peaks), events_(events) {}
 
   // Without the end of its line.
   std::string row(std::size_t run) {
@@ -116,7 +116,10 @@ class RowMaker {
       if (state_names(simulation.chain) != states_ || scene.events.size() != events_)
         return row + failed_row("its states or events are other ones than the first run's");
       require_possible(simulation);
-      return row + row_of(scene, simulate(simulation, std::vector<double>{scene.duration}, [](double) { return interrupted(); }));
+      const auto stop = [](double) { return interrupted(); };
+      if (job_.peaks.empty()) return row + row_of(scene, simulate(simulation, std::vector<double>{scene.duration}, stop), {});
+      const Trajectory whole = simulate_for_peaks(simulation, stop);
+      return row + row_of(scene, whole, peaks_of(simulation, whole, job_.peaks));
     } catch (const Error& error) {
       throw_if_interrupted();
       return row + failed_row(error.problems().front().message);
@@ -124,21 +127,22 @@ class RowMaker {
   }
 
  private:
-  std::string row_of(const Scene& scene, const Trajectory& run) const {
+  std::string row_of(const Scene& scene, const Trajectory& run, const std::vector<double>& peaks) const {
     const bool as_expected =
         scene.expect == Outcome::diverge ? run.status == RunStatus::diverged : is_complete(run.status);
     std::string row = as_expected ? ",1," : ",0,";
-    row += to_string(run.status) + "," + format_exact(run.end_time) + "," +
+    row += to_string(run.status) + "," + format_shortest(run.end_time) + "," +
            (run.ending_event < 0 ? "" : csv_words(scene.events[std::size_t(run.ending_event)].title()));
     row += "," + (run.size() > 0 ? state_text(run, run.size() - 1) : no_state());
+    for (const double peak : peaks) row += "," + format_shortest(peak);
     std::vector<std::string> first(events_);
     for (int k = run.events.size() - 1; k >= 0; --k)
-      first[std::size_t(run.events.event[std::size_t(k)])] = format_exact(run.events.t[std::size_t(k)]);
+      first[std::size_t(run.events.event[std::size_t(k)])] = format_shortest(run.events.t[std::size_t(k)]);
     for (const std::string& time : first) row += "," + time;
     return row + "," + (run.trouble.empty() ? "" : csv_words(run.trouble));
   }
   std::string failed_row(const std::string& why) const {
-    return ",0,refused,,," + no_state() + std::string(events_, ',') + "," + csv_words(why);
+    return ",0,refused,,," + no_state() + std::string(peaks_ + events_, ',') + "," + csv_words(why);
   }
   std::string no_state() const { return std::string(std::size_t(std::count(states_.begin(), states_.end(), ',')), ','); }
 
@@ -146,7 +150,7 @@ class RowMaker {
   SceneFile file_;
   LastChain last_;
   std::string states_;
-  std::size_t events_;
+  std::size_t peaks_, events_;  // how many cells they have
 };
 
 // Where values are or hold names of files, as in {csv: tau.csv}, these, as the scene finds them: here, else beside it.
@@ -180,6 +184,7 @@ std::string key_of(const SweepTableJob& job) {
   if (const std::string* text = standard_input_at(job.scene)) hashes.push_back(sha256_of(*text));
   std::sort(hashes.begin(), hashes.end());
   json["files"] = hashes;
+  for (const MotionColumn column : job.peaks) json["peaks"].push_back(to_string(column));
   return sha256_of(json.dump());
 }
 
@@ -187,7 +192,7 @@ std::string runs_line(const FrameRange& runs, std::size_t all) {
   return "# runs: " + std::to_string(runs.first) + " to " + std::to_string(runs.behind - 1) + " of " + std::to_string(all) + "\n";
 }
 
-std::string head_of(const SweepTableJob& job, const Scene& first, const std::string& states) {
+std::string head_of(const SweepTableJob& job, const Scene& first, const Chain& chain, std::vector<std::string> peaks) {
   const auto is_of_method = [](const Sweep& axis) {
     return axis.key == "method" || axis.key == "step" || axis.key == "tolerance" || axis.key == "order";
   };
@@ -195,8 +200,12 @@ std::string head_of(const SweepTableJob& job, const Scene& first, const std::str
   std::string head = "# sweep: " + first.name + (one_method ? ", " + method_text(first) : "") + "\n# key: " + key_of(job) + "\n" +
                      runs_line(job.runs, job.grid.size()) + "run";
   for (const Sweep& axis : job.grid.axes()) head += "," + axis.key;
-  head += ",good,status,end_time,ended_by," + states;
-  for (const EventEntry& event : first.events) head += "," + csv_words(event.title());
+  // Of other models the same numbers may have other units.
+  const auto is_of_model = [](const Sweep& axis) { return axis.key == "model" || axis.key.starts_with("model."); };
+  const bool one_model = std::none_of(job.grid.axes().begin(), job.grid.axes().end(), is_of_model);
+  head += ",good,status,end_time [s],ended_by," + state_names(chain, one_model ? NamesOfState::with_units : NamesOfState::plain);
+  for (const std::string& peak : peaks) head += "," + (one_model ? peak : peak.substr(0, peak.find(" [")));
+  for (const EventEntry& event : first.events) head += "," + csv_words(event.title() + " [s]");
   return head + ",trouble\n";
 }
 
@@ -251,9 +260,11 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
   require_possible(simulation, double(job.runs.behind - job.runs.first));
   for (const Sweep& axis : job.grid.axes()) require_read(axis.key, first, "--over");
   const std::string states = state_names(simulation.chain);
+  require_columns(simulation, job.peaks, "--peaks");
+  const std::vector<std::string> peaks = peak_names(simulation, job.peaks);
   for (const std::string& doubt : first.doubts) tell_warnings({first.name + ": " + doubt});
 
-  GrowingTable table(job.path, head_of(job, first, states), std::size_t(job.runs.first),
+  GrowingTable table(job.path, head_of(job, first, simulation.chain, peaks), std::size_t(job.runs.first),
                      std::size_t(job.runs.behind - job.runs.first), job.overwrite);
   Failures failures(job.grid);
   table.for_each_before([&](const std::string& row) { failures.look(row); });
@@ -265,7 +276,7 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
     std::mutex lock;
     const std::size_t pieces = (behind - std::min(begin, behind) + kRunsOfPiece - 1) / kRunsOfPiece;
     for_each_index_with_tools(pieces, job.threads, [&]() -> RunIndex {
-      const auto maker = std::make_shared<RowMaker>(job, states, first.events.size());
+      const auto maker = std::make_shared<RowMaker>(job, states, peaks.size(), first.events.size());
       return [&, maker](std::size_t piece) {
         std::string rows;
         const std::size_t from = begin + piece * kRunsOfPiece, until = std::min(behind, from + kRunsOfPiece);
@@ -285,7 +296,9 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
       };
     });
     const TableFormat format = table_format_of(job.path);
-    if (format == TableFormat::csv)
+    if (job.is_part)
+      table.commit_with_hash();
+    else if (format == TableFormat::csv)
       table.commit();
     else
       table.commit([format](const std::string& csv) { return table_bytes(table_of_csv(csv), format); });
@@ -327,7 +340,10 @@ TablePart read_head(const std::string& path) {
 
 void join_tables(const std::vector<std::string>& paths, const std::string& path, bool overwrite) {
   std::vector<TablePart> parts;
-  for (const std::string& one : paths) parts.push_back(read_head(one));
+  for (const std::string& one : paths) {
+    parts.push_back(read_head(one));
+    require_hash_of_rows(one);
+  }
   for (const TablePart& part : parts)
     if (part.facts != parts.front().facts || part.names != parts.front().names || part.all != parts.front().all)
       throw Error(ExitCode::bad_input,
@@ -357,7 +373,7 @@ void join_tables(const std::vector<std::string>& paths, const std::string& path,
     int run = part.runs.first;
     // A row whose end is lost is none, nor is one of another run.
     for (; run < part.runs.behind && std::getline(stream, line) && !stream.eof() && line.starts_with(std::to_string(run) + ","); ++run) out << line << "\n";
-    if (run != part.runs.behind || stream.peek() != std::ifstream::traits_type::eof())
+    if (run != part.runs.behind)
       throw Error(ExitCode::bad_input, "does not hold the rows that it tells of", {part.path});
   }
   out.close();

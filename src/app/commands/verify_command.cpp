@@ -169,7 +169,7 @@ class Verification {
         1, (pictures.size() + std::size_t(options_.jobs) - 1) / std::size_t(options_.jobs));
     for (std::size_t i = 0; i < pictures.size();) {
       std::size_t end = i + 1;
-      while (end < pictures.size() && end - i < longest && pictures[end]->source == pictures[i]->source)
+      while (end < pictures.size() && end - i < longest && pictures[end]->source == pictures[i]->source && pictures[end]->variant == pictures[i]->variant)
         ++end;
       pieces.emplace_back(i, end);
       i = end;
@@ -192,7 +192,7 @@ class Verification {
     SuiteShot shot;
     try {
       // What cannot be fitted cannot be drawn, and says why.
-      if (!suite_.fit && !cameras_.contains(source_name(suite_, picture.source))) studio.fitted(picture.source);
+      if (!suite_.fit && !cameras_.contains(source_name(suite_, picture))) studio.fitted(picture);
       shot = studio.shoot(picture);
     } catch (const Error& error) {
       if (error.code() == ExitCode::interrupted || error.code() == ExitCode::terminated) throw;
@@ -264,7 +264,7 @@ std::vector<std::string> lost_cameras(const Suite& suite, const Baselines& basel
   std::vector<std::string> notices;
   std::set<std::string> seen;
   for (const SuitePicture& picture : suite.pictures) {
-    const std::string source = source_name(suite, picture.source);
+    const std::string source = source_name(suite, picture);
     if (suite.fit || kept.contains(source) || !baselines.has(picture.name) || !seen.insert(source).second) continue;
     notices.push_back("the camera of " + source + " is missing in " + baselines.camera_file() +
                       ", and was fitted to what is drawn now: restore that file, or take the new one with --accept --refit");

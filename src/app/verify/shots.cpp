@@ -30,10 +30,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<const SuitePicture*> pictures_of(const Suite& suite, const std::string& source) {
+bool share_source(const SuitePicture& a, const SuitePicture& b) {
+  return a.source == b.source && a.variant == b.variant;
+}
+
+std::vector<const SuitePicture*> pictures_beside(const Suite& suite, const SuitePicture& one) {
   std::vector<const SuitePicture*> all;
   for (const SuitePicture& picture : suite.pictures)
-    if (picture.source == source) all.push_back(&picture);
+    if (share_source(picture, one)) all.push_back(&picture);
   return all;
 }
 
@@ -43,13 +47,14 @@ std::string fit_override(const std::array<double, 4>& part) {
   return text + "]";
 }
 
-// Keys of the suite, and the camera that its baselines have; a suite's own `fit` is among its keys.
-std::vector<std::string> overrides_for(const Suite& suite, const std::array<double, 4>* part) {
+// Keys of the suite, and the camera that its baselines have; a suite's own `fit` is among its keys. Those of a variant come last.
+std::vector<std::string> overrides_for(const Suite& suite, const SuitePicture& picture, const std::array<double, 4>* part) {
   std::vector<std::string> overrides = suite.overrides;
   if (suite.fit)
     overrides.push_back(fit_override(*suite.fit));
   else if (part)
     overrides.push_back(fit_override(*part));
+  overrides.insert(overrides.end(), picture.overrides.begin(), picture.overrides.end());
   return overrides;
 }
 
@@ -76,32 +81,33 @@ Json page_of(const Picture& picture, const Fonts& fonts, const RendererInfo& ren
 // A model or a scene with all that its pictures share.
 class Studio::Source {
  public:
-  explicit Source(std::string path) : path_(std::move(path)) {}
+  explicit Source(const SuitePicture& first) : first_(first) {}
   virtual ~Source() = default;
-  const std::string& path() const { return path_; }
+  const std::string& path() const { return first_.source; }
+  bool has(const SuitePicture& picture) const { return share_source(first_, picture); }
 
   virtual FontFamilies families() const = 0;
   virtual SuiteShot draw(const SuitePicture& picture, const Fonts& fonts) = 0;
   virtual std::array<double, 4> fitted(const Fonts& fonts) = 0;
 
  private:
-  std::string path_;
+  SuitePicture first_;
 };
 
 // A model at poses.
 class Studio::ModelSource : public Source {
  public:
-  ModelSource(const Suite& suite, const std::string& path, const std::array<double, 4>* part)
-      : Source(path),
-        pictures_(pictures_of(suite, path)),
+  ModelSource(const Suite& suite, const SuitePicture& first, const std::array<double, 4>* part)
+      : Source(first),
+        pictures_(pictures_beside(suite, first)),
         is_pinned_(part || suite.fit),
-        model_(model_scene_of(path, overrides_for(suite, part), "verify", keys_of_models(OfModel::picture))),
-        chain_(read_chain(path, model_.options)),
-        record_(model_record(path, model_.options,
+        model_(model_scene_of(path(), overrides_for(suite, first, part), "verify", keys_of_models(OfModel::picture))),
+        chain_(read_chain(path(), model_.options)),
+        record_(model_record(path(), model_.options,
                              model_.scene.links == LinkShapes::collision ? DescribeCollisions::all
                                                                          : DescribeCollisions::where_seen)),
-        name_(source_name(suite, path)),
-        keys_(overrides_for(suite, nullptr)),
+        name_(source_name(suite, first)),
+        keys_(overrides_for(suite, first, nullptr)),
         camera_(camera_of(suite, part)) {
     set_look(figure_, model_, chain_);
   }
@@ -159,14 +165,14 @@ class Studio::ModelSource : public Source {
 // which trails and plots hold, too, and no other picture may depend on it.
 class Studio::SceneSource : public Source {
  public:
-  SceneSource(const Suite& suite, const std::string& path, const std::array<double, 4>* part)
-      : Source(path),
-        pictures_(pictures_of(suite, path)),
-        film_(load_film(path, overrides_for(suite, part))),
+  SceneSource(const Suite& suite, const SuitePicture& first, const std::array<double, 4>* part)
+      : Source(first),
+        pictures_(pictures_beside(suite, first)),
+        film_(load_film(path(), overrides_for(suite, first, part))),
         clock_(clock_of(film_)),
         plain_(film_, clock_, clock_.frame_times()),
         record_(run_record(film_, plain_)),
-        name_(source_name(suite, path)) {}
+        name_(source_name(suite, first)) {}
 
   FontFamilies families() const override { return families_of(film_.scene); }
 
@@ -259,16 +265,15 @@ class Studio::SceneSource : public Source {
 Studio::Studio(const Suite& suite, const Cameras& cameras) : suite_(suite), cameras_(cameras) {}
 Studio::~Studio() = default;
 
-Studio::Source& Studio::source_of(const std::string& path) {
-  if (source_ && source_->path() == path) return *source_;
+Studio::Source& Studio::source_of(const SuitePicture& picture) {
+  if (source_ && source_->has(picture)) return *source_;
   source_ = nullptr;
-  const auto known = cameras_.find(source_name(suite_, path));
+  const auto known = cameras_.find(source_name(suite_, picture));
   const std::array<double, 4>* part = known == cameras_.end() ? nullptr : &known->second;
-  const bool is_model = pictures_of(suite_, path).front()->is_model;
-  if (is_model)
-    source_ = std::make_unique<ModelSource>(suite_, path, part);
+  if (picture.is_model)
+    source_ = std::make_unique<ModelSource>(suite_, picture, part);
   else
-    source_ = std::make_unique<SceneSource>(suite_, path, part);
+    source_ = std::make_unique<SceneSource>(suite_, picture, part);
   return *source_;
 }
 
@@ -280,7 +285,7 @@ const Fonts& Studio::fonts_of(const Source& source) {
 }
 
 SuiteShot Studio::shoot(const SuitePicture& picture) {
-  Source& source = source_of(picture.source);
+  Source& source = source_of(picture);
   const Fonts& fonts = fonts_of(source);
   SuiteShot shot = source.draw(picture, fonts);
   shot.fonts = &fonts;
@@ -298,8 +303,8 @@ Image Studio::moved(const SuiteShot& shot, double right, double up) {
   return rasterise(picture, shot.width, shot.height, *shot.fonts);
 }
 
-std::array<double, 4> Studio::fitted(const std::string& source) {
-  Source& shown = source_of(source);
+std::array<double, 4> Studio::fitted(const SuitePicture& picture) {
+  Source& shown = source_of(picture);
   return shown.fitted(fonts_of(shown));
 }
 
@@ -316,7 +321,9 @@ Image Studio::rasterise(const Picture& picture, int width, int height, const Fon
   return image;
 }
 
-std::string source_name(const Suite& suite, const std::string& source) {
+namespace {
+
+std::string file_seen_by(const Suite& suite, const std::string& source) {
   const fs::path folder =
       fs::is_directory(suite.file) ? fs::path(suite.file) : fs::path(suite.file).parent_path();
   const fs::path from = fs::absolute(folder.empty() ? "." : folder).lexically_normal();
@@ -328,20 +335,27 @@ std::string source_name(const Suite& suite, const std::string& source) {
   return printable(name.empty() ? source : name.generic_string());  // a name may be no text
 }
 
+}  // namespace
+
+std::string source_name(const Suite& suite, const SuitePicture& picture) {
+  const std::string file = file_seen_by(suite, picture.source);
+  return picture.variant.empty() ? file : file + " (" + picture.variant + ")";
+}
+
 Cameras cameras_of(const Suite& suite, Cameras known) {
   if (suite.fit) return {};
   const Cameras none;
   Studio studio(suite, none);
   Cameras cameras;
   for (const SuitePicture& picture : suite.pictures) {
-    const std::string name = source_name(suite, picture.source);
+    const std::string name = source_name(suite, picture);
     if (cameras.contains(name)) continue;
     if (const auto found = known.find(name); found != known.end()) {
       cameras[name] = found->second;
       continue;
     }
     try {
-      cameras[name] = studio.fitted(picture.source);
+      cameras[name] = studio.fitted(picture);
     } catch (const Error& error) {
       if (error.code() == ExitCode::interrupted || error.code() == ExitCode::terminated) throw;
       // Its pictures cannot be drawn, which is told of them; others can.

@@ -32,8 +32,7 @@ struct SuiteShot {
       false;  // the suite's camera, which was fitted to what the baselines show, cuts something off
 };
 
-// Which part of the world the pictures of each source show, by the source's path as the suite's folder sees
-// it: left, bottom, right, top in m, over all pictures of it. Sources and pictures that have a camera of
+// Which part of the world the pictures of each source show, by its source_name: left, bottom, right, top in m, over all pictures of it. Sources and pictures that have a camera of
 // their own are left out.
 using Cameras = std::map<std::string, std::array<double, 4>>;
 
@@ -50,14 +49,14 @@ class Studio {
   SuiteShot shoot(const SuitePicture& picture);
   // The same picture with all its shapes moved, px to the right and up.
   Image moved(const SuiteShot& shot, double right, double up);
-  // What a source's pictures show where nothing but what they hold decides.
-  std::array<double, 4> fitted(const std::string& source);
+  // What the pictures of its source and variant show where nothing but what they hold decides.
+  std::array<double, 4> fitted(const SuitePicture& picture);
 
  private:
   class Source;
   class ModelSource;
   class SceneSource;
-  Source& source_of(const std::string& path);
+  Source& source_of(const SuitePicture& picture);
   const Fonts& fonts_of(const Source& source);
   Image rasterise(const Picture& picture, int width, int height, const Fonts& fonts);
 
@@ -70,8 +69,8 @@ class Studio {
   const Fonts* canvas_fonts_ = nullptr;
 };
 
-// `source` as the suite's folder sees it: the same wherever the folder lies.
-std::string source_name(const Suite& suite, const std::string& source);
+// Its source as the suite's folder sees it, the same wherever the folder lies, and its variant: "swing.yaml (dark)".
+std::string source_name(const Suite& suite, const SuitePicture& picture);
 
 // With what `known` lacks fitted anew, where that can be done.
 Cameras cameras_of(const Suite& suite, Cameras known);

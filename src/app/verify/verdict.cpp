@@ -131,7 +131,7 @@ PictureVerdict without(PictureState state, const Suite& suite, const SuitePictur
                        std::vector<std::string> why) {
   PictureVerdict verdict;
   verdict.name = picture.name;
-  verdict.source = source_name(suite, picture.source);
+  verdict.source = source_name(suite, picture);
   verdict.state = state;
   verdict.passes = state == PictureState::accepted;
   verdict.words = std::move(why);

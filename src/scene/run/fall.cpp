@@ -5,7 +5,7 @@
 #include "core/format.hpp"
 #include "core/parallel.hpp"
 #include "scene/run/prepare.hpp"
-#include "scene/run/unread.hpp"
+#include "scene/text/unread.hpp"
 #include "scene/text/read_scene.hpp"
 #include "sim/system/chain_system.hpp"
 #include "sim/workload.hpp"

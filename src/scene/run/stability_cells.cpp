@@ -11,7 +11,7 @@
 #include "core/parallel.hpp"
 #include "integrate/stability_limit.hpp"
 #include "scene/run/prepare.hpp"
-#include "scene/run/unread.hpp"
+#include "scene/text/unread.hpp"
 #include "scene/text/read_scene.hpp"
 #include "sim/audit.hpp"
 #include "sim/batch.hpp"

@@ -15,6 +15,7 @@
 #include "scene/text/read_scene.hpp"
 #include "scene/text/suite_poses.hpp"
 #include "scene/text/suite_settings.hpp"
+#include "scene/text/suite_variants.hpp"
 
 namespace chainreel {
 namespace {
@@ -82,6 +83,7 @@ class SuiteReader {
     name_sources(sources_, suite_.file);
     read_poses();
     read_instants();
+    suite_.variants = read_variants(root_, document_, problems_);
     read_look();
     read_suite_settings(root_, common_);
     PhysicsAlone physics = PhysicsAlone::fail;
@@ -98,8 +100,7 @@ class SuiteReader {
  private:
   // A scene in a suite's place is one mistake, not an unknown key for each of its lines.
   void refuse_scene() {
-    std::vector<std::string> own{"model",     "poses", "at",       "scene",  "size",
-                                 "tolerance", "masks", "pictures", "physics"};
+    std::vector<std::string> own{"model", "poses", "at", "scene", "size", "tolerance", "masks", "pictures", "physics", "variants"};
     for (const auto& pair : document_.root) {
       const std::string& key = pair.first.Scalar();
       if (std::find(own.begin(), own.end(), key) != own.end()) continue;
@@ -251,7 +252,7 @@ class SuiteReader {
         continue;
       }
       Fields* fields = key.section().empty() ? &root_ : section ? &*section : nullptr;
-      if (fields == nullptr || !fields->has(key.leaf())) continue;
+      if (fields == nullptr || !fields->has(key.leaf()) || (key.name == "theme" && lists_themes(document_))) continue;
       key.read(key, *fields, look_);
       std::vector<SceneEntry> entries;
       key.write(key, look_, entries);
@@ -306,11 +307,15 @@ class SuiteReader {
   }
 
   void make_pictures() {
+    const std::vector<SuiteVariant> as_it_is(1);
     for (const Source& source : sources_) {
-      if (source.is_model)
-        make_poses(source);
-      else
-        make_instants(source);
+      for (const SuiteVariant& variant : suite_.variants.empty() ? as_it_is : suite_.variants) {
+        variant_ = &variant;
+        if (source.is_model)
+          make_poses(source);
+        else
+          make_instants(source);
+      }
       if (suite_.pictures.size() > kMostPictures)
         throw Error(ExitCode::limit,
                     "makes more than " + std::to_string(kMostPictures) + " pictures: split it",
@@ -346,6 +351,7 @@ class SuiteReader {
   }
 
   void make_poses(const Source& source) try {
+    require_of_pictures(*variant_, problems_);
     ModelOptions options;
     options.floating_base = look_.base == RootLink::floating;
     options.massless = look_.massless;
@@ -353,7 +359,7 @@ class SuiteReader {
     options.end_effector = look_.end_effector;
     const UrdfFile file = read_urdf_file(source.file);
     const Chain chain = chain_of(file, options);
-    robots_.push_back(source.file + " is '" + file.name + "'");
+    if (variant_->name.empty() || variant_ == &suite_.variants.front()) robots_.push_back(source.file + " is '" + file.name + "'");
     if (!root_.has("poses")) add(source, "", source.place).q = resting_pose(chain);
     for (std::size_t i = 0; i < poses_.size(); ++i) {
       if (!is_for(i, file.name)) continue;
@@ -366,7 +372,8 @@ class SuiteReader {
 
   void make_instants(const Source& source) try {
     // What is wrong with the suite's own keys is told already, and not again by each of its scenes.
-    const Scene scene = read_scene(source.file, problems_.empty() ? suite_.overrides : std::vector<std::string>{});
+    const Scene scene = read_scene(source.file, problems_.empty() ? with_variant(suite_.overrides, *variant_) : std::vector<std::string>{});
+    if (problems_.empty()) require_read_by(scene, *variant_);
     if (!root_.has("at")) add(source, "", source.place).telling = true;
     for (const auto& [asked, place] : instants_) {
       if (const std::string trouble = trouble_of_instant(asked, scene); !trouble.empty()) {
@@ -384,10 +391,11 @@ class SuiteReader {
 
   SuitePicture& add(const Source& source, const std::string& pose, const Place& place) {
     SuitePicture picture;
-    picture.name = file_name_of(pose.empty()           ? source.label
-                                : sources_.size() == 1 ? pose
-                                                       : source.label + "_" + pose);
+    const std::string name = pose.empty() ? source.label : sources_.size() == 1 ? pose : source.label + "_" + pose;
+    picture.name = file_name_of(variant_->name.empty() ? name : name + "_" + variant_->name);
     picture.source = source.file;
+    picture.variant = variant_->name;
+    picture.overrides = with_variant({}, *variant_);
     picture.is_model = source.is_model;
     picture.pose = pose;
     picture.place = place;
@@ -415,6 +423,7 @@ class SuiteReader {
   Suite suite_;
   Scene look_;  // what of a scene the suite sets
   std::vector<Source> sources_;
+  const SuiteVariant* variant_ = nullptr;  // of the pictures that are being made
   std::vector<WrittenPose> poses_;
   std::vector<Srdf> srdfs_;
   std::vector<std::string> robots_;
@@ -464,19 +473,6 @@ Suite suite_of_folder(const std::string& path) {
 }
 
 }  // namespace
-
-Error as_said_in(const Suite& suite, const Error& error) {
-  std::vector<Problem> problems = error.problems();
-  for (Problem& problem : problems)
-    for (std::size_t i = 0; i < suite.overrides.size(); ++i) {
-      const std::string& one = suite.overrides[i];
-      const bool is_named = problem.place.file == "--set " + one,
-                 is_about = problem.place.file.empty() &&
-                            problem.message.starts_with("'" + one.substr(0, one.find('=')) + "'");
-      if (is_named || is_about) problem.place = suite.override_places[i];
-    }
-  return Error(error.code(), std::move(problems));
-}
 
 Suite read_suite(const std::string& path) {
   std::error_code ignored;

@@ -28,11 +28,24 @@ struct SuitePicture {
   double at = 0;          // s, of a scene: an instant ..
   std::string event;      // .. or the first time that the event of this name happens ..
   bool telling = false;   // .. or the moment that says most
+  std::string variant;    // its name; "": the source as it is
+  std::vector<std::string> overrides;  // those of the variant, behind the suite's own
   std::string pose;       // the pose's or instant's name as the user wrote it; "" where none was asked for
   int width = 640, height = 360;
   SuiteTolerance tolerance;
   std::vector<std::array<int, 4>> masks;  // x y width height, px from the upper left; within the picture
   Place place;                            // of the pose or instant
+};
+
+// What a variant sets, KEY=VALUE as for --set, and where it says so.
+struct SuiteOverride {
+  std::string text;
+  Place place;
+};
+struct SuiteVariant {
+  std::string name;
+  std::vector<SuiteOverride> overrides;
+  Place place;
 };
 
 struct Suite {
@@ -43,6 +56,7 @@ struct Suite {
       fit;  // `camera: fit`, m: left, bottom, right, top; it is not among the overrides
   std::vector<std::string> overrides;  // what the suite sets of all scenes and models, KEY=VALUE as for --set
   std::vector<Place> override_places;  // where it says so, a place each
+  std::vector<SuiteVariant> variants;  // each source is shown once a variant; none: once
   bool physics_alone_fails = true;     // `physics: fail`: other physics behind the same pixels is a failure
 };
 

@@ -1,4 +1,4 @@
-#include "scene/run/unread.hpp"
+#include "scene/text/unread.hpp"
 
 #include <algorithm>
 #include <iterator>
