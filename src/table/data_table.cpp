@@ -105,7 +105,7 @@ DataTable table_of_csv(const std::string& csv) {
     for (const std::string& cell : columns[i])
       if (const std::optional<double> number = number_of(cell)) numbers.push_back(*number);
     if (numbers.size() == table.rows)
-      table.add(names[i], "", std::move(numbers));
+      table.add(ColumnName(names[i]).name, {names[i]}, {}, std::move(numbers));
     else
       table.words.push_back({names[i], std::move(columns[i])});
   }

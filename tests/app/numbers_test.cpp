@@ -41,7 +41,7 @@ TEST(SimulateCommand, WritesARowAStepWhereAsked) {
   const TemporaryFolder folder;
   const std::string file = folder.file("steps.csv");
   ASSERT_EQ(run_program({"simulate", "assets/scenes/rrr_torque.yaml", "--every-step", "-o", file, "--set",
-                         "duration=0.25"})
+                         "duration=0.25", "--set", "method=semi_implicit_euler", "--set", "step=1ms"})
                 .status,
             0);
   const std::vector<std::string> lines = lines_of(read_whole_file(file));

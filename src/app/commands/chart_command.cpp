@@ -135,7 +135,7 @@ std::string csv_of(const std::string& scene, const Measured& measured) {
           "\n# error: the larger of error_q and error_qd x " +
           format_significant(measured.reference.state.qd_scale, 6) + " s\n";
   text +=
-      "method,order,step,tolerance,runs,median_seconds,steps,evaluations,error,error_q,error_qd,energy_error,"
+      "method,order,step [s],tolerance,runs,median_seconds [s],steps,evaluations,error,error_q,error_qd,energy_error [J],"
       "status\n";
   for (const Ladder& ladder : measured.ladders)
     for (const Rung& rung : ladder.rungs) {

@@ -125,7 +125,7 @@ void add_simulate_command(CommandLine& app) {
   add_table_option(*command, options->outputs, "out/NAME.csv; of a scene with several panels NAME.1.csv, NAME.2.csv, ..");
   command
       ->add_option("--columns", options->columns,
-                   "what stands in the table, like t,q,tau: " + joined(words_of(names_of(MotionColumn{})), ",") +
+                   "what stands in the table, like t,q,tau; there are " + joined(words_of(names_of(MotionColumn{}))) +
                        "; usual: t,q,qd,tau,energy and the end effector's")
       .show_default();
   add_panel_option(*command, options->panel);

@@ -142,7 +142,7 @@ StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
 
 std::string csv_of(const std::string& scene, const StabilityCells& cells) {
   std::string text = csv_facts(scene) + cells.x.key + "," + cells.y.key +
-                     ",status,failed,energy_error,energy_scale,trouble\n";
+                     ",status,failed,energy_error [J],energy_scale [J],trouble\n";
   for (std::size_t iy = 0; iy < cells.y.values.size(); ++iy)
     for (std::size_t ix = 0; ix < cells.x.values.size(); ++ix) {
       const StabilityCell& cell = cells.at(ix, iy);
@@ -280,7 +280,7 @@ void print_linearisation(const Linearisation& start) {
 // A row a run.
 std::string csv_of_methods(const std::string& scene, const Json& found) {
   const auto number = [](const Json& value) { return value.is_number() ? format_shortest(value.get<double>()) : ""; };
-  std::string text = csv_facts(scene) + "method,setting,status,end_time,energy_error,longest_stable_step\n";
+  std::string text = csv_facts(scene) + "method,setting,status,end_time [s],energy_error [J],longest_stable_step [s]\n";
   for (const Json& method : found["methods"])
     for (const Json& run : method["runs"])
       text += method["method"].get<std::string>() + "," + csv_words(run["setting"].get<std::string>()) + "," +

@@ -21,6 +21,7 @@
 #include "app/report/report.hpp"
 #include "app/report/sidecar.hpp"
 #include "app/report/motion_table.hpp"
+#include "app/report/peaks.hpp"
 #include "app/report/version.hpp"
 #include "app/works/draw_film.hpp"
 #include "core/error.hpp"
@@ -48,7 +49,7 @@ constexpr std::size_t kLongestName = 255 - 16;  // bytes of a file's name, with 
 struct SweepOptions {
   std::string scene;
   std::vector<std::string> over, outputs, each;
-  std::string at = "0", shard;
+  std::string at = "0", shard, peaks;
   int jobs = 0;
   CommonOptions common;
 };
@@ -311,6 +312,8 @@ void check_outputs(const SweepOptions& options) {
     }
   }
   if (tables > 1 || folders > 1) throw Error(ExitCode::usage, "-o takes one table and one folder");
+  if (tables == 0 && !options.peaks.empty())
+    throw Error(ExitCode::usage, "--peaks says what a table holds: name one with -o TABLE.csv");
   if (folders == 0 && !options.each.empty())
     throw Error(ExitCode::usage, "--each says what runs become in a folder: name it with -o FOLDER/");
 }
@@ -332,6 +335,7 @@ void run_sweep(SweepOptions options) {
     }
   }
   const int threads = options.jobs > 0 ? options.jobs : usable_cores();
+  const std::vector<MotionColumn> peaks = options.peaks.empty() ? std::vector<MotionColumn>{} : parse_peaks(options.peaks, "--peaks");
   // A table depends on the files that were read up to there, which must be the same for all shares.
   std::stable_partition(options.outputs.begin(), options.outputs.end(), is_table_path);
   Json report{{"runs", runs.behind - runs.first}, {"outputs", Json::array()}};
@@ -342,7 +346,7 @@ void run_sweep(SweepOptions options) {
     const std::string path = is_table ? with_suffix(output, suffix) : output;
     SweepOutcome outcome;
     if (is_table) {  // no `?:`, of which GCC 12 destroys what was not made yet where an exception leaves it
-      const SweepTableJob job{options.scene, overrides_of(options.common), grid, runs, threads, path, options.common.force, options.common.quiet};
+      const SweepTableJob job{options.scene, overrides_of(options.common), grid, runs, !options.shard.empty(), threads, path, options.common.force, options.common.quiet, peaks};
       outcome = write_sweep_table(job);
     } else {
       outcome = FilmsOfGrid(options, grid, runs, output).run();
@@ -375,16 +379,20 @@ void add_sweep_command(CommandLine& app) {
   command->add_repeatable("-o,--output", options->outputs,
                           "a .csv, .json or .npz table with a row a run, or a FOLDER/ with files a run, or both (default out/NAME_sweep.csv)");
   command->add_repeatable("--each", options->each, "what a run becomes in the folder: mp4 (default), png, svg, gif, csv, ..; repeatable");
+  command->add_option("--peaks", options->peaks,
+                      "qd,tau,energy_error,..: of these the largest of each run, with its sign, as columns of the table; names as of "
+                      "`simulate --columns`");
   command->add_option("--at", options->at, "instant that pictures show, in seconds (default 0)");
   command->add_option("--shard", options->shard, "an equal share of the runs, like 3/8; slurm: that of the array job's task");
   command->add_option("--jobs", options->jobs, "runs beside one another (default: all cores)").range(1, 256);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
-  command->footer("Tables are computed by dop853 with tolerance 1e-10 where a scene leaves its method to auto, which asks what a page shows;\n"
-                  "films and pictures by what auto takes.\n"
+  command->footer("A table has a row a run: its last state, the instants of its events, and what --peaks asks for. Tables are computed by\n"
+                  "dop853 with tolerance 1e-10 where a scene leaves its method to auto, which asks what a page shows; films and pictures\n"
+                  "by what auto takes.\n"
                   "A .csv table begins with three lines of facts, `# ..`: pandas.read_csv(file, comment='#'), or numpy.genfromtxt(file,\n"
                   "delimiter=',', names=True, skip_header=3); .npz and .json have none.\n"
-                  "Example: chainreel sweep rr_free --over start.q.1=0:90deg:4 --over gravity.2=-9.81,-1.62 -o out/grid.csv");
+                  "Example: chainreel sweep rr_free --over start.q.1=0:90deg:4 --over gravity.2=-9.81,-1.62 --peaks qd,energy_error -o out/grid.csv");
   command->callback([options] { run_sweep(*options); });
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/report/motion_table.hpp"
 #include "app/works/part.hpp"
 #include "scene/run/grid.hpp"
 
@@ -14,10 +15,12 @@ struct SweepTableJob {
   std::vector<std::string> overrides;
   const Grid& grid;
   FrameRange runs;  // those of the grid that are asked for
+  bool is_part = false;  // by --shard, to be joined
   int threads = 1;
   std::string path;
   bool overwrite = false;
   bool quiet = false;
+  std::vector<MotionColumn> peaks;  // see app/report/peaks
 };
 
 struct SweepOutcome {

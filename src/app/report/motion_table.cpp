@@ -23,6 +23,7 @@ std::span<const Name> names_of(MotionColumn) {
                                    {"qdd", "rad/s^2 or m/s^2"},
                                    {"tau", "as the run felt them, N m or N"},
                                    {"energy", "kinetic, potential and their sum, J"},
+                                   {"work", "of torques, of springs and friction, too, since the start, J"},
                                    {"energy_error", "what the work of the torques does not explain, J"},
                                    {"x_G", "of the end effector along W, m"},
                                    {"y_G", "m"},
@@ -203,6 +204,8 @@ void add_column(DataTable& table, MotionColumn column, const Simulation& simulat
       return table.add("tau", torque_columns(chain), {std::size_t(chain.nv)}, torques_along(simulation, trajectory));
     case MotionColumn::energy:
       return add_energies(table, chain, trajectory);
+    case MotionColumn::work:
+      return table.add("work", "J", trajectory.work);
     case MotionColumn::energy_error:
       return table.add("energy_error", "J", audit_of(simulation, trajectory).error);
     case MotionColumn::lambda:
@@ -305,9 +308,13 @@ DataTable motion_table(const Simulation& simulation, const Trajectory& trajector
   return motion_table(simulation, trajectory, usual_columns(simulation.chain));
 }
 
-std::string state_names(const Chain& chain) {
-  std::vector<std::string> names = names_of_numbers(chain, "q", position_names(chain));
-  const std::vector<std::string> rates = names_of_numbers(chain, "qd", chain.coordinate_names);
+std::string state_names(const Chain& chain, NamesOfState form) {
+  std::vector<std::string> names = names_of_numbers(chain, "q", position_names(chain)),
+                           rates = names_of_numbers(chain, "qd", chain.coordinate_names);
+  if (form == NamesOfState::with_units) {
+    names = with_units(std::move(names), kinds_of_positions(chain), "rad", "m");
+    rates = with_units(std::move(rates), kinds_of_freedoms(chain), "rad/s", "m/s");
+  }
   names.insert(names.end(), rates.begin(), rates.end());
   return joined(names, ",");
 }

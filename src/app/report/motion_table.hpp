@@ -13,7 +13,7 @@
 namespace chainreel {
 
 // What a table of a run may hold, each one array, but for `energy`.
-enum class MotionColumn { t, q, qd, qdd, tau, energy, energy_error, x_G, y_G, z_G, xd_G, yd_G, zd_G, lambda, frames };
+enum class MotionColumn { t, q, qd, qdd, tau, energy, work, energy_error, x_G, y_G, z_G, xd_G, yd_G, zd_G, lambda, frames };
 std::span<const Name> names_of(MotionColumn);
 
 // t, q, qd, tau, energy, and place and velocity of the end effector, where there is one: of a planar chain along the axes of
@@ -35,8 +35,9 @@ DataTable motion_table(const Simulation& simulation, const Trajectory& trajector
 std::vector<std::string> torque_columns(const Chain& chain);
 std::vector<std::string> multiplier_columns(const Chain& chain, const std::vector<Constraint>& constraints);
 
-// "q1,q2,qd1,qd2", and the same of a sample.
-std::string state_names(const Chain& chain);
+// "q1,q2,qd1,qd2", or with units "q1 [rad],q2 [rad],qd1 [rad/s],qd2 [rad/s]", and the same of a sample.
+enum class NamesOfState { plain, with_units };
+std::string state_names(const Chain& chain, NamesOfState names = NamesOfState::plain);
 std::string state_text(const Trajectory& trajectory, int k);
 
 // NAME.csv of a single panel, NAME.1.csv, NAME.2.csv, .. of several; `panel` from 0.

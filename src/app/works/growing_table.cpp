@@ -9,8 +9,10 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <span>
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "core/input_file.hpp"
 #include "core/output_file.hpp"
 
@@ -58,6 +60,8 @@ GrowingTable::GrowingTable(const std::string& path, const std::string& head, std
   if (const Found whole = look_at(path, head, first); whole.has_head && whole.rows == rows) {
     finished_ = true;
     before_ = whole.rows;
+    // As a process leaves it that was killed between the two.
+    if (std::error_code code; look_at(hidden_, head, first).has_head) fs::remove(hidden_, code);
     return;
   }
   { const OutputFile allowed(path, overwrite); }  // throws where it is not, before anything is computed
@@ -114,6 +118,26 @@ void GrowingTable::append(const std::string& text) {
                   {path_});
     done += std::size_t(count);
   }
+}
+
+void GrowingTable::commit_with_hash() {
+  std::ifstream rows(hidden_, std::ios::binary);
+  append(kHashOfRows + hash_of_stream(rows, hidden_).sha256 + "\n");
+  commit();
+}
+
+void require_hash_of_rows(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  Sha256 hash;
+  for (std::string line; std::getline(stream, line) && !stream.eof();) {
+    if (line.starts_with(kHashOfRows)) {
+      if (line == kHashOfRows + hash.finish() && stream.peek() == std::ifstream::traits_type::eof()) return;
+      break;
+    }
+    line += '\n';
+    hash.add(std::as_bytes(std::span(line)));
+  }
+  throw Error(ExitCode::bad_input, "has been changed or cut off since it was written: compute it again", {path});
 }
 
 void GrowingTable::commit(const std::function<std::string(const std::string& csv)>& file_of) {

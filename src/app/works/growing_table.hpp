@@ -10,6 +10,10 @@
 
 namespace chainreel {
 
+inline const std::string kHashOfRows = "# sha256: ";
+// Throws Error (exit 3) where the last line of the table at `path` is not the hash of those above it.
+void require_hash_of_rows(const std::string& path);
+
 class GrowingTable {
  public:
   // `head`: the lines above the rows, which say all that they depend on; rows under another head are not taken. A table with
@@ -31,6 +35,8 @@ class GrowingTable {
   void take(std::size_t piece, std::string lines);
   // All rows are there. `file_of`: the bytes that the table becomes, else it stays as it is; a table that became something else is
   // none that is known to be finished.
+  // The same, with a last line that tells the hash of all above it, so that whoever joins parts sees that they are whole.
+  void commit_with_hash();
   void commit(const std::function<std::string(const std::string& csv)>& file_of = nullptr);
 
  private:
