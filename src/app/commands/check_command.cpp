@@ -1,4 +1,5 @@
-// chainreel check SCENE|MODEL: the effective scene with all defaults, and what of the mechanism is modelled.
+// chainreel check SCENE|MODEL|FILM: the effective scene with all defaults, what of the mechanism is modelled, and whether a film is
+// the one that its audit tells of.
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +10,11 @@
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/film/automatic.hpp"
+#include "app/film/formats.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
+#include "app/report/audit_check.hpp"
 #include "app/report/report.hpp"
 #include "app/report/run_report.hpp"
 #include "core/error.hpp"
@@ -287,19 +290,37 @@ void check_model(const CheckOptions& options) {
   if (!errors.empty()) throw Error(ExitCode::bad_input, errors);
 }
 
+// Films, pictures and their audits: what scenes and models are not.
+bool is_output(const std::string& path) {
+  return find_output_format(path) != nullptr || lower_case_ending(path) == ".json";
+}
+
+void check_output(const CheckOptions& options) {
+  if (options.all || !overrides_of(options.common).empty())
+    throw Error(ExitCode::usage, "--all, --set and the like go with a scene: of a film it is asked whether its audit tells of these bytes");
+  const AuditCheck check = check_audit(options.file);
+  tell_result(options.common, [&] { return to_json(check); }, [&] {
+    for (const std::string& line : words_of(check)) std::printf("%s\n", line.c_str());
+  });
+  if (!check.passes()) throw Error(ExitCode::comparison_failed, "is not what its audit tells of", {options.file});
+}
+
 }  // namespace
 
 void add_check_command(CommandLine& app) {
   auto options = std::make_shared<CheckOptions>();
   Command* command =
-      app.add_subcommand("check", "the effective scene with all defaults, or what a model holds");
-  command->add_option("file", options->file, "a scene (.yaml) or a model (.urdf)").required().names_input();
+      app.add_subcommand("check", "the effective scene with all defaults, what a model holds, or whether a film is as it was written");
+  command->add_option("file", options->file, "a scene (.yaml), a model (.urdf), or a film or picture with its audit, NAME.json, beside it").required().names_input();
   add_scene_options(*command, options->common);
   command->add_flag("--all", options->all, "of a method that is chosen, all candidates instead of the three next best");
   add_json_option(*command, options->common);
-  command->footer("Example: chainreel check rr_free --set method=rk4");
+  command->footer("Of a film or picture all files that the audit tells of are held against their SHA-256, and the audit against what the film\n"
+                  "remembers: exit code 1 where one was changed since, or is gone.\n"
+                  "Example: chainreel check rr_free --set method=rk4\n"
+                  "or, behind `chainreel render rr_free`: chainreel check out/rr_free.mp4");
   command->callback(
-      [options] { is_model_file(options->file) ? check_model(*options) : check_scene(*options); });
+      [options] { is_model_file(options->file) ? check_model(*options) : is_output(options->file) ? check_output(*options) : check_scene(*options); });
 }
 
 }  // namespace chainreel

@@ -15,13 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kLargestText = std::uintmax_t(64) << 20;  // bytes
-
 // Null unless it is an audit of ours.
 Json audit_at(const fs::path& path) {
   std::error_code code;
   if (!fs::is_regular_file(path, code)) return nullptr;
-  const Json json = parse_json(read_plain_file(path.string(), kLargestText));
+  const Json json = parse_json(read_plain_file(path.string(), kLargestSidecar));
   if (!json.is_object() || !json.contains("film_seconds") || !json.contains("versions")) return nullptr;
   return json;
 }
@@ -30,7 +28,7 @@ Json audit_at(const fs::path& path) {
 bool is_known_text(const fs::path& path, const char* words_of_older_versions) {
   const Json audit = audit_at(fs::path(path).replace_extension(".json"));
   if (audit.is_null()) return false;
-  const std::string text = read_plain_file(path.string(), kLargestText);
+  const std::string text = read_plain_file(path.string(), kLargestSidecar);
   const Json hashes = audit.value(kSidecarHashes, Json());
   if (!hashes.is_object()) return text.find(words_of_older_versions) != std::string::npos;
   return hashes.value(path.extension().string(), Json()) == Json(sha256_of(text));
@@ -42,7 +40,7 @@ bool is_own(const fs::path& path) {
   if (ending == ".txt") return is_known_text(path, "times are those of the motion");
   if (ending == ".srt") return is_known_text(path, " --> ");
   if (ending == ".tex" || ending == ".csv") {
-    const std::string text = read_plain_file(path.string(), kLargestText).substr(0, 4096);
+    const std::string text = read_plain_file(path.string(), kLargestSidecar).substr(0, 4096);
     return ending == ".tex" ? text.starts_with("% \\usepackage{animate}")
                             : text.starts_with("# ") && text.find("\n# revision: ") != std::string::npos;
   }

@@ -2,6 +2,7 @@
 // so they replace only what this program wrote.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include "core/json.hpp"
 
 namespace chainreel {
+
+inline constexpr std::uintmax_t kLargestSidecar = std::uintmax_t(64) << 20;  // bytes of a text or an audit that is read
 
 // NAME.json says of the texts beside it which they are, by their hashes, under this key: {".txt": .., ".srt": ..}.
 inline constexpr const char* kSidecarHashes = "sidecars_sha256";

@@ -1,0 +1,92 @@
+// `chainreel check FILM`: whether a film is the one that its audit tells of.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/json.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class AuditCheckTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(run_program({"render", "assets/scenes/pp_spring.yaml", "--quiet", "--set", "duration=0.2", "--set", "video.width=160", "--set",
+                           "video.height=90", "-o", film_, "-o", folder_.file("a.gif")})
+                  .status,
+              0);
+  }
+  ProgramResult check(const std::string& path) { return run_program({"check", path}); }
+  // Another byte in the middle of a file, which stays as long as it was.
+  void spoil(const std::string& name) {
+    std::string bytes = read_whole_file(folder_.file(name));
+    bytes[bytes.size() / 2] = char(bytes[bytes.size() / 2] ^ 1);
+    folder_.write(name, bytes);
+  }
+
+  TemporaryFolder folder_;
+  std::string film_ = folder_.file("a.mp4");
+};
+
+TEST_F(AuditCheckTest, AFilmAsItWasWrittenPasses) {
+  const ProgramResult good = check(film_);
+  EXPECT_EQ(good.status, 0) << good.err;
+  EXPECT_THAT(good.out, AllOf(HasSubstr("as written  " + film_), HasSubstr("as written  " + folder_.file("a.gif")),
+                              HasSubstr("as written  " + folder_.file("a.txt"))));
+  EXPECT_EQ(check(folder_.file("a.json")).out, good.out);
+  const Json json = Json::parse(run_program({"check", film_, "--json"}).out);
+  EXPECT_EQ(json["passes"], true);
+  EXPECT_EQ(json["audited"].size(), 3u);
+  EXPECT_EQ(json["contradicted"], Json::array());
+}
+
+TEST_F(AuditCheckTest, OneByteMoreOrAnotherOneIsSeenInEachFile) {
+  for (const char* name : {"a.mp4", "a.gif", "a.txt"}) {
+    const std::string before = read_whole_file(folder_.file(name));
+    folder_.write(name, before + "x");
+    EXPECT_EQ(check(film_).status, 1) << name;
+    spoil(name);
+    const ProgramResult bad = check(film_);
+    EXPECT_EQ(bad.status, 1) << name;
+    EXPECT_THAT(bad.out, HasSubstr("CHANGED  " + folder_.file(name) + ": its SHA-256 is "));
+    fs::remove(folder_.file(name));
+    EXPECT_THAT(check(folder_.file("a.json")).out, HasSubstr("MISSING  " + folder_.file(name)));
+    EXPECT_EQ(check(folder_.file("a.json")).status, 1) << name;
+    folder_.write(name, before);
+    EXPECT_EQ(check(film_).status, 0) << name;
+  }
+}
+
+TEST_F(AuditCheckTest, AnAuditThatSaysSomethingElseThanTheFilmIsSeen) {
+  Json audit = Json::parse(read_whole_file(folder_.file("a.json")));
+  audit["duration"] = 9;
+  folder_.write("a.json", audit.dump());
+  const ProgramResult bad = check(film_);
+  EXPECT_EQ(bad.status, 1);
+  EXPECT_THAT(bad.out, HasSubstr("duration are not what the film remembers"));
+  audit["outputs"] = 3;
+  EXPECT_EQ(check(folder_.write("a.json", audit.dump())).status, 3);
+  EXPECT_EQ(check(folder_.write("a.json", "{}")).status, 3);
+  EXPECT_EQ(check(folder_.write("a.json", "{\"outputs\": [{\"file\": 1}]}")).status, 3);
+  fs::remove(folder_.file("a.json"));
+  EXPECT_THAT(check(film_).err, HasSubstr("there is no audit"));
+}
+
+TEST_F(AuditCheckTest, WhatItCannotHonourIsRefused) {
+  EXPECT_EQ(run_program({"check", film_, "--all"}).status, 2);
+  EXPECT_EQ(run_program({"check", film_, "--set", "duration=1"}).status, 2);
+  fs::copy(film_, folder_.file("a.mov"));
+  EXPECT_THAT(check(folder_.file("a.mov")).err, HasSubstr("is nothing that"));
+  EXPECT_EQ(check(folder_.file("a.mov")).status, 3);
+}
+
+}  // namespace
+}  // namespace chainreel
