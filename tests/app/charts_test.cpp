@@ -21,7 +21,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-// Rows of a CSV as columns by name; lines that begin with # are passed over.
+// Rows of a CSV as columns by name, without units; lines that begin with # are passed over.
 struct Csv {
   std::vector<std::map<std::string, std::string>> rows;
   explicit Csv(const std::string& text) {
@@ -33,7 +33,7 @@ struct Csv {
       std::istringstream cut(line);
       for (std::string cell; std::getline(cut, cell, ',');) cells.push_back(cell);
       if (head.empty()) {
-        head = cells;
+        for (const std::string& cell : cells) head.push_back(cell.substr(0, cell.find(" [")));
         continue;
       }
       auto& row = rows.emplace_back();

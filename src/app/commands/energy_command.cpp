@@ -31,6 +31,7 @@ struct EnergyOptions {
   std::string step;
   double tolerance = 0;
   int panel = 0;  // from 1; 0: not given
+  bool total = false;
   FigureOptions figure;
   CommonOptions common;
 };
@@ -161,15 +162,18 @@ class Columns {
  public:
   Columns(const std::vector<double>& ends, EnergyCurve& curve) : ends_(ends), curve_(curve) {}
 
-  void see(double t, double error) {
+  void see(double t, const EnergyBalance::State& state) {
+    const double error = state.error, energy = state.kinetic + state.potential;
     const std::size_t before = column_;
     while (column_ + 1 < ends_.size() && t > ends_[column_]) ++column_;
     if (curve_.t.empty() || column_ != before) {
       curve_.t.push_back(t);
       curve_.error.push_back(error);
+      curve_.energy.push_back(energy);
     } else if (std::abs(error) > std::abs(curve_.error.back())) {
       curve_.t.back() = t;
       curve_.error.back() = error;
+      curve_.energy.back() = energy;
     }
   }
 
@@ -190,9 +194,10 @@ MethodRun run_subject(const Subject& subject, const std::vector<double>& times, 
   const Trajectory trajectory = simulate(
       simulation, times, stop,
       [&](double t, ConstVec q, ConstVec qd, double work) {
-        run.at_end = balance.at(q, qd, work).error;
+        const EnergyBalance::State state = balance.at(q, qd, work);
+        run.at_end = state.error;
         run.largest = std::max(run.largest, std::abs(run.at_end));
-        columns.see(t, run.at_end);
+        columns.see(t, state);
       });
   throw_if_interrupted();
   run.largest_between = audit_of(simulation, trajectory).largest_error;
@@ -209,18 +214,20 @@ std::string csv_of(const std::string& scene, const std::vector<MethodRun>& runs)
   for (const MethodRun& run : runs)
     text += "# " + (run.subject->panel > 0 ? "panel " + std::to_string(run.subject->panel) + ": " : "") + to_string(run.subject->setting) + "\n";
   const bool of_panels = !runs.empty() && runs.front().subject->panel > 0;
-  text += std::string(of_panels ? "panel," : "") + "method,t,energy_error\n";
+  text += std::string(of_panels ? "panel," : "") + "method,t [s],energy_error [J],energy [J]\n";
   for (const MethodRun& run : runs)
     for (std::size_t k = 0; k < run.curve.t.size(); ++k)
       text += (of_panels ? std::to_string(run.subject->panel) + "," : "") + run.subject->setting.method->name + "," +
-              format_shortest(run.curve.t[k]) + "," + format_shortest(run.curve.error[k]) + "\n";
+              format_shortest(run.curve.t[k]) + "," + format_shortest(run.curve.error[k]) + "," +
+              format_shortest(run.curve.energy[k]) + "\n";
   return text;
 }
 
-EnergyChart chart_of(const EnergySubjects& all, double until, const std::vector<MethodRun>& runs) {
+EnergyChart chart_of(const EnergySubjects& all, double until, const std::vector<MethodRun>& runs, bool total) {
   const Scene& scene = all.first().scene;
   EnergyChart chart;
-  chart.title = "Energy error until " + format_shortest(until) + " s";
+  chart.shows_energy = total;
+  chart.title = (total ? "Energy until " : "Energy error until ") + format_shortest(until) + " s";
   chart.subtitle = all.settings.empty() ? all.title : (scene.title.empty() ? scene.name : scene.title) + "; " + all.settings;
   for (const MethodRun& run : runs) chart.curves.push_back(run.curve);
   return chart;
@@ -299,7 +306,7 @@ void run_energy(const EnergyOptions& options) {
   const Fonts fonts(families_of(scene));
   const ChartLook look = chart_look(options.figure, scene, fonts);
   const auto report = [&] { return json_of(options.scene, until, runs, all.left_out); };
-  const auto written = files.write([&] { return energy_chart(chart_of(all, until, runs), look); },
+  const auto written = files.write([&] { return energy_chart(chart_of(all, until, runs, options.total), look); },
                                    {csv_of(options.scene, runs), report}, fonts);
   tell_files(options.common, written, report, [&] { print_table(runs, all.left_out); });
 }
@@ -311,6 +318,7 @@ void add_energy_command(CommandLine& app) {
   Command* command =
       app.add_subcommand("energy", "a chart of the energy error against time, a curve a method, or of a scene that compares several a curve a panel");
   command->add_option("scene", options->scene, "a scene file").required().names_input();
+  command->add_flag("--total", options->total, "the picture shows the energies themselves, on plain axes, instead of their errors");
   command->add_option("--until", options->until, "how long, like 1000s (default the scene's duration)");
   command->add_option("--methods", options->methods, "rk4,taylor,.. (default all that take the scene, or what its panels say)");
   add_panel_option(*command, options->panel);
@@ -321,7 +329,8 @@ void add_energy_command(CommandLine& app) {
   add_figure_options(*command, options->figure, options->common, "out/NAME_energy.png");
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
-  command->footer("Example: chainreel energy rr_free --until 100s --step 0.01");
+  command->footer("Example: chainreel energy rr_free --until 100s --step 0.01\n"
+                  "or, the energies of the lecture's Euler methods: chainreel energy rr_free --total --methods explicit_euler,semi_implicit_euler,rk4");
   command->callback([options] { run_energy(*options); });
 }
 

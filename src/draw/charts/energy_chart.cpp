@@ -11,8 +11,11 @@ constexpr double kMostDecadesOfTime = 7;
 constexpr double kMostDecadesOfError = 24;
 // A run that diverges is shown up to this much beyond the worst of the others.
 constexpr double kBeyondOthers = 1e3;
+// Energies likewise, in ranges of the others; of one that does not change a share of it is shown.
+constexpr double kRangesBeyond = 1, kLeastRange = 1e-3;
 constexpr int kMarkers = 5;  // along each curve
 constexpr const char* kNote = "each curve shows the largest error around each time";
+constexpr const char* kNoteOfEnergies = "kinetic and potential energy at the ends of steps";
 
 CurveStyle style_of(const EnergyChart& data, std::size_t curve, const ChartLook& look) {
   const int index = data.curves[curve].look;
@@ -55,6 +58,45 @@ Axis error_axis(const std::vector<std::vector<Point>>& curves, const EnergyChart
     for (const Point& p : curve) low = std::min(low, p.y);
   low = std::max(std::min(low, high), high * std::pow(10.0, -kMostDecadesOfError));
   return rounded_out({Scale::log, low, high, data.error_title});
+}
+
+struct EnergyRange {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  void add(double value) {
+    if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+  }
+  bool is_there() const { return low <= high; }
+};
+
+// What the whole runs need, and no more than their range again of what runs that came to no end need beyond it.
+Axis energy_axis(const EnergyChart& data) {
+  EnergyRange good, all;
+  for (const EnergyCurve& curve : data.curves)
+    for (const double energy : curve.energy) {
+      all.add(energy);
+      if (curve.trouble.empty()) good.add(energy);
+    }
+  EnergyRange range = good.is_there() ? good : all;
+  if (!range.is_there()) range = {0, 1};
+  const double least = kLeastRange * std::max(std::abs(range.low), std::abs(range.high));
+  const double span = std::max(range.high - range.low, least > 0 ? least : 1);
+  if (good.is_there()) {
+    range.low = std::max(std::min(all.low, range.low), range.low - kRangesBeyond * span);
+    range.high = std::min(std::max(all.high, range.high), range.high + kRangesBeyond * span);
+  }
+  if (range.high - range.low < span) range = {range.low - span / 2, range.high + span / 2};
+  return rounded_out({Scale::linear, range.low, range.high, "energy [J]"});
+}
+
+std::vector<Point> energies_of(const EnergyCurve& curve) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < std::min(curve.t.size(), curve.energy.size()); ++i) points.push_back({curve.t[i], curve.energy[i]});
+  return points;
+}
+
+Axis time_axis(const EnergyChart& data, double first, double last) {
+  if (data.shows_energy) return {Scale::linear, 0, last > 0 ? last : 1, "time [s]"};
+  return last > first ? Axis{Scale::log, first, last, "time [s]"} : Axis{Scale::log, 0.1, 1, "time [s]"};
 }
 
 // Like the key's, but only a few along the curve, and not at the same places as the neighbour's.
@@ -107,7 +149,8 @@ std::vector<Point> crests(const EnergyCurve& curve, double from, int columns) {
 
 Picture energy_chart(const EnergyChart& data, const ChartLook& look) {
   Picture picture;
-  const std::string footer = data.footer.empty() ? kNote : data.footer + "; " + kNote;
+  const std::string note = data.shows_energy ? kNoteOfEnergies : kNote;
+  const std::string footer = data.footer.empty() ? note : data.footer + "; " + note;
   const Rect area = draw_chart_page(picture, {data.title, data.subtitle, footer}, look);
   require_room_for_names(data.curves.size(), area, look);
   const PlotStyle style = look.plot_style();
@@ -115,14 +158,12 @@ Picture energy_chart(const EnergyChart& data, const ChartLook& look) {
   std::vector<std::vector<Point>> curves;
   std::vector<std::string> texts;
   for (const EnergyCurve& curve : data.curves) {
-    curves.push_back(crests(curve, first, kColumns));
+    curves.push_back(data.shows_energy ? energies_of(curve) : crests(curve, first, kColumns));
     texts.push_back(label_of(curve));
   }
-  Axis time{Scale::log, first, last, "time [s]"};
-  if (!(last > first)) time = {Scale::log, 0.1, 1, "time [s]"};
   const double labels = end_labels_width(texts, style);
-  const PlotFrame frame = lay_out_plot({area.x0, area.y0, area.x1 - labels - kLabelGap, area.y1}, time,
-                                       error_axis(curves, data), style);
+  const PlotFrame frame = lay_out_plot({area.x0, area.y0, area.x1 - labels - kLabelGap, area.y1}, time_axis(data, first, last),
+                                       data.shows_energy ? energy_axis(data) : error_axis(curves, data), style);
   draw_axes(picture, frame, style);
   std::vector<EndLabel> ends;
   for (std::size_t i = 0; i < curves.size(); ++i) {

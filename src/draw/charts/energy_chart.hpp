@@ -1,4 +1,4 @@
-// How far the energy strays with each method: |energy error| against time, both on log axes.
+// How far the energy strays with each method: |energy error| against time, both on log axes; or the energies themselves.
 #pragma once
 
 #include <string>
@@ -14,11 +14,13 @@ struct EnergyCurve {
   std::string trouble;  // why the run ended early, in a word or two: "diverged"; empty for a whole run
   int look = -1;        // of curve_style; -1: the place in the list
   std::string title{};  // what the picture calls it; "": `method`
+  std::vector<double> energy{};  // kinetic and potential at these t, J
 };
 
 struct EnergyChart {
   std::string title, subtitle;
   std::string error_title = "|energy error| [J]";
+  bool shows_energy = false;  // instead of its error, on axes that are no log ones
   std::vector<EnergyCurve> curves;
   std::string footer;
 };
