@@ -88,23 +88,24 @@ Json json_of(const SymbolicEquation& equation) {
   return json;
 }
 
-enum class Form { text, latex, python, json };
+enum class Form { text, latex, document, python, json };
 
 // What flags ask for, or else a file's ending: one of them. "": standard output.
 Form form_of(const EquationsOptions& options, const std::string& output) {
   std::set<Form> asked;
-  if (options.latex) asked.insert(Form::latex);
+  if (options.latex && !options.document) asked.insert(Form::latex);
   if (options.python) asked.insert(Form::python);
   // Of a file, --json tells on standard output what is in it.
   if (options.common.json && output.empty()) asked.insert(Form::json);
   const std::string ending = lower_case_ending(output);
-  const std::pair<const char*, Form> endings[] = {{".tex", Form::latex}, {".py", Form::python}, {".json", Form::json}};
+  if (options.document && (output.empty() || output == "-" || ending == ".tex")) asked.insert(Form::document);
+  const std::pair<const char*, Form> endings[] = {{".tex", options.document ? Form::document : Form::latex}, {".py", Form::python}, {".json", Form::json}};
   for (const auto& [name, form] : endings)
     if (ending == name) asked.insert(form);
   if (asked.empty() && !output.empty() && output != "-" && ending != ".txt")
     throw Error(ExitCode::usage, "-o " + output + ": give it the ending .tex, .py, .json or .txt");
   if (asked.size() > 1)
-    throw Error(ExitCode::usage, "--latex (.tex), --python (.py) and JSON are three forms of one thing: take one of them for each file");
+    throw Error(ExitCode::usage, "--latex (.tex, maybe as --document), --python (.py) and JSON are three forms of one thing: take one of them for each file");
   return asked.empty() ? Form::text : *asked.begin();
 }
 
@@ -112,6 +113,7 @@ std::string text_in(Form form, const SymbolicEquation& equation, const std::stri
   switch (form) {
     case Form::text: break;
     case Form::latex: return latex_of(equation, angle);
+    case Form::document: return latex_document_of(equation, angle);
     case Form::python: return python_of(equation);
     case Form::json: return json_of(equation).dump(2) + "\n";
   }
@@ -122,7 +124,9 @@ void run_equations(const EquationsOptions& options) {
   const std::vector<std::string> outputs = options.outputs.empty() ? std::vector<std::string>{""} : options.outputs;
   std::vector<Form> forms;
   for (const std::string& output : outputs) forms.push_back(form_of(options, output));
-  const auto has_angles = [](Form form) { return form == Form::text || form == Form::latex; };
+  const auto has_angles = [](Form form) { return form == Form::text || form == Form::latex || form == Form::document; };
+  if (options.document && std::find(forms.begin(), forms.end(), Form::document) == forms.end())
+    throw Error(ExitCode::usage, "--document is for LaTeX: no -o names a .tex file");
   if (options.theta && std::none_of(forms.begin(), forms.end(), has_angles))
     throw Error(ExitCode::usage, "--theta is for text and LaTeX: the angles are q in Python and JSON");
   std::vector<std::unique_ptr<OutputFile>> files;

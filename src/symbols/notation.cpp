@@ -301,6 +301,10 @@ std::string padded(const std::string& text, std::size_t width) {
 
 }  // namespace
 
+std::string symbol_in(Notation notation, const SymbolicEquation& equation, const Symbol& symbol, const std::string& angle) {
+  return Writer(notation, equation, angle).name(symbol);
+}
+
 std::string formula_in(Notation notation, const SymbolicEquation& equation, const Formula& formula,
                           const std::string& angle) {
   return Writer(notation, equation, angle).write(formula);
@@ -369,18 +373,17 @@ std::string dissipation_in_latex(const Writer& writer, const SymbolicEquation& e
 
 }  // namespace
 
-std::string latex_of(const SymbolicEquation& equation, const std::string& angle) {
+std::string latex_formulas_of(const SymbolicEquation& equation, const std::string& angle) {
   const Writer writer(Notation::latex, equation, angle);
   const bool dissipates = any(equation.damping) || any(equation.friction);
   const std::string q = std::all_of(equation.turns.begin(), equation.turns.end(), [](bool b) { return b; }) && angle == "theta"
                             ? "\\theta"
                             : "q";
   const std::string qd = "\\dot{" + q + "}";
-  std::string text = "% " + equation.model + "\n" +
-                     displayed("\\tau = M(" + q + ") \\ddot{" + q + "} + C(" + q + ", " + qd + ") " + qd + " + g(" + q + ")" +
+  std::string text = displayed("\\tau = M(" + q + ") \\ddot{" + q + "} + C(" + q + ", " + qd + ") " + qd + " + g(" + q + ")" +
                                (dissipates ? " + \\tau_f(" + qd + ")" : "")) +
                      displayed(matrix_in_latex(writer, "M", equation.M)) + displayed(matrix_in_latex(writer, "C", equation.C)) +
-                     displayed(vector_in_latex(writer, "g", equation.g));
+                     displayed(vector_in_latex(writer, "g(" + q + ")", equation.g));
   if (dissipates) text += displayed(dissipation_in_latex(writer, equation, angle));
   if (!equation.end_effector.empty()) {
     text += displayed(matrix_in_latex(writer, "J", equation.J));
@@ -390,6 +393,12 @@ std::string latex_of(const SymbolicEquation& equation, const std::string& angle)
     else
       text += displayed("\\Lambda = (J M^{-1} J^{T})^{-1}");
   }
+  return text;
+}
+
+std::string latex_of(const SymbolicEquation& equation, const std::string& angle) {
+  const Writer writer(Notation::latex, equation, angle);
+  std::string text = "% " + equation.model + "\n" + latex_formulas_of(equation, angle);
   for (const Symbol& symbol : equation.symbols)
     if (!symbol.is_coordinate())
       text += "% " + writer.name(symbol) + " = " + format_shortest(symbol.value) + " " + symbol.unit + ", " + symbol.meaning + "\n";

@@ -13,9 +13,13 @@ enum class Notation { text, latex, python };
 std::string formula_in(Notation notation, const SymbolicEquation& equation, const Formula& formula,
                           const std::string& angle = "q");
 
+std::string symbol_in(Notation notation, const SymbolicEquation& equation, const Symbol& symbol, const std::string& angle = "q");
+
 // The whole of it, lines that end; with the values of its symbols.
 std::string text_of(const SymbolicEquation& equation, const std::string& angle = "q");
 std::string latex_of(const SymbolicEquation& equation, const std::string& angle = "q");
+std::string latex_formulas_of(const SymbolicEquation& equation, const std::string& angle = "q");  // without values
+std::string latex_document_of(const SymbolicEquation& equation, const std::string& angle = "q");  // to be typeset as it is
 std::string python_of(const SymbolicEquation& equation);
 
 }  // namespace chainreel

@@ -99,6 +99,20 @@ TEST(Equations, GoIntoAsManyFilesAsAreNamedOrIntoNone) {
   EXPECT_FALSE(std::filesystem::exists(text));
 }
 
+TEST(Equations, AreADocumentWhereItIsAskedFor) {
+  const TemporaryFolder folder;
+  const std::string tex = folder.file("rr.tex");
+  ASSERT_EQ(run_program({"equations", "models/rr.urdf", "--document", "-o", tex}).status, 0);
+  EXPECT_THAT(read_whole_file(tex), HasSubstr("\\documentclass"));
+  EXPECT_EQ(run_program({"equations", "models/rr.urdf", "--document"}).out, read_whole_file(tex));
+  EXPECT_EQ(run_program({"equations", "models/rr.urdf", "--document", "--latex"}).out, read_whole_file(tex));
+  // Beside other forms it speaks of the .tex alone; without one of nothing.
+  EXPECT_EQ(run_program({"equations", "models/rr.urdf", "--document", "-o", folder.file("b.tex"), "-o", folder.file("b.py")}).status, 0);
+  EXPECT_THAT(read_whole_file(folder.file("b.py")), HasSubstr("import numpy"));
+  EXPECT_EQ(run_program({"equations", "models/rr.urdf", "--document", "-o", folder.file("c.py")}).status, 2);
+  EXPECT_EQ(run_program({"equations", "models/rr.urdf", "--document", "--python"}).status, 2);
+}
+
 TEST(Equations, RefuseWhatTheyCannotSay) {
   EXPECT_THAT(run_program({"equations", "models/arm.urdf"}).err, AllOf(HasSubstr("1 to 4 joints"), HasSubstr("chainreel dynamics")));
   EXPECT_EQ(run_program({"equations", "models/arm.urdf"}).status, 3);

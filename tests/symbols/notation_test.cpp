@@ -32,6 +32,24 @@ TEST(Notation, OfLatexHasBracesAndOneMatrixOrOneLineAnEntry) {
   EXPECT_EQ(std::count(latex.begin(), latex.end(), '{'), std::count(latex.begin(), latex.end(), '}'));
 }
 
+TEST(Notation, OfADocumentStandsByItself) {
+  SymbolicEquation equation = symbolic_equation_of(rr_chain());
+  equation.notes.push_back("a_b & 50 % of c^2 in C:\\d");
+  const std::string latex = latex_document_of(equation);
+  EXPECT_TRUE(latex.starts_with("\\documentclass{article}"));
+  EXPECT_TRUE(latex.ends_with("\\end{document}\n"));
+  EXPECT_THAT(latex, AllOf(HasSubstr("$m_{1}$ & 1 kg & mass of b1 \\\\"), HasSubstr("g(q) = \\begin{bmatrix}"),
+                           HasSubstr("a\\_b \\& 50 \\% of c\\^{}2 in C:\\textbackslash{}d.")));
+  for (const char* name : {"document", "bmatrix", "aligned", "tabular"}) {
+    const auto count = [&](const std::string& word) {
+      std::size_t found = 0;
+      for (std::size_t at = latex.find(word); at != std::string::npos; at = latex.find(word, at + 1)) ++found;
+      return found;
+    };
+    EXPECT_EQ(count(std::string("\\begin{") + name + "}"), count(std::string("\\end{") + name + "}")) << name;
+  }
+}
+
 TEST(Notation, TellsEverySymbolWithValueAndUnit) {
   const std::string text = text_of(symbolic_equation_of(rr_chain({.L1 = 0.7})));
   EXPECT_THAT(text, AllOf(HasSubstr("L_1     = 0.7 m "), HasSubstr("g       = 9.81 m/s^2"), HasSubstr("qd_1    in rad/s")));

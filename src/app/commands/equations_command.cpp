@@ -1,4 +1,4 @@
-// chainreel equations MODEL | SCENE [--latex | --python] [--theta] [-o FILE]
+// chainreel equations MODEL | SCENE [--latex | --document | --python] [--theta] [-o FILE]
 #include "app/commands/equations_command.hpp"
 
 #include <sys/mman.h>
@@ -65,13 +65,14 @@ void add_equations_command(CommandLine& app, void (*run)(const EquationsOptions&
       "equations", "M(q), C(q, qd), g(q), J and Lambda of a chain of up to four joints in symbols, as text, LaTeX or Python");
   command->add_option("file", options->file, "a model (.urdf) or a scene (.yaml)").required().names_input();
   command->add_flag("--latex", options->latex, "as LaTeX, for amsmath");
+  command->add_flag("--document", options->document, "LaTeX that can be typeset as it is, with a table of what its letters stand for");
   command->add_flag("--python", options->python, "as a module of Python with functions of numpy arrays");
   command->add_flag("--theta", options->theta, "angles are called theta, not q");
   add_panel_option(*command, options->panel);
   command->add_option("--gravity", options->gravity, "world x,y,z in m/s^2");
   command->add_option("--end-effector", options->end_effector, "the link that J and Lambda speak of");
   command->add_option("-o,--output", options->outputs,
-                      "a .tex (LaTeX, to be read by \\input), .py (Python), .json or .txt file; several -o make several (default: standard output)");
+                      "a .tex (LaTeX, to be read by \\input, or whole with --document), .py (Python), .json or .txt file; several -o make several (default: standard output)");
   add_scene_options(*command, options->common);
   add_json_option(*command, options->common);
   add_force_option(*command, options->common);

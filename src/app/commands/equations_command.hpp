@@ -14,7 +14,7 @@ struct EquationsOptions {
   int panel = 0;  // of a scene, from 1; 0: the only one
   std::string gravity, end_effector;
   std::vector<std::string> outputs;
-  bool latex = false, python = false, theta = false;
+  bool latex = false, document = false, python = false, theta = false;
   CommonOptions common;
 };
 
