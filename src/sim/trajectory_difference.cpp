@@ -215,8 +215,11 @@ TrajectoryDifference difference_of(const SampledTrajectory& before, const Sample
     difference.freedoms = find(after.q_numbers, before.q, after.q);
     if (!same_rates)
       difference.others.push_back(change_of_names("rates", before.qd_numbers, after.qd_numbers));
-    else if (difference.freedoms.empty())
-      difference.freedoms = find(after.qd_numbers, before.qd, after.qd);
+    const std::vector<FreedomDifference> rates =
+        same_rates ? find(after.qd_numbers, before.qd, after.qd) : std::vector<FreedomDifference>{};
+    difference.numbers = difference.freedoms;
+    difference.numbers.insert(difference.numbers.end(), rates.begin(), rates.end());
+    if (difference.freedoms.empty()) difference.freedoms = rates;
     if (instants.size() < 2 && std::max(before.size(), after.size()) > 1)
       difference.others.push_back("the runs are sampled at other instants and share " +
                                   std::to_string(instants.size()));

@@ -53,6 +53,7 @@ struct FreedomDifference {
 struct TrajectoryDifference {
   // Those that part, the first one first; of several at one instant that which is farthest for its range.
   std::vector<FreedomDifference> freedoms;
+  std::vector<FreedomDifference> numbers;  // all that part, rates behind positions
   std::vector<std::string> others;  // in words: events, the end, other freedoms, no instants in common
   int instants = 0;                 // that both have
 

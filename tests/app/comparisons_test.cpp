@@ -191,7 +191,7 @@ TEST(Compare, SaysWhichKeysOfTheScenesDiffer) {
   const std::string b = picture(folder, "b.png", square_at(12), scene("dop853"));
   const std::string silent = picture(folder, "c.png", square_at(12));
   EXPECT_EQ(report({a, b})["explained"],
-            (Json{"method rk4 -> dop853", "the motion is another one, by its hash"}));
+            (Json{"method rk4 -> dop853", "the motion at the frames is another one, by its hash"}));
   EXPECT_EQ(report({a, a})["explained"], Json::array());
   EXPECT_THAT(report({a, silent})["explained"][0].get<std::string>(), HasSubstr("only " + a + " remembers"));
   EXPECT_EQ(report({silent, silent})["explained"], Json::array());
@@ -370,6 +370,14 @@ TEST(Compare, TrajectoriesAreComparedInWords) {
   EXPECT_THAT(json["explained"][0].get<std::string>(), HasSubstr("t = 1 s"));
   EXPECT_EQ(report({a, close})["equal"], false);
   EXPECT_EQ(report({a, close})["status"], 0);
+  // Of several columns each has its line, rates behind positions.
+  const std::string several = folder.write("g.csv", "t,q1,q2,qd1,qd2\n0,0,0,0,0\n0.5,1,0,0,0.25\n1,2,3.5,0,0\n");
+  EXPECT_THAT(compared({a, several}).out, AllOf(testing::ContainsRegex("q2 +1 +0.5 +1 +3.5"), testing::ContainsRegex("qd2 +0.5 +0.25 +0.5 +0.25")));
+  const Json columns = report({a, several})["columns"];
+  ASSERT_EQ(columns.size(), 2u);
+  EXPECT_EQ(columns[1]["name"], "qd2");
+  EXPECT_EQ(columns[1]["largest"], 0.25);
+  EXPECT_EQ(report({a, a})["columns"], Json::array());
   EXPECT_EQ(compared({a, folder.write("d.csv", "x,y\n0,0\n")}).status, 3);
   EXPECT_EQ(compared({a, folder.write("e.csv", "t,q1\n0,0\n0,0\n")}).status, 3);
   EXPECT_EQ(compared({a, folder.write("f.csv", "t,mass\n0,0\n")}).status, 3);

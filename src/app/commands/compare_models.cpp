@@ -4,6 +4,7 @@
 
 #include "app/commands/comparison.hpp"
 #include "app/film/model_scene.hpp"
+#include "app/report/report.hpp"
 #include "app/verify/physics_record.hpp"
 #include "core/change_words.hpp"
 #include "core/csv.hpp"
@@ -128,6 +129,33 @@ Comparison compare_models(const CompareOptions& options) {
   return found;
 }
 
+namespace {
+
+// What each of several columns parts by; one alone is told in the sentence before.
+std::string column_words(const TrajectoryDifference& difference) {
+  if (difference.numbers.size() < 2) return "";
+  const auto amount = [](double value, const std::string& unit) {
+    return format_significant(value, 3) + (unit.empty() ? "" : " " + unit);
+  };
+  std::vector<std::vector<std::string>> table{{"column", "differs from t, s, on", "largest", "at t, s", "of a range of"}};
+  for (const FreedomDifference& one : difference.numbers)
+    table.push_back({one.label, format_significant(one.first_time, 6), amount(one.largest, one.unit),
+                     format_significant(one.largest_time, 6), amount(one.range, one.unit)});
+  std::string text = table_text(table);
+  text.pop_back();
+  return text;
+}
+
+Json json_of(const TrajectoryDifference& difference) {
+  Json columns = Json::array();
+  for (const FreedomDifference& one : difference.numbers)
+    columns.push_back({{"name", one.label}, {"unit", one.unit}, {"first_time", one.first_time}, {"at_first", one.at_first},
+                       {"largest", one.largest}, {"largest_time", one.largest_time}, {"range", one.range}});
+  return columns;
+}
+
+}  // namespace
+
 Comparison compare_trajectories(const CompareOptions& options) {
   Table tables[2];
   for (const int i : {0, 1}) {
@@ -154,7 +182,9 @@ Comparison compare_trajectories(const CompareOptions& options) {
   found.equal = before.t == after.t && before.q == after.q && before.qd == after.qd && words.empty();
   if (!found.equal && found.passes) found.words = {"no number differs by more than 1e-9 of its range"};
   if (other_order) found.words.push_back("their columns stand in another order");
+  if (const std::string columns = column_words(difference); !columns.empty()) found.words.push_back(columns);
   found.report["instants"] = difference.instants;
+  found.report["columns"] = json_of(difference);
   return found;
 }
 

@@ -116,7 +116,7 @@ std::vector<std::string> explain_memories(const std::string& before, const std::
   const Json& other_facts = now->figure.is_null() ? now->audit : now->figure;
   for (const auto& [key, told] :
        {std::pair("model_sha256", std::string("the model file is another one") + kByHash),
-        std::pair("trajectory_sha256", std::string("the motion is another one") + kByHash),
+        std::pair("trajectory_sha256", std::string("the motion at the frames is another one") + kByHash),
         std::pair("versions", std::string("versions of the program or its libraries are others"))})
     if (facts.value(key, Json()) != other_facts.value(key, Json())) sentences.push_back(told);
   return sentences;
