@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/format.hpp"
 #include "picture/plot.hpp"
@@ -14,6 +15,7 @@ constexpr double kTickToLabel = 0.007, kLabelToTitle = 0.010;
 constexpr double kSuperscriptScale = 0.70, kSuperscriptUp = 0.38;  // of the em, as in formulas
 constexpr double kPitchX = 1.7;  // of the widest label: distance of labels along x
 constexpr double kPitchY = 3.0, kLeastPitchY = 1.3;  // of the em, along y
+constexpr double kLeastAcross = 0.85;  // of the em: numbers that are nearer along y lie on one another
 constexpr int kFewestLabels = 3, kMostLinear = 5, kMostLog = 6;
 constexpr std::size_t kFewestOfScale = 2;
 constexpr double kLeastAir = 0.3;  // of the em, between two numbers below a frame
@@ -55,9 +57,11 @@ double widest_label(const std::vector<Tick>& ticks, const PlotStyle& style) {
   return widest;
 }
 
-int most_labels(const Axis& axis, double length, double pitch) {
+// As many as stand `pitch` apart; few of a scale rather closer, but at `least` apart.
+int most_labels(const Axis& axis, double length, double pitch, double least) {
   const bool is_log = axis.scale == Scale::log;
-  return std::clamp(int(length / pitch), is_log ? int(kFewestOfScale) : kFewestLabels, is_log ? kMostLog : kMostLinear);
+  const int fewest = std::min(is_log ? int(kFewestOfScale) : kFewestLabels, std::max(int(kFewestOfScale), int(length / least) + 1));
+  return std::clamp(int(length / pitch), fewest, is_log ? kMostLog : kMostLinear);
 }
 
 // A lone number is no scale: of finer ticks those have theirs that stand `pitch` apart, zero among them, even where that are two.
@@ -118,7 +122,8 @@ std::vector<Tick> without_touching(std::vector<Tick> ticks, const Axis& axis, do
 
 std::vector<Tick> x_ticks(const Axis& axis, double width, const PlotStyle& style) {
   const double pitch = kPitchX * widest_label(ticks_of(axis, kMostLog), style);
-  std::vector<Tick> ticks = enough_ticks(axis, most_labels(axis, width, std::max(pitch, 1e-3)), width, pitch);
+  const double apart = std::max(pitch, 1e-3);
+  std::vector<Tick> ticks = enough_ticks(axis, most_labels(axis, width, apart, apart / kPitchX), width, pitch);
   if (axis.last_unit.empty()) return without_touching(std::move(ticks), axis, width, style);
   // Numbers that the last one would touch give way to it.
   const Tick last = last_tick(axis);
@@ -131,9 +136,41 @@ std::vector<Tick> x_ticks(const Axis& axis, double width, const PlotStyle& style
   return ticks;
 }
 
+// Whether numbers do not lie on one another.
+bool stand_apart(const std::vector<Tick>& ticks, const Axis& axis, double length, double apart) {
+  std::optional<double> before;
+  for (const Tick& tick : ticks) {
+    if (tick.label.empty()) continue;
+    if (before && (tick.value - *before) / (axis.high - axis.low) * length < apart) return false;
+    before = tick.value;
+  }
+  return true;
+}
+
+// Numbers at the first and the last tick only.
+std::vector<Tick> with_ends_alone(std::vector<Tick> ticks) {
+  for (std::size_t i = 1; i + 1 < ticks.size(); ++i) ticks[i].label = ticks[i].superscript = "";
+  return ticks;
+}
+
+// Of an axis that has no room for two the number nearest to its middle.
+std::vector<Tick> one_number(const Axis& axis) {
+  std::vector<Tick> ticks = ticks_of(axis, kFewestLabels);
+  const double middle = (axis.low + axis.high) / 2;
+  const auto nearest = std::min_element(ticks.begin(), ticks.end(), [&](const Tick& a, const Tick& b) {
+    return std::abs(a.value - middle) < std::abs(b.value - middle);
+  });
+  for (auto tick = ticks.begin(); tick != ticks.end(); ++tick)
+    if (tick != nearest) tick->label = tick->superscript = "";
+  return ticks;
+}
+
 std::vector<Tick> y_ticks(const Axis& axis, double height, const PlotStyle& style) {
   const double em = style.text(size::kTick);
-  return enough_ticks(axis, most_labels(axis, height, kPitchY * em), height, kLeastPitchY * em);
+  std::vector<Tick> ticks = enough_ticks(axis, most_labels(axis, height, kPitchY * em, kLeastPitchY * em), height, kLeastPitchY * em);
+  if (axis.scale == Scale::log || stand_apart(ticks, axis, height, kLeastAcross * em)) return ticks;
+  ticks = with_ends_alone(ticks_of(axis, kFewestLabels));
+  return stand_apart(ticks, axis, height, kLeastAcross * em) && ticks.size() > 1 ? ticks : one_number(axis);
 }
 
 void draw_line(Picture& picture, Point a, Point b, double width, Color color) {

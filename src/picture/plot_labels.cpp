@@ -102,6 +102,8 @@ static double same_height(const EndLabel& label) {
 
 void draw_end_labels(Picture& picture, const PlotFrame& frame, std::vector<EndLabel> labels, double x,
                      const PlotStyle& style) {
+  // Of equal ends the first stands uppermost.
+  std::reverse(labels.begin(), labels.end());
   std::stable_sort(labels.begin(), labels.end(),
                    [](const EndLabel& a, const EndLabel& b) { return same_height(a) < same_height(b); });
   // Closer than lines of a paragraph where the frame is low; what it cannot hold stands out above it, not below, where

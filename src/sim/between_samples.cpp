@@ -187,22 +187,15 @@ std::optional<Doubt> doubt_between(const Simulation& simulation, const Trajector
   if (trajectory.size() < 3 || trajectory.steps + 1 == trajectory.size() || !simulation.torque) return {};
   const Denser denser = Filler(simulation, trajectory).fill();
   Hidden worst;
-  const auto look = [&](const PlotSet& plots) {
-    for (const PlotCurves& plot : plot_curves(plots, simulation, denser.run, denser.run.size())) look_at(plot, denser, worst);
-  };
   std::vector<PlotEntry> always{{"qd", "", {}}, {"tau", "", {}}};
   if (denser.run.rows > 0) always.push_back({"lambda", "", {}});
-  look(*make_plots(simulation.chain, always, {}, {}, {}, denser.run.rows));
-  if (simulation.plots && trajectory.rows == denser.run.rows) {
-    PlotSet expressions = *simulation.plots;
-    std::erase_if(expressions.list, [](const PlotSet::Plot& plot) { return plot.quantity != PlotQuantity::expression; });
-    look(expressions);
-  }
+  const auto plots = make_plots(simulation.chain, always, {}, {}, {}, denser.run.rows);
+  for (const PlotCurves& plot : plot_curves(*plots, simulation, denser.run, denser.run.size())) look_at(plot, denser, worst);
   if (worst.name.empty()) return {};
   return Doubt{"samples", worst.share,
                "between the frames " + worst.name + " goes " + format_significant(worst.amount, 3) +
                    " beyond what they show, " + std::to_string(std::lround(100 * worst.share)) + " % of its range, at t = " +
-                   format_significant(worst.t, 5) + " s: plots, arrows and tables miss that",
+                   format_significant(worst.t, 5) + " s: arrows and tables miss that",
                "--set video.fps=" + std::to_string(rate_for(trajectory)) + ", of a table also simulate --every-step"};
 }
 

@@ -1,4 +1,4 @@
-// What happens between the samples of a run, where neither plots nor arrows nor tables show it: a torque faster than the
+// What happens between the samples of a run, where neither arrows nor tables show it (plots look there, too): a torque faster than the
 // frames, or a push between two of them.
 #pragma once
 
@@ -12,7 +12,7 @@ namespace chainreel {
 // motion at 60 Hz hide up to a tenth; of torques between whose kinks is looked, as of pulses and tables, all is known.
 inline constexpr double kDoubtfulSamples = 0.15, kDoubtfulPulse = 0.05;
 
-// Rates, torques, multipliers and the expressions that the scene plots, at some instants between the samples and at the
+// Rates, torques and multipliers at some instants between the samples and at the
 // kinks of the torques there; nothing where they keep to what the samples show. Kind "samples". The torques' instants are
 // exact, the states between come from a cubic through the samples (brought back onto the constraints, where the run is),
 // of floating bases from their rates. A jump from one sample to the next is not hidden. A run sampled at its steps

@@ -379,6 +379,7 @@ TEST(Audit, HasTheKeysThatOthersRead) {
                      "events",
                      "expect",
                      "fall_time",
+                     "held_from_start",
                      "left_picture_at",
                      "motion",
                      "order",

@@ -44,14 +44,18 @@ bool is_partial(const fs::path& path) {
   return mark == ".partial" || mark == ".tmp";
 }
 
+// By their names.
 void add_films_in(const fs::path& folder, std::vector<std::string>& found) {
+  std::vector<std::string> in_folder;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path& path = entry.path();
     if (std::error_code code; !entry.is_regular_file(code) || browser_type_of(path).empty() || is_partial(path)) continue;
     std::error_code code;
     if (path.extension() == ".webm" && fs::exists(fs::path(path).replace_extension(".mp4"), code)) continue;
-    found.push_back(path.string());
+    in_folder.push_back(path.string());
   }
+  std::sort(in_folder.begin(), in_folder.end());
+  found.insert(found.end(), in_folder.begin(), in_folder.end());
 }
 
 // The text of a file beside a film; "" where there is none, or none that can be read.
@@ -179,8 +183,9 @@ std::vector<std::string> find_clips(const std::vector<std::string>& paths) {
       found.push_back(path);
   }
   problems.throw_if_any();
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  // Each once, where it is named first.
+  std::set<std::string> seen;
+  std::erase_if(found, [&](const std::string& path) { return !seen.insert(path).second; });
   if (!found.empty()) return found;
   throw Error(ExitCode::bad_input, "there is no film (.mp4, .webm) here: render some first", {joined(paths)});
 }

@@ -27,7 +27,7 @@ struct GalleryClip {
   std::vector<GalleryChart> charts;
 };
 
-// Films named, and those in folders named (NAME.webm alone where there is no NAME.mp4), by their paths.
+// Films named, and those in folders named (NAME.webm alone where there is no NAME.mp4), in the order in which they are named, those of a folder by their names.
 // Throws Error (exit 3) where a path is no film and no folder, and where there is no film at all.
 std::vector<std::string> find_clips(const std::vector<std::string>& paths);
 

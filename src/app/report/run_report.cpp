@@ -38,6 +38,8 @@ void add_events(Json& json, const Scene& scene, const Trajectory& trajectory) {
                               {"q", to_json(hits.q_at(k))},
                               {"qd", to_json(hits.qd_at(k))}});
   }
+  json["held_from_start"] = Json::array();
+  for (const int event : hits.from_start) json["held_from_start"].push_back(scene.events[std::size_t(event)].title());
   json["fall_time"] = or_null(fall_time_of(scene, trajectory));
   json["end_time"] = trajectory.end_time;
 }
@@ -159,6 +161,8 @@ std::vector<std::string> notes_of(const PreparedScene& prepared, const Trajector
     const bool is_cut = scene.limit == LimitPolicy::clamp && limits[i].quantity == "effort";
     notes.push_back(to_string(limits[i]) + (is_cut ? ": by limit: clamp, torques beyond it are cut" : ""));
   }
+  for (const int event : trajectory.events.from_start)
+    notes.push_back("event '" + scene.events[std::size_t(event)].title() + "' holds at t = 0 already: instants are those at which it begins again");
   if (!trajectory.trouble.empty() && is_complete(trajectory.status)) notes.push_back("stopped: " + trajectory.trouble);
   return notes;
 }

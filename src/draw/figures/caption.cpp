@@ -112,7 +112,7 @@ std::vector<std::string> pose_notations(const Chain& chain, const std::vector<do
   const std::vector<std::string> entries = coordinate_notations(chain, q);
   const std::vector<std::string> ends{entries.empty() ? "" : entries.front(), "\u2026",
                                       entries.empty() ? "" : entries.back()};
-  return {"q = " + list_of(entries), "q = " + list_of(ends)};
+  return {"q = " + list_of(entries), list_of(entries), "q = " + list_of(ends)};
 }
 
 std::string number_notation(double value, double largest) {

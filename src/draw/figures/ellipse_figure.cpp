@@ -211,11 +211,16 @@ bool lay_out(Panels& panels, const Rect& area, int across, const std::vector<Pos
   return true;
 }
 
-// How good an arrangement is: what is drawn is large, and of many panels each is mostly picture.
+// How good an arrangement is: what is drawn is large, no cell is empty, captions are whole, and of many panels each is mostly picture.
 double merit(const Panels& panels) {
+  constexpr double kWithHole = 0.75, kCutCaption = 0.5;
+  const auto in_top_row = std::count_if(panels.places.begin(), panels.places.end(), [&](const Rect& r) { return r.y1 == panels.places[0].y1; });
+  const bool has_hole = panels.places.size() % std::size_t(in_top_row) != 0;
+  const bool is_cut = std::any_of(panels.words.notations.begin(), panels.words.notations.end(),
+                                  [](const std::string& words) { return words.find("\u2026") != std::string::npos; });
   const bool is_picture =
       panels.lines.empty() || panels.scene(0).height() >= kLeastPicture * panels.places[0].height();
-  return (is_picture ? 1 : 0.1) * panels.camera.scale;
+  return (is_picture ? 1 : 0.1) * (has_hole ? kWithHole : 1) * (is_cut ? kCutCaption : 1) * panels.camera.scale;
 }
 
 }  // namespace

@@ -137,7 +137,7 @@ class FootLayer : public Layer {
     const bool stands = push.place >= run.foot.heel && push.place <= run.foot.toe;
     const ChainLook& look = panel.look();
     const Point pressure = camera.project(run.on_ground(push.place));
-    draw_arrow(picture, pressure - force, force, {look.theme->constraint, look.marks, !stands, 0, look.theme->lines}, panel.clip());
+    draw_arrow(picture, pressure - force, force, {look.theme->constraint, look.marks, !stands, 0, look.theme->lines, look.theme->background}, panel.clip());
     const double radius = look.marks * kPressure;
     picture.add(Ellipse{pressure, {radius, 0}, {0, radius}, {stands ? look.theme->constraint : look.theme->background, look.theme->constraint, size::kLinkOutline}},
                 panel.clip());

@@ -238,7 +238,7 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   const Point u = radius * on_page(circle.top, seen), w = radius * on_page(circle.quarter, seen);
   const VectorScale scale = scales_.of(vector.kind);
   const double value = vector.value.dot(vector.axis);
-  ArrowStyle style{color_of(vector.kind, *theme_), marks * std::sqrt(vector.size), false, 0, theme_->lines};
+  ArrowStyle style{color_of(vector.kind, *theme_), marks * std::sqrt(vector.size), false, 0, theme_->lines, theme_->background};
   const double widest = kWidestTurn * std::numbers::pi / 180, whole = kWholeRadius * std::numbers::pi / 180;
   const double wished = scale.on_page(std::abs(value)), turn = std::min(wished, widest);
   style.broken = broken(wished, widest);
@@ -259,7 +259,8 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   std::vector<Rect> places = places_about(text, center, off, {0, 1});
   for (const double far : {kFarLabelGap, 2.2 * kFarLabelGap})
     for (const Rect& place : places_about(text, center, off + far, {0, 1})) places.push_back(place);
-  labels.add({word_name(vector), text, std::move(places)});
+  labels.add({word_name(vector), text, std::move(places), std::nullopt,
+              Tie{center, radius + marks * size::kArrowHeadWidth / 2, style.color}});
 }
 
 void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& camera, double marks, int clip,
@@ -271,7 +272,8 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   if (norm(arrow.v) < size::kShortestArrow) return;
   const Point tail = place + arrow.shift;
   draw_arrow(picture, tail, arrow.v,
-             {color_of(vector.kind, *theme_), marks, vector.kind == VectorKind::constraint, arrow.broken, theme_->lines},
+             {color_of(vector.kind, *theme_), marks, vector.kind == VectorKind::constraint, arrow.broken, theme_->lines,
+              theme_->background},
              clip);
   if (vector.label.empty()) return;
   const TextLine& text = label(vector, marks);

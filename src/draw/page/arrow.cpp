@@ -16,16 +16,28 @@ constexpr double kBreakSlant = 0.35;   // of a stroke's length, that it leans al
 constexpr double kPieceOfTurn = 0.06;  // rad, of the straight pieces of a turn in space: 0.5 % off the circle
 constexpr double kSpeck = 1e-6;        // units of H: no direction can be seen
 constexpr double kSameShape = 1e-9;    // relative, to tell a circle from an ellipse
+constexpr double kCasing = 0.0028;     // units of H, on each side
 
-void draw_head(Picture& picture, Point tip, Point base, double half_width, Color color, int clip) {
+// What lies below an arrow, for one that has a casing.
+std::optional<ArrowStyle> casing_of(const ArrowStyle& style) {
+  if (!style.casing) return std::nullopt;
+  ArrowStyle wide = style;
+  wide.color = style.casing->faded(style.color.a);
+  wide.casing.reset();
+  wide.around = std::min(1.0, style.size) * kCasing;
+  return wide;
+}
+
+void draw_head(Picture& picture, Point tip, Point base, double half_width, const ArrowStyle& style, int clip) {
   const Point side = half_width * normal_to(unit(tip - base));
-  picture.add(Polygon{{tip, base + side, base - side}, 3, {color, {}, 0}}, clip);
+  picture.add(Polygon{{tip, base + side, base - side}, 3, {style.color, style.color, 2 * style.around}}, clip);
 }
 
 // The strokes on both sides of a break about `middle`, across the shaft that runs along the unit vector `along`.
 void draw_break(Picture& picture, Point middle, Point along, const ArrowStyle& style, int clip) {
   const double gap = style.broken * style.size * kBreakGap, length = style.broken * style.size * kBreakStroke;
   const Point stroke = (length / 2) * (normal_to(along) + kBreakSlant * along);
+  if (style.around > 0) return;  // the gap shows what lies below
   for (const double side : {-0.5, 0.5}) {
     const Point at = middle + (side * gap) * along;
     draw_line(picture, {at - stroke, at + stroke}, 0.6 * style.lines * style.size * size::kArrowShaft, style.color, clip);
@@ -41,7 +53,7 @@ void draw_dashes(Picture& picture, Point from, Point to, const ArrowStyle& style
   for (double s = 0; s < length; s += pitch) {
     const double end = std::min(s + dash, length);
     if (end - s > 2 * r)
-      draw_line(picture, {from + (s + r) * along, from + (end - r) * along}, width, style.color, clip);
+      draw_line(picture, {from + (s + r) * along, from + (end - r) * along}, width + 2 * style.around, style.color, clip);
   }
 }
 
@@ -74,6 +86,7 @@ void draw_curve(Picture& picture, Point center, Point u, Point w, double from, d
 void draw_arrow(Picture& picture, Point tail, Point v, const ArrowStyle& style, int clip) {
   const double length = norm(v);
   if (!(length > kSpeck)) return;
+  if (const auto casing = casing_of(style)) draw_arrow(picture, tail, v, *casing, clip);
   const Point along = unit(v), tip = tail + v;
   const double head = std::min(style.size * size::kArrowHead, kHeadOfShort * length);
   const double grow = head / size::kArrowHead, half_width = grow * size::kArrowHeadWidth / 2;
@@ -85,7 +98,7 @@ void draw_arrow(Picture& picture, Point tail, Point v, const ArrowStyle& style, 
     if (style.dashed)
       draw_dashes(picture, from, to, style, clip);
     else
-      draw_line(picture, {from, to}, width, style.color, clip);
+      draw_line(picture, {from, to}, width + 2 * style.around, style.color, clip);
   };
   if (style.broken > 0) {
     const Point middle = tail + kBreakAt * v, half = (style.broken * style.size * kBreakGap / 2) * along;
@@ -95,17 +108,19 @@ void draw_arrow(Picture& picture, Point tail, Point v, const ArrowStyle& style, 
   } else {
     draw_shaft(tail, end);
   }
-  draw_head(picture, tip, base, half_width, style.color, clip);
+  draw_head(picture, tip, base, half_width, style, clip);
 }
 
 void draw_turn(Picture& picture, Point center, Point u, Point w, double turn, const ArrowStyle& style,
                int clip) {
   const double radius = std::max(norm(u), norm(w));
   if (!(radius > kSpeck) || turn == 0) return;
+  if (const auto casing = casing_of(style)) draw_turn(picture, center, u, w, turn, *casing, clip);
   const double sign = turn > 0 ? 1 : -1;
   // The angle that a head takes.
   const double head = std::min(style.size * size::kArrowHead / radius, kHeadOfShort * std::abs(turn));
-  const double grow = head * radius / size::kArrowHead, width = style.lines * std::min(style.size, grow) * size::kArrowShaft;
+  const double grow = head * radius / size::kArrowHead;
+  const double width = style.lines * std::min(style.size, grow) * size::kArrowShaft + 2 * style.around;
   const double begin = -turn / 2, tip_at = turn / 2, end = tip_at - 0.8 * sign * head;
   if (style.broken > 0) {
     const double middle = begin + kBreakAt * turn, half = sign * style.broken * style.size * kBreakGap / 2 / radius;
@@ -119,7 +134,7 @@ void draw_turn(Picture& picture, Point center, Point u, Point w, double turn, co
   }
   const Point tip = on_curve(center, u, w, tip_at), base = on_curve(center, u, w, tip_at - sign * head);
   if (norm(tip - base) > kSpeck)
-    draw_head(picture, tip, base, grow * size::kArrowHeadWidth / 2, style.color, clip);
+    draw_head(picture, tip, base, grow * size::kArrowHeadWidth / 2, style, clip);
 }
 
 void draw_ring(Picture& picture, Point center, Point u, Point w, Color color, int clip) {

@@ -1,6 +1,8 @@
 // Arrows, straight and round: the marks of vectors, at places of the page and in the sizes of the theme.
 #pragma once
 
+#include <optional>
+
 #include "picture/picture.hpp"
 
 namespace chainreel {
@@ -11,6 +13,8 @@ struct ArrowStyle {
   bool dashed = false;
   double broken = 0;  // 0 to 1: how far a break in the shaft is open, which says that it is longer than it is drawn
   double lines = 1;   // times the width of the shaft: a style's, at most 2, where a head is still wider
+  std::optional<Color> casing = std::nullopt;  // the background's: a line around it, so that it is seen on bodies of any colour
+  double around = 0;                           // by so much it is drawn larger on all sides: of a casing
 };
 
 // From `tail` to tail + v. The head of a short arrow shrinks with it.

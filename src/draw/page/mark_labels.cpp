@@ -134,6 +134,7 @@ std::vector<Rect> places_about(const TextLine& line, Point middle, double off, P
 namespace {
 
 constexpr double kLeaderWidth = 0.0025, kLeaderDot = 0.0055, kLeaderGap = 0.008;  // units of H
+constexpr double kTieWidth = 0.0018, kShortestTie = 0.018;
 
 // From the side of the box that is nearest.
 void draw_leader(Picture& picture, const Leader& leader, const Rect& box, Color background, double opacity, int clip) {
@@ -145,6 +146,15 @@ void draw_leader(Picture& picture, const Leader& leader, const Rect& box, Color 
     picture.add(Capsule{from, leader.to, kLeaderWidth / 2, {color, {}, 0}}, clip);
   }
   picture.add(Ellipse{leader.to, {kLeaderDot, 0}, {0, kLeaderDot}, {color, halo, kHalo}}, clip);
+}
+
+void draw_tie(Picture& picture, const Tie& tie, const Rect& box, Color background, double opacity, int clip) {
+  const Rect air = widened(box, kLeaderGap);
+  const Point from{std::clamp(tie.to.x, air.x0, air.x1), std::clamp(tie.to.y, air.y0, air.y1)}, way = from - tie.to;
+  if (!(norm(way) > tie.near + kShortestTie)) return;
+  const Point to = tie.to + (tie.near / norm(way)) * way;
+  picture.add(Capsule{from, to, kTieWidth / 2 + kHalo, {background.faded(opacity), {}, 0}}, clip);
+  picture.add(Capsule{from, to, kTieWidth / 2, {tie.color.faded(opacity), {}, 0}}, clip);
 }
 
 }  // namespace
@@ -175,6 +185,7 @@ void MarkLabels::draw(Picture& picture, const Rect& area, Color background, int 
     fade(line, opacity);
     const Point anchor{box.x0 - line.box.x0, box.y0 - line.box.y0};
     if (words_[i].leader) draw_leader(picture, *words_[i].leader, box, background, opacity, clip);
+    if (words_[i].tie) draw_tie(picture, *words_[i].tie, box, background, opacity, clip);
     draw_halo(picture, line, anchor, background.faded(opacity), kHalo, clip);
     draw_text(picture, line, anchor, clip);
   }

@@ -19,11 +19,19 @@ struct Leader {
   Color color;
 };
 
+// A thin line from a word that stands farther than `near` from what it names, up to there.
+struct Tie {
+  Point to;
+  double near = 0;
+  Color color;
+};
+
 struct MarkWord {
   std::string name;  // the same from frame to frame; words of one name are told apart by where they are
   TextLine line;
   std::vector<Rect> places;  // of its ink, units of H, the best first; at least one
   std::optional<Leader> leader = std::nullopt;  // its word was asked for: it stands on others rather than nowhere
+  std::optional<Tie> tie = std::nullopt;
 };
 
 // Places of a line's ink about a point, `off` away from it: eight directions, `first` of them, the next ones beside it,

@@ -41,15 +41,15 @@ TEST_F(FallingHuman, IsNotedFromTheInstantOn) {
     const std::string note = film.panel(0).note(k);
     const double t = run_.t[std::size_t(k)];
     EXPECT_EQ(note.empty(), t < run_.events.t[0]) << t;
-    EXPECT_EQ(note.find("hip at knee height") != std::string::npos, t >= run_.events.t[1]) << t;
+    EXPECT_EQ(note.find("hip where the knee was") != std::string::npos, t >= run_.events.t[1]) << t;
   }
   EXPECT_EQ(film.panel(0).note(119),
-            "centre of pressure leaves the foot at t = 1.53 s;  hip at knee height at t = 1.65 s");
+            "centre of pressure leaves the foot at t = 1.53 s;  hip where the knee was at t = 1.65 s");
   EXPECT_EQ(film.panel(0).title(), "A standing human falls in 1.65 s");
 }
 
 TEST_F(FallingHuman, IsNotNotedOnNothing) {
-  EXPECT_THAT(test::words_of(film(&simulation_).frame(119)), HasSubstr("hip at knee height"));
+  EXPECT_THAT(test::words_of(film(&simulation_).frame(119)), HasSubstr("hip where the knee was"));
   std::erase(scene_.draw, "torque");
   scene_.layout = PageLayout::transparent;
   const Film film = this->film(&simulation_);
