@@ -77,7 +77,7 @@ TEST(ChartCommand, WritesAPictureAndTheNumbersBesideIt) {
   const TemporaryFolder folder;
   const ProgramResult result =
       run_program({"chart", "assets/scenes/rr_free.yaml", "--set", "duration=1", "--runs", "1", "--longest",
-                   "0.005", "--methods", "rk4,dop853", "-o", folder.file("chart.svg")});
+                   "0.1", "--methods", "rk4,dop853", "-o", folder.file("chart.svg")});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, AllOf(HasSubstr("reference: "), HasSubstr("uncertainty"), HasSubstr("auto: ")));
   EXPECT_THAT(read_whole_file(folder.file("chart.svg")), AllOf(HasSubstr("<svg"), HasSubstr("rk4"), HasSubstr("[rad]<"), testing::Not(HasSubstr("[rad, m]"))));

@@ -165,8 +165,16 @@ TEST(EllipseOutputs, AreWordsInPdfAndSvgAndNumbersInCsv) {
   EXPECT_THAT(text_of(folder.file("a.svg")), HasSubstr("belt"));
   const std::string table = folder.file("a.csv");
   ASSERT_EQ(draw({"models/rr.urdf", "--pose", "0,90deg", "--pose", "0,0"}, table).status, 0);
-  EXPECT_THAT(text_of(table), HasSubstr("Lambda_inv_xx,Lambda_inv_xy,Lambda_inv_yy"));
+  EXPECT_THAT(text_of(table), HasSubstr("x [m],y [m],z [m],Lambda_inv_xx [1/kg],Lambda_inv_xy [1/kg],Lambda_inv_yy [1/kg],Lambda_xx [kg],Lambda_xy [kg],"
+                                        "Lambda_yy [kg],mass_along_x [kg],mass_along_y [kg],eigenvalue1 [kg],direction1_x,direction1_y,"));
   EXPECT_THAT(text_of(table), HasSubstr(",inf,"));
+  // Bent by a right angle the outer mass alone is felt along x, both across; stretched, nothing moves it along x.
+  const Json poses = report_of({"models/rr.urdf", "--pose", "0,90deg", "--pose", "0,0"})["poses"];
+  EXPECT_NEAR(poses[0]["mass_along"][0].get<double>(), 1, 1e-12);
+  EXPECT_NEAR(poses[0]["mass_along"][1].get<double>(), 2, 1e-12);
+  EXPECT_TRUE(poses[1]["mass_along"][0].is_null());
+  EXPECT_NEAR(poses[1]["mass_along"][1].get<double>(), 1, 1e-12);
+  EXPECT_NEAR(poses[0]["mass_along"][1].get<double>() * poses[0]["Lambda_inv"][1][1].get<double>(), 1, 1e-12);
 }
 
 // Words are 7 pt and larger where the page is as wide as it says.

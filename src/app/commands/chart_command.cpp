@@ -168,7 +168,8 @@ void print_summary(const WorkPrecision& data, const Measured& measured) {
   std::fputs(table_text(table).c_str(), stdout);
   for (const Ladder& ladder : measured.ladders)
     if (!ladder.refusal.empty()) std::printf("left out: %s\n", ladder.refusal.c_str());
-  std::printf("error: %s\n", scale_text(measured).c_str());
+  std::printf("error: at the end of the run, %s; how far each method strays on the way there, in metres: `chainreel check SCENE --all`\n",
+              scale_text(measured).c_str());
   std::printf("reference: %s, uncertainty %s; the motion magnifies errors %s times\n",
               measured.reference.how.c_str(), format_significant(measured.reference.uncertainty, 2).c_str(),
               format_significant(measured.reference.amplification, 2).c_str());

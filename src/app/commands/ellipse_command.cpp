@@ -302,10 +302,10 @@ void add_ellipse_command(CommandLine& app) {
   command->add_repeatable("--pose", sources.poses, "q of the chain: --pose 0,90deg, by joints: --pose joint2=90deg, or a state of an SRDF beside it: --pose home (repeatable)");
   command->add_option("--sweep", sources.sweep, "poses that differ in one coordinate: --sweep q2=0:180deg:9");
   command->add_option("--along", sources.along, "poses along the motion of a scene (.yaml)").names_input();
-  command->add_flag("--field", sources.field, "a grid of points of the workspace, of planar chains of 2 or 3 joints");
+  command->add_flag("--field", sources.field, "a grid of points of the workspace, of planar chains of 2 or 3 joints; of 3 at the pose whose joints behind the first bend alike");
   command->add_option("--samples", sources.samples, "poses --along (default 6), points across the --field (default 12)")
       .range(1, 200);
-  command->add_option("--elbow", sources.elbow, "of a --field: up, the elbow left of the way to the end, or down")
+  command->add_option("--elbow", sources.elbow, "of a --field: up (default), the elbow left of the way to the end, or down")
       .one_of({"up", "down"});
   command->add_option("--reading", options->reading,
                       "mass: forces for unit accelerations (default); energy: velocities of equal kinetic energy; "

@@ -19,6 +19,7 @@
 #include "scene/quantity.hpp"
 #include "scene/run/pose_doubts.hpp"
 #include "scene/run/sweep.hpp"
+#include "table/data_table.hpp"
 
 namespace chainreel {
 namespace {
@@ -42,6 +43,19 @@ std::vector<MassAxis> drawn_axes(const Chain& chain, Workspace& ws, const std::v
   return section_axes(mass, tip_plane(chain, ws), form.reading);
 }
 
+// What a force along each axis of the basis moves, as if nothing else held the end effector: 1 / Lambda_inv_ii, kg; nothing
+// where it moves nothing.
+std::vector<std::optional<double>> masses_along(const EffectiveMass& mass) {
+  std::vector<std::optional<double>> masses;
+  for (Eigen::Index i = 0; i < mass.Lambda_inv.rows(); ++i) {
+    const double mobility = mass.Lambda_inv(i, i);
+    constexpr double kRounding = 1e-13;  // of the sum over all axes: what is left of a zero
+    const bool is_infinite = !(mobility > kRounding * mass.Lambda_inv.trace());
+    masses.push_back(is_infinite ? std::nullopt : std::optional(1 / mobility));
+  }
+  return masses;
+}
+
 }  // namespace
 
 Json ellipse_json(const TipMass& tip, const GatheredPoses& poses, const EllipseForm& form) {
@@ -55,6 +69,8 @@ Json ellipse_json(const TipMass& tip, const GatheredPoses& poses, const EllipseF
     const EffectiveMass mass = tip.at(ws, poses.q[i]);
     entry["point"] = to_json(point_of(chain, ws, poses.q[i]));
     add_effective_mass(entry, mass);
+    entry["mass_along"] = Json::array();
+    for (const std::optional<double>& along : masses_along(mass)) entry["mass_along"].push_back(or_null(along));
     entry["eigenvalues"] = entry["semi_axes"] = Json::array();
     for (const MassAxis& axis : mass_axes(mass)) entry["eigenvalues"].push_back(or_null(axis.mass));
     for (const MassAxis& axis : drawn_axes(chain, ws, poses.q[i], mass, form))
@@ -71,10 +87,15 @@ std::string ellipse_csv(const TipMass& tip, const GatheredPoses& poses, const El
   const std::size_t rows = basis.names.size();
   std::string text = poses.t.empty() ? "" : "t,";
   for (const std::string& name : position_names(chain)) text += "q." + name + ",";
-  text += "x,y,z";
-  for (std::size_t i = 0; i < rows; ++i)
-    for (std::size_t j = i; j < rows; ++j) text += ",Lambda_inv_" + basis.names[i] + basis.names[j];
-  for (std::size_t i = 0; i < rows; ++i) text += ",eigenvalue" + std::to_string(i + 1);
+  text += "x [m],y [m],z [m]";
+  for (const auto& [symbol, unit] : {std::pair("Lambda_inv_", "1/kg"), std::pair("Lambda_", "kg")})
+    for (std::size_t i = 0; i < rows; ++i)
+      for (std::size_t j = i; j < rows; ++j) text += "," + with_unit(symbol + basis.names[i] + basis.names[j], unit);
+  for (const std::string& name : basis.names) text += "," + with_unit("mass_along_" + name, "kg");
+  for (std::size_t i = 1; i <= rows; ++i) {
+    text += "," + with_unit("eigenvalue" + std::to_string(i), "kg");
+    for (const std::string& name : basis.names) text += ",direction" + std::to_string(i) + "_" + name;
+  }
   for (std::size_t i = 0; i < (form.section ? std::min<std::size_t>(rows, 2) : rows); ++i)
     text += ",semi_axis" + std::to_string(i + 1) + "_" + to_string(form.reading);
   text += "\n";
@@ -86,7 +107,13 @@ std::string ellipse_csv(const TipMass& tip, const GatheredPoses& poses, const El
     text += format_exact(point.x()) + "," + format_exact(point.y()) + "," + format_exact(point.z());
     for (Eigen::Index i = 0; i < Eigen::Index(rows); ++i)
       for (Eigen::Index j = i; j < Eigen::Index(rows); ++j) text += "," + format_exact(mass.Lambda_inv(i, j));
-    for (const MassAxis& axis : mass_axes(mass)) text += "," + number_or_inf(axis.mass);
+    for (Eigen::Index i = 0; i < Eigen::Index(rows); ++i)
+      for (Eigen::Index j = i; j < Eigen::Index(rows); ++j) text += "," + (mass.Lambda ? format_exact((*mass.Lambda)(i, j)) : "nan");
+    for (const std::optional<double>& along : masses_along(mass)) text += "," + number_or_inf(along);
+    for (const MassAxis& axis : mass_axes(mass)) {
+      text += "," + number_or_inf(axis.mass);
+      for (const Eigen::Vector3d& along : basis.directions) text += "," + format_exact(axis.direction.dot(along));
+    }
     for (const MassAxis& axis : drawn_axes(chain, ws, poses.q[k], mass, form))
       text += "," + number_or_inf(semi_axis(axis, form.reading));
     text += "\n";

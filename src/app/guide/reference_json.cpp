@@ -92,7 +92,7 @@ const std::vector<JsonReport>& json_reports() {
                                              {"rows", "of the table"}})},
       {"snapshot", with(kFiles, {{"pictures", "[{file, files, at, panels}], of models [{file, files, poses}]: the numbers of the states that are shown"}})},
       {"sheet", with(kFiles, {{"columns, lines", "of the page"}, {"cells", "[{scene, at, panels}]"}})},
-      {"ellipse", with(kFiles, {{"reading, shape, unit", "of the ellipses; not with --joint-space"}, {"poses", "[{t, q, point, Lambda_inv, Lambda, eigenvalues, semi_axes, ..}]"}})},
+      {"ellipse", with(kFiles, {{"reading, shape, unit", "of the ellipses; not with --joint-space"}, {"poses", "[{t, q, point, Lambda_inv, Lambda, mass_along, eigenvalues, semi_axes, ..}]; mass_along: 1 / Lambda_inv_ii, what a force along each axis moves"}})},
       {"chart", with(kFiles, {{"scene, machine", "what was measured where"},
                               {"reference, error, qd_scale", "what errors are measured by"},
                               {"choice", "that of `method: auto`"},

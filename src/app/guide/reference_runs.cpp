@@ -112,7 +112,9 @@ std::string outputs_page() {
          code_block("yaml", "video: {width: 1280, height: 720, fps: 50, preset: web, crf: 24}\n") +
          "\nBeside a film lies NAME.json, its audit, and NAME.txt, its words. The audit's `outputs` are its files, each with bytes, SHA-256\n"
          "and, of clips, `frames`, `fps`, `width`, `height` and `film_seconds` of its own. Those on top of the audit are of the first clip that\n"
-         "was asked for with -o and that the audit tells of; where that is a GIF or APNG, `drawn` has those of the frames that it was made of.\n\n"
+         "was asked for with -o and that the audit tells of; where that is a GIF or APNG, `drawn` has those of the frames that it was made of.\n"
+         "`chainreel check out/rr.mp4` holds all of them against their SHA-256, and the audit against what the film remembers: exit code 1\n"
+         "where anything was changed since.\n\n"
          "What a command does not overwrite without `--force`: files outside of a folder named `out`.\n\n" +
          code_block("sh", "chainreel render rr_free -o out/rr.webm -o out/rr.gif\n");
 }
