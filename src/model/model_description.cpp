@@ -97,7 +97,7 @@ namespace {
 void forget_lines(UrdfFile& file) {
   for (UrdfLink& link : file.links) {
     link.line = 0;
-    if (link.inertial) link.inertial->line = 0;
+    if (link.inertial) link.inertial->line = link.inertial->mass_line = 0;
     for (UrdfShape& shape : link.visuals) shape.line = 0;
     for (UrdfShape& shape : link.collisions) shape.line = 0;
   }
@@ -154,7 +154,7 @@ void add_origin(const UrdfOrigin& origin, Json& json) {
 
 Json json_of(const UrdfInertial& inertial) {
   const Eigen::Matrix3d& I = inertial.inertia;
-  Json json{{"line", inertial.line}, {"mass", inertial.mass}};
+  Json json{{"line", inertial.line}, {"mass_line", inertial.mass_line}, {"mass", inertial.mass}};
   add_origin(inertial.origin, json);
   json["inertia"] = {I(0, 0), I(0, 1), I(0, 2), I(1, 1), I(1, 2), I(2, 2)};
   return json;
@@ -233,6 +233,7 @@ int index_below(const Json& json, std::size_t count) {
 UrdfInertial inertial_of(const Json& json) {
   UrdfInertial inertial;
   inertial.line = json.at("line").get<int>();
+  inertial.mass_line = json.value("mass_line", inertial.line);  // which older records do not tell
   inertial.mass = json.at("mass").get<double>();
   inertial.origin = origin_of(json);
   const Eigen::Matrix<double, 6, 1> I = vector_of<6>(json.at("inertia"));

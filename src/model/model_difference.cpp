@@ -236,7 +236,7 @@ class ModelComparison {
                   link + "has no inertia any more, mass was " + format_shortest(before->mass) + " kg",
                   link_line);
     if (before->mass != after->mass)
-      tell(ModelChange::mass, link + "mass " + change_text(before->mass, after->mass, "kg"), after->line);
+      tell(ModelChange::mass, link + "mass " + change_text(before->mass, after->mass, "kg"), after->mass_line);
     if (before->origin.xyz != after->origin.xyz)
       tell(ModelChange::mass, link + "centre of mass " + move_words(before->origin.xyz, after->origin.xyz),
            after->line);

@@ -141,10 +141,11 @@ class Checker {
 
   UrdfInertial check_inertial(XMLElement& element, const std::string& owner) {
     UrdfInertial inertial;
-    inertial.line = element.GetLineNum();
+    inertial.line = inertial.mass_line = element.GetLineNum();
     inertial.origin = numbers_.origin(element, owner);
 
     if (XMLElement* mass = only_child(element, "mass", owner)) {
+      inertial.mass_line = mass->GetLineNum();
       const auto value = numbers_.one(*mass, "value", owner, Need::required);
       if (value && *value < 0)
         problems_.add(mass->GetLineNum(), owner + " has a negative mass: no body has one");

@@ -54,7 +54,7 @@ struct UrdfInertial {
   UrdfOrigin origin;
   double mass = 0;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about the centre of mass, in the axes of `origin`
-  int line = 0;
+  int line = 0, mass_line = 0;
 };
 
 struct UrdfLink {

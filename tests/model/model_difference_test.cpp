@@ -67,6 +67,8 @@ std::vector<std::string> after(const std::string& from, const std::string& to, b
 TEST(ModelDifference, TellsMassesAndInertias) {
   EXPECT_THAT(after("<mass value=\"3\"/>", "<mass value=\"3.03\"/>"),
               ElementsAre("link forearm: mass 3 -> 3.03 kg, URDF line 30"));
+  EXPECT_THAT(after("<mass value=\"3\"/>", "\n<mass value=\"3.03\"/>"), ElementsAre("link forearm: mass 3 -> 3.03 kg, URDF line 31"))
+      << "the mass's own line, where it is not that of <inertial>";
   EXPECT_THAT(
       after("<origin xyz=\"0 0 0.17\"/><mass", "<origin xyz=\"0 0.003 0.174\"/><mass"),
       ElementsAre(

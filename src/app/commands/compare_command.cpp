@@ -128,7 +128,7 @@ void add_compare_command(CommandLine& app) {
       "for the pairs that are unequal");
   command->add_flag("--side-by-side", options->side_by_side,
                     "in that picture: before, after and the difference");
-  command->add_option("--strip", options->strip, "of films: a .png of the error over time, a bar a frame");
+  command->add_option("--strip", options->strip, "of films: a .png of the mean error over time, a bar a frame, dark where it is beyond the tolerance");
   command
       ->add_option("--tolerance", options->tolerance.error,
                    "perceptual error (FLIP, 0 to 1) beyond which a pixel counts as different")

@@ -38,6 +38,7 @@ struct FilmDifference {
   std::optional<int> other_time;  // the first frame that is shown at another time
   double times[2];                // of that frame, s
   std::vector<double> errors;     // the worst of each frame that both have; 1 where sizes differ
+  std::vector<double> means;      // over each whole frame
   std::vector<bool> failed;       // and whether it is beyond the tolerance
 };
 
@@ -69,6 +70,7 @@ void add_pair(FramePair& pair, const CompareOptions& options, FilmDifference& fo
   const ImageDifference& difference = pair.difference;
   const bool fails = !difference.passes(options.tolerance);
   found.errors.push_back(difference.same_size ? difference.worst : 1);
+  found.means.push_back(difference.same_size ? difference.mean : 1);
   found.failed.push_back(fails);
   if (difference.is_equal()) return;
   ++found.unequal;
@@ -113,6 +115,7 @@ void count_frames(FilmReader& reader, const CompareOptions& options, FilmDiffere
     throw_if_interrupted();
     ticker.tell(std::min(1.0, found.frames[0] / expected));
     found.errors.push_back(0);
+    found.means.push_back(0);
     found.failed.push_back(false);
   }
   found.frames[1] = found.frames[0];
@@ -137,29 +140,28 @@ FilmDifference difference_of(const CompareOptions& options) {
   return found;
 }
 
-// Errors over time, from left to right; of films with more frames than columns, each column its worst.
-Image strip_of(const FilmDifference& found, double tolerance) {
+// Mean errors over time, from left to right, on a scale of their own: single pixels are as far off in nearly every frame of two
+// motions. Of films with more frames than columns each column is its worst.
+Image strip_of(const FilmDifference& found) {
   constexpr int kWidest = 1600, kHeight = 80;
   const int count = int(found.errors.size()), wide = std::max(1, std::min(8, kWidest / count));
   const int columns = std::min(count, kWidest);
   Image strip(columns * wide, kHeight);
-  const auto row_of = [&](double error) { return kHeight - 1 - int(std::lround(error * (kHeight - 1))); };
+  const double largest = *std::max_element(found.means.begin(), found.means.end());
+  const auto row_of = [&](double mean) { return kHeight - 1 - int(std::lround(mean / largest * (kHeight - 1))); };
   for (int column = 0; column < columns; ++column) {
     const std::size_t from = std::size_t(column) * found.errors.size() / std::size_t(columns);
     const std::size_t to = std::size_t(column + 1) * found.errors.size() / std::size_t(columns);
     double worst = 0;
     bool fails = false;
     for (std::size_t i = from; i < to; ++i) {
-      worst = std::max(worst, found.errors[i]);
+      worst = std::max(worst, found.means[i]);
       fails = fails || found.failed[i];
     }
     for (int y = 0; y < kHeight; ++y)
       for (int x = column * wide; x < (column + 1) * wide; ++x) {
-        const bool bar = worst > 0 && y >= row_of(worst), line = y == row_of(tolerance);
-        const Pixel color = bar && fails ? Pixel{183, 55, 121}
-                            : bar        ? Pixel{150, 200, 235}
-                            : line       ? Pixel{120, 120, 120}
-                                         : Pixel{245, 245, 245};
+        const bool bar = worst > 0 && y >= row_of(worst);
+        const Pixel color = bar && fails ? Pixel{183, 55, 121} : bar ? Pixel{150, 200, 235} : Pixel{245, 245, 245};
         std::uint8_t* p =
             &strip.bgra[std::size_t(4) * (std::size_t(y) * std::size_t(strip.width) + std::size_t(x))];
         p[0] = color.b;
@@ -212,7 +214,8 @@ Comparison compare_films(const CompareOptions& options) {
                    {"seconds", {found.seconds[0], found.seconds[1]}},
                    {"unequal_frames", found.unequal},
                    {"frames_beyond", found.beyond},
-                   {"errors", found.errors}};
+                   {"errors", found.errors},
+                   {"mean_errors", found.means}};
   if (found.first)
     result.report.update({{"first", report_of(*found.first)}, {"worst", report_of(*found.worst)}});
   if (found.other_time)
@@ -234,7 +237,7 @@ Comparison compare_films(const CompareOptions& options) {
   }
   if (!options.strip.empty()) {
     OutputFile file(options.strip, options.common.force);
-    write_png(file.temporary_path(), strip_of(found, options.tolerance.error));
+    write_png(file.temporary_path(), strip_of(found));
     file.commit();
   }
   return result;

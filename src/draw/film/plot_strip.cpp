@@ -11,7 +11,7 @@ constexpr double kPale = 0.45;   // of a curve that is still to come
 constexpr double kShareBelow = 0.30;  // of the page's height
 constexpr double kMostLabels = 0.4;  // of a plot's width may be taken by the names of its curves
 constexpr double kMostOwnLabels = 0.6;  // ... of the curves of one run, which are named nowhere else
-constexpr double kShareStacked = 0.22, kMostStacked = 0.50;  // of the height: of each plot, and of all
+constexpr double kShareStacked = 0.26, kMostStacked = 0.55;  // of the height: of each plot, and of all
 constexpr double kLongestFrame = 0.05;  // s
 constexpr double kPlotLabelGap = 0.012;
 constexpr double kLeastSpan = 1e-9;  // of the size of the numbers: less is a constant
