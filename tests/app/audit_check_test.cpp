@@ -71,7 +71,14 @@ TEST_F(AuditCheckTest, AnAuditThatSaysSomethingElseThanTheFilmIsSeen) {
   folder_.write("a.json", audit.dump());
   const ProgramResult bad = check(film_);
   EXPECT_EQ(bad.status, 1);
-  EXPECT_THAT(bad.out, HasSubstr("duration are not what the film remembers"));
+  EXPECT_THAT(bad.out, HasSubstr("duration is not what the film remembers"));
+  audit["duration"] = 0.2;
+  audit["tolerance"] = 0.5;
+  folder_.write("a.json", audit.dump());
+  EXPECT_THAT(check(film_).out, HasSubstr("tolerance is not what the film remembers")) << "of a method that has none";
+  audit.erase("method");
+  folder_.write("a.json", audit.dump());
+  EXPECT_THAT(check(film_).out, HasSubstr("method, tolerance are not"));
   audit["outputs"] = 3;
   EXPECT_EQ(check(folder_.write("a.json", audit.dump())).status, 3);
   EXPECT_EQ(check(folder_.write("a.json", "{}")).status, 3);

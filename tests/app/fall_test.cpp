@@ -46,6 +46,7 @@ TEST(FallCommand, SaysThatHeStandsOnlyWhileThePressureIsWithinTheFoot) {
     if (left) {
       EXPECT_NEAR(row["tips_at"].get<double>(), row["first"][0].get<double>(), 1e-9);
       EXPECT_EQ(row["tips_over"], "toe");
+      EXPECT_EQ(row["falls"], down ? Json("forwards") : Json(nullptr));
     }
     standing += !left && !down, held += left && !down;
   }
@@ -81,7 +82,7 @@ TEST(FallCommand, SaysWhatHoldsFromTheStart) {
   EXPECT_THAT(result.out, HasSubstr("from the start"));
   EXPECT_THAT(result.out, testing::Not(HasSubstr("never   tips")));
   const std::string text = read_whole_file(csv);
-  EXPECT_THAT(text, HasSubstr(",stands,tips_at,tips_over,takes_off_at\n"));
+  EXPECT_THAT(text, HasSubstr(",stands,tips_at [s],tips_over,falls,takes_off_at [s]\n"));
   EXPECT_THAT(text, HasSubstr(",false,0,toe,"));
 
   const std::string scene = folder.write("falling.yaml", kFalling);
@@ -122,7 +123,7 @@ TEST(FallCommand, SaysWhoTakesOffAndWhen) {
   const std::string csv = folder.file("hop.csv");
   const ProgramResult text = run_program({"fall", scene, "-o", csv});
   EXPECT_THAT(text.out, HasSubstr("takes off at 0.5000, not down within 1 s"));
-  EXPECT_THAT(read_whole_file(csv), HasSubstr(",false,,,0.5"));
+  EXPECT_THAT(read_whole_file(csv), HasSubstr(",false,,,,0.5"));
 }
 
 TEST(FallCommand, GivesTheClosedFormInJsonAndCsv) {

@@ -510,6 +510,17 @@ TEST(Outputs, CaptionsStandForAsLongAsOneReadsThem) {
             "1\n00:00:00,500 --> 00:00:01,000\na\nb\n\n2\n00:00:01,000 --> 00:00:01,600\nc\n\n3\n00:00:01,600 --> 00:00:03,000\nd\n\n");
 }
 
+// Nothing is told before it happens, and words that the film stands still for stand as long as it does.
+TEST(Outputs, CaptionsFollowTheFilm) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(render({"--set", "duration=4", "--set", "slow_motion=none", "--set", "events=[{when: t - 0.5, name: a}, {when: t - 0.7, name: b}]",
+                    "--set", "annotate=[{at: 1.5s, text: held, point: gripper, hold: 3s}]", "-o", folder.file("a.gif")})
+                .status,
+            0);
+  EXPECT_EQ(read_whole_file(folder.file("a.srt")),
+            "1\n00:00:00,500 --> 00:00:00,700\na\n\n2\n00:00:00,700 --> 00:00:01,500\na\nb\n\n3\n00:00:01,500 --> 00:00:04,500\nheld\n\n");
+}
+
 TEST(Outputs, EventsAreCaptions) {
   const TemporaryFolder folder;
   const ProgramResult result =

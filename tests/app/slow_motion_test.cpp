@@ -115,7 +115,7 @@ TEST_F(SlowMotionFilm, FollowsAnEventThatOnlyTheRunKnows) {
   EXPECT_EQ(plain.at("slow_motion"), Json::array());
   // Captions at the times of the film: the event lies half a second behind the change; what comes behind the
   // instant of the last frame is told before the end, here with what is being read then.
-  EXPECT_THAT(text("srt"), HasSubstr("1\n00:00:00,769 --> 00:00:01,400\nhalf\nlate\n"));
+  EXPECT_THAT(text("srt"), HasSubstr("1\n00:00:00,769 --> 00:00:00,900\nhalf\n\n2\n00:00:00,900 --> 00:00:01,400\nhalf\nlate\n"));
   EXPECT_THAT(text("txt"), HasSubstr("not at its own speed: t = 0.269275 s to 0.369275 s at 0.1\u00D7"));
   EXPECT_THAT(text("txt"), HasSubstr("84 frames"));
 }
@@ -203,7 +203,7 @@ TEST_F(SlowMotionFilm, HoldsAndSmallClipsGoByTheTimeOfTheFilm) {
   EXPECT_NEAR(audit["slow_motion"][0]["film_from"].get<double>(), 0.3, 1e-12);
   EXPECT_NEAR(audit["slow_motion"][0]["film_until"].get<double>(), 0.7, 1e-12);
   // `late` at 0.495 s of the motion is 0.995 s of the film, which leaves too little time to read it alone.
-  EXPECT_THAT(text("srt"), HasSubstr("00:00:00,819 --> 00:00:01,400\nhalf\nlate\n"));
+  EXPECT_THAT(text("srt"), HasSubstr("00:00:00,819 --> 00:00:00,900\nhalf\n\n2\n00:00:00,900 --> 00:00:01,400\nhalf\nlate\n"));
 }
 
 TEST_F(SlowMotionFilm, TheTableOfAFilmEndsWhereThatOfARunDoes) {

@@ -255,11 +255,24 @@ TEST_F(Suites, VariantsThatSayNothingAreRefusedWithTheirLine) {
   EXPECT_THAT(error(head + "  a: {thme: dark}\n"), HasSubstr("theme"));
   EXPECT_THAT(error(head + "  a: {parameters.F: 20}\n"), AllOf(HasSubstr("snapshots.yaml:4"), HasSubstr("F")));
   EXPECT_THAT(error(head + "  a: {start: {q: [0, 0, 0]}}\n"), HasSubstr("start.q"));
-  EXPECT_THAT(error(head + "  a: {duration: 2}\n  A: {duration: 1}\ntheme: [dark]\n"), HasSubstr("two ways"));
   EXPECT_THAT(error("scene: swing.yaml\ntheme: []\n"), HasSubstr("empty list"));
   EXPECT_THAT(error("scene: swing.yaml\nvariants: 3\n"), HasSubstr("must hold names"));
-  EXPECT_THAT(error("model: arm.urdf\nvariants: {a: {base: floating}}\n"), HasSubstr("says nothing of how a model is drawn"));
-  EXPECT_THAT(error("model: arm.urdf\nvariants: {a: {duration: 1}}\n"), HasSubstr("says nothing of how a model is drawn"));
+  EXPECT_THAT(error("model: arm.urdf\nvariants: {a: {base: floating}}\n"), HasSubstr("which no source of the suite has"));
+  EXPECT_THAT(error("model: arm.urdf\nvariants: {a: {duration: 1}}\n"), HasSubstr("which no source of the suite has"));
+}
+
+// A variant is one of those sources that have what it sets; others are shown as they are, and all in each theme.
+TEST_F(Suites, VariantsAreOfTheSourcesThatTheyAreAbout) {
+  folder_.write("push.yaml", "model: arm.urdf\nparameters: {F: 1}\ntorque: [F, 0, 0]\nduration: 2\n");
+  const Suite suite = read(
+      "model: arm.urdf\nposes: {rest: {}}\nscene: [swing.yaml, push.yaml]\nat: 1s\ntheme: [light, dark]\n"
+      "variants: {weak: {parameters.F: 5}, night: {parameters.F: 9, theme: dark}}\n");
+  std::vector<std::string> names;
+  for (const SuitePicture& picture : suite.pictures) names.push_back(picture.name);
+  EXPECT_THAT(names, ElementsAre("arm_rest_light", "arm_rest_dark", "swing_1s_light", "swing_1s_dark", "push_1s_weak_light", "push_1s_weak_dark",
+                                 "push_1s_night"));
+  EXPECT_THAT(suite.pictures[5].overrides, ElementsAre("theme=dark", "parameters.F=5"));
+  EXPECT_THAT(suite.pictures[6].overrides, ElementsAre("parameters.F=9", "theme=dark"));
 }
 
 TEST_F(Suites, AllProblemsAreToldAtOnce) {

@@ -66,10 +66,10 @@ constexpr double kTall = 2;           // of one that is tried: its margins are t
 constexpr double kWidestTried = 420;  // mm: a sheet of A3
 
 // How tall a figure of `panels` panels is to be on paper, mm: so many across as columns of a paper hold, each with its caption.
-double paper_height(double width, int panels, bool is_one_picture) {
+double paper_height(double width, int panels, bool is_one_picture, int fewer_across = 0) {
   constexpr double kShape = 0.75, kCaption = 6, kMatrix = 17, kFoot = 16;
   if (is_one_picture) return kShape * width + kFoot;
-  const int across = panels == 1 ? 1 : panels <= 4 ? 2 : panels <= 9 ? 3 : 4, rows = (panels + across - 1) / across;
+  const int usual = panels == 1 ? 1 : panels <= 4 ? 2 : panels <= 9 ? 3 : 4, across = std::max(1, usual - fewer_across), rows = (panels + across - 1) / across;
   return rows * (kShape * width / across + (panels < 5 ? kMatrix : kCaption)) + kFoot;
 }
 
@@ -84,6 +84,21 @@ void set_on_paper(PoseFigureOptions& figure, const EllipseOptions& options, int 
            paper_page(options.paper, paper_height(options.paper.width_mm, figure.layout == "row" ? 1 : poses,
                                                   options.sources.field || figure.layout == "superposed")),
            figure.text_scale);
+}
+
+// Fewer panels across on a page that is higher, where their captions are cut otherwise; a height that was asked for stays.
+void give_room_for_captions(EllipseJob& job, const EllipseOptions& options, const TipMass& tip, const Fonts& fonts) {
+  PoseFigureOptions& figure = job.figure;
+  if (options.paper.height_mm != PaperOptions::kNotGiven || figure.layout != "grid" || figure.cell > 0) return;
+  constexpr int kMostAcross = 4;
+  const double usual = job.motion.text_scale;
+  for (int fewer = 0; fewer < kMostAcross; ++fewer) {
+    PoseFigureOptions tried = figure;
+    set_page(tried, paper_page(options.paper, paper_height(options.paper.width_mm, int(job.motion.poses.q.size()), false, fewer)), usual);
+    if (!names_every_pose(tip, job.motion.poses.q, tried, fonts)) continue;
+    figure = tried;
+    return;
+  }
 }
 
 // A page of that width which is as high as the squares of a joint-space figure need; nothing where no height is enough.
@@ -267,6 +282,7 @@ void run_ellipse(const EllipseOptions& options) {
   const Fonts fonts(motion.families);
   const bool is_drawn = !std::all_of(outputs.begin(), outputs.end(), is_table_path);
   if (options.paper.is_given() && options.joint_space && is_drawn) set_joint_space_on_paper(job, options, joints, fonts);
+  if (options.paper.is_given() && !options.joint_space && is_drawn) give_room_for_captions(job, options, tip, fonts);
   ClipMemory memory =
       memory_of_figure(*options.command, figure.title, is_model_file(options.model) ? options.model : "", poses.q);
   if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;

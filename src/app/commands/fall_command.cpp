@@ -43,8 +43,13 @@ std::string tips_over(const FallRow& row) {
   return !row.tips ? "" : row.over_toe ? "toe" : "heel";
 }
 
+// On which side of the foot it lies.
+std::string falls_to(const FallRow& row) {
+  return !row.lies_before ? "" : *row.lies_before ? "forwards" : "backwards";
+}
+
 std::string verdict(const FallTable& table, const FallRow& row) {
-  if (row.fall_time) return format_fixed(*row.fall_time, 4);
+  if (row.fall_time) return format_fixed(*row.fall_time, 4) + (row.lies_before ? " " + falls_to(row) : "");
   if (has_failed(row)) return row.trouble;
   if (row.status == RunStatus::stopped) return "stopped: " + row.trouble;
   for (std::size_t i = 0; i < table.events.size(); ++i)
@@ -116,6 +121,7 @@ Json report_of(const FallOptions& options, const FallTable& table) {
     one["stands"] = table.has_foot ? Json(stands(row)) : Json(nullptr);
     one["tips_at"] = or_null(row.tips);
     one["tips_over"] = row.tips ? Json(tips_over(row)) : Json(nullptr);
+    one["falls"] = row.lies_before ? Json(falls_to(row)) : Json(nullptr);
     one["takes_off_at"] = or_null(row.takes_off);
     one["trouble"] = or_null(row.trouble);
     json["rows"].push_back(one);
@@ -129,13 +135,13 @@ std::string csv_of(const FallOptions& options, const FallTable& table) {
   const bool swept = !table.sweep.key.empty();
   std::string text = csv_facts(options.scene) + (set_words(options).empty() ? "" : "# set: " + set_words(options) + "\n") + (swept ? table.sweep.key + "," : "") + "fall_time [s],status,end_time [s]";
   for (const EventEntry& event : table.events) text += "," + csv_words(event.title() + " [s]");
-  if (table.has_foot) text += ",stands,tips_at,tips_over,takes_off_at";
+  if (table.has_foot) text += ",stands,tips_at [s],tips_over,falls,takes_off_at [s]";
   text += "\n";
   for (const FallRow& row : table.rows) {
     if (swept) text += row.value + ",";
     text += field(row.fall_time) + "," + to_string(row.status) + "," + format_shortest(row.end_time);
     for (const std::optional<double>& time : row.first) text += "," + field(time);
-    if (table.has_foot) text += std::string(stands(row) ? ",true," : ",false,") + field(row.tips) + "," + tips_over(row) + "," + field(row.takes_off);
+    if (table.has_foot) text += std::string(stands(row) ? ",true," : ",false,") + field(row.tips) + "," + tips_over(row) + "," + falls_to(row) + "," + field(row.takes_off);
     text += "\n";
   }
   return text;

@@ -380,8 +380,8 @@ void add_sweep_command(CommandLine& app) {
                           "a .csv, .json or .npz table with a row a run, or a FOLDER/ with files a run, or both (default out/NAME_sweep.csv)");
   command->add_repeatable("--each", options->each, "what a run becomes in the folder: mp4 (default), png, svg, gif, csv, ..; repeatable");
   command->add_option("--peaks", options->peaks,
-                      "qd,tau,energy_error,..: of these the largest of each run, with its sign, as columns of the table; names as of "
-                      "`simulate --columns`");
+                      "qd,tau,energy_error,..: of these the largest of each run, with its sign (the energy's error without it), as columns of the "
+                      "table; names as of `simulate --columns`");
   command->add_option("--at", options->at, "instant that pictures show, in seconds (default 0)");
   command->add_option("--shard", options->shard, "an equal share of the runs, like 3/8; slurm: that of the array job's task");
   command->add_option("--jobs", options->jobs, "runs beside one another (default: all cores)").range(1, 256);

@@ -118,8 +118,8 @@ class RowMaker {
       require_possible(simulation);
       const auto stop = [](double) { return interrupted(); };
       if (job_.peaks.empty()) return row + row_of(scene, simulate(simulation, std::vector<double>{scene.duration}, stop), {});
-      const Trajectory whole = simulate_for_peaks(simulation, stop);
-      return row + row_of(scene, whole, peaks_of(simulation, whole, job_.peaks));
+      const PeaksOfRun found = simulate_for_peaks(simulation, job_.peaks, stop);
+      return row + row_of(scene, found.run, found.peaks);
     } catch (const Error& error) {
       throw_if_interrupted();
       return row + failed_row(error.problems().front().message);

@@ -111,7 +111,7 @@ const std::vector<JsonReport>& json_reports() {
                              {"set", "what --set says of it"},
                              {"key", "of --sweep; or null"},
                              {"events", "[{name, kind, when}]"},
-                             {"rows", "[{value, status, end_time, fall_time, ended_by, first, stands, tips_at, tips_over, takes_off_at, trouble}]"}})},
+                             {"rows", "[{value, status, end_time, fall_time, ended_by, first, stands, tips_at, tips_over, falls, takes_off_at, trouble}]"}})},
       {"dynamics", kState},
       {"inverse", with(kFiles, {{"rows", "of the table"}, {"constraints", "rows and errors of a scene's constraints; or null"}})},
       {"equations", with(kFiles, {{"model, coordinates", "what it is about"},

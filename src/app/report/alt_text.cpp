@@ -14,11 +14,13 @@ namespace chainreel {
 namespace {
 
 constexpr double kCaptionSeconds = 2;  // at most; the next event ends it
-constexpr double kLeastCaption = 0.5;  // s that one stands, so that it can be read
+constexpr double kLeastCaption = 0.5;  // s that words stand, so that they can be read, beside those that come meanwhile
+constexpr double kSameInstant = 0.05;  // s of the film: what comes so close together comes at once
 
 struct Moment {
   double t = 0;  // of the run, or of the film, s
   std::string text;
+  double stay = kCaptionSeconds;  // s of the film
 };
 
 std::string vector_text(const std::vector<double>& values) {
@@ -73,7 +75,7 @@ void add_words(std::vector<Moment>& moments, const FilmReport& report) {
     if (!at || *at > first.trajectory.end_time) continue;
     std::string words = entry.text;
     std::erase(words, '$');
-    moments.push_back({*at, words});
+    moments.push_back({*at, words, std::max(entry.hold, kCaptionSeconds)});
   }
 }
 
@@ -196,16 +198,21 @@ std::string captions(const FilmReport& report) {
   for (Moment& moment : moments) moment.t = std::min(start + report.clock.film_time(moment.t), latest);
   std::string text;
   int number = 0;
-  for (std::size_t i = 0; i < moments.size(); ++i) {
-    // What follows sooner than one can read shares the caption.
+  for (std::size_t i = 0, next = 0; i < moments.size(); i = next) {
+    const double begin = moments[i].t;
+    for (; next < moments.size() && moments[next].t < begin + kSameInstant; ++next) moments[next].t = begin;
+    // What came just before stands on until it can have been read, and so does what is held, nothing before its time.
     std::string words;
-    std::size_t next = i;
-    for (; next < moments.size() && moments[next].t < moments[i].t + kLeastCaption; ++next) words += moments[next].text + "\n";
-    double end = std::min(moments[i].t + kCaptionSeconds, film_end);
+    double end = begin;
+    for (std::size_t k = 0; k < next; ++k) {
+      const bool is_held = moments[k].stay > kCaptionSeconds && moments[k].t + moments[k].stay > begin + kSameInstant;
+      if (k < i && !is_held && !(moments[k].t + kLeastCaption > begin)) continue;
+      words += moments[k].text + "\n";
+      end = std::max(end, moments[k].t + moments[k].stay);
+    }
+    end = std::min(end, film_end);
     if (next < moments.size()) end = std::min(end, moments[next].t);
-    text += std::to_string(++number) + "\n" + srt_time(moments[i].t) + " --> " + srt_time(end) + "\n" + words +
-            "\n";
-    i = next - 1;
+    text += std::to_string(++number) + "\n" + srt_time(begin) + " --> " + srt_time(end) + "\n" + words + "\n";
   }
   return text;
 }

@@ -43,7 +43,11 @@ std::vector<std::string> contradictions(const std::string& path, const Json& aud
   try {
     const Json remembered = recall(path).audit;
     for (const auto& [key, value] : remembered.items())
-      if (!own.contains(key) && audit.contains(key) && audit[key] != value) keys.push_back(key);
+      if (!own.contains(key) && (!audit.contains(key) || audit[key] != value)) keys.push_back(key);
+    // Of the rest the audit has what says nothing, and what is known behind the last frame alone.
+    static const std::set<std::string> later{"seconds", kAuditedFiles, kSidecarHashes, kDrawnFrames, "held_frames"};
+    for (const auto& [key, value] : audit.items())
+      if (!own.contains(key) && !later.contains(key) && !remembered.contains(key) && !value.empty()) keys.push_back(key);
   } catch (const Error&) {
     // One of a kind that remembers nothing, or that no longer can be read: its bytes say so.
   }
@@ -100,7 +104,7 @@ std::vector<std::string> words_of(const AuditCheck& check) {
                     (file.state == AuditedState::changed ? ": its SHA-256 is " + file.sha256 + ", the audit says " + file.expected
                                                          : ", SHA-256 " + file.expected));
   if (!check.contradicted.empty())
-    lines.push_back("CHANGED  " + check.audit + ": " + joined(check.contradicted) + " are not what the film remembers");
+    lines.push_back("CHANGED  " + check.audit + ": " + joined(check.contradicted) + (check.contradicted.size() == 1 ? " is" : " are") + " not what the film remembers");
   return lines;
 }
 

@@ -211,16 +211,19 @@ bool lay_out(Panels& panels, const Rect& area, int across, const std::vector<Pos
   return true;
 }
 
+bool has_cut_captions(const Panels& panels) {
+  return std::any_of(panels.words.notations.begin(), panels.words.notations.end(),
+                     [](const std::string& words) { return words.find("\u2026") != std::string::npos; });
+}
+
 // How good an arrangement is: what is drawn is large, no cell is empty, captions are whole, and of many panels each is mostly picture.
 double merit(const Panels& panels) {
   constexpr double kWithHole = 0.75, kCutCaption = 0.5;
   const auto in_top_row = std::count_if(panels.places.begin(), panels.places.end(), [&](const Rect& r) { return r.y1 == panels.places[0].y1; });
   const bool has_hole = panels.places.size() % std::size_t(in_top_row) != 0;
-  const bool is_cut = std::any_of(panels.words.notations.begin(), panels.words.notations.end(),
-                                  [](const std::string& words) { return words.find("\u2026") != std::string::npos; });
   const bool is_picture =
       panels.lines.empty() || panels.scene(0).height() >= kLeastPicture * panels.places[0].height();
-  return (is_picture ? 1 : 0.1) * (has_hole ? kWithHole : 1) * (is_cut ? kCutCaption : 1) * panels.camera.scale;
+  return (is_picture ? 1 : 0.1) * (has_hole ? kWithHole : 1) * (has_cut_captions(panels) ? kCutCaption : 1) * panels.camera.scale;
 }
 
 }  // namespace
@@ -292,14 +295,11 @@ Sheet sheet_of(const Chain& chain, const PoseFigureOptions& options, const Ellip
                        fonts);
 }
 
-Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& configurations,
-                            const PoseFigureOptions& options, const Fonts& fonts) {
-  const Chain& chain = mass.chain();
-  if (configurations.empty()) throw Error(ExitCode::usage, "a figure needs at least one pose");
-  Workspace ws(chain);
-  const std::vector<Pose> poses = poses_of(mass, configurations, options, ws);
-  if (options.cell > 0 || options.layout == "superposed")
-    return draw_superposed(chain, poses, options, fonts);
+namespace {
+
+// The best of all arrangements that there are; nothing where none has room.
+std::optional<Panels> best_panels(const Chain& chain, const std::vector<Pose>& poses, const PoseFigureOptions& options, const Fonts& fonts,
+                                  Workspace& ws) {
   // The scale follows from the size of the panels: they are laid out with the longest bar and label that may
   // come.
   const Rect area = sheet_of(chain, options, {0.005, kLongestBar, options.reading}, fonts).scene;
@@ -309,6 +309,27 @@ Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<d
     if (lay_out(panels, area, across, poses, ws) && (!best || merit(panels) > merit(*best)))
       best.emplace(std::move(panels));
   }
+  return best;
+}
+
+}  // namespace
+
+bool names_every_pose(const TipMass& mass, const std::vector<std::vector<double>>& configurations, const PoseFigureOptions& options,
+                      const Fonts& fonts) {
+  Workspace ws(mass.chain());
+  const std::optional<Panels> best = best_panels(mass.chain(), poses_of(mass, configurations, options, ws), options, fonts, ws);
+  return best && !has_cut_captions(*best);
+}
+
+Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& configurations,
+                            const PoseFigureOptions& options, const Fonts& fonts) {
+  const Chain& chain = mass.chain();
+  if (configurations.empty()) throw Error(ExitCode::usage, "a figure needs at least one pose");
+  Workspace ws(chain);
+  const std::vector<Pose> poses = poses_of(mass, configurations, options, ws);
+  if (options.cell > 0 || options.layout == "superposed")
+    return draw_superposed(chain, poses, options, fonts);
+  const std::optional<Panels> best = best_panels(chain, poses, options, fonts, ws);
   if (!best)
     throw Error(ExitCode::usage,
                 "too many poses for one page: draw several figures, or take --layout superposed");

@@ -57,6 +57,9 @@ bool leaves_page(const Chain& chain, const std::vector<double>& q, const PoseFig
 // One panel a pose, all at the same scale: the chain, its effective-mass ellipse, and below them the pose and the
 // numbers of Lambda, of five poses and more on one line; at singular poses an open band and the direction of infinite mass. Superposed: every chain as an
 // onion skin of 25 %, every ellipse at full strength. A field: the chain where its ellipse is roundest alone.
+// Whether that figure has each pose's numbers below it, all of them.
+bool names_every_pose(const TipMass& mass, const std::vector<std::vector<double>>& poses, const PoseFigureOptions& options,
+                      const Fonts& fonts);
 Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& poses,
                             const PoseFigureOptions& options, const Fonts& fonts);
 

@@ -66,6 +66,13 @@ void find_tipping(FallRow& row, const Simulation& simulation, const Foot& foot, 
   }
 }
 
+// By the centre of mass, under which the ground would bear it if it rested there.
+bool lies_on_the_toes_side(const Chain& chain, const Foot& foot, ConstVec q) {
+  Workspace ws(chain);
+  const std::vector<double> at_rest(std::size_t(chain.nv), 0.0);
+  return ground_load(chain, ws, ground_axes(chain), foot.height, q, at_rest, at_rest).cop > 0.5 * (foot.heel + foot.toe);
+}
+
 // `stop` is asked with the part of the run that is done.
 FallRow run_row(Scene scene, const StopRequest& stop) {
   const std::size_t events = scene.events.size();
@@ -82,6 +89,7 @@ FallRow run_row(Scene scene, const StopRequest& stop) {
   row.trouble = run.trouble;
   row.first.resize(scene.events.size());
   if (scene.foot) find_tipping(row, simulation, *scene.foot, run, int(events));
+  if (scene.foot && row.fall_time) row.lies_before = lies_on_the_toes_side(simulation.chain, *scene.foot, run.q_at(run.size() - 1));
   for (int k = run.events.size() - 1; k >= 0; --k)
     row.first[std::size_t(run.events.event[std::size_t(k)])] = run.events.t[std::size_t(k)];
   for (const int event : run.events.from_start) row.first[std::size_t(event)] = 0;

@@ -34,6 +34,9 @@ struct FallRow {
   std::optional<double> tips;
   bool over_toe = false;
 
+  // Whether it lies on the toe's side of the foot when it has fallen, by its centre of mass; nothing where there is no foot or no fall.
+  std::optional<bool> lies_before;
+
   // When the ground would first have to pull at the robot, s: there it takes off, which the model's foot does not.
   std::optional<double> takes_off;
 };

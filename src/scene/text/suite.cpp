@@ -83,7 +83,8 @@ class SuiteReader {
     name_sources(sources_, suite_.file);
     read_poses();
     read_instants();
-    suite_.variants = read_variants(root_, document_, problems_);
+    variants_ = read_variants(root_, document_, problems_);
+    for (const auto* list : {&variants_.own, &variants_.otherwise}) suite_.variants.insert(suite_.variants.end(), list->begin(), list->end());
     read_look();
     read_suite_settings(root_, common_);
     PhysicsAlone physics = PhysicsAlone::fail;
@@ -296,8 +297,7 @@ class SuiteReader {
                          [&](const Source& source) { return source.is_model == model; });
     };
     if (!root_.has("model") && !root_.has("scene"))
-      problems_.add("the suite names nothing to show: write `model: my_robot.urdf` or `scene: swing.yaml`",
-                    {suite_.file});
+      problems_.add("the suite names nothing to show: write `model: my_robot.urdf` or `scene: swing.yaml`", {suite_.file});
     if (root_.has("poses") && !root_.has("model"))
       root_.problem_at("poses", "'poses' goes with `model:`; a scene takes `at: [0, 1.2s]`");
     if (root_.has("at") && !root_.has("scene"))
@@ -307,9 +307,10 @@ class SuiteReader {
   }
 
   void make_pictures() {
-    const std::vector<SuiteVariant> as_it_is(1);
+    std::set<std::string> shown;  // variants
     for (const Source& source : sources_) {
-      for (const SuiteVariant& variant : suite_.variants.empty() ? as_it_is : suite_.variants) {
+      for (const SuiteVariant& variant : variants_of(source)) {
+        shown.insert(variant.name);
         variant_ = &variant;
         if (source.is_model)
           make_poses(source);
@@ -317,10 +318,10 @@ class SuiteReader {
           make_instants(source);
       }
       if (suite_.pictures.size() > kMostPictures)
-        throw Error(ExitCode::limit,
-                    "makes more than " + std::to_string(kMostPictures) + " pictures: split it",
-                    {suite_.file});
+        throw Error(ExitCode::limit, "makes more than " + std::to_string(kMostPictures) + " pictures: split it", {suite_.file});
     }
+    for (const SuiteVariant& variant : variants_.own)
+      if (!shown.contains(variant.name) && problems_.empty()) problems_.add(words_of_idle(variant), variant.place);
     for (const Srdf& srdf : srdfs_)
       if (!srdf.is_used && problems_.empty())
         problems_.add(srdf.file.path + " is of the robot '" + srdf.file.robot +
@@ -350,8 +351,15 @@ class SuiteReader {
     return true;
   }
 
+  // Those that are about it.
+  std::vector<SuiteVariant> variants_of(const Source& source) {
+    std::vector<SuiteVariant> found;
+    for (const SuiteVariant& variant : variants_.own)
+      if (source.is_model ? is_about_models(variant) : is_about_scene(source.file, suite_.overrides, variant)) found.push_back(variant);
+    return found.empty() ? variants_.otherwise : found;
+  }
+
   void make_poses(const Source& source) try {
-    require_of_pictures(*variant_, problems_);
     ModelOptions options;
     options.floating_base = look_.base == RootLink::floating;
     options.massless = look_.massless;
@@ -359,7 +367,7 @@ class SuiteReader {
     options.end_effector = look_.end_effector;
     const UrdfFile file = read_urdf_file(source.file);
     const Chain chain = chain_of(file, options);
-    if (variant_->name.empty() || variant_ == &suite_.variants.front()) robots_.push_back(source.file + " is '" + file.name + "'");
+    if (robots_.empty() || !robots_.back().starts_with(source.file + " is ")) robots_.push_back(source.file + " is '" + file.name + "'");
     if (!root_.has("poses")) add(source, "", source.place).q = resting_pose(chain);
     for (std::size_t i = 0; i < poses_.size(); ++i) {
       if (!is_for(i, file.name)) continue;
@@ -373,7 +381,6 @@ class SuiteReader {
   void make_instants(const Source& source) try {
     // What is wrong with the suite's own keys is told already, and not again by each of its scenes.
     const Scene scene = read_scene(source.file, problems_.empty() ? with_variant(suite_.overrides, *variant_) : std::vector<std::string>{});
-    if (problems_.empty()) require_read_by(scene, *variant_);
     if (!root_.has("at")) add(source, "", source.place).telling = true;
     for (const auto& [asked, place] : instants_) {
       if (const std::string trouble = trouble_of_instant(asked, scene); !trouble.empty()) {
@@ -423,6 +430,7 @@ class SuiteReader {
   Suite suite_;
   Scene look_;  // what of a scene the suite sets
   std::vector<Source> sources_;
+  SuiteVariants variants_;
   const SuiteVariant* variant_ = nullptr;  // of the pictures that are being made
   std::vector<WrittenPose> poses_;
   std::vector<Srdf> srdfs_;

@@ -1,9 +1,11 @@
 #include "scene/text/suite_variants.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "scene/keys/keys.hpp"
 #include "scene/keys/own_keys.hpp"
+#include "scene/text/read_scene.hpp"
 #include "scene/text/unread.hpp"
 
 namespace chainreel {
@@ -50,24 +52,33 @@ std::vector<std::string> with_variant(std::vector<std::string> overrides, const 
   return overrides;
 }
 
-void require_of_pictures(const SuiteVariant& variant, ProblemList& problems) {
-  for (const SuiteOverride& one : variant.overrides) {
-    const std::string key = one.text.substr(0, one.text.find('='));
-    const SceneKey* row = find_key(key);
-    if (row == nullptr || row->of_model != OfModel::picture)
-      problems.add("'" + key + "' says nothing of how a model is drawn: variants of models may set " + joined(keys_of_pictures()), one.place);
-  }
+bool is_about_models(const SuiteVariant& variant) {
+  return std::all_of(variant.overrides.begin(), variant.overrides.end(), [](const SuiteOverride& one) {
+    const SceneKey* row = find_key(one.text.substr(0, one.text.find('=')));
+    return row != nullptr && row->of_model == OfModel::picture;
+  });
 }
 
-void require_read_by(const Scene& scene, const SuiteVariant& variant) {
-  for (const SuiteOverride& one : variant.overrides)
-    try {
-      require_read(one.text.substr(0, one.text.find('=')), scene, "variant " + variant.name);
-    } catch (const Error& error) {
-      std::vector<Problem> problems = error.problems();
-      for (Problem& problem : problems) problem.place = one.place;
-      throw Error(ExitCode::bad_input, std::move(problems));
-    }
+bool is_about_scene(const std::string& file, const std::vector<std::string>& overrides, const SuiteVariant& variant) {
+  std::optional<Scene> scene;
+  try {
+    scene = read_scene(file, with_variant(overrides, variant));
+  } catch (const Error&) {
+    return true;
+  }
+  try {
+    for (const SuiteOverride& one : variant.overrides) require_read(one.text.substr(0, one.text.find('=')), *scene, "");
+  } catch (const Error&) {
+    return false;
+  }
+  return true;
+}
+
+std::string words_of_idle(const SuiteVariant& variant) {
+  std::vector<std::string> keys;
+  for (const SuiteOverride& one : variant.overrides) keys.push_back(one.text.substr(0, one.text.find('=')));
+  return "variant '" + variant.name + "' sets " + joined(keys) +
+         ", which no source of the suite has: parameters must be read by an expression of a scene, and models take " + joined(keys_of_pictures());
 }
 
 Error as_said_in(const Suite& suite, const Error& error) {
@@ -89,27 +100,57 @@ bool lists_themes(const YamlDocument& document) {
   return document.root["theme"].IsDefined() && document.root["theme"].IsSequence();
 }
 
-std::vector<SuiteVariant> read_variants(Fields& root, const YamlDocument& document, ProblemList& problems) {
+namespace {
+
+std::vector<SuiteVariant> read_themes(Fields& root, const YamlDocument& document) {
+  std::vector<SuiteVariant> themes;
+  if (!lists_themes(document)) return themes;
+  for (const YAML::Node& theme : root.find("theme")) {
+    const std::string name = theme.IsScalar() ? theme.Scalar() : "";
+    const Place place = document.place_of(theme, "theme");
+    themes.push_back({name, {{"theme=" + name, place}}, place});
+  }
+  if (themes.empty()) root.problem_at("theme", "'theme' is an empty list: theme: [light, dark]");
+  return themes;
+}
+
+std::vector<SuiteVariant> read_own(Fields& root, const YamlDocument& document, ProblemList& problems) {
   std::vector<SuiteVariant> variants;
-  if (lists_themes(document)) {
-    for (const YAML::Node& theme : root.find("theme")) {
-      const std::string name = theme.IsScalar() ? theme.Scalar() : "";
-      variants.push_back({name, {{"theme=" + name, document.place_of(theme, "theme")}}, document.place_of(theme, "theme")});
-    }
-    if (root.has("variants")) root.problem_at("variants", "'variants' and a list of themes are two ways to say it: name the themes in the variants");
-    if (variants.empty()) root.problem_at("theme", "'theme' is an empty list: theme: [light, dark]");
-  } else if (root.has("variants")) {
-    const YAML::Node node = root.find("variants");
-    if (!node.IsMap() || node.size() == 0) {
-      root.problem_at("variants", std::string("'variants' must hold names, each with keys of scenes: ") + kExample);
-      return variants;
-    }
-    for (const auto& pair : node) {
-      const std::string& name = pair.first.Scalar();
-      variants.push_back(variant_of(document, name, pair.second, document.place_of(pair.first, "variants." + name), problems));
-    }
+  if (!root.has("variants")) return variants;
+  const YAML::Node node = root.find("variants");
+  if (!node.IsMap() || node.size() == 0) {
+    root.problem_at("variants", std::string("'variants' must hold names, each with keys of scenes: ") + kExample);
+    return variants;
+  }
+  for (const auto& pair : node) {
+    const std::string& name = pair.first.Scalar();
+    variants.push_back(variant_of(document, name, pair.second, document.place_of(pair.first, "variants." + name), problems));
   }
   return variants;
+}
+
+bool has_theme(const SuiteVariant& variant) {
+  return std::any_of(variant.overrides.begin(), variant.overrides.end(), [](const SuiteOverride& one) { return one.text.starts_with("theme="); });
+}
+
+// The variant in that theme.
+SuiteVariant in_theme(SuiteVariant variant, const SuiteVariant& theme) {
+  variant.name += "_" + theme.name;
+  variant.overrides.insert(variant.overrides.begin(), theme.overrides.begin(), theme.overrides.end());
+  return variant;
+}
+
+}  // namespace
+
+SuiteVariants read_variants(Fields& root, const YamlDocument& document, ProblemList& problems) {
+  const std::vector<SuiteVariant> themes = read_themes(root, document);
+  SuiteVariants found{{}, themes.empty() ? std::vector<SuiteVariant>(1) : themes};
+  for (const SuiteVariant& variant : read_own(root, document, problems)) {
+    if (themes.empty() || has_theme(variant)) found.own.push_back(variant);
+    if (has_theme(variant)) continue;
+    for (const SuiteVariant& theme : themes) found.own.push_back(in_theme(variant, theme));
+  }
+  return found;
 }
 
 }  // namespace chainreel

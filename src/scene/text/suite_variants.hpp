@@ -9,18 +9,23 @@
 
 namespace chainreel {
 
-// `variants: {dark: {theme: dark}, strong: {parameters.F: 20}}`, or `theme: [light, dark]`, which names its variants by themselves.
-// Empty where there are none.
-std::vector<SuiteVariant> read_variants(Fields& root, const YamlDocument& document, ProblemList& problems);
+// `variants: {dark: {theme: dark}, strong: {parameters.F: 20}}`, each in all of `theme: [light, dark]` where that is a list.
+struct SuiteVariants {
+  std::vector<SuiteVariant> own;        // "strong_dark"
+  std::vector<SuiteVariant> otherwise;  // of sources that none of these is about: the themes, or the source as it is
+};
+SuiteVariants read_variants(Fields& root, const YamlDocument& document, ProblemList& problems);
 
 // Those of the variant behind others.
 std::vector<std::string> with_variant(std::vector<std::string> overrides, const SuiteVariant& variant);
 
-// Adds a problem for each key that says nothing of a model's pictures.
-void require_of_pictures(const SuiteVariant& variant, ProblemList& problems);
+// Whether all that the variant sets is of a model's pictures, or is read by the scene at `file`; a scene that cannot be read with it
+// is told of elsewhere.
+bool is_about_models(const SuiteVariant& variant);
+bool is_about_scene(const std::string& file, const std::vector<std::string>& overrides, const SuiteVariant& variant);
 
-// Throws Error where nobody reads a parameter that the variant sets.
-void require_read_by(const Scene& scene, const SuiteVariant& variant);
+// What to say of a variant that none of the sources is about.
+std::string words_of_idle(const SuiteVariant& variant);
 
 // Whether `theme` is such a list.
 bool lists_themes(const YamlDocument& document);
