@@ -45,12 +45,12 @@ void StepControl::start() {
   rejected_ = false;
 }
 
-void StepControl::choose_first(SecondOrder& system, double t, std::span<const double> y,
+void StepControl::choose_first(SecondOrder& system, double t, double end, std::span<const double> y,
                                std::span<const double> f0, std::span<double> scratch,
                                std::span<double> f_scratch) {
   // An explicit Euler step that moves y by a hundredth of itself shows how fast y' changes.
   const double d0 = size_of(y, y) / tolerance_, d1 = size_of(f0, y) / tolerance_;
-  const double h0 = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;
+  const double h0 = std::min(d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1, end - t);
   for (std::size_t i = 0; i < y.size(); ++i) scratch[i] = y[i] + h0 * f0[i];
   state_rate(system, t + h0, scratch, f_scratch);
   for (std::size_t i = 0; i < y.size(); ++i) f_scratch[i] -= f0[i];

@@ -34,9 +34,10 @@ class StepControl {
   void start();
   bool knows_step() const { return h_ > 0; }
 
-  // The first step from y = (q, v) at t, where y' = f0; h is positive unless f0 is not finite. `scratch` and
+  // The first step from y = (q, v) at t towards `end`, where y' = f0; nothing is asked of behind the end, where forces may be no
+  // numbers. h is positive unless f0 is not finite. `scratch` and
   // `f_scratch` hold as many numbers as y.
-  void choose_first(SecondOrder& system, double t, std::span<const double> y, std::span<const double> f0,
+  void choose_first(SecondOrder& system, double t, double end, std::span<const double> y, std::span<const double> f0,
                     std::span<double> scratch, std::span<double> f_scratch);
 
   // Whether the step is lost: not told from none beside the time itself.

@@ -85,7 +85,7 @@ class Dop853 final : public Integrator {
       end_step(end);
       return StepResult::ok;
     }
-    if (!control_->knows_step()) control_->choose_first(system_, begin_, y0_, k(0), stage_, k(1));
+    if (!control_->knows_step()) control_->choose_first(system_, begin_, end, y0_, k(0), stage_, k(1));
     while (!control_->is_lost(begin_, end)) {
       const StepControl::Attempt attempt = control_->next(begin_, end);
       h_ = attempt.h;

@@ -95,7 +95,7 @@ class Radau5 final : public Integrator {
   StepResult step(double end, double h) override {
     begin_step();
     if (!control_) return fixed_step(end, h);
-    if (!control_->knows_step()) control_->choose_first(system_, begin_, y0_, f0_, scratch_, moved_);
+    if (!control_->knows_step()) control_->choose_first(system_, begin_, end, y0_, f0_, scratch_, moved_);
     while (!control_->is_lost(begin_, end)) {
       const StepControl::Attempt attempt = control_->next(begin_, end);
       if (!solve(attempt.h, limit_, kMostPasses)) {

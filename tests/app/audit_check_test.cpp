@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <functional>
 
 #include "core/json.hpp"
 #include "support/run_program.hpp"
@@ -85,6 +86,43 @@ TEST_F(AuditCheckTest, AnAuditThatSaysSomethingElseThanTheFilmIsSeen) {
   EXPECT_EQ(check(folder_.write("a.json", "{\"outputs\": [{\"file\": 1}]}")).status, 3);
   fs::remove(folder_.file("a.json"));
   EXPECT_THAT(check(film_).err, HasSubstr("there is no audit"));
+}
+
+// Each of these was an alarm of its own once, or none.
+TEST_F(AuditCheckTest, ComparisonsStillsAndHeldFilmsAreAsTheyWereWritten) {
+  const std::string png = folder_.file("c.png");
+  for (const Words& more : {Words{"--vary", "start.q.2=0,1", "-o", folder_.file("c.mp4"), "-o", png}, Words{"--hold", "{first: 0.1}", "-o", folder_.file("h.gif")},
+                            Words{"--set", "plot=energy", "--theme", "dark", "-o", folder_.file("d.svg")}}) {
+    ASSERT_EQ(run_program(with({"render", "assets/scenes/pp_spring.yaml", "--quiet", "--set", "duration=0.2", "--set", "video.width=160", "--set",
+                                "video.height=90"},
+                               more))
+                  .status,
+              0);
+    EXPECT_EQ(check(more.back()).out.find("CHANGED"), std::string::npos) << check(more.back()).out;
+    EXPECT_EQ(check(more.back()).status, 0) << more.back();
+  }
+  EXPECT_EQ(check(folder_.file("c.txt")).status, 0) << "its words";
+}
+
+TEST_F(AuditCheckTest, EveryNumberOfTheAuditIsLookedAt) {
+  const std::string whole = read_whole_file(folder_.file("a.json"));
+  const auto changed = [&](const std::function<void(Json&)>& change) {
+    Json audit = Json::parse(whole);
+    change(audit);
+    folder_.write("a.json", audit.dump());
+    return check(film_).status;
+  };
+  EXPECT_EQ(changed([](Json&) {}), 0);
+  EXPECT_EQ(changed([](Json& audit) { audit.erase("audit_error"); }), 1);
+  EXPECT_EQ(changed([](Json& audit) { audit["frames"] = 99; }), 1);
+  EXPECT_EQ(changed([](Json& audit) { audit["film_seconds"] = 9; }), 1);
+  EXPECT_EQ(changed([](Json& audit) { audit["held_frames"]["first"] = 3; }), 1);
+  EXPECT_EQ(changed([](Json& audit) { audit["panels"] = Json::array({Json::object()}); }), 1);
+  EXPECT_EQ(changed([](Json& audit) { audit["outputs"][0]["bytes"] = 99; }), 1);
+  EXPECT_EQ(changed([](Json& audit) { audit["a key of mine"] = 99; }), 1);
+  EXPECT_EQ(changed([](Json& audit) { audit["outputs"][0]["file"] = "../a.mp4"; }), 3);
+  EXPECT_EQ(changed([](Json& audit) { audit["outputs"][0]["sha256"] = "1"; }), 3);
+  EXPECT_EQ(changed([](Json& audit) { audit["outputs"] = Json::array(); }), 3) << "as of a folder of pictures";
 }
 
 TEST_F(AuditCheckTest, WhatItCannotHonourIsRefused) {

@@ -370,6 +370,10 @@ TEST(Compare, TrajectoriesAreComparedInWords) {
   EXPECT_THAT(json["explained"][0].get<std::string>(), HasSubstr("t = 1 s"));
   EXPECT_EQ(report({a, close})["equal"], false);
   EXPECT_EQ(report({a, close})["status"], 0);
+  // Numbers of other units are compared as numbers of one.
+  const std::string rad = folder.write("r.csv", "t [s],q1 [rad]\n0,0\n1,1\n"), deg = folder.write("s.csv", "t [s],q1 [deg]\n0,0\n1,57.29577951308232\n");
+  EXPECT_EQ(compared({rad, deg}).out, "units q1 rad -> deg, compared in the first\n");
+  EXPECT_THAT(compared({rad, folder.write("t.csv", "t [s],q1 [deg]\n0,0\n1,114.59155902616465\n")}).out, HasSubstr("q1 differs by 1 rad from t = 1 s on"));
   // Of several columns each has its line, rates behind positions.
   const std::string several = folder.write("g.csv", "t,q1,q2,qd1,qd2\n0,0,0,0,0\n0.5,1,0,0,0.25\n1,2,3.5,0,0\n");
   EXPECT_THAT(compared({a, several}).out, AllOf(testing::ContainsRegex("q2 +1 +0.5 +1 +3.5"), testing::ContainsRegex("qd2 +0.5 +0.25 +0.5 +0.25")));

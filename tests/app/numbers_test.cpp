@@ -37,6 +37,18 @@ TEST(SimulateCommand, WritesARowAFrameAndOneAtTheEnd) {
   EXPECT_THAT(lines[2], testing::StartsWith("0.016666666666666666,"));
 }
 
+// Forces may be no numbers behind the end: a first step that is tried out looks no farther, wherever the run begins.
+TEST(SimulateCommand, AsksForNoTorqueBehindTheEnd) {
+  const TemporaryFolder folder;
+  for (const char* method : {"dop853", "radau5", "auto"})
+    for (const char* start : {"0", "1", "1000"}) {
+      const std::string scene = folder.write("a.yaml", std::string("model: {links: [1], masses: 1, joints: P, shape: point}\ngravity: [0, 0, 0]\n"
+                                                                   "torque: [\"1e-9*exp(20*t)\"]\nduration: 1\nstart: {q: [") + start + "]}\nmethod: " + method + "\n");
+      const ProgramResult result = run_program({"simulate", scene, "--quiet", "--force", "-o", folder.file("a.csv")});
+      EXPECT_EQ(result.status, 0) << method << " from " << start << ": " << result.err;
+    }
+}
+
 TEST(SimulateCommand, WritesARowAStepWhereAsked) {
   const TemporaryFolder folder;
   const std::string file = folder.file("steps.csv");

@@ -34,7 +34,7 @@ TEST(ShippedModel, IsFoundByItsNameWhereTheSceneHasNoFileOfThatName) {
   folder.write("named.yaml", "model: rr.urdf\n" + kSmall);
   folder.write("by_path.yaml", "model: " CHAINREEL_SOURCE_FOLDER "/models/rr.urdf\n" + kSmall);
   const std::string shipped = simulated(folder, "named.yaml")["model_sha256"];
-  EXPECT_EQ(shipped, simulated(folder, "by_path.yaml")["model_sha256"]);
+  EXPECT_EQ(shipped, simulated(folder, "by_path.yaml")["model_sha256"].get<std::string>());
   // What lies beside the scene comes first.
   fs::copy_file(CHAINREEL_SOURCE_FOLDER "/models/pp.urdf", folder.file("rr.urdf"));
   const std::string own = simulated(folder, "named.yaml")["model_sha256"];

@@ -256,6 +256,8 @@ TEST_F(Suites, VariantsThatSayNothingAreRefusedWithTheirLine) {
   EXPECT_THAT(error(head + "  a: {parameters.F: 20}\n"), AllOf(HasSubstr("snapshots.yaml:4"), HasSubstr("F")));
   EXPECT_THAT(error(head + "  a: {start: {q: [0, 0, 0]}}\n"), HasSubstr("start.q"));
   EXPECT_THAT(error("scene: swing.yaml\ntheme: []\n"), HasSubstr("empty list"));
+  EXPECT_THAT(error(head + "  a: {video.width: 300}\n"), AllOf(HasSubstr("snapshots.yaml:4"), HasSubstr("size: 640x360")));
+  EXPECT_THAT(error(head + "  a: {parametrs.F: 300}\n"), AllOf(HasSubstr("snapshots.yaml:4"), HasSubstr("unknown key")));
   EXPECT_THAT(error("scene: swing.yaml\nvariants: 3\n"), HasSubstr("must hold names"));
   EXPECT_THAT(error("model: arm.urdf\nvariants: {a: {base: floating}}\n"), HasSubstr("which no source of the suite has"));
   EXPECT_THAT(error("model: arm.urdf\nvariants: {a: {duration: 1}}\n"), HasSubstr("which no source of the suite has"));

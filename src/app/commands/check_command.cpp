@@ -170,9 +170,10 @@ void print_candidates(const Choice& choice, const Accuracy& accuracy, bool all) 
   const std::size_t shown = all ? others.size() : std::min(others.size(), kNextBest);
   for (std::size_t i = 0; i < shown; ++i) {
     const Choice::Candidate& one = others[i];
-    table.push_back({to_string(one.setting), format_significant(one.error, 2),
+    const bool is_off = one.trouble.empty() && !(one.error <= accuracy.value);
+    table.push_back({to_string(one.setting), std::isfinite(one.error) ? format_significant(one.error, 2) : "-",
                      one.curve_error ? format_significant(100 * *one.curve_error, 2) : "-",
-                     format_significant(one.cost / 1000, 3), std::to_string(one.evaluations), one.trouble});
+                     format_significant(one.cost / 1000, 3), std::to_string(one.evaluations), is_off ? "misses the accuracy" : one.trouble});
   }
   if (shown > 0) std::fputs(table_text(table).c_str(), stdout);
   if (shown < others.size()) std::printf("%zu others: --all\n", others.size() - shown);
@@ -292,7 +293,8 @@ void check_model(const CheckOptions& options) {
 
 // Films, pictures and their audits: what scenes and models are not.
 bool is_output(const std::string& path) {
-  return find_output_format(path) != nullptr || lower_case_ending(path) == ".json";
+  const std::string ending = lower_case_ending(path);
+  return find_output_format(path) != nullptr || ending == ".json" || ending == ".txt" || ending == ".srt";
 }
 
 void check_output(const CheckOptions& options) {

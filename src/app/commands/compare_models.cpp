@@ -146,6 +146,21 @@ std::string column_words(const TrajectoryDifference& difference) {
   return text;
 }
 
+// The second table in the units of the first, where both are known; what differed, as words.
+std::string put_in_units(Table& table, const Table& first) {
+  std::vector<std::string> changes;
+  for (std::size_t i = 0; i < std::min(table.names.size(), first.names.size()); ++i) {
+    const std::string before = first.units[i], after = table.units[i];
+    if (table.names[i] != first.names[i] || before == after || before.empty() || after.empty()) continue;
+    const auto from = factor_of_unit(after), to = factor_of_unit(before);
+    if (!from || !to) continue;
+    for (double& value : table.columns[i]) value *= *from / *to;
+    table.units[i] = before;
+    changes.push_back(table.names[i] + " " + change_text(before, after));
+  }
+  return changes.empty() ? "" : "units " + joined(changes) + ", compared in the first";
+}
+
 Json json_of(const TrajectoryDifference& difference) {
   Json columns = Json::array();
   for (const FreedomDifference& one : difference.numbers)
@@ -164,6 +179,7 @@ Comparison compare_trajectories(const CompareOptions& options) {
     tables[i] = read_csv(path);
   }
   const bool other_order = tables[0].names != tables[1].names && put_in_order(tables[1], tables[0].names);
+  const std::string other_units = put_in_units(tables[1], tables[0]);
   const SampledTrajectory before = trajectory_of(tables[0], options.before),
                           after = trajectory_of(tables[1], options.after);
   const TrajectoryDifference difference = difference_of(before, after);
@@ -176,6 +192,7 @@ Comparison compare_trajectories(const CompareOptions& options) {
   const std::vector<std::string> old_units = units_of(before), units = units_of(after);
   if (old_units != units && old_units.size() == units.size())
     words.push_back("units " + change_text(joined(old_units), joined(units)));
+  if (!other_units.empty()) words.push_back(other_units);
   if (const std::string parted = freedom_words(difference); !parted.empty())
     words.insert(words.begin(), parted);
   Comparison found = said(words);

@@ -121,7 +121,7 @@ const std::vector<JsonReport>& json_reports() {
       {"check", {{"scene", "its text with all defaults"},
                  {"model, cost", "of one run; null of a comparison"},
                  {"panels", "[{title, model, cost}] of a comparison; else []"},
-                 {"slow_motion", "[{from, until, speed, ease, because}]. Of a .urdf: findings and model. Of a film or picture: audit, passes, audited, [{file, state, sha256, expected}], and contradicted, keys of the audit"}}},
+                 {"slow_motion", "[{from, until, speed, ease, because}]. Of a .urdf: findings and model. Of a film or picture: audit, passes, audited, [{file, state, sha256, expected}], contradicted, keys of the audit, and remembered, whether a film was there to hold it against"}}},
       {"compare", {{"before, after, equal, passes", "what was compared, and whether it is the same"},
                    {"tolerance", "of pictures; or null"},
                    {"explained", "differences that are told, in words"},

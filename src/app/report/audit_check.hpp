@@ -19,6 +19,7 @@ struct AuditCheck {
   std::string audit;                      // its path
   std::vector<File> files;                // all that it tells of, its texts among them
   std::vector<std::string> contradicted;  // keys of the audit that say something else than a film or picture remembers
+  bool is_remembered = false;  // by a film or picture among them that is as it was written
   bool passes() const;
 };
 

@@ -89,6 +89,8 @@ std::vector<double> times_about(const std::vector<Farthest>& peaks, double durat
 PeaksOfRun simulate_for_peaks(const Simulation& simulation, const std::vector<MotionColumn>& columns, const StopRequest& stop) {
   std::vector<double> times;
   for (int k = 0; k <= kSamples; ++k) times.push_back(simulation.duration * k / kSamples);
+  for (double share = 1e-10; share < 1.0 / kSamples; share *= 10) times.push_back(simulation.duration * share);  // what jumps at the start
+  std::sort(times.begin(), times.end());
   PeaksOfRun found{simulate_audited(simulation, times, stop, simulation.duration / kInstants), {}};
   std::vector<Farthest> peaks;
   look_at(simulation, found.run, columns, peaks);

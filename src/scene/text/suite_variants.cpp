@@ -33,6 +33,10 @@ SuiteVariant variant_of(const YamlDocument& document, const std::string& name, c
                    where);
       continue;
     }
+    if (key == "video.width" || key == "video.height") {
+      problems.add("'" + key + "': the pictures of a suite have the size that `size: 640x360` says", where);
+      continue;
+    }
     variant.overrides.push_back({key + "=" + text_of(pair.second), where});
   }
   return variant;
@@ -41,7 +45,7 @@ SuiteVariant variant_of(const YamlDocument& document, const std::string& name, c
 std::vector<std::string> keys_of_pictures() {
   std::vector<std::string> names;
   for (const SceneKey& key : scene_keys())
-    if (key.of_model == OfModel::picture && !key.is_section) names.push_back(key.name);
+    if (key.of_model == OfModel::picture && !key.is_section && !key.name.starts_with("video.")) names.push_back(key.name);
   return names;
 }
 
@@ -88,9 +92,10 @@ Error as_said_in(const Suite& suite, const Error& error) {
   std::vector<Problem> problems = error.problems();
   for (Problem& problem : problems)
     for (const SuiteOverride& one : all) {
+      const std::string key = one.text.substr(0, one.text.find('='));
       const bool is_named = problem.place.file == "--set " + one.text,
-                 is_about = problem.place.file.empty() &&
-                            problem.message.starts_with("'" + one.text.substr(0, one.text.find('=')) + "'");
+                 is_about = (problem.place.file.empty() && problem.message.starts_with("'" + key + "'")) ||
+                            (problem.place.line == 0 && problem.message.starts_with("unknown key '" + key.substr(0, key.find('.'))));
       if (is_named || is_about) problem.place = one.place;
     }
   return Error(error.code(), std::move(problems));
