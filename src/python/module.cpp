@@ -12,6 +12,14 @@ namespace py = pybind11;
 namespace chainreel {
 namespace {
 
+// What the command line takes by a flag, a function takes by an argument.
+std::string in_python(std::string message) {
+  for (const auto& [flag, argument] : {std::pair<std::string, std::string>{"--force", "overwrite=True"}, {"with -o", "in its place"}})
+    for (std::size_t at = message.find(flag); at != std::string::npos; at = message.find(flag, at + argument.size()))
+      message.replace(at, flag.size(), argument);
+  return message;
+}
+
 // As chainreel.Error, with each problem's place.
 void raise(const Error& error) {
   if (error.code() == ExitCode::interrupted) {
@@ -21,7 +29,7 @@ void raise(const Error& error) {
   py::list problems;
   for (const Problem& problem : error.problems())
     problems.append(
-        py::make_tuple(problem.message, problem.place.file, problem.place.line, problem.place.column));
+        py::make_tuple(in_python(problem.message), problem.place.file, problem.place.line, problem.place.column));
   const py::object type = py::module_::import("chainreel._errors").attr("Error");
   const py::object raised = type(int(error.code()), problems);
   PyErr_SetObject(type.ptr(), raised.ptr());

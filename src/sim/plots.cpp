@@ -59,6 +59,8 @@ std::string title_of(PlotQuantity quantity, const Chain& chain) {
       return with_unit("tau", units, "N m", "N");
     case PlotQuantity::lambda:
       return "lambda [N]";
+    case PlotQuantity::constraint_error:
+      return "constraint error [m, rad]";
     case PlotQuantity::expression:
       break;
   }
@@ -69,8 +71,9 @@ void add_plot(PlotSet& plots, const PlotEntry& entry, const Chain& chain, int ro
   PlotSet::Plot plot;
   plot.quantity = value_named<PlotQuantity>(entry.value).value_or(PlotQuantity::expression);
   plot.title = entry.title.empty() ? title_of(plot.quantity, chain) : entry.title;
-  if (plot.quantity == PlotQuantity::lambda && rows == 0)
-    throw Error(ExitCode::bad_input, "there is no lambda to plot: the scene has no constraints", entry.place);
+  const bool is_of_constraints = plot.quantity == PlotQuantity::lambda || plot.quantity == PlotQuantity::constraint_error;
+  if (is_of_constraints && rows == 0)
+    throw Error(ExitCode::bad_input, "there is no " + to_string(plot.quantity) + " to plot: the scene has no constraints", entry.place);
   if (plot.quantity == PlotQuantity::expression) {
     plot.value = Expression::parse(entry.value, plots.probe.names(), entry.place);
     if (plot.title.empty()) plot.title = entry.value;
@@ -157,6 +160,8 @@ PlotCurves curves_of(const PlotSet::Plot& plot, const PlotSet& plots, const Simu
       return columns(torques_along(simulation, trajectory), numbered("tau", chain.nv), samples);
     case PlotQuantity::lambda:
       return columns(trajectory.lambda, numbered("lambda", trajectory.rows), samples);
+    case PlotQuantity::constraint_error:
+      return columns(constraint_errors_along(simulation, trajectory), numbered("phi", trajectory.rows), samples);
     case PlotQuantity::expression:
       break;
   }
@@ -171,7 +176,8 @@ std::span<const Name> names_of(PlotQuantity) {
                                    {"q", "of each joint, rad or m"},
                                    {"qd", "of each joint, rad/s or m/s"},
                                    {"tau", "as the run felt them, N m or N"},
-                                   {"lambda", "of each row of the constraints"}};
+                                   {"lambda", "of each row of the constraints"},
+                                   {"constraint_error", "phi, by which each row of the constraints is missed, m or rad"}};
   return names;
 }
 

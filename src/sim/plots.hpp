@@ -29,6 +29,7 @@ enum class PlotQuantity {
   qd,
   tau,         // as the run felt them
   lambda,      // of each row of the constraints
+  constraint_error,  // likewise, by how much it is missed
   expression,  // one curve
 };
 

@@ -71,6 +71,19 @@ std::vector<double> multipliers_along(const Simulation& simulation, const Trajec
   return multipliers;
 }
 
+std::vector<double> constraint_errors_along(const Simulation& simulation, const Trajectory& trajectory) {
+  ChainSystem system(simulation);
+  ConstrainedChain& constrained = *system.constrained();
+  const std::vector<double> no_torque(std::size_t(simulation.chain.nv), 0.0);
+  std::vector<double> errors;
+  errors.reserve(std::size_t(trajectory.size()) * std::size_t(trajectory.rows));
+  for (int k = 0; k < trajectory.size(); ++k) {
+    const std::vector<double>& phi = constrained.rows_at(system.workspace(), trajectory.q_at(k), trajectory.qd_at(k), no_torque).phi;
+    errors.insert(errors.end(), phi.begin(), phi.end());
+  }
+  return errors;
+}
+
 std::vector<LinearDrive> linear_drives(const Simulation& simulation) {
   std::vector<LinearDrive> drives = simulation.torque->linear_drives(simulation.chain);
   std::erase_if(drives, [&](const LinearDrive& drive) {

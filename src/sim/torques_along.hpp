@@ -19,6 +19,9 @@ std::vector<double> torques_along(const Simulation& simulation, const Trajectory
 // The multipliers of the constraints at each sample, as many as the run has rows (N or N m); no numbers where none answer.
 std::vector<double> multipliers_along(const Simulation& simulation, const Trajectory& trajectory);
 
+// How far each row of the constraints is missed at each sample: phi, signed, as many as the run has rows (m or rad).
+std::vector<double> constraint_errors_along(const Simulation& simulation, const Trajectory& trajectory);
+
 // The springs and dampers that drive the run's joints, as `LinearDrive` tells them: none whose torque the limit policy may
 // cut; those are no `whole` beside a force that presses on a constraint.
 std::vector<LinearDrive> linear_drives(const Simulation& simulation);

@@ -14,12 +14,21 @@ std::string escaped_for_latex(const std::string& words) {
   for (const char c : words) {
     if (std::string_view("&%$#_{}").find(c) != std::string_view::npos)
       text += std::string("\\") + c;
-    else if (c == '~' || c == '^')
-      text += std::string("\\") + c + "{}";
+    else if (c == '^')
+      text += "\\textasciicircum{}";
+    else if (c == '~')
+      text += "\\textasciitilde{}";
     else
       text += c == '\\' ? std::string("\\textbackslash{}") : std::string(1, c);
   }
   return text;
+}
+
+// "m/s^2" with its power raised.
+std::string unit_in_latex(const std::string& unit) {
+  const std::size_t power = unit.find('^');
+  if (power == std::string::npos) return escaped_for_latex(unit);
+  return escaped_for_latex(unit.substr(0, power)) + "$^{" + unit.substr(power + 1) + "}$";
 }
 
 }  // namespace
@@ -29,7 +38,7 @@ std::string latex_document_of(const SymbolicEquation& equation, const std::strin
                      escaped_for_latex(equation.model) + "}\n" + latex_formulas_of(equation, angle) +
                      "\\noindent\n\\begin{tabular}{@{}lll@{}}\n";
   const auto row = [&](const std::string& name, double value, const std::string& unit, const std::string& meaning) {
-    text += "  $" + name + "$ & " + format_shortest(value) + " " + escaped_for_latex(unit) + " & " + escaped_for_latex(meaning) + " \\\\\n";
+    text += "  $" + name + "$ & " + format_shortest(value) + " " + unit_in_latex(unit) + " & " + escaped_for_latex(meaning) + " \\\\\n";
   };
   for (const Symbol& symbol : equation.symbols)
     if (!symbol.is_coordinate()) row(symbol_in(Notation::latex, equation, symbol, angle), symbol.value, symbol.unit, symbol.meaning);

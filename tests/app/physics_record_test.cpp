@@ -82,7 +82,7 @@ TEST(PhysicsRecord, TellsAMotionTogetherWithItsOneCause) {
               ElementsAre(AllOf(HasSubstr("differs by"), HasSubstr(": torque.1 1 -> 1.01"))));
   EXPECT_THAT(
       shop.after_model("<mass value=\"1\"/>", "<mass value=\"1.01\"/>"),
-      ElementsAre(AllOf(StartsWith("q"), HasSubstr(": link link1: mass 1 -> 1.01 kg, URDF line 17"))));
+      ElementsAre(AllOf(StartsWith("q"), HasSubstr(": link link1: mass 1 -> 1.01 kg, URDF line 19"))));
   // What a method brings with it is no second cause.
   EXPECT_THAT(shop.after({"method=dop853", "step=null"}),
               ElementsAre(HasSubstr(

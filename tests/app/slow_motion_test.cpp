@@ -307,10 +307,10 @@ TEST_F(SlowMotionFilm, IsThereByItselfAboutEventsAndSaysSo) {
   EXPECT_NEAR(half["film_until"].get<double>() - half["film_from"].get<double>(), 0.05 / 0.25 + 0.05 / 0.625, 1e-9);
   EXPECT_EQ(probe_video(file("mp4")).frames, audit["frames"]);
   EXPECT_EQ(table_of(text("csv")).size(), audit["frames"].get<std::size_t>() + 1) << "a row a frame, and the end";
-  EXPECT_THAT(text("txt"), HasSubstr("s at 0.25\u00D7 ('half')"));
+  EXPECT_THAT(text("txt"), HasSubstr("s at 0.25\u00D7, eased within that ('half')"));
   const ProgramResult loud = run_program({"render", file("yaml"), "-o", file("csv"), "--force"});
   EXPECT_THAT(loud.err, HasSubstr("falls: film lasts 0.7 s, its motion 0.5 s: slow motion at 1 place (--set slow_motion=none): t = 0.269275 s to "
-                                  "0.369275 s at 0.25\u00D7 ('half')"));
+                                  "0.369275 s at 0.25\u00D7, eased within that ('half')"));
   const ProgramResult check = run_program({"check", file("yaml"), "--json"});
   EXPECT_EQ(Json::parse(check.out)["cost"]["frames"], audit["frames"]);
   EXPECT_EQ(Json::parse(check.out)["slow_motion"][0]["because"], "'half'");

@@ -115,6 +115,29 @@ TEST(SimulateTables, AreTheSameMotionInEveryFormat) {
   EXPECT_EQ(numpy.out, "True True\n") << numpy.err;
 }
 
+// Of a line it is the distance from it; what is projected stays on it to rounding, what is not drifts.
+TEST(SimulateTables, TellByHowMuchConstraintsAreMissed) {
+  const TemporaryFolder folder;
+  double largest[2];
+  for (const int k : {0, 1}) {
+    const std::string file = folder.file("a" + std::to_string(k) + ".csv");
+    ASSERT_EQ(simulate("assets/scenes/pen_drift.yaml", {"--panel", k == 0 ? "1" : "3", "--columns", "t,y_G,constraint_error", "-o", file}).status, 0);
+    const Table table = read_csv(file);
+    ASSERT_EQ(table.names, (std::vector<std::string>{"t", "y_G", "phi1"}));
+    EXPECT_EQ(table.units[2], "m");
+    largest[k] = 0;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+      EXPECT_NEAR(std::abs(table.columns[2][row]), std::abs(table.columns[1][row] - 0.5), 1e-14) << "rounding of numbers about 1";
+      largest[k] = std::max(largest[k], std::abs(table.columns[2][row]));
+    }
+  }
+  EXPECT_GT(largest[0], 1e-3);
+  EXPECT_LT(largest[1], 1e-14);
+  EXPECT_EQ(simulate("assets/scenes/rr_free.yaml", {"--columns", "t,constraint_error", "-o", folder.file("b.csv")}).status, 2);
+  EXPECT_EQ(run_program({"snapshot", "assets/scenes/pen.yaml", "--quiet", "--set", "plot=constraint_error", "-o", folder.file("a.png")}).status, 0);
+  EXPECT_EQ(run_program({"snapshot", "assets/scenes/rr_free.yaml", "--quiet", "--set", "plot=constraint_error", "-o", folder.file("b.png")}).status, 3);
+}
+
 TEST(SimulateTables, OfOtherKindsAreRefusedBeforeAnythingIsComputed) {
   const TemporaryFolder folder;
   for (const std::string name : {"a", "a.txt", "a.csv.gz", "a.CSV.gz"}) {

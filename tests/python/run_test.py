@@ -181,6 +181,8 @@ class Runs(FolderTest):
                 return run, "".join(re.sub(r"<[^>]*>|\s", "", text) for text in re.findall(r"<text.*?</text>", file.read(), re.S))
 
         run, page = words(hold_up_2)
+        with self.assertRaisesRegex(cr.Error, "give overwrite=True"):
+            run.picture(self.path("a.svg"), 0)
         self.assertIn("hold_up_2(", page)
         self.assertIn("the Python function hold_up_2", run.report["torque_function"])
         self.assertIn("the Python function hold_up_2", run.scene)

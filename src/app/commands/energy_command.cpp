@@ -108,8 +108,13 @@ EnergySubjects compare_methods_on(PreparedScene motion, const std::vector<const 
       all.left_out.push_back(error.problems().front().message);
     }
   }
-  all.settings = "steps of " + format_shortest(settings.step_in(scene)) + " s, tolerances of " +
-                        format_shortest(settings.tolerance_in(scene));
+  const auto is_adaptive = [](const Subject& one) { return one.setting.method->adaptive; };
+  std::vector<std::string> words;
+  if (!std::all_of(all.subjects.begin(), all.subjects.end(), is_adaptive))
+    words.push_back("steps of " + format_shortest(settings.step_in(scene)) + " s");
+  if (std::any_of(all.subjects.begin(), all.subjects.end(), is_adaptive))
+    words.push_back("tolerances of " + format_shortest(settings.tolerance_in(scene)));
+  all.settings = joined(words);
   return all;
 }
 

@@ -32,6 +32,7 @@ std::span<const Name> names_of(MotionColumn) {
                                    {"yd_G", "m/s"},
                                    {"zd_G", "m/s"},
                                    {"lambda", "of each row of the constraints, N or N m"},
+                                   {"constraint_error", "phi, by which each of those rows is missed, m or rad"},
                                    {"frames", "the origin of each link's frame along W, m"}};
   return names;
 }
@@ -183,6 +184,17 @@ void add_multipliers(DataTable& table, const Simulation& simulation, const Traje
   table.add("lambda", multiplier_columns(simulation.chain, simulation.constraints.list), {std::size_t(trajectory.rows)}, trajectory.lambda);
 }
 
+void add_constraint_errors(DataTable& table, const Simulation& simulation, const Trajectory& trajectory) {
+  const ConstraintSet set(simulation.chain, simulation.constraints.list);
+  const std::vector<Kind> freedoms = kinds_of_freedoms(simulation.chain);
+  std::vector<std::string> names;
+  for (const ConstraintSet::Row& row : set.row_list()) {
+    const std::string unit = unit_of_multiplier(set, row, freedoms);
+    names.push_back(with_unit("phi" + std::to_string(names.size() + 1), unit == "N" ? "m" : unit == "N m" ? "rad" : ""));
+  }
+  table.add("constraint_error", std::move(names), {std::size_t(trajectory.rows)}, constraint_errors_along(simulation, trajectory));
+}
+
 void add_column(DataTable& table, MotionColumn column, const Simulation& simulation, const Trajectory& trajectory) {
   const Chain& chain = simulation.chain;
   const auto of_freedoms = [&](const char* stem, const char* turning, const char* sliding, std::vector<double> values) {
@@ -210,6 +222,8 @@ void add_column(DataTable& table, MotionColumn column, const Simulation& simulat
       return table.add("energy_error", "J", audit_of(simulation, trajectory).error);
     case MotionColumn::lambda:
       return add_multipliers(table, simulation, trajectory);
+    case MotionColumn::constraint_error:
+      return add_constraint_errors(table, simulation, trajectory);
     case MotionColumn::frames:
       return add_frames(table, chain, trajectory);
     default:
@@ -282,8 +296,8 @@ void require_columns(const Simulation& simulation, const std::vector<MotionColum
     if (is_of_tip(column) && simulation.chain.end_effector < 0)
       throw Error(ExitCode::usage, option + " " + to_string(column) + ": " + simulation.chain.name +
                                        " has several ends: choose one with `--set end_effector=NAME`");
-    if (column == MotionColumn::lambda && simulation.constraints.empty())
-      throw Error(ExitCode::usage, option + " lambda: the scene has no constraints");
+    if ((column == MotionColumn::lambda || column == MotionColumn::constraint_error) && simulation.constraints.empty())
+      throw Error(ExitCode::usage, option + " " + to_string(column) + ": the scene has no constraints");
   }
 }
 

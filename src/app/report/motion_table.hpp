@@ -13,7 +13,7 @@
 namespace chainreel {
 
 // What a table of a run may hold, each one array, but for `energy`.
-enum class MotionColumn { t, q, qd, qdd, tau, energy, work, energy_error, x_G, y_G, z_G, xd_G, yd_G, zd_G, lambda, frames };
+enum class MotionColumn { t, q, qd, qdd, tau, energy, work, energy_error, x_G, y_G, z_G, xd_G, yd_G, zd_G, lambda, constraint_error, frames };
 std::span<const Name> names_of(MotionColumn);
 
 // t, q, qd, tau, energy, and place and velocity of the end effector, where there is one: of a planar chain along the axes of

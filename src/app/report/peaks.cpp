@@ -43,9 +43,9 @@ struct Farthest {
   double value = 0, t = 0;
 };
 
-// Between samples the work is no number.
+// Between samples the work is no number, and the constraints are as the method's dense output has them.
 bool is_seen_between(const Trajectory& run, MotionColumn column) {
-  return run.between && column != MotionColumn::work;
+  return run.between && column != MotionColumn::work && column != MotionColumn::constraint_error;
 }
 
 // The method's own error, at the ends of its steps: what its dense output adds between them is none of the run's.

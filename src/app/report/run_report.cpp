@@ -195,7 +195,7 @@ Json to_json(const Stretch& one) {
 
 std::string to_words(const Stretch& one) {
   return "t = " + format_significant(one.from, 6) + " s to " + format_significant(one.until, 6) + " s at " + speed_text(one.speed) +
-         (one.cause.empty() ? "" : " (" + one.cause + ")");
+         (one.ease > 0 && !one.cause.empty() ? ", eased within that" : "") + (one.cause.empty() ? "" : " (" + one.cause + ")");
 }
 
 FilmReport film_report(const Runs& runs, const Film& pictures, int frames) {

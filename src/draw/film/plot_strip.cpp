@@ -47,6 +47,8 @@ std::string symbol_of(PlotQuantity quantity) {
     case PlotQuantity::tau:
     case PlotQuantity::lambda:
       return std::string(to_string(quantity));
+    case PlotQuantity::constraint_error:
+      return "phi";
     default:
       return "";
   }

@@ -23,7 +23,7 @@ constexpr double kRoundOffBelow = 1e-6;   // of the largest
 constexpr double kRestBeforeRing = 0.3, kRingFade = 0.15;  // s
 constexpr double kRingRadius = 0.026;     // units of H: close about a joint's disc
 constexpr double kLeastLabelled = 0.026;  // units of H: words of torques stand off their joints by more
-constexpr double kWholeRadius = 15;       // degrees: an arc that turns by less has a smaller radius, down to a dot
+constexpr double kWholeRadius = 60;       // degrees: an arc that turns by less has a smaller radius, down to a dot
 constexpr double kTorqueDot = 0.0062;     // radius, units of H
 constexpr double kBreakOpens = 0.1;       // a break is open where this much of the length is cut
 constexpr double kRoomStep = 0.01;   // units of H: rooms are rounded up to multiples, to have few kinds

@@ -141,8 +141,8 @@ class Panel:
         return self._native.energy(self._index, "error")
 
     def table(self, columns: str = "t,q,qd,qdd,tau") -> Dict[str, NDArray[np.float64]]:
-        """Arrays by name, as `chainreel simulate --columns` writes them: t, q, qd, qdd, tau, energy, energy_error, x_G, y_G, z_G,
-        xd_G, yd_G, zd_G, lambda, frames; (rows, ..) each, m, rad, s, N, N m, J. Samples at one instant are one row."""
+        """Arrays by name, as `chainreel simulate --columns` writes them: t, q, qd, qdd, tau, energy, work, energy_error, x_G, y_G,
+        z_G, xd_G, yd_G, zd_G, lambda, constraint_error, frames; (rows, ..) each, m, rad, s, N, N m, J. Samples at one instant are one row."""
         return self._native.table(columns, self._index)
 
     @property
