@@ -127,7 +127,7 @@ TEST_F(PastedIntoCi, PytestHasATestAPicture) {
 
 TEST_F(PastedIntoCi, CtestRunsTheSuite) {
   fs::copy_file("assets/ci/CMakeLists.txt", folder_.path() / "CMakeLists.txt");
-  ASSERT_EQ(run_command({"cmake", "-S", ".", "-B", "b", "-D", "CHAINREEL=" + program_path()}, here()).status,
+  ASSERT_EQ(run_command({"cmake", "-G", "Ninja", "-S", ".", "-B", "b", "-D", "CHAINREEL=" + program_path()}, here()).status,
             0);
   EXPECT_EQ(run_command({"ctest", "--test-dir", "b"}, here()).status, 0);
   break_something();

@@ -13,10 +13,10 @@ esac
 if [[ -n ${2:-} ]]; then
   mkdir -p "$2"
   folder=$(realpath "$2")
-  trap 'umount "$folder/system/proc" "$folder/system/dev" 2>/dev/null || true' EXIT
+  trap 'umount "$folder/system/proc" "$folder/system/dev/pts" "$folder/system/dev" 2>/dev/null || true' EXIT
 else
   folder=$(mktemp -d)
-  trap 'umount "$folder/system/proc" "$folder/system/dev" 2>/dev/null || true; rm -rf --one-file-system "$folder"' EXIT
+  trap 'umount "$folder/system/proc" "$folder/system/dev/pts" "$folder/system/dev" 2>/dev/null || true; rm -rf --one-file-system "$folder"' EXIT
 fi
 root=$folder/system
 
@@ -26,6 +26,7 @@ for file in /etc/resolv.conf /etc/hosts; do [[ ! -f $file ]] || cp -L "$file" "$
 grep -rhi proxy /etc/apt/apt.conf /etc/apt/apt.conf.d 2>/dev/null >"$root/etc/apt/apt.conf.d/99proxy" || true
 mount -t proc proc "$root/proc"
 mount --bind /dev "$root/dev"
+mount --bind /dev/pts "$root/dev/pts" # of terminals that tests open
 
 rm -rf "$root/src"
 mkdir -p "$root/src/chainreel"

@@ -85,13 +85,13 @@ TEST(WordPlan, DoesNotChangePlacesForWhatPassesAtOnce) {
     WordPlan plan(kPlanArea, kPlanFps);
     for (int k = 0; k < 120; ++k) {
       std::vector<Obstacle> bars;
-      if (k == 60) bars.push_back(bar(0.5));
-      if (k > 100 && !other_is_free) bars.push_back(bar(0.2));
+      if (k == 100) bars.push_back(bar(0.5));
+      if (k > 60 && !other_is_free) bars.push_back(bar(0.2));
       plan.add({word_at("v", {{0.5, 0.5}, {0.2, 0.5}})}, bars);
     }
     const auto frames = plan.standing();
     for (std::size_t k = 0; k < frames.size(); ++k) {
-      if (k == 60 && !other_is_free) {
+      if (k == 100 && !other_is_free) {
         EXPECT_EQ(frames[k][0].opacity, 0);
       } else {
         EXPECT_NEAR(center_of(frames[k][0].box).x, other_is_free ? 0.2 : 0.5, 1e-12) << k;
