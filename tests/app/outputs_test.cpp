@@ -100,7 +100,7 @@ TEST_F(OnePass, ClipsShowTheFramesOfTheSequence) {
     EXPECT_LE(compare_pictures(facts.last, last).mean, row.mean) << row.name;
     if (std::string_view(row.codec) != "gif" && std::string_view(row.codec) != "apng") {
       for (const std::string& tag : {facts.primaries, facts.transfer, facts.matrix}) EXPECT_EQ(tag, "bt709");
-      EXPECT_EQ(facts.range, "tv");
+      EXPECT_EQ(facts.range, "tv") << row.name;
     }
   }
   EXPECT_EQ(read_png(file("f.png")).bgra, first.bgra);

@@ -57,7 +57,11 @@ Option Option::one_of(std::vector<std::string> words) {
 }
 
 Option Option::show_default() {
-  option_of(option_)->capture_default_str();
+  // In words of our own: the library's versions write defaults each in their way.
+  CLI::Option* const option = option_of(option_);
+  option->capture_default_str();
+  option->description(option->get_description() + " (default " + option->get_default_str() + ")");
+  option->default_str("");
   return *this;
 }
 
