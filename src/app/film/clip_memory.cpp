@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <string_view>
 
 #include "app/cli/shell_word.hpp"
 #include "app/film/formats.hpp"
@@ -49,14 +51,43 @@ int hex_digit(char c) {
                                 : -1;
 }
 
-// The keywords of a PDF that Cairo wrote: a literal string where they are ASCII without brackets and backslashes, else
-// a hexadecimal one in UTF-16 behind a byte order mark (ISO 32000-1, 7.3.4 and 7.9.2.2). Our JSON is ASCII.
+// A literal string of a PDF (ISO 32000-1, 7.3.4.2) that begins at `first`: brackets in pairs stand for themselves, others and
+// backslashes behind one. Nothing where it does not end.
+std::optional<std::string> literal_string(const std::string& pdf, std::size_t first) {
+  std::string text;
+  int open = 0;
+  for (std::size_t i = first; i < pdf.size(); ++i) {
+    const char c = pdf[i];
+    if (c == ')' && open-- == 0) return text;
+    if (c == '(') ++open;
+    if (c != '\\') {
+      text += c;
+      continue;
+    }
+    if (++i == pdf.size()) break;
+    const std::size_t known = std::string_view("nrtbf").find(pdf[i]);
+    if (known != std::string_view::npos) {
+      text += "\n\r\t\b\f"[known];
+    } else if (pdf[i] >= '0' && pdf[i] <= '7') {
+      int code = 0;
+      for (int digits = 0; digits < 3 && i < pdf.size() && pdf[i] >= '0' && pdf[i] <= '7'; ++digits, ++i) code = 8 * code + (pdf[i] - '0');
+      text += char(code);
+      --i;
+    } else if (pdf[i] != '\n') {  // else the line goes on
+      text += pdf[i];
+    }
+  }
+  return std::nullopt;
+}
+
+// The keywords of a PDF that Cairo wrote: a literal string where they are ASCII (with older versions only without brackets and
+// backslashes), else a hexadecimal one in UTF-16 behind a byte order mark (ISO 32000-1, 7.3.4 and 7.9.2.2). Our JSON is ASCII.
 std::string pdf_words(const std::string& pdf, const std::string& path) {
   const std::string literal = "/Keywords (", open = "/Keywords <FEFF";
   if (const std::size_t at = pdf.rfind(literal); at != std::string::npos) {
-    const std::size_t first = at + literal.size(), end = pdf.find(')', first);
-    if (end == std::string::npos) remembers_nothing(path);
-    return pdf.substr(first, end - first);
+    const std::optional<std::string> words = literal_string(pdf, at + literal.size());
+    if (!words) remembers_nothing(path);
+    return *words;
   }
   const std::size_t begin = pdf.rfind(open);
   const std::size_t end = begin == std::string::npos ? begin : pdf.find('>', begin);
