@@ -325,8 +325,6 @@ std::string pdf_text(const Picture& picture, const Fonts& fonts, const VectorPag
   const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
       cairo_pdf_surface_create_for_stream(append, &bytes, height * picture.aspect, height),
       &cairo_surface_destroy);
-  // Later versions put the words of a file into compressed streams, where neither we nor others would find them.
-  cairo_pdf_surface_restrict_to_version(surface.get(), CAIRO_PDF_VERSION_1_4);
   const auto set = [&](cairo_pdf_metadata_t key, const std::string& value) {
     cairo_pdf_surface_set_metadata(surface.get(), key, value.empty() ? nullptr : value.c_str());
   };

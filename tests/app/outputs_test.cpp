@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -533,6 +534,14 @@ TEST(Outputs, WordsOfAPdfAreReadInEveryFormOfALiteral) {
     const std::string file = folder.write("a.pdf", std::string("%PDF-1.4\n1 0 obj\n<< /Keywords (") + literal + ")\n /Producer (cairo)\n>>\n%%EOF\n");
     EXPECT_EQ(recall(file).scene, "model: \"a (b)\"\n") << literal;
   }
+  // In a compressed stream, as newer versions have it: whole, and cut off.
+  const std::string objects = "<< /Keywords ({\"chainreel_scene\":\"model: b\\\\n\",\"chainreel_audit\":{}}) >>";
+  std::string packed(compressBound(uLong(objects.size())), ' ');
+  uLongf size = uLongf(packed.size());
+  ASSERT_EQ(compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(objects.data()), uLong(objects.size())), Z_OK);
+  const std::string head = "%PDF-1.7\n1 0 obj\n<< /Type /ObjStm /Filter /FlateDecode >>\nstream\n";
+  EXPECT_EQ(recall(folder.write("c.pdf", head + packed.substr(0, size) + "\nendstream\n")).scene, "model: b\n");
+  EXPECT_THROW(recall(folder.write("d.pdf", head + packed.substr(0, size / 3))), Error);
   EXPECT_THROW(recall(folder.write("b.pdf", "%PDF-1.4\n<< /Keywords ({\\")), Error);
 }
 

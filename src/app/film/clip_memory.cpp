@@ -9,6 +9,7 @@
 #include "app/film/formats.hpp"
 #include "core/error.hpp"
 #include "core/input_file.hpp"
+#include "encode/pdf_streams.hpp"
 #include "picture/text.hpp"
 
 namespace chainreel {
@@ -129,7 +130,8 @@ Tags read_svg_words(const std::string& path) {
 }
 
 Tags read_pdf_words(const std::string& path) {
-  return words_of(pdf_words(read_plain_file(path, kLargestPage), path), path);
+  const std::string pdf = read_plain_file(path, kLargestPage);
+  return words_of(pdf_words(pdf.find("/Keywords") == std::string::npos ? objects_in_streams(pdf) : pdf, path), path);
 }
 
 Tags ClipMemory::tags() const {
