@@ -255,6 +255,7 @@ TEST_F(Suites, VariantsThatSayNothingAreRefusedWithTheirLine) {
   EXPECT_THAT(error(head + "  a: {thme: dark}\n"), HasSubstr("theme"));
   EXPECT_THAT(error(head + "  a: {parameters.F: 20}\n"), AllOf(HasSubstr("snapshots.yaml:4"), HasSubstr("F")));
   EXPECT_THAT(error(head + "  a: {start: {q: [0, 0, 0]}}\n"), HasSubstr("start.q"));
+  EXPECT_THAT(error(head + "  a: {start: {}}\n"), HasSubstr("start.KEY"));
   EXPECT_THAT(error("scene: swing.yaml\ntheme: []\n"), HasSubstr("empty list"));
   EXPECT_THAT(error(head + "  a: {video.width: 300}\n"), AllOf(HasSubstr("snapshots.yaml:4"), HasSubstr("size: 640x360")));
   EXPECT_THAT(error(head + "  a: {parametrs.F: 300}\n"), AllOf(HasSubstr("snapshots.yaml:4"), HasSubstr("unknown key")));

@@ -91,7 +91,9 @@ PeaksOfRun simulate_for_peaks(const Simulation& simulation, const std::vector<Mo
   for (int k = 0; k <= kSamples; ++k) times.push_back(simulation.duration * k / kSamples);
   for (double share = 1e-10; share < 1.0 / kSamples; share *= 10) times.push_back(simulation.duration * share);  // what jumps at the start
   std::sort(times.begin(), times.end());
-  PeaksOfRun found{simulate_audited(simulation, times, stop, simulation.duration / kInstants), {}};
+  const bool asks_for_energy = std::find(columns.begin(), columns.end(), MotionColumn::energy_error) != columns.end();
+  const double between = simulation.duration / kInstants;
+  PeaksOfRun found{asks_for_energy ? simulate_audited(simulation, times, stop, between) : simulate(simulation, times, stop, {}, between), {}};
   std::vector<Farthest> peaks;
   look_at(simulation, found.run, columns, peaks);
   look_at(simulation, simulate(simulation, times_about(peaks, simulation.duration), stop), columns, peaks);

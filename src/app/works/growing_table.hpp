@@ -33,10 +33,10 @@ class GrowingTable {
   // Row lines number `piece`, counted from 0 in this run of the program, in any order and from any thread. Throws Error
   // (exit 6).
   void take(std::size_t piece, std::string lines);
+  // All rows are there, and a last line tells the hash of all above it, so that whoever joins parts sees that they are whole.
+  void commit_with_hash();
   // All rows are there. `file_of`: the bytes that the table becomes, else it stays as it is; a table that became something else is
   // none that is known to be finished.
-  // The same, with a last line that tells the hash of all above it, so that whoever joins parts sees that they are whole.
-  void commit_with_hash();
   void commit(const std::function<std::string(const std::string& csv)>& file_of = nullptr);
 
  private:

@@ -13,6 +13,10 @@ namespace {
 
 constexpr const char* kExample = "variants: {dark: {theme: dark}, strong: {parameters.F: 20}}";
 
+std::string key_of(const SuiteOverride& one) {
+  return one.text.substr(0, one.text.find('='));
+}
+
 std::string text_of(const YAML::Node& node) {
   return flow_text([&](YAML::Emitter& out) { out << node; });
 }
@@ -27,10 +31,9 @@ SuiteVariant variant_of(const YamlDocument& document, const std::string& name, c
   for (const auto& pair : node) {
     const std::string& key = pair.first.Scalar();
     const Place where = document.place_of(pair.first, "variants." + name + "." + key);
-    if (pair.second.IsMap() && find_key(key) && find_key(key)->is_section) {
-      problems.add("'variants." + name + "." + key + "' holds keys: write each with a dot, like " + key + "." +
-                       pair.second.begin()->first.Scalar(),
-                   where);
+    if (const SceneKey* row = find_key(key); pair.second.IsMap() && row && row->is_section) {
+      const std::string first = pair.second.size() > 0 ? pair.second.begin()->first.Scalar() : "KEY";
+      problems.add("'variants." + name + "." + key + "' holds keys: write each with a dot, like " + key + "." + first, where);
       continue;
     }
     if (key == "video.width" || key == "video.height") {
@@ -58,7 +61,7 @@ std::vector<std::string> with_variant(std::vector<std::string> overrides, const 
 
 bool is_about_models(const SuiteVariant& variant) {
   return std::all_of(variant.overrides.begin(), variant.overrides.end(), [](const SuiteOverride& one) {
-    const SceneKey* row = find_key(one.text.substr(0, one.text.find('=')));
+    const SceneKey* row = find_key(key_of(one));
     return row != nullptr && row->of_model == OfModel::picture;
   });
 }
@@ -71,7 +74,7 @@ bool is_about_scene(const std::string& file, const std::vector<std::string>& ove
     return true;
   }
   try {
-    for (const SuiteOverride& one : variant.overrides) require_read(one.text.substr(0, one.text.find('=')), *scene, "");
+    for (const SuiteOverride& one : variant.overrides) require_read(key_of(one), *scene, "");
   } catch (const Error&) {
     return false;
   }
@@ -80,7 +83,7 @@ bool is_about_scene(const std::string& file, const std::vector<std::string>& ove
 
 std::string words_of_idle(const SuiteVariant& variant) {
   std::vector<std::string> keys;
-  for (const SuiteOverride& one : variant.overrides) keys.push_back(one.text.substr(0, one.text.find('=')));
+  for (const SuiteOverride& one : variant.overrides) keys.push_back(key_of(one));
   return "variant '" + variant.name + "' sets " + joined(keys) +
          ", which no source of the suite has: parameters must be read by an expression of a scene, and models take " + joined(keys_of_pictures());
 }
@@ -92,7 +95,7 @@ Error as_said_in(const Suite& suite, const Error& error) {
   std::vector<Problem> problems = error.problems();
   for (Problem& problem : problems)
     for (const SuiteOverride& one : all) {
-      const std::string key = one.text.substr(0, one.text.find('='));
+      const std::string key = key_of(one);
       const bool is_named = problem.place.file == "--set " + one.text,
                  is_about = (problem.place.file.empty() && problem.message.starts_with("'" + key + "'")) ||
                             (problem.place.line == 0 && problem.message.starts_with("unknown key '" + key.substr(0, key.find('.'))));
