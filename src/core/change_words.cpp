@@ -7,6 +7,10 @@
 
 namespace chainreel {
 
+std::string amount_text(const std::string& number, const std::string& unit) {
+  return number + (unit.empty() ? "" : " " + unit);
+}
+
 std::string change_text(const std::string& before, const std::string& after) {
   return before + " -> " + after;
 }
@@ -21,7 +25,7 @@ std::string change_text(double before, double after, const std::string& unit) {
   const auto text = [&](double value) {
     return digits < 17 ? format_significant(value, digits) : format_shortest(value);
   };
-  return change_text(text(before), text(after)) + (unit.empty() ? "" : " " + unit);
+  return amount_text(change_text(text(before), text(after)), unit);
 }
 
 std::string length_text(double metres) {

@@ -5,6 +5,9 @@
 
 namespace chainreel {
 
+// "1.2 kg"; the unit may be "".
+std::string amount_text(const std::string& number, const std::string& unit);
+
 // "1.2 -> 1.25 kg"; the unit may be "". As many digits as show the change to a fiftieth of it, six at least
 // where there are so many.
 std::string change_text(double before, double after, const std::string& unit);

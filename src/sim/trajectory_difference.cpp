@@ -243,13 +243,11 @@ bool is_rounding(const TrajectoryDifference& difference) {
 std::string freedom_words(const TrajectoryDifference& difference) {
   if (difference.freedoms.empty()) return "";
   const FreedomDifference& first = difference.freedoms.front();
-  const auto amount = [](double value, const std::string& unit) {
-    return format_significant(value, 2) + (unit.empty() ? "" : " " + unit);
-  };
-  std::string words = first.label + " differs by " + amount(first.at_first, first.unit) + " from " +
+  const auto amount = [&](double value) { return amount_text(format_significant(value, 2), first.unit); };
+  std::string words = first.label + " differs by " + amount(first.at_first) + " from " +
                       time_text(first.first_time) + " on";
   if (first.largest_time != first.first_time)
-    words += " (largest " + amount(first.largest, first.unit) + " at " + time_text(first.largest_time) + ")";
+    words += " (largest " + amount(first.largest) + " at " + time_text(first.largest_time) + ")";
   const std::size_t more = difference.freedoms.size() - 1;
   if (more > 0) words += more > 1 ? ", as do " + std::to_string(more) + " others" : ", as does 1 other";
   return words;

@@ -502,26 +502,26 @@ TEST(Outputs, AQualityThatNoFileHasIsSaid) {
   EXPECT_THAT(said("b.mp4"), Not(HasSubstr("video.crf")));
 }
 
+// What the captions beside a film hold.
+std::string captions_with(const std::vector<std::string>& settings) {
+  const TemporaryFolder folder;
+  std::vector<std::string> words{"--set", "slow_motion=none", "-o", folder.file("a.gif")};
+  for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+  EXPECT_EQ(render(words).status, 0);
+  return read_whole_file(folder.file("a.srt"));
+}
+
 // One may be read: an event a millisecond behind another shares its caption, one half a second behind it has its own.
 TEST(Outputs, CaptionsStandForAsLongAsOneReadsThem) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(render({"--set", "duration=3", "--set", "slow_motion=none", "--set",
-                    "events=[{when: t - 0.5, name: a}, {when: t - 0.501, name: b}, {when: t - 1, name: c}, {when: t - 1.6, name: d}]", "-o",
-                    folder.file("a.gif")})
-                .status,
-            0);
-  EXPECT_EQ(read_whole_file(folder.file("a.srt")),
+  EXPECT_EQ(captions_with({"duration=3",
+                           "events=[{when: t - 0.5, name: a}, {when: t - 0.501, name: b}, {when: t - 1, name: c}, {when: t - 1.6, name: d}]"}),
             "1\n00:00:00,500 --> 00:00:01,000\na\nb\n\n2\n00:00:01,000 --> 00:00:01,600\nc\n\n3\n00:00:01,600 --> 00:00:03,000\nd\n\n");
 }
 
 // Nothing is told before it happens, and words that the film stands still for stand as long as it does.
 TEST(Outputs, CaptionsFollowTheFilm) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(render({"--set", "duration=4", "--set", "slow_motion=none", "--set", "events=[{when: t - 0.5, name: a}, {when: t - 0.7, name: b}]",
-                    "--set", "annotate=[{at: 1.5s, text: held, point: gripper, hold: 3s}]", "-o", folder.file("a.gif")})
-                .status,
-            0);
-  EXPECT_EQ(read_whole_file(folder.file("a.srt")),
+  EXPECT_EQ(captions_with({"duration=4", "events=[{when: t - 0.5, name: a}, {when: t - 0.7, name: b}]",
+                           "annotate=[{at: 1.5s, text: held, point: gripper, hold: 3s}]"}),
             "1\n00:00:00,500 --> 00:00:00,700\na\n\n2\n00:00:00,700 --> 00:00:01,500\na\nb\n\n3\n00:00:01,500 --> 00:00:04,500\nheld\n\n");
 }
 

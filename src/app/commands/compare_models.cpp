@@ -134,13 +134,10 @@ namespace {
 // What each of several columns parts by; one alone is told in the sentence before.
 std::string column_words(const TrajectoryDifference& difference) {
   if (difference.numbers.size() < 2) return "";
-  const auto amount = [](double value, const std::string& unit) {
-    return format_significant(value, 3) + (unit.empty() ? "" : " " + unit);
-  };
   std::vector<std::vector<std::string>> table{{"column", "differs from t, s, on", "largest", "at t, s", "of a range of"}};
   for (const FreedomDifference& one : difference.numbers)
-    table.push_back({one.label, format_significant(one.first_time, 6), amount(one.largest, one.unit),
-                     format_significant(one.largest_time, 6), amount(one.range, one.unit)});
+    table.push_back({one.label, format_significant(one.first_time, 6), amount_text(format_significant(one.largest, 3), one.unit),
+                     format_significant(one.largest_time, 6), amount_text(format_significant(one.range, 3), one.unit)});
   std::string text = table_text(table);
   text.pop_back();
   return text;

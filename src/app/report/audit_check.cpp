@@ -1,6 +1,7 @@
 #include "app/report/audit_check.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -17,16 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* word_of(AuditedState state) {
-  switch (state) {
-    case AuditedState::as_written:
-      return "as written";
-    case AuditedState::changed:
-      return "CHANGED";
-    case AuditedState::missing:
-      return "MISSING";
-  }
-  return "";
+Error changed_by_hand(const std::string& audit) {
+  return Error(ExitCode::bad_input, "is an audit that was changed by hand: its files have no names or no hashes", {audit});
 }
 
 // As the audit tells of a file beside it.
@@ -39,7 +32,7 @@ struct Told {
 void require_ours(const Told& told, const std::string& audit) {
   const bool is_name = !told.name.empty() && fs::path(told.name).filename() == told.name;
   const bool is_hash = told.sha256.size() == 64 && told.sha256.find_first_not_of("0123456789abcdef") == std::string::npos;
-  if (!is_name || !is_hash) throw Error(ExitCode::bad_input, "is an audit that was changed by hand: its files have no names or no hashes", {audit});
+  if (!is_name || !is_hash) throw changed_by_hand(audit);
 }
 
 AuditCheck::File look_at(const fs::path& path, const std::string& expected, std::optional<std::uintmax_t> bytes = {}) {
@@ -105,6 +98,13 @@ void add_contradictions(AuditCheck& check, const Json& audit) {
 
 }  // namespace
 
+std::span<const Name> names_of(AuditedState) {
+  static constexpr Name names[] = {{"as written", "its bytes are those that the audit tells of"},
+                                   {"changed", "it is there with other bytes"},
+                                   {"missing", "it is not there"}};
+  return names;
+}
+
 bool AuditCheck::passes() const {
   return contradicted.empty() &&
          std::all_of(files.begin(), files.end(), [](const File& file) { return file.state == AuditedState::as_written; });
@@ -128,14 +128,13 @@ AuditCheck check_audit(const std::string& path) {
       if (check.files.back().state == AuditedState::as_written) add_contradictions(check, audit);
     }
     if (audit.contains(kSidecarHashes) && audit[kSidecarHashes].is_object())
-      for (const auto& [ending, hash] : audit[kSidecarHashes].items())
-      {
+      for (const auto& [ending, hash] : audit[kSidecarHashes].items()) {
         require_ours({"sidecar" + ending, hash, {}}, check.audit);
         check.files.push_back(look_at(fs::path(asked).replace_extension(ending), hash));
         is_told_of = is_told_of || asked.extension() == ending;
       }
   } catch (const Json::exception&) {
-    throw Error(ExitCode::bad_input, "is an audit that was changed by hand: its files have no names or no hashes", {check.audit});
+    throw changed_by_hand(check.audit);
   }
   if (names.empty())
     throw Error(ExitCode::bad_input, "tells of no film or picture by its hash: those of a sequence are not told of one by one", {check.audit});
@@ -143,10 +142,22 @@ AuditCheck check_audit(const std::string& path) {
   return check;
 }
 
+namespace {
+
+// What is wrong stands out of a list.
+std::string loud_word_of(AuditedState state) {
+  std::string word = to_string(state);
+  if (state != AuditedState::as_written)
+    for (char& c : word) c = char(std::toupper(c));
+  return word;
+}
+
+}  // namespace
+
 std::vector<std::string> words_of(const AuditCheck& check) {
   std::vector<std::string> lines;
   for (const AuditCheck::File& file : check.files)
-    lines.push_back(std::string(word_of(file.state)) + "  " + printable(file.path) +
+    lines.push_back(loud_word_of(file.state) + "  " + printable(file.path) +
                     (file.state == AuditedState::changed ? ": its SHA-256 is " + file.sha256 + ", the audit says " + file.expected
                                                          : ", SHA-256 " + file.expected));
   if (!check.contradicted.empty())
@@ -160,9 +171,7 @@ Json to_json(const AuditCheck& check) {
   Json json{{"audit", check.audit}, {"passes", check.passes()}, {"audited", Json::array()}, {"contradicted", check.contradicted}, {"remembered", check.is_remembered}};
   for (const AuditCheck::File& file : check.files)
     json["audited"].push_back({{"file", file.path},
-                               {"state", file.state == AuditedState::as_written ? "as written"
-                                         : file.state == AuditedState::changed ? "changed"
-                                                                               : "missing"},
+                               {"state", to_string(file.state)},
                                {"sha256", file.sha256.empty() ? Json(nullptr) : Json(file.sha256)},
                                {"expected", file.expected}});
   return json;

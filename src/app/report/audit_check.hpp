@@ -1,14 +1,17 @@
 // Whether films and pictures are those that the audit beside them tells of.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/json.hpp"
+#include "core/names.hpp"
 
 namespace chainreel {
 
 enum class AuditedState { as_written, changed, missing };
+std::span<const Name> names_of(AuditedState);
 
 struct AuditCheck {
   struct File {

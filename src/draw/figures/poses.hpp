@@ -57,11 +57,12 @@ bool leaves_page(const Chain& chain, const std::vector<double>& q, const PoseFig
 // One panel a pose, all at the same scale: the chain, its effective-mass ellipse, and below them the pose and the
 // numbers of Lambda, of five poses and more on one line; at singular poses an open band and the direction of infinite mass. Superposed: every chain as an
 // onion skin of 25 %, every ellipse at full strength. A field: the chain where its ellipse is roundest alone.
+Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& poses,
+                            const PoseFigureOptions& options, const Fonts& fonts);
+
 // Whether that figure has each pose's numbers below it, all of them.
 bool names_every_pose(const TipMass& mass, const std::vector<std::vector<double>>& poses, const PoseFigureOptions& options,
                       const Fonts& fonts);
-Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& poses,
-                            const PoseFigureOptions& options, const Fonts& fonts);
 
 // For each pose the chain, the unit circle of accelerations of two joints, and its image under M(q) in the space of their
 // torques, the other joints not accelerating, in blocks so many across as lets them be largest. `joints` from 0. Throws
