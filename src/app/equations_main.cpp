@@ -130,11 +130,8 @@ void run_equations(const EquationsOptions& options) {
   if (options.theta && std::none_of(forms.begin(), forms.end(), has_angles))
     throw Error(ExitCode::usage, "--theta is for text and LaTeX: the angles are q in Python and JSON");
   std::vector<std::unique_ptr<OutputFile>> files;
-  for (const std::string& path : options.outputs) {
-    if (std::any_of(files.begin(), files.end(), [&](const auto& file) { return file->path() == path; }))
-      throw Error(ExitCode::usage, "-o " + path + ": is named twice");
-    files.push_back(std::make_unique<OutputFile>(path, options.common.force));
-  }
+  refuse_twice(options.outputs);
+  for (const std::string& path : options.outputs) files.push_back(std::make_unique<OutputFile>(path, options.common.force));
   const SymbolicEquation equation = equation_of(options);
   const std::string angle = options.theta ? "theta" : "q";
   if (files.empty() && !options.common.json)

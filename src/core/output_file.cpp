@@ -12,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <utility>
 
 #include "core/error.hpp"
@@ -69,6 +70,13 @@ void require_replaceable(const std::string& path) {
 void refuse_dash(const std::string& path) {
   if (path == "-" || path.starts_with("-/"))
     throw Error(ExitCode::usage, "-o " + path + ": this goes into a file, not to standard output: name one, like -o out/result");
+}
+
+void refuse_twice(const std::vector<std::string>& paths) {
+  std::set<std::string> seen;
+  for (const std::string& path : paths)
+    if (!seen.insert(fs::path(path).lexically_normal().string()).second)
+      throw Error(ExitCode::usage, "-o " + path + " is named twice");
 }
 
 OutputFile::OutputFile(std::string path, bool overwrite) : path_(std::move(path)), target_(behind_links(path_)) {

@@ -16,6 +16,9 @@ namespace chainreel {
 // name. Throws Error (exit 2).
 void refuse_dash(const std::string& path);
 
+// Throws Error (exit 2) where two of the paths that -o names are one file, however they are written.
+void refuse_twice(const std::vector<std::string>& paths);
+
 class OutputFile {
  public:
   // Makes the folders that are missing; a link to a file stands for that file. Throws Error (exit 6) where the folder

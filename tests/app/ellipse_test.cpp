@@ -209,6 +209,13 @@ TEST(EllipseOutputs, HaveTheirSizeOnPaper) {
   EXPECT_EQ(text_of(folder.file("b.png")).find("pHYs"), std::string::npos);
 }
 
+// However it is written.
+TEST(EllipseOutputs, AreNoFileThatIsNamedTwice) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_program({"ellipse", "models/rr.urdf", "--pose", "0,1", "-o", folder.file("a.csv"), "-o", folder.file("./a.csv")}).status, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.csv")));
+}
+
 TEST(EllipseOptions, ThatDoNotGoTogetherAreNamed) {
   const auto error = [](const std::vector<std::string>& words) {
     const ProgramResult result = draw(words, "out/x.png");

@@ -95,6 +95,7 @@ TEST(Equations, GoIntoAsManyFilesAsAreNamedOrIntoNone) {
   // One of them exists, one is named twice, one has no form: nothing is written.
   EXPECT_EQ(run_program({"equations", "models/rr.urdf", "-o", text, "-o", py}).status, 6);
   EXPECT_EQ(run_program({"equations", "models/rr.urdf", "-o", text, "-o", text}).status, 2);
+  EXPECT_EQ(run_program({"equations", "models/rr.urdf", "-o", text, "-o", folder.file("./a.txt")}).status, 2);
   EXPECT_EQ(run_program({"equations", "models/rr.urdf", "-o", text, "-o", folder.file("a.png")}).status, 2);
   EXPECT_FALSE(std::filesystem::exists(text));
 }

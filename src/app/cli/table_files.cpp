@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <set>
 
 #include "app/cli/result.hpp"
 #include "core/error.hpp"
@@ -15,11 +14,9 @@ void add_table_option(Command& command, std::vector<std::string>& outputs, const
 }
 
 TableFiles::TableFiles(const std::vector<std::string>& paths, const CommonOptions& options) {
-  std::set<std::string> seen;
+  refuse_twice(paths);
   for (const std::string& path : paths) {
     require_room_on_output(options, path);
-    if (!seen.insert(std::filesystem::path(path).lexically_normal().string()).second)
-      throw Error(ExitCode::usage, "-o " + path + " is named twice");
     files_.push_back({path, table_format_of(path), nullptr});
   }
   for (One& one : files_)

@@ -145,11 +145,10 @@ std::vector<std::string> outputs_of(const EllipseOptions& options) {
   if (outputs.empty()) outputs = {"out/" + std::filesystem::path(named).stem().string() + "_ellipse.png"};
   for (const std::string& output : outputs) {
     check_figure_path(output);
-    if (std::count(outputs.begin(), outputs.end(), output) > 1)
-      throw Error(ExitCode::usage, "-o " + output + " is named twice");
     if (options.joint_space && is_table_path(output) && lower_case_ending(output) != ".json")
       throw Error(ExitCode::usage, "-o " + output + ": --joint-space is written as .png, .svg or .pdf, its numbers as .json");
   }
+  refuse_twice(outputs);
   return outputs;
 }
 

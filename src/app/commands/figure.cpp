@@ -4,7 +4,6 @@
 #include <array>
 #include <filesystem>
 #include <optional>
-#include <set>
 
 #include "app/film/house_logo.hpp"
 #include "app/film/target.hpp"
@@ -94,12 +93,8 @@ void write_numbers(const std::string& path, const FigureNumbers& numbers, bool o
 FigureFiles::FigureFiles(const FigureOptions& options, const std::string& usual, bool overwrite)
     : options_(options), paths_(options.outputs), overwrite_(overwrite) {
   if (paths_.empty()) paths_.push_back(usual);
-  std::set<std::string> seen;
-  for (const std::string& path : paths_) {
-    check_figure_path(path);
-    if (!seen.insert(std::filesystem::path(path).lexically_normal().string()).second)
-      throw Error(ExitCode::usage, "-o " + path + " is named twice");
-  }
+  for (const std::string& path : paths_) check_figure_path(path);
+  refuse_twice(paths_);
   for (const std::string& path : paths_) {
     const OutputFile may_be_written(path, overwrite);  // throws where it may not
     const std::string table = std::filesystem::path(path).replace_extension(".csv").string();

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <set>
 
 #include "app/cli/named_pose.hpp"
 #include "app/cli/command.hpp"
@@ -69,7 +68,6 @@ OutputPlace place_of(const SnapshotOptions& options, std::size_t pictures) {
   const std::string stem = std::filesystem::path(options.file).stem().string();
   if (options.outputs.empty())
     return pictures > 1 ? OutputPlace{{"out/" + stem}, true} : OutputPlace{{"out/" + stem + ".png"}, false};
-  std::set<std::string> seen;
   bool is_folder = false;
   for (const std::string& output : options.outputs) {
     const bool is_one = output.ends_with('/') || std::filesystem::is_directory(output, ignored);
@@ -80,9 +78,8 @@ OutputPlace place_of(const SnapshotOptions& options, std::size_t pictures) {
     if (!is_one && pictures > 1)
       throw Error(ExitCode::usage, "-o " + output + " names one file for " + std::to_string(pictures) +
                                        " pictures: name a folder, like -o out/");
-    if (!seen.insert(std::filesystem::path(output).lexically_normal().string()).second)
-      throw Error(ExitCode::usage, "-o " + output + " is named twice");
   }
+  refuse_twice(options.outputs);
   return {options.outputs, is_folder};
 }
 

@@ -169,7 +169,7 @@ class Verification {
         1, (pictures.size() + std::size_t(options_.jobs) - 1) / std::size_t(options_.jobs));
     for (std::size_t i = 0; i < pictures.size();) {
       std::size_t end = i + 1;
-      while (end < pictures.size() && end - i < longest && pictures[end]->source == pictures[i]->source && pictures[end]->variant == pictures[i]->variant)
+      while (end < pictures.size() && end - i < longest && share_source(*pictures[end], *pictures[i]))
         ++end;
       pieces.emplace_back(i, end);
       i = end;

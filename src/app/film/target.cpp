@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 
 #include "app/cli/streams.hpp"
 #include "core/error.hpp"
@@ -100,10 +99,7 @@ std::vector<Target> targets_of(const std::vector<std::string>& outputs, std::siz
     targets.back().is_implied = paths != outputs && !targets.back().format->is_sequence;
     require_possible(targets.back(), scene);
   }
-  std::map<std::string, int> seen;
-  for (const std::string& path : paths_of(targets))
-    if (++seen[fs::path(path).lexically_normal().string()] > 1)
-      throw Error(ExitCode::usage, "-o " + path + " is named twice");
+  refuse_twice(paths_of(targets));
   return targets;
 }
 

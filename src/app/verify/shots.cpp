@@ -30,10 +30,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool share_source(const SuitePicture& a, const SuitePicture& b) {
-  return a.source == b.source && a.variant == b.variant;
-}
-
 std::vector<const SuitePicture*> pictures_beside(const Suite& suite, const SuitePicture& one) {
   std::vector<const SuitePicture*> all;
   for (const SuitePicture& picture : suite.pictures)

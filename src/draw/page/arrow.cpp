@@ -35,9 +35,9 @@ void draw_head(Picture& picture, Point tip, Point base, double half_width, const
 
 // The strokes on both sides of a break about `middle`, across the shaft that runs along the unit vector `along`.
 void draw_break(Picture& picture, Point middle, Point along, const ArrowStyle& style, int clip) {
+  if (style.around > 0) return;  // the gap shows what lies below
   const double gap = style.broken * style.size * kBreakGap, length = style.broken * style.size * kBreakStroke;
   const Point stroke = (length / 2) * (normal_to(along) + kBreakSlant * along);
-  if (style.around > 0) return;  // the gap shows what lies below
   for (const double side : {-0.5, 0.5}) {
     const Point at = middle + (side * gap) * along;
     draw_line(picture, {at - stroke, at + stroke}, 0.6 * style.lines * style.size * size::kArrowShaft, style.color, clip);

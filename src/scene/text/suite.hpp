@@ -37,6 +37,11 @@ struct SuitePicture {
   Place place;                            // of the pose or instant
 };
 
+// Whether both show one scene or model with the same keys.
+inline bool share_source(const SuitePicture& a, const SuitePicture& b) {
+  return a.source == b.source && a.variant == b.variant;
+}
+
 // What a variant sets, KEY=VALUE as for --set, and where it says so.
 struct SuiteOverride {
   std::string text;
