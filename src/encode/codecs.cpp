@@ -42,11 +42,15 @@ AVDictionary* h264_options(AVCodecContext& context, const VideoSettings& setting
   // Without loss at 0, which x264 can in High 4:4:4 Predictive alone, whatever the pixels.
   if (crf_of(settings) > 0) libav().av_dict_set(&options, "profile", "high", 0);
   libav().av_dict_set(&options, "crf", format_shortest(crf_of(settings)).c_str(), 0);
-  // cpu-independent: the same bytes whichever instruction set x264 finds. One frame between two others, where veryfast has up
-  // to three: a tenth less time and 35 MB less at 1920x1080, for files that are 1 to 9 % larger and no less true. Four frames
-  // looked at ahead, where veryfast has ten: another 40 MB less for each encoder, for files that are 4 to 8 % smaller and
-  // an SSIM of 0.9982 to 0.9994 where it was 0.9985 to 0.9995.
-  libav().av_dict_set(&options, "x264-params", "scenecut=0:open-gop=0:force-cfr=1:cpu-independent=1:bframes=1:rc-lookahead=4", 0);
+  // cpu-independent: the same bytes whichever instruction set x264 finds. The rest beside the preset as it is, at 1920x1080:
+  // one frame between two others, always, where veryfast looks for up to three; motion sought to half a pixel (subme) in a
+  // picture whose edges are soft; the motion of the frame between taken from its neighbours in time; four frames looked at
+  // ahead, where veryfast has ten. A third less time and 75 MB less for each encoder, for files that are 1 % smaller to 3 %
+  // larger, and an SSIM of 0.9960 to 0.9981 where it was 0.9964 to 0.9983.
+  libav().av_dict_set(&options, "x264-params",
+                      "scenecut=0:open-gop=0:force-cfr=1:cpu-independent=1:"
+                      "bframes=1:b-adapt=0:subme=1:direct=temporal:rc-lookahead=4",
+                      0);
   return options;
 }
 

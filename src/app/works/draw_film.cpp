@@ -8,6 +8,7 @@
 #include <fstream>
 #include <mutex>
 #include <optional>
+#include <system_error>
 
 #include "app/cli/streams.hpp"
 #include "app/works/joined_film.hpp"
@@ -17,8 +18,10 @@
 #include "core/machine.hpp"
 #include "core/parallel.hpp"
 #include "core/temporary_file.hpp"
+#include "encode/libav_functions.hpp"
 #include "encode/png.hpp"
 #include "render/canvas.hpp"
+#include "render/gl_backend.hpp"
 
 namespace chainreel {
 namespace {
@@ -379,6 +382,19 @@ int affordable_jobs(int wanted, const Scene& scene, const std::vector<Output>& o
   if (wanted > affordable)
     std::fprintf(stderr, "note: %s: there is memory for --jobs %d only\n", scene.name.c_str(), affordable);
   return std::min(wanted > 0 ? wanted : usable_cores(), affordable);
+}
+
+std::future<void> open_libraries_ahead(const std::vector<Output>& outputs) {
+  const auto is_motion = [](const Output& output) { return output.shows(Shows::motion) && !output.folder; };
+  if (std::none_of(outputs.begin(), outputs.end(), is_motion)) return {};
+  try {
+    return std::async(std::launch::async, [] {
+      libav();
+      open_renderer_library();
+    });
+  } catch (const std::system_error&) {  // no thread is to be had
+    return {};
+  }
 }
 
 void draw_film(const FilmWork& work, std::vector<Output>& outputs, StageTimes& times) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <future>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,10 @@ struct FilmCuts {
   bool are_fixed = false;
 };
 FilmCuts cuts_of(const std::vector<Output>& outputs, int frames, FrameRate fps);
+
+// Begins to open the libraries that films need, and the renderer's, beside what is worked out before: opened from cold they
+// take a tenth of a second. What fails is told by the first who needs it. The end of what is returned waits for the end of that.
+[[nodiscard]] std::future<void> open_libraries_ahead(const std::vector<Output>& outputs);
 
 // How many threads are worth having where `wanted`, or all processors where it is 0, may be had: as many as there is memory
 // for; fewer than wanted is told on standard error.

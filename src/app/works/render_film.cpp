@@ -1,6 +1,7 @@
 #include "app/works/render_film.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
@@ -78,6 +79,15 @@ void add_own_slow_motion(const FilmReport& report, std::vector<std::string>& not
     notes.push_back(scene.name + ": film lasts " + format_fixed(report.film_seconds(), 1) + " s, its motion " +
                     format_significant(motion, 4) + " s: slow motion at " + (stretches.size() == 1 ? "1 place" : std::to_string(stretches.size()) + " places") +
                     " (--set slow_motion=none): " + joined(stretches));
+}
+
+// Pictures beside a film are frames of it, which `snapshot` need not show.
+void add_other_instant(const std::vector<Output>& outputs, double shown, double asked, const Scene& scene, std::vector<std::string>& notes) {
+  constexpr double kSame = 1e-9;  // s
+  const auto is_still = [](const Output& output) { return output.shows(Shows::still); };
+  if (std::abs(shown - asked) <= kSame || std::none_of(outputs.begin(), outputs.end(), is_still)) return;
+  notes.push_back(scene.name + ": the picture shows the frame of t = " + format_significant(shown, 5) + " s: `chainreel snapshot --at " +
+                  format_shortest(asked) + "` shows the instant itself");
 }
 
 // What is to be said of a film that became what it is, to its caller or on standard error.
@@ -283,6 +293,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   std::vector<Sidecar> sidecars;
   if (!is_part) sidecars = open_sidecars(job, film);
 
+  const std::future<void> libraries = open_libraries_ahead(outputs);
   StageClock total, clock;
   std::optional<Runs> own;
   const Runs& runs = done != nullptr ? *done : own.emplace(film);
@@ -331,8 +342,9 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
 
   const int still = std::clamp(runs.clock().frame_at(job.at), 0, schedule.frames - 1);
   result.jobs = affordable_jobs(job.jobs, scene, outputs);
-  draw_film({pictures, scene, fonts, schedule, still, runs.times()[std::size_t(still)], memory, range, part, key, result.jobs,
-             job.quiet},
+  const double still_at = runs.times()[std::size_t(still)];
+  add_other_instant(outputs, still_at, job.at, scene, result.notes);
+  draw_film({pictures, scene, fonts, schedule, still, still_at, memory, range, part, key, result.jobs, job.quiet},
             outputs, result.times);
   write_tables(runs, outputs);
   result.times.total = total.lap().wall;
