@@ -1,10 +1,12 @@
 #include "sim/choice/choice_reference.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/parallel.hpp"
 #include "sim/choice/quad_reference.hpp"
 
 namespace chainreel {
@@ -24,6 +26,7 @@ constexpr double kShareOfQuads = 0.05;
 constexpr int kQuadOrders[] = {40, 32};
 constexpr double kQuadTolerances[] = {1e-25, 1e-21};
 constexpr double kCostOfQuads = 80;  // doubles' price of a series of that order
+constexpr std::size_t kSamplesOfQuads = 32;  // that both orders go on before they are compared
 constexpr double kRounding = 0x1p-52;
 constexpr double kRoundings = 8;  // that places of a few joints gather
 
@@ -224,25 +227,33 @@ class Finder {
   void go_on_in_quads(ChoiceReference& reference) {
     const double ns = kCostOfQuads * runs_.cost_of({reference.setting.method, {0, kQuadOrders[0]}, 0}, 1, 1);
     const long most = long(kShareOfRun * runs_.budget() / ns);
-    QuadSeries better = quads(0, most), worse = quads(1, most);
+    std::array<QuadSeries, 2> series = {quads(0, most), quads(1, most)};
     const Trajectory doubles = reference.run;
     Trajectory other = reference.run;
+    const std::array<Trajectory*, 2> rows = {&reference.run, &other};
     const std::size_t parted = reference.uncertainty.size();
     std::size_t k = 0;
     while (k < parted && reference.uncertainty[k] <= kShareOfQuads * accuracy_.value) ++k;
     std::vector<double> uncertainty(reference.uncertainty.begin(), reference.uncertainty.begin() + std::ptrdiff_t(k));
     std::copy_n(reference.other.q.begin(), k * std::size_t(other.nq), other.q.begin());
     std::copy_n(reference.other.qd.begin(), k * std::size_t(other.nv), other.qd.begin());
-    bool left = false;
-    for (; k < std::size_t(doubles.size()) && !left; ++k) {
-      if (!better.run_to(times_[k]) || !worse.run_to(times_[k])) break;
-      put_row(better, k, reference.run);
-      put_row(worse, k, other);
-      const double own = deviation_->at(reference.run, other, int(k));
-      left = deviation_->at(reference.run, doubles, int(k)) + own > accuracy_.value;
-      if (!left) uncertainty.push_back(own);
+    bool left = false, go_on = true;
+    while (k < std::size_t(doubles.size()) && !left && go_on) {
+      const std::size_t behind = std::min(k + kSamplesOfQuads, std::size_t(doubles.size()));
+      std::array<std::size_t, 2> reached{};
+      for_each_index(2, 2, [&](std::size_t i) {
+        for (reached[i] = k; reached[i] < behind && series[i].run_to(times_[reached[i]]); ++reached[i])
+          put_row(series[i], reached[i], *rows[i]);
+      });
+      const std::size_t both = std::min(reached[0], reached[1]);
+      go_on = both == behind;
+      for (; k < both && !left; ++k) {
+        const double own = deviation_->at(reference.run, other, int(k));
+        left = deviation_->at(reference.run, doubles, int(k)) + own > accuracy_.value;
+        if (!left) uncertainty.push_back(own);
+      }
     }
-    runs_.spend(ns * double(better.expansions() + worse.expansions()));
+    runs_.spend(ns * double(series[0].expansions() + series[1].expansions()));
     if (uncertainty.size() <= parted) {  // the quads ended before the doubles parted
       reference.run = doubles;
       return;

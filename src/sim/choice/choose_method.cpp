@@ -1,6 +1,7 @@
 #include "sim/choice/choose_method.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/error.hpp"
@@ -23,6 +24,7 @@ constexpr double kShareOfCandidate = 0.1;  // of the budget, where nothing is ex
 constexpr double kSpread = 10;
 constexpr double kFirstBound = 1e-3;
 constexpr double kNextBound = 4;  // times the one before
+constexpr double kFarMiss = 10;   // times the accuracy
 
 bool takes_the_chain(Simulation& simulation, const Method& method) {
   simulation.method = &method;
@@ -243,6 +245,14 @@ class Chooser {
 
   bool is_hopeless(double cost) const { return choice_.is_met && cost >= ceiling(); }
 
+  // Whether steps as short as may be would miss the accuracy, too, by far, though errors fell an order faster than the
+  // method's. Errors as large as the motion itself fall later than that.
+  bool is_out_of_reach(const Method& method, const Choice::Candidate& last) const {
+    if (!choice_.is_met || !std::isfinite(last.error)) return false;
+    const double finer = std::max(1.0, ceiling() / last.cost);
+    return last.error > kFarMiss * accuracy_.value * std::pow(finer, method.order + 1);
+  }
+
   void try_steps(const Method& method) {
     for (const double step : kStepLadder) {
       if (step > simulation_.duration) continue;
@@ -255,6 +265,7 @@ class Chooser {
         return;
       }
       if (has_ended() || try_one(setting) != Verdict::not_met) return;
+      if (is_out_of_reach(method, choice_.tried.back())) return;
     }
   }
 
