@@ -16,6 +16,7 @@ namespace {
 constexpr int kBetween = 7;             // instants between two samples
 constexpr std::size_t kMostBetween = 20'000;  // of a run, where torques are asked
 constexpr double kFlat = 0.1;           // of its plot's range: a curve that moves less is judged by so much
+constexpr std::size_t kMostClose = 16;  // places looked at closer
 constexpr double kShortest = 1e-9;      // of the duration: what is closer, like an event at a sample, makes rates of rounding
 constexpr double kRounding = 1e-9;      // of the size of the numbers, and in rad/s, N m, ..: no motion
 
@@ -139,10 +140,14 @@ class Filler {
   std::vector<double> q_, qd_, qdd_;
 };
 
+// That a curve goes beyond both samples about it.
 struct Hidden {
-  std::string name;
-  double share = 0, amount = 0, t = 0;
-  double excess = 1;  // the share over what is let be
+  std::size_t plot = 0, curve = 0, sample = 0;  // behind which it lies
+  double least_unit = 0, unit = 1;  // of shares: the curve's range
+  double let_be = 0;                // the share that may be hidden
+  double amount = 0, t = 0;
+
+  double excess() const { return amount / (unit * let_be); }
 };
 
 double span_of(const std::vector<double>& y, double& size) {
@@ -154,23 +159,53 @@ double span_of(const std::vector<double>& y, double& size) {
   return high - low;
 }
 
-void look_at(const PlotCurves& plot, const Denser& denser, Hidden& worst) {
+// Where the curves of one plot do so by more than is let be.
+void look_at(const PlotCurves& plot, std::size_t number, const Denser& denser, std::vector<Hidden>& found) {
   double widest = 0, size = 0;
   for (const PlotCurve& curve : plot.curves) widest = std::max(widest, span_of(curve.y, size));
   if (!(widest > kRounding * std::max(1.0, size))) return;
-  for (const PlotCurve& curve : plot.curves) {
-    const double unit = std::max(span_of(curve.y, size), kFlat * widest);
+  for (std::size_t c = 0; c < plot.curves.size(); ++c) {
+    const std::vector<double>& y = plot.curves[c].y;
+    const double least = kFlat * widest, unit = std::max(span_of(y, size), least);
     for (std::size_t k = 0; k + 1 < denser.samples.size(); ++k) {
       const int first = denser.samples[k], last = denser.samples[k + 1];
       const bool has_kinks = plot.quantity == PlotQuantity::tau && last - first - 1 > denser.evenly;
-      const double let_be = unit * (has_kinks ? kDoubtfulPulse : kDoubtfulSamples);
-      const auto [low, high] = std::minmax(curve.y[std::size_t(first)], curve.y[std::size_t(last)]);
-      for (int i = first + 1; i < last; ++i) {
-        const double beyond = std::max(low - curve.y[std::size_t(i)], curve.y[std::size_t(i)] - high);
-        if (beyond > worst.excess * let_be)
-          worst = {curve.name.empty() ? plot.title : curve.name, beyond / unit, beyond, denser.run.t[std::size_t(i)], beyond / let_be};
-      }
+      Hidden hidden{number, c, k, least, unit, has_kinks ? kDoubtfulPulse : kDoubtfulSamples};
+      const auto [low, high] = std::minmax(y[std::size_t(first)], y[std::size_t(last)]);
+      for (int i = first + 1; i < last; ++i)
+        if (const double beyond = std::max(low - y[std::size_t(i)], y[std::size_t(i)] - high); beyond > hidden.amount)
+          hidden.amount = beyond, hidden.t = denser.run.t[std::size_t(i)];
+      if (hidden.excess() > 1) found.push_back(hidden);
     }
+  }
+}
+
+// The same places in the run itself, at instants near together and those where something was seen: the cubic tells where something
+// hides, of a sharp peak not how much, and behind a jump that there is a peak where there is none.
+void look_closer(const PlotSet& plots, const Simulation& simulation, const Trajectory& trajectory, std::vector<Hidden>& found) {
+  constexpr int kClose = 200;
+  std::vector<double> times = trajectory.t;
+  for (const Hidden& one : found) {
+    const double a = trajectory.t[one.sample], b = trajectory.t[one.sample + 1];
+    for (int i = 0; i < kClose; ++i) times.push_back(a + (b - a) * i / kClose);
+    times.push_back(b);
+    times.push_back(one.t);
+  }
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  const Trajectory close = simulate(simulation, times);
+  const std::vector<PlotCurves> curves = plot_curves(plots, simulation, close, close.size());
+  for (Hidden& one : found) {
+    const std::vector<double>& y = curves[one.plot].curves[one.curve].y;
+    const auto place = [&](double t) { return std::size_t(std::lower_bound(close.t.begin(), close.t.end(), t) - close.t.begin()); };
+    const std::size_t first = place(trajectory.t[one.sample]), last = place(trajectory.t[one.sample + 1]);
+    double size = 0;
+    one.unit = std::max(span_of(y, size), one.least_unit);
+    one.amount = 0;
+    if (last >= y.size()) continue;
+    const auto [low, high] = std::minmax(y[first], y[last]);
+    for (std::size_t i = first + 1; i < last; ++i)
+      if (const double beyond = std::max(low - y[i], y[i] - high); beyond > one.amount) one.amount = beyond, one.t = close.t[i];
   }
 }
 
@@ -186,16 +221,24 @@ long rate_for(const Trajectory& run) {
 std::optional<Doubt> doubt_between(const Simulation& simulation, const Trajectory& trajectory) {
   if (trajectory.size() < 3 || trajectory.steps + 1 == trajectory.size() || !simulation.torque) return {};
   const Denser denser = Filler(simulation, trajectory).fill();
-  Hidden worst;
   std::vector<PlotEntry> always{{"qd", "", {}}, {"tau", "", {}}};
   if (denser.run.rows > 0) always.push_back({"lambda", "", {}});
   const auto plots = make_plots(simulation.chain, always, {}, {}, {}, denser.run.rows);
-  for (const PlotCurves& plot : plot_curves(*plots, simulation, denser.run, denser.run.size())) look_at(plot, denser, worst);
-  if (worst.name.empty()) return {};
-  return Doubt{"samples", worst.share,
-               "between the frames " + worst.name + " goes " + format_significant(worst.amount, 3) +
-                   " beyond what they show, " + std::to_string(std::lround(100 * worst.share)) + " % of its range, at t = " +
-                   format_significant(worst.t, 5) + " s: arrows and tables miss that",
+  const std::vector<PlotCurves> curves = plot_curves(*plots, simulation, denser.run, denser.run.size());
+  std::vector<Hidden> found;
+  for (std::size_t i = 0; i < curves.size(); ++i) look_at(curves[i], i, denser, found);
+  std::stable_sort(found.begin(), found.end(), [](const Hidden& a, const Hidden& b) { return a.excess() > b.excess(); });
+  if (found.size() > kMostClose) found.resize(kMostClose);
+  if (!found.empty()) look_closer(*plots, simulation, trajectory, found);
+  const auto worst = std::max_element(found.begin(), found.end(), [](const Hidden& a, const Hidden& b) { return a.excess() < b.excess(); });
+  if (worst == found.end() || worst->excess() <= 1) return {};
+  const PlotCurves& plot = curves[worst->plot];
+  const std::string& own = plot.curves[worst->curve].name;
+  const double share = worst->amount / worst->unit;
+  return Doubt{"samples", share,
+               "between the frames " + (own.empty() ? plot.title : own) + " goes " + format_significant(worst->amount, 3) +
+                   " beyond what they show, " + std::to_string(std::lround(100 * share)) + " % of its range, at t = " +
+                   format_significant(worst->t, 5) + " s: arrows and tables miss that",
                "--set video.fps=" + std::to_string(rate_for(trajectory)) + ", of a table also simulate --every-step"};
 }
 

@@ -12,7 +12,9 @@
 #include "draw/film/compose.hpp"
 #include "draw/layers/speed_box.hpp"
 #include "render/canvas.hpp"
+#include "scene/keys/keys.hpp"
 #include "scene/run/fall.hpp"
+#include "scene/run/title.hpp"
 #include "sim/drive/recorded_motion.hpp"
 
 namespace chainreel {
@@ -24,6 +26,18 @@ std::vector<Doubt> warnings_of(const PreparedScene& prepared, const Trajectory& 
   if (prepared.scene.expect == Outcome::diverge) return {};
   const auto chosen_by = prepared.choice ? std::optional(prepared.scene.accuracy) : std::nullopt;
   return doubts_of(prepared.simulation, trajectory, audit, chosen_by);
+}
+
+// A remedy of one panel changes that panel: keys of the page stay as they are.
+std::string in_panel(const std::string& remedy, int panel) {
+  const std::string set = "--set ", prefix = "compare." + std::to_string(panel) + ".";
+  std::string text = remedy;
+  for (std::size_t at = text.find(set); at != std::string::npos; at = text.find(set, at + 1)) {
+    const std::size_t key = at + set.size() + (text[at + set.size()] == '\'' ? 1 : 0);
+    const std::vector<std::string>& shared = page_keys();
+    if (std::find(shared.begin(), shared.end(), text.substr(key, text.find_first_of(".=", key) - key)) == shared.end()) text.insert(key, prefix);
+  }
+  return text;
 }
 
 // What happened when, and whether it fell.
@@ -63,6 +77,8 @@ Json motion_report(const RecordedMotion& motion) {
 RunReport run_report(const PreparedScene& prepared, const Trajectory& trajectory) {
   RunReport report{prepared, trajectory, audit_of(prepared.simulation, trajectory), {}, {}};
   report.warnings = warnings_of(prepared, trajectory, report.audit);
+  if (const int panel = prepared.scene.panel; panel > 0)
+    for (Doubt& doubt : report.warnings) doubt.remedy = in_panel(doubt.remedy, panel);
   return report;
 }
 
