@@ -12,6 +12,7 @@
 #include "draw/robot/view.hpp"
 #include "scene/annotation.hpp"
 #include "scene/run/prepare.hpp"
+#include "scene/run/title.hpp"
 #include "scene/text/panels.hpp"
 #include "scene/text/read_scene.hpp"
 
@@ -93,17 +94,20 @@ void check_words(const PreparedFilm& film) {
 }
 
 // What tells this run from others of the same scene: a film of a sweep shows where it stands.
-std::string words_of_set_parameters(const Scene& scene) {
-  std::string words;
-  for (const auto& [name, value] : scene.parameters) {
-    const auto is_set = [&](const std::string& key) { return scene.place_of(key).file.starts_with("--set"); };
-    if (is_set("parameters." + name) || is_set("parameters")) words += (words.empty() ? "" : ", ") + name + " = " + format_significant(value, 6);
-  }
-  return words;
+Parameters set_parameters(const Scene& scene) {
+  Parameters set;
+  const auto is_set = [&](const std::string& key) { return scene.place_of(key).file.starts_with("--set"); };
+  for (const auto& one : scene.parameters)
+    if (is_set("parameters." + one.first) || is_set("parameters")) set.push_back(one);
+  return set;
 }
 
-void notice_pale_colors(PreparedFilm& film) {
+void notice_the_page(PreparedFilm& film) {
   std::vector<std::string>& notices = film.panels.front().scene.notices;
+  for (PreparedScene& panel : film.panels)
+    for (std::string& line : title_notices(panel.scene)) panel.scene.notices.push_back(std::move(line));
+  if (film.panels.size() > 1)
+    for (std::string& line : title_notices(film.scene)) notices.push_back(std::move(line));
   for (std::string& line : low_contrasts(film.scene, bars_of(film))) notices.push_back(std::move(line));
 }
 
@@ -126,12 +130,12 @@ PreparedFilm film_of(Scene scene, bool meshes, bool quiet, const std::optional<O
   if (meshes) load_logo(film.scene);
   if (film.scene.compare.empty()) {
     std::set<std::string> said;
-    film.scene.set_words = words_of_set_parameters(film.scene);
+    film.scene.set_parameters = set_parameters(film.scene);
     film.panels.push_back(prepare_panel(std::move(film.scene), meshes, quiet, said));
     film.scene = film.panels.front().scene;
     check_words(film);
     if (meshes) load_shapes(film);
-    notice_pale_colors(film);
+    notice_the_page(film);
     return film;
   }
   film.panels = prepare_panels(film.scene.compare, meshes, quiet);
@@ -141,7 +145,7 @@ PreparedFilm film_of(Scene scene, bool meshes, bool quiet, const std::optional<O
     film.panels[i].scene.title = film.scene.compare[i].title;
   check_words(film);
   if (meshes) load_shapes(film);
-  notice_pale_colors(film);
+  notice_the_page(film);
   return film;
 }
 

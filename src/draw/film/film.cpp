@@ -85,10 +85,8 @@ Picture Film::static_layer() const {
 void Film::draw_panel(Picture& picture, std::size_t i, int k, bool is_still) const {
   const Panel& panel = panels_[i];
   const int shown = std::clamp(k, 0, panel.last());
-  std::vector<StandingWord> words(words_.at(i, shown).begin(), words_.at(i, shown).end());
-  if (is_still)
-    for (StandingWord& word : words) word.opacity = word.opacity > 0 ? 1 : 0;
-  MarkLabels labels(words);
+  const std::vector<StandingWord> of_still = is_still ? words_.still(*stage_, layers_, sheet_, view_, panels_, i, shown) : std::vector<StandingWord>{};
+  MarkLabels labels(is_still ? std::span<const StandingWord>(of_still) : words_.at(i, shown));
   for (std::size_t l = 0; l < layers_.size(); ++l)
     if (layers_[l]->is_of(panel.motion()))
       layers_[l]->draw(picture, {panel, panel.motion().pose_at(shown), shown, k > shown, view_.corner(l, i), labels});

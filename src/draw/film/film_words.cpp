@@ -8,6 +8,8 @@
 namespace chainreel {
 namespace {
 
+constexpr double kLooksPerSecond = 0.1;  // at a picture by itself: long enough for any word to be worth its place
+
 // Units of H, radius: what stands for a link that has a shape in space, and the shape about it, on which words stand if need be.
 constexpr double kBone = 0.010, kFlesh = 0.030;
 
@@ -49,6 +51,15 @@ class Gatherer {
       }
   }
 
+  // The same; chains in outline lie over the first one.
+  MarkLabels gather(std::size_t i, int k, const Stage& stage, std::vector<Obstacle>& obstacles) const {
+    MarkLabels labels, others;
+    draw(i, k, obstacles, labels);
+    if (stage.is_ghost())
+      for (std::size_t j = 1; j < panels_.size(); ++j) draw(j, k, obstacles, others);
+    return labels;
+  }
+
   std::vector<Obstacle> once(std::size_t i, const SharedPage& page) const {
     Pictures pictures;
     for (const auto& layer : layers_) {
@@ -78,15 +89,32 @@ FilmWords::FilmWords(const Stage& stage, const Layers& layers, const FilmSheet& 
     const std::vector<Obstacle> always = gatherer.once(i, view.shared_page(stage, sheet));
     for (int k = 0; k <= panels[i].last() && !panels[i].motion().is_outlined(); ++k) {
       std::vector<Obstacle> obstacles = always;
-      MarkLabels labels, others;
-      gatherer.draw(i, k, obstacles, labels);
-      // Chains in outline lie over the first one.
-      if (stage.is_ghost())
-        for (std::size_t j = 1; j < panels.size(); ++j) gatherer.draw(j, k, obstacles, others);
+      const MarkLabels labels = gatherer.gather(i, k, stage, obstacles);
       plan.add(labels.words(), obstacles);
     }
     panels_.push_back(plan.standing());
   }
+}
+
+std::vector<StandingWord> FilmWords::still(const Stage& stage, const Layers& layers, const FilmSheet& sheet, const FilmView& view,
+                                           const std::vector<Panel>& panels, std::size_t panel, int frame) const {
+  const std::span<const StandingWord> planned = at(panel, frame);
+  std::vector<StandingWord> words(planned.begin(), planned.end());
+  const auto is_left_out = [](const StandingWord& word) { return !(word.opacity > 0); };
+  const bool has_left_out = std::any_of(words.begin(), words.end(), is_left_out);
+  for (StandingWord& word : words) word.opacity = is_left_out(word) ? 0 : 1;
+  if (!has_left_out) return words;
+  const Gatherer gatherer(layers, view, panels);
+  std::vector<Obstacle> obstacles = gatherer.once(panel, view.shared_page(stage, sheet));
+  std::vector<MarkWord> wishes = gatherer.gather(panel, frame, stage, obstacles).words();
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (words[i].opacity > 0) wishes[i].places = {words[i].box};
+  WordPlan plan(panels[panel].area(), kLooksPerSecond);
+  plan.add(wishes, obstacles);
+  const std::vector<StandingWord> alone = plan.standing().front();
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (is_left_out(words[i])) words[i] = alone[i];
+  return words;
 }
 
 std::span<const StandingWord> FilmWords::at(std::size_t panel, int frame) const {

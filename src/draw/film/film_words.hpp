@@ -18,6 +18,11 @@ class FilmWords {
   // Of a panel at the frame that it shows; empty where it has no words.
   std::span<const StandingWord> at(std::size_t panel, int frame) const;
 
+  // The same for a picture by itself, in which nothing runs: words that fade stand whole, and those that the film leaves out there,
+  // since they would run faster than can be read, stand where there is room. With what the film was planned with.
+  std::vector<StandingWord> still(const Stage& stage, const Layers& layers, const FilmSheet& sheet, const FilmView& view,
+                                  const std::vector<Panel>& panels, std::size_t panel, int frame) const;
+
  private:
   std::vector<std::vector<std::vector<StandingWord>>> panels_;  // by panel and frame
 };

@@ -373,5 +373,23 @@ TEST(Stills, HaveWordsInFull) {
   EXPECT_GT(fading, 0) << "else this shows nothing";
 }
 
+// A film leaves names out that would run too fast to be read; in a picture nothing runs.
+TEST(Stills, HaveNamesThatTheFilmLeavesOut) {
+  const Cause cause("rrr_torque", {"layout=scene", "method=dop853", "tolerance=1e-9"}, 3);
+  const Film pictures = cause.film();
+  const auto letters = [](const Picture& picture) {
+    return test::all_of<GlyphRun>(picture, [](const GlyphRun& run) { return run.color.a > 0; }).size();
+  };
+  int lacking = 0, gained = 0;
+  for (int k = 0; k < cause.run.size(); ++k) {
+    const std::span<const StandingWord> words = pictures.words(0, k);
+    if (std::none_of(words.begin(), words.end(), [](const StandingWord& word) { return !(word.opacity > 0); })) continue;
+    ++lacking;
+    gained += letters(pictures.still(k)) > letters(pictures.frame(k));
+  }
+  EXPECT_GT(lacking, 10) << "else this shows nothing";
+  EXPECT_GT(gained, 0.9 * lacking) << lacking << ": some have no room";
+}
+
 }  // namespace
 }  // namespace chainreel
