@@ -50,7 +50,8 @@ struct Hold {
 struct CameraEntry {
   std::optional<double> azimuth;    // rad about the vertical; 0: x to the right, or the plane's own view
   std::optional<double> elevation;  // rad above the horizon
-  std::optional<double> distance;   // m from the middle of the motion; infinity: parallel rays
+  std::optional<double> distance;   // m from `focus`; infinity: parallel rays
+  std::optional<Eigen::Vector3d> focus;  // m: where an eye looks; absent: the middle of the motion
   // The part that is shown, m along the camera's right and up: left, bottom, right, top. Absent: fitted to the motion.
   std::optional<std::array<double, 4>> fit;
 };
@@ -89,6 +90,7 @@ struct EllipseEntry {
 
 struct Scene {
   std::string title;
+  int panel = 0;                           // which one of a comparison, from 1; 0: none
   ModelSource model;                       // a path as found from the working folder, or numbers
   std::optional<Eigen::Vector3d> gravity;  // m/s^2; absent: by the plane of the chain
   RootLink base = RootLink::fixed;
@@ -138,7 +140,7 @@ struct Scene {
   std::string name;                     // the file's name without its ending; not a key
   std::vector<std::string> notices;     // what was changed of it when it was made ready; not a key
   std::vector<std::string> doubts;      // what speaks against it, found at the same time: warnings; not a key
-  std::string set_words;  // "k = 200": parameters that the command line gave a single run, told behind its title; not a key
+  Parameters set_parameters;            // those that the command line gave a single run, told behind its title; not a key
   std::vector<std::string> absolute_paths;  // that the file itself has as such; not a key
   std::map<std::string, Place> places;  // where each key stood, by its dotted path; not a key
 

@@ -213,12 +213,15 @@ Cameras Baselines::cameras() const {
   const std::string remedy = "take a new camera with --accept --refit";
   const Json facts = read_facts(path, remedy);
   for (const auto& [source, part] : facts.items()) {
-    std::array<double, 4>& camera = cameras[source];
-    bool is_good = part.is_array() && part.size() == camera.size();
-    for (std::size_t i = 0; is_good && i < camera.size(); ++i)
-      if ((is_good = part[i].is_number())) camera[i] = part[i].get<double>();
-    if (!is_good || !(camera[0] < camera[2]) || !(camera[1] < camera[3]))
-      refuse(path, "'" + source + "' must hold left, bottom, right and top of a camera: restore it, or " + remedy);
+    const bool are_numbers = part.is_array() && std::all_of(part.begin(), part.end(), [](const Json& one) { return one.is_number(); });
+    const std::vector<double> numbers = are_numbers ? part.get<std::vector<double>>() : std::vector<double>{};
+    const bool has_eye = numbers.size() == 8;
+    if ((numbers.size() != 4 && !has_eye) || !(numbers[0] < numbers[2]) || !(numbers[1] < numbers[3]) || (has_eye && !(numbers[7] > 0)))
+      refuse(path, "'" + source + "' must hold left, bottom, right and top of a camera, and of one with an eye where it looks and its distance: "
+                       "restore it, or " + remedy);
+    KeptCamera& camera = cameras[source];
+    std::copy_n(numbers.begin(), 4, camera.part.begin());
+    if (has_eye) std::copy_n(numbers.begin() + 4, 4, camera.eye.emplace().begin());
   }
   return cameras;
 }
@@ -284,7 +287,7 @@ void BaselineUpdate::set_cameras(const Cameras& cameras) {
   fs::remove(path, code);
   if (cameras.empty()) return;
   Json json = Json::object();
-  for (const auto& [source, part] : cameras) json[source] = part;
+  for (const auto& [source, camera] : cameras) json[source] = numbers_of(camera);
   write_whole_file(path, text_of(json));
 }
 

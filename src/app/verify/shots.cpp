@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "app/film/instants.hpp"
 #include "app/film/model_scene.hpp"
@@ -37,26 +38,33 @@ std::vector<const SuitePicture*> pictures_beside(const Suite& suite, const Suite
   return all;
 }
 
-std::string fit_override(const std::array<double, 4>& part) {
-  std::string text = "camera.fit=[";
-  for (std::size_t i = 0; i < part.size(); ++i) text += (i > 0 ? ", " : "") + format_exact(part[i]);
+std::string list_override(const std::string& key, std::span<const double> numbers) {
+  std::string text = key + "=[";
+  for (std::size_t i = 0; i < numbers.size(); ++i) text += (i > 0 ? ", " : "") + format_exact(numbers[i]);
   return text + "]";
 }
 
+void add_camera(const KeptCamera& camera, std::vector<std::string>& overrides) {
+  overrides.push_back(list_override("camera.fit", camera.part));
+  if (!camera.eye) return;
+  overrides.push_back(list_override("camera.focus", std::span(*camera.eye).first(3)));
+  overrides.push_back("camera.distance=" + format_exact(camera.eye->back()));
+}
+
 // Keys of the suite, and the camera that its baselines have; a suite's own `fit` is among its keys. Those of a variant come last.
-std::vector<std::string> overrides_for(const Suite& suite, const SuitePicture& picture, const std::array<double, 4>* part) {
+std::vector<std::string> overrides_for(const Suite& suite, const SuitePicture& picture, const KeptCamera* kept) {
   std::vector<std::string> overrides = suite.overrides;
   if (suite.fit)
-    overrides.push_back(fit_override(*suite.fit));
-  else if (part)
-    overrides.push_back(fit_override(*part));
+    overrides.push_back(list_override("camera.fit", *suite.fit));
+  else if (kept)
+    add_camera(*kept, overrides);
   overrides.insert(overrides.end(), picture.overrides.begin(), picture.overrides.end());
   return overrides;
 }
 
-// The part of the world that is shown; null where that is what fits.
-Json camera_of(const Suite& suite, const std::array<double, 4>* part) {
-  return suite.fit ? Json(*suite.fit) : part ? Json(*part) : Json(nullptr);
+// The part of the world that is shown, and by which eye; null where that is what fits.
+Json camera_of(const Suite& suite, const KeptCamera* kept) {
+  return suite.fit ? Json(*suite.fit) : kept ? Json(numbers_of(*kept)) : Json(nullptr);
 }
 
 // What a picture depends on beyond its own: the program, the machine and the faces of fonts, those included that stand in.
@@ -84,7 +92,7 @@ class Studio::Source {
 
   virtual FontFamilies families() const = 0;
   virtual SuiteShot draw(const SuitePicture& picture, const Fonts& fonts) = 0;
-  virtual std::array<double, 4> fitted(const Fonts& fonts) = 0;
+  virtual KeptCamera fitted(const Fonts& fonts) = 0;
 
  private:
   SuitePicture first_;
@@ -93,7 +101,7 @@ class Studio::Source {
 // A model at poses.
 class Studio::ModelSource : public Source {
  public:
-  ModelSource(const Suite& suite, const SuitePicture& first, const std::array<double, 4>* part)
+  ModelSource(const Suite& suite, const SuitePicture& first, const KeptCamera* part)
       : Source(first),
         pictures_(pictures_beside(suite, first)),
         is_pinned_(part || suite.fit),
@@ -132,10 +140,10 @@ class Studio::ModelSource : public Source {
     return shot;
   }
 
-  std::array<double, 4> fitted(const Fonts& fonts) override {
+  KeptCamera fitted(const Fonts& fonts) override {
     std::vector<std::vector<double>> poses;
     for (const SuitePicture* picture : pictures_) poses.push_back(picture->q);
-    return fit_of_poses(chain_, poses, options_for(*pictures_.front()), fonts);
+    return camera_of_poses(chain_, poses, options_for(*pictures_.front()), fonts);
   }
 
  private:
@@ -161,7 +169,7 @@ class Studio::ModelSource : public Source {
 // which trails and plots hold, too, and no other picture may depend on it.
 class Studio::SceneSource : public Source {
  public:
-  SceneSource(const Suite& suite, const SuitePicture& first, const std::array<double, 4>* part)
+  SceneSource(const Suite& suite, const SuitePicture& first, const KeptCamera* part)
       : Source(first),
         pictures_(pictures_beside(suite, first)),
         film_(load_film(path(), overrides_for(suite, first, part))),
@@ -200,9 +208,9 @@ class Studio::SceneSource : public Source {
     return shot;
   }
 
-  std::array<double, 4> fitted(const Fonts& fonts) override {
+  KeptCamera fitted(const Fonts& fonts) override {
     const Film& film = film_for(*pictures_.front(), fonts);
-    return part_shown(film.camera(), film.scene_area());
+    return kept_camera(film.camera(), film.scene_area());
   }
 
  private:
@@ -265,7 +273,7 @@ Studio::Source& Studio::source_of(const SuitePicture& picture) {
   if (source_ && source_->has(picture)) return *source_;
   source_ = nullptr;
   const auto known = cameras_.find(source_name(suite_, picture));
-  const std::array<double, 4>* part = known == cameras_.end() ? nullptr : &known->second;
+  const KeptCamera* part = known == cameras_.end() ? nullptr : &known->second;
   if (picture.is_model)
     source_ = std::make_unique<ModelSource>(suite_, picture, part);
   else
@@ -299,7 +307,7 @@ Image Studio::moved(const SuiteShot& shot, double right, double up) {
   return rasterise(picture, shot.width, shot.height, *shot.fonts);
 }
 
-std::array<double, 4> Studio::fitted(const SuitePicture& picture) {
+KeptCamera Studio::fitted(const SuitePicture& picture) {
   Source& shown = source_of(picture);
   return shown.fitted(fonts_of(shown));
 }
@@ -332,6 +340,12 @@ std::string file_seen_by(const Suite& suite, const std::string& source) {
 }
 
 }  // namespace
+
+std::vector<double> numbers_of(const KeptCamera& camera) {
+  std::vector<double> numbers(camera.part.begin(), camera.part.end());
+  if (camera.eye) numbers.insert(numbers.end(), camera.eye->begin(), camera.eye->end());
+  return numbers;
+}
 
 std::string source_name(const Suite& suite, const SuitePicture& picture) {
   const std::string file = file_seen_by(suite, picture.source);

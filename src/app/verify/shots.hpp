@@ -1,7 +1,6 @@
 // The pictures of a suite as the program draws them now, each with the physics behind it.
 #pragma once
 
-#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -10,6 +9,7 @@
 #include "app/film/clip_memory.hpp"
 #include "core/image.hpp"
 #include "core/json.hpp"
+#include "draw/robot/view.hpp"
 #include "picture/picture.hpp"
 #include "picture/text.hpp"
 #include "render/canvas.hpp"
@@ -32,9 +32,11 @@ struct SuiteShot {
       false;  // the suite's camera, which was fitted to what the baselines show, cuts something off
 };
 
-// Which part of the world the pictures of each source show, by its source_name: left, bottom, right, top in m, over all pictures of it. Sources and pictures that have a camera of
+// What the pictures of each source are seen by, by its source_name, over all pictures of it. Sources and pictures that have a camera of
 // their own are left out.
-using Cameras = std::map<std::string, std::array<double, 4>>;
+using Cameras = std::map<std::string, KeptCamera>;
+// As baselines keep them: those of the part, then those of the eye, if it has one.
+std::vector<double> numbers_of(const KeptCamera& camera);
 
 // Draws pictures of a suite, those of one source the fastest one after the other. For one thread.
 class Studio {
@@ -50,7 +52,7 @@ class Studio {
   // The same picture with all its shapes moved, px to the right and up.
   Image moved(const SuiteShot& shot, double right, double up);
   // What the pictures of its source and variant show where nothing but what they hold decides.
-  std::array<double, 4> fitted(const SuitePicture& picture);
+  KeptCamera fitted(const SuitePicture& picture);
 
  private:
   class Source;

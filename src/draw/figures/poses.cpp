@@ -67,10 +67,10 @@ FitBox PoseStage::places(const std::vector<std::vector<double>>& poses, const Ca
 
 }  // namespace
 
-std::array<double, 4> fit_of_poses(const Chain& chain, const std::vector<std::vector<double>>& poses,
-                                   const PoseFigureOptions& options, const Fonts& fonts) {
+KeptCamera camera_of_poses(const Chain& chain, const std::vector<std::vector<double>>& poses, const PoseFigureOptions& options,
+                           const Fonts& fonts) {
   const PoseStage stage(chain, poses, options, fonts);
-  return part_shown(stage.camera, stage.sheet.scene);
+  return kept_camera(stage.camera, stage.sheet.scene);
 }
 
 bool leaves_page(const Chain& chain, const std::vector<double>& q, const PoseFigureOptions& options,

@@ -9,6 +9,7 @@
 #include "draw/layers/ellipse.hpp"
 #include "draw/page/sheet.hpp"
 #include "draw/robot/body_shapes.hpp"
+#include "draw/robot/view.hpp"
 #include "model/chain.hpp"
 #include "picture/text.hpp"
 #include "picture/theme.hpp"
@@ -47,9 +48,9 @@ std::optional<PageLogo> logo_of(const PoseFigureOptions& options);
 Picture draw_pose_figure(const Chain& chain, const std::vector<std::vector<double>>& poses,
                          const PoseFigureOptions& options, const Fonts& fonts);
 
-// The part of the world that such a figure shows, as `camera: fit` has it: left, bottom, right, top, m.
-std::array<double, 4> fit_of_poses(const Chain& chain, const std::vector<std::vector<double>>& poses,
-                                   const PoseFigureOptions& options, const Fonts& fonts);
+// The camera of such a figure.
+KeptCamera camera_of_poses(const Chain& chain, const std::vector<std::vector<double>>& poses, const PoseFigureOptions& options,
+                           const Fonts& fonts);
 // Whether a figure of this pose, by the camera of the options, cuts something off.
 bool leaves_page(const Chain& chain, const std::vector<double>& q, const PoseFigureOptions& options,
                  const Fonts& fonts);

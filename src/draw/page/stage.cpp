@@ -11,7 +11,7 @@
 #include "dynamics/kinematics.hpp"
 #include "picture/plot.hpp"
 #include "scene/layers.hpp"
-#include "scene/run/fall.hpp"
+#include "scene/run/title.hpp"
 
 namespace chainreel {
 namespace {

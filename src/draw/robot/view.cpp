@@ -104,6 +104,8 @@ bool has_eye(const Chain& chain, const CameraEntry& entry) {
 }
 
 Camera view_of(const Chain& chain, const CameraEntry& entry) {
+  if (entry.focus && !has_eye(chain, entry))
+    throw Error(ExitCode::bad_input, "'camera.focus' is where an eye looks, and here the rays are parallel: give a camera.distance, or leave it out");
   Camera camera = front_view(chain);
   if (!is_oblique(chain, entry)) return camera;
   const double azimuth = entry.azimuth.value_or(chain.planar ? 0 : kAzimuth);
@@ -120,7 +122,7 @@ Camera view_of(const Chain& chain, const CameraEntry& entry) {
 void place_eye(Camera& camera, const MotionBox& motion, const CameraEntry& entry, double height,
                const std::function<void(Camera&)>& fit, const Place& place) {
   if (motion.empty()) return;
-  camera.focus = motion.middle();
+  camera.focus = entry.focus.value_or(motion.middle());
   const Vector3d growing = direction_of_growth(camera.toward_viewer, motion.up());
   double nearest = 0;  // m before the focus
   for (const Vector3d& corner : motion.corners()) nearest = std::max(nearest, growing.dot(corner - camera.focus));
@@ -145,6 +147,12 @@ bool fit_as_told(Camera& camera, const CameraEntry& entry, const Rect& area) {
   const double x = camera.right.dot(camera.focus), y = camera.up.dot(camera.focus);
   fit(camera, {left - x, bottom - y, right - x, top - y}, area, 0);
   return true;
+}
+
+KeptCamera kept_camera(const Camera& camera, const Rect& area) {
+  KeptCamera kept{part_shown(camera, area), {}};
+  if (camera.has_eye()) kept.eye = {camera.focus.x(), camera.focus.y(), camera.focus.z(), camera.distance()};
+  return kept;
 }
 
 std::array<double, 4> part_shown(const Camera& camera, const Rect& area) {

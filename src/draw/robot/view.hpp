@@ -35,6 +35,13 @@ bool fit_as_told(Camera& camera, const CameraEntry& entry, const Rect& area);
 // What of the world lies in this part of the page, as the entry's `fit` has it.
 std::array<double, 4> part_shown(const Camera& camera, const Rect& area);
 
+// A camera by numbers, so that what it looks at cannot move it, m.
+struct KeptCamera {
+  std::array<double, 4> part{};              // that is shown: left, bottom, right, top
+  std::optional<std::array<double, 4>> eye;  // x y z where it looks, and how far away it stands; absent: parallel rays
+};
+KeptCamera kept_camera(const Camera& camera, const Rect& area);
+
 // The camera of a figure: view_of, with an eye where it has one, and fitted to `area`.
 Camera aimed_camera(const Chain& chain, const CameraEntry& entry, const MotionBox& motion, const Rect& area,
                     const std::function<void(Camera&)>& fit);

@@ -41,7 +41,7 @@ std::vector<Chapter> chapters() {
   using Row = KeyRow;
   return {
       {"The mechanism",
-       {Row("title", &Scene::title, "above the picture; {fall} in it becomes the time of the fall").of_page(),
+       {Row("title", &Scene::title, "above the picture; {fall} in it becomes the time of the fall, {F} the parameter F").of_page(),
         Row(told_model(), read_model, model_text).example("model: {links: [0.5, 0.4, 0.3], masses: [2, 1.5, 1], joints: RRR}"),
         Row("gravity", &Scene::gravity, "world x y z; a chain in a plane: down in it")
             .in("m/s^2")
@@ -163,7 +163,7 @@ std::vector<Chapter> chapters() {
             .absent("along the plane's normal; 20deg in space")
             .of_page()
             .flag(FlagGroup::view, "--elevation"),
-        Row("camera.distance", &Scene::camera, &CameraEntry::distance, "of the eye from the middle of the motion")
+        Row("camera.distance", &Scene::camera, &CameraEntry::distance, "of the eye from where it looks")
             .in("m")
             .above(0)
             .up_to(kFarthestEye)
@@ -171,6 +171,10 @@ std::vector<Chapter> chapters() {
             .absent("parallel in a plane; in space so far that 30 deg hold the motion")
             .of_page()
             .flag(FlagGroup::view, "--distance"),
+        Row("camera.focus", &Scene::camera, &CameraEntry::focus, "x y z: where the eye looks, in the plane of camera.fit")
+            .in("m")
+            .absent("the middle of the motion")
+            .of_page(),
         Row(told_fit(), read_fit, fit_text)
             .absent("motion")
             .of_page()
