@@ -108,10 +108,6 @@ void refuse_duplicates(const Parsed& parsed, const YAML::Node& node, const std::
   }
 }
 
-std::string name_of(const Override& one) {
-  return "--set " + one.key + "=" + one.value;
-}
-
 // Parses one whole document of text; `where` names it in errors.
 Parsed parse(const std::string& text, const std::string& where) {
   try {
@@ -206,6 +202,10 @@ void collect_places(const YamlDocument& document, const YAML::Node& map, const s
 
 }  // namespace
 
+std::string name_of(const Override& one) {
+  return "--set " + one.key + "=" + one.value;
+}
+
 Override parse_override(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
@@ -225,17 +225,49 @@ std::string in_one_line(std::string words) {
 Place YamlDocument::place_of(const YAML::Node& node, const std::string& key) const {
   const YAML::Mark mark = true_mark(node.Mark(), marks);
   const Place here = mark.is_null() ? Place{file, 0, 0} : Place{file, mark.line + 1, mark.column + 1};
-  for (auto one = origins.rbegin(); one != origins.rend(); ++one) {
-    if (key == one->key) return one->place;
-    if (lies_below(key, one->key)) return one->command_line ? one->place : here;
-  }
+  if (const Origin* one = origin_of(key); one != nullptr && (one->key == key || one->command_line)) return one->place;
   return here;
 }
 
-bool YamlDocument::is_of_command_line(const std::string& key) const {
+const Origin* YamlDocument::origin_of(const std::string& key) const {
   const auto one = std::find_if(origins.rbegin(), origins.rend(),
                                 [&](const Origin& origin) { return key == origin.key || lies_below(key, origin.key); });
-  return one != origins.rend() && one->command_line;
+  return one == origins.rend() ? nullptr : &*one;
+}
+
+bool YamlDocument::is_of_command_line(const std::string& key) const {
+  const Origin* one = origin_of(key);
+  return one != nullptr && one->command_line;
+}
+
+namespace {
+
+// The dotted paths of what a value lists, or the key alone.
+void add_leaves(const std::string& key, const YAML::Node& value, std::vector<std::string>& leaves) {
+  if ((!value.IsMap() && !value.IsSequence()) || value.size() == 0) return leaves.push_back(key);
+  std::size_t index = 0;
+  for (const auto& one : value) {
+    ++index;
+    if (value.IsMap())
+      add_leaves(key + "." + one.first.Scalar(), one.second, leaves);
+    else
+      add_leaves(key + "." + std::to_string(index), one, leaves);
+  }
+}
+
+}  // namespace
+
+bool YamlDocument::holds(const Override& one) const {
+  std::vector<std::string> leaves;
+  try {
+    add_leaves(one.key, YAML::Load(one.value), leaves);
+  } catch (const YAML::Exception&) {
+    leaves = {one.key};
+  }
+  return std::any_of(leaves.begin(), leaves.end(), [&](const std::string& leaf) {
+    const Origin* origin = origin_of(leaf);
+    return origin != nullptr && origin->place.file == name_of(one);
+  });
 }
 
 std::map<std::string, Place> YamlDocument::places() const {
@@ -277,7 +309,7 @@ YamlDocument panel_document(const YamlDocument& whole, std::size_t index) {
   const YAML::Node changes = panel.root["compare"][index];
   panel.is_panel = true;
   panel.is_for_methods = whole.is_for_methods;
-  for (const char* key : {"title", "layout", "compare"}) panel.root.remove(key);
+  for (const char* key : kKeysOfPage) panel.root.remove(key);
   // The first panel's events decide when the film is slow or stands still; others need not have them.
   if (index > 0)
     for (const char* key : {"slow_motion", "annotate"}) panel.root.remove(key);

@@ -18,6 +18,9 @@ struct Override {
   std::string value;
 };
 
+// "--set key=value", as errors name it.
+std::string name_of(const Override& one);
+
 // Throws Error (usage) where there is no '=' or no key.
 Override parse_override(const std::string& text);
 
@@ -43,6 +46,11 @@ struct YamlDocument {
 
   // Whether --set put it there, or what it lies in.
   bool is_of_command_line(const std::string& key) const;
+  // Whether that is this one, in whole or in part: what it lists may have been set anew since.
+  bool holds(const Override& one) const;
+
+  // The last one of those at the key or above it; null where the file has what stands there.
+  const Origin* origin_of(const std::string& key) const;
 
   // Where each key stands, by its dotted path, as deep as mappings lie in mappings.
   std::map<std::string, Place> places() const;
@@ -62,8 +70,10 @@ YamlDocument yaml_document_of(const std::string& text, const std::string& file,
 // Puts other values in the place of those that the document was read with: the same keys in the same order.
 void replace_overrides(YamlDocument& document, const std::vector<Override>& overrides);
 
-// The document that entry `index` (from 0) of `compare:` stands for: the file's keys without `title`,
-// `layout` and `compare`, changed by the entry's own, which may be dotted. The entry is a mapping.
+// Keys of a comparison that are none of its panels'.
+inline constexpr const char* kKeysOfPage[] = {"title", "layout", "compare"};
+
+// The document that entry `index` (from 0) of `compare:` stands for: the file's keys without those, changed by the entry's own, which may be dotted. The entry is a mapping.
 YamlDocument panel_document(const YamlDocument& whole, std::size_t index);
 
 }  // namespace chainreel

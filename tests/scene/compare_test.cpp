@@ -117,6 +117,19 @@ TEST_F(CompareScene, TakesOverridesOfTheSceneAndOfItsPanels) {
   EXPECT_THAT(error(text, {"compare.3.step=1"}), HasSubstr("no index from 1 to 2"));
 }
 
+TEST_F(CompareScene, RefusesOverridesThatEachPanelOverrules) {
+  const std::string text = "title: T\ntorque: [0, 0]\nstart: {q: [0, 0]}\ncompare: [{title: A, method: rk4, start: {q: [1, 0]}}, {title: B, method: verlet, start.q.1: 2}]\n";
+  EXPECT_THAT(error(text, {"method=taylor"}), HasSubstr("--set method=taylor: 'method' is set by each panel"));
+  EXPECT_THAT(error(text, {"start.q.1=3"}), HasSubstr("--set compare.1.start.q.1=3"));
+  EXPECT_EQ(read(text, {"start.q.2=3"}).compare[1].start.q[1], 3) << "one panel takes it";
+  EXPECT_THAT(error(text, {"method=taylor", "compare.1.method=dop853"}), HasSubstr("--set method=taylor")) << "a panel's by another --set";
+  EXPECT_THAT(error("parameters: {F: 1}\ntorque: [F, 0]\ncompare: [{parameters.F: 2}, {parameters.F: 3}]\n", {"parameters={F: 9}"}),
+              HasSubstr("'parameters' is set by each panel"));
+  EXPECT_EQ(read(text, {"title=U"}).title, "U") << "of the page, whatever its panels are called";
+  EXPECT_EQ(read(text, {"compare.2.method=taylor"}).compare[1].method, "taylor");
+  EXPECT_EQ(read(text, {"duration=2"}).compare[0].duration, 2);
+}
+
 TEST_F(CompareScene, NamesPanelsByWhatDiffers) {
   EXPECT_THAT(titles(read("method: rk4\ncompare: [{method: explicit_euler}, {}]\n")),
               ElementsAre("explicit Euler", "RK4"));

@@ -278,6 +278,22 @@ TEST_F(Suites, VariantsAreOfTheSourcesThatTheyAreAbout) {
   EXPECT_THAT(suite.pictures[6].overrides, ElementsAre("parameters.F=9", "theme=dark"));
 }
 
+TEST_F(Suites, ListsOfThemesHoldThemes) {
+  EXPECT_THAT(error("scene: swing.yaml\nat: 0\ntheme: [light, drak]\n"),
+              AllOf(HasSubstr("snapshots.yaml:3:16: 'theme' lists 'drak'"), HasSubstr("did you mean 'dark'?")));
+  EXPECT_THAT(error("scene: swing.yaml\nat: 0\ntheme: [light, light]\n"), HasSubstr("'theme' lists 'light' twice"));
+  EXPECT_THAT(error("scene: swing.yaml\nat: 0\ntheme: [null]\n"), testing::Not(HasSubstr("empty list")));
+}
+
+TEST_F(Suites, VariantsThatAllPanelsOverruleAreOfOtherSources) {
+  folder_.write("both.yaml", "model: arm.urdf\nduration: 2\ncompare: [{method: rk4}, {method: verlet}]\n");
+  const Suite suite = read("scene: [both.yaml, swing.yaml]\nat: 1s\nvariants: {a: {method: rk4}}\n");
+  ASSERT_EQ(suite.pictures.size(), 2U);
+  EXPECT_EQ(suite.pictures[0].name, "both_1s");
+  EXPECT_EQ(suite.pictures[1].name, "swing_1s_a");
+  EXPECT_THAT(error("scene: both.yaml\nat: 1s\nvariants: {a: {method: rk4}}\n"), HasSubstr("panels of a comparison must not set it themselves"));
+}
+
 TEST_F(Suites, AllProblemsAreToldAtOnce) {
   const std::string text = error(
       "model: arn.urdf\nposes: {a: 3, \"\": [0], srdf: none.srdf}\nthem: dark\nsize: 640\ncamera: {azimut: 1, fit: [1, 0, 0, "

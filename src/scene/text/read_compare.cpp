@@ -54,6 +54,21 @@ void check_list(Fields& page, const YAML::Node& list) {
   }
 }
 
+// What --set says of all panels, and each of them says itself, changes nothing.
+void require_that_overrides_count(const YamlDocument& document, const std::vector<YamlDocument>& panels) {
+  std::vector<Problem> problems;
+  for (const Override& one : document.overrides) {
+    const auto overrules = [&](const YamlDocument& panel) { return !panel.holds(one); };
+    const bool is_of_page = std::find(std::begin(kKeysOfPage), std::end(kKeysOfPage), one.key.substr(0, one.key.find('.'))) != std::end(kKeysOfPage);
+    if (is_of_page || one.value.empty() || !std::all_of(panels.begin(), panels.end(), overrules)) continue;
+    problems.push_back({"'" + one.key + "' is set by each panel of 'compare' itself, so that this changes nothing: change a panel's, as by --set compare.1." +
+                            one.key + "=" + one.value,
+                        {name_of(one)},
+                        true});
+  }
+  if (!problems.empty()) throw OverruledError(ExitCode::usage, std::move(problems));
+}
+
 // Where the page does not say how long it is, all panels are as long as the shortest recorded motion among them.
 void share_duration(const YamlDocument& document, std::vector<Scene>& panels) {
   if (document.root["duration"].IsDefined() && !document.root["duration"].IsNull()) return;
@@ -78,20 +93,25 @@ Scene read_comparison(const YamlDocument& document, const PanelReader& read_pane
   check_list(page, list);
   own.throw_if_any();
 
+  std::vector<YamlDocument> documents;
+  for (std::size_t i = 0; i < list.size(); ++i) documents.push_back(panel_document(document, i));
   Collected collected;
   std::vector<Scene> panels;
-  for (std::size_t i = 0; i < list.size(); ++i) {
+  for (const YamlDocument& panel : documents) {
     try {
-      panels.push_back(read_panel(panel_document(document, i)));
+      panels.push_back(read_panel(panel));
     } catch (const Error& error) {
       collected.add(error);
     }
   }
   collected.throw_if_any();
+  require_that_overrides_count(document, documents);
 
+  for (std::size_t i = 0; i < panels.size(); ++i) panels[i].panel = int(i) + 1;
   share_duration(document, panels);
   // What the page shares is the same in all panels.
   Scene scene = panels.front();
+  scene.panel = 0;
   scene.title.clear();
   page.read("title", scene.title);
   scene.places = document.places();

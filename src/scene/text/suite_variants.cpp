@@ -5,6 +5,7 @@
 
 #include "scene/keys/keys.hpp"
 #include "scene/keys/own_keys.hpp"
+#include "scene/text/read_compare.hpp"
 #include "scene/text/read_scene.hpp"
 #include "scene/text/unread.hpp"
 
@@ -70,6 +71,8 @@ bool is_about_scene(const std::string& file, const std::vector<std::string>& ove
   std::optional<Scene> scene;
   try {
     scene = read_scene(file, with_variant(overrides, variant));
+  } catch (const OverruledError&) {
+    return false;
   } catch (const Error&) {
     return true;
   }
@@ -85,7 +88,8 @@ std::string words_of_idle(const SuiteVariant& variant) {
   std::vector<std::string> keys;
   for (const SuiteOverride& one : variant.overrides) keys.push_back(key_of(one));
   return "variant '" + variant.name + "' sets " + joined(keys) +
-         ", which no source of the suite has: parameters must be read by an expression of a scene, and models take " + joined(keys_of_pictures());
+         ", which no source of the suite has: parameters must be read by an expression of a scene, panels of a comparison must not "
+         "set it themselves, and models take " + joined(keys_of_pictures());
 }
 
 Error as_said_in(const Suite& suite, const Error& error) {
@@ -113,12 +117,21 @@ namespace {
 std::vector<SuiteVariant> read_themes(Fields& root, const YamlDocument& document) {
   std::vector<SuiteVariant> themes;
   if (!lists_themes(document)) return themes;
+  const std::vector<std::string> known = words_of(names_of(ThemeName{}));
   for (const YAML::Node& theme : root.find("theme")) {
     const std::string name = theme.IsScalar() ? theme.Scalar() : "";
     const Place place = document.place_of(theme, "theme");
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      root.problems().add("'theme' lists '" + name + "', which is none:" + did_you_mean(name, known) + " there are " + joined(known), place);
+      continue;
+    }
+    if (std::any_of(themes.begin(), themes.end(), [&](const SuiteVariant& other) { return other.name == name; })) {
+      root.problems().add("'theme' lists '" + name + "' twice", place);
+      continue;
+    }
     themes.push_back({name, {{"theme=" + name, place}}, place});
   }
-  if (themes.empty()) root.problem_at("theme", "'theme' is an empty list: theme: [light, dark]");
+  if (root.find("theme").size() == 0) root.problem_at("theme", "'theme' is an empty list: theme: [light, dark]");
   return themes;
 }
 
