@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 #include <sstream>
 
 #include "core/csv.hpp"
@@ -100,14 +101,21 @@ DataTable table_of_csv(const std::string& csv) {
     for (std::size_t i = 0; i < cells.size(); ++i) columns[i].push_back(std::move(cells[i]));
     ++table.rows;
   }
+  // Numbers by their name alone, unless that is another column's, as of an event called like one.
+  std::set<std::string> used;
+  const auto distinct = [&](const std::string& name, const std::string& head) {
+    std::string own = name;
+    for (int k = 1; !used.insert(own).second; ++k) own = head + (k == 1 ? "" : "_" + std::to_string(k));
+    return own;
+  };
   for (std::size_t i = 0; i < names.size(); ++i) {
     std::vector<double> numbers;
     for (const std::string& cell : columns[i])
       if (const std::optional<double> number = number_of(cell)) numbers.push_back(*number);
     if (numbers.size() == table.rows)
-      table.add(ColumnName(names[i]).name, {names[i]}, {}, std::move(numbers));
+      table.add(distinct(ColumnName(names[i]).name, names[i]), {names[i]}, {}, std::move(numbers));
     else
-      table.words.push_back({names[i], std::move(columns[i])});
+      table.words.push_back({distinct(names[i], names[i]), std::move(columns[i])});
   }
   return table;
 }

@@ -111,6 +111,28 @@ TEST(ChartCommand, WritesAPictureAndTheNumbersBesideIt) {
   EXPECT_LT(best.at("dop853"), 1e-11);
 }
 
+// The largest along the run, as simulate's audit has it; at the end alone the method may be right by chance.
+TEST(ChartCommand, JudgesTheEnergyAlongTheRun) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program({"chart", "assets/scenes/rr_free.yaml", "--set", "duration=3", "--runs", "1", "--error", "energy", "--methods",
+                                            "rk4,dop853", "-o", folder.file("chart.svg"), "-o", folder.file("chart.csv")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("1e-3 [J]"), HasSubstr("error: of the energy, the largest")));
+  EXPECT_THAT(read_whole_file(folder.file("chart.svg")), HasSubstr("largest energy error [J]"));
+  const Csv csv(read_whole_file(folder.file("chart.csv")));
+  int compared = 0;
+  for (const auto& row : csv.rows) {
+    const std::string step = row.at("step"), tolerance = row.at("tolerance");
+    if (step != "0.01" && tolerance != "1e-06") continue;
+    const ProgramResult run = run_program({"simulate", "assets/scenes/rr_free.yaml", "--set", "duration=3", "--set", "method=" + row.at("method"), "--set",
+                                           step.empty() ? "tolerance=" + tolerance : "step=" + step, "-o", folder.file("a.csv"), "--force", "--json"});
+    const double expected = Json::parse(run.out)["audit_error"];
+    EXPECT_NEAR(number(row.at("energy_error")), expected, 1e-9 * expected) << row.at("method");
+    ++compared;
+  }
+  EXPECT_EQ(compared, 2) << "tolerances are written as one writes them";
+}
+
 TEST(ChartCommand, RefusesUnknownMethodsAndEndings) {
   const ProgramResult method = run_program({"chart", "assets/scenes/rr_free.yaml", "--methods", "rk5"});
   EXPECT_EQ(method.status, 2);

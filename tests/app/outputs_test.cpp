@@ -352,6 +352,12 @@ TEST(Outputs, StillsShowTheFrameThatIsAskedFor) {
   EXPECT_EQ(read_png(folder.file("a.png")).bgra, read_png(folder.file("a_000003.png")).bgra);
   EXPECT_THAT(render({"--at", "0.3", "-o", folder.file("b.png")}).err,
               HasSubstr("lies outside the duration"));
+  const auto at = [&](const char* t) {
+    Words words{"render", "assets/scenes/rr_torque.yaml", "--set", "video.width=160", "--set", "video.height=90", "--set", "video.fps=25"};
+    return run_program(with(words, {"--set", "duration=0.2", "--at", t, "-o", folder.file("c.png"), "--force"})).err;
+  };
+  EXPECT_THAT(at("0.2"), HasSubstr("shows the frame of t = 0.16 s: `chainreel snapshot --at 0.2`"));
+  EXPECT_THAT(at("0.12"), Not(HasSubstr("shows the frame")));
 }
 
 TEST(Outputs, SnapshotsAndEllipsesAreVectorPages) {

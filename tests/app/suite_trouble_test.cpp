@@ -103,6 +103,22 @@ TEST_F(SuiteTrouble, ASpoiltCameraIsToldWithARemedyThatWorks) {
   }
 }
 
+// Of a robot in space the eye is kept, too: a foot three times as wide moved the middle that it looked at, and with it all else.
+TEST_F(SuiteTrouble, AChangeOfARobotInSpaceDoesNotMoveTheEye) {
+  write("space.urdf", read_whole_file("models/arm.urdf"));
+  write("space.yaml", "model: space.urdf\nsize: 320x240\nposes: {up: [0.4, 0.1, -0.2, 0, 0, 0]}\n");
+  ASSERT_EQ(verify({"--missing", "write"}, "space.yaml").status, 0);
+  const Json cameras = Json::parse(read_whole_file(file("space.baselines/records/cameras.json")));
+  ASSERT_EQ(cameras.size(), 1u);
+  EXPECT_EQ(cameras.front().size(), 8u) << cameras;
+  replace("space.urdf", "radius=\"0.11\"", "radius=\"0.30\"");
+  ASSERT_EQ(verify({"-o", "shown"}, "space.yaml").status, 1);
+  const Image before = read_png(file("shown/up.expected.png")), after = read_png(file("shown/up.actual.png"));
+  const std::size_t half = before.bgra.size() / 2;
+  EXPECT_TRUE(std::equal(before.bgra.begin(), before.bgra.begin() + std::ptrdiff_t(half), after.bgra.begin())) << "the upper half shows no foot";
+  EXPECT_NE(before.bgra, after.bgra);
+}
+
 TEST_F(SuiteTrouble, KeysOfTheSuiteAreToldWithItsLinesAndOnce) {
   write("swing.yaml", "model: rr.urdf\ntorque: [0, 0]\nduration: 1\nmethod: rk4\nstep: 0.01\n");
   write("both.yaml", "scene: swing.yaml\ncamera: {elevation: 400deg}\n");

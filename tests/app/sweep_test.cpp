@@ -56,7 +56,7 @@ TEST(SweepTable, RowsAreTheLastOfTheRunsByThemselves) {
   ASSERT_EQ(sweep(folder.file("a.csv")).status, 0);
   const std::vector<std::string> lines = lines_of(folder.file("a.csv"));
   ASSERT_EQ(lines.size(), 4u + 8u);
-  EXPECT_EQ(lines[3], "run,start.q.1,gravity.2,good,status,end_time [s],ended_by,q1 [rad],q2 [rad],qd1 [rad/s],qd2 [rad/s],trouble");
+  EXPECT_EQ(lines[3], "run,start.q.1,gravity.2,good,status,end_time [s],ended_by,q1 [rad],q2 [rad],qd1 [rad/s],qd2 [rad/s],energy [J],trouble");
   // The last axis goes on first: run 3 is of the second start and the second gravity.
   const std::vector<std::string> row = fields_of(lines[4 + 3]);
   EXPECT_EQ(row[1], "0.5");
@@ -67,6 +67,20 @@ TEST(SweepTable, RowsAreTheLastOfTheRunsByThemselves) {
             0);
   const std::vector<std::string> alone = fields_of(lines_of(folder.file("one.csv")).back());
   EXPECT_EQ(std::vector<std::string>(row.begin() + 7, row.begin() + 11), std::vector<std::string>(alone.begin() + 1, alone.begin() + 5));
+  const std::vector<std::string> names = fields_of(lines_of(folder.file("one.csv")).front());
+  const auto energy = std::find(names.begin(), names.end(), "energy [J]");
+  ASSERT_NE(energy, names.end());
+  EXPECT_EQ(row[11], alone[std::size_t(energy - names.begin())]);
+}
+
+TEST(SweepTable, AnEventCalledLikeAColumnHasAKeyOfItsOwn) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("e.yaml", "model: {links: [1]}\nstart: {q: [1]}\nduration: 1\nmethod: rk4\nstep: 0.01\nevents: [{when: q1, name: energy}]\n");
+  ASSERT_EQ(run_program({"sweep", scene, "--over", "start.q.1=1,2", "-o", folder.file("a.json")}).status, 0);
+  const Json json = Json::parse(read_whole_file(folder.file("a.json")));
+  EXPECT_EQ(json["energy"].size(), 2u);
+  ASSERT_TRUE(json.contains("energy [s]")) << json;
+  EXPECT_NE(json["energy"], json["energy [s]"]);
 }
 
 // Held against the same run at each of its steps, between which a peak is higher by h^2 |x''| / 8.
@@ -75,7 +89,7 @@ TEST(SweepTable, HasThePeaksOfTheRunsByThemselves) {
   const Words set{"--set", "duration=1", "--set", "torque=[0.5 * sin(7 * t), -0.2]", "--set", "method=rk4", "--set", "step=0.1ms"};
   ASSERT_EQ(sweep(folder.file("a.csv"), with({"--over", "start.q.1=0,1", "--peaks", "qd,tau,energy_error"}, set)).status, 0);
   const std::vector<std::string> lines = lines_of(folder.file("a.csv"));
-  EXPECT_TRUE(lines[3].ends_with("qd2 [rad/s],peak_qd1 [rad/s],peak_qd2 [rad/s],peak_tau1 [N m],peak_tau2 [N m],peak_energy_error [J],trouble"));
+  EXPECT_TRUE(lines[3].ends_with("qd2 [rad/s],energy [J],peak_qd1 [rad/s],peak_qd2 [rad/s],peak_tau1 [N m],peak_tau2 [N m],peak_energy_error [J],trouble"));
   for (const std::size_t run : {0, 1}) {
     ASSERT_EQ(run_program(with({"simulate", kScene, "--quiet", "--every-step", "--columns", "t,qd,tau,energy_error", "--force", "--set",
                                 "start.q.1=" + std::to_string(run), "-o", folder.file("one.csv")},
@@ -200,7 +214,7 @@ TEST(SweepTable, RunsThatFailAreRowsAndToldAtTheEnd) {
   const std::vector<std::string> lines = lines_of(folder.file("a.csv"));
   ASSERT_EQ(lines.size(), 4u + 6u);
   EXPECT_THAT(lines[4], HasSubstr(",1,finished,0.1"));
-  EXPECT_THAT(lines[6], HasSubstr(",0,refused,,,,,,,\"'step' must be above 0 s\""));
+  EXPECT_THAT(lines[6], HasSubstr(",0,refused,,,,,,,,\"'step' must be above 0 s\""));
   for (std::size_t k = 4; k < lines.size(); ++k)
     EXPECT_EQ(std::count(lines[k].begin(), std::find(lines[k].begin(), lines[k].end(), '"'), ','),
               std::count(lines[3].begin(), lines[3].end(), ','))

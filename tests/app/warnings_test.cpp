@@ -69,6 +69,21 @@ Words typed(const std::string& remedy) {
   return words;
 }
 
+TEST(Warnings, OfAPanelAdviseWhatChangesThatPanel) {
+  const TemporaryFolder folder;
+  const std::string scene =
+      folder.write("two.yaml", coarse("compare:\n  - {title: A, method: dop853, tolerance: 1e-9}\n  - {title: B, method: explicit_euler, step: 0.02}\n"));
+  const Words command{"snapshot", scene, "--at", "2", "-o", folder.file("a.png"), "--json", "--force"};
+  const ProgramResult run = run_program(command);
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("--set compare.2.step="));
+  EXPECT_THAT(run.err, HasSubstr("--set compare.2.method=auto --set compare.2.step=null"));
+  const ProgramResult better = run_program(with(command, {"--set", "compare.2.method=auto", "--set", "compare.2.step=null", "--set", "compare.2.tolerance=null"}));
+  EXPECT_EQ(better.status, 0) << better.err;
+  EXPECT_THAT(better.err, Not(HasSubstr("WARNING")));
+  EXPECT_THAT(run_program({"simulate", scene, "--panel", "2", "-o", folder.file("a.csv")}).err, HasSubstr("--set compare.2.step="));
+}
+
 TEST(Warnings, UnderAutoAdviseWhatHelpsThere) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("far.yaml", coarse("accuracy: 500 px\n"));

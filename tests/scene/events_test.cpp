@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/run/fall.hpp"
+#include "scene/run/title.hpp"
 #include "scene/run/prepare.hpp"
 #include "scene/text/write_scene.hpp"
 #include "written_scenes.hpp"
@@ -111,6 +112,22 @@ TEST(Fall, TimeStandsInTheTitle) {
   scene.events.clear();
   run.ending_event = -1;
   EXPECT_EQ(title_of(scene, run), scene.title);
+}
+
+TEST(Titles, TellTheirParametersAndWhatStaysAsItIs) {
+  Scene scene;
+  scene.title = "{F} N, {G}, $x_{F}$, {fall";
+  scene.parameters = {{"F", 42.5}, {"k", 1}};
+  scene.set_parameters = scene.parameters;
+  EXPECT_EQ(title_of(scene, {}), "42.5 N, {G}, $x_{F}$, {fall, k = 1");
+  EXPECT_THAT(title_notices(scene), testing::ElementsAre(HasSubstr("{G} stays as it is: `parameters:` has no such name")));
+  scene.title = "costs $5, F={F}";
+  EXPECT_EQ(title_of(scene, {}), "costs $5, F=42.5, k = 1") << "one $ is no formula";
+  scene.title = "{fall}";
+  EXPECT_THAT(title_notices(scene), testing::ElementsAre(HasSubstr("no event of kind fall")));
+  scene.title = "{F}";
+  scene.compare.resize(2);
+  EXPECT_THAT(title_notices(scene), testing::ElementsAre(HasSubstr("the title of a comparison has no values")));
 }
 
 TEST(Fall, TableIsTheSameForAnyNumberOfThreads) {

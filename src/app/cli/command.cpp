@@ -22,7 +22,7 @@ constexpr std::size_t kMostPanels = 12;
 }  // namespace
 
 void add_scene_options(Command& command, CommonOptions& options) {
-  command.add_repeatable("--set", options.set, "override a scene key: --set video.width=640 (repeatable)");
+  command.add_repeatable("--set", options.set, "override a scene key: --set duration=2 (repeatable)");
   command.add_repeatable("--package", options.package,
                  "where package://NAME lies: --package NAME=folder (repeatable)");
   command.add_option("--base", options.base, "how the root link is held")
@@ -97,7 +97,9 @@ void add_comparison(const std::vector<std::string>& vary, std::vector<std::strin
       panel += (i == 0 ? "" : ", ") + Json(grid.axes()[i].key).dump() + ": " + grid.axes()[i].values[at[i]] + grid.axes()[i].unit;
     list += (list.empty() ? "{" : ", {") + panel + "}";
   }
-  overrides.push_back("compare=[" + list + "]");
+  for (const std::string& one : overrides)
+    if (one.starts_with("compare=")) throw Error(ExitCode::usage, "--vary makes the panels that --set compare= lists: leave one of them out");
+  overrides.insert(overrides.begin(), "compare=[" + list + "]");  // what else is set may be of its panels
 }
 
 void require_varied_read(const std::vector<std::string>& vary, const Scene& scene) {

@@ -30,6 +30,8 @@ struct ChartOptions {
   std::string highlight;
   int runs = 5;
   std::string longest = "100ms";
+  std::string error = "final";  // or energy
+  bool judges_energy() const { return error == "energy"; }
   int panel = 0;  // from 1; 0: the motion that all share
   FigureOptions figure;
   CommonOptions common;
@@ -76,6 +78,7 @@ Measured measure_all(PreparedScene& prepared, const std::vector<const Method*>& 
   }
   LadderOptions ladder;
   ladder.runs = options.runs;
+  ladder.judges_energy = options.judges_energy();
   ladder.longest_run = parse_positive_seconds(options.longest, "--longest", "100ms");
   const EndState& end = measured.reference.state;
   WorkTicker ticker(prepared.scene.name + ": measuring", options.common.quiet);
@@ -100,10 +103,13 @@ WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOp
   data.title = "Speed against accuracy";
   data.subtitle = (prepared.scene.title.empty() ? prepared.scene.name : prepared.scene.title) + ", " +
                   format_shortest(prepared.simulation.duration) + " s; reference: " + measured.reference.how;
-  data.error_title = with_joint_units("final error", prepared.simulation.chain, "rad", "m");
-  data.error_meaning = "error: " + scale_text(measured);
-  data.floor = measured.reference.amplification * 0x1p-53;
-  data.reference_uncertainty = measured.reference.uncertainty;
+  const bool is_of_energy = options.judges_energy();
+  data.error_title = is_of_energy ? "largest energy error [J]" : with_joint_units("final error", prepared.simulation.chain, "rad", "m");
+  data.error_meaning = is_of_energy ? "error: of the energy, the largest at the end of any step" : "error: " + scale_text(measured);
+  if (!is_of_energy) {
+    data.floor = measured.reference.amplification * 0x1p-53;
+    data.reference_uncertainty = measured.reference.uncertainty;
+  }
   data.machine = machine_line();
   for (Ladder& ladder : measured.ladders) {
     if (ladder.rungs.empty()) continue;
@@ -116,7 +122,7 @@ WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOp
     curve.order = ladder.method->adaptive ? 0 : ladder.method->order;
     curve.look = int(ladder.method - methods().data());
     for (const Rung& rung : ladder.rungs)
-      curve.points.push_back({rung.error, rung.seconds, double(rung.evaluations), !std::isfinite(rung.error),
+      curve.points.push_back({is_of_energy ? rung.energy_error : rung.error, rung.seconds, double(rung.evaluations), !std::isfinite(rung.error),
                               to_string(rung.setting)});
     data.curves.push_back(curve);
   }
@@ -133,7 +139,7 @@ std::string csv_of(const std::string& scene, const Measured& measured) {
           format_significant(measured.reference.uncertainty, 2) +
           "\n# amplification: " + format_significant(measured.reference.amplification, 3) +
           "\n# error: the larger of error_q and error_qd x " +
-          format_significant(measured.reference.state.qd_scale, 6) + " s\n";
+          format_significant(measured.reference.state.qd_scale, 6) + " s, at the end of the run; energy_error: the largest at the end of any step\n";
   text +=
       "method,order,step [s],tolerance,runs,median_seconds [s],steps,evaluations,error,error_q,error_qd,energy_error [J],"
       "status\n";
@@ -153,8 +159,9 @@ std::string csv_of(const std::string& scene, const Measured& measured) {
   return text;
 }
 
-void print_summary(const WorkPrecision& data, const Measured& measured) {
-  std::vector<std::vector<std::string>> table{{"ms to reach", "1e-3", "1e-6", "1e-9"}};
+void print_summary(const WorkPrecision& data, const Measured& measured, const ChartOptions& options) {
+  const std::string unit = data.error_title.substr(std::min(data.error_title.find(" ["), data.error_title.size()));
+  std::vector<std::vector<std::string>> table{{"ms to reach", "1e-3" + unit, "1e-6", "1e-9"}};
   for (const ChartCurve& curve : data.curves) {
     WorkPrecision one;
     one.curves = {curve};
@@ -168,15 +175,19 @@ void print_summary(const WorkPrecision& data, const Measured& measured) {
   std::fputs(table_text(table).c_str(), stdout);
   for (const Ladder& ladder : measured.ladders)
     if (!ladder.refusal.empty()) std::printf("left out: %s\n", ladder.refusal.c_str());
-  std::printf("error: at the end of the run, %s; how far each method strays on the way there, in metres: `chainreel check SCENE --all`\n",
-              scale_text(measured).c_str());
+  if (options.judges_energy())
+    std::printf("error: of the energy, the largest at the end of any step\n");
+  else
+    std::printf("error: at the end of the run, %s; how far each method strays on the way there, in metres: `chainreel check SCENE --all`; "
+                "by the energy: --error energy\n",
+                scale_text(measured).c_str());
   std::printf("reference: %s, uncertainty %s; the motion magnifies errors %s times\n",
               measured.reference.how.c_str(), format_significant(measured.reference.uncertainty, 2).c_str(),
               format_significant(measured.reference.amplification, 2).c_str());
   std::printf("%s\n", choice_text(*measured.choice, measured.accuracy).c_str());
 }
 
-Json json_of(const std::string& scene, const Measured& measured) {
+Json json_of(const std::string& scene, const Measured& measured, const ChartOptions& options) {
   Json json{{"scene", scene},
             {"machine", machine_line()},
             {"reference",
@@ -184,6 +195,7 @@ Json json_of(const std::string& scene, const Measured& measured) {
               {"uncertainty", measured.reference.uncertainty},
               {"amplification", measured.reference.amplification}}},
             {"error", "the larger of error_q and error_qd x qd_scale"},
+            {"judged", options.judges_energy() ? "energy_error" : "error"},
             {"qd_scale", measured.reference.state.qd_scale},
             {"choice", choice_report(*measured.choice, measured.accuracy, false)},
             {"methods", Json::array()},
@@ -238,10 +250,10 @@ void run_chart(const ChartOptions& options) {
   const ChartLook look = chart_look(options.figure, prepared.scene, fonts);
   const ChartCost panels[] = {ChartCost::seconds, ChartCost::evaluations};
   light_curves(data, panels, lit);
-  const auto report = [&] { return json_of(options.scene, measured); };
+  const auto report = [&] { return json_of(options.scene, measured, options); };
   const auto written = files.write([&] { return work_precision_chart(data, panels, look); },
                                    {csv_of(options.scene, measured), report}, fonts);
-  tell_files(options.common, written, report, [&] { print_summary(data, measured); });
+  tell_files(options.common, written, report, [&] { print_summary(data, measured, options); });
 }
 
 }  // namespace
@@ -257,6 +269,8 @@ void add_chart_command(CommandLine& app) {
   command->add_option("--runs", options->runs, "of each rung; the median counts").range(1, 1000);
   command->add_option("--longest", options->longest, "rungs that would take longer are left out: 100ms")
       .show_default();
+  command->add_option("--error", options->error, "what the chart judges: final (q and qd at the end) or energy (the largest along the run, J)")
+      .one_of({"final", "energy"});
   add_panel_option(*command, options->panel);
   add_figure_options(*command, options->figure, options->common, "out/NAME_chart.png");
   add_scene_options(*command, options->common);

@@ -188,7 +188,7 @@ void add_render_command(CommandLine& app) {
   command->add_option("--frames", options->frames,
                       "a part of the film, from frame A to the one before B, like 0:150: NAME.part-000000-000150.mp4, for join");
   command->add_option("--shard", options->shard,
-                      "an equal share of the film, like 3/8: NAME.part-3-of-8.mp4; slurm: that of the array job's task");
+                      "a share of the film, like 3/8, of whole chunks of two seconds at most: NAME.part-3-of-8.mp4; slurm: that of the array job's task");
   command->add_flag("--resume", options->resume,
                     "keep finished chunks of films and sequences in a hidden folder beside them until they are whole, and go on "
                     "from those of a run that was killed");

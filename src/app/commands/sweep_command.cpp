@@ -69,21 +69,33 @@ std::vector<const OutputFormat*> formats_of(const SweepOptions& options) {
   return formats;
 }
 
-// As few digits as tell the axis' values apart, six at least.
-std::string value_text(const Sweep& axis, std::size_t k) {
-  if (axis.numbers.empty()) return axis.values[k];
-  std::set<std::string> seen;
-  for (const double number : axis.numbers) seen.insert(format_significant(number, 6));
-  return seen.size() == axis.numbers.size() ? format_significant(axis.numbers[k], 6) : format_shortest(axis.numbers[k]);
+// The axis' values by as few digits as tell them apart, six at least.
+std::vector<std::string> value_texts(const Sweep& axis) {
+  if (axis.numbers.empty()) return axis.values;
+  std::vector<std::string> texts;
+  for (const double number : axis.numbers) texts.push_back(format_significant(number, 6));
+  if (std::set<std::string>(texts.begin(), texts.end()).size() < texts.size())
+    std::transform(axis.numbers.begin(), axis.numbers.end(), texts.begin(), format_shortest);
+  return texts;
 }
 
-// NAME_KEY_VALUE_KEY_VALUE without an ending.
-std::string name_of(const std::string& scene, const Grid& grid, std::size_t run) {
-  std::string name = scene;
-  const std::vector<std::size_t> at = grid.places(run);
-  for (std::size_t i = 0; i < at.size(); ++i) name += "_" + grid.axes()[i].key + "_" + value_text(grid.axes()[i], at[i]);
-  return file_name_of(name);
-}
+// What a run's files are called: NAME_KEY_VALUE_KEY_VALUE without an ending.
+class NamesOfRuns {
+ public:
+  explicit NamesOfRuns(const Grid& grid) : grid_(grid) {
+    for (const Sweep& axis : grid.axes()) values_.push_back(value_texts(axis));
+  }
+  std::string name(const std::string& scene, std::size_t run) const {
+    std::string name = scene;
+    const std::vector<std::size_t> at = grid_.places(run);
+    for (std::size_t i = 0; i < at.size(); ++i) name += "_" + grid_.axes()[i].key + "_" + values_[i][at[i]];
+    return file_name_of(name);
+  }
+
+ private:
+  const Grid& grid_;
+  std::vector<std::vector<std::string>> values_;  // of each axis
+};
 
 bool is_there(const std::string& path) {
   std::error_code code;
@@ -154,7 +166,7 @@ class FilesOfRun {
 class FilmsOfGrid {
  public:
   FilmsOfGrid(const SweepOptions& options, const Grid& grid, FrameRange runs, std::string folder)
-      : options_(options), grid_(grid), runs_(runs), folder_(std::move(folder)),
+      : options_(options), grid_(grid), names_(grid), runs_(runs), folder_(std::move(folder)),
         formats_(formats_of(options)), at_(parse_seconds(options.at, "--at")) {
     require_names();
     threads_ = affordable_threads();
@@ -195,7 +207,7 @@ class FilmsOfGrid {
     if (count > kMostFiles) throw Error(ExitCode::limit, "a sweep makes no more than a million files: take -o TABLE.csv");
     std::set<std::string> names;
     for (std::size_t k = 0; k < count; ++k)
-      if (const std::string name = name_of("", grid_, k); !names.insert(name).second)
+      if (const std::string name = names_.name("", k); !names.insert(name).second)
         throw Error(ExitCode::usage, "two runs would both be written to " + name + ": values of --over are too much alike");
     const auto longest = std::max_element(names.begin(), names.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
     const std::string scene = fs::path(options_.scene).stem().string();
@@ -209,7 +221,7 @@ class FilmsOfGrid {
     const PreparedFilm film = load(run);
     if (!(at_ >= 0 && at_ <= film.scene.duration))
       throw Error(ExitCode::usage, "--at " + options_.at + " lies outside the duration of " + format_quantity(film.scene.duration, "s"));
-    const std::string base = (fs::path(folder_) / name_of(film.scene.name, grid_, run)).string();
+    const std::string base = (fs::path(folder_) / names_.name(film.scene.name, run)).string();
     RenderJob job;
     std::optional<FilesOfRun> expected;  // computed where something is there
     bool are_ours = true;
@@ -282,6 +294,7 @@ class FilmsOfGrid {
 
   const SweepOptions& options_;
   const Grid& grid_;
+  NamesOfRuns names_;
   FrameRange runs_;
   std::string folder_;
   int threads_ = 1;
@@ -387,7 +400,8 @@ void add_sweep_command(CommandLine& app) {
   command->add_option("--jobs", options->jobs, "runs beside one another (default: all cores)").range(1, 256);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
-  command->footer("A table has a row a run: its last state, the instants of its events, and what --peaks asks for. Tables are computed by\n"
+  command->footer("A table has a row a run: its last state and the energy there, the instants of its events, and what --peaks asks for; no row is warned of, --peaks energy_error\n"
+                  "shows what its energy is off by. Tables are computed by\n"
                   "dop853 with tolerance 1e-10 where a scene leaves its method to auto, which asks what a page shows; films and pictures\n"
                   "by what auto takes.\n"
                   "A .csv table begins with three lines of facts, `# ..`: pandas.read_csv(file, comment='#'), or numpy.genfromtxt(file,\n"

@@ -20,6 +20,7 @@
 #include "core/input_file.hpp"
 #include "core/output_file.hpp"
 #include "core/parallel.hpp"
+#include "dynamics/energy.hpp"
 #include "scene/run/prepare.hpp"
 #include "scene/text/unread.hpp"
 #include "scene/text/read_scene.hpp"
@@ -117,9 +118,10 @@ class RowMaker {
         return row + failed_row("its states or events are other ones than the first run's");
       require_possible(simulation);
       const auto stop = [](double) { return interrupted(); };
-      if (job_.peaks.empty()) return row + row_of(scene, simulate(simulation, std::vector<double>{scene.duration}, stop), {});
+      if (job_.peaks.empty())
+        return row + row_of(scene, simulation.chain, simulate(simulation, std::vector<double>{scene.duration}, stop), {});
       const PeaksOfRun found = simulate_for_peaks(simulation, job_.peaks, stop);
-      return row + row_of(scene, found.run, found.peaks);
+      return row + row_of(scene, simulation.chain, found.run, found.peaks);
     } catch (const Error& error) {
       throw_if_interrupted();
       return row + failed_row(error.problems().front().message);
@@ -127,13 +129,13 @@ class RowMaker {
   }
 
  private:
-  std::string row_of(const Scene& scene, const Trajectory& run, const std::vector<double>& peaks) const {
+  std::string row_of(const Scene& scene, const Chain& chain, const Trajectory& run, const std::vector<double>& peaks) const {
     const bool as_expected =
         scene.expect == Outcome::diverge ? run.status == RunStatus::diverged : is_complete(run.status);
     std::string row = as_expected ? ",1," : ",0,";
     row += to_string(run.status) + "," + format_shortest(run.end_time) + "," +
            (run.ending_event < 0 ? "" : csv_words(scene.events[std::size_t(run.ending_event)].title()));
-    row += "," + (run.size() > 0 ? state_text(run, run.size() - 1) : no_state());
+    row += "," + (run.size() > 0 ? state_text(run, run.size() - 1) + "," + energy_at_end(chain, run) : no_state() + ",");
     for (const double peak : peaks) row += "," + format_shortest(peak);
     std::vector<std::string> first(events_);
     for (int k = run.events.size() - 1; k >= 0; --k)
@@ -142,7 +144,11 @@ class RowMaker {
     return row + "," + (run.trouble.empty() ? "" : csv_words(run.trouble));
   }
   std::string failed_row(const std::string& why) const {
-    return ",0,refused,,," + no_state() + std::string(peaks_ + events_, ',') + "," + csv_words(why);
+    return ",0,refused,,," + no_state() + "," + std::string(peaks_ + events_, ',') + "," + csv_words(why);
+  }
+  static std::string energy_at_end(const Chain& chain, const Trajectory& run) {
+    Workspace ws(chain);
+    return format_shortest(energy_of(chain, ws, run.q_at(run.size() - 1), run.qd_at(run.size() - 1)).total());
   }
   std::string no_state() const { return std::string(std::size_t(std::count(states_.begin(), states_.end(), ',')), ','); }
 
@@ -203,7 +209,8 @@ std::string head_of(const SweepTableJob& job, const Scene& first, const Chain& c
   // Of other models the same numbers may have other units.
   const auto is_of_model = [](const Sweep& axis) { return axis.key == "model" || axis.key.starts_with("model."); };
   const bool one_model = std::none_of(job.grid.axes().begin(), job.grid.axes().end(), is_of_model);
-  head += ",good,status,end_time [s],ended_by," + state_names(chain, one_model ? NamesOfState::with_units : NamesOfState::plain);
+  head += ",good,status,end_time [s],ended_by," + state_names(chain, one_model ? NamesOfState::with_units : NamesOfState::plain) +
+          ",energy [J]";
   for (const std::string& peak : peaks) head += "," + (one_model ? peak : peak.substr(0, peak.find(" [")));
   for (const EventEntry& event : first.events) head += "," + csv_words(event.title() + " [s]");
   return head + ",trouble\n";

@@ -94,7 +94,7 @@ const std::vector<JsonReport>& json_reports() {
       {"sheet", with(kFiles, {{"columns, lines", "of the page"}, {"cells", "[{scene, at, panels}]"}})},
       {"ellipse", with(kFiles, {{"reading, shape, unit", "of the ellipses; not with --joint-space"}, {"poses", "[{t, q, point, Lambda_inv, Lambda, mass_along, eigenvalues, semi_axes, ..}]; mass_along: 1 / Lambda_inv_ii, what a force along each axis moves"}})},
       {"chart", with(kFiles, {{"scene, machine", "what was measured where"},
-                              {"reference, error, qd_scale", "what errors are measured by"},
+                              {"reference, error, qd_scale, judged", "what errors are measured by; judged: which one the chart shows, error or energy_error"},
                               {"choice", "that of `method: auto`"},
                               {"methods", "[{method, rungs}]"},
                               {"left_out", "methods that the scene refuses, in words"}})},

@@ -95,8 +95,9 @@ std::string algorithm_of(const Chain& chain, const ConstrainedWorkspace& cws, bo
          (cws.kernel.doubled ? ", equal rows once" : "");
 }
 
-// The largest of each row's multiplier over the run.
-std::vector<double> largest_multipliers(const Trajectory& trajectory) {
+// The largest of each row's multiplier over the run, between the samples too where it is known there.
+std::vector<double> largest_multipliers(const Trajectory& run) {
+  const Trajectory& trajectory = run.between && run.between->rows == run.rows ? *run.between : run;
   std::vector<double> largest(std::size_t(trajectory.rows));
   for (int k = 0; k < trajectory.size(); ++k) {
     const auto lambda = trajectory.lambda_at(k);

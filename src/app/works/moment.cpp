@@ -9,7 +9,7 @@
 #include "app/report/run_report.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "scene/run/fall.hpp"
+#include "scene/run/title.hpp"
 
 namespace chainreel {
 namespace {

@@ -13,13 +13,6 @@
 namespace chainreel {
 namespace {
 
-constexpr const char* kFallInTitle = "{fall}";
-
-bool has_fall(const Scene& scene) {
-  return std::any_of(scene.events.begin(), scene.events.end(),
-                     [](const EventEntry& event) { return event.kind == EventKind::fall; });
-}
-
 Scene read_one(const std::string& path, const std::vector<std::string>& overrides) {
   Scene scene = read_scene(path, overrides);
   require_single_run(scene);
@@ -100,6 +93,11 @@ FallRow run_row(Scene scene, const StopRequest& stop) {
 
 }  // namespace
 
+bool has_fall(const Scene& scene) {
+  return std::any_of(scene.events.begin(), scene.events.end(),
+                     [](const EventEntry& event) { return event.kind == EventKind::fall; });
+}
+
 std::optional<double> fall_time_of(const Scene& scene, const Trajectory& trajectory) {
   if (trajectory.ending_event < 0) return {};
   const EventEntry& event = scene.events[std::size_t(trajectory.ending_event)];
@@ -110,14 +108,6 @@ std::string fall_time_text(const Scene& scene, const Trajectory& trajectory) {
   const std::optional<double> time = fall_time_of(scene, trajectory);
   return time ? format_fixed(*time, 2) + " s"
               : "more than " + format_significant(trajectory.end_time, 3) + " s";
-}
-
-std::string title_of(const Scene& scene, const Trajectory& trajectory) {
-  std::string title = scene.title;
-  const std::size_t place = title.find(kFallInTitle);
-  if (place != std::string::npos && has_fall(scene))
-    title.replace(place, std::string(kFallInTitle).size(), fall_time_text(scene, trajectory));
-  return title + (title.empty() || scene.set_words.empty() ? "" : ", ") + scene.set_words;
 }
 
 FallTable run_fall_table(const std::string& scene, const std::vector<std::string>& overrides,

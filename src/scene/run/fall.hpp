@@ -11,14 +11,14 @@
 
 namespace chainreel {
 
+// Whether an event says when it has fallen.
+bool has_fall(const Scene& scene);
+
 // The instant at which an event of kind `fall` ended the run, s.
 std::optional<double> fall_time_of(const Scene& scene, const Trajectory& trajectory);
 
 // "0.83 s", or "more than 5 s" of a run that did not fall.
 std::string fall_time_text(const Scene& scene, const Trajectory& trajectory);
-
-// The title, `{fall}` in it replaced by that text, and behind it the parameters that the command line gave.
-std::string title_of(const Scene& scene, const Trajectory& trajectory);
 
 struct FallRow {
   std::string value;  // of the key

@@ -62,8 +62,8 @@ std::vector<MethodSetting> settings_of(const Simulation& simulation, const Metho
                                        const LadderOptions& options) {
   std::vector<MethodSetting> settings;
   if (method.adaptive) {
-    for (double tolerance = 1e-2; tolerance >= 0.99 * options.lowest_tolerance; tolerance /= 10)
-      settings.push_back({&method, {tolerance, method.highest_order > 0 ? method.order : 0}, 0});
+    for (double parts = 100; 1 / parts >= 0.99 * options.lowest_tolerance; parts *= 10)  // exact, and so are their inverses as one writes them
+      settings.push_back({&method, {1 / parts, method.highest_order > 0 ? method.order : 0}, 0});
     return settings;
   }
   for (const double step : steps_from(std::min(options.longest_step, simulation.duration))) {
@@ -99,7 +99,11 @@ Rung measure(Simulation& simulation, const MethodSetting& setting, const EndStat
     rung.steps = trajectory.steps;
     rung.evaluations = trajectory.evaluations;
     find_errors(trajectory, reference, rung);
-    rung.energy_error = trajectory.size() > 0 ? audit_of(simulation, trajectory).largest_error : kInfinity;
+    rung.energy_error = kInfinity;
+    if (trajectory.size() > 0) {
+      const Trajectory audited = simulate_audited(simulation, end, stop);
+      rung.energy_error = std::max(audit_of(simulation, trajectory).largest_error, audited.energy_at_steps ? audited.energy_at_steps->largest_error : 0.0);
+    }
     if (trajectory.status != RunStatus::finished) break;  // nobody asks how fast it failed
   }
   rung.runs = int(seconds.size());
@@ -122,8 +126,9 @@ Ladder climb(Simulation& simulation, const Method& method, const EndState& refer
   for (const MethodSetting& setting : settings_of(simulation, method, options)) {
     Rung rung = measure(simulation, setting, reference, options.runs, stop);
     const bool interrupted = rung.status == RunStatus::interrupted;
-    const bool gained = rung.error < best;
-    best = std::min(best, rung.error);
+    const double judged = options.judges_energy ? rung.energy_error : rung.error;
+    const bool gained = judged < best;
+    best = std::min(best, judged);
     if (!interrupted) ladder.rungs.push_back(rung);
     without_gain = gained || !(best < kSmallError) ? 0 : without_gain + 1;
     if (interrupted || without_gain >= kRungsOfRounding || rung.seconds > 2 * options.longest_run) break;

@@ -22,7 +22,7 @@ struct Rung {
   MethodSetting setting;
   double error = 0;  // the larger of the next two, the second times qd_scale; infinite where the run failed
   double error_q = 0, error_qd = 0;  // largest of |q_i - reference| and |qd_i - reference| at the end
-  double energy_error = 0;  // J, of the audit at the end
+  double energy_error = 0;  // J, the largest at the end of any step
   double seconds = 0;       // median of the runs, nothing sampled but the end
   int runs = 0;
   long steps = 0, evaluations = 0;
@@ -41,6 +41,7 @@ struct LadderOptions {
   double longest_run = 0.2;   // s, by the table of costs: finer rungs are left out
   double longest_step = 0.2;  // s
   double lowest_tolerance = 1e-15;
+  bool judges_energy = false;  // it ends where the energy's error gains no more, else where the final one does
 };
 
 // Throws nothing for what happens during runs.

@@ -1,0 +1,74 @@
+#include "scene/run/title.hpp"
+
+#include <functional>
+#include <optional>
+#include <set>
+
+#include "core/format.hpp"
+#include "scene/run/fall.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr const char* kFall = "fall";
+
+// The words with each name in braces, outside of formulas, replaced by what `value_of` has for it; without a value it stays.
+std::string filled(const std::string& words, const std::function<std::optional<std::string>(const std::string& name)>& value_of) {
+  std::string text;
+  bool is_formula = false;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == '$') is_formula = !is_formula && words.find('$', i + 1) != std::string::npos;
+    const std::size_t end = words[i] == '{' && !is_formula ? words.find('}', i) : std::string::npos;
+    if (end == std::string::npos) {
+      text += words[i];
+      continue;
+    }
+    const std::optional<std::string> value = value_of(words.substr(i + 1, end - i - 1));
+    text += value ? *value : words.substr(i, end + 1 - i);
+    i = end;
+  }
+  return text;
+}
+
+std::string value_text(double value) {
+  return format_significant(value, 6);
+}
+
+std::optional<std::string> parameter_of(const Scene& scene, const std::string& name) {
+  for (const auto& [own, value] : scene.parameters)
+    if (own == name) return value_text(value);
+  return {};
+}
+
+}  // namespace
+
+std::string title_of(const Scene& scene, const Trajectory& trajectory) {
+  std::set<std::string> told;
+  std::string title = filled(scene.title, [&](const std::string& name) -> std::optional<std::string> {
+    if (name == kFall && has_fall(scene)) return fall_time_text(scene, trajectory);
+    std::optional<std::string> value = parameter_of(scene, name);
+    if (value) told.insert(name);
+    return value;
+  });
+  for (const auto& [name, value] : scene.set_parameters)
+    if (!told.contains(name)) title += (title.empty() ? "" : ", ") + name + " = " + value_text(value);
+  return title;
+}
+
+std::vector<std::string> title_notices(const Scene& scene) {
+  std::vector<std::string> notices;
+  const bool is_page = !scene.compare.empty();  // its title is that of several runs
+  filled(scene.title, [&](const std::string& name) -> std::optional<std::string> {
+    const bool is_known = (name == kFall && has_fall(scene)) || parameter_of(scene, name).has_value();
+    if (is_page || !is_known)
+      notices.push_back("'title': {" + name + "} stays as it is: " +
+                        (is_page           ? "the title of a comparison has no values, those of its panels do"
+                         : name == kFall   ? "no event of kind fall says when it falls"
+                         : scene.parameters.empty() ? "the scene has no `parameters:`"
+                                                    : "`parameters:` has no such name"));
+    return {};
+  });
+  return notices;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,19 @@
+// What stands above a picture: the scene's title with what it leaves open.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "sim/simulate.hpp"
+
+namespace chainreel {
+
+// The title, in it `{fall}` replaced by the time of the fall and `{F}` by the parameter of that name, but for formulas between dollar
+// signs; and behind it the parameters that the command line gave and the title does not tell.
+std::string title_of(const Scene& scene, const Trajectory& trajectory);
+
+// Of words in braces that stay as they are, a sentence each without end mark.
+std::vector<std::string> title_notices(const Scene& scene);
+
+}  // namespace chainreel
