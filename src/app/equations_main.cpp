@@ -109,34 +109,48 @@ Form form_of(const EquationsOptions& options, const std::string& output) {
   return asked.empty() ? Form::text : *asked.begin();
 }
 
-std::string text_in(Form form, const SymbolicEquation& equation, const std::string& angle) {
+std::string text_in(Form form, const SymbolicEquation& equation, const EquationForm& words) {
   switch (form) {
     case Form::text: break;
-    case Form::latex: return latex_of(equation, angle);
-    case Form::document: return latex_document_of(equation, angle);
+    case Form::latex: return latex_of(equation, words);
+    case Form::document: return latex_document_of(equation, words);
     case Form::python: return python_of(equation);
     case Form::json: return json_of(equation).dump(2) + "\n";
   }
-  return text_of(equation, angle);
+  return text_of(equation, words);
+}
+
+std::vector<std::string> parts_of(const std::string& only) {
+  const std::vector<std::string> all(std::begin(kEquationParts), std::end(kEquationParts));
+  std::vector<std::string> parts;
+  if (only.empty()) return parts;
+  for (const std::string& part : separated(only, ',')) {
+    if (std::find(all.begin(), all.end(), part) == all.end())
+      throw Error(ExitCode::usage, "--only " + only + ": '" + part + "' is no part of the equation:" + did_you_mean(part, all) + " There are " + joined(all));
+    parts.push_back(part);
+  }
+  return parts;
 }
 
 void run_equations(const EquationsOptions& options) {
   const std::vector<std::string> outputs = options.outputs.empty() ? std::vector<std::string>{""} : options.outputs;
   std::vector<Form> forms;
   for (const std::string& output : outputs) forms.push_back(form_of(options, output));
-  const auto has_angles = [](Form form) { return form == Form::text || form == Form::latex || form == Form::document; };
+  const auto has_words = [](Form form) { return form == Form::text || form == Form::latex || form == Form::document; };
   if (options.document && std::find(forms.begin(), forms.end(), Form::document) == forms.end())
     throw Error(ExitCode::usage, "--document is for LaTeX: no -o names a .tex file");
-  if (options.theta && std::none_of(forms.begin(), forms.end(), has_angles))
+  if (options.theta && std::none_of(forms.begin(), forms.end(), has_words))
     throw Error(ExitCode::usage, "--theta is for text and LaTeX: the angles are q in Python and JSON");
+  if (!options.only.empty() && std::none_of(forms.begin(), forms.end(), has_words))
+    throw Error(ExitCode::usage, "--only is for text and LaTeX: Python and JSON hold all");
+  const EquationForm words{options.theta ? "theta" : "q", parts_of(options.only)};
   std::vector<std::unique_ptr<OutputFile>> files;
   refuse_twice(options.outputs);
   for (const std::string& path : options.outputs) files.push_back(std::make_unique<OutputFile>(path, options.common.force));
   const SymbolicEquation equation = equation_of(options);
-  const std::string angle = options.theta ? "theta" : "q";
   if (files.empty() && !options.common.json)
-    return void(std::fputs(text_in(forms[0], equation, angle).c_str(), stdout));
-  for (std::size_t i = 0; i < files.size(); ++i) write_temporary(*files[i], text_in(forms[i], equation, angle));
+    return void(std::fputs(text_in(forms[0], equation, words).c_str(), stdout));
+  for (std::size_t i = 0; i < files.size(); ++i) write_temporary(*files[i], text_in(forms[i], equation, words));
   for (const auto& file : files) file->commit();
   if (options.common.json) tell_files(options.common, options.outputs, [&] { return json_of(equation); });
 }

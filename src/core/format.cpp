@@ -37,7 +37,10 @@ std::string format_fixed(double value, int decimals) {
 }
 
 std::string format_significant(double value, int digits) {
-  return print(value == 0 ? 0.0 : value, std::chars_format::general, digits);
+  const std::string text = print(value == 0 ? 0.0 : value, std::chars_format::general, digits);
+  // "430" instead of "4.3e+02".
+  constexpr double kWritten = 1e5;
+  return text.find('e') != std::string::npos && std::abs(value) >= 1 && std::abs(value) < kWritten ? format_fixed(*parse_number(text), 0) : text;
 }
 
 std::string lower_case_ending(const std::string& path) {

@@ -70,6 +70,7 @@ void require_replaceable(const std::string& path) {
 void refuse_dash(const std::string& path) {
   if (path == "-" || path.starts_with("-/"))
     throw Error(ExitCode::usage, "-o " + path + ": this goes into a file, not to standard output: name one, like -o out/result");
+  if (path.empty()) throw Error(ExitCode::usage, "-o names no file");
 }
 
 void refuse_twice(const std::vector<std::string>& paths) {

@@ -160,6 +160,10 @@ class Reader {
     const char32_t c = peek();
     if (is_digit(c) || (c == U'.' && is_digit(peek(1)))) return read_number(atoms);
     if (is_letter(c)) return read_word(atoms, depth);
+    if (c == U'\\' && is_latex_word(at_ + 1)) {
+      ++at_;
+      return read_word(atoms, depth);
+    }
     if (c == U'"') return read_quoted(atoms);
     if (c == U'_' || c == U'^') return read_script(atoms, depth);
     if (c == U'{' || c == U'}') fail("a brace without _, ^, frac, col, mat, hat or bar before it");
@@ -168,6 +172,15 @@ class Reader {
     else
       return read_sign(atoms);
     ++at_;
+  }
+
+  // \Lambda, \sin and \frac, as those write them who know LaTeX.
+  bool is_latex_word(std::size_t begin) const {
+    std::size_t end = begin;
+    while (end < text_.size() && is_letter(text_[end])) ++end;
+    const std::u32string word(text_.substr(begin, end - begin));
+    return (word.size() > 1 && letter_of(word)) || contains(kFunctions, word) ||
+           std::any_of(kConstructs.begin(), kConstructs.end(), [&](const Construct& one) { return one.name == word; });
   }
 
   void read_sign(std::vector<MathAtom>& atoms) {

@@ -80,7 +80,7 @@ struct SymbolColor {
 };
 
 // A small subset of math notation, in the math face whatever the style says: Greek names (tau, lambda,
-// Lambda, ...), `_x`, `_{..}`, `^x`, `^{..}`, an index by trailing digits (q1), dots by a trailing d or dd
+// Lambda, also \Lambda ...), `_x`, `_{..}`, `^x`, `^{..}`, an index by trailing digits (q1), dots by a trailing d or dd
 // (qd, thetadd), `^T`, `frac{a}{b}`, `col{a; b}` for column vectors, `mat{a, b; c, d}`, `hat{q}`, `bar{q}`.
 // Variables are italic; the matrices M, J, Lambda bold; numbers, units behind a number or bracket ("N m"),
 // function names and other words upright. E.g. "tau = (0, -100 y_G) N m". Symbols take their colours also

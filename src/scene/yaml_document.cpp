@@ -110,6 +110,8 @@ void refuse_duplicates(const Parsed& parsed, const YAML::Node& node, const std::
 
 // Parses one whole document of text; `where` names it in errors.
 Parsed parse(const std::string& text, const std::string& where) {
+  if (text.find('\0') != std::string::npos)
+    throw Error(ExitCode::bad_input, "is no text, as scenes are; `chainreel extract` finds the scene that a film or picture remembers", {where});
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
@@ -126,7 +128,8 @@ Parsed parse(const std::string& text, const std::string& where) {
     refuse_duplicates(parsed, parsed.root, where);
     return parsed;
   } catch (const YAML::Exception& error) {
-    throw Error(ExitCode::bad_input, "is not valid YAML: " + error.msg,
+    const bool is_second_colon = error.msg.find("illegal map value") != std::string::npos;
+    throw Error(ExitCode::bad_input, "is not valid YAML: " + error.msg + (is_second_colon ? ": a text that holds \": \" is written in quotes" : ""),
                 {where, error.mark.line + 1, error.mark.column + 1});
   }
 }

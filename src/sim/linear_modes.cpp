@@ -22,14 +22,34 @@ struct Slopes {
   Eigen::MatrixXd K, D;  // d acceleration / d q and / d v, nv x nv
 };
 
-Slopes slopes_of(ChainSystem& system, const Simulation& simulation) {
+struct State {
+  std::vector<double> q, qd;
+};
+
+// Where feedback that holds one pose leads to; nothing where there is none, or constraints may not let the robot go there.
+std::optional<State> target_of(const Simulation& simulation) {
+  constexpr double kSame = 1e-9;  // rad or m
+  const Chain& chain = simulation.chain;
+  if (chain.nq != chain.nv || !simulation.constraints.empty() || !simulation.torque) return std::nullopt;
+  State target{std::vector<double>(std::size_t(chain.nv)), std::vector<double>(std::size_t(chain.nv))};
+  std::vector<double> later(target.q);
+  simulation.torque->leave_pieces();
+  for (const double part : {0.0, 0.31, 0.62, 1.0}) {
+    if (!simulation.torque->reference_at(part * simulation.duration, part > 0 ? later : target.q)) return std::nullopt;
+    for (std::size_t i = 0; part > 0 && i < later.size(); ++i)
+      if (!(std::abs(later[i] - target.q[i]) <= kSame)) return std::nullopt;
+  }
+  return target;
+}
+
+Slopes slopes_of(ChainSystem& system, const Simulation& simulation, const State& place) {
   const std::size_t n = std::size_t(simulation.chain.nv);
   Slopes slopes{Eigen::MatrixXd(n, n), Eigen::MatrixXd(n, n)};
   std::vector<double> side[2] = {std::vector<double>(n), std::vector<double>(n)};
   for (std::size_t j = 0; j < n; ++j)
     for (const bool of_velocity : {false, true}) {
       for (const bool above : {false, true}) {
-        std::vector<double> q = simulation.q0, v = simulation.qd0, unit(n);
+        std::vector<double> q = place.q, v = place.qd, unit(n);
         unit[j] = 1;
         const double dx = above ? kDifference : -kDifference;
         if (of_velocity)
@@ -77,16 +97,19 @@ double largest_of(const std::vector<double>& x) {
 Linearisation linearise(const Simulation& simulation) {
   Linearisation start;
   ChainSystem system(simulation.chain, *simulation.torque, simulation.limit, simulation.constraints);
-  std::vector<double> qdd(simulation.qd0.size());
-  system.acceleration(0, simulation.q0, simulation.qd0, qdd);
-  start.rate = largest_of(simulation.qd0);
+  const std::optional<State> target = target_of(simulation);
+  const State place = target ? *target : State{simulation.q0, simulation.qd0};
+  start.about_target = target.has_value();
+  std::vector<double> qdd(place.qd.size());
+  system.acceleration(0, place.q, place.qd, qdd);
+  start.rate = largest_of(place.qd);
   start.acceleration = largest_of(qdd);
   // Bodies that turn and constraints that bend carry deviations along: these terms are not in it.
   if (start.rate > 0 && (simulation.chain.nq != simulation.chain.nv || system.constrained())) {
     start.trouble = "a floating base or a chain with constraints is linearised at rest alone";
     return start;
   }
-  const Slopes slopes = slopes_of(system, simulation);
+  const Slopes slopes = slopes_of(system, simulation, place);
   if (!slopes.K.allFinite() || !slopes.D.allFinite()) {
     start.trouble = "accelerations about the start are not finite";
     return start;

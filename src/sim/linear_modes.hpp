@@ -1,4 +1,5 @@
-// The motion of a chain linearised about its start: what decides whether a step is stable there.
+// The motion of a chain linearised about its start, or about the pose that its feedback holds: what decides whether a step is
+// stable there.
 #pragma once
 
 #include <complex>
@@ -12,6 +13,7 @@
 namespace chainreel {
 
 struct Linearisation {
+  bool about_target = false;  // feedback (pd, computed torque) holds one pose, and that stands for the start here
   // The motion of small deviations from the start at t = 0, along what constraints leave free; nothing where
   // `trouble` says why there is none.
   std::optional<LinearMotion> motion;

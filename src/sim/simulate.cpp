@@ -394,8 +394,7 @@ class Run {
   }
 
   void report(std::vector<LimitEvent> passed) {
-    std::stable_sort(passed.begin(), passed.end(),
-                     [](const LimitEvent& a, const LimitEvent& b) { return a.t < b.t; });
+    std::stable_sort(passed.begin(), passed.end(), [](const LimitEvent& a, const LimitEvent& b) { return a.t < b.t; });
     for (const LimitEvent& one : passed) {
       trajectory_.limits.push_back(one);
       if (simulation_.limit != LimitPolicy::stop) continue;
@@ -425,8 +424,7 @@ class Run {
   }
 
   bool blame_torque(double t) {
-    set_trouble(RunStatus::torque_not_finite,
-                "the torque at joint '" + name(system_.bad_torque()) + "' is not a finite number", t);
+    set_trouble(RunStatus::torque_not_finite, "the torque at joint '" + name(system_.bad_torque()) + "' is not a finite number", t);
     return false;
   }
 
@@ -465,6 +463,7 @@ class Run {
 
 Trajectory simulate(const Simulation& simulation, std::span<const double> times, const StopRequest& stop,
                     const StepObserver& observer, double between) {
+  check_ready(simulation, times);
   Run run(simulation, times.size());
   if (between > 0) run.keep_between();
   SampleInstants instants(times, between, std::max(kBesideCorner * between, 4 * same_instant(simulation)));
@@ -484,6 +483,7 @@ Trajectory simulate(const Simulation& simulation, std::span<const double> times,
 }
 
 Trajectory simulate_every_step(const Simulation& simulation, const StopRequest& stop) {
+  check_ready(simulation);
   Run run(simulation, std::size_t(std::min(steps_of(simulation), kMostNumbers)) + 2);
   run.sample_start();
   while (!run.at_end() && !run.ended_early() && !run.stop_requested(stop) && run.take_step()) {

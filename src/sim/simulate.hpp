@@ -69,6 +69,10 @@ double longest_step_of(const Simulation& simulation);
 // Throws Error (bad input) where the method does not take this chain or torque; says which to take instead.
 void check_method(const Simulation& simulation);
 
+// Throws Error (usage) where something that a run needs is missing or of another size: method, torque, q0, qd0; where step or
+// duration are below zero or no numbers; where `times` do not rise from 0 to the duration.
+void check_ready(const Simulation& simulation, std::span<const double> times = {});
+
 // How much of the run lies before t, from 0 to 1.
 inline double part_done(const Simulation& simulation, double t) {
   return simulation.duration > 0 ? std::clamp(t / simulation.duration, 0.0, 1.0) : 0;
@@ -82,7 +86,7 @@ using StepObserver = std::function<void(double t, ConstVec q, ConstVec qd, doubl
 
 // Samples at `times` (rising, within [0, duration]) on the method's dense output; t = 0 and the ends of steps
 // give the steps' own values. Never throws for what happens during the run: see
-// Trajectory::status. Samples end where the run ended; where an event ended it, the last one stands at its
+// Trajectory::status; for what was not ready, see check_ready. Samples end where the run ended; where an event ended it, the last one stands at its
 // instant. `between`, s: keeps the run at more instants, some so far apart between the samples, too (Trajectory::between); 0: does not.
 Trajectory simulate(const Simulation& simulation, std::span<const double> times, const StopRequest& stop = {},
                     const StepObserver& observer = {}, double between = 0);

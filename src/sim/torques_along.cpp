@@ -109,6 +109,20 @@ std::vector<double> references_along(const Simulation& simulation, const Traject
   return references;
 }
 
+namespace {
+
+// The rows of constraint c that hold places, not directions.
+std::vector<int> force_rows(const ConstraintSet& set, std::size_t c) {
+  std::vector<int> rows;
+  for (int row = set.first_row(c); row < set.first_row(c + 1); ++row) {
+    const ConstraintSet::Kind kind = set.row_list()[std::size_t(row)].kind;
+    if (kind != ConstraintSet::Kind::parallel && kind != ConstraintSet::Kind::coordinates) rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace
+
 std::vector<std::vector<Reaction>> reactions_along(const Simulation& simulation,
                                                    const Trajectory& trajectory) {
   if (simulation.constraints.empty() || trajectory.rows == 0) return {};
@@ -124,7 +138,7 @@ std::vector<std::vector<Reaction>> reactions_along(const Simulation& simulation,
       if (frame.empty()) continue;
       // The multipliers are what the robot exerts on its surroundings; the reaction is the opposite.
       reactions[std::size_t(k)].push_back(
-          {find_frame(chain, frame), -contact_force(chain, set, cws, c, trajectory.lambda_at(k))});
+          {find_frame(chain, frame), -contact_force(chain, set, cws, c, trajectory.lambda_at(k)), force_rows(set, c)});
     }
   }
   return reactions;

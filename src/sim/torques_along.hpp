@@ -34,6 +34,7 @@ std::vector<double> references_along(const Simulation& simulation, const Traject
 struct Reaction {
   int frame = 0;  // index into chain.frames: its origin is the place
   Eigen::Vector3d force;
+  std::vector<int> rows;  // whose multipliers, turned round, are its parts
 };
 
 // The reactions at each sample: of every constraint that holds a frame, in the order of the scene; of those

@@ -11,7 +11,6 @@
 namespace chainreel {
 namespace {
 
-constexpr double kRelative = 1e-9;   // of a number's range
 constexpr double kAbsolute = 1e-12;  // rad, m and their rates
 constexpr double kSameTime = 1e-9;   // of 1 s and of the instant itself
 constexpr double kSameMotion = 1e-8;   // of 1 and of a number's range
@@ -69,7 +68,7 @@ struct Parting {
 };
 
 std::vector<FreedomDifference> partings(const Columns& before, const Columns& after,
-                                        const std::vector<double>& t, const Instants& instants) {
+                                        const std::vector<double>& t, const Instants& instants, double of_range) {
   std::vector<Parting> found;
   for (std::size_t i = 0; i < after.numbers.size(); ++i) {
     const bool turns = after.numbers[i].unit == kQuaternion && i + 3 < after.numbers.size();
@@ -78,7 +77,7 @@ std::vector<FreedomDifference> partings(const Columns& before, const Columns& af
       for (const double x : {*before.at(a, i), *after.at(b, i)})
         if (std::isfinite(x)) low = std::min(low, x), high = std::max(high, x);
     const double range = turns ? 1 : std::max(0.0, high - low);
-    const double tolerance = std::max(kAbsolute, kRelative * range);
+    const double tolerance = std::max(kAbsolute, of_range * range);
     Parting one{{after.numbers[i].label, turns ? "rad" : after.numbers[i].unit}, -1};
     one.freedom.range = range;
     for (const auto& [a, b] : instants) {
@@ -196,7 +195,7 @@ void join_rotations(std::vector<SampledNumber>& numbers) {
   }
 }
 
-TrajectoryDifference difference_of(const SampledTrajectory& before, const SampledTrajectory& after) {
+TrajectoryDifference difference_of(const SampledTrajectory& before, const SampledTrajectory& after, double of_range) {
   TrajectoryDifference difference;
   const Instants instants = shared_instants(before.t, after.t);
   difference.instants = int(instants.size());
@@ -210,7 +209,7 @@ TrajectoryDifference difference_of(const SampledTrajectory& before, const Sample
     difference.others.push_back(change_of_names("freedoms", before.q_numbers, after.q_numbers));
   } else {
     const auto find = [&](const std::vector<SampledNumber>& numbers, const auto& old, const auto& now) {
-      return partings({numbers, old}, {numbers, now}, after.t, instants);
+      return partings({numbers, old}, {numbers, now}, after.t, instants, of_range);
     };
     difference.freedoms = find(after.q_numbers, before.q, after.q);
     if (!same_rates)

@@ -60,9 +60,10 @@ struct TrajectoryDifference {
   bool empty() const { return freedoms.empty() && others.empty(); }
 };
 
-// Apart are numbers that differ by more than 1e-9 of their range, and by more than 1e-12. Quaternions are
-// compared by the angle between them. Rates count where no position parts.
-TrajectoryDifference difference_of(const SampledTrajectory& before, const SampledTrajectory& after);
+inline constexpr double kSameOfRange = 1e-9;
+// Apart are numbers that differ by more than `of_range` of their range, and by more than 1e-12. Quaternions are
+// compared by the angle between them, in rad. Rates count where no position parts.
+TrajectoryDifference difference_of(const SampledTrajectory& before, const SampledTrajectory& after, double of_range = kSameOfRange);
 
 // Whether they part by no more than what other sums of the same motion do: 1e-8 of 1 and of each number's range.
 bool is_rounding(const TrajectoryDifference& difference);

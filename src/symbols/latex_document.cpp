@@ -33,15 +33,15 @@ std::string unit_in_latex(const std::string& unit) {
 
 }  // namespace
 
-std::string latex_document_of(const SymbolicEquation& equation, const std::string& angle) {
+std::string latex_document_of(const SymbolicEquation& equation, const EquationForm& form) {
   std::string text = "\\documentclass{article}\n\\usepackage[utf8]{inputenc}\n\\usepackage{amsmath}\n\\begin{document}\n\\section*{" +
-                     escaped_for_latex(equation.model) + "}\n" + latex_formulas_of(equation, angle) +
+                     escaped_for_latex(equation.model) + "}\n" + latex_formulas_of(equation, form) +
                      "\\noindent\n\\begin{tabular}{@{}lll@{}}\n";
   const auto row = [&](const std::string& name, double value, const std::string& unit, const std::string& meaning) {
     text += "  $" + name + "$ & " + format_shortest(value) + " " + unit_in_latex(unit) + " & " + escaped_for_latex(meaning) + " \\\\\n";
   };
   for (const Symbol& symbol : equation.symbols)
-    if (!symbol.is_coordinate()) row(symbol_in(Notation::latex, equation, symbol, angle), symbol.value, symbol.unit, symbol.meaning);
+    if (!symbol.is_coordinate()) row(symbol_in(Notation::latex, equation, symbol, form.angle), symbol.value, symbol.unit, symbol.meaning);
   if (std::any_of(equation.friction.begin(), equation.friction.end(), [](const Formula& f) { return !f.is_zero(); })) row("v_0", kFrictionSmoothing, "", "width of the step of friction");
   text += "\\end{tabular}\n";
   for (const std::string& note : equation.notes) text += "\n\\noindent " + escaped_for_latex(note) + ".\n";

@@ -286,9 +286,12 @@ std::string dissipation_in_text(const Writer& writer, const SymbolicEquation& eq
   return text;
 }
 
-std::string task_in_text(const Writer& writer, const SymbolicEquation& equation) {
+std::string task_in_text(const Writer& writer, const SymbolicEquation& equation, const EquationForm& form) {
   if (equation.end_effector.empty()) return "";
-  std::string text = "\nJ(q), of " + equation.end_effector + " along " + joined(equation.axes) + ":\n" + entries_in_text(writer, "J", equation.J);
+  std::string text;
+  if (form.has("J"))
+    text += "\nJ(q), of " + equation.end_effector + " along " + joined(equation.axes) + ":\n" + entries_in_text(writer, "J", equation.J);
+  if (!form.has("Lambda")) return text;
   if (!equation.Lambda)
     return text + "\nLambda(q) = (J M^-1 J^T)^-1, which has no short form: J is not square, nowhere regular, or its inverse is long\n";
   return text + "\nLambda(q) = J^-T M J^-1 = N / D^2:\n  D = " + writer.write(equation.Lambda->root) + "\n" +
@@ -310,12 +313,14 @@ std::string formula_in(Notation notation, const SymbolicEquation& equation, cons
   return Writer(notation, equation, angle).write(formula);
 }
 
-std::string text_of(const SymbolicEquation& equation, const std::string& angle) {
-  const Writer writer(Notation::text, equation, angle);
-  std::string text = equation.model + ": " + equation_in_text(equation) + "\n\nM(q):\n" +
-                     entries_in_text(writer, "M", equation.M) + "\nC(q, qd):\n" + entries_in_text(writer, "C", equation.C) +
-                     "\ng(q):\n" + list_in_text(writer, "g", equation.g) + dissipation_in_text(writer, equation) +
-                     task_in_text(writer, equation) + "\nwith\n";
+std::string text_of(const SymbolicEquation& equation, const EquationForm& form) {
+  const Writer writer(Notation::text, equation, form.angle);
+  std::string text = equation.model + ": " + equation_in_text(equation) + "\n";
+  if (form.has("M")) text += "\nM(q):\n" + entries_in_text(writer, "M", equation.M);
+  if (form.has("C")) text += "\nC(q, qd):\n" + entries_in_text(writer, "C", equation.C);
+  if (form.has("g")) text += "\ng(q):\n" + list_in_text(writer, "g", equation.g);
+  if (form.has("tau_f")) text += dissipation_in_text(writer, equation);
+  text += task_in_text(writer, equation, form) + "\nwith\n";
   for (const Symbol& symbol : equation.symbols)
     text += "  " + padded(writer.name(symbol), 8) +
             (symbol.is_coordinate() ? padded("in " + symbol.unit, 24)
@@ -326,6 +331,30 @@ std::string text_of(const SymbolicEquation& equation, const std::string& angle) 
 }
 
 namespace {
+
+constexpr std::size_t kLine = 130;  // characters of LaTeX that fill a page across
+
+// Behind "&= ": a long sum on lines of its own, each beginning with its sign.
+std::string sum_on_lines(const std::string& sum) {
+  std::string lines;
+  std::size_t begin = 0, end = std::string::npos;
+  int depth = 0;
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    depth += sum[i] == '(' || sum[i] == '{' ? 1 : sum[i] == ')' || sum[i] == '}' ? -1 : 0;
+    if (depth == 0 && i > begin && (sum.compare(i, 3, " + ") == 0 || sum.compare(i, 3, " - ") == 0)) {
+      if (end != std::string::npos && i - begin > kLine) {
+        lines += sum.substr(begin, end - begin) + " \\\\\n  &\\quad ";
+        begin = end + 1;
+      }
+      end = i;
+    }
+  }
+  if (end != std::string::npos && end > begin && sum.size() - begin > kLine) {
+    lines += sum.substr(begin, end - begin) + " \\\\\n  &\\quad ";
+    begin = end + 1;
+  }
+  return lines + sum.substr(begin);
+}
 
 // Where every entry is short a matrix, else one entry a line.
 std::string matrix_in_latex(const Writer& writer, const std::string& letter, const FormulaMatrix& m) {
@@ -341,16 +370,24 @@ std::string matrix_in_latex(const Writer& writer, const std::string& letter, con
       const auto place = [&](int a, int b) { return letter + "_{" + std::to_string(a + 1) + std::to_string(b + 1) + "}"; };
       lines += (lines.empty() ? "  " : " \\\\\n  ") + place(r, c);
       if (is_symmetric_in(letter) && c > r) lines += " = " + place(c, r);
-      lines += " &= " + entry;
+      lines += " &= " + sum_on_lines(entry);
     }
   return is_short ? letter + " = \\begin{bmatrix}\n" + rows + "\n\\end{bmatrix}"
                   : "\\begin{aligned}\n" + lines + "\n\\end{aligned}";
 }
 
-std::string vector_in_latex(const Writer& writer, const std::string& letter, const std::vector<Formula>& list) {
-  std::string lines;
-  for (const Formula& e : list) lines += (lines.empty() ? "  " : " \\\\\n  ") + writer.write(e);
-  return letter + " = \\begin{bmatrix}\n" + lines + "\n\\end{bmatrix}";
+// Where an entry is too long for a line the entries by their numbers.
+std::string vector_in_latex(const Writer& writer, const std::string& letter, const std::string& argument, const std::vector<Formula>& list) {
+  std::string rows, lines;
+  bool is_short = true;
+  for (const Formula& e : list) {
+    const std::string entry = writer.write(e), number = std::to_string(&e - list.data() + 1), next = rows.empty() ? "  " : " \\\\\n  ";
+    is_short = is_short && entry.size() <= kLine;
+    rows += next + entry;
+    lines += next + letter + "_{" + number + "} &= " + sum_on_lines(entry);
+  }
+  return is_short ? letter + argument + " = \\begin{bmatrix}\n" + rows + "\n\\end{bmatrix}"
+                  : "\\begin{aligned}\n" + lines + "\n\\end{aligned}";
 }
 
 std::string displayed(const std::string& formula) {
@@ -373,20 +410,24 @@ std::string dissipation_in_latex(const Writer& writer, const SymbolicEquation& e
 
 }  // namespace
 
-std::string latex_formulas_of(const SymbolicEquation& equation, const std::string& angle) {
+std::string latex_formulas_of(const SymbolicEquation& equation, const EquationForm& form) {
+  const std::string& angle = form.angle;
   const Writer writer(Notation::latex, equation, angle);
   const bool dissipates = any(equation.damping) || any(equation.friction);
   const std::string q = std::all_of(equation.turns.begin(), equation.turns.end(), [](bool b) { return b; }) && angle == "theta"
                             ? "\\theta"
                             : "q";
   const std::string qd = "\\dot{" + q + "}";
-  std::string text = displayed("\\tau = M(" + q + ") \\ddot{" + q + "} + C(" + q + ", " + qd + ") " + qd + " + g(" + q + ")" +
-                               (dissipates ? " + \\tau_f(" + qd + ")" : "")) +
-                     displayed(matrix_in_latex(writer, "M", equation.M)) + displayed(matrix_in_latex(writer, "C", equation.C)) +
-                     displayed(vector_in_latex(writer, "g(" + q + ")", equation.g));
-  if (dissipates) text += displayed(dissipation_in_latex(writer, equation, angle));
-  if (!equation.end_effector.empty()) {
-    text += displayed(matrix_in_latex(writer, "J", equation.J));
+  std::string text;
+  if (form.parts.empty())
+    text += displayed("\\tau = M(" + q + ") \\ddot{" + q + "} + C(" + q + ", " + qd + ") " + qd + " + g(" + q + ")" +
+                      (dissipates ? " + \\tau_f(" + qd + ")" : ""));
+  if (form.has("M")) text += displayed(matrix_in_latex(writer, "M", equation.M));
+  if (form.has("C")) text += displayed(matrix_in_latex(writer, "C", equation.C));
+  if (form.has("g")) text += displayed(vector_in_latex(writer, "g", "(" + q + ")", equation.g));
+  if (dissipates && form.has("tau_f")) text += displayed(dissipation_in_latex(writer, equation, angle));
+  if (!equation.end_effector.empty() && form.has("J")) text += displayed(matrix_in_latex(writer, "J", equation.J));
+  if (!equation.end_effector.empty() && form.has("Lambda")) {
     if (equation.Lambda)
       text += displayed("\\Lambda = J^{-T} M J^{-1} = N / D^{2}, \\quad D = " + writer.write(equation.Lambda->root)) +
               displayed(matrix_in_latex(writer, "N", equation.Lambda->numerator));
@@ -396,9 +437,9 @@ std::string latex_formulas_of(const SymbolicEquation& equation, const std::strin
   return text;
 }
 
-std::string latex_of(const SymbolicEquation& equation, const std::string& angle) {
-  const Writer writer(Notation::latex, equation, angle);
-  std::string text = "% " + equation.model + "\n" + latex_formulas_of(equation, angle);
+std::string latex_of(const SymbolicEquation& equation, const EquationForm& form) {
+  const Writer writer(Notation::latex, equation, form.angle);
+  std::string text = "% " + equation.model + "\n" + latex_formulas_of(equation, form);
   for (const Symbol& symbol : equation.symbols)
     if (!symbol.is_coordinate())
       text += "% " + writer.name(symbol) + " = " + format_shortest(symbol.value) + " " + symbol.unit + ", " + symbol.meaning + "\n";

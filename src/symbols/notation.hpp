@@ -1,7 +1,9 @@
 // An equation of motion as text, as LaTeX and as a module of Python.
 #pragma once
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "symbols/equation.hpp"
 
@@ -15,11 +17,21 @@ std::string formula_in(Notation notation, const SymbolicEquation& equation, cons
 
 std::string symbol_in(Notation notation, const SymbolicEquation& equation, const Symbol& symbol, const std::string& angle = "q");
 
+// What text and LaTeX can hold of an equation.
+inline constexpr const char* kEquationParts[] = {"M", "C", "g", "tau_f", "J", "Lambda"};
+
+struct EquationForm {
+  std::string angle = "q";  // or "theta"
+  std::vector<std::string> parts;  // of kEquationParts; empty: all, behind the equation itself
+
+  bool has(const char* part) const { return parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end(); }
+};
+
 // The whole of it, lines that end; with the values of its symbols.
-std::string text_of(const SymbolicEquation& equation, const std::string& angle = "q");
-std::string latex_of(const SymbolicEquation& equation, const std::string& angle = "q");
-std::string latex_formulas_of(const SymbolicEquation& equation, const std::string& angle = "q");  // without values
-std::string latex_document_of(const SymbolicEquation& equation, const std::string& angle = "q");  // to be typeset as it is
+std::string text_of(const SymbolicEquation& equation, const EquationForm& form = {});
+std::string latex_of(const SymbolicEquation& equation, const EquationForm& form = {});
+std::string latex_formulas_of(const SymbolicEquation& equation, const EquationForm& form = {});  // without values
+std::string latex_document_of(const SymbolicEquation& equation, const EquationForm& form = {});  // to be typeset as it is
 std::string python_of(const SymbolicEquation& equation);
 
 }  // namespace chainreel

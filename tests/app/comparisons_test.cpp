@@ -370,6 +370,20 @@ TEST(Compare, TrajectoriesAreComparedInWords) {
   EXPECT_THAT(json["explained"][0].get<std::string>(), HasSubstr("t = 1 s"));
   EXPECT_EQ(report({a, close})["equal"], false);
   EXPECT_EQ(report({a, close})["status"], 0);
+  // 0.5 of a range of 3.5 is a seventh of it.
+  const Json wide = report({a, b, "--tolerance", "0.15"});
+  EXPECT_EQ(wide["status"], 0);
+  EXPECT_EQ(wide["tolerance"], (Json{{"of_range", 0.15}}));
+  EXPECT_EQ(compared({a, b, "--tolerance", "0.15"}).out, "no number differs by more than 0.15 of its range\n");
+  EXPECT_EQ(compared({a, b, "--tolerance", "0.14"}).status, 1);
+  EXPECT_EQ(compared({a, close, "--tolerance", "0"}).status, 0) << "1e-12 is rounding";
+  // What says nothing of tables or models is refused.
+  for (const Words& vain : {Words{"--pixels", "3"}, Words{"--count-edges"}}) {
+    Words words{a, b};
+    words.insert(words.end(), vain.begin(), vain.end());
+    EXPECT_EQ(compared(words).status, 2);
+  }
+  EXPECT_THAT(compared({"models/rr.urdf", "models/rrr.urdf", "--tolerance", "1"}).err, HasSubstr("--tolerance says nothing of models"));
   // Numbers of other units are compared as numbers of one.
   const std::string rad = folder.write("r.csv", "t [s],q1 [rad]\n0,0\n1,1\n"), deg = folder.write("s.csv", "t [s],q1 [deg]\n0,0\n1,57.29577951308232\n");
   EXPECT_EQ(compared({rad, deg}).out, "units q1 rad -> deg, compared in the first\n");

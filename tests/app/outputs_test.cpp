@@ -341,7 +341,19 @@ TEST(Outputs, AreInTheirAuditWithSizeAndHash) {
   EXPECT_THAT(same.err, Not(HasSubstr("told of")));
   EXPECT_EQ(outputs().size(), 2u) << "both show the same";
   const ProgramResult other = run_program(with(again, {"--set", "video.width=320"}));
-  EXPECT_THAT(other.err, HasSubstr("a.json told of " + folder.file("a.mp4")));
+  EXPECT_THAT(other.err, HasSubstr("a.json tells of " + folder.file("a.mp4") + ", which is still there and shows something else: " +
+                                   folder.file("a.gif.json")));
+  ASSERT_EQ(outputs().size(), 1u);
+  EXPECT_EQ(outputs()[0]["file"], "a.mp4") << "no more of the other one";
+  EXPECT_EQ(Json::parse(read_whole_file(folder.file("a.gif.json")))["outputs"][0]["sha256"], sha256_of_file(folder.file("a.gif")));
+  // Both pass, and both are told of by what was written with them.
+  for (const char* file : {"a.mp4", "a.gif", "a.gif.json", "a.json"}) {
+    const ProgramResult check = run_program({"check", folder.file(file)});
+    EXPECT_EQ(check.status, 0) << file << check.out << check.err;
+  }
+  // A film made again keeps its own, whatever it shows now.
+  EXPECT_EQ(run_program(again).status, 0);
+  EXPECT_EQ(run_program({"check", folder.file("a.gif")}).status, 0);
   EXPECT_EQ(outputs().size(), 1u);
 }
 

@@ -169,6 +169,22 @@ TEST(OnPaper, PagesAreAsHighAsPanelsAndPlotsNeed) {
   EXPECT_THAT(told, HasSubstr(" mm high on a page of this size: take --height-mm "));
 }
 
+// Three narrow panels side by side need no page that is higher than it is wide.
+TEST(OnPaper, EllipsesAtPosesAreAsHighAsTheirPanelsNeed) {
+  const TemporaryFolder folder;
+  const auto height = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"ellipse", "models/rr.urdf", "--width-mm", "84", "-o", folder.file("a.svg"), "--force"};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(run_program(words).status, 0);
+    const std::string svg = read_whole_file(folder.file("a.svg"));
+    return std::stod(svg.substr(svg.find("height=\"") + 8));
+  };
+  const double three = height({"--pose", "0,90deg", "--pose", "30deg,60deg", "--pose", "0,150deg", "--letters"});
+  EXPECT_LT(three, 75);
+  EXPECT_GT(three, 35);
+  EXPECT_LT(height({"--pose", "0,90deg", "--pose", "30deg,60deg", "--layout", "row"}), 100) << "as large as the width allows";
+}
+
 TEST(OnPaper, JointSpaceIsAsHighAsItsPosesNeed) {
   const TemporaryFolder folder;
   const auto drawn = [&](std::vector<std::string> more) {

@@ -73,6 +73,20 @@ TEST(SweepTable, RowsAreTheLastOfTheRunsByThemselves) {
   EXPECT_EQ(row[11], alone[std::size_t(energy - names.begin())]);
 }
 
+// However values are written, columns hold SI units and radians.
+TEST(SweepTable, ColumnsOfValuesAreNumbers) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"sweep", kScene, "--set", "duration=0.1", "--over", "start.q.1=10deg,pi/2", "--over", "step=1ms,2ms", "--set",
+                         "method=rk4", "-o", folder.file("a.csv")})
+                .status,
+            0);
+  const std::vector<std::string> lines = lines_of(folder.file("a.csv"));
+  EXPECT_EQ(fields_of(lines[4])[1], "0.17453292519943295");
+  EXPECT_EQ(fields_of(lines[4])[2], "0.001");
+  EXPECT_EQ(fields_of(lines[7])[1], "1.5707963267948966");
+  EXPECT_EQ(fields_of(lines[7])[2], "0.002");
+}
+
 TEST(SweepTable, AnEventCalledLikeAColumnHasAKeyOfItsOwn) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("e.yaml", "model: {links: [1]}\nstart: {q: [1]}\nduration: 1\nmethod: rk4\nstep: 0.01\nevents: [{when: q1, name: energy}]\n");
@@ -338,6 +352,12 @@ TEST(SweepFolder, MakesAnewWhatWasCutOffOrLostItsWords) {
     EXPECT_TRUE(read_whole_file(path) == bytes) << ending;
     EXPECT_THAT(sweep(runs, words).out, HasSubstr("2 of them done before")) << ending;
   }
+  // Also what is too short to say what it is: its audit does.
+  const std::string film = runs + "rr_free_start.q.1_1.mp4", bytes = read_whole_file(film);
+  fs::resize_file(film, 200);
+  const ProgramResult again = sweep(runs, words);
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_TRUE(read_whole_file(film) == bytes);
 }
 
 TEST(SweepFolder, MakesAnewWhatHasOtherBytesThanItsAuditSays) {

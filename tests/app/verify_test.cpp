@@ -100,6 +100,8 @@ TEST_F(Verify, SaysWhereTheCameraCutsSomethingOff) {
   accept_all();
   replace("rr.urdf", "<origin xyz=\"1 0 0\"/>\n    <parent link=\"link1", "<origin xyz=\"3 0 0\"/>\n    <parent link=\"link1");
   EXPECT_THAT(words(results(), "home"), HasSubstr("--accept --refit"));
+  // So it is said of what is accepted all the same.
+  EXPECT_THAT(verify({"--accept", "home"}).out, HasSubstr("accepted  home\n          it is cut off at the edge"));
 }
 
 TEST_F(Verify, AcceptsWhatIsNamedAndNothingElse) {
@@ -126,6 +128,11 @@ TEST_F(Verify, ShowsEachSourceOnceAVariant) {
   const auto files = baselines("both");
   EXPECT_NE(files.at("home_light.png"), files.at("home_dark.png"));
   EXPECT_EQ(verify({}, "both.yaml").status, 0);
+  // A pose's name stands for all of its pictures.
+  write("both.yaml", "model: rr.urdf\nsize: 160x90\nposes: {home: [10deg, 0]}\ntheme: [light, dark]\n");
+  EXPECT_EQ(verify({}, "both.yaml").status, 1);
+  EXPECT_EQ(verify({"--accept", "home"}, "both.yaml").out, "accepted  home_light\naccepted  home_dark\n2 pictures passed: 2 accepted\n");
+  EXPECT_THAT(verify({"--accept", "ho*"}, "both.yaml").err, HasSubstr("patterns go with --filter"));
   write("swing.yaml", "model: rr.urdf\nparameters: {F: 1}\ntorque: [F, 0]\nduration: 1\n");
   const std::string suite = "scene: swing.yaml\nsize: 160x90\nat: 1s\nvariants:\n  weak: {theme: light}\n  strong: {parameters.F: ";
   write("swings.yaml", suite + "20}\n");
@@ -142,11 +149,26 @@ TEST_F(Verify, ShowsEachSourceOnceAVariant) {
 TEST_F(Verify, NamesUnusedBaselinesAndPrunesThemWhenAsked) {
   accept_all();
   replace("arm.yaml", ", bent: [30deg, 60deg]", "");
-  EXPECT_THAT(results()["unused"], ElementsAre("bent"));
+  EXPECT_THAT(results({"--html", "page.html", "--markdown", "page.md"})["unused"], ElementsAre("bent"));
+  for (const char* report : {"page.html", "page.md"})
+    EXPECT_THAT(read_whole_file(folder_.file(report)), HasSubstr("of no picture any more: the baseline bent; --prune removes it")) << report;
   EXPECT_THAT(baselines(), Contains(testing::Key("bent.png")));
   EXPECT_THAT(results({"--prune"})["pruned"], ElementsAre("bent"));
   EXPECT_THAT(baselines(), Not(Contains(testing::Key("bent.png"))));
   EXPECT_EQ(verify().status, 0);
+}
+
+// Other physics give other pixels: where physics are a note, those are weighed, as anti-aliasing is.
+TEST_F(Verify, WherePhysicsAreANoteAnotherStepMayMoveEdges) {
+  write("swing.yaml", "model: rr.urdf\nduration: 1\nmethod: rk4\nstep: 0.01\n");
+  write("swing_suite.yaml", "scene: swing.yaml\nsize: 320x180\nat: 1s\nphysics: note\n");
+  accept_all("swing_suite.yaml");
+  replace("swing.yaml", "step: 0.01", "step: 0.02");
+  const Json json = results({}, "swing_suite.yaml");
+  EXPECT_EQ(picture(json, "1s")["state"], "changed") << json.dump(1);
+  EXPECT_EQ(picture(json, "1s")["passed"], true) << json.dump(1);
+  replace("swing.yaml", "step: 0.02", "step: 0.02\nstart: {q: [10deg, 0]}");
+  EXPECT_EQ(picture(results({}, "swing_suite.yaml"), "1s")["passed"], false);
 }
 
 TEST_F(Verify, LooksAtThePicturesThatAFilterNames) {

@@ -48,6 +48,10 @@ TEST(Format, SignificantDropsTrailingZeros) {
   EXPECT_EQ(format_significant(1.26795, 4), "1.268");
   EXPECT_EQ(format_significant(2.0, 4), "2");
   EXPECT_EQ(format_significant(-0.0, 4), "0");
+  EXPECT_EQ(format_significant(-432.1, 2), "-430");
+  EXPECT_EQ(format_significant(99960, 3), "100000");
+  EXPECT_EQ(format_significant(123456, 2), "1.2e+05");
+  EXPECT_EQ(format_significant(0.00000123, 2), "1.2e-06");
 }
 
 TEST(ParseNumber, TakesOneFiniteNumberAndNothingElse) {

@@ -45,6 +45,10 @@ TEST(Math, MatricesAreBoldUprightExceptInScripts) {
   EXPECT_THAT(words("M J Lambda"), ElementsAre("\U0001D40C\U0001D409\U0001D6B2"));
   EXPECT_THAT(words("x_M"), ElementsAre("\U0001D465", "\U0001D440"));
   EXPECT_THAT(words("Omega"), ElementsAre("\U0001D6FA"));
+  // As LaTeX has them; a backslash before anything else is one.
+  EXPECT_THAT(words("\\Lambda"), ElementsAre("\U0001D6B2"));
+  EXPECT_THAT(words("\\sin q"), ElementsAre("sin\U0001D45E"));
+  EXPECT_THAT(words("\\nonsense").front(), testing::HasSubstr("\\"));
 }
 
 TEST(Math, MinusIsASignOfItsOwnAndCloserInFrontThanBetween) {

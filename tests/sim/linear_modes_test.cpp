@@ -76,6 +76,18 @@ TEST(Linearise, PutsTheLimitOfAnArmUnderFeedbackWhereRunsDiverge) {
   run.torque = make_control(run.chain, control, {});
   run.q0 = {0.3, -0.7, 1.1};
   EXPECT_TRUE(linearise(run).is_equilibrium);
+  // From wherever it starts, a pose that is held is where steps must be stable.
+  const double at_target = limit(run, "semi_implicit_euler");
+  run.q0 = {2, 1, -1};
+  EXPECT_TRUE(linearise(run).about_target);
+  EXPECT_DOUBLE_EQ(limit(run, "semi_implicit_euler"), at_target);
+  run.q0 = {0.3, -0.7, 1.1};
+  // One that moves is none.
+  Control moving = control;
+  moving.pd->q[0] = {"0.3 + 0.1 * t", {}};
+  Simulation follows = weightless(run_of("rrr", {}, 1));
+  follows.torque = make_control(follows.chain, moving, {});
+  EXPECT_FALSE(linearise(follows).about_target);
   for (const char* method : {"explicit_euler", "semi_implicit_euler", "rk4", "symplectic_euler", "verlet"}) {
     const double h = limit(run, method);
     // Far below what swings allows: dampers decide.

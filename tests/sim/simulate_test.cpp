@@ -1,4 +1,5 @@
 #include "dynamics/energy.hpp"
+#include "core/error.hpp"
 #include "sim/simulate.hpp"
 
 #include <gmock/gmock.h>
@@ -35,6 +36,32 @@ TEST(Simulate, ThrowsPpOnItsParabola) {
     EXPECT_NEAR(trajectory.q_at(k)[1], 9.81 * t - 9.81 / 2 * t * t, 2000 * 20 * 2.3e-16);
     EXPECT_NEAR(trajectory.qd_at(k)[1], 9.81 - 9.81 * t, 2000 * 20 * 2.3e-16);
   }
+}
+
+// What is not ready is refused, where numbers beyond the end of a list were read, a run never ended, or samples were lost.
+TEST(Simulate, RefusesWhatIsNotReady) {
+  const auto trouble = [](auto change, std::vector<double> times) {
+    Simulation run = run_of("pp", {"0", "0"}, 2);
+    change(run);
+    try {
+      simulate(run, times);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::usage);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto leave = [](Simulation&) {};
+  EXPECT_EQ(trouble(leave, {0, 1, 2}), "");
+  EXPECT_THAT(trouble([](Simulation& run) { run.q0 = {1}; }, {}), HasSubstr("1 numbers of q0, the chain 2"));
+  EXPECT_THAT(trouble([](Simulation& run) { run.qd0 = {}; }, {}), HasSubstr("0 numbers of qd0"));
+  EXPECT_THAT(trouble([](Simulation& run) { run.method = nullptr; }, {}), HasSubstr("no method"));
+  EXPECT_THAT(trouble([](Simulation& run) { run.torque = nullptr; }, {}), HasSubstr("no torque"));
+  EXPECT_THAT(trouble([](Simulation& run) { run.step = -1; }, {}), HasSubstr("a step of -1 s"));
+  EXPECT_THAT(trouble([](Simulation& run) { run.duration = -1; }, {}), HasSubstr("a duration of -1 s"));
+  EXPECT_THAT(trouble(leave, {0, 1, 0.5}), HasSubstr("do not rise from 0 to its duration: 0.5 s"));
+  EXPECT_THAT(trouble(leave, {0, 3}), HasSubstr("3 s"));
+  EXPECT_THAT(trouble(leave, {-1}), HasSubstr("-1 s"));
 }
 
 TEST(Simulate, MovesPpAsTheLecturesMethodSaysExactly) {

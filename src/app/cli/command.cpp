@@ -133,11 +133,16 @@ std::string after_semicolon(const std::string& words) {
   return words.empty() ? "" : "; " + words;
 }
 
-// A number for each of `names`.
+// A number for each of `names`. `written`: the same as they stand in the text, one each.
 std::vector<double> parse_counted(const std::vector<std::string>& names, const Chain& chain, const std::string& text,
-                                  const std::string& what) {
+                                  const std::string& what, StateNumbers numbers, std::vector<std::string>& written) {
   constexpr std::size_t kMostNamed = 300;  // bytes
   std::vector<double> values = parse_list(text, what);
+  const std::vector<std::size_t> repeated = numbers_of_followers(chain, values, numbers);
+  for (std::size_t i = repeated.size(); i-- > 0 && written.size() > repeated[i];) {
+    values.erase(values.begin() + std::ptrdiff_t(repeated[i]));
+    written.erase(written.begin() + std::ptrdiff_t(repeated[i]));
+  }
   if (values.size() != names.size())
     throw Error(ExitCode::usage, what + " " + text + " has " + std::to_string(values.size()) +
                                      (values.size() == 1 ? " number" : " numbers") + ", but " + chain.name + " needs " +
@@ -193,7 +198,7 @@ std::vector<double> parse_pose(const Chain& chain, const std::string& text, cons
   const std::vector<std::string> entries = separated(text, ',');
   std::vector<std::string> written = entries;
   const std::vector<double> q = text.find('=') != std::string::npos ? pose_by_name(chain, entries, text, what, written)
-                                                                    : parse_counted(position_names(chain), chain, text, what);
+                                                                    : parse_counted(position_names(chain), chain, text, what, StateNumbers::q, written);
   if (const std::string trouble = trouble_of_units(chain, written, StateNumbers::q); !trouble.empty())
     throw Error(ExitCode::usage, what + " " + text + ": " + trouble);
   for (const std::string& doubt : doubts_of_pose(chain, q, written))
@@ -212,8 +217,9 @@ std::vector<std::vector<double>> parse_poses(const Chain& chain, const std::vect
 
 std::vector<double> parse_freedoms(const Chain& chain, const std::string& text, const std::string& what, StateNumbers numbers) {
   if (text.empty()) return std::vector<double>(std::size_t(chain.nv));
-  const std::vector<double> values = parse_counted(chain.coordinate_names, chain, text, what);
-  if (const std::string trouble = trouble_of_units(chain, separated(text, ','), numbers); !trouble.empty())
+  std::vector<std::string> written = separated(text, ',');
+  const std::vector<double> values = parse_counted(chain.coordinate_names, chain, text, what, numbers, written);
+  if (const std::string trouble = trouble_of_units(chain, written, numbers); !trouble.empty())
     throw Error(ExitCode::usage, what + " " + text + ": " + trouble);
   return values;
 }

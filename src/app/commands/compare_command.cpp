@@ -21,9 +21,10 @@ struct ComparedKind {
   const char* told;
   bool (*is_one)(const std::string& path);
   Comparison (*compare)(const CompareOptions& options);
-  bool has_picture = false;  // of the difference, for -o, --tolerance and --pixels
+  bool has_picture = false;  // of the difference, for -o, --pixels and --count-edges
   bool has_strip = false;
   bool is_model = false;  // takes --set, --package and --base
+  bool has_tolerance = true;
 };
 
 bool is_folder(const std::string& path) {
@@ -45,7 +46,7 @@ constexpr ComparedKind kKinds[] = {
      .compare = compare_films,
      .has_picture = true,
      .has_strip = true},
-    {.told = "models (.urdf, .xml)", .is_one = is_model_file, .compare = compare_models, .is_model = true},
+    {.told = "models (.urdf, .xml)", .is_one = is_model_file, .compare = compare_models, .is_model = true, .has_tolerance = false},
     {.told = "trajectories (.csv)",
      .is_one = [](const std::string& path) { return ends_in(path, {".csv"}); },
      .compare = compare_trajectories},
@@ -67,6 +68,9 @@ void refuse_what_is_not_there(const ComparedKind& kind, const CompareOptions& op
   if (!kind.has_strip && !options.strip.empty()) refuse("--strip");
   if (!kind.has_picture && !options.output.empty()) refuse("-o");
   if (!kind.has_picture && options.side_by_side) refuse("--side-by-side");
+  if (!kind.has_picture && options.tolerance.pixels > 0) refuse("--pixels");
+  if (!kind.has_picture && options.count_edges) refuse("--count-edges");
+  if (!kind.has_tolerance && options.has_wish()) refuse("--tolerance");
   if (options.side_by_side && options.output.empty())
     throw Error(ExitCode::usage, "--side-by-side is about the picture that -o names");
   for (const std::string& path : {kind.compare == compare_folders ? "" : options.output, options.strip})
@@ -77,8 +81,9 @@ void refuse_what_is_not_there(const ComparedKind& kind, const CompareOptions& op
 }
 
 void run_compare(CompareOptions options) {
-  if (!(options.tolerance.error >= 0 && options.tolerance.error <= 1))
+  if (options.has_wish() && !(options.wished >= 0 && options.wished <= 1))
     throw Error(ExitCode::usage, "--tolerance is an error from 0 to 1");
+  if (options.has_wish()) options.tolerance.error = options.wished;
   options.tolerance.forgive_edges = !options.count_edges;
   const ComparedKind& kind = kind_of(options.before);
   if (&kind != &kind_of(options.after))
@@ -96,7 +101,7 @@ void run_compare(CompareOptions options) {
                    {"after", options.after},
                    {"equal", found.equal},
                    {"passes", found.passes}});
-    report["tolerance"] = nullptr;
+    if (!report.contains("tolerance")) report["tolerance"] = nullptr;
     if (kind.has_picture)
       report["tolerance"] = {{"error", options.tolerance.error},
                              {"pixels", options.tolerance.pixels},
@@ -129,10 +134,9 @@ void add_compare_command(CommandLine& app) {
   command->add_flag("--side-by-side", options->side_by_side,
                     "in that picture: before, after and the difference");
   command->add_option("--strip", options->strip, "of films: a .png of the mean error over time, a bar a frame, dark where it is beyond the tolerance");
-  command
-      ->add_option("--tolerance", options->tolerance.error,
-                   "perceptual error (FLIP, 0 to 1) beyond which a pixel counts as different")
-      .show_default();
+  command->add_option("--tolerance", options->wished,
+                      "of pictures the perceptual error (FLIP, 0 to 1) beyond which a pixel counts as different (default 0.1); of tables the "
+                      "share of a column's range by which its numbers may differ (default 1e-9)");
   command->add_option("--pixels", options->tolerance.pixels, "so many pixels of a picture may be different")
       .range(0, 1 << 30)
       .show_default();

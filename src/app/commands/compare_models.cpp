@@ -179,7 +179,8 @@ Comparison compare_trajectories(const CompareOptions& options) {
   const std::string other_units = put_in_units(tables[1], tables[0]);
   const SampledTrajectory before = trajectory_of(tables[0], options.before),
                           after = trajectory_of(tables[1], options.after);
-  const TrajectoryDifference difference = difference_of(before, after);
+  const double of_range = options.table_tolerance();
+  const TrajectoryDifference difference = difference_of(before, after, of_range);
   std::vector<std::string> words = difference.others;
   if (const std::string rows = row_words(before, after, std::size_t(difference.instants)); !rows.empty())
     words.push_back(rows);
@@ -194,10 +195,11 @@ Comparison compare_trajectories(const CompareOptions& options) {
     words.insert(words.begin(), parted);
   Comparison found = said(words);
   found.equal = before.t == after.t && before.q == after.q && before.qd == after.qd && words.empty();
-  if (!found.equal && found.passes) found.words = {"no number differs by more than 1e-9 of its range"};
+  if (!found.equal && found.passes) found.words = {"no number differs by more than " + format_shortest(of_range) + " of its range"};
   if (other_order) found.words.push_back("their columns stand in another order");
   if (const std::string columns = column_words(difference); !columns.empty()) found.words.push_back(columns);
   found.report["instants"] = difference.instants;
+  found.report["tolerance"] = {{"of_range", of_range}};
   found.report["columns"] = json_of(difference);
   return found;
 }

@@ -93,6 +93,13 @@ void write_difference(const CompareOptions& options, const Image& before, const 
   file.commit();
 }
 
+// Of what both were made with; pictures need fewer libraries than films.
+bool has_other_versions(const Json& before, const Json& after) {
+  for (const auto& [name, version] : before.items())
+    if (after.contains(name) && after[name] != version) return true;
+  return false;
+}
+
 std::vector<std::string> explain_memories(const std::string& before, const std::string& after) {
   const std::optional<ClipMemory> old = memory_of(before), now = memory_of(after);
   if (!old && !now) return {};
@@ -114,11 +121,13 @@ std::vector<std::string> explain_memories(const std::string& before, const std::
   }
   const Json& facts = old->figure.is_null() ? old->audit : old->figure;
   const Json& other_facts = now->figure.is_null() ? now->audit : now->figure;
-  for (const auto& [key, told] :
-       {std::pair("model_sha256", std::string("the model file is another one") + kByHash),
-        std::pair("trajectory_sha256", std::string("the motion at the frames is another one") + kByHash),
-        std::pair("versions", std::string("versions of the program or its libraries are others"))})
-    if (facts.value(key, Json()) != other_facts.value(key, Json())) sentences.push_back(told);
+  const auto differs = [&](const char* key) { return facts.value(key, Json()) != other_facts.value(key, Json()); };
+  if (differs("model_sha256")) sentences.push_back(std::string("the model file is another one") + kByHash);
+  // A film's motion and that up to one instant are hashed at other instants.
+  if (differs("trajectory_sha256") && !differs("at") && !differs("frames") && !differs("fps"))
+    sentences.push_back(std::string("the motion at the frames is another one") + kByHash);
+  if (has_other_versions(facts.value("versions", Json()), other_facts.value("versions", Json())))
+    sentences.push_back("versions of the program or its libraries are others");
   return sentences;
 }
 

@@ -9,6 +9,7 @@
 #include "app/cli/command.hpp"
 #include "compare/compare_images.hpp"
 #include "core/json.hpp"
+#include "sim/trajectory_difference.hpp"
 
 namespace chainreel {
 
@@ -16,10 +17,16 @@ struct CompareOptions {
   std::string before, after;
   std::string output;  // difference picture; of folders, a folder for them; "": none
   std::string strip;   // of films: their errors over time; "": none
+  static constexpr double kNotGiven = -1e300;
+  double wished = kNotGiven;  // --tolerance
   ImageTolerance tolerance{.forgive_edges = true};
   bool count_edges = false;
   bool side_by_side = false;
   CommonOptions common;
+
+  // Of a column's range.
+  double table_tolerance() const { return has_wish() ? wished : kSameOfRange; }
+  bool has_wish() const { return wished != kNotGiven; }
 };
 
 struct Comparison {

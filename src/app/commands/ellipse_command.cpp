@@ -86,19 +86,35 @@ void set_on_paper(PoseFigureOptions& figure, const EllipseOptions& options, int 
            figure.text_scale);
 }
 
-// Fewer panels across on a page that is higher, where their captions are cut otherwise; a height that was asked for stays.
-void give_room_for_captions(EllipseJob& job, const EllipseOptions& options, const TipMass& tip, const Fonts& fonts) {
+// A page of that width with room for whole captions, fewer panels across where they are cut otherwise, and then no higher than
+// lets the chains be as large as they are; a height that was asked for stays.
+void choose_height(EllipseJob& job, const EllipseOptions& options, const TipMass& tip, const Fonts& fonts) {
   PoseFigureOptions& figure = job.figure;
-  if (options.paper.height_mm != PaperOptions::kNotGiven || figure.layout != "grid" || figure.cell > 0) return;
+  if (options.paper.height_mm != PaperOptions::kNotGiven || figure.layout == "superposed" || figure.cell > 0) return;
   constexpr int kMostAcross = 4;
-  const double usual = job.motion.text_scale;
-  for (int fewer = 0; fewer < kMostAcross; ++fewer) {
+  constexpr double kAsLarge = 0.98, kFlattest = 0.2, kStep = 1;  // of the size, of the width, mm
+  const double width = options.paper.width_mm;
+  const int panels = figure.layout == "row" ? 1 : int(job.motion.poses.q.size());
+  const auto page_of = [&](double height) {
     PoseFigureOptions tried = figure;
-    set_page(tried, paper_page(options.paper, paper_height(options.paper.width_mm, int(job.motion.poses.q.size()), false, fewer)), usual);
-    if (!names_every_pose(tip, job.motion.poses.q, tried, fonts)) continue;
-    figure = tried;
-    return;
+    set_page(tried, paper_page(options.paper, height), job.motion.text_scale);
+    return tried;
+  };
+  const auto fit_at = [&](double height) { return fit_of_poses(tip, job.motion.poses.q, page_of(height), fonts); };
+  double high = paper_height(width, panels, false);
+  PoseFigureFit wished = fit_at(high);
+  for (int fewer = 1; fewer < kMostAcross && !wished.is_whole; ++fewer) {
+    const double higher = paper_height(width, panels, false, fewer);
+    const PoseFigureFit fit = fit_at(higher);
+    if (fit.is_whole) high = higher, wished = fit;
   }
+  for (double low = kFlattest * width; high - low > kStep;) {
+    const double middle = (low + high) / 2;
+    const PoseFigureFit fit = fit_at(middle);
+    const bool is_enough = fit.metre >= kAsLarge * wished.metre && fit.is_whole == wished.is_whole;
+    (is_enough ? high : low) = middle;
+  }
+  figure = page_of(std::ceil(high));
 }
 
 // A page of that width which is as high as the squares of a joint-space figure need; nothing where no height is enough.
@@ -281,7 +297,7 @@ void run_ellipse(const EllipseOptions& options) {
   const Fonts fonts(motion.families);
   const bool is_drawn = !std::all_of(outputs.begin(), outputs.end(), is_table_path);
   if (options.paper.is_given() && options.joint_space && is_drawn) set_joint_space_on_paper(job, options, joints, fonts);
-  if (options.paper.is_given() && !options.joint_space && is_drawn) give_room_for_captions(job, options, tip, fonts);
+  if (options.paper.is_given() && !options.joint_space && is_drawn) choose_height(job, options, tip, fonts);
   ClipMemory memory =
       memory_of_figure(*options.command, figure.title, is_model_file(options.model) ? options.model : "", poses.q);
   if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;

@@ -13,6 +13,7 @@ struct EquationsOptions {
   std::string file;
   int panel = 0;  // of a scene, from 1; 0: the only one
   std::string gravity, end_effector;
+  std::string only;  // "M,g"; "": all parts
   std::vector<std::string> outputs;
   bool latex = false, document = false, python = false, theta = false;
   CommonOptions common;

@@ -121,6 +121,10 @@ void add_edges(const StabilityCells& cells, StabilityMap& map) {
   }
 }
 
+const char* place_of(bool about_target) {
+  return about_target ? "the pose that feedback holds" : "the start";
+}
+
 StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
   StabilityMap map;
   map.title = "Where " + method_title(cells.method) + " fails";
@@ -136,7 +140,9 @@ StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
   map.footer = "Each cell is a run of the scene's duration and of at least " + std::to_string(kLeastSteps) +
                " steps; failed: no end, or an energy error above " + format_shortest(kFailedEnergy) +
                " times the motion's largest kinetic energy.";
-  if (!map.boundaries.empty()) map.footer += " Theory: the limit of the motion linearised about the start.";
+  if (!map.boundaries.empty()) map.footer += " Theory: the limit of the motion linearised about " + std::string(place_of(cells.about_target)) + ".";
+  if (scene.limit == LimitPolicy::clamp)
+    map.footer += " Torques are cut at the joints' efforts, which bounds errors of the energy, too: a run may chatter and not fail.";
   return map;
 }
 
@@ -245,7 +251,7 @@ bool has_no_limit(const std::optional<double>& limit) {
 }
 
 Json linearisation_json(const Linearisation& start) {
-  Json json{{"trouble", or_null(start.trouble)}, {"is_equilibrium", nullptr}, {"qd", nullptr}, {"qdd", nullptr}, {"rates", Json::array()}};
+  Json json{{"trouble", or_null(start.trouble)}, {"about_target", start.about_target}, {"is_equilibrium", nullptr}, {"qd", nullptr}, {"qdd", nullptr}, {"rates", Json::array()}};
   if (!start.trouble.empty()) return json;
   json.update({{"is_equilibrium", start.is_equilibrium}, {"qd", start.rate}, {"qdd", start.acceleration}});
   for (const std::complex<double>& rate : start.rates) json["rates"].push_back({{"real", rate.real()}, {"imag", rate.imag()}});
@@ -264,11 +270,11 @@ std::string rate_text(const std::complex<double>& rate) {
 
 void print_linearisation(const Linearisation& start) {
   if (!start.trouble.empty()) return (void)std::printf("no limit can be told: %s\n", start.trouble.c_str());
-  std::printf("limits are those of the motion linearised about the start; its fastest part %s\n",
+  std::printf("limits are those of the motion linearised about %s; its fastest part %s\n", place_of(start.about_target),
               rate_text(start.rates.back()).c_str());
   std::printf("none: stable at every step; 0: at no step; unknown: no limit was found\n");
   if (!start.is_equilibrium)
-    std::printf("the start is no equilibrium (qd %s, qdd %s at most): elsewhere limits may differ\n",
+    std::printf("that is no equilibrium (qd %s, qdd %s at most): elsewhere limits may differ\n",
                 format_significant(start.rate, 3).c_str(), format_significant(start.acceleration, 3).c_str());
   const auto grows = std::find_if(start.rates.begin(), start.rates.end(),
                                   [](const std::complex<double>& rate) { return rate.real() > 0; });

@@ -103,8 +103,8 @@ bool is_there(const std::string& path) {
 }
 
 bool has_sidecars(const Target& target) {
-  const fs::path path(target.path);
-  return is_there(fs::path(path).replace_extension(".json").string()) && is_there(fs::path(path).replace_extension(".txt").string());
+  const std::string audit = audit_path_of(target.path);
+  return is_there(audit) && is_there(fs::path(audit).replace_extension(".txt").string());
 }
 
 // What a run's files say of themselves, to tell those that are there already.
@@ -123,6 +123,7 @@ class FilesOfRun {
   bool is(const Target& target) const {
     try {
       if (target.format->shows == Shows::table) return has_tables(target.path);
+      if (is_cut_off(target.path)) return is_told_of(target);
       const ClipMemory memory = recall(target.path);
       if (memory.scene != scene_ || !is_same(memory.audit)) return false;
       return target.format->shows != Shows::still || memory.audit.value("at", Json()) == Json(at_);
@@ -133,9 +134,17 @@ class FilesOfRun {
     }
   }
 
-  static std::string audit_beside(const Target& target) { return fs::path(target.path).replace_extension(".json").string(); }
+  static std::string audit_beside(const Target& target) { return audit_path_of(target.path); }
 
  private:
+  // What was cut off says nothing any more; the audit beside it does.
+  bool is_told_of(const Target& target) const {
+    const std::string audit = audit_beside(target);
+    const Json json = parse_json(read_plain_file(audit, kLargestTable));
+    const Json files = json.value(kAuditedFiles, Json::array());
+    const std::string name = fs::path(target.path).filename().string();
+    return is_same(json) && std::any_of(files.begin(), files.end(), [&](const Json& one) { return one.value("file", "") == name; });
+  }
   // A table says nothing of its run, and is it.
   bool has_tables(const std::string& path) const {
     for (std::size_t i = 0; i < runs_.size(); ++i)

@@ -21,6 +21,7 @@
 #include "core/output_file.hpp"
 #include "core/parallel.hpp"
 #include "dynamics/energy.hpp"
+#include "scene/quantity.hpp"
 #include "scene/run/prepare.hpp"
 #include "scene/text/unread.hpp"
 #include "scene/text/read_scene.hpp"
@@ -95,8 +96,13 @@ FirstRun first_good_run(const SweepTableJob& job) {
   throw Error(*first);
 }
 
-// A value as a cell: what is no number may hold anything.
-std::string cell_of(const std::string& value) {
+// A value as a cell: numbers in SI units and radians, whatever they were written in; what is no number may hold anything.
+std::string cell_of(const Sweep& axis, std::size_t at) {
+  const std::string& value = axis.values[at];
+  try {
+    return format_shortest(parse_quantity(value, {}));
+  } catch (const Error&) {
+  }
   return value.find_first_of(",\"\n\r") == std::string::npos ? value : csv_words(value);
 }
 
@@ -110,7 +116,7 @@ class RowMaker {
   std::string row(std::size_t run) {
     std::string row = std::to_string(run);
     const std::vector<std::size_t> at = job_.grid.places(run);
-    for (std::size_t i = 0; i < at.size(); ++i) row += "," + cell_of(job_.grid.axes()[i].values[at[i]]);
+    for (std::size_t i = 0; i < at.size(); ++i) row += "," + cell_of(job_.grid.axes()[i], at[i]);
     try {
       Scene scene = scene_of(file_, settings_of(job_, run));
       const Simulation simulation = prepare(scene, false, last_);

@@ -55,6 +55,15 @@ bool matches(const SuitePicture& picture, const std::vector<std::string>& filter
          });
 }
 
+// A pose in several themes or variants is several pictures, which its name stands for.
+bool is_called(const SuitePicture& picture, const std::string& name) {
+  return picture.name == name || picture.pose == name;
+}
+
+bool is_pattern(const std::string& name) {
+  return name.find_first_of("*?[") != std::string::npos;
+}
+
 std::vector<const SuitePicture*> chosen_pictures(const Suite& suite, const VerifyOptions& options) {
   std::vector<const SuitePicture*> chosen;
   std::vector<std::string> names;
@@ -62,11 +71,16 @@ std::vector<const SuitePicture*> chosen_pictures(const Suite& suite, const Verif
     names.push_back(picture.name);
     if (matches(picture, options.filters)) chosen.push_back(&picture);
   }
+  const auto meant = [&](const std::string& name) {
+    const std::string words = did_you_mean(name, names);
+    return words.empty() ? "." : ":" + words;
+  };
   ProblemList problems;
   for (const std::string& name : options.accept) {
-    const auto is_it = [&](const SuitePicture* picture) { return picture->name == name; };
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      problems.add("--accept " + name + ": the suite has no such picture:" + did_you_mean(name, names) + " It has " +
+    const auto is_it = [&](const SuitePicture* picture) { return is_called(*picture, name); };
+    if (std::none_of(suite.pictures.begin(), suite.pictures.end(), [&](const SuitePicture& picture) { return is_called(picture, name); }))
+      problems.add("--accept " + name + ": the suite has no such picture" +
+                       (is_pattern(name) ? "; patterns go with --filter, behind a plain --accept" : "") + meant(name) + " It has " +
                        shortened(joined(names), 500),
                    {});
     else if (std::none_of(chosen.begin(), chosen.end(), is_it))
@@ -84,7 +98,7 @@ std::vector<const SuitePicture*> chosen_pictures(const Suite& suite, const Verif
 bool is_accepted(const VerifyOptions& options, const SuitePicture& picture) {
   if (!options.accepts) return false;
   return options.accept.empty() ||
-         std::find(options.accept.begin(), options.accept.end(), picture.name) != options.accept.end();
+         std::any_of(options.accept.begin(), options.accept.end(), [&](const std::string& name) { return is_called(picture, name); });
 }
 
 std::vector<std::string> words_of(const Error& error) {
@@ -201,7 +215,8 @@ class Verification {
     const bool is_new = !baselines_.has(picture.name);
     if (is_accepted(options_, picture) || (is_new && options_.missing == "write")) {
       acceptance_.change().set(picture.name, shot);
-      return without(PictureState::accepted, suite_, picture, {});
+      return without(PictureState::accepted, suite_, picture,
+                     shot.leaves_camera ? std::vector<std::string>{kLeavesCamera} : std::vector<std::string>{});
     }
     if (is_new) {
       PictureVerdict verdict =
@@ -332,6 +347,7 @@ VerifyReport page_of(const SuiteResult& result) {
   report.suite = result.suite;
   report.accept_command = result.failed() > 0 ? accept_command(result) : "";
   report.program = std::string("chainreel ") + program_version();
+  report.unused = unused_words(result);
   for (const PictureVerdict& one : result.pictures)
     report.pictures.push_back({one.name, to_string(one.state), one.source, one.words, one.expected_png,
                                one.actual_png, one.difference_png, one.difference.worst,
@@ -352,7 +368,10 @@ void tell_verdicts(const VerifyOptions& options, const SuiteResult& result) {
   for (const std::string& notice : result.notices) std::fprintf(stderr, "%s\n", notice.c_str());
   if (options.common.quiet) return;
   for (const PictureVerdict& one : result.pictures)
-    if (one.state == PictureState::accepted) std::printf("accepted  %s\n", one.name.c_str());
+    if (one.state == PictureState::accepted) {
+      std::printf("accepted  %s\n", one.name.c_str());
+      for (const std::string& words : one.words) std::printf("          %s\n", words.c_str());
+    }
   for (const std::string& name : result.unused)
     std::printf("unused    %s: no picture of the suite has this name; --prune removes it\n", name.c_str());
   for (const std::string& name : result.pruned) std::printf("pruned    %s\n", name.c_str());
@@ -399,7 +418,7 @@ void add_verify_command(CommandLine& app) {
   command->add_option("suite", options->suite, "a suite (.yaml), or a folder of scenes or models").required();
   options->accept_option =
       command->add_names("--accept", options->accept,
-                         "take what is drawn now as baselines: of the pictures named behind it, else of all");
+                         "take what is drawn now as baselines: of the pictures or poses named behind it, else of all that --filter lets through");
   command->add_flag("--refit", options->refit, "with --accept: the cameras that fit what is drawn now");
   command
       ->add_option("--missing", options->missing, "what to do with a picture without baseline: fail or write")

@@ -28,7 +28,8 @@ void require_honoured(const std::vector<std::string>& overrides, const std::stri
     if (is_honoured(text.substr(0, text.find('=')), honoured)) continue;
     problems.push_back({"--set " + text + ": means nothing to `" + command + "` of the model " + model +
                             "; of a scene's keys it takes " + joined(honoured) +
-                            ": write a scene with `model: ...` for the others",
+                            ": write a scene with `model: ...` for the others" +
+                            (text.find("ellipse") != std::string::npos ? "; `chainreel ellipse " + model + " --pose ..` draws ellipses at poses" : ""),
                         {}});
   }
   if (!problems.empty()) throw Error(ExitCode::usage, std::move(problems));

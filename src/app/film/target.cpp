@@ -70,6 +70,7 @@ Target target_of(const std::string& path) {
 void check_outputs(const std::vector<std::string>& outputs, std::size_t scenes) {
   std::size_t folders = 0;
   for (const std::string& output : outputs) {
+    if (output.empty()) throw Error(ExitCode::usage, "-o names no file");
     if (names_folder(output)) {
       ++folders;
       continue;

@@ -10,6 +10,7 @@
 #include "app/cli/streams.hpp"
 #include "app/film/clip_memory.hpp"
 #include "app/film/formats.hpp"
+#include "app/report/sidecar.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/input_file.hpp"
@@ -69,12 +70,12 @@ std::string read_text(const fs::path& path) {
 
 // The first paragraph of NAME.txt.
 std::string words_beside(const fs::path& film) {
-  const std::string text = read_text(fs::path(film).replace_extension(".txt"));
+  const std::string text = read_text(fs::path(audit_path_of(film.string())).replace_extension(".txt"));
   return text.substr(0, text.find('\n'));
 }
 
 Json audit_beside(const fs::path& film) {
-  Json audit = parse_json(read_text(fs::path(film).replace_extension(".json")));
+  Json audit = parse_json(read_text(audit_path_of(film.string())));
   return audit.is_object() ? audit : Json();
 }
 

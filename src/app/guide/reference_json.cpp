@@ -123,7 +123,7 @@ const std::vector<JsonReport>& json_reports() {
                  {"panels", "[{title, model, cost}] of a comparison; else []"},
                  {"slow_motion", "[{from, until, speed, ease, because}]. Of a .urdf: findings and model. Of a film or picture: audit, passes, audited, [{file, state, sha256, expected}], contradicted, keys of the audit, and remembered, whether a film was there to hold it against"}}},
       {"compare", {{"before, after, equal, passes", "what was compared, and whether it is the same"},
-                   {"tolerance", "of pictures; or null"},
+                   {"tolerance", "of pictures {error, pixels, edges_forgiven}, of tables {of_range}; or null"},
                    {"explained", "differences that are told, in words"},
                    {"frames, fps, seconds, unequal_frames, frames_beyond, errors, mean_errors", "of films: errors are those of the worst pixel of each frame; pictures and models have numbers of their own. Of tables: instants, and columns, [{name, unit, first_time, at_first, largest, largest_time, range}] of those that differ"}}},
       {"verify", {{"suite, baselines, passed, failed", "what was verified, and how it went"},

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "app/report/motion_table.hpp"
 #include "app/report/report.hpp"
 #include "core/format.hpp"
 #include "draw/layers/speed_box.hpp"
@@ -120,16 +121,17 @@ std::string speed_words(const FilmReport& report) {
   return stretches.empty() ? "" : "; not at its own speed: " + joined(stretches);
 }
 
-// "Constraints: missed by 3.9e-16 at most; largest lambda 3.36e+03 of 'line gripper'": a line of each run that has some.
+// "Constraints: missed by 3.9e-16 at most; largest multipliers: lambda1 [N] 3.36e+03 (line gripper)": a line of each run that has some.
 std::string constraint_lines(const FilmReport& report) {
   std::string text;
   for (const RunReport& run : report.panels) {
     if (run.trajectory.rows == 0) continue;
     const Json facts = constraint_run_report(run.prepared.simulation, run.trajectory);
     text += "Constraints: " + where_of(report, run) + "missed by " + format_significant(run.trajectory.position_error, 2) + " m or rad at most";
-    for (const Json& row : facts["rows"])
-      text += (&row == &facts["rows"].front() ? "; largest lambda " : ", ") + format_significant(row["largest_lambda"].get<double>(), 3) + " of " +
-              row["name"].get<std::string>();
+    const std::vector<std::string> columns = multiplier_columns(run.prepared.simulation.chain, run.prepared.simulation.constraints.list);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      text += (i == 0 ? "; largest multipliers: " : ", ") + columns[i] + " " +
+              format_significant(facts["rows"][i]["largest_lambda"].get<double>(), 4) + " (" + facts["rows"][i]["name"].get<std::string>() + ")";
     text += "\n";
   }
   return text;

@@ -114,7 +114,7 @@ AuditCheck check_audit(const std::string& path) {
   const fs::path asked(path), folder = asked.parent_path();
   AuditCheck check;
   std::vector<std::string> names;
-  check.audit = fs::path(asked).replace_extension(".json").string();
+  check.audit = lower_case_ending(path) == ".json" ? path : audit_path_of(path);
   const Json audit = read_audit(check.audit, path);
   bool is_told_of = lower_case_ending(path) == ".json";
   try {
@@ -130,7 +130,7 @@ AuditCheck check_audit(const std::string& path) {
     if (audit.contains(kSidecarHashes) && audit[kSidecarHashes].is_object())
       for (const auto& [ending, hash] : audit[kSidecarHashes].items()) {
         require_ours({"sidecar" + ending, hash, {}}, check.audit);
-        check.files.push_back(look_at(fs::path(asked).replace_extension(ending), hash));
+        check.files.push_back(look_at(fs::path(check.audit).replace_extension(ending), hash));
         is_told_of = is_told_of || asked.extension() == ending;
       }
   } catch (const Json::exception&) {

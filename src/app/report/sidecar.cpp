@@ -65,6 +65,11 @@ Json clip_facts(int width, int height, FrameRate fps, int frames) {
           {"film_seconds", frame_time(frames, fps)}};
 }
 
+std::string audit_path_of(const std::string& file) {
+  const std::string own = file + ".json";
+  return is_own_sidecar(own) ? own : fs::path(file).replace_extension(".json").string();
+}
+
 OtherFiles others_audited(const std::string& path, const std::vector<std::string>& files, const Json& audit) {
   OtherFiles others;
   try {
@@ -94,9 +99,21 @@ OtherFiles others_audited(const std::string& path, const std::vector<std::string
   return others;
 }
 
+Json audit_without(const std::string& path, const std::vector<std::string>& files) {
+  Json audit = audit_at(path), left = Json::array();
+  const Json told = audit.is_object() ? audit.value(kAuditedFiles, Json::array()) : Json::array();
+  for (const Json& one : told) {
+    const std::string file = (fs::path(path).parent_path() / one.value("file", "")).string();
+    if (std::find(files.begin(), files.end(), file) == files.end()) left.push_back(one);
+  }
+  if (left.size() == told.size()) return nullptr;
+  audit[kAuditedFiles] = left;
+  return audit;
+}
+
 bool is_changed_since(const std::string& path) {
   try {
-    const Json audit = audit_at(fs::path(path).replace_extension(".json"));
+    const Json audit = audit_at(audit_path_of(path));
     if (audit.is_null()) return false;
     const Json now = audited_file(path);
     for (const Json& one : audit.value(kAuditedFiles, Json::array()))

@@ -24,12 +24,16 @@ Json audited_file(const std::string& path);
 Json clip_facts(int width, int height, FrameRate fps, int frames);
 // The same of the frames that a smaller clip was made of, under this key, where the audit begins with such a clip's.
 inline constexpr const char* kDrawnFrames = "drawn";
+// Where the audit of a file lies: FILE.json, as x.gif.json, where that is one of ours, else NAME.json.
+std::string audit_path_of(const std::string& file);
 // What an audit at `path` tells of besides `files`, as far as it is still there.
 struct OtherFiles {
   Json entries = Json::array();         // of those that show the same as `audit` says, to be told of on
   std::vector<std::string> are_others;  // names of those that show something else
 };
 OtherFiles others_audited(const std::string& path, const std::vector<std::string>& files, const Json& audit);
+// The audit at `path` without what it says of these files; null where it says nothing of them.
+Json audit_without(const std::string& path, const std::vector<std::string>& files);
 // Whether the file at `path` has other bytes than the audit beside it says.
 bool is_changed_since(const std::string& path);
 

@@ -146,6 +146,7 @@ void write_page(std::ostream& stream, const VerifyReport& report) {
             {{"suite", plain(report.suite)},
              {"program", plain(report.program)},
              {"summary", plain(summary_line(report))},
+             {"unused", markup(report.unused.empty() ? "" : "<p>" + escape_html(report.unused) + "</p>\n")},
              {"count", plain(std::to_string(pictures.size()))},
              {"accept", markup(command_html(report.accept_command, "accept-all"))},
              {"chips", markup(chips_html(pictures))},

@@ -24,6 +24,7 @@ struct VerifyReport {
   std::string accept_command;
   std::string program;  // name and version
   std::vector<ReportPicture> pictures;
+  std::string unused;  // what is said of baselines that are no picture's any more
 };
 
 // Throws Error (exit 6) as OutputFile does.

@@ -153,9 +153,9 @@ PictureVerdict judge(const Suite& suite, const SuitePicture& picture, const Suit
     verdict.difference_png = png_bytes(difference_picture(shot.image, baseline.image, tolerance, &envelope));
   }
   const ImageDifference& difference = verdict.difference;
-  // One renderer gives one picture; what differs by less than an eye sees has a cause all the same. Who sets
+  // One renderer gives one picture of one physics; what differs by less than an eye sees has a cause all the same. Who sets
   // a tolerance means it.
-  const bool same_page = baseline.page == shot.page, is_exact = same_page && picture.tolerance.is_default;
+  const bool same_page = baseline.page == shot.page, is_exact = same_page && same_physics && picture.tolerance.is_default;
   const bool same_pixels = difference.is_equal(),
              near = is_exact ? same_pixels : difference.passes(tolerance);
   if (!difference.same_size) {
@@ -175,15 +175,12 @@ PictureVerdict judge(const Suite& suite, const SuitePicture& picture, const Suit
   for (std::string& words : page_words(baseline.page, shot.page)) verdict.words.push_back(std::move(words));
   if (difference.same_size) verdict.words.push_back(pixel_words(picture, difference));
   for (std::string& words : bar_words(baseline.physics, shot)) verdict.words.push_back(std::move(words));
-  if (same_physics && is_exact && difference.same_size && !same_pixels)
+  if (is_exact && difference.same_size && !same_pixels)
     verdict.words.push_back(
         "program, renderer, processor and fonts are those of the baseline, so its very pixels are expected");
   if (difference.same_size && !same_pixels)
     verdict.words.push_back("there: " + shapes_there(shot.picture, shot.height, difference.box));
-  if (shot.leaves_camera)
-    verdict.words.push_back(
-        "it is cut off at the edge of the camera that the baselines were accepted with: "
-        "--accept --refit takes a camera that holds it");
+  if (shot.leaves_camera) verdict.words.push_back(kLeavesCamera);
   verdict.expected_png = baseline.png;
   verdict.actual_png = png_bytes(shot.image);
   return verdict;

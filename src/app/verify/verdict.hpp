@@ -38,6 +38,9 @@ struct PictureVerdict {
   std::string expected_png, actual_png, difference_png;
 };
 
+inline constexpr const char* kLeavesCamera =
+    "it is cut off at the edge of the camera that the baselines were accepted with: --accept --refit takes a camera that holds it";
+
 // What is drawn now against its baseline.
 PictureVerdict judge(const Suite& suite, const SuitePicture& picture, const SuiteShot& shot,
                      const Baseline& baseline, Studio& studio);

@@ -61,6 +61,12 @@ std::string accept_command(const SuiteResult& result) {
   return command;
 }
 
+std::string unused_words(const SuiteResult& result) {
+  if (result.unused.empty()) return "";
+  return "of no picture any more: " + std::string(result.unused.size() == 1 ? "the baseline " : "the baselines ") + joined(result.unused) +
+         "; --prune removes " + (result.unused.size() == 1 ? "it" : "them");
+}
+
 std::string summary_of(const SuiteResult& result) {
   const int failed = result.failed(), all = int(result.pictures.size());
   std::vector<std::string> parts;
@@ -120,6 +126,7 @@ std::string junit_text(const SuiteResult& result) {
 std::string markdown_text(const SuiteResult& result) {
   std::string text = "## " + std::string(result.failed() == 0 ? kAccepted : kChanged) +
                      ": " + markdown_words(result.suite) + "\n\n" + summary_of(result) + "\n";
+  if (const std::string unused = unused_words(result); !unused.empty()) text += "\n" + markdown_words(unused) + "\n";
   if (result.failed() == 0) return text;
   text += "\n| picture | state | why |\n| --- | --- | --- |\n";
   for (const PictureVerdict& one : result.pictures)

@@ -31,5 +31,7 @@ std::string markdown_text(const SuiteResult& result);
 bool is_own_report(const std::string& path);
 // "2 of 24 pictures failed: 1 changed, 1 missing"
 std::string summary_of(const SuiteResult& result);
+// "of no picture any more: the baseline home_light; --prune removes it"; "" where there are none.
+std::string unused_words(const SuiteResult& result);
 
 }  // namespace chainreel

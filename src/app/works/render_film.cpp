@@ -137,7 +137,7 @@ std::vector<Sidecar> open_sidecars(const RenderJob& job, const PreparedFilm& fil
   for (const Target& target : job.targets) {
     if (has_clips && target.format->shows != Shows::motion) continue;
     if (of_part && !target.format->is_sequence) continue;  // it holds them
-    const std::string base = base_of(target);
+    const std::string base = !target.format->is_sequence && is_own_sidecar(target.path + ".json") ? target.path : base_of(target);
     const auto open = [&](const char* ending, auto what) {
       require_own_sidecar(base + ending, job.overwrite);
       sidecars.push_back({std::make_unique<OutputFile>(base + ending, job.overwrite), what, target});
@@ -188,27 +188,59 @@ Json audited_files(const RenderJob& job, const std::vector<std::string>& paths, 
   return files;
 }
 
-// Other files that an audit of ours tells of already stay in it where they show the very same; where they do not it tells of
-// these alone from now on, which is said.
-std::map<std::string, Json> others_kept(const std::vector<Sidecar>& sidecars, const RenderJob& job, RenderResult& result) {
-  std::map<std::string, Json> kept;  // by NAME.json
+// Texts and audit of this name are called x.gif.txt and so on, where nothing is called so yet and x.gif is the one file that they
+// speak of.
+bool are_renamed(std::vector<Sidecar>& sidecars, const std::string& audit, const RenderJob& job) {
+  const auto is_of_audit = [&](const std::string& path) { return fs::path(path).replace_extension(".json") == fs::path(audit); };
+  const auto own = std::find_if(job.targets.begin(), job.targets.end(), [&](const Target& target) { return is_of_audit(target.path); });
+  if (own == job.targets.end() || own->format->is_sequence ||
+      std::any_of(own + 1, job.targets.end(), [&](const Target& target) { return is_of_audit(target.path); }))
+    return false;
+  const auto renamed = [&](const Sidecar& sidecar) { return own->path + fs::path(sidecar.file->path()).extension().string(); };
+  const auto for_each_own = [&](auto act) {
+    for (Sidecar& sidecar : sidecars)
+      if (is_of_audit(sidecar.file->path())) act(sidecar);
+  };
+  bool is_free = true;
+  for_each_own([&](const Sidecar& sidecar) { is_free = is_free && !fs::exists(fs::symlink_status(renamed(sidecar))); });
+  if (is_free) for_each_own([&](Sidecar& sidecar) { sidecar.file = std::make_unique<OutputFile>(renamed(sidecar), job.overwrite); });
+  return is_free;
+}
+
+// What audits beside a film's files say of others.
+struct OtherAudits {
+  std::map<std::string, Json> kept;                                          // by the audit that tells of them on
+  std::vector<std::pair<std::unique_ptr<OutputFile>, Json>> without_these;  // audits that told of this film's files, too
+};
+
+// Other files that an audit of ours tells of already stay in it where they show the very same; where they do not, what is told of
+// this one gets a name of its own, or else tells of these alone from now on; either is said.
+OtherAudits others_kept(std::vector<Sidecar>& sidecars, const RenderJob& job, RenderResult& result) {
+  OtherAudits audits;
   std::vector<std::string> files;
   for (const Target& target : job.targets) files.push_back(target.path);
-  for (const Sidecar& sidecar : sidecars) {
-    if (sidecar.what != Sidecar::audit) continue;
-    const std::string path = sidecar.file->path();
+  for (std::size_t i = 0; i < sidecars.size(); ++i) {
+    if (sidecars[i].what != Sidecar::audit) continue;
+    const std::string path = sidecars[i].file->path();
     const OtherFiles others = others_audited(path, files, result.audit);
-    kept[path] = others.entries;
-    if (!others.are_others.empty())
-      result.notes.push_back(path + " told of " + joined(others.are_others) + ", which is still there and shows something else: give both files in one command, or other names");
+    const std::string what = joined(others.are_others) + ", which is still there and shows something else: ";
+    if (others.are_others.empty())
+      audits.kept[path] = others.entries;
+    else if (are_renamed(sidecars, path, job)) {
+      result.notes.push_back(path + " tells of " + what + sidecars[i].file->path() + " tells of this one");
+      if (const Json left = audit_without(path, files); !left.is_null())
+        audits.without_these.emplace_back(std::make_unique<OutputFile>(path, job.overwrite), left);
+    } else
+      result.notes.push_back(path + " told of " + what + "give both files in one command, or other names");
+    audits.kept.try_emplace(sidecars[i].file->path(), Json::array());
   }
-  return kept;
+  return audits;
 }
 
 // Whether NAME.json is the one that tells of the file: by its name, or as the only one there is.
 bool tells_of(const std::vector<Sidecar>& sidecars, const std::string& audit, const std::string& file) {
   const auto is_audit = [](const Sidecar& sidecar) { return sidecar.what == Sidecar::audit; };
-  return fs::path(file).replace_extension(".json") == fs::path(audit) ||
+  return fs::path(file).replace_extension(".json") == fs::path(audit) || fs::path(file + ".json") == fs::path(audit) ||
          (std::count_if(sidecars.begin(), sidecars.end(), is_audit) == 1 && fs::path(file).parent_path() == fs::path(audit).parent_path());
 }
 
@@ -226,7 +258,7 @@ void put_first_clip(Json& audit, const RenderJob& job, const FilmReport& report,
 
 // Texts first: each audit tells of those beside it.
 void write_sidecars(std::vector<Sidecar>& sidecars, const RenderJob& job, const FilmReport& report,
-                    const std::map<std::string, Json>& others, RenderResult& result) {
+                    const OtherAudits& others, RenderResult& result) {
   std::map<fs::path, Json> hashes;  // by NAME.json
   const Json files = result.audit[kAuditedFiles];
   for (Sidecar& sidecar : sidecars) {
@@ -245,11 +277,12 @@ void write_sidecars(std::vector<Sidecar>& sidecars, const RenderJob& job, const 
       return base_of(target) + ".json" == path || tells_of(sidecars, path, target.path);
     });
     audit[kSidecarHashes] = hashes[path];
-    audit[kAuditedFiles] = others.at(path);
+    audit[kAuditedFiles] = others.kept.at(path);
     for (std::size_t i = 0; i < result.files.size(); ++i)
       if (!files[i].is_null() && tells_of(sidecars, path, result.files[i])) audit[kAuditedFiles].push_back(files[i]);
     write_whole(*sidecar.file, audit.dump(2) + "\n");
   }
+  for (const auto& [file, audit] : others.without_these) write_whole(*file, audit.dump(2) + "\n");
   for (const Sidecar& sidecar : sidecars)
     if (sidecar.file->is_done()) result.sidecars.push_back(sidecar.file->path());
 }
@@ -359,7 +392,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
     }
     throw;
   }
-  const std::map<std::string, Json> others = others_kept(sidecars, job, result);
+  const OtherAudits others = others_kept(sidecars, job, result);
   tell(report, job, result);
   result.files = commit(outputs);
   result.audit[kAuditedFiles] = audited_files(job, result.files, report);

@@ -12,6 +12,7 @@
 #include "draw/layers/ellipse.hpp"
 #include "draw/layers/ellipsoid.hpp"
 #include "draw/page/mark_labels.hpp"
+#include "draw/page/word_plan.hpp"
 #include "draw/page/panel_grid.hpp"
 #include "draw/robot/chain.hpp"
 #include "draw/robot/chain_fit.hpp"
@@ -85,6 +86,19 @@ void fit_panels(Panels& panels, const std::vector<Pose>& poses, Workspace& ws) {
   panels.camera = aimed_camera(panels.chain, panels.options.camera, motion, panels.scene(0), fit);
 }
 
+// Words where they lie on nothing of what was drawn since item `first`.
+void draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, const Rect& scene, const Theme& theme, int clip) {
+  constexpr double kLooksPerSecond = 0.1;  // a still is looked at so long that any word is worth its place
+  Picture drawn;
+  drawn.items.assign(picture.items.begin() + std::ptrdiff_t(first), picture.items.end());
+  WordPlan plan(widened(scene, -kLabelInset), kLooksPerSecond);
+  plan.add(words.words(), obstacles_of(drawn));
+  const std::vector<StandingWord> standing = plan.standing().front();
+  MarkLabels placed(standing);
+  for (const MarkWord& word : words.words()) placed.add(word);
+  placed.draw(picture, scene, theme.background, clip);
+}
+
 void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose& pose, Workspace& ws) {
   const Theme& theme = *panels.options.theme;
   const Rect scene = panels.scene(i), first = panels.scene(0);
@@ -94,6 +108,7 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
       Polygon{{Point{scene.x0, scene.y0}, {scene.x1, scene.y0}, {scene.x1, scene.y1}, {scene.x0, scene.y1}},
               4,
               {{}, theme.rule, size::kFrameLine}});
+  const std::size_t framed = picture.items.size();
   Camera camera = panels.camera;
   camera.origin = camera.origin + Point{scene.x0 - first.x0, scene.y0 - first.y0};
   const std::vector<double> at_rest(std::size_t(panels.chain.nv), 0.0);
@@ -118,7 +133,7 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
   style.part = EllipsePart::above;
   draw_mass_ellipse(picture, pose.axes, tip, seen, style, clip);
   if (!drawing.shapes) draw_end_effector(picture, tip, drawing.look, clip);
-  labels.draw(picture, scene, theme.background, clip);
+  draw_clear_of(picture, framed, labels, scene, theme, clip);
   if (i < panels.options.labels.size()) {
     const TextStyle text{Face::label, scaled(size::kAxis, panels.options.text_scale), theme.ink, Align::left};
     draw_text(picture,
@@ -314,11 +329,12 @@ std::optional<Panels> best_panels(const Chain& chain, const std::vector<Pose>& p
 
 }  // namespace
 
-bool names_every_pose(const TipMass& mass, const std::vector<std::vector<double>>& configurations, const PoseFigureOptions& options,
-                      const Fonts& fonts) {
+PoseFigureFit fit_of_poses(const TipMass& mass, const std::vector<std::vector<double>>& configurations, const PoseFigureOptions& options,
+                           const Fonts& fonts) {
   Workspace ws(mass.chain());
   const std::optional<Panels> best = best_panels(mass.chain(), poses_of(mass, configurations, options, ws), options, fonts, ws);
-  return best && !has_cut_captions(*best);
+  if (!best) return {};
+  return {best->camera.scale * options.height / options.width, !has_cut_captions(*best)};
 }
 
 Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& configurations,

@@ -61,9 +61,13 @@ bool leaves_page(const Chain& chain, const std::vector<double>& q, const PoseFig
 Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& poses,
                             const PoseFigureOptions& options, const Fonts& fonts);
 
-// Whether that figure has each pose's numbers below it, all of them.
-bool names_every_pose(const TipMass& mass, const std::vector<std::vector<double>>& poses, const PoseFigureOptions& options,
-                      const Fonts& fonts);
+// How well poses fit on a page as that figure.
+struct PoseFigureFit {
+  double metre = 0;       // on the page, of its width; 0: there is no room
+  bool is_whole = false;  // each pose has all of its numbers below it
+};
+PoseFigureFit fit_of_poses(const TipMass& mass, const std::vector<std::vector<double>>& poses, const PoseFigureOptions& options,
+                           const Fonts& fonts);
 
 // For each pose the chain, the unit circle of accelerations of two joints, and its image under M(q) in the space of their
 // torques, the other joints not accelerating, in blocks so many across as lets them be largest. `joints` from 0. Throws

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 
+#include "core/format.hpp"
 #include "draw/layers/devices.hpp"
 #include "draw/layers/layer.hpp"
 #include "draw/layers/vectors.hpp"
@@ -111,7 +112,7 @@ class VectorLayer : public Layer {
     }
     auto full = magnitudes.full();
     leave_out_noise(full, stage.motions.front().skeleton().reach);
-    return {full, stage.share_of_arrows(name) * stage.share_of_lengths()};
+    return {full, stage.share_of_arrows(name) * stage.share_of_lengths(), magnitudes.most()};
   }
 
   // What is rounding beside the other drives, of which nobody asked for an arrow at a scale of its own: sliders that rest while
@@ -156,12 +157,16 @@ class TorqueRun {
         tau_(torques_along(*motion.simulation(), motion.trajectory())),
         most_(nv_),
         shown_(nv_),
+        words_(nv_),
         rings_(nv_) {
     const std::vector<double>& t = motion.trajectory().t;
+    const std::vector<Device> devices = devices_of(stage, motion);
+    for (const Device& device : devices)
+      if (device.is_beside_bias()) take_bias_alone(motion.chain(), device);
     for (std::size_t at = 0; at < tau_.size(); ++at)
       if (std::isfinite(tau_[at])) most_[at % nv_] = std::max(most_[at % nv_], std::abs(tau_[at]));
     for (std::size_t i = 0; i < nv_; ++i) shown_[i] = most_[i] > 0;
-    for (const Device& device : devices_of(stage, motion))
+    for (const Device& device : devices)
       if (device.is_all_of_it()) shown_[std::size_t(device.drive.freedom)] = false;
     // Pictures to be laid over others have no words but those that were asked for.
     labelled_ = !is_transparent(stage.page) && std::count(shown_.begin(), shown_.end(), true) <= kMostTorqueLabels;
@@ -181,12 +186,25 @@ class TorqueRun {
   double ring(int freedom, int k) const { return rings_[std::size_t(freedom)][std::size_t(k)]; }
   double most(int freedom) const { return most_[std::size_t(freedom)]; }
   bool is_labelled() const { return labelled_; }
+  std::string word(int freedom) const {
+    const std::string& own = words_[std::size_t(freedom)];
+    return own.empty() ? "tau_{" + std::to_string(freedom + 1) + "}" : own;
+  }
 
  private:
+  // The damper at the joint stands for the rest.
+  void take_bias_alone(const Chain& chain, const Device& device) {
+    const auto i = std::size_t(device.drive.freedom);
+    for (std::size_t at = i; at < tau_.size(); at += nv_) tau_[at] = device.drive.bias;
+    const bool turns = chain.bodies[std::size_t(device.body)].joint.kind == JointKind::revolute;
+    words_[i] = format_significant(device.drive.bias, 3) + (turns ? " N m" : " N");
+  }
+
   std::size_t nv_;
   std::vector<double> tau_;                 // nv a sample
   std::vector<double> most_;                // a freedom: of |tau| over the samples
   std::vector<bool> shown_;                 // a freedom
+  std::vector<std::string> words_;          // a freedom: instead of its symbol
   std::vector<std::vector<double>> rings_;  // a freedom, a sample
   bool labelled_ = true;
 };
@@ -199,7 +217,7 @@ std::vector<WorldVector> torques_at(const Chain& chain, const Workspace& ws, con
     const Eigen::Isometry3d X_WB = pose_of(ws, int(b));
     const Vector3d place = X_WB.translation();
     const double* own = tau + joint.v_index;
-    const std::string label = run.is_labelled() ? "tau_{" + std::to_string(joint.v_index + 1) + "}" : "";
+    const std::string label = run.is_labelled() && joint.kind != JointKind::floating ? run.word(joint.v_index) : "";
     if (joint.kind == JointKind::floating) {
       // Nothing drives a floating base, unless the scene says so: then a force and a moment in axes of the
       // body.
@@ -226,13 +244,30 @@ std::vector<WorldVector> velocity_at(const Chain& chain, const Workspace& ws) {
            frame_velocity(chain, ws, chain.end_effector), Vector3d::Zero(), Vector3d::Zero(), "v"}};
 }
 
+// As the curves of their multipliers are called in plots: f = -lambda, what the ties exert on the robot.
+std::string word_of(const Reaction& reaction, int all_rows) {
+  if (reaction.rows.empty()) return "f_c";
+  std::string numbers;
+  for (const int row : reaction.rows) numbers += (numbers.empty() ? "" : ",") + std::to_string(row + 1);
+  return all_rows == 1 ? "-lambda" : "-lambda_{" + numbers + "}";
+}
+
 std::vector<WorldVector> reactions_at(const Chain& chain, const Workspace& ws,
-                                      const std::vector<Reaction>& reactions) {
+                                      const std::vector<Reaction>& reactions, int all_rows) {
+  std::vector<Reaction> at_frames;  // what pulls at one place is one force
+  for (const Reaction& one : reactions) {
+    const auto same = std::find_if(at_frames.begin(), at_frames.end(), [&](const Reaction& other) { return other.frame == one.frame; });
+    if (same == at_frames.end()) {
+      at_frames.push_back(one);
+      continue;
+    }
+    same->force += one.force;
+    same->rows.insert(same->rows.end(), one.rows.begin(), one.rows.end());
+  }
   std::vector<WorldVector> vectors;
-  for (std::size_t i = 0; i < reactions.size(); ++i)
-    vectors.push_back({VectorKind::constraint, frame_position(chain, ws, reactions[i].frame), reactions[i].force,
-                       Vector3d::Zero(), Vector3d::Zero(),
-                       reactions.size() == 1 ? "f_c" : "f_{c" + std::to_string(i + 1) + "}"});
+  for (const Reaction& one : at_frames)
+    vectors.push_back({VectorKind::constraint, frame_position(chain, ws, one.frame), one.force, Vector3d::Zero(), Vector3d::Zero(),
+                       word_of(one, all_rows)});
   return vectors;
 }
 
@@ -298,7 +333,7 @@ std::unique_ptr<const Layer> make_layer_constraint_force(const Stage& stage) {
         const auto own = forces.find(&motion);
         return own == forces.end() || own->second.empty()
                    ? std::vector<WorldVector>()
-                   : reactions_at(motion.chain(), ws, own->second[std::size_t(k)]);
+                   : reactions_at(motion.chain(), ws, own->second[std::size_t(k)], motion.trajectory().rows);
       },
       always(VectorKind::constraint));
 }

@@ -203,6 +203,7 @@ void draw_belt(Picture& picture, const std::vector<MassAxis>& axes, Point center
     }
     if (!axes[i].mass) continue;
     draw_length_along(picture, center, *axes[i].mass * page[i], *axes[i].mass, 0, style, clip);
+    add_length_at_end(center, *axes[i].mass * page[i], *axes[i].mass, style);
   }
 }
 

@@ -71,9 +71,11 @@ void draw_closed(Picture& picture, const std::vector<PageAxis>& axes, Point cent
     if (norm(outline[1]) >= kNoLength) draw_finite_axes(picture, axes, center, fade, stroke, style, clip);
   });
   if (!style.draws_above()) return;
-  for (const PageAxis& axis : axes)
-    if (norm(axis.v) > kNoLength)
-      draw_length_along(picture, center, axis.v, *axis.length, spread.reach(normal_to(unit(axis.v))), style, clip);
+  for (const PageAxis& axis : axes) {
+    if (!(norm(axis.v) > kNoLength)) continue;
+    draw_length_along(picture, center, axis.v, *axis.length, spread.reach(normal_to(unit(axis.v))), style, clip);
+    add_length_at_end(center, axis.v, *axis.length, style);
+  }
 }
 
 // The whole line through p along the unit vector d, from edge to edge of the scene, fading over its last
@@ -159,9 +161,11 @@ void draw_open(Picture& picture, const std::vector<PageAxis>& axes, Point center
   });
   if (!style.draws_above()) return;
   draw_infinities(picture, center, d, half_width, style, clip);
-  for (const PageAxis& axis : axes)
-    if (axis.length && norm(axis.v) > kNoLength)
-      draw_length_along(picture, center, axis.v, *axis.length, 0, style, clip);
+  for (const PageAxis& axis : axes) {
+    if (!axis.length || !(norm(axis.v) > kNoLength)) continue;
+    draw_length_along(picture, center, axis.v, *axis.length, 0, style, clip);
+    add_length_at_end(center, axis.v, *axis.length, style);
+  }
 }
 
 }  // namespace

@@ -20,10 +20,6 @@ constexpr int kHalfTurn = 64;          // of half a turn
 constexpr double kFarLine = 0.0016;  // units of H: lines behind the middle
 constexpr double kFarOpacity = 0.75;
 constexpr double kFarDash = 0.008, kFarGap = 0.006;  // units of H
-constexpr double kNumberGap = 0.010;                 // units of H, beyond the end of a semi-axis
-constexpr double kLeastAxis = 0.008;  // units of H: shorter ones, seen from their end, have no room for a number
-
-constexpr double kAside[] = {0, 0.8, -0.8, 1.5, -1.5};  // rad: where its number stands about that end
 
 // A semi-axis in W, units of H on a page that it is parallel to.
 struct SolidAxis {
@@ -194,27 +190,14 @@ class Ellipsoid {
   void draw_numbers(Picture& picture, int clip) const {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
       const Point v = on_page(axes_[i].v) - center_;
-      if (!style_.signs || norm(v) < kLeastAxis) continue;
-      draw_length_along(picture, center_, v, axes_[i].length, spread_.reach(normal_to(unit(v))), style_,
-                        clip);
-      if (style_.labels == nullptr) continue;
-      const std::string unit_of = style_.reading == EllipseReading::energy ? " m/s" : " kg";
-      const TextLine number = lay_out_text(
-          *style_.fonts, format_significant(axes_[i].length, 2) + unit_of,
-          {Face::label, scaled(size::kTick, style_.text_scale), style_.theme->ellipse, Align::left});
-      double toward = camera_.toward_viewer.dot(axes_[i].v) < 0 ? -1 : 1;
-      if (style_.hides && style_.hides(toward * axes_[i].v) && !style_.hides(-toward * axes_[i].v)) toward = -toward;
-      MarkWord word{"semi-axis", number, {}};
-      for (const double side : {toward, -toward}) {
-        const Point d = side * unit(v), end = center_ + side * v;
-        for (const double aside : kAside) {
-          const Rect place = place_beyond(number, end, kNumberGap, std::cos(aside) * d + std::sin(aside) * normal_to(d));
-          const Rect& scene = style_.scene;
-          if (place.x0 >= scene.x0 && place.x1 <= scene.x1 && place.y0 >= scene.y0 && place.y1 <= scene.y1)
-            word.places.push_back(place);
-        }
+      if (!(norm(v) > kNoLength)) continue;
+      draw_length_along(picture, center_, v, axes_[i].length, spread_.reach(normal_to(unit(v))), style_, clip);
+      bool back = camera_.toward_viewer.dot(axes_[i].v) < 0;
+      if (style_.hides) {
+        const auto is_hidden = [&](bool other) { return style_.hides((other ? -1 : 1) * axes_[i].v); };
+        if (is_hidden(back) && !is_hidden(!back)) back = !back;
       }
-      if (!word.places.empty()) style_.labels->add(std::move(word));
+      add_length_at_end(center_, (back ? -1 : 1) * v, axes_[i].length, style_);
     }
   }
 

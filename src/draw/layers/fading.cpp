@@ -13,6 +13,9 @@ namespace chainreel {
 namespace {
 
 constexpr double kDash = 0.012, kGap = 0.008;
+constexpr double kNumberGap = 0.010;                    // units of H, beyond the end of a semi-axis
+constexpr double kLeastAxis = 0.008;                    // ... seen from its end, a shorter one has no room for a number
+constexpr double kAside[] = {0, 0.8, -0.8, 1.5, -1.5};  // rad: where its number stands about that end
 
 }  // namespace
 
@@ -234,9 +237,9 @@ double strength_of_length(Point center, Point v, const EllipseStyle& style) {
   return style.signs ? std::min(1.0, excess_of(style.scene, center, v) / kAppearing) : 0;
 }
 
-TextLine text_of_length(double length, double strength, const EllipseStyle& style) {
+TextLine text_of_length(double length, int digits, double strength, const EllipseStyle& style) {
   const std::string unit = style.reading == EllipseReading::energy ? " m/s" : " kg";
-  return lay_out_text(*style.fonts, format_significant(length, 3) + unit,
+  return lay_out_text(*style.fonts, format_significant(length, digits) + unit,
                       {Face::label, scaled(size::kTick, style.text_scale), style.theme->ellipse.faded(strength),
                        Align::left});
 }
@@ -268,15 +271,28 @@ void draw_length_along(Picture& picture, Point center, Point v, double length, d
                        const EllipseStyle& style, int clip) {
   const double strength = strength_of_length(center, v, style);
   if (!(strength > 0)) return;
-  const TextLine text = text_of_length(length, strength, style);
+  const TextLine text = text_of_length(length, 3, strength, style);
   draw_along(picture, text, center, unit(v), half_width, style, clip, style.labels);
   draw_along(picture, text, center, -1 * unit(v), half_width, style, clip, style.labels);
+}
+
+void add_length_at_end(Point center, Point v, double length, const EllipseStyle& style) {
+  if (style.labels == nullptr || !style.signs || norm(v) < kLeastAxis) return;
+  MarkWord word{"semi-axis", text_of_length(length, 2, 1, style), {}};
+  for (const double side : {1.0, -1.0}) {
+    const Point d = side * unit(v), end = center + side * v;
+    for (const double aside : kAside) {
+      const Rect place = place_beyond(word.line, end, kNumberGap, std::cos(aside) * d + std::sin(aside) * normal_to(d));
+      if (is_within(place, style.scene)) word.places.push_back(place);
+    }
+  }
+  if (!word.places.empty()) style.labels->add(std::move(word));
 }
 
 Fade fade_before_length(Point center, Point v, double length, const Fade& whole, const EllipseStyle& style) {
   const double strength = strength_of_length(center, v, style);
   if (!(strength > 0)) return whole;
-  return fade_before(text_of_length(length, strength, style), strength, unit(v), whole);
+  return fade_before(text_of_length(length, 3, strength, style), strength, unit(v), whole);
 }
 
 Fade fade_before_infinity(Point d, const Fade& whole, const EllipseStyle& style) {

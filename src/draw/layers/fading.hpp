@@ -84,6 +84,10 @@ void draw_infinities(Picture& picture, Point center, Point d, double half_width,
 void draw_length_along(Picture& picture, Point center, Point v, double length, double half_width,
                        const EllipseStyle& style, int clip);
 
+// "7.9 kg" as a word of the film beyond the end of the semi-axis v, or else at its other end; nothing where neither is in the
+// scene, or where the style has no labels.
+void add_length_at_end(Point center, Point v, double length, const EllipseStyle& style);
+
 // How the lines of such axes fade, those of a curve that fades as `whole`, to leave room for what is written at their ends.
 Fade fade_before_length(Point center, Point v, double length, const Fade& whole, const EllipseStyle& style);
 Fade fade_before_infinity(Point d, const Fade& whole, const EllipseStyle& style);

@@ -112,6 +112,7 @@ std::vector<std::string> torque_notations(const Chain& chain, const std::vector<
   }
   if (entries.empty()) entries.assign(std::size_t(chain.nv), "0");
   if (entries.empty()) return {};
+  if (std::all_of(entries.begin(), entries.end(), [](const std::string& entry) { return parse_number(entry) == 0.0; })) return {"tau = 0"};
   if (entries.size() == 1 && parse_number(entries[0])) return {"tau = " + entries[0] + unit_of(chain)};
   std::vector<std::string> forms;
   for (std::size_t shown = entries.size(); shown >= 2; --shown) {

@@ -22,7 +22,7 @@ constexpr double kShareBelowFull = 0.95;  // of a clip's magnitudes
 constexpr double kRoundOffBelow = 1e-6;   // of the largest
 constexpr double kRestBeforeRing = 0.3, kRingFade = 0.15;  // s
 constexpr double kRingRadius = 0.026;     // units of H: close about a joint's disc
-constexpr double kLeastLabelled = 0.026;  // units of H: words of torques stand off their joints by more
+constexpr double kLeastLabelled = 0.026;  // units of H: words of torques stand off their joints by more, and arrows that have words are longer
 constexpr double kWholeRadius = 60;       // degrees: an arc that turns by less has a smaller radius, down to a dot
 constexpr double kTorqueDot = 0.0062;     // radius, units of H
 constexpr double kBreakOpens = 0.1;       // a break is open where this much of the length is cut
@@ -95,6 +95,14 @@ std::array<double, kVectorKinds.size()> VectorMagnitudes::full() const {
   return full;
 }
 
+std::array<double, kVectorKinds.size()> VectorMagnitudes::most() const {
+  std::array<double, kVectorKinds.size()> most{};
+  for (std::size_t kind = 0; kind < most.size(); ++kind)
+    for (const double one : magnitudes_[kind])
+      if (std::isfinite(one)) most[kind] = std::max(most[kind], one);
+  return most;
+}
+
 std::vector<double> rings_along(const std::vector<double>& t, const std::vector<bool>& rests) {
   std::vector<double> rings(t.size());
   for (std::size_t begin = 0; begin < t.size(); ++begin) {
@@ -160,8 +168,11 @@ std::vector<ScaleEntry> scale_entries(const VectorScales& scales, const std::vec
                                                        : ScaleEntry::Mark::arrow;
     if (!(scale.full > 0)) continue;
     const double value = round_length(scale.full);
-    entries.push_back({mark, scale.on_page(value), color_of(kind, theme),
-                       name + format_shortest(value) + "\u2009" + unit_of(kind)});
+    const std::string unit = "\u2009" + unit_of(kind);
+    const double cut_above = kind == VectorKind::torque ? kWidestTurn / kTurnOfFull : size::kArrowCut / size::kLongestArrow;
+    const double most = scales.most[std::size_t(kind)];
+    const std::string broken = most > cut_above * scale.full ? ", broken: up to " + format_significant(most, 2) + unit : "";
+    entries.push_back({mark, scale.on_page(value), color_of(kind, theme), name + format_shortest(value) + unit + broken});
   }
   return entries;
 }
@@ -275,7 +286,8 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
              {color_of(vector.kind, *theme_), marks, vector.kind == VectorKind::constraint, arrow.broken, theme_->lines,
               theme_->background},
              clip);
-  if (vector.label.empty()) return;
+  // One beside hardly more than a head names what nobody sees.
+  if (vector.label.empty() || norm(arrow.v) < kLeastLabelled * marks) return;
   const TextLine& text = label(vector, marks);
   labels.add({word_name(vector), text, places_along(text, tail, arrow.v, marks * size::kArrowHeadWidth / 2)});
 }

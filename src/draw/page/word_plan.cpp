@@ -24,6 +24,7 @@ constexpr double kWorseOfMany = 0.01;  // the same of a place of words with a le
 constexpr double kCrossedByLeader = 0.3;  // the same for each piece of what is drawn that its line crosses
 constexpr double kEndOfLeader = 0.03;  // units of H: what lies so near to its end is what it leads to
 constexpr int kMostCrossed = 5;
+constexpr double kMiddleOfLetters = 0.3;  // of their size, above the line and to either side
 constexpr int kPlanRounds = 2;  // each word is placed again when all others have places
 
 struct ShapeObstacles {
@@ -72,7 +73,12 @@ struct ShapeObstacles {
       line({x, c.rect.y0}, {x, c.rect.y1}, 0);
     }
   }
-  void operator()(const GlyphRun&) const {}
+  // About the middle of small letters.
+  void operator()(const GlyphRun& run) const {
+    if (run.glyphs.empty() || run.color.a < kPale || run.stroke_width > 0) return;
+    const Point middle = run.origin + Point{0, kMiddleOfLetters * run.size};
+    line(middle, middle + Point{run.glyphs.back().x + kMiddleOfLetters * run.size, 0}, kMiddleOfLetters * run.size);
+  }
   void operator()(const Solids&) const {}
 
  private:

@@ -20,7 +20,7 @@ struct Obstacle {
   bool may_yield = false;  // a word rather stands on it than nowhere
 };
 
-// Lines, discs and edges of what is drawn, units of H; what is too pale to disturb, words and bodies in space are none.
+// Lines, discs, edges and letters of what is drawn, units of H; what is too pale to disturb, halos and bodies in space are none.
 std::vector<Obstacle> obstacles_of(const Picture& picture, bool may_yield = false);
 
 // From one frame to the next no word moves farther, units of H, but where it fades.

@@ -263,12 +263,15 @@ class CellRuns {
     const std::size_t count = (along_x ? result_.y : result_.x).values.size();
     for (std::size_t i = 0; i < count; ++i) {
       const Simulation simulation = simulation_of(along_x ? At{0, i} : At{i, 0});
-      result_.boundary.push_back(longest_stable_step(*simulation.method, linearise(simulation)));
+      const Linearisation about = linearise(simulation);
+      result_.about_target = about.about_target && (i == 0 || result_.about_target);
+      result_.boundary.push_back(longest_stable_step(*simulation.method, about));
     }
   }
 
   void find_stable_cells() {
     const std::size_t row = result_.x.values.size();
+    result_.about_target = linearise(simulation_of({0, 0})).about_target;
     for_each_index(result_.cells.size(), threads_, [&](std::size_t i) {
       const Simulation simulation = simulation_of({i % row, i / row});
       const Linearisation start = linearise(simulation);

@@ -324,15 +324,53 @@ TEST(DefaultLayers, ShowTheCauseAndLeaveSmallPanelsAlone) {
   };
   for (const char* name : {"rr_torque", "rrr_torque", "pp_spring", "pen", "four_bar", "slider_crank", "humanoid_fall", "particle"}) {
     const Scene scene = read_scene("assets/scenes/" + std::string(name) + ".yaml");
-    for (const char* layer : {"torque", "springs", "constraints", "target", "g", "limits"}) EXPECT_TRUE(has(scene, layer)) << name << layer;
+    for (const char* layer : {"torque", "springs", "constraints", "constraint_force", "target", "g", "limits"}) EXPECT_TRUE(has(scene, layer)) << name << layer;
     EXPECT_FALSE(has(scene, "angles"));
   }
   for (const char* name : {"pen_drift", "big_steps", "euler_gains_energy", "ghost_euler"}) {
     const Scene scene = read_scene("assets/scenes/" + std::string(name) + ".yaml");
     EXPECT_TRUE(has(scene, "springs") && has(scene, "constraints")) << name;
-    EXPECT_FALSE(has(scene, "torque") || has(scene, "target")) << name;
+    EXPECT_FALSE(has(scene, "torque") || has(scene, "target") || has(scene, "constraint_force")) << name;
   }
   EXPECT_TRUE(has(read_scene("assets/scenes/pen_drift.yaml", {"draw=[+torque]"}), "torque")) << "who asks gets it";
+}
+
+bool has_words(const Picture& picture, const std::string& words) {
+  const auto runs = test::all_of<GlyphRun>(picture, [](const GlyphRun& run) { return run.color.a > 0; });
+  return std::any_of(runs.begin(), runs.end(), [&](const GlyphRun& run) { return run.text.find(words) != std::string::npos; });
+}
+
+// "8 - qd1": the damper at the joint is the friction, the arc the motor, at one size for the whole film.
+TEST(TorqueLayer, BesideADamperIsTheConstantAlone) {
+  const Cause cause("slider_crank", {"draw=[chain, torque, springs]"});
+  const Film pictures = cause.film();
+  const auto turn = [&](int k) {
+    const auto arcs = test::all_of<Trail>(pictures.still(k), [](const Trail& path) { return path.color == light().torque; });
+    double longest = 0;
+    for (const Trail& arc : arcs) {
+      double way = 0;
+      for (std::size_t i = 1; i < arc.points.size(); ++i) way += norm(arc.points[i].p - arc.points[i - 1].p);
+      longest = std::max(longest, way);
+    }
+    return longest;
+  };
+  EXPECT_EQ(torque_heads(pictures.frame(60)), 1);
+  EXPECT_NEAR(turn(10), turn(100), kCauseRoundOff) << "friction is five times larger at the second";
+  EXPECT_TRUE(has_words(pictures.still(30), "8N") || has_words(pictures.still(30), "8 N"));
+  // Without the layer of dampers the arc has the whole torque.
+  const Cause alone("slider_crank", {"draw=[chain, torque]"});
+  EXPECT_FALSE(has_words(alone.film().still(30), "8N"));
+}
+
+// What the ties exert has the names of the plotted multipliers.
+TEST(ConstraintForces, AreShownByDefaultAndNamedLikeTheirCurves) {
+  const Cause four_bar("four_bar", {"layout=scene"}), pen("pen", {"layout=scene"});
+  const auto dashes = [](const Picture& picture) {
+    return test::all_of<Polygon>(picture, [](const Polygon& p) { return p.paint.fill == light().constraint; }).size();
+  };
+  EXPECT_GT(dashes(four_bar.film().still(40)), 0u);
+  EXPECT_TRUE(has_words(four_bar.film().still(40), "1,2"));
+  EXPECT_GT(dashes(pen.film().still(40)), 0u);
 }
 
 // Whatever pulls there, no word lies on the pose that feedback follows.
