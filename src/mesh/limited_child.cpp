@@ -89,7 +89,8 @@ std::string read_all(int file, std::size_t limit) {
 std::string trouble_of(int status) {
   if (WIFSIGNALED(status)) {
     const int number = WTERMSIG(status);
-    if (number == SIGXCPU || number == SIGKILL || number == SIGALRM) return "took too long";
+    if (number == SIGXCPU || number == SIGALRM) return "took too long";
+    if (number == SIGKILL) return "was killed, as systems do that are short of memory, or took too long";
     return "ran out of memory or crashed (signal " + std::to_string(number) + ")";
   }
   return WEXITSTATUS(status) == kNoMemory ? "ran out of memory" : "failed";

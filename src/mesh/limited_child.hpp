@@ -12,7 +12,7 @@ struct ChildLimits {
   std::size_t memory = std::size_t(1)
                        << 30;  // bytes beyond what the program already has; not kept by sanitizer builds
   int cpu_seconds = 20;
-  int seconds = 60;                          // by the clock, for a child that waits and does not work
+  int seconds = 600;                         // by the clock, for a child that waits and does not work: a busy machine starves it for long
   std::size_t reply = std::size_t(1) << 20;  // bytes
 };
 

@@ -103,6 +103,12 @@ constexpr std::array<Sign, 25> kSigns = {{
     {U'\'', 0x2032, AtomKind::operand},
 }};
 
+constexpr std::array<std::u32string_view, 5> kLatexSpaces = {U",", U";", U":", U"!", U" "};
+constexpr std::array<std::pair<std::u32string_view, char32_t>, 14> kLatexSigns = {{
+    {U"cdot", kDot}, {U"times", kTimes}, {U"pm", 0xB1}, {U"le", 0x2264}, {U"leq", 0x2264}, {U"ge", 0x2265}, {U"geq", 0x2265},
+    {U"approx", 0x2248}, {U"ne", 0x2260}, {U"neq", 0x2260}, {U"to", 0x2192}, {U"infty", 0x221E}, {U"partial", 0x2202}, {U"prime", U'\''},
+}};
+
 bool ends_operand(const std::vector<MathAtom>& atoms) {
   if (atoms.empty()) return false;
   switch (atoms.back().kind) {
@@ -160,10 +166,7 @@ class Reader {
     const char32_t c = peek();
     if (is_digit(c) || (c == U'.' && is_digit(peek(1)))) return read_number(atoms);
     if (is_letter(c)) return read_word(atoms, depth);
-    if (c == U'\\' && is_latex_word(at_ + 1)) {
-      ++at_;
-      return read_word(atoms, depth);
-    }
+    if (c == U'\\') return read_latex(atoms, depth);
     if (c == U'"') return read_quoted(atoms);
     if (c == U'_' || c == U'^') return read_script(atoms, depth);
     if (c == U'{' || c == U'}') fail("a brace without _, ^, frac, col, mat, hat or bar before it");
@@ -174,17 +177,32 @@ class Reader {
     ++at_;
   }
 
-  // \Lambda, \sin and \frac, as those write them who know LaTeX.
-  bool is_latex_word(std::size_t begin) const {
-    std::size_t end = begin;
+  // \Lambda, \sin, \frac and \cdot, as those write them who know LaTeX; its spaces and sizes of brackets are ours.
+  void read_latex(std::vector<MathAtom>& atoms, int depth) {
+    std::size_t end = at_ + 1;
     while (end < text_.size() && is_letter(text_[end])) ++end;
-    const std::u32string word(text_.substr(begin, end - begin));
-    return (word.size() > 1 && letter_of(word)) || contains(kFunctions, word) ||
-           std::any_of(kConstructs.begin(), kConstructs.end(), [&](const Construct& one) { return one.name == word; });
+    const std::u32string word(text_.substr(at_ + 1, end - at_ - 1));
+    if (word.empty() && contains(kLatexSpaces, std::u32string(1, peek(1)))) return void(at_ += 2);
+    if (word == U"left" || word == U"right") return void(at_ = end);
+    const auto sign = std::find_if(kLatexSigns.begin(), kLatexSigns.end(), [&](const auto& one) { return one.first == word; });
+    if (sign != kLatexSigns.end()) {
+      at_ = end;
+      return add_sign(atoms, sign->second);
+    }
+    const bool is_construct = std::any_of(kConstructs.begin(), kConstructs.end(), [&](const Construct& one) { return one.name == word; });
+    if (is_construct && (end >= text_.size() || text_[end] != U'{')) fail("\\" + encode_utf8(word) + " without braces behind it");
+    if (!is_construct && !(word.size() > 1 && letter_of(word)) && !contains(kFunctions, word))
+      fail("\\" + encode_utf8(word) + " is not known (a text in quotes stands as it is)");
+    ++at_;
+    read_word(atoms, depth);
   }
 
   void read_sign(std::vector<MathAtom>& atoms) {
     const char32_t c = text_[at_++];
+    add_sign(atoms, c);
+  }
+
+  void add_sign(std::vector<MathAtom>& atoms, char32_t c) {
     const auto sign =
         std::find_if(kSigns.begin(), kSigns.end(), [c](const Sign& s) { return s.character == c; });
     MathAtom atom{AtomKind::operand, {c}, 0, {}, {}, false};
@@ -324,6 +342,7 @@ class Reader {
     // The transpose is an operator, not a variable.
     if (!below && script.size() == 1 && script[0].text == std::u32string{italic(U'T')}) script[0].text = U"T";
     std::vector<MathAtom>& place = below ? atoms.back().sub : atoms.back().sup;
+    if (!below && !place.empty()) fail("two powers of one symbol: put braces around one of them");
     place.insert(place.end(), script.begin(), script.end());
   }
 

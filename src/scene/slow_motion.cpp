@@ -153,7 +153,9 @@ std::vector<Stretch> stretches_by(const SlowMotionRule& rule, double end, const 
     return list;
   };
   Windows windows(rule, end, around);
-  for (const Haste& one : by_time(events)) windows.add_where_it_fits({one, around});
+  std::vector<Haste> in_turn = by_time(events);
+  std::stable_partition(in_turn.begin(), in_turn.end(), [&](const Haste& one) { return one.until >= end; });
+  for (const Haste& one : in_turn) windows.add_where_it_fits({one, around});
   Windows fast(rule, end, around);
   for (const Haste& one : turns) fast.add({one, around});
   for (const Window& one : fast.list())

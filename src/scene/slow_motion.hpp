@@ -6,7 +6,7 @@
 //
 // Each is shown slowed down from `around` before it until `around` behind it, half of which the speed takes to change.
 // Of what lies nearer to one another than twice `around`, one stretch is made: the speed does not swing. A film never
-// becomes longer than longest_film says: whoever asks for some seconds gets about these. Events come first, those that fit, then turns in the order of
+// becomes longer than longest_film says: whoever asks for some seconds gets about these. Events come first, those that fit, what ends the motion before all others, then turns in the order of
 // time; the first that does not fit is cut where the room ends, and no others follow, so that a motion that is fast
 // throughout is seen slowly where it begins to be.
 #pragma once

@@ -26,20 +26,24 @@ struct State {
   std::vector<double> q, qd;
 };
 
-// Where feedback that holds one pose leads to; nothing where there is none, or constraints may not let the robot go there.
-std::optional<State> target_of(const Simulation& simulation) {
+constexpr double kLooks[] = {0.0, 0.31, 0.62, 1.0};  // parts of the duration at which what should rest is looked at
+
+// The pose that feedback is told to hold, of joints without feedback where they start; nothing where there is none or it moves, or
+// where constraints may not let the robot go there.
+std::optional<std::vector<double>> wished_pose(const Simulation& simulation) {
   constexpr double kSame = 1e-9;  // rad or m
   const Chain& chain = simulation.chain;
-  if (chain.nq != chain.nv || !simulation.constraints.empty() || !simulation.torque) return std::nullopt;
-  State target{std::vector<double>(std::size_t(chain.nv)), std::vector<double>(std::size_t(chain.nv))};
-  std::vector<double> later(target.q);
+  if (chain.nq != chain.nv || !simulation.constraints.empty()) return std::nullopt;
+  std::vector<double> wished;
   simulation.torque->leave_pieces();
-  for (const double part : {0.0, 0.31, 0.62, 1.0}) {
-    if (!simulation.torque->reference_at(part * simulation.duration, part > 0 ? later : target.q)) return std::nullopt;
-    for (std::size_t i = 0; part > 0 && i < later.size(); ++i)
-      if (!(std::abs(later[i] - target.q[i]) <= kSame)) return std::nullopt;
+  for (const double part : kLooks) {
+    std::vector<double> q = simulation.q0;
+    if (!simulation.torque->reference_at(part * simulation.duration, q)) return std::nullopt;
+    if (wished.empty()) wished = q;
+    for (std::size_t i = 0; i < q.size(); ++i)
+      if (!(std::abs(q[i] - wished[i]) <= kSame)) return std::nullopt;
   }
-  return target;
+  return wished;
 }
 
 Slopes slopes_of(ChainSystem& system, const Simulation& simulation, const State& place) {
@@ -92,14 +96,58 @@ double largest_of(const std::vector<double>& x) {
   return largest;
 }
 
+bool is_rest(const std::vector<double>& qdd, const Slopes& slopes) {
+  return largest_of(qdd) <= kNoise * std::max(1.0, slopes.K.cwiseAbs().maxCoeff());
+}
+
+// The equilibrium that Newton's method comes to from a pose, where it rests for the whole duration and deviations do not grow.
+std::optional<State> equilibrium_from(ChainSystem& system, const Simulation& simulation, const std::vector<double>& guess) {
+  constexpr int kSteps = 60;
+  constexpr double kLongest = 0.3;   // of a step, rad or m
+  constexpr double kGrowing = 1e-6;  // of the fastest rate: less is rounding
+  const std::size_t n = guess.size();
+  State place{guess, std::vector<double>(n)};
+  std::vector<double> qdd(n);
+  const auto look = [&](double t) { system.acceleration(t, place.q, place.qd, qdd); };
+  for (int step = 0; step < kSteps; ++step) {
+    look(0);
+    const Slopes slopes = slopes_of(system, simulation, place);
+    if (!slopes.K.allFinite() || !slopes.D.allFinite() || !std::isfinite(largest_of(qdd))) return std::nullopt;
+    if (is_rest(qdd, slopes)) {
+      for (const double part : kLooks) {
+        look(part * simulation.duration);
+        if (!is_rest(qdd, slopes)) return std::nullopt;
+      }
+      double fastest = 0, growing = 0;
+      for (const std::complex<double>& rate : rates_of(without_noise({slopes.K, slopes.D})))
+        fastest = std::max(fastest, std::abs(rate)), growing = std::max(growing, rate.real());
+      return growing <= kGrowing * fastest ? std::optional(place) : std::nullopt;
+    }
+    Eigen::VectorXd way = slopes.K.completeOrthogonalDecomposition().solve(-Eigen::Map<const Eigen::VectorXd>(qdd.data(), Eigen::Index(n)));
+    if (!way.allFinite()) return std::nullopt;
+    way *= std::min(1.0, kLongest / std::max(way.cwiseAbs().maxCoeff(), kLongest));
+    for (std::size_t i = 0; i < n; ++i) place.q[i] += way[Eigen::Index(i)];
+  }
+  return std::nullopt;
+}
+
+// Where feedback brings the robot to rest: not its target where that sags, nor where other joints hang.
+std::optional<State> held_state(ChainSystem& system, const Simulation& simulation) {
+  const std::optional<std::vector<double>> wished = wished_pose(simulation);
+  if (!wished) return std::nullopt;
+  for (const std::vector<double>& guess : {*wished, simulation.q0})
+    if (std::optional<State> held = equilibrium_from(system, simulation, guess)) return held;
+  return std::nullopt;
+}
+
 }  // namespace
 
 Linearisation linearise(const Simulation& simulation) {
   Linearisation start;
   ChainSystem system(simulation.chain, *simulation.torque, simulation.limit, simulation.constraints);
-  const std::optional<State> target = target_of(simulation);
-  const State place = target ? *target : State{simulation.q0, simulation.qd0};
-  start.about_target = target.has_value();
+  const std::optional<State> held = held_state(system, simulation);
+  const State place = held ? *held : State{simulation.q0, simulation.qd0};
+  start.about_target = held.has_value();
   std::vector<double> qdd(place.qd.size());
   system.acceleration(0, place.q, place.qd, qdd);
   start.rate = largest_of(place.qd);
@@ -122,8 +170,7 @@ Linearisation linearise(const Simulation& simulation) {
   start.motion = without_noise({product(T.transpose(), product(slopes.K, T)), product(T.transpose(), product(slopes.D, T))});
   start.rates = rates_of(*start.motion);
   if (start.rates.empty()) start.trouble = "nothing swings or decays about the start";
-  const double force = std::max(1.0, slopes.K.cwiseAbs().maxCoeff());
-  start.is_equilibrium = start.rate == 0 && start.acceleration <= kNoise * force;
+  start.is_equilibrium = start.rate == 0 && is_rest(qdd, slopes);
   return start;
 }
 

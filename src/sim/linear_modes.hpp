@@ -1,5 +1,5 @@
-// The motion of a chain linearised about its start, or about the pose that its feedback holds: what decides whether a step is
-// stable there.
+// The motion of a chain linearised about its start, or about the rest to which its feedback brings it: what decides whether a step
+// is stable there.
 #pragma once
 
 #include <complex>
@@ -13,7 +13,9 @@
 namespace chainreel {
 
 struct Linearisation {
-  bool about_target = false;  // feedback (pd, computed torque) holds one pose, and that stands for the start here
+  // Feedback (pd, computed torque) has a target that does not move, and brings the robot to rest: that place, which sags below the
+  // target where gravity pulls, stands for the start here.
+  bool about_target = false;
   // The motion of small deviations from the start at t = 0, along what constraints leave free; nothing where
   // `trouble` says why there is none.
   std::optional<LinearMotion> motion;

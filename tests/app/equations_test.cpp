@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <sstream>
 
 #include "core/json.hpp"
 #include "support/run_program.hpp"
@@ -37,6 +38,19 @@ void expect_near(const Json& a, const Json& b, const std::string& what) {
       expect_near(a[i], b[i], what);
     else  // some hundred roundings of numbers up to 100
       EXPECT_NEAR(a[i].get<double>(), b[i].get<double>(), 1e-10 * (1 + std::abs(b[i].get<double>()))) << what;
+}
+
+TEST(Equations, HoldThePartsThatAreAskedForAndLongSumsOnSeveralLines) {
+  const std::string m = run_program({"equations", "models/rrr.urdf", "--latex", "--only", "M"}).out;
+  EXPECT_THAT(m, HasSubstr("M_{11} &="));
+  EXPECT_THAT(m, HasSubstr("\\\\\n  &\\quad + "));
+  for (const char* other : {"C_{11}", "g(q)", "J_{11}", "\\Lambda", "\\tau"}) EXPECT_THAT(m, testing::Not(HasSubstr(other)));
+  std::istringstream lines(m);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 175u) << line;
+  const std::string g = run_program({"equations", "models/rrr.urdf", "--only", "g,J"}).out;
+  EXPECT_THAT(g, testing::AllOf(HasSubstr("\ng(q):\n"), HasSubstr("\nJ(q)"), testing::Not(HasSubstr("M_11")), testing::Not(HasSubstr("Lambda"))));
+  EXPECT_THAT(run_program({"equations", "models/rrr.urdf", "--only", "m"}).err, HasSubstr("did you mean 'M'?"));
+  EXPECT_EQ(run_program({"equations", "models/rrr.urdf", "--only", "M", "--python"}).status, 2);
 }
 
 TEST(Equations, AsPythonSayWhatDynamicsSays) {

@@ -171,6 +171,21 @@ TEST_F(Verify, WherePhysicsAreANoteAnotherStepMayMoveEdges) {
   EXPECT_EQ(picture(results({}, "swing_suite.yaml"), "1s")["passed"], false);
 }
 
+TEST_F(Verify, TakesAnotherStepForNoChangeOfTheMotionWhereAsked) {
+  write("swing.yaml", "model: rr.urdf\nduration: 1\nmethod: rk4\nstep: 0.01\n");
+  write("swing_suite.yaml", "scene: swing.yaml\nsize: 320x180\nat: 1s\nphysics: motion\n");
+  accept_all("swing_suite.yaml");
+  const auto passes = [&] { return picture(results({}, "swing_suite.yaml"), "1s")["passed"].get<bool>(); };
+  replace("swing.yaml", "step: 0.01", "step: 0.02");
+  EXPECT_TRUE(passes());
+  // A start that is off by less than an edge of a pixel shows is another motion all the same.
+  replace("swing.yaml", "duration: 1", "start: {q: [0.2deg, 0]}\nduration: 1");
+  EXPECT_FALSE(passes());
+  replace("swing.yaml", "start: {q: [0.2deg, 0]}\n", "");
+  replace("swing.yaml", "method: rk4\nstep: 0.02", "method: explicit_euler\nstep: 0.02");
+  EXPECT_FALSE(passes()) << "that method moves it elsewhere";
+}
+
 TEST_F(Verify, LooksAtThePicturesThatAFilterNames) {
   accept_all();
   replace("arm.yaml", "60deg", "61deg");

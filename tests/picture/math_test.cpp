@@ -45,10 +45,12 @@ TEST(Math, MatricesAreBoldUprightExceptInScripts) {
   EXPECT_THAT(words("M J Lambda"), ElementsAre("\U0001D40C\U0001D409\U0001D6B2"));
   EXPECT_THAT(words("x_M"), ElementsAre("\U0001D465", "\U0001D440"));
   EXPECT_THAT(words("Omega"), ElementsAre("\U0001D6FA"));
-  // As LaTeX has them; a backslash before anything else is one.
+  // As LaTeX has them.
   EXPECT_THAT(words("\\Lambda"), ElementsAre("\U0001D6B2"));
   EXPECT_THAT(words("\\sin q"), ElementsAre("sin\U0001D45E"));
-  EXPECT_THAT(words("\\nonsense").front(), testing::HasSubstr("\\"));
+  EXPECT_THAT(words("a \\le b"), words("a <= b"));
+  EXPECT_THAT(words("\\left( a \\cdot b \\, \\right)"), words("( a * b )"));
+  for (const char* unknown : {"\\nonsense", "\\frac12", "x^2^3", "\\"}) EXPECT_THROW(words(unknown), Error) << unknown;
 }
 
 TEST(Math, MinusIsASignOfItsOwnAndCloserInFrontThanBetween) {

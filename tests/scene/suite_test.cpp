@@ -229,8 +229,9 @@ TEST_F(Suites, LookIsHandedOnAsKeysOfScenes) {
       read("model: arm.urdf\ntheme: dark\ncamera: {azimuth: 90deg, fit: [-1, 0, 2, 1.5]}\nphysics: note\n");
   EXPECT_THAT(suite.overrides, ElementsAre("camera.azimuth=1.5707963267948966", "theme=dark"));
   EXPECT_EQ(suite.fit, (std::array<double, 4>{-1, 0, 2, 1.5}));
-  EXPECT_FALSE(suite.physics_alone_fails);
-  EXPECT_TRUE(read("model: arm.urdf\n").physics_alone_fails);
+  EXPECT_EQ(suite.other_physics, OtherPhysics::note);
+  EXPECT_EQ(read("model: arm.urdf\n").other_physics, OtherPhysics::fail);
+  EXPECT_EQ(read("model: arm.urdf\nphysics: motion\n").other_physics, OtherPhysics::motion);
 }
 
 TEST_F(Suites, EachSourceIsShownOnceAVariant) {
@@ -311,7 +312,7 @@ TEST_F(Suites, AllProblemsAreToldAtOnce) {
   EXPECT_THAT(text, HasSubstr("'tolerance.error' is a perceptual difference from 0 to 1"));
   EXPECT_THAT(text, HasSubstr("unknown key 'tolerance.pixel'"));
   EXPECT_THAT(text, HasSubstr("'masks' must be a list of boxes"));
-  EXPECT_THAT(text, HasSubstr("'physics' must be fail or note"));
+  EXPECT_THAT(text, HasSubstr("'physics' must be fail, motion or note"));
   EXPECT_THAT(text, HasSubstr("'theme' must be light or dark"));
   EXPECT_THAT(text, HasSubstr("'at' goes with `scene:`"));
 }

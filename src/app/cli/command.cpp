@@ -9,6 +9,7 @@
 #include "core/format.hpp"
 #include "core/json.hpp"
 #include "model/chain.hpp"
+#include "model/followers.hpp"
 #include "scene/quantity.hpp"
 #include "scene/run/grid.hpp"
 #include "scene/text/unread.hpp"
@@ -138,7 +139,8 @@ std::vector<double> parse_counted(const std::vector<std::string>& names, const C
                                   const std::string& what, StateNumbers numbers, std::vector<std::string>& written) {
   constexpr std::size_t kMostNamed = 300;  // bytes
   std::vector<double> values = parse_list(text, what);
-  const std::vector<std::size_t> repeated = numbers_of_followers(chain, values, numbers);
+  const std::vector<std::size_t> repeated =
+      numbers == StateNumbers::tau ? std::vector<std::size_t>{} : numbers_of_followers(chain, values, numbers == StateNumbers::qd);
   for (std::size_t i = repeated.size(); i-- > 0 && written.size() > repeated[i];) {
     values.erase(values.begin() + std::ptrdiff_t(repeated[i]));
     written.erase(written.begin() + std::ptrdiff_t(repeated[i]));

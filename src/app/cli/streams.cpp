@@ -132,7 +132,8 @@ bool flush_standard_output() {
   Guard& guard = guard_of(STDOUT_FILENO);
   const bool flushed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && guard.trouble == 0;
   if (flushed && write_all(guard, guard.text.end())) return true;
-  std::fprintf(stderr, "standard output did not take all that was printed (%s)\n", std::strerror(guard.trouble));
+  // Who closed the pipe, like `head`, wants no more of it.
+  if (guard.trouble != EPIPE) std::fprintf(stderr, "standard output did not take all that was printed (%s)\n", std::strerror(guard.trouble));
   return false;
 }
 

@@ -100,7 +100,7 @@ Json cost_report(const Scene& scene, const Simulation& simulation, int frames) {
           {"energies_computed", frames},
           {"Lambda_computed", of_layer("ellipse")},
           {"torques_computed", of_layer("torque")},
-          {"constraint_forces_computed", of_layer("constraint_force")},
+          {"constraint_forces_computed", simulation.constraints.empty() ? 0 : of_layer("constraint_force")},
           {"M_computed", of_layer("mass_matrix")}};
 }
 

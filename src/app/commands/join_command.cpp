@@ -169,10 +169,21 @@ void run_join(const JoinOptions& options) {
     throw Error(ExitCode::usage, "-o " + options.output + ": its parts are " +
                                      fs::path(parts.front().path).extension().string() + " files, and joining encodes nothing");
   const bool force = options.common.force;
+  std::string base = fs::path(audit_path_of(options.output)).replace_extension().string();
+  OtherFiles others = others_audited(base + ".json", {options.output}, facts.audit);
+  std::unique_ptr<OutputFile> shared;  // the audit of another film, which told of this file, too
+  Json without_this;
+  if (!others.are_others.empty()) {
+    std::fprintf(stderr, "note: %s.json tells of %s, which shows something else: %s.json tells of this one\n", base.c_str(),
+                 joined(others.are_others).c_str(), options.output.c_str());
+    without_this = audit_without(base + ".json", {options.output});
+    if (!without_this.is_null()) shared = std::make_unique<OutputFile>(base + ".json", force);
+    base = options.output;
+    others = {};
+  }
   const auto beside = [&](const char* ending) {
-    std::string path = fs::path(options.output).replace_extension(ending).string();
-    require_own_sidecar(path, force);
-    return path;
+    require_own_sidecar(base + ending, force);
+    return base + ending;
   };
   JoinedFiles files{OutputFile(options.output, force), OutputFile(beside(".json"), force),
                     OutputFile(beside(".txt"), force), nullptr};
@@ -183,7 +194,8 @@ void run_join(const JoinOptions& options) {
   Json audit = facts.audit;
   Json film = audited_file(options.output);
   film.update(clip_facts(facts.settings.width, facts.settings.height, facts.settings.fps, facts.frames));
-  audit[kAuditedFiles] = Json::array({std::move(film)});
+  audit[kAuditedFiles] = others.entries;
+  audit[kAuditedFiles].push_back(std::move(film));
   audit[kSidecarHashes] = Json::object();
   write_whole(files.words, facts.words);
   audit[kSidecarHashes][".txt"] = sha256_of(facts.words);
@@ -192,6 +204,7 @@ void run_join(const JoinOptions& options) {
     audit[kSidecarHashes][".srt"] = sha256_of(facts.captions);
   }
   write_whole(files.audit, audit.dump(2) + "\n");
+  if (shared) write_whole(*shared, without_this.dump(2) + "\n");
   tell_result(options.common,
               [&] { return joined_json(options, facts.frames); },
               [&] { std::printf("%s: %d frames of %zu parts\n", options.output.c_str(), facts.frames, parts.size()); });

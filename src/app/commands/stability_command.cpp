@@ -122,7 +122,7 @@ void add_edges(const StabilityCells& cells, StabilityMap& map) {
 }
 
 const char* place_of(bool about_target) {
-  return about_target ? "the pose that feedback holds" : "the start";
+  return about_target ? "the rest that feedback leads to" : "the start";
 }
 
 StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {

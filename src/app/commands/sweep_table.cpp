@@ -21,6 +21,7 @@
 #include "core/output_file.hpp"
 #include "core/parallel.hpp"
 #include "dynamics/energy.hpp"
+#include "scene/keys/keys.hpp"
 #include "scene/quantity.hpp"
 #include "scene/run/prepare.hpp"
 #include "scene/text/unread.hpp"
@@ -96,27 +97,45 @@ FirstRun first_good_run(const SweepTableJob& job) {
   throw Error(*first);
 }
 
-// A value as a cell: numbers in SI units and radians, whatever they were written in; what is no number may hold anything.
-std::string cell_of(const Sweep& axis, std::size_t at) {
-  const std::string& value = axis.values[at];
-  try {
-    return format_shortest(parse_quantity(value, {}));
-  } catch (const Error&) {
+// The values of a key of numbers, in SI units and radians whatever they were written in; nothing where one is none.
+std::optional<std::vector<double>> numbers_of(const Sweep& axis) {
+  const SceneKey* key = find_key(axis.key);
+  if (key != nullptr && (key->form == KeyForm::text || key->form == KeyForm::path || key->form == KeyForm::word || key->form == KeyForm::accuracy)) return std::nullopt;
+  std::vector<double> numbers;
+  for (const std::string& value : axis.values) {
+    try {
+      numbers.push_back(parse_quantity(value, {}));
+    } catch (const Error&) {
+      return std::nullopt;
+    }
   }
-  return value.find_first_of(",\"\n\r") == std::string::npos ? value : csv_words(value);
+  return numbers;
+}
+
+// Each value as a cell; what is no number may hold anything.
+std::vector<std::string> cells_of(const Sweep& axis) {
+  std::vector<std::string> cells = axis.values;
+  if (const auto numbers = numbers_of(axis))
+    std::ranges::transform(*numbers, cells.begin(), format_shortest);
+  else
+    for (std::string& cell : cells)
+      if (cell.find_first_of(",\"\n\r") != std::string::npos) cell = csv_words(cell);
+  return cells;
 }
 
 // What a thread computes rows with.
 class RowMaker {
  public:
   RowMaker(const SweepTableJob& job, std::string states, std::size_t peaks, std::size_t events)
-      : job_(job), file_(job.scene), states_(std::move(states)), peaks_(peaks), events_(events) {}
+      : job_(job), file_(job.scene), states_(std::move(states)), peaks_(peaks), events_(events) {
+    for (const Sweep& axis : job.grid.axes()) cells_.push_back(cells_of(axis));
+  }
 
   // Without the end of its line.
   std::string row(std::size_t run) {
     std::string row = std::to_string(run);
     const std::vector<std::size_t> at = job_.grid.places(run);
-    for (std::size_t i = 0; i < at.size(); ++i) row += "," + cell_of(job_.grid.axes()[i], at[i]);
+    for (std::size_t i = 0; i < at.size(); ++i) row += "," + cells_[i][at[i]];
     try {
       Scene scene = scene_of(file_, settings_of(job_, run));
       const Simulation simulation = prepare(scene, false, last_);
@@ -159,6 +178,7 @@ class RowMaker {
   std::string no_state() const { return std::string(std::size_t(std::count(states_.begin(), states_.end(), ',')), ','); }
 
   const SweepTableJob& job_;
+  std::vector<std::vector<std::string>> cells_;  // by axis and value
   SceneFile file_;
   LastChain last_;
   std::string states_;

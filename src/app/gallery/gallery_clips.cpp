@@ -52,7 +52,9 @@ void add_films_in(const fs::path& folder, std::vector<std::string>& found) {
     const fs::path& path = entry.path();
     if (std::error_code code; !entry.is_regular_file(code) || browser_type_of(path).empty() || is_partial(path)) continue;
     std::error_code code;
-    if (path.extension() == ".webm" && fs::exists(fs::path(path).replace_extension(".mp4"), code)) continue;
+    // The same film once, for which one audit speaks.
+    const std::string other = fs::path(path).replace_extension(".mp4").string();
+    if (path.extension() == ".webm" && fs::exists(other, code) && audit_path_of(path.string()) == audit_path_of(other)) continue;
     in_folder.push_back(path.string());
   }
   std::sort(in_folder.begin(), in_folder.end());

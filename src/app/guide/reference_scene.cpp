@@ -51,10 +51,10 @@ std::string value_words(const KeyText& text) {
       return "expression";
     case KeyForm::list:
       if (text.parts[0].form == KeyForm::list && is_short(text)) return "list of lists" + value_words(text.parts[0]).substr(4);
-      return is_short(text) ? "list of " + value_cell(text.parts[0]) + "s" : "list, see below";
+      return is_short(text) ? "list of " + value_cell(text.parts[0]) + (value_cell(text.parts[0]).ends_with("`") ? "" : "s") : "list, see below";
     case KeyForm::mapping:
       if (text.parts[0].form == KeyForm::either && !is_short(text)) return "names, each with a text, or keys";
-      return "names, each with a " + value_words(text.parts[0]);
+      return is_short(text.parts[0]) ? "names, each with a " + value_words(text.parts[0]) : "names, each with what is said below";
     case KeyForm::record:
       return "see below";
     case KeyForm::either:

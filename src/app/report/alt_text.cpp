@@ -121,7 +121,7 @@ std::string speed_words(const FilmReport& report) {
   return stretches.empty() ? "" : "; not at its own speed: " + joined(stretches);
 }
 
-// "Constraints: missed by 3.9e-16 at most; largest multipliers: lambda1 [N] 3.36e+03 (line gripper)": a line of each run that has some.
+// "Constraints: missed by 3.9e-16 at most; largest multipliers: lambda1 [N] 3360 at t = 1.31 s (line gripper)": a line of each run that has some.
 std::string constraint_lines(const FilmReport& report) {
   std::string text;
   for (const RunReport& run : report.panels) {
@@ -131,7 +131,8 @@ std::string constraint_lines(const FilmReport& report) {
     const std::vector<std::string> columns = multiplier_columns(run.prepared.simulation.chain, run.prepared.simulation.constraints.list);
     for (std::size_t i = 0; i < columns.size(); ++i)
       text += (i == 0 ? "; largest multipliers: " : ", ") + columns[i] + " " +
-              format_significant(facts["rows"][i]["largest_lambda"].get<double>(), 4) + " (" + facts["rows"][i]["name"].get<std::string>() + ")";
+              format_significant(facts["rows"][i]["largest_lambda"].get<double>(), 4) + " at t = " +
+              format_significant(facts["rows"][i]["largest_lambda_time"].get<double>(), 4) + " s (" + facts["rows"][i]["name"].get<std::string>() + ")";
     text += "\n";
   }
   return text;

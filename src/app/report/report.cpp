@@ -95,13 +95,18 @@ std::string algorithm_of(const Chain& chain, const ConstrainedWorkspace& cws, bo
          (cws.kernel.doubled ? ", equal rows once" : "");
 }
 
+struct LargestMultiplier {
+  double size = 0, t = 0;
+};
+
 // The largest of each row's multiplier over the run, between the samples too where it is known there.
-std::vector<double> largest_multipliers(const Trajectory& run) {
+std::vector<LargestMultiplier> largest_multipliers(const Trajectory& run) {
   const Trajectory& trajectory = run.between && run.between->rows == run.rows ? *run.between : run;
-  std::vector<double> largest(std::size_t(trajectory.rows));
+  std::vector<LargestMultiplier> largest(std::size_t(trajectory.rows));
   for (int k = 0; k < trajectory.size(); ++k) {
     const auto lambda = trajectory.lambda_at(k);
-    for (std::size_t i = 0; i < largest.size(); ++i) largest[i] = std::max(largest[i], std::fabs(lambda[i]));
+    for (std::size_t i = 0; i < largest.size(); ++i)
+      if (std::fabs(lambda[i]) > largest[i].size) largest[i] = {std::fabs(lambda[i]), trajectory.t[std::size_t(k)]};
   }
   return largest;
 }
@@ -146,9 +151,9 @@ Json constraint_run_report(const Simulation& simulation, const Trajectory& traje
             {"position_error", trajectory.position_error},
             {"velocity_error", trajectory.velocity_error},
             {"rows", Json::array()}};
-  const std::vector<double> largest = largest_multipliers(trajectory);
+  const std::vector<LargestMultiplier> largest = largest_multipliers(trajectory);
   for (std::size_t i = 0; i < largest.size(); ++i)
-    json["rows"].push_back({{"name", set.row_names()[i]}, {"largest_lambda", largest[i]}});
+    json["rows"].push_back({{"name", set.row_names()[i]}, {"largest_lambda", largest[i].size}, {"largest_lambda_time", largest[i].t}});
   json["force_at_start"] = json["force_at_end"] = Json::array();
   if (trajectory.size() == 0) return json;
   Workspace ws(chain);

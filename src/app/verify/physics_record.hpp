@@ -33,6 +33,9 @@ bool have_other_looks(const Json& before, const Json& after);
 // = 0.81 s on (largest 0.02 rad at t = 3.2 s): method rk4 -> dop853".
 std::vector<std::string> explain_runs(const Json& before, const Json& after);
 
+// Whether nothing but the method, its step or its tolerances differs, and no coordinate by more than a thousandth of its range.
+bool is_same_motion(const Json& before, const Json& after);
+
 // "pose: elbow 90 -> 90.06 deg". Positions in the order of `coordinate_names` (position_names of a chain).
 // Units are known where `model`, the record of the later model, is given.
 std::vector<std::string> explain_poses(const std::vector<double>& before, const std::vector<double>& after,

@@ -1,6 +1,7 @@
 // What differs between two records, in words.
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numbers>
 
@@ -228,7 +229,27 @@ std::vector<std::string> explained(const Json& before, const Json& after) {
   return sentences;
 }
 
+// What says how a motion is computed, not which.
+constexpr std::array<std::string_view, 5> kKeysOfMethods = {"method", "step", "tolerance", "order", "accuracy"};
+
+Json without_method(Json panel) {
+  for (const std::string_view key : kKeysOfMethods) panel["keys"].erase(std::string(key));
+  for (const char* own : {"method", "trajectory"}) panel.erase(own);
+  return panel;
+}
+
 }  // namespace
+
+bool is_same_motion(const Json& before, const Json& after) {
+  constexpr double kOfRange = 1e-3;
+  const Json &old = before.at("panels"), &now = after.at("panels");
+  if (old.size() != now.size() || before.at("models") != after.at("models") || before.at("page") != after.at("page")) return false;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (without_method(old[i]) != without_method(now[i])) return false;
+    if (!difference_of(trajectory_of(old[i].at("trajectory")), trajectory_of(now[i].at("trajectory")), kOfRange).empty()) return false;
+  }
+  return true;
+}
 
 std::vector<std::string> explain_models(const Json& before, const Json& after) {
   std::vector<std::string> sentences;

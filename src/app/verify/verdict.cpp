@@ -111,6 +111,11 @@ std::vector<std::string> page_words(const Json& before, const Json& now) {
   return words;
 }
 
+bool has_same_motion(const Json& before, const Json& now) {
+  return before.contains("run") && now.contains("run") && before.value("source", Json()) == now.value("source", Json()) &&
+         before.at("t") == now.at("t") && is_same_motion(before.at("run"), now.at("run"));
+}
+
 std::string pixel_words(const SuitePicture& picture, const ImageDifference& difference) {
   if (difference.is_equal())
     return picture.masks.empty() ? "the same pixels" : "the same pixels outside of the masks";
@@ -169,7 +174,8 @@ PictureVerdict judge(const Suite& suite, const SuitePicture& picture, const Suit
   } else {
     verdict.state = same_pixels ? PictureState::physics : PictureState::changed;
   }
-  const bool same_enough = same_physics || !suite.physics_alone_fails;
+  const bool same_enough = same_physics || suite.other_physics == OtherPhysics::note ||
+                           (suite.other_physics == OtherPhysics::motion && has_same_motion(baseline.physics, shot.physics));
   verdict.passes = difference.same_size && same_enough && near;
   if (verdict.state == PictureState::same) return verdict;
   for (std::string& words : page_words(baseline.page, shot.page)) verdict.words.push_back(std::move(words));

@@ -188,29 +188,36 @@ Json audited_files(const RenderJob& job, const std::vector<std::string>& paths, 
   return files;
 }
 
-// Texts and audit of this name are called x.gif.txt and so on, where nothing is called so yet and x.gif is the one file that they
-// speak of.
-bool are_renamed(std::vector<Sidecar>& sidecars, const std::string& audit, const RenderJob& job) {
+// Texts and audit of this name are called x.gif.txt and so on, for each file x.gif that they speak of, where nothing is called so
+// yet. The new audits; none where they keep their name.
+std::vector<std::string> rename_sidecars(std::vector<Sidecar>& sidecars, const std::string& audit, const RenderJob& job) {
   const auto is_of_audit = [&](const std::string& path) { return fs::path(path).replace_extension(".json") == fs::path(audit); };
-  const auto own = std::find_if(job.targets.begin(), job.targets.end(), [&](const Target& target) { return is_of_audit(target.path); });
-  if (own == job.targets.end() || own->format->is_sequence ||
-      std::any_of(own + 1, job.targets.end(), [&](const Target& target) { return is_of_audit(target.path); }))
-    return false;
-  const auto renamed = [&](const Sidecar& sidecar) { return own->path + fs::path(sidecar.file->path()).extension().string(); };
-  const auto for_each_own = [&](auto act) {
-    for (Sidecar& sidecar : sidecars)
-      if (is_of_audit(sidecar.file->path())) act(sidecar);
-  };
-  bool is_free = true;
-  for_each_own([&](const Sidecar& sidecar) { is_free = is_free && !fs::exists(fs::symlink_status(renamed(sidecar))); });
-  if (is_free) for_each_own([&](Sidecar& sidecar) { sidecar.file = std::make_unique<OutputFile>(renamed(sidecar), job.overwrite); });
-  return is_free;
+  std::vector<Target> own;
+  std::ranges::copy_if(job.targets, std::back_inserter(own), [&](const Target& target) { return is_of_audit(target.path); });
+  const auto ending_of = [](const Sidecar& sidecar) { return fs::path(sidecar.file->path()).extension().string(); };
+  std::vector<Sidecar> renamed;
+  std::vector<std::string> audits;
+  for (const Target& target : own) {
+    if (target.format->is_sequence) return {};
+    audits.push_back(target.path + ".json");
+    for (const Sidecar& sidecar : sidecars) {
+      if (!is_of_audit(sidecar.file->path())) continue;
+      const std::string path = target.path + ending_of(sidecar);
+      if (fs::exists(fs::symlink_status(path))) return {};
+      renamed.push_back({std::make_unique<OutputFile>(path, job.overwrite), sidecar.what, target});
+    }
+  }
+  if (renamed.empty()) return {};
+  std::erase_if(sidecars, [&](const Sidecar& sidecar) { return is_of_audit(sidecar.file->path()); });
+  std::ranges::move(renamed, std::back_inserter(sidecars));
+  return audits;
 }
 
 // What audits beside a film's files say of others.
 struct OtherAudits {
   std::map<std::string, Json> kept;                                          // by the audit that tells of them on
   std::vector<std::pair<std::unique_ptr<OutputFile>, Json>> without_these;  // audits that told of this film's files, too
+  std::vector<std::string> lost;                                             // said of audits that tell of these alone from now on
 };
 
 // Other files that an audit of ours tells of already stay in it where they show the very same; where they do not, what is told of
@@ -219,20 +226,26 @@ OtherAudits others_kept(std::vector<Sidecar>& sidecars, const RenderJob& job, Re
   OtherAudits audits;
   std::vector<std::string> files;
   for (const Target& target : job.targets) files.push_back(target.path);
-  for (std::size_t i = 0; i < sidecars.size(); ++i) {
-    if (sidecars[i].what != Sidecar::audit) continue;
-    const std::string path = sidecars[i].file->path();
+  std::vector<std::string> paths;
+  for (const Sidecar& sidecar : sidecars)
+    if (sidecar.what == Sidecar::audit) paths.push_back(sidecar.file->path());
+  for (const std::string& path : paths) {
     const OtherFiles others = others_audited(path, files, result.audit);
     const std::string what = joined(others.are_others) + ", which is still there and shows something else: ";
-    if (others.are_others.empty())
+    if (others.are_others.empty()) {
       audits.kept[path] = others.entries;
-    else if (are_renamed(sidecars, path, job)) {
-      result.notes.push_back(path + " tells of " + what + sidecars[i].file->path() + " tells of this one");
-      if (const Json left = audit_without(path, files); !left.is_null())
-        audits.without_these.emplace_back(std::make_unique<OutputFile>(path, job.overwrite), left);
-    } else
-      result.notes.push_back(path + " told of " + what + "give both files in one command, or other names");
-    audits.kept.try_emplace(sidecars[i].file->path(), Json::array());
+      continue;
+    }
+    const std::vector<std::string> renamed = rename_sidecars(sidecars, path, job);
+    for (const std::string& audit : renamed) audits.kept[audit] = Json::array();
+    if (renamed.empty()) {
+      audits.kept[path] = Json::array();
+      audits.lost.push_back(path + " told of " + what + "it tells of this film alone now; give both files in one command, or other names");
+      continue;
+    }
+    result.notes.push_back(path + " tells of " + what + joined(renamed) + (renamed.size() > 1 ? " tell of these" : " tells of this one"));
+    if (const Json left = audit_without(path, files); !left.is_null())
+      audits.without_these.emplace_back(std::make_unique<OutputFile>(path, job.overwrite), left);
   }
   return audits;
 }
@@ -394,6 +407,8 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   }
   const OtherAudits others = others_kept(sidecars, job, result);
   tell(report, job, result);
+  if (job.tells) tell_warnings(others.lost);
+  std::ranges::copy(others.lost, std::back_inserter(result.warnings));
   result.files = commit(outputs);
   result.audit[kAuditedFiles] = audited_files(job, result.files, report);
   forget_chunks(outputs, range, total_frames);

@@ -118,7 +118,7 @@ class VectorLayer : public Layer {
   // What is rounding beside the other drives, of which nobody asked for an arrow at a scale of its own: sliders that rest while
   // torques act, or the other way round.
   static void leave_out_noise(std::array<double, kVectorKinds.size()>& full, double reach) {
-    constexpr double kNoise = 1e-5;
+    constexpr double kNoise = 1e-4;
     double &turning = full[std::size_t(VectorKind::torque)], &pushing = full[std::size_t(VectorKind::joint_force)];
     if (!(reach > 0)) return;
     if (pushing < kNoise * turning / reach) pushing = 0;

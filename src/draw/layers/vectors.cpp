@@ -171,8 +171,8 @@ std::vector<ScaleEntry> scale_entries(const VectorScales& scales, const std::vec
     const std::string unit = "\u2009" + unit_of(kind);
     const double cut_above = kind == VectorKind::torque ? kWidestTurn / kTurnOfFull : size::kArrowCut / size::kLongestArrow;
     const double most = scales.most[std::size_t(kind)];
-    const std::string broken = most > cut_above * scale.full ? ", broken: up to " + format_significant(most, 2) + unit : "";
-    entries.push_back({mark, scale.on_page(value), color_of(kind, theme), name + format_shortest(value) + unit + broken});
+    const std::string cut = most > cut_above * scale.full ? ", cut beyond (up to " + format_significant(most, 2) + unit + ")" : "";
+    entries.push_back({mark, scale.on_page(value), color_of(kind, theme), name + format_shortest(value) + unit + cut});
   }
   return entries;
 }

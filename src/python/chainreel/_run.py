@@ -47,6 +47,9 @@ class Scene:
             scene = {key: value for key, value in scene.items() if key != "torque"}
         self._text = text_of(_with_model(scene)) if isinstance(scene, Mapping) else None
         self._path = name if isinstance(scene, Mapping) else os.fspath(scene)
+        twice = [key for key in keys if key in (set or {})]
+        if twice:
+            raise TypeError(f"{', '.join(twice)}: given as an argument and in set")
         self._overrides = overrides_of({**keys, **(set or {})})
         self._torque = torque
 

@@ -19,11 +19,4 @@ enum class StateNumbers { q, qd, tau };
 // `written`: as above, one a coordinate (q) or a freedom.
 std::string trouble_of_units(const Chain& chain, std::span<const std::string> written, StateNumbers numbers);
 
-// "panda_finger_joint2 follows panda_finger_joint1 and has no number of its own", of all joints that mimic others; "" where none does.
-std::string followers_of(const Chain& chain);
-
-// Of a list with a number of every joint, in the model's order, where a chain has fewer freedoms, since some joints mimic others:
-// which ones are of those, where they are what the joints that lead them make of them. Empty of all other lists.
-std::vector<std::size_t> numbers_of_followers(const Chain& chain, std::span<const double> values, StateNumbers numbers);
-
 }  // namespace chainreel

@@ -6,6 +6,7 @@
 
 #include "expr/expression.hpp"
 #include "model/chain.hpp"
+#include "model/followers.hpp"
 #include "model/read_chain.hpp"
 #include "scene/annotation.hpp"
 #include "scene/keys/own_keys.hpp"
@@ -27,8 +28,7 @@ void check_length(std::vector<double>& values, const std::vector<double>& absent
     values.pop_back();
     if (values.size() < absent.size()) values.resize(absent.size(), std::nan(""));
   }
-  const StateNumbers numbers = key == "start.qd" ? StateNumbers::qd : StateNumbers::q;
-  const std::vector<std::size_t> repeated = is_partial ? std::vector<std::size_t>{} : numbers_of_followers(chain, values, numbers);
+  const std::vector<std::size_t> repeated = is_partial ? std::vector<std::size_t>{} : numbers_of_followers(chain, values, key == "start.qd");
   for (std::size_t i = repeated.size(); i-- > 0;) values.erase(values.begin() + std::ptrdiff_t(repeated[i]));
   if (values.empty()) {
     values = absent;

@@ -32,9 +32,9 @@ struct StabilityCells {
   int threads = 1;
   bool in_batches = false;  // stepped together by BatchSimulator
   // Where one key is `step` (else StabilityCell::stable says it): for each value of the other the longest
-  // stable step of the motion linearised about the start, or about what feedback holds.
+  // stable step of the motion linearised about the start, or about the rest that feedback leads to.
   std::vector<std::optional<double>> boundary;
-  bool about_target = false;  // theory is about the pose that feedback holds, in every cell
+  bool about_target = false;  // theory is about the rest that feedback leads to, in every cell
 
   const StabilityCell& at(std::size_t ix, std::size_t iy) const { return cells[iy * x.values.size() + ix]; }
 };

@@ -25,9 +25,9 @@ namespace fs = std::filesystem;
 constexpr const char* kDefaultFile = "snapshots.yaml";
 constexpr std::size_t kMostPictures = 10'000;
 
-enum class PhysicsAlone { fail, note };
-constexpr Name kPhysicsAlone[] = {{"fail", "other physics behind the same pixels is a failure"},
-                                  {"note", "it is said, no more"}};
+constexpr Name kOtherPhysics[] = {{"fail", "other physics is a failure, be the pixels the same"},
+                                  {"motion", "another method, step or tolerance is none as long as no coordinate moves by more than a thousandth of its range"},
+                                  {"note", "it is said, no more, and what differs in the picture is weighed"}};
 
 // Keys of scenes that a suite may set for all its pictures; sections with all that is in them.
 const std::vector<std::string> kLookKeys{"base",    "massless", "packages", "end_effector", "links",
@@ -87,9 +87,7 @@ class SuiteReader {
     for (const auto* list : {&variants_.own, &variants_.otherwise}) suite_.variants.insert(suite_.variants.end(), list->begin(), list->end());
     read_look();
     read_suite_settings(root_, common_);
-    PhysicsAlone physics = PhysicsAlone::fail;
-    if (const auto index = root_.read_word("physics", kPhysicsAlone)) physics = PhysicsAlone(*index);
-    suite_.physics_alone_fails = physics == PhysicsAlone::fail;
+    if (const auto index = root_.read_word("physics", kOtherPhysics)) suite_.other_physics = OtherPhysics(*index);
     read_own_settings();
     root_.finish("snapshots");
     check_together();

@@ -53,6 +53,9 @@ struct SuiteVariant {
   Place place;
 };
 
+// Key `physics`: what is made of physics other than the baseline's.
+enum class OtherPhysics { fail, motion, note };
+
 struct Suite {
   std::string file;  // as given; of a folder with `snapshots.yaml`, that file
   std::string name;  // stem
@@ -62,7 +65,7 @@ struct Suite {
   std::vector<std::string> overrides;  // what the suite sets of all scenes and models, KEY=VALUE as for --set
   std::vector<Place> override_places;  // where it says so, a place each
   std::vector<SuiteVariant> variants;  // each source is shown once a variant; none: once
-  bool physics_alone_fails = true;     // `physics: fail`: other physics behind the same pixels is a failure
+  OtherPhysics other_physics = OtherPhysics::fail;
 };
 
 // Reads each model once. Throws Error with every problem: file, line, remedy.

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/format.hpp"
+#include "model/followers.hpp"
 
 namespace chainreel {
 namespace {
@@ -61,11 +62,14 @@ class PoseSetter {
   }
 
   void set_by_order() {
-    if (written_.numbers.size() != q_.size())
-      return fail("has " + std::to_string(written_.numbers.size()) + " numbers, but " + file_.path +
+    std::vector<double> numbers = written_.numbers;
+    const std::vector<std::size_t> repeated = numbers_of_followers(chain_, numbers, false);
+    for (std::size_t i = repeated.size(); i-- > 0;) numbers.erase(numbers.begin() + std::ptrdiff_t(repeated[i]));
+    if (numbers.size() != q_.size())
+      return fail("has " + std::to_string(numbers.size()) + " numbers, but " + file_.path +
                       " needs " + std::to_string(q_.size()) + ": " + joined(names_),
                   written_.place);
-    for (std::size_t i = 0; i < q_.size(); ++i) set(i, written_.numbers[i], written_.place);
+    for (std::size_t i = 0; i < q_.size(); ++i) set(i, numbers[i], written_.place);
   }
 
   void set_by_name() {

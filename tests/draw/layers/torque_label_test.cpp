@@ -15,7 +15,8 @@ std::string label(const std::string& model, const std::vector<std::string>& entr
 
 TEST(TorqueLabel, SaysWhatActsAsTheLectureWritesIt) {
   EXPECT_EQ(label("rrr", {"10", "10", "10"}), "tau = (10, 10, 10) N m");
-  EXPECT_EQ(label("rr", {"0", "0"}), "tau = (0, 0) N m");
+  EXPECT_EQ(label("rr", {"0", "5"}), "tau = (0, 5) N m");
+  EXPECT_EQ(label("rr", {"0", "0.0"}), "tau = 0");
 }
 
 TEST(TorqueLabel, ShowsExpressionsAsWritten) {
@@ -29,7 +30,7 @@ TEST(TorqueLabel, RaisesExponentsAsAWhole) {
 }
 
 TEST(TorqueLabel, WithoutEntriesSaysThatNothingActs) {
-  EXPECT_EQ(label("rrr", {}), "tau = (0, 0, 0) N m");
+  EXPECT_EQ(label("rrr", {}), "tau = 0");
 }
 
 TEST(TorqueLabel, OfOneJointNeedsNoBracketsAroundANumber) {
@@ -40,7 +41,9 @@ TEST(TorqueLabel, OfOneJointNeedsNoBracketsAroundANumber) {
 TEST(TorqueLabel, HasNoUnitWhereForcesAndTorquesMix) {
   Chain chain = test::model("rr");
   chain.bodies[2].joint.kind = JointKind::prismatic;
-  EXPECT_EQ(torque_notations(chain, {}).front(), "tau = (0, 0)");
+  std::vector<TorqueEntry> torque(2);
+  torque[0].text = "1", torque[1].text = "0";
+  EXPECT_EQ(torque_notations(chain, torque).front(), "tau = (1, 0)");
 }
 
 TEST(TorqueLabel, NamesWhatAControlDoes) {
