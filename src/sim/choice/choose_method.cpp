@@ -25,6 +25,8 @@ constexpr double kSpread = 10;
 constexpr double kFirstBound = 1e-3;
 constexpr double kNextBound = 4;  // times the one before
 constexpr double kFarMiss = 10;   // times the accuracy
+// Where a method is exact enough with no setting, others are tried up to this many times the cost of the most exact one.
+constexpr double kBeyondMostExact = 3;
 
 bool takes_the_chain(Simulation& simulation, const Method& method) {
   simulation.method = &method;
@@ -86,6 +88,7 @@ class Chooser {
     shorten();
     for (const Method* method : methods_) {
       if (has_ended()) break;
+      if (!choice_.is_met && std::isfinite(choice_.best.error)) most_beyond_ = kBeyondMostExact * choice_.best.cost;
       if (method->adaptive)
         try_tolerances(*method);
       else
@@ -142,7 +145,9 @@ class Chooser {
       candidate.curve = worst.name;
     }
     if (trajectory.status == RunStatus::out_of_budget)
-      candidate.trouble = choice_.is_met ? "given up: dearer than the best" : "given up: out of the budget";
+      candidate.trouble = choice_.is_met     ? "given up: dearer than the best"
+                          : most_beyond_ ? "given up: far dearer than the most exact so far"
+                                            : "given up: out of the budget";
     else if (!ran(trajectory))
       candidate.trouble = trajectory.trouble.empty() ? "does not end where the motion does" : trajectory.trouble;
     return candidate;
@@ -170,7 +175,7 @@ class Chooser {
   // What costs more than the best can be left.
   double ceiling() const {
     const double most = kShareOfCandidate * runs_.budget();
-    if (!choice_.is_met) return most;
+    if (!choice_.is_met) return std::min(most, most_beyond_.value_or(most));
     return is_shortened() ? std::min(most, kSpread * choice_.best.cost) : choice_.best.cost;
   }
 
@@ -187,7 +192,7 @@ class Chooser {
     }
     choice_.tried.push_back(candidate);
     if (trajectory.status == RunStatus::out_of_budget) {
-      left_out_ = true;
+      left_out_ = left_out_ || !most_beyond_;
       return Verdict::too_dear;
     }
     return met ? Verdict::met : Verdict::not_met;
@@ -248,7 +253,7 @@ class Chooser {
   // Whether steps as short as may be would miss the accuracy, too, by far, though errors fell an order faster than the
   // method's. Errors as large as the motion itself fall later than that.
   bool is_out_of_reach(const Method& method, const Choice::Candidate& last) const {
-    if (!choice_.is_met || !std::isfinite(last.error)) return false;
+    if ((!choice_.is_met && !most_beyond_) || !std::isfinite(last.error)) return false;
     const double finer = std::max(1.0, ceiling() / last.cost);
     return last.error > kFarMiss * accuracy_.value * std::pow(finer, method.order + 1);
   }
@@ -260,8 +265,8 @@ class Chooser {
       const double steps = simulation_.duration / step;
       const double cost = runs_.cost_of(setting, steps, steps * std::max(1, method.evaluations_per_step));
       if (is_hopeless(cost)) return;
-      if (cost > kShareOfCandidate * runs_.budget()) {
-        left_out_ = true;
+      if (cost > ceiling()) {
+        left_out_ = left_out_ || !most_beyond_;
         return;
       }
       if (has_ended() || try_one(setting) != Verdict::not_met) return;
@@ -319,6 +324,7 @@ class Chooser {
   std::optional<Deviation> deviation_;
   std::optional<CurveDeviation> curves_;
   bool left_out_ = false;  // something, for its price
+  std::optional<double> most_beyond_;  // where none of the methods so far is exact enough
   Choice choice_;
 };
 
