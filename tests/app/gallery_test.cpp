@@ -68,6 +68,18 @@ TEST(Gallery, TakesAWebmWhereThereIsNoMp4AndLeavesPartialFilms) {
   EXPECT_THAT(page(folder), HasSubstr("data:video/webm;base64,"));
 }
 
+// Two films of one name are two where each has its own audit.
+TEST(Gallery, ShowsAWebmBesideAnotherFilmOfItsName) {
+  const TemporaryFolder folder;
+  render(folder, "a.mp4");
+  ASSERT_EQ(run_program({"render", "assets/scenes/rr_torque.yaml", "-o", folder.file("a.webm"), "--quiet", "--force", "--set", "duration=0.3", "--set",
+                         "video.width=160", "--set", "video.height=90"})
+                .status,
+            0);
+  EXPECT_TRUE(fs::exists(folder.file("a.webm.json")));
+  EXPECT_EQ(Json::parse(gallery(folder, {"--json"}).out)["clips"], 2);
+}
+
 // A render that was killed leaves such a file, one that runs writes it.
 TEST(Gallery, LeavesFilmsThatAreBeingWritten) {
   const TemporaryFolder folder;

@@ -357,6 +357,20 @@ TEST(Outputs, AreInTheirAuditWithSizeAndHash) {
   EXPECT_EQ(outputs().size(), 1u);
 }
 
+TEST(Outputs, SeveralOfAnotherFilmsNameHaveAuditsOfTheirOwn) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(render({"-o", folder.file("a.mp4")}).status, 0);
+  const ProgramResult two = render({"-o", folder.file("a.gif"), "-o", folder.file("a.webm"), "--set", "duration=0.3", "--force"});
+  ASSERT_EQ(two.status, 0) << two.err;
+  for (const char* film : {"a.mp4", "a.gif", "a.webm"}) {
+    const ProgramResult check = run_program({"check", folder.file(film)});
+    EXPECT_EQ(check.status, 0) << film << check.err;
+  }
+  // What takes over an audit all the same is a warning, however quiet.
+  const ProgramResult frames = render({"-o", folder.file("a_000000.png"), "--set", "duration=0.3", "--force", "--quiet"});
+  EXPECT_THAT(frames.err, HasSubstr("WARNING: " + folder.file("a.json") + " told of " + folder.file("a.mp4")));
+}
+
 TEST(Outputs, StillsShowTheFrameThatIsAskedFor) {
   const TemporaryFolder folder;
   ASSERT_EQ(render({"--at", "0.13", "-o", folder.file("a.png"), "-o", folder.file("a_000000.png")}).status,

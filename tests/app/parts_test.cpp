@@ -121,6 +121,29 @@ TEST_F(Parts, JoinedAreTheWholeFilmByteForByte) {
   }
 }
 
+TEST_F(Parts, JoinedBesideOthersOfTheirNameLeaveTheirAuditTrue) {
+  const TemporaryFolder folder;
+  const Words brief{"--set", "duration=0.3", "--shard", "1/1", "-o", folder.file("p.webm")};
+  render(folder.file("p.mp4"), brief);
+  Words parts;
+  for (const auto& [name, bytes] : files_in(folder.path())) parts.push_back(name);
+  const auto part = [&](const std::string& ending) {
+    for (const std::string& name : parts)
+      if (name.ends_with(ending) && name.find(".part") != std::string::npos) return folder.file(name);
+    return std::string();
+  };
+  for (const char* ending : {".mp4", ".webm"}) {
+    const ProgramResult result = run_program({"join", part(ending), "-o", folder.file(std::string("y") + ending), "--force"});
+    ASSERT_EQ(result.status, 0) << result.err;
+  }
+  for (const char* film : {"y.mp4", "y.webm"}) EXPECT_EQ(run_program({"check", folder.file(film)}).status, 0) << "both are told of";
+  // Another film of the name keeps its audit, and the joined one has its own.
+  render(folder.file("z.mp4"), {"--set", "duration=0.4"});
+  const ProgramResult other = run_program({"join", part(".webm"), "-o", folder.file("z.webm"), "--force"});
+  EXPECT_THAT(other.err, HasSubstr("z.webm.json tells of this one"));
+  for (const char* film : {"z.mp4", "z.webm"}) EXPECT_EQ(run_program({"check", folder.file(film)}).status, 0) << film;
+}
+
 TEST_F(Parts, OfOpacityAndOfFramesAsPicturesAreTheWhole) {
   const TemporaryFolder whole, parts, joined;
   const Words look{"--preset", "overlay", "--set", "duration=0.9"};

@@ -87,6 +87,19 @@ TEST(SweepTable, ColumnsOfValuesAreNumbers) {
   EXPECT_EQ(fields_of(lines[7])[2], "0.002");
 }
 
+TEST(SweepTable, WordsStayWords) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"sweep", kScene, "--set", "duration=0.1", "--over", "title=1e3,10ms,007", "--over", "accuracy=0.1 px,0.1 m", "--set",
+                         "method=auto", "--set", "step=", "-o", folder.file("a.csv")})
+                .status,
+            0);
+  const std::vector<std::string> lines = lines_of(folder.file("a.csv"));
+  EXPECT_EQ(fields_of(lines[4])[1], "1e3");
+  EXPECT_EQ(fields_of(lines[4])[2], "0.1 px");
+  EXPECT_EQ(fields_of(lines[9])[1], "007");
+  EXPECT_EQ(fields_of(lines[9])[2], "0.1 m");
+}
+
 TEST(SweepTable, AnEventCalledLikeAColumnHasAKeyOfItsOwn) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("e.yaml", "model: {links: [1]}\nstart: {q: [1]}\nduration: 1\nmethod: rk4\nstep: 0.01\nevents: [{when: q1, name: energy}]\n");

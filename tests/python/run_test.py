@@ -59,6 +59,10 @@ class Runs(FolderTest):
         by_keys = cr.Scene(FALL, torque=["sin(t)", 0], set={"video.fps": 30}).run()
         np.testing.assert_array_equal(by_keys.q, by_dict.q[::2])
 
+    def test_a_key_given_twice_is_an_error(self):
+        with self.assertRaisesRegex(TypeError, "duration: given as an argument and in set"):
+            cr.Scene(FALL, set={"duration": 0.2}, duration=0.3)
+
     def test_energy_is_what_the_model_says(self):
         run = cr.Scene({**FALL, "torque": ["sin(t)", "-qd2"]}).run()
         model = cr.load(RR, gravity=[0, -9.81, 0])

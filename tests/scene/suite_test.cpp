@@ -164,6 +164,11 @@ TEST_F(Suites, PosesThatTheModelLacksAreErrorsThatNameWhatItHas) {
   EXPECT_THAT(text, HasSubstr("joint 'elbow' takes 1 number, not 2"));
 }
 
+TEST_F(Suites, PosesOfAllJointsAreTakenWhereThoseThatFollowAgree) {
+  EXPECT_EQ(read("model: arm.urdf\nposes: {a: [0, -1, 0.01, -0.01]}\n").pictures[0].q, read("model: arm.urdf\nposes: {a: [0, -1, 0.01]}\n").pictures[0].q);
+  EXPECT_THAT(error("model: arm.urdf\nposes: {a: [0, -1, 0.01, 0.01]}\n"), HasSubstr("has 4 numbers"));
+}
+
 TEST_F(Suites, PosesOutOfLimitsAreErrorsThatNameJointValueAndLimit) {
   const std::string text =
       error("model: arm.urdf\nposes: {a: {shoulder: 120deg}, b: [0, 0, 0], c: {grip: 0.05}}\n");

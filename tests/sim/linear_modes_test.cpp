@@ -67,6 +67,38 @@ TEST(Linearise, TellsNoLimitWhereNothingSwings) {
   EXPECT_FALSE(longest_stable_step(find_method("rk4"), start));
 }
 
+// Where gravity pulls, feedback leads below its target, and joints without any hang: the run itself says where to.
+TEST(Linearise, FeedbackIsLookedAtWhereItsRunsComeToRest) {
+  struct Case {
+    std::vector<double> kp, kd, q0;
+    std::vector<std::string> target, torque;
+  };
+  const Case cases[] = {
+      {{8, 4}, {5, 3}, {0, 0}, {"0", "pi/2"}, {"-8*q1 - 5*qd1", "4*(pi/2 - q2) - 3*qd2"}},
+      {{200, 0}, {5, 0.1}, {0.01, -1.5}, {"0", "0"}, {"-200*q1 - 5*qd1", "-0.1*qd2"}},
+  };
+  for (const Case& one : cases) {
+    Simulation by_control = run_of("rr", {}, 40, "dop853"), by_text = run_of("rr", one.torque, 120, "dop853");
+    Control control;
+    control.pd = Feedback{one.kp, one.kd, {}, {}, {}, ""};
+    for (const std::string& angle : one.target) control.pd->q.push_back({angle, {}});
+    by_control.torque = make_control(by_control.chain, control, {});
+    by_control.q0 = by_text.q0 = one.q0;
+    const Trajectory run = simulate(by_text, std::vector<double>{120});
+    by_text.q0.assign(run.q_at(0).begin(), run.q_at(0).end());
+    by_text.qd0 = {0, 0};
+    const Linearisation held = linearise(by_control), rest = linearise(by_text);
+    EXPECT_TRUE(held.about_target && held.is_equilibrium);
+    ASSERT_EQ(held.rates.size(), rest.rates.size());
+    // As near as the run has come to its rest, and differences tell slopes.
+    for (std::size_t i = 0; i < rest.rates.size(); ++i) EXPECT_LT(std::abs(held.rates[i] - rest.rates[i]), 1e-4 * std::abs(rest.rates.back()));
+  }
+  // At the target itself, or with the free joint at zero, other rates would be told.
+  Simulation off = run_of("rr", {"-8*q1 - 5*qd1", "4*(pi/2 - q2) - 3*qd2"}, 1);
+  off.q0 = {0, 1.5707963267948966};
+  EXPECT_FALSE(linearise(off).is_equilibrium);
+}
+
 // Feedback on every joint: what the theory says, runs must do, from a little beside the rest.
 TEST(Linearise, PutsTheLimitOfAnArmUnderFeedbackWhereRunsDiverge) {
   Simulation run = weightless(run_of("rrr", {}, 1));
