@@ -51,7 +51,7 @@ enum class LayerNeeds {
   ROW(torque, "torque", 9, nothing,                                                                         \
       "where any acts: arcs at revolute joints, arrows beside the rails of sliders; a ring where one rests") \
   ROW(velocity, "velocity", 0, end_effector, "velocity of the end effector")                                \
-  ROW(constraint_force, "constraint_force", 14, nothing, "dashed: what constraints exert on the robot, -lambda of their rows") \
+  ROW(constraint_force, "constraint_force", 0, nothing, "dashed: what constraints exert on the robot, -lambda of their rows") \
   ROW(annotations, "", 0, nothing, "")                                                                      \
   ROW(mark_labels, "", 0, nothing, "")                                                                      \
   ROW(chain_tip, "chain", 0, nothing, "")                                                                   \

@@ -97,7 +97,7 @@ std::string ellipse_csv(const TipMass& tip, const GatheredPoses& poses, const El
     for (const std::string& name : basis.names) text += ",direction" + std::to_string(i) + "_" + name;
   }
   for (std::size_t i = 0; i < (form.section ? std::min<std::size_t>(rows, 2) : rows); ++i)
-    text += ",semi_axis" + std::to_string(i + 1) + "_" + to_string(form.reading);
+    text += "," + with_unit("semi_axis" + std::to_string(i + 1) + "_" + to_string(form.reading), form.reading == EllipseReading::energy ? "m/s" : "kg");
   text += "\n";
   for (std::size_t k = 0; k < poses.q.size(); ++k) {
     if (k < poses.t.size()) text += format_exact(poses.t[k]) + ",";

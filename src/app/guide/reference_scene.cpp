@@ -196,10 +196,10 @@ std::string layers_page() {
          code(draw.text(draw, Scene{})) +
          ".\nEntries `+name` and `-name` edit it. Layers of the default list draw nothing where a scene has nothing of theirs, so that\n"
          "every scene shows its cause: torques that act, springs, constraints, gravity. Panels of `compare:` are small, and have\n"
-         "none of `torque`, `target` and `constraint_force` by default.\n\n"
+         "neither `torque` nor `target` by default.\n\n"
          "Vectors of one kind share one scale over the whole clip, which is printed whenever they are shown. No single peak decides\n"
          "on it: 95 % of them are no larger than an arrow of 0.2 of the picture's height or an arc of 240 degrees. What is more than\n"
-         "1.25 times that is cut, and has a break in its shaft; the scale then says up to how much there is. A torque that shrinks to nothing shrinks to a dot; one that has rested\n"
+         "1.25 times that is cut, and has a break in its shaft. A torque that shrinks to nothing shrinks to a dot; one that has rested\n"
          "for 0.3 s has a ring.\n\n"
          "A torque is drawn as a spring or a damper where its own expression says so: `-k * (q1 - a) - d * qd1` with numbers for\n"
          "k, a and d, also of a slider's `y_G`. The spring then stands for its arrow; a damper alone has both, and\n"

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "draw/figures/caption.hpp"
 #include "draw/layers/ellipse.hpp"
+#include "draw/layers/fading.hpp"
 #include "draw/layers/ellipsoid.hpp"
 #include "draw/page/mark_labels.hpp"
 #include "draw/page/word_plan.hpp"
@@ -89,13 +90,22 @@ void fit_panels(Panels& panels, const std::vector<Pose>& poses, Workspace& ws) {
 // Words where they lie on nothing of what was drawn since item `first`.
 void draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, const Rect& scene, const Theme& theme, int clip) {
   constexpr double kLooksPerSecond = 0.1;  // a still is looked at so long that any word is worth its place
+  // What stands at the end of a line that fades out of the panel has its place there.
+  MarkLabels at_edges;
+  std::vector<MarkWord> others;
+  for (const MarkWord& word : words.words())
+    if (word.name == kLengthAtEdge)
+      at_edges.add(word);
+    else
+      others.push_back(word);
+  at_edges.draw(picture, scene, theme.background, clip);
   Picture drawn;
   drawn.items.assign(picture.items.begin() + std::ptrdiff_t(first), picture.items.end());
   WordPlan plan(widened(scene, -kLabelInset), kLooksPerSecond);
-  plan.add(words.words(), obstacles_of(drawn));
+  plan.add(others, obstacles_of(drawn));
   const std::vector<StandingWord> standing = plan.standing().front();
   MarkLabels placed(standing);
-  for (const MarkWord& word : words.words()) placed.add(word);
+  for (MarkWord& word : others) placed.add(std::move(word));
   placed.draw(picture, scene, theme.background, clip);
 }
 

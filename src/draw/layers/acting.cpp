@@ -112,7 +112,7 @@ class VectorLayer : public Layer {
     }
     auto full = magnitudes.full();
     leave_out_noise(full, stage.motions.front().skeleton().reach);
-    return {full, stage.share_of_arrows(name) * stage.share_of_lengths(), magnitudes.most()};
+    return {full, stage.share_of_arrows(name) * stage.share_of_lengths()};
   }
 
   // What is rounding beside the other drives, of which nobody asked for an arrow at a scale of its own: sliders that rest while

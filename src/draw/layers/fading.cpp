@@ -212,7 +212,7 @@ void put_near(Picture& picture, const TextLine& text, Point at, const EllipseSty
       std::clamp(at.x, std::min(scene.x0 + half.x, scene.x1), std::max(scene.x1 - half.x, scene.x0)),
       std::clamp(at.y, std::min(scene.y0 + half.y, scene.y1), std::max(scene.y1 - half.y, scene.y0))};
   if (labels != nullptr)
-    labels->add("length", text, {middle.x - half.x, middle.y - half.y, middle.x + half.x, middle.y + half.y});
+    labels->add(kLengthAtEdge, text, {middle.x - half.x, middle.y - half.y, middle.x + half.x, middle.y + half.y});
   else
     draw_text(picture, text, {middle.x - half.x - text.box.x0, middle.y - half.y - text.box.y0}, clip);
 }

@@ -84,6 +84,9 @@ void draw_infinities(Picture& picture, Point center, Point d, double half_width,
 void draw_length_along(Picture& picture, Point center, Point v, double length, double half_width,
                        const EllipseStyle& style, int clip);
 
+// The name of such numbers among words.
+inline constexpr const char* kLengthAtEdge = "length";
+
 // "7.9 kg" as a word of the film beyond the end of the semi-axis v, or else at its other end; nothing where neither is in the
 // scene, or where the style has no labels.
 void add_length_at_end(Point center, Point v, double length, const EllipseStyle& style);

@@ -95,14 +95,6 @@ std::array<double, kVectorKinds.size()> VectorMagnitudes::full() const {
   return full;
 }
 
-std::array<double, kVectorKinds.size()> VectorMagnitudes::most() const {
-  std::array<double, kVectorKinds.size()> most{};
-  for (std::size_t kind = 0; kind < most.size(); ++kind)
-    for (const double one : magnitudes_[kind])
-      if (std::isfinite(one)) most[kind] = std::max(most[kind], one);
-  return most;
-}
-
 std::vector<double> rings_along(const std::vector<double>& t, const std::vector<bool>& rests) {
   std::vector<double> rings(t.size());
   for (std::size_t begin = 0; begin < t.size(); ++begin) {
@@ -168,11 +160,8 @@ std::vector<ScaleEntry> scale_entries(const VectorScales& scales, const std::vec
                                                        : ScaleEntry::Mark::arrow;
     if (!(scale.full > 0)) continue;
     const double value = round_length(scale.full);
-    const std::string unit = "\u2009" + unit_of(kind);
-    const double cut_above = kind == VectorKind::torque ? kWidestTurn / kTurnOfFull : size::kArrowCut / size::kLongestArrow;
-    const double most = scales.most[std::size_t(kind)];
-    const std::string cut = most > cut_above * scale.full ? ", cut beyond (up to " + format_significant(most, 2) + unit + ")" : "";
-    entries.push_back({mark, scale.on_page(value), color_of(kind, theme), name + format_shortest(value) + unit + cut});
+    entries.push_back({mark, scale.on_page(value), color_of(kind, theme),
+                       name + format_shortest(value) + "\u2009" + unit_of(kind)});
   }
   return entries;
 }

@@ -48,7 +48,6 @@ struct VectorScale {
 struct VectorScales {
   std::array<double, kVectorKinds.size()> full{};  // by kind; 0: there is none
   double shrink = 1;  // of all lengths; below 1 where panels share a page
-  std::array<double, kVectorKinds.size()> most{};  // by kind: the largest of the clip, where that is known
 
   VectorScale of(VectorKind kind) const;
 };
@@ -67,7 +66,6 @@ class VectorMagnitudes {
   void add(const WorldVector& vector);
   // Of each kind the 95th percentile of those that are more than round-off beside the largest.
   std::array<double, kVectorKinds.size()> full() const;
-  std::array<double, kVectorKinds.size()> most() const;
 
  private:
   std::array<std::vector<double>, kVectorKinds.size()> magnitudes_;
@@ -83,8 +81,7 @@ std::string name_of(VectorKind kind);
 std::string unit_of(VectorKind kind);
 
 // One entry a kind of vector that is shown, each with a mark of 1, 2 or 5 x 10^n: the scale is printed
-// whenever the layer is on. `named`: the legend is on, and says what each one is. Where larger ones are cut, up to how much
-// they are.
+// whenever the layer is on. `named`: the legend is on, and says what each one is.
 std::vector<ScaleEntry> scale_entries(const VectorScales& scales, const std::vector<VectorKind>& shown,
                                       bool named, const Theme& theme);
 

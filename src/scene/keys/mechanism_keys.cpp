@@ -18,7 +18,7 @@ KeyText told_model() {
              {told("", KeyForm::path, "a URDF file, relative to the scene, or the name of one that comes with the program: rr.urdf"),
               told_record(
                   "",
-                  {told_list("links", number, "their lengths, m; at zero all lie along x, one behind the other"),
+                  {told_list("links", number, "their lengths, m; at zero all lie along x, one behind the other; frames are base, link1, link2 .. and the end, gripper"),
                    for_all_or_each("masses", "kg; 1 each where left out"),
                    told("joints", KeyForm::text,
                         "a letter each: R turns about z, P slides along x, or across the P before it; else with its axis, "

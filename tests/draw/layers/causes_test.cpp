@@ -324,13 +324,13 @@ TEST(DefaultLayers, ShowTheCauseAndLeaveSmallPanelsAlone) {
   };
   for (const char* name : {"rr_torque", "rrr_torque", "pp_spring", "pen", "four_bar", "slider_crank", "humanoid_fall", "particle"}) {
     const Scene scene = read_scene("assets/scenes/" + std::string(name) + ".yaml");
-    for (const char* layer : {"torque", "springs", "constraints", "constraint_force", "target", "g", "limits"}) EXPECT_TRUE(has(scene, layer)) << name << layer;
+    for (const char* layer : {"torque", "springs", "constraints", "target", "g", "limits"}) EXPECT_TRUE(has(scene, layer)) << name << layer;
     EXPECT_FALSE(has(scene, "angles"));
   }
   for (const char* name : {"pen_drift", "big_steps", "euler_gains_energy", "ghost_euler"}) {
     const Scene scene = read_scene("assets/scenes/" + std::string(name) + ".yaml");
     EXPECT_TRUE(has(scene, "springs") && has(scene, "constraints")) << name;
-    EXPECT_FALSE(has(scene, "torque") || has(scene, "target") || has(scene, "constraint_force")) << name;
+    EXPECT_FALSE(has(scene, "torque") || has(scene, "target")) << name;
   }
   EXPECT_TRUE(has(read_scene("assets/scenes/pen_drift.yaml", {"draw=[+torque]"}), "torque")) << "who asks gets it";
 }
@@ -363,13 +363,13 @@ TEST(TorqueLayer, BesideADamperIsTheConstantAlone) {
 }
 
 // What the ties exert has the names of the plotted multipliers.
-TEST(ConstraintForces, AreShownByDefaultAndNamedLikeTheirCurves) {
-  const Cause four_bar("four_bar", {"layout=scene"}), pen("pen", {"layout=scene"});
+TEST(ConstraintForces, AreNamedLikeTheirCurves) {
+  const Cause four_bar("four_bar", {"layout=scene", "draw=[+constraint_force]"}), pen("pen", {"layout=scene"});
   const auto dashes = [](const Picture& picture) {
     return test::all_of<Polygon>(picture, [](const Polygon& p) { return p.paint.fill == light().constraint; }).size();
   };
-  EXPECT_GT(dashes(four_bar.film().still(40)), 0u);
-  EXPECT_TRUE(has_words(four_bar.film().still(40), "1,2"));
+  EXPECT_GT(dashes(four_bar.film().still(44)), 0u);
+  EXPECT_TRUE(has_words(four_bar.film().still(44), "1,2"));
   EXPECT_GT(dashes(pen.film().still(40)), 0u);
 }
 
