@@ -17,4 +17,10 @@ std::string followers_of(const Chain& chain);
 // which ones are of those, where they are what the joints that lead them make of them. Empty of all other lists.
 std::vector<std::size_t> numbers_of_followers(const Chain& chain, std::span<const double> values, bool are_rates);
 
+// Takes the entries at these rising places out of a list.
+template <class T>
+void take_out(std::vector<T>& entries, const std::vector<std::size_t>& places) {
+  for (std::size_t i = places.size(); i-- > 0;) entries.erase(entries.begin() + std::ptrdiff_t(places[i]));
+}
+
 }  // namespace chainreel

@@ -141,10 +141,8 @@ std::vector<double> parse_counted(const std::vector<std::string>& names, const C
   std::vector<double> values = parse_list(text, what);
   const std::vector<std::size_t> repeated =
       numbers == StateNumbers::tau ? std::vector<std::size_t>{} : numbers_of_followers(chain, values, numbers == StateNumbers::qd);
-  for (std::size_t i = repeated.size(); i-- > 0 && written.size() > repeated[i];) {
-    values.erase(values.begin() + std::ptrdiff_t(repeated[i]));
-    written.erase(written.begin() + std::ptrdiff_t(repeated[i]));
-  }
+  take_out(values, repeated);
+  if (written.size() == values.size() + repeated.size()) take_out(written, repeated);
   if (values.size() != names.size())
     throw Error(ExitCode::usage, what + " " + text + " has " + std::to_string(values.size()) +
                                      (values.size() == 1 ? " number" : " numbers") + ", but " + chain.name + " needs " +

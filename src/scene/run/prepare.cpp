@@ -28,8 +28,7 @@ void check_length(std::vector<double>& values, const std::vector<double>& absent
     values.pop_back();
     if (values.size() < absent.size()) values.resize(absent.size(), std::nan(""));
   }
-  const std::vector<std::size_t> repeated = is_partial ? std::vector<std::size_t>{} : numbers_of_followers(chain, values, key == "start.qd");
-  for (std::size_t i = repeated.size(); i-- > 0;) values.erase(values.begin() + std::ptrdiff_t(repeated[i]));
+  if (!is_partial) take_out(values, numbers_of_followers(chain, values, key == "start.qd"));
   if (values.empty()) {
     values = absent;
   } else if (values.size() != absent.size()) {

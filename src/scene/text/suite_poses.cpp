@@ -63,8 +63,7 @@ class PoseSetter {
 
   void set_by_order() {
     std::vector<double> numbers = written_.numbers;
-    const std::vector<std::size_t> repeated = numbers_of_followers(chain_, numbers, false);
-    for (std::size_t i = repeated.size(); i-- > 0;) numbers.erase(numbers.begin() + std::ptrdiff_t(repeated[i]));
+    take_out(numbers, numbers_of_followers(chain_, numbers, false));
     if (numbers.size() != q_.size())
       return fail("has " + std::to_string(numbers.size()) + " numbers, but " + file_.path +
                       " needs " + std::to_string(q_.size()) + ": " + joined(names_),
