@@ -125,6 +125,11 @@ const char* place_of(bool about_target) {
   return about_target ? "the rest that feedback leads to" : "the start";
 }
 
+std::string place_of(const StabilityCells& cells) {
+  if (cells.about_rest == 0 || cells.about_rest == cells.linearised) return place_of(cells.about_rest > 0);
+  return "the rest that feedback leads to, or else the start";
+}
+
 StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
   StabilityMap map;
   map.title = "Where " + method_title(cells.method) + " fails";
@@ -140,7 +145,7 @@ StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
   map.footer = "Each cell is a run of the scene's duration and of at least " + std::to_string(kLeastSteps) +
                " steps; failed: no end, or an energy error above " + format_shortest(kFailedEnergy) +
                " times the motion's largest kinetic energy.";
-  if (!map.boundaries.empty()) map.footer += " Theory: the limit of the motion linearised about " + std::string(place_of(cells.about_target)) + ".";
+  if (!map.boundaries.empty()) map.footer += " Theory: the limit of the motion linearised about " + place_of(cells) + ".";
   if (scene.limit == LimitPolicy::clamp)
     map.footer += " Torques are cut at the joints' efforts, which bounds errors of the energy, too: a run may chatter and not fail.";
   return map;

@@ -89,7 +89,6 @@ void fit_panels(Panels& panels, const std::vector<Pose>& poses, Workspace& ws) {
 
 // Words where they lie on nothing of what was drawn since item `first`.
 void draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, const Rect& scene, const Theme& theme, int clip) {
-  constexpr double kLooksPerSecond = 0.1;  // a still is looked at so long that any word is worth its place
   // What stands at the end of a line that fades out of the panel has its place there.
   MarkLabels at_edges;
   std::vector<MarkWord> others;

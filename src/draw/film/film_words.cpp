@@ -8,8 +8,6 @@
 namespace chainreel {
 namespace {
 
-constexpr double kLooksPerSecond = 0.1;  // at a picture by itself: long enough for any word to be worth its place
-
 // Units of H, radius: what stands for a link that has a shape in space, and the shape about it, on which words stand if need be.
 constexpr double kBone = 0.010, kFlesh = 0.030;
 

@@ -25,6 +25,8 @@ std::vector<Obstacle> obstacles_of(const Picture& picture, bool may_yield = fals
 
 // From one frame to the next no word moves farther, units of H, but where it fades.
 inline constexpr double kWordStep = 0.02;
+// The rate of frames of a picture by itself, which is looked at for so long that any word is worth its place.
+inline constexpr double kLooksPerSecond = 0.1;
 // Between a word and what it keeps off.
 inline constexpr double kWordAir = 0.004;
 

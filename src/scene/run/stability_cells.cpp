@@ -1,6 +1,7 @@
 #include "scene/run/stability_cells.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -264,20 +265,24 @@ class CellRuns {
     for (std::size_t i = 0; i < count; ++i) {
       const Simulation simulation = simulation_of(along_x ? At{0, i} : At{i, 0});
       const Linearisation about = linearise(simulation);
-      result_.about_target = about.about_target && (i == 0 || result_.about_target);
+      result_.about_rest += about.about_target;
       result_.boundary.push_back(longest_stable_step(*simulation.method, about));
     }
+    result_.linearised = int(count);
   }
 
   void find_stable_cells() {
     const std::size_t row = result_.x.values.size();
-    result_.about_target = linearise(simulation_of({0, 0})).about_target;
+    std::atomic<int> about_rest = 0;
     for_each_index(result_.cells.size(), threads_, [&](std::size_t i) {
       const Simulation simulation = simulation_of({i % row, i / row});
       const Linearisation start = linearise(simulation);
+      about_rest += start.about_target;
       if (start.motion && simulation.step > 0)
         result_.cells[i].stable = is_stable(*simulation.method, *start.motion, simulation.step);
     });
+    result_.linearised = int(result_.cells.size());
+    result_.about_rest = about_rest;
   }
 
   std::string scene_;

@@ -34,7 +34,7 @@ struct StabilityCells {
   // Where one key is `step` (else StabilityCell::stable says it): for each value of the other the longest
   // stable step of the motion linearised about the start, or about the rest that feedback leads to.
   std::vector<std::optional<double>> boundary;
-  bool about_target = false;  // theory is about the rest that feedback leads to, in every cell
+  int linearised = 0, about_rest = 0;  // motions that theory is of, and those of them about the rest that feedback leads to
 
   const StabilityCell& at(std::size_t ix, std::size_t iy) const { return cells[iy * x.values.size() + ix]; }
 };
