@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/machine.hpp"
 #include "render/gl_backend.hpp"
+#include "render/renderer_pins.hpp"
 
 namespace chainreel {
 namespace {
@@ -54,6 +55,7 @@ int run_and_tell(int argc, char** argv, void (*add_commands)(CommandLine&)) {
 int main_program(int argc, char** argv, void (*add_commands)(CommandLine&)) {
   give_large_memory_back();
   guard_streams();
+  settle_environment();
   install_last_words();
   install_signal_handlers();
   const int code = run_and_tell(argc, argv, add_commands);

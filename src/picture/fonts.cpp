@@ -59,11 +59,14 @@ std::string find_font_file(const FaceFile& wanted, const std::vector<std::string
 
 }  // namespace
 
-Fonts::State::State() {
-  // Both libraries read when they start how they are to hint and shape.
+void clear_font_variables() {
   constexpr std::array<std::string_view, 2> kOfFonts = {"FREETYPE_PROPERTIES", "HB_"};
   static std::once_flag once;
   std::call_once(once, [&] { clear_variables(kOfFonts); });
+}
+
+Fonts::State::State() {
+  clear_font_variables();
   if (FT_Init_FreeType(&library) != 0) throw Error(ExitCode::no_renderer, "FreeType does not start");
 }
 

@@ -18,6 +18,10 @@ struct FontFamilies {
   std::string label, bold, math;  // `bold` left out: the bold face of `label`
 };
 
+// Takes away, once, what FreeType and HarfBuzz would read of the environment when they start: how they are to hint and shape. To be
+// called before the first thread of the process; else fonts do it.
+void clear_font_variables();
+
 // The opened faces. Throws Error (exit 4) naming file and Debian package where one is missing.
 class Fonts {
  public:

@@ -6,6 +6,7 @@
 #include "app/report/version.hpp"
 #include "core/error.hpp"
 #include "python/binding.hpp"
+#include "render/renderer_pins.hpp"
 
 namespace py = pybind11;
 
@@ -39,6 +40,7 @@ void raise(const Error& error) {
 }  // namespace chainreel
 
 PYBIND11_MODULE(_native, module) {
+  chainreel::settle_environment();
   module.doc() = "What chainreel's Python package calls; use chainreel itself.";
   module.attr("version") = chainreel::program_version();
   module.attr("revision") = chainreel::program_revision();

@@ -45,13 +45,6 @@ void require_address_space() {
   munmap(room, kAddressSpace);
 }
 
-// Mesa reads these when its first context is made.
-void prepare_environment() {
-  pin_renderer();
-  // Without it there are as many threads as cores: flat shapes are drawn faster by the calling thread alone.
-  setenv("LP_NUM_THREADS", "0", /*overwrite=*/0);
-}
-
 // Any other renderer draws other bytes. Who names one to Mesa means it.
 void require_llvmpipe(GlContext& context) {
   const auto* const text = reinterpret_cast<const char*>(context.gl().GetString(GL_RENDERER));
@@ -102,7 +95,7 @@ void open_renderer_library() {
 std::unique_ptr<GlContext> create_gl_context() {
   static std::once_flag first;
   std::call_once(first, [] {
-    prepare_environment();
+    settle_environment();
     require_address_space();
   });
   std::unique_ptr<GlContext> context = create_chosen_context();

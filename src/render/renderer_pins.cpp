@@ -1,11 +1,13 @@
 #include "render/renderer_pins.hpp"
 
 #include <array>
+#include <cstdlib>
 #include <mutex>
 #include <string_view>
 #include <vector>
 
 #include "core/own_environment.hpp"
+#include "picture/text.hpp"
 
 namespace chainreel {
 namespace {
@@ -51,10 +53,13 @@ std::span<const RendererPin> renderer_pins() {
   return kPins;
 }
 
-void pin_renderer() {
+void settle_environment() {
   static std::once_flag done;
   std::call_once(done, [] {
     for (const RendererPin& one : kPins) set_pin(one);
+    // Without it there are as many threads as cores: flat shapes are drawn faster by the calling thread alone.
+    setenv("LP_NUM_THREADS", "0", /*overwrite=*/0);
+    clear_font_variables();
   });
 }
 

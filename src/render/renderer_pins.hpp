@@ -22,7 +22,8 @@ struct RendererPin {
 
 std::span<const RendererPin> renderer_pins();
 
-// Sets them for this process and what it starts, once; later calls change nothing.
-void pin_renderer();
+// Sets and clears, once, all of the environment that this program sets and clears for itself and what it starts. To be called
+// before the first thread of the process, as others may be reading the environment; later calls change nothing.
+void settle_environment();
 
 }  // namespace chainreel

@@ -7,6 +7,8 @@
 // - FAIL_FROM=n, FAIL_COUNT=m: the n-th rename and the m - 1 behind it fail.
 // - FAIL_SEEK=1: every lseek of a file that may be written to.
 // - FAIL_OPEN="libEGL libOSMesa": libraries whose names begin so are not there.
+// - FAIL_LATE_ENVIRONMENT=1: a variable that is set or taken away behind the start of a first thread, which may be reading the
+//   environment just then, ends the program with status 97.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <link.h>
@@ -40,7 +42,7 @@ Function real(const char* name) {
 }
 
 std::atomic<long> calls = 0;
-std::atomic<bool> in_main = false;
+std::atomic<bool> in_main = false, has_threads = false;
 thread_local bool opens_library = false;  // whose initialisers take functions of the program's for their own
 
 // Counts a call of what FAIL_CALL names, and whether this one is to fail.
@@ -107,6 +109,12 @@ void* new_memory(std::size_t bytes, std::size_t alignment, const void* caller) {
   return memory;
 }
 
+void forbid_beside_threads(const char* variable) {
+  if (!has_threads || std::getenv("FAIL_LATE_ENVIRONMENT") == nullptr) return;
+  std::fprintf(stderr, "%s is changed beside threads\n", variable);
+  _exit(97);
+}
+
 off_t seek(const char* name, int file, off_t offset, int whence) {
   const bool writes = (fcntl(file, F_GETFL) & O_ACCMODE) != O_RDONLY;
   if (writes && (number("FAIL_SEEK", 0) != 0 || fails("lseek"))) {
@@ -146,11 +154,21 @@ int sigaction(int signal, const struct sigaction* now, struct sigaction* before)
   return real<int (*)(int, const struct sigaction*, struct sigaction*)>("sigaction")(signal, now, before);
 }
 
+int setenv(const char* name, const char* value, int overwrite) noexcept {
+  forbid_beside_threads(name);
+  return real<int (*)(const char*, const char*, int)>("setenv")(name, value, overwrite);
+}
+int unsetenv(const char* name) noexcept {
+  forbid_beside_threads(name);
+  return real<int (*)(const char*)>("unsetenv")(name);
+}
+
 int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*), void* with) noexcept {
   // By way of the C++ library, as none of its libraries in C.
   Dl_info caller = {};
   if (dladdr(__builtin_return_address(0), &caller) != 0 && std::strstr(caller.dli_fname, "libstdc++") != nullptr && fails("thread"))
     return EAGAIN;
+  has_threads = true;
   return real<int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*)>("pthread_create")(thread, attributes, run, with);
 }
 

@@ -47,7 +47,10 @@ void expect_same_files(const fs::path& a, const fs::path& b) {
   const auto first = files_in(a), second = files_in(b);
   for (const auto& [name, bytes] : first) {
     ASSERT_TRUE(second.contains(name)) << name;
-    EXPECT_TRUE(bytes == second.at(name)) << name << " differs";
+    if (bytes == second.at(name)) continue;
+    const auto [here, there] = std::ranges::mismatch(bytes, second.at(name));
+    ADD_FAILURE() << name << " differs from byte " << here - bytes.begin() << " of " << bytes.size() << " and " << second.at(name).size() << " on"
+                  << (name.ends_with(".json") ? ": " + Json::diff(Json::parse(bytes), Json::parse(second.at(name))).dump() : "");
   }
   EXPECT_EQ(first.size(), second.size());
 }
@@ -58,7 +61,8 @@ TEST(Jobs, HoweverManyGiveTheSameBytes) {
     Words words{"--jobs", jobs, "--at", "0.5"};
     for (const char* name : {"a.mp4", "b.webm", "c.mov", "d.gif", "e.apng", "f/f_000000.png", "g.png", "h.svg", "i.csv"})
       words = with(words, {"-o", folder->file(name)});
-    ASSERT_EQ(run_program(render_of("rr_ellipse", words)).status, 0);
+    const ProgramResult result = run_program(render_of("rr_ellipse", words));
+    ASSERT_EQ(result.status, 0) << result.err;
   }
   EXPECT_EQ(probe_video(one.file("a.mp4")).frames, 128);
   EXPECT_THAT(probe_video(one.file("a.mp4")).key_frames, testing::ElementsAre(0, 64));
@@ -70,11 +74,11 @@ TEST(Jobs, HoweverManyGiveTheSameBytes) {
 
 TEST(Jobs, BodiesInSpaceAndTransparentPagesToo) {
   const TemporaryFolder one, many;
-  for (const auto& [folder, jobs] : {std::pair{&one, "1"}, {&many, "4"}})
-    ASSERT_EQ(run_program(render_of("arm_ellipsoid", {"--set", "duration=0.9", "--preset", "overlay", "--jobs", jobs, "-o",
-                                                      folder->file("a.webm"), "-o", folder->file("a.mov")}))
-                  .status,
-              0);
+  for (const auto& [folder, jobs] : {std::pair{&one, "1"}, {&many, "4"}}) {
+    const ProgramResult result = run_program(render_of("arm_ellipsoid", {"--set", "duration=0.9", "--preset", "overlay", "--jobs", jobs,
+                                                                         "-o", folder->file("a.webm"), "-o", folder->file("a.mov")}));
+    ASSERT_EQ(result.status, 0) << result.err;
+  }
   expect_same_files(one.path(), many.path());
 }
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/format.hpp"
 #include "core/json.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
@@ -42,6 +43,21 @@ TEST(Renderer, DoctorSaysWhatIsPinnedAndWhatOfTheEnvironmentIsOverruled) {
   EXPECT_EQ(other["overruled"], (Json{"LP_NATIVE_VECTOR_WIDTH=512", "LP_NO_RAST=1"}));
   EXPECT_THAT(run_program({"doctor"}, {.folder = "", .environment = {{"LP_NO_RAST", "1"}}}).out,
               AllOf(HasSubstr("pinned    LP_NATIVE_VECTOR_WIDTH="), HasSubstr("overruled LP_NO_RAST=1")));
+}
+
+// Threads that open libraries read the environment, which moves where it changes: once a film of two parts crashed by it.
+TEST(Renderer, ChangesTheEnvironmentBeforeTheFirstThread) {
+  const TemporaryFolder folder;
+  Environment environment = without("");
+  environment["FAIL_LATE_ENVIRONMENT"] = "1";
+  environment["HB_SHAPER_LIST"] = "fallback";
+  environment["LP_NO_RAST"] = "1";
+  for (const Words& words : {Words{"render", "assets/scenes/rr_ellipse.yaml", "--jobs", "2", "--set", "duration=0.3", "-o", folder.file("a.mp4")},
+                             {"snapshot", "assets/scenes/rr_ellipse.yaml", "--at", "0,1", "-o", folder.file("a/")},
+                             {"chart", "assets/scenes/rr_ellipse.yaml", "--set", "duration=0.1", "-o", folder.file("c.png")}}) {
+    const ProgramResult result = run_program(with(words, {"--quiet"}), {.folder = "", .environment = environment});
+    EXPECT_EQ(result.status, 0) << joined(words, " ") << ": " << result.err;
+  }
 }
 
 // Each of these makes other pixels, a crash or no file at all where it is followed.

@@ -22,6 +22,7 @@
 #include "encode/png.hpp"
 #include "render/canvas.hpp"
 #include "render/gl_backend.hpp"
+#include "render/renderer_pins.hpp"
 
 namespace chainreel {
 namespace {
@@ -387,6 +388,7 @@ int affordable_jobs(int wanted, const Scene& scene, const std::vector<Output>& o
 std::future<void> open_libraries_ahead(const std::vector<Output>& outputs) {
   const auto is_motion = [](const Output& output) { return output.shows(Shows::motion) && !output.folder; };
   if (std::none_of(outputs.begin(), outputs.end(), is_motion)) return {};
+  settle_environment();
   try {
     return std::async(std::launch::async, [] {
       libav();
