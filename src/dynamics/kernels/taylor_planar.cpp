@@ -66,6 +66,8 @@ template <class T>
 ExpandPlanar<T> expand_for(int n) {
   if constexpr (std::is_same_v<T, double>) {
     return expand_doubles(n);
+  } else if constexpr (std::is_same_v<T, DoubleDouble>) {
+    return expand_double_doubles(n);
   } else
     return expand_planar_for<QuadPair, Quad>(n);
 }
@@ -197,6 +199,7 @@ void PlanarSeries<T>::expand(T t, std::span<const T> q, std::span<const T> v, in
 }
 
 template class PlanarSeries<double>;
+template class PlanarSeries<DoubleDouble>;
 template class PlanarSeries<Quad>;
 
 }  // namespace chainreel

@@ -40,7 +40,7 @@ struct AffineTorque {
 // Why the chain has no such series, a clause that follows "because"; nothing where it has one.
 std::optional<std::string> why_no_planar_series(const Chain& chain);
 
-// For double and Quad.
+// For double, DoubleDouble and Quad.
 template <class T>
 class PlanarSeries {
  public:

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/double_double.hpp"
 #include "dynamics/kernels/taylor_planar.hpp"
 
 namespace chainreel {
@@ -69,5 +70,6 @@ template <class T>
 using ExpandPlanar = void (*)(PlanarSeriesState<T>& state, T t, const T* q, const T* v, int order, T* c);
 
 ExpandPlanar<double> expand_doubles(int n);
+ExpandPlanar<DoubleDouble> expand_double_doubles(int n);
 
 }  // namespace chainreel

@@ -1,5 +1,5 @@
 // The recurrence of taylor_planar.hpp over packs of numbers: private to the files that include it, each with
-// packs of its own, so that one text is compiled for pairs of doubles, for fours and for pairs of Quads.
+// packs of its own, so that one text is compiled for pairs of doubles, of DoubleDoubles and of Quads.
 //
 // A pack holds the lanes of one link or of more. Besides + - * of packs, and * with a number, it has
 //   turned(x)        (s, c) -> (c, -s) in each pair of lanes

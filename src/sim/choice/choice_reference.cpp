@@ -21,12 +21,12 @@ constexpr int kEvaluationsOfStep = 12;  // of dop853
 // A reference of another kind is less exact: it is contradicted only by what its own error does not explain.
 constexpr double kExplained = 10;
 constexpr double kOtherKind[] = {1e-8, 1e-10, 1e-12};
-// Where doubles part, quadruple precision goes on; it starts where they are this part of what is allowed apart.
-constexpr double kShareOfQuads = 0.05;
-constexpr int kQuadOrders[] = {40, 32};
-constexpr double kQuadTolerances[] = {1e-25, 1e-21};
-constexpr double kCostOfQuads = 80;  // doubles' price of a series of that order
-constexpr std::size_t kSamplesOfQuads = 32;  // that both orders go on before they are compared
+// Where doubles part, the series with twice their digits goes on; it starts where they are this part of what is allowed apart.
+constexpr double kShareOfSeries = 0.05;
+constexpr int kSeriesOrders[] = {40, 32};
+constexpr double kSeriesTolerances[] = {1e-25, 1e-21};
+constexpr double kCostOfSeries = 30;  // in those of doubles, of that order
+constexpr std::size_t kSamplesOfSeries = 32;  // that both orders go on before they are compared
 constexpr double kRounding = 0x1p-52;
 constexpr double kRoundings = 8;  // that places of a few joints gather
 
@@ -71,7 +71,7 @@ class Finder {
     reference.run = first.run;
     reference.other = second.run;
     if (!end_alike && !reference.is_whole && first.setting.method->form == Form::series && came_to_an_end(first.run))
-      go_on_in_quads(reference);
+      go_on_in_series(reference);
     if (reference.has_parted && reference.samples < 2 && !runs_.is_stopped()) refuse(reference);
     return reference;
   }
@@ -222,24 +222,24 @@ class Finder {
     return {};
   }
 
-  // Behind the parting of doubles the series in quadruple precision, at two orders, shows how long the first run stays
+  // Behind the parting of doubles the series with twice their digits, at two orders, shows how long the first run stays
   // within what is asked for; further than that no candidate will be judged.
-  void go_on_in_quads(ChoiceReference& reference) {
-    const double ns = kCostOfQuads * runs_.cost_of({reference.setting.method, {0, kQuadOrders[0]}, 0}, 1, 1);
+  void go_on_in_series(ChoiceReference& reference) {
+    const double ns = kCostOfSeries * runs_.cost_of({reference.setting.method, {0, kSeriesOrders[0]}, 0}, 1, 1);
     const long most = long(kShareOfRun * runs_.budget() / ns);
-    std::array<QuadSeries, 2> series = {quads(0, most), quads(1, most)};
+    std::array<LongSeries<DoubleDouble>, 2> series = {series_of(0, most), series_of(1, most)};
     const Trajectory doubles = reference.run;
     Trajectory other = reference.run;
     const std::array<Trajectory*, 2> rows = {&reference.run, &other};
     const std::size_t parted = reference.uncertainty.size();
     std::size_t k = 0;
-    while (k < parted && reference.uncertainty[k] <= kShareOfQuads * accuracy_.value) ++k;
+    while (k < parted && reference.uncertainty[k] <= kShareOfSeries * accuracy_.value) ++k;
     std::vector<double> uncertainty(reference.uncertainty.begin(), reference.uncertainty.begin() + std::ptrdiff_t(k));
     std::copy_n(reference.other.q.begin(), k * std::size_t(other.nq), other.q.begin());
     std::copy_n(reference.other.qd.begin(), k * std::size_t(other.nv), other.qd.begin());
     bool left = false, go_on = true;
     while (k < std::size_t(doubles.size()) && !left && go_on) {
-      const std::size_t behind = std::min(k + kSamplesOfQuads, std::size_t(doubles.size()));
+      const std::size_t behind = std::min(k + kSamplesOfSeries, std::size_t(doubles.size()));
       std::array<std::size_t, 2> reached{};
       for_each_index(2, 2, [&](std::size_t i) {
         for (reached[i] = k; reached[i] < behind && series[i].run_to(times_[reached[i]]); ++reached[i])
@@ -254,33 +254,33 @@ class Finder {
       }
     }
     runs_.spend(ns * double(series[0].expansions() + series[1].expansions()));
-    if (uncertainty.size() <= parted) {  // the quads ended before the doubles parted
+    if (uncertainty.size() <= parted) {  // that ended before the doubles parted
       reference.run = doubles;
       return;
     }
     reference.other = std::move(other);
     reference.uncertainty = std::move(uncertainty);
     reference.samples = int(reference.uncertainty.size());
-    reference.how += ", then the series in quadruple precision";
+    reference.how += ", then the series with twice the digits of doubles";
     reference.is_whole = reference.samples == doubles.size() && doubles.status == RunStatus::finished;
     reference.why_no_further.clear();
     if (left)
       reference.why_no_further = "at t = " + format_significant(times_[reference.uncertainty.size()], 4) + " s " +
                                  to_string(reference.setting) +
-                                 ", the most exact run that was tried, has left the motion that quadruple precision "
-                                 "gives by more than that";
+                                 ", the most exact run that was tried, has left the motion that twice the digits of "
+                                 "doubles give by more than that";
     else if (!reference.is_whole)
-      reference.why_no_further = "the search in quadruple precision went no further";
+      reference.why_no_further = "the search with twice the digits of doubles went no further";
   }
 
-  QuadSeries quads(int which, long most) const {
-    QuadSeries series(simulation_.chain, *simulation_.torque->affine(), kQuadOrders[which], kQuadTolerances[which]);
+  LongSeries<DoubleDouble> series_of(int which, long most) const {
+    LongSeries<DoubleDouble> series(simulation_.chain, *simulation_.torque->affine(), kSeriesOrders[which], kSeriesTolerances[which]);
     series.start(0, {simulation_.q0.begin(), simulation_.q0.end()}, {simulation_.qd0.begin(), simulation_.qd0.end()});
     series.set_most_expansions(most);
     return series;
   }
 
-  static void put_row(const QuadSeries& series, std::size_t k, Trajectory& run) {
+  static void put_row(const LongSeries<DoubleDouble>& series, std::size_t k, Trajectory& run) {
     const auto n = std::size_t(run.nq);
     for (std::size_t i = 0; i < n; ++i) {
       run.q[k * n + i] = double(series.q()[i]);

@@ -61,7 +61,7 @@ std::optional<QuadReference> quad_reference(const Simulation& simulation, std::s
   QuadReference reference;
   std::optional<States> first, second;
   if (has_series(simulation)) {
-    QuadSeries series(simulation.chain, *simulation.torque->affine(), kOrder, kTolerance);
+    LongSeries<Quad> series(simulation.chain, *simulation.torque->affine(), kOrder, kTolerance);
     first = states_at(series, q0, v0, times);
     second = states_at(extrapolation, q0, v0, times);
     reference.how = "Taylor series beside extrapolation of the midpoint rule, in quadruple precision";
@@ -91,7 +91,7 @@ std::optional<double> quad_amplification(const Simulation& simulation, double en
   const auto end_of = [&](const std::vector<Quad>& q0, const std::vector<Quad>& v0) {
     const double times[] = {end};
     if (by_series) {
-      QuadSeries series(simulation.chain, torque, kPerturbedOrder, kPerturbedTolerance);
+      LongSeries<Quad> series(simulation.chain, torque, kPerturbedOrder, kPerturbedTolerance);
       return states_at(series, q0, v0, times);
     }
     QuadExtrapolation extrapolation(*system, kOtherColumns, kPerturbedTolerance);
@@ -264,20 +264,23 @@ constexpr double kShortestStep = 1e-12;        // s
 
 }  // namespace
 
-QuadSeries::QuadSeries(const Chain& chain, const AffineTorque& torque, int order, double tolerance)
+template <class T>
+LongSeries<T>::LongSeries(const Chain& chain, const AffineTorque& torque, int order, double tolerance)
     : series_(chain, torque, order),
       n_(std::size_t(chain.nv)),
       order_(order),
       tolerance_(tolerance),
       c_(n_ * std::size_t(order + 1)) {}
 
-void QuadSeries::start(Quad t, std::vector<Quad> q, std::vector<Quad> v) {
+template <class T>
+void LongSeries<T>::start(T t, std::vector<T> q, std::vector<T> v) {
   t_ = t;
   q_ = std::move(q);
   v_ = std::move(v);
 }
 
-double QuadSeries::longest_step() const {
+template <class T>
+double LongSeries<T>::longest_step() const {
   double longest = kLongestStep;
   for (int k = order_; k > order_ - kLastTerms; --k) {
     for (std::size_t i = 0; i < n_; ++i) {
@@ -289,17 +292,18 @@ double QuadSeries::longest_step() const {
   return longest;
 }
 
-bool QuadSeries::run_to(Quad end) {
+template <class T>
+bool LongSeries<T>::run_to(T end) {
   while (t_ < end) {
     if (expansions_ >= most_) return false;
     ++expansions_;
     series_.expand(t_, q_, v_, order_, c_);
-    const Quad longest = longest_step();
+    const double longest = longest_step();
     if (longest < kShortestStep) return false;
     const bool last = t_ + longest >= end;
-    const Quad h = last ? end - t_ : longest;
+    const T h = last ? end - t_ : T(longest);
     for (std::size_t i = 0; i < n_; ++i) {
-      Quad q = 0, v = 0;
+      T q = 0, v = 0;
       for (int k = order_; k >= 0; --k) {
         v = v * h + q;
         q = q * h + c_[std::size_t(k) * n_ + i];
@@ -310,5 +314,8 @@ bool QuadSeries::run_to(Quad end) {
   }
   return true;
 }
+
+template class LongSeries<Quad>;
+template class LongSeries<DoubleDouble>;
 
 }  // namespace chainreel

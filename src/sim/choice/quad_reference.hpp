@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scalar.hpp"
+#include "core/double_double.hpp"
 #include "dynamics/kernels/taylor_planar.hpp"
 #include "sim/simulate.hpp"
 
@@ -88,32 +88,33 @@ class QuadExtrapolation {
   std::vector<Quad> y_, before_, f_;
 };
 
-// The Taylor method in quadruple precision, for references: a step goes as far as the last four terms allow.
-
-class QuadSeries {
+// The Taylor method with more digits than doubles have, for references: a step goes as far as the last four terms allow. For
+// Quad, and for DoubleDouble, which has half of its spare digits at a tenth of its price.
+template <class T>
+class LongSeries {
  public:
-  QuadSeries(const Chain& chain, const AffineTorque& torque, int order, double tolerance);
+  LongSeries(const Chain& chain, const AffineTorque& torque, int order, double tolerance);
 
-  void start(Quad t, std::vector<Quad> q, std::vector<Quad> v);
+  void start(T t, std::vector<T> q, std::vector<T> v);
   // Ends run_to behind so many expansions of all its calls.
   void set_most_expansions(long most) { most_ = most; }
   long expansions() const { return expansions_; }
   // Moves to `end`; false where no step is small enough, or the expansions are spent.
-  bool run_to(Quad end);
+  bool run_to(T end);
 
-  const std::vector<Quad>& q() const { return q_; }
-  const std::vector<Quad>& v() const { return v_; }
+  const std::vector<T>& q() const { return q_; }
+  const std::vector<T>& v() const { return v_; }
 
  private:
   double longest_step() const;
 
-  PlanarSeries<Quad> series_;
+  PlanarSeries<T> series_;
   std::size_t n_;
   int order_;
   double tolerance_;
   long most_ = std::numeric_limits<long>::max(), expansions_ = 0;
-  Quad t_ = 0;
-  std::vector<Quad> q_, v_, c_;
+  T t_ = 0;
+  std::vector<T> q_, v_, c_;
 };
 
 }  // namespace chainreel

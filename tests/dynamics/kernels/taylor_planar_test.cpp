@@ -7,6 +7,8 @@
 #include <bit>
 #include <cmath>
 
+#include <quadmath.h>
+
 #include "dynamics/compare.hpp"
 #include "dynamics/kernels/taylor_planar_state.hpp"
 #include "dynamics/recursions.hpp"
@@ -132,6 +134,37 @@ TEST_P(ChainsOfAnyLength, HasTheDigitsOfADouble) {
           << "seed " << seed << ", order " << k;
     }
   }
+}
+
+TEST_P(ChainsOfAnyLength, HasTwiceThoseDigitsInDoubleDoubles) {
+  Random random(920);
+  double most_missed = 0;
+  for (std::uint64_t seed = 920; seed < 926; ++seed) {
+    const Chain chain = chain_of(seed, GetParam());
+    const int n = chain.nv;
+    const AffineTorque torque = random_torque(n, random);
+    const State s = random_state(chain, random, 1);
+    constexpr int kOrder = 40;
+    std::vector<Quad> exact(std::size_t(n * (kOrder + 1)));
+    PlanarSeries<Quad>(chain, torque, kOrder).expand(0.5, in_quad(s.q), in_quad(s.qd), kOrder, exact);
+    const std::vector<DoubleDouble> q(s.q.begin(), s.q.end()), qd(s.qd.begin(), s.qd.end());
+    std::vector<DoubleDouble> c(exact.size());
+    PlanarSeries<DoubleDouble>(chain, torque, kOrder).expand(0.5, q, qd, kOrder, c);
+    for (int k = 0; k <= kOrder; ++k) {
+      Quad apart = 0, size = 0;
+      double of_doubles = 0;
+      for (int i = 0; i < n; ++i) {
+        const auto at = std::size_t(k * n + i);
+        apart = std::max(apart, fabsq(Quad(c[at]) - exact[at]));
+        size = std::max(size, fabsq(exact[at]));
+        of_doubles = std::max(of_doubles, double(fabsq(Quad(double(exact[at])) - exact[at])));
+      }
+      // The bound of doubles, 2^51 times smaller, which is how much more two doubles know than one.
+      EXPECT_LT(double(apart), 1e-11 * 0x1p-51 * (k + 1) * double(size)) << "seed " << seed << ", order " << k;
+      most_missed = std::max(most_missed, of_doubles / double(size));
+    }
+  }
+  EXPECT_GT(most_missed, 1e-18) << "numbers of a single double fail it";
 }
 
 TEST(PlanarSeries, OfTwoHorizontalLinksAtRestHasEveryFourthTerm) {

@@ -139,7 +139,7 @@ TEST(ChooseMethod, FindsHowLongDoublesHoldAMotion) {
   ASSERT_TRUE(choice.holds_until);
   EXPECT_GT(*choice.holds_until, 26.45);
   EXPECT_LT(*choice.holds_until, 40);
-  EXPECT_THAT(choice.why_until, HasSubstr("quadruple precision"));
+  EXPECT_THAT(choice.why_until, HasSubstr("twice the digits of doubles"));
   // To the extrapolation's word for it.
   const std::vector<double> end{26.45};
   const auto quads = quad_reference(simulation, end);
