@@ -102,14 +102,14 @@ bool is_rest(const std::vector<double>& qdd, const Slopes& slopes) {
 
 // The equilibrium that Newton's method comes to from a pose, where it rests for the whole duration and deviations do not grow.
 std::optional<State> equilibrium_from(ChainSystem& system, const Simulation& simulation, const std::vector<double>& guess) {
-  constexpr int kSteps = 60;
+  constexpr int kMostSteps = 60;
   constexpr double kLongest = 0.3;   // of a step, rad or m
   constexpr double kGrowing = 1e-6;  // of the fastest rate: less is rounding
   const std::size_t n = guess.size();
   State place{guess, std::vector<double>(n)};
   std::vector<double> qdd(n);
   const auto look = [&](double t) { system.acceleration(t, place.q, place.qd, qdd); };
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kMostSteps; ++step) {
     look(0);
     const Slopes slopes = slopes_of(system, simulation, place);
     if (!slopes.K.allFinite() || !slopes.D.allFinite() || !std::isfinite(largest_of(qdd))) return std::nullopt;

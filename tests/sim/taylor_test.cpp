@@ -7,6 +7,8 @@
 
 #include "core/error.hpp"
 #include "sim/audit.hpp"
+#include "sim/drive/control.hpp"
+#include "sim/drive/torque.hpp"
 #include "sim/runs.hpp"
 #include "sim/simulate.hpp"
 #include "sim/system/chain_system.hpp"
@@ -67,6 +69,37 @@ TEST(TaylorMethod, TakesTheDampingOfJoints) {
   const Trajectory damped = end_of(run);
   EXPECT_GT(apart(free, damped), 0.01);
   EXPECT_LT(apart(damped, by_rk4(run, 1e-4)), 1e-10);
+}
+
+// kp (q* - q) + kd (qd* - qd) with q* a polynomial in t, of all joints, of one beside an expression, and with rates of its own.
+TEST(TaylorMethod, TakesFeedbackThatFollowsAPolynomial) {
+  const auto pd = [](const std::vector<std::string>& q, const std::vector<std::string>& qd) {
+    Control control;
+    control.pd = Feedback{{30}, {4}, {}, {}, {}, ""};
+    for (const std::string& one : q) control.pd->q.push_back({one, {}});
+    for (const std::string& one : qd) control.pd->qd.push_back({one, {}});
+    return control;
+  };
+  Simulation run = series_run("rr", {"0", "0"}, 1, 1e-12);
+  const auto expect_as_by_rk4 = [&](std::unique_ptr<TorqueLaw> law) {
+    run.torque = std::move(law);
+    run.method = &find_method("taylor");
+    run.options = {1e-12, 20};
+    const Trajectory series = end_of(run);
+    EXPECT_LT(apart(series, by_rk4(run, 1e-4)), 1e-9);  // rk4 leaves about 1e-11 here
+    return series;
+  };
+  const Trajectory plain = expect_as_by_rk4(make_control(run.chain, pd({"1 - t^2", "0.5 * t"}, {}), {}));
+  const Trajectory own_rates = expect_as_by_rk4(make_control(run.chain, pd({"1 - t^2", "0.5 * t"}, {"0", "t"}), {}));
+  EXPECT_GT(apart(plain, own_rates), 0.01) << "rates of its own change the motion";
+  std::vector<TorqueEntry> entries(2);
+  entries[0].control = pd({"0.3"}, {});
+  entries[1].text = "2 * t - q2";
+  expect_as_by_rk4(make_torque_law(run.chain, entries, {}));
+  EXPECT_FALSE(make_control(run.chain, pd({"sin(t)", "0"}, {}), {})->affine());
+  Control gravity = pd({"1", "0"}, {});
+  gravity.gravity_compensation = true;
+  EXPECT_FALSE(make_control(run.chain, gravity, {})->affine());
 }
 
 class Orders : public ::testing::TestWithParam<int> {};

@@ -34,6 +34,25 @@ class CsvTorque final : public TorqueLaw {
   TimeTable table_;
 };
 
+void add_multiple(std::vector<Quad>& powers, const std::vector<Quad>& of, Quad factor) {
+  powers.resize(std::max(powers.size(), of.size()));
+  for (std::size_t k = 0; k < of.size(); ++k) powers[k] += factor * of[k];
+}
+
+void add(AffineTorque& sum, const AffineTorque& other) {
+  for (std::size_t i = 0; i < sum.powers.size(); ++i) add_multiple(sum.powers[i], other.powers[i], 1);
+  for (std::size_t k = 0; k < sum.K.size(); ++k) sum.K[k] += other.K[k], sum.D[k] += other.D[k];
+}
+
+void evaluate_affine(const AffineTorque& torque, Quad t, std::span<const Quad> q, std::span<const Quad> qd, std::span<Quad> tau) {
+  const std::size_t n = tau.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    tau[i] = 0;
+    for (std::size_t k = torque.powers[i].size(); k-- > 0;) tau[i] = tau[i] * t + torque.powers[i][k];
+    for (std::size_t j = 0; j < n; ++j) tau[i] += torque.K[i * n + j] * q[j] + torque.D[i * n + j] * qd[j];
+  }
+}
+
 // Laws that compare the state with a reference motion.
 class ReferenceLaw : public TorqueLaw {
  public:
@@ -46,11 +65,12 @@ class ReferenceLaw : public TorqueLaw {
 
  protected:
   bool copy_reference(double t, Vec q) {
-    move_to(t);
+    move_without_acceleration(t);
     std::copy(q_.begin(), q_.end(), q.begin());
     return true;
   }
   void move_to(double t) { reference_->evaluate(t, q_, qd_, qdd_); }
+  void move_without_acceleration(double t) { reference_->evaluate(t, q_, qd_, {}); }
 
   std::unique_ptr<Reference> reference_;
   std::vector<double> q_, qd_, qdd_;  // the reference's
@@ -75,7 +95,7 @@ class PdTorque final : public ReferenceLaw {
       : ReferenceLaw(std::move(reference), int(kp.size())), kp_(std::move(kp)), kd_(std::move(kd)) {}
 
   void evaluate(const Chain&, Workspace&, double t, ConstVec q, ConstVec qd, Vec tau) override {
-    move_to(t);
+    move_without_acceleration(t);
     for (std::size_t i = 0; i < tau.size(); ++i) tau[i] = kp_[i] * (q_[i] - q[i]) + kd_[i] * (qd_[i] - qd[i]);
   }
   std::vector<LinearDrive> linear_drives(const Chain&) const override {
@@ -89,6 +109,26 @@ class PdTorque final : public ReferenceLaw {
     return drives;
   }
   bool reference_at(double t, Vec q) override { return copy_reference(t, q); }
+
+  std::optional<AffineTorque> affine() const override {
+    const std::optional<ReferencePolynomials> followed = reference_->polynomials();
+    if (!followed) return {};
+    const std::size_t n = kp_.size();
+    AffineTorque torque{{}, std::vector<Quad>(n * n), std::vector<Quad>(n * n)};
+    for (std::size_t i = 0; i < n; ++i) {
+      std::vector<Quad>& powers = torque.powers.emplace_back();
+      add_multiple(powers, followed->q[i], kp_[i]);
+      add_multiple(powers, followed->qd[i], kd_[i]);
+      torque.K[i * n + i] = -Quad(kp_[i]);
+      torque.D[i * n + i] = -Quad(kd_[i]);
+    }
+    return torque;
+  }
+  bool evaluate_in_quad(Quad t, std::span<const Quad> q, std::span<const Quad> qd, std::span<Quad> tau) const override {
+    const std::optional<AffineTorque> torque = affine();
+    if (torque) evaluate_affine(*torque, t, q, qd, tau);
+    return torque.has_value();
+  }
 
  private:
   std::vector<double> kp_, kd_;
@@ -165,6 +205,27 @@ class SumOfTorques final : public TorqueLaw {
     for (const auto& part : parts_)
       if (part->reference_at(t, q)) return true;
     return false;
+  }
+  std::optional<AffineTorque> affine() const override {
+    std::optional<AffineTorque> sum;
+    for (const auto& part : parts_) {
+      const std::optional<AffineTorque> own = part->affine();
+      if (!own) return {};
+      if (!sum)
+        sum = own;
+      else
+        add(*sum, *own);
+    }
+    return sum;
+  }
+  bool evaluate_in_quad(Quad t, std::span<const Quad> q, std::span<const Quad> qd, std::span<Quad> tau) const override {
+    std::vector<Quad> part(tau.size());
+    std::fill(tau.begin(), tau.end(), Quad(0));
+    for (const auto& one : parts_) {
+      if (!one->evaluate_in_quad(t, q, qd, part)) return false;
+      for (std::size_t i = 0; i < tau.size(); ++i) tau[i] += part[i];
+    }
+    return true;
   }
 
  private:

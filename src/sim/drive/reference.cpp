@@ -6,6 +6,7 @@
 #include "core/csv.hpp"
 #include "core/format.hpp"
 #include "core/scalar.hpp"
+#include "expr/affine.hpp"
 #include "expr/corners.hpp"
 #include "expr/instants.hpp"
 #include "expr/pulses.hpp"
@@ -19,9 +20,14 @@ class ExpressionReference final : public Reference {
  public:
   ExpressionReference(const std::vector<Expression>& q, const std::vector<Expression>& qd,
                       const std::vector<Expression>& qdd, const Parameters& parameters)
-      : corners_(uses(parameters)), values_(1 + parameters.size()), duals_(values_.size()) {
+      : polynomials_(polynomials_of(q, qd, uses(parameters))),
+        corners_(uses(parameters)),
+        values_(1 + parameters.size()),
+        first_duals_(values_.size()),
+        duals_(values_.size()) {
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       values_[i + 1] = parameters[i].second;
+      first_duals_[i + 1] = Dual<double>(parameters[i].second, 0);
       duals_[i + 1] = SecondDual(Dual<double>(parameters[i].second, 0), Dual<double>(0, 0));
     }
     for (const Expression& one : q) q_.push_back(corners_.add(one));
@@ -32,12 +38,20 @@ class ExpressionReference final : public Reference {
 
   void evaluate(double t, Vec q, Vec qd, Vec qdd) const override {
     values_[0] = t;
+    first_duals_[0] = Dual<double>(t, 1);
     duals_[0] = SecondDual(Dual<double>(t, 1), Dual<double>(1, 0));
     for (std::size_t i = 0; i < q_.size(); ++i) {
-      const SecondDual y = chainreel::evaluate<SecondDual>(q_[i], duals_, sides_);
-      q[i] = y.re.re;
-      qd[i] = qd_.empty() ? y.re.du : chainreel::evaluate<double>(qd_[i], values_, sides_);
-      qdd[i] = qdd_.empty() ? y.du.du : chainreel::evaluate<double>(qdd_[i], values_, sides_);
+      if (qdd.empty()) {
+        const Dual<double> y = chainreel::evaluate<Dual<double>>(q_[i], first_duals_, sides_);
+        q[i] = y.re;
+        qd[i] = y.du;
+      } else {
+        const SecondDual y = chainreel::evaluate<SecondDual>(q_[i], duals_, sides_);
+        q[i] = y.re.re;
+        qd[i] = y.re.du;
+        qdd[i] = qdd_.empty() ? y.du.du : chainreel::evaluate<double>(qdd_[i], values_, sides_);
+      }
+      if (!qd_.empty()) qd[i] = chainreel::evaluate<double>(qd_[i], values_, sides_);
     }
   }
 
@@ -47,18 +61,39 @@ class ExpressionReference final : public Reference {
     set_sides_of_time(corners_, t, sides_);
   }
   void leave_pieces() override { sides_.assign(std::size_t(corners_.count()), kAsWritten); }
+  std::optional<ReferencePolynomials> polynomials() const override { return polynomials_; }
 
  private:
+  static std::optional<ReferencePolynomials> polynomials_of(const std::vector<Expression>& q, const std::vector<Expression>& qd,
+                                                            const std::vector<VariableUse>& uses) {
+    ReferencePolynomials all;
+    const auto read = [&](const std::vector<Expression>& from, std::vector<std::vector<Quad>>& to) {
+      for (const Expression& one : from) {
+        std::optional<AffineForm<Quad>> form = affine_form_of<Quad>(one, uses);
+        if (!form) return false;
+        to.push_back(std::move(form->powers));
+      }
+      return true;
+    };
+    if (!read(q, all.q) || !read(qd, all.qd)) return {};
+    for (std::size_t i = 0; i < q.size() && qd.empty(); ++i) {
+      std::vector<Quad>& rate = all.qd.emplace_back();
+      for (std::size_t k = 1; k < all.q[i].size(); ++k) rate.push_back(all.q[i][k] * Quad(int(k)));
+    }
+    return all;
+  }
   static std::vector<VariableUse> uses(const Parameters& parameters) {
     std::vector<VariableUse> uses{{VariableRole::time, 0}};
     for (const auto& [name, value] : parameters) uses.push_back({VariableRole::constant, value});
     return uses;
   }
 
+  std::optional<ReferencePolynomials> polynomials_;
   Corners corners_;
   std::vector<CorneredProgram> q_, qd_, qdd_;
   std::vector<double> sides_;
   mutable std::vector<double> values_;
+  mutable std::vector<Dual<double>> first_duals_;
   mutable std::vector<SecondDual> duals_;
 };
 
@@ -74,7 +109,7 @@ class TableReference final : public Reference {
       const Spline::Value rate = qd_.empty() ? Spline::Value{position.yd, position.ydd, 0} : qd_[i].at(t);
       q[i] = position.y;
       qd[i] = rate.y;
-      qdd[i] = qdd_.empty() ? rate.yd : qdd_[i].at(t).y;
+      if (!qdd.empty()) qdd[i] = qdd_.empty() ? rate.yd : qdd_[i].at(t).y;
     }
   }
   // The accelerations of a spline bend at its rows.

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/csv.hpp"
 #include "core/error.hpp"
+#include "core/scalar.hpp"
 #include "sim/drive/probe.hpp"
 
 namespace chainreel {
@@ -17,14 +19,22 @@ struct Entry {
   Place place;
 };
 
+// Coefficients of t^0, t^1, .. of each freedom.
+struct ReferencePolynomials {
+  std::vector<std::vector<Quad>> q, qd;
+};
+
 class Reference {
  public:
   virtual ~Reference() = default;
-  virtual void evaluate(double t, Vec q, Vec qd, Vec qdd) const = 0;  // n numbers each; allocates nothing
+  // n numbers each; without room for it, `qdd` is not worked out, for less. Allocates nothing.
+  virtual void evaluate(double t, Vec q, Vec qd, Vec qdd) const = 0;
   // Where it bends or jumps, and the piece between two such instants: see TorqueLaw.
   virtual std::vector<double> breaks(double) const { return {}; }
   virtual void enter_piece(double) {}
   virtual void leave_pieces() {}
+  // Coordinates and rates, where each is a polynomial in t.
+  virtual std::optional<ReferencePolynomials> polynomials() const { return {}; }
 };
 
 // From expressions in t and the parameters, one a freedom. Empty `qd` and `qdd` are the derivatives of q,

@@ -72,6 +72,26 @@ class MixedTorque final : public TorqueLaw {
     for (const auto& [joint, law] : controls_) law->leave_pieces();
   }
   StateCorners* corners() override { return rest_->corners(); }
+  std::optional<AffineTorque> affine() const override {
+    std::optional<AffineTorque> torque = rest_->affine();
+    const std::size_t n = one_.size();
+    for (const auto& [joint, law] : controls_) {
+      const std::optional<AffineTorque> own = law->affine();
+      if (!torque || !own) return {};
+      torque->powers[joint] = own->powers[joint];
+      for (std::size_t j = joint * n; j < (joint + 1) * n; ++j) torque->K[j] = own->K[j], torque->D[j] = own->D[j];
+    }
+    return torque;
+  }
+  bool evaluate_in_quad(Quad t, std::span<const Quad> q, std::span<const Quad> qd, std::span<Quad> tau) const override {
+    if (!rest_->evaluate_in_quad(t, q, qd, tau)) return false;
+    std::vector<Quad> own(tau.size());
+    for (const auto& [joint, law] : controls_) {
+      if (!law->evaluate_in_quad(t, q, qd, own)) return false;
+      tau[joint] = own[joint];
+    }
+    return true;
+  }
   std::vector<LinearDrive> linear_drives(const Chain& chain) const override {
     std::vector<LinearDrive> all = rest_->linear_drives(chain);
     for (const auto& [joint, law] : controls_)

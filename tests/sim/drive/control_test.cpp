@@ -61,6 +61,21 @@ TEST(Pd, OfOneJointLeavesTheOthersAlone) {
   EXPECT_EQ(tau[1], 0);
 }
 
+TEST(Reference, HasTheSameBitsWhereAccelerationsAreNotAskedFor) {
+  const Parameters parameters{{"w", 1.7}};
+  const std::vector<Entry> q{entry("sin(w * t) * exp(-t / 3)"), entry("t^3 / (1 + t^2)")};
+  for (const std::vector<Entry>& rates : {std::vector<Entry>{}, {entry("cos(t)"), entry("w")}}) {
+    const auto reference = make_expression_reference(q, rates, {}, parameters);
+    for (const double t : {0.0, 0.3, 2.0}) {
+      std::vector<double> whole_q(2), whole_qd(2), qdd(2), at(2), rate(2);
+      reference->evaluate(t, whole_q, whole_qd, qdd);
+      reference->evaluate(t, at, rate, {});
+      EXPECT_EQ(at, whole_q) << t;
+      EXPECT_EQ(rate, whole_qd) << t;
+    }
+  }
+}
+
 TEST(ComputedTorque, FollowsAMotionGivenByItsPositionsAlone) {
   // The derivatives of the expressions are exact, so that only the method's error is left: rk4 at 1 ms.
   Control control;
