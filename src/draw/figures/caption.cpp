@@ -14,6 +14,7 @@ constexpr double kMatrixRow = 1.30;  // of the em, between rows of the matrix
 constexpr double kToMatrix = 1.75;   // of the em, between pose and matrix
 constexpr double kFirstLine = 1.2,
                  kLineRow = 1.6;        // of the em: base line below a panel, and a caption of one line
+constexpr double kNextLine = 1.35;      // of the em: each further line
 constexpr double kLetterGap = 0.5;      // of the em
 constexpr double kColumnGap = 0.9;      // of the em
 constexpr double kBracketGap = 0.38;    // of the em, between bracket and numbers
@@ -168,17 +169,22 @@ bool matrix_fits(const EffectiveMass& effective, double width, double text_scale
   return lay_out_matrix(fonts, matrix_notations(*effective.Lambda), smallest).width <= width;
 }
 
-std::vector<std::string> line_notations(const Chain& chain, const std::vector<double>& q,
-                                        const std::vector<std::optional<double>>& masses) {
-  std::vector<std::string> forms = pose_notations(chain, q), entries;
+std::string eigenvalues_notation(const std::vector<std::optional<double>>& masses) {
+  std::vector<std::string> entries;
   for (const std::optional<double>& mass : masses)
     entries.push_back(mass ? number_notation(*mass, *mass) : std::string("\u221E"));
-  forms.insert(forms.begin(), forms.front() + ", lambda = " + list_of(entries) + "\u2009kg");
+  return "\"eig\" Lambda = " + list_of(entries) + "\u2009kg";
+}
+
+std::vector<std::string> line_notations(const Chain& chain, const std::vector<double>& q,
+                                        const std::vector<std::optional<double>>& masses) {
+  std::vector<std::string> forms = pose_notations(chain, q);
+  forms.insert(forms.begin(), forms.front() + ", " + eigenvalues_notation(masses));
   return forms;
 }
 
-double caption_line_height(double text_scale) {
-  return kLineRow * scaled(size::kAxis, text_scale);
+double caption_line_height(double text_scale, int lines) {
+  return (kLineRow + (lines - 1) * kNextLine) * scaled(size::kAxis, text_scale);
 }
 
 bool line_fits(const std::string& notation, double width, double text_scale, const Theme& theme,
@@ -220,9 +226,9 @@ double caption_base(const Rect& box, double text_scale) {
 }
 
 void draw_caption_line(Picture& picture, const std::string& notation, double size, const Rect& box, double text_scale,
-                       const Theme& theme, const Fonts& fonts) {
+                       const Theme& theme, const Fonts& fonts, int line) {
   draw_text(picture, lay_out_math(fonts, notation, {Face::math, size, theme.ink, Align::center}),
-            {(box.x0 + box.x1) / 2, caption_base(box, text_scale)});
+            {(box.x0 + box.x1) / 2, caption_base(box, text_scale) - line * kNextLine * scaled(size::kAxis, text_scale)});
 }
 
 Rect draw_letter(Picture& picture, std::size_t panel, double size, const Rect& box, double text_scale, const Theme& theme,

@@ -31,11 +31,13 @@ double caption_height(int rows, double text_scale);
 // Whether Lambda can be read where the caption is so wide.
 bool matrix_fits(const EffectiveMass& effective, double width, double text_scale, const Theme& theme, const Fonts& fonts);
 
-// A caption of one line: the pose, before it in the first form its masses along the axes, "q = (0\u00B0, 90\u00B0):
-// \u03BB = (2, 1) kg"; where that is too long for one panel the others do without them, too.
+// The masses along the axes of the ellipse, which are the eigenvalues of Lambda: "eig \u039B = (2, 1) kg".
+std::string eigenvalues_notation(const std::vector<std::optional<double>>& masses);
+// A caption of one line: the pose, behind it in the first form those masses; where that is too long for one panel the others do
+// without them, too.
 std::vector<std::string> line_notations(const Chain& chain, const std::vector<double>& q,
                                         const std::vector<std::optional<double>>& masses);
-double caption_line_height(double text_scale);
+double caption_line_height(double text_scale, int lines = 1);
 bool line_fits(const std::string& notation, double width, double text_scale, const Theme& theme, const Fonts& fonts);
 
 // One line a panel, all in the same form and of one size: the first of their forms that fits everywhere, no smaller than
@@ -52,7 +54,7 @@ double mass_size(const EffectiveMass& effective, double width, double text_scale
 // The base line of the first line of a caption in `box`.
 double caption_base(const Rect& box, double text_scale);
 void draw_caption_line(Picture& picture, const std::string& notation, double size, const Rect& box, double text_scale,
-                       const Theme& theme, const Fonts& fonts);
+                       const Theme& theme, const Fonts& fonts, int line = 0);
 
 // "(a)", "(b)", .. at the left end of the caption in `box`. Returns what is left of it.
 Rect draw_letter(Picture& picture, std::size_t panel, double size, const Rect& box, double text_scale, const Theme& theme,

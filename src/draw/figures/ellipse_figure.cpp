@@ -28,6 +28,7 @@ constexpr std::size_t kManyPoses = 5;  // have one line of caption each
 constexpr double kLeastPicture = 0.7;  // of the cell of one of many, above its caption
 constexpr double kLeastSide = 0.08;    // units of H, of a panel that can be read
 constexpr double kLabelInset = 0.014;
+constexpr double kRoomForLengths = 10;  // of the em of their words: the side of a panel
 // How long the bounded semi-axes (their median) are drawn, as a share of the shorter side of a panel.
 constexpr double kSmallerAxis = 0.14, kLargerAxis = 0.24;
 
@@ -58,6 +59,7 @@ struct Panels {
   double caption = 0;                           // height of the words below each scene
   std::vector<std::vector<std::string>> lines;  // one a panel, where that is its whole caption
   CaptionLines words;                           // what of them is written; else the poses above their numbers
+  std::vector<std::string> below;               // a second line of such captions
   double marks = 1;
   EllipseScale scale;
   Skeleton skeleton;
@@ -67,12 +69,13 @@ struct Panels {
   double side() const { return std::min(scene(0).width(), scene(0).height()); }
 };
 
-void fit_panels(Panels& panels, const std::vector<Pose>& poses, Workspace& ws) {
+// Returns how high what the panels show is, units of H.
+double fit_panels(Panels& panels, const std::vector<Pose>& poses, Workspace& ws) {
   panels.skeleton = skeleton_of(panels.chain);
   for (const Pose& pose : poses) widen_rails(panels.skeleton, panels.chain, pose.q, kNoLimit);
   const BodyShapes* shapes = panels.options.shapes.get();
   const std::vector<double> at_rest(std::size_t(panels.chain.nv), 0.0);
-  const auto fit = [&](Camera& seen) {
+  const auto box_by = [&](const Camera& seen) {
     ChainFit places(panels.chain, panels.skeleton, seen, panels.marks, shapes);
     for (const Pose& pose : poses) {
       compute_kinematics(panels.chain, ws, pose.q, at_rest);
@@ -81,10 +84,29 @@ void fit_panels(Panels& panels, const std::vector<Pose>& poses, Workspace& ws) {
                  room_of(pose.axes, seen.seen_at(tip_position(panels.chain, ws)), panels.scale,
                          kLongestAxis * panels.side()));
     }
-    fit_to(seen, places.box(), panels.scene(0), size::kFitMargin);
+    return places.box();
   };
+  const auto fit = [&](Camera& seen) { fit_to(seen, box_by(seen), panels.scene(0), size::kFitMargin); };
   const MotionBox motion = box_around(panels.chain, panels.skeleton, shapes, ws, configurations_of(poses));
   panels.camera = aimed_camera(panels.chain, panels.options.camera, motion, panels.scene(0), fit);
+  return panels.camera.scale * box_by(panels.camera).box(panels.camera.scale).height();
+}
+
+// Panels that are narrow for what they show are no higher than it needs, or than they are wide, and stand in the middle of `area`.
+void cut_to_content(Panels& panels, const Rect& area, const std::vector<Pose>& poses, Workspace& ws) {
+  if (panels.options.camera.fit || panels.options.camera.focus) return;
+  const Rect scene = panels.scene(0);
+  const double needed = (1 + 2 * size::kFitMargin) * fit_panels(panels, poses, ws);
+  const double spare = scene.height() - std::max(needed, scene.width());
+  if (!(spare > 0)) return;
+  const double pitch = panels.places[0].height() + size::kGutter;
+  const double rows = std::round((panels.places[0].y1 - panels.places.back().y1) / pitch) + 1;
+  for (Rect& place : panels.places) {
+    const double row = std::round((panels.places[0].y1 - place.y1) / pitch), height = place.height() - spare;
+    place.y1 = area.y1 - rows * spare / 2 - row * (height + size::kGutter);
+    place.y0 = place.y1 - height;
+  }
+  fit_panels(panels, poses, ws);
 }
 
 // Words where they lie on nothing of what was drawn since item `first`.
@@ -130,8 +152,8 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
                      scene,  panels.options.reading};
   MarkLabels labels;
   style.lines = panels.marks;
-  // Small panels have no room for the lengths of semi-axes in space.
-  if (panels.lines.empty()) style.labels = &labels;
+  // Small panels have no room for the lengths of semi-axes.
+  if (panels.lines.empty() || panels.side() > kRoomForLengths * scaled(size::kTick, style.text_scale)) style.labels = &labels;
   if (drawing.shapes) style.hides = robot_hides(*drawing.shapes, ws, camera, tip_position(panels.chain, ws));
   const Camera seen = camera.seen_at(tip_position(panels.chain, ws));
   draw_base(picture, drawing, clip);
@@ -154,7 +176,9 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
   Rect caption{scene.x0, panels.places[i].y0, scene.x1, scene.y0};
   if (panels.options.letters) caption = draw_letter(picture, i, panels.words.size, caption, text_scale, theme, panels.fonts);
   if (!panels.lines.empty())
-    draw_caption_line(picture, panels.words.notations[i], panels.words.size, caption, text_scale, theme, panels.fonts);
+    for (int line = 0; line <= (panels.below.empty() ? 0 : 1); ++line)
+      draw_caption_line(picture, (line == 0 ? panels.words.notations : panels.below)[i], panels.words.size, caption, text_scale, theme,
+                        panels.fonts, line);
   else
     draw_caption(picture, panels.words.notations[i], pose.effective, panels.words.size, caption, text_scale, theme, panels.fonts);
 }
@@ -172,33 +196,45 @@ bool has_matrices(const Panels& panels, const std::vector<Pose>& poses) {
          });
 }
 
-std::vector<std::vector<std::string>> lines_of(const Panels& panels, const std::vector<Pose>& poses) {
-  std::vector<std::vector<std::string>> lines;
-  bool fit = true;
+std::vector<std::optional<double>> masses_of(const Pose& pose) {
+  std::vector<std::optional<double>> masses;
+  for (const MassAxis& axis : mass_axes(pose.effective)) masses.push_back(axis.mass);
+  return masses;
+}
+
+bool all_fit(const Panels& panels, const auto& notations) {
+  return std::all_of(notations.begin(), notations.end(), [&](const std::string& notation) {
+    return line_fits(notation, caption_width(panels), panels.options.text_scale, *panels.options.theme, panels.fonts);
+  });
+}
+
+// On one line each; where that is too narrow for the masses these stand on a second one, where it leaves pictures most of the cells.
+void write_lines(Panels& panels, const std::vector<Pose>& poses) {
+  std::vector<std::string> whole, masses;
   for (const Pose& pose : poses) {
-    std::vector<std::optional<double>> masses;
-    for (const MassAxis& axis : mass_axes(pose.effective)) masses.push_back(axis.mass);
-    lines.push_back(line_notations(panels.chain, pose.q, masses));
-    fit = fit && line_fits(lines.back().front(), caption_width(panels), panels.options.text_scale,
-                           *panels.options.theme, panels.fonts);
+    panels.lines.push_back(line_notations(panels.chain, pose.q, masses_of(pose)));
+    whole.push_back(panels.lines.back().front());
+    masses.push_back(eigenvalues_notation(masses_of(pose)));
   }
-  for (std::vector<std::string>& forms : lines)
-    if (!fit) forms.erase(forms.begin());
-  return lines;
+  panels.caption = caption_line_height(panels.options.text_scale);
+  if (all_fit(panels, whole)) return;
+  for (std::vector<std::string>& forms : panels.lines) forms.erase(forms.begin());
+  const double both = caption_line_height(panels.options.text_scale, 2), cell = panels.places[0].height();
+  if (!all_fit(panels, masses) || cell - both < kLeastPicture * cell) return;
+  panels.below = masses;
+  panels.caption = both;
 }
 
 // Where poses differ in one coordinate and are too long to be written, that one: "q2 = 30\u00B0".
 void name_what_differs(std::vector<std::vector<std::string>>& lines, const Panels& panels,
                        const std::vector<Pose>& poses) {
-  const bool fit = std::all_of(lines.begin(), lines.end(), [&](const std::vector<std::string>& forms) {
-    return line_fits(forms.front(), caption_width(panels), panels.options.text_scale, *panels.options.theme,
-                     panels.fonts);
-  });
+  std::vector<std::string> whole;
+  for (const std::vector<std::string>& forms : lines) whole.push_back(forms.front());
   std::vector<std::size_t> differing;
   for (std::size_t i = 0; i < poses[0].q.size(); ++i)
     if (std::any_of(poses.begin(), poses.end(), [&](const Pose& pose) { return pose.q[i] != poses[0].q[i]; }))
       differing.push_back(i);
-  if (fit || differing.size() != 1) return;
+  if (differing.size() != 1 || all_fit(panels, whole)) return;
   for (std::size_t k = 0; k < lines.size(); ++k)
     lines[k] = {"q" + std::to_string(differing[0] + 1) + " = " +
                 coordinate_notations(panels.chain, poses[k].q)[differing[0]]};
@@ -208,7 +244,12 @@ void name_what_differs(std::vector<std::vector<std::string>>& lines, const Panel
 CaptionLines words_of(const Panels& panels, const std::vector<Pose>& poses) {
   const PoseFigureOptions& options = panels.options;
   const double width = caption_width(panels);
-  if (!panels.lines.empty()) return caption_lines(panels.lines, width, options.text_scale, *options.theme, panels.fonts);
+  if (!panels.lines.empty()) {
+    CaptionLines words = caption_lines(panels.lines, width, options.text_scale, *options.theme, panels.fonts);
+    for (const std::string& masses : panels.below)
+      words.size = std::min(words.size, caption_lines({{masses}}, width, options.text_scale, *options.theme, panels.fonts).size);
+    return words;
+  }
   std::vector<std::vector<std::string>> forms;
   for (const Pose& pose : poses) forms.push_back(pose_notations(panels.chain, pose.q));
   CaptionLines words = caption_lines(forms, width, options.text_scale, *options.theme, panels.fonts);
@@ -221,12 +262,11 @@ CaptionLines words_of(const Panels& panels, const std::vector<Pose>& poses) {
 bool lay_out(Panels& panels, const Rect& area, int across, const std::vector<Pose>& poses, Workspace& ws) {
   const PoseFigureOptions& options = panels.options;
   panels.places = panels_of(area, int(poses.size()), across);
-  panels.lines =
-      has_matrices(panels, poses) ? std::vector<std::vector<std::string>>{} : lines_of(panels, poses);
-  if (!panels.lines.empty()) name_what_differs(panels.lines, panels, poses);
-  panels.caption = panels.lines.empty()
-                       ? caption_height(int(poses[0].effective.basis.directions.size()), options.text_scale)
-                       : caption_line_height(options.text_scale);
+  panels.caption = caption_height(int(poses[0].effective.basis.directions.size()), options.text_scale);
+  if (!has_matrices(panels, poses)) {
+    write_lines(panels, poses);
+    name_what_differs(panels.lines, panels, poses);
+  }
   if (!(panels.side() > kLeastSide)) return false;
   panels.words = words_of(panels, poses);
   panels.marks = marks_in(panels.scene(0));
@@ -315,6 +355,7 @@ Sheet sheet_of(const Chain& chain, const PoseFigureOptions& options, const Ellip
                                                 : options.section ? EllipseBody::section
                                                                   : EllipseBody::solid);
   if (options.cell > 0) text.legend += "; cut where longer than its cell";
+  text.legend_size = size::kTick;
   return lay_out_sheet(text, double(options.width) / options.height, options.text_scale, *options.theme,
                        fonts);
 }
@@ -329,7 +370,7 @@ std::optional<Panels> best_panels(const Chain& chain, const std::vector<Pose>& p
   const Rect area = sheet_of(chain, options, {0.005, kLongestBar, options.reading}, fonts).scene;
   std::optional<Panels> best;
   for (int across = options.layout == "row" ? int(poses.size()) : 1; across <= int(poses.size()); ++across) {
-    Panels panels{chain, options, fonts, {}, 0, {}, {}, 1, {}, {}, {}};
+    Panels panels{chain, options, fonts, {}, 0, {}, {}, {}, 1, {}, {}, {}};
     if (lay_out(panels, area, across, poses, ws) && (!best || merit(panels) > merit(*best)))
       best.emplace(std::move(panels));
   }
@@ -354,11 +395,12 @@ Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<d
   const std::vector<Pose> poses = poses_of(mass, configurations, options, ws);
   if (options.cell > 0 || options.layout == "superposed")
     return draw_superposed(chain, poses, options, fonts);
-  const std::optional<Panels> best = best_panels(chain, poses, options, fonts, ws);
+  std::optional<Panels> best = best_panels(chain, poses, options, fonts, ws);
   if (!best)
     throw Error(ExitCode::usage,
                 "too many poses for one page: draw several figures, or take --layout superposed");
   const Panels& panels = *best;
+  cut_to_content(*best, sheet_of(chain, options, panels.scale, fonts).scene, poses, ws);
 
   Picture picture;
   picture.aspect = double(options.width) / options.height;

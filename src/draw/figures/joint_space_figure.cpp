@@ -216,6 +216,7 @@ Sheet JointSpaceFigure::sheet() const {
   text.logo = logo_of(options_);
   if (text.logo) text.logo->page_height = int(unit_px_);
   text.legend = "mass matrix M(q): accelerations of unit length, and the torques that they take";
+  text.legend_size = size::kTick;
   return lay_out_sheet(text, options_.width / unit_px_, text_scale_, *options_.theme, fonts_, height_);
 }
 

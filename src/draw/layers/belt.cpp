@@ -202,8 +202,7 @@ void draw_belt(Picture& picture, const std::vector<MassAxis>& axes, Point center
       continue;
     }
     if (!axes[i].mass) continue;
-    draw_length_along(picture, center, *axes[i].mass * page[i], *axes[i].mass, 0, style, clip);
-    add_length_at_end(center, *axes[i].mass * page[i], *axes[i].mass, style);
+    draw_length(picture, center, *axes[i].mass * page[i], *axes[i].mass, 0, style, clip);
   }
 }
 

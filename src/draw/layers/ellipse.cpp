@@ -73,8 +73,7 @@ void draw_closed(Picture& picture, const std::vector<PageAxis>& axes, Point cent
   if (!style.draws_above()) return;
   for (const PageAxis& axis : axes) {
     if (!(norm(axis.v) > kNoLength)) continue;
-    draw_length_along(picture, center, axis.v, *axis.length, spread.reach(normal_to(unit(axis.v))), style, clip);
-    add_length_at_end(center, axis.v, *axis.length, style);
+    draw_length(picture, center, axis.v, *axis.length, spread.reach(normal_to(unit(axis.v))), style, clip);
   }
 }
 
@@ -163,8 +162,7 @@ void draw_open(Picture& picture, const std::vector<PageAxis>& axes, Point center
   draw_infinities(picture, center, d, half_width, style, clip);
   for (const PageAxis& axis : axes) {
     if (!axis.length || !(norm(axis.v) > kNoLength)) continue;
-    draw_length_along(picture, center, axis.v, *axis.length, 0, style, clip);
-    add_length_at_end(center, axis.v, *axis.length, style);
+    draw_length(picture, center, axis.v, *axis.length, 0, style, clip);
   }
 }
 

@@ -191,13 +191,12 @@ class Ellipsoid {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
       const Point v = on_page(axes_[i].v) - center_;
       if (!(norm(v) > kNoLength)) continue;
-      draw_length_along(picture, center_, v, axes_[i].length, spread_.reach(normal_to(unit(v))), style_, clip);
       bool back = camera_.toward_viewer.dot(axes_[i].v) < 0;
       if (style_.hides) {
         const auto is_hidden = [&](bool other) { return style_.hides((other ? -1 : 1) * axes_[i].v); };
         if (is_hidden(back) && !is_hidden(!back)) back = !back;
       }
-      add_length_at_end(center_, (back ? -1 : 1) * v, axes_[i].length, style_);
+      draw_length(picture, center_, (back ? -1 : 1) * v, axes_[i].length, spread_.reach(normal_to(unit(v))), style_, clip);
     }
   }
 

@@ -237,9 +237,9 @@ double strength_of_length(Point center, Point v, const EllipseStyle& style) {
   return style.signs ? std::min(1.0, excess_of(style.scene, center, v) / kAppearing) : 0;
 }
 
-TextLine text_of_length(double length, int digits, double strength, const EllipseStyle& style) {
+TextLine text_of_length(double length, double strength, const EllipseStyle& style) {
   const std::string unit = style.reading == EllipseReading::energy ? " m/s" : " kg";
-  return lay_out_text(*style.fonts, format_significant(length, digits) + unit,
+  return lay_out_text(*style.fonts, format_significant(length, 3) + unit,
                       {Face::label, scaled(size::kTick, style.text_scale), style.theme->ellipse.faded(strength),
                        Align::left});
 }
@@ -267,18 +267,14 @@ void draw_infinities(Picture& picture, Point center, Point d, double half_width,
   draw_along(picture, sign, center, -1 * d, half_width, style, clip);
 }
 
-void draw_length_along(Picture& picture, Point center, Point v, double length, double half_width,
-                       const EllipseStyle& style, int clip) {
-  const double strength = strength_of_length(center, v, style);
-  if (!(strength > 0)) return;
-  const TextLine text = text_of_length(length, 3, strength, style);
-  draw_along(picture, text, center, unit(v), half_width, style, clip, style.labels);
-  draw_along(picture, text, center, -1 * unit(v), half_width, style, clip, style.labels);
-}
-
-void add_length_at_end(Point center, Point v, double length, const EllipseStyle& style) {
+void draw_length(Picture& picture, Point center, Point v, double length, double half_width, const EllipseStyle& style, int clip) {
+  if (const double strength = strength_of_length(center, v, style); strength > 0) {
+    const TextLine text = text_of_length(length, strength, style);
+    draw_along(picture, text, center, unit(v), half_width, style, clip, style.labels);
+    draw_along(picture, text, center, -1 * unit(v), half_width, style, clip, style.labels);
+  }
   if (style.labels == nullptr || !style.signs || norm(v) < kLeastAxis) return;
-  MarkWord word{"semi-axis", text_of_length(length, 2, 1, style), {}};
+  MarkWord word{"semi-axis", text_of_length(length, 1, style), {}};
   for (const double side : {1.0, -1.0}) {
     const Point d = side * unit(v), end = center + side * v;
     for (const double aside : kAside) {
@@ -292,7 +288,7 @@ void add_length_at_end(Point center, Point v, double length, const EllipseStyle&
 Fade fade_before_length(Point center, Point v, double length, const Fade& whole, const EllipseStyle& style) {
   const double strength = strength_of_length(center, v, style);
   if (!(strength > 0)) return whole;
-  return fade_before(text_of_length(length, 3, strength, style), strength, unit(v), whole);
+  return fade_before(text_of_length(length, strength, style), strength, unit(v), whole);
 }
 
 Fade fade_before_infinity(Point d, const Fade& whole, const EllipseStyle& style) {

@@ -79,17 +79,13 @@ void draw_axis(Picture& picture, Point center, Point v, bool dashed, double widt
 // style wants none.
 void draw_infinities(Picture& picture, Point center, Point d, double half_width, const EllipseStyle& style, int clip);
 
-// "7.91 kg" where the axis from center - v to center + v, `length` in the unit of the reading, leaves the scene at both
-// of its ends: at each of them, stronger the further it leads out. Nothing where an end can be seen.
-void draw_length_along(Picture& picture, Point center, Point v, double length, double half_width,
-                       const EllipseStyle& style, int clip);
+// "7.91 kg", of the axis from center - v to center + v, `length` in the unit of the reading: where it leaves the scene at both
+// of its ends at each of them, stronger the further it leads out; else, of a style with labels, as a word of the film beyond
+// the end of v or else at the other one, where either is in the scene.
+void draw_length(Picture& picture, Point center, Point v, double length, double half_width, const EllipseStyle& style, int clip);
 
 // The name of such numbers among words.
 inline constexpr const char* kLengthAtEdge = "length";
-
-// "7.9 kg" as a word of the film beyond the end of the semi-axis v, or else at its other end; nothing where neither is in the
-// scene, or where the style has no labels.
-void add_length_at_end(Point center, Point v, double length, const EllipseStyle& style);
 
 // How the lines of such axes fade, those of a curve that fades as `whole`, to leave room for what is written at their ends.
 Fade fade_before_length(Point center, Point v, double length, const Fade& whole, const EllipseStyle& style);

@@ -112,9 +112,9 @@ void build_title_band(Builder& b, const SheetText& text) {
 }
 
 // The legend in one line, or broken behind its colon, or else between words, so that each line fits; all of one size.
-std::vector<TextLine> legend_lines(const Builder& b, const std::string& legend) {
+std::vector<TextLine> legend_lines(const Builder& b, const std::string& legend, double usual) {
   if (legend.empty()) return {};
-  TextStyle style = b.style(Face::label, size::kAxis, b.sheet.theme->muted);
+  TextStyle style = b.style(Face::label, usual, b.sheet.theme->muted);
   const double smallest = std::min(style.size, scaled(kSmallestText, b.sheet.text_scale));
   const std::size_t colon = legend.find(": ");
   std::vector<std::string> parts{legend};
@@ -186,7 +186,7 @@ void build_footer_band(Builder& b, const SheetText& text) {
   const TextLine time =
       lay_out_text(b.fonts, text.longest_time, b.style(Face::label, size::kAxis, theme.ink));
   TextLine bar = lay_out_text(b.fonts, text.bar, b.style(Face::label, size::kTick, theme.ink));
-  std::vector<TextLine> legend = legend_lines(b, text.legend);
+  std::vector<TextLine> legend = legend_lines(b, text.legend, text.legend_size);
 
   const double beside_gap = text.beside_time > 0 && !text.longest_time.empty() ? kTextGap / 2 : 0;
   const double time_width = has_time ? time.advance + beside_gap + text.beside_time + kTextGap : 0;

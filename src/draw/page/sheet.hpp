@@ -47,6 +47,7 @@ struct SheetText {
   double beside_time = 0;           // units of H that are kept free left of the running time
   std::string bar;                  // beside the scale bar of the ellipse
   double bar_length = 0;            // units of H
+  double legend_size = size::kAxis;
   std::string legend;               // may be broken behind ": ", and between words where it must
   std::vector<ScaleEntry> scales;   // of vectors, in rows above or beside the time
   bool with_panel_titles = false;   // where several panels share the page each has one of its own
