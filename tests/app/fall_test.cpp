@@ -58,6 +58,41 @@ TEST(FallCommand, SaysThatHeStandsOnlyWhileThePressureIsWithinTheFoot) {
   EXPECT_THAT(text.out, HasSubstr("tips over the toe at 0.0000, not down within 5 s"));
 }
 
+// The closed form: from rest it is down after sqrt(2 h / g), so that within 2 s it falls by 19.62 m and no more.
+TEST(FallCommand, FindsTheValueAtWhichTheEndChanges) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("depth.yaml", "model: " CHAINREEL_SOURCE_FOLDER
+                                                       "/models/pp.urdf\nduration: 2\nmethod: rk4\nstep: 0.01\ntorque: [0, 0]\nparameters: {h: 1}\n"
+                                                       "events: [{when: \"q2 + h < 0\", kind: fall, name: down}]\n");
+  const auto edges = [&](const std::string& sweep) {
+    const ProgramResult result = run_program({"fall", scene, "--sweep", sweep, "--edges", "--json"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return Json::parse(result.out)["edges"];
+  };
+  for (const char* sweep : {"parameters.h=1:41:5", "parameters.h=41:1:5"}) {
+    const Json found = edges(sweep);
+    ASSERT_EQ(found.size(), 1u) << sweep;
+    const double before = found[0]["before"], behind = found[0]["behind"];
+    EXPECT_LE(std::min(before, behind), 0.5 * 9.81 * 4);
+    EXPECT_GE(std::max(before, behind), 0.5 * 9.81 * 4);
+    EXPECT_LE(std::abs(behind - before), 10 * 1e-4) << "of the distance of rows";
+  }
+  EXPECT_TRUE(edges("parameters.h=1,2,3").empty());
+  EXPECT_THAT(run_program({"fall", scene, "--sweep", "parameters.h=1:41:5", "--edges"}).out,
+              HasSubstr("parameters.h = 19.62: falls below, does not fall above (within 0.0003)"));
+  EXPECT_THAT(run_program({"fall", scene, "--edges"}).err, HasSubstr("--edges looks between the numbers of --sweep"));
+  // A foot has two edges between these rows: not down any more, and standing.
+  const Json human = Json::parse(run_program({"fall", kHuman, "--sweep", "parameters.k=0:1200:2", "--edges", "--json"}).out)["edges"];
+  ASSERT_EQ(human.size(), 2u);
+  EXPECT_EQ(human[0]["to"], human[1]["from"]);
+  EXPECT_EQ(human[1]["to"], "stands");
+  const auto stands = [&](const Json& k) {
+    return Json::parse(run_program({"fall", kHuman, "--set", "parameters.k=" + k.dump(), "--json"}).out)["rows"][0]["stands"];
+  };
+  EXPECT_FALSE(stands(human[1]["before"]));
+  EXPECT_TRUE(stands(human[1]["behind"]));
+}
+
 // A table or picture of one value would be taken for that of another.
 TEST(FallCommand, SaysWhatTheCommandLineSet) {
   const TemporaryFolder folder;

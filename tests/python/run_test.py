@@ -95,6 +95,9 @@ class Runs(FolderTest):
         times = np.linspace(0, 0.5, 7)
         run = cr.Scene(FALL).run(times)
         np.testing.assert_array_equal(run.t, times)
+        self.assertEqual(len(cr.Scene(FALL).run(0.3).t), 1)
+        with self.assertRaisesRegex(ValueError, "2 axes"):
+            cr.Scene(FALL).run([[0.1, 0.2]])
         for bad in ([0.2, 0.1], [0, 9], [np.nan]):
             with self.assertRaisesRegex(cr.Error, "must rise"):
                 cr.Scene(FALL).run(bad)

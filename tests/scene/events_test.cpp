@@ -132,8 +132,8 @@ TEST(Titles, TellTheirParametersAndWhatStaysAsItIs) {
 
 TEST(Fall, TableIsTheSameForAnyNumberOfThreads) {
   const Sweep sweep = parse_sweep("parameters.k=0:900:4", "--sweep");
-  const FallTable one = run_fall_table("assets/scenes/humanoid_fall.yaml", {}, sweep, 1);
-  const FallTable two = run_fall_table("assets/scenes/humanoid_fall.yaml", {}, sweep, 2);
+  const FallTable one = run_fall_table("assets/scenes/humanoid_fall.yaml", {}, sweep, {1});
+  const FallTable two = run_fall_table("assets/scenes/humanoid_fall.yaml", {}, sweep, {2});
   ASSERT_EQ(one.rows.size(), 4u);
   for (std::size_t k = 0; k < 4; ++k) {
     EXPECT_EQ(one.rows[k].fall_time, two.rows[k].fall_time) << k;
@@ -146,7 +146,7 @@ TEST(Fall, TableIsTheSameForAnyNumberOfThreads) {
 
 TEST(Fall, NeedsAnEventThatIsOne) {
   try {
-    run_fall_table("assets/scenes/rr_free.yaml", {}, parse_sweep("torque.1=0,1", "--sweep"), 1);
+    run_fall_table("assets/scenes/rr_free.yaml", {}, parse_sweep("torque.1=0,1", "--sweep"), {});
     FAIL() << "a scene without falls was taken";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_input);

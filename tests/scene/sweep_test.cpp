@@ -53,6 +53,7 @@ TEST(Sweep, RangesHoldBothEndsAndEqualDistances) {
 TEST(Sweep, LogarithmicRangesHaveEqualFactors) {
   const Sweep range = parse_sweep("step=1e-4:1e-1:4:log", "--x");
   EXPECT_TRUE(range.logarithmic);
+  EXPECT_THAT(parse_sweep("torque.1=-100:-1:3:log", "--x").values, ElementsAre("-100", "-10", "-1"));
   for (std::size_t k = 1; k < 4; ++k) EXPECT_NEAR(range.numbers[k] / range.numbers[k - 1], 10, 1e-13);
 }
 
@@ -79,7 +80,8 @@ TEST(Sweep, SaysWhatItTakesWhereAskedForAnythingElse) {
   EXPECT_THAT(refusal("step=1,,2"), HasSubstr("empty value"));
   EXPECT_THAT(refusal("step=0:1"), HasSubstr("is no range"));
   EXPECT_THAT(refusal("step=0:1:1"), HasSubstr("count between 2"));
-  EXPECT_THAT(refusal("step=0:1:5:log"), HasSubstr("above 0"));
+  EXPECT_THAT(refusal("step=0:1:5:log"), HasSubstr("of one sign"));
+  EXPECT_THAT(refusal("step=-1:1:5:log"), HasSubstr("of one sign"));
   EXPECT_THAT(refusal("step=a:1:5"), HasSubstr("'a', which is no number"));
 }
 

@@ -27,6 +27,7 @@ struct FallOptions {
   std::string scene;
   std::string sweep;
   std::vector<std::string> outputs;
+  bool edges = false;
   int threads = 0;
   CommonOptions common;
 };
@@ -35,8 +36,25 @@ bool has_failed(const FallRow& row) {
   return !is_complete(row.status);
 }
 
-bool stands(const FallRow& row) {
-  return !row.tips && !row.takes_off && !row.fall_time && row.status == RunStatus::finished;
+// To this share of the distance of rows.
+constexpr double kEdgesTo = 1e-4;
+
+std::string to_words(FallOutcome outcome) {
+  switch (outcome) {
+    case FallOutcome::falls: return "falls";
+    case FallOutcome::leaves: return "leaves the foot, not down";
+    case FallOutcome::stays_up: return "does not fall";
+    case FallOutcome::stands: return "stands";
+    case FallOutcome::unknown: break;
+  }
+  return "ends otherwise";
+}
+
+std::string to_words(const FallTable& table, const FallEdge& edge) {
+  const bool rises = edge.before < edge.behind;
+  return table.sweep.key + " = " + format_significant((edge.before + edge.behind) / 2, 5) + (table.sweep.unit.empty() ? "" : " " + table.sweep.unit) +
+         ": " + to_words(rises ? edge.from : edge.to) + " below, " + to_words(rises ? edge.to : edge.from) + " above (within " +
+         format_significant(std::abs(edge.behind - edge.before) / 2, 1) + ")";
 }
 
 std::string tips_over(const FallRow& row) {
@@ -94,6 +112,7 @@ void print_table(const FallTable& table, const std::string& set) {
     rows.back().push_back(verdict(table, row));
   }
   std::fputs(table_text(rows).c_str(), stdout);
+  for (const FallEdge& edge : table.edges) std::printf("%s\n", to_words(table, edge).c_str());
   if (!set.empty()) std::printf("with %s\n", set.c_str());
   std::printf("%s; %d threads\n", table.method.c_str(), table.threads);
 }
@@ -118,7 +137,7 @@ Json report_of(const FallOptions& options, const FallTable& table) {
         row.ending_event < 0 ? Json(nullptr) : Json(table.events[std::size_t(row.ending_event)].title());
     one["first"] = Json::array();
     for (const std::optional<double>& time : row.first) one["first"].push_back(or_null(time));
-    one["stands"] = table.has_foot ? Json(stands(row)) : Json(nullptr);
+    one["stands"] = table.has_foot ? Json(outcome_of(row, true) == FallOutcome::stands) : Json(nullptr);
     one["tips_at"] = or_null(row.tips);
     one["tips_over"] = row.tips ? Json(tips_over(row)) : Json(nullptr);
     one["falls"] = row.lies_before ? Json(falls_to(row)) : Json(nullptr);
@@ -126,6 +145,9 @@ Json report_of(const FallOptions& options, const FallTable& table) {
     one["trouble"] = or_null(row.trouble);
     json["rows"].push_back(one);
   }
+  json["edges"] = Json::array();
+  for (const FallEdge& edge : table.edges)
+    json["edges"].push_back({{"before", edge.before}, {"behind", edge.behind}, {"from", to_words(edge.from)}, {"to", to_words(edge.to)}});
   return json;
 }
 
@@ -141,7 +163,7 @@ std::string csv_of(const FallOptions& options, const FallTable& table) {
     if (swept) text += row.value + ",";
     text += field(row.fall_time) + "," + to_string(row.status) + "," + format_shortest(row.end_time);
     for (const std::optional<double>& time : row.first) text += "," + field(time);
-    if (table.has_foot) text += std::string(stands(row) ? ",true," : ",false,") + field(row.tips) + "," + tips_over(row) + "," + falls_to(row) + "," + field(row.takes_off);
+    if (table.has_foot) text += std::string(outcome_of(row, true) == FallOutcome::stands ? ",true," : ",false,") + field(row.tips) + "," + tips_over(row) + "," + falls_to(row) + "," + field(row.takes_off);
     text += "\n";
   }
   return text;
@@ -151,6 +173,8 @@ void run_fall(const FallOptions& options) {
   Sweep sweep;
   sweep.values = {""};
   if (!options.sweep.empty()) sweep = parse_sweep(options.sweep, "--sweep");
+  if (options.edges && sweep.numbers.size() < 2)
+    throw Error(ExitCode::usage, "--edges looks between the numbers of --sweep: give two at least, like --sweep torque.1=0:60:7");
   const bool writes = !options.outputs.empty();
   for (const std::string& output : options.outputs) {
     refuse_dash(output);
@@ -162,7 +186,7 @@ void run_fall(const FallOptions& options) {
   FallTable table;
   {
     WorkTicker ticker(std::filesystem::path(options.scene).stem().string() + ": simulating", options.common.quiet);
-    table = run_fall_table(options.scene, overrides_of(options.common), sweep, threads, [&](double part) {
+    table = run_fall_table(options.scene, overrides_of(options.common), sweep, {threads, options.edges ? kEdgesTo : 0}, [&](double part) {
       ticker.tell(part);
       return interrupted();
     });
@@ -193,11 +217,12 @@ void add_fall_command(CommandLine& app) {
   command->add_option("scene", options->scene, "a scene file with an event of kind fall").required().names_input();
   command->add_option("--sweep", options->sweep,
                       "KEY=a,b,c or KEY=from:to:count, maybe with :log behind it, like torque.1=0:60:7");
+  command->add_flag("--edges", options->edges, "between rows that end otherwise, the value at which that changes, by bisection");
   command->add_repeatable("-o,--output", options->outputs, "a .csv, .json or .npz file (repeatable)");
   command->add_option("--jobs", options->threads, "threads (default: all cores)").range(1, 256);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
-  command->footer("Example: chainreel fall humanoid_fall --sweep parameters.k=0:1200:7");
+  command->footer("Example: chainreel fall humanoid_fall --sweep parameters.k=0:1200:7 --edges");
   command->callback([options] { run_fall(*options); });
 }
 

@@ -75,7 +75,7 @@ Axis axis_of(const Sweep& sweep) {
 // Cells of one size: rising values at equal distances or factors.
 void check_axis(const Sweep& sweep, const std::string& option) {
   const auto& v = sweep.numbers;
-  bool good = v.size() >= 2;
+  bool good = v.size() >= 2 && !(sweep.logarithmic && v[0] < 0);
   for (std::size_t k = 1; good && k < v.size(); ++k) {
     const double even =
         sweep.logarithmic ? v[0] * std::pow(v[1] / v[0], double(k)) : v[0] + double(k) * (v[1] - v[0]);
@@ -85,7 +85,7 @@ void check_axis(const Sweep& sweep, const std::string& option) {
     throw Error(ExitCode::usage,
                 option +
                     " of a map takes a range of rising numbers: KEY=from:to:count, maybe with "
-                    ":log behind it");
+                    ":log behind it where they are above 0");
 }
 
 constexpr const char* kTheory = "theory";

@@ -62,7 +62,10 @@ class Scene:
         Throws Error, with file and line, of whatever is wrong with the scene, and where the run does not end as the scene
         expects; what the torque function raises is raised. What speaks against the run is a RunWarning. Other threads go on.
         """
-        at = [] if times is None else np.asarray(times, dtype=float).tolist()
+        instants = np.atleast_1d(np.asarray([] if times is None else times, dtype=float))
+        if instants.ndim > 1:
+            raise ValueError(f"times has {instants.ndim} axes: give one instant, or one axis of them")
+        at = instants.tolist()
         if times is not None and not at:
             raise ValueError("times is empty: leave it out for those of the film")
         try:

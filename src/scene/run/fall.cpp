@@ -91,7 +91,42 @@ FallRow run_row(Scene scene, const StopRequest& stop) {
   return row;
 }
 
+// The setting of a number between two values of the key.
+std::string setting_of(const Sweep& sweep, double number) { return sweep.key + "=" + format_shortest(number) + sweep.unit; }
+
+// Bisection between each two rows that end otherwise; `run_at` says how the scene of a setting ends. What lies between is ended as
+// neither does where a middle shows it; then the next edge is looked for behind that.
+template <class RunAt, class Stop>
+void find_edges(FallTable& table, const FallSearch& search, RunAt run_at, Stop is_stopped) {
+  constexpr std::size_t kMostEdges = 8;  // between two rows
+  const Sweep& sweep = table.sweep;
+  std::vector<std::vector<FallEdge>> found(table.rows.empty() ? 0 : table.rows.size() - 1);
+  for_each_index(found.size(), search.threads, [&](std::size_t k) {
+    const double last = sweep.numbers[k + 1], close = search.edges_to * std::abs(last - sweep.numbers[k]);
+    const FallOutcome wanted = outcome_of(table.rows[k + 1], table.has_foot);
+    FallEdge edge{sweep.numbers[k], last, outcome_of(table.rows[k], table.has_foot), wanted};
+    while (edge.from != wanted && found[k].size() < kMostEdges && !is_stopped()) {
+      while (std::abs(edge.behind - edge.before) > close && !is_stopped()) {
+        const double middle = edge.before + (edge.behind - edge.before) / 2;
+        const FallOutcome ends = run_at(setting_of(sweep, middle));
+        (ends == edge.from ? edge.before : edge.behind) = middle;
+        if (ends != edge.from) edge.to = ends;
+      }
+      found[k].push_back(edge);
+      edge = {edge.behind, last, edge.to, wanted};
+    }
+  });
+  for (const std::vector<FallEdge>& of_pair : found) table.edges.insert(table.edges.end(), of_pair.begin(), of_pair.end());
+}
+
 }  // namespace
+
+FallOutcome outcome_of(const FallRow& row, bool has_foot) {
+  if (row.fall_time) return FallOutcome::falls;
+  if (row.status != RunStatus::finished) return FallOutcome::unknown;
+  if (!has_foot) return FallOutcome::stays_up;
+  return row.tips || row.takes_off ? FallOutcome::leaves : FallOutcome::stands;
+}
 
 bool has_fall(const Scene& scene) {
   return std::any_of(scene.events.begin(), scene.events.end(),
@@ -111,16 +146,17 @@ std::string fall_time_text(const Scene& scene, const Trajectory& trajectory) {
 }
 
 FallTable run_fall_table(const std::string& scene, const std::vector<std::string>& overrides,
-                         const Sweep& sweep, int threads, const StopRequest& stop) {
+                         const Sweep& sweep, const FallSearch& search, const StopRequest& stop) {
   FallTable table;
   table.sweep = sweep;
-  table.threads = threads;
+  table.threads = search.threads;
   table.rows.resize(sweep.values.size());
-  const auto settings = [&](std::size_t k) {
+  const auto with = [&](const std::string& setting) {
     std::vector<std::string> all = overrides;
-    if (!sweep.key.empty()) all.push_back(sweep.setting(k));
+    if (!sweep.key.empty()) all.push_back(setting);
     return all;
   };
+  const auto settings = [&](std::size_t k) { return with(sweep.key.empty() ? "" : sweep.setting(k)); };
   // The first row's scene alone: one that cannot be read says so once.
   const Scene first = read_one(scene, settings(0));
   if (!sweep.key.empty()) require_read(sweep.key, first, "--sweep");
@@ -132,12 +168,17 @@ FallTable run_fall_table(const std::string& scene, const std::vector<std::string
   require_possible(prepare(counted, false), double(table.rows.size()));
   for (const std::string& doubt : counted.doubts) table.doubts.push_back(first.name + ": " + doubt);
   DoneShare done(table.rows.size());
-  for_each_index(table.rows.size(), threads, [&](std::size_t k) {
+  for_each_index(table.rows.size(), search.threads, [&](std::size_t k) {
     if (stop && stop(done.with())) return;
     table.rows[k] = run_row(read_one(scene, settings(k)), [&](double part) { return stop && stop(done.with(part)); });
     table.rows[k].value = sweep.values[k];
     done.add();
   });
+  if (!(search.edges_to > 0) || (stop && stop(1))) return table;
+  const auto run_at = [&](const std::string& setting) {
+    return outcome_of(run_row(read_one(scene, with(setting)), [&](double) { return stop && stop(1); }), table.has_foot);
+  };
+  find_edges(table, search, run_at, [&] { return stop && stop(1); });
   return table;
 }
 

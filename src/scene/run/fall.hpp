@@ -41,6 +41,23 @@ struct FallRow {
   std::optional<double> takes_off;
 };
 
+// How a run ended, from the worst on.
+enum class FallOutcome {
+  falls,      // the event of kind fall came
+  leaves,     // it tipped or took off, and was not down within the time: a foot that lies on the ground would not hold it
+  stays_up,   // no fall, and nothing is known of a foot
+  stands,     // no fall, and the pressure stayed within the foot
+  unknown,    // another event ended it, or it failed
+};
+FallOutcome outcome_of(const FallRow& row, bool has_foot);
+
+// Between two rows that end otherwise, where that changes: from `before`, which still ends as the lower row does, to `behind`.
+// Of a change there and back between two rows nothing is known.
+struct FallEdge {
+  double before = 0, behind = 0;  // of the key
+  FallOutcome from = FallOutcome::unknown, to = FallOutcome::unknown;
+};
+
 struct FallTable {
   Sweep sweep;
   std::vector<EventEntry> events;  // of the scene
@@ -50,12 +67,19 @@ struct FallTable {
   int threads = 1;
   std::vector<std::string> doubts;  // "NAME: what speaks against the scene", of its first row
   std::vector<FallRow> rows;
+  std::vector<FallEdge> edges;  // where they were asked for
 };
 
-// A run for each value, on `threads` threads, which ask `stop` with the share of all work that is done. `method: auto` means dop853 with a tolerance of 1e-10 here: the
+struct FallSearch {
+  int threads = 1;
+  // Looks for the edges between rows, to this share of the rows' distance; none at 0. Values of the key must be numbers.
+  double edges_to = 0;
+};
+
+// A run for each value, on threads which ask `stop` with the share of all work that is done. `method: auto` means dop853 with a tolerance of 1e-10 here: the
 // same for all rows. Throws what reading or preparing a row's scene throws, and Error (bad input) where the
 // scene has no event of kind `fall`.
 FallTable run_fall_table(const std::string& scene, const std::vector<std::string>& overrides,
-                         const Sweep& sweep, int threads, const StopRequest& stop = {});
+                         const Sweep& sweep, const FallSearch& search, const StopRequest& stop = {});
 
 }  // namespace chainreel

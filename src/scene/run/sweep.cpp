@@ -90,13 +90,13 @@ void fill_range(Sweep& sweep, const std::vector<std::string>& parts, const std::
   const auto count = parse_number(parts[2]);
   if (!count || *count != std::floor(*count) || *count < 2 || *count > kMostValues)
     refuse(text, asked, "needs a count between 2 and " + std::to_string(kMostValues));
-  if (sweep.logarithmic && !(from > 0 && to > 0))
-    refuse(text, asked, "needs ends above 0 for equal factors");
+  if (sweep.logarithmic && !(from * to > 0))
+    refuse(text, asked, "needs ends of one sign for equal factors");
   const int n = int(*count);
   for (int k = 0; k < n; ++k) {
     const double s = double(k) / (n - 1);
     double value = sweep.logarithmic ? from * std::pow(to / from, s) : from + s * (to - from);
-    value = k == n - 1 ? to : meant_decimal(value, sweep.logarithmic ? value : std::max(std::abs(from), std::abs(to)));
+    value = k == n - 1 ? to : meant_decimal(value, sweep.logarithmic ? std::abs(value) : std::max(std::abs(from), std::abs(to)));
     sweep.numbers.push_back(value);
     sweep.values.push_back(format_shortest(value));
   }
