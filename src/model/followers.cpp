@@ -2,9 +2,11 @@
 
 #include <cmath>
 
+#include "core/format.hpp"
+
 namespace chainreel {
 
-std::vector<std::size_t> numbers_of_followers(const Chain& chain, std::span<const double> values, bool are_rates) {
+FollowerNumbers numbers_of_followers(const Chain& chain, std::span<const double> values, bool are_rates) {
   constexpr double kSame = 1e-6;  // rad or m, and of the number: lists are written with that many digits
   if (values.size() + 1 != chain.bodies.size() || chain.has_floating) return {};
   std::vector<std::size_t> followers;
@@ -20,9 +22,11 @@ std::vector<std::size_t> numbers_of_followers(const Chain& chain, std::span<cons
   for (const std::size_t k : followers) {
     const Joint& joint = chain.bodies[k + 1].joint;
     const double value = joint.ratio * leading[std::size_t(joint.q_index)] + (are_rates ? 0 : joint.offset);
-    if (!(std::abs(values[k] - value) <= kSame * (1 + std::abs(value)))) return {};
+    if (!(std::abs(values[k] - value) <= kSame * (1 + std::abs(value))))
+      return {{}, joint.name + " follows " + chain.coordinate_names[std::size_t(joint.v_index)] + ", which makes it " +
+                      format_significant(value, 6) + ", not " + format_significant(values[k], 6)};
   }
-  return followers;
+  return {followers, ""};
 }
 
 std::string followers_of(const Chain& chain) {

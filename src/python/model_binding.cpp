@@ -10,6 +10,7 @@
 #include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
 #include "dynamics/kinematics.hpp"
+#include "model/followers.hpp"
 #include "python/binding.hpp"
 #include "sim/instant.hpp"
 
@@ -123,7 +124,8 @@ class PythonModel {
     if (given.ndim() > 1 || int(given.size()) != count)
       refuse(name + " takes " + std::to_string(count) + (count == 1 ? " number" : " numbers") + " of " + chain().name +
              ", not " + (given.ndim() > 1 ? "an array of " + std::to_string(given.ndim()) + " dimensions"
-                                          : std::to_string(given.size())));
+                                          : std::to_string(given.size())) +
+             (followers_of(chain()).empty() ? "" : "; " + followers_of(chain())));
     const ConstVec values(given.data(), std::size_t(given.size()));
     for (const double value : values)
       if (!std::isfinite(value)) refuse(name + " holds what is no finite number");

@@ -80,6 +80,9 @@ TEST(FallCommand, FindsTheValueAtWhichTheEndChanges) {
   EXPECT_TRUE(edges("parameters.h=1,2,3").empty());
   EXPECT_THAT(run_program({"fall", scene, "--sweep", "parameters.h=1:41:5", "--edges"}).out,
               HasSubstr("parameters.h = 19.62: falls below, does not fall above (within 0.0003)"));
+  const std::string table = folder.file("edges.csv");
+  run_program({"fall", scene, "--sweep", "parameters.h=1:41:5", "--edges", "-o", table});
+  EXPECT_THAT(read_whole_file(table), HasSubstr("# edge: parameters.h = 19.62: falls below"));
   EXPECT_THAT(run_program({"fall", scene, "--edges"}).err, HasSubstr("--edges looks between the numbers of --sweep"));
   // A foot has two edges between these rows: not down any more, and standing.
   const Json human = Json::parse(run_program({"fall", kHuman, "--sweep", "parameters.k=0:1200:2", "--edges", "--json"}).out)["edges"];

@@ -141,10 +141,11 @@ TEST(MimicJoints, AreNamedWhereNumbersDoNotFit) {
                        "</joint></robot>");
   const ProgramResult counted = run_program({"dynamics", model, "--q", "0.1,0.2"});
   EXPECT_EQ(counted.status, 2);
-  EXPECT_THAT(counted.err, HasSubstr("hand needs 1: of left; right follows left and has no number of its own"));
+  EXPECT_THAT(counted.err, HasSubstr("hand needs 1: of left; right follows left, which makes it 0.1, not 0.2"));
+  EXPECT_THAT(run_program({"dynamics", model, "--q", "0.1,0.2,0.3"}).err, HasSubstr("of left; right follows left and has no number of its own"));
   EXPECT_THAT(run_program({"dynamics", model, "--q", "right=0.1"}).err, HasSubstr("right follows left"));
   const std::string scene = folder.write("hand.yaml", "model: hand.urdf\nstart: {q: [0.1, 0.2]}\nduration: 1\n");
-  EXPECT_THAT(run_program({"check", scene}).err, HasSubstr("needs 1: right follows left and has no number of its own"));
+  EXPECT_THAT(run_program({"check", scene}).err, HasSubstr("needs 1: right follows left, which makes it 0.1, not 0.2"));
   // Who names all of a robot's joints, each where it is, is understood.
   const ProgramResult all = run_program({"dynamics", model, "--q", "0.1,0.1", "--qd", "2,2"}), own = run_program({"dynamics", model, "--q", "0.1", "--qd", "2"});
   EXPECT_EQ(all.status, 0) << all.err;

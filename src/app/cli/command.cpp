@@ -139,15 +139,15 @@ std::vector<double> parse_counted(const std::vector<std::string>& names, const C
                                   const std::string& what, StateNumbers numbers, std::vector<std::string>& written) {
   constexpr std::size_t kMostNamed = 300;  // bytes
   std::vector<double> values = parse_list(text, what);
-  const std::vector<std::size_t> repeated =
-      numbers == StateNumbers::tau ? std::vector<std::size_t>{} : numbers_of_followers(chain, values, numbers == StateNumbers::qd);
+  const auto [repeated, contradiction] =
+      numbers == StateNumbers::tau ? FollowerNumbers{} : numbers_of_followers(chain, values, numbers == StateNumbers::qd);
   take_out(values, repeated);
   if (written.size() == values.size() + repeated.size()) take_out(written, repeated);
   if (values.size() != names.size())
     throw Error(ExitCode::usage, what + " " + text + " has " + std::to_string(values.size()) +
                                      (values.size() == 1 ? " number" : " numbers") + ", but " + chain.name + " needs " +
                                      std::to_string(names.size()) + ": of " + shortened(joined(names), kMostNamed) +
-                                     after_semicolon(shortened(followers_of(chain), kMostNamed)));
+                                     after_semicolon(contradiction.empty() ? shortened(followers_of(chain), kMostNamed) : contradiction));
   return values;
 }
 

@@ -155,7 +155,9 @@ Json report_of(const FallOptions& options, const FallTable& table) {
 std::string csv_of(const FallOptions& options, const FallTable& table) {
   const auto field = [](const std::optional<double>& value) { return value ? format_shortest(*value) : ""; };
   const bool swept = !table.sweep.key.empty();
-  std::string text = csv_facts(options.scene) + (set_words(options).empty() ? "" : "# set: " + set_words(options) + "\n") + (swept ? table.sweep.key + "," : "") + "fall_time [s],status,end_time [s]";
+  std::string text = csv_facts(options.scene) + (set_words(options).empty() ? "" : "# set: " + set_words(options) + "\n");
+  for (const FallEdge& edge : table.edges) text += "# edge: " + to_words(table, edge) + "\n";
+  text += (swept ? table.sweep.key + "," : "") + "fall_time [s],status,end_time [s]";
   for (const EventEntry& event : table.events) text += "," + csv_words(event.title() + " [s]");
   if (table.has_foot) text += ",stands,tips_at [s],tips_over,falls,takes_off_at [s]";
   text += "\n";

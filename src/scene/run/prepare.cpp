@@ -28,13 +28,14 @@ void check_length(std::vector<double>& values, const std::vector<double>& absent
     values.pop_back();
     if (values.size() < absent.size()) values.resize(absent.size(), std::nan(""));
   }
-  if (!is_partial) take_out(values, numbers_of_followers(chain, values, key == "start.qd"));
+  const FollowerNumbers followers = is_partial ? FollowerNumbers{} : numbers_of_followers(chain, values, key == "start.qd");
+  take_out(values, followers.places);
   if (values.empty()) {
     values = absent;
   } else if (values.size() != absent.size()) {
     problems.add("'" + key + "' has " + std::to_string(values.size()) + " numbers, but the model " +
                      scene.model.words() + " needs " + std::to_string(absent.size()) +
-                     (followers_of(chain).empty() ? "" : ": " + followers_of(chain)),
+                     (followers_of(chain).empty() ? "" : ": " + (followers.contradiction.empty() ? followers_of(chain) : followers.contradiction)),
                  scene.place_of(key));
   }
   for (std::size_t i = 0; i < std::min(values.size(), absent.size()); ++i)

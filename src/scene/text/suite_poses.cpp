@@ -63,10 +63,12 @@ class PoseSetter {
 
   void set_by_order() {
     std::vector<double> numbers = written_.numbers;
-    take_out(numbers, numbers_of_followers(chain_, numbers, false));
+    const FollowerNumbers followers = numbers_of_followers(chain_, numbers, false);
+    take_out(numbers, followers.places);
     if (numbers.size() != q_.size())
       return fail("has " + std::to_string(numbers.size()) + " numbers, but " + file_.path +
-                      " needs " + std::to_string(q_.size()) + ": " + joined(names_),
+                      " needs " + std::to_string(q_.size()) + ": " + joined(names_) +
+                      (followers.contradiction.empty() ? "" : "; " + followers.contradiction),
                   written_.place);
     for (std::size_t i = 0; i < q_.size(); ++i) set(i, numbers[i], written_.place);
   }
