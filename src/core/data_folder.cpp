@@ -99,7 +99,8 @@ std::string shipped_input(const std::string& name) {
 
 std::string name_of_shipped(const std::string& path) {
   const std::string name = fs::path(path).filename().string();
-  const std::string shipped = path.find('/') == std::string::npos ? "" : shipped_input(name);
+  std::string shipped = path.find('/') == std::string::npos ? "" : shipped_input(name);
+  if (shipped.empty() && path.find('/') != std::string::npos) shipped = shipped_file(name);
   return !shipped.empty() && fs::path(path).lexically_normal() == fs::path(shipped).lexically_normal() ? name : "";
 }
 

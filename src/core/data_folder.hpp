@@ -22,7 +22,7 @@ std::string shipped_file(const std::string& name);
 
 // The file that a scene may name so: a model, a style or its logo; "" where there is none of that name.
 std::string shipped_input(const std::string& name);
-// The name by which a scene anywhere may name this file; "" where it is none of those.
+// The name by which a scene or a suite anywhere may name this file; "" where it is none of those, nor a scene that comes with the program.
 std::string name_of_shipped(const std::string& path);
 // Of the models' names, where one is near: " Did you mean 'rr.urdf'?"; else all of them.
 std::string near_shipped_models(const std::string& name);

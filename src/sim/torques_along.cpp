@@ -71,6 +71,55 @@ std::vector<double> multipliers_along(const Simulation& simulation, const Trajec
   return multipliers;
 }
 
+namespace {
+
+void take_larger(std::vector<LargestMultiplier>& largest, const Trajectory& run) {
+  constexpr double kRounding = 1e-9;
+  if (run.rows != int(largest.size()) || run.lambda.empty()) return;
+  for (int k = 0; k < run.size(); ++k) {
+    const ConstVec lambda = run.lambda_at(k);
+    for (std::size_t i = 0; i < largest.size(); ++i)
+      if (std::abs(lambda[i]) > (1 + kRounding) * std::abs(largest[i].value)) largest[i] = {lambda[i], run.t[std::size_t(k)]};
+  }
+}
+
+}  // namespace
+
+std::vector<LargestMultiplier> largest_multipliers(const Simulation& simulation, const Trajectory& trajectory) {
+  constexpr int kWithin = 3, kClose = 64;  // instants within a step, and about a largest one
+  constexpr long kMostSteps = 20'000;
+  std::vector<LargestMultiplier> largest(std::size_t(trajectory.rows));
+  take_larger(largest, trajectory);
+  if (trajectory.between) take_larger(largest, *trajectory.between);
+  if (largest.empty() || simulation.motion || trajectory.steps > kMostSteps || trajectory.status != RunStatus::finished) return largest;
+  // The run that it is, seen more often: its own steps stay where they are.
+  const auto see_also = [&](std::vector<double> times) {
+    times.insert(times.end(), trajectory.t.begin(), trajectory.t.end());
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end(), [](double a, double b) { return b - a <= 1e-12 * (1 + b); }), times.end());
+    Trajectory seen = simulate(simulation, times);
+    take_larger(largest, seen);
+    return seen;
+  };
+  const Trajectory steps = simulate_every_step(simulation);
+  take_larger(largest, steps);
+  std::vector<double> times;
+  for (std::size_t k = 0; k + 1 < steps.t.size(); ++k)
+    for (int i = 0; i <= kWithin; ++i) times.push_back(steps.t[k] + (steps.t[k + 1] - steps.t[k]) * i / (kWithin + 1));
+  Trajectory seen = see_also(std::move(times));
+  for (int round = 0; round < 2; ++round) {
+    times.clear();
+    for (const LargestMultiplier& one : largest) {
+      const auto at = std::lower_bound(seen.t.begin(), seen.t.end(), one.t) - seen.t.begin();
+      const double a = seen.t[std::size_t(std::max<std::ptrdiff_t>(at - 1, 0))];
+      const double b = seen.t[std::min(std::size_t(at) + 1, seen.t.size() - 1)];
+      for (int i = 1; i < kClose; ++i) times.push_back(a + (b - a) * i / kClose);
+    }
+    seen = see_also(std::move(times));
+  }
+  return largest;
+}
+
 std::vector<double> constraint_errors_along(const Simulation& simulation, const Trajectory& trajectory) {
   ChainSystem system(simulation);
   ConstrainedChain& constrained = *system.constrained();

@@ -20,6 +20,14 @@ std::vector<double> torques_along(const Simulation& simulation, const Trajectory
 std::vector<double> multipliers_along(const Simulation& simulation, const Trajectory& trajectory);
 
 // How far each row of the constraints is missed at each sample: phi, signed, as many as the run has rows (m or rad).
+// The largest multiplier of a row over a run: with its sign, and the first instant at which it is as large but for rounding.
+struct LargestMultiplier {
+  double value = 0, t = 0;
+};
+// Looked for at the samples and between them, then at all steps of the run and within them, and closer about what is found: of a run
+// of very many steps at the former alone.
+std::vector<LargestMultiplier> largest_multipliers(const Simulation& simulation, const Trajectory& trajectory);
+
 std::vector<double> constraint_errors_along(const Simulation& simulation, const Trajectory& trajectory);
 
 // The springs and dampers that drive the run's joints, as `LinearDrive` tells them: none whose torque the limit policy may

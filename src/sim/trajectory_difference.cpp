@@ -247,7 +247,12 @@ std::string freedom_words(const TrajectoryDifference& difference) {
                       time_text(first.first_time) + " on";
   if (first.largest_time != first.first_time)
     words += " (largest " + amount(first.largest) + " at " + time_text(first.largest_time) + ")";
-  const std::size_t more = difference.freedoms.size() - 1;
+  const auto farthest = std::max_element(difference.freedoms.begin(), difference.freedoms.end(), [&](const auto& a, const auto& b) {
+    return (a.unit == first.unit ? a.largest : 0) < (b.unit == first.unit ? b.largest : 0);
+  });
+  if (farthest != difference.freedoms.begin())
+    words += ", most of all " + farthest->label + ", by " + amount(farthest->largest) + " at " + time_text(farthest->largest_time);
+  const std::size_t more = difference.freedoms.size() - (farthest != difference.freedoms.begin() ? 2 : 1);
   if (more > 0) words += more > 1 ? ", as do " + std::to_string(more) + " others" : ", as does 1 other";
   return words;
 }

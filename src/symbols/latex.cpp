@@ -1,5 +1,7 @@
 // An equation as LaTeX: formulas, and a document that can be typeset.
 #include <algorithm>
+#include <cctype>
+#include <numeric>
 #include <string_view>
 
 #include "core/format.hpp"
@@ -10,6 +12,7 @@ namespace chainreel {
 namespace {
 
 constexpr std::size_t kLine = 130;  // characters of LaTeX that fill a page across
+constexpr std::size_t kRow = 150;   // of the entries of a matrix, which have more of TeX's own words
 
 // Behind "&= ": a long sum on lines of its own, each beginning with its sign.
 std::string sum_on_lines(const std::string& sum) {
@@ -33,24 +36,24 @@ std::string sum_on_lines(const std::string& sum) {
   return lines + sum.substr(begin);
 }
 
-// Where every entry is short a matrix, else one entry a line.
+// Where its rows fit across a page a matrix, else a matrix of the entries' names, and one entry a line.
 std::string matrix_in_latex(const Writer& writer, const std::string& letter, const FormulaMatrix& m) {
-  constexpr std::size_t kShort = 60;  // characters of LaTeX: three such columns fill a page
-  std::string rows, lines;
-  bool is_short = true;
+  std::string rows, names, lines;
+  std::vector<std::size_t> widest(std::size_t(m.columns));
   for (int r = 0; r < m.rows; ++r)
     for (int c = 0; c < m.columns; ++c) {
       const std::string entry = writer.write(m.at(r, c));
-      is_short = is_short && entry.size() <= kShort;
+      widest[std::size_t(c)] = std::max(widest[std::size_t(c)], entry.size());
       rows += (c > 0 ? " & " : r > 0 ? " \\\\\n  " : "  ") + entry;
-      if (is_symmetric_in(letter) && c < r) continue;
       const auto place = [&](int a, int b) { return letter + "_{" + std::to_string(a + 1) + std::to_string(b + 1) + "}"; };
-      lines += (lines.empty() ? "  " : " \\\\\n  ") + place(r, c);
-      if (is_symmetric_in(letter) && c > r) lines += " = " + place(c, r);
-      lines += " &= " + sum_on_lines(entry);
+      const bool is_below = is_symmetric_in(letter) && c < r;
+      names += (c > 0 ? " & " : r > 0 ? " \\\\ " : "") + (is_below ? place(c, r) : place(r, c));
+      if (is_below) continue;
+      lines += " \\\\\n  " + place(r, c) + " &= " + sum_on_lines(entry);
     }
-  return is_short ? letter + " = \\begin{bmatrix}\n" + rows + "\n\\end{bmatrix}"
-                  : "\\begin{aligned}\n" + lines + "\n\\end{aligned}";
+  return std::accumulate(widest.begin(), widest.end(), std::size_t(0)) <= kRow
+             ? letter + " = \\begin{bmatrix}\n" + rows + "\n\\end{bmatrix}"
+             : "\\begin{aligned}\n  " + letter + " &= \\begin{bmatrix} " + names + " \\end{bmatrix}" + lines + "\n\\end{aligned}";
 }
 
 // Where an entry is too long for a line the entries by their numbers.
@@ -65,6 +68,14 @@ std::string vector_in_latex(const Writer& writer, const std::string& letter, con
   }
   return is_short ? letter + argument + " = \\begin{bmatrix}\n" + rows + "\n\\end{bmatrix}"
                   : "\\begin{aligned}\n" + lines + "\n\\end{aligned}";
+}
+
+// As a name of its own, not as a part of another one.
+bool occurs(const std::string& text, const std::string& name) {
+  const auto is_part = [&](std::size_t i) { return i < text.size() && (std::isalpha(static_cast<unsigned char>(text[i])) != 0 || text[i] == '\\'); };
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1))
+    if (!(at > 0 && is_part(at - 1)) && !is_part(at + name.size())) return true;
+  return false;
 }
 
 std::string displayed(const std::string& formula) {
@@ -116,9 +127,10 @@ std::string latex_formulas_of(const SymbolicEquation& equation, const EquationFo
 
 std::string latex_of(const SymbolicEquation& equation, const EquationForm& form) {
   const Writer writer(Notation::latex, equation, form.angle);
-  std::string text = "% " + equation.model + "\n" + latex_formulas_of(equation, form);
+  const std::string formulas = latex_formulas_of(equation, form);
+  std::string text = "% " + equation.model + "\n" + formulas;
   for (const Symbol& symbol : equation.symbols)
-    if (!symbol.is_coordinate())
+    if (!symbol.is_coordinate() && occurs(formulas, writer.name(symbol)))
       text += "% " + writer.name(symbol) + " = " + format_shortest(symbol.value) + " " + symbol.unit + ", " + symbol.meaning + "\n";
   if (any(equation.friction)) text += "% v_0 = " + format_shortest(kFrictionSmoothing) + "\n";
   for (const std::string& note : equation.notes) text += "% " + note + "\n";
@@ -153,14 +165,16 @@ std::string unit_in_latex(const std::string& unit) {
 }  // namespace
 
 std::string latex_document_of(const SymbolicEquation& equation, const EquationForm& form) {
+  const std::string formulas = latex_formulas_of(equation, form);
   std::string text = "\\documentclass{article}\n\\usepackage[utf8]{inputenc}\n\\usepackage{amsmath}\n\\begin{document}\n\\section*{" +
-                     escaped_for_latex(equation.model) + "}\n" + latex_formulas_of(equation, form) +
+                     escaped_for_latex(equation.model) + "}\n" + formulas +
                      "\\noindent\n\\begin{tabular}{@{}lll@{}}\n";
   const auto row = [&](const std::string& name, double value, const std::string& unit, const std::string& meaning) {
     text += "  $" + name + "$ & " + format_shortest(value) + " " + unit_in_latex(unit) + " & " + escaped_for_latex(meaning) + " \\\\\n";
   };
   for (const Symbol& symbol : equation.symbols)
-    if (!symbol.is_coordinate()) row(symbol_in(Notation::latex, equation, symbol, form.angle), symbol.value, symbol.unit, symbol.meaning);
+    if (const std::string name = symbol_in(Notation::latex, equation, symbol, form.angle); !symbol.is_coordinate() && occurs(formulas, name))
+      row(name, symbol.value, symbol.unit, symbol.meaning);
   if (std::any_of(equation.friction.begin(), equation.friction.end(), [](const Formula& f) { return !f.is_zero(); })) row("v_0", kFrictionSmoothing, "", "width of the step of friction");
   text += "\\end{tabular}\n";
   for (const std::string& note : equation.notes) text += "\n\\noindent " + escaped_for_latex(note) + ".\n";

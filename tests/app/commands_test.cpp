@@ -457,7 +457,7 @@ TEST(Audit, HasTheKeysThatOthersRead) {
                                                                  "constraint_error.force_at_start.force",
                                                                  "constraint_error.position_error",
                                                                  "constraint_error.rows",
-                                                                 "constraint_error.rows.largest_lambda", "constraint_error.rows.largest_lambda_time",
+                                                                 "constraint_error.rows.largest_lambda", "constraint_error.rows.largest_lambda_signed", "constraint_error.rows.largest_lambda_time",
                                                                  "constraint_error.rows.name",
                                                                  "constraint_error.stabilize",
                                                                  "constraint_error.velocity_error"})),

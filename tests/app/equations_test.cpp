@@ -42,7 +42,9 @@ void expect_near(const Json& a, const Json& b, const std::string& what) {
 
 TEST(Equations, HoldThePartsThatAreAskedForAndLongSumsOnSeveralLines) {
   const std::string m = run_program({"equations", "models/rrr.urdf", "--latex", "--only", "M"}).out;
+  EXPECT_THAT(m, HasSubstr("M &= \\begin{bmatrix} M_{11} & M_{12} & M_{13} \\\\ M_{12} & M_{22} & M_{23}"));
   EXPECT_THAT(m, HasSubstr("M_{11} &="));
+  EXPECT_THAT(m, testing::Not(HasSubstr("gravity"))) << "M knows nothing of it";
   EXPECT_THAT(m, HasSubstr("\\\\\n  &\\quad + "));
   for (const char* other : {"C_{11}", "g(q)", "J_{11}", "\\Lambda", "\\tau"}) EXPECT_THAT(m, testing::Not(HasSubstr(other)));
   std::istringstream lines(m);

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "core/format.hpp"
 #include "core/json.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
@@ -67,6 +68,28 @@ Json dynamics(std::vector<std::string> arguments) {
   const ProgramResult result = run_program(arguments);
   EXPECT_EQ(result.status, 0) << result.err;
   return Json::parse(result.out);
+}
+
+// A sharp peak of the multiplier between two frames, told by a run at 20 kHz: whatever the frames and the method, to 0.02 %.
+TEST(SimulateCommand, FindsTheLargestMultiplierWhereverTheFramesAre) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("held.yaml",
+                                         "model: {links: [0.6, 0.6], masses: [2, 1], joints: RR}\nstart: {q: [2.1654, -2.16044]}\n"
+                                         "constraints: [{line: {frame: gripper, point: [0, 0.5], direction: [1, 0]}}]\n"
+                                         "torque: [\"6 * sin(2 * t) - 1 * qd1\", \"-1 * qd2\"]\nduration: 0.6\n");
+  const auto largest = [&](const Words& more) {
+    const ProgramResult run = run_program(with({"simulate", scene, "-o", folder.file("a.csv"), "--force", "--json", "--quiet"}, more));
+    EXPECT_EQ(run.status, 0) << run.err;
+    return Json::parse(run.out)["constraint_error"]["rows"][0];
+  };
+  const Json dense = largest({"--set", "method=dop853", "--set", "tolerance=1e-12", "--set", "video.fps=20000"});
+  const double truth = dense["largest_lambda"];
+  EXPECT_NEAR(truth, 121.18, 0.01) << "RK4 of another's at 2e-5 s";
+  for (const Words& more : {Words{}, {"--set", "video.fps=10"}, {"--set", "method=rk4", "--set", "step=0.001"}, {"--set", "method=dop853", "--set", "tolerance=1e-10"}}) {
+    const Json found = largest(more);
+    EXPECT_NEAR(found["largest_lambda"].get<double>(), truth, 2e-4 * truth) << joined(more, " ");
+    EXPECT_NEAR(found["largest_lambda_time"].get<double>(), 0.45706, 3e-4) << joined(more, " ");
+  }
 }
 
 TEST(DynamicsCommand, GivesTheClosedFormOfRr) {

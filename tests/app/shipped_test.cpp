@@ -29,6 +29,30 @@ Json simulated(const TemporaryFolder& folder, const std::string& scene) {
   return run.status == 0 ? Json::parse(run.out) : Json();
 }
 
+TEST(ShippedModel, MayBeNamedWithoutItsEndingWhereOnlyModelsAreMeant) {
+  const TemporaryFolder folder;
+  for (const char* model : {"rr", "rrr"}) {
+    const ProgramResult run = in(folder, {"equations", model, "--latex", "--only", "M"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.err, "") << "nothing to be said";
+    EXPECT_EQ(run.out, in(folder, {"equations", CHAINREEL_SOURCE_FOLDER "/models/" + std::string(model) + ".urdf", "--latex", "--only", "M"}).out);
+  }
+  EXPECT_EQ(in(folder, {"ellipse", "rrr", "--pose", "0,1,0.5", "-o", "a.png"}).status, 0);
+  EXPECT_EQ(in(folder, {"render", "rr"}).status, 3) << "a film takes a scene";
+}
+
+// A film alone gives its scene back, with the model that came with the program, and says under which name its bytes come again.
+TEST(ShippedModel, OfAFilmAloneIsFoundAgain) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"render", "assets/scenes/rr_free.yaml", "--set", "duration=0.1", "--set", "video.width=64", "--set", "video.height=36", "--quiet", "-o", folder.file("a.mp4")}).status, 0);
+  const ProgramResult extracted = in(folder, {"extract", "a.mp4", "-o", "again.yaml"});
+  EXPECT_EQ(extracted.status, 0) << extracted.err;
+  EXPECT_THAT(extracted.err, AllOf(HasSubstr("note: chainreel "), HasSubstr("made it of a scene called rr_free.yaml"), Not(HasSubstr("there is no"))));
+  EXPECT_EQ(in(folder, {"extract", "a.mp4", "-o", "rr_free.yaml"}).status, 0);
+  ASSERT_EQ(in(folder, {"render", "rr_free.yaml", "--quiet", "-o", "b.mp4"}).status, 0);
+  EXPECT_TRUE(read_whole_file(folder.file("a.mp4")) == read_whole_file(folder.file("b.mp4")));
+}
+
 TEST(ShippedModel, IsFoundByItsNameWhereTheSceneHasNoFileOfThatName) {
   const TemporaryFolder folder;
   folder.write("named.yaml", "model: rr.urdf\n" + kSmall);

@@ -171,6 +171,25 @@ TEST_F(Verify, WherePhysicsAreANoteAnotherStepMayMoveEdges) {
   EXPECT_EQ(picture(results({}, "swing_suite.yaml"), "1s")["passed"], false);
 }
 
+// Scenes that come with the program by name, all pictures of one accepted by it, and edges counted where asked.
+TEST_F(Verify, TakesShippedScenesByNameAndCountsEdgesWhereAsked) {
+  write("swing.yaml", "model: rr.urdf\nduration: 1\nmethod: rk4\nstep: 0.01\n");
+  write("two.yaml", "scene: [rr_free, swing.yaml]\nsize: 320x180\nat: [0.5s, 1s]\nphysics: note\n");
+  accept_all("two.yaml");
+  EXPECT_TRUE(baselines("two").contains("rr_free_1s.png"));
+  replace("swing.yaml", "step: 0.01", "step: 0.02");
+  EXPECT_EQ(picture(results({}, "two.yaml"), "swing_1s")["passed"], true) << "as anti-aliasing may differ";
+  replace("two.yaml", "physics: note", "physics: note\ntolerance: {error: 0, count_edges: true}");
+  const Json json = results({}, "two.yaml");
+  EXPECT_EQ(picture(json, "swing_1s")["passed"], false) << json.dump(1);
+  EXPECT_EQ(picture(json, "rr_free_1s")["passed"], true);
+  EXPECT_THAT(picture(json, "swing_1s")["tolerance"].get<std::string>(), HasSubstr("edges counted"));
+  EXPECT_EQ(verify({"--accept", "swing"}, "two.yaml").status, 0) << "all of that scene";
+  EXPECT_EQ(verify({}, "two.yaml").status, 0);
+  write("none.yaml", "scene: rr_fre\nsize: 320x180\n");
+  EXPECT_EQ(verify({}, "none.yaml").status, 3);
+}
+
 TEST_F(Verify, TakesAnotherStepForNoChangeOfTheMotionWhereAsked) {
   write("swing.yaml", "model: rr.urdf\nduration: 1\nmethod: rk4\nstep: 0.01\n");
   write("swing_suite.yaml", "scene: swing.yaml\nsize: 320x180\nat: 1s\nphysics: motion\n");

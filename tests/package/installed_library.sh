@@ -43,6 +43,16 @@ awk -v E="$at_rest" '{ gsub(/[+]/, "", $6); d = $6 - E; if (d < 0) d = -d; if (d
   "$folder/energies" || die "energy is not kept: $(cat "$folder/energies")"
 if ldd "$folder/library.build/energy" | grep -E 'GL|OSMesa|avcodec|avformat|cairo|harfbuzz|yaml'; then die "dynamics alone brings these"; fi
 
+# The same second as the program's own, to the last digit that is told.
+"$folder/library.build/swing" "$source/models/rr.urdf" >"$folder/swings"
+[[ $(wc -l <"$folder/swings") == 11 ]] || die "swing says: $(cat "$folder/swings")"
+awk '{ E = $NF == "J" ? $(NF - 1) : 1; if (E > 1e-8 || E < -1e-8) { print "E is " E; exit 1 } }' "$folder/swings" ||
+  die "energy is not kept: $(cat "$folder/swings")"
+"$prefix/bin/chainreel" simulate rr_free --set method=dop853 --set tolerance=1e-10 --set duration=1 --quiet -o "$folder/own.csv" 2>/dev/null
+own=$(tail -1 "$folder/own.csv" | cut -d, -f2)
+awk -v own="$own" 'END { d = $7 - own; if (d < 0) d = -d; if (d > 1e-6) { print $7 " is not " own; exit 1 } }' "$folder/swings" ||
+  die "another motion than the program's"
+
 "$folder/library.build/picture" "$prefix/share/chainreel/assets/scenes/rr_free.yaml" "$folder/mine.png" >"$folder/words" 2>&1
 grep -q "^t = 0.00 s" "$folder/words" || die "picture says: $(cat "$folder/words")"
 "$prefix/bin/chainreel" snapshot rr_free --at 5 -o "$folder/its.png" --quiet 2>/dev/null

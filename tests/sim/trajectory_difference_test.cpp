@@ -67,7 +67,7 @@ TEST(TrajectoryDifference, NamesTheFirstOfSeveral) {
   for (std::size_t k = 300; k < run.size(); ++k) run.q[2 * k] += 1;
   EXPECT_THAT(words_of(swing(), run),
               ElementsAre(AllOf(StartsWith("q2 (elbow) differs by 0.0002 rad from t = 2.01 s on"),
-                                HasSubstr(", as does 1 other"))));
+                                HasSubstr(", most of all q1 (shoulder), by 1 rad at t = 3.01 s"))));
 }
 
 TEST(TrajectoryDifference, LooksAtRatesWherePositionsAgree) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <deque>
+#include <filesystem>
 #include <sstream>
 
 #include "core/data_folder.hpp"
@@ -65,13 +66,19 @@ Option Option::show_default() {
   return *this;
 }
 
-Option Option::names_input() {
+Option Option::names_input(const std::string& ending) {
   option_of(option_)->transform(CLI::Validator(
-      [](std::string& named) {
+      [ending](std::string& named) {
         if (named == "-") {
           named = read_standard_input();
           return std::string();
         }
+        std::error_code ignored;
+        if (!ending.empty() && !std::filesystem::exists(named, ignored) && shipped_file(named).empty())
+          if (const std::string shipped = shipped_file(named + ending); !shipped.empty()) {
+            named = shipped;
+            return std::string();
+          }
         const std::string found = found_file(named);
         if (const std::string note = found_elsewhere(named, found); !note.empty()) notes().push_back(note);
         named = found;

@@ -20,8 +20,8 @@ class Option {
   Option one_of(std::vector<std::string> words);
   Option show_default();  // in the help
   // A scene or model: one that comes with the program may be meant by its name alone; "-" is a scene that comes by standard
-  // input. What it throws passes through run().
-  Option names_input();
+  // input. What it throws passes through run(). `ending`: what a bare name of no scene may lack, rr of rr.urdf.
+  Option names_input(const std::string& ending = "");
   bool given() const;     // on the command line; to be asked when it was parsed
 
  private:

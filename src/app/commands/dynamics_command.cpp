@@ -280,7 +280,7 @@ void add_dynamics_command(CommandLine& app) {
   Command* command =
       app.add_subcommand("dynamics", "M, nle, qdd, J, Lambda and the energies of a model in one state, or of a scene's "
                                      "mechanism at an instant, with J_c and lambda of its constraints");
-  command->add_option("file", options->file, "a model (.urdf) or a scene (.yaml)").required().names_input();
+  command->add_option("file", options->file, "a model (.urdf) or a scene (.yaml)").required().names_input(".urdf");
   command->add_option("--at", options->at, "instant of the scene in seconds (default 0)");
   add_panel_option(*command, options->panel);
   command->add_option("--q", options->q, "of a model: joint positions, --q 0,90deg, or a state of an SRDF beside it: --q home");

@@ -210,9 +210,7 @@ EllipseJob job_of_scene(const EllipseOptions& options) {
 ModelScene model_in_scene(const EllipseOptions& options) {
   std::error_code ignored;
   if (!std::filesystem::exists(options.model, ignored)) {
-    const std::string model = shipped_file(options.model + ".urdf");
-    throw Error(ExitCode::usage, options.model + (model.empty() ? " is neither a model (.urdf) nor a scene (.yaml) that is there"
-                                                                : " is no file here: the model that comes with the program is " + options.model + ".urdf"));
+    throw Error(ExitCode::usage, options.model + " is neither a model (.urdf) nor a scene (.yaml) that is there");
   }
   ModelScene model = model_scene_of(read_scene(options.model, model_overrides(options)));
   require_single_run(model.scene);
@@ -328,7 +326,7 @@ void run_ellipse(const EllipseOptions& options) {
 void add_ellipse_command(CommandLine& app) {
   auto options = std::make_shared<EllipseOptions>();
   Command* command = app.add_subcommand("ellipse", "a figure of the effective mass at chosen poses");
-  command->add_option("model", options->model, "a model (.urdf), or a scene (.yaml) for its model, as in numbers; not with --along").names_input();
+  command->add_option("model", options->model, "a model (.urdf), or a scene (.yaml) for its model, as in numbers; not with --along").names_input(".urdf");
   PoseSources& sources = options->sources;
   command->add_repeatable("--pose", sources.poses, "q of the chain: --pose 0,90deg, by joints: --pose joint2=90deg, or a state of an SRDF beside it: --pose home (repeatable)");
   command->add_option("--sweep", sources.sweep, "poses that differ in one coordinate: --sweep q2=0:180deg:9");

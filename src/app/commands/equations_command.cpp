@@ -63,7 +63,7 @@ void add_equations_command(CommandLine& app, void (*run)(const EquationsOptions&
   auto options = std::make_shared<EquationsOptions>();
   Command* command = app.add_subcommand(
       "equations", "M(q), C(q, qd), g(q), J and Lambda of a chain of up to four joints in symbols, as text, LaTeX or Python");
-  command->add_option("file", options->file, "a model (.urdf) or a scene (.yaml)").required().names_input();
+  command->add_option("file", options->file, "a model (.urdf) or a scene (.yaml)").required().names_input(".urdf");
   command->add_flag("--latex", options->latex, "as LaTeX, for amsmath");
   command->add_flag("--document", options->document, "LaTeX that can be typeset as it is, with a table of what its letters stand for");
   command->add_flag("--python", options->python, "as a module of Python with functions of numpy arrays");

@@ -9,6 +9,7 @@
 #include "app/film/clip_memory.hpp"
 #include "app/film/clip_origin.hpp"
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "core/input_file.hpp"
 #include "core/output_file.hpp"
 #include "scene/text/scene_paths.hpp"
@@ -34,6 +35,18 @@ void tell_of_files(const ClipOrigin& origin, const ExtractOptions& options) {
                  options.clip.c_str(), path.c_str());
   for (const std::string& path : origin.changed)
     std::fprintf(stderr, "%s: the model %s has changed since: frames may differ\n", options.clip.c_str(), path.c_str());
+}
+
+// Which program made it; and under which name its scene lay, which files bear, too.
+void tell_of_origin(const Json& audit, const ExtractOptions& options) {
+  if (options.common.json || !audit.is_object()) return;
+  const Json versions = audit.value("versions", Json());
+  const std::string version = versions.is_object() && versions.contains("chainreel") && versions["chainreel"].is_string() ? versions["chainreel"] : "";
+  const std::string scene = audit.contains("scene") && audit["scene"].is_string() ? audit["scene"] : "";
+  const std::string name = fs::path(scene).stem().string();
+  if (!name.empty() && !options.output.empty() && fs::path(options.output).stem() != name)
+    std::fprintf(stderr, "note: chainreel %s made it of a scene called %s: films bear that name, so that under another one their frames are the same, but not their bytes\n",
+                 printable(version).c_str(), printable(fs::path(scene).filename().string()).c_str());
 }
 
 // A clip has a scene and its audit, a figure its command.
@@ -62,6 +75,7 @@ void run_extract(const ExtractOptions& options) {
     write_text_file(options.output,
                     moved_scene_text(memory.scene, fs::path(options.output).parent_path().string(), origin.folder),
                     options.common.force);
+  tell_of_origin(memory.audit, options);
   const std::string scene = moved_scene_text(memory.scene, "", origin.folder);
   tell_result(options.common, [&] { return report_of(scene, memory.audit, nullptr, nullptr, options); }, [&] {
     if (options.output.empty()) std::fputs(scene.c_str(), stdout);

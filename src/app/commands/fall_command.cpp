@@ -1,6 +1,7 @@
 // chainreel fall SCENE [--sweep KEY=..]: when a scene's model falls, against one of its keys.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -39,22 +40,14 @@ bool has_failed(const FallRow& row) {
 // To this share of the distance of rows.
 constexpr double kEdgesTo = 1e-4;
 
-std::string to_words(FallOutcome outcome) {
-  switch (outcome) {
-    case FallOutcome::falls: return "falls";
-    case FallOutcome::leaves: return "leaves the foot, not down";
-    case FallOutcome::stays_up: return "does not fall";
-    case FallOutcome::stands: return "stands";
-    case FallOutcome::unknown: break;
-  }
-  return "ends otherwise";
-}
-
 std::string to_words(const FallTable& table, const FallEdge& edge) {
-  const bool rises = edge.before < edge.behind;
-  return table.sweep.key + " = " + format_significant((edge.before + edge.behind) / 2, 5) + (table.sweep.unit.empty() ? "" : " " + table.sweep.unit) +
-         ": " + to_words(rises ? edge.from : edge.to) + " below, " + to_words(rises ? edge.to : edge.from) + " above (within " +
-         format_significant(std::abs(edge.behind - edge.before) / 2, 1) + ")";
+  const double place = (edge.before + edge.behind) / 2, half = std::abs(edge.behind - edge.before) / 2;
+  const std::string unit = table.unit_of_edges.empty() ? "" : " " + table.unit_of_edges;
+  // As many digits as it is known to.
+  const int digits = half > 0 ? std::clamp(int(std::ceil(std::log10(std::max(std::abs(place), half) / half))) + 1, 2, 17) : 17;
+  return table.sweep.key + " = " + format_significant(place, digits) + unit + " (within " + format_significant(half, 1) + "): from '" + edge.from + "' to '" + edge.to +
+         "', between the rows " + format_significant(edge.row_before, 6) + " and " +
+         format_significant(edge.row_behind, 6);
 }
 
 std::string tips_over(const FallRow& row) {
@@ -82,6 +75,20 @@ std::string verdict(const FallTable& table, const FallRow& row) {
          ", not down within " + within;
 }
 
+// What speaks against single edges, once for each two rows.
+std::vector<std::string> doubts_of_edges(const FallTable& table) {
+  std::vector<std::string> doubts;
+  std::optional<double> told;
+  for (const FallEdge& edge : table.edges) {
+    if (!edge.contradicted_at || told == edge.row_before) continue;
+    told = edge.row_before;
+    doubts.push_back(table.sweep.key + ": the end changes more often between " + format_significant(edge.row_before, 6) + " and " +
+                     format_significant(edge.row_behind, 6) + " than --edges tells, as at " + format_significant(*edge.contradicted_at, 6) +
+                     ": take more rows, or a shorter duration");
+  }
+  return doubts;
+}
+
 // The first time of each event, but of falls: they are what the table is about.
 std::vector<std::size_t> other_events(const FallTable& table) {
   std::vector<std::size_t> others;
@@ -95,7 +102,7 @@ std::string set_words(const FallOptions& options) {
   return joined(overrides_of(options.common));
 }
 
-void print_table(const FallTable& table, const std::string& set) {
+void print_table(const FallTable& table, const std::string& set, bool searched) {
   const std::vector<std::size_t> others = other_events(table);
   std::vector<std::vector<std::string>> rows{{table.sweep.key}};
   for (const std::size_t i : others) rows[0].push_back(table.events[i].title() + ", s");
@@ -113,8 +120,11 @@ void print_table(const FallTable& table, const std::string& set) {
   }
   std::fputs(table_text(rows).c_str(), stdout);
   for (const FallEdge& edge : table.edges) std::printf("%s\n", to_words(table, edge).c_str());
+  if (searched && table.edges.empty()) std::printf("no edges: all rows end alike\n");
   if (!set.empty()) std::printf("with %s\n", set.c_str());
-  std::printf("%s; %d threads\n", table.method.c_str(), table.threads);
+  // Of a setting that the table's rows have, each its own, nothing is said.
+  const bool is_swept = table.sweep.key == "step" || table.sweep.key == "tolerance" || table.sweep.key == "order" || table.sweep.key == "method";
+  std::printf("%s; %d threads\n", table.method.substr(0, is_swept ? table.method.find(',') : std::string::npos).c_str(), table.threads);
 }
 
 Json report_of(const FallOptions& options, const FallTable& table) {
@@ -137,7 +147,7 @@ Json report_of(const FallOptions& options, const FallTable& table) {
         row.ending_event < 0 ? Json(nullptr) : Json(table.events[std::size_t(row.ending_event)].title());
     one["first"] = Json::array();
     for (const std::optional<double>& time : row.first) one["first"].push_back(or_null(time));
-    one["stands"] = table.has_foot ? Json(outcome_of(row, true) == FallOutcome::stands) : Json(nullptr);
+    one["stands"] = table.has_foot ? Json(stands(row)) : Json(nullptr);
     one["tips_at"] = or_null(row.tips);
     one["tips_over"] = row.tips ? Json(tips_over(row)) : Json(nullptr);
     one["falls"] = row.lies_before ? Json(falls_to(row)) : Json(nullptr);
@@ -147,7 +157,12 @@ Json report_of(const FallOptions& options, const FallTable& table) {
   }
   json["edges"] = Json::array();
   for (const FallEdge& edge : table.edges)
-    json["edges"].push_back({{"before", edge.before}, {"behind", edge.behind}, {"from", to_words(edge.from)}, {"to", to_words(edge.to)}});
+    json["edges"].push_back({{"before", edge.before},
+                             {"behind", edge.behind},
+                             {"from", edge.from},
+                             {"to", edge.to},
+                             {"rows", {edge.row_before, edge.row_behind}},
+                             {"contradicted_at", or_null(edge.contradicted_at)}});
   return json;
 }
 
@@ -165,7 +180,7 @@ std::string csv_of(const FallOptions& options, const FallTable& table) {
     if (swept) text += row.value + ",";
     text += field(row.fall_time) + "," + to_string(row.status) + "," + format_shortest(row.end_time);
     for (const std::optional<double>& time : row.first) text += "," + field(time);
-    if (table.has_foot) text += std::string(outcome_of(row, true) == FallOutcome::stands ? ",true," : ",false,") + field(row.tips) + "," + tips_over(row) + "," + falls_to(row) + "," + field(row.takes_off);
+    if (table.has_foot) text += std::string(stands(row) ? ",true," : ",false,") + field(row.tips) + "," + tips_over(row) + "," + falls_to(row) + "," + field(row.takes_off);
     text += "\n";
   }
   return text;
@@ -175,7 +190,7 @@ void run_fall(const FallOptions& options) {
   Sweep sweep;
   sweep.values = {""};
   if (!options.sweep.empty()) sweep = parse_sweep(options.sweep, "--sweep");
-  if (options.edges && sweep.numbers.size() < 2)
+  if (options.edges && !can_have_edges(sweep))
     throw Error(ExitCode::usage, "--edges looks between the numbers of --sweep: give two at least, like --sweep torque.1=0:60:7");
   const bool writes = !options.outputs.empty();
   for (const std::string& output : options.outputs) {
@@ -195,6 +210,7 @@ void run_fall(const FallOptions& options) {
   }
   throw_if_interrupted();
   tell_warnings(table.doubts);
+  tell_warnings(doubts_of_edges(table));
   Json report = report_of(options, table);
   const FigureNumbers numbers{csv_of(options, table), [&] { return report; }};
   for (const std::string& output : options.outputs) write_numbers(output, numbers, options.common.force);
@@ -202,7 +218,7 @@ void run_fall(const FallOptions& options) {
   if (options.common.json)
     print_json(report);
   else if (!options.common.quiet || !writes)
-    print_table(table, set_words(options));
+    print_table(table, set_words(options), options.edges);
   for (const std::string& output : options.outputs)
     if (!options.common.quiet && !options.common.json) std::printf("%s\n", output.c_str());
   const auto failed = std::find_if(table.rows.begin(), table.rows.end(), has_failed);

@@ -141,7 +141,7 @@ StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
   map.error_title = "largest |energy error| [J]";
   for (const StabilityCell& cell : cells.cells) map.cells.push_back({cell.failed, cell.energy_error});
   add_limits(cells, map);
-  add_edges(cells, map);
+  if (cells.boundary.empty()) add_edges(cells, map);
   map.footer = "Each cell is a run of the scene's duration and of at least " + std::to_string(kLeastSteps) +
                " steps; failed: no end, or an energy error above " + format_shortest(kFailedEnergy) +
                " times the motion's largest kinetic energy.";

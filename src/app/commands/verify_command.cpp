@@ -57,7 +57,8 @@ bool matches(const SuitePicture& picture, const std::vector<std::string>& filter
 
 // A pose in several themes or variants is several pictures, which its name stands for.
 bool is_called(const SuitePicture& picture, const std::string& name) {
-  return picture.name == name || picture.pose == name;
+  const std::filesystem::path source(picture.source);
+  return picture.name == name || picture.pose == name || source.filename() == name || source.stem() == name;
 }
 
 bool is_pattern(const std::string& name) {

@@ -125,6 +125,10 @@ ClipOrigin find_origin(const std::string& clip, const std::vector<WantedFile>& w
   }
   ClipOrigin shipped = look_in(here, wanted, true);
   if (shipped.is_found && shipped.changed.empty()) return shipped;
+  if (const std::string data = data_folder(); !data.empty()) {
+    ClipOrigin own = look_in(fs::path(data) / "assets/scenes", wanted);
+    if (own.is_found && own.changed.empty()) return own;
+  }
   return changed.value_or(first);
 }
 

@@ -112,7 +112,7 @@ const std::vector<JsonReport>& json_reports() {
                              {"key", "of --sweep; or null"},
                              {"events", "[{name, kind, when}]"},
                              {"rows", "[{value, status, end_time, fall_time, ended_by, first, stands, tips_at, tips_over, falls, takes_off_at, trouble}]"},
-                             {"edges", "[{before, behind, from, to}] of --edges: values of the key between which the end changes"}})},
+                             {"edges", "[{before, behind, from, to, rows, contradicted_at}] of --edges: values of the key between which the end changes, the rows around them, and one between these that ends otherwise, or null"}})},
       {"dynamics", kState},
       {"inverse", with(kFiles, {{"rows", "of the table"}, {"constraints", "rows and errors of a scene's constraints; or null"}})},
       {"equations", with(kFiles, {{"model, coordinates", "what it is about"},

@@ -131,7 +131,7 @@ std::string constraint_lines(const FilmReport& report) {
     const std::vector<std::string> columns = multiplier_columns(run.prepared.simulation.chain, run.prepared.simulation.constraints.list);
     for (std::size_t i = 0; i < columns.size(); ++i)
       text += (i == 0 ? "; largest multipliers: " : ", ") + columns[i] + " " +
-              format_significant(facts["rows"][i]["largest_lambda"].get<double>(), 4) + " at t = " +
+              format_significant(facts["rows"][i]["largest_lambda_signed"].get<double>(), 4) + " at t = " +
               format_significant(facts["rows"][i]["largest_lambda_time"].get<double>(), 4) + " s (" + facts["rows"][i]["name"].get<std::string>() + ")";
     text += "\n";
   }

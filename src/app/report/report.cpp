@@ -8,6 +8,7 @@
 #include "core/format.hpp"
 #include "dynamics/constraints/constrained_dynamics.hpp"
 #include "dynamics/constraints/constraint_rows.hpp"
+#include "sim/torques_along.hpp"
 #include "sim/cost_table.hpp"
 
 namespace chainreel {
@@ -95,22 +96,6 @@ std::string algorithm_of(const Chain& chain, const ConstrainedWorkspace& cws, bo
          (cws.kernel.doubled ? ", equal rows once" : "");
 }
 
-struct LargestMultiplier {
-  double size = 0, t = 0;
-};
-
-// The largest of each row's multiplier over the run, between the samples too where it is known there.
-std::vector<LargestMultiplier> largest_multipliers(const Trajectory& run) {
-  const Trajectory& trajectory = run.between && run.between->rows == run.rows ? *run.between : run;
-  std::vector<LargestMultiplier> largest(std::size_t(trajectory.rows));
-  for (int k = 0; k < trajectory.size(); ++k) {
-    const auto lambda = trajectory.lambda_at(k);
-    for (std::size_t i = 0; i < largest.size(); ++i)
-      if (std::fabs(lambda[i]) > largest[i].size) largest[i] = {std::fabs(lambda[i]), trajectory.t[std::size_t(k)]};
-  }
-  return largest;
-}
-
 }  // namespace
 
 Json constraint_plan_report(const Simulation& simulation) {
@@ -151,9 +136,9 @@ Json constraint_run_report(const Simulation& simulation, const Trajectory& traje
             {"position_error", trajectory.position_error},
             {"velocity_error", trajectory.velocity_error},
             {"rows", Json::array()}};
-  const std::vector<LargestMultiplier> largest = largest_multipliers(trajectory);
+  const std::vector<LargestMultiplier> largest = largest_multipliers(simulation, trajectory);
   for (std::size_t i = 0; i < largest.size(); ++i)
-    json["rows"].push_back({{"name", set.row_names()[i]}, {"largest_lambda", largest[i].size}, {"largest_lambda_time", largest[i].t}});
+    json["rows"].push_back({{"name", set.row_names()[i]}, {"largest_lambda", std::fabs(largest[i].value)}, {"largest_lambda_signed", largest[i].value}, {"largest_lambda_time", largest[i].t}});
   json["force_at_start"] = json["force_at_end"] = Json::array();
   if (trajectory.size() == 0) return json;
   Workspace ws(chain);

@@ -43,7 +43,7 @@ std::string place_text(const Place& place) {
 
 std::string tolerance_text(const SuitePicture& picture) {
   const SuiteTolerance& tolerance = picture.tolerance;
-  return "error " + format_shortest(tolerance.error) + ", " + std::to_string(tolerance.pixels) + " pixels" +
+  return "error " + format_shortest(tolerance.error) + ", " + std::to_string(tolerance.pixels) + " pixels" + (tolerance.count_edges ? ", edges counted" : "") +
          (tolerance.is_default ? " (default)" : " (" + place_text(tolerance.place) + ")");
 }
 
@@ -153,9 +153,11 @@ PictureVerdict judge(const Suite& suite, const SuitePicture& picture, const Suit
   verdict.difference = compare_images(baseline.image, shot.image, tolerance);
   if (!verdict.difference.is_equal() && verdict.difference.same_size) {
     // The shapes are those of what is drawn now: it says where the baseline's pixels may lie.
-    const Envelope envelope = envelope_of(shot, studio);
-    verdict.difference = compare_images(shot.image, baseline.image, tolerance, &envelope);
-    verdict.difference_png = png_bytes(difference_picture(shot.image, baseline.image, tolerance, &envelope));
+    std::optional<Envelope> envelope;
+    if (!picture.tolerance.count_edges) envelope = envelope_of(shot, studio);
+    const Envelope* const edges = envelope ? &*envelope : nullptr;
+    verdict.difference = compare_images(shot.image, baseline.image, tolerance, edges);
+    verdict.difference_png = png_bytes(difference_picture(shot.image, baseline.image, tolerance, edges));
   }
   const ImageDifference& difference = verdict.difference;
   // One renderer gives one picture of one physics; what differs by less than an eye sees has a cause all the same. Who sets

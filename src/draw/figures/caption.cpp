@@ -169,17 +169,24 @@ bool matrix_fits(const EffectiveMass& effective, double width, double text_scale
   return lay_out_matrix(fonts, matrix_notations(*effective.Lambda), smallest).width <= width;
 }
 
-std::string eigenvalues_notation(const std::vector<std::optional<double>>& masses) {
+std::vector<std::string> eigenvalues_notations(const std::vector<std::optional<double>>& masses) {
   std::vector<std::string> entries;
   for (const std::optional<double>& mass : masses)
     entries.push_back(mass ? number_notation(*mass, *mass) : std::string("\u221E"));
-  return "\"eig\" Lambda = " + list_of(entries) + "\u2009kg";
+  const std::string list = list_of(entries) + "\u2009kg";
+  return {"\"eig\" Lambda = " + list, list};
+}
+
+std::array<std::string, 2> pose_in_two_lines(const Chain& chain, const std::vector<double>& q, std::size_t on_first) {
+  const std::vector<std::string> entries = coordinate_notations(chain, q);
+  const auto half = entries.begin() + std::ptrdiff_t(on_first);
+  return {"q = (" + joined(std::vector<std::string>(entries.begin(), half)) + ",", joined(std::vector<std::string>(half, entries.end())) + ")"};
 }
 
 std::vector<std::string> line_notations(const Chain& chain, const std::vector<double>& q,
                                         const std::vector<std::optional<double>>& masses) {
   std::vector<std::string> forms = pose_notations(chain, q);
-  forms.insert(forms.begin(), forms.front() + ", " + eigenvalues_notation(masses));
+  forms.insert(forms.begin(), forms.front() + ", " + eigenvalues_notations(masses).front());
   return forms;
 }
 

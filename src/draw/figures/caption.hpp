@@ -1,6 +1,7 @@
 // The words below a panel of the ellipse figure: the pose, and Lambda as numbers.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,7 +33,10 @@ double caption_height(int rows, double text_scale);
 bool matrix_fits(const EffectiveMass& effective, double width, double text_scale, const Theme& theme, const Fonts& fonts);
 
 // The masses along the axes of the ellipse, which are the eigenvalues of Lambda: "eig \u039B = (2, 1) kg".
-std::string eigenvalues_notation(const std::vector<std::optional<double>>& masses);
+// The second form is the list alone.
+std::vector<std::string> eigenvalues_notations(const std::vector<std::optional<double>>& masses);
+// "q = (0, 90," and "45, 0)", so many coordinates on the first line: for poses too long for one.
+std::array<std::string, 2> pose_in_two_lines(const Chain& chain, const std::vector<double>& q, std::size_t on_first);
 // A caption of one line: the pose, behind it in the first form those masses; where that is too long for one panel the others do
 // without them, too.
 std::vector<std::string> line_notations(const Chain& chain, const std::vector<double>& q,

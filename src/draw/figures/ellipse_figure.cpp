@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "draw/figures/caption.hpp"
 #include "draw/layers/ellipse.hpp"
 #include "draw/layers/fading.hpp"
@@ -16,6 +17,7 @@
 #include "draw/page/word_plan.hpp"
 #include "draw/page/panel_grid.hpp"
 #include "draw/robot/chain.hpp"
+#include "draw/layers/body_obstacles.hpp"
 #include "draw/robot/chain_fit.hpp"
 #include "draw/robot/joints.hpp"
 #include "draw/robot/view.hpp"
@@ -59,7 +61,7 @@ struct Panels {
   double caption = 0;                           // height of the words below each scene
   std::vector<std::vector<std::string>> lines;  // one a panel, where that is its whole caption
   CaptionLines words;                           // what of them is written; else the poses above their numbers
-  std::vector<std::string> below;               // a second line of such captions
+  std::vector<std::vector<std::string>> below;  // further lines of such captions, one a panel each
   double marks = 1;
   EllipseScale scale;
   Skeleton skeleton;
@@ -109,21 +111,25 @@ void cut_to_content(Panels& panels, const Rect& area, const std::vector<Pose>& p
   fit_panels(panels, poses, ws);
 }
 
-// Words where they lie on nothing of what was drawn since item `first`.
-void draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, const Rect& scene, const Theme& theme, int clip) {
-  // What stands at the end of a line that fades out of the panel has its place there.
-  MarkLabels at_edges;
+// Words where they lie on nothing of what was drawn since item `first`, nor on `obstacles`.
+void draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, std::vector<Obstacle> obstacles, const Rect& scene,
+                   const Theme& theme, int clip) {
+  // An axis that fades out of the panel at both ends has its number at one of them.
   std::vector<MarkWord> others;
-  for (const MarkWord& word : words.words())
-    if (word.name == kLengthAtEdge)
-      at_edges.add(word);
+  const Rect room = widened(scene, -kLabelInset);
+  for (MarkWord word : words.words()) {
+    if (word.name == kLengthAtEdge) word.places = {moved_into(room, word.places.front())};
+    const bool is_other_end = word.name == kLengthAtEdge && !others.empty() && others.back().name == kLengthAtEdge && others.back().places.size() == 1;
+    if (is_other_end)
+      others.back().places.push_back(word.places.front());
     else
       others.push_back(word);
-  at_edges.draw(picture, scene, theme.background, clip);
+  }
   Picture drawn;
   drawn.items.assign(picture.items.begin() + std::ptrdiff_t(first), picture.items.end());
-  WordPlan plan(widened(scene, -kLabelInset), kLooksPerSecond);
-  plan.add(others, obstacles_of(drawn));
+  for (const Obstacle& one : obstacles_of(drawn)) obstacles.push_back(one);
+  WordPlan plan(room, kLooksPerSecond);
+  plan.add(others, obstacles);
   const std::vector<StandingWord> standing = plan.standing().front();
   MarkLabels placed(standing);
   for (MarkWord& word : others) placed.add(std::move(word));
@@ -164,7 +170,9 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
   style.part = EllipsePart::above;
   draw_mass_ellipse(picture, pose.axes, tip, seen, style, clip);
   if (!drawing.shapes) draw_end_effector(picture, tip, drawing.look, clip);
-  draw_clear_of(picture, framed, labels, scene, theme, clip);
+  std::vector<Obstacle> bodies;
+  if (drawing.shapes) add_bodies(bodies, panels.skeleton, ws, camera);
+  draw_clear_of(picture, framed, labels, bodies, scene, theme, clip);
   if (i < panels.options.labels.size()) {
     const TextStyle text{Face::label, scaled(size::kAxis, panels.options.text_scale), theme.ink, Align::left};
     draw_text(picture,
@@ -176,9 +184,9 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
   Rect caption{scene.x0, panels.places[i].y0, scene.x1, scene.y0};
   if (panels.options.letters) caption = draw_letter(picture, i, panels.words.size, caption, text_scale, theme, panels.fonts);
   if (!panels.lines.empty())
-    for (int line = 0; line <= (panels.below.empty() ? 0 : 1); ++line)
-      draw_caption_line(picture, (line == 0 ? panels.words.notations : panels.below)[i], panels.words.size, caption, text_scale, theme,
-                        panels.fonts, line);
+    for (std::size_t line = 0; line <= panels.below.size(); ++line)
+      draw_caption_line(picture, (line == 0 ? panels.words.notations : panels.below[line - 1])[i], panels.words.size, caption, text_scale,
+                        theme, panels.fonts, int(line));
   else
     draw_caption(picture, panels.words.notations[i], pose.effective, panels.words.size, caption, text_scale, theme, panels.fonts);
 }
@@ -208,36 +216,64 @@ bool all_fit(const Panels& panels, const auto& notations) {
   });
 }
 
-// On one line each; where that is too narrow for the masses these stand on a second one, where it leaves pictures most of the cells.
+// The pose, and the masses: on one line, or on lines of their own, or the pose on two lines, as far as they fit and leave pictures
+// most of the cells; else the pose shortened.
 void write_lines(Panels& panels, const std::vector<Pose>& poses) {
-  std::vector<std::string> whole, masses;
+  const double cell = panels.places[0].height(), text_scale = panels.options.text_scale;
+  std::vector<std::string> whole, alone, first, second, masses;
   for (const Pose& pose : poses) {
     panels.lines.push_back(line_notations(panels.chain, pose.q, masses_of(pose)));
     whole.push_back(panels.lines.back().front());
-    masses.push_back(eigenvalues_notation(masses_of(pose)));
+    alone.push_back(panels.lines.back()[1]);
   }
-  panels.caption = caption_line_height(panels.options.text_scale);
+  panels.caption = caption_line_height(text_scale);
   if (all_fit(panels, whole)) return;
   for (std::vector<std::string>& forms : panels.lines) forms.erase(forms.begin());
-  const double both = caption_line_height(panels.options.text_scale, 2), cell = panels.places[0].height();
-  if (!all_fit(panels, masses) || cell - both < kLeastPicture * cell) return;
-  panels.below = masses;
-  panels.caption = both;
+  for (std::size_t form = 0; form < 2 && masses.empty(); ++form) {
+    for (const Pose& pose : poses) masses.push_back(eigenvalues_notations(masses_of(pose))[form]);
+    if (!all_fit(panels, masses)) masses.clear();
+  }
+  bool in_two = false;
+  for (std::size_t on_first = (poses[0].q.size() + 1) / 2; on_first > 0 && !in_two && !all_fit(panels, alone); --on_first) {
+    first.clear();
+    second.clear();
+    for (const Pose& pose : poses) {
+      const auto& [upper, lower] = pose_in_two_lines(panels.chain, pose.q, on_first);
+      first.push_back(upper);
+      second.push_back(lower);
+    }
+    in_two = on_first < poses[0].q.size() && all_fit(panels, first) && all_fit(panels, second);
+  }
+  std::vector<std::vector<std::string>> below;
+  if (in_two) below.push_back(second);
+  if (!masses.empty()) below.push_back(masses);
+  const auto has_room = [&] { return cell - caption_line_height(text_scale, 1 + int(below.size())) >= kLeastPicture * cell; };
+  while (!below.empty() && !has_room()) below.pop_back();
+  if (in_two && !below.empty())
+    for (std::size_t i = 0; i < poses.size(); ++i) panels.lines[i] = {first[i]};
+  panels.below = below;
+  panels.caption = caption_line_height(text_scale, 1 + int(below.size()));
 }
 
-// Where poses differ in one coordinate and are too long to be written, that one: "q2 = 30\u00B0".
+// Where poses are too long to be written, the coordinates in which they differ: "q2 = 30\u00B0".
 void name_what_differs(std::vector<std::vector<std::string>>& lines, const Panels& panels,
                        const std::vector<Pose>& poses) {
   std::vector<std::string> whole;
   for (const std::vector<std::string>& forms : lines) whole.push_back(forms.front());
-  std::vector<std::size_t> differing;
+  std::vector<std::size_t> differing;  // those coordinates
   for (std::size_t i = 0; i < poses[0].q.size(); ++i)
     if (std::any_of(poses.begin(), poses.end(), [&](const Pose& pose) { return pose.q[i] != poses[0].q[i]; }))
       differing.push_back(i);
-  if (differing.size() != 1 || all_fit(panels, whole)) return;
-  for (std::size_t k = 0; k < lines.size(); ++k)
-    lines[k] = {"q" + std::to_string(differing[0] + 1) + " = " +
-                coordinate_notations(panels.chain, poses[k].q)[differing[0]]};
+  if (differing.empty() || all_fit(panels, whole)) return;
+  std::vector<std::string> shorter;
+  for (const Pose& pose : poses) {
+    std::vector<std::string> parts;
+    for (const std::size_t i : differing)
+      parts.push_back("q" + std::to_string(i + 1) + " = " + coordinate_notations(panels.chain, pose.q)[i]);
+    shorter.push_back(joined(parts));
+  }
+  if (differing.size() > 1 && !all_fit(panels, shorter)) return;
+  for (std::size_t k = 0; k < lines.size(); ++k) lines[k] = {shorter[k]};
 }
 
 // Of one size in all panels.
@@ -246,8 +282,9 @@ CaptionLines words_of(const Panels& panels, const std::vector<Pose>& poses) {
   const double width = caption_width(panels);
   if (!panels.lines.empty()) {
     CaptionLines words = caption_lines(panels.lines, width, options.text_scale, *options.theme, panels.fonts);
-    for (const std::string& masses : panels.below)
-      words.size = std::min(words.size, caption_lines({{masses}}, width, options.text_scale, *options.theme, panels.fonts).size);
+    for (const std::vector<std::string>& line : panels.below)
+      for (const std::string& one : line)
+        words.size = std::min(words.size, caption_lines({{one}}, width, options.text_scale, *options.theme, panels.fonts).size);
     return words;
   }
   std::vector<std::vector<std::string>> forms;
@@ -265,7 +302,7 @@ bool lay_out(Panels& panels, const Rect& area, int across, const std::vector<Pos
   panels.caption = caption_height(int(poses[0].effective.basis.directions.size()), options.text_scale);
   if (!has_matrices(panels, poses)) {
     write_lines(panels, poses);
-    name_what_differs(panels.lines, panels, poses);
+    if (panels.lines[0].size() > 1) name_what_differs(panels.lines, panels, poses);
   }
   if (!(panels.side() > kLeastSide)) return false;
   panels.words = words_of(panels, poses);

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 
+#include "draw/layers/body_obstacles.hpp"
 #include "dynamics/kinematics.hpp"
 
 namespace chainreel {
 namespace {
-
-// Units of H, radius: what stands for a link that has a shape in space, and the shape about it, on which words stand if need be.
-constexpr double kBone = 0.010, kFlesh = 0.030;
 
 // What layers draw, by what it means to words.
 struct Pictures {
@@ -40,13 +38,7 @@ class Gatherer {
       layer.draw(pictures.of(layer), {panel, ws, shown, k > shown, view_.corner(l, i), labels});
     }
     pictures.add_to(obstacles);
-    if (panel.motion().shapes())
-      for (const LinkSegment& link : panel.motion().skeleton().links) {
-        const Point from = panel.camera().project(pose_of(ws, link.body) * link.from);
-        const Point to = panel.camera().project(pose_of(ws, link.body) * link.to);
-        obstacles.push_back({from, to, kBone, false});
-        obstacles.push_back({from, to, kFlesh, true});
-      }
+    if (panel.motion().shapes()) add_bodies(obstacles, panel.motion().skeleton(), ws, panel.camera());
   }
 
   // The same; chains in outline lie over the first one.

@@ -1,9 +1,12 @@
 #include "scene/run/fall.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/parallel.hpp"
+#include "scene/quantity.hpp"
 #include "scene/run/prepare.hpp"
 #include "scene/text/unread.hpp"
 #include "scene/text/read_scene.hpp"
@@ -91,29 +94,77 @@ FallRow run_row(Scene scene, const StopRequest& stop) {
   return row;
 }
 
-// The setting of a number between two values of the key.
-std::string setting_of(const Sweep& sweep, double number) { return sweep.key + "=" + format_shortest(number) + sweep.unit; }
+bool can_be_read(const auto& read) {
+  try {
+    read();
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+// What is between two values of the key.
+struct Bisected {
+  std::vector<double> numbers;  // of the rows
+  std::string unit;             // of numbers in between
+  bool is_whole = false;        // whole numbers alone
+
+  std::string setting(const std::string& key, double number) const { return key + "=" + format_shortest(number) + unit; }
+  // None where they are neighbours.
+  std::optional<double> middle(double a, double b, double close) const {
+    if (!(std::abs(b - a) > (is_whole ? 1 : close))) return std::nullopt;
+    const double half = a + (b - a) / 2;
+    return is_whole ? std::floor(half) : half;
+  }
+};
+
+// Without numbers where a value is none; those with units, one by one, in SI.
+Bisected bisected(const Sweep& sweep) {
+  if (!sweep.numbers.empty()) return {sweep.numbers, sweep.unit};
+  Bisected key;
+  for (const std::string& value : sweep.values) {
+    const std::string unit = unit_kind(value);
+    if (unit.empty() || (!key.unit.empty() && unit != key.unit)) return {};
+    key.unit = unit;
+    try {
+      key.numbers.push_back(parse_quantity(value, {}));
+    } catch (const Error&) {
+      return {};
+    }
+  }
+  return key;
+}
 
 // Bisection between each two rows that end otherwise; `run_at` says how the scene of a setting ends. What lies between is ended as
 // neither does where a middle shows it; then the next edge is looked for behind that.
 template <class RunAt, class Stop>
-void find_edges(FallTable& table, const FallSearch& search, RunAt run_at, Stop is_stopped) {
+void find_edges(FallTable& table, const FallSearch& search, const Bisected& key, RunAt run_at, Stop is_stopped) {
   constexpr std::size_t kMostEdges = 8;  // between two rows
-  const Sweep& sweep = table.sweep;
   std::vector<std::vector<FallEdge>> found(table.rows.empty() ? 0 : table.rows.size() - 1);
   for_each_index(found.size(), search.threads, [&](std::size_t k) {
-    const double last = sweep.numbers[k + 1], close = search.edges_to * std::abs(last - sweep.numbers[k]);
-    const FallOutcome wanted = outcome_of(table.rows[k + 1], table.has_foot);
-    FallEdge edge{sweep.numbers[k], last, outcome_of(table.rows[k], table.has_foot), wanted};
+    const double first = key.numbers[k], last = key.numbers[k + 1], close = search.edges_to * std::abs(last - first);
+    const std::string wanted = end_of(table, table.rows[k + 1]);
+    FallEdge edge{first, last, end_of(table, table.rows[k]), wanted, first, last, {}};
     while (edge.from != wanted && found[k].size() < kMostEdges && !is_stopped()) {
-      while (std::abs(edge.behind - edge.before) > close && !is_stopped()) {
-        const double middle = edge.before + (edge.behind - edge.before) / 2;
-        const FallOutcome ends = run_at(setting_of(sweep, middle));
-        (ends == edge.from ? edge.before : edge.behind) = middle;
+      while (const std::optional<double> middle = key.middle(edge.before, edge.behind, close)) {
+        if (is_stopped()) return;
+        const std::string ends = run_at(key.setting(table.sweep.key, *middle));
+        (ends == edge.from ? edge.before : edge.behind) = *middle;
         if (ends != edge.from) edge.to = ends;
       }
       found[k].push_back(edge);
-      edge = {edge.behind, last, edge.to, wanted};
+      edge = {edge.behind, last, edge.to, wanted, first, last, {}};
+    }
+    if (found[k].empty()) return;
+    constexpr int kMore = 8;  // places
+    for (int i = 1; i < kMore && !is_stopped() && !key.is_whole; ++i) {
+      const double at = first + (last - first) * i / kMore;
+      std::string expected = found[k].front().from;
+      for (const FallEdge& one : found[k])
+        if (std::abs(at - first) >= std::abs(one.behind - first)) expected = one.to;
+      if (run_at(key.setting(table.sweep.key, at)) == expected) continue;
+      for (FallEdge& one : found[k]) one.contradicted_at = at;
+      break;
     }
   });
   for (const std::vector<FallEdge>& of_pair : found) table.edges.insert(table.edges.end(), of_pair.begin(), of_pair.end());
@@ -121,11 +172,23 @@ void find_edges(FallTable& table, const FallSearch& search, RunAt run_at, Stop i
 
 }  // namespace
 
-FallOutcome outcome_of(const FallRow& row, bool has_foot) {
-  if (row.fall_time) return FallOutcome::falls;
-  if (row.status != RunStatus::finished) return FallOutcome::unknown;
-  if (!has_foot) return FallOutcome::stays_up;
-  return row.tips || row.takes_off ? FallOutcome::leaves : FallOutcome::stands;
+bool can_have_edges(const Sweep& sweep) { return bisected(sweep).numbers.size() >= 2; }
+
+bool stands(const FallRow& row) {
+  return !row.tips && !row.takes_off && !row.fall_time && row.status == RunStatus::finished;
+}
+
+std::string end_of(const FallTable& table, const FallRow& row) {
+  if (row.fall_time) return !row.lies_before ? "falls" : *row.lies_before ? "falls forwards" : "falls backwards";
+  if (row.status == RunStatus::stopped)
+    return "stopped" + (row.ending_event < 0 ? "" : " by " + table.events[std::size_t(row.ending_event)].title());
+  if (row.status != RunStatus::finished) return to_string(row.status);
+  for (std::size_t i = 0; i < table.events.size(); ++i)
+    if (table.events[i].kind == EventKind::fall && row.first[i] == 0.0) return "lies from the start";
+  if (!table.has_foot) return "does not fall";
+  if (row.takes_off && (!row.tips || *row.takes_off <= *row.tips)) return "takes off, not down";
+  if (row.tips) return std::string("tips over the ") + (row.over_toe ? "toe" : "heel") + ", not down";
+  return "stands";
 }
 
 bool has_fall(const Scene& scene) {
@@ -176,9 +239,13 @@ FallTable run_fall_table(const std::string& scene, const std::vector<std::string
   });
   if (!(search.edges_to > 0) || (stop && stop(1))) return table;
   const auto run_at = [&](const std::string& setting) {
-    return outcome_of(run_row(read_one(scene, with(setting)), [&](double) { return stop && stop(1); }), table.has_foot);
+    return end_of(table, run_row(read_one(scene, with(setting)), [&](double) { return stop && stop(1); }));
   };
-  find_edges(table, search, run_at, [&] { return stop && stop(1); });
+  Bisected key = bisected(sweep);
+  key.is_whole = std::all_of(key.numbers.begin(), key.numbers.end(), [](double x) { return x == std::floor(x); }) &&
+                 !can_be_read([&] { read_one(scene, with(key.setting(sweep.key, key.numbers[0] + 0.5))); });
+  table.unit_of_edges = key.unit;
+  find_edges(table, search, key, run_at, [&] { return stop && stop(1); });
   return table;
 }
 

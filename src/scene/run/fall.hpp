@@ -41,21 +41,13 @@ struct FallRow {
   std::optional<double> takes_off;
 };
 
-// How a run ended, from the worst on.
-enum class FallOutcome {
-  falls,      // the event of kind fall came
-  leaves,     // it tipped or took off, and was not down within the time: a foot that lies on the ground would not hold it
-  stays_up,   // no fall, and nothing is known of a foot
-  stands,     // no fall, and the pressure stayed within the foot
-  unknown,    // another event ended it, or it failed
-};
-FallOutcome outcome_of(const FallRow& row, bool has_foot);
-
 // Between two rows that end otherwise, where that changes: from `before`, which still ends as the lower row does, to `behind`.
-// Of a change there and back between two rows nothing is known.
+// Nothing is known of rows that end alike, and of others only at a few places more.
 struct FallEdge {
   double before = 0, behind = 0;  // of the key
-  FallOutcome from = FallOutcome::unknown, to = FallOutcome::unknown;
+  std::string from, to;           // see end_of
+  double row_before = 0, row_behind = 0;  // the rows
+  std::optional<double> contradicted_at;  // a value between the rows that ends as the edges do not have it: there are more of them
 };
 
 struct FallTable {
@@ -68,11 +60,21 @@ struct FallTable {
   std::vector<std::string> doubts;  // "NAME: what speaks against the scene", of its first row
   std::vector<FallRow> rows;
   std::vector<FallEdge> edges;  // where they were asked for
+  std::string unit_of_edges{};
 };
+
+// How a run ended, in words that are the same of runs that ended alike: "falls forwards", "tips over the toe, not down", "stands",
+// "stopped by left", ..
+std::string end_of(const FallTable& table, const FallRow& row);
+// Never fell, and kept the pressure within the foot.
+bool stands(const FallRow& row);
+// Whether the key's values are two numbers at least, plain or of one unit.
+bool can_have_edges(const Sweep& sweep);
 
 struct FallSearch {
   int threads = 1;
-  // Looks for the edges between rows, to this share of the rows' distance; none at 0. Values of the key must be numbers.
+  // Looks for the edges between rows, to this share of the rows' distance, or to neighbours of a key that takes whole numbers;
+  // none at 0. Values of the key must be numbers.
   double edges_to = 0;
 };
 

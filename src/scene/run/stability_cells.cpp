@@ -267,6 +267,11 @@ class CellRuns {
       const Linearisation about = linearise(simulation);
       result_.about_rest += about.about_target;
       result_.boundary.push_back(longest_stable_step(*simulation.method, about));
+      if (!about.motion) continue;
+      const std::vector<double>& steps = (along_x ? result_.x : result_.y).numbers;
+      const std::size_t row = result_.x.values.size();
+      for (std::size_t k = 0; k < steps.size(); ++k)
+        if (steps[k] > 0) result_.cells[along_x ? i * row + k : k * row + i].stable = is_stable(*simulation.method, *about.motion, steps[k]);
     }
     result_.linearised = int(count);
   }

@@ -90,7 +90,8 @@ void fill_range(Sweep& sweep, const std::vector<std::string>& parts, const std::
   const auto count = parse_number(parts[2]);
   if (!count || *count != std::floor(*count) || *count < 2 || *count > kMostValues)
     refuse(text, asked, "needs a count between 2 and " + std::to_string(kMostValues));
-  if (sweep.logarithmic && !(from * to > 0))
+  if (!std::isfinite(to - from)) refuse(text, asked, "spans more than numbers can tell");
+  if (sweep.logarithmic && !((from > 0 && to > 0) || (from < 0 && to < 0)))
     refuse(text, asked, "needs ends of one sign for equal factors");
   const int n = int(*count);
   for (int k = 0; k < n; ++k) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "core/data_folder.hpp"
 #include "core/format.hpp"
 #include "core/json.hpp"
 #include "model/read_chain.hpp"
@@ -135,7 +136,9 @@ class SuiteReader {
     if (!root_.has(key)) return;
     const std::string like = is_model ? "model: my_robot.urdf" : "scene: [swing.yaml, fall.yaml]";
     for (const auto& [named, place] : texts_of(root_.find(key), key, like)) {
-      const Source source{input_beside(suite_.file, named), "", is_model, place};
+      Source source{input_beside(suite_.file, named), "", is_model, place};
+      std::error_code ignored;
+      if (const std::string shipped = is_model || fs::exists(source.file, ignored) ? "" : shipped_file(named); is_yaml(shipped)) source.file = shipped;
       if (is_yaml(source.file) == is_model) {
         problems_.add("'" + named +
                           (is_model ? "' is no model: name scenes under `scene:`"

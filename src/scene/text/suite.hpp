@@ -16,6 +16,7 @@ namespace chainreel {
 struct SuiteTolerance {
   double error = 0.1;      // perceptual, 0 to 1: a pixel beyond it is different
   int pixels = 0;          // how many may be
+  bool count_edges = false;  // as anti-aliasing differs is a difference, too
   Place place;             // where it was set, so that a failure can say so
   bool is_default = true;  // it was set nowhere
 };

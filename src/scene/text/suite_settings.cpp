@@ -36,7 +36,7 @@ void read_size(Fields& fields, SuiteSettings& settings) {
 void read_tolerance(Fields& fields, SuiteSettings& settings) {
   if (!fields.has("tolerance")) return;
   std::optional<Fields> tolerance =
-      fields.section("tolerance", "what may differ: tolerance: {error: 0.1, pixels: 0}");
+      fields.section("tolerance", "what may differ: tolerance: {error: 0.1, pixels: 0, count_edges: false}");
   if (!tolerance) return;
   settings.tolerance_place = fields.place_of(fields.find("tolerance"), "tolerance");
   double error = 0;
@@ -54,6 +54,8 @@ void read_tolerance(Fields& fields, SuiteSettings& settings) {
     else
       tolerance->problem_at("pixels", "'" + tolerance->path("pixels") + "' is a number of pixels, 0 or more");
   }
+  bool count_edges = false;
+  if (tolerance->has("count_edges") && tolerance->read("count_edges", count_edges)) settings.count_edges = count_edges;
   tolerance->finish();
 }
 
@@ -98,10 +100,10 @@ void apply(const SuiteSettings& settings, SuitePicture& picture) {
     picture.height = settings.size->height;
   }
   picture.masks.insert(picture.masks.end(), settings.masks.begin(), settings.masks.end());
-  if (!settings.error && !settings.pixels) return;
+  if (!settings.error && !settings.pixels && !settings.count_edges) return;
   SuiteTolerance& tolerance = picture.tolerance;
   tolerance = {settings.error.value_or(tolerance.error), settings.pixels.value_or(tolerance.pixels),
-               settings.tolerance_place, false};
+               settings.count_edges.value_or(tolerance.count_edges), settings.tolerance_place, false};
 }
 
 namespace {

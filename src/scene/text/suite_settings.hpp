@@ -19,6 +19,7 @@ struct SuiteSettings {
   std::optional<SuiteSize> size;
   std::optional<double> error;
   std::optional<int> pixels;
+  std::optional<bool> count_edges;
   Place tolerance_place;
   std::vector<std::array<int, 4>> masks;
   Place place;

@@ -1,3 +1,4 @@
+#include "expr/affine.hpp"
 #include "sim/system/chain_system.hpp"
 
 #include <algorithm>
@@ -250,7 +251,7 @@ bool cuts_torques(const Chain& chain, LimitPolicy limit) {
 std::optional<std::string> why_no_series(const Chain& chain, const TorqueLaw& law, LimitPolicy limit) {
   if (auto why = why_no_planar_series(chain)) return why;
   if (cuts_torques(chain, limit)) return "torques are cut at the joints' effort";
-  if (!law.affine()) return "a torque is neither a polynomial in t nor affine in the state";
+  if (!law.affine()) return "a torque is neither a polynomial in t, of degree " + std::to_string(kHighestPowerOfTime) + " at most, nor affine in the state";
   return {};
 }
 
