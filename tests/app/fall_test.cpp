@@ -79,7 +79,7 @@ TEST(FallCommand, FindsTheValueAtWhichTheEndChanges) {
   }
   EXPECT_TRUE(edges("parameters.h=1,2,3").empty());
   EXPECT_THAT(run_program({"fall", scene, "--sweep", "parameters.h=1:41:5", "--edges"}).out,
-              HasSubstr("parameters.h = 19.62 (within 0.0003): from 'falls' to 'does not fall', between the rows 11 and 21"));
+              HasSubstr("parameters.h = 19.6203 (within 0.0004): from 'falls' to 'does not fall', between the rows 11 and 21"));
   const std::string table = folder.file("edges.csv");
   run_program({"fall", scene, "--sweep", "parameters.h=1:41:5", "--edges", "-o", table});
   EXPECT_THAT(read_whole_file(table), HasSubstr("# edge: parameters.h = 19.62"));

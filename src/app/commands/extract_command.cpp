@@ -45,7 +45,7 @@ void tell_of_origin(const Json& audit, const ExtractOptions& options) {
   const std::string scene = audit.contains("scene") && audit["scene"].is_string() ? audit["scene"] : "";
   const std::string name = fs::path(scene).stem().string();
   if (!name.empty() && !options.output.empty() && fs::path(options.output).stem() != name)
-    std::fprintf(stderr, "note: chainreel %s made it of a scene called %s: films bear that name, so that under another one their frames are the same, but not their bytes\n",
+    std::fprintf(stderr, "note: chainreel %s made it of a scene called %s: files bear that name and the paths of their models, so that under others their frames are the same, but not their bytes\n",
                  printable(version).c_str(), printable(fs::path(scene).filename().string()).c_str());
 }
 

@@ -45,7 +45,9 @@ std::string to_words(const FallTable& table, const FallEdge& edge) {
   const std::string unit = table.unit_of_edges.empty() ? "" : " " + table.unit_of_edges;
   // As many digits as it is known to.
   const int digits = half > 0 ? std::clamp(int(std::ceil(std::log10(std::max(std::abs(place), half) / half))) + 1, 2, 17) : 17;
-  return table.sweep.key + " = " + format_significant(place, digits) + unit + " (within " + format_significant(half, 1) + "): from '" + edge.from + "' to '" + edge.to +
+  // Rounded up, and one more for the place's own last digit.
+  const double last = half > 0 ? std::pow(10, std::floor(std::log10(half))) : 0, within = half > 0 ? std::ceil(half / last + 0.1) * last : 0;
+  return table.sweep.key + " = " + format_significant(place, digits) + unit + " (within " + format_significant(within, 1) + "): from '" + edge.from + "' to '" + edge.to +
          "', between the rows " + format_significant(edge.row_before, 6) + " and " +
          format_significant(edge.row_behind, 6);
 }
