@@ -86,12 +86,13 @@ void take_larger(std::vector<LargestMultiplier>& largest, const Trajectory& run)
 }  // namespace
 
 std::vector<LargestMultiplier> largest_multipliers(const Simulation& simulation, const Trajectory& trajectory) {
-  constexpr int kWithin = 3, kClose = 64;  // instants within a step, and about a largest one
-  constexpr long kMostSteps = 20'000;
+  constexpr int kClose = 64, kMostWithin = 31;      // instants about a largest one, and within a step
+  constexpr std::size_t kLooks = 60'000;             // all of these together, where steps are fewer
+  constexpr long kMostSteps = 200'000;               // of more the frames are looked between
   std::vector<LargestMultiplier> largest(std::size_t(trajectory.rows));
   take_larger(largest, trajectory);
   if (trajectory.between) take_larger(largest, *trajectory.between);
-  if (largest.empty() || simulation.motion || trajectory.steps > kMostSteps || trajectory.status != RunStatus::finished) return largest;
+  if (largest.empty() || simulation.motion || trajectory.status != RunStatus::finished) return largest;
   // The run that it is, seen more often: its own steps stay where they are.
   const auto see_also = [&](std::vector<double> times) {
     times.insert(times.end(), trajectory.t.begin(), trajectory.t.end());
@@ -101,11 +102,14 @@ std::vector<LargestMultiplier> largest_multipliers(const Simulation& simulation,
     take_larger(largest, seen);
     return seen;
   };
-  const Trajectory steps = simulate_every_step(simulation);
+  const bool by_steps = trajectory.steps <= kMostSteps;
+  const Trajectory steps = by_steps ? simulate_every_step(simulation) : Trajectory{};
   take_larger(largest, steps);
+  const std::vector<double>& marks = by_steps ? steps.t : trajectory.t;
+  const int within = int(std::min<std::size_t>(kMostWithin, kLooks / std::max<std::size_t>(marks.size(), 1)));
   std::vector<double> times;
-  for (std::size_t k = 0; k + 1 < steps.t.size(); ++k)
-    for (int i = 0; i <= kWithin; ++i) times.push_back(steps.t[k] + (steps.t[k + 1] - steps.t[k]) * i / (kWithin + 1));
+  for (std::size_t k = 0; k + 1 < marks.size(); ++k)
+    for (int i = 0; i <= within; ++i) times.push_back(marks[k] + (marks[k + 1] - marks[k]) * i / (within + 1));
   Trajectory seen = see_also(std::move(times));
   for (int round = 0; round < 2; ++round) {
     times.clear();

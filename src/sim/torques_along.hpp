@@ -24,8 +24,8 @@ std::vector<double> multipliers_along(const Simulation& simulation, const Trajec
 struct LargestMultiplier {
   double value = 0, t = 0;
 };
-// Looked for at the samples and between them, then at all steps of the run and within them, and closer about what is found: of a run
-// of very many steps at the former alone.
+// Looked for at the samples and between them, then at all steps of the run and within them (of more than 200'000 steps between the
+// samples alone), and closer about what is found.
 std::vector<LargestMultiplier> largest_multipliers(const Simulation& simulation, const Trajectory& trajectory);
 
 std::vector<double> constraint_errors_along(const Simulation& simulation, const Trajectory& trajectory);
