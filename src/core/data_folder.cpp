@@ -98,9 +98,10 @@ std::string shipped_input(const std::string& name) {
 }
 
 std::string name_of_shipped(const std::string& path) {
+  if (path.find('/') == std::string::npos) return "";
   const std::string name = fs::path(path).filename().string();
-  std::string shipped = path.find('/') == std::string::npos ? "" : shipped_input(name);
-  if (shipped.empty() && path.find('/') != std::string::npos) shipped = shipped_file(name);
+  std::string shipped = shipped_input(name);
+  if (shipped.empty()) shipped = shipped_file(name);
   return !shipped.empty() && fs::path(path).lexically_normal() == fs::path(shipped).lexically_normal() ? name : "";
 }
 
@@ -113,11 +114,11 @@ std::string near_shipped_models(const std::string& name) {
   return all;
 }
 
-std::string found_file(const std::string& named) {
+std::string found_file(const std::string& named, const std::string& ending) {
   std::error_code ignored;
   if (fs::exists(named, ignored)) return named;
-  const std::string shipped = shipped_file(named);
-  if (!shipped.empty()) return shipped;
+  for (const std::string& name : {named, named + ending})
+    if (const std::string shipped = shipped_file(name); !shipped.empty()) return shipped;
   const bool is_word = named.find('/') == std::string::npos;
   if (const std::string near = is_word ? did_you_mean(named, shipped_names()) : ""; !near.empty())
     throw Error(ExitCode::bad_input, "there is no such file here, and none of that name comes with the program:" + near, {named});

@@ -27,8 +27,9 @@ std::string name_of_shipped(const std::string& path);
 // Of the models' names, where one is near: " Did you mean 'rr.urdf'?"; else all of them.
 std::string near_shipped_models(const std::string& name);
 
-// `named` itself where there is such a file or it is a path; else the file of that name which comes with the program.
-std::string found_file(const std::string& named);
+// `named` itself where there is such a file or it is a path; else the file of that name which comes with the program. `ending`: what
+// the name may lack, rr of rr.urdf, where no scene has it.
+std::string found_file(const std::string& named, const std::string& ending = "");
 
 // Of a name with an ending, which looks like a file here, and of which found_file gave another one: what is to be said. "": nothing.
 std::string found_elsewhere(const std::string& named, const std::string& found);

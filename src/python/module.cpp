@@ -44,7 +44,7 @@ PYBIND11_MODULE(_native, module) {
   module.doc() = "What chainreel's Python package calls; use chainreel itself.";
   module.attr("version") = chainreel::program_version();
   module.attr("revision") = chainreel::program_revision();
-  module.def("found_file", &chainreel::found_file);
+  module.def("found_file", [](const std::string& named) { return chainreel::found_file(named); });
   module.def("found_elsewhere", &chainreel::found_elsewhere);
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {

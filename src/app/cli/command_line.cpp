@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <deque>
-#include <filesystem>
 #include <sstream>
 
 #include "core/data_folder.hpp"
@@ -73,13 +72,7 @@ Option Option::names_input(const std::string& ending) {
           named = read_standard_input();
           return std::string();
         }
-        std::error_code ignored;
-        if (!ending.empty() && !std::filesystem::exists(named, ignored) && shipped_file(named).empty())
-          if (const std::string shipped = shipped_file(named + ending); !shipped.empty()) {
-            named = shipped;
-            return std::string();
-          }
-        const std::string found = found_file(named);
+        const std::string found = found_file(named, ending);
         if (const std::string note = found_elsewhere(named, found); !note.empty()) notes().push_back(note);
         named = found;
         return std::string();

@@ -209,9 +209,8 @@ EllipseJob job_of_scene(const EllipseOptions& options) {
 // A scene in the model's place lends its mechanism and its look, as where the model stands in it in numbers.
 ModelScene model_in_scene(const EllipseOptions& options) {
   std::error_code ignored;
-  if (!std::filesystem::exists(options.model, ignored)) {
+  if (!std::filesystem::exists(options.model, ignored))
     throw Error(ExitCode::usage, options.model + " is neither a model (.urdf) nor a scene (.yaml) that is there");
-  }
   ModelScene model = model_scene_of(read_scene(options.model, model_overrides(options)));
   require_single_run(model.scene);
   if (!model.scene.constraints.empty())

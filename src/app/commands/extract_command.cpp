@@ -40,9 +40,7 @@ void tell_of_files(const ClipOrigin& origin, const ExtractOptions& options) {
 // Which program made it; and under which name its scene lay, which files bear, too.
 void tell_of_origin(const Json& audit, const ExtractOptions& options) {
   if (options.common.json || !audit.is_object()) return;
-  const Json versions = audit.value("versions", Json());
-  const std::string version = versions.is_object() && versions.contains("chainreel") && versions["chainreel"].is_string() ? versions["chainreel"] : "";
-  const std::string scene = audit.contains("scene") && audit["scene"].is_string() ? audit["scene"] : "";
+  const std::string version = word_of(audit.value("versions", Json()), "chainreel"), scene = word_of(audit, "scene");
   const std::string name = fs::path(scene).stem().string();
   if (!name.empty() && !options.output.empty() && fs::path(options.output).stem() != name)
     std::fprintf(stderr, "note: chainreel %s made it of a scene called %s: files bear that name and the paths of their models, so that under others their frames are the same, but not their bytes\n",

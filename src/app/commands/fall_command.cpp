@@ -52,29 +52,19 @@ std::string to_words(const FallTable& table, const FallEdge& edge) {
          format_significant(edge.row_behind, 6);
 }
 
-std::string tips_over(const FallRow& row) {
-  return !row.tips ? "" : row.over_toe ? "toe" : "heel";
-}
-
-// On which side of the foot it lies.
-std::string falls_to(const FallRow& row) {
-  return !row.lies_before ? "" : *row.lies_before ? "forwards" : "backwards";
-}
-
 std::string verdict(const FallTable& table, const FallRow& row) {
-  if (row.fall_time) return format_fixed(*row.fall_time, 4) + (row.lies_before ? " " + falls_to(row) : "");
-  if (has_failed(row)) return row.trouble;
-  if (row.status == RunStatus::stopped) return "stopped: " + row.trouble;
-  for (std::size_t i = 0; i < table.events.size(); ++i)
-    if (table.events[i].kind == EventKind::fall && row.first[i] == 0.0) return "lies from the start";
   const std::string within = format_quantity(table.duration, "s");
-  if (!table.has_foot) return "does not fall within " + within;
-  // Where it has no way down, the ground's force has no place either.
-  if (row.takes_off && (!row.tips || *row.takes_off <= *row.tips))
-    return "takes off at " + format_fixed(*row.takes_off, 4) + ", not down within " + within;
-  if (!row.tips) return "stands for " + within;
-  return "tips over the " + tips_over(row) + " at " + format_fixed(*row.tips, 4) +
-         ", not down within " + within;
+  switch (what_became_of(table, row)) {
+    case FallEnd::falls: return format_fixed(*row.fall_time, 4) + (row.lies_before ? " " + falls_to(row) : "");
+    case FallEnd::stopped: return "stopped: " + row.trouble;
+    case FallEnd::fails: break;
+    case FallEnd::lies: return "lies from the start";
+    case FallEnd::stays_up: return "does not fall within " + within;
+    case FallEnd::takes_off: return "takes off at " + format_fixed(*row.takes_off, 4) + ", not down within " + within;
+    case FallEnd::tips: return "tips over the " + tips_over(row) + " at " + format_fixed(*row.tips, 4) + ", not down within " + within;
+    case FallEnd::stands: return "stands for " + within;
+  }
+  return row.trouble;
 }
 
 // What speaks against single edges, once for each two rows.

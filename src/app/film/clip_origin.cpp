@@ -95,11 +95,6 @@ ClipOrigin look_in(const fs::path& folder, const std::vector<WantedFile>& wanted
   return origin;
 }
 
-// What a clip says was maybe not written by this program: everything is looked at before it is taken.
-std::string word_of(const Json& json, const char* key) {
-  return json.is_object() && json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
-}
-
 void add_hash(const Json& part, std::vector<WantedFile>& wanted) {
   const std::string model = word_of(part, "model"), hash = word_of(part, "model_sha256");
   for (WantedFile& file : wanted)
@@ -107,6 +102,10 @@ void add_hash(const Json& part, std::vector<WantedFile>& wanted) {
 }
 
 }  // namespace
+
+std::string word_of(const Json& json, const char* key) {
+  return json.is_object() && json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
+}
 
 ClipOrigin find_origin(const std::string& clip, const std::vector<WantedFile>& wanted,
                        const std::string& given) {

@@ -10,6 +10,10 @@
 
 namespace chainreel {
 
+// A text of what a clip says, "" where there is none: it was maybe not written by this program, so that everything is looked at before
+// it is taken.
+std::string word_of(const Json& json, const char* key);
+
 struct WantedFile {
   std::string path;    // relative to the folder that is sought
   std::string sha256;  // "": any

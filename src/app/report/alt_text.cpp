@@ -126,7 +126,7 @@ std::string constraint_lines(const FilmReport& report) {
   std::string text;
   for (const RunReport& run : report.panels) {
     if (run.trajectory.rows == 0) continue;
-    const Json facts = constraint_run_report(run.prepared.simulation, run.trajectory);
+    const Json& facts = run.constraints();
     text += "Constraints: " + where_of(report, run) + "missed by " + format_significant(run.trajectory.position_error, 2) + " m or rad at most";
     const std::vector<std::string> columns = multiplier_columns(run.prepared.simulation.chain, run.prepared.simulation.constraints.list);
     for (std::size_t i = 0; i < columns.size(); ++i)

@@ -82,12 +82,19 @@ RunReport run_report(const PreparedScene& prepared, const Trajectory& trajectory
   return report;
 }
 
+const Json& RunReport::constraints() const {
+  if (!constraint_facts) constraint_facts = constraint_run_report(prepared.simulation, trajectory);
+  return *constraint_facts;
+}
+
 std::string title_of(const RunReport& run) {
   return title_of(run.prepared.scene, run.trajectory);
 }
 
 Json to_json(const RunReport& report) {
-  const auto& [prepared, trajectory, audit, warnings, left_picture_at] = report;
+  const PreparedScene& prepared = report.prepared;
+  const Trajectory& trajectory = report.trajectory;
+  const Audit& audit = report.audit;
   const Scene& scene = prepared.scene;
   Json json = Json::object();  // JSON's null that becomes an object is lost where memory is short
   json["scene"] = scene.file;
@@ -120,10 +127,10 @@ Json to_json(const RunReport& report) {
   json["warnings"] = Json::array();
   for (const std::string& doubt : scene.doubts)
     json["warnings"].push_back({{"kind", "scene"}, {"amount", nullptr}, {"what", doubt}, {"remedy", ""}});
-  for (const Doubt& doubt : warnings)
+  for (const Doubt& doubt : report.warnings)
     json["warnings"].push_back(
         {{"kind", doubt.kind}, {"amount", doubt.amount}, {"what", doubt.words}, {"remedy", doubt.remedy}});
-  json["constraint_error"] = trajectory.rows > 0 ? constraint_run_report(simulation, trajectory) : Json(nullptr);
+  json["constraint_error"] = trajectory.rows > 0 ? report.constraints() : Json(nullptr);
   json["limits_passed"] = Json::array();
   for (const LimitEvent& event : trajectory.limits) {
     json["limits_passed"].push_back({{"joint", event.joint},
@@ -134,7 +141,7 @@ Json to_json(const RunReport& report) {
   }
   add_events(json, scene, trajectory);
   json["trajectory_sha256"] = audit.sha256;
-  json["left_picture_at"] = or_null(left_picture_at);
+  json["left_picture_at"] = or_null(report.left_picture_at);
   return json;
 }
 

@@ -23,6 +23,10 @@ struct RunReport {
   Audit audit;
   std::vector<Doubt> warnings;             // none of a run that is to diverge
   std::optional<double> left_picture_at;  // s
+  mutable std::optional<Json> constraint_facts{};
+
+  // `constraint_run_report` of a run that has constraints, which takes runs of its own: worked out when it is first asked for.
+  const Json& constraints() const;
 };
 RunReport run_report(const PreparedScene& prepared, const Trajectory& trajectory);
 std::string title_of(const RunReport& run);  // the scene's, with what it leaves open: when it falls

@@ -178,17 +178,33 @@ bool stands(const FallRow& row) {
   return !row.tips && !row.takes_off && !row.fall_time && row.status == RunStatus::finished;
 }
 
-std::string end_of(const FallTable& table, const FallRow& row) {
-  if (row.fall_time) return !row.lies_before ? "falls" : *row.lies_before ? "falls forwards" : "falls backwards";
-  if (row.status == RunStatus::stopped)
-    return "stopped" + (row.ending_event < 0 ? "" : " by " + table.events[std::size_t(row.ending_event)].title());
-  if (row.status != RunStatus::finished) return to_string(row.status);
+FallEnd what_became_of(const FallTable& table, const FallRow& row) {
+  if (row.fall_time) return FallEnd::falls;
+  if (row.status == RunStatus::stopped) return FallEnd::stopped;
+  if (row.status != RunStatus::finished) return FallEnd::fails;
   for (std::size_t i = 0; i < table.events.size(); ++i)
-    if (table.events[i].kind == EventKind::fall && row.first[i] == 0.0) return "lies from the start";
-  if (!table.has_foot) return "does not fall";
-  if (row.takes_off && (!row.tips || *row.takes_off <= *row.tips)) return "takes off, not down";
-  if (row.tips) return std::string("tips over the ") + (row.over_toe ? "toe" : "heel") + ", not down";
-  return "stands";
+    if (table.events[i].kind == EventKind::fall && row.first[i] == 0.0) return FallEnd::lies;
+  if (!table.has_foot) return FallEnd::stays_up;
+  if (row.takes_off && (!row.tips || *row.takes_off <= *row.tips)) return FallEnd::takes_off;
+  return row.tips ? FallEnd::tips : FallEnd::stands;
+}
+
+std::string tips_over(const FallRow& row) { return !row.tips ? "" : row.over_toe ? "toe" : "heel"; }
+
+std::string falls_to(const FallRow& row) { return !row.lies_before ? "" : *row.lies_before ? "forwards" : "backwards"; }
+
+std::string end_of(const FallTable& table, const FallRow& row) {
+  switch (what_became_of(table, row)) {
+    case FallEnd::falls: return row.lies_before ? "falls " + falls_to(row) : "falls";
+    case FallEnd::stopped: return "stopped" + (row.ending_event < 0 ? "" : " by " + table.events[std::size_t(row.ending_event)].title());
+    case FallEnd::fails: break;
+    case FallEnd::lies: return "lies from the start";
+    case FallEnd::stays_up: return "does not fall";
+    case FallEnd::takes_off: return "takes off, not down";
+    case FallEnd::tips: return "tips over the " + tips_over(row) + ", not down";
+    case FallEnd::stands: return "stands";
+  }
+  return to_string(row.status);
 }
 
 bool has_fall(const Scene& scene) {
@@ -237,15 +253,16 @@ FallTable run_fall_table(const std::string& scene, const std::vector<std::string
     table.rows[k].value = sweep.values[k];
     done.add();
   });
-  if (!(search.edges_to > 0) || (stop && stop(1))) return table;
+  const auto is_stopped = [&] { return stop && stop(1); };
+  if (!(search.edges_to > 0) || is_stopped()) return table;
   const auto run_at = [&](const std::string& setting) {
-    return end_of(table, run_row(read_one(scene, with(setting)), [&](double) { return stop && stop(1); }));
+    return end_of(table, run_row(read_one(scene, with(setting)), [&](double) { return is_stopped(); }));
   };
   Bisected key = bisected(sweep);
   key.is_whole = std::all_of(key.numbers.begin(), key.numbers.end(), [](double x) { return x == std::floor(x); }) &&
                  !can_be_read([&] { read_one(scene, with(key.setting(sweep.key, key.numbers[0] + 0.5))); });
   table.unit_of_edges = key.unit;
-  find_edges(table, search, key, run_at, [&] { return stop && stop(1); });
+  find_edges(table, search, key, run_at, is_stopped);
   return table;
 }
 

@@ -63,6 +63,21 @@ struct FallTable {
   std::string unit_of_edges{};
 };
 
+// What became of a run, the first of these that holds.
+enum class FallEnd {
+  falls,
+  stopped,      // by another event
+  fails,        // it came to no end
+  lies,         // from the start
+  stays_up,     // nothing is known of a foot
+  takes_off,    // before it tips, if it does: where it has no way down, the ground's force has no place either
+  tips,
+  stands,
+};
+FallEnd what_became_of(const FallTable& table, const FallRow& row);
+std::string tips_over(const FallRow& row);  // "toe", "heel"; "" where it does not
+std::string falls_to(const FallRow& row);   // on which side of the foot it lies: "forwards", "backwards"; "" where that is not known
+
 // How a run ended, in words that are the same of runs that ended alike: "falls forwards", "tips over the toe, not down", "stands",
 // "stopped by left", ..
 std::string end_of(const FallTable& table, const FallRow& row);

@@ -31,7 +31,7 @@ struct StabilityCells {
   std::string method;
   int threads = 1;
   bool in_batches = false;  // stepped together by BatchSimulator
-  // Where one key is `step` (else StabilityCell::stable says it): for each value of the other the longest
+  // Where one key is `step`, beside what StabilityCell::stable says: for each value of the other the longest
   // stable step of the motion linearised about the start, or about the rest that feedback leads to.
   std::vector<std::optional<double>> boundary;
   int linearised = 0, about_rest = 0;  // motions that theory is of, and those of them about the rest that feedback leads to

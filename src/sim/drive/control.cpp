@@ -92,7 +92,7 @@ class InverseTorque final : public ReferenceLaw {
 class PdTorque final : public ReferenceLaw {
  public:
   PdTorque(std::unique_ptr<Reference> reference, std::vector<double> kp, std::vector<double> kd)
-      : ReferenceLaw(std::move(reference), int(kp.size())), kp_(std::move(kp)), kd_(std::move(kd)) {}
+      : ReferenceLaw(std::move(reference), int(kp.size())), kp_(std::move(kp)), kd_(std::move(kd)), affine_(as_polynomials()) {}
 
   void evaluate(const Chain&, Workspace&, double t, ConstVec q, ConstVec qd, Vec tau) override {
     move_without_acceleration(t);
@@ -110,7 +110,14 @@ class PdTorque final : public ReferenceLaw {
   }
   bool reference_at(double t, Vec q) override { return copy_reference(t, q); }
 
-  std::optional<AffineTorque> affine() const override {
+  std::optional<AffineTorque> affine() const override { return affine_; }
+  bool evaluate_in_quad(Quad t, std::span<const Quad> q, std::span<const Quad> qd, std::span<Quad> tau) const override {
+    if (affine_) evaluate_affine(*affine_, t, q, qd, tau);
+    return affine_.has_value();
+  }
+
+ private:
+  std::optional<AffineTorque> as_polynomials() const {
     const std::optional<ReferencePolynomials> followed = reference_->polynomials();
     if (!followed) return {};
     const std::size_t n = kp_.size();
@@ -124,14 +131,9 @@ class PdTorque final : public ReferenceLaw {
     }
     return torque;
   }
-  bool evaluate_in_quad(Quad t, std::span<const Quad> q, std::span<const Quad> qd, std::span<Quad> tau) const override {
-    const std::optional<AffineTorque> torque = affine();
-    if (torque) evaluate_affine(*torque, t, q, qd, tau);
-    return torque.has_value();
-  }
 
- private:
   std::vector<double> kp_, kd_;
+  std::optional<AffineTorque> affine_;  // where the reference is polynomials
 };
 
 class ComputedTorque final : public ReferenceLaw {

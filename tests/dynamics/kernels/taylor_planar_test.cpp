@@ -113,18 +113,31 @@ TEST_P(ChainsOfAnyLength, SolvesTheEquationsOfMotionToItsOrder) {
   }
 }
 
+// A series of a chain under a torque at a state, all of them random, in numbers of one kind beside the same in Quads.
+template <class T>
+struct BesideQuads {
+  int n = 0;
+  std::vector<Quad> exact;
+  std::vector<T> c;
+
+  BesideQuads(std::uint64_t seed, int bodies, int order, Random& random) {
+    const Chain chain = chain_of(seed, bodies);
+    n = chain.nv;
+    const AffineTorque torque = random_torque(n, random);
+    const State s = random_state(chain, random, 1);
+    exact.resize(std::size_t(n * (order + 1)));
+    c.resize(exact.size());
+    PlanarSeries<Quad>(chain, torque, order).expand(0.5, in_quad(s.q), in_quad(s.qd), order, exact);
+    const std::vector<T> q(s.q.begin(), s.q.end()), qd(s.qd.begin(), s.qd.end());
+    PlanarSeries<T>(chain, torque, order).expand(0.5, q, qd, order, c);
+  }
+};
+
 TEST_P(ChainsOfAnyLength, HasTheDigitsOfADouble) {
   Random random(910);
   for (std::uint64_t seed = 910; seed < 916; ++seed) {
-    const Chain chain = chain_of(seed, GetParam());
-    const int n = chain.nv;
-    const AffineTorque torque = random_torque(n, random);
-    const State s = random_state(chain, random, 1);
     constexpr int kOrder = 20;
-    std::vector<Quad> exact(std::size_t(n * (kOrder + 1)));
-    PlanarSeries<Quad>(chain, torque, kOrder).expand(0.5, in_quad(s.q), in_quad(s.qd), kOrder, exact);
-    std::vector<double> c(exact.size());
-    PlanarSeries<double>(chain, torque, kOrder).expand(0.5, s.q, s.qd, kOrder, c);
+    const auto [n, exact, c] = BesideQuads<double>(seed, GetParam(), kOrder, random);
     for (int k = 0; k <= kOrder; ++k) {
       const auto row = std::span(exact).subspan(std::size_t(k * n), std::size_t(n));
       const std::vector<double> rounded(row.begin(), row.end());
@@ -140,16 +153,8 @@ TEST_P(ChainsOfAnyLength, HasTwiceThoseDigitsInDoubleDoubles) {
   Random random(920);
   double most_missed = 0;
   for (std::uint64_t seed = 920; seed < 926; ++seed) {
-    const Chain chain = chain_of(seed, GetParam());
-    const int n = chain.nv;
-    const AffineTorque torque = random_torque(n, random);
-    const State s = random_state(chain, random, 1);
     constexpr int kOrder = 40;
-    std::vector<Quad> exact(std::size_t(n * (kOrder + 1)));
-    PlanarSeries<Quad>(chain, torque, kOrder).expand(0.5, in_quad(s.q), in_quad(s.qd), kOrder, exact);
-    const std::vector<DoubleDouble> q(s.q.begin(), s.q.end()), qd(s.qd.begin(), s.qd.end());
-    std::vector<DoubleDouble> c(exact.size());
-    PlanarSeries<DoubleDouble>(chain, torque, kOrder).expand(0.5, q, qd, kOrder, c);
+    const auto [n, exact, c] = BesideQuads<DoubleDouble>(seed, GetParam(), kOrder, random);
     for (int k = 0; k <= kOrder; ++k) {
       Quad apart = 0, size = 0;
       double of_doubles = 0;
