@@ -62,6 +62,8 @@ class Agreement : public ::testing::Test {
     const Table rows = read_csv(table);
     const Json along =
         json_of(with({"ellipse", "--along", scene, "--samples", "3", "-o", folder_.file("e.csv"), "--json", "--force"}, common));
+    const Json pictures = json_of(with({"snapshot", scene, "--at", "0,0.5,1", "-o", folder_.file("pictures/"), "--width", "160", "--height", "90",
+                                        "--json", "--force", "--quiet"}, common))["pictures"];
     for (std::size_t k = 0; k < 3; ++k) {
       const std::string at = k == 0 ? "0" : k == 1 ? "0.5" : "1";
       const Json now = json_of(with({"dynamics", scene, "--at", at, "--json", "--quiet"}, common));
@@ -70,6 +72,10 @@ class Agreement : public ::testing::Test {
       expect_same(now["q"], pose["q"], 1e-15, "q of dynamics and ellipse");
       for (const char* key : {"Lambda_inv", "Lambda", "mobility"}) expect_same(now[key], pose[key], 1e-12, key);
       expect_same(now["x"], pose["point"], 1e-15, "the end effector");
+      const Json& shown = pictures[k]["panels"][0];
+      for (const char* key : {"q", "qd", "tau"}) expect_same(now[key], shown[key], 1e-12, std::string(key) + " of dynamics and snapshot");
+      // Of the frames' samples, of which a film has the multipliers, as of the state by itself.
+      if (now["lambda"].is_array()) expect_same(now["lambda"], shown["lambda"], 1e-9, "lambda of dynamics and snapshot");
       ASSERT_GT(rows.rows(), k);
       // t, then q, then qd.
       Json state = now["q"];

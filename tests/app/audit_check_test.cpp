@@ -113,7 +113,7 @@ TEST_F(AuditCheckTest, EveryNumberOfTheAuditIsLookedAt) {
     return check(film_).status;
   };
   EXPECT_EQ(changed([](Json&) {}), 0);
-  EXPECT_EQ(changed([](Json& audit) { audit.erase("audit_error"); }), 1);
+  EXPECT_EQ(changed([](Json& audit) { audit.erase("energy_error"); }), 1);
   EXPECT_EQ(changed([](Json& audit) { audit["frames"] = 99; }), 1);
   EXPECT_EQ(changed([](Json& audit) { audit["film_seconds"] = 9; }), 1);
   EXPECT_EQ(changed([](Json& audit) { audit["held_frames"]["first"] = 3; }), 1);

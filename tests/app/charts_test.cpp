@@ -126,7 +126,7 @@ TEST(ChartCommand, JudgesTheEnergyAlongTheRun) {
     if (step != "0.01" && tolerance != "1e-06") continue;
     const ProgramResult run = run_program({"simulate", "assets/scenes/rr_free.yaml", "--set", "duration=3", "--set", "method=" + row.at("method"), "--set",
                                            step.empty() ? "tolerance=" + tolerance : "step=" + step, "-o", folder.file("a.csv"), "--force", "--json"});
-    const double expected = Json::parse(run.out)["audit_error"];
+    const double expected = Json::parse(run.out)["energy_error"];
     EXPECT_NEAR(number(row.at("energy_error")), expected, 1e-9 * expected) << row.at("method");
     ++compared;
   }

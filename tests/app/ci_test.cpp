@@ -100,12 +100,29 @@ TEST_F(PastedIntoCi, StepsOfGithubEndWellOrWithAReport) {
 }
 
 TEST_F(PastedIntoCi, ScriptOfGitlabEndsWellOrWithAReport) {
-  const std::string verify = step_of("assets/ci/gitlab-ci.yml", "  script:");
+  const std::string file = "assets/ci/gitlab-ci.yml", verify = step_of(file, "  script:") + "\n" + step_of(file, "export PATH");
   ASSERT_THAT(verify, HasSubstr("verify \"$SUITE\""));
   EXPECT_EQ(run(verify).status, 0);
   break_something();
   EXPECT_EQ(run(verify).status, 1);
   EXPECT_THAT(read_whole_file(folder_.file("out/junit.xml")), HasSubstr("<failure"));
+}
+
+// With a package nothing is built: it is fetched and handed to apt, whose part a script plays here.
+TEST_F(PastedIntoCi, APackageIsInstalledInsteadOfBuilding) {
+  const std::string package = folder_.write("served.deb", "bytes of a package"), log = folder_.file("apt.log");
+  const std::string apt = folder_.write("bin/apt-get", "#!/bin/sh\necho \"$@\" >> " + log + "\ncat /tmp/chainreel.deb >> " + log + "\n");
+  fs::permissions(apt, fs::perms::owner_all);
+  RunOptions options = here();
+  options.environment["PATH"] = folder_.file("bin") + ":" + std::getenv("PATH");
+  options.environment["CHAINREEL_DEB"] = "file://" + package;
+  options.environment["CHAINREEL_SOURCE"] = folder_.file("no_such_repository");
+  const ProgramResult result =
+      run_command({"bash", "-e", "-o", "pipefail", "-c", step_of("assets/ci/github.yml", "name: Install")}, options);
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(read_whole_file(log), testing::AllOf(HasSubstr("install -y --no-install-recommends /tmp/chainreel.deb"), HasSubstr("bytes of a package")));
+  options.environment["CHAINREEL_DEB"] = "file://" + folder_.file("gone.deb");
+  EXPECT_NE(run_command({"bash", "-e", "-o", "pipefail", "-c", step_of("assets/ci/github.yml", "name: Install")}, options).status, 0);
 }
 
 TEST_F(PastedIntoCi, PytestHasATestAPicture) {

@@ -74,7 +74,7 @@ TEST_F(CompareFilm, OfAPanelThatDivergesAsExpectedIsAWholeFilm) {
   EXPECT_GT(wild["left_picture_at"].get<double>(), 0);
   EXPECT_LT(wild["left_picture_at"].get<double>(), 0.1);
   EXPECT_NE(calm["trajectory_sha256"], wild["trajectory_sha256"]);
-  for (const Json& panel : audit["panels"]) EXPECT_TRUE(panel.contains("audit_error"));
+  for (const Json& panel : audit["panels"]) EXPECT_TRUE(panel.contains("energy_error"));
 }
 
 TEST_F(CompareFilm, OfAPanelThatDivergesUnasked) {

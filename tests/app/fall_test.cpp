@@ -239,7 +239,7 @@ TEST(Events, AreInTheAuditWithNameTimeAndState) {
   EXPECT_EQ(report["events"][1]["name"], "down");
   EXPECT_NEAR(report["events"][1]["q"][1].get<double>(), -1, 1e-11);
   EXPECT_NEAR(report["events"][1]["qd"][1].get<double>(), -std::sqrt(2 * 9.81), 1e-10);
-  EXPECT_LT(report["audit_error"].get<double>(), 1e-11);
+  EXPECT_LT(report["energy_error"].get<double>(), 1e-11);
   // The last row stands at the fall.
   std::string line, last;
   for (std::istringstream rows(read_whole_file(csv)); std::getline(rows, line);) last = line;

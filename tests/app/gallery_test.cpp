@@ -202,7 +202,7 @@ TEST(GalleryAudit, PutsRunsSideBySideAndEnduresStrangeKinds) {
       {"duration", 3},
       {"frames", 180},
       {"panels",
-       {{{"title", "A"}, {"method", "rk4"}, {"audit_error", 1.25e-9}, {"largest_kinetic_energy", 20}},
+       {{{"title", "A"}, {"method", "rk4"}, {"energy_error", 1.25e-9}, {"largest_kinetic_energy", 20}},
         {{"title", "B"}, {"method", 5}, {"events", "none"}, {"steps", "many"}}}}};
   const std::vector<AuditRow> rows = audit_rows(audit);
   ASSERT_GE(rows.size(), 3u);

@@ -110,7 +110,7 @@ TEST(Library, EnergyIsThatOfTheAudit) {
   for (const double error : run.energy().error) largest = std::max(largest, std::abs(error));
   EXPECT_EQ(run.energy().total.size(), run.trajectory().t.size());
   EXPECT_EQ(run.energy().total.front(), report["energy_start"].get<double>());
-  EXPECT_EQ(largest, report["audit_error_of_frames"].get<double>());
+  EXPECT_EQ(largest, report["energy_error_of_frames"].get<double>());
 }
 
 TEST(Library, InstantsRiseWithinTheDuration) {

@@ -15,6 +15,7 @@
 namespace chainreel {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -36,6 +37,41 @@ TEST(SimulateCommand, WritesARowAFrameAndOneAtTheEnd) {
   EXPECT_THAT(lines.back(), testing::StartsWith("2,"));
   // 17 significant digits: the frame at 1/60 s.
   EXPECT_THAT(lines[2], testing::StartsWith("0.016666666666666666,"));
+}
+
+// A torque that is known: 2 t exp(-4 t) is highest at 0.25 s, 0.5 / e, and sin(t - 2) lowest at 2 - pi / 2, -1.
+TEST(SimulateCommand, TellsPeaksAndWhenTheyAre) {
+  const TemporaryFolder folder;
+  const Words words{"simulate", "assets/scenes/pp_free.yaml", "-o", folder.file("a.csv"), "--set", "torque=[2 * t * exp(-4 * t), sin(t - 2)]", "--set",
+                    "duration=1.5", "--peaks", "tau,qd", "--force"};
+  const Json peaks = Json::parse(run_program(with(words, {"--json"})).out)["peaks"];
+  ASSERT_EQ(peaks.size(), 4u);
+  EXPECT_EQ(peaks[0]["name"], "tau1");
+  EXPECT_EQ(peaks[0]["unit"], "N");
+  // Samples of 30 us about it: the instant to one of them, the value to its square.
+  EXPECT_NEAR(peaks[0]["t"].get<double>(), 0.25, 5e-5);
+  EXPECT_NEAR(peaks[0]["value"].get<double>(), 0.5 / std::exp(1), 1e-9);
+  EXPECT_NEAR(peaks[1]["t"].get<double>(), 2 - std::acos(0.0), 5e-5);
+  EXPECT_NEAR(peaks[1]["value"].get<double>(), -1, 1e-9);
+  EXPECT_EQ(peaks[2]["name"], "qd1");
+  EXPECT_EQ(peaks[2]["unit"], "m/s");
+  EXPECT_THAT(run_program(words).out, AllOf(HasSubstr("peak of"), HasSubstr("0.18394"), HasSubstr("a.csv  91 rows")));
+  // None that was not asked for; standard output has room for one of the two; of t there is none.
+  EXPECT_EQ(Json::parse(run_program({"simulate", "assets/scenes/pp_free.yaml", "-o", folder.file("b.csv"), "--json"}).out)["peaks"], Json::array());
+  EXPECT_EQ(run_program({"simulate", "assets/scenes/pp_free.yaml", "-o", "-", "--peaks", "qd"}).status, 2);
+  EXPECT_EQ(run_program({"simulate", "assets/scenes/pp_free.yaml", "-o", folder.file("c.csv"), "--peaks", "t"}).status, 2);
+  EXPECT_EQ(run_program({"simulate", "assets/scenes/pp_free.yaml", "-o", folder.file("c.csv"), "--peaks", "lambda"}).status, 2);
+}
+
+// Found in two ways: by `--peaks`, and by the audit at all steps.
+TEST(SimulateCommand, HasThePeakOfAMultiplierThatTheAuditHas) {
+  const TemporaryFolder folder;
+  const Json json = Json::parse(
+      run_program({"simulate", "assets/scenes/four_bar.yaml", "-o", folder.file("a.csv"), "--peaks", "lambda", "--json", "--quiet"}).out);
+  const Json& largest = json["constraint_error"]["rows"][0];
+  const double expected = largest["largest_lambda_signed"];
+  EXPECT_NEAR(json["peaks"][0]["value"].get<double>(), expected, 1e-5 * std::abs(expected));
+  EXPECT_NEAR(json["peaks"][0]["t"].get<double>(), largest["largest_lambda_time"].get<double>(), 1e-3);
 }
 
 // Forces may be no numbers behind the end: a first step that is tried out looks no farther, wherever the run begins.
@@ -152,6 +188,16 @@ TEST(InverseCommand, UndoesForwardDynamics) {
   ASSERT_EQ(lines.size(), 1u + 201);
   EXPECT_EQ(lines[0], "t [s],tau1 [N m],tau2 [N m]");
   double t, tau1, tau2;
+  ASSERT_EQ(std::sscanf(lines[100].c_str(), "%lf,%lf,%lf", &t, &tau1, &tau2), 3);
+  // What is told of them is what stands in the table.
+  double largest = 0, when = 0;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    ASSERT_EQ(std::sscanf(lines[i].c_str(), "%lf,%lf,%lf", &t, &tau1, &tau2), 3);
+    if (std::abs(tau2) > std::abs(largest)) largest = tau2, when = t;
+  }
+  const Json peak = Json::parse(run_program({"inverse", "models/rr.urdf", "--trajectory", motion, "-o", torques, "--force", "--json"}).out)["peaks"][1];
+  EXPECT_EQ(peak, (Json{{"name", "tau2"}, {"unit", "N m"}, {"value", largest}, {"t", when}}));
+  EXPECT_THAT(result.out, HasSubstr("peak of"));
   ASSERT_EQ(std::sscanf(lines[100].c_str(), "%lf,%lf,%lf", &t, &tau1, &tau2), 3);
   // qd is in the file and its spline at 5 ms gives qdd to h^3 of its fourth derivative (some 1e5 x 1e-7 /
   // 24).

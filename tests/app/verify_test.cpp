@@ -290,7 +290,7 @@ TEST_F(Verify, SaysThatBarsDoNotShowAColourOfTheModel) {
   const Json bars = suite("");
   ASSERT_EQ(bars["pictures"].size(), 2u);
   for (const Json& one : bars["pictures"]) {
-    EXPECT_EQ(one["state"], "physics") << one;
+    EXPECT_EQ(one["state"], "looks") << one;
     EXPECT_TRUE(one["passed"].get<bool>()) << one;
     EXPECT_THAT(one["words"].dump(), HasSubstr("`links: visual` in the suite shows them")) << one;
   }
@@ -298,7 +298,7 @@ TEST_F(Verify, SaysThatBarsDoNotShowAColourOfTheModel) {
   const Json shapes = suite("links: visual\n");
   ASSERT_EQ(shapes["pictures"].size(), 2u);
   for (const Json& one : shapes["pictures"]) {
-    EXPECT_EQ(one["state"], "changed") << one;
+    EXPECT_EQ(one["state"], "looks") << one;
     EXPECT_FALSE(one["passed"].get<bool>()) << one;
     EXPECT_THAT(one["words"].dump(), Not(HasSubstr("bars"))) << one;
   }
@@ -308,6 +308,23 @@ TEST_F(Verify, SaysThatBarsDoNotShowAColourOfTheModel) {
   accept_all();
   replace("rr.urdf", "<mass value=\"1\"/>", "<mass value=\"2\"/>");
   EXPECT_THAT(words(results(), "home"), Not(HasSubstr("bars")));
+}
+
+// A title moves nothing, and no state but that of looks says so; a title beside another mass is no matter of looks.
+TEST_F(Verify, TellsAnotherTitleFromAnotherMotion) {
+  write("swing.yaml", "title: A swing\nmodel: rr.urdf\nduration: 1\n");
+  write("swings.yaml", "scene: swing.yaml\nsize: 320x180\nat: 1s\n");
+  accept_all("swings.yaml");
+  replace("swing.yaml", "A swing", "Another swing");
+  Json json = results({}, "swings.yaml");
+  EXPECT_EQ(picture(json, "1s")["state"], "looks");
+  EXPECT_EQ(picture(json, "1s")["passed"], false);
+  EXPECT_THAT(words(json, "1s"), HasSubstr("title: A swing -> Another swing"));
+  replace("swing.yaml", "duration: 1", "duration: 1\nstart: {q: [1deg, 0]}");
+  EXPECT_EQ(picture(results({}, "swings.yaml"), "1s")["state"], "changed");
+  replace("swing.yaml", "\nstart: {q: [1deg, 0]}", "");
+  replace("rr.urdf", "<mass value=\"1\"/>", "<mass value=\"2\"/>");
+  EXPECT_EQ(picture(results({}, "swings.yaml"), "1s")["state"], "changed");
 }
 
 TEST_F(Verify, RefusesToComparePicturesOfTwoSizes) {

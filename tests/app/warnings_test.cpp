@@ -37,7 +37,7 @@ TEST(Warnings, AreSaidOfEnergyThatTheMethodMadeAndChangeNoExitCode) {
   ASSERT_EQ(report["warnings"].size(), 1u);
   EXPECT_EQ(report["warnings"][0]["kind"], "energy");
   EXPECT_NEAR(report["warnings"][0]["amount"].get<double>(),
-              report["audit_error"].get<double>() / report["energy_moved"].get<double>(), 1e-12);
+              report["energy_error"].get<double>() / report["energy_moved"].get<double>(), 1e-12);
   const ProgramResult picture = run_program({"snapshot", scene, "-o", folder.file("a.png"), "--at", "2", "--quiet"});
   EXPECT_EQ(picture.status, 0) << picture.err;
   EXPECT_THAT(picture.err, HasSubstr("WARNING: coarse: the energy is off by"));
@@ -100,7 +100,7 @@ TEST(Warnings, UnderAutoAdviseWhatHelpsThere) {
       const ProgramResult better = run_program(with(command, typed(one)));
       EXPECT_EQ(better.status, 0) << better.err;
       const Json finer = Json::parse(better.out);
-      EXPECT_LT(finer["audit_error"].get<double>(), 0.1 * report["audit_error"].get<double>()) << one;
+      EXPECT_LT(finer["energy_error"].get<double>(), 0.1 * report["energy_error"].get<double>()) << one;
     }
   }
 }

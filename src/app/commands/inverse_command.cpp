@@ -1,5 +1,6 @@
 // chainreel inverse MODEL|SCENE --trajectory q.csv -o tau.csv
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -8,6 +9,7 @@
 #include "app/cli/table_files.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/report/motion_table.hpp"
+#include "app/report/peaks.hpp"
 #include "app/report/run_report.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
@@ -83,8 +85,8 @@ DataTable table_of(const Recorded& recorded, const InverseAlong& inverse) {
   return table;
 }
 
-Json report_of(const InverseAlong& inverse) {
-  Json json{{"rows", inverse.t.size()}};
+Json report_of(const InverseAlong& inverse, const std::vector<NamedPeak>& peaks) {
+  Json json{{"rows", inverse.t.size()}, {"peaks", to_json(peaks)}};
   json["constraints"] = nullptr;
   if (!inverse.rows.empty())
     json["constraints"] = {{"rows", inverse.rows},
@@ -102,8 +104,12 @@ void run_inverse(const InverseOptions& options) {
   TableFiles files(outputs, options.common);
   tell_doubts(options, *recorded.motion);
   const InverseAlong inverse = inverse_along(recorded.chain, recorded.constraints, *recorded.motion);
-  files.write(table_of(recorded, inverse));
-  files.tell(options.common, inverse.t.size(), report_of(inverse));
+  const DataTable found = table_of(recorded, inverse);
+  const std::vector<NamedPeak> peaks = peaks_of(found);
+  files.write(found);
+  files.tell(options.common, inverse.t.size(), report_of(inverse, peaks));
+  const bool has_room = std::find(outputs.begin(), outputs.end(), "-") == outputs.end();
+  if (has_room && !options.common.json && !options.common.quiet) std::fputs(words_of(peaks).c_str(), stdout);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "app/report/report.hpp"
 #include "app/report/run_report.hpp"
 #include "app/report/motion_table.hpp"
+#include "app/report/peaks.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "sim/audit.hpp"
@@ -30,6 +31,7 @@ struct SimulateOptions {
   std::string scene;
   std::vector<std::string> outputs;
   std::string columns = kUsualColumns;
+  std::string peaks;  // columns of which they are asked for
   bool every_step = false;
   int panel = 0;  // from 1; 0: all
   CommonOptions common;
@@ -50,18 +52,33 @@ Trajectory run_scene(const PreparedFilm& film, const PreparedScene& prepared, bo
   return simulate_audited(prepared.simulation, times, stop);
 }
 
+// Columns of the table, none for the usual ones, and those of which the peaks are asked for.
+struct Wanted {
+  std::vector<MotionColumn> columns, peaks;
+};
+
+// `peaks`: of which columns; none asks for none.
+std::vector<NamedPeak> peaks_of_run(const Simulation& simulation, const std::vector<MotionColumn>& peaks) {
+  if (peaks.empty()) return {};
+  const PeaksOfRun found = simulate_for_peaks(simulation, peaks, [](double) { return interrupted(); });
+  throw_if_interrupted();
+  return named(names_of_peaks(simulation, peaks), found.peaks);
+}
+
 // A panel's run as files.
 Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, TableFiles& files,
-                    const std::vector<MotionColumn>& columns, const SimulateOptions& options, bool alone) {
+                    const Wanted& wanted, const SimulateOptions& options, bool alone) {
   say_choice(prepared, options.common.quiet);
   const Trajectory trajectory = run_scene(film, prepared, options.every_step);
   throw_if_interrupted();
-  const DataTable table = motion_table(prepared.simulation, trajectory, columns);
+  const DataTable table =
+      motion_table(prepared.simulation, trajectory, wanted.columns.empty() ? usual_columns(prepared.simulation.chain) : wanted.columns);
   if (is_complete(trajectory.status) || prepared.scene.expect == Outcome::diverge)
     files.write(table);
   else
     files.write_partial(table);
   require_expected_end(trajectory, prepared.scene);
+  const std::vector<NamedPeak> peaks = peaks_of_run(prepared.simulation, wanted.peaks);
   const RunReport run = run_report(prepared, trajectory);
   const std::string name = prepared.scene.name + (alone ? "" : ", '" + prepared.scene.title + "'");
   tell_warnings(warning_lines(name, run));
@@ -70,7 +87,11 @@ Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, Tab
   Json report = to_json(run);
   report["panels"] = Json::array();
   report["rows"] = trajectory.size();
+  report["peaks"] = to_json(peaks);
   report.update(files_json(files.paths()));
+  if (options.common.json) return report;
+  files.tell(options.common, table.rows, {});
+  if (!peaks.empty() && !options.common.quiet) std::fputs(words_of(peaks).c_str(), stdout);
   return report;
 }
 
@@ -91,18 +112,21 @@ void run_simulate(const SimulateOptions& options) {
   if (!alone && std::find(outputs.begin(), outputs.end(), "-") != outputs.end())
     throw Error(ExitCode::usage, "-o - takes one run, but the scene has " +
                                      std::to_string(film.panels.size()) + " panels: choose one with --panel");
-  std::vector<MotionColumn> wanted;
-  if (options.columns != kUsualColumns) wanted = parse_columns(options.columns, "--columns");
-  for (const std::size_t i : chosen) require_columns(film.panels[i].simulation, wanted, "--columns");
+  Wanted wanted;
+  if (options.columns != kUsualColumns) wanted.columns = parse_columns(options.columns, "--columns");
+  if (!options.peaks.empty()) wanted.peaks = parse_peaks(options.peaks, "--peaks");
+  if (!wanted.peaks.empty() && std::find(outputs.begin(), outputs.end(), "-") != outputs.end())
+    throw Error(ExitCode::usage, "-o - gives the table to standard output, where --peaks has no room: write the table to a file");
+  for (const std::size_t i : chosen) {
+    require_columns(film.panels[i].simulation, wanted.columns, "--columns");
+    require_columns(film.panels[i].simulation, wanted.peaks, "--peaks");
+  }
   Json reports = Json::array();
   for (const std::size_t i : chosen) {
-    const Simulation& simulation = film.panels[i].simulation;
     std::vector<std::string> paths;
     for (const std::string& output : outputs) paths.push_back(panel_table_path(output, i, alone));
     TableFiles files(paths, options.common);
-    reports.push_back(
-        simulate_panel(film, film.panels[i], files, wanted.empty() ? usual_columns(simulation.chain) : wanted, options, alone));
-    if (!options.common.json) files.tell(options.common, reports.back()["rows"].get<std::size_t>(), {});
+    reports.push_back(simulate_panel(film, film.panels[i], files, wanted, options, alone));
   }
   if (!options.common.json) return;
   if (alone) return print_json(reports.front());
@@ -128,12 +152,16 @@ void add_simulate_command(CommandLine& app) {
                    "what stands in the table, like t,q,tau; there are " + joined(words_of(names_of(MotionColumn{}))) +
                        "; usual: t,q,qd,tau,energy and the end effector's")
       .show_default();
+  command->add_option("--peaks", options->peaks,
+                      "told beside the table: of these columns, like qd,tau,energy, the value of each number that is farthest from zero, and when; "
+                      "looked for at 2000 instants and closely about what is found");
   add_panel_option(*command, options->panel);
   command->add_flag("--every-step", options->every_step, "a row a step instead of a row a frame");
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
   command->footer("Example: chainreel simulate pp_free -o out/pp_free.csv -o out/pp_free.npz\n"
-      "         chainreel simulate rr_free --columns t,q,qdd,tau -o -");
+      "         chainreel simulate rr_free --columns t,q,qdd,tau -o -\n"
+      "         chainreel simulate rr_torque --peaks qd,tau");
   command->callback([options] { run_simulate(*options); });
 }
 

@@ -154,14 +154,14 @@ class RowMaker {
   }
 
  private:
-  std::string row_of(const Scene& scene, const Chain& chain, const Trajectory& run, const std::vector<double>& peaks) const {
+  std::string row_of(const Scene& scene, const Chain& chain, const Trajectory& run, const std::vector<Peak>& peaks) const {
     const bool as_expected =
         scene.expect == Outcome::diverge ? run.status == RunStatus::diverged : is_complete(run.status);
     std::string row = as_expected ? ",1," : ",0,";
     row += to_string(run.status) + "," + format_shortest(run.end_time) + "," +
            (run.ending_event < 0 ? "" : csv_words(scene.events[std::size_t(run.ending_event)].title()));
     row += "," + (run.size() > 0 ? state_text(run, run.size() - 1) + "," + energy_at_end(chain, run) : no_state() + ",");
-    for (const double peak : peaks) row += "," + format_shortest(peak);
+    for (const Peak& peak : peaks) row += "," + format_shortest(peak.value);
     std::vector<std::string> first(events_);
     for (int k = run.events.size() - 1; k >= 0; --k)
       first[std::size_t(run.events.event[std::size_t(k)])] = format_shortest(run.events.t[std::size_t(k)]);
@@ -237,7 +237,7 @@ std::string head_of(const SweepTableJob& job, const Scene& first, const Chain& c
   const bool one_model = std::none_of(job.grid.axes().begin(), job.grid.axes().end(), is_of_model);
   head += ",good,status,end_time [s],ended_by," + state_names(chain, one_model ? NamesOfState::with_units : NamesOfState::plain) +
           ",energy [J]";
-  for (const std::string& peak : peaks) head += "," + (one_model ? peak : peak.substr(0, peak.find(" [")));
+  for (const std::string& peak : peaks) head += ",peak_" + (one_model ? peak : peak.substr(0, peak.find(" [")));
   for (const EventEntry& event : first.events) head += "," + csv_words(event.title() + " [s]");
   return head + ",trouble\n";
 }
@@ -294,7 +294,7 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
   for (const Sweep& axis : job.grid.axes()) require_read(axis.key, first, "--over");
   const std::string states = state_names(simulation.chain);
   require_columns(simulation, job.peaks, "--peaks");
-  const std::vector<std::string> peaks = peak_names(simulation, job.peaks);
+  const std::vector<std::string> peaks = names_of_peaks(simulation, job.peaks);
   for (const std::string& doubt : first.doubts) tell_warnings({first.name + ": " + doubt});
 
   GrowingTable table(job.path, head_of(job, first, simulation.chain, peaks), std::size_t(job.runs.first),

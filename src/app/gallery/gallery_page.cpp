@@ -118,7 +118,7 @@ std::string count_text(const Json& run, const char* key) {
 }
 
 std::string energy_error(const Json& run) {
-  const std::string error = number_text(run, "audit_error", kErrorDigits, " J");
+  const std::string error = number_text(run, "energy_error", kErrorDigits, " J");
   if (error.empty()) return "";
   const std::string scale = number_text(run, "largest_kinetic_energy", 3, " J");
   return scale.empty() ? error : error + " (kinetic energy up to " + scale + ")";
@@ -218,7 +218,7 @@ std::string audit_facts(const Json& audit, double film_seconds) {
   const std::string frames = runs.empty() ? "" : count_text(runs.front(), "frames");
   if (!frames.empty()) facts.push_back(frames + " frames");
   const std::string error =
-      runs.size() == 1 ? number_text(runs.front(), "audit_error", kErrorDigits, " J") : "";
+      runs.size() == 1 ? number_text(runs.front(), "energy_error", kErrorDigits, " J") : "";
   if (!error.empty()) facts.push_back("energy error " + error);
   std::string text;
   for (const std::string& fact : facts)

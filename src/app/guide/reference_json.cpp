@@ -24,8 +24,8 @@ const Keys kRun{
     {"steps, evaluations", "how many, of the dynamics; the work of torques looks into steps, which of Euler and RK4 takes one more a step"},
     {"duration", "s, that was asked for"},
     {"energy_start, largest_kinetic_energy, energy_moved", "J"},
-    {"audit_error, audit_error_time", "J and s: the largest error of the energy at the ends of steps"},
-    {"audit_error_of_frames, audit_error_of_frames_time", "the same at the frames alone"},
+    {"energy_error, energy_error_time", "J and s: the largest error of the energy at the ends of steps"},
+    {"energy_error_of_frames, energy_error_of_frames_time", "the same at the frames alone"},
     {"warnings", "what speaks against it: [{kind, amount, what, remedy}]"},
     {"constraint_error", "how near it stayed to its constraints, and their forces; null without constraints"},
     {"limits_passed", "[{joint, quantity, t, value, limit}]"},
@@ -89,7 +89,8 @@ const std::vector<JsonReport>& json_reports() {
   static const std::vector<JsonReport> reports{
       {"render", {{"films", "a scene each: the keys of runs and of films below"}}},
       {"simulate", with(with(kRun, kFiles), {{"panels", "of a comparison scene, title, duration, panels, file and files stand on top, and a run each here; else []"},
-                                             {"rows", "of the table"}})},
+                                             {"rows", "of the table"},
+                                             {"peaks", "of --peaks [{name, unit, value, t}]; else []"}})},
       {"snapshot", with(kFiles, {{"pictures", "[{file, files, at, panels}], of models [{file, files, poses}]: the numbers of the states that are shown"}})},
       {"sheet", with(kFiles, {{"columns, lines", "of the page"}, {"cells", "[{scene, at, panels}]"}})},
       {"ellipse", with(kFiles, {{"reading, shape, unit", "of the ellipses; not with --joint-space"}, {"poses", "[{t, q, point, Lambda_inv, Lambda, mass_along, eigenvalues, semi_axes, ..}]; mass_along: 1 / Lambda_inv_ii, what a force along each axis moves"}})},
@@ -114,7 +115,7 @@ const std::vector<JsonReport>& json_reports() {
                              {"rows", "[{value, status, end_time, fall_time, ended_by, first, stands, tips_at, tips_over, falls, takes_off_at, trouble}]"},
                              {"edges", "[{before, behind, from, to, rows, contradicted_at}] of --edges: values of the key between which the end changes, the rows around them, and one between these that ends otherwise, or null"}})},
       {"dynamics", kState},
-      {"inverse", with(kFiles, {{"rows", "of the table"}, {"constraints", "rows and errors of a scene's constraints; or null"}})},
+      {"inverse", with(kFiles, {{"rows", "of the table"}, {"peaks", "of each torque and multiplier, at the rows: [{name, unit, value, t}]"}, {"constraints", "rows and errors of a scene's constraints; or null"}})},
       {"equations", with(kFiles, {{"model, coordinates", "what it is about"},
                                   {"M, C, g, damping, friction, J, Lambda", "formulas as text"},
                                   {"end_effector", "the link of J and Lambda"},
@@ -159,7 +160,7 @@ std::string json_page() {
       "One object on standard output, and nothing else; messages go to standard error. A key that is told here is always there: null or [] where\n"
       "there is nothing to say. Numbers that are not finite are null. Times are s, angles rad, energies J. NAME.json beside a film has the\n"
       "same keys as an entry of `films`, but for file, files, part, sidecars and small_clips, and with the hashes of its sidecars.\n\n" +
-      code_block("sh", "chainreel simulate rr_free --json --quiet | jq .audit_error\nchainreel render rr_free --json --quiet | jq '.films[0].files'\n") +
+      code_block("sh", "chainreel simulate rr_free --json --quiet | jq .energy_error\nchainreel render rr_free --json --quiet | jq '.films[0].files'\n") +
       "\n## Of a run\n\n" + table_of(run_keys()) + "\n## Of a film\n\n" + table_of(film_keys());
   for (const JsonReport& report : json_reports())
     page += "\n## " + report.command + "\n\n" + (report.command == "simulate" ? "The keys of a run, and:\n\n" : "") +

@@ -23,7 +23,7 @@ Json sample_report(const Simulation& simulation, const Trajectory& trajectory, i
   ChainSystem system(simulation);
   hold_as_then(system, simulation, trajectory, t);
   const ConstVec tau = system.torque(t, q, qd);
-  Json json{{"t", t}, {"q", to_json(q)}, {"qd", to_json(qd)}, {"tau", to_json(tau)}};
+  Json json{{"t", t}, {"q", to_json(q)}, {"qd", to_json(qd)}, {"tau", to_json(tau)}, {"lambda", to_json(trajectory.lambda_at(k))}};
   simulation.torque->leave_pieces();
   Workspace ws(chain);
   const Energy energy = energy_of(chain, ws, q, qd);

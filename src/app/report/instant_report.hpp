@@ -7,7 +7,7 @@
 
 namespace chainreel {
 
-// Of sample k of a run: t [s], q [rad, m], qd, tau [N m, N], energies [J], and of the end effector, where the chain has one,
+// Of sample k of a run: t [s], q [rad, m], qd, tau [N m, N], lambda of the constraints' rows, energies [J], and of the end effector, where the chain has one,
 // its place x [m] and velocity xd [m/s] along W.
 Json sample_report(const Simulation& simulation, const Trajectory& trajectory, int k);
 

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "app/report/report.hpp"
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "sim/audit.hpp"
 
 namespace chainreel {
@@ -25,23 +28,18 @@ std::vector<MotionColumn> parse_peaks(const std::string& text, const std::string
   return columns;
 }
 
-std::vector<std::string> peak_names(const Simulation& simulation, const std::vector<MotionColumn>& columns) {
+std::vector<std::string> names_of_peaks(const Simulation& simulation, const std::vector<MotionColumn>& columns) {
   Trajectory none;
   none.nq = simulation.chain.nq, none.nv = simulation.chain.nv;
   none.rows = int(multiplier_columns(simulation.chain, simulation.constraints.list).size());
   std::vector<std::string> names;
   for (const MotionColumn column : columns)
     for (const DataArray& array : table_of(simulation, none, column).arrays)
-      for (const std::string& name : array.columns) names.push_back("peak_" + name);
+      for (const std::string& name : array.columns) names.push_back(name);
   return names;
 }
 
 namespace {
-
-// Of each number the value that is farthest from zero, and when.
-struct Farthest {
-  double value = 0, t = 0;
-};
 
 // Between samples the work is no number, and the constraints are as the method's dense output has them.
 bool is_seen_between(const Trajectory& run, MotionColumn column) {
@@ -49,11 +47,41 @@ bool is_seen_between(const Trajectory& run, MotionColumn column) {
 }
 
 // The method's own error, at the ends of its steps: what its dense output adds between them is none of the run's.
-void look_at_steps(const Trajectory& run, Farthest& peak) {
+void look_at_steps(const Trajectory& run, Peak& peak) {
   if (run.energy_at_steps && run.energy_at_steps->largest_error > peak.value) peak = {run.energy_at_steps->largest_error, run.energy_at_steps->time};
 }
 
-void look_at(const Simulation& simulation, const Trajectory& run, const std::vector<MotionColumn>& columns, std::vector<Farthest>& peaks) {
+// One number along a run.
+struct Course {
+  const Trajectory& seen;
+  std::span<const double> values;
+  std::size_t first, count;  // of how many that stand beside one another
+
+  std::size_t size() const { return values.size() / count; }
+  double at(std::size_t k) const { return values[first + k * count]; }
+  double time(std::size_t k) const { return seen.t[std::min(k, seen.t.size() - 1)]; }
+};
+
+// When it is highest or lowest, and all but so: between samples another peak than theirs may be the farthest. The highest first.
+std::vector<Peak> tops_of(const Course& course) {
+  constexpr double kAllBut = 0.98;
+  constexpr std::size_t kMost = 5;
+  std::vector<Peak> tops;
+  double farthest = 0;
+  for (std::size_t k = 0; k < course.size(); ++k) farthest = std::max(farthest, std::abs(course.at(k)));
+  for (std::size_t k = 0; k < course.size(); ++k) {
+    const double here = std::abs(course.at(k));
+    const bool rises = k == 0 || here > std::abs(course.at(k - 1)), falls = k + 1 == course.size() || here >= std::abs(course.at(k + 1));
+    if (farthest > 0 && here >= kAllBut * farthest && rises && falls) tops.push_back({course.at(k), course.time(k)});
+  }
+  std::stable_sort(tops.begin(), tops.end(), [](const Peak& a, const Peak& b) { return std::abs(a.value) > std::abs(b.value); });
+  tops.resize(std::min(tops.size(), kMost));
+  return tops;
+}
+
+// Where samples of the run lie farther out than `peaks`, those instead. Returns instants to be looked at more closely.
+std::vector<double> look_at(const Simulation& simulation, const Trajectory& run, const std::vector<MotionColumn>& columns, std::vector<Peak>& peaks) {
+  std::vector<double> closer;
   std::size_t first = 0;
   for (const MotionColumn column : columns) {
     if (column == MotionColumn::energy_error) {
@@ -65,20 +93,23 @@ void look_at(const Simulation& simulation, const Trajectory& run, const std::vec
     for (const DataArray& array : table_of(simulation, seen, column).arrays) {
       const std::size_t count = array.columns.size();
       peaks.resize(std::max(peaks.size(), first + count));
-      for (std::size_t k = 0; k < array.values.size(); ++k)
-        if (Farthest& peak = peaks[first + k % count]; std::abs(array.values[k]) > std::abs(peak.value))
-          peak = {array.values[k], seen.t[std::min(k / count, seen.t.size() - 1)]};
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::vector<Peak> tops = tops_of({seen, array.values, i, count});
+        for (const Peak& top : tops) closer.push_back(top.t);
+        if (!tops.empty() && std::abs(tops.front().value) > std::abs(peaks[first + i].value)) peaks[first + i] = tops.front();
+      }
       first += count;
     }
   }
+  return closer;
 }
 
-// Instants close together about those peaks, where the largest of what goes up and down smoothly lies.
-std::vector<double> times_about(const std::vector<Farthest>& peaks, double duration) {
+// Instants close together about those, where the largest of what goes up and down smoothly lies.
+std::vector<double> times_about(const std::vector<double>& instants, double duration) {
   constexpr int kFiner = 100;
   std::vector<double> times{0, duration};
-  for (const Farthest& peak : peaks)
-    for (int k = -kFiner; k <= kFiner; ++k) times.push_back(std::clamp(peak.t + k * duration / (kSamples * kFiner), 0.0, duration));
+  for (const double t : instants)
+    for (int k = -kFiner; k <= kFiner; ++k) times.push_back(std::clamp(t + k * duration / (kSamples * kFiner), 0.0, duration));
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
@@ -94,11 +125,57 @@ PeaksOfRun simulate_for_peaks(const Simulation& simulation, const std::vector<Mo
   const bool asks_for_energy = std::find(columns.begin(), columns.end(), MotionColumn::energy_error) != columns.end();
   const double between = simulation.duration / kInstants;
   PeaksOfRun found{asks_for_energy ? simulate_audited(simulation, times, stop, between) : simulate(simulation, times, stop, {}, between), {}};
-  std::vector<Farthest> peaks;
-  look_at(simulation, found.run, columns, peaks);
-  look_at(simulation, simulate(simulation, times_about(peaks, simulation.duration), stop), columns, peaks);
-  for (const Farthest& peak : peaks) found.peaks.push_back(peak.value);
+  std::vector<Peak> peaks;
+  const std::vector<double> closer = look_at(simulation, found.run, columns, peaks);
+  look_at(simulation, simulate(simulation, times_about(closer, simulation.duration), stop), columns, peaks);
+  found.peaks = std::move(peaks);
   return found;
+}
+
+namespace {
+
+NamedPeak named(const std::string& column, const Peak& peak) {
+  const std::size_t unit = column.find(" [");
+  if (unit == std::string::npos) return {column, "", peak};
+  return {column.substr(0, unit), column.substr(unit + 2, column.size() - unit - 3), peak};
+}
+
+}  // namespace
+
+std::vector<NamedPeak> named(const std::vector<std::string>& names, const std::vector<Peak>& peaks) {
+  std::vector<NamedPeak> all;
+  for (std::size_t i = 0; i < names.size(); ++i) all.push_back(named(names[i], peaks[i]));
+  return all;
+}
+
+std::vector<NamedPeak> peaks_of(const DataTable& table) {
+  std::vector<NamedPeak> all;
+  const std::vector<double>& t = table.arrays.front().values;
+  for (std::size_t a = 1; a < table.arrays.size(); ++a) {
+    const DataArray& array = table.arrays[a];
+    const std::size_t count = array.columns.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      Peak peak{0, t.empty() ? 0 : t.front()};
+      for (std::size_t row = 0; row < table.rows; ++row)
+        if (const double value = array.values[row * count + i]; std::abs(value) > std::abs(peak.value)) peak = {value, t[row]};
+      all.push_back(named(array.columns[i], peak));
+    }
+  }
+  return all;
+}
+
+Json to_json(const std::vector<NamedPeak>& peaks) {
+  Json all = Json::array();
+  for (const NamedPeak& one : peaks) all.push_back({{"name", one.name}, {"unit", one.unit}, {"value", one.peak.value}, {"t", one.peak.t}});
+  return all;
+}
+
+std::string words_of(const std::vector<NamedPeak>& peaks) {
+  constexpr int kDigits = 6;
+  std::vector<std::vector<std::string>> table{{"peak of", "value", "at t, s"}};
+  for (const NamedPeak& one : peaks)
+    table.push_back({one.name, format_significant(one.peak.value, kDigits) + (one.unit.empty() ? "" : " " + one.unit), format_significant(one.peak.t, kDigits)});
+  return table_text(table);
 }
 
 }  // namespace chainreel

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/report/motion_table.hpp"
+#include "core/json.hpp"
 #include "sim/simulate.hpp"
 
 namespace chainreel {
@@ -12,15 +13,31 @@ namespace chainreel {
 // "qd,tau,energy_error", as parse_columns reads them; of t there is no peak. Throws Error (usage) naming the option.
 std::vector<MotionColumn> parse_peaks(const std::string& text, const std::string& option);
 
-// "peak_qd2 [rad/s]", one a number of those columns.
-std::vector<std::string> peak_names(const Simulation& simulation, const std::vector<MotionColumn>& columns);
+// Of a number the value that is farthest from zero, with its sign, and when.
+struct Peak {
+  double value = 0, t = 0;
+};
 
-// A run, and its peaks up to where it ended, with their signs, in the order of their names: looked for at 2000 instants, on both
-// sides of where torques jump, and about those that were found at 100 times as many. That of the energy's error is the largest at the ends of steps, without its sign.
+// What has peaks, one a number of those columns: "qd2 [rad/s]".
+std::vector<std::string> names_of_peaks(const Simulation& simulation, const std::vector<MotionColumn>& columns);
+
+// A run, and its peaks up to where it ended, in the order of their names: looked for at 2000 instants, on both
+// sides of where torques jump, and about those that were found, and all but as far, at 100 times as many. That of the energy's error is the largest at the ends of steps, without its sign.
 struct PeaksOfRun {
   Trajectory run;
-  std::vector<double> peaks;
+  std::vector<Peak> peaks;
 };
 PeaksOfRun simulate_for_peaks(const Simulation& simulation, const std::vector<MotionColumn>& columns, const StopRequest& stop = {});
+
+// Those of a table's columns but of t, at its rows alone.
+struct NamedPeak {
+  std::string name, unit;
+  Peak peak;
+};
+std::vector<NamedPeak> peaks_of(const DataTable& table);
+std::vector<NamedPeak> named(const std::vector<std::string>& names, const std::vector<Peak>& peaks);
+
+Json to_json(const std::vector<NamedPeak>& peaks);            // [{name, unit, value, t}]
+std::string words_of(const std::vector<NamedPeak>& peaks);    // a table to be read
 
 }  // namespace chainreel

@@ -119,10 +119,10 @@ Json to_json(const RunReport& report) {
   json["largest_kinetic_energy"] = audit.largest_kinetic;
   // Samples at every step are their own audit.
   const auto& steps = trajectory.energy_at_steps;
-  json["audit_error"] = steps ? steps->largest_error : audit.largest_error;
-  json["audit_error_time"] = steps ? steps->time : audit.largest_error_time;
-  json["audit_error_of_frames"] = audit.largest_error;
-  json["audit_error_of_frames_time"] = audit.largest_error_time;
+  json["energy_error"] = steps ? steps->largest_error : audit.largest_error;
+  json["energy_error_time"] = steps ? steps->time : audit.largest_error_time;
+  json["energy_error_of_frames"] = audit.largest_error;
+  json["energy_error_of_frames_time"] = audit.largest_error_time;
   json["energy_moved"] = audit.energy_moved;
   json["warnings"] = Json::array();
   for (const std::string& doubt : scene.doubts)

@@ -29,6 +29,9 @@ std::vector<std::string> explain_models(const Json& before, const Json& after);
 // Whether shapes or colours of a model differ, be the records of models or of runs.
 bool have_other_looks(const Json& before, const Json& after);
 
+// Whether two records that differ, of models or of runs, tell of one motion: titles, colours, layers and shapes are others.
+bool differ_in_looks_alone(const Json& before, const Json& after);
+
 // A trajectory that differs for one reason is told together with it: "q2 (elbow) differs by 3.1e-4 rad from t
 // = 0.81 s on (largest 0.02 rad at t = 3.2 s): method rk4 -> dop853".
 std::vector<std::string> explain_runs(const Json& before, const Json& after);

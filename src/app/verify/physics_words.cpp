@@ -232,6 +232,22 @@ std::vector<std::string> explained(const Json& before, const Json& after) {
 // What says how a motion is computed, not which.
 constexpr std::array<std::string_view, 5> kKeysOfMethods = {"method", "step", "tolerance", "order", "accuracy"};
 
+// Whether no key that a motion depends on is another.
+bool looks_alone(const Json& before, const Json& after) {
+  const auto is_kept = [](const Json& keys, const Json& others) {
+    for (const auto& [key, value] : keys.items())
+      if (moves(key) && others.value(key, Json()) != value) return false;
+    return true;
+  };
+  return is_kept(before, after) && is_kept(after, before);
+}
+
+bool is_same_but_for_looks(const Json& before, const Json& after) {
+  if (before == after) return true;
+  const std::vector<ModelDifference> all = differences(model_description_of(before), model_description_of(after));
+  return std::all_of(all.begin(), all.end(), [](const ModelDifference& one) { return one.change == ModelChange::looks; });
+}
+
 Json without_method(Json panel) {
   for (const std::string_view key : kKeysOfMethods) panel["keys"].erase(std::string(key));
   for (const char* own : {"method", "trajectory"}) panel.erase(own);
@@ -247,6 +263,21 @@ bool is_same_motion(const Json& before, const Json& after) {
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (without_method(old[i]) != without_method(now[i])) return false;
     if (!difference_of(trajectory_of(old[i].at("trajectory")), trajectory_of(now[i].at("trajectory")), kOfRange).empty()) return false;
+  }
+  return true;
+}
+
+bool differ_in_looks_alone(const Json& before, const Json& after) {
+  if (!after.contains("models")) return is_same_but_for_looks(before, after);
+  const Json &old = before.at("panels"), &now = after.at("panels");
+  if (old.size() != now.size() || before.at("models").size() != after.at("models").size()) return false;
+  if (!looks_alone(before.at("page"), after.at("page"))) return false;
+  for (std::size_t i = 0; i < before.at("models").size(); ++i)
+    if (!is_same_but_for_looks(before["models"][i], after["models"][i])) return false;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (!looks_alone(old[i].at("keys"), now[i].at("keys"))) return false;
+    for (const char* key : {"tables", "model", "method", "trajectory"})
+      if (old[i].at(key) != now[i].at(key)) return false;
   }
   return true;
 }

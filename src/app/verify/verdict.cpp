@@ -14,6 +14,7 @@ namespace {
 constexpr Name kStates[] = {{"same", "physics and pixels are those of the baseline"},
                             {"rendered", "the same physics; pixels differ within the tolerance"},
                             {"pixels", "the same physics, other pixels"},
+                            {"looks", "the same model and motion, of which the scene or the model's file asks for another look"},
                             {"physics", "other physics, the same pixels"},
                             {"changed", "other physics and other pixels"},
                             {"size", "another size than the baseline"},
@@ -71,6 +72,15 @@ std::vector<std::string> physics_words(const Json& before, const Json& now) {
     words.push_back("it was a picture of a model and is one of a scene, or the other way round");
   }
   return words;
+}
+
+// Records that differ, though nothing that moves does.
+bool have_same_motion_in_other_looks(const Json& before, const Json& now) {
+  for (const char* own : {"source", "q", "t"})
+    if (before.value(own, Json()) != now.value(own, Json())) return false;
+  for (const char* record : {"model", "run"})
+    if (before.contains(record) && now.contains(record)) return differ_in_looks_alone(before.at(record), now.at(record));
+  return false;
 }
 
 // Of a model that is drawn as bars: why its other shapes or colours are not seen.
@@ -173,6 +183,8 @@ PictureVerdict judge(const Suite& suite, const SuitePicture& picture, const Suit
                              std::to_string(shot.image.width) + " x " + std::to_string(shot.image.height));
   } else if (same_physics) {
     verdict.state = same_pixels ? PictureState::same : near ? PictureState::rendered : PictureState::pixels;
+  } else if (have_same_motion_in_other_looks(baseline.physics, shot.physics)) {
+    verdict.state = PictureState::looks;
   } else {
     verdict.state = same_pixels ? PictureState::physics : PictureState::changed;
   }

@@ -16,6 +16,7 @@ enum class PictureState {
   same,      // physics and pixels
   rendered,  // the same physics; pixels differ within the tolerance
   pixels,    // the same physics, other pixels
+  looks,     // the same motion, asked for with another look
   physics,   // other physics, the same pixels
   changed,   // both
   size,      // it has another size: nothing else can be compared

@@ -217,6 +217,7 @@ std::string footer_of(const WorkPrecision& data, bool triangles) {
   if (data.floor > 0)
     add("shaded: the problem's amplification times 2\u207B\u2075\u00B3 is " + power_text(data.floor));
   if (data.reference_uncertainty > 0) add("reference known to " + power_text(data.reference_uncertainty));
+  add("dotted: 1, 10 and 100 times the cheapest run");
   if (triangles) add("triangles: slope of an order");
   if (std::any_of(data.curves.begin(), data.curves.end(), [](const ChartCurve& curve) { return !curve.is_lit; }))
     add("grey: the other methods");

@@ -56,6 +56,9 @@ Picture work_precision_chart(const WorkPrecision& data, std::span<const ChartCos
 // a curve along straight lines of the log-log diagram; nothing where none gets there.
 std::optional<double> least_cost(const WorkPrecision& data, ChartCost cost, double error);
 
+// "h = 0.01 s" of "rk4, step 0.01 s": the setting without its method.
+std::string setting_of(const std::string& label);
+
 // Lights the curves of these methods, of none named those that are cheapest at some error in one of the panels and the
 // choice of `auto`, and no others. Those that are lit have colours of their own, as far as there are so many.
 void light_curves(WorkPrecision& data, std::span<const ChartCost> panels, const std::vector<std::string>& methods);

@@ -260,15 +260,6 @@ void draw_choice(Picture& picture, const PlotFrame& frame, const WorkPrecision& 
 
 // --- words at the ends of curves ---
 
-// "h = 0.01 s" of "rk4, step 0.01 s".
-std::string setting_of(const std::string& label) {
-  const std::size_t comma = label.rfind(", ");
-  std::string text = comma == std::string::npos ? label : label.substr(comma + 2);
-  for (const auto& [word, shorter] : {std::pair{"step ", "h = "}, {"tolerance ", "tol. "}})
-    if (text.starts_with(word)) text.replace(0, std::string(word).size(), shorter);
-  return text;
-}
-
 // Beside a point, where neither curves nor other words are; else nowhere.
 void draw_word_beside(Picture& picture, const std::string& text, Color color, Point at, Obstacles& obstacles, const ChartLook& look) {
   if (text.empty()) return;
@@ -313,6 +304,14 @@ void draw_end_words(Picture& picture, const PlotFrame& frame, const WorkPrecisio
 }
 
 }  // namespace
+
+std::string setting_of(const std::string& label) {
+  const std::size_t comma = label.rfind(", ");
+  std::string text = comma == std::string::npos ? label : label.substr(comma + 2);
+  for (const auto& [word, shorter] : {std::pair{"step ", "h = "}, {"tolerance ", "tol. "}})
+    if (text.starts_with(word)) text.replace(0, std::string(word).size(), shorter);
+  return text;
+}
 
 double cost_of(const ChartPoint& point, ChartCost cost) {
   return cost == ChartCost::seconds ? point.seconds : point.evaluations;

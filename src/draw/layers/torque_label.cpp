@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <regex>
 
 #include "core/format.hpp"
 #include "draw/layers/layer.hpp"
@@ -61,6 +62,16 @@ std::string entry_notation(const std::string& text) {
   return notation;
 }
 
+// "5 * (t < 0.5)" as one says it: 5 if t < 0.5. Of other products with a comparison nothing.
+std::optional<std::string> conditional_notation(const std::string& text) {
+  static const std::regex number_first(R"(\s*(-?[\w.]+)\s*\*\s*\(([^()<>=]+[<>]=?[^()<>=]+)\)\s*)"),
+      number_last(R"(\s*\(([^()<>=]+[<>]=?[^()<>=]+)\)\s*\*\s*(-?[\w.]+)\s*)");
+  std::smatch parts;
+  const bool first = std::regex_match(text, parts, number_first);
+  if (!first && !std::regex_match(text, parts, number_last)) return {};
+  return entry_notation(parts[first ? 1 : 2]) + " \"if\" " + entry_notation(parts[first ? 2 : 1]);
+}
+
 // The first entries and the last one, `shown` in all.
 std::string list_of(const std::vector<std::string>& entries, std::size_t shown) {
   std::string list;
@@ -108,7 +119,7 @@ std::vector<std::string> torque_notations(const Chain& chain, const std::vector<
   if (control) return {"tau = " + control_notation(*control), "tau = tau(t, q, qd)"};
   std::vector<std::string> entries;
   for (const TorqueEntry& entry : torque) {
-    entries.push_back(entry.control ? control_notation(*entry.control) : entry_notation(entry.text));
+    entries.push_back(entry.control ? control_notation(*entry.control) : conditional_notation(entry.text).value_or(entry_notation(entry.text)));
   }
   if (entries.empty()) entries.assign(std::size_t(chain.nv), "0");
   if (entries.empty()) return {};

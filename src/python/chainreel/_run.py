@@ -158,7 +158,7 @@ class Panel:
 
     @property
     def report(self) -> Dict[str, Any]:
-        """The audit, as `chainreel simulate --json` prints it: method, step, audit_error, warnings, trajectory_sha256 .."""
+        """The audit, as `chainreel simulate --json` prints it: method, step, energy_error, warnings, trajectory_sha256 .."""
         return json.loads(self._native.report(self._index))
 
 

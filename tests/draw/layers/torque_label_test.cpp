@@ -23,6 +23,15 @@ TEST(TorqueLabel, ShowsExpressionsAsWritten) {
   EXPECT_EQ(label("pp", {"0", "-100 * y_G"}), "tau = (0, -100 * y_G) N");
 }
 
+TEST(TorqueLabel, SaysIfWhereANumberActsAtTimes) {
+  EXPECT_EQ(label("rr", {"5 * (t < 0.5)", "0"}), "tau = (5 \"if\" t < 0.5, 0) N m");
+  EXPECT_EQ(label("rr", {"(t >= 1) * F", "0"}), "tau = (F \"if\" t >= 1, 0) N m");
+  EXPECT_NO_THROW(lay_out_math(fonts(), label("rr", {"5 * (t < 0.5)", "-2 * (q1 <= 3)"}), {}));
+  // Others stand as they are written.
+  for (const char* text : {"5 * (t < 0.5) - qd1", "5 * (t - 0.5)", "5 * (t < sin(q1))", "5 * (t < 1) * (t > 0)"})
+    EXPECT_EQ(label("rr", {text, "0"}), "tau = (" + std::string(text) + ", 0) N m");
+}
+
 TEST(TorqueLabel, RaisesExponentsAsAWhole) {
   EXPECT_EQ(label("pp", {"t ^ 2", "2 ^ (t - (1 + q1))"}), "tau = (t^{2}, 2^{t - (1 + q1)}) N");
   EXPECT_EQ(label("pp", {"2 ^ -1 * t", "2^cos(t) + 1"}), "tau = (2^{-1} * t, 2^{cos(t)} + 1) N");
