@@ -152,6 +152,10 @@ void give_large_memory_back() {
   mallopt(M_TRIM_THRESHOLD, kLarge);
 }
 
+void give_freed_memory_back() {
+  malloc_trim(0);
+}
+
 void prefer_large_pages(void* begin, std::size_t bytes) {
   constexpr std::uintptr_t kPage = 4096, kLarge = 1 << 21;
   if (bytes < 2 * kLarge) return;  // may hold no large page

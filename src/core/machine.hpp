@@ -30,6 +30,8 @@ void require_memory(double bytes, const std::string& what);
 // Has large pieces of memory go back to the system when they are freed, from now on. Else the first one that is freed makes
 // the C library keep all of its size, and what encoders and renderers take by turns adds up.
 void give_large_memory_back();
+// What was freed and lies between what is held.
+void give_freed_memory_back();
 
 // Has the system back this memory, which has not been written yet, by large pages where there are some: to hand out
 // a large picture in small ones takes as long as to decode it. Changes nothing but time.

@@ -1,3 +1,4 @@
+#include "core/machine.hpp"
 #include "render/canvas.hpp"
 
 #include <algorithm>
@@ -216,6 +217,7 @@ void Canvas::draw(const Picture& picture, Image& image) {
 void give_renderer_back() {
   constexpr std::array<std::string_view, 3> kLibraries = {"libLLVM", "libOSMesa", "libgallium"};
   give_code_back(kLibraries);
+  give_freed_memory_back();
 }
 
 RendererInfo probe_renderer() {

@@ -17,6 +17,9 @@ enum class EllipseReading { mass, energy, belt };
 enum class EllipseShape { ellipsoid, section };
 // Where on the page the scene, its plots and its panels stand.
 enum class PageLayout { automatic, scene, scene_below, scene_right, transparent, compare, grid, ghost };
+inline bool is_of_panels(PageLayout layout) {
+  return layout == PageLayout::compare || layout == PageLayout::grid || layout == PageLayout::ghost;
+}
 enum class ThemeName { light, dark };
 // What a scene writes where no file is named.
 enum class Preset { slides, web, overlay, doc, frames, still };

@@ -5,6 +5,7 @@
 
 #include "dynamics/constraints/constrained_dynamics.hpp"
 #include "dynamics/constraints/constraint_rows.hpp"
+#include "sim/closer_looks.hpp"
 
 namespace chainreel {
 namespace {
@@ -86,41 +87,17 @@ void take_larger(std::vector<LargestMultiplier>& largest, const Trajectory& run)
 }  // namespace
 
 std::vector<LargestMultiplier> largest_multipliers(const Simulation& simulation, const Trajectory& trajectory) {
-  constexpr int kClose = 64, kMostWithin = 31;      // instants about a largest one, and within a step
-  constexpr std::size_t kLooks = 60'000;             // all of these together, where steps are fewer
-  constexpr long kMostSteps = 200'000;               // of more the frames are looked between
+  constexpr std::size_t kLooks = 60'000;
   std::vector<LargestMultiplier> largest(std::size_t(trajectory.rows));
   take_larger(largest, trajectory);
   if (trajectory.between) take_larger(largest, *trajectory.between);
   if (largest.empty() || simulation.motion || trajectory.status != RunStatus::finished) return largest;
-  // The run that it is, seen more often: its own steps stay where they are.
-  const auto see_also = [&](std::vector<double> times) {
-    times.insert(times.end(), trajectory.t.begin(), trajectory.t.end());
-    std::sort(times.begin(), times.end());
-    times.erase(std::unique(times.begin(), times.end(), [](double a, double b) { return b - a <= 1e-12 * (1 + b); }), times.end());
-    Trajectory seen = simulate(simulation, times);
+  look_closer(simulation, trajectory, kLooks, [&](const Trajectory& seen) {
     take_larger(largest, seen);
-    return seen;
-  };
-  const bool by_steps = trajectory.steps <= kMostSteps;
-  const Trajectory steps = by_steps ? simulate_every_step(simulation) : Trajectory{};
-  take_larger(largest, steps);
-  const std::vector<double>& marks = by_steps ? steps.t : trajectory.t;
-  const int within = int(std::min<std::size_t>(kMostWithin, kLooks / std::max<std::size_t>(marks.size(), 1)));
-  std::vector<double> times;
-  for (std::size_t k = 0; k + 1 < marks.size(); ++k)
-    for (int i = 0; i <= within; ++i) times.push_back(marks[k] + (marks[k + 1] - marks[k]) * i / (within + 1));
-  Trajectory seen = see_also(std::move(times));
-  for (int round = 0; round < 2; ++round) {
-    times.clear();
-    for (const LargestMultiplier& one : largest) {
-      const auto at = std::lower_bound(seen.t.begin(), seen.t.end(), one.t) - seen.t.begin();
-      const double a = seen.t[std::size_t(std::max<std::ptrdiff_t>(at - 1, 0))];
-      const double b = seen.t[std::min(std::size_t(at) + 1, seen.t.size() - 1)];
-      for (int i = 1; i < kClose; ++i) times.push_back(a + (b - a) * i / kClose);
-    }
-    seen = see_also(std::move(times));
-  }
+    std::vector<double> instants;
+    for (const LargestMultiplier& one : largest) instants.push_back(one.t);
+    return instants;
+  });
   return largest;
 }
 

@@ -19,7 +19,6 @@ std::vector<double> torques_along(const Simulation& simulation, const Trajectory
 // The multipliers of the constraints at each sample, as many as the run has rows (N or N m); no numbers where none answer.
 std::vector<double> multipliers_along(const Simulation& simulation, const Trajectory& trajectory);
 
-// How far each row of the constraints is missed at each sample: phi, signed, as many as the run has rows (m or rad).
 // The largest multiplier of a row over a run: with its sign, and the first instant at which it is as large but for rounding.
 struct LargestMultiplier {
   double value = 0, t = 0;
@@ -28,6 +27,7 @@ struct LargestMultiplier {
 // samples alone), and closer about what is found.
 std::vector<LargestMultiplier> largest_multipliers(const Simulation& simulation, const Trajectory& trajectory);
 
+// How far each row of the constraints is missed at each sample: phi, signed, as many as the run has rows (m or rad).
 std::vector<double> constraint_errors_along(const Simulation& simulation, const Trajectory& trajectory);
 
 // The springs and dampers that drive the run's joints, as `LinearDrive` tells them: none whose torque the limit policy may

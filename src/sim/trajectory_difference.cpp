@@ -76,8 +76,10 @@ std::vector<FreedomDifference> partings(const Columns& before, const Columns& af
     for (const auto& [a, b] : instants)
       for (const double x : {*before.at(a, i), *after.at(b, i)})
         if (std::isfinite(x)) low = std::min(low, x), high = std::max(high, x);
-    const double range = turns ? 1 : std::max(0.0, high - low);
-    const double tolerance = std::max(kAbsolute, of_range * range);
+    // Numbers of either sign may lie farther apart than any number is large, which no tolerance holds.
+    constexpr double kLargest = std::numeric_limits<double>::max();
+    const double range = turns ? 1 : std::clamp(high - low, 0.0, kLargest);
+    const double tolerance = std::clamp(of_range * range, kAbsolute, kLargest);
     Parting one{{after.numbers[i].label, turns ? "rad" : after.numbers[i].unit}, -1};
     one.freedom.range = range;
     for (const auto& [a, b] : instants) {

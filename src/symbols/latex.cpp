@@ -107,7 +107,7 @@ std::string latex_formulas_of(const SymbolicEquation& equation, const EquationFo
                             : "q";
   const std::string qd = "\\dot{" + q + "}";
   std::string text;
-  if (form.parts.empty())
+  if (form.has("equation"))
     text += displayed("\\tau = M(" + q + ") \\ddot{" + q + "} + C(" + q + ", " + qd + ") " + qd + " + g(" + q + ")" +
                       (dissipates ? " + \\tau_f(" + qd + ")" : ""));
   if (form.has("M")) text += displayed(matrix_in_latex(writer, "M", equation.M));

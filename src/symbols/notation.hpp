@@ -18,11 +18,11 @@ std::string formula_in(Notation notation, const SymbolicEquation& equation, cons
 std::string symbol_in(Notation notation, const SymbolicEquation& equation, const Symbol& symbol, const std::string& angle = "q");
 
 // What text and LaTeX can hold of an equation.
-inline constexpr const char* kEquationParts[] = {"M", "C", "g", "tau_f", "J", "Lambda"};
+inline constexpr const char* kEquationParts[] = {"equation", "M", "C", "g", "tau_f", "J", "Lambda"};
 
 struct EquationForm {
   std::string angle = "q";  // or "theta"
-  std::vector<std::string> parts;  // of kEquationParts; empty: all, behind the equation itself
+  std::vector<std::string> parts;  // of kEquationParts; empty: all
 
   bool has(const char* part) const { return parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end(); }
 };

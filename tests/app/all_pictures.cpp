@@ -37,8 +37,9 @@ struct FilmRun {
 };
 
 std::shared_ptr<FilmRun> run_film(const std::string& scene, Words overrides, const Words& vary) {
-  add_comparison(vary, overrides);
-  return std::make_shared<FilmRun>(load_film("assets/scenes/" + scene + ".yaml", overrides));
+  const std::string file = "assets/scenes/" + scene + ".yaml";
+  add_comparison(vary, file, true, overrides);
+  return std::make_shared<FilmRun>(load_film(file, overrides));
 }
 
 void set_look(Scene& scene, const PictureLook& look) {

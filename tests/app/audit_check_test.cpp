@@ -125,6 +125,26 @@ TEST_F(AuditCheckTest, EveryNumberOfTheAuditIsLookedAt) {
   EXPECT_EQ(changed([](Json& audit) { audit["outputs"] = Json::array(); }), 3) << "as of a folder of pictures";
 }
 
+// Where scene and model lay is of no matter, but which they were is; numbers of a model stand in the audit themselves.
+TEST_F(AuditCheckTest, ModelAndSceneAreThoseOfTheFilm) {
+  const std::string scene = folder_.write("inline.yaml", "model: {links: [1], masses: [1.5]}\nduration: 0.1\nvideo: {width: 160, height: 90}\n");
+  const std::string film = folder_.file("i.mp4");
+  ASSERT_EQ(run_program({"render", scene, "-o", film, "--quiet"}).status, 0);
+  const std::string whole = read_whole_file(folder_.file("i.json"));
+  const auto changed = [&](const char* from, const char* to) {
+    std::string text = whole;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from << " in " << whole;
+    folder_.write("i.json", text.replace(at, std::string(from).size(), to));
+    return check(film);
+  };
+  EXPECT_EQ(changed("inline.yaml", "moved/inline.yaml").status, 0);
+  EXPECT_EQ(changed("inline.yaml", "other.yaml").status, 1);
+  const ProgramResult heavier = changed("masses: [1.5]", "masses: [1.6]");
+  EXPECT_EQ(heavier.status, 1);
+  EXPECT_THAT(heavier.out, HasSubstr("model"));
+}
+
 TEST_F(AuditCheckTest, WhatItCannotHonourIsRefused) {
   EXPECT_EQ(run_program({"check", film_, "--all"}).status, 2);
   EXPECT_EQ(run_program({"check", film_, "--set", "duration=1"}).status, 2);

@@ -286,9 +286,11 @@ TEST(StabilityCommand, PutsTheBorderWhereTheTheoryHasIt) {
     const double omega_h = std::sqrt(number(row.at("parameters.k"))) * number(row.at("step"));
     if (std::abs(omega_h - 2) < 1e-9) continue;  // on the border itself rounding decides
     EXPECT_EQ(row.at("failed") == "0", omega_h < 2) << omega_h;
+    EXPECT_EQ(row.at("stable_by_theory") == "1", omega_h < 2) << omega_h;
     failed += omega_h > 2;
   }
   EXPECT_GT(failed, 20);
+  EXPECT_THAT(result.out, HasSubstr("That is no equilibrium")) << "the scene starts away from its spring's rest";
 }
 
 TEST(StabilityCommand, ComparesTheMethodsWithoutAMap) {

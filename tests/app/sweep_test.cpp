@@ -142,6 +142,26 @@ TEST(SweepTable, HasThePeaksOfTheRunsByThemselves) {
   EXPECT_EQ(sweep(folder.file("b/"), with(kGrid, {"--peaks", "qd"})).status, 2);
 }
 
+// A pulse of a millisecond in a run of two seconds, whose top is 3 sin(5 t) + H but for rounding.
+TEST(SweepTable, FindsThePeakOfANarrowPulse) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("p.yaml",
+                                         "model: rr.urdf\nduration: 2\nmethod: dop853\nparameters: {H: 5, w: 1e-3, c: 0.76543}\n"
+                                         "torque: [3 * sin(5 * t) + H * exp(-((t - c) / w)^2), 0]\n");
+  ASSERT_EQ(run_program({"sweep", scene, "-o", folder.file("a.csv"), "--over", "parameters.w=1e-3,5e-4", "--over", "parameters.c=0.3:1.7:8",
+                         "--peaks", "tau"})
+                .status,
+            0);
+  const std::vector<std::string> lines = lines_of(folder.file("a.csv"));
+  const std::vector<std::string> names = fields_of(lines[3]);
+  const auto at = std::size_t(std::find(names.begin(), names.end(), "peak_tau1 [N m]") - names.begin());
+  for (std::size_t row = 4; row < lines.size(); ++row) {
+    const std::vector<std::string> fields = fields_of(lines[row]);
+    const double pulse = 3 * std::sin(5 * std::stod(fields[2])) + 5;
+    EXPECT_NEAR(std::abs(std::stod(fields[at])), std::max(3.0, pulse), 1e-3) << lines[row];
+  }
+}
+
 TEST(SweepTable, ManyThreadsSharesAndRepeatsGiveTheSameBytes) {
   const TemporaryFolder folder;
   ASSERT_EQ(sweep(folder.file("one.csv"), with(kGrid, {"--jobs", "1"})).status, 0);

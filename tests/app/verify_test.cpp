@@ -310,6 +310,22 @@ TEST_F(Verify, SaysThatBarsDoNotShowAColourOfTheModel) {
   EXPECT_THAT(words(results(), "home"), Not(HasSubstr("bars")));
 }
 
+// The ambient shade of shapes is that of all poses within the limits, of which a report has to speak.
+TEST_F(Verify, SaysThatShapesShowLimits) {
+  const std::string box = "<visual><geometry><box size=\"0.3 0.2 0.1\"/></geometry></visual>";
+  write("box.urdf", "<robot name=\"b\"><link name=\"base\">" + box + "</link><link name=\"arm\">" + box +
+                        "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>"
+                        "<joint name=\"j\" type=\"revolute\"><parent link=\"base\"/><child link=\"arm\"/><origin xyz=\"0.2 0 0.06\"/><axis xyz=\"0 1 0\"/>"
+                        "<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/></joint></robot>");
+  write("boxes.yaml", "model: box.urdf\nsize: 320x180\nlinks: visual\nposes: {bent: [0.3]}\n");
+  accept_all("boxes.yaml");
+  replace("box.urdf", "upper=\"1\"", "upper=\"0.4\"");
+  EXPECT_THAT(words(results({}, "boxes.yaml"), "bent"), HasSubstr("limits are seen, too"));
+  replace("box.urdf", "upper=\"0.4\"", "upper=\"1\"");
+  replace("box.urdf", "effort=\"1\"", "effort=\"2\"");
+  EXPECT_THAT(words(results({}, "boxes.yaml"), "bent"), Not(HasSubstr("limits are seen"))) << "an effort shades nothing";
+}
+
 // A title moves nothing, and no state but that of looks says so; a title beside another mass is no matter of looks.
 TEST_F(Verify, TellsAnotherTitleFromAnotherMotion) {
   write("swing.yaml", "title: A swing\nmodel: rr.urdf\nduration: 1\n");
@@ -325,6 +341,26 @@ TEST_F(Verify, TellsAnotherTitleFromAnotherMotion) {
   replace("swing.yaml", "\nstart: {q: [1deg, 0]}", "");
   replace("rr.urdf", "<mass value=\"1\"/>", "<mass value=\"2\"/>");
   EXPECT_EQ(picture(results({}, "swings.yaml"), "1s")["state"], "changed");
+}
+
+// A report of an earlier run is not left to speak for one that could not begin.
+TEST_F(Verify, ReportsTheErrorThatKeptItFromDrawing) {
+  const Words reports{"--junit", folder_.file("r.xml"), "--html", folder_.file("r.html"), "--markdown", folder_.file("r.md")};
+  accept_all();
+  EXPECT_EQ(verify(reports).status, 0);
+  EXPECT_THAT(read_whole_file(folder_.file("r.xml")), HasSubstr("failures=\"0\" errors=\"0\""));
+  write("rr.urdf", "<robot");
+  EXPECT_EQ(verify(reports).status, 3);
+  EXPECT_THAT(read_whole_file(folder_.file("r.xml")), AllOf(HasSubstr("errors=\"1\""), HasSubstr("rr.urdf")));
+  EXPECT_THAT(read_whole_file(folder_.file("r.md")), AllOf(HasSubstr("rr.urdf"), Not(HasSubstr("--accept"))));
+  EXPECT_THAT(read_whole_file(folder_.file("r.html")), HasSubstr("rr.urdf"));
+  // Nobody else's file is touched, and a command that was mistyped says nothing of the suite.
+  folder_.write("r.md", "notes");
+  EXPECT_EQ(verify(reports).status, 3);
+  EXPECT_EQ(read_whole_file(folder_.file("r.md")), "notes");
+  folder_.write("r.xml", "");
+  EXPECT_EQ(verify(chainreel::with(reports, {"--refit"})).status, 2);
+  EXPECT_EQ(read_whole_file(folder_.file("r.xml")), "");
 }
 
 TEST_F(Verify, RefusesToComparePicturesOfTwoSizes) {

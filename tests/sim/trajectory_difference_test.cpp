@@ -95,6 +95,14 @@ TEST(TrajectoryDifference, TakesWhatIsNoNumberForFarAway) {
   EXPECT_THAT(words_of(run, run), IsEmpty());
 }
 
+// The difference of two numbers may be larger than any number, and so may be a range.
+TEST(TrajectoryDifference, TellsTheLargestNumbersOfEitherSignApart) {
+  SampledTrajectory high = swing(), low = swing();
+  high.q[2 * 20] = 1e308, low.q[2 * 20] = -1e308;
+  EXPECT_THAT(words_of(high, low), ElementsAre(StartsWith("q1 (shoulder) differs by inf")));
+  EXPECT_THAT(words_of(high, high), IsEmpty());
+}
+
 TEST(TrajectoryDifference, TellsEventsAndFreedoms) {
   SampledTrajectory before = swing(), after = swing();
   before.events = {{"touch", 1.2}, {"low", 2}, {"low", 3}, {"gone", 4}};

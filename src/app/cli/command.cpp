@@ -12,6 +12,7 @@
 #include "model/followers.hpp"
 #include "scene/quantity.hpp"
 #include "scene/run/grid.hpp"
+#include "scene/text/read_scene.hpp"
 #include "scene/text/unread.hpp"
 #include "scene/scene.hpp"
 
@@ -84,7 +85,7 @@ void add_vary_option(Command& command, std::vector<std::string>& vary) {
                  "method=explicit_euler,rk4,taylor");
 }
 
-void add_comparison(const std::vector<std::string>& vary, std::vector<std::string>& overrides) {
+void add_comparison(const std::vector<std::string>& vary, const std::string& scene, bool quiet, std::vector<std::string>& overrides) {
   if (vary.empty()) return;
   const Grid grid(vary, "--vary");
   if (grid.size() > kMostPanels)
@@ -100,6 +101,11 @@ void add_comparison(const std::vector<std::string>& vary, std::vector<std::strin
   }
   for (const std::string& one : overrides)
     if (one.starts_with("compare=")) throw Error(ExitCode::usage, "--vary makes the panels that --set compare= lists: leave one of them out");
+  // A layout that was meant for one run: another one is taken, where none is asked for.
+  if (const PageLayout own = read_scene(scene, overrides).layout; own != PageLayout::automatic && !is_of_panels(own)) {
+    overrides.insert(overrides.begin(), "layout=" + to_string(PageLayout::automatic));
+    if (!quiet) std::fprintf(stderr, "note: layout '%s' shows one run: auto is taken instead\n", to_string(own).c_str());
+  }
   overrides.insert(overrides.begin(), "compare=[" + list + "]");  // what else is set may be of its panels
 }
 

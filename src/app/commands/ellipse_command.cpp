@@ -86,13 +86,24 @@ void set_on_paper(PoseFigureOptions& figure, const EllipseOptions& options, int 
            figure.text_scale);
 }
 
-// A page of that width with room for whole captions, fewer panels across where they are cut otherwise, and then no higher than
-// lets the chains be as large as they are; a height that was asked for stays.
+// What poses leave out on a page that has no room for it.
+void tell_missing_masses(const EllipseJob& job, const EllipseOptions& options, const TipMass& tip, const Fonts& fonts) {
+  if (options.common.quiet || job.figure.layout == "superposed" || job.figure.cell > 0) return;
+  const PoseFigureFit fit = fit_of_poses(tip, job.motion.poses.q, job.figure, fonts);
+  if (fit.metre > 0 && !fit.has_masses)
+    std::fprintf(stderr, "note: this page has no room for the masses below %s: they are in --json and .csv; %s\n",
+                 job.motion.poses.q.size() == 1 ? "the pose" : "the poses",
+                 job.figure.layout == "row" ? "--layout grid has more" : "a larger page has, or fewer poses");
+}
+
+// A page of that width with room for whole captions and masses, fewer panels across where they are cut otherwise, and then no
+// higher than lets chains and ellipses be as large as they are; a height that was asked for stays.
 void choose_height(EllipseJob& job, const EllipseOptions& options, const TipMass& tip, const Fonts& fonts) {
   PoseFigureOptions& figure = job.figure;
   if (options.paper.height_mm != PaperOptions::kNotGiven || figure.layout == "superposed" || figure.cell > 0) return;
   constexpr int kMostAcross = 4;
   constexpr double kAsLarge = 0.98, kFlattest = 0.2, kStep = 1;  // of the size, of the width, mm
+  const auto words = [](const PoseFigureFit& fit) { return 2 * int(fit.is_whole) + int(fit.has_masses); };
   const double width = options.paper.width_mm;
   const int panels = figure.layout == "row" ? 1 : int(job.motion.poses.q.size());
   const auto page_of = [&](double height) {
@@ -103,15 +114,16 @@ void choose_height(EllipseJob& job, const EllipseOptions& options, const TipMass
   const auto fit_at = [&](double height) { return fit_of_poses(tip, job.motion.poses.q, page_of(height), fonts); };
   double high = paper_height(width, panels, false);
   PoseFigureFit wished = fit_at(high);
-  for (int fewer = 1; fewer < kMostAcross && !wished.is_whole; ++fewer) {
+  for (int fewer = 1; fewer < kMostAcross && words(wished) < 3; ++fewer) {
     const double higher = paper_height(width, panels, false, fewer);
     const PoseFigureFit fit = fit_at(higher);
-    if (fit.is_whole) high = higher, wished = fit;
+    if (words(fit) > words(wished)) high = higher, wished = fit;
   }
   for (double low = kFlattest * width; high - low > kStep;) {
     const double middle = (low + high) / 2;
     const PoseFigureFit fit = fit_at(middle);
-    const bool is_enough = fit.metre >= kAsLarge * wished.metre && fit.is_whole == wished.is_whole;
+    const bool is_enough =
+        fit.metre >= kAsLarge * wished.metre && fit.kilogram >= kAsLarge * wished.kilogram && words(fit) == words(wished);
     (is_enough ? high : low) = middle;
   }
   figure = page_of(std::ceil(high));
@@ -295,6 +307,7 @@ void run_ellipse(const EllipseOptions& options) {
   const bool is_drawn = !std::all_of(outputs.begin(), outputs.end(), is_table_path);
   if (options.paper.is_given() && options.joint_space && is_drawn) set_joint_space_on_paper(job, options, joints, fonts);
   if (options.paper.is_given() && !options.joint_space && is_drawn) choose_height(job, options, tip, fonts);
+  if (!options.joint_space && is_drawn) tell_missing_masses(job, options, tip, fonts);
   ClipMemory memory =
       memory_of_figure(*options.command, figure.title, is_model_file(options.model) ? options.model : "", poses.q);
   if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;

@@ -68,7 +68,7 @@ void add_equations_command(CommandLine& app, void (*run)(const EquationsOptions&
   command->add_flag("--document", options->document, "LaTeX that can be typeset as it is, with a table of what its letters stand for");
   command->add_flag("--python", options->python, "as a module of Python with functions of numpy arrays");
   command->add_flag("--theta", options->theta, "angles are called theta, not q");
-  command->add_option("--only", options->only, "of text and LaTeX these parts alone: M, C, g, tau_f, J, Lambda, as in M,g");
+  command->add_option("--only", options->only, "of text and LaTeX these parts alone: equation, M, C, g, tau_f, J, Lambda, as in equation,M,g");
   add_panel_option(*command, options->panel);
   command->add_option("--gravity", options->gravity, "world x,y,z in m/s^2");
   command->add_option("--end-effector", options->end_effector, "the link that J and Lambda speak of");

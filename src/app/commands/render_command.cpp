@@ -35,9 +35,9 @@ struct RenderOptions {
   CommonOptions common;
 };
 
-std::vector<std::string> overrides_of(const RenderOptions& options) {
+std::vector<std::string> overrides_of(const RenderOptions& options, const std::string& scene) {
   std::vector<std::string> overrides = overrides_of(options.common);
-  add_comparison(options.vary, overrides);
+  add_comparison(options.vary, scene, options.common.quiet, overrides);
   return overrides;
 }
 
@@ -48,7 +48,7 @@ std::vector<PreparedFilm> load_all(const RenderOptions& options) {
   ExitCode code = ExitCode::bad_input;
   for (const std::string& scene : options.scenes) {
     try {
-      films.push_back(load_film(scene, overrides_of(options), true, options.common.quiet));
+      films.push_back(load_film(scene, overrides_of(options, scene), true, options.common.quiet));
       require_varied_read(options.vary, films.back().scene);
     } catch (const Error& error) {
       code = error.code();

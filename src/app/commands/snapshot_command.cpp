@@ -214,7 +214,7 @@ void snapshot_scene(const SnapshotOptions& options) {
   const OutputPlace place = place_of(options, asked.size());
 
   std::vector<std::string> overrides = overrides_of(options);
-  add_comparison(options.vary, overrides);
+  add_comparison(options.vary, options.file, options.common.quiet, overrides);
   PreparedFilm film = load_film(options.file, overrides, true, options.common.quiet);
   require_varied_read(options.vary, film.scene);
   say_notices(film.panels, options.common.quiet);

@@ -125,6 +125,8 @@ const char* place_of(bool about_target) {
   return about_target ? "the rest that feedback leads to" : "the start";
 }
 
+constexpr const char* kNoEquilibrium = "That is no equilibrium: elsewhere limits may differ";
+
 std::string place_of(const StabilityCells& cells) {
   if (cells.about_rest == 0 || cells.about_rest == cells.linearised) return place_of(cells.about_rest > 0);
   return "the rest that feedback leads to, or else the start";
@@ -146,6 +148,7 @@ StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
                " steps; failed: no end, or an energy error above " + format_shortest(kFailedEnergy) +
                " times the motion's largest kinetic energy.";
   if (!map.boundaries.empty()) map.footer += " Theory: the limit of the motion linearised about " + place_of(cells) + ".";
+  if (!map.boundaries.empty() && cells.about_motion > 0) map.footer += " " + std::string(kNoEquilibrium) + ".";
   if (scene.limit == LimitPolicy::clamp)
     map.footer += " Torques are cut at the joints' efforts, which bounds errors of the energy, too: a run may chatter and not fail.";
   return map;
@@ -153,7 +156,7 @@ StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
 
 std::string csv_of(const std::string& scene, const StabilityCells& cells) {
   std::string text = csv_facts(scene) + cells.x.key + "," + cells.y.key +
-                     ",status,failed,energy_error [J],energy_scale [J],trouble\n";
+                     ",status,failed,energy_error [J],energy_scale [J],stable_by_theory,trouble\n";
   for (std::size_t iy = 0; iy < cells.y.values.size(); ++iy)
     for (std::size_t ix = 0; ix < cells.x.values.size(); ++ix) {
       const StabilityCell& cell = cells.at(ix, iy);
@@ -161,6 +164,7 @@ std::string csv_of(const std::string& scene, const StabilityCells& cells) {
               (cell.failed ? "1," : "0,") +
               (std::isfinite(cell.energy_error) ? format_shortest(cell.energy_error) : "") + "," +
               (std::isfinite(cell.energy_scale) ? format_shortest(cell.energy_scale) : "") + "," +
+              (cell.stable ? (*cell.stable ? "1" : "0") : "") + "," +
               csv_words(cell.trouble) + "\n";
     }
   return text;
@@ -173,6 +177,8 @@ void print_map_summary(const StabilityCells& cells) {
       "%s: %zu of %zu cells fail (no end, or an energy error above %s times the motion's); %d threads%s\n",
       cells.method.c_str(), failed, cells.cells.size(), format_shortest(kFailedEnergy).c_str(), cells.threads,
       cells.in_batches ? ", stepped in batches" : "");
+  if (cells.about_motion > 0)
+    std::printf("theory: of the motion linearised about %s. %s\n", place_of(cells).c_str(), kNoEquilibrium);
 }
 
 Json json_of(const std::string& scene, const StabilityCells& cells) {

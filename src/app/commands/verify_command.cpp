@@ -346,7 +346,7 @@ void require_writable_outputs(const VerifyOptions& options, const Baselines& bas
 VerifyReport page_of(const SuiteResult& result) {
   VerifyReport report;
   report.suite = result.suite;
-  report.accept_command = result.failed() > 0 ? accept_command(result) : "";
+  report.accept_command = accept_command(result);
   report.program = std::string("chainreel ") + program_version();
   report.unused = unused_words(result);
   for (const PictureVerdict& one : result.pictures)
@@ -377,20 +377,31 @@ void tell_verdicts(const VerifyOptions& options, const SuiteResult& result) {
     std::printf("unused    %s: no picture of the suite has this name; --prune removes it\n", name.c_str());
   for (const std::string& name : result.pruned) std::printf("pruned    %s\n", name.c_str());
   if (result.failed() == 0) std::printf("%s\n", summary_of(result).c_str());
-  if (result.failed() > result.count(PictureState::failed))
-    std::printf("to take what is drawn now: %s\n", accept_command(result).c_str());
+  if (const std::string accept = accept_command(result); !accept.empty()) std::printf("to take what is drawn now: %s\n", accept.c_str());
 }
 
-void run_verify(VerifyOptions options) {
-  options.accepts = options.accept_option->given();
-  std::erase(options.accept, "");
-  if (options.jobs == 0) options.jobs = usable_cores();
-  if (options.refit && !options.accepts)
-    throw Error(ExitCode::usage, "--refit goes with --accept: a new camera makes all pictures new");
-  if (options.refit && (!options.accept.empty() || !options.filters.empty()))
-    throw Error(ExitCode::usage,
-                "--refit changes the camera of every picture: give --accept without names, and no --filter");
-  require_distinct_outputs(options);
+// Of the suite as a whole, where nothing came of it: reports of an earlier run are not left to speak for this one.
+void report_error(const VerifyOptions& options, const Error& error) {
+  SuiteResult result{options.suite, "", {}, {}, {}, {}};
+  PictureVerdict none;
+  none.name = none.source = fs::path(options.suite).filename().string();
+  none.state = PictureState::failed;
+  none.passes = false;
+  none.words = words_of(error);
+  none.tolerance = "none: nothing was drawn";
+  result.pictures.push_back(std::move(none));
+  VerifyOptions reports = options;
+  for (std::string* path : {&reports.junit, &reports.markdown, &reports.html})
+    if (!path->empty() && fs::exists(*path) && !replaces(options, *path)) path->clear();  // somebody's own
+  reports.output.clear();
+  try {
+    write_reports(reports, result);
+  } catch (const Error&) {
+    // What cannot be written there is no news: the error itself is told.
+  }
+}
+
+void verify(const VerifyOptions& options) {
   const Suite suite = read_suite(options.suite);
   const std::vector<const SuitePicture*> chosen = chosen_pictures(suite, options);
   const bool writes = options.accepts || options.prune || options.missing == "write";
@@ -409,6 +420,24 @@ void run_verify(VerifyOptions options) {
   write_reports(options, result);
   tell_verdicts(options, result);
   if (result.failed() > 0) throw Error(ExitCode::comparison_failed, summary_of(result), {options.suite});
+}
+
+void run_verify(VerifyOptions options) {
+  options.accepts = options.accept_option->given();
+  std::erase(options.accept, "");
+  if (options.jobs == 0) options.jobs = usable_cores();
+  if (options.refit && !options.accepts)
+    throw Error(ExitCode::usage, "--refit goes with --accept: a new camera makes all pictures new");
+  if (options.refit && (!options.accept.empty() || !options.filters.empty()))
+    throw Error(ExitCode::usage,
+                "--refit changes the camera of every picture: give --accept without names, and no --filter");
+  require_distinct_outputs(options);
+  try {
+    verify(options);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::comparison_failed && error.code() != ExitCode::usage) report_error(options, error);
+    throw;
+  }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "app/report/report.hpp"
 #include "core/format.hpp"
 #include "draw/layers/speed_box.hpp"
+#include "scene/run/title.hpp"
 #include "scene/text/scene_paths.hpp"
 
 namespace chainreel {
@@ -171,7 +172,7 @@ ClipMemory memory_of(const FilmReport& report) {
 
 std::string sentence_of(const FilmReport& report) {
   const PreparedFilm& film = report.film();
-  std::string text = film.panels.size() == 1 ? title_of(report.panels.front()) : film.scene.title;
+  std::string text = film.panels.size() == 1 ? title_of(report.panels.front()) : title_of_page(film.scene);
   if (text.empty()) text = film.scene.name;
   const std::string motion = motion_words(film.panels.front(), report.runs[0].end_time);
   if (film.panels.size() == 1) return text + ": " + motion + ".";

@@ -8,12 +8,14 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "sim/audit.hpp"
+#include "sim/closer_looks.hpp"
 
 namespace chainreel {
 namespace {
 
 constexpr int kSamples = 500;       // that the work is known at
 constexpr double kInstants = 2000;  // that all else is known at
+constexpr std::size_t kLooks = 8'000;  // within steps, together
 
 DataTable table_of(const Simulation& simulation, const Trajectory& run, MotionColumn column) {
   return motion_table(simulation, run, {column});
@@ -104,17 +106,6 @@ std::vector<double> look_at(const Simulation& simulation, const Trajectory& run,
   return closer;
 }
 
-// Instants close together about those, where the largest of what goes up and down smoothly lies.
-std::vector<double> times_about(const std::vector<double>& instants, double duration) {
-  constexpr int kFiner = 100;
-  std::vector<double> times{0, duration};
-  for (const double t : instants)
-    for (int k = -kFiner; k <= kFiner; ++k) times.push_back(std::clamp(t + k * duration / (kSamples * kFiner), 0.0, duration));
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  return times;
-}
-
 }  // namespace
 
 PeaksOfRun simulate_for_peaks(const Simulation& simulation, const std::vector<MotionColumn>& columns, const StopRequest& stop) {
@@ -125,10 +116,10 @@ PeaksOfRun simulate_for_peaks(const Simulation& simulation, const std::vector<Mo
   const bool asks_for_energy = std::find(columns.begin(), columns.end(), MotionColumn::energy_error) != columns.end();
   const double between = simulation.duration / kInstants;
   PeaksOfRun found{asks_for_energy ? simulate_audited(simulation, times, stop, between) : simulate(simulation, times, stop, {}, between), {}};
-  std::vector<Peak> peaks;
-  const std::vector<double> closer = look_at(simulation, found.run, columns, peaks);
-  look_at(simulation, simulate(simulation, times_about(closer, simulation.duration), stop), columns, peaks);
-  found.peaks = std::move(peaks);
+  look_at(simulation, found.run, columns, found.peaks);
+  const bool asks_for_more = columns.size() > std::size_t(asks_for_energy);
+  if (asks_for_more && is_complete(found.run.status))
+    look_closer(simulation, found.run, kLooks, [&](const Trajectory& seen) { return look_at(simulation, seen, columns, found.peaks); }, stop);
   return found;
 }
 
@@ -172,9 +163,11 @@ Json to_json(const std::vector<NamedPeak>& peaks) {
 
 std::string words_of(const std::vector<NamedPeak>& peaks) {
   constexpr int kDigits = 6;
+  // Stamps that count from 1970 have ten digits in front of the point.
+  const auto instant = [&](double t) { return format_significant(t, std::max(kDigits, int(std::ceil(std::log10(std::abs(t) + 1))) + 4)); };
   std::vector<std::vector<std::string>> table{{"peak of", "value", "at t, s"}};
   for (const NamedPeak& one : peaks)
-    table.push_back({one.name, format_significant(one.peak.value, kDigits) + (one.unit.empty() ? "" : " " + one.unit), format_significant(one.peak.t, kDigits)});
+    table.push_back({one.name, format_significant(one.peak.value, kDigits) + (one.unit.empty() ? "" : " " + one.unit), instant(one.peak.t)});
   return table_text(table);
 }
 

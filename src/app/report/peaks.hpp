@@ -21,8 +21,8 @@ struct Peak {
 // What has peaks, one a number of those columns: "qd2 [rad/s]".
 std::vector<std::string> names_of_peaks(const Simulation& simulation, const std::vector<MotionColumn>& columns);
 
-// A run, and its peaks up to where it ended, in the order of their names: looked for at 2000 instants, on both
-// sides of where torques jump, and about those that were found, and all but as far, at 100 times as many. That of the energy's error is the largest at the ends of steps, without its sign.
+// A run, and its peaks up to where it ended, in the order of their names: looked for at 2000 instants and all steps, within steps, on both
+// sides of where torques jump, and ever closer about those that were found, and all but as far. That of the energy's error is the largest at the ends of steps, without its sign.
 struct PeaksOfRun {
   Trajectory run;
   std::vector<Peak> peaks;

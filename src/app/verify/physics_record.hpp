@@ -10,6 +10,7 @@
 #include "app/film/runs.hpp"
 #include "core/json.hpp"
 #include "model/model_description.hpp"
+#include "model/model_difference.hpp"
 
 namespace chainreel {
 
@@ -26,8 +27,8 @@ Json run_record(const PreparedFilm& film, const Runs& runs);
 // no such record.
 std::vector<std::string> explain_models(const Json& before, const Json& after);
 
-// Whether shapes or colours of a model differ, be the records of models or of runs.
-bool have_other_looks(const Json& before, const Json& after);
+// Whether something of that kind differs in a model, be the records of models or of runs.
+bool have_change(const Json& before, const Json& after, ModelChange change);
 
 // Whether two records that differ, of models or of runs, tell of one motion: titles, colours, layers and shapes are others.
 bool differ_in_looks_alone(const Json& before, const Json& after);

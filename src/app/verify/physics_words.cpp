@@ -290,16 +290,15 @@ std::vector<std::string> explain_models(const Json& before, const Json& after) {
   return sentences;
 }
 
-bool have_other_looks(const Json& before, const Json& after) {
+bool have_change(const Json& before, const Json& after, ModelChange change) {
   if (before == after) return false;
   if (!after.contains("models")) {
     const std::vector<ModelDifference> all = differences(model_description_of(before), model_description_of(after));
-    return std::any_of(all.begin(), all.end(),
-                       [](const ModelDifference& one) { return one.change == ModelChange::looks; });
+    return std::any_of(all.begin(), all.end(), [&](const ModelDifference& one) { return one.change == change; });
   }
   const Json &old = before.at("models"), &now = after.at("models");
   for (std::size_t i = 0; i < std::min(old.size(), now.size()); ++i)
-    if (have_other_looks(old[i], now[i])) return true;
+    if (have_change(old[i], now[i], change)) return true;
   return false;
 }
 

@@ -83,13 +83,18 @@ bool have_same_motion_in_other_looks(const Json& before, const Json& now) {
   return false;
 }
 
-// Of a model that is drawn as bars: why its other shapes or colours are not seen.
-std::vector<std::string> bar_words(const Json& before, const SuiteShot& shot) {
-  for (const char* record : {"model", "run"})
-    if (shot.has_bars && before.contains(record) && shot.physics.contains(record) &&
-        have_other_looks(before.at(record), shot.physics[record]))
-      return {"the model is drawn as bars, which show neither shapes nor colours of its file: "
-              "`links: visual` in the suite shows them"};
+// What of a model's changes is seen otherwise than one thinks: bars show neither shapes nor colours, and shapes show limits.
+std::vector<std::string> shape_words(const Json& before, const SuiteShot& shot, bool same_pixels) {
+  const auto has_changed = [&](ModelChange change) {
+    return std::ranges::any_of(std::array{"model", "run"}, [&](const char* record) {
+      return before.contains(record) && shot.physics.contains(record) && have_change(before.at(record), shot.physics[record], change);
+    });
+  };
+  if (shot.has_bars && has_changed(ModelChange::looks))
+    return {"the model is drawn as bars, which show neither shapes nor colours of its file: "
+            "`links: visual` in the suite shows them"};
+  if (!shot.has_bars && !same_pixels && has_changed(ModelChange::limit))
+    return {"limits are seen, too: links shade one another over the ranges of their joints"};
   return {};
 }
 
@@ -194,7 +199,7 @@ PictureVerdict judge(const Suite& suite, const SuitePicture& picture, const Suit
   if (verdict.state == PictureState::same) return verdict;
   for (std::string& words : page_words(baseline.page, shot.page)) verdict.words.push_back(std::move(words));
   if (difference.same_size) verdict.words.push_back(pixel_words(picture, difference));
-  for (std::string& words : bar_words(baseline.physics, shot)) verdict.words.push_back(std::move(words));
+  for (std::string& words : shape_words(baseline.physics, shot, same_pixels)) verdict.words.push_back(std::move(words));
   if (is_exact && difference.same_size && !same_pixels)
     verdict.words.push_back(
         "program, renderer, processor and fonts are those of the baseline, so its very pixels are expected");

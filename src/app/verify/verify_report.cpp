@@ -54,6 +54,7 @@ int SuiteResult::count(PictureState state) const {
 }
 
 std::string accept_command(const SuiteResult& result) {
+  if (result.failed() == result.count(PictureState::failed)) return "";
   const std::string suite = result.suite.starts_with('-') ? "./" + result.suite : result.suite;  // no option
   std::string command = "chainreel verify " + shell_word(suite) + " --accept";
   for (const PictureVerdict& one : result.pictures)
@@ -91,7 +92,8 @@ Json to_json(const SuiteResult& result) {
                          {"mean", d.mean},       {"box", {d.box.x, d.box.y, d.box.width, d.box.height}}};
     json["pictures"].push_back(std::move(picture));
   }
-  json["accept"] = result.failed() > 0 ? Json(accept_command(result)) : Json(nullptr);
+  const std::string accept = accept_command(result);
+  json["accept"] = accept.empty() ? Json(nullptr) : Json(accept);
   return json;
 }
 
@@ -133,7 +135,8 @@ std::string markdown_text(const SuiteResult& result) {
     if (!one.passes)
       text += "| " + markdown_words(one.name) + " | " + plain(one.state) + " | " +
               markdown_words(joined(one.words, "; ")) + " |\n";
-  return text + "\nTo take what is drawn now:\n\n" + markdown_code(accept_command(result));
+  const std::string accept = accept_command(result);
+  return accept.empty() ? text : text + "\nTo take what is drawn now:\n\n" + markdown_code(accept);
 }
 
 bool is_own_report(const std::string& path) {

@@ -20,7 +20,8 @@ struct SuiteResult {
   int count(PictureState state) const;
 };
 
-// "accept" with the names of what failed, quoted for a shell: chainreel verify arm.yaml --accept home reach
+// "accept" with the names of what failed, quoted for a shell: chainreel verify arm.yaml --accept home reach; "" where nothing else
+// was drawn than what is accepted.
 std::string accept_command(const SuiteResult& result);
 
 Json to_json(const SuiteResult& result);

@@ -62,6 +62,7 @@ struct Panels {
   std::vector<std::vector<std::string>> lines;  // one a panel, where that is its whole caption
   CaptionLines words;                           // what of them is written; else the poses above their numbers
   std::vector<std::vector<std::string>> below;  // further lines of such captions, one a panel each
+  bool has_masses = true;                       // below the scenes
   double marks = 1;
   EllipseScale scale;
   Skeleton skeleton;
@@ -227,6 +228,7 @@ void write_lines(Panels& panels, const std::vector<Pose>& poses) {
     alone.push_back(panels.lines.back()[1]);
   }
   panels.caption = caption_line_height(text_scale);
+  panels.has_masses = true;
   if (all_fit(panels, whole)) return;
   for (std::vector<std::string>& forms : panels.lines) forms.erase(forms.begin());
   for (std::size_t form = 0; form < 2 && masses.empty(); ++form) {
@@ -248,6 +250,7 @@ void write_lines(Panels& panels, const std::vector<Pose>& poses) {
   if (in_two) below.push_back(second);
   if (!masses.empty()) below.push_back(masses);
   const auto has_room = [&] { return cell - caption_line_height(text_scale, 1 + int(below.size())) >= kLeastPicture * cell; };
+  panels.has_masses = !masses.empty() && has_room();
   while (!below.empty() && !has_room()) below.pop_back();
   if (in_two && !below.empty())
     for (std::size_t i = 0; i < poses.size(); ++i) panels.lines[i] = {first[i]};
@@ -407,7 +410,7 @@ std::optional<Panels> best_panels(const Chain& chain, const std::vector<Pose>& p
   const Rect area = sheet_of(chain, options, {0.005, kLongestBar, options.reading}, fonts).scene;
   std::optional<Panels> best;
   for (int across = options.layout == "row" ? int(poses.size()) : 1; across <= int(poses.size()); ++across) {
-    Panels panels{chain, options, fonts, {}, 0, {}, {}, {}, 1, {}, {}, {}};
+    Panels panels{chain, options, fonts, {}, 0, {}, {}, {}, true, 1, {}, {}, {}};
     if (lay_out(panels, area, across, poses, ws) && (!best || merit(panels) > merit(*best)))
       best.emplace(std::move(panels));
   }
@@ -421,7 +424,8 @@ PoseFigureFit fit_of_poses(const TipMass& mass, const std::vector<std::vector<do
   Workspace ws(mass.chain());
   const std::optional<Panels> best = best_panels(mass.chain(), poses_of(mass, configurations, options, ws), options, fonts, ws);
   if (!best) return {};
-  return {best->camera.scale * options.height / options.width, !has_cut_captions(*best)};
+  const double of_width = double(options.height) / options.width;
+  return {best->camera.scale * of_width, best->scale.per_unit() * of_width, !has_cut_captions(*best), best->has_masses};
 }
 
 Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& configurations,

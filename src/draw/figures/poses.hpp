@@ -63,8 +63,9 @@ Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<d
 
 // How well poses fit on a page as that figure.
 struct PoseFigureFit {
-  double metre = 0;       // on the page, of its width; 0: there is no room
-  bool is_whole = false;  // each pose has all of its numbers below it
+  double metre = 0, kilogram = 0;  // on the page, of its width; 0: there is no room
+  bool is_whole = false;           // each pose stands below its picture as it is
+  bool has_masses = false;         // ... and so does its Lambda, or the masses along its axes
 };
 PoseFigureFit fit_of_poses(const TipMass& mass, const std::vector<std::vector<double>>& poses, const PoseFigureOptions& options,
                            const Fonts& fonts);

@@ -62,14 +62,14 @@ std::string entry_notation(const std::string& text) {
   return notation;
 }
 
-// "5 * (t < 0.5)" as one says it: 5 if t < 0.5. Of other products with a comparison nothing.
+// "5 * (t < 0.5)" as one says it: 5 if t < 0.5 else 0. Of other products with a comparison nothing.
 std::optional<std::string> conditional_notation(const std::string& text) {
   static const std::regex number_first(R"(\s*(-?[\w.]+)\s*\*\s*\(([^()<>=]+[<>]=?[^()<>=]+)\)\s*)"),
       number_last(R"(\s*\(([^()<>=]+[<>]=?[^()<>=]+)\)\s*\*\s*(-?[\w.]+)\s*)");
   std::smatch parts;
   const bool first = std::regex_match(text, parts, number_first);
   if (!first && !std::regex_match(text, parts, number_last)) return {};
-  return entry_notation(parts[first ? 1 : 2]) + " \"if\" " + entry_notation(parts[first ? 2 : 1]);
+  return entry_notation(parts[first ? 1 : 2]) + "\" if \"" + entry_notation(parts[first ? 2 : 1]) + "\" else \"0";
 }
 
 // The first entries and the last one, `shown` in all.

@@ -1,6 +1,7 @@
 // Words and bars around the scene: title, equation of motion, scale of lengths.
 #include "draw/layers/layer.hpp"
 #include "draw/page/scales.hpp"
+#include "scene/run/title.hpp"
 
 namespace chainreel {
 namespace {
@@ -8,7 +9,7 @@ namespace {
 class TitleLayer : public Layer {
  public:
   explicit TitleLayer(const Stage& stage)
-      : title_(stage.is_comparison() ? stage.page.title : stage.motions.front().title()) {}
+      : title_(stage.is_comparison() ? title_of_page(stage.page) : stage.motions.front().title()) {}
   void write(SheetText& text) const override {
     text.title = title_;
     text.with_panel_titles = true;

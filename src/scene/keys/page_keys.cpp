@@ -8,10 +8,6 @@ namespace {
 
 constexpr std::size_t kMostInGhost = 4;  // outlines that one can still tell apart
 
-bool is_of_panels(PageLayout layout) {
-  return layout == PageLayout::compare || layout == PageLayout::grid || layout == PageLayout::ghost;
-}
-
 // Why so many panels cannot stand in the layout; "": they can.
 std::string layout_problem(PageLayout layout, std::size_t panels) {
   const std::string name = "layout '" + to_string(layout) + "' ";

@@ -266,6 +266,7 @@ class CellRuns {
       const Simulation simulation = simulation_of(along_x ? At{0, i} : At{i, 0});
       const Linearisation about = linearise(simulation);
       result_.about_rest += about.about_target;
+      result_.about_motion += about.motion && !about.is_equilibrium;
       result_.boundary.push_back(longest_stable_step(*simulation.method, about));
       if (!about.motion) continue;
       const std::vector<double>& steps = (along_x ? result_.x : result_.y).numbers;
@@ -278,16 +279,18 @@ class CellRuns {
 
   void find_stable_cells() {
     const std::size_t row = result_.x.values.size();
-    std::atomic<int> about_rest = 0;
+    std::atomic<int> about_rest = 0, about_motion = 0;
     for_each_index(result_.cells.size(), threads_, [&](std::size_t i) {
       const Simulation simulation = simulation_of({i % row, i / row});
       const Linearisation start = linearise(simulation);
       about_rest += start.about_target;
+      about_motion += start.motion && !start.is_equilibrium;
       if (start.motion && simulation.step > 0)
         result_.cells[i].stable = is_stable(*simulation.method, *start.motion, simulation.step);
     });
     result_.linearised = int(result_.cells.size());
     result_.about_rest = about_rest;
+    result_.about_motion = about_motion;
   }
 
   std::string scene_;

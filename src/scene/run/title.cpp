@@ -50,9 +50,21 @@ std::string title_of(const Scene& scene, const Trajectory& trajectory) {
     if (value) told.insert(name);
     return value;
   });
+  // A name that was made for a panel tells what came of it, too.
+  const bool is_made = !scene.title.empty() && !scene.places.contains("title");
+  if (is_made && has_fall(scene))
+    title += fall_time_of(scene, trajectory) ? ": falls in " + fall_time_text(scene, trajectory) : ": does not fall";
   for (const auto& [name, value] : scene.set_parameters)
     if (!told.contains(name)) title += (title.empty() ? "" : ", ") + name + " = " + value_text(value);
   return title;
+}
+
+std::string title_of_page(const Scene& page) {
+  if (page.compare.empty()) return page.title;
+  return filled(page.title, [&](const std::string& name) -> std::optional<std::string> {
+    if (name == kFall || parameter_of(page, name)) return "\u2026";
+    return {};
+  });
 }
 
 std::vector<std::string> title_notices(const Scene& scene) {
@@ -61,7 +73,7 @@ std::vector<std::string> title_notices(const Scene& scene) {
   filled(scene.title, [&](const std::string& name) -> std::optional<std::string> {
     const bool is_known = (name == kFall && has_fall(scene)) || parameter_of(scene, name).has_value();
     if (is_page || !is_known)
-      notices.push_back("'title': {" + name + "} stays as it is: " +
+      notices.push_back("'title': {" + name + "} " + (is_page ? "is left open: " : "stays as it is: ") +
                         (is_page           ? "the title of a comparison has no values, those of its panels do"
                          : name == kFall   ? "no event of kind fall says when it falls"
                          : scene.parameters.empty() ? "the scene has no `parameters:`"

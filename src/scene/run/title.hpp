@@ -13,6 +13,9 @@ namespace chainreel {
 // signs; and behind it the parameters that the command line gave and the title does not tell.
 std::string title_of(const Scene& scene, const Trajectory& trajectory);
 
+// The title above a comparison, whose panels have the values: what it leaves open is an ellipsis.
+std::string title_of_page(const Scene& page);
+
 // Of words in braces that stay as they are, a sentence each without end mark.
 std::vector<std::string> title_notices(const Scene& scene);
 

@@ -24,8 +24,8 @@ TEST(TorqueLabel, ShowsExpressionsAsWritten) {
 }
 
 TEST(TorqueLabel, SaysIfWhereANumberActsAtTimes) {
-  EXPECT_EQ(label("rr", {"5 * (t < 0.5)", "0"}), "tau = (5 \"if\" t < 0.5, 0) N m");
-  EXPECT_EQ(label("rr", {"(t >= 1) * F", "0"}), "tau = (F \"if\" t >= 1, 0) N m");
+  EXPECT_EQ(label("rr", {"5 * (t < 0.5)", "0"}), "tau = (5\" if \"t < 0.5\" else \"0, 0) N m");
+  EXPECT_EQ(label("rr", {"(t >= 1) * F", "0"}), "tau = (F\" if \"t >= 1\" else \"0, 0) N m");
   EXPECT_NO_THROW(lay_out_math(fonts(), label("rr", {"5 * (t < 0.5)", "-2 * (q1 <= 3)"}), {}));
   // Others stand as they are written.
   for (const char* text : {"5 * (t < 0.5) - qd1", "5 * (t - 0.5)", "5 * (t < sin(q1))", "5 * (t < 1) * (t > 0)"})
