@@ -185,6 +185,22 @@ TEST(OnPaper, EllipsesAtPosesAreAsHighAsTheirPanelsNeed) {
   EXPECT_LT(height({"--pose", "0,90deg", "--pose", "30deg,60deg", "--layout", "row"}), 100) << "as large as the width allows";
 }
 
+// No pose loses its Lambda in silence: a page that is made for it has room, and one that has none says so.
+TEST(OnPaper, EllipsesHaveTheirMassesOrSayThatThereIsNoRoom) {
+  const TemporaryFolder folder;
+  const auto told = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"ellipse", "models/rr.urdf", "--width-mm", "84", "-o", folder.file("a.svg"), "--force"};
+    for (const char* pose : {"0,30deg", "0,90deg", "0,150deg"}) words.insert(words.end(), {"--pose", pose});
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.status, 0);
+    return result.err;
+  };
+  EXPECT_EQ(told({"--letters"}), "");
+  EXPECT_EQ(told({"--letters", "--layout", "row"}), "");
+  EXPECT_THAT(told({"--letters", "--layout", "row", "--height-mm", "25"}), testing::HasSubstr("no room for the masses"));
+}
+
 TEST(OnPaper, JointSpaceIsAsHighAsItsPosesNeed) {
   const TemporaryFolder folder;
   const auto drawn = [&](std::vector<std::string> more) {

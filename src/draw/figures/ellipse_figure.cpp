@@ -63,6 +63,7 @@ struct Panels {
   CaptionLines words;                           // what of them is written; else the poses above their numbers
   std::vector<std::vector<std::string>> below;  // further lines of such captions, one a panel each
   bool has_masses = true;                       // below the scenes
+  double filled = 1;                            // the share of a scene that is kept when it is cut to content
   double marks = 1;
   EllipseScale scale;
   Skeleton skeleton;
@@ -72,8 +73,8 @@ struct Panels {
   double side() const { return std::min(scene(0).width(), scene(0).height()); }
 };
 
-// Returns how high what the panels show is, units of H.
-double fit_panels(Panels& panels, const std::vector<Pose>& poses, Workspace& ws) {
+// Returns the size of what the panels show, units of H.
+Point fit_panels(Panels& panels, const std::vector<Pose>& poses, Workspace& ws) {
   panels.skeleton = skeleton_of(panels.chain);
   for (const Pose& pose : poses) widen_rails(panels.skeleton, panels.chain, pose.q, kNoLimit);
   const BodyShapes* shapes = panels.options.shapes.get();
@@ -92,15 +93,20 @@ double fit_panels(Panels& panels, const std::vector<Pose>& poses, Workspace& ws)
   const auto fit = [&](Camera& seen) { fit_to(seen, box_by(seen), panels.scene(0), size::kFitMargin); };
   const MotionBox motion = box_around(panels.chain, panels.skeleton, shapes, ws, configurations_of(poses));
   panels.camera = aimed_camera(panels.chain, panels.options.camera, motion, panels.scene(0), fit);
-  return panels.camera.scale * box_by(panels.camera).box(panels.camera.scale).height();
+  const Rect box = box_by(panels.camera).box(panels.camera.scale);
+  return panels.camera.scale * Point{box.width(), box.height()};
+}
+
+// Of a panel that shows so much: no lower than it is wide.
+double kept_height(const Rect& scene, Point shown) {
+  return std::max((1 + 2 * size::kFitMargin) * shown.y, scene.width());
 }
 
 // Panels that are narrow for what they show are no higher than it needs, or than they are wide, and stand in the middle of `area`.
 void cut_to_content(Panels& panels, const Rect& area, const std::vector<Pose>& poses, Workspace& ws) {
   if (panels.options.camera.fit || panels.options.camera.focus) return;
   const Rect scene = panels.scene(0);
-  const double needed = (1 + 2 * size::kFitMargin) * fit_panels(panels, poses, ws);
-  const double spare = scene.height() - std::max(needed, scene.width());
+  const double spare = scene.height() - kept_height(scene, fit_panels(panels, poses, ws));
   if (!(spare > 0)) return;
   const double pitch = panels.places[0].height() + size::kGutter;
   const double rows = std::round((panels.places[0].y1 - panels.places.back().y1) / pitch) + 1;
@@ -311,7 +317,9 @@ bool lay_out(Panels& panels, const Rect& area, int across, const std::vector<Pos
   panels.words = words_of(panels, poses);
   panels.marks = marks_in(panels.scene(0));
   panels.scale = scale_for(poses, panels.side(), options.reading);
-  fit_panels(panels, poses, ws);
+  const Point shown = fit_panels(panels, poses, ws);
+  const Rect scene = panels.scene(0);
+  panels.filled = std::min(1.0, shown.x / scene.width()) * std::min(1.0, kept_height(scene, shown) / scene.height());
   return true;
 }
 
@@ -320,14 +328,17 @@ bool has_cut_captions(const Panels& panels) {
                      [](const std::string& words) { return words.find("\u2026") != std::string::npos; });
 }
 
-// How good an arrangement is: what is drawn is large, no cell is empty, captions are whole, and of many panels each is mostly picture.
+// How good an arrangement is: chains and ellipses are large and fill the panels, no cell is empty, captions are whole, those of few
+// poses have matrices, and of many panels each is mostly picture.
 double merit(const Panels& panels) {
-  constexpr double kWithHole = 0.75, kCutCaption = 0.5;
+  constexpr double kEmptyCells = 1.4, kCutCaption = 0.5, kWithoutMatrix = 0.8;
   const auto in_top_row = std::count_if(panels.places.begin(), panels.places.end(), [&](const Rect& r) { return r.y1 == panels.places[0].y1; });
-  const bool has_hole = panels.places.size() % std::size_t(in_top_row) != 0;
+  const double count = double(panels.places.size()), across = double(in_top_row), cells = across * std::ceil(count / across);
   const bool is_picture =
       panels.lines.empty() || panels.scene(0).height() >= kLeastPicture * panels.places[0].height();
-  return (is_picture ? 1 : 0.1) * (has_hole ? kWithHole : 1) * (has_cut_captions(panels) ? kCutCaption : 1) * panels.camera.scale;
+  return (is_picture ? 1 : 0.1) * (1 - kEmptyCells * (cells - count) / cells) * (has_cut_captions(panels) ? kCutCaption : 1) *
+         (panels.lines.empty() || panels.places.size() >= kManyPoses ? 1 : kWithoutMatrix) *
+         std::sqrt(panels.filled * panels.camera.scale * panels.scale.per_unit());
 }
 
 }  // namespace
@@ -410,7 +421,7 @@ std::optional<Panels> best_panels(const Chain& chain, const std::vector<Pose>& p
   const Rect area = sheet_of(chain, options, {0.005, kLongestBar, options.reading}, fonts).scene;
   std::optional<Panels> best;
   for (int across = options.layout == "row" ? int(poses.size()) : 1; across <= int(poses.size()); ++across) {
-    Panels panels{chain, options, fonts, {}, 0, {}, {}, {}, true, 1, {}, {}, {}};
+    Panels panels{chain, options, fonts, {}, 0, {}, {}, {}, true, 1, 1, {}, {}, {}};
     if (lay_out(panels, area, across, poses, ws) && (!best || merit(panels) > merit(*best)))
       best.emplace(std::move(panels));
   }
