@@ -257,5 +257,19 @@ TEST(Events, LeadAutoNoFurtherThanToTheEnd) {
   EXPECT_NEAR((json.is_array() ? json[0] : json)["fall_time"].get<double>(), std::sqrt(2 / 9.81), 1e-9);
 }
 
+// Of a scene whose layout holds one run: panels take another one, tell their falls, and leave the title above them open.
+TEST(FallCommand, PanelsOfAVariedSceneTellWhetherTheyFall) {
+  const TemporaryFolder folder;
+  const Words words{"snapshot", "humanoid_fall", "--at", "3", "--vary", "parameters.k=0,930", "-o", folder.file("a.svg")};
+  const ProgramResult made = run_program(words);
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.err, HasSubstr("layout 'scene' shows one run"));
+  const std::string svg = read_whole_file(folder.file("a.svg"));
+  EXPECT_THAT(svg, AllOf(HasSubstr("does not fall"), HasSubstr("falls in"), HasSubstr("falls in \u2026")));
+  EXPECT_THAT(svg.substr(svg.find("</metadata>")), Not(HasSubstr("{fall}")));
+  // A layout that is asked for is none that goes by in silence.
+  EXPECT_EQ(run_program(with(words, {"--set", "layout=scene", "--force"})).status, 3);
+}
+
 }  // namespace
 }  // namespace chainreel

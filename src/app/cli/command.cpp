@@ -85,6 +85,20 @@ void add_vary_option(Command& command, std::vector<std::string>& vary) {
                  "method=explicit_euler,rk4,taylor");
 }
 
+namespace {
+
+// A layout that a scene has for its one run, where none is asked for: panels need another one.
+PageLayout own_layout(const std::string& scene, const std::vector<std::string>& overrides) {
+  if (std::ranges::any_of(overrides, [](const std::string& one) { return one.starts_with("layout="); })) return PageLayout::automatic;
+  try {
+    return read_scene(scene, overrides).layout;
+  } catch (const Error&) {
+    return PageLayout::automatic;  // what is wrong is told when the scene is read with its panels
+  }
+}
+
+}  // namespace
+
 void add_comparison(const std::vector<std::string>& vary, const std::string& scene, bool quiet, std::vector<std::string>& overrides) {
   if (vary.empty()) return;
   const Grid grid(vary, "--vary");
@@ -101,10 +115,9 @@ void add_comparison(const std::vector<std::string>& vary, const std::string& sce
   }
   for (const std::string& one : overrides)
     if (one.starts_with("compare=")) throw Error(ExitCode::usage, "--vary makes the panels that --set compare= lists: leave one of them out");
-  // A layout that was meant for one run: another one is taken, where none is asked for.
-  if (const PageLayout own = read_scene(scene, overrides).layout; own != PageLayout::automatic && !is_of_panels(own)) {
-    overrides.insert(overrides.begin(), "layout=" + to_string(PageLayout::automatic));
-    if (!quiet) std::fprintf(stderr, "note: layout '%s' shows one run: auto is taken instead\n", to_string(own).c_str());
+  if (const PageLayout own = own_layout(scene, overrides); own != PageLayout::automatic && !is_of_panels(own)) {
+    overrides.insert(overrides.begin(), "layout=");
+    if (!quiet) std::fprintf(stderr, "note: layout '%s' shows one run: that of a comparison is taken instead\n", to_string(own).c_str());
   }
   overrides.insert(overrides.begin(), "compare=[" + list + "]");  // what else is set may be of its panels
 }

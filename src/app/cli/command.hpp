@@ -57,7 +57,7 @@ std::vector<std::string> overrides_of(const CommonOptions& options);
 
 void add_vary_option(Command& command, std::vector<std::string>& vary);
 // Adds what --vary KEY=a,b,c says in the words of a scene, as its key `compare`: a panel a value, with several
-// options a panel a combination; in the place of a layout of one run that the scene has, `auto`, which is said. Throws Error (usage)
+// options a panel a combination; a layout of one run that the scene has is left out, which is said. Throws Error (usage)
 // for more than twelve panels.
 void add_comparison(const std::vector<std::string>& vary, const std::string& scene, bool quiet, std::vector<std::string>& overrides);
 // Throws Error (usage) where what varies is a parameter that nothing in the scene reads.

@@ -273,7 +273,7 @@ void add_chart_command(CommandLine& app) {
   command->add_option("--highlight", options->highlight,
                       "taylor,rk4: these in colour, the rest grey (default the cheapest at some error, and auto's)");
   command->add_option("--runs", options->runs, "of each rung; the median counts").range(1, 1000);
-  command->add_option("--longest", options->longest, "rungs that would take longer are left out: 100ms")
+  command->add_option("--longest", options->longest, "finer rungs whose runs would take longer by the table of costs are left out; one may take twice as long: 100ms")
       .show_default();
   command->add_option("--error", options->error, "what the chart judges: final (q and qd at the end) or energy (the largest along the run, J)")
       .one_of({"final", "energy"});

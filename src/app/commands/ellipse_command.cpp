@@ -102,7 +102,7 @@ void choose_height(EllipseJob& job, const EllipseOptions& options, const TipMass
   PoseFigureOptions& figure = job.figure;
   if (options.paper.height_mm != PaperOptions::kNotGiven || figure.layout == "superposed" || figure.cell > 0) return;
   constexpr int kMostAcross = 4;
-  constexpr double kAsLarge = 0.98, kFlattest = 0.2, kStep = 1;  // of the size, of the width, mm
+  constexpr double kAsLarge = 0.92, kFlattest = 0.2, kStep = 1;  // of the size, of the width, mm
   const auto words = [](const PoseFigureFit& fit) { return 2 * int(fit.is_whole) + int(fit.has_masses); };
   const double width = options.paper.width_mm;
   const int panels = figure.layout == "row" ? 1 : int(job.motion.poses.q.size());
@@ -122,8 +122,7 @@ void choose_height(EllipseJob& job, const EllipseOptions& options, const TipMass
   for (double low = kFlattest * width; high - low > kStep;) {
     const double middle = (low + high) / 2;
     const PoseFigureFit fit = fit_at(middle);
-    const bool is_enough =
-        fit.metre >= kAsLarge * wished.metre && fit.kilogram >= kAsLarge * wished.kilogram && words(fit) == words(wished);
+    const bool is_enough = std::sqrt(fit.metre * fit.kilogram) >= kAsLarge * std::sqrt(wished.metre * wished.kilogram) && words(fit) == words(wished);
     (is_enough ? high : low) = middle;
   }
   figure = page_of(std::ceil(high));

@@ -127,7 +127,7 @@ const std::vector<JsonReport>& json_reports() {
       {"compare", {{"before, after, equal, passes", "what was compared, and whether it is the same"},
                    {"tolerance", "of pictures {error, pixels, edges_forgiven}, of tables {of_range}; or null"},
                    {"explained", "differences that are told, in words"},
-                   {"frames, fps, seconds, unequal_frames, frames_beyond, errors, mean_errors", "of films: errors are those of the worst pixel of each frame; pictures and models have numbers of their own. Of tables: instants, and columns, [{name, unit, first_time, at_first, largest, largest_time, range}] of those that differ"}}},
+                   {"frames, fps, seconds, unequal_frames, frames_beyond, errors, mean_errors", "of films: errors are those of the worst pixel of each frame; first and worst, {frame, ..}, the frame that differs first, and that with the most pixels beyond the tolerance; pictures and models have numbers of their own. Of tables: instants, and columns, [{name, unit, first_time, at_first, largest, largest_time, range}] of those that differ"}}},
       {"verify", {{"suite, baselines, passed, failed", "what was verified, and how it went"},
                   {"pictures", "[{name, source, state, passed, words, tolerance, pixels}]"},
                   {"unused, pruned, notices", "names, and what is to be known"},

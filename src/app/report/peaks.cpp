@@ -81,6 +81,13 @@ std::vector<Peak> tops_of(const Course& course) {
   return tops;
 }
 
+// Of those that are as far but for rounding the first counts.
+bool is_farther(const Peak& one, const Peak& than) {
+  constexpr double kRounding = 1e-9;
+  const double a = std::abs(one.value), b = std::abs(than.value);
+  return a > (1 + kRounding) * b || (a >= (1 - kRounding) * b && one.t < than.t);
+}
+
 // Where samples of the run lie farther out than `peaks`, those instead. Returns instants to be looked at more closely.
 std::vector<double> look_at(const Simulation& simulation, const Trajectory& run, const std::vector<MotionColumn>& columns, std::vector<Peak>& peaks) {
   std::vector<double> closer;
@@ -97,8 +104,10 @@ std::vector<double> look_at(const Simulation& simulation, const Trajectory& run,
       peaks.resize(std::max(peaks.size(), first + count));
       for (std::size_t i = 0; i < count; ++i) {
         const std::vector<Peak> tops = tops_of({seen, array.values, i, count});
-        for (const Peak& top : tops) closer.push_back(top.t);
-        if (!tops.empty() && std::abs(tops.front().value) > std::abs(peaks[first + i].value)) peaks[first + i] = tops.front();
+        for (const Peak& top : tops) {
+          closer.push_back(top.t);
+          if (is_farther(top, peaks[first + i])) peaks[first + i] = top;
+        }
       }
       first += count;
     }

@@ -44,15 +44,19 @@ std::optional<std::string> parameter_of(const Scene& scene, const std::string& n
 
 std::string title_of(const Scene& scene, const Trajectory& trajectory) {
   std::set<std::string> told;
+  bool tells_fall = false;
   std::string title = filled(scene.title, [&](const std::string& name) -> std::optional<std::string> {
-    if (name == kFall && has_fall(scene)) return fall_time_text(scene, trajectory);
+    if (name == kFall && has_fall(scene)) {
+      tells_fall = true;
+      return fall_time_text(scene, trajectory);
+    }
     std::optional<std::string> value = parameter_of(scene, name);
     if (value) told.insert(name);
     return value;
   });
   // A name that was made for a panel tells what came of it, too.
   const bool is_made = !scene.title.empty() && !scene.places.contains("title");
-  if (is_made && has_fall(scene))
+  if (is_made && !tells_fall && has_fall(scene))
     title += fall_time_of(scene, trajectory) ? ": falls in " + fall_time_text(scene, trajectory) : ": does not fall";
   for (const auto& [name, value] : scene.set_parameters)
     if (!told.contains(name)) title += (title.empty() ? "" : ", ") + name + " = " + value_text(value);
