@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cctype>
 #include <charconv>
 
 #include "expr/expression.hpp"
@@ -212,8 +213,10 @@ class Parser {
     const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (code == std::errc::result_out_of_range)
       fail(begin, quoted(digits) + " is outside the range of numbers");
-    if (code != std::errc() || end != digits.data() + digits.size())
-      fail(begin, quoted(digits) + " is not a number");
+    if (code != std::errc() || end != digits.data() + digits.size()) {
+      skip([](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; });  // YAML's .nan and .inf
+      fail(begin, quoted(text_.substr(begin, offset_ - begin)) + " is not a number");
+    }
     if (take_unit("deg") || take_unit("\u00b0")) return emit_degrees(value);
     take_unit("rad");
     emit(Operation::number, 0, value);

@@ -61,6 +61,7 @@ const Bad kBad[] = {
     // numbers
     {"1.2.3", 0, "'1.2.3' is not a number"},
     {"t+.", 2, "'.' is not a number"},
+    {".nan", 0, "'.nan' is not a number"},
     {"1e999", 0, "'1e999' is outside the range of numbers"},
     {"90degs", 2, "an operator is missing before 'degs'"},
     {"90 deg", 3, "an operator is missing before this value"},

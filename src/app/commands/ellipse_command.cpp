@@ -102,7 +102,7 @@ void choose_height(EllipseJob& job, const EllipseOptions& options, const TipMass
   PoseFigureOptions& figure = job.figure;
   if (options.paper.height_mm != PaperOptions::kNotGiven || figure.layout == "superposed" || figure.cell > 0) return;
   constexpr int kMostAcross = 4;
-  constexpr double kAsLarge = 0.92, kFlattest = 0.2, kStep = 1;  // of the size, of the width, mm
+  constexpr double kAsLarge = 0.96, kFlattest = 0.2, kStep = 1;  // of the size, of the width, mm
   const auto words = [](const PoseFigureFit& fit) { return 2 * int(fit.is_whole) + int(fit.has_masses); };
   const double width = options.paper.width_mm;
   const int panels = figure.layout == "row" ? 1 : int(job.motion.poses.q.size());
