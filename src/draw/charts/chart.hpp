@@ -59,8 +59,8 @@ std::optional<double> least_cost(const WorkPrecision& data, ChartCost cost, doub
 // "h = 0.01 s" of "rk4, step 0.01 s": the setting without its method.
 std::string setting_of(const std::string& label);
 
-// Lights the curves of these methods, of none named those that are cheapest at some error in one of the panels and the
-// choice of `auto`, and no others. Those that are lit have colours of their own, as far as there are so many.
+// Lights the curves of these methods, of none named those that are cheapest at some error in one of the panels, rounding
+// apart, and the choice of `auto`, and no others. Those that are lit have colours of their own, as far as there are so many.
 void light_curves(WorkPrecision& data, std::span<const ChartCost> panels, const std::vector<std::string>& methods);
 
 // What a diagram draws beside its curves: guides, slopes, failures, the choice of `auto`. Internal.

@@ -375,7 +375,7 @@ void light_curves(WorkPrecision& data, std::span<const ChartCost> panels, const 
     if (data.choice && data.choice->method == curve.method) curve.is_lit = true;
     for (const ChartCost cost : panels)
       for (const LogPoint& point : good_points(curve, cost))
-        curve.is_lit |= point.cost <= least_log_cost(data, cost, point.error) + kSameCost;
+        curve.is_lit |= !(std::pow(10, point.error) < data.floor) && point.cost <= least_log_cost(data, cost, point.error) + kSameCost;
   }
   tell_colours_apart(data);
 }

@@ -115,6 +115,19 @@ TEST(Chart, DrawsEveryRungOfTheLadder) {
   EXPECT_EQ(discs(work_precision_chart(one_curve(2), kSeconds, look_of(light_theme()))).size(), 7u);
 }
 
+// A method that alone comes below the growth of one rounding is not the cheapest at any error that means something.
+TEST(Chart, LightsNoneForWhatRoundingDecides) {
+  WorkPrecision data;
+  data.floor = 1e-12;
+  data.curves.push_back({"usual", 4, {{1e-4, 1, 1, false, ""}, {1e-10, 2, 2, false, ""}}, 0});
+  data.curves.push_back({"below", 4, {{1e-4, 3, 3, false, ""}, {1e-14, 9, 9, false, ""}}, 1});
+  light_curves(data, kBoth, {});
+  EXPECT_TRUE(data.curves[0].is_lit && !data.curves[1].is_lit);
+  data.floor = 0;
+  light_curves(data, kBoth, {});
+  EXPECT_TRUE(data.curves[1].is_lit) << "where no floor is known";
+}
+
 TEST(Chart, LightsTheCheapestAndTheChoiceOrWhatIsAskedFor) {
   WorkPrecision data;
   const auto add = [&](const char* method, double cost) {
