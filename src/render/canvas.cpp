@@ -1,4 +1,3 @@
-#include "core/machine.hpp"
 #include "render/canvas.hpp"
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <string_view>
 
 #include "core/loaded_libraries.hpp"
+#include "core/machine.hpp"
 #include "render/batch.hpp"
 #include "render/changes.hpp"
 #include "render/gl_painter.hpp"
