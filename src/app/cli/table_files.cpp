@@ -1,5 +1,6 @@
 #include "app/cli/table_files.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -47,7 +48,7 @@ std::vector<std::string> TableFiles::paths() const {
   return paths;
 }
 
-void TableFiles::tell(const CommonOptions& options, std::size_t rows, const Json& found) const {
+void TableFiles::tell(const CommonOptions& options, std::size_t rows, const Json& found, const std::string& words) const {
   const auto all = [&] {
     Json told = files_json(paths());
     told.update(found);
@@ -56,6 +57,7 @@ void TableFiles::tell(const CommonOptions& options, std::size_t rows, const Json
   tell_result(options, all, [&] {
     for (const One& one : files_)
       if (one.file) std::printf("%s  %zu rows\n", one.path.c_str(), rows);
+    if (std::ranges::all_of(files_, [](const One& one) { return one.file != nullptr; })) std::fputs(words.c_str(), stdout);
   });
 }
 

@@ -27,8 +27,8 @@ class TableFiles {
 
   std::vector<std::string> paths() const;
   // The files with their number of rows, or with --json their names and what else was `found`. Nothing in words of a
-  // table that went to standard output.
-  void tell(const CommonOptions& options, std::size_t rows, const Json& found) const;
+  // table that went to standard output, nor `words` about it then.
+  void tell(const CommonOptions& options, std::size_t rows, const Json& found, const std::string& words = "") const;
 
  private:
   struct One {

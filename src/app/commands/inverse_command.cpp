@@ -1,6 +1,5 @@
 // chainreel inverse MODEL|SCENE --trajectory q.csv -o tau.csv
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -107,9 +106,7 @@ void run_inverse(const InverseOptions& options) {
   const DataTable found = table_of(recorded, inverse);
   const std::vector<NamedPeak> peaks = peaks_of(found);
   files.write(found);
-  files.tell(options.common, inverse.t.size(), report_of(inverse, peaks));
-  const bool has_room = std::find(outputs.begin(), outputs.end(), "-") == outputs.end();
-  if (has_room && !options.common.json && !options.common.quiet) std::fputs(words_of(peaks).c_str(), stdout);
+  files.tell(options.common, inverse.t.size(), report_of(inverse, peaks), words_of(peaks));
 }
 
 }  // namespace

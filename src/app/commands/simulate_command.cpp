@@ -90,8 +90,7 @@ Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, Tab
   report["peaks"] = to_json(peaks);
   report.update(files_json(files.paths()));
   if (options.common.json) return report;
-  files.tell(options.common, table.rows, {});
-  if (!peaks.empty() && !options.common.quiet) std::fputs(words_of(peaks).c_str(), stdout);
+  files.tell(options.common, table.rows, {}, peaks.empty() ? "" : words_of(peaks));
   return report;
 }
 

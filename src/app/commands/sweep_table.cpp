@@ -237,7 +237,7 @@ std::string head_of(const SweepTableJob& job, const Scene& first, const Chain& c
   const bool one_model = std::none_of(job.grid.axes().begin(), job.grid.axes().end(), is_of_model);
   head += ",good,status,end_time [s],ended_by," + state_names(chain, one_model ? NamesOfState::with_units : NamesOfState::plain) +
           ",energy [J]";
-  for (const std::string& peak : peaks) head += ",peak_" + (one_model ? peak : peak.substr(0, peak.find(" [")));
+  for (const std::string& peak : peaks) head += ",peak_" + (one_model ? peak : ColumnName(peak).name);
   for (const EventEntry& event : first.events) head += "," + csv_words(event.title() + " [s]");
   return head + ",trouble\n";
 }

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "app/report/report.hpp"
+#include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "sim/audit.hpp"
@@ -135,9 +136,8 @@ PeaksOfRun simulate_for_peaks(const Simulation& simulation, const std::vector<Mo
 namespace {
 
 NamedPeak named(const std::string& column, const Peak& peak) {
-  const std::size_t unit = column.find(" [");
-  if (unit == std::string::npos) return {column, "", peak};
-  return {column.substr(0, unit), column.substr(unit + 2, column.size() - unit - 3), peak};
+  const ColumnName name(column);
+  return {name.name, name.unit, peak};
 }
 
 }  // namespace

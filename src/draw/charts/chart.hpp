@@ -52,10 +52,6 @@ enum class ChartCost { seconds, evaluations };
 Picture work_precision_chart(const WorkPrecision& data, std::span<const ChartCost> panels,
                              const ChartLook& look);
 
-// The least cost at which any curve reaches an error of at most `error`, read between neighbouring points of
-// a curve along straight lines of the log-log diagram; nothing where none gets there.
-std::optional<double> least_cost(const WorkPrecision& data, ChartCost cost, double error);
-
 // "h = 0.01 s" of "rk4, step 0.01 s": the setting without its method.
 std::string setting_of(const std::string& label);
 
@@ -66,6 +62,10 @@ void light_curves(WorkPrecision& data, std::span<const ChartCost> panels, const 
 // What a diagram draws beside its curves: guides, slopes, failures, the choice of `auto`. Internal.
 
 double cost_of(const ChartPoint& point, ChartCost cost);
+
+// The least cost at which any curve reaches an error of at most `error`, read between neighbouring points of
+// a curve along straight lines of the log-log diagram; nothing where none gets there.
+std::optional<double> least_cost(const WorkPrecision& data, ChartCost cost, double error);
 
 // What lies behind the curves: the least cost for each error and ten and a hundred times as much, a triangle
 // for each order whose slope some curve really shows, a ring around the choice of `auto`, the settings at the ends of curves in

@@ -108,9 +108,8 @@ std::vector<Point> best_curve(const PlotFrame& frame, const WorkPrecision& data,
   const double low = std::log10(frame.x.low), high = std::log10(frame.x.high);
   std::vector<Point> best;
   for (int i = 0; i <= kGuideSamples; ++i) {
-    const double log_error = low + i * (high - low) / kGuideSamples;
-    const double least = least_log_cost(data, cost, log_error);
-    if (std::isfinite(least)) best.push_back({std::pow(10.0, log_error), std::pow(10.0, least)});
+    const double error = std::pow(10.0, low + i * (high - low) / kGuideSamples);
+    if (const auto least = least_cost(data, cost, error)) best.push_back({error, *least});
   }
   return best;
 }

@@ -57,17 +57,17 @@ struct Panels {
   const Chain& chain;
   const PoseFigureOptions& options;
   const Fonts& fonts;
-  std::vector<Rect> places;
+  std::vector<Rect> places{};
   double caption = 0;                           // height of the words below each scene
-  std::vector<std::vector<std::string>> lines;  // one a panel, where that is its whole caption
-  CaptionLines words;                           // what of them is written; else the poses above their numbers
-  std::vector<std::vector<std::string>> below;  // further lines of such captions, one a panel each
+  std::vector<std::vector<std::string>> lines{};  // one a panel, where that is its whole caption
+  CaptionLines words{};                           // what of them is written; else the poses above their numbers
+  std::vector<std::vector<std::string>> below{};  // further lines of such captions, one a panel each
   bool has_masses = true;                       // below the scenes
   double filled = 1;                            // the share of a scene that is kept when it is cut to content
   double marks = 1;
-  EllipseScale scale;
-  Skeleton skeleton;
-  Camera camera;  // of the first panel
+  EllipseScale scale{};
+  Skeleton skeleton{};
+  Camera camera{};  // of the first panel
 
   Rect scene(std::size_t i) const { return above_caption(places[i], caption); }
   double side() const { return std::min(scene(0).width(), scene(0).height()); }
@@ -421,7 +421,7 @@ std::optional<Panels> best_panels(const Chain& chain, const std::vector<Pose>& p
   const Rect area = sheet_of(chain, options, {0.005, kLongestBar, options.reading}, fonts).scene;
   std::optional<Panels> best;
   for (int across = options.layout == "row" ? int(poses.size()) : 1; across <= int(poses.size()); ++across) {
-    Panels panels{chain, options, fonts, {}, 0, {}, {}, {}, true, 1, 1, {}, {}, {}};
+    Panels panels{chain, options, fonts};
     if (lay_out(panels, area, across, poses, ws) && (!best || merit(panels) > merit(*best)))
       best.emplace(std::move(panels));
   }

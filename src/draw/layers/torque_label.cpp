@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <regex>
 
 #include "core/format.hpp"
 #include "draw/layers/layer.hpp"
@@ -62,14 +61,34 @@ std::string entry_notation(const std::string& text) {
   return notation;
 }
 
+bool is_comparison(const std::string& text) {
+  const std::size_t sign = text.find_first_of("<>=");
+  if (sign == std::string::npos || sign == 0 || text[sign] == '=') return false;
+  const std::size_t behind = sign + (text.compare(sign + 1, 1, "=") == 0 ? 2 : 1);
+  return behind < text.size() && text.find_first_of("<>=", behind) == std::string::npos;
+}
+
+bool is_number_or_name(const std::string& text) {
+  const std::size_t begin = text.starts_with('-') ? 1 : 0;
+  return begin < text.size() && std::all_of(text.begin() + std::ptrdiff_t(begin), text.end(), is_word);
+}
+
 // "5 * (t < 0.5)" as one says it: 5 if t < 0.5 else 0. Of other products with a comparison nothing.
 std::optional<std::string> conditional_notation(const std::string& text) {
-  static const std::regex number_first(R"(\s*(-?[\w.]+)\s*\*\s*\(([^()<>=]+[<>]=?[^()<>=]+)\)\s*)"),
-      number_last(R"(\s*\(([^()<>=]+[<>]=?[^()<>=]+)\)\s*\*\s*(-?[\w.]+)\s*)");
-  std::smatch parts;
-  const bool first = std::regex_match(text, parts, number_first);
-  if (!first && !std::regex_match(text, parts, number_last)) return {};
-  return entry_notation(parts[first ? 1 : 2]) + "\" if \"" + entry_notation(parts[first ? 2 : 1]) + "\" else \"0";
+  const std::size_t open = text.find('('), close = text.find(')');
+  if (open == std::string::npos || close == std::string::npos || close < open || text.find_first_of("()", open + 1) != close ||
+      text.find_first_of("()", close + 1) != std::string::npos)
+    return {};
+  // Blanks mean nothing around a factor, which has none in it.
+  std::string before = text.substr(0, open), behind = text.substr(close + 1), factor;
+  for (std::string* side : {&before, &behind}) std::erase_if(*side, [](char c) { return c == ' '; });
+  if (behind.empty() && before.ends_with('*'))
+    factor = before.substr(0, before.size() - 1);
+  else if (before.empty() && behind.starts_with('*'))
+    factor = behind.substr(1);
+  const std::string condition = text.substr(open + 1, close - open - 1);
+  if (!is_number_or_name(factor) || !is_comparison(condition)) return {};
+  return entry_notation(factor) + "\" if \"" + entry_notation(condition) + "\" else \"0";
 }
 
 // The first entries and the last one, `shown` in all.
