@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 
 #include "core/format.hpp"
 #include "draw/layers/layer.hpp"
 
 namespace chainreel {
 namespace {
+
+constexpr std::size_t kMostResistances = 4;  // joints whose damping is told one by one
 
 std::string unit_of(const Chain& chain) {
   bool revolute = false, prismatic = false;
@@ -73,22 +76,71 @@ bool is_number_or_name(const std::string& text) {
   return begin < text.size() && std::all_of(text.begin() + std::ptrdiff_t(begin), text.end(), is_word);
 }
 
-// "5 * (t < 0.5)" as one says it: 5 if t < 0.5 else 0. Of other products with a comparison nothing.
+// The factors of a product that has no other sign at its top level, blanks around them gone; none where it is none.
+std::vector<std::string> factors_of(const std::string& text) {
+  std::vector<std::string> factors{""};
+  int depth = 0;
+  for (const char c : text) {
+    depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+    if (depth == 0 && c == '*')
+      factors.emplace_back();
+    else if (c != ' ' || depth > 0)
+      factors.back() += c;
+  }
+  return factors;
+}
+
+// What stands in the brackets of a factor that is one comparison.
+std::optional<std::string> condition_of(const std::string& factor) {
+  if (factor.size() < 2 || factor.front() != '(' || closing(factor, 0) + 1 != factor.size()) return {};
+  std::string inside = factor.substr(1, factor.size() - 2);
+  if (inside.find_first_of("()") != std::string::npos || !is_comparison(inside)) return {};
+  return inside;
+}
+
+// A comparison's sides, the smaller one first: "t >= 0" is 0 <= t.
+struct Order {
+  std::string smaller, sign, larger;
+};
+Order order_of(const std::string& condition) {
+  const std::size_t at = condition.find_first_of("<>");
+  const std::size_t behind = at + (condition.compare(at + 1, 1, "=") == 0 ? 2 : 1);
+  const auto trimmed = [](const std::string& text) {
+    const std::size_t begin = text.find_first_not_of(' '), end = text.find_last_not_of(' ');
+    return begin == std::string::npos ? std::string() : text.substr(begin, end - begin + 1);
+  };
+  Order order{trimmed(condition.substr(0, at)), condition.substr(at, behind - at), trimmed(condition.substr(behind))};
+  if (order.sign.front() == '>') {
+    std::swap(order.smaller, order.larger);
+    order.sign.front() = '<';
+  }
+  return order;
+}
+
+// Two bounds of one thing as one says them, "0 <= t < 0.5"; otherwise both.
+std::string both_of(const std::string& one, const std::string& other) {
+  Order lower = order_of(one), upper = order_of(other);
+  if (lower.smaller == upper.larger) std::swap(lower, upper);
+  if (lower.larger == upper.smaller)
+    return entry_notation(lower.smaller + " " + lower.sign + " " + lower.larger + " " + upper.sign + " " + upper.larger);
+  return entry_notation(one) + "\" and \"" + entry_notation(other);
+}
+
+// "5 * (t < 0.5)" as one says it: 5 if t < 0.5 else 0; with two comparisons, too. Of other products nothing.
 std::optional<std::string> conditional_notation(const std::string& text) {
-  const std::size_t open = text.find('('), close = text.find(')');
-  if (open == std::string::npos || close == std::string::npos || close < open || text.find_first_of("()", open + 1) != close ||
-      text.find_first_of("()", close + 1) != std::string::npos)
-    return {};
-  // Blanks mean nothing around a factor, which has none in it.
-  std::string before = text.substr(0, open), behind = text.substr(close + 1), factor;
-  for (std::string* side : {&before, &behind}) std::erase_if(*side, [](char c) { return c == ' '; });
-  if (behind.empty() && before.ends_with('*'))
-    factor = before.substr(0, before.size() - 1);
-  else if (before.empty() && behind.starts_with('*'))
-    factor = behind.substr(1);
-  const std::string condition = text.substr(open + 1, close - open - 1);
-  if (!is_number_or_name(factor) || !is_comparison(condition)) return {};
-  return entry_notation(factor) + "\" if \"" + entry_notation(condition) + "\" else \"0";
+  std::vector<std::string> conditions;
+  std::string amount;
+  for (const std::string& factor : factors_of(text)) {
+    if (const std::optional<std::string> condition = condition_of(factor))
+      conditions.push_back(*condition);
+    else if (amount.empty() && is_number_or_name(factor))
+      amount = factor;
+    else
+      return {};
+  }
+  if (amount.empty() || conditions.empty() || conditions.size() > 2) return {};
+  return entry_notation(amount) + "\" if \"" + (conditions.size() == 1 ? entry_notation(conditions[0]) : both_of(conditions[0], conditions[1])) +
+         "\" else \"0";
 }
 
 // The first entries and the last one, `shown` in all.
@@ -133,6 +185,30 @@ std::string control_notation(const Control& control) {
   return sum.empty() ? "0" : sum;
 }
 
+std::string resistance_notation(const Chain& chain) {
+  std::vector<std::string> damping, friction;
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
+    const Joint& joint = chain.bodies[b].joint;
+    if (joint.kind == JointKind::floating) continue;
+    damping.push_back(format_significant(joint.damping, 3));
+    friction.push_back(format_significant(joint.friction, 3));
+  }
+  const std::string unit = unit_of(chain);
+  std::string notation;
+  const auto add = [&](const std::string& name, std::vector<std::string> values, const std::string& behind) {
+    if (std::all_of(values.begin(), values.end(), [](const std::string& value) { return value == "0"; })) return;
+    const bool same = std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end();
+    notation += "\", " + name;
+    if (same || values.size() <= kMostResistances)
+      notation += " \"" + (same ? values[0] : "(" + list_of(values, values.size()) + ")") + (unit.empty() ? "" : behind);
+    else
+      notation += "\"";
+  };
+  add("damping", damping, unit + " s");
+  add("friction", friction, unit);
+  return notation;
+}
+
 std::vector<std::string> torque_notations(const Chain& chain, const std::vector<TorqueEntry>& torque,
                                           const std::optional<Control>& control) {
   if (control) return {"tau = " + control_notation(*control), "tau = tau(t, q, qd)"};
@@ -169,9 +245,16 @@ class TorqueLabel : public Layer {
  private:
   // What acts at the joints of all panels; nothing where they differ, since then their titles say it.
   static std::vector<std::string> common_torque(const Stage& stage) {
-    const auto notations = [](const StagedRun& motion) {
+    const auto notations = [](const StagedRun& motion) -> std::vector<std::string> {
       if (motion.scene().motion) return notations_of_replay();
-      return torque_notations(motion.chain(), motion.scene().torque, motion.scene().control);
+      std::vector<std::string> forms = torque_notations(motion.chain(), motion.scene().torque, motion.scene().control);
+      // Where nothing drives them, too, joints resist: energy that falls beside "tau = 0" has its cause here.
+      const std::string resistance = resistance_notation(motion.chain());
+      if (resistance.empty()) return forms;
+      const std::vector<std::string> bare = forms;
+      for (std::string& form : forms) form += resistance;
+      forms.insert(forms.end(), bare.begin(), bare.end());
+      return forms;
     };
     const std::vector<std::string> first = notations(stage.motions.front());
     const bool same = std::all_of(stage.motions.begin(), stage.motions.end(),

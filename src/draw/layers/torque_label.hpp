@@ -19,6 +19,10 @@ namespace chainreel {
 std::vector<std::string> torque_notations(const Chain& chain, const std::vector<TorqueEntry>& torque,
                                           const std::optional<Control>& control = {});
 
+// What resists in the joints, behind any of these: "damping 0.1 N m s", a number each where up to four joints differ. Empty where
+// nothing does.
+std::string resistance_notation(const Chain& chain);
+
 // What a control does, in a word or two: "tau_g(q) + PD".
 std::string control_notation(const Control& control);
 

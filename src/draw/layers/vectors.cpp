@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLeastNamed = 0.02;       // of the widest turn that arcs have: torques of less have no name
+constexpr double kLeastNamed = 0.05;       // of the widest turn that arcs have: torques of less have no name
 constexpr double kVectorLabelGap = 0.010;  // between an arrow's tip or an arc and its label, units of H
 constexpr double kFarLabelGap = 0.035;      // ... where there is no room nearer
 constexpr double kShareBelowFull = 0.95;  // of a clip's magnitudes

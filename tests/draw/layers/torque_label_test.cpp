@@ -27,8 +27,14 @@ TEST(TorqueLabel, SaysIfWhereANumberActsAtTimes) {
   EXPECT_EQ(label("rr", {"5 * (t < 0.5)", "0"}), "tau = (5\" if \"t < 0.5\" else \"0, 0) N m");
   EXPECT_EQ(label("rr", {"(t >= 1) * F", "0"}), "tau = (F\" if \"t >= 1\" else \"0, 0) N m");
   EXPECT_NO_THROW(lay_out_math(fonts(), label("rr", {"5 * (t < 0.5)", "-2 * (q1 <= 3)"}), {}));
+  EXPECT_EQ(label("rr", {"5 * (t >= 0) * (t < 0.5)", "0"}), "tau = (5\" if \"0 <= t < 0.5\" else \"0, 0) N m");
+  EXPECT_EQ(label("rr", {"(t < 0.5) * F * (0 < t)", "0"}), "tau = (F\" if \"0 < t < 0.5\" else \"0, 0) N m");
+  EXPECT_EQ(label("rr", {"5 * (t > 1) * (q1 < 2)", "0"}), "tau = (5\" if \"t > 1\" and \"q1 < 2\" else \"0, 0) N m");
+  EXPECT_EQ(label("rr", {"5 * (t > 1) * (t > 2)", "0"}), "tau = (5\" if \"t > 1\" and \"t > 2\" else \"0, 0) N m");
+  EXPECT_NO_THROW(lay_out_math(fonts(), label("rr", {"5 * (t >= 0) * (t < 0.5)", "5 * (t > 1) * (q1 < 2)"}), {}));
   // Others stand as they are written.
-  for (const char* text : {"5 * (t < 0.5) - qd1", "5 * (t - 0.5)", "5 * (t < sin(q1))", "5 * (t < 1) * (t > 0)"})
+  for (const char* text : {"5 * (t < 0.5) - qd1", "5 * (t - 0.5)", "5 * (t < sin(q1))", "5 * (t < 1) * (t > 0) * (q1 > 0)",
+                           "(t < 1) * (t > 0)", "5 * 2 * (t < 1)", "5 * (t < 1) / 2", "5 * (t < 1) + (t > 2)"})
     EXPECT_EQ(label("rr", {text, "0"}), "tau = (" + std::string(text) + ", 0) N m");
 }
 
@@ -73,6 +79,17 @@ TEST(TorqueLabel, NamesWhatAControlDoes) {
   std::vector<TorqueEntry> torque(2);
   torque[0].control = computed;
   EXPECT_EQ(torque_notations(test::model("rr"), torque).front(), "tau = (computed torque, 0) N m");
+}
+
+TEST(TorqueLabel, SaysWhatResistsInTheJoints) {
+  Chain chain = test::model("rr");
+  EXPECT_EQ(resistance_notation(chain), "");
+  chain.bodies[1].joint.damping = chain.bodies[2].joint.damping = 0.1;
+  EXPECT_EQ(resistance_notation(chain), "\", damping \"0.1 N m s");
+  chain.bodies[2].joint.damping = 0;
+  chain.bodies[2].joint.friction = 0.25;
+  EXPECT_EQ(resistance_notation(chain), "\", damping \"(0.1, 0) N m s\", friction \"(0, 0.25) N m");
+  EXPECT_NO_THROW(lay_out_math(fonts(), "tau = 0" + resistance_notation(chain), {}));
 }
 
 TEST(TorqueLabel, OffersEverShorterForms) {
