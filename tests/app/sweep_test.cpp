@@ -111,6 +111,31 @@ TEST(SweepTable, AnEventCalledLikeAColumnHasAKeyOfItsOwn) {
 }
 
 // Held against the same run at each of its steps, between which a peak is higher by h^2 |x''| / 8.
+TEST(SweepTable, OfSeveralKindsIsTheSameTableComputedOnce) {
+  const TemporaryFolder folder;
+  const std::string json = folder.file("a.json"), csv = folder.file("a.csv"), npz = folder.file("a.npz");
+  ASSERT_EQ(sweep(json, with(kGrid, {"-o", csv, "-o", npz})).status, 0);
+  for (const std::string& one : {json, csv, npz}) {
+    const std::string alone = folder.file("alone" + fs::path(one).extension().string());
+    ASSERT_EQ(sweep(alone).status, 0);
+    EXPECT_EQ(read_whole_file(one), read_whole_file(alone)) << one;
+  }
+  // One that is there is not written over, and then no other is begun.
+  fs::remove(csv), fs::remove(npz);
+  const ProgramResult refused = sweep(csv, with(kGrid, {"-o", npz, "-o", json}));
+  EXPECT_EQ(refused.status, 6);
+  EXPECT_THAT(refused.err, HasSubstr("a.json"));
+  EXPECT_FALSE(fs::exists(csv));
+  EXPECT_FALSE(fs::exists(npz));
+  // Without a .csv among them, too; what is named twice is refused.
+  fs::remove(json);
+  ASSERT_EQ(sweep(npz, with(kGrid, {"-o", json})).status, 0);
+  EXPECT_EQ(read_whole_file(npz), read_whole_file(folder.file("alone.npz")));
+  EXPECT_EQ(read_whole_file(json), read_whole_file(folder.file("alone.json")));
+  EXPECT_EQ(sweep(csv, with(kGrid, {"-o", csv})).status, 2);
+  EXPECT_EQ(sweep(csv, with(kGrid, {"-o", folder.file("b.csv"), "--shard", "1/2"})).status, 2);
+}
+
 TEST(SweepTable, HasThePeaksOfTheRunsByThemselves) {
   const TemporaryFolder folder;
   const Words set{"--set", "duration=1", "--set", "torque=[0.5 * sin(7 * t), -0.2]", "--set", "method=rk4", "--set", "step=0.1ms"};

@@ -140,6 +140,22 @@ TEST_F(Suites, StatesOfAnSrdfGoToTheRobotOfItsName) {
                     HasSubstr("is of the robot 'other', which no model of the suite is")));
 }
 
+TEST_F(Suites, PosesUnderAModelsNameAreItsOwn) {
+  folder_.write("b/two.urdf", arm("arm"));
+  folder_.write("three.urdf", arm("arm"));
+  folder_.write("arm.srdf", "<robot name='arm'><group_state name='ready' group='g'><joint name='elbow' value='-1'/></group_state></robot>");
+  const std::string models = "model: [arm.urdf, b/two.urdf, three.urdf]\n";
+  const Suite suite = read(models + "poses: {both: [0, -1, 0], two.urdf: {home: [0, -2, 0]}, arm.urdf: {home: [0, -1.5, 0], srdf: arm.srdf}}\n");
+  EXPECT_THAT(names(suite), ElementsAre("arm_both", "arm_home", "arm_ready", "two_both", "two_home", "three_both"));
+  EXPECT_THAT(suite.pictures[1].q, ElementsAre(0, -1.5, 0));
+  EXPECT_THAT(suite.pictures[4].q, ElementsAre(0, -2, 0));
+  // A model of which no pose is stands at rest, as it does in a suite without poses.
+  EXPECT_THAT(names(read("model: [arm.urdf, three.urdf]\nposes: {arm.urdf: {home: [0, -1, 0]}}\n")), ElementsAre("arm_home", "three"));
+  EXPECT_THAT(error(models + "poses: {twoo.urdf: {home: [0, 0, 0]}}\n"), HasSubstr("'twoo.urdf' is no model of the suite"));
+  EXPECT_THAT(error(models + "poses: {two.urdf: {home: [0, 0]}}\n"), HasSubstr("snapshots.yaml:2:20: pose 'home': has 2 numbers"));
+  EXPECT_THAT(error(models + "poses: {two.urdf: [0, 0]}\n"), HasSubstr("'poses.two.urdf' must hold names and poses"));
+}
+
 TEST_F(Suites, StatesOfOneNameInTwoGroupsBearTheirGroup) {
   folder_.write(
       "arm.srdf",

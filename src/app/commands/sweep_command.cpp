@@ -40,7 +40,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFiles = 1'000'000;
-constexpr std::uintmax_t kLargestTable = std::uintmax_t(1) << 32;  // bytes
 constexpr int kLooks = 20;
 constexpr std::chrono::milliseconds kBetweenLooks(50);
 constexpr std::size_t kMostTold = 5;  // runs that failed, and runs that are doubtful
@@ -140,7 +139,7 @@ class FilesOfRun {
   // What was cut off says nothing any more; the audit beside it does.
   bool is_told_of(const Target& target) const {
     const std::string audit = audit_beside(target);
-    const Json json = parse_json(read_plain_file(audit, kLargestTable));
+    const Json json = parse_json(read_plain_file(audit, kLargestGrown));
     const Json files = json.value(kAuditedFiles, Json::array());
     const std::string name = fs::path(target.path).filename().string();
     return is_same(json) && std::any_of(files.begin(), files.end(), [&](const Json& one) { return one.value("file", "") == name; });
@@ -148,7 +147,7 @@ class FilesOfRun {
   // A table says nothing of its run, and is it.
   bool has_tables(const std::string& path) const {
     for (std::size_t i = 0; i < runs_.size(); ++i)
-      if (read_plain_file(panel_table_path(path, i, runs_.size() == 1), kLargestTable) !=
+      if (read_plain_file(panel_table_path(path, i, runs_.size() == 1), kLargestGrown) !=
           table_bytes(motion_table(film_.panels[i].simulation, runs_[i]), table_format_of(path)))
         return false;
     return true;
@@ -333,11 +332,21 @@ void check_outputs(const SweepOptions& options) {
       throw Error(ExitCode::usage, "-o " + output + ": a sweep writes a table (.csv, .json, .npz), or files into a FOLDER/, as --each says");
     }
   }
-  if (tables > 1 || folders > 1) throw Error(ExitCode::usage, "-o takes one table and one folder");
+  if (folders > 1) throw Error(ExitCode::usage, "-o takes one folder: --each png --each csv writes several files a run into it");
+  if (tables > 1 && !options.shard.empty()) throw Error(ExitCode::usage, "-o: a share of a table is one .csv, and is joined before it becomes others");
+  refuse_twice(options.outputs);
   if (tables == 0 && !options.peaks.empty())
     throw Error(ExitCode::usage, "--peaks says what a table holds: name one with -o TABLE.csv");
   if (folders == 0 && !options.each.empty())
     throw Error(ExitCode::usage, "--each says what runs become in a folder: name it with -o FOLDER/");
+}
+
+// Of the tables the one that grows, which a run that was ended goes on with: a .csv where there is one.
+std::vector<std::string> tables_of(const std::vector<std::string>& outputs) {
+  std::vector<std::string> tables;
+  std::copy_if(outputs.begin(), outputs.end(), std::back_inserter(tables), [](const std::string& path) { return is_table_path(path); });
+  std::stable_partition(tables.begin(), tables.end(), [](const std::string& path) { return table_format_of(path) == TableFormat::csv; });
+  return tables;
 }
 
 void run_sweep(SweepOptions options) {
@@ -358,21 +367,10 @@ void run_sweep(SweepOptions options) {
   }
   const int threads = options.jobs > 0 ? options.jobs : usable_cores();
   const std::vector<MotionColumn> peaks = options.peaks.empty() ? std::vector<MotionColumn>{} : parse_peaks(options.peaks, "--peaks");
-  // A table depends on the files that were read up to there, which must be the same for all shares.
-  std::stable_partition(options.outputs.begin(), options.outputs.end(), is_table_path);
   Json report{{"runs", runs.behind - runs.first}, {"outputs", Json::array()}};
   std::vector<std::string> written;
   SweepOutcome worst;
-  for (const std::string& output : options.outputs) {
-    const bool is_table = is_table_path(output);
-    const std::string path = is_table ? with_suffix(output, suffix) : output;
-    SweepOutcome outcome;
-    if (is_table) {  // no `?:`, of which GCC 12 destroys what was not made yet where an exception leaves it
-      const SweepTableJob job{options.scene, overrides_of(options.common), grid, runs, !options.shard.empty(), threads, path, options.common.force, options.common.quiet, peaks};
-      outcome = write_sweep_table(job);
-    } else {
-      outcome = FilmsOfGrid(options, grid, runs, output).run();
-    }
+  const auto tell = [&](const std::string& path, const SweepOutcome& outcome) {
     throw_if_interrupted();
     report["outputs"].push_back({{"file", path}, {"done_before", outcome.skipped}, {"failed", outcome.failed}});
     written.push_back(path);
@@ -380,7 +378,16 @@ void run_sweep(SweepOptions options) {
       std::printf("%s: %d runs, %zu of them done before, %zu failed\n", path.c_str(), runs.behind - runs.first, outcome.skipped,
                   outcome.failed);
     if (outcome.failed > worst.failed) worst = outcome;
+  };
+  // Tables first: they depend on the files that were read up to there, which must be the same for all shares.
+  if (std::vector<std::string> tables = tables_of(options.outputs); !tables.empty()) {
+    tables.front() = with_suffix(tables.front(), suffix);
+    const SweepTableJob job{options.scene, overrides_of(options.common), grid, runs, !options.shard.empty(), threads, tables, options.common.force, options.common.quiet, peaks};
+    const SweepOutcome outcome = write_sweep_table(job);
+    for (const std::string& path : tables) tell(path, outcome);
   }
+  for (const std::string& output : options.outputs)
+    if (!is_table_path(output)) tell(output, FilmsOfGrid(options, grid, runs, output).run());
   report["failed"] = worst.failed;
   report.update(files_json(written));
   if (options.common.json) print_json(report);
@@ -399,7 +406,7 @@ void add_sweep_command(CommandLine& app) {
                           "KEY=a,b,c or KEY=from:to:count, maybe with :log behind it (repeatable: all combinations)")
       .required();
   command->add_repeatable("-o,--output", options->outputs,
-                          "a .csv, .json or .npz table with a row a run, or a FOLDER/ with files a run, or both (default out/NAME_sweep.csv)");
+                          "a .csv, .json or .npz table with a row a run, or a FOLDER/ with files a run (repeatable; default out/NAME_sweep.csv)");
   command->add_repeatable("--each", options->each, "what a run becomes in the folder: mp4 (default), png, svg, gif, csv, ..; repeatable");
   command->add_option("--peaks", options->peaks,
                       "qd,tau,energy_error,..: of these the largest of each run, with its sign (the energy's error without it), as columns of the "

@@ -288,6 +288,26 @@ void refuse_unknown_keys(const std::string& scene, const std::vector<std::string
   }
 }
 
+namespace {
+
+// The same table as other kinds of files.
+class Copies {
+ public:
+  explicit Copies(const SweepTableJob& job) {
+    for (std::size_t i = 1; i < job.paths.size(); ++i) files_.push_back(std::make_unique<OutputFile>(job.paths[i], job.overwrite));
+  }
+  void write(const std::string& csv) {
+    if (files_.empty()) return;
+    const DataTable table = table_of_csv(csv);
+    for (const auto& file : files_) write_whole(*file, table_bytes(table, table_format_of(file->path())));
+  }
+
+ private:
+  std::vector<std::unique_ptr<OutputFile>> files_;
+};
+
+}  // namespace
+
 SweepOutcome write_sweep_table(const SweepTableJob& job) {
   const auto [first, simulation] = first_good_run(job);
   require_possible(simulation, double(job.runs.behind - job.runs.first));
@@ -297,7 +317,9 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
   const std::vector<std::string> peaks = names_of_peaks(simulation, job.peaks);
   for (const std::string& doubt : first.doubts) tell_warnings({first.name + ": " + doubt});
 
-  GrowingTable table(job.path, head_of(job, first, simulation.chain, peaks), std::size_t(job.runs.first),
+  const std::string& path = job.paths.front();
+  Copies copies(job);
+  GrowingTable table(path, head_of(job, first, simulation.chain, peaks), std::size_t(job.runs.first),
                      std::size_t(job.runs.behind - job.runs.first), job.overwrite);
   Failures failures(job.grid);
   table.for_each_before([&](const std::string& row) { failures.look(row); });
@@ -328,14 +350,18 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
                      double(outcome.done) / double(behind - begin));
       };
     });
-    const TableFormat format = table_format_of(job.path);
+    const TableFormat format = table_format_of(path);
     if (job.is_part)
       table.commit_with_hash();
     else if (format == TableFormat::csv)
       table.commit();
     else
-      table.commit([format](const std::string& csv) { return table_bytes(table_of_csv(csv), format); });
+      table.commit([&](const std::string& csv) {
+        copies.write(csv);
+        return table_bytes(table_of_csv(csv), format);
+      });
   }
+  if (table_format_of(path) == TableFormat::csv) copies.write(read_plain_file(path, kLargestGrown));
   const SweepOutcome seen = failures.outcome();
   outcome.failed = seen.failed;
   outcome.first_failure = seen.first_failure;

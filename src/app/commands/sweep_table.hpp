@@ -17,7 +17,7 @@ struct SweepTableJob {
   FrameRange runs;  // those of the grid that are asked for
   bool is_part = false;  // by --shard, to be joined
   int threads = 1;
-  std::string path;
+  std::vector<std::string> paths;  // one at least; the first grows as rows come, the others are made of it
   bool overwrite = false;
   bool quiet = false;
   std::vector<MotionColumn> peaks;  // see app/report/peaks

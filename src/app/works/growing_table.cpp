@@ -144,7 +144,7 @@ void GrowingTable::commit(const std::function<std::string(const std::string& csv
   OutputFile output(path_, overwrite_);
   std::error_code code;
   if (file_of) {
-    write_whole(output, file_of(read_plain_file(hidden_)));
+    write_whole(output, file_of(read_plain_file(hidden_, kLargestGrown)));
     fs::remove(hidden_, code);
     return;
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -10,6 +11,7 @@
 
 namespace chainreel {
 
+inline constexpr std::uintmax_t kLargestGrown = std::uintmax_t(1) << 32;  // bytes, to be read again
 inline const std::string kHashOfRows = "# sha256: ";
 // Throws Error (exit 3) where the last line of the table at `path` is not the hash of those above it.
 void require_hash_of_rows(const std::string& path);

@@ -35,17 +35,12 @@ const std::vector<std::string> kLookKeys{"base",    "massless", "packages", "end
                                          "mesh_up", "camera",   "theme",    "text_scale"};
 
 struct Source {
+  std::string named;  // as the suite does
   std::string file;   // as found from the working folder
   std::string label;  // in names of pictures
   bool is_model = false;
   Place place;
 };
-
-// What is wrong with an input is one of its problems; a limit or a signal ends the reading.
-void add_problems(const Error& error, ProblemList& problems) {
-  if (error.code() != ExitCode::bad_input && error.code() != ExitCode::usage) throw error;
-  for (const Problem& problem : error.problems()) problems.add(problem.message, problem.place);
-}
 
 bool is_yaml(const fs::path& path) {
   return path.extension() == ".yaml" || path.extension() == ".yml";
@@ -82,7 +77,10 @@ class SuiteReader {
     read_sources("model", true);
     read_sources("scene", false);
     name_sources(sources_, suite_.file);
-    read_poses();
+    std::vector<std::pair<std::string, std::string>> models;
+    for (const Source& source : sources_)
+      if (source.is_model) models.emplace_back(source.named, source.file);
+    poses_.read(root_, suite_.file, models);
     read_instants();
     variants_ = read_variants(root_, document_, problems_);
     for (const auto* list : {&variants_.own, &variants_.otherwise}) suite_.variants.insert(suite_.variants.end(), list->begin(), list->end());
@@ -113,30 +111,11 @@ class SuiteReader {
     }
   }
 
-  // One text or a list of texts, each with its place.
-  std::vector<std::pair<std::string, Place>> texts_of(const YAML::Node& node, const std::string& key,
-                                                      const std::string& like) {
-    std::vector<std::pair<std::string, Place>> texts;
-    const auto add = [&](const YAML::Node& one) {
-      if (one.IsScalar() && !one.Scalar().empty())
-        texts.emplace_back(one.Scalar(), document_.place_of(one, key));
-      else
-        problems_.add("'" + key + "' must be one or a list: " + like, document_.place_of(one, key));
-    };
-    if (!node.IsSequence())
-      add(node);
-    else if (node.size() == 0)
-      problems_.add("'" + key + "' is an empty list: " + like, document_.place_of(node, key));
-    else
-      for (const YAML::Node& one : node) add(one);
-    return texts;
-  }
-
   void read_sources(const std::string& key, bool is_model) {
     if (!root_.has(key)) return;
     const std::string like = is_model ? "model: my_robot.urdf" : "scene: [swing.yaml, fall.yaml]";
-    for (const auto& [named, place] : texts_of(root_.find(key), key, like)) {
-      Source source{input_beside(suite_.file, named), "", is_model, place};
+    for (const auto& [named, place] : texts_of(document_, root_.find(key), key, like, problems_)) {
+      Source source{named, input_beside(suite_.file, named), "", is_model, place};
       std::error_code ignored;
       if (const std::string shipped = is_model || fs::exists(source.file, ignored) ? "" : shipped_file(named); is_yaml(shipped)) source.file = shipped;
       if (is_yaml(source.file) == is_model) {
@@ -144,94 +123,15 @@ class SuiteReader {
                           (is_model ? "' is no model: name scenes under `scene:`"
                                     : "' is no scene: name models under `model:`"),
                       place);
-      } else if (is_there(named, source.file, place)) {
+      } else if (require_file_of_suite(named, source.file, place, problems_)) {
         sources_.push_back(source);
       }
     }
   }
 
-  // Adds a problem where it is not.
-  bool is_there(const std::string& named, const std::string& path, const Place& place) {
-    std::error_code ignored;
-    if (fs::is_regular_file(path, ignored)) return true;
-    problems_.add("there is no file '" + named + "' (looked for " + path + "):" + nearest_file(path) +
-                      " Paths are relative to the suite's file.",
-                  place);
-    return false;
-  }
-
-  static std::string nearest_file(const std::string& wanted) {
-    std::vector<std::string> names;
-    std::error_code ignored;
-    const fs::path folder = fs::path(wanted).parent_path();
-    for (const auto& entry : fs::directory_iterator(folder.empty() ? fs::path(".") : folder, ignored))
-      if (names.size() < 1000) names.push_back(entry.path().filename().string());
-    return did_you_mean(fs::path(wanted).filename().string(), names);
-  }
-
-  void read_poses() {
-    if (!root_.has("poses")) return;
-    const YAML::Node node = root_.find("poses");
-    const Place place = document_.place_of(node, "poses");
-    if (!node.IsMap() || node.size() == 0)
-      return problems_.add(
-          "'poses' must hold names and poses: poses: {home: [0, 0, 0], reach: {elbow: -90deg}}", place);
-    Fields fields(document_, node, "poses", problems_);
-    for (const auto& pair : node) {
-      const std::string& name = pair.first.Scalar();
-      if (name == "srdf")
-        for (const auto& [named, where] : texts_of(pair.second, "poses.srdf", "srdf: my_robot.srdf"))
-          read_states(named, where);
-      else
-        read_pose(fields, name, pair.second, document_.place_of(pair.first, "poses." + name));
-    }
-  }
-
-  void read_states(const std::string& named, const Place& place) {
-    const std::string path = beside(suite_.file, named);
-    if (!is_there(named, path, place)) return;
-    try {
-      srdfs_.push_back({read_srdf(path), place, poses_.size(), 0});
-      for (WrittenPose& pose : poses_of(srdfs_.back().file)) poses_.push_back(std::move(pose));
-      srdfs_.back().end = poses_.size();
-    } catch (const Error& error) {
-      add_problems(error, problems_);
-    }
-  }
-
-  void read_pose(Fields& poses, const std::string& name, const YAML::Node& node, const Place& place) {
-    WrittenPose pose{name, place, {}, {}, node.IsMap(), false};
-    bool is_good = !name.empty();
-    if (!is_good) {
-      problems_.add("a pose has no name: poses: {home: [0, 0]}", place);
-    } else if (node.IsSequence()) {
-      is_good = poses.read(name, pose.numbers);
-    } else if (node.IsMap()) {
-      Fields joints(document_, node, poses.path(name), problems_);
-      for (const auto& pair : node) {
-        const std::string& joint = pair.first.Scalar();
-        WrittenValue value{joint, {}, document_.place_of(pair.first, joints.path(joint))};
-        double one = 0;
-        if (pair.second.IsSequence()) {
-          is_good = joints.read(joint, value.values) && is_good;
-        } else {
-          is_good = joints.read(joint, one) && is_good;
-          value.values = {one};
-        }
-        pose.joints.push_back(std::move(value));
-      }
-    } else {
-      is_good = false;
-      problems_.add(
-          "pose '" + name + "' must be a list of numbers, [0, 90deg], or joints with theirs, {elbow: 90deg}",
-          place);
-    }
-    if (is_good) poses_.push_back(std::move(pose));
-  }
-
   void read_instants() {
     if (!root_.has("at")) return;
-    for (const auto& [text, place] : texts_of(root_.find("at"), "at", "at: [0, 1.2s, event touch]")) try {
+    for (const auto& [text, place] : texts_of(document_, root_.find("at"), "at", "at: [0, 1.2s, event touch]", problems_)) try {
         instants_.emplace_back(parse_asked_instant(text, place), place);
       } catch (const Error& error) {
         add_problems(error, problems_);
@@ -323,12 +223,7 @@ class SuiteReader {
     }
     for (const SuiteVariant& variant : variants_.own)
       if (!shown.contains(variant.name) && problems_.empty()) problems_.add(words_of_idle(variant), variant.place);
-    for (const Srdf& srdf : srdfs_)
-      if (!srdf.is_used && problems_.empty())
-        problems_.add(srdf.file.path + " is of the robot '" + srdf.file.robot +
-                          "', which no model of the suite is: " + joined(robots_) +
-                          ". Give its <robot> one of these names.",
-                      srdf.place);
+    if (problems_.empty()) poses_.tell_idle(joined(robots_), problems_);
     for (const auto& [name, own] : own_)
       if (!used_own_.contains(name) && problems_.empty()) {
         std::vector<std::string> names;
@@ -337,19 +232,6 @@ class SuiteReader {
                           shortened(joined(names), 400) + ".",
                       own.place);
       }
-  }
-
-  // Whether a pose is meant for this robot: of an SRDF, where several models are shown, by the name in both.
-  bool is_for(std::size_t pose, const std::string& robot) {
-    for (Srdf& srdf : srdfs_)
-      if (pose >= srdf.begin && pose < srdf.end) {
-        const auto models =
-            std::count_if(sources_.begin(), sources_.end(), [](const Source& one) { return one.is_model; });
-        const bool is_meant = models == 1 || srdf.file.robot == robot;
-        srdf.is_used = srdf.is_used || is_meant;
-        return is_meant;
-      }
-    return true;
   }
 
   // Those that are about it.
@@ -369,12 +251,12 @@ class SuiteReader {
     const UrdfFile file = read_urdf_file(source.file);
     const Chain chain = chain_of(file, options);
     if (robots_.empty() || !robots_.back().starts_with(source.file + " is ")) robots_.push_back(source.file + " is '" + file.name + "'");
-    if (!root_.has("poses")) add(source, "", source.place).q = resting_pose(chain);
-    for (std::size_t i = 0; i < poses_.size(); ++i) {
-      if (!is_for(i, file.name)) continue;
-      if (const auto q = pose_of(poses_[i], file, chain, problems_))
-        add(source, poses_[i].name, poses_[i].place).q = *q;
-    }
+    const auto models = std::count_if(sources_.begin(), sources_.end(), [](const Source& one) { return one.is_model; });
+    const std::vector<const WrittenPose*> poses = poses_.of(source.file, models == 1 ? std::nullopt : std::optional(file.name));
+    // Poses may all be other models'.
+    if (poses.empty() && !poses_.has_states()) add(source, "", source.place).q = resting_pose(chain);
+    for (const WrittenPose* pose : poses)
+      if (const auto q = pose_of(*pose, file, chain, problems_)) add(source, pose->name, pose->place).q = *q;
   } catch (const Error& error) {
     add_problems(error, problems_);
   }
@@ -418,13 +300,6 @@ class SuiteReader {
     return suite_.pictures.back();
   }
 
-  struct Srdf {
-    SrdfFile file;
-    Place place;
-    std::size_t begin, end;  // of its poses
-    bool is_used = false;
-  };
-
   ProblemList problems_;
   YamlDocument document_;
   Fields root_;
@@ -433,8 +308,7 @@ class SuiteReader {
   std::vector<Source> sources_;
   SuiteVariants variants_;
   const SuiteVariant* variant_ = nullptr;  // of the pictures that are being made
-  std::vector<WrittenPose> poses_;
-  std::vector<Srdf> srdfs_;
+  SuitePoses poses_;
   std::vector<std::string> robots_;
   std::vector<std::pair<AskedInstant, Place>> instants_;
   SuiteSettings common_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <numbers>
 
@@ -10,6 +11,8 @@
 
 namespace chainreel {
 namespace {
+
+namespace fs = std::filesystem;
 
 // Limits are written with a few digits, 3.14159 for pi: what rounding takes from them still belongs to a
 // joint.
@@ -178,8 +181,8 @@ class PoseSetter {
   bool is_good_ = true;
 };
 
-}  // namespace
-
+// The states of an SRDF. Those of several groups that share a name bear the group's in front: arm_home,
+// hand_home.
 std::vector<WrittenPose> poses_of(const SrdfFile& file) {
   std::map<std::string, int> count;
   for (const SrdfState& state : file.states) ++count[state.name];
@@ -193,6 +196,156 @@ std::vector<WrittenPose> poses_of(const SrdfFile& file) {
     poses.push_back(std::move(pose));
   }
   return poses;
+}
+
+std::string nearest_file(const std::string& wanted) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  const fs::path folder = fs::path(wanted).parent_path();
+  for (const auto& entry : fs::directory_iterator(folder.empty() ? fs::path(".") : folder, ignored))
+    if (names.size() < 1000) names.push_back(entry.path().filename().string());
+  return did_you_mean(fs::path(wanted).filename().string(), names);
+}
+
+}  // namespace
+
+void add_problems(const Error& error, ProblemList& problems) {
+  if (error.code() != ExitCode::bad_input && error.code() != ExitCode::usage) throw error;
+  for (const Problem& problem : error.problems()) problems.add(problem.message, problem.place);
+}
+
+bool require_file_of_suite(const std::string& named, const std::string& path, const Place& place, ProblemList& problems) {
+  std::error_code ignored;
+  if (fs::is_regular_file(path, ignored)) return true;
+  problems.add("there is no file '" + named + "' (looked for " + path + "):" + nearest_file(path) +
+                   " Paths are relative to the suite's file.",
+               place);
+  return false;
+}
+
+std::vector<std::pair<std::string, Place>> texts_of(const YamlDocument& document, const YAML::Node& node, const std::string& key,
+                                                    const std::string& like, ProblemList& problems) {
+  std::vector<std::pair<std::string, Place>> texts;
+  const auto add = [&](const YAML::Node& one) {
+    if (one.IsScalar() && !one.Scalar().empty())
+      texts.emplace_back(one.Scalar(), document.place_of(one, key));
+    else
+      problems.add("'" + key + "' must be one or a list: " + like, document.place_of(one, key));
+  };
+  if (!node.IsSequence())
+    add(node);
+  else if (node.size() == 0)
+    problems.add("'" + key + "' is an empty list: " + like, document.place_of(node, key));
+  else
+    for (const YAML::Node& one : node) add(one);
+  return texts;
+}
+
+// Where poses are read from.
+struct SuitePoses::List {
+  const YamlDocument& document;
+  const std::string& suite;
+  const std::vector<std::pair<std::string, std::string>>& models;
+  ProblemList& problems;
+
+  // Whose poses stand under this name; null: it is a pose's.
+  const std::string* model_called(const std::string& name) const {
+    for (const auto& [named, file] : models)
+      if (name == named || (name.ends_with(".urdf") && name == fs::path(named).filename())) return &file;
+    return nullptr;
+  }
+};
+
+void SuitePoses::read(Fields& root, const std::string& suite, const std::vector<std::pair<std::string, std::string>>& models) {
+  if (root.has("poses")) read_list({root.document(), suite, models, root.problems()}, root.find("poses"), "poses", "");
+}
+
+void SuitePoses::read_list(const List& list, const YAML::Node& node, const std::string& path, const std::string& model) {
+  if (!node.IsMap() || node.size() == 0)
+    return list.problems.add("'" + path + "' must hold names and poses: poses: {home: [0, 0, 0], reach: {elbow: -90deg}}",
+                             list.document.place_of(node, path));
+  Fields fields(list.document, node, path, list.problems);
+  for (const auto& pair : node) {
+    const std::string& name = pair.first.Scalar();
+    const std::string* own = model.empty() ? list.model_called(name) : nullptr;
+    if (own != nullptr)
+      read_list(list, pair.second, fields.path(name), *own);
+    else if (name == "srdf")
+      for (const auto& [named, where] : texts_of(list.document, pair.second, fields.path(name), "srdf: my_robot.srdf", list.problems))
+        read_states(list, named, where, model);
+    else
+      read_pose(list, fields, pair, model);
+  }
+}
+
+void SuitePoses::read_states(const List& list, const std::string& named, const Place& place, const std::string& model) {
+  const std::string path = beside(list.suite, named);
+  if (!require_file_of_suite(named, path, place, list.problems)) return;
+  try {
+    srdfs_.push_back({read_srdf(path), place, poses_.size(), 0, !model.empty()});
+    for (WrittenPose& pose : poses_of(srdfs_.back().file)) {
+      pose.model = model;
+      poses_.push_back(std::move(pose));
+    }
+    srdfs_.back().end = poses_.size();
+  } catch (const Error& error) {
+    add_problems(error, list.problems);
+  }
+}
+
+void SuitePoses::read_pose(const List& list, Fields& poses, const std::pair<YAML::Node, YAML::Node>& named, const std::string& model) {
+  const std::string& name = named.first.Scalar();
+  const YAML::Node& node = named.second;
+  const Place place = poses.place_of(named.first, name);
+  WrittenPose pose{name, place, {}, {}, node.IsMap(), false, model};
+  bool is_good = !name.empty();
+  if (!is_good) {
+    list.problems.add("a pose has no name: poses: {home: [0, 0]}", place);
+  } else if (name.ends_with(".urdf")) {
+    is_good = false;
+    list.problems.add("'" + name + "' is no model of the suite whose poses could stand here: name it under `model:`, too", place);
+  } else if (node.IsSequence()) {
+    is_good = poses.read(name, pose.numbers);
+  } else if (node.IsMap()) {
+    Fields joints(list.document, node, poses.path(name), list.problems);
+    for (const auto& pair : node) {
+      const std::string& joint = pair.first.Scalar();
+      WrittenValue value{joint, {}, list.document.place_of(pair.first, joints.path(joint))};
+      double one = 0;
+      if (pair.second.IsSequence()) {
+        is_good = joints.read(joint, value.values) && is_good;
+      } else {
+        is_good = joints.read(joint, one) && is_good;
+        value.values = {one};
+      }
+      pose.joints.push_back(std::move(value));
+    }
+  } else {
+    is_good = false;
+    list.problems.add("pose '" + name + "' must be a list of numbers, [0, 90deg], or joints with theirs, {elbow: 90deg}", place);
+  }
+  if (is_good) poses_.push_back(std::move(pose));
+}
+
+std::vector<const WrittenPose*> SuitePoses::of(const std::string& model, const std::optional<std::string>& robot) {
+  std::vector<bool> is_other(poses_.size());
+  for (Srdf& srdf : srdfs_)
+    for (std::size_t i = srdf.begin; i < srdf.end; ++i) {
+      is_other[i] = robot && poses_[i].model.empty() && srdf.file.robot != *robot;
+      srdf.is_used |= !is_other[i];
+    }
+  std::vector<const WrittenPose*> found;
+  for (std::size_t i = 0; i < poses_.size(); ++i)
+    if (!is_other[i] && (poses_[i].model.empty() || poses_[i].model == model)) found.push_back(&poses_[i]);
+  return found;
+}
+
+void SuitePoses::tell_idle(const std::string& robots, ProblemList& problems) const {
+  for (const Srdf& srdf : srdfs_)
+    if (!srdf.is_used)
+      problems.add(srdf.file.path + " is of the robot '" + srdf.file.robot + "', which no model of the suite is: " + robots +
+                       ". Give its <robot> one of these names, or name the file under its model: poses: {my_robot.urdf: {srdf: ..}}.",
+                   srdf.place);
 }
 
 std::vector<double> resting_pose(const Chain& chain) {

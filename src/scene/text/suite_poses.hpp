@@ -3,12 +3,14 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
 #include "model/chain.hpp"
 #include "model/srdf.hpp"
 #include "model/urdf_file.hpp"
+#include "scene/keys/fields.hpp"
 
 namespace chainreel {
 
@@ -25,11 +27,43 @@ struct WrittenPose {
   std::vector<WrittenValue> joints;  // .. or by name
   bool is_by_name = false;
   bool is_of_srdf = false;
+  std::string model;  // the file whose it is alone; "": of all, or as its SRDF says
 };
 
-// The states of an SRDF. Those of several groups that share a name bear the group's in front: arm_home,
-// hand_home.
-std::vector<WrittenPose> poses_of(const SrdfFile& file);
+// `poses: {home: [0, 90deg], reach: {elbow: 1}, srdf: arm.srdf}`, and under a model's name those that are its own.
+class SuitePoses {
+ public:
+  // `models`: as the suite names them, and their files.
+  void read(Fields& root, const std::string& suite, const std::vector<std::pair<std::string, std::string>>& models);
+  // Those that are meant for the model. Of an SRDF that stands under no model's name they are by the name of the robot, where it matters.
+  std::vector<const WrittenPose*> of(const std::string& model, const std::optional<std::string>& robot);
+  bool has_states() const { return !srdfs_.empty(); }
+  // A problem for each SRDF whose robot none was. `robots`: which there are, in words.
+  void tell_idle(const std::string& robots, ProblemList& problems) const;
+
+ private:
+  struct Srdf {
+    SrdfFile file;
+    Place place;
+    std::size_t begin, end;  // of its poses
+    bool is_used = false;
+  };
+  struct List;
+  void read_list(const List& list, const YAML::Node& node, const std::string& path, const std::string& model);
+  void read_states(const List& list, const std::string& named, const Place& place, const std::string& model);
+  void read_pose(const List& list, Fields& poses, const std::pair<YAML::Node, YAML::Node>& named, const std::string& model);
+
+  std::vector<WrittenPose> poses_;
+  std::vector<Srdf> srdfs_;
+};
+
+// One text or a list of texts, each with its place.
+std::vector<std::pair<std::string, Place>> texts_of(const YamlDocument& document, const YAML::Node& node, const std::string& key,
+                                                    const std::string& like, ProblemList& problems);
+// Whether the file at `path` is there; where not, adds a problem that names the nearest.
+bool require_file_of_suite(const std::string& named, const std::string& path, const Place& place, ProblemList& problems);
+// What is wrong with an input is one of its problems; a limit or a signal ends the reading.
+void add_problems(const Error& error, ProblemList& problems);
 
 // Where joints stand that a pose does not name: at zero, but where their limits exclude that in the middle
 // between them, as joint_state_publisher and MoveIt do.
