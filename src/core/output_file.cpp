@@ -33,11 +33,13 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-// Renaming over a link would replace the link and leave the file.
+// Renaming over a link would replace the link and leave the file, be that there already or not.
 std::string behind_links(const std::string& path) {
+  constexpr int kMostLinks = 40;  // as the kernel has it; a ring of links is refused where it is opened
   std::error_code code;
-  const fs::path file = fs::canonical(path, code);
-  return code ? path : fs::is_symlink(path, code) ? file.string() : path;
+  fs::path file(path);
+  for (int k = 0; k < kMostLinks && fs::is_symlink(file, code); ++k) file = file.parent_path() / fs::read_symlink(file, code);
+  return file.string();
 }
 
 const char* kind_of(mode_t mode) {
@@ -138,11 +140,6 @@ void write_temporary(const OutputFile& output, std::string_view text) {
 void write_whole(OutputFile& output, std::string_view text) {
   write_temporary(output, text);
   output.commit();
-}
-
-void write_partial(OutputFile& output, std::string_view text) {
-  write_temporary(output, text);
-  output.keep_as_partial();
 }
 
 void write_text_file(const std::string& path, std::string_view text, bool overwrite) {

@@ -52,10 +52,8 @@ void require_replaceable(const std::string& path);
 
 // Writes the whole text to the temporary file. Throws Error (exit 6) where the disk does not take it all.
 void write_temporary(const OutputFile& output, std::string_view text);
-// Writes the whole text, then commits or keeps it as partial. Throws Error (exit 6) where the disk does not
-// take it all.
+// Writes the whole text, then commits. Throws Error (exit 6) where the disk does not take it all.
 void write_whole(OutputFile& output, std::string_view text);
-void write_partial(OutputFile& output, std::string_view text);
 // Writes a whole text in one go through an OutputFile.
 void write_text_file(const std::string& path, std::string_view text, bool overwrite);
 

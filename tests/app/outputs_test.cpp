@@ -604,6 +604,17 @@ TEST(Outputs, AFailingRunLeavesFilmsAndTablesAsPartialAlone) {
   EXPECT_EQ(result.status, 5);
   EXPECT_THAT(names_in(folder.path()), ElementsAre("a.partial.csv", "a.partial.gif", "a.partial.mp4"));
   EXPECT_LT(probe_video(folder.file("a.partial.mp4")).frames, 100);
+  // A table by itself likewise; one that has the name already is said to be another run's.
+  const Words failing{"simulate", "assets/scenes/pp_spring.yaml", "--set", "torque=[0, -1e6 * (1 + t^8 * 1e6) * y_G]", "--set", "step=0.001",
+                      "--set", "duration=4", "--force", "-o"};
+  const std::string table = folder.file("b.csv"), partial = folder.file("b.partial.csv");
+  const ProgramResult first = run_program(with(failing, {table}));
+  EXPECT_EQ(first.status, 5);
+  EXPECT_THAT(first.err, HasSubstr("note: what there is of it: " + partial + "\n"));
+  folder.write("b.csv", "older\n");
+  EXPECT_THAT(run_program(with(failing, {table})).err,
+              HasSubstr("note: what there is of it: " + partial + "; " + table + " is still that of an earlier run\n"));
+  EXPECT_EQ(read_whole_file(table), "older\n");
 }
 
 TEST(Outputs, ExtractSaysWhatItCannotRead) {

@@ -143,6 +143,11 @@ TEST_F(OutputFiles, GoToWhereALinkLeads) {
   write_text_file(path("film.csv"), "new", true);
   EXPECT_TRUE(fs::is_symlink(path("film.csv")));
   EXPECT_EQ(read_whole_file(path("disk/film.csv")), "new");
+  // Where nothing is yet, too.
+  fs::remove(path("disk/film.csv"));
+  write_text_file(path("film.csv"), "first", false);
+  EXPECT_TRUE(fs::is_symlink(path("film.csv")));
+  EXPECT_EQ(read_whole_file(path("disk/film.csv")), "first");
 }
 
 TEST_F(OutputFiles, KeepWhatCameToTheirNameMeanwhile) {

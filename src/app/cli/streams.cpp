@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -126,6 +127,13 @@ void print_error(const Error& error) {
     std::fprintf(stderr, "%s\n", line.c_str());
   }
   if (more > 0) std::fprintf(stderr, ".. and %zu more problems\n", more);
+}
+
+void keep_and_tell(OutputFile& file) {
+  const std::string partial = file.keep_as_partial();
+  std::error_code code;
+  const bool is_older = std::filesystem::exists(file.path(), code);
+  std::fprintf(stderr, "note: what there is of it: %s%s\n", partial.c_str(), is_older ? ("; " + file.path() + " is still that of an earlier run").c_str() : "");
 }
 
 bool flush_standard_output() {

@@ -4,6 +4,7 @@
 #include <csignal>
 
 #include "core/error.hpp"
+#include "core/output_file.hpp"
 
 namespace chainreel {
 
@@ -14,6 +15,10 @@ void guard_streams();
 
 // Every problem on standard error: each some lines long at most, temporary files under their final names.
 void print_error(const Error& error);
+
+// What there is of a run that failed, under its .partial name, which is said; also that a file of an earlier run still has the
+// name that was asked for.
+void keep_and_tell(OutputFile& file);
 
 // Hands on what was printed. False, with words on standard error, where not all of it was taken.
 bool flush_standard_output();

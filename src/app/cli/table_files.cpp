@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/cli/result.hpp"
+#include "app/cli/streams.hpp"
 #include "core/error.hpp"
 
 namespace chainreel {
@@ -39,7 +40,10 @@ void TableFiles::write(const DataTable& table) {
 }
 
 void TableFiles::write_partial(const DataTable& table) {
-  write_by(chainreel::write_partial, table);
+  write_by([](OutputFile& file, std::string_view text) {
+    write_temporary(file, text);
+    keep_and_tell(file);
+  }, table);
 }
 
 std::vector<std::string> TableFiles::paths() const {

@@ -1,10 +1,10 @@
 #include "app/works/outputs.hpp"
 
-#include <cstdio>
 #include <filesystem>
 
-#include "app/report/sidecar.hpp"
+#include "app/cli/streams.hpp"
 #include "app/report/motion_table.hpp"
+#include "app/report/sidecar.hpp"
 
 namespace chainreel {
 namespace fs = std::filesystem;
@@ -59,8 +59,7 @@ std::vector<std::string> commit(std::vector<Output>& outputs) {
 void keep_partial(std::vector<Output>& outputs) {
   for (Output& output : outputs)
     if (!output.shows(Shows::still))
-      for (auto& file : output.files)
-        std::fprintf(stderr, "note: what there is of it: %s\n", file->keep_as_partial().c_str());
+      for (auto& file : output.files) keep_and_tell(*file);
 }
 
 }  // namespace chainreel
