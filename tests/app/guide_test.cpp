@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "app/guide/manual.hpp"
 #include "core/json.hpp"
 #include "expr/expression.hpp"
 #include "scene/keys/keys.hpp"
@@ -170,6 +171,23 @@ TEST(Help, OnACommandIsItsOwn) {
 }
 
 // What the program, its module and its pages tell people to type.
+// A terminal breaks lines within words, and rows of tables below their first column.
+TEST(Help, LinesFitTheTerminal) {
+  EXPECT_EQ(page_on_terminal("as it is\n\n- a list of words\n", 12), "as it is\n\n- a list of\n  words\n");
+  EXPECT_EQ(page_on_terminal("| key | what it is |\n| `a` | one two three four |\n", 18), "| key | what it is\n        |\n| `a` | one two\n        three four\n        |\n");
+  EXPECT_EQ(page_on_terminal("averyveryverylongword and others\n", 10), "averyveryverylongword\nand others\n");
+  EXPECT_EQ(page_on_terminal("\u03bb\u03bb\u03bb \u03bb\u03bb\u03bb \u03bb\n", 7), "\u03bb\u03bb\u03bb \u03bb\u03bb\u03bb\n\u03bb\n");
+  const std::string page = run_program({"help", "scene"}).out;
+  for (const std::size_t columns : {80u, 120u}) {
+    const std::string shown = page_on_terminal(page, columns);
+    std::istringstream lines(shown), words(page), shown_words(shown);
+    for (std::string line; std::getline(lines, line);)
+      if (line.find(' ', line.find_first_not_of(" |-")) != std::string::npos) EXPECT_LE(line.size(), columns + 10) << line;
+    // No word is lost.
+    for (std::string word, other; words >> word;) ASSERT_TRUE(shown_words >> other && other == word) << word;
+  }
+}
+
 TEST(Help, EveryTopicThatIsNamedAnywhereIsThere) {
   const std::regex named("(?:chainreel help|`help) ([a-z][a-z-]*)");
   std::set<std::string> topics;

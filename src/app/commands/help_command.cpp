@@ -1,15 +1,19 @@
 // chainreel help [TOPIC]: the reference, page by page.
+#include <sys/ioctl.h>
+#include <unistd.h>
+
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "app/cli/command.hpp"
-#include "core/data_folder.hpp"
 #include "app/cli/result.hpp"
 #include "app/guide/manual.hpp"
 #include "app/guide/reference.hpp"
 #include "app/report/version.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/input_file.hpp"
 #include "core/json.hpp"
@@ -67,6 +71,13 @@ void list_topics(const std::vector<GuidePage>& pages, bool json) {
                stdout);
 }
 
+// Of standard output; none where it is no terminal, and lines stay whole for those who look for words in them.
+std::optional<std::size_t> terminal_columns() {
+  winsize size = {};
+  if (isatty(STDOUT_FILENO) != 1 || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 40) return std::nullopt;
+  return size.ws_col;
+}
+
 void run_help(const HelpOptions& options, const CommandLine& app) {
   if (options.man && options.common.json) throw Error(ExitCode::usage, "--man prints a manual page, --json the same as JSON: take one");
   if (options.man) return void(std::fputs(manual_page(app, program_version(), options.topic).c_str(), stdout));
@@ -74,12 +85,13 @@ void run_help(const HelpOptions& options, const CommandLine& app) {
   for (GuidePage& page : written_pages()) pages.push_back(std::move(page));
   const std::string topic = options.topic == "suite" ? "snapshots" : options.topic;
   if (options.topic.empty()) return list_topics(pages, options.common.json);
+  const std::optional<std::size_t> columns = terminal_columns();
   std::vector<std::string> known;
   const auto tell = [&](const std::string& text) {
     if (options.common.json)
       print_json({{"topic", options.topic}, {"text", text}});
     else
-      std::fputs(text.c_str(), stdout);
+      std::fputs((columns ? page_on_terminal(text, *columns) : text).c_str(), stdout);
   };
   for (const GuidePage& page : pages) {
     if (page.topic == topic) return tell(page.text());
