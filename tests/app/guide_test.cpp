@@ -174,7 +174,7 @@ TEST(Help, OnACommandIsItsOwn) {
 // A terminal breaks lines within words, and rows of tables below their first column.
 TEST(Help, LinesFitTheTerminal) {
   EXPECT_EQ(page_on_terminal("as it is\n\n- a list of words\n", 12), "as it is\n\n- a list of\n  words\n");
-  EXPECT_EQ(page_on_terminal("| key | what it is |\n| `a` | one two three four |\n", 18), "| key | what it is\n        |\n| `a` | one two\n        three four\n        |\n");
+  EXPECT_EQ(page_on_terminal("| key | what it is |\n| `a` | one two three four |\n", 18), "| key | what it is\n| `a` | one two\n        three four\n");
   EXPECT_EQ(page_on_terminal("averyveryverylongword and others\n", 10), "averyveryverylongword\nand others\n");
   EXPECT_EQ(page_on_terminal("\u03bb\u03bb\u03bb \u03bb\u03bb\u03bb \u03bb\n", 7), "\u03bb\u03bb\u03bb \u03bb\u03bb\u03bb\n\u03bb\n");
   const std::string page = run_program({"help", "scene"}).out;
@@ -184,7 +184,13 @@ TEST(Help, LinesFitTheTerminal) {
     for (std::string line; std::getline(lines, line);)
       if (line.find(' ', line.find_first_not_of(" |-")) != std::string::npos) EXPECT_LE(line.size(), columns + 10) << line;
     // No word is lost.
-    for (std::string word, other; words >> word;) ASSERT_TRUE(shown_words >> other && other == word) << word;
+    const auto next = [](std::istringstream& stream) {
+      std::string word;
+      while (stream >> word && word == "|") {
+      }
+      return stream ? word : "";
+    };
+    for (std::string word = next(words); !word.empty(); word = next(words)) ASSERT_EQ(next(shown_words), word);
   }
 }
 

@@ -28,6 +28,7 @@ std::string page_on_terminal(const std::string& page, std::size_t columns) {
   std::istringstream lines(page);
   for (std::string line; std::getline(lines, line);) {
     const std::size_t indent = indent_of(line, columns);
+    if (width_of(line) > columns && line.starts_with("| ") && line.ends_with(" |")) line.erase(line.find_last_not_of(" |") + 1);
     for (bool is_first = true; width_of(line) > columns; is_first = false) {
       // The last blank within the columns, behind what indents the line; where there is none, the next one.
       std::size_t cut = std::string::npos, seen = 0;
