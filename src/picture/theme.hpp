@@ -16,6 +16,7 @@ struct Theme {
   Color side_a, side_b;        // the two sides of a comparison
   std::array<Color, 3> axis;   // x, y, z of a frame; each axis also bears its letter
   double lines = 1;            // times the widths of outlines, curves and ellipses
+  double trail = 1;            // s that trails go back
 
   friend bool operator==(const Theme&, const Theme&) = default;
 };

@@ -41,10 +41,11 @@ using StyleColors = std::map<std::string, std::vector<std::uint32_t>>;
 struct Style {
   StyleColors light, dark;  // of the theme of that name
   double lines = 1;         // times the widths of outlines, curves, ellipses, trails and the shafts of arrows
+  double trail = 1;         // s that trails go back
   StyleFonts fonts;
   std::optional<Logo> logo;
 
-  bool empty() const { return light.empty() && dark.empty() && lines == 1 && fonts.empty() && !logo; }
+  bool empty() const { return light.empty() && dark.empty() && lines == 1 && trail == 1 && fonts.empty() && !logo; }
 };
 
 // Names of single colours, and how many `links` and `curves` there may be.

@@ -52,12 +52,13 @@ TEST_F(StyleFile, SaysTheSameAsTheKeysInTheSceneItself) {
 TEST_F(StyleFile, IsWhollyInTheTextThatFilmsRemember) {
   write("logo.png", "not looked at before a picture is drawn");
   write("lab.yaml",
-        "light: {ink: \"#102030\", curves: [\"#0072B2\"]}\ndark: {background: \"#000000\"}\nlines: 0.8\n"
+        "light: {ink: \"#102030\", curves: [\"#0072B2\"]}\ndark: {background: \"#000000\"}\nlines: 0.8\ntrail: 2.5s\n"
         "fonts: {label: Inter, math: \"STIX Two Math\"}\nlogo: {file: logo.png, corner: bottom_left, height: 0.1}\n");
   const std::string text = scene_text(scene_with("lab.yaml"));
   const Scene again = read_scene(write("again.yaml", text));
   EXPECT_EQ(scene_text(again), text);
   EXPECT_EQ(again.style.logo->corner, PageCorner::bottom_left);
+  EXPECT_EQ(again.style.trail, 2.5);
   EXPECT_EQ(again.style.fonts.math, "STIX Two Math");
   EXPECT_THAT(scene_text(scene_with("{}")), testing::Not(HasSubstr("style"))) << "a style that changes nothing is none";
 }
@@ -68,6 +69,8 @@ TEST_F(StyleFile, NamesItsOwnFileAndLineWhereItIsWrong) {
   EXPECT_THAT(trouble_with("lab.yaml"), HasSubstr("did you mean 'ink'?"));
   write("lab.yaml", "lines: 7\ncolour: red\n");
   EXPECT_THAT(trouble_with("lab.yaml"), AllOf(HasSubstr(file + ":1"), HasSubstr(file + ":2"), HasSubstr("between 0.5 and 2")));
+  write("lab.yaml", "trail: 61 s\n");
+  EXPECT_THAT(trouble_with("lab.yaml"), AllOf(HasSubstr(file + ":1"), HasSubstr("between 0.2 s and 60 s")));
   write("lab.yaml", "light: [\n");
   EXPECT_THAT(trouble_with("lab.yaml"), AllOf(HasSubstr(file), HasSubstr("not valid YAML")));
   write("lab.yaml", "");

@@ -78,7 +78,8 @@ class OutlinedTrail : public Outlined {
 
   void draw(Picture& picture, const Shot& shot) const override {
     const Color color = shot.panel.motion().variant()->color;
-    draw_trail(picture, shot.panel.tip(), shot.k, toned(color, outline_look(shot)), shot.panel.clip(), shot.panel.look().theme->lines);
+    const Theme& theme = *shot.panel.look().theme;
+    draw_trail(picture, shot.panel.tip(), shot.k, toned(color, outline_look(shot)), shot.panel.clip(), theme.lines, theme.trail);
   }
 };
 

@@ -14,12 +14,12 @@ constexpr double kPiece =
 constexpr int kMostPieces = 24;  // between two frames
 
 // 1 at the head, 0 at the end of the trail.
-double freshness(double age) {
-  return std::clamp(1 - age / kTrailSeconds, 0.0, 1.0);
+double freshness(double age, double length) {
+  return std::clamp(1 - age / length, 0.0, 1.0);
 }
 
-TrailPoint trail_point(const TipPath& path, double t, double now, double lines) {
-  const double fresh = freshness(now - t);
+TrailPoint trail_point(const TipPath& path, double t, double now, double lines, double length) {
+  const double fresh = freshness(now - t, length);
   return {path.at(t), lines * (size::kTrailTail + fresh * (size::kTrailHead - size::kTrailTail)),
           kTrailOpacity * fresh};
 }
@@ -31,7 +31,7 @@ class TrailLayer : public Layer {
   UnderWords under_words() const override { return UnderWords::freely; }
 
   void draw(Picture& picture, const Shot& shot) const override {
-    draw_trail(picture, shot.panel.tip(), shot.k, color_of(shot.panel.motion()), shot.panel.clip(), theme_->lines);
+    draw_trail(picture, shot.panel.tip(), shot.k, color_of(shot.panel.motion()), shot.panel.clip(), theme_->lines, theme_->trail);
   }
 
  private:
@@ -72,9 +72,9 @@ std::unique_ptr<const Layer> make_layer_ghosts(const Stage&) {
   return std::make_unique<GhostsLayer>();
 }
 
-void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip, double lines) {
+void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip, double lines, double length) {
   const double now = path.time(k);
-  const double since = path.gapless_since(k, now - kTrailSeconds);
+  const double since = path.gapless_since(k, now - length);
   if (!(since < now)) return;
   Trail trail;
   trail.color = color;
@@ -82,15 +82,15 @@ void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int c
     const double from = std::max(since, path.time(i)), to = path.time(i + 1);
     const int pieces = path.pieces(i, kPiece, kMostPieces);
     for (int j = 0; j < pieces; ++j)
-      trail.points.push_back(trail_point(path, from + j * ((to - from) / pieces), now, lines));
+      trail.points.push_back(trail_point(path, from + j * ((to - from) / pieces), now, lines, length));
   }
-  trail.points.push_back(trail_point(path, now, now, lines));
+  trail.points.push_back(trail_point(path, now, now, lines, length));
   picture.add(std::move(trail), clip);
 
   // The dots stand still while the trail moves on: they belong to whole tenths of a second of the film.
   const double r = lines * size::kTrailDot / 2;
   for (int i = int(std::ceil(since * kTrailDotsPerSecond)); double(i) / kTrailDotsPerSecond <= now; ++i) {
-    const TrailPoint at = trail_point(path, double(i) / kTrailDotsPerSecond, now, lines);
+    const TrailPoint at = trail_point(path, double(i) / kTrailDotsPerSecond, now, lines, length);
     if (at.alpha > 0) picture.add(Ellipse{at.p, {r, 0}, {0, r}, {color.faded(at.alpha), {}, 0}}, clip);
   }
 }

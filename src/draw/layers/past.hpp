@@ -8,12 +8,12 @@
 
 namespace chainreel {
 
-// The trail: the last second, thinner and fainter with age, with dots every 0.1 s.
+// The trail: the last second, or as many as a style says, thinner and fainter with age, with dots every 0.1 s.
 inline constexpr double kTrailSeconds = 1.0;
 inline constexpr int kTrailDotsPerSecond = 10;
 inline constexpr double kTrailOpacity = 0.7;
-// The trail as it stands at frame k; `lines`: times its width.
-void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip, double lines = 1);
+// The trail as it stands at frame k; `lines`: times its width; `length`: how far it goes back, s.
+void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip, double lines = 1, double length = kTrailSeconds);
 
 // Onion skins: the chain at earlier instants, equally spaced in time, fainter with age.
 inline constexpr int kMostGhosts = 6;

@@ -23,7 +23,7 @@ Color* color_named(Theme& theme, const std::string& name) {
   return found == std::end(table) ? nullptr : found->second;
 }
 
-Theme styled(Theme theme, const StyleColors& colors, double lines) {
+Theme styled(Theme theme, const StyleColors& colors, const Style& style) {
   for (const auto& [name, values] : colors) {
     if (Color* one = color_named(theme, name)) *one = color_of(values.front());
     if (name == "links")
@@ -31,7 +31,8 @@ Theme styled(Theme theme, const StyleColors& colors, double lines) {
     if (name == "curves")
       for (std::size_t i = 0; i < std::min(values.size(), theme.curve.size()); ++i) theme.curve[i] = color_of(values[i]);
   }
-  theme.lines = lines;
+  theme.lines = style.lines;
+  theme.trail = style.trail;
   return theme;
 }
 
@@ -135,8 +136,8 @@ class ShownColors {
 const Theme& page_theme(const Scene& scene) {
   const Theme& plain = theme_named(to_string(scene.theme));
   const StyleColors& colors = colors_in(scene);
-  if (colors.empty() && scene.style.lines == 1) return plain;
-  return kept(styled(plain, colors, scene.style.lines));
+  if (colors.empty() && scene.style.lines == 1 && scene.style.trail == 1) return plain;
+  return kept(styled(plain, colors, scene.style));
 }
 
 FontFamilies families_of(const Scene& scene) {

@@ -37,6 +37,18 @@ TEST(Trail, GoesBackOneSecondAndNoFurther) {
   for (const TrailPoint& p : points) EXPECT_NEAR(test::distance(p.p, {0.8, 0.5}), 0.3, 1e-8);
 }
 
+TEST(Trail, GoesBackAsFarAsAStyleSays) {
+  const TipPath path = circle(200);
+  for (const double length : {0.4, 2.0, 60.0}) {
+    Picture picture;
+    draw_trail(picture, path, 150, light_theme().curve[1], -1, 1, length);
+    const std::vector<TrailPoint> points = test::all_of<Trail>(picture).at(0).points;
+    const double from = std::max(0.0, 150 / 60.0 - length);
+    EXPECT_LT(test::distance(points.front().p, on_circle(from)), 1e-8) << length;
+    EXPECT_NEAR(points.front().alpha, kTrailOpacity * (1 - (150 / 60.0 - from) / length), 1e-12);
+  }
+}
+
 TEST(Trail, IsAsWideAsTheLinesOfAStyle) {
   const TipPath path = circle(200);
   Picture plain, wide;
