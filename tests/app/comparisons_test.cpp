@@ -197,6 +197,23 @@ TEST(Compare, SaysWhichKeysOfTheScenesDiffer) {
   EXPECT_EQ(report({silent, silent})["explained"], Json::array());
 }
 
+// A camera that is fitted to the motion moves with it.
+TEST(Compare, SaysThatTheCameraWasFittedAnew) {
+  const TemporaryFolder folder;
+  const auto picture_of = [&](const std::string& file, const Words& more) {
+    EXPECT_EQ(run_program(with({"snapshot", "assets/scenes/rr_free.yaml", "--set", "duration=1", "--set", "layout=scene", "-o", folder.file(file)}, more)).status, 0);
+    return folder.file(file);
+  };
+  const auto explained = [](const std::string& a, const std::string& b) { return report({a, b})["explained"].dump(); };
+  const std::string one = picture_of("a.png", {}), shorter = picture_of("b.png", {"--set", "duration=0.1"});
+  EXPECT_THAT(explained(one, shorter), HasSubstr("the camera, which is fitted to the motion, shows "));
+  EXPECT_THAT(explained(one, picture_of("c.png", {"--set", "title=another"})), Not(HasSubstr("the camera")));
+  // A camera that the scene sets is told as its key alone.
+  const Words fit{"--set", "camera.fit=[-2, -2, 2, 2]"};
+  EXPECT_THAT(explained(one, picture_of("d.png", fit)), testing::AllOf(HasSubstr("camera.fit"), Not(HasSubstr("fitted to the motion"))));
+  EXPECT_THAT(explained(picture_of("e.png", fit), picture_of("f.png", with(fit, {"--set", "duration=0.1"}))), Not(HasSubstr("the camera")));
+}
+
 TEST(Compare, SaysWhichCommandsMadeTwoFigures) {
   const TemporaryFolder folder;
   const auto figure = [](const std::string& pose, const std::string& hash) {

@@ -100,6 +100,20 @@ bool has_other_versions(const Json& before, const Json& after) {
   return false;
 }
 
+namespace {
+
+// Where the scenes ask for the same picture and the camera moved all the same, every pixel is another one.
+std::optional<std::string> words_of_view(const Json& before, const Json& after) {
+  if (!before.is_object() || !after.is_object() || before == after) return std::nullopt;
+  const double old = before.value("height", 0.0), now = after.value("height", 0.0);
+  const std::string heights = format_significant(old, 4) == format_significant(now, 4)
+                                  ? "another part of the scene"
+                                  : format_significant(old, 4) + " m -> " + format_significant(now, 4) + " m of height";
+  return "the camera, which is fitted to the motion, shows " + heights + ", so that all that stands still has moved, too: `camera: {fit: [left, bottom, right, top]}` keeps it";
+}
+
+}  // namespace
+
 std::vector<std::string> explain_memories(const std::string& before, const std::string& after) {
   const std::optional<ClipMemory> old = memory_of(before), now = memory_of(after);
   if (!old && !now) return {};
@@ -126,6 +140,9 @@ std::vector<std::string> explain_memories(const std::string& before, const std::
   // A film's motion and that up to one instant are hashed at other instants.
   if (differs("trajectory_sha256") && !differs("at") && !differs("frames") && !differs("fps"))
     sentences.push_back(std::string("the motion at the frames is another one") + kByHash);
+  const bool says_camera = std::any_of(sentences.begin(), sentences.end(), [](const std::string& one) { return one.starts_with("camera") || one.starts_with("video"); });
+  if (const auto words = words_of_view(facts.value("view", Json()), other_facts.value("view", Json())); words && !says_camera)
+    sentences.push_back(*words);
   if (has_other_versions(facts.value("versions", Json()), other_facts.value("versions", Json())))
     sentences.push_back("versions of the program or its libraries are others");
   return sentences;

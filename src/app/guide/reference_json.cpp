@@ -42,6 +42,7 @@ const Keys kFilm{
     {"panels", "of a comparison a run each, with the keys of runs but scene and duration; else []"},
     {"frames, fps, width, height, film_seconds", "of the first clip"},
     {"left_out", "layers that the page has no room for"},
+    {"view", "what the camera sees: {height, origin}, m of the page's height, and where the world's origin lies, in heights of the page from its lower left"},
     {"style", "fonts and logo of a `style:`; or null"},
     {"slow_motion", "[{from, until, speed, ease, because, film_from, film_until}]"},
     {"pauses", "[{at, seconds, film_from}]"},

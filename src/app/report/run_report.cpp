@@ -234,6 +234,8 @@ FilmReport film_report(const Runs& runs, const Film& pictures, int frames) {
       report.slow_motion.push_back(one);
       report.slow_motion.back().until = std::min(one.until, end);
     }
+  const Camera& camera = pictures.camera();
+  report.view = {1 / camera.scale, camera.project(Eigen::Vector3d::Zero())};
   const Scene& page = report.film().scene;
   for (const Pause& one : pauses_of(page.annotate, report.film().panels.front().scene.events, runs[0].events))
     if (one.seconds > 0 && one.at <= end) report.pauses.push_back(one);
@@ -266,6 +268,7 @@ Json to_json(const FilmReport& report) {
   }
   json.update(clip_facts(scene.video.width, scene.video.height, scene.video.fps, report.frames));
   json["left_out"] = report.left_out;
+  json["view"] = {{"height", report.view.height}, {"origin", {report.view.origin.x, report.view.origin.y}}};
   json["style"] = style_report(report.film());
   const double held = held_first(scene);
   json["slow_motion"] = Json::array();

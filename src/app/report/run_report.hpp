@@ -36,6 +36,12 @@ Json to_json(const RunReport& report);
 Json to_json(const Stretch& one);
 std::string to_words(const Stretch& one);
 
+// What the camera sees, which is fitted to the motion unless the scene says otherwise.
+struct ViewReport {
+  double height = 0;  // of the page, m where the camera looks at
+  Point origin;       // of the world on the page, from its lower left, units of its height
+};
+
 struct FilmReport {
   const Runs& runs;
   std::vector<RunReport> panels;
@@ -45,6 +51,7 @@ struct FilmReport {
   std::vector<Pause> pauses;         // ... in the order of `annotate:`
   Writes writes = Writes::films;     // a single picture of it, or all
   std::vector<std::string> left_out = {};  // layers that a page this small has no room for
+  ViewReport view = {};                    // of the first panel
 
   const PreparedFilm& film() const { return runs.film(); }
   double film_seconds() const { return frame_time(frames, film().scene.video.fps); }
