@@ -113,13 +113,21 @@ class PythonModel {
                           array_of(effective.directions));
   }
   std::string ellipse(const Array& q, const std::string& reading, int width, int height) {
-    const ConstVec numbers = pose(q);
-    const std::vector<std::vector<double>> poses{{numbers.begin(), numbers.end()}};
+    const AskedEllipse asked = asked_ellipse(q, reading, width, height);
     const LongWork released;
-    return ellipse_svg(model_, poses, reading, width, height);
+    return ellipse_svg(model_, asked);
+  }
+  void save_ellipse(const Array& q, const std::string& reading, const std::string& path, bool overwrite, int width, int height) {
+    const AskedEllipse asked = asked_ellipse(q, reading, width, height);
+    const LongWork released;
+    write_ellipse(model_, asked, path, overwrite);
   }
 
  private:
+  AskedEllipse asked_ellipse(const Array& q, const std::string& reading, int width, int height) {
+    const ConstVec numbers = pose(q);
+    return {{{numbers.begin(), numbers.end()}}, reading, width, height};
+  }
   ConstVec numbers(const Array& given, int count, const std::string& name) const {
     if (given.ndim() > 1 || int(given.size()) != count)
       refuse(name + " takes " + std::to_string(count) + (count == 1 ? " number" : " numbers") + " of " + chain().name +
@@ -192,7 +200,9 @@ void bind_model(py::module_& module) {
       .def("Lambda", &PythonModel::Lambda)
       .def("mobility", &PythonModel::mobility)
       .def("ellipse_svg", &PythonModel::ellipse, py::arg("q"), py::arg("reading"), py::arg("width") = 640,
-           py::arg("height") = 480);
+           py::arg("height") = 480)
+      .def("save_ellipse", &PythonModel::save_ellipse, py::arg("q"), py::arg("reading"), py::arg("path"), py::arg("overwrite"),
+           py::arg("width") = 640, py::arg("height") = 480);
 }
 
 }  // namespace chainreel

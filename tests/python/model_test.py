@@ -4,6 +4,7 @@ import ast
 import inspect
 import os
 import pickle
+import struct
 import unittest
 import warnings
 from pathlib import Path
@@ -12,6 +13,7 @@ import numpy as np
 
 import chainreel as cr
 from chainreel import _native
+from chainreel._errors import in_python
 from support import FolderTest, program_json
 
 DAMPED = """<robot name="damped">
@@ -122,14 +124,44 @@ class Models(FolderTest):
         with self.assertRaisesRegex(cr.Error, "means nothing to `load`"):
             cr.load("rr.urdf", duration=3)
 
+    def test_what_the_command_line_advises_is_said_in_python(self):
+        several = self.write("fork.urdf", """<robot name="fork"><link name="base"/>
+          <link name="a"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+          <link name="b"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+          <joint name="ja" type="continuous"><parent link="base"/><child link="a"/><axis xyz="0 0 1"/></joint>
+          <joint name="jb" type="continuous"><parent link="base"/><child link="b"/><axis xyz="0 0 1"/></joint></robot>""")
+        with self.assertRaises(cr.Error) as caught:
+            cr.load(several).Lambda([0, 0])
+        self.assertIn('`end_effector="NAME"`', str(caught.exception))
+        self.assertNotIn("--set", str(caught.exception))
+        self.assertEqual(in_python("take --set step=null --set method=radau5, or --set 'accuracy=0.1 px'; --set step=0.01"),
+                         'take step=None, method="radau5", or accuracy="0.1 px"; step=0.01')
+        self.assertEqual(in_python("--set video.fps=120 --set step=1"), 'set={"video.fps": 120, "step": 1}')
+        self.assertEqual(in_python("-o e.txt: pictures"), "e.txt: pictures")
+        self.assertEqual(in_python("no setting"), "no setting")
+        with self.assertWarns(cr.RunWarning) as warned:
+            cr.Scene("rr_free", set={"method": "explicit_euler", "step": 0.01, "duration": 1, "accuracy": None}).run()
+        words = "\n".join(str(one.message) for one in warned.warnings)
+        self.assertIn("step=", words)
+        self.assertNotIn("--set", words)
+
     def test_an_ellipse_shows_itself(self):
         ellipse = cr.load("rr.urdf").ellipse([0.3, 1.2])
         self.assertTrue(ellipse._repr_svg_().lstrip().startswith("<"))
         self.assertIn("</svg>", ellipse.svg)
         self.assertLess(ellipse.mobility[0], ellipse.mobility[1])
-        ellipse.save(self.path("e.svg"))
-        with self.assertRaises(FileExistsError):
-            ellipse.save(self.path("e.svg"))
+        for name, begin in (("e.svg", b"<?xml"), ("e.png", b"\x89PNG"), ("e.pdf", b"%PDF")):
+            ellipse.save(self.path(name))
+            with open(self.path(name), "rb") as file:
+                self.assertEqual(file.read(len(begin)), begin)
+            with self.assertRaisesRegex(cr.Error, "exists already"):
+                ellipse.save(self.path(name))
+            ellipse.save(self.path(name), overwrite=True)
+        ellipse.save(self.path("wide.png"), width=800, height=300)
+        with open(self.path("wide.png"), "rb") as file:
+            self.assertEqual(struct.unpack(">II", file.read(24)[16:]), (800, 300))
+        with self.assertRaisesRegex(cr.Error, "e.txt: pictures are written as .png, .svg or .pdf"):
+            ellipse.save(self.path("e.txt"))
         with self.assertRaisesRegex(cr.Error, "none of mass, energy, belt"):
             cr.load("rr.urdf").ellipse([0, 1], "weight")
 

@@ -1,7 +1,8 @@
 #include "app/library/loaded_model.hpp"
 
-#include "core/data_folder.hpp"
 #include "app/film/prepared.hpp"
+#include "app/film/target.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/names.hpp"
@@ -32,23 +33,43 @@ LoadedModel load_model(const SceneRequest& request) {
   return model;
 }
 
-std::string ellipse_svg(const LoadedModel& model, const std::vector<std::vector<double>>& poses,
-                        const std::string& reading, int width, int height) {
-  const PlainNumbers plain;
+namespace {
+
+Picture picture_of(const LoadedModel& model, const AskedEllipse& asked, const Fonts& fonts) {
   require_end_effector(model.chain);
-  const std::optional<EllipseReading> read_as = value_named<EllipseReading>(reading);
-  if (!read_as)
-    throw Error(ExitCode::usage, "reading '" + reading + "' is none of " + joined(words_of(names_of(EllipseReading{}))));
+  const std::optional<EllipseReading> reading = value_named<EllipseReading>(asked.reading);
+  if (!reading)
+    throw Error(ExitCode::usage, "reading '" + asked.reading + "' is none of " + joined(words_of(names_of(EllipseReading{}))));
   PoseFigureOptions figure;
-  figure.width = width;
-  figure.height = height;
+  figure.width = asked.width;
+  figure.height = asked.height;
   figure.theme = &page_theme(model.asked.scene);
-  figure.reading = *read_as;
+  figure.reading = *reading;
+  return draw_ellipse_figure(TipMass(model.chain), asked.poses, figure, fonts);
+}
+
+std::string title_of(const LoadedModel& model) {
+  return "effective mass of " + model.chain.name;
+}
+
+}  // namespace
+
+std::string ellipse_svg(const LoadedModel& model, const AskedEllipse& asked) {
+  const PlainNumbers plain;
   const Fonts fonts(families_of(model.asked.scene));
   VectorPage page;
-  page.height = height;
-  page.title = "effective mass of " + model.chain.name;
-  return svg_text(draw_ellipse_figure(TipMass(model.chain), poses, figure, fonts), fonts, page);
+  page.height = asked.height;
+  page.title = title_of(model);
+  return svg_text(picture_of(model, asked, fonts), fonts, page);
+}
+
+void write_ellipse(const LoadedModel& model, const AskedEllipse& asked, const std::string& path, bool overwrite) {
+  const PlainNumbers plain;
+  picture_format_of(path);
+  const Fonts fonts(families_of(model.asked.scene));
+  ClipMemory memory;
+  memory.title = title_of(model);
+  write_picture(picture_of(model, asked, fonts), asked.width, asked.height, fonts, path, overwrite, memory);
 }
 
 }  // namespace chainreel

@@ -19,8 +19,15 @@ struct LoadedModel {
 // of a file. Overrides are the keys that `dynamics` of a model takes, and `end_effector`. Throws Error.
 LoadedModel load_model(const SceneRequest& request);
 
-// The figure that `ellipse` draws of the poses, as the text of an SVG. Throws Error where there is no end effector.
-std::string ellipse_svg(const LoadedModel& model, const std::vector<std::vector<double>>& poses,
-                        const std::string& reading, int width, int height);
+// The figure that `ellipse` draws of the poses, px.
+struct AskedEllipse {
+  std::vector<std::vector<double>> poses;
+  std::string reading;  // a word of EllipseReading
+  int width = 640, height = 480;
+};
+// As the text of an SVG. Throws Error where there is no end effector.
+std::string ellipse_svg(const LoadedModel& model, const AskedEllipse& asked);
+// As a .png, .svg or .pdf. Throws Error, too, where the file cannot be written.
+void write_ellipse(const LoadedModel& model, const AskedEllipse& asked, const std::string& path, bool overwrite);
 
 }  // namespace chainreel

@@ -2,7 +2,34 @@
 
 from __future__ import annotations
 
+import json
+import re
 from typing import List, NamedTuple, Optional
+
+_SETTING = r"--set (?:'([^']+)'|([^\s,;`'\"]+))"
+_SETTINGS = re.compile(rf"{_SETTING}(?: {_SETTING})*")
+
+
+def in_python(message: str) -> str:
+    """What the command line advises, as arguments: `--set step=null --set method=rk4` is step=None, method="rk4"; with keys of sections
+    in set={"video.fps": 120}."""
+    def replaced(found: "re.Match[str]") -> str:
+        pairs = [(quoted or plain).partition("=")[::2] for quoted, plain in re.findall(_SETTING, found.group())]
+        if all(key.isidentifier() for key, _ in pairs):
+            return ", ".join(f"{key}={_literal(value)}" for key, value in pairs)
+        return "set={" + ", ".join(f"{json.dumps(key)}: {_literal(value)}" for key, value in pairs) + "}"
+
+    return _SETTINGS.sub(replaced, re.sub(r"^-o ", "", message))
+
+
+def _literal(text: str) -> str:
+    if text in ("", "null"):
+        return "None"
+    try:
+        value = json.loads(text)
+    except ValueError:
+        return json.dumps(text)
+    return repr(value)
 
 
 class Problem(NamedTuple):
@@ -21,7 +48,7 @@ class Error(Exception):
 
     def __init__(self, code: int, problems: List[Problem]):
         self.code = code
-        self.problems = [Problem(*problem) for problem in problems]
+        self.problems = [problem._replace(message=in_python(problem.message)) for problem in map(Problem._make, problems)]
         super().__init__("\n".join(_text(problem) for problem in self.problems))
 
     def __reduce__(self):
@@ -49,7 +76,7 @@ class RunWarning(UserWarning):
 
 
 def _text(problem: Problem) -> str:
-    place: Optional[str] = problem.file
+    place: Optional[str] = in_python(problem.file)
     for number in (problem.line, problem.column):
         if number:
             place = f"{place}:{number}"

@@ -171,6 +171,7 @@ class Ellipse:
     """The effective mass of a model at a pose, by `Model.ellipse`; `svg` is its figure."""
 
     def __init__(self, model: Model, q: ArrayLike, reading: str):
+        self._model = model
         self.q = np.array(q, dtype=float)
         self.reading = reading
         # 1/kg, rising: Lambda_inv's eigenvalues, (rows,), and their unit vectors, columns of (rows, rows).
@@ -180,9 +181,6 @@ class Ellipse:
     def _repr_svg_(self) -> str:
         return self.svg
 
-    def save(self, path: Union[str, os.PathLike]) -> None:
-        """Writes the figure as a .svg."""
-        if not os.fspath(path).endswith(".svg"):
-            raise ValueError("an ellipse is saved as .svg: `chainreel ellipse` writes .png and .pdf")
-        with open(path, "x", encoding="utf-8") as file:
-            file.write(self.svg)
+    def save(self, path: Union[str, os.PathLike], overwrite: bool = False, width: int = 640, height: int = 480) -> None:
+        """Writes the figure as a .png of so many pixels, or as a .svg or .pdf of these proportions. overwrite: a file that stands there."""
+        self._model._native.save_ellipse(self.q, self.reading, os.fspath(path), overwrite, width, height)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._errors import Error, RunWarning
+from ._errors import Error, RunWarning, in_python
 from ._keys import found, overrides_of, text_of
 
 Torque = Callable[[float, NDArray[np.float64], NDArray[np.float64]], ArrayLike]
@@ -230,7 +230,7 @@ class Run(Panel):
 def _warn(lines: List[str]) -> None:
     """To who called us."""
     for line in lines:
-        warnings.warn(line, RunWarning, stacklevel=3)
+        warnings.warn(in_python(line), RunWarning, stacklevel=3)
 
 
 def _with_model(scene: Mapping[str, Any]) -> Dict[str, Any]:
