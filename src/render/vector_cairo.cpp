@@ -21,7 +21,7 @@
 namespace chainreel {
 namespace {
 
-constexpr double kSmallestAxis = 1e-6;  // H: flatter ellipses have no inverse that Cairo takes
+constexpr double kFlattestAxis = 1e-6;  // H: flatter ellipses have no inverse that Cairo takes
 
 void check(cairo_status_t status, const char* doing) {
   if (status == CAIRO_STATUS_SUCCESS) return;
@@ -185,9 +185,9 @@ class Painter {
     const auto size_of = [](Point p) { return std::sqrt(p.x * p.x + p.y * p.y); };
     Point u = e.u, v = e.v;
     if (size_of(u) < size_of(v)) std::swap(u, v);
-    const double length = std::max(size_of(u), kSmallestAxis);
-    if (size_of(u) < kSmallestAxis) u = {kSmallestAxis, 0};
-    if (size_of(v) < kSmallestAxis) v = (kSmallestAxis / length) * Point{-u.y, u.x};
+    const double length = std::max(size_of(u), kFlattestAxis);
+    if (size_of(u) < kFlattestAxis) u = {kFlattestAxis, 0};
+    if (size_of(v) < kFlattestAxis) v = (kFlattestAxis / length) * Point{-u.y, u.x};
     cairo_matrix_t before;
     cairo_get_matrix(cr_, &before);
     const cairo_matrix_t to_page = {scale_ * u.x,  -scale_ * u.y, scale_ * v.x,

@@ -26,7 +26,7 @@ constexpr std::array<FamilyRow, kOwnFaces> kFamilies = {
      {"chainreel-bold", "'DejaVu Sans',Verdana,sans-serif", "bold"},
      {"chainreel-math", "'Latin Modern Math','STIX Two Math','Cambria Math',serif", "normal"}}};
 
-constexpr double kThinnestAxis = 0.001;  // units of the page: the last digit that is written
+constexpr double kWrittenAxis = 0.001;  // units of the page: the last digit that is written
 
 std::string escaped(std::string_view text) {
   std::string result;
@@ -215,7 +215,7 @@ class SvgWriter {
   void add(const Ellipse& e) {
     const auto size_of = [](Point p) { return std::sqrt(p.x * p.x + p.y * p.y); };
     // An axis of zero length would take the stroke with it.
-    const double thinnest = kThinnestAxis / scale_;
+    const double thinnest = kWrittenAxis / scale_;
     const double a = std::max(size_of(e.u), thinnest), b = std::max(size_of(e.v), thinnest);
     const Point axis = size_of(e.u) > 0 ? e.u : Point{e.v.y, -e.v.x};
     const double degrees = -std::atan2(axis.y, axis.x) * 180 / std::numbers::pi;

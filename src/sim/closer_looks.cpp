@@ -5,7 +5,7 @@
 namespace chainreel {
 namespace {
 
-constexpr long kMostSteps = 200'000;
+constexpr long kMostStepsLookedAt = 200'000;
 constexpr std::size_t kMostWithin = 31;  // of a step
 constexpr int kClose = 64;               // instants about one of interest
 constexpr int kRounds = 2;
@@ -31,7 +31,7 @@ void look_closer(const Simulation& simulation, const Trajectory& run, std::size_
     interesting = look(seen);
     return seen;
   };
-  const bool by_steps = run.steps <= kMostSteps && !simulation.motion;
+  const bool by_steps = run.steps <= kMostStepsLookedAt && !simulation.motion;
   const Trajectory steps = by_steps ? simulate_every_step(simulation, stop) : Trajectory{};
   if (by_steps) look(steps);
   const std::vector<double>& marks = by_steps ? steps.t : run.t;

@@ -14,10 +14,10 @@ namespace {
 
 using testing::HasSubstr;
 
-const Words kSmallFilm{"--quiet", "--set", "video.width=96", "--set", "video.height=54", "--set", "duration=2"};
+const Words kBenchedFilm{"--quiet", "--set", "video.width=96", "--set", "video.height=54", "--set", "duration=2"};
 
 Json bench(const Words& more) {
-  const ProgramResult result = run_program(with(with({"bench", "assets/scenes/rr_ellipse.yaml", "--json"}, kSmallFilm), more));
+  const ProgramResult result = run_program(with(with({"bench", "assets/scenes/rr_ellipse.yaml", "--json"}, kBenchedFilm), more));
   EXPECT_EQ(result.status, 0) << result.err;
   return result.status == 0 ? Json::parse(result.out).at("films").at(0) : Json();
 }
@@ -52,14 +52,14 @@ TEST(Bench, OfAFilmWhoseFramesDoNotFitIsThatOfItsFirstChunksAndSaysSo) {
   EXPECT_EQ(report["film_frames"], 120);
   EXPECT_EQ(report["chunks"], 1);
   EXPECT_EQ(report["jobs"], 1) << "a chunk keeps one thread busy";
-  const ProgramResult told = run_program(with(with({"bench", "assets/scenes/rr_ellipse.yaml"}, kSmallFilm), little));
+  const ProgramResult told = run_program(with(with({"bench", "assets/scenes/rr_ellipse.yaml"}, kBenchedFilm), little));
   EXPECT_THAT(told.out, HasSubstr("of its 120: so many fit into memory for the encoder alone (--memory)"));
 }
 
 TEST(Bench, LeavesNothingBehindAndWritesNoFileOfTheScene) {
   const TemporaryFolder folder;
   const ProgramResult result =
-      run_program(with({"bench", "assets/scenes/pp_free.yaml"}, kSmallFilm), {.environment = {{"TMPDIR", folder.path()}}});
+      run_program(with({"bench", "assets/scenes/pp_free.yaml"}, kBenchedFilm), {.environment = {{"TMPDIR", folder.path()}}});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
   EXPECT_THAT(result.out, HasSubstr("times as long"));

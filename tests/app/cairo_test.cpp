@@ -23,16 +23,16 @@
 namespace chainreel {
 namespace {
 
-constexpr int kWidth = 960, kHeight = 540;
+constexpr int kCardWidth = 960, kCardHeight = 540;
 
 // On the page's background, so that what is transparent can be compared, too: Cairo's opacity is
 // premultiplied.
 Image by_cairo(const Picture& picture) {
-  Image image(kWidth, kHeight);
+  Image image(kCardWidth, kCardHeight);
   cairo_surface_t* surface = cairo_image_surface_create_for_data(image.bgra.data(), CAIRO_FORMAT_ARGB32,
-                                                                 kWidth, kHeight, 4 * kWidth);
+                                                                 kCardWidth, kCardHeight, 4 * kCardWidth);
   cairo_t* cairo = cairo_create(surface);
-  paint_with_cairo(cairo, picture, fonts(), kHeight);
+  paint_with_cairo(cairo, picture, fonts(), kCardHeight);
   cairo_surface_flush(surface);
   cairo_destroy(cairo);
   cairo_surface_destroy(surface);
@@ -103,9 +103,9 @@ INSTANTIATE_TEST_SUITE_P(All, TwoRenderers, ::testing::ValuesIn(test::all_pictur
 
 TEST_P(TwoRenderers, DifferAtEdgesAlone) {
   for (const char* theme : {"light", "dark"}) {
-    Picture picture = GetParam().draw({theme, kWidth, kHeight, 1}, fonts());
+    Picture picture = GetParam().draw({theme, kCardWidth, kCardHeight, 1}, fonts());
     picture.background.a = 1;
-    const Comparison found = compare(by_cairo(picture), rasterise(picture, kWidth, kHeight, fonts()));
+    const Comparison found = compare(by_cairo(picture), rasterise(picture, kCardWidth, kCardHeight, fonts()));
     RecordProperty(std::string(theme) + "_mean", std::to_string(found.mean));
     RecordProperty(std::string(theme) + "_max", found.max);
     RecordProperty(std::string(theme) + "_flat", found.flat);
@@ -121,10 +121,10 @@ TEST_P(TwoRenderers, DifferAtEdgesAlone) {
 
 Image by_rsvg(const Picture& picture) {
   const TemporaryFolder folder;
-  const std::string svg = folder.write("page.svg", svg_text(picture, fonts(), {kHeight, "", "", ""}));
+  const std::string svg = folder.write("page.svg", svg_text(picture, fonts(), {kCardHeight, "", "", ""}));
   const ProgramResult result = run_command({"rsvg-convert", svg, "-o", folder.file("page.png")});
   EXPECT_EQ(result.status, 0) << result.err;
-  return result.status == 0 ? read_png(folder.file("page.png")) : Image(kWidth, kHeight);
+  return result.status == 0 ? read_png(folder.file("page.png")) : Image(kCardWidth, kCardHeight);
 }
 
 // Poppler sets letters by its own hinting: up to 2.5 on pages full of words. Against a page without its
@@ -151,10 +151,10 @@ void expect_words_of(const Picture& picture, const std::string& pdf) {
 // Vector pages through readers that are not ours: the picture is there, and the words of a PDF can be sought. Theirs are
 // the renderers of librsvg and Poppler, so the mean alone is compared.
 TEST_P(TwoRenderers, ReadersOfSvgAndPdfShowThePictureAndItsWords) {
-  Picture picture = GetParam().draw({"light", kWidth, kHeight, 1}, fonts());
+  Picture picture = GetParam().draw({"light", kCardWidth, kCardHeight, 1}, fonts());
   picture.background.a = 1;
-  const Image reference = rasterise(picture, kWidth, kHeight, fonts());
-  Image empty(kWidth, kHeight);
+  const Image reference = rasterise(picture, kCardWidth, kCardHeight, fonts());
+  Image empty(kCardWidth, kCardHeight);
   std::fill(empty.bgra.begin(), empty.bgra.end(), std::uint8_t(255));
   const PictureDifference nothing = compare_pictures(empty, reference);
   const PictureDifference svg = compare_pictures(by_rsvg(picture), reference);
@@ -163,7 +163,7 @@ TEST_P(TwoRenderers, ReadersOfSvgAndPdfShowThePictureAndItsWords) {
   EXPECT_LT(svg.mean, kMostLost * nothing.mean);  // negative control: most of what is drawn is seen
 
   const TemporaryFolder folder;
-  const std::string pdf = folder.write("page.pdf", pdf_text(picture, fonts(), {kHeight, "", "", ""}));
+  const std::string pdf = folder.write("page.pdf", pdf_text(picture, fonts(), {kCardHeight, "", "", ""}));
   ASSERT_EQ(run_command({"pdftoppm", "-r", "72", "-png", "-singlefile", pdf, folder.file("pdf")}).status, 0);
   const PictureDifference page = compare_pictures(read_png(folder.file("pdf.png")), reference);
   ASSERT_TRUE(page.same_size);
@@ -174,8 +174,8 @@ TEST_P(TwoRenderers, ReadersOfSvgAndPdfShowThePictureAndItsWords) {
 
 // Negative control: a disc in the background that only one of them has, faint and small.
 TEST(TwoRenderers, AFaintShapeMoreIsSeen) {
-  Picture picture = test::all_pictures().front().draw({"light", kWidth, kHeight, 1}, fonts());
-  const Image reference = rasterise(picture, kWidth, kHeight, fonts());
+  Picture picture = test::all_pictures().front().draw({"light", kCardWidth, kCardHeight, 1}, fonts());
+  const Image reference = rasterise(picture, kCardWidth, kCardHeight, fonts());
   picture.add(Ellipse{{0.02, 0.5}, {0.01, 0}, {0, 0.01}, {color_of(0x000000, 0.03), {}, 0}});
   EXPECT_GT(compare(by_cairo(picture), reference).flat, kFlat);
 }

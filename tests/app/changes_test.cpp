@@ -12,7 +12,7 @@
 namespace chainreel {
 namespace {
 
-constexpr int kWidth = 480, kHeight = 270;
+constexpr int kChangesWidth = 480, kChangesHeight = 270;
 
 // Neighbours at the beginning, in the middle and at the end, and leaps forth and back.
 std::vector<int> frames_of(const Film& film) {
@@ -61,8 +61,8 @@ INSTANTIATE_TEST_SUITE_P(Of, Changes, ::testing::ValuesIn(films()), [](const aut
 TEST_P(Changes, MakeTheBytesOfTheWholePage) {
   static const Fonts fonts;
   for (const char* theme : {"light", "dark"})
-    GetParam().show_film({theme, kWidth, kHeight, 1.5}, fonts, [&](const Film& film) {
-      Canvas canvas(kWidth, kHeight, fonts), whole(kWidth, kHeight, fonts);
+    GetParam().show_film({theme, kChangesWidth, kChangesHeight, 1.5}, fonts, [&](const Film& film) {
+      Canvas canvas(kChangesWidth, kChangesHeight, fonts), whole(kChangesWidth, kChangesHeight, fonts);
       canvas.set_static_layer(film.static_layer());
       Image before;
       double share = 0;
@@ -74,7 +74,7 @@ TEST_P(Changes, MakeTheBytesOfTheWholePage) {
         if (before.width > 0) ASSERT_TRUE(hold_all_changes(frame.changed, before, frame.image)) << theme << ", frame " << k;
         before = frame.image;
         share = 0;
-        for (const PixelBox& box : frame.changed) share += double(box.width) * box.height / (kWidth * kHeight);
+        for (const PixelBox& box : frame.changed) share += double(box.width) * box.height / (kChangesWidth * kChangesHeight);
       }
       EXPECT_EQ(share, 0) << "the last frame is the one before, once more";
     });

@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-const std::string kScene = "assets/scenes/pp_free.yaml";
+const std::string kCommandScene = "assets/scenes/pp_free.yaml";
 const Words kShort{"--set", "duration=0.05"};
 const Words kSmallFigure{"--width", "64", "--height", "36"};
 
@@ -45,11 +45,11 @@ class EveryCommand : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     inputs_ = new TemporaryFolder;
-    ASSERT_EQ(run_program(with(with({"render", kScene, "--quiet", "-o", inputs_->file("clip.mp4")}, kShort),
+    ASSERT_EQ(run_program(with(with({"render", kCommandScene, "--quiet", "-o", inputs_->file("clip.mp4")}, kShort),
                                {"--set", "video.width=64", "--set", "video.height=36"}))
                   .status,
               0);
-    ASSERT_EQ(run_program(with({"render", kScene, "--quiet", "--shard", "1/1", "-o", inputs_->file("clip.mp4"), "--set",
+    ASSERT_EQ(run_program(with({"render", kCommandScene, "--quiet", "--shard", "1/1", "-o", inputs_->file("clip.mp4"), "--set",
                                 "video.width=64", "--set", "video.height=36"},
                                kShort))
                   .status,
@@ -77,20 +77,20 @@ class EveryCommand : public ::testing::Test {
     const std::string clip = inputs_->file("clip.mp4");
     return {
         {"render",
-         {with(with({kScene, "--set", "video.width=64", "--set", "video.height=36"}, kShort), {"--quiet"}),
+         {with(with({kCommandScene, "--set", "video.width=64", "--set", "video.height=36"}, kShort), {"--quiet"}),
           ".png"}},
         {"join", {{inputs_->file("clip.part-1-of-1.mp4")}, ".mp4"}},
-        {"bench", {with({kScene, "--set", "video.width=64", "--set", "video.height=36", "--quiet"}, kShort), ""}},
-        {"snapshot", {with(with({kScene}, kShort), kSmallFigure), ".svg"}},
+        {"bench", {with({kCommandScene, "--set", "video.width=64", "--set", "video.height=36", "--quiet"}, kShort), ""}},
+        {"snapshot", {with(with({kCommandScene}, kShort), kSmallFigure), ".svg"}},
         {"ellipse", {with({"models/rr.urdf", "--pose", "0.1,1"}, kSmallFigure), ".csv"}},
-        {"simulate", {with({kScene}, kShort), ".csv"}},
+        {"simulate", {with({kCommandScene}, kShort), ".csv"}},
         {"extract", {{clip}, ".yaml"}},
         {"compare", {{clip, clip}, ".png"}},
         {"dynamics", {{"models/rr.urdf", "--q", "0.1,1"}, ""}},
         {"equations", {{"models/rr.urdf"}, ".tex"}},
         {"inverse", {{"models/rr.urdf", "--trajectory", inputs_->file("q.csv")}, ".csv"}},
         {"init", {{}, ".yaml", true}},
-        {"check", {{kScene}, ""}},
+        {"check", {{kCommandScene}, ""}},
         {"doctor", {{}, ""}},
         {"methods", {{}, ""}},
         {"schema", {{}, ""}},
@@ -106,9 +106,9 @@ class EveryCommand : public ::testing::Test {
          {with({"assets/scenes/rr_free.yaml", "--x", "step=0.001:0.002:2", "--y", "gravity.2=-9:-8:2"},
                kShort),
           ".csv"}},
-        {"sweep", {with({kScene, "--over", "torque.1=0,1"}, kShort), ".csv"}},
+        {"sweep", {with({kCommandScene, "--over", "torque.1=0,1"}, kShort), ".csv"}},
         {"fall", {{inputs_->file("fall.yaml"), "--sweep", "torque.2=0,2"}, ".csv"}},
-        {"sheet", {with(with({kScene}, kShort), kSmallFigure), ".svg"}},
+        {"sheet", {with(with({kCommandScene}, kShort), kSmallFigure), ".svg"}},
         {"gallery", {{clip}, ".html"}},
         {"verify", {{inputs_->file("suite.yaml"), "--missing", "write"}, ".xml", false, "--junit"}}};
   }
@@ -257,7 +257,7 @@ TEST_F(EveryCommand, PrintsItsResultAsOneJsonTextAndNothingElse) {
   }
   // A name that is no text is no reason to crash.
   const TemporaryFolder odd;
-  const ProgramResult told = run_program({"sheet", kScene, "--json", "--width", "64", "--height", "36", "-o", odd.file("\xff.svg")});
+  const ProgramResult told = run_program({"sheet", kCommandScene, "--json", "--width", "64", "--height", "36", "-o", odd.file("\xff.svg")});
   EXPECT_EQ(told.status, 0) << told.err;
   EXPECT_THAT(parse_json(told.out).value("file", ""), HasSubstr("\xEF\xBF\xBD.svg"));
 }
@@ -318,7 +318,7 @@ TEST(MotionTable, ReadsBackEqualToTheLastBit) {
 }
 
 TEST(Simulate, DoesNotMixItsTableWithItsReport) {
-  const ProgramResult result = run_program(with({"simulate", kScene, "-o", "-", "--json"}, kShort));
+  const ProgramResult result = run_program(with({"simulate", kCommandScene, "-o", "-", "--json"}, kShort));
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.out, "");
   EXPECT_THAT(result.err, HasSubstr("-o - and --json both write to standard output"));

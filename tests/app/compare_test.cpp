@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 // PP on a spring: half a second of it, small. Steps of 1 ms are calm; with explicit Euler and a stiff spring
 // the amplitude grows by half at every step.
-constexpr char kScene[] = R"(title: Two
+constexpr char kTwoPanels[] = R"(title: Two
 model: MODEL
 gravity: [0, 0, 0]
 start: {q: [0, 1]}
@@ -34,7 +34,7 @@ text_scale: 1.5
 class CompareFilm : public ::testing::Test {
  protected:
   std::string scene(const std::string& panels) const {
-    std::string text = kScene;
+    std::string text = kTwoPanels;
     const std::string model = (fs::path(CHAINREEL_SOURCE_FOLDER) / "models/pp.urdf").string();
     text.replace(text.find("MODEL"), 5, model);
     return folder_.write("two.yaml", text + panels);

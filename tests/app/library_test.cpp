@@ -14,11 +14,11 @@ namespace {
 
 using testing::HasSubstr;
 
-const char* const kScene =
+const char* const kSceneText =
     "{model: models/rr.urdf, gravity: [0, -9.81, 0], start: {q: [0.3, 1]}, duration: 0.5, method: rk4, step: 0.001}";
 
 SceneRequest scene_of(std::vector<std::string> overrides = {}) {
-  return {.path = "scene", .text = kScene, .overrides = std::move(overrides)};
+  return {.path = "scene", .text = kSceneText, .overrides = std::move(overrides)};
 }
 
 OwnTorque torque_of(TorqueFunction function) {

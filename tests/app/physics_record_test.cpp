@@ -21,7 +21,7 @@ using testing::StartsWith;
 
 constexpr char kRr[] = CHAINREEL_SOURCE_FOLDER "/models/rr.urdf";
 
-std::string with(std::string text, const std::string& from, const std::string& to) {
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   if (at == std::string::npos) throw std::runtime_error("'" + from + "' is not in the text");
   return text.replace(at, from.size(), to);
@@ -32,7 +32,7 @@ Json record_of(const std::string& scene, const std::vector<std::string>& overrid
   return run_record(film, Runs(film));
 }
 
-constexpr char kScene[] =
+constexpr char kRecordedScene[] =
     "model: rr.urdf\nduration: 1\nmethod: rk4\nstep: 0.01\ntorque: [1, \"-2 * qd2\"]\nvideo: {fps: 30}\n";
 
 struct Workshop {
@@ -40,7 +40,7 @@ struct Workshop {
   std::string scene;
   Workshop() {
     folder.write("rr.urdf", read_whole_file(kRr));
-    scene = folder.write("scene.yaml", kScene);
+    scene = folder.write("scene.yaml", kRecordedScene);
   }
   // What is said where the scene is changed by an override, or the model by a replacement.
   std::vector<std::string> after(const std::vector<std::string>& overrides) const {
@@ -49,7 +49,7 @@ struct Workshop {
   std::vector<std::string> after_model(const std::string& from, const std::string& to) const {
     const Json before = record_of(scene);
     const std::string text = read_whole_file(kRr);
-    folder.write("rr.urdf", with(text, from, to));
+    folder.write("rr.urdf", replaced(text, from, to));
     const Json now = record_of(scene);
     folder.write("rr.urdf", text);
     return explain_runs(before, now);
@@ -209,7 +209,7 @@ TEST(PhysicsRecord, TakesAStartOnConstraintsAlongWithItsCause) {
   const std::vector<std::string> quick = {"duration=0.2", "method=rk4", "step=0.005"};
   const Json before = record_of(scene, quick);
   folder.write("models/four_bar.urdf",
-               with(text, "<origin xyz=\"1.2 0 0\"/>", "<origin xyz=\"1.201 0 0\"/>"));
+               replaced(text, "<origin xyz=\"1.2 0 0\"/>", "<origin xyz=\"1.201 0 0\"/>"));
   EXPECT_THAT(explain_runs(before, record_of(scene, quick)),
               ElementsAre(HasSubstr(": joint coupler_pin: origin moved by 1 mm"),
                           StartsWith("the start on the constraints: start.q.1 3.14159 -> ")));

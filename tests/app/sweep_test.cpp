@@ -20,11 +20,11 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string kScene = "assets/scenes/rr_free.yaml";
+const std::string kSweptScene = "assets/scenes/rr_free.yaml";
 const Words kGrid{"--over", "start.q.1=0:1.5:4", "--over", "gravity.2=-9.81,-1.62", "--set", "duration=0.3"};
 
 ProgramResult sweep(const std::string& output, const Words& more = kGrid, const RunOptions& options = {}) {
-  return run_program(with({"sweep", kScene, "-o", output}, more), options);
+  return run_program(with({"sweep", kSweptScene, "-o", output}, more), options);
 }
 
 std::vector<std::string> lines_of(const std::string& path) {
@@ -61,7 +61,7 @@ TEST(SweepTable, RowsAreTheLastOfTheRunsByThemselves) {
   const std::vector<std::string> row = fields_of(lines[4 + 3]);
   EXPECT_EQ(row[1], "0.5");
   EXPECT_EQ(row[2], "-1.62");
-  ASSERT_EQ(run_program({"simulate", kScene, "--quiet", "--set", "duration=0.3", "--set", "start.q.1=0.5", "--set",
+  ASSERT_EQ(run_program({"simulate", kSweptScene, "--quiet", "--set", "duration=0.3", "--set", "start.q.1=0.5", "--set",
                          "gravity.2=-1.62", "-o", folder.file("one.csv")})
                 .status,
             0);
@@ -76,7 +76,7 @@ TEST(SweepTable, RowsAreTheLastOfTheRunsByThemselves) {
 // However values are written, columns hold SI units and radians.
 TEST(SweepTable, ColumnsOfValuesAreNumbers) {
   const TemporaryFolder folder;
-  ASSERT_EQ(run_program({"sweep", kScene, "--set", "duration=0.1", "--over", "start.q.1=10deg,pi/2", "--over", "step=1ms,2ms", "--set",
+  ASSERT_EQ(run_program({"sweep", kSweptScene, "--set", "duration=0.1", "--over", "start.q.1=10deg,pi/2", "--over", "step=1ms,2ms", "--set",
                          "method=rk4", "-o", folder.file("a.csv")})
                 .status,
             0);
@@ -89,7 +89,7 @@ TEST(SweepTable, ColumnsOfValuesAreNumbers) {
 
 TEST(SweepTable, WordsStayWords) {
   const TemporaryFolder folder;
-  ASSERT_EQ(run_program({"sweep", kScene, "--set", "duration=0.1", "--over", "title=1e3,10ms,007", "--over", "accuracy=0.1 px,0.1 m", "--set",
+  ASSERT_EQ(run_program({"sweep", kSweptScene, "--set", "duration=0.1", "--over", "title=1e3,10ms,007", "--over", "accuracy=0.1 px,0.1 m", "--set",
                          "method=auto", "--set", "step=", "-o", folder.file("a.csv")})
                 .status,
             0);
@@ -143,7 +143,7 @@ TEST(SweepTable, HasThePeaksOfTheRunsByThemselves) {
   const std::vector<std::string> lines = lines_of(folder.file("a.csv"));
   EXPECT_TRUE(lines[3].ends_with("qd2 [rad/s],energy [J],peak_qd1 [rad/s],peak_qd2 [rad/s],peak_tau1 [N m],peak_tau2 [N m],peak_energy_error [J],trouble"));
   for (const std::size_t run : {0, 1}) {
-    ASSERT_EQ(run_program(with({"simulate", kScene, "--quiet", "--every-step", "--columns", "t,qd,tau,energy_error", "--force", "--set",
+    ASSERT_EQ(run_program(with({"simulate", kSweptScene, "--quiet", "--every-step", "--columns", "t,qd,tau,energy_error", "--force", "--set",
                                 "start.q.1=" + std::to_string(run), "-o", folder.file("one.csv")},
                                set))
                   .status,
@@ -342,7 +342,7 @@ TEST(SweepFolder, SkipsWhatShowsTheSameSceneAndNothingElse) {
   ASSERT_EQ(sweep(folder.file("films/"), small).status, 0);
   const std::string film = folder.file("films/rr_free_start.q.1_0.5.mp4");
   const std::string bytes = read_whole_file(film);
-  ASSERT_EQ(run_program({"render", kScene, "--quiet", "-o", folder.file("one.mp4"), "--set", "start.q.1=0.5", "--set",
+  ASSERT_EQ(run_program({"render", kSweptScene, "--quiet", "-o", folder.file("one.mp4"), "--set", "start.q.1=0.5", "--set",
                          "video.width=64", "--set", "video.height=36", "--set", "duration=0.1"})
                 .status,
             0);
@@ -451,7 +451,7 @@ TEST(SweepFolder, OfTwoAtOnceIsThatOfOne) {
   const TemporaryFolder folder;
   const std::string two = "\"$0\" \"$@\" & p=$!; \"$0\" \"$@\"; a=$?; wait $p; echo $a $?";
   const ProgramResult result = run_command(
-      with({"sh", "-c", two, program_path(), "sweep", kScene, "--over", "start.q.1=0:1:6", "-o", folder.file("films/"), "--each",
+      with({"sh", "-c", two, program_path(), "sweep", kSweptScene, "--over", "start.q.1=0:1:6", "-o", folder.file("films/"), "--each",
             "png", "--quiet"},
            kSmallFilms));
   EXPECT_EQ(result.out, "0 0\n") << result.err;
@@ -512,7 +512,7 @@ TEST(SweepTable, DependsOnFilesThatValuesNameAndHoldsAnyWords) {
 TEST(Sweep, SaysWhatItCannotDoBeforeTheFirstRun) {
   const TemporaryFolder folder;
   const auto trouble = [&](const Words& more) {
-    const ProgramResult result = run_program(with({"sweep", kScene}, more));
+    const ProgramResult result = run_program(with({"sweep", kSweptScene}, more));
     EXPECT_NE(result.status, 0);
     return std::to_string(result.status) + " " + result.err;
   };

@@ -63,19 +63,19 @@ double difference_from_book(const RR& rr, const Chain& chain) {
 }
 
 // A few dozen operations of the same size, each rounded once.
-constexpr double kTolerance = 32 * kRoundOff;
+constexpr double kBookTolerance = 32 * kRoundOff;
 
 TEST(RrTest, EqualsTheBookToRoundOff) {
   for (const RR& rr : {RR{}, RR{.L1 = 0.7, .L2 = 1.3, .m1 = 2, .m2 = 0.4, .g = 1.62}}) {
     const Chain chain = rr_chain(rr);
     ASSERT_TRUE(chain.planar);
-    EXPECT_LT(difference_from_book(rr, chain), kTolerance);
-    EXPECT_LT(difference_from_book(rr, without_planar_form(chain)), kTolerance);
+    EXPECT_LT(difference_from_book(rr, chain), kBookTolerance);
+    EXPECT_LT(difference_from_book(rr, without_planar_form(chain)), kBookTolerance);
   }
 }
 
 TEST(RrTest, AnotherMassIsNotTheBooks) {
-  EXPECT_GT(difference_from_book({}, with_changed_mass(rr_chain(), 2, 1 + 1e-12)), kTolerance);
+  EXPECT_GT(difference_from_book({}, with_changed_mass(rr_chain(), 2, 1 + 1e-12)), kBookTolerance);
 }
 
 TEST(PpTest, MassMatrixAndForcesAreExact) {

@@ -53,7 +53,7 @@ Reference by_mass_matrix(const Chain& chain, const State& s) {
 }
 
 // Up to 40 bodies with a hundred operations each, rounded at random: some hundred round-offs of the torques.
-constexpr double kTolerance = 1e-12;
+constexpr double kTorqueTolerance = 1e-12;
 
 TEST(ForwardDynamicsTest, EqualsMassMatrixSolveOnTwoHundredTrees) {
   Random random(9);
@@ -62,11 +62,11 @@ TEST(ForwardDynamicsTest, EqualsMassMatrixSolveOnTwoHundredTrees) {
     const State s = random_state(chain, random);
     const Reference reference = by_mass_matrix(chain, s);
     compute_forward_dynamics(chain, ws, s.q, s.qd, s.tau);
-    EXPECT_LT(torque_difference(reference.M, ws.qdd, reference.qdd, reference.torque_scale), kTolerance)
+    EXPECT_LT(torque_difference(reference.M, ws.qdd, reference.qdd, reference.torque_scale), kTorqueTolerance)
         << chain.name;
     if (chain.has_mimic) continue;
     compute_aba(chain, ws, s.q, s.qd, s.tau);
-    EXPECT_LT(torque_difference(reference.M, ws.qdd, reference.qdd, reference.torque_scale), kTolerance)
+    EXPECT_LT(torque_difference(reference.M, ws.qdd, reference.qdd, reference.torque_scale), kTorqueTolerance)
         << chain.name;
   }
 }
@@ -79,7 +79,7 @@ TEST(ForwardDynamicsTest, AnotherMassGivesAnotherAcceleration) {
   const Chain other = with_changed_mass(chain, 8, 1 + 1e-6);
   Workspace ws(other);
   compute_aba(other, ws, s.q, s.qd, s.tau);
-  EXPECT_GT(torque_difference(reference.M, ws.qdd, reference.qdd, reference.torque_scale), kTolerance);
+  EXPECT_GT(torque_difference(reference.M, ws.qdd, reference.qdd, reference.torque_scale), kTorqueTolerance);
 }
 
 TEST(ForwardDynamicsTest, UndoesInverseDynamics) {
@@ -93,7 +93,7 @@ TEST(ForwardDynamicsTest, UndoesInverseDynamics) {
     compute_mass_matrix(chain, ws, s.q);
     const double scale =
         (ws.M.cwiseAbs() * as_vector(s.qdd).cwiseAbs()).maxCoeff() + as_vector(tau).cwiseAbs().maxCoeff();
-    EXPECT_LT(torque_difference(ws.M, ws.qdd, s.qdd, scale), kTolerance) << chain.name;
+    EXPECT_LT(torque_difference(ws.M, ws.qdd, s.qdd, scale), kTorqueTolerance) << chain.name;
   }
 }
 

@@ -29,7 +29,7 @@ double difference(const Chain& chain, const Chain& chain_of_lagrange, const Stat
 }
 
 // The issue is the same equations, not the same operations: round-off of some thousand operations.
-constexpr double kTolerance = 1e-10;
+constexpr double kLagrangeTolerance = 1e-10;
 
 TEST(LagrangeTest, EqualsNewtonEulerOnTwoHundredTrees) {
   Random random(91);
@@ -41,7 +41,7 @@ TEST(LagrangeTest, EqualsNewtonEulerOnTwoHundredTrees) {
     options.mimic = seed % 4 == 3 ? 0.3 : 0;
     options.massless = seed % 2 == 0 ? 0.1 : 0;
     const Chain chain = seed % 10 == 9 ? random_planar_tree(seed, options) : random_tree(seed, options);
-    EXPECT_LT(difference(chain, chain, random_state(chain, random)), kTolerance) << chain.name;
+    EXPECT_LT(difference(chain, chain, random_state(chain, random)), kLagrangeTolerance) << chain.name;
   }
 }
 
@@ -49,7 +49,7 @@ TEST(LagrangeTest, EqualsNewtonEulerOnTheLecturesChains) {
   Random random(92);
   for (const Chain& chain : {rr_chain(), rrr_chain(), pp_chain(), arm_chain(6)}) {
     for (int k = 0; k < 20; ++k) {
-      EXPECT_LT(difference(chain, chain, random_state(chain, random)), kTolerance) << chain.name;
+      EXPECT_LT(difference(chain, chain, random_state(chain, random)), kLagrangeTolerance) << chain.name;
     }
   }
 }
@@ -58,7 +58,7 @@ TEST(LagrangeTest, AnotherMassGivesOtherEquations) {
   Random random(93);
   const Chain chain = random_tree(94, {.bodies = 6, .floating_base = true});
   const Chain other = with_changed_mass(chain, 6, 1 + 1e-8);
-  EXPECT_GT(difference(chain, other, random_state(chain, random)), kTolerance);
+  EXPECT_GT(difference(chain, other, random_state(chain, random)), kLagrangeTolerance);
 }
 
 TEST(LagrangeTest, FrictionIsSubtractedHereToo) {
@@ -68,8 +68,8 @@ TEST(LagrangeTest, FrictionIsSubtractedHereToo) {
   const State s = random_state(chain, random);
   Chain rough = chain;
   rough.has_dissipation = true;
-  EXPECT_LT(difference(rough, rough, s), kTolerance);
-  EXPECT_GT(difference(rough, chain, s), kTolerance);
+  EXPECT_LT(difference(rough, rough, s), kLagrangeTolerance);
+  EXPECT_GT(difference(rough, chain, s), kLagrangeTolerance);
 }
 
 // The lecture's first example: a particle that moves vertically, m xdd = f - m g.

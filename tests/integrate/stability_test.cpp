@@ -53,19 +53,19 @@ double limit(const std::string& method, Damped system, double stable, double uns
   return 0.5 * (stable + unstable);
 }
 
-struct Row {
+struct StableMethod {
   const char* method;
   double limit;  // of omega h, or of rate times h
-  friend void PrintTo(const Row& row, std::ostream* out) { *out << row.method; }
+  friend void PrintTo(const StableMethod& row, std::ostream* out) { *out << row.method; }
 };
-std::string name_of(const ::testing::TestParamInfo<Row>& p) {
+std::string name_of(const ::testing::TestParamInfo<StableMethod>& p) {
   return p.param.method;
 }
 
-class Undamped : public ::testing::TestWithParam<Row> {};
+class Undamped : public ::testing::TestWithParam<StableMethod> {};
 INSTANTIATE_TEST_SUITE_P(Methods, Undamped,
-                         ::testing::Values(Row{"semi_implicit_euler", 2}, Row{"symplectic_euler", 2},
-                                         Row{"verlet", 2}, Row{"rk4", 2.828427}, Row{"dop853", 5.960360}),
+                         ::testing::Values(StableMethod{"semi_implicit_euler", 2}, StableMethod{"symplectic_euler", 2},
+                                         StableMethod{"verlet", 2}, StableMethod{"rk4", 2.828427}, StableMethod{"dop853", 5.960360}),
                          name_of);
 
 TEST_P(Undamped, EndsItsStabilityWhereTheorySays) {
@@ -77,10 +77,10 @@ TEST_P(Undamped, EndsItsStabilityWhereTheorySays) {
   EXPECT_NEAR(stiffer, expected / std::sqrt(2), 1e-3 * expected);
 }
 
-class RealAxis : public ::testing::TestWithParam<Row> {};
+class RealAxis : public ::testing::TestWithParam<StableMethod> {};
 INSTANTIATE_TEST_SUITE_P(Methods, RealAxis,
-                         ::testing::Values(Row{"explicit_euler", 2}, Row{"rk4", 2.785294},
-                                         Row{"dop853", 6.393652}),
+                         ::testing::Values(StableMethod{"explicit_euler", 2}, StableMethod{"rk4", 2.785294},
+                                         StableMethod{"dop853", 6.393652}),
                          name_of);
 
 TEST_P(RealAxis, EndsItsStabilityWhereTheorySays) {
@@ -134,11 +134,11 @@ TEST(SemiImplicitEuler, KeepsTheEnergyOfAnOscillatorReleasedFromRestWithinItsBou
   }
 }
 
-class Implicit : public ::testing::TestWithParam<Row> {};
+class Implicit : public ::testing::TestWithParam<StableMethod> {};
 // What is left of an oscillation after one step at omega h = 1e6: 0 where L-stable, 1 where only A-stable.
 INSTANTIATE_TEST_SUITE_P(Methods, Implicit,
-                         ::testing::Values(Row{"radau5", 0}, Row{"implicit_midpoint", 1}, Row{"gauss4", 1},
-                                         Row{"gauss6", 1}),
+                         ::testing::Values(StableMethod{"radau5", 0}, StableMethod{"implicit_midpoint", 1}, StableMethod{"gauss4", 1},
+                                         StableMethod{"gauss6", 1}),
                          name_of);
 
 TEST_P(Implicit, IsStableFarBeyondEveryExplicitMethod) {

@@ -8,10 +8,12 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -216,6 +218,12 @@ inline void expect_sound_normals(const TriangleMesh& mesh) {
       ASSERT_GT(n.dot(face), 0.7) << "triangle " << i / 3;     // smoothing turns by less than 45 degrees
     }
   }
+}
+
+inline std::set<std::array<std::uint8_t, 4>> colors_of(const TriangleMesh& mesh) {
+  std::set<std::array<std::uint8_t, 4>> colors;
+  for (const auto& vertex : mesh.vertices) colors.insert(vertex.color);
+  return colors;
 }
 
 }  // namespace chainreel

@@ -26,12 +26,6 @@ namespace {
 
 using testing::ElementsAre;
 
-std::set<std::array<std::uint8_t, 4>> colors_of(const TriangleMesh& mesh) {
-  std::set<std::array<std::uint8_t, 4>> colors;
-  for (const auto& vertex : mesh.vertices) colors.insert(vertex.color);
-  return colors;
-}
-
 class Textures : public MeshFolder {
  protected:
   // Red, green, blue, opacity of each pixel, row by row from above.

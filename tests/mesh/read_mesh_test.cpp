@@ -24,12 +24,6 @@ const Eigen::Vector3d kLower(1, 2, 3), kUpper(2, 4, 6);  // a box of 1 x 2 x 3, 
 
 using ReadMesh = MeshFolder;
 
-std::set<std::array<std::uint8_t, 4>> colors_of(const TriangleMesh& mesh) {
-  std::set<std::array<std::uint8_t, 4>> colors;
-  for (const auto& vertex : mesh.vertices) colors.insert(vertex.color);
-  return colors;
-}
-
 void expect_box(const TriangleMesh& mesh, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
   const Box box = box_of(mesh);
   EXPECT_LT((box.lower - lower).cwiseAbs().maxCoeff(), kFloatRounding) << box.lower.transpose();

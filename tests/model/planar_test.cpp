@@ -92,14 +92,14 @@ std::string tree_in_a_plane(const std::string& rpy) {
 }
 
 // Lengths of 1 to 10 m, a dozen roundings deep.
-constexpr double kRoundOff = 1e-13;
+constexpr double kPlaneRoundOff = 1e-13;
 
 TEST(Planar, TheFormMovesAsTheChainDoesWhateverTheOrientationOfThePlane) {
   for (const char* rpy :
        {"0 0 0", "1.5707963267948966 0 0", "0 1.5707963267948966 0", "0.3 -0.7 1.9", "3 0.2 -2"}) {
     const Chain chain = chain_from(tree_in_a_plane(rpy));
     ASSERT_TRUE(chain.planar) << chain.why_algebra;
-    EXPECT_LE(largest_miss(chain, 7), kRoundOff) << rpy;
+    EXPECT_LE(largest_miss(chain, 7), kPlaneRoundOff) << rpy;
     const Plane& plane = chain.planar->plane;
     EXPECT_LE((plane.ex.cross(plane.ey) - plane.normal).norm(), 1e-15);
     EXPECT_LE(std::fabs(plane.ex.dot(plane.ey)), 1e-15);

@@ -20,7 +20,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr int kWidth = 960, kHeight = 540;
+constexpr int kPageWidth = 960, kPageHeight = 540;
 
 // Edges differ by up to a pixel's coverage: the canvas keeps lines a pixel wide and sets text on whole rows,
 // and each rasteriser has its own rule for what a pixel covers. Edges are a few per cent of the page;
@@ -28,18 +28,18 @@ constexpr int kWidth = 960, kHeight = 540;
 constexpr double kMeanOfVectorEdges = 1.2;
 
 Image by_canvas(const Picture& picture) {
-  Canvas canvas(kWidth, kHeight, fonts());
+  Canvas canvas(kPageWidth, kPageHeight, fonts());
   Image image;
   canvas.draw(picture, image);
   return image;
 }
 
 Image by_cairo(const Picture& picture) {
-  Image image(kWidth, kHeight);
+  Image image(kPageWidth, kPageHeight);
   cairo_surface_t* surface = cairo_image_surface_create_for_data(image.bgra.data(), CAIRO_FORMAT_ARGB32,
-                                                                 kWidth, kHeight, 4 * kWidth);
+                                                                 kPageWidth, kPageHeight, 4 * kPageWidth);
   cairo_t* cairo = cairo_create(surface);
-  paint_with_cairo(cairo, picture, fonts(), kHeight);
+  paint_with_cairo(cairo, picture, fonts(), kPageHeight);
   cairo_surface_flush(surface);
   cairo_destroy(cairo);
   cairo_surface_destroy(surface);
@@ -48,7 +48,7 @@ Image by_cairo(const Picture& picture) {
 
 Image by_rsvg(const Picture& picture) {
   const TemporaryFolder folder;
-  const std::string svg = folder.write("page.svg", svg_text(picture, fonts(), {kHeight, "", "", ""}));
+  const std::string svg = folder.write("page.svg", svg_text(picture, fonts(), {kPageHeight, "", "", ""}));
   const std::string png = folder.file("page.png");
   const ProgramResult result = run_command({"rsvg-convert", svg, "-o", png});
   EXPECT_EQ(result.status, 0) << result.err;
@@ -57,14 +57,14 @@ Image by_rsvg(const Picture& picture) {
 
 Image by_poppler(const Picture& picture) {
   const TemporaryFolder folder;
-  const std::string pdf = folder.write("page.pdf", pdf_text(picture, fonts(), {kHeight, "", "", ""}));
+  const std::string pdf = folder.write("page.pdf", pdf_text(picture, fonts(), {kPageHeight, "", "", ""}));
   const ProgramResult result =
       run_command({"pdftoppm", "-r", "72", "-png", "-singlefile", pdf, folder.file("page")});
   EXPECT_EQ(result.status, 0) << result.err;
   return read_png(folder.file("page.png"));
 }
 
-Picture card() {
+Picture whole_card() {
   return test_card(fonts(), light_theme());
 }
 
@@ -100,7 +100,7 @@ class VectorPictures : public ::testing::TestWithParam<const char*> {
 };
 
 TEST_P(VectorPictures, DifferFromTheCanvasAtEdgesAlone) {
-  const Image expected = by_canvas(card()), actual = drawn(card());
+  const Image expected = by_canvas(whole_card()), actual = drawn(whole_card());
   const PictureDifference difference = compare_pictures(actual, expected);
   ASSERT_TRUE(difference.same_size);
   EXPECT_LT(difference.mean, kMeanOfVectorEdges);
@@ -109,14 +109,14 @@ TEST_P(VectorPictures, DifferFromTheCanvasAtEdgesAlone) {
 
 // Negative control: each kind of shape is seen when it is missing.
 TEST_P(VectorPictures, AMissingShapeIsNoticed) {
-  const Image expected = by_canvas(card());
-  Picture less = card();
+  const Image expected = by_canvas(whole_card());
+  Picture less = whole_card();
   const auto largest_text = std::find_if(less.items.begin(), less.items.end(), [](const Item& item) {
     return std::holds_alternative<GlyphRun>(item.shape);
   });
   less.items.erase(largest_text);
   EXPECT_GT(worst_of_blurred(drawn(less), expected), kWorstOfBlurred);
-  less = card();
+  less = whole_card();
   std::erase_if(less.items, [](const Item& item) { return std::holds_alternative<Cells>(item.shape); });
   EXPECT_GT(worst_of_blurred(drawn(less), expected), kWorstOfBlurred);
 }
@@ -152,7 +152,7 @@ TEST(Vector, CellsAreFlatAndExact) {
                  2,
                  {color_of(0x112233), color_of(0x445566), color_of(0x778899), color_of(0xAABBCC)}});
   for (const Image& image : {by_canvas(page), by_cairo(page), by_rsvg(page), by_poppler(page)}) {
-    const auto at = [&](double x, double y) { return image.at(int(x * kHeight), int((1 - y) * kHeight)); };
+    const auto at = [&](double x, double y) { return image.at(int(x * kPageHeight), int((1 - y) * kPageHeight)); };
     for (const double d : {0.02, 0.12, 0.23}) {
       EXPECT_EQ(at(0.25 + d, 0.25 + d), (Pixel{0x11, 0x22, 0x33}));
       EXPECT_EQ(at(0.75 - d, 0.25 + d), (Pixel{0x44, 0x55, 0x66}));
@@ -164,7 +164,7 @@ TEST(Vector, CellsAreFlatAndExact) {
 }
 
 Polygon rectangle_in_px(double left, double top, double right, double bottom, const Paint& paint) {
-  const auto at = [](double x, double y) { return Point{x / kHeight, 1 - y / kHeight}; };
+  const auto at = [](double x, double y) { return Point{x / kPageHeight, 1 - y / kPageHeight}; };
   Polygon polygon;
   polygon.count = 4;
   polygon.corners = {at(left, top), at(right, top), at(right, bottom), at(left, bottom)};
@@ -174,7 +174,7 @@ Polygon rectangle_in_px(double left, double top, double right, double bottom, co
 
 TEST(Vector, ClipsOnWholePixelsAreExact) {
   Picture page;
-  page.clips.push_back({100.0 / kHeight, 1 - 300.0 / kHeight, 250.0 / kHeight, 1 - 200.0 / kHeight});
+  page.clips.push_back({100.0 / kPageHeight, 1 - 300.0 / kPageHeight, 250.0 / kPageHeight, 1 - 200.0 / kPageHeight});
   page.add(rectangle_in_px(50, 50, 600, 500, {kBlack, kNothing, 0}), 0);
   // A PDF has its numbers in decimals, and its reader takes a touched sixteenth of a pixel for one that is covered: two
   // of them at an edge.
@@ -191,7 +191,7 @@ TEST(Vector, ClipsOnWholePixelsAreExact) {
 
 TEST(Vector, FillsShineThroughTranslucentStrokes) {
   Picture page;
-  page.add(rectangle_in_px(100, 100, 300, 300, {color_of(0xFF0000), color_of(0x0000FF, 0.5), 16.0 / kHeight}));
+  page.add(rectangle_in_px(100, 100, 300, 300, {color_of(0xFF0000), color_of(0x0000FF, 0.5), 16.0 / kPageHeight}));
   for (const Image& image : {by_canvas(page), by_cairo(page), by_rsvg(page), by_poppler(page)}) {
     const Pixel inside = image.at(200, 104), outside = image.at(200, 96);
     EXPECT_NEAR(inside.r, 127.5, 1.5);
@@ -205,9 +205,9 @@ TEST(Vector, FillsShineThroughTranslucentStrokes) {
 
 TEST(Vector, ShapesFadeTowardsEdges) {
   Picture page;
-  Fade fade{{100.0 / kHeight, 1 - 400.0 / kHeight, 500.0 / kHeight, 1 - 100.0 / kHeight}};
-  fade.left = 160.0 / kHeight, fade.top = 80.0 / kHeight;
-  page.add(Ellipse{{300.0 / kHeight, 0.5}, {2, 1}, {-0.8, 1.6}, {kBlack, kNothing, 0}, fade});
+  Fade fade{{100.0 / kPageHeight, 1 - 400.0 / kPageHeight, 500.0 / kPageHeight, 1 - 100.0 / kPageHeight}};
+  fade.left = 160.0 / kPageHeight, fade.top = 80.0 / kPageHeight;
+  page.add(Ellipse{{300.0 / kPageHeight, 0.5}, {2, 1}, {-0.8, 1.6}, {kBlack, kNothing, 0}, fade});
   const Image canvas = by_canvas(page);
   EXPECT_NEAR(canvas.at(180, 300).g, 127, 2);  // else they were alike without it
   for (const Image& image : {by_cairo(page), by_rsvg(page), by_poppler(page)})
@@ -223,10 +223,10 @@ std::string words_of_pdf(const std::string& bytes) {
 }
 
 TEST(Pdf, ItsWordsCanBeFound) {
-  const std::string words = words_of_pdf(pdf_text(card(), fonts(), {540, "Card", "all shapes", "kept"}));
+  const std::string words = words_of_pdf(pdf_text(whole_card(), fonts(), {540, "Card", "all shapes", "kept"}));
   EXPECT_THAT(words, HasSubstr("Every primitive, once"));
   EXPECT_THAT(words, HasSubstr("t = 1.24 s"));
-  Picture wordless = card();
+  Picture wordless = whole_card();
   std::erase_if(wordless.items,
                 [](const Item& item) { return std::holds_alternative<GlyphRun>(item.shape); });
   EXPECT_THAT(words_of_pdf(pdf_text(wordless, fonts(), {})), Not(HasSubstr("primitive")));
@@ -247,18 +247,18 @@ TEST(Pdf, WordsThatRunToTheLeftAreFoundAsTheyAreRead) {
 }
 
 TEST(Pdf, EqualPicturesGiveEqualBytesWithoutATime) {
-  const std::string bytes = pdf_text(card(), fonts(), {540, "Card", "", ""});
-  EXPECT_EQ(bytes, pdf_text(card(), fonts(), {540, "Card", "", ""}));
+  const std::string bytes = pdf_text(whole_card(), fonts(), {540, "Card", "", ""});
+  EXPECT_EQ(bytes, pdf_text(whole_card(), fonts(), {540, "Card", "", ""}));
   EXPECT_THAT(bytes, Not(HasSubstr("CreationDate")));
 }
 
 TEST(Svg, HoldsItsWordsAsTextAndItsFonts) {
-  const std::string svg = svg_text(card(), fonts(), {540, "A <card>", "all & any", "kept"});
+  const std::string svg = svg_text(whole_card(), fonts(), {540, "A <card>", "all & any", "kept"});
   EXPECT_THAT(svg, HasSubstr("<title>A &lt;card&gt;</title>"));
   EXPECT_THAT(svg, HasSubstr("<desc>all &amp; any</desc>"));
   EXPECT_THAT(svg, HasSubstr(">Every primitive, once</tspan>"));
   EXPECT_THAT(svg, HasSubstr("font-family:chainreel-math"));
-  EXPECT_EQ(svg, svg_text(card(), fonts(), {540, "A <card>", "all & any", "kept"}));
+  EXPECT_EQ(svg, svg_text(whole_card(), fonts(), {540, "A <card>", "all & any", "kept"}));
 }
 
 TEST(Svg, LettersThatJoinAreOutlinesAndTheOthersTextInTheirFont) {
@@ -300,7 +300,7 @@ TEST(Trails, OfOneOpacityAreOnePath) {
 }
 
 TEST(Vector, WhatIsNotFiniteIsLeftOut) {
-  Picture page = card(), broken = card();
+  Picture page = whole_card(), broken = whole_card();
   broken.add(Capsule{{NAN, 0}, {1, 1}, 0.1, {kBlack, {}, 0}});
   broken.add(Ellipse{{0.5, 0.5}, {HUGE_VAL, 0}, {0, 0.1}, {kBlack, {}, 0}});
   broken.add(Cells{{0, 0, 1, 1}, 3, 3, {}});

@@ -190,7 +190,7 @@ std::vector<WrittenPose> poses_of(const SrdfFile& file) {
   for (const SrdfState& state : file.states) {
     const bool is_shared = count[state.name] > 1 && !state.group.empty();
     WrittenPose pose{
-        is_shared ? state.group + "_" + state.name : state.name, {file.path, state.line}, {}, {}, true, true};
+        is_shared ? state.group + "_" + state.name : state.name, {file.path, state.line}, {}, {}, true, true, ""};
     for (const SrdfValue& value : state.joints)
       pose.joints.push_back({value.joint, value.values, {file.path, value.line}});
     poses.push_back(std::move(pose));
