@@ -407,7 +407,7 @@ TEST(Audit, HasTheKeysThatOthersRead) {
   const Words of_film{"held_frames",     "held_frames.first", "held_frames.last",
                       "layout",          "left_out",         "meshes_sha256",
                       "panels",          "pauses",           "slow_motion",
-                      "style",
+                      "style",           "view",             "view.height", "view.origin",
                       "drawn",           "drawn.film_seconds", "drawn.fps",
                       "drawn.frames",    "drawn.height",     "drawn.width",
                       "outputs.film_seconds",

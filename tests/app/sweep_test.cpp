@@ -518,7 +518,8 @@ TEST(Sweep, SaysWhatItCannotDoBeforeTheFirstRun) {
   };
   const Words over{"--over", "start.q.1=0,1"};
   EXPECT_THAT(trouble(with(over, {"-o", folder.file("a.mp4")})), HasSubstr("into a FOLDER/"));
-  EXPECT_THAT(trouble(with(over, {"-o", folder.file("a.csv"), "-o", folder.file("b.csv")})), HasSubstr("one table"));
+  EXPECT_THAT(trouble(with(over, {"-o", folder.file("f/"), "-o", folder.file("g/")})), HasSubstr("takes one folder"));
+  EXPECT_THAT(trouble(with(over, {"-o", folder.file("a.csv"), "-o", folder.file("./a.csv")})), HasSubstr("named twice"));
   EXPECT_THAT(trouble(with(over, {"-o", folder.file("a.csv"), "--each", "png"})), HasSubstr("--each says"));
   EXPECT_THAT(trouble(with(over, {"-o", folder.file("f/"), "--each", "doc"})), HasSubstr("--each doc"));
   EXPECT_THAT(trouble(with(over, {"-o", folder.file("f/"), "--each", "png", "--each", "png"})), HasSubstr("twice"));

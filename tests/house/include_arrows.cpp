@@ -12,7 +12,7 @@ namespace {
 const std::set<std::string> kSystemHeaders = {
     "cpuid.h",        "dlfcn.h",    "elf.h",      "emmintrin.h", "fcntl.h",    "fnmatch.h",    "immintrin.h", "malloc.h", "poll.h",
     "link.h",         "pthread.h",      "quadmath.h", "sched.h",     "signal.h",   "spawn.h",     "sys/mman.h",
-    "linux/fs.h",     "sys/auxv.h", "sys/file.h", "sys/syscall.h", "sys/random.h", "sys/resource.h", "sys/stat.h", "sys/types.h", "sys/wait.h", "unistd.h"};
+    "linux/fs.h",     "sys/auxv.h", "sys/file.h", "sys/ioctl.h", "sys/syscall.h", "sys/random.h", "sys/resource.h", "sys/stat.h", "sys/types.h", "sys/wait.h", "unistd.h"};
 
 bool is_standard_or_system(const std::string& header) {
   return header.find_first_of("./") == std::string::npos || kSystemHeaders.contains(header);

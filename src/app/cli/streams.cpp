@@ -1,6 +1,7 @@
 #include "app/cli/streams.hpp"
 
 #include <fcntl.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -127,6 +128,13 @@ void print_error(const Error& error) {
     std::fprintf(stderr, "%s\n", line.c_str());
   }
   if (more > 0) std::fprintf(stderr, ".. and %zu more problems\n", more);
+}
+
+std::optional<std::size_t> terminal_columns() {
+  constexpr unsigned short kNarrowest = 40;  // of less lines are broken by the terminal
+  winsize size = {};
+  if (isatty(STDOUT_FILENO) != 1 || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < kNarrowest) return std::nullopt;
+  return size.ws_col;
 }
 
 void keep_and_tell(OutputFile& file) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <csignal>
+#include <optional>
 
 #include "core/error.hpp"
 #include "core/output_file.hpp"
@@ -22,6 +23,9 @@ void keep_and_tell(OutputFile& file);
 
 // Hands on what was printed. False, with words on standard error, where not all of it was taken.
 bool flush_standard_output();
+
+// How wide the terminal is that standard output is; none where it is no terminal.
+std::optional<std::size_t> terminal_columns();
 
 // Reads all of standard input, once, and holds it (core/input_file) for those that read scenes. Returns the name under
 // which they find it. Throws Error (bad input) where it cannot be read, (limit) where it does not end within 1 MiB.

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <utility>
 
 #include "app/cli/command.hpp"
-#include "core/data_folder.hpp"
 #include "app/cli/named_pose.hpp"
 #include "app/cli/result.hpp"
 #include "app/commands/ellipse_numbers.hpp"
@@ -15,11 +16,12 @@
 #include "app/commands/paper.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/film/target.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "draw/page/house_style.hpp"
 #include "core/output_file.hpp"
 #include "draw/figures/poses.hpp"
+#include "draw/page/house_style.hpp"
 #include "draw/page/sheet.hpp"
 #include "model/read_chain.hpp"
 #include "scene/text/read_scene.hpp"
@@ -66,10 +68,10 @@ constexpr double kTall = 2;           // of one that is tried: its margins are t
 constexpr double kWidestTried = 420;  // mm: a sheet of A3
 
 // How tall a figure of `panels` panels is to be on paper, mm: so many across as columns of a paper hold, each with its caption.
-double paper_height(double width, int panels, bool is_one_picture, int fewer_across = 0) {
+double paper_height(double width, int panels, bool is_one_picture) {
   constexpr double kShape = 0.75, kCaption = 6, kMatrix = 17, kFoot = 16;
   if (is_one_picture) return kShape * width + kFoot;
-  const int usual = panels == 1 ? 1 : panels <= 4 ? 2 : panels <= 9 ? 3 : 4, across = std::max(1, usual - fewer_across), rows = (panels + across - 1) / across;
+  const int across = panels == 1 ? 1 : panels <= 4 ? 2 : panels <= 9 ? 3 : 4, rows = (panels + across - 1) / across;
   return rows * (kShape * width / across + (panels < 5 ? kMatrix : kCaption)) + kFoot;
 }
 
@@ -96,36 +98,59 @@ void tell_missing_masses(const EllipseJob& job, const EllipseOptions& options, c
                  job.figure.layout == "row" ? "--layout grid has more" : "a larger page has, or fewer poses");
 }
 
-// A page of that width with room for whole captions and masses, fewer panels across where they are cut otherwise, and then no
-// higher than lets chains and ellipses be as large as they are; a height that was asked for stays.
+// How well poses are shown on a page: first by what stands below them, then by how large they are on so much paper.
+struct PageOfPoses {
+  double height = 0;  // mm
+  int words = -1;
+  double metre = 0, kilogram = 0, merit = 0;
+};
+
+// Of panels so many across, as high as lets chains and ellipses be as large as the width allows, with the words that there are then.
+PageOfPoses page_of_poses(const std::function<PoseFigureFit(double)>& fit_at, double tallest, double width) {
+  constexpr double kAsLarge = 0.96, kEllipses = 0.7, kFlattest = 0.2, kStep = 1, kWithoutMatrix = 0.8;  // of the size, of the width, mm
+  constexpr double kHeight = 1.5;  // the smaller page is the better one, even where it shows things somewhat smaller
+  const auto page_at = [&](double height) {
+    const PoseFigureFit fit = fit_at(height);
+    PageOfPoses page{height, fit.metre > 0 ? 2 * int(fit.is_whole) + int(fit.has_masses) : -1, fit.metre, fit.kilogram, 0};
+    page.merit = (fit.has_matrices ? 1 : kWithoutMatrix) * std::sqrt(fit.metre * fit.kilogram) / std::pow(height, kHeight);
+    return page;
+  };
+  PageOfPoses page = page_at(tallest);
+  const PageOfPoses wished = page;
+  for (double low = kFlattest * width; page.height - low > kStep;) {
+    const PageOfPoses tried = page_at((low + page.height) / 2);
+    if (tried.metre >= kAsLarge * wished.metre && tried.kilogram >= kEllipses * wished.kilogram && tried.words == page.words)
+      page = tried;
+    else
+      low = tried.height;
+  }
+  return page;
+}
+
+// A page of that width which shows poses best; a height that was asked for stays.
 void choose_height(EllipseJob& job, const EllipseOptions& options, const TipMass& tip, const Fonts& fonts) {
   PoseFigureOptions& figure = job.figure;
   if (options.paper.height_mm != PaperOptions::kNotGiven || figure.layout == "superposed" || figure.cell > 0) return;
-  constexpr int kMostAcross = 4;
-  constexpr double kAsLarge = 0.96, kFlattest = 0.2, kStep = 1;  // of the size, of the width, mm
-  const auto words = [](const PoseFigureFit& fit) { return 2 * int(fit.is_whole) + int(fit.has_masses); };
+  constexpr int kMostAcross = 6;
+  constexpr double kTallestPanel = 2;  // of its width, with its caption
   const double width = options.paper.width_mm;
-  const int panels = figure.layout == "row" ? 1 : int(job.motion.poses.q.size());
-  const auto page_of = [&](double height) {
+  const int count = int(job.motion.poses.q.size());
+  const auto page = [&](double height, int across) {
     PoseFigureOptions tried = figure;
+    tried.across = across;
     set_page(tried, paper_page(options.paper, height), job.motion.text_scale);
     return tried;
   };
-  const auto fit_at = [&](double height) { return fit_of_poses(tip, job.motion.poses.q, page_of(height), fonts); };
-  double high = paper_height(width, panels, false);
-  PoseFigureFit wished = fit_at(high);
-  for (int fewer = 1; fewer < kMostAcross && words(wished) < 3; ++fewer) {
-    const double higher = paper_height(width, panels, false, fewer);
-    const PoseFigureFit fit = fit_at(higher);
-    if (words(fit) > words(wished)) high = higher, wished = fit;
+  PageOfPoses best;
+  for (int across = figure.layout == "row" ? count : 1; across <= (figure.layout == "row" ? count : std::min(count, kMostAcross)); ++across) {
+    const int rows = (count + across - 1) / across;
+    const double tallest = std::min(tallest_page(options.paper), kTallestPanel * width * rows / across + paper_height(width, count, true));
+    const PageOfPoses tried = page_of_poses([&](double height) { return fit_of_poses(tip, job.motion.poses.q, page(height, across), fonts); }, tallest, width);
+    if (std::pair(tried.words, tried.merit) <= std::pair(best.words, best.merit)) continue;
+    best = tried;
+    figure.across = across;
   }
-  for (double low = kFlattest * width; high - low > kStep;) {
-    const double middle = (low + high) / 2;
-    const PoseFigureFit fit = fit_at(middle);
-    const bool is_enough = std::sqrt(fit.metre * fit.kilogram) >= kAsLarge * std::sqrt(wished.metre * wished.kilogram) && words(fit) == words(wished);
-    (is_enough ? high : low) = middle;
-  }
-  figure = page_of(std::ceil(high));
+  if (best.words >= 0) figure = page(std::ceil(best.height), figure.across);
 }
 
 // A page of that width which is as high as the squares of a joint-space figure need; nothing where no height is enough.

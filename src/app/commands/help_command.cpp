@@ -1,7 +1,4 @@
 // chainreel help [TOPIC]: the reference, page by page.
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -10,6 +7,7 @@
 
 #include "app/cli/command.hpp"
 #include "app/cli/result.hpp"
+#include "app/cli/streams.hpp"
 #include "app/guide/manual.hpp"
 #include "app/guide/reference.hpp"
 #include "app/report/version.hpp"
@@ -69,13 +67,6 @@ void list_topics(const std::vector<GuidePage>& pages, bool json) {
   else
     std::fputs((markdown_table(table) + "\nchainreel help TOPIC prints one of them, or how a command is called.\n").c_str(),
                stdout);
-}
-
-// Of standard output; none where it is no terminal, and lines stay whole for those who look for words in them.
-std::optional<std::size_t> terminal_columns() {
-  winsize size = {};
-  if (isatty(STDOUT_FILENO) != 1 || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 40) return std::nullopt;
-  return size.ws_col;
 }
 
 void run_help(const HelpOptions& options, const CommandLine& app) {

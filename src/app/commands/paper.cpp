@@ -15,6 +15,10 @@ constexpr double kMmPerInch = 25.4, kPointsPerMm = 72 / kMmPerInch;
 constexpr double kSmallestPrint = 7;  // pt: what a paper's figure may say
 constexpr double kLeastMm = 20, kMostMm = 2000;
 
+double pixels_per_mm(const PaperOptions& options) {
+  return (options.dpi > 0 ? options.dpi : kPrintDpi) / kMmPerInch;
+}
+
 }  // namespace
 
 void add_paper_options(Command& command, PaperOptions& options, const std::string& default_height) {
@@ -35,13 +39,17 @@ void check_paper(const PaperOptions& options, bool in_pixels) {
 
 PaperPage paper_page(const PaperOptions& options, double height_mm) {
   if (options.height_mm != PaperOptions::kNotGiven) height_mm = options.height_mm;
-  const double per_mm = (options.dpi > 0 ? options.dpi : kPrintDpi) / kMmPerInch;
+  const double per_mm = pixels_per_mm(options);
   const PaperPage page{options.width_mm, int(std::lround(options.width_mm * per_mm)), int(std::lround(height_mm * per_mm)),
                        kSmallestPrint / (height_mm * kPointsPerMm)};
   if (std::max(page.width, page.height) > kMostPixels)
     throw Error(ExitCode::usage, "--width-mm: that makes " + std::to_string(page.width) + " x " + std::to_string(page.height) +
                                      " pixels, more than " + std::to_string(kMostPixels) + " a side: take a smaller --dpi");
   return page;
+}
+
+double tallest_page(const PaperOptions& options) {
+  return std::floor(kMostPixels / pixels_per_mm(options));
 }
 
 void give_size(Video& video, const PaperPage& page) {

@@ -31,6 +31,9 @@ struct PaperPage {
 // `height_mm`: where the options name none. Throws Error (usage) of too many pixels.
 PaperPage paper_page(const PaperOptions& options, double height_mm);
 
+// mm: the tallest that has not too many pixels.
+double tallest_page(const PaperOptions& options);
+
 void give_size(Video& video, const PaperPage& page);
 
 // The scale of text at which its smallest is as large, at least 1.

@@ -15,6 +15,7 @@ constexpr double kToMatrix = 1.75;   // of the em, between pose and matrix
 constexpr double kFirstLine = 1.2,
                  kLineRow = 1.6;        // of the em: base line below a panel, and a caption of one line
 constexpr double kNextLine = 1.35;      // of the em: each further line
+constexpr double kBelowLines = 0.35;    // of the em, below several
 constexpr double kLetterGap = 0.5;      // of the em
 constexpr double kColumnGap = 0.9;      // of the em
 constexpr double kBracketGap = 0.38;    // of the em, between bracket and numbers
@@ -177,10 +178,15 @@ std::vector<std::string> eigenvalues_notations(const std::vector<std::optional<d
   return {"\"eig\" Lambda = " + list, list};
 }
 
-std::array<std::string, 2> pose_in_two_lines(const Chain& chain, const std::vector<double>& q, std::size_t on_first) {
+std::vector<std::string> pose_in_lines(const Chain& chain, const std::vector<double>& q, std::size_t a_line) {
   const std::vector<std::string> entries = coordinate_notations(chain, q);
-  const auto half = entries.begin() + std::ptrdiff_t(on_first);
-  return {"q = (" + joined(std::vector<std::string>(entries.begin(), half)) + ",", joined(std::vector<std::string>(half, entries.end())) + ")"};
+  std::vector<std::string> lines;
+  for (std::size_t from = 0; from < entries.size(); from += a_line) {
+    const std::size_t to = std::min(from + a_line, entries.size());
+    lines.push_back((from == 0 ? "q = (" : "") + joined(std::vector<std::string>(entries.begin() + std::ptrdiff_t(from), entries.begin() + std::ptrdiff_t(to))) +
+                    (to < entries.size() ? "," : ")"));
+  }
+  return lines;
 }
 
 std::vector<std::string> line_notations(const Chain& chain, const std::vector<double>& q,
@@ -191,7 +197,7 @@ std::vector<std::string> line_notations(const Chain& chain, const std::vector<do
 }
 
 double caption_line_height(double text_scale, int lines) {
-  return (kLineRow + (lines - 1) * kNextLine) * scaled(size::kAxis, text_scale);
+  return (kLineRow + (lines > 1 ? kBelowLines : 0) + (lines - 1) * kNextLine) * scaled(size::kAxis, text_scale);
 }
 
 bool line_fits(const std::string& notation, double width, double text_scale, const Theme& theme,
@@ -207,7 +213,7 @@ CaptionLines caption_lines(const std::vector<std::vector<std::string>>& forms, d
   std::size_t most = forms.empty() ? 0 : forms[0].size();
   for (const std::vector<std::string>& panel : forms) most = std::min(most, panel.size());
   for (std::size_t form = 0; form < most; ++form) {
-    lines = {{}, style.size};
+    lines = {{}, style.size, true};
     double widest = 0;
     for (const std::vector<std::string>& panel : forms) {
       lines.notations.push_back(panel[form]);
@@ -215,7 +221,8 @@ CaptionLines caption_lines(const std::vector<std::vector<std::string>>& forms, d
     }
     if (widest <= width) return lines;
     lines.size = std::max(style.size * width / widest, std::min(style.size, scaled(kSmallestText, text_scale)));
-    if (lines.size * widest <= (1 + kRoundOff) * style.size * width) return lines;
+    lines.fit = lines.size * widest <= (1 + kRoundOff) * style.size * width;
+    if (lines.fit) return lines;
   }
   return lines;
 }

@@ -1,7 +1,6 @@
 // The words below a panel of the ellipse figure: the pose, and Lambda as numbers.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,8 +34,8 @@ bool matrix_fits(const EffectiveMass& effective, double width, double text_scale
 // The masses along the axes of the ellipse, which are the eigenvalues of Lambda: "eig \u039B = (2, 1) kg".
 // The second form is the list alone.
 std::vector<std::string> eigenvalues_notations(const std::vector<std::optional<double>>& masses);
-// "q = (0, 90," and "45, 0)", so many coordinates on the first line: for poses too long for one.
-std::array<std::string, 2> pose_in_two_lines(const Chain& chain, const std::vector<double>& q, std::size_t on_first);
+// "q = (0, 90," and "45, 0)", so many coordinates a line: for poses too long for one.
+std::vector<std::string> pose_in_lines(const Chain& chain, const std::vector<double>& q, std::size_t a_line);
 // A caption of one line: the pose, behind it in the first form those masses; where that is too long for one panel the others do
 // without them, too.
 std::vector<std::string> line_notations(const Chain& chain, const std::vector<double>& q,
@@ -48,7 +47,8 @@ bool line_fits(const std::string& notation, double width, double text_scale, con
 // the smallest text.
 struct CaptionLines {
   std::vector<std::string> notations;
-  double size = 0;  // em, units of H
+  double size = 0;   // em, units of H
+  bool fit = false;  // where they stand; else even the last form is wider
 };
 CaptionLines caption_lines(const std::vector<std::vector<std::string>>& forms, double width, double text_scale, const Theme& theme,
                            const Fonts& fonts);

@@ -27,7 +27,9 @@ std::vector<std::vector<double>> configurations_of(const std::vector<Pose>& pose
 EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReading reading);
 
 // With legend, scale and title.
-Sheet sheet_of(const Chain& chain, const PoseFigureOptions& options, const EllipseScale& scale, const Fonts& fonts);
+// `height`: of the page, in units. `names_masses`: below the panels stand masses without a name.
+Sheet sheet_of(const Chain& chain, const PoseFigureOptions& options, const EllipseScale& scale, const Fonts& fonts, double height = 1,
+               bool names_masses = false);
 
 // All poses in one place, or a field.
 Picture draw_superposed(const Chain& chain, const std::vector<Pose>& poses, const PoseFigureOptions& options,

@@ -133,6 +133,7 @@ struct Overlay {
     const Point tip = camera.project(place);
     EllipseStyle style{options.theme, &fonts, options.text_scale, scale.per_unit(), scene, options.reading};
     style.part = part;
+    if (!options.shapes && !is_field()) style.hole = link_end(look_of(skeleton, camera, *options.theme));
     if (options.shapes) style.hides = robot_hides(*options.shapes, ws, camera, place);
     int clip = kSceneClip;
     if (is_field()) {

@@ -30,7 +30,6 @@ constexpr double kFill = 0.16;
 constexpr double kWidestLabel = 0.25;  // of a frame
 constexpr double kAirAround = 1.25;  // of what is drawn, to the frame of its axes
 constexpr double kLetterRoom = 2.5;    // of the em
-constexpr double kUsualPage = 9.0 / 16;  // what is higher is a column: its unit is the height of a slide as wide
 constexpr double kLeastSquare = 4;       // of the em of numbers: below, axes cannot be read
 constexpr double kUsualBlock = 26;       // of the em, of a page that is as high as its blocks need
 constexpr double kFullArrows = 0.25;     // units of H, of a square: arrows are smaller in smaller ones
@@ -202,9 +201,10 @@ JointSpaceFigure::JointSpaceFigure(const Chain& chain, const std::vector<std::ve
     maps_.push_back(mass_of(ws_, joints));
     most = std::max(most, maps_.back().rowwise().norm().maxCoeff());
   }
-  unit_px_ = std::min(double(options.height), std::round(kUsualPage * options.width));
-  height_ = options.height / unit_px_;
-  text_scale_ = options.text_scale * height_;
+  const PageInUnits page = in_units(options);
+  unit_px_ = page.options.height;
+  height_ = page.height;
+  text_scale_ = page.options.text_scale;
   sheet_ = sheet();
   style_ = {&fonts, options.theme, text_scale_};
   axes_ = axes_of(chain, joints, most);

@@ -119,6 +119,15 @@ Picture draw_pose_figure(const Chain& chain, const std::vector<std::vector<doubl
   return picture;
 }
 
+PageInUnits in_units(PoseFigureOptions options) {
+  constexpr double kUsualPage = 9.0 / 16;
+  const int unit = std::min(options.height, int(std::lround(kUsualPage * options.width)));
+  const double height = double(options.height) / unit;
+  options.height = unit;
+  options.text_scale *= height;
+  return {std::move(options), height};
+}
+
 std::optional<PageLogo> logo_of(const PoseFigureOptions& options) {
   std::optional<PageLogo> logo = options.logo;
   if (logo) logo->page_height = options.height;

@@ -36,12 +36,20 @@ struct PoseFigureOptions {
   bool section = false;               // by the xy plane of the end effector, instead of the ellipsoid
   std::string layout = "grid";        // panels, so many across as lets them be largest; or row: all in one; or
                                       // superposed: no panels
+  int across = 0;                     // panels of a grid beside one another; 0: as many
   bool letters = false;               // (a), (b), .. before the captions of panels
   std::vector<std::string> labels;    // "t = 0.5 s", one a panel; may be empty
   std::vector<Eigen::Vector3d> path;  // of the end effector, m: drawn below superposed poses
   double cell = 0;  // m: above 0 the poses are a field, each ellipse in a square of this side about its point
 };
 const std::vector<std::string>& figure_layout_names();
+// The page in a unit of its own: of what is higher than a slide the height of a slide as wide, so that words and marks do not grow with
+// a page that has more rows. `options` with it for a page, and how many units the page is high.
+struct PageInUnits {
+  PoseFigureOptions options;
+  double height = 1;
+};
+PageInUnits in_units(PoseFigureOptions options);
 std::optional<PageLogo> logo_of(const PoseFigureOptions& options);
 
 // The chain at every pose in one place: the last one in full, those before it as onion skins of 25 %.
@@ -66,6 +74,7 @@ struct PoseFigureFit {
   double metre = 0, kilogram = 0;  // on the page, of its width; 0: there is no room
   bool is_whole = false;           // each pose stands below its picture as it is
   bool has_masses = false;         // ... and so does its Lambda, or the masses along its axes
+  bool has_matrices = false;       // ... Lambda itself
 };
 PoseFigureFit fit_of_poses(const TipMass& mass, const std::vector<std::vector<double>>& poses, const PoseFigureOptions& options,
                            const Fonts& fonts);

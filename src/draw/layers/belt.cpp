@@ -192,7 +192,7 @@ void draw_belt(Picture& picture, const std::vector<MassAxis>& axes, Point center
       if (!axes[i].mass) continue;
       const Point v = *axes[i].mass * page[i];
       draw_axis(picture, center, v, i > 0, stroke.width(size::kEllipseAxis, style), stroke.color,
-                fade_before_length(center, v, *axes[i].mass, whole, style), clip);
+                fade_before_length(center, v, *axes[i].mass, whole, style), clip, style.hole);
     }
   });
   for (std::size_t i = 0; style.draws_above() && i < axes.size(); ++i) {

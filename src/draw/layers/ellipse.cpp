@@ -53,7 +53,7 @@ void draw_finite_axes(Picture& picture, const std::vector<PageAxis>& axes, Point
   for (std::size_t i = 0; i < axes.size(); ++i)
     if (axes[i].length && norm(axes[i].v) > kNoLength)
       draw_axis(picture, center, axes[i].v, i > 0, stroke.width(size::kEllipseAxis, style), stroke.color,
-                fade_before_length(center, axes[i].v, *axes[i].length, fade, style), clip);
+                fade_before_length(center, axes[i].v, *axes[i].length, fade, style), clip, style.hole);
 }
 
 // In the plane.
@@ -155,8 +155,8 @@ void draw_open(Picture& picture, const std::vector<PageAxis>& axes, Point center
     const double width = stroke.width(size::kEllipseAxis, style);
     for (const double side : {-1.0, 1.0})
       draw_fading_line(picture, center + (side * half_width) * n, d, stroke, style, clip);
-    draw_axis(picture, center, kBeyond * d, false, width, stroke.color, fade_before_infinity(d, fade, style), clip);
-    draw_axis(picture, center, half_width * n, true, width, stroke.color, fade, clip);
+    draw_axis(picture, center, kBeyond * d, false, width, stroke.color, fade_before_infinity(d, fade, style), clip, style.hole);
+    draw_axis(picture, center, half_width * n, true, width, stroke.color, fade, clip, style.hole);
   });
   if (!style.draws_above()) return;
   draw_infinities(picture, center, d, half_width, style, clip);

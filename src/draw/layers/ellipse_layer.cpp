@@ -76,6 +76,7 @@ class MassAlong {
                        scale_.per_unit(), panel.area(),   reading_};
     style.part = part;
     style.lines = panel.marks() * stage_->theme.lines;
+    if (!panel.motion().shapes()) style.hole = link_end(panel.look());
     return style;
   }
 

@@ -177,12 +177,23 @@ void draw_ellipse(Picture& picture, Point center, const std::array<Point, 2>& ax
 }
 
 void draw_axis(Picture& picture, Point center, Point v, bool dashed, double width, Color color, const Fade& fade,
-               int clip) {
+               int clip, double hole) {
   const double length = norm(v);
-  if (!(length > kNoLength)) return;
+  if (hole > 0) hole += width / 2;  // lines have round ends
+  if (!(length > std::max(kNoLength, hole))) return;
   const Point u = (1 / length) * v;
   // As far as it can be seen.
   const double reach = fade.any() ? std::min(length, kBeyond) : length;
+  if (!dashed && hole > 0) {
+    for (const double side : {-1.0, 1.0}) {
+      const Point from = center + (side * hole) * u, to = center + (side * reach) * u;
+      if (fade.any())
+        draw_outline(picture, {from, to}, width, color, fade, clip);
+      else
+        draw_line(picture, {from, to}, width, color, clip);
+    }
+    return;
+  }
   if (!dashed) {
     if (!fade.any()) return draw_line(picture, {center - reach * u, center + reach * u}, width, color, clip);
     return draw_outline(picture, {center - reach * u, center + reach * u}, width, color, fade, clip);
@@ -191,7 +202,9 @@ void draw_axis(Picture& picture, Point center, Point v, bool dashed, double widt
   const int half_count = int((reach - kDash / 2) / (kDash + kGap)) + 1;
   for (int i = -half_count; i <= half_count; ++i) {
     const double middle = i * (kDash + kGap);
-    const double from = std::max(middle - kDash / 2, -reach), to = std::min(middle + kDash / 2, reach);
+    double from = std::max(middle - kDash / 2, -reach), to = std::min(middle + kDash / 2, reach);
+    if (hole > 0 && i >= 0) from = std::max(from, hole);
+    if (hole > 0 && i <= 0) to = std::min(to, -hole);
     const double opacity = fade.opacity_at(center + middle * u);
     if (from < to && opacity > 0)
       draw_line(picture, {center + from * u, center + to * u}, width, color.faded(opacity), clip);

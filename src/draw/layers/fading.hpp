@@ -68,9 +68,9 @@ void fill_piece(Picture& picture, const std::array<Point, 4>& corners, Color col
 void draw_ellipse(Picture& picture, Point center, const std::array<Point, 2>& axes, const Paint& paint,
                   const Fade& fade, int clip);
 
-// A line from center - v to center + v, fading; dashes are symmetric about the middle.
+// A line from center - v to center + v, fading; dashes are symmetric about the middle. Nothing is drawn nearer to it than `hole`.
 void draw_axis(Picture& picture, Point center, Point v, bool dashed, double width, Color color, const Fade& fade,
-               int clip);
+               int clip, double hole = 0);
 
 // What stands at the ends of axes that lead out of the scene: an infinity sign where the mass is infinite, else the
 // length of the axis. Internal.

@@ -15,7 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLeastNamed = 0.05;       // of the widest turn that arcs have: torques of less have no name
+constexpr double kLeastNamed = 0.02;       // of the widest turn that arcs have: torques of less have no name
+constexpr double kLeastOfOwn = 0.12;       // of the joint's largest torque: of less its arc is a dot far from where its name stands
 constexpr double kVectorLabelGap = 0.010;  // between an arrow's tip or an arc and its label, units of H
 constexpr double kFarLabelGap = 0.035;      // ... where there is no room nearer
 constexpr double kShareBelowFull = 0.95;  // of a clip's magnitudes
@@ -251,7 +252,7 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   const double dot = style.size * kTorqueDot;
   picture.add(Ellipse{center, {dot, 0}, {0, dot}, {style.color, {}, 0}}, clip);
   // A word beside a dot, where a larger arc would be, is the name of nothing.
-  if (vector.label.empty() || !(turn > kLeastNamed * widest)) return;
+  if (vector.label.empty() || !(turn > kLeastNamed * widest) || std::abs(value) < kLeastOfOwn * vector.most) return;
   const TextLine& text = label(vector, marks);
   // Beside the largest arc of the clip: where all are small, a word where a full one would be stands alone.
   const double largest = std::min(1.0, scale.on_page(vector.most) / whole);

@@ -98,6 +98,8 @@ struct PageLine {
 
 void draw_line(Picture& picture, PageLine line, double width, Color color, int clip);
 void draw_revolute(Picture& picture, Point center, const ChainLook& look, int clip);
+// How far the end of a drawn link reaches from the place that it ends in.
+inline double link_end(const ChainLook& look) { return (look.link_width + look.stroke * size::kLinkOutline) / 2; }
 void draw_end_effector(Picture& picture, Point center, const ChainLook& look, int clip);
 // A circle with two opposite black quarters.
 void draw_center_of_mass(Picture& picture, Point center, const ChainLook& look, int clip);
