@@ -18,6 +18,7 @@
 #include "scene/words.hpp"
 #include "sim/accuracy.hpp"
 #include "sim/drive/limits.hpp"
+#include "sim/drive/pushes.hpp"
 #include "sim/drive/torque.hpp"
 #include "sim/plots.hpp"
 #include "sim/system/constraint_plan.hpp"
@@ -102,6 +103,7 @@ struct Scene {
   StartState start;
   std::vector<TorqueEntry> torque;  // one a degree of freedom; empty: none acts, or `control` does
   std::optional<Control> control;   // `torque:` as a mapping: for the whole chain
+  std::vector<PushEntry> push;      // forces from outside
   Parameters parameters;
   std::vector<ConstraintEntry> constraints;
   Stabilization stabilize = Stabilization::project;  // against drift

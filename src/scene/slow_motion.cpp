@@ -110,7 +110,7 @@ double longest_film(double motion, bool is_asked) {
 
 bool may_be_hasty(const Scene& scene, const Chain& chain) {
   const auto turns = [](const Body& body) { return body.joint.kind != JointKind::prismatic; };
-  return !scene.events.empty() || scene.limit == LimitPolicy::stop || std::any_of(chain.bodies.begin() + 1, chain.bodies.end(), turns);
+  return !scene.events.empty() || !scene.push.empty() || scene.limit == LimitPolicy::stop || std::any_of(chain.bodies.begin() + 1, chain.bodies.end(), turns);
 }
 
 std::vector<Haste> fast_turns(const Chain& chain, const Trajectory& run, double turn, FrameRate fps) {
@@ -131,17 +131,20 @@ std::vector<Haste> fast_turns(const Chain& chain, const Trajectory& run, double 
   return all;
 }
 
-std::vector<Haste> notable_instants(const std::vector<EventEntry>& events, const Trajectory& run) {
+std::vector<Haste> notable_instants(const Scene& scene, const Trajectory& run) {
+  constexpr double kBriefPush = 0.5;  // s: longer ones are seen as they are
   std::vector<Haste> all;
   if (!is_complete(run.status)) return all;
   std::set<int> seen;
   for (int k = 0; k < run.events.size(); ++k) {
     const int event = run.events.event[std::size_t(k)];
     const double t = run.events.t[std::size_t(k)];
-    if (seen.insert(event).second) all.push_back({t, t, false, {events[std::size_t(event)].title()}});
+    if (seen.insert(event).second) all.push_back({t, t, false, {scene.events[std::size_t(event)].title()}});
   }
   if (run.status == RunStatus::stopped && run.ending_event < 0 && !run.limits.empty())
     all.push_back({run.end_time, run.end_time, false, {"limit of " + run.limits.back().joint}});
+  for (const PushEntry& push : scene.push)
+    if (push.until - push.from < kBriefPush && push.from < run.end_time) all.push_back({push.from, std::min(push.until, run.end_time), false, {"push"}});
   return all;
 }
 

@@ -32,7 +32,7 @@ struct Haste {
 
 // What a run has to say; its trajectory is sampled at frames, and maybe at its end.
 std::vector<Haste> fast_turns(const Chain& chain, const Trajectory& run, double turn, FrameRate fps);
-std::vector<Haste> notable_instants(const std::vector<EventEntry>& events, const Trajectory& run);
+std::vector<Haste> notable_instants(const Scene& scene, const Trajectory& run);
 
 // Whether anything of this kind can be found in a run: where nothing turns and nothing happens, none need be looked at.
 bool may_be_hasty(const Scene& scene, const Chain& chain);

@@ -87,7 +87,7 @@ class Filler {
     hold_as_then(system_, simulation_, run_, t);
     if (constrained.projects() && !constrained.project(ws, q_, qd_).reached)
       return std::vector<double>(std::size_t(run_.rows), std::numeric_limits<double>::quiet_NaN());
-    constrained.accelerate(ws, q_, qd_, system_.torque(t, q_, qd_), qdd_);
+    constrained.accelerate(ws, q_, qd_, system_.applied_torque(t, q_, qd_), qdd_);
     const ConstVec lambda = constrained.lambda();
     return {lambda.begin(), lambda.end()};
   }

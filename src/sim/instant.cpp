@@ -14,10 +14,13 @@ Instant state_of(ChainSystem& system, double t, ConstVec q, ConstVec qd) {
   system.acceleration(t, q, qd, instant.qdd);
   const ConstVec tau = system.torque(t, q, qd);
   instant.tau.assign(tau.begin(), tau.end());
+  const ConstVec applied = system.applied_torque(t, q, qd);
+  if (system.law().pushes() != nullptr)
+    for (std::size_t i = 0; i < applied.size(); ++i) instant.tau_push.push_back(applied[i] - instant.tau[i]);
   if (!system.constrained()) return instant;
 
   const ConstraintSet& set = system.constrained()->set();
-  const ConstrainedWorkspace& cws = system.constrained()->rows_at(system.workspace(), q, qd, tau);
+  const ConstrainedWorkspace& cws = system.constrained()->rows_at(system.workspace(), q, qd, applied);
   instant.rows = set.row_names();
   instant.phi = cws.phi;
   instant.Jcd_qd = cws.Jcd_qd;

@@ -21,7 +21,8 @@ namespace chainreel {
 
 struct Instant {
   std::vector<double> tau;  // as the run feels it: with what presses on constraints, cut by the limit policy; N m or N
-  std::vector<double> qdd;  // nv
+  std::vector<double> tau_push;  // J^T F of what pushes from outside; empty where nothing does
+  std::vector<double> qdd;       // nv
 
   // The names of the constraints' rows; empty where there are none.
   std::vector<std::string> rows;

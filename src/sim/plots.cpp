@@ -131,7 +131,7 @@ PlotCurves values_of(const Expression& value, const PlotSet& plots, const Simula
     if (plots.load.are_read()) {
       hold_as_then(system, simulation, trajectory, t);
       system.acceleration(t, q, qd, qdd);
-      plots.load.set(probe, ground_load(chain, ws, plots.ground, plots.ground_height, q, qd, qdd));
+      plots.load.set(probe, ground_load(chain, ws, plots.ground, plots.ground_height, q, qd, qdd, system.pushed(t, q, qd)));
     }
     curve.y.push_back(value.evaluate(probe.values()));
   }

@@ -205,7 +205,7 @@ class Run {
   }
 
   void append_multipliers(double t, ConstVec q, ConstVec qd) {
-    const auto look = constrained_->look(system_.workspace(), q, qd, system_.torque(t, q, qd));
+    const auto look = constrained_->look(system_.workspace(), q, qd, system_.applied_torque(t, q, qd));
     const ConstVec lambda = constrained_->lambda();
     trajectory_.lambda.insert(trajectory_.lambda.end(), lambda.begin(), lambda.end());
     trajectory_.position_error = std::max(trajectory_.position_error, look.position_error);
@@ -306,7 +306,7 @@ class Run {
 
   bool check_constraints(double t) {
     const auto unmet = constrained_->unmet(system_.workspace(), q_now(), qd_now(),
-                                           system_.torque(t, q_now(), qd_now()));
+                                           system_.applied_torque(t, q_now(), qd_now()));
     if (!unmet || system_.bad_torque() >= 0) return true;
     set_trouble(RunStatus::inconsistent,
                 "constraints contradict each other: no acceleration fulfils '" + row_name(unmet->row) +

@@ -64,7 +64,7 @@ std::vector<double> multipliers_along(const Simulation& simulation, const Trajec
     const double t = trajectory.t[std::size_t(k)];
     const ConstVec q = trajectory.q_at(k), qd = trajectory.qd_at(k);
     hold_as_then(system, simulation, trajectory, t);
-    constrained.look(system.workspace(), q, qd, system.torque(t, q, qd));
+    constrained.look(system.workspace(), q, qd, system.applied_torque(t, q, qd));
     const ConstVec lambda = constrained.lambda();
     multipliers.insert(multipliers.end(), lambda.begin(), lambda.end());
   }

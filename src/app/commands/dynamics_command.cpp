@@ -167,6 +167,7 @@ Json report(const TipMass& tip, const State& state, const DynamicsOptions& optio
   add_task(json, tip, ws, state, options.task == "full" ? Task::full : Task::linear);
   add_energies(json, chain, ws, state);
   json["scene"] = json["t"] = nullptr;
+  json["tau_push"] = Json::array();
   json["h"] = sum_of(json["nle"], json["tau_f"]);
   json["constraint_rows"] = json["phi"] = json["J_c"] = json["Jcd_qd"] = json["lambda"] = json["contact_forces"] = Json::array();
   json["constraint_status"] = json["baumgarte_gain"] = nullptr;
@@ -219,8 +220,11 @@ Json scene_report(const DynamicsOptions& options) {
   say_choice(prepared, options.common.quiet);
   const Trajectory run = state_at(prepared, at);
   const Instant now = instant_of(simulation, run, 0);
-  const State state{{run.q_at(0).begin(), run.q_at(0).end()}, {run.qd_at(0).begin(), run.qd_at(0).end()}, now.tau};
+  State state{{run.q_at(0).begin(), run.q_at(0).end()}, {run.qd_at(0).begin(), run.qd_at(0).end()}, now.tau};
+  for (std::size_t i = 0; i < now.tau_push.size(); ++i) state.tau[i] += now.tau_push[i];
   Json json = report(tip, state, options);
+  json["tau"] = list(now.tau);
+  json["tau_push"] = list(now.tau_push);
   json["scene"] = options.file;
   json["t"] = at;
   if (options.formulation != "lagrange") json["qdd"] = list(now.qdd);

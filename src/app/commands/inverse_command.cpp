@@ -60,6 +60,9 @@ Recorded load(const InverseOptions& options) {
   require_single_run(scene);
   if (scene.motion && !options.trajectory.empty())
     throw Error(ExitCode::bad_input, "shows a recorded motion of its own: leave --trajectory out for its torques", scene.place_of("motion"));
+  if (!scene.push.empty())
+    throw Error(ExitCode::bad_input, "`push` acts at instants of a run, which a motion of a table does not have: leave it out, --set push=, for the "
+                                     "torques of the motion alone", scene.place_of("push"));
   Simulation simulation = prepare(scene, false);
   for (const std::string& doubt : scene.doubts) tell_warnings({scene.name + ": " + doubt});
   Recorded recorded{std::move(simulation.chain), std::move(simulation.constraints), simulation.motion};

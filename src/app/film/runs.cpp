@@ -75,7 +75,7 @@ std::vector<Stretch> own_stretches(const PreparedFilm& film, const std::vector<T
   double end = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const PreparedScene& panel = film.panels[i];
-    std::ranges::move(notable_instants(panel.scene.events, runs[i]), std::back_inserter(events));
+    std::ranges::move(notable_instants(panel.scene, runs[i]), std::back_inserter(events));
     std::ranges::move(fast_turns(panel.simulation.chain, runs[i], rule.turn, film.scene.video.fps), std::back_inserter(turns));
     if (is_complete(runs[i].status)) end = std::max(end, runs[i].end_time);
   }

@@ -64,7 +64,7 @@ const Keys kState{
     {"model", "its name"},
     {"scene, t", "of a scene, and its instant in s; or null"},
     {"formulation, gravity, q, qd, tau", "what was asked"},
-    {"M, nle, tau_g, qdd, C, C_qd, tau_f, h", "of the equation of motion; h = nle + tau_f"},
+    {"M, nle, tau_g, qdd, C, C_qd, tau_f, h, tau_push", "of the equation of motion; h = nle + tau_f, tau_push = J^T F of what pushes, [] where nothing does: M qdd + h = tau + tau_push"},
     {"ends", "links at which the chain ends"},
     {"end_effector, x, xd, J, Jd_qd", "null where there is none"},
     {"basis, basis_directions, Lambda_inv, Lambda, mobility, directions, singular_directions", "of the effective mass, along unit vectors in the world; its eigenvectors in them, a row each; Lambda is null where it is infinite"},

@@ -45,6 +45,26 @@ std::string torque_words(const Scene& scene) {
   return acts ? "torques (" + text + ")" : "no torques";
 }
 
+// ", pushed by 60 N at trunk from 0.5 s to 0.6 s"
+std::string push_words(const Scene& scene) {
+  std::string text;
+  for (const PushEntry& push : scene.push) {
+    double square = 0;
+    for (const double f : push.force) square += f * f;
+    text += (text.empty() ? ", pushed by " : " and ") + format_significant(std::sqrt(square), 4) + " N at " +
+            (push.frame.empty() ? scene.end_effector : push.frame) + " from " + format_significant(push.from, 4) + " s" +
+            (std::isfinite(push.until) ? " to " + format_significant(push.until, 4) + " s" : " on");
+  }
+  return text;
+}
+
+// ", tied by a line": each constraint by the name that it goes by elsewhere.
+std::string tie_words(const PreparedScene& panel) {
+  std::vector<std::string> names;
+  for (const Constraint& one : panel.simulation.constraints.list) names.push_back(name_of(one));
+  return names.empty() ? "" : ", tied by " + joined(names);
+}
+
 // `seconds`: how long the motion went on.
 std::string motion_words(const PreparedScene& panel, double seconds) {
   const Scene& scene = panel.scene;
@@ -52,12 +72,12 @@ std::string motion_words(const PreparedScene& panel, double seconds) {
   const bool starts_at_rest =
       std::all_of(scene.start.qd.begin(), scene.start.qd.end(), [](double qd) { return qd == 0; });
   return "the chain" + (chain.name == "chain" ? "" : " " + chain.name) + " with " + std::to_string(chain.nv) +
-         (chain.nv == 1 ? " freedom" : " freedoms") + " moves for " + format_significant(seconds, 4) + " s" +
+         (chain.nv == 1 ? " freedom" : " freedoms") + tie_words(panel) + " moves for " + format_significant(seconds, 4) + " s" +
          " under " +
          (chain.gravity.norm() > 0
               ? "gravity of " + format_significant(chain.gravity.norm(), 4) + " m/s^2 and "
               : "no gravity and ") +
-         torque_words(scene) + (chain.has_dissipation ? ", with friction in its joints" : "") + ", starting " + (starts_at_rest ? "at rest" : "in motion") +
+         torque_words(scene) + push_words(scene) + (chain.has_dissipation ? ", with friction in its joints" : "") + ", starting " + (starts_at_rest ? "at rest" : "in motion") +
          " from q = " + vector_text(scene.start.q);
 }
 

@@ -52,7 +52,7 @@ Story story_of(const Stage& stage) {
   Story sprung;
   for (const StagedRun& motion : stage.motions) sprung.push_back(sprung_coordinates(stage, motion));
   if (std::none_of(sprung.begin(), sprung.end(), [](const auto& plots) { return plots.empty(); })) return sprung;
-  return of_all(stage, first.simulation()->torque->is_constant() ? PlotQuantity::energy : PlotQuantity::tau);
+  return of_all(stage, first.simulation()->torque->drives_are_constant() ? PlotQuantity::energy : PlotQuantity::tau);
 }
 
 }  // namespace chainreel

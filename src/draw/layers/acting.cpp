@@ -11,6 +11,7 @@
 #include "draw/layers/vectors.hpp"
 #include "dynamics/kinematics.hpp"
 #include "picture/point.hpp"
+#include "sim/drive/pushes.hpp"
 #include "sim/torques_along.hpp"
 
 namespace chainreel {
@@ -239,6 +240,15 @@ std::vector<WorldVector> torques_at(const Chain& chain, const Workspace& ws, con
   return vectors;
 }
 
+std::vector<WorldVector> pushes_at(const Chain& chain, const Workspace& ws, const Pushes& pushes, double t) {
+  std::vector<WorldVector> vectors;
+  for (const ActingPush& push : pushes.list())
+    if (push.from <= t && t < push.until)
+      vectors.push_back({VectorKind::push, frame_position(chain, ws, push.frame), push.force, Vector3d::Zero(), Vector3d::Zero(),
+                         format_significant(push.force.norm(), 3) + " N"});
+  return vectors;
+}
+
 std::vector<WorldVector> velocity_at(const Chain& chain, const Workspace& ws) {
   return {{VectorKind::velocity, frame_position(chain, ws, chain.end_effector),
            frame_velocity(chain, ws, chain.end_effector), Vector3d::Zero(), Vector3d::Zero(), "v"}};
@@ -316,6 +326,16 @@ std::unique_ptr<const Layer> make_layer_torque(const Stage& stage) {
         return run == runs.end() ? std::vector<WorldVector>() : torques_at(motion.chain(), ws, run->second, k);
       },
       kinds_of_torque);
+}
+
+std::unique_ptr<const Layer> make_layer_push(const Stage& stage) {
+  return std::make_unique<VectorLayer>(
+      stage, "push",
+      [](const StagedRun& motion, const Workspace& ws, int k) {
+        const Pushes* pushes = motion.simulation() == nullptr ? nullptr : motion.simulation()->torque->pushes();
+        return pushes == nullptr ? std::vector<WorldVector>() : pushes_at(motion.chain(), ws, *pushes, motion.trajectory().t[std::size_t(k)]);
+      },
+      always(VectorKind::push));
 }
 
 std::unique_ptr<const Layer> make_layer_velocity(const Stage& stage) {

@@ -10,7 +10,8 @@
 #include "draw/page/arrow.hpp"
 #include "draw/page/sheet.hpp"
 #include "draw/robot/joints.hpp"
-#include "dynamics/equation_of_motion.hpp"
+#include "sim/system/chain_system.hpp"
+#include "sim/torques_along.hpp"
 
 namespace chainreel {
 namespace {
@@ -28,7 +29,7 @@ double weight_of(const Chain& chain) {
 
 // A run's foot, and what the ground answers at its samples.
 struct FootRun {
-  struct Push {
+  struct Answer {
     double place = 0;                                 // centre of pressure, m along the ground
     Eigen::Vector3d force = Eigen::Vector3d::Zero();  // in weights
   };
@@ -36,16 +37,16 @@ struct FootRun {
   explicit FootRun(const StagedRun& motion);
   Eigen::Vector3d on_ground(double place) const { return place * ground.along + foot.height * ground.up; }
   // A ground cannot pull; false for what is no number, too.
-  bool is_shown(const Push& push) const {
+  bool is_shown(const Answer& answer) const {
     const double middle = (foot.heel + foot.toe) / 2;
-    return push.force.dot(ground.up) > 0 && std::abs(push.place - middle) < kFarthest * (foot.toe - foot.heel);
+    return answer.force.dot(ground.up) > 0 && std::abs(answer.place - middle) < kFarthest * (foot.toe - foot.heel);
   }
 
   double weight = 0;  // N
   Foot foot;
   GroundAxes ground;
   std::vector<Eigen::Vector3d> ankles;  // joints on the world
-  std::vector<Push> pushes;             // a sample
+  std::vector<Answer> answers;          // a sample
 };
 
 FootRun::FootRun(const StagedRun& motion)
@@ -57,15 +58,17 @@ FootRun::FootRun(const StagedRun& motion)
   for (const Body& body : chain.bodies)
     if (&body != &chain.bodies[0] && body.parent == 0) ankles.push_back(body.joint.X_PJ.translation());
   Workspace ws(chain);
-  std::vector<double> tau(std::size_t(chain.nv));
+  ChainSystem system(*motion.simulation());
+  std::vector<double> qdd(std::size_t(chain.nv));
   for (int k = 0; k < motion.samples(); ++k) {
     const auto q = trajectory.q_at(k), qd = trajectory.qd_at(k);
-    motion.simulation()->torque->evaluate(chain, ws, trajectory.t[std::size_t(k)], q, qd, tau);
-    compute_forward_dynamics(chain, ws, q, qd, tau);
-    const std::vector<double> qdd = ws.qdd;
-    const Wrench wrench = compute_ground_reaction(chain, ws, q, qd, qdd);
-    pushes.push_back({ground_load(chain, ws, ground, foot.height, q, qd, qdd).cop, wrench.force / weight});
+    const double t = trajectory.t[std::size_t(k)];
+    hold_as_then(system, *motion.simulation(), trajectory, t);
+    system.acceleration(t, q, qd, qdd);
+    const GroundLoad load = ground_load(chain, ws, ground, foot.height, q, qd, qdd, system.pushed(t, q, qd));
+    answers.push_back({load.cop, load.force / weight});
   }
+  motion.simulation()->torque->leave_pieces();
 }
 
 // The line through two places from one side of a part of the page to the other; from left to right.
@@ -96,8 +99,8 @@ class FootLayer : public Layer {
   // Its scale stands with it: while any run shows an arrow.
   void draw_page(Picture& picture, const SharedPage& page, int k) const override {
     const bool is_shown = std::any_of(runs_.begin(), runs_.end(), [k](const auto& one) {
-      const std::vector<FootRun::Push>& pushes = one.second.pushes;
-      return one.second.is_shown(pushes[std::size_t(std::clamp(k, 0, int(pushes.size()) - 1))]);
+      const std::vector<FootRun::Answer>& answers = one.second.answers;
+      return one.second.is_shown(answers[std::size_t(std::clamp(k, 0, int(answers.size()) - 1))]);
     });
     for (const PlacedEntry& entry : page.sheet.scales)
       if (is_shown && entry.line.entry.by_frame) draw_entry(picture, entry.line, entry.left, *theme_);
@@ -107,9 +110,9 @@ class FootLayer : public Layer {
     const auto known = runs_.find(&sight.motion);
     if (known == runs_.end()) return;
     const FootRun& run = known->second;
-    const FootRun::Push& push = run.pushes[std::size_t(std::clamp(sight.k, 0, int(run.pushes.size()) - 1))];
-    if (!run.is_shown(push)) return;
-    box.add({0, 0, kWeightArrow * std::min(kMostRoom, push.force.dot(run.ground.up)), 0}, sight.camera.flat(run.on_ground(push.place)));
+    const FootRun::Answer& answer = run.answers[std::size_t(std::clamp(sight.k, 0, int(run.answers.size()) - 1))];
+    if (!run.is_shown(answer)) return;
+    box.add({0, 0, kWeightArrow * std::min(kMostRoom, answer.force.dot(run.ground.up)), 0}, sight.camera.flat(run.on_ground(answer.place)));
   }
 
   void draw_once(Picture& picture, const Panel& panel) const override {
@@ -130,13 +133,13 @@ class FootLayer : public Layer {
     const auto known = runs_.find(&panel.motion());
     if (known == runs_.end()) return;
     const FootRun& run = known->second;
-    const FootRun::Push& push = run.pushes[std::size_t(std::clamp(shot.k, 0, int(run.pushes.size()) - 1))];
-    if (!run.is_shown(push)) return;
+    const FootRun::Answer& answer = run.answers[std::size_t(std::clamp(shot.k, 0, int(run.answers.size()) - 1))];
+    if (!run.is_shown(answer)) return;
     const Camera& camera = panel.camera();
-    const Point force = (kWeightArrow / camera.scale) * camera.project_vector(push.force, camera.focus);
-    const bool stands = push.place >= run.foot.heel && push.place <= run.foot.toe;
+    const Point force = (kWeightArrow / camera.scale) * camera.project_vector(answer.force, camera.focus);
+    const bool stands = answer.place >= run.foot.heel && answer.place <= run.foot.toe;
     const ChainLook& look = panel.look();
-    const Point pressure = camera.project(run.on_ground(push.place));
+    const Point pressure = camera.project(run.on_ground(answer.place));
     draw_arrow(picture, pressure - force, force, {look.theme->constraint, look.marks, !stands, 0, look.theme->lines, look.theme->background}, panel.clip());
     const double radius = look.marks * kPressure;
     picture.add(Ellipse{pressure, {radius, 0}, {0, radius}, {stands ? look.theme->constraint : look.theme->background, look.theme->constraint, size::kLinkOutline}},

@@ -122,6 +122,7 @@ Color color_of(VectorKind kind, const Theme& theme) {
     case VectorKind::velocity:
       return theme.velocity;
     case VectorKind::weight:
+    case VectorKind::push:
       return theme.force;
     case VectorKind::constraint:
       return theme.constraint;
@@ -142,6 +143,8 @@ std::string name_of(VectorKind kind) {
       return "weight";
     case VectorKind::constraint:
       return "constraint force";
+    case VectorKind::push:
+      return "push";
   }
   return "";
 }

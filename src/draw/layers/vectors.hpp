@@ -20,10 +20,10 @@
 
 namespace chainreel {
 
-enum class VectorKind { torque, joint_force, velocity, weight, constraint };
-inline constexpr std::array<VectorKind, 5> kVectorKinds{VectorKind::torque, VectorKind::joint_force,
+enum class VectorKind { torque, joint_force, velocity, weight, constraint, push };
+inline constexpr std::array<VectorKind, 6> kVectorKinds{VectorKind::torque, VectorKind::joint_force,
                                                         VectorKind::velocity, VectorKind::weight,
-                                                        VectorKind::constraint};
+                                                        VectorKind::constraint, VectorKind::push};
 
 // What is to be shown at one instant, in W.
 struct WorldVector {

@@ -76,6 +76,11 @@ std::vector<Chapter> chapters() {
             .absent("none acts")
             .where(is_computed)
             .caption("\u03C4 = @"),
+        Row(told_push(), read_push, push_text)
+            .example("push: {frame: torso, force: [60, 0, 0], from: 1s, until: 1.1s}")
+            .absent("none")
+            .where(is_computed)
+            .caption("push @"),
         Row(told_motion(), read_motion, motion_text)
             .absent("it is computed")
             .caption("motion @"),

@@ -32,6 +32,11 @@ KeyText told_torque();
 void read_torque(Fields& fields, Scene& scene);
 std::string torque_text(const Scene& scene);
 
+// --- what pushes it: push_keys.cpp
+KeyText told_push();
+void read_push(Fields& fields, Scene& scene);
+std::string push_text(const Scene& scene);
+
 // --- what was recorded of it: motion_keys.cpp
 KeyText told_motion();
 void read_motion(Fields& fields, Scene& scene);

@@ -37,11 +37,11 @@ constexpr const char* kGroundPulls = "grf < 0";
 
 double pressure_at(const Simulation& simulation, const Foot& foot, double t, ConstVec q, ConstVec qd) {
   const Chain& chain = simulation.chain;
-  ChainSystem system(chain, *simulation.torque, simulation.limit, simulation.constraints);
+  ChainSystem system(simulation);
   std::vector<double> qdd(qd.size());
   system.acceleration(t, q, qd, qdd);
   Workspace ws(chain);
-  return ground_load(chain, ws, ground_axes(chain), foot.height, q, qd, qdd).cop;
+  return ground_load(chain, ws, ground_axes(chain), foot.height, q, qd, qdd, system.pushed(t, q, qd)).cop;
 }
 
 // `event`: the one that watches the pressure; it waits where it holds from the start.

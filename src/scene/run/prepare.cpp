@@ -109,6 +109,26 @@ NamedFrames find_frames(const Scene& scene, const Chain& chain, ProblemList& pro
   return frames;
 }
 
+// What pushes the chain; nothing of what is a problem.
+std::vector<ActingPush> find_pushes(const Scene& scene, const Chain& chain, ProblemList& problems) {
+  std::vector<ActingPush> pushes;
+  for (const PushEntry& entry : scene.push) {
+    const int frame = entry.frame.empty() ? chain.end_effector : find_point(chain, entry.frame);
+    if (frame < 0) {
+      const std::vector<std::string> known = point_names(chain);
+      problems.add(entry.frame.empty() ? "'push' needs a `frame`: the model has several ends, and none is its end effector; frames are " + list_of(known) + "."
+                                       : "'push' names no link and no moving joint of " + scene.model.words() + ": '" + entry.frame + "';" +
+                                             did_you_mean(entry.frame, known) + " They are " + list_of(known) + ".",
+                   entry.place);
+      continue;
+    }
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    std::copy_n(entry.force.begin(), std::min<std::size_t>(entry.force.size(), 3), force.begin());
+    pushes.push_back({frame, force, entry.from, entry.until});
+  }
+  return pushes;
+}
+
 int constraint_rows(const Simulation& simulation) {
   const ConstraintPlan& plan = simulation.constraints;
   return plan.empty() ? 0 : ConstrainedChain(simulation.chain, plan).set().rows();
@@ -219,6 +239,7 @@ Simulation prepare(Scene& scene, bool meshes, LastChain& last) {
   check_torque(scene, chain, problems);
   check_lists(scene, chain, problems);
   const NamedFrames frames = find_frames(scene, chain, problems);
+  std::vector<ActingPush> pushes = find_pushes(scene, chain, problems);
   check_parameters(scene, chain, frames, problems);
   for (const auto& [key, written, numbers] : {std::tuple{"start.q", &scene.start.written_q, StateNumbers::q},
                                               std::tuple{"start.qd", &scene.start.written_qd, StateNumbers::qd}})
@@ -234,6 +255,7 @@ Simulation prepare(Scene& scene, bool meshes, LastChain& last) {
   if (!scene.motion)
     simulation.torque = scene.control ? make_control(chain, *scene.control, scene.parameters)
                                       : make_torque_law(chain, scene.torque, scene.parameters, frames);
+  if (!scene.motion) simulation.torque = make_pushed_law(std::move(simulation.torque), std::move(pushes));
   prepare_constraints(scene, simulation);
   if (!scene.motion && !scene.chooses_method()) set_method(scene, simulation);
   simulation.limit = scene.limit;

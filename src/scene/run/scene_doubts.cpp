@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/format.hpp"
+#include "scene/annotation.hpp"
 #include "scene/run/pose_doubts.hpp"
 #include "sim/drive/limits.hpp"
 
@@ -27,6 +28,25 @@ std::string doubt_of_limit(LimitPolicy policy, const Chain& chain) {
   return "";
 }
 
+// Pushes of which nothing comes: behind the end of the run, on what is fixed to the world, or across the plane in which the chain moves.
+std::vector<std::string> doubts_of_pushes(const Scene& scene, const Chain& chain) {
+  std::vector<std::string> doubts;
+  for (const PushEntry& push : scene.push) {
+    const int frame = push.frame.empty() ? chain.end_effector : find_point(chain, push.frame);
+    if (push.from >= scene.duration)
+      doubts.push_back("push: it begins at " + format_significant(push.from, 6) + " s, where the run has ended: take a longer `duration`");
+    if (frame >= 0 && chain.frames[std::size_t(frame)].body == 0)
+      doubts.push_back("push: '" + chain.frames[std::size_t(frame)].name + "' is fixed to the world, so that nothing comes of it: push a link that moves");
+    if (chain.planar && push.force.size() == 3) {
+      const double across = Eigen::Vector3d(push.force[0], push.force[1], push.force[2]).dot(chain.planar->plane.normal);
+      if (std::abs(across) > kAcross)
+        doubts.push_back("push: " + format_significant(std::abs(across), 4) + " N of its force are perpendicular to the plane in which the chain moves, so that "
+                         "nothing comes of them");
+    }
+  }
+  return doubts;
+}
+
 }  // namespace
 
 std::string doubt_of_gravity(const Chain& chain) {
@@ -45,6 +65,7 @@ std::vector<std::string> doubts_of_scene(const Scene& scene, const Chain& chain)
   for (const std::string& doubt : doubts_of_pose(chain, scene.start.q, scene.start.written_q)) doubts.push_back("start.q: " + doubt);
   for (std::string doubt : {doubt_of_gravity(chain), doubt_of_limit(scene.limit, chain)})
     if (!doubt.empty()) doubts.push_back(std::move(doubt));
+  for (std::string& doubt : doubts_of_pushes(scene, chain)) doubts.push_back(std::move(doubt));
   return doubts;
 }
 

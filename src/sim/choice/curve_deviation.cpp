@@ -44,7 +44,7 @@ void add_multipliers(const Simulation& simulation, Trajectory& run) {
   for (int k = 0; k < run.size(); ++k) {
     const double t = run.t[std::size_t(k)];
     hold_as_then(system, simulation, run, t);
-    system.constrained()->look(system.workspace(), run.q_at(k), run.qd_at(k), system.torque(t, run.q_at(k), run.qd_at(k)));
+    system.constrained()->look(system.workspace(), run.q_at(k), run.qd_at(k), system.applied_torque(t, run.q_at(k), run.qd_at(k)));
     const ConstVec lambda = system.constrained()->lambda();
     run.lambda.insert(run.lambda.end(), lambda.begin(), lambda.end());
   }

@@ -14,6 +14,7 @@
 
 namespace chainreel {
 
+class Pushes;
 class StateCorners;
 
 class TorqueLaw {
@@ -23,6 +24,8 @@ class TorqueLaw {
   // is written as NaN, which stops the run.
   virtual void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) = 0;
   virtual bool is_constant() const { return false; }  // then the work done is tau . (q - q(0)) exactly
+  // Whether the joints' torques are, whatever pushes besides.
+  virtual bool drives_are_constant() const { return is_constant(); }
   virtual bool depends_on_velocity() const { return !is_constant(); }
   // Instants up to `end` at which the torque has a kink or a jump, in any order: steps end there, so that
   // methods keep their order. Throws Error (limit) where there are too many.
@@ -37,6 +40,8 @@ class TorqueLaw {
   virtual std::optional<AffineTorque> affine() const { return {}; }
   // The springs and dampers that the law is, or has; at most one a freedom.
   virtual std::vector<LinearDrive> linear_drives(const Chain&) const { return {}; }
+  // What acts from outside beside these torques; null: nothing. A law that has some is not constant, and no polynomial.
+  virtual const Pushes* pushes() const { return nullptr; }
   // The coordinates of the reference motion that feedback follows, nv numbers; false where there is none.
   virtual bool reference_at(double, Vec) { return false; }
   // The law with the digits of Quad; false where it has none.

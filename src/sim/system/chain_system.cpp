@@ -1,4 +1,3 @@
-#include "expr/affine.hpp"
 #include "sim/system/chain_system.hpp"
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
 #include "dynamics/kinematics.hpp"
+#include "expr/affine.hpp"
 
 namespace chainreel {
 namespace {
@@ -25,7 +25,9 @@ ChainSystem::ChainSystem(const Chain& chain, TorqueLaw& torque, LimitPolicy limi
       limits_(chain),
       ws_(chain),
       constrained_(constraints.empty() ? nullptr : std::make_unique<ConstrainedChain>(chain, constraints)),
+      pushes_(torque.pushes()),
       tau_(std::size_t(chain.nv)),
+      tau_applied_(pushes_ == nullptr ? 0 : tau_.size()),
       tau_net_(chain.has_dissipation ? tau_.size() : 0) {}
 
 void ChainSystem::evaluate_torque(double t, ConstVec q, ConstVec qd) {
@@ -39,6 +41,10 @@ void ChainSystem::evaluate_law(double t, ConstVec q, ConstVec qd) {
   torque_is_known_ = torque_->is_constant() && !presses;
   evaluate_uncut(t, q, qd);
   limits_.check_effort(t, tau_, limit_ == LimitPolicy::clamp);
+  if (pushes_ != nullptr) {
+    std::copy(tau_.begin(), tau_.end(), tau_applied_.begin());
+    pushes_->add_to(*chain_, ws_, t, q, qd, tau_applied_);
+  }
   if (bad_torque_ >= 0) return;
   for (std::size_t i = 0; i < tau_.size(); ++i) {
     if (!std::isfinite(tau_[i])) {
@@ -89,12 +95,21 @@ ConstVec ChainSystem::torque(double t, ConstVec q, ConstVec qd) {
   return tau_;
 }
 
-ConstVec ChainSystem::net_torque(double t, ConstVec q, ConstVec qd) {
+ConstVec ChainSystem::applied_torque(double t, ConstVec q, ConstVec qd) {
   evaluate_torque(t, q, qd);
-  if (!chain_->has_dissipation) return tau_;
+  return applied();
+}
+
+ConstVec ChainSystem::net_torque(double t, ConstVec q, ConstVec qd) {
+  const ConstVec tau = applied_torque(t, q, qd);
+  if (!chain_->has_dissipation) return tau;
   compute_friction(*chain_, ws_, qd);
-  for (std::size_t i = 0; i < tau_.size(); ++i) tau_net_[i] = tau_[i] - ws_.tau_f[i];
+  for (std::size_t i = 0; i < tau.size(); ++i) tau_net_[i] = tau[i] - ws_.tau_f[i];
   return tau_net_;
+}
+
+Wrench ChainSystem::pushed(double t, ConstVec q, ConstVec qd) {
+  return pushes_ == nullptr ? Wrench{} : pushes_->wrench(*chain_, ws_, t, q, qd);
 }
 
 void ChainSystem::acceleration(double t, std::span<const double> q, std::span<const double> v,
@@ -107,8 +122,8 @@ void ChainSystem::acceleration(double t, std::span<const double> q, std::span<co
 }
 
 void ChainSystem::accelerate(ConstVec q, ConstVec qd, Vec qdd) {
-  if (constrained_) return constrained_->accelerate(ws_, q, qd, tau_, qdd);
-  compute_forward_dynamics(*chain_, ws_, q, qd, tau_, qdd);
+  if (constrained_) return constrained_->accelerate(ws_, q, qd, applied(), qdd);
+  compute_forward_dynamics(*chain_, ws_, q, qd, applied(), qdd);
 }
 
 void ChainSystem::hold(std::vector<int> held) {

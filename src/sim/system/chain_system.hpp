@@ -10,6 +10,7 @@
 #include "integrate/dense_lu.hpp"
 #include "integrate/system.hpp"
 #include "sim/drive/limits.hpp"
+#include "sim/drive/pushes.hpp"
 #include "sim/drive/state_corners.hpp"
 #include "sim/drive/torque.hpp"
 #include "sim/system/constrained_chain.hpp"
@@ -33,13 +34,16 @@ class ChainSystem final : public SecondOrder {
   void advance(std::span<double> q, std::span<const double> v, double h) const override;
   void normalize(std::span<double> q) const override;
 
-  // Power of the joint torques less friction, qd^T (tau - tau_f), W.
+  // Power of the joint torques less friction and of what pushes, W.
   double power(double t, ConstVec q, ConstVec qd);
 
-  // The torques at this state, cut where the limit policy says so; valid until the next call.
+  // The joints' torques at this state, cut where the limit policy says so; valid until the next call.
   ConstVec torque(double t, ConstVec q, ConstVec qd);
-  ConstVec net_torque(double t, ConstVec q, ConstVec qd);  // tau - tau_f
+  ConstVec applied_torque(double t, ConstVec q, ConstVec qd);  // ... with J^T F of what pushes from outside
+  ConstVec net_torque(double t, ConstVec q, ConstVec qd);      // ... less tau_f
   ConstVec uncut_torque(double t, ConstVec q, ConstVec qd);  // what the law asks for, whatever the joints can
+  // What pushes from outside, about the world's origin.
+  Wrench pushed(double t, ConstVec q, ConstVec qd);
   LimitWatch& limits() { return limits_; }
 
   // The corners of the torque law that depend on the state; null: none. Those of `held` are kept at zero from
@@ -72,6 +76,7 @@ class ChainSystem final : public SecondOrder {
   void evaluate_law(double t, ConstVec q, ConstVec qd);
   void evaluate_uncut(double t, ConstVec q, ConstVec qd);
   void evaluate_mean(double t, ConstVec q, ConstVec qd);
+  ConstVec applied() const { return pushes_ == nullptr ? tau_ : tau_applied_; }  // behind evaluate_law
   void accelerate(ConstVec q, ConstVec qd, Vec qdd);
   void solve_for_sides();
 
@@ -81,7 +86,9 @@ class ChainSystem final : public SecondOrder {
   LimitWatch limits_;
   Workspace ws_;
   std::unique_ptr<ConstrainedChain> constrained_;
+  const Pushes* pushes_;  // null: none
   std::vector<double> tau_;
+  std::vector<double> tau_applied_;  // where something pushes
   std::vector<double> tau_net_;   // of a chain with friction
   bool torque_is_known_ = false;  // constant and evaluated: the same tau_ at every instant
   std::vector<int> held_;

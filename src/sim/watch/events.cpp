@@ -123,11 +123,12 @@ GroundAxes ground_axes(const Chain& chain) {
 }
 
 GroundLoad ground_load(const Chain& chain, Workspace& ws, const GroundAxes& axes, double height, ConstVec q,
-                       ConstVec qd, ConstVec qdd) {
+                       ConstVec qd, ConstVec qdd, const Wrench& pushed) {
   const Wrench on_robot = compute_ground_reaction(chain, ws, q, qd, qdd);
-  const double moment = axes.along.cross(axes.up).dot(on_robot.moment);
-  const double up = on_robot.force.dot(axes.up);
-  return {(moment + height * on_robot.force.dot(axes.along)) / up, up};
+  const Eigen::Vector3d force = on_robot.force - pushed.force;
+  const double moment = axes.along.cross(axes.up).dot(on_robot.moment - pushed.moment);
+  const double up = force.dot(axes.up);
+  return {(moment + height * force.dot(axes.along)) / up, up, force};
 }
 
 namespace {
@@ -174,12 +175,12 @@ void EventWatch::set_probe(double t, ConstVec q, ConstVec qd) {
   probe_.set(chain, ws_, t, q, qd, events_.needs_kinematics);
   if (events_.needs_multipliers) {
     ConstrainedChain& constrained = *system_.constrained();
-    constrained.look(system_.workspace(), q, qd, system_.torque(t, q, qd));
+    constrained.look(system_.workspace(), q, qd, system_.applied_torque(t, q, qd));
     probe_.set_multipliers(constrained.lambda());
   }
   if (!events_.load.are_read()) return;
   system_.acceleration(t, q, qd, qdd_);
-  events_.load.set(probe_, ground_load(chain, ws_, events_.ground, events_.foot->height, q, qd, qdd_));
+  events_.load.set(probe_, ground_load(chain, ws_, events_.ground, events_.foot->height, q, qd, qdd_, system_.pushed(t, q, qd)));
 }
 
 bool EventWatch::read(double t, ConstVec q, ConstVec qd) {

@@ -19,6 +19,7 @@
 
 #include "core/error.hpp"
 #include "core/names.hpp"
+#include "dynamics/equation_of_motion.hpp"
 #include "dynamics/workspace.hpp"
 #include "expr/expression.hpp"
 #include "integrate/integrator.hpp"
@@ -52,10 +53,11 @@ struct GroundLoad {
   // Infinite or no number where the ground bears nothing.
   double cop = 0;
   double grf = 0;  // F_up, N: below zero the ground would have to pull, and who stands on it takes off
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  // F
 };
-// The motion is the chain's own under some torque.
+// The motion is the chain's own under some torque; `pushed`: what else acts from outside.
 GroundLoad ground_load(const Chain& chain, Workspace& ws, const GroundAxes& axes, double height, ConstVec q,
-                       ConstVec qd, ConstVec qdd);
+                       ConstVec qd, ConstVec qdd, const Wrench& pushed = {});
 
 // Where a probe holds what the ground exerts; -1: nothing reads it.
 struct GroundSlots {

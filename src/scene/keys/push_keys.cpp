@@ -1,0 +1,80 @@
+// The key push: what pushes the robot from outside.
+#include <cmath>
+
+#include "scene/keys/own_keys.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr const char* kLike = "{frame: torso, force: [60, 0, 0], from: 1s, until: 1.1s}";
+
+PushEntry read_one_push(Fields& fields, const YAML::Node& node, const std::string& key) {
+  Fields inner(fields.document(), node, key, fields.problems());
+  PushEntry entry;
+  entry.place = fields.place_of(node, key);
+  inner.read("frame", entry.frame);
+  if (inner.read("force", entry.force) && entry.force.size() != 2 && entry.force.size() != 3)
+    inner.problem_at("force", "'" + inner.path("force") + "' takes two or three numbers, N along x, y and z of the world, not " +
+                                  std::to_string(entry.force.size()));
+  if (!inner.has("force")) fields.problems().add("'" + key + "' needs `force`: " + std::string(kLike), entry.place);
+  if (inner.read_seconds("from", entry.from) && !(entry.from >= 0))
+    inner.problem_at("from", "'" + inner.path("from") + "' is an instant of the run, 0 s or later");
+  if (inner.read_seconds("until", entry.until) && !(entry.until > entry.from))
+    inner.problem_at("until", "'" + inner.path("until") + "' must come behind `from`, " + format_shortest(entry.from) + " s");
+  inner.finish();
+  return entry;
+}
+
+}  // namespace
+
+KeyText told_push() {
+  const auto record = [](const std::string& what) {
+    return told_record("",
+                       {told("frame", KeyForm::text, "the link that is pushed at its origin, or the joint before it; the end effector where left out"),
+                        told_list("force", told("", KeyForm::number, ""), "N along x, y and z of the world").required(),
+                        told("from", KeyForm::number, "s; 0 where left out").within({.least = 0}),
+                        told("until", KeyForm::number, "s; the end of the run where left out").within({.least = 0, .is_open = true})},
+                       what);
+  };
+  return told_either("push", {record("a push"), told_list("", record("a push"), "several, which add up where they act at once")},
+                     "forces from outside, each for a while: beside the torques, and no work of the joints");
+}
+
+std::string push_text(const Scene& scene) {
+  if (scene.push.empty()) return "";
+  return flow_text([&](YAML::Emitter& out) {
+    const auto emit = [&](const PushEntry& push) {
+      out << YAML::Flow << YAML::BeginMap;
+      if (!push.frame.empty()) out << YAML::Key << "frame" << YAML::Value << word_text(push.frame);
+      out << YAML::Key << "force" << YAML::Value;
+      emit_numbers(out, push.force);
+      out << YAML::Key << "from" << YAML::Value << format_shortest(push.from);
+      if (std::isfinite(push.until)) out << YAML::Key << "until" << YAML::Value << format_shortest(push.until);
+      out << YAML::EndMap;
+    };
+    if (scene.push.size() == 1) return emit(scene.push.front());
+    out << YAML::Flow << YAML::BeginSeq;
+    for (const PushEntry& push : scene.push) emit(push);
+    out << YAML::EndSeq;
+  });
+}
+
+void read_push(Fields& fields, Scene& scene) {
+  const YAML::Node node = fields.find("push");
+  if (!node.IsDefined() || node.IsNull()) return;
+  if (node.IsMap()) {
+    scene.push.push_back(read_one_push(fields, node, fields.path("push")));
+    return;
+  }
+  for (std::size_t i = 0; node.IsSequence() && i < node.size(); ++i) {
+    const std::string key = fields.path("push") + "." + std::to_string(i + 1);
+    if (node[i].IsMap())
+      scene.push.push_back(read_one_push(fields, node[i], key));
+    else
+      fields.problems().add("'" + key + "' must be a push like " + std::string(kLike), fields.place_of(node[i], key));
+  }
+  if (!node.IsSequence() || node.size() == 0)
+    fields.problem_at("push", "'push' must be a push, or a list of such: push: " + std::string(kLike));
+}
+
+}  // namespace chainreel
