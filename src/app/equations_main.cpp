@@ -132,6 +132,20 @@ std::vector<std::string> parts_of(const std::string& only) {
   return parts;
 }
 
+// The equation says nothing to who does not know what stands in it.
+void tell_missing(const EquationsOptions& options, const EquationForm& form, const SymbolicEquation& equation) {
+  if (options.only.empty() || !form.has("equation") || options.common.quiet) return;
+  const auto is_any = [](const std::vector<Formula>& all) { return std::any_of(all.begin(), all.end(), [](const Formula& one) { return !one.is_zero(); }); };
+  std::vector<std::string> parts = separated(options.only, ','), missing;
+  for (const char* part : {"M", "C", "g", "tau_f"})
+    if (!form.has(part) && (std::string(part) != "tau_f" || is_any(equation.damping) || is_any(equation.friction))) missing.push_back(part);
+  if (missing.empty()) return;
+  parts.insert(parts.end(), missing.begin(), missing.end());
+  std::string all;
+  for (const std::string& part : parts) all += (all.empty() ? "" : ",") + part;
+  std::fprintf(stderr, "note: the equation holds %s, which --only leaves out: --only %s has all of it\n", joined(missing, ", ").c_str(), all.c_str());
+}
+
 void run_equations(const EquationsOptions& options) {
   const std::vector<std::string> outputs = options.outputs.empty() ? std::vector<std::string>{""} : options.outputs;
   std::vector<Form> forms;
@@ -148,6 +162,7 @@ void run_equations(const EquationsOptions& options) {
   refuse_twice(options.outputs);
   for (const std::string& path : options.outputs) files.push_back(std::make_unique<OutputFile>(path, options.common.force));
   const SymbolicEquation equation = equation_of(options);
+  tell_missing(options, words, equation);
   if (files.empty() && !options.common.json)
     return void(std::fputs(text_in(forms[0], equation, words).c_str(), stdout));
   for (std::size_t i = 0; i < files.size(); ++i) write_temporary(*files[i], text_in(forms[i], equation, words));

@@ -26,10 +26,6 @@ std::string format_shortest(double value) {
   return print(value);
 }
 
-std::string format_exact(double value) {
-  return print(value, std::chars_format::general, 17);
-}
-
 std::string format_fixed(double value, int decimals) {
   std::string text = print(value, std::chars_format::fixed, decimals);
   if (text[0] == '-' && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);

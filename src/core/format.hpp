@@ -10,7 +10,6 @@
 namespace chainreel {
 
 std::string format_shortest(double value);             // fewest digits that read back as the same double
-std::string format_exact(double value);                // 17 significant digits
 std::string format_fixed(double value, int decimals);  // never "-0.00"
 std::string format_significant(double value, int digits);  // below 1e5 without an exponent: 430 of 432.1, two digits
 

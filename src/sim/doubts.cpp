@@ -64,25 +64,6 @@ std::string cornered_curve(const Simulation& simulation) {
   return "";
 }
 
-std::optional<Doubt> doubt_energy(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit,
-                                  const std::optional<Accuracy>& chosen_by) {
-  double largest_work = 0;
-  for (const double work : trajectory.work) largest_work = std::max(largest_work, std::abs(work));
-  const double at_play = std::abs(audit.energy_start) + audit.energy_moved + largest_work;
-  const auto& steps = trajectory.energy_at_steps;  // without what the frames between them miss
-  const double error = steps ? steps->largest_error : audit.largest_error;
-  const double time = steps ? steps->time : audit.largest_error_time;
-  if (!(error > kDoubtfulEnergy * audit.energy_moved && error > kAuditRounding * at_play)) return {};
-  const double part = error / audit.energy_moved;
-  const std::string cornered = cornered_curve(simulation);
-  return Doubt{"energy", part,
-               "the energy is off by " + format_significant(error, 3) + " J at t = " +
-                   format_significant(time, 4) + " s, " + percent(part) + " of the " +
-                   format_significant(audit.energy_moved, 3) + " J that this motion moves" +
-                   (cornered.empty() ? "" : ": a corner of its curve `" + cornered + "` strikes the chain, whatever the step"),
-               !cornered.empty() ? "a curve without corners, as sqrt(x^2 + 1e-4) in the place of abs(x)" : finer(simulation, chosen_by, kAim * kDoubtfulEnergy / part)};
-}
-
 std::optional<Doubt> doubt_constraints(const Trajectory& trajectory, const std::optional<Accuracy>& chosen_by) {
   if (!(trajectory.position_error > kDoubtfulConstraint)) return {};
   return Doubt{"constraint", trajectory.position_error,
@@ -179,6 +160,25 @@ bool follows_a_curve(const Simulation& simulation) {
 
 }  // namespace
 
+std::optional<Doubt> doubt_of_energy(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit,
+                                  const std::optional<Accuracy>& chosen_by) {
+  double largest_work = 0;
+  for (const double work : trajectory.work) largest_work = std::max(largest_work, std::abs(work));
+  const double at_play = std::abs(audit.energy_start) + audit.energy_moved + largest_work;
+  const auto& steps = trajectory.energy_at_steps;  // without what the frames between them miss
+  const double error = steps ? steps->largest_error : audit.largest_error;
+  const double time = steps ? steps->time : audit.largest_error_time;
+  if (!(error > kDoubtfulEnergy * audit.energy_moved && error > kAuditRounding * at_play)) return {};
+  const double part = error / audit.energy_moved;
+  const std::string cornered = cornered_curve(simulation);
+  return Doubt{"energy", part,
+               "the energy is off by " + format_significant(error, 3) + " J at t = " +
+                   format_significant(time, 4) + " s, " + percent(part) + " of the " +
+                   format_significant(audit.energy_moved, 3) + " J that this motion moves" +
+                   (cornered.empty() ? "" : ": a corner of its curve `" + cornered + "` strikes the chain, whatever the step"),
+               !cornered.empty() ? "a curve without corners, as sqrt(x^2 + 1e-4) in the place of abs(x)" : finer(simulation, chosen_by, kAim * kDoubtfulEnergy / part)};
+}
+
 std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit,
                              const std::optional<Accuracy>& chosen_by) {
   std::vector<Doubt> doubts;
@@ -187,7 +187,7 @@ std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& tra
     if (doubt) doubts.push_back(std::move(*doubt));
   };
   if (simulation.motion) return doubts;  // no method erred: what a table does not tell truly, its remarks say
-  add(doubt_energy(simulation, trajectory, audit, chosen_by));
+  add(doubt_of_energy(simulation, trajectory, audit, chosen_by));
   if (trajectory.rows > 0) add(doubt_constraints(trajectory, chosen_by));
   if (simulation.step > 0 && !follows_a_curve(simulation)) add(StepsAgain(simulation, trajectory).doubt(chosen_by));
   add(doubt_between(simulation, trajectory));

@@ -35,4 +35,8 @@ struct Doubt {
 std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit,
                              const std::optional<Accuracy>& chosen_by);
 
+// Of its energy alone, by what the audit saw.
+std::optional<Doubt> doubt_of_energy(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit,
+                                     const std::optional<Accuracy>& chosen_by);
+
 }  // namespace chainreel

@@ -431,7 +431,7 @@ class Run {
   void set_trouble(RunStatus status, const std::string& what, double t) {
     trajectory_.status = status;
     trajectory_.trouble =
-        what + " at t = " + format_shortest(t) + " s (step " + std::to_string(steps() + 1) + ")";
+        what + " at t = " + format_significant(t, 12) + " s (step " + std::to_string(steps() + 1) + ")";
   }
 
   std::string name(int freedom) const { return simulation_.chain.coordinate_names[std::size_t(freedom)]; }

@@ -74,13 +74,11 @@ std::vector<double> multipliers_along(const Simulation& simulation, const Trajec
 
 namespace {
 
-void take_larger(std::vector<LargestMultiplier>& largest, const Trajectory& run) {
-  constexpr double kRounding = 1e-9;
+void take_larger(std::vector<Farthest>& largest, const Trajectory& run) {
   if (run.rows != int(largest.size()) || run.lambda.empty()) return;
   for (int k = 0; k < run.size(); ++k) {
     const ConstVec lambda = run.lambda_at(k);
-    for (std::size_t i = 0; i < largest.size(); ++i)
-      if (std::abs(lambda[i]) > (1 + kRounding) * std::abs(largest[i].value)) largest[i] = {lambda[i], run.t[std::size_t(k)]};
+    for (std::size_t i = 0; i < largest.size(); ++i) largest[i].look(lambda[i], run.t[std::size_t(k)]);
   }
 }
 
@@ -88,17 +86,22 @@ void take_larger(std::vector<LargestMultiplier>& largest, const Trajectory& run)
 
 std::vector<LargestMultiplier> largest_multipliers(const Simulation& simulation, const Trajectory& trajectory) {
   constexpr std::size_t kLooks = 60'000;
-  std::vector<LargestMultiplier> largest(std::size_t(trajectory.rows));
+  std::vector<Farthest> largest(std::size_t(trajectory.rows), Farthest(simulation.duration));
+  const auto found = [&] {
+    std::vector<LargestMultiplier> all;
+    for (const Farthest& one : largest) all.push_back({one.value(), one.t()});
+    return all;
+  };
   take_larger(largest, trajectory);
   if (trajectory.between) take_larger(largest, *trajectory.between);
-  if (largest.empty() || simulation.motion || trajectory.status != RunStatus::finished) return largest;
+  if (largest.empty() || simulation.motion || trajectory.status != RunStatus::finished) return found();
   look_closer(simulation, trajectory, kLooks, [&](const Trajectory& seen) {
     take_larger(largest, seen);
     std::vector<double> instants;
-    for (const LargestMultiplier& one : largest) instants.push_back(one.t);
+    for (const Farthest& one : largest) instants.insert(instants.end(), {one.at(), one.t()});
     return instants;
   });
-  return largest;
+  return found();
 }
 
 std::vector<double> constraint_errors_along(const Simulation& simulation, const Trajectory& trajectory) {

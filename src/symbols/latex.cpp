@@ -108,11 +108,11 @@ std::string latex_formulas_of(const SymbolicEquation& equation, const EquationFo
   const std::string qd = "\\dot{" + q + "}";
   std::string text;
   if (form.has("equation"))
-    text += displayed("\\tau = M(" + q + ") \\ddot{" + q + "} + C(" + q + ", " + qd + ") " + qd + " + g(" + q + ")" +
+    text += displayed("\\tau = M(" + q + ") \\ddot{" + q + "} + C(" + q + ", " + qd + ") " + qd + " + \\mathbf{g}(" + q + ")" +
                       (dissipates ? " + \\tau_f(" + qd + ")" : ""));
   if (form.has("M")) text += displayed(matrix_in_latex(writer, "M", equation.M));
   if (form.has("C")) text += displayed(matrix_in_latex(writer, "C", equation.C));
-  if (form.has("g")) text += displayed(vector_in_latex(writer, "g", "(" + q + ")", equation.g));
+  if (form.has("g")) text += displayed(vector_in_latex(writer, "\\mathbf{g}", "(" + q + ")", equation.g));
   if (dissipates && form.has("tau_f")) text += displayed(dissipation_in_latex(writer, equation, angle));
   if (!equation.end_effector.empty() && form.has("J")) text += displayed(matrix_in_latex(writer, "J", equation.J));
   if (!equation.end_effector.empty() && form.has("Lambda")) {

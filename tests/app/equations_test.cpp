@@ -44,6 +44,8 @@ TEST(Equations, HoldThePartsThatAreAskedForAndLongSumsOnSeveralLines) {
   const std::string m = run_program({"equations", "models/rrr.urdf", "--latex", "--only", "M"}).out;
   EXPECT_THAT(m, Not(HasSubstr("\\tau = M("))) << "what was not asked for";
   EXPECT_THAT(run_program({"equations", "models/rrr.urdf", "--latex", "--only", "equation,M"}).out, AllOf(HasSubstr("\\tau = M("), HasSubstr("M &="), Not(HasSubstr("C_{11}"))));
+  EXPECT_THAT(run_program({"equations", "models/rrr.urdf", "--only", "equation,M"}).err, HasSubstr("holds C, g, which --only leaves out: --only equation,M,C,g"));
+  EXPECT_EQ(run_program({"equations", "models/rrr.urdf", "--only", "equation,M,C,g"}).err, "");
   EXPECT_THAT(m, HasSubstr("M &= \\begin{bmatrix} M_{11} & M_{12} & M_{13} \\\\ M_{12} & M_{22} & M_{23}"));
   EXPECT_THAT(m, HasSubstr("M_{11} &="));
   EXPECT_THAT(m, testing::Not(HasSubstr("gravity"))) << "M knows nothing of it";

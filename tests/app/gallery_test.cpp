@@ -68,6 +68,15 @@ TEST(Gallery, TakesAWebmWhereThereIsNoMp4AndLeavesPartialFilms) {
   EXPECT_THAT(page(folder), HasSubstr("data:video/webm;base64,"));
 }
 
+TEST(Gallery, SaysWhatBrowsersDoNotPlay) {
+  const TemporaryFolder folder;
+  render(folder, "a.mp4");
+  render(folder, "a.gif");
+  render(folder, "b.gif");
+  EXPECT_THAT(gallery(folder, {}).err, AllOf(HasSubstr("left out: " + folder.file("b.gif") + ";"), Not(HasSubstr("a.gif,"))));
+  EXPECT_EQ(gallery(folder, {"--quiet"}).err, "");
+}
+
 // Two films of one name are two where each has its own audit.
 TEST(Gallery, ShowsAWebmBesideAnotherFilmOfItsName) {
   const TemporaryFolder folder;

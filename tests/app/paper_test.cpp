@@ -198,7 +198,7 @@ TEST(OnPaper, EllipsesHaveTheirMassesOrSayThatThereIsNoRoom) {
   };
   EXPECT_EQ(told({"--letters"}), "");
   EXPECT_EQ(told({"--letters", "--layout", "row"}), "");
-  EXPECT_THAT(told({"--letters", "--layout", "row", "--height-mm", "25"}), testing::HasSubstr("no room for the masses"));
+  EXPECT_THAT(told({"--letters", "--layout", "row", "--height-mm", "22"}), testing::HasSubstr("no room for the masses"));
 }
 
 TEST(OnPaper, JointSpaceIsAsHighAsItsPosesNeed) {

@@ -15,7 +15,7 @@ void OurEngine::start(const test::State& state) {
   q_ = state.q;
   qd_ = state.qd;
   std::vector<TorqueEntry> entries(state.tau.size());
-  for (std::size_t i = 0; i < entries.size(); ++i) entries[i].text = format_exact(state.tau[i]);
+  for (std::size_t i = 0; i < entries.size(); ++i) entries[i].text = format_shortest(state.tau[i]);
   torque_ = make_torque_law(chain_, entries, {});
   system_ = std::make_unique<ChainSystem>(chain_, *torque_, LimitPolicy::report, ConstraintPlan{});
 }

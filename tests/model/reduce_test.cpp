@@ -75,7 +75,7 @@ class RandomParts {
 };
 
 std::string words(const Vector3d& v) {
-  return format_exact(v[0]) + " " + format_exact(v[1]) + " " + format_exact(v[2]);
+  return format_shortest(v[0]) + " " + format_shortest(v[1]) + " " + format_shortest(v[2]);
 }
 
 // By the C library and Eigen, not by the reader's own code.
@@ -121,10 +121,10 @@ Welded welded_tree(unsigned seed, int links) {
     const Matrix3d& I = body.about_com;
     tree.text +=
         link_text(name, "<inertial><origin xyz='" + words(body.com) + "' rpy='" + words(inertial_rpy) +
-                            "'/><mass value='" + format_exact(body.mass) + "'/><inertia ixx='" +
-                            format_exact(I(0, 0)) + "' ixy='" + format_exact(I(0, 1)) + "' ixz='" +
-                            format_exact(I(0, 2)) + "' iyy='" + format_exact(I(1, 1)) + "' iyz='" +
-                            format_exact(I(1, 2)) + "' izz='" + format_exact(I(2, 2)) + "'/></inertial>");
+                            "'/><mass value='" + format_shortest(body.mass) + "'/><inertia ixx='" +
+                            format_shortest(I(0, 0)) + "' ixy='" + format_shortest(I(0, 1)) + "' ixz='" +
+                            format_shortest(I(0, 2)) + "' iyy='" + format_shortest(I(1, 1)) + "' iyz='" +
+                            format_shortest(I(1, 2)) + "' izz='" + format_shortest(I(2, 2)) + "'/></inertial>");
     Inertia in_its_frame = body;
     in_its_frame.com.setZero();
     add_points(in_its_frame, X.back() * pose(body.com, inertial_rpy), tree.points);

@@ -13,7 +13,7 @@ namespace {
 
 std::string numbers(std::initializer_list<double> values) {
   std::string text;
-  for (const double value : values) text += (text.empty() ? "" : " ") + format_exact(value);
+  for (const double value : values) text += (text.empty() ? "" : " ") + format_shortest(value);
   return text;
 }
 
@@ -31,7 +31,7 @@ std::string inertial_of(const Inertia& inertia) {
   if (axes.determinant() < 0) axes.col(0) *= -1;  // a rotation, no reflection
   const Eigen::Vector3d moments = principal.eigenvalues().cwiseMax(kLeast);
   return "<inertial pos=\"" + numbers(inertia.com) + "\" quat=\"" + numbers(Eigen::Quaterniond(axes)) +
-         "\" mass=\"" + format_exact(std::max(inertia.mass, kLeast)) + "\" diaginertia=\"" +
+         "\" mass=\"" + format_shortest(std::max(inertia.mass, kLeast)) + "\" diaginertia=\"" +
          numbers(moments) + "\"/>";
 }
 

@@ -69,10 +69,10 @@ TEST_F(Keys, TakeNumbersUpToTheEndsOfTheirRangesAndNoFurther) {
       ++ends;
       const double away = end == key.range.least ? -1 : 1;
       const double beyond = key.form == KeyForm::whole ? end + away : end + away * std::max(std::abs(end), 1.0) * 1e-3;
-      const std::string refusal = error("", with(key, format_exact(beyond)));
+      const std::string refusal = error("", with(key, format_shortest(beyond)));
       EXPECT_THAT(refusal, HasSubstr("'" + key.name + "' must")) << beyond;
       EXPECT_THAT(refusal, HasSubstr(range_text(key.range, key.unit)));
-      EXPECT_EQ(error("", with(key, format_exact(end))).find("'" + key.name + "' must") == std::string::npos,
+      EXPECT_EQ(error("", with(key, format_shortest(end))).find("'" + key.name + "' must") == std::string::npos,
                 !(key.range.is_open && end == key.range.least))
           << key.name << " = " << end;
     }

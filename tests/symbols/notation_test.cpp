@@ -38,7 +38,7 @@ TEST(Notation, OfADocumentStandsByItself) {
   const std::string latex = latex_document_of(equation);
   EXPECT_TRUE(latex.starts_with("\\documentclass{article}"));
   EXPECT_TRUE(latex.ends_with("\\end{document}\n"));
-  EXPECT_THAT(latex, AllOf(HasSubstr("$m_{1}$ & 1 kg & mass of b1 \\\\"), HasSubstr("g(q) = \\begin{bmatrix}"), HasSubstr("9.81 m/s$^{2}$"),
+  EXPECT_THAT(latex, AllOf(HasSubstr("$m_{1}$ & 1 kg & mass of b1 \\\\"), HasSubstr("\\mathbf{g}(q) = \\begin{bmatrix}"), HasSubstr("9.81 m/s$^{2}$"),
                            HasSubstr("a\\_b \\& 50 \\% of c\\textasciicircum{}2 in C:\\textbackslash{}d.")));
   for (const char* name : {"document", "bmatrix", "aligned", "tabular"}) {
     const auto count = [&](const std::string& word) {

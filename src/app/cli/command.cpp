@@ -247,7 +247,7 @@ std::string gravity_override(const std::string& text) {
   const std::vector<double> g = parse_list(text, "--gravity", "m/s^2");
   if (g.size() != 3)
     throw Error(ExitCode::usage, "--gravity takes three numbers, world x,y,z: --gravity 0,-9.81,0");
-  return "gravity=[" + format_exact(g[0]) + ", " + format_exact(g[1]) + ", " + format_exact(g[2]) + "]";
+  return "gravity=[" + format_shortest(g[0]) + ", " + format_shortest(g[1]) + ", " + format_shortest(g[2]) + "]";
 }
 
 bool is_model_file(const std::string& path) {

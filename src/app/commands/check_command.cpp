@@ -173,7 +173,7 @@ void print_candidates(const Choice& choice, const Accuracy& accuracy, bool all) 
     const bool is_off = one.trouble.empty() && !(one.error <= accuracy.value);
     table.push_back({to_string(one.setting), std::isfinite(one.error) ? format_significant(one.error, 2) : "-",
                      one.curve_error ? format_significant(100 * *one.curve_error, 2) : "-",
-                     format_significant(one.cost / 1000, 3), std::to_string(one.evaluations), is_off ? "misses the accuracy" : one.trouble});
+                     (one.trouble.empty() ? "" : "> ") + format_significant(one.cost / 1000, 3), std::to_string(one.evaluations), is_off ? "misses the accuracy" : one.trouble});
   }
   if (shown > 0) std::fputs(table_text(table).c_str(), stdout);
   if (shown < others.size()) std::printf("%zu others: --all\n", others.size() - shown);

@@ -31,7 +31,7 @@ Eigen::Vector3d point_of(const Chain& chain, Workspace& ws, const std::vector<do
 }
 
 std::string number_or_inf(const std::optional<double>& value) {
-  return value ? format_exact(*value) : "inf";
+  return value ? format_shortest(*value) : "inf";
 }
 
 // At the pose at which `mass` was taken.
@@ -100,19 +100,19 @@ std::string ellipse_csv(const TipMass& tip, const GatheredPoses& poses, const El
     text += "," + with_unit("semi_axis" + std::to_string(i + 1) + "_" + to_string(form.reading), form.reading == EllipseReading::energy ? "m/s" : "kg");
   text += "\n";
   for (std::size_t k = 0; k < poses.q.size(); ++k) {
-    if (k < poses.t.size()) text += format_exact(poses.t[k]) + ",";
-    for (const double q : poses.q[k]) text += format_exact(q) + ",";
+    if (k < poses.t.size()) text += format_shortest(poses.t[k]) + ",";
+    for (const double q : poses.q[k]) text += format_shortest(q) + ",";
     const EffectiveMass mass = tip.at(ws, poses.q[k]);
     const Eigen::Vector3d point = point_of(chain, ws, poses.q[k]);
-    text += format_exact(point.x()) + "," + format_exact(point.y()) + "," + format_exact(point.z());
+    text += format_shortest(point.x()) + "," + format_shortest(point.y()) + "," + format_shortest(point.z());
     for (Eigen::Index i = 0; i < Eigen::Index(rows); ++i)
-      for (Eigen::Index j = i; j < Eigen::Index(rows); ++j) text += "," + format_exact(mass.Lambda_inv(i, j));
+      for (Eigen::Index j = i; j < Eigen::Index(rows); ++j) text += "," + format_shortest(mass.Lambda_inv(i, j));
     for (Eigen::Index i = 0; i < Eigen::Index(rows); ++i)
-      for (Eigen::Index j = i; j < Eigen::Index(rows); ++j) text += "," + (mass.Lambda ? format_exact((*mass.Lambda)(i, j)) : "nan");
+      for (Eigen::Index j = i; j < Eigen::Index(rows); ++j) text += "," + (mass.Lambda ? format_shortest((*mass.Lambda)(i, j)) : "nan");
     for (const std::optional<double>& along : masses_along(mass)) text += "," + number_or_inf(along);
     for (const MassAxis& axis : mass_axes(mass)) {
       text += "," + number_or_inf(axis.mass);
-      for (const Eigen::Vector3d& along : basis.directions) text += "," + format_exact(axis.direction.dot(along));
+      for (const Eigen::Vector3d& along : basis.directions) text += "," + format_shortest(axis.direction.dot(along));
     }
     for (const MassAxis& axis : drawn_axes(chain, ws, poses.q[k], mass, form))
       text += "," + number_or_inf(semi_axis(axis, form.reading));

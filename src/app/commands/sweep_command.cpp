@@ -379,6 +379,9 @@ void run_sweep(SweepOptions options) {
       std::printf("%s: %d runs, %zu of them done before, %zu failed\n", path.c_str(), runs.behind - runs.first, outcome.skipped,
                   outcome.failed);
     if (outcome.failed > worst.failed) worst = outcome;
+    if (outcome.doubtful > 0 && written.size() == 1)
+      tell_warnings({path + ": " + std::to_string(outcome.doubtful) + (outcome.doubtful == 1 ? " row is" : " rows are") +
+                     " doubtful: its column `trouble` says by how much the energy is off"});
   };
   // Tables first: they depend on the files that were read up to there, which must be the same for all shares.
   if (std::vector<std::string> tables = tables_of(options.outputs); !tables.empty()) {
@@ -417,8 +420,8 @@ void add_sweep_command(CommandLine& app) {
   command->add_option("--jobs", options->jobs, "runs beside one another (default: all cores)").range(1, 256);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
-  command->footer("A table has a row a run: its last state and the energy there, the instants of its events, and what --peaks asks for; no row is warned of, --peaks energy_error\n"
-                  "shows what its energy is off by. Tables are computed by\n"
+  command->footer("A table has a row a run: its last state and the energy there, the instants of its events, and what --peaks asks for; `trouble` says\n"
+                  "why it failed, or that its energy is off by more than 1 % of what it moved. Tables are computed by\n"
                   "dop853 with tolerance 1e-10 where a scene leaves its method to auto, which asks what a page shows; films and pictures\n"
                   "by what auto takes.\n"
                   "A .csv table begins with three lines of facts, `# ..`: pandas.read_csv(file, comment='#'), or numpy.genfromtxt(file,\n"

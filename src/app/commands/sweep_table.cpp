@@ -26,6 +26,8 @@
 #include "scene/run/prepare.hpp"
 #include "scene/text/unread.hpp"
 #include "scene/text/read_scene.hpp"
+#include "sim/audit.hpp"
+#include "sim/doubts.hpp"
 #include "sim/workload.hpp"
 #include "table/data_table.hpp"
 
@@ -34,6 +36,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kRunsOfPiece = 16;  // that a thread takes at a time
+const std::string kDoubtful = "doubtful: ";
 
 std::vector<std::string> settings_of(const std::vector<std::string>& overrides, const Grid& grid, std::size_t run) {
   std::vector<std::string> all = overrides;
@@ -143,10 +146,9 @@ class RowMaker {
         return row + failed_row("its states or events are other ones than the first run's");
       require_possible(simulation);
       const auto stop = [](double) { return interrupted(); };
-      if (job_.peaks.empty())
-        return row + row_of(scene, simulation.chain, simulate(simulation, std::vector<double>{scene.duration}, stop), {});
+      if (job_.peaks.empty()) return row + row_of(scene, simulation, simulate(simulation, looks_at(scene.duration), stop), {});
       const PeaksOfRun found = simulate_for_peaks(simulation, job_.peaks, stop);
-      return row + row_of(scene, simulation.chain, found.run, found.peaks);
+      return row + row_of(scene, simulation, found.run, found.peaks);
     } catch (const Error& error) {
       throw_if_interrupted();
       return row + failed_row(error.problems().front().message);
@@ -154,9 +156,26 @@ class RowMaker {
   }
 
  private:
-  std::string row_of(const Scene& scene, const Chain& chain, const Trajectory& run, const std::vector<Peak>& peaks) const {
+  // The end, and instants before by which the energy at the end is judged.
+  static std::vector<double> looks_at(double duration) {
+    constexpr int kLooks = 8;
+    std::vector<double> times;
+    for (int k = 1; k <= kLooks; ++k) times.push_back(duration * k / kLooks);
+    return times;
+  }
+
+  // What speaks against a run that came to its end.
+  static std::string doubt_of(const Simulation& simulation, const Trajectory& run) {
+    if (!is_complete(run.status)) return "";
+    const auto doubt = doubt_of_energy(simulation, run, audit_of(simulation, run), {});
+    return doubt ? kDoubtful + doubt->words : "";
+  }
+
+  std::string row_of(const Scene& scene, const Simulation& simulation, const Trajectory& run, const std::vector<Peak>& peaks) const {
+    const Chain& chain = simulation.chain;
     const bool as_expected =
         scene.expect == Outcome::diverge ? run.status == RunStatus::diverged : is_complete(run.status);
+    const std::string trouble = run.trouble.empty() ? doubt_of(simulation, run) : run.trouble;
     std::string row = as_expected ? ",1," : ",0,";
     row += to_string(run.status) + "," + format_shortest(run.end_time) + "," +
            (run.ending_event < 0 ? "" : csv_words(scene.events[std::size_t(run.ending_event)].title()));
@@ -166,7 +185,7 @@ class RowMaker {
     for (int k = run.events.size() - 1; k >= 0; --k)
       first[std::size_t(run.events.event[std::size_t(k)])] = format_shortest(run.events.t[std::size_t(k)]);
     for (const std::string& time : first) row += "," + time;
-    return row + "," + (run.trouble.empty() ? "" : csv_words(run.trouble));
+    return row + "," + (trouble.empty() ? "" : csv_words(trouble));
   }
   std::string failed_row(const std::string& why) const {
     return ",0,refused,,," + no_state() + "," + std::string(peaks_ + events_, ',') + "," + csv_words(why);
@@ -249,7 +268,7 @@ std::size_t end_of_cell(const std::string& row, std::size_t begin) {
   return begin;
 }
 
-// Counts what failed, and keeps what the first in the grid's order says.
+// Counts what failed or is doubtful, and keeps what the first that failed in the grid's order says.
 class Failures {
  public:
   explicit Failures(const Grid& grid) : grid_(grid) {}
@@ -257,8 +276,10 @@ class Failures {
   void look(const std::string& row) {
     std::size_t comma = end_of_cell(row, 0);
     for (std::size_t k = 0; k < grid_.axes().size() && comma < row.size(); ++k) comma = end_of_cell(row, comma + 1);
-    if (comma >= row.size() || row.compare(comma, 3, ",0,") != 0) return;
+    if (comma >= row.size()) return;
     const std::lock_guard guard(lock_);
+    if (row.find("," + csv_words(kDoubtful).substr(0, kDoubtful.size())) != std::string::npos) ++outcome_.doubtful;
+    if (row.compare(comma, 3, ",0,") != 0) return;
     ++outcome_.failed;
     const std::size_t run = std::strtoull(row.c_str(), nullptr, 10);
     if (outcome_.failed > 1 && run > first_) return;
@@ -364,6 +385,7 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
   if (table_format_of(path) == TableFormat::csv) copies.write(read_plain_file(path, kLargestGrown));
   const SweepOutcome seen = failures.outcome();
   outcome.failed = seen.failed;
+  outcome.doubtful = seen.doubtful;
   outcome.first_failure = seen.first_failure;
   return outcome;
 }

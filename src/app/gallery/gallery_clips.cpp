@@ -46,19 +46,24 @@ bool is_partial(const fs::path& path) {
 }
 
 // By their names.
-void add_films_in(const fs::path& folder, std::vector<std::string>& found) {
+void add_films_in(const fs::path& folder, FoundClips& found) {
   std::vector<std::string> in_folder;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path& path = entry.path();
-    if (std::error_code code; !entry.is_regular_file(code) || browser_type_of(path).empty() || is_partial(path)) continue;
     std::error_code code;
+    const bool is_clip = find_output_format(path.string(), Shows::motion) != nullptr;
+    if (!is_clip || !entry.is_regular_file(code) || is_partial(path)) continue;
+    if (browser_type_of(path).empty()) {
+      if (!fs::exists(fs::path(path).replace_extension(".mp4"), code)) found.left_out.push_back(path.string());
+      continue;
+    }
     // The same film once, for which one audit speaks.
     const std::string other = fs::path(path).replace_extension(".mp4").string();
     if (path.extension() == ".webm" && fs::exists(other, code) && audit_path_of(path.string()) == audit_path_of(other)) continue;
     in_folder.push_back(path.string());
   }
   std::sort(in_folder.begin(), in_folder.end());
-  found.insert(found.end(), in_folder.begin(), in_folder.end());
+  found.paths.insert(found.paths.end(), in_folder.begin(), in_folder.end());
 }
 
 // The text of a file beside a film; "" where there is none, or none that can be read.
@@ -171,8 +176,8 @@ double poster_time(const Json& audit, double film_seconds) {
   }
 }
 
-std::vector<std::string> find_clips(const std::vector<std::string>& paths) {
-  std::vector<std::string> found;
+FoundClips find_clips(const std::vector<std::string>& paths) {
+  FoundClips found;
   ProblemList problems;
   for (const std::string& path : paths) {
     std::error_code code;
@@ -183,13 +188,14 @@ std::vector<std::string> find_clips(const std::vector<std::string>& paths) {
     else if (browser_type_of(path).empty())
       problems.add("is no film for browsers: a gallery takes .mp4 and .webm", {path});
     else
-      found.push_back(path);
+      found.paths.push_back(path);
   }
   problems.throw_if_any();
   // Each once, where it is named first.
   std::set<std::string> seen;
-  std::erase_if(found, [&](const std::string& path) { return !seen.insert(path).second; });
-  if (!found.empty()) return found;
+  std::erase_if(found.paths, [&](const std::string& path) { return !seen.insert(path).second; });
+  std::sort(found.left_out.begin(), found.left_out.end());
+  if (!found.paths.empty()) return found;
   throw Error(ExitCode::bad_input, "there is no film (.mp4, .webm) here: render some first", {joined(paths)});
 }
 

@@ -29,7 +29,11 @@ struct GalleryClip {
 
 // Films named, and those in folders named (NAME.webm alone where there is no NAME.mp4), in the order in which they are named, those of a folder by their names.
 // Throws Error (exit 3) where a path is no film and no folder, and where there is no film at all.
-std::vector<std::string> find_clips(const std::vector<std::string>& paths);
+struct FoundClips {
+  std::vector<std::string> paths;
+  std::vector<std::string> left_out;  // clips in those folders of kinds that browsers do not play
+};
+FoundClips find_clips(const std::vector<std::string>& paths);
 
 // Throws Error (exit 3) with the problems of all that cannot be played.
 std::vector<GalleryClip> read_clips(const std::vector<std::string>& paths);

@@ -10,6 +10,7 @@
 #include "app/cli/streams.hpp"
 #include "app/gallery/gallery_page.hpp"
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "core/output_file.hpp"
 
 namespace chainreel {
@@ -39,7 +40,8 @@ void tell_of_long_films(const std::vector<GalleryClip>& clips) {
 void run_gallery(const GalleryOptions& options) {
   if (!options.output.ends_with(".html"))
     throw Error(ExitCode::usage, "-o " + options.output + ": a gallery is written as .html");
-  const std::vector<GalleryClip> clips = read_clips(find_clips(options.paths));
+  const FoundClips found = find_clips(options.paths);
+  const std::vector<GalleryClip> clips = read_clips(found.paths);
   OutputFile output(options.output, options.common.force);
   std::ofstream stream(output.temporary_path(), std::ios::binary);
   write_gallery(stream, clips, options.title);
@@ -48,6 +50,8 @@ void run_gallery(const GalleryOptions& options) {
   throw_if_interrupted();
   output.commit();
   if (!options.common.quiet) tell_of_long_films(clips);
+  if (!options.common.quiet && !found.left_out.empty())
+    std::fprintf(stderr, "note: left out: %s; browsers play .mp4 and .webm here: give such a -o beside, as in -o a.gif -o a.mp4\n", joined(found.left_out).c_str());
   tell_files(options.common, {options.output}, [&] { return Json{{"clips", clips.size()}}; });
 }
 

@@ -204,11 +204,13 @@ std::string sentence_of(const FilmReport& report) {
   return text + "); in the first, " + motion + ".";
 }
 
-std::string alt_text(const FilmReport& report) {
+std::string alt_text(const FilmReport& report, const ClipLength& clip) {
   const Scene& scene = report.film().scene;
-  std::string text = sentence_of(report) + "\n\nScene: " + scene.name +
-                     "\nDuration: " + format_significant(report.film_seconds(), 6) + " s, " +
-                     std::to_string(report.frames) + " frames";
+  const std::vector<PreparedScene>& panels = report.film().panels;
+  std::string text = sentence_of(report) + "\n\n";
+  for (std::size_t i = 1; i < panels.size(); ++i)
+    text += title_of(report.panels[i]) + ": " + motion_words(panels[i], report.runs[i].end_time) + ".\n";
+  text += "Scene: " + scene.name + "\nDuration: " + format_significant(clip.seconds, 6) + " s, " + std::to_string(clip.frames) + " frames";
   const double first = scene.hold.first, last = scene.hold.last;
   if (first > 0) text += "; the first is held for " + format_quantity(first, "s");
   if (last > 0) text += "; the last is held for " + format_quantity(last, "s");

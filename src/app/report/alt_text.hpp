@@ -15,8 +15,13 @@ ClipMemory memory_of(const FilmReport& report);
 // One sentence: what moves, for how long, under what.
 std::string sentence_of(const FilmReport& report);
 
-// The sentence, scene, duration, units, and what happens when.
-std::string alt_text(const FilmReport& report);
+// How long a clip is: small ones have frames of their own.
+struct ClipLength {
+  int frames = 0;
+  double seconds = 0;
+};
+// The sentence, what moves in each further panel, scene, duration, units, and what happens when.
+std::string alt_text(const FilmReport& report, const ClipLength& clip);
 
 // Captions in SRT, one an event of the runs, at the times of the film, none behind its end; "" where there is no event.
 std::string captions(const FilmReport& report);

@@ -50,8 +50,8 @@ bool is_seen_between(const Trajectory& run, MotionColumn column) {
 }
 
 // The method's own error, at the ends of its steps: what its dense output adds between them is none of the run's.
-void look_at_steps(const Trajectory& run, Peak& peak) {
-  if (run.energy_at_steps && run.energy_at_steps->largest_error > peak.value) peak = {run.energy_at_steps->largest_error, run.energy_at_steps->time};
+void look_at_steps(const Trajectory& run, Farthest& peak) {
+  if (run.energy_at_steps) peak.look(run.energy_at_steps->largest_error, run.energy_at_steps->time);
 }
 
 // One number along a run.
@@ -68,7 +68,7 @@ struct Course {
 // When it is highest or lowest, and all but so: between samples another peak than theirs may be the farthest. The highest first.
 std::vector<Peak> tops_of(const Course& course) {
   constexpr double kAllBut = 0.98;
-  constexpr std::size_t kMost = 5;
+  constexpr std::size_t kMost = 8;
   std::vector<Peak> tops;
   double farthest = 0;
   for (std::size_t k = 0; k < course.size(); ++k) farthest = std::max(farthest, std::abs(course.at(k)));
@@ -82,32 +82,25 @@ std::vector<Peak> tops_of(const Course& course) {
   return tops;
 }
 
-// Of those that are as far but for rounding the first counts.
-bool is_farther(const Peak& one, const Peak& than) {
-  constexpr double kRounding = 1e-9;
-  const double a = std::abs(one.value), b = std::abs(than.value);
-  return a > (1 + kRounding) * b || (a >= (1 - kRounding) * b && one.t < than.t);
-}
-
 // Where samples of the run lie farther out than `peaks`, those instead. Returns instants to be looked at more closely.
-std::vector<double> look_at(const Simulation& simulation, const Trajectory& run, const std::vector<MotionColumn>& columns, std::vector<Peak>& peaks) {
+std::vector<double> look_at(const Simulation& simulation, const Trajectory& run, const std::vector<MotionColumn>& columns, std::vector<Farthest>& peaks) {
   std::vector<double> closer;
   std::size_t first = 0;
   for (const MotionColumn column : columns) {
     if (column == MotionColumn::energy_error) {
-      peaks.resize(std::max(peaks.size(), first + 1));
+      peaks.resize(std::max(peaks.size(), first + 1), Farthest(simulation.duration));
       look_at_steps(run, peaks[first++]);
       continue;
     }
     const Trajectory& seen = is_seen_between(run, column) ? *run.between : run;
     for (const DataArray& array : table_of(simulation, seen, column).arrays) {
       const std::size_t count = array.columns.size();
-      peaks.resize(std::max(peaks.size(), first + count));
+      peaks.resize(std::max(peaks.size(), first + count), Farthest(simulation.duration));
       for (std::size_t i = 0; i < count; ++i) {
         const std::vector<Peak> tops = tops_of({seen, array.values, i, count});
         for (const Peak& top : tops) {
           closer.push_back(top.t);
-          if (is_farther(top, peaks[first + i])) peaks[first + i] = top;
+          peaks[first + i].look(top.value, top.t);
         }
       }
       first += count;
@@ -126,10 +119,12 @@ PeaksOfRun simulate_for_peaks(const Simulation& simulation, const std::vector<Mo
   const bool asks_for_energy = std::find(columns.begin(), columns.end(), MotionColumn::energy_error) != columns.end();
   const double between = simulation.duration / kInstants;
   PeaksOfRun found{asks_for_energy ? simulate_audited(simulation, times, stop, between) : simulate(simulation, times, stop, {}, between), {}};
-  look_at(simulation, found.run, columns, found.peaks);
+  std::vector<Farthest> peaks;
+  look_at(simulation, found.run, columns, peaks);
   const bool asks_for_more = columns.size() > std::size_t(asks_for_energy);
   if (asks_for_more && is_complete(found.run.status))
-    look_closer(simulation, found.run, kLooks, [&](const Trajectory& seen) { return look_at(simulation, seen, columns, found.peaks); }, stop);
+    look_closer(simulation, found.run, kLooks, [&](const Trajectory& seen) { return look_at(simulation, seen, columns, peaks); }, stop);
+  for (const Farthest& one : peaks) found.peaks.push_back({one.value(), one.t()});
   return found;
 }
 
@@ -155,10 +150,9 @@ std::vector<NamedPeak> peaks_of(const DataTable& table) {
     const DataArray& array = table.arrays[a];
     const std::size_t count = array.columns.size();
     for (std::size_t i = 0; i < count; ++i) {
-      Peak peak{0, t.empty() ? 0 : t.front()};
-      for (std::size_t row = 0; row < table.rows; ++row)
-        if (const double value = array.values[row * count + i]; std::abs(value) > std::abs(peak.value)) peak = {value, t[row]};
-      all.push_back(named(array.columns[i], peak));
+      Farthest peak(t.empty() ? 0 : t.back() - t.front());
+      for (std::size_t row = 0; row < table.rows; ++row) peak.look(array.values[row * count + i], t[row]);
+      all.push_back(named(array.columns[i], {peak.value(), peak.value() == 0 && !t.empty() ? t.front() : peak.t()}));
     }
   }
   return all;

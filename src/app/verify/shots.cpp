@@ -40,7 +40,7 @@ std::vector<const SuitePicture*> pictures_beside(const Suite& suite, const Suite
 
 std::string list_override(const std::string& key, std::span<const double> numbers) {
   std::string text = key + "=[";
-  for (std::size_t i = 0; i < numbers.size(); ++i) text += (i > 0 ? ", " : "") + format_exact(numbers[i]);
+  for (std::size_t i = 0; i < numbers.size(); ++i) text += (i > 0 ? ", " : "") + format_shortest(numbers[i]);
   return text + "]";
 }
 
@@ -48,7 +48,7 @@ void add_camera(const KeptCamera& camera, std::vector<std::string>& overrides) {
   overrides.push_back(list_override("camera.fit", camera.part));
   if (!camera.eye) return;
   overrides.push_back(list_override("camera.focus", std::span(*camera.eye).first(3)));
-  overrides.push_back("camera.distance=" + format_exact(camera.eye->back()));
+  overrides.push_back("camera.distance=" + format_shortest(camera.eye->back()));
 }
 
 // Keys of the suite, and the camera that its baselines have; a suite's own `fit` is among its keys. Those of a variant come last.

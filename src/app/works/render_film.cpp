@@ -151,10 +151,23 @@ std::vector<Sidecar> open_sidecars(const RenderJob& job, const PreparedFilm& fil
   return sidecars;
 }
 
+// Frames, rate and size of a clip: small ones have their own.
+Json clip_facts_of(const Target& target, const FilmReport& report) {
+  const Video& video = report.film().scene.video;
+  if (target.format->make_clip == nullptr) return clip_facts(video.width, video.height, video.fps, report.frames);
+  const SmallSize small = small_size_of(video.width, video.height, video.fps);
+  return clip_facts(small.width, small.height, small.fps, int(small.frames(report.frames)));
+}
+
+ClipLength length_of(const Target& target, const FilmReport& report) {
+  const Json facts = clip_facts_of(target, report);
+  return {facts.at("frames").get<int>(), facts.at("film_seconds").get<double>()};
+}
+
 std::string sidecar_text(const Sidecar& sidecar, const FilmReport& report) {
   switch (sidecar.what) {
     case Sidecar::words:
-      return alt_text(report);
+      return alt_text(report, length_of(sidecar.target, report));
     case Sidecar::captions:
       return captions(report);
     case Sidecar::audit:
@@ -162,14 +175,6 @@ std::string sidecar_text(const Sidecar& sidecar, const FilmReport& report) {
       break;
   }
   return animate_snippet(sidecar.target, report.frames, report.film().scene.video.fps);
-}
-
-// Frames, rate and size of a clip: small ones have their own.
-Json clip_facts_of(const Target& target, const FilmReport& report) {
-  const Video& video = report.film().scene.video;
-  if (target.format->make_clip == nullptr) return clip_facts(video.width, video.height, video.fps, report.frames);
-  const SmallSize small = small_size_of(video.width, video.height, video.fps);
-  return clip_facts(small.width, small.height, small.fps, int(small.frames(report.frames)));
 }
 
 // The files as they lie there, in their order, clips with what is in them; null for sequences.
@@ -324,7 +329,7 @@ std::string part_text(const FilmReport& report, const ClipMemory& memory, FrameR
                            std::string(program_version()) + " (" + program_revision() + ")",
                            libraries_behind(fonts),
                            audit,
-                           alt_text(report),
+                           alt_text(report, {report.frames, report.film_seconds()}),
                            captions(report)})
       .dump(-1, ' ', true);
 }

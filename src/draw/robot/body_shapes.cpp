@@ -92,7 +92,7 @@ TriangleMesh read(const Visual& visual, MeshUp up) {
 std::string key_of(const Visual& visual, MeshUp up) {
   std::string key = visual.mesh_file + "|" + std::to_string(int(up)) + "|" + std::to_string(int(visual.kind));
   const Vector3d& numbers = visual.kind == VisualKind::mesh ? visual.mesh_scale : visual.size;
-  for (const double number : {numbers[0], numbers[1], numbers[2]}) key += "|" + format_exact(number);
+  for (const double number : {numbers[0], numbers[1], numbers[2]}) key += "|" + format_shortest(number);
   return key;
 }
 

@@ -83,7 +83,7 @@ void check_method_keys(Fields& fields, Scene& scene) {
 void check_motion(Fields& fields, const Scene& scene) {
   if (!scene.motion) return;
   std::vector<std::string> vain;
-  for (const char* key : {"start", "torque", "constraints", "stabilize", "baumgarte", "contact_force", "method", "step", "tolerance",
+  for (const char* key : {"start", "torque", "push", "constraints", "stabilize", "baumgarte", "contact_force", "method", "step", "tolerance",
                           "order", "accuracy"})
     if (fields.has(key)) vain.push_back(key);
   if (fields.has("limit") && scene.limit != LimitPolicy::report) vain.push_back("limit");

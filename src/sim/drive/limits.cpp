@@ -16,8 +16,10 @@ std::span<const Name> names_of(LimitPolicy) {
 }
 
 std::string to_string(const LimitEvent& event) {
+  int digits = 6;  // or as many as tell the two apart
+  while (digits < 17 && format_significant(event.limit, digits) == format_significant(event.value, digits)) ++digits;
   return "joint '" + event.joint + "' passed its " + event.quantity + " limit " +
-         format_significant(event.limit, 6) + " with " + format_significant(event.value, 6) +
+         format_significant(event.limit, digits) + " with " + format_significant(event.value, digits) +
          " at t = " + format_significant(event.t, 6) + " s";
 }
 

@@ -84,7 +84,7 @@ TEST(CenterOfPressure, CanBeReadByEvents) {
   Simulation run = falling_human();
   const double instant[] = {0.4};
   const Trajectory there = simulate(run, instant);
-  const std::string cop = format_exact(cop_at(run, 0.4, there.q_at(0), there.qd_at(0)));
+  const std::string cop = format_shortest(cop_at(run, 0.4, there.q_at(0), there.qd_at(0)));
   run.events = make_events(run.chain,
                            {{"cop - " + cop, EventKind::mark, "", Crossing::either, {}},
                             {"t > 0.3 + heel + toe", EventKind::mark, "", Crossing::either, {}}},

@@ -201,7 +201,7 @@ TEST_F(Recorded, RatesThatAreOffByAFactorAreRemarked) {
     const double w = 2 * std::numbers::pi;
     for (int k = 0; k <= 3 * rows; ++k) {
       const double t = double(k) / rows, off = noise * std::sin(1e4 * k * k);  // as good as random
-      text += format_exact(t) + "," + format_exact(std::sin(w * t) + off) + ",0," + format_exact(factor * w * std::cos(w * t)) + ",0\n";
+      text += format_shortest(t) + "," + format_shortest(std::sin(w * t) + off) + ",0," + format_shortest(factor * w * std::cos(w * t)) + ",0\n";
     }
     return motion(text)->remarks();
   };

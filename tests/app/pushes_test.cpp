@@ -1,0 +1,123 @@
+// Pushes as scenes write them, in all that a scene becomes.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/json.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string kPushedScene =
+    "title: Pushed\nmodel: {links: [1, 1], masses: [1, 1]}\ngravity: [0, 0, 0]\nstart: {q: [0, 1]}\nduration: 1\n"
+    "push: {force: [3, 4], from: 0.2, until: 0.5s}\n";
+
+class PushedScene : public testing::Test {
+ protected:
+  std::string scene(const std::string& more = "") const { return folder_.write("pushed.yaml", kPushedScene + more); }
+  std::string trouble(const std::string& push) const {
+    const ProgramResult result = run_program({"check", scene(), "--set", "push=" + push});
+    EXPECT_EQ(result.status, 3) << push;
+    return result.err;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(PushedScene, IsRefusedWithALineAndARemedyWhereItIsWrong) {
+  EXPECT_THAT(trouble("{force: [1]}"), HasSubstr("takes two or three numbers"));
+  EXPECT_THAT(trouble("{force: [1, 2, 3, 4]}"), HasSubstr("takes two or three numbers"));
+  EXPECT_THAT(trouble("{frame: gripper}"), HasSubstr("needs `force`"));
+  EXPECT_THAT(trouble("{force: [1, 2], from: -1}"), HasSubstr("0 s or later"));
+  EXPECT_THAT(trouble("{force: [1, 2], from: 2, until: 1}"), HasSubstr("must come behind `from`"));
+  EXPECT_THAT(trouble("{force: [1, .nan]}"), HasSubstr("force"));
+  EXPECT_THAT(trouble("{force: [1, 2], frame: griper}"), AllOf(HasSubstr("names no link"), HasSubstr("did you mean 'gripper'?")));
+  EXPECT_THAT(trouble("{force: [1, 2], at: 1}"), HasSubstr("unknown key"));
+  EXPECT_THAT(trouble("[]"), HasSubstr("must be a push"));
+  EXPECT_THAT(trouble("5"), HasSubstr("must be a push"));
+  EXPECT_EQ(run_program({"check", scene(), "--set", "push="}).status, 0);
+}
+
+TEST_F(PushedScene, IsSaidWhereNothingComesOfIt) {
+  const auto said = [&](const std::string& push) { return run_program({"check", scene(), "--set", "push=" + push}).err; };
+  EXPECT_THAT(said("{force: [1, 2], from: 1}"), HasSubstr("where the run has ended"));
+  EXPECT_THAT(said("{force: [1, 2], frame: base}"), HasSubstr("fixed to the world"));
+  EXPECT_THAT(said("{force: [1, 2, 3]}"), HasSubstr("3 N of its force are perpendicular"));
+  EXPECT_THAT(said("{force: [1, 2, 0]}"), Not(HasSubstr("push")));
+}
+
+// M qdd + h = tau + tau_push at any instant of the run, and without one behind it.
+TEST_F(PushedScene, IsInTheEquationOfMotion) {
+  const std::string file = scene("torque: [1, \"-qd2\"]\n");
+  for (const auto& [at, is_pushed] : {std::pair{"0.3", true}, {"0.7", false}}) {
+    const Json now = Json::parse(run_program({"dynamics", file, "--at", at, "--json"}).out);
+    ASSERT_EQ(now["tau_push"].size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+      double left = now["h"][i];
+      for (std::size_t j = 0; j < 2; ++j) left += now["M"][i][j].get<double>() * now["qdd"][j].get<double>();
+      EXPECT_NEAR(left, now["tau"][i].get<double>() + now["tau_push"][i].get<double>(), 1e-12) << at;
+      EXPECT_EQ(now["tau_push"][i] != 0.0, is_pushed) << at;
+    }
+    const Json lagrange = Json::parse(run_program({"dynamics", file, "--at", at, "--json", "--formulation", "lagrange"}).out);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(lagrange["qdd"][i].get<double>(), now["qdd"][i].get<double>(), 1e-9) << at;
+  }
+}
+
+TEST_F(PushedScene, IsRememberedAndToldInWords) {
+  const Words small{"--set", "video.width=160", "--set", "video.height=90"};
+  ASSERT_EQ(run_program(with({"render", scene(), "-o", folder_.file("a.mp4"), "--quiet"}, small)).status, 0);
+  EXPECT_THAT(read_whole_file(folder_.file("a.txt")), HasSubstr("pushed by 5 N at gripper from 0.2 s to 0.5 s"));
+  const std::string again = folder_.file("again/pushed.yaml");
+  ASSERT_EQ(run_program({"extract", folder_.file("a.mp4"), "-o", again}).status, 0);
+  EXPECT_THAT(read_whole_file(again), HasSubstr("push: {force: [3, 4], from: 0.2, until: 0.5}"));
+  ASSERT_EQ(run_program({"render", again, "-o", folder_.file("b.mp4"), "--quiet"}).status, 0);
+  EXPECT_TRUE(read_whole_file(folder_.file("a.mp4")) == read_whole_file(folder_.file("b.mp4")));
+}
+
+TEST_F(PushedScene, WithAnotherPushIsAnotherPhysics) {
+  const std::string suite = folder_.write("snapshots.yaml", "scene: pushed.yaml\nat: 0.4\nsize: 160x90\n");
+  scene();
+  ASSERT_EQ(run_program({"verify", suite, "--missing", "write"}).status, 0);
+  EXPECT_EQ(run_program({"verify", suite}).status, 0);
+  folder_.write("pushed.yaml", kPushedScene.substr(0, kPushedScene.find("push:")) + "push: {force: [3, 5], from: 0.2, until: 0.5s}\n");
+  const ProgramResult result = run_program({"verify", suite});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out, HasSubstr("push.force.2 4 -> 5"));
+}
+
+TEST_F(PushedScene, IsOfRunsAlone) {
+  const std::string log = folder_.write("log.csv", "t,q1,q2\n0,0,0\n0.5,0.1,0.2\n1,0.3,0.1\n");
+  const ProgramResult replay = run_program({"check", scene("motion: log.csv\n"), "--set", "start="});
+  EXPECT_EQ(replay.status, 3);
+  EXPECT_THAT(replay.err, HasSubstr("push"));
+  const ProgramResult inverse = run_program({"inverse", scene(), "--trajectory", log, "-o", folder_.file("tau.csv")});
+  EXPECT_EQ(inverse.status, 3);
+  EXPECT_THAT(inverse.err, HasSubstr("--set push="));
+  EXPECT_EQ(run_program({"inverse", scene(), "--set", "push=", "--trajectory", log, "-o", folder_.file("tau.csv")}).status, 0) << "the remedy works";
+}
+
+TEST_F(PushedScene, IsSweptByItsNumbers) {
+  ASSERT_EQ(run_program({"sweep", scene(), "--over", "push.force.1=0,3,-3", "--set", "push.force.2=0", "-o", folder_.file("a.json")}).status, 0);
+  const Json table = Json::parse(read_whole_file(folder_.file("a.json")));
+  EXPECT_EQ(table["qd1"][0], 0.0) << "nothing moves";
+  EXPECT_GT(std::abs(table["qd1"][1].get<double>()), 0.1);
+}
+
+// A row that came to its end and is no motion all the same.
+TEST_F(PushedScene, ThatExplodesIsADoubtfulRow) {
+  const ProgramResult result = run_program({"sweep", "assets/scenes/rr_free.yaml", "--over", "step=0.0001,0.02", "--set", "method=explicit_euler", "--set",
+                                            "duration=2", "-o", folder_.file("a.csv")});
+  EXPECT_EQ(result.status, 0) << "it is no failure";
+  EXPECT_THAT(result.err, HasSubstr("1 row is doubtful"));
+  EXPECT_THAT(read_whole_file(folder_.file("a.csv")), HasSubstr("\"doubtful: the energy is off by "));
+}
+
+}  // namespace
+}  // namespace chainreel
