@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/format.hpp"
 #include "dynamics/energy.hpp"
 #include "sim/audit.hpp"
 #include "sim/drive/probe.hpp"
@@ -10,6 +11,17 @@
 
 namespace chainreel {
 namespace {
+
+// The title of a plot of lambda, behind which its units come with the constraints.
+const std::string kMultipliers = "lambda";
+
+// "lambda [N, N m]"
+std::string title_of_multipliers(const Simulation& simulation) {
+  std::vector<std::string> units;
+  for (const std::string& unit : multiplier_units(simulation.chain, simulation.constraints.list))
+    if (!unit.empty() && std::find(units.begin(), units.end(), unit) == units.end()) units.push_back(unit);
+  return units.empty() ? kMultipliers : kMultipliers + " [" + joined(units) + "]";
+}
 
 // Whether all joints turn, or all slide: what their numbers are.
 enum class JointUnits { turning, sliding, both };
@@ -58,7 +70,7 @@ std::string title_of(PlotQuantity quantity, const Chain& chain) {
     case PlotQuantity::tau:
       return with_unit("tau", units, "N m", "N");
     case PlotQuantity::lambda:
-      return "lambda [N]";
+      return kMultipliers;
     case PlotQuantity::constraint_error:
       return "constraint error [m, rad]";
     case PlotQuantity::expression:
@@ -214,7 +226,7 @@ std::vector<PlotCurves> plot_curves(const PlotSet& plots, const Simulation& simu
   for (const PlotSet::Plot& plot : plots.list) {
     all.push_back(curves_of(plot, plots, simulation, trajectory, samples));
     all.back().quantity = plot.quantity;
-    all.back().title = plot.title;
+    all.back().title = plot.title == kMultipliers ? title_of_multipliers(simulation) : plot.title;
     all.back().angles = plot.quantity == PlotQuantity::q && units_of(simulation.chain) == JointUnits::turning;
   }
   return all;

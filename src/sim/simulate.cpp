@@ -204,7 +204,15 @@ class Run {
     if (constrained_ && !simulation_.motion_only) append_multipliers(t, q, qd);
   }
 
+  // At a break they are, as torques and accelerations are told, those from there on.
   void append_multipliers(double t, ConstVec q, ConstVec qd) {
+    const bool is_behind = start_anew_ && t >= now();
+    if (is_behind) simulation_.torque->leave_pieces();
+    look_at_multipliers(t, q, qd);
+    if (is_behind) simulation_.torque->enter_piece(grid_.middle_of_piece(integrator_->begin_time()));
+  }
+
+  void look_at_multipliers(double t, ConstVec q, ConstVec qd) {
     const auto look = constrained_->look(system_.workspace(), q, qd, system_.applied_torque(t, q, qd));
     const ConstVec lambda = constrained_->lambda();
     trajectory_.lambda.insert(trajectory_.lambda.end(), lambda.begin(), lambda.end());

@@ -32,8 +32,8 @@ class PushedScene : public testing::Test {
 };
 
 TEST_F(PushedScene, IsRefusedWithALineAndARemedyWhereItIsWrong) {
-  EXPECT_THAT(trouble("{force: [1]}"), HasSubstr("takes two or three numbers"));
-  EXPECT_THAT(trouble("{force: [1, 2, 3, 4]}"), HasSubstr("takes two or three numbers"));
+  EXPECT_THAT(trouble("{force: [1]}"), HasSubstr("takes three numbers"));
+  EXPECT_THAT(trouble("{force: [1, 2, 3, 4]}"), HasSubstr("takes three numbers"));
   EXPECT_THAT(trouble("{frame: gripper}"), HasSubstr("needs `force`"));
   EXPECT_THAT(trouble("{force: [1, 2], from: -1}"), HasSubstr("0 s or later"));
   EXPECT_THAT(trouble("{force: [1, 2], from: 2, until: 1}"), HasSubstr("must come behind `from`"));
@@ -41,6 +41,8 @@ TEST_F(PushedScene, IsRefusedWithALineAndARemedyWhereItIsWrong) {
   EXPECT_THAT(trouble("{force: [1, 2], frame: griper}"), AllOf(HasSubstr("names no link"), HasSubstr("did you mean 'gripper'?")));
   EXPECT_THAT(trouble("{force: [1, 2], at: 1}"), HasSubstr("unknown key"));
   EXPECT_THAT(trouble("[]"), HasSubstr("must be a push"));
+  EXPECT_THAT(trouble("{force: [5deg, 0]}"), HasSubstr("N"));
+  EXPECT_THAT(trouble("{force: [5 kg, 0]}"), HasSubstr("N"));
   EXPECT_THAT(trouble("5"), HasSubstr("must be a push"));
   EXPECT_EQ(run_program({"check", scene(), "--set", "push="}).status, 0);
 }
@@ -48,7 +50,9 @@ TEST_F(PushedScene, IsRefusedWithALineAndARemedyWhereItIsWrong) {
 TEST_F(PushedScene, IsSaidWhereNothingComesOfIt) {
   const auto said = [&](const std::string& push) { return run_program({"check", scene(), "--set", "push=" + push}).err; };
   EXPECT_THAT(said("{force: [1, 2], from: 1}"), HasSubstr("where the run has ended"));
-  EXPECT_THAT(said("{force: [1, 2], frame: base}"), HasSubstr("fixed to the world"));
+  EXPECT_THAT(said("{force: [1, 2], frame: base}"), HasSubstr("stands still whatever the chain does"));
+  EXPECT_THAT(said("{force: [1, 2], frame: link1}"), HasSubstr("stands still whatever the chain does")) << "it turns about its origin";
+  EXPECT_THAT(said("{force: [0, 0]}"), HasSubstr("its force is zero"));
   EXPECT_THAT(said("{force: [1, 2, 3]}"), HasSubstr("3 N of its force are perpendicular"));
   EXPECT_THAT(said("{force: [1, 2, 0]}"), Not(HasSubstr("push")));
 }
@@ -108,6 +112,47 @@ TEST_F(PushedScene, IsSweptByItsNumbers) {
   const Json table = Json::parse(read_whole_file(folder_.file("a.json")));
   EXPECT_EQ(table["qd1"][0], 0.0) << "nothing moves";
   EXPECT_GT(std::abs(table["qd1"][1].get<double>()), 0.1);
+}
+
+// Two numbers are those of the plane in which the chain moves, wherever that lies.
+TEST_F(PushedScene, OfTwoNumbersLiesInThePlaneOfMotion) {
+  const std::string plane = folder_.write("xz.yaml", "model: {links: [1, 1], masses: 1, joints: RyRy}\ngravity: [0, 0, 0]\nduration: 0.5\nstart: {q: [0, 1]}\n");
+  const auto end_of = [&](const std::string& force) {
+    const std::string file = folder_.file("end.csv");
+    EXPECT_EQ(run_program({"simulate", plane, "--set", "push={force: " + force + "}", "-o", file, "--force", "--quiet"}).status, 0);
+    const std::string text = read_whole_file(file);
+    return text.substr(text.rfind("0.5,"));
+  };
+  EXPECT_EQ(end_of("[3, 20]"), end_of("[3, 0, 20]"));
+  EXPECT_NE(end_of("[3, 20]"), end_of("[3, 20, 0]"));
+  const ProgramResult in_space = run_program({"check", "assets/scenes/arm_ellipsoid.yaml", "--set", "push={force: [1, 2]}"});
+  EXPECT_EQ(in_space.status, 3);
+  EXPECT_THAT(in_space.err, HasSubstr("takes three numbers of force"));
+}
+
+// What a table tells of an instant at which something jumps is what comes then, of all its numbers.
+TEST_F(PushedScene, HasItsMultipliersAtItsBeginning) {
+  const std::string file = folder_.write("tied.yaml",
+                                         "model: {links: [1, 1], masses: 1}\nstart: {q: [60deg, -120deg]}\nduration: 1\nmethod: rk4\nstep: 0.01\n"
+                                         "constraints: [{line: {frame: gripper, point: [0, 0], direction: [1, 0]}}]\n"
+                                         "push: {force: [0, 10], from: 0.5, until: 0.75}\nvideo: {fps: 20}\n");
+  const std::string table = folder_.file("a.json");
+  ASSERT_EQ(run_program({"simulate", file, "--columns", "t,lambda", "-o", table}).status, 0);
+  const Json rows = Json::parse(read_whole_file(table));
+  for (const std::size_t k : {9, 10, 14, 15}) {
+    const std::string at = std::to_string(rows["t"][k].get<double>());
+    const Json now = Json::parse(run_program({"dynamics", file, "--at", at, "--json"}).out);
+    EXPECT_NEAR(rows["lambda"][k][0].get<double>(), now["lambda"][0].get<double>(), 1e-9) << at;
+  }
+  EXPECT_NEAR(rows["lambda"][10][0].get<double>() - rows["lambda"][9][0].get<double>(), 10, 2) << "the line bears it at once";
+}
+
+TEST_F(PushedScene, IsNoSeriesAndNamesPanelsWithoutBraces) {
+  EXPECT_THAT(run_program({"check", scene("method: taylor\n")}).err, HasSubstr("because something pushes it from outside"));
+  const std::string file = folder_.write("two.yaml", "model: {links: [1, 1], masses: 1}\nduration: 0.2\ncompare:\n  - push: {force: [3, 4]}\n  - push: {force: [3, 9], frame: link2}\n");
+  const ProgramResult result = run_program({"check", file});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, Not(HasSubstr("stays as it is")));
 }
 
 // A row that came to its end and is no motion all the same.

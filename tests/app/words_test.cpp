@@ -6,12 +6,15 @@
 #include <algorithm>
 
 #include "app/all_pictures.hpp"
+#include "app/commands/pose_page.hpp"
 #include "app/ink.hpp"
 #include "app/print_pictures.hpp"
+#include "core/format.hpp"
 #include "draw/figures/poses.hpp"
 #include "draw/page/sheet.hpp"
 #include "model/read_chain.hpp"
 #include "picture/theme.hpp"
+#include "support/chains.hpp"
 #include "support/fonts.hpp"
 
 namespace chainreel {
@@ -155,6 +158,42 @@ TEST(Words, OfJointSpaceInAColumnAreWholeAndApart) {
     }
     ASSERT_GE(captions.size(), 2u * std::size_t(count));
     EXPECT_DOUBLE_EQ(*std::min_element(captions.begin(), captions.end()), *std::max_element(captions.begin(), captions.end()));
+  }
+}
+
+// Few poses and many, of chains of up to seven joints, in a column and over a page's width: no caption lies on another, leaves its page or
+// shortens its pose, and times stand off the chains.
+TEST(Words, OfPosesOnPaperAreWholeAndApart) {
+  for (const int joints : {1, 3, 7}) {
+    const Chain chain = test::planar_serial_chain(joints);
+    const TipMass tip(chain);
+    std::vector<std::vector<double>> poses;
+    for (int count = 1; count <= 13; ++count) {
+      std::vector<double> q(std::size_t(joints), -1.05 - 0.03 * count);
+      q[0] = 1.9 - 0.07 * count;
+      poses.push_back(q);
+      if (count == 2 || (count > 4 && count % 4 != 1)) continue;
+      for (const double width : {84.0, 174.0})
+        for (const bool is_labelled : {false, true}) {
+          const std::string what = std::to_string(joints) + " joints, " + std::to_string(count) + " poses, " + format_shortest(width) + " mm: ";
+          PoseFigureOptions figure;
+          figure.letters = figure.labels.empty();
+          for (int i = 0; i < count && is_labelled; ++i) figure.labels.push_back("t = " + format_fixed(0.122 * i, 3) + " s");
+          put_on_paper(figure, {.width_mm = width}, tip, poses, fonts());
+          const Picture picture = draw_ellipse_figure(tip, poses, figure, fonts());
+          const std::vector<Written> words = test::written_on(picture, fonts());
+          for (std::size_t i = 0; i < words.size(); ++i) {
+            const Written& w = words[i];
+            EXPECT_TRUE(holds({0, 0, picture.aspect, 1}, w.ink, 0)) << what << "leaves the page: " << say(w);
+            EXPECT_EQ(w.run.text.find("..."), std::string::npos) << what << say(w);
+            if (w.clip >= 0) EXPECT_TRUE(holds(picture.clips[std::size_t(w.clip)], w.ink, kTouch)) << what << "cut: " << say(w);
+            for (std::size_t j = 0; j < i; ++j) {
+              const double allowed = of_one_formula(words[j], w) ? kLean * w.run.size : kTouch;
+              EXPECT_LE(depth(words[j].ink, w.ink), allowed) << what << "overlap: " << say(words[j]) << " and " << say(w);
+            }
+          }
+        }
+    }
   }
 }
 

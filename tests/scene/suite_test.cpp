@@ -151,6 +151,12 @@ TEST_F(Suites, PosesUnderAModelsNameAreItsOwn) {
   EXPECT_THAT(suite.pictures[4].q, ElementsAre(0, -2, 0));
   // A model of which no pose is stands at rest, as it does in a suite without poses.
   EXPECT_THAT(names(read("model: [arm.urdf, three.urdf]\nposes: {arm.urdf: {home: [0, -1, 0]}}\n")), ElementsAre("arm_home", "three"));
+  // As the suite names it before any file of that name; where only the file's name is told, it must be one.
+  folder_.write("b/arm.urdf", arm("arm"));
+  EXPECT_THAT(names(read("model: [b/arm.urdf, arm.urdf]\nposes: {arm.urdf: {home: [0, -1, 0]}}\n")), ElementsAre("b_arm", "arm_home"));
+  EXPECT_THAT(names(read("model: [arm.urdf, three.urdf]\nposes: {./arm.urdf: {home: [0, -1, 0]}}\n")), ElementsAre("arm_home", "three"));
+  folder_.write("c/arm.urdf", arm("arm"));
+  EXPECT_THAT(error("model: [b/arm.urdf, c/arm.urdf]\nposes: {arm.urdf: {home: [0, -1, 0]}}\n"), HasSubstr("could be any of"));
   EXPECT_THAT(error(models + "poses: {twoo.urdf: {home: [0, 0, 0]}}\n"), HasSubstr("'twoo.urdf' is no model of the suite"));
   EXPECT_THAT(error(models + "poses: {two.urdf: {home: [0, 0]}}\n"), HasSubstr("snapshots.yaml:2:20: pose 'home': has 2 numbers"));
   EXPECT_THAT(error(models + "poses: {two.urdf: [0, 0]}\n"), HasSubstr("'poses.two.urdf' must hold names and poses"));

@@ -140,6 +140,9 @@ std::vector<std::string> explain_memories(const std::string& before, const std::
   // A film's motion and that up to one instant are hashed at other instants.
   if (differs("trajectory_sha256") && !differs("at") && !differs("frames") && !differs("fps"))
     sentences.push_back(std::string("the motion at the frames is another one") + kByHash);
+  const bool says_slow_motion = std::any_of(sentences.begin(), sentences.end(), [](const std::string& one) { return one.starts_with("slow_motion"); });
+  if (old->figure.is_null() && differs("slow_motion") && !says_slow_motion)
+    sentences.push_back("slow motion, which films have by themselves, is at other places, so that frames show other instants: `slow_motion: none` leaves it out");
   const bool says_camera = std::any_of(sentences.begin(), sentences.end(), [](const std::string& one) { return one.starts_with("camera") || one.starts_with("video"); });
   if (const auto words = words_of_view(facts.value("view", Json()), other_facts.value("view", Json())); words && !says_camera)
     sentences.push_back(*words);

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
 #include <memory>
-#include <utility>
 
 #include "app/cli/command.hpp"
 #include "app/cli/named_pose.hpp"
@@ -14,6 +12,7 @@
 #include "app/commands/ellipse_numbers.hpp"
 #include "app/commands/figure.hpp"
 #include "app/commands/paper.hpp"
+#include "app/commands/pose_page.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/film/target.hpp"
 #include "core/data_folder.hpp"
@@ -67,90 +66,16 @@ constexpr double kSlide = 9.0 / 16;   // height of a page, of its width
 constexpr double kTall = 2;           // of one that is tried: its margins are the widest
 constexpr double kWidestTried = 420;  // mm: a sheet of A3
 
-// How tall a figure of `panels` panels is to be on paper, mm: so many across as columns of a paper hold, each with its caption.
-double paper_height(double width, int panels, bool is_one_picture) {
-  constexpr double kShape = 0.75, kCaption = 6, kMatrix = 17, kFoot = 16;
-  if (is_one_picture) return kShape * width + kFoot;
-  const int across = panels == 1 ? 1 : panels <= 4 ? 2 : panels <= 9 ? 3 : 4, rows = (panels + across - 1) / across;
-  return rows * (kShape * width / across + (panels < 5 ? kMatrix : kCaption)) + kFoot;
-}
-
-void set_page(PoseFigureOptions& figure, const PaperPage& page, double text_scale) {
-  figure.width = page.width;
-  figure.height = page.height;
-  figure.text_scale = text_scale_on(page, text_scale);
-}
-
-void set_on_paper(PoseFigureOptions& figure, const EllipseOptions& options, int poses) {
-  set_page(figure,
-           paper_page(options.paper, paper_height(options.paper.width_mm, figure.layout == "row" ? 1 : poses,
-                                                  options.sources.field || figure.layout == "superposed")),
-           figure.text_scale);
-}
-
-// What poses leave out on a page that has no room for it.
+// What is left out on a page that has no room for it.
 void tell_missing_masses(const EllipseJob& job, const EllipseOptions& options, const TipMass& tip, const Fonts& fonts) {
   if (options.common.quiet || job.figure.layout == "superposed" || job.figure.cell > 0) return;
   const PoseFigureFit fit = fit_of_poses(tip, job.motion.poses.q, job.figure, fonts);
+  if (fit.metre > 0 && !fit.is_whole)
+    std::fprintf(stderr, "note: this page has no room for whole poses below the pictures: they are in --json and .csv; a larger page has, or fewer poses\n");
   if (fit.metre > 0 && !fit.has_masses)
     std::fprintf(stderr, "note: this page has no room for the masses below %s: they are in --json and .csv; %s\n",
                  job.motion.poses.q.size() == 1 ? "the pose" : "the poses",
                  job.figure.layout == "row" ? "--layout grid has more" : "a larger page has, or fewer poses");
-}
-
-// How well poses are shown on a page: first by what stands below them, then by how large they are on so much paper.
-struct PageOfPoses {
-  double height = 0;  // mm
-  int words = -1;
-  double metre = 0, kilogram = 0, merit = 0;
-};
-
-// Of panels so many across, as high as lets chains and ellipses be as large as the width allows, with the words that there are then.
-PageOfPoses page_of_poses(const std::function<PoseFigureFit(double)>& fit_at, double tallest, double width) {
-  constexpr double kAsLarge = 0.96, kEllipses = 0.7, kFlattest = 0.2, kStep = 1, kWithoutMatrix = 0.8;  // of the size, of the width, mm
-  constexpr double kHeight = 1.5;  // the smaller page is the better one, even where it shows things somewhat smaller
-  const auto page_at = [&](double height) {
-    const PoseFigureFit fit = fit_at(height);
-    PageOfPoses page{height, fit.metre > 0 ? 2 * int(fit.is_whole) + int(fit.has_masses) : -1, fit.metre, fit.kilogram, 0};
-    page.merit = (fit.has_matrices ? 1 : kWithoutMatrix) * std::sqrt(fit.metre * fit.kilogram) / std::pow(height, kHeight);
-    return page;
-  };
-  PageOfPoses page = page_at(tallest);
-  const PageOfPoses wished = page;
-  for (double low = kFlattest * width; page.height - low > kStep;) {
-    const PageOfPoses tried = page_at((low + page.height) / 2);
-    if (tried.metre >= kAsLarge * wished.metre && tried.kilogram >= kEllipses * wished.kilogram && tried.words == page.words)
-      page = tried;
-    else
-      low = tried.height;
-  }
-  return page;
-}
-
-// A page of that width which shows poses best; a height that was asked for stays.
-void choose_height(EllipseJob& job, const EllipseOptions& options, const TipMass& tip, const Fonts& fonts) {
-  PoseFigureOptions& figure = job.figure;
-  if (options.paper.height_mm != PaperOptions::kNotGiven || figure.layout == "superposed" || figure.cell > 0) return;
-  constexpr int kMostAcross = 6;
-  constexpr double kTallestPanel = 2;  // of its width, with its caption
-  const double width = options.paper.width_mm;
-  const int count = int(job.motion.poses.q.size());
-  const auto page = [&](double height, int across) {
-    PoseFigureOptions tried = figure;
-    tried.across = across;
-    set_page(tried, paper_page(options.paper, height), job.motion.text_scale);
-    return tried;
-  };
-  PageOfPoses best;
-  for (int across = figure.layout == "row" ? count : 1; across <= (figure.layout == "row" ? count : std::min(count, kMostAcross)); ++across) {
-    const int rows = (count + across - 1) / across;
-    const double tallest = std::min(tallest_page(options.paper), kTallestPanel * width * rows / across + paper_height(width, count, true));
-    const PageOfPoses tried = page_of_poses([&](double height) { return fit_of_poses(tip, job.motion.poses.q, page(height, across), fonts); }, tallest, width);
-    if (std::pair(tried.words, tried.merit) <= std::pair(best.words, best.merit)) continue;
-    best = tried;
-    figure.across = across;
-  }
-  if (best.words >= 0) figure = page(std::ceil(best.height), figure.across);
 }
 
 // A page of that width which is as high as the squares of a joint-space figure need; nothing where no height is enough.
@@ -299,7 +224,6 @@ EllipseJob job_of(const EllipseOptions& options) {
   figure.letters = options.letters;
   if (options.letters && !options.joint_space && (figure.cell > 0 || figure.layout == "superposed"))
     throw Error(ExitCode::usage, "--letters name panels: with --field leave them out, else take --layout grid or row");
-  if (options.paper.is_given() && !options.joint_space) set_on_paper(figure, options, int(poses.q.size()));
   return job;
 }
 
@@ -330,7 +254,7 @@ void run_ellipse(const EllipseOptions& options) {
   const Fonts fonts(motion.families);
   const bool is_drawn = !std::all_of(outputs.begin(), outputs.end(), is_table_path);
   if (options.paper.is_given() && options.joint_space && is_drawn) set_joint_space_on_paper(job, options, joints, fonts);
-  if (options.paper.is_given() && !options.joint_space && is_drawn) choose_height(job, options, tip, fonts);
+  if (options.paper.is_given() && !options.joint_space && is_drawn) put_on_paper(job.figure, options.paper, tip, poses.q, fonts);
   if (!options.joint_space && is_drawn) tell_missing_masses(job, options, tip, fonts);
   ClipMemory memory =
       memory_of_figure(*options.command, figure.title, is_model_file(options.model) ? options.model : "", poses.q);

@@ -18,8 +18,8 @@ std::string completion_script(const CommandLine& app, Shell shell);
 // that is none.
 std::string manual_page(const CommandLine& app, const std::string& version, const std::string& command = "");
 
-// A page of the guide as a terminal of so many columns shows it: longer lines go on in the next one, below the table's last column or the
-// list's words.
+// A page of the guide as a terminal of so many columns shows it: paragraphs fill its lines, longer rows go on in the next one, below the table's
+// last column or the list's words.
 std::string page_on_terminal(const std::string& page, std::size_t columns);
 
 }  // namespace chainreel

@@ -21,12 +21,32 @@ std::size_t indent_of(const std::string& line, std::size_t columns) {
   return column <= columns * 2 / 3 ? column : begin + 4;
 }
 
+// What pages break at their own width, each paragraph and each entry of a list in one line again. Code and tables stay.
+std::string with_whole_paragraphs(const std::string& page) {
+  std::string whole;
+  bool is_code = false, goes_on = false;
+  std::istringstream lines(page);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+    const bool is_fence = line.compare(begin, 3, "```") == 0;
+    const bool is_own = line.empty() || is_code || is_fence || line[begin] == '|' || line[begin] == '#' || line.compare(begin, 2, "- ") == 0;
+    if (goes_on && !is_own)
+      whole.back() = ' ', whole += line.substr(begin) + "\n";
+    else
+      whole += line + "\n";
+    if (is_fence) is_code = !is_code;
+    goes_on = !line.empty() && !is_code && !is_fence && line[begin] != '|' && line[begin] != '#';
+  }
+  return whole;
+}
+
 }  // namespace
 
 std::string page_on_terminal(const std::string& page, std::size_t columns) {
   std::string shown;
-  std::istringstream lines(page);
+  std::istringstream lines(with_whole_paragraphs(page));
   for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("| -")) line.resize(std::min(line.size(), columns));
     const std::size_t indent = indent_of(line, columns);
     if (width_of(line) > columns && line.starts_with("| ") && line.ends_with(" |")) line.erase(line.find_last_not_of(" |") + 1);
     for (bool is_first = true; width_of(line) > columns; is_first = false) {

@@ -23,7 +23,7 @@ std::span<const Name> names_of(MotionColumn) {
                                    {"qdd", "rad/s^2 or m/s^2"},
                                    {"tau", "as the run felt them, N m or N"},
                                    {"energy", "kinetic, potential and their sum, J"},
-                                   {"work", "of torques, of springs and friction, too, since the start, J"},
+                                   {"work", "of torques, of springs, friction and pushes, too, since the start, J"},
                                    {"energy_error", "what the work of the torques does not explain, J"},
                                    {"x_G", "of the end effector along W, m"},
                                    {"y_G", "m"},
@@ -167,31 +167,14 @@ void add_frames(DataTable& table, const Chain& chain, const Trajectory& trajecto
   table.add("frames", std::move(names), {chain.frames.size(), 3}, std::move(values));
 }
 
-// A length that is held takes a force, a direction a torque; coordinates what moves them, where that is the same for all.
-const char* unit_of_multiplier(const ConstraintSet& set, const ConstraintSet::Row& row, const std::vector<Kind>& freedoms) {
-  if (row.kind == ConstraintSet::Kind::parallel) return "N m";
-  if (row.kind != ConstraintSet::Kind::coordinates) return "N";
-  std::optional<Kind> common;
-  for (int k = row.first_term; k < row.first_term + row.terms; ++k) {
-    const Kind kind = freedoms[std::size_t(set.terms()[std::size_t(k)].v)];
-    if (common && *common != kind) return "";
-    common = kind;
-  }
-  return common == Kind::turns ? "N m" : common == Kind::slides ? "N" : "";
-}
-
 void add_multipliers(DataTable& table, const Simulation& simulation, const Trajectory& trajectory) {
   table.add("lambda", multiplier_columns(simulation.chain, simulation.constraints.list), {std::size_t(trajectory.rows)}, trajectory.lambda);
 }
 
 void add_constraint_errors(DataTable& table, const Simulation& simulation, const Trajectory& trajectory) {
-  const ConstraintSet set(simulation.chain, simulation.constraints.list);
-  const std::vector<Kind> freedoms = kinds_of_freedoms(simulation.chain);
   std::vector<std::string> names;
-  for (const ConstraintSet::Row& row : set.row_list()) {
-    const std::string unit = unit_of_multiplier(set, row, freedoms);
+  for (const std::string& unit : multiplier_units(simulation.chain, simulation.constraints.list))
     names.push_back(with_unit("phi" + std::to_string(names.size() + 1), unit == "N" ? "m" : unit == "N m" ? "rad" : ""));
-  }
   table.add("constraint_error", std::move(names), {std::size_t(trajectory.rows)}, constraint_errors_along(simulation, trajectory));
 }
 
@@ -257,11 +240,8 @@ std::vector<std::string> torque_columns(const Chain& chain) {
 }
 
 std::vector<std::string> multiplier_columns(const Chain& chain, const std::vector<Constraint>& constraints) {
-  const ConstraintSet set(chain, constraints);
-  const std::vector<Kind> freedoms = kinds_of_freedoms(chain);
   std::vector<std::string> names;
-  for (const ConstraintSet::Row& row : set.row_list())
-    names.push_back(with_unit("lambda" + std::to_string(names.size() + 1), unit_of_multiplier(set, row, freedoms)));
+  for (const std::string& unit : multiplier_units(chain, constraints)) names.push_back(with_unit("lambda" + std::to_string(names.size() + 1), unit));
   return names;
 }
 

@@ -165,7 +165,10 @@ double caption_height(int rows, double text_scale) {
 
 bool matrix_fits(const EffectiveMass& effective, double width, double text_scale, const Theme& theme,
                  const Fonts& fonts) {
-  if (!effective.Lambda) return true;
+  if (!effective.Lambda) {
+    const TextStyle words{Face::label, scaled(kSmallestText, text_scale), theme.ink, Align::left};
+    return lay_out_text(fonts, singular_text(effective), words).advance <= width;
+  }
   const TextStyle smallest{Face::math, scaled(kSmallestText, text_scale), theme.ink, Align::left};
   return lay_out_matrix(fonts, matrix_notations(*effective.Lambda), smallest).width <= width;
 }

@@ -28,7 +28,7 @@ std::string singular_text(const EffectiveMass& effective);
 // How tall a caption with a matrix of `rows` rows is, units of H.
 double caption_height(int rows, double text_scale);
 
-// Whether Lambda can be read where the caption is so wide.
+// Whether Lambda, or along what it is infinite, can be read where the caption is so wide.
 bool matrix_fits(const EffectiveMass& effective, double width, double text_scale, const Theme& theme, const Fonts& fonts);
 
 // The masses along the axes of the ellipse, which are the eigenvalues of Lambda: "eig \u039B = (2, 1) kg".

@@ -176,7 +176,7 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
                              panels.options.shapes.get()};
   const Point tip = camera.project(tip_position(panels.chain, ws));
   EllipseStyle style{&theme, &panels.fonts,         panels.options.text_scale, panels.scale.per_unit(),
-                     scene,  panels.options.reading};
+                     panels.picture(i),  panels.options.reading};
   MarkLabels labels;
   style.lines = panels.marks;
   // Small panels have no room for the lengths of semi-axes.
@@ -483,6 +483,9 @@ Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<d
   if (!best)
     throw Error(ExitCode::usage,
                 "too many poses for one page: draw several figures, or take --layout superposed");
+  if (!best->words.fit)
+    throw Error(ExitCode::usage, "the words of " + std::to_string(poses.size()) + " poses have no room below panels this narrow: take fewer poses, "
+                                 "a larger page, --layout grid or superposed");
   const Panels& panels = *best;
   cut_to_content(*best, sheet_of(chain, page.options, panels.scale, fonts, page.height).scene, poses, ws);
 

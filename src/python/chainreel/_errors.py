@@ -75,8 +75,16 @@ class RunWarning(UserWarning):
     there was taken for the one of that name that comes with chainreel."""
 
 
+def _place(file: str) -> str:
+    """A file, or the argument that the command line calls --set key=value."""
+    if not file.startswith("--set "):
+        return file
+    key, _, value = file[len("--set "):].partition("=")
+    return f"{key}={_literal(value)}"
+
+
 def _text(problem: Problem) -> str:
-    place: Optional[str] = in_python(problem.file)
+    place: Optional[str] = _place(problem.file)
     for number in (problem.line, problem.column):
         if number:
             place = f"{place}:{number}"

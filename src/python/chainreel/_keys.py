@@ -40,4 +40,10 @@ def text_of(value: Any) -> str:
 
 def overrides_of(keys: Mapping[str, Any]) -> List[str]:
     """`duration=2`, as --set takes it; None takes a key away."""
-    return [f"{key}=" if value is None else f"{key}={text_of(value)}" for key, value in keys.items()]
+    overrides = []
+    for key, value in keys.items():
+        try:
+            overrides.append(f"{key}=" if value is None else f"{key}={text_of(value)}")
+        except (TypeError, ValueError) as error:
+            raise type(error)(f"{key}: {error}") from None
+    return overrides

@@ -13,8 +13,11 @@ PushEntry read_one_push(Fields& fields, const YAML::Node& node, const std::strin
   PushEntry entry;
   entry.place = fields.place_of(node, key);
   inner.read("frame", entry.frame);
-  if (inner.read("force", entry.force) && entry.force.size() != 2 && entry.force.size() != 3)
-    inner.problem_at("force", "'" + inner.path("force") + "' takes two or three numbers, N along x, y and z of the world, not " +
+  inner.measure_in("N");
+  const bool is_read = inner.read("force", entry.force);
+  inner.measure_in("");
+  if (is_read && entry.force.size() != 2 && entry.force.size() != 3)
+    inner.problem_at("force", "'" + inner.path("force") + "' takes three numbers, N along x, y and z of the world, or of a chain in a plane two along its axes, not " +
                                   std::to_string(entry.force.size()));
   if (!inner.has("force")) fields.problems().add("'" + key + "' needs `force`: " + std::string(kLike), entry.place);
   if (inner.read_seconds("from", entry.from) && !(entry.from >= 0))
@@ -31,13 +34,13 @@ KeyText told_push() {
   const auto record = [](const std::string& what) {
     return told_record("",
                        {told("frame", KeyForm::text, "the link that is pushed at its origin, or the joint before it; the end effector where left out"),
-                        told_list("force", told("", KeyForm::number, ""), "N along x, y and z of the world").required(),
+                        told_list("force", told("", KeyForm::number, ""), "N along x, y and z of the world; of a chain in a plane maybe two, along its axes").required(),
                         told("from", KeyForm::number, "s; 0 where left out").within({.least = 0}),
                         told("until", KeyForm::number, "s; the end of the run where left out").within({.least = 0, .is_open = true})},
                        what);
   };
   return told_either("push", {record("a push"), told_list("", record("a push"), "several, which add up where they act at once")},
-                     "forces from outside, each for a while: beside the torques, and no work of the joints");
+                     "forces from outside, each for a while, beside the joints' torques");
 }
 
 std::string push_text(const Scene& scene) {

@@ -122,8 +122,16 @@ std::vector<ActingPush> find_pushes(const Scene& scene, const Chain& chain, Prob
                    entry.place);
       continue;
     }
+    const std::vector<double>& numbers = entry.force;
+    if (numbers.size() == 2 && !chain.planar) {
+      problems.add("'push' takes three numbers of force, as the chain moves in space: " + chain.why_algebra, entry.place);
+      continue;
+    }
     Eigen::Vector3d force = Eigen::Vector3d::Zero();
-    std::copy_n(entry.force.begin(), std::min<std::size_t>(entry.force.size(), 3), force.begin());
+    if (numbers.size() == 2) force = numbers[0] * chain.planar->plane.ex + numbers[1] * chain.planar->plane.ey;
+    if (numbers.size() == 3) force = {numbers[0], numbers[1], numbers[2]};
+    // What lies across the plane moves nothing, of which is told: see doubts_of_pushes.
+    if (chain.planar) force -= force.dot(chain.planar->plane.normal) * chain.planar->plane.normal;
     pushes.push_back({frame, force, entry.from, entry.until});
   }
   return pushes;

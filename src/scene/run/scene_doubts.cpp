@@ -1,5 +1,6 @@
 #include "scene/run/scene_doubts.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/format.hpp"
@@ -28,6 +29,15 @@ std::string doubt_of_limit(LimitPolicy policy, const Chain& chain) {
   return "";
 }
 
+// A link that turns about its own origin on the world does not move there.
+bool can_move(const Chain& chain, const Frame& frame) {
+  constexpr double kOnAxis = 1e-9;  // m
+  if (frame.body == 0) return false;
+  const Body& body = chain.bodies[std::size_t(frame.body)];
+  if (body.parent != 0 || body.joint.kind != JointKind::revolute) return true;
+  return frame.X_BF.translation().cross(body.joint.axis).norm() > kOnAxis;
+}
+
 // Pushes of which nothing comes: behind the end of the run, on what is fixed to the world, or across the plane in which the chain moves.
 std::vector<std::string> doubts_of_pushes(const Scene& scene, const Chain& chain) {
   std::vector<std::string> doubts;
@@ -35,8 +45,9 @@ std::vector<std::string> doubts_of_pushes(const Scene& scene, const Chain& chain
     const int frame = push.frame.empty() ? chain.end_effector : find_point(chain, push.frame);
     if (push.from >= scene.duration)
       doubts.push_back("push: it begins at " + format_significant(push.from, 6) + " s, where the run has ended: take a longer `duration`");
-    if (frame >= 0 && chain.frames[std::size_t(frame)].body == 0)
-      doubts.push_back("push: '" + chain.frames[std::size_t(frame)].name + "' is fixed to the world, so that nothing comes of it: push a link that moves");
+    if (std::all_of(push.force.begin(), push.force.end(), [](double f) { return f == 0; })) doubts.push_back("push: its force is zero, so that nothing comes of it");
+    if (frame >= 0 && !can_move(chain, chain.frames[std::size_t(frame)]) && !scene.foot)
+      doubts.push_back("push: '" + chain.frames[std::size_t(frame)].name + "' stands still whatever the chain does, so that nothing comes of it: push a link whose origin moves, as its joint's other end does");
     if (chain.planar && push.force.size() == 3) {
       const double across = Eigen::Vector3d(push.force[0], push.force[1], push.force[2]).dot(chain.planar->plane.normal);
       if (std::abs(across) > kAcross)

@@ -17,7 +17,9 @@ namespace chainreel {
 namespace {
 
 // A list as one writes a vector: (1, 0).
+// Without braces, which a title fills.
 std::string in_words(std::string text) {
+  std::erase_if(text, [](char c) { return c == '{' || c == '}'; });
   if (text.starts_with('[') && text.ends_with(']')) {
     text.front() = '(';
     text.back() = ')';

@@ -248,11 +248,14 @@ struct SuitePoses::List {
   const std::vector<std::pair<std::string, std::string>>& models;
   ProblemList& problems;
 
-  // Whose poses stand under this name; null: it is a pose's.
-  const std::string* model_called(const std::string& name) const {
+  // Whose poses stand under this name: as the suite names a model, else by the name of its file; none: it is a pose's.
+  std::vector<std::string> models_called(const std::string& name) const {
+    std::vector<std::string> files;
     for (const auto& [named, file] : models)
-      if (name == named || (name.ends_with(".urdf") && name == fs::path(named).filename())) return &file;
-    return nullptr;
+      if (name == named || fs::path(name).lexically_normal() == fs::path(named).lexically_normal()) return {file};
+    for (const auto& [named, file] : models)
+      if (name.ends_with(".urdf") && name == fs::path(named).filename()) files.push_back(file);
+    return files;
   }
 };
 
@@ -267,9 +270,11 @@ void SuitePoses::read_list(const List& list, const YAML::Node& node, const std::
   Fields fields(list.document, node, path, list.problems);
   for (const auto& pair : node) {
     const std::string& name = pair.first.Scalar();
-    const std::string* own = model.empty() ? list.model_called(name) : nullptr;
-    if (own != nullptr)
-      read_list(list, pair.second, fields.path(name), *own);
+    const std::vector<std::string> own = model.empty() ? list.models_called(name) : std::vector<std::string>{};
+    if (own.size() > 1)
+      list.problems.add("'" + name + "' could be any of " + joined(own) + ": name it as `model:` does", list.document.place_of(pair.first, name));
+    else if (own.size() == 1)
+      read_list(list, pair.second, fields.path(name), own.front());
     else if (name == "srdf")
       for (const auto& [named, where] : texts_of(list.document, pair.second, fields.path(name), "srdf: my_robot.srdf", list.problems))
         read_states(list, named, where, model);

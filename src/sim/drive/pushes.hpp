@@ -17,7 +17,7 @@ namespace chainreel {
 // As the scene wrote it.
 struct PushEntry {
   std::string frame;           // a link or joint; "": the end effector
-  std::vector<double> force;   // N, in W: x y z, or x y
+  std::vector<double> force;   // N, in W: x y z, or two along the axes of the plane in which the chain moves
   double from = 0;             // s
   double until = std::numeric_limits<double>::infinity();
   Place place;

@@ -265,6 +265,7 @@ bool cuts_torques(const Chain& chain, LimitPolicy limit) {
 
 std::optional<std::string> why_no_series(const Chain& chain, const TorqueLaw& law, LimitPolicy limit) {
   if (auto why = why_no_planar_series(chain)) return why;
+  if (law.pushes() != nullptr) return "something pushes it from outside";
   if (cuts_torques(chain, limit)) return "torques are cut at the joints' effort";
   if (!law.affine()) return "a torque is neither a polynomial in t, of degree " + std::to_string(kHighestPowerOfTime) + " at most, nor affine in the state";
   return {};

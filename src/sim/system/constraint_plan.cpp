@@ -1,8 +1,10 @@
 #include "sim/system/constraint_plan.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include "core/error.hpp"
+#include "dynamics/constraints/constraint_set.hpp"
 #include "expr/corners.hpp"
 
 namespace chainreel {
@@ -56,6 +58,30 @@ PlaneCurve::Place ExpressionCurve::at(double s) const {
     place.c2[k] = c.du.du;
   }
   return place;
+}
+
+std::vector<std::string> multiplier_units(const Chain& chain, const std::vector<Constraint>& constraints) {
+  const ConstraintSet set(chain, constraints);
+  std::vector<JointKind> kinds(std::size_t(chain.nv), JointKind::floating);
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b)
+    if (const Joint& joint = chain.bodies[b].joint; joint.kind != JointKind::floating) kinds[std::size_t(joint.v_index)] = joint.kind;
+  std::vector<std::string> units;
+  for (const ConstraintSet::Row& row : set.row_list()) {
+    std::optional<JointKind> common;
+    bool is_mixed = false;
+    for (int k = row.first_term; k < row.first_term + row.terms; ++k) {
+      const JointKind kind = kinds[std::size_t(set.terms()[std::size_t(k)].v)];
+      is_mixed = is_mixed || (common && *common != kind);
+      common = kind;
+    }
+    if (row.kind == ConstraintSet::Kind::parallel)
+      units.push_back("N m");
+    else if (row.kind != ConstraintSet::Kind::coordinates)
+      units.push_back("N");
+    else
+      units.push_back(is_mixed || !common || *common == JointKind::floating ? "" : *common == JointKind::prismatic ? "N" : "N m");
+  }
+  return units;
 }
 
 }  // namespace chainreel

@@ -8,6 +8,7 @@
 
 #include "core/names.hpp"
 #include "expr/expression.hpp"
+#include "model/chain.hpp"
 #include "model/constraint.hpp"
 #include "sim/drive/probe.hpp"
 
@@ -36,6 +37,10 @@ struct ConstraintPlan {
 
   bool empty() const { return list.empty(); }
 };
+
+// Of each row's multiplier: N of a length that is held, N m of a direction; of coordinates that of what moves them, "" where it is not the
+// same for all.
+std::vector<std::string> multiplier_units(const Chain& chain, const std::vector<Constraint>& constraints);
 
 // A curve in the plane of motion from two expressions in its parameter s.
 
