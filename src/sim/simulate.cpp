@@ -208,12 +208,8 @@ class Run {
   void append_multipliers(double t, ConstVec q, ConstVec qd) {
     const bool is_behind = start_anew_ && t >= now();
     if (is_behind) simulation_.torque->leave_pieces();
-    look_at_multipliers(t, q, qd);
-    if (is_behind) simulation_.torque->enter_piece(grid_.middle_of_piece(integrator_->begin_time()));
-  }
-
-  void look_at_multipliers(double t, ConstVec q, ConstVec qd) {
     const auto look = constrained_->look(system_.workspace(), q, qd, system_.applied_torque(t, q, qd));
+    if (is_behind) simulation_.torque->enter_piece(grid_.middle_of_piece(integrator_->begin_time()));
     const ConstVec lambda = constrained_->lambda();
     trajectory_.lambda.insert(trajectory_.lambda.end(), lambda.begin(), lambda.end());
     trajectory_.position_error = std::max(trajectory_.position_error, look.position_error);
@@ -313,8 +309,7 @@ class Run {
   }
 
   bool check_constraints(double t) {
-    const auto unmet = constrained_->unmet(system_.workspace(), q_now(), qd_now(),
-                                           system_.applied_torque(t, q_now(), qd_now()));
+    const auto unmet = constrained_->unmet(system_.workspace(), q_now(), qd_now(), system_.applied_torque(t, q_now(), qd_now()));
     if (!unmet || system_.bad_torque() >= 0) return true;
     set_trouble(RunStatus::inconsistent,
                 "constraints contradict each other: no acceleration fulfils '" + row_name(unmet->row) +
@@ -421,11 +416,9 @@ class Run {
     // What makes steps small is most often the joint that moves fastest.
     const ConstVec qd = integrator_->v();
     const auto slower = [](double x, double y) { return std::abs(x) < std::abs(y); };
-    const std::string fastest = "; the fastest joint is '" +
-                                name(int(std::max_element(qd.begin(), qd.end(), slower) - qd.begin())) + "'";
+    const std::string fastest = "; the fastest joint is '" + name(int(std::max_element(qd.begin(), qd.end(), slower) - qd.begin())) + "'";
     if (result == StepResult::not_converged)
-      set_trouble(RunStatus::not_converged, "the implicit equations of a step found no solution" + fastest,
-                  begin);
+      set_trouble(RunStatus::not_converged, "the implicit equations of a step found no solution" + fastest, begin);
     else
       set_trouble(RunStatus::step_too_small, "no step was small enough for the tolerance" + fastest, begin);
     return false;
@@ -438,8 +431,7 @@ class Run {
 
   void set_trouble(RunStatus status, const std::string& what, double t) {
     trajectory_.status = status;
-    trajectory_.trouble =
-        what + " at t = " + format_significant(t, 12) + " s (step " + std::to_string(steps() + 1) + ")";
+    trajectory_.trouble = what + " at t = " + format_significant(t, 12) + " s (step " + std::to_string(steps() + 1) + ")";
   }
 
   std::string name(int freedom) const { return simulation_.chain.coordinate_names[std::size_t(freedom)]; }

@@ -1,0 +1,57 @@
+// Where the panels of a figure of poses lie, and what stands below each. Internal.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "draw/figures/caption.hpp"
+#include "draw/figures/ellipse_figure.hpp"
+#include "draw/robot/skeleton.hpp"
+
+namespace chainreel {
+
+inline constexpr double kLabelInset = 0.014;  // of words in a panel's corner
+
+inline Rect above_caption(const Rect& panel, double caption) {
+  return {panel.x0, panel.y0 + caption, panel.x1, panel.y1};
+}
+
+// What all panels share.
+struct Panels {
+  const Chain& chain;
+  const PageInUnits& page;
+  const Fonts& fonts;
+  const PoseFigureOptions& options = page.options;
+  std::vector<Rect> places{};
+  double caption = 0;                           // height of the words below each scene
+  std::vector<std::vector<std::string>> lines{};  // one a panel, where that is its whole caption
+  CaptionLines words{};                           // what of them is written; else the poses above their numbers
+  std::vector<std::vector<std::string>> below{};  // further lines of such captions, one a panel each
+  bool has_masses = true;                       // below the scenes
+  bool has_bare_masses = false;                 // ... without their name
+  double filled = 1;                            // the share of a scene that is kept when it is cut to content
+  double marks = 1;
+  EllipseScale scale{};
+  Skeleton skeleton{};
+  Camera camera{};  // of the first panel
+
+  Rect scene(std::size_t i) const { return above_caption(places[i], caption); }
+  // Where the chain may be: below the words in its corner.
+  Rect picture(std::size_t i) const {
+    Rect below = scene(i);
+    if (!options.labels.empty()) below.y1 -= kLabelInset + scaled(size::kAxis, options.text_scale);
+    return below;
+  }
+  double side() const { return std::min(picture(0).width(), picture(0).height()); }
+};
+
+// The best of all arrangements that there are; nothing where none has room.
+std::optional<Panels> best_panels(const Chain& chain, const std::vector<Pose>& poses, const PageInUnits& page, const Fonts& fonts,
+                                  Workspace& ws);
+// Panels that are narrow for what they show are no higher than it needs, or than they are wide, and stand in the middle of `area`.
+void cut_to_content(Panels& panels, const Rect& area, const std::vector<Pose>& poses, Workspace& ws);
+// Whether a pose below its panel is shortened.
+bool has_cut_captions(const Panels& panels);
+
+}  // namespace chainreel
