@@ -27,7 +27,7 @@ const char* const kProbe =
     "print(json.dumps({'M': m.M(q).tolist(), 'nle': (m.C(q, qd) @ qd + m.g(q)).tolist(), 'J': m.J(q).tolist(),\n"
     "  'Lambda': m.Lambda(q).tolist(), 'qdd': m.forward(q, qd, tau).tolist()}))\n";
 
-std::string replaced(std::string text, const std::string& word, const std::string& by) {
+std::string once_replaced(std::string text, const std::string& word, const std::string& by) {
   return text.replace(text.find(word), word.size(), by);
 }
 
@@ -68,7 +68,7 @@ TEST(Equations, AsPythonSayWhatDynamicsSays) {
     const TemporaryFolder folder;
     const std::string model = std::string("models/") + c.model + ".urdf", module = folder.file("m.py");
     ASSERT_EQ(run_program({"equations", model, "--python", "-o", module}).status, 0);
-    folder.write("probe.py", replaced(replaced(replaced(replaced(kProbe, "MODULE", module), "[Q]", "[" + std::string(c.q) + "]"), "[QD]",
+    folder.write("probe.py", once_replaced(once_replaced(once_replaced(once_replaced(kProbe, "MODULE", module), "[Q]", "[" + std::string(c.q) + "]"), "[QD]",
                                                "[" + std::string(c.qd) + "]"),
                                       "[TAU]", "[" + std::string(c.tau) + "]"));
     const ProgramResult said = run_command({kPython, folder.file("probe.py")});

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 constexpr char kHuman[] = "assets/scenes/humanoid_fall.yaml";
 
 // PP falls freely from rest: through -1 m after sqrt(2/g).
-constexpr char kFalling[] =
+constexpr char kFallingScene[] =
     "model: " CHAINREEL_SOURCE_FOLDER
     "/models/pp.urdf\nduration: 2\nmethod: rk4\nstep: 0.01\n"
     "title: \"Falls in {fall}\"\ntorque: [0, 0]\n"
@@ -111,7 +111,7 @@ TEST(FallCommand, FindsTheValueAtWhichTheEndChanges) {
 // A table or picture of one value would be taken for that of another.
 TEST(FallCommand, SaysWhatTheCommandLineSet) {
   const TemporaryFolder folder;
-  const std::string scene = folder.write("fall.yaml", std::string(kFalling) + "parameters: {k: 1}\nvideo: {width: 64, height: 36, fps: 20}\n");
+  const std::string scene = folder.write("fall.yaml", std::string(kFallingScene) + "parameters: {k: 1}\nvideo: {width: 64, height: 36, fps: 20}\n");
   const ProgramResult told = run_program({"fall", scene, "--set", "parameters.k=200", "-o", folder.file("a.csv")});
   EXPECT_THAT(told.out, HasSubstr("with parameters.k=200"));
   EXPECT_THAT(read_whole_file(folder.file("a.csv")), HasSubstr("# set: parameters.k=200\n"));
@@ -135,7 +135,7 @@ TEST(FallCommand, SaysWhatHoldsFromTheStart) {
   EXPECT_THAT(text, HasSubstr(",stands,tips_at [s],tips_over,falls,takes_off_at [s]\n"));
   EXPECT_THAT(text, HasSubstr(",false,0,toe,"));
 
-  const std::string scene = folder.write("falling.yaml", kFalling);
+  const std::string scene = folder.write("falling.yaml", kFallingScene);
   const ProgramResult lying = run_program({"fall", scene, "--set", "start.q=[0, -2]"});
   EXPECT_THAT(lying.out, HasSubstr("lies from the start"));
 }
@@ -178,7 +178,7 @@ TEST(FallCommand, SaysWhoTakesOffAndWhen) {
 
 TEST(FallCommand, GivesTheClosedFormInJsonAndCsv) {
   const TemporaryFolder folder;
-  const std::string scene = folder.write("falling.yaml", kFalling), csv = folder.file("fall.csv");
+  const std::string scene = folder.write("falling.yaml", kFallingScene), csv = folder.file("fall.csv");
   const ProgramResult result =
       run_program({"fall", scene, "--sweep", "torque.2=0,2,40", "--json", "-o", csv});
   ASSERT_EQ(result.status, 0) << result.err;
@@ -224,7 +224,7 @@ TEST(Events, TheGroundsScaleStandsWithItsArrow) {
 
 TEST(Events, AreInTheAuditWithNameTimeAndState) {
   const TemporaryFolder folder;
-  const std::string scene = folder.write("falling.yaml", kFalling), csv = folder.file("fall.csv");
+  const std::string scene = folder.write("falling.yaml", kFallingScene), csv = folder.file("fall.csv");
   const ProgramResult result = run_program({"simulate", scene, "-o", csv, "--json"});
   ASSERT_EQ(result.status, 0) << result.err;
   const Json json = Json::parse(result.out);

@@ -17,7 +17,7 @@
 namespace chainreel {
 namespace {
 
-constexpr const char* kModels[] = {"arm", "four_bar", "humanoid", "p", "pp", "rr", "rrr", "slider_crank"};
+constexpr const char* kShippedModels[] = {"arm", "four_bar", "humanoid", "p", "pp", "rr", "rrr", "slider_crank"};
 
 struct Fault {
   std::string text;   // of the spoilt file
@@ -127,7 +127,7 @@ TEST(PhysicsFaults, InModelsAreFoundAndNamed) {
   std::mt19937 lot(14);
   const TemporaryFolder folder;
   int faults = 0, refused = 0;
-  for (const char* model : kModels) {
+  for (const char* model : kShippedModels) {
     const std::string text =
         read_whole_file(std::string(CHAINREEL_SOURCE_FOLDER "/models/") + model + ".urdf");
     const Json before = model_record(folder.write("model.urdf", text), {});

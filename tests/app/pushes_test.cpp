@@ -45,6 +45,8 @@ TEST_F(PushedScene, IsRefusedWithALineAndARemedyWhereItIsWrong) {
   EXPECT_THAT(trouble("{force: [5 kg, 0]}"), HasSubstr("N"));
   EXPECT_THAT(trouble("5"), HasSubstr("must be a push"));
   EXPECT_EQ(run_program({"check", scene(), "--set", "push="}).status, 0);
+  EXPECT_THAT(run_program({"check", scene(), "--set", "push=", "--set", "push.force.1=80"}).err, HasSubstr("there is no push whose force"));
+  EXPECT_EQ(run_program({"check", scene(), "--set", "push.force.1=80"}).status, 0);
 }
 
 TEST_F(PushedScene, IsSaidWhereNothingComesOfIt) {

@@ -75,7 +75,7 @@ Words shell_words(const std::string& text) {
   return words;
 }
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
+std::string every_replaced(std::string text, const std::string& what, const std::string& by) {
   for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) text.replace(at, what.size(), by);
   return text;
 }
@@ -107,8 +107,8 @@ class Remedies : public testing::TestWithParam<Remedy> {
 
   Words filled(Words words) const {
     for (std::string& word : words) {
-      word = replaced(word, "SCENE", "s.yaml");
-      word = replaced(word, "MODEL", "rr.urdf");
+      word = every_replaced(word, "SCENE", "s.yaml");
+      word = every_replaced(word, "MODEL", "rr.urdf");
     }
     return words;
   }
@@ -146,7 +146,7 @@ TEST_P(Remedies, AreTypedAsTheyStand) {
   for (std::size_t i = 1; i < found.size(); ++i) {
     std::string remedy = found.str(i);
     const std::string before = remedy;
-    for (const char* blank : {"NAME", "FOLDER", "TIME", "[..]"}) remedy = replaced(remedy, blank, one.fill);
+    for (const char* blank : {"NAME", "FOLDER", "TIME", "[..]"}) remedy = every_replaced(remedy, blank, one.fill);
     const bool has_blank = remedy != before;
     Words again = words;
     switch (one.typed) {
@@ -166,10 +166,10 @@ TEST_P(Remedies, AreTypedAsTheyStand) {
         for (const std::string& flag : shell_words(remedy)) again = without(again, flag);
         break;
       case Typed::value:
-        write_scene(replaced(one.scene, one.fill, remedy));
+        write_scene(every_replaced(one.scene, one.fill, remedy));
         break;
       case Typed::csv:
-        write_scene(replaced(one.scene, ".csv", ".csv, " + remedy));
+        write_scene(every_replaced(one.scene, ".csv", ".csv, " + remedy));
         break;
       case Typed::given:
         *(std::find(again.begin(), again.end(), one.fill) + 1) = remedy;

@@ -13,6 +13,10 @@ PushEntry read_one_push(Fields& fields, const YAML::Node& node, const std::strin
   PushEntry entry;
   entry.place = fields.place_of(node, key);
   inner.read("frame", entry.frame);
+  if (inner.has("force") && node["force"].IsMap()) {  // as `--set push.force.1=80` makes where the scene has no such list
+    inner.problem_at("force", "'" + inner.path("force") + "' has single numbers, but there is no push whose force they are part of: push: " + kLike);
+    return entry;
+  }
   inner.measure_in("N");
   const bool is_read = inner.read("force", entry.force);
   inner.measure_in("");
