@@ -366,7 +366,7 @@ void compare_methods(const StabilityOptions& options) {
 void run_stability(const StabilityOptions& options) {
   check_figure_size(options.figure);
   if (options.x.empty() != options.y.empty())
-    throw Error(ExitCode::usage, "a map needs both --x and --y; without them the methods are compared");
+    throw Error(ExitCode::usage, "a map needs both --x and --y: the runs along one key alone are a table of `sweep`; without either the methods are compared");
   if (options.x.empty()) {
     for (const std::string& output : options.figure.outputs) {
       if (!is_table_path(output))
