@@ -13,6 +13,10 @@ int find_point(const Chain& chain, const std::string& name) {
   return -1;
 }
 
+int find_point(const Chain& chain, const PushEntry& push) {
+  return push.frame.empty() ? chain.end_effector : find_point(chain, push.frame);
+}
+
 int find_point(const Chain& chain, const Scene& scene, const std::string& name) {
   const auto named = scene.frames.find(name);
   return find_point(chain, named == scene.frames.end() ? name : named->second);

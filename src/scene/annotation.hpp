@@ -13,6 +13,8 @@ namespace chainreel {
 int find_point(const Chain& chain, const std::string& name);
 // The same, where a name of the scene's `frames` comes first.
 int find_point(const Chain& chain, const Scene& scene, const std::string& name);
+// That of a push.
+int find_point(const Chain& chain, const PushEntry& push);
 // All names that the first one knows.
 std::vector<std::string> point_names(const Chain& chain);
 

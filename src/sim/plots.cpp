@@ -142,8 +142,7 @@ PlotCurves values_of(const Expression& value, const PlotSet& plots, const Simula
     if (trajectory.rows > 0) probe.set_multipliers(trajectory.lambda_at(k));
     if (plots.load.are_read()) {
       hold_as_then(system, simulation, trajectory, t);
-      system.acceleration(t, q, qd, qdd);
-      plots.load.set(probe, ground_load(chain, ws, plots.ground, plots.ground_height, q, qd, qdd, system.pushed(t, q, qd)));
+      plots.load.set(probe, ground_load(system, ws, plots.ground, plots.ground_height, t, q, qd, qdd));
     }
     curve.y.push_back(value.evaluate(probe.values()));
   }

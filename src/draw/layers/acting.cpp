@@ -243,7 +243,7 @@ std::vector<WorldVector> torques_at(const Chain& chain, const Workspace& ws, con
 std::vector<WorldVector> pushes_at(const Chain& chain, const Workspace& ws, const Pushes& pushes, double t) {
   std::vector<WorldVector> vectors;
   for (const ActingPush& push : pushes.list())
-    if (push.from <= t && t < push.until)
+    if (push.acts_at(t))
       vectors.push_back({VectorKind::push, frame_position(chain, ws, push.frame), push.force, Vector3d::Zero(), Vector3d::Zero(),
                          format_significant(push.force.norm(), 3) + " N"});
   return vectors;

@@ -184,19 +184,14 @@ void draw_axis(Picture& picture, Point center, Point v, bool dashed, double widt
   const Point u = (1 / length) * v;
   // As far as it can be seen.
   const double reach = fade.any() ? std::min(length, kBeyond) : length;
-  if (!dashed && hole > 0) {
-    for (const double side : {-1.0, 1.0}) {
-      const Point from = center + (side * hole) * u, to = center + (side * reach) * u;
-      if (fade.any())
-        draw_outline(picture, {from, to}, width, color, fade, clip);
-      else
-        draw_line(picture, {from, to}, width, color, clip);
-    }
-    return;
-  }
   if (!dashed) {
-    if (!fade.any()) return draw_line(picture, {center - reach * u, center + reach * u}, width, color, clip);
-    return draw_outline(picture, {center - reach * u, center + reach * u}, width, color, fade, clip);
+    const auto draw = [&](double from, double to) {
+      const Point begin = center + from * u, end = center + to * u;
+      fade.any() ? draw_outline(picture, {begin, end}, width, color, fade, clip) : draw_line(picture, {begin, end}, width, color, clip);
+    };
+    if (!(hole > 0)) return draw(-reach, reach);
+    draw(-hole, -reach);
+    return draw(hole, reach);
   }
   // Symmetric about the middle, which is the middle of a dash.
   const int half_count = int((reach - kDash / 2) / (kDash + kGap)) + 1;

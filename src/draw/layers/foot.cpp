@@ -64,8 +64,7 @@ FootRun::FootRun(const StagedRun& motion)
     const auto q = trajectory.q_at(k), qd = trajectory.qd_at(k);
     const double t = trajectory.t[std::size_t(k)];
     hold_as_then(system, *motion.simulation(), trajectory, t);
-    system.acceleration(t, q, qd, qdd);
-    const GroundLoad load = ground_load(chain, ws, ground, foot.height, q, qd, qdd, system.pushed(t, q, qd));
+    const GroundLoad load = ground_load(system, ws, ground, foot.height, t, q, qd, qdd);
     answers.push_back({load.cop, load.force / weight});
   }
   motion.simulation()->torque->leave_pieces();

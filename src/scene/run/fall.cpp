@@ -39,9 +39,8 @@ double pressure_at(const Simulation& simulation, const Foot& foot, double t, Con
   const Chain& chain = simulation.chain;
   ChainSystem system(simulation);
   std::vector<double> qdd(qd.size());
-  system.acceleration(t, q, qd, qdd);
   Workspace ws(chain);
-  return ground_load(chain, ws, ground_axes(chain), foot.height, q, qd, qdd, system.pushed(t, q, qd)).cop;
+  return ground_load(system, ws, ground_axes(chain), foot.height, t, q, qd, qdd).cop;
 }
 
 // `event`: the one that watches the pressure; it waits where it holds from the start.

@@ -113,7 +113,7 @@ NamedFrames find_frames(const Scene& scene, const Chain& chain, ProblemList& pro
 std::vector<ActingPush> find_pushes(const Scene& scene, const Chain& chain, ProblemList& problems) {
   std::vector<ActingPush> pushes;
   for (const PushEntry& entry : scene.push) {
-    const int frame = entry.frame.empty() ? chain.end_effector : find_point(chain, entry.frame);
+    const int frame = find_point(chain, entry);
     if (frame < 0) {
       const std::vector<std::string> known = point_names(chain);
       problems.add(entry.frame.empty() ? "'push' needs a `frame`: the model has several ends, and none is its end effector; frames are " + list_of(known) + "."

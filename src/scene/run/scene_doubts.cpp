@@ -42,7 +42,7 @@ bool can_move(const Chain& chain, const Frame& frame) {
 std::vector<std::string> doubts_of_pushes(const Scene& scene, const Chain& chain) {
   std::vector<std::string> doubts;
   for (const PushEntry& push : scene.push) {
-    const int frame = push.frame.empty() ? chain.end_effector : find_point(chain, push.frame);
+    const int frame = find_point(chain, push);
     if (push.from >= scene.duration)
       doubts.push_back("push: it begins at " + format_significant(push.from, 6) + " s, where the run has ended: take a longer `duration`");
     if (std::all_of(push.force.begin(), push.force.end(), [](double f) { return f == 0; })) doubts.push_back("push: its force is zero, so that nothing comes of it");

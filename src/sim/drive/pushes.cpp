@@ -71,7 +71,7 @@ class PushedLaw final : public TorqueLaw {
 Pushes::Pushes(std::vector<ActingPush> list) : list_(std::move(list)), acts_in_piece_(list_.size()) {}
 
 bool Pushes::acts(std::size_t i, double t) const {
-  return in_piece_ ? acts_in_piece_[i] : list_[i].from <= t && t < list_[i].until;
+  return in_piece_ ? acts_in_piece_[i] : list_[i].acts_at(t);
 }
 
 void Pushes::add_to(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) const {

@@ -27,6 +27,8 @@ struct ActingPush {
   int frame = 0;  // index into Chain::frames
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  // N, in W
   double from = 0, until = 0;                       // s: at `from` it acts, at `until` no more
+
+  bool acts_at(double t) const { return from <= t && t < until; }
 };
 
 class Pushes {

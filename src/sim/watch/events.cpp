@@ -131,6 +131,12 @@ GroundLoad ground_load(const Chain& chain, Workspace& ws, const GroundAxes& axes
   return {(moment + height * force.dot(axes.along)) / up, up, force};
 }
 
+GroundLoad ground_load(ChainSystem& system, Workspace& ws, const GroundAxes& axes, double height, double t, ConstVec q,
+                       ConstVec qd, Vec qdd) {
+  system.acceleration(t, q, qd, qdd);
+  return ground_load(system.chain(), ws, axes, height, q, qd, qdd, system.pushed(t, q, qd));
+}
+
 namespace {
 
 constexpr std::size_t kUsualHits = 64;  // room for as many is made before the run
@@ -179,8 +185,7 @@ void EventWatch::set_probe(double t, ConstVec q, ConstVec qd) {
     probe_.set_multipliers(constrained.lambda());
   }
   if (!events_.load.are_read()) return;
-  system_.acceleration(t, q, qd, qdd_);
-  events_.load.set(probe_, ground_load(chain, ws_, events_.ground, events_.foot->height, q, qd, qdd_, system_.pushed(t, q, qd)));
+  events_.load.set(probe_, ground_load(system_, ws_, events_.ground, events_.foot->height, t, q, qd, qdd_));
 }
 
 bool EventWatch::read(double t, ConstVec q, ConstVec qd) {

@@ -58,6 +58,9 @@ struct GroundLoad {
 // The motion is the chain's own under some torque; `pushed`: what else acts from outside.
 GroundLoad ground_load(const Chain& chain, Workspace& ws, const GroundAxes& axes, double height, ConstVec q,
                        ConstVec qd, ConstVec qdd, const Wrench& pushed = {});
+// Of the system's own motion, with all that pushes it; writes the accelerations, nv numbers.
+GroundLoad ground_load(ChainSystem& system, Workspace& ws, const GroundAxes& axes, double height, double t, ConstVec q,
+                       ConstVec qd, Vec qdd);
 
 // Where a probe holds what the ground exerts; -1: nothing reads it.
 struct GroundSlots {
