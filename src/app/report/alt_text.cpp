@@ -45,16 +45,15 @@ std::string torque_words(const Scene& scene) {
   return acts ? "torques (" + text + ")" : "no torques";
 }
 
-// ", pushed by 60 N at trunk from 0.5 s to 0.6 s"
-std::string push_words(const Scene& scene) {
+// ", pushed by 60 N at trunk from 0.5 s to 0.6 s": what acts of each push, as its arrow shows it.
+std::string push_words(const PreparedScene& panel) {
+  const Pushes* pushes = panel.simulation.torque->pushes();
+  if (pushes == nullptr) return "";
   std::string text;
-  for (const PushEntry& push : scene.push) {
-    double square = 0;
-    for (const double f : push.force) square += f * f;
-    text += (text.empty() ? ", pushed by " : " and ") + format_significant(std::sqrt(square), 4) + " N at " +
-            (push.frame.empty() ? scene.end_effector : push.frame) + " from " + format_significant(push.from, 4) + " s" +
+  for (const ActingPush& push : pushes->list())
+    text += (text.empty() ? ", pushed by " : " and ") + format_significant(push.force.norm(), 4) + " N at " +
+            panel.simulation.chain.frames[std::size_t(push.frame)].name + " from " + format_significant(push.from, 4) + " s" +
             (std::isfinite(push.until) ? " to " + format_significant(push.until, 4) + " s" : " on");
-  }
   return text;
 }
 
@@ -77,7 +76,8 @@ std::string motion_words(const PreparedScene& panel, double seconds) {
          (chain.gravity.norm() > 0
               ? "gravity of " + format_significant(chain.gravity.norm(), 4) + " m/s^2 and "
               : "no gravity and ") +
-         torque_words(scene) + push_words(scene) + (chain.has_dissipation ? ", with friction in its joints" : "") + ", starting " + (starts_at_rest ? "at rest" : "in motion") +
+         torque_words(scene) + push_words(panel) +
+         (chain.has_dissipation ? ", with friction in its joints" : "") + ", starting " + (starts_at_rest ? "at rest" : "in motion") +
          " from q = " + vector_text(scene.start.q);
 }
 

@@ -17,6 +17,9 @@ namespace {
 // elsewhere.
 constexpr double kShareOfRun = 0.12;
 constexpr double kReferenceStep = 0.5, kOtherStep = 0.31;
+// Two of different kinds that agree so far within what is asked for are enough, though neither is as exact as can be.
+constexpr double kShareOfQuick = 0.01;
+constexpr double kQuickTolerances[] = {1e-10, 1e-9};  // of dop853 and radau5
 constexpr int kEvaluationsOfStep = 12;  // of dop853
 // A reference of another kind is less exact: it is contradicted only by what its own error does not explain.
 constexpr double kExplained = 10;
@@ -58,6 +61,28 @@ class Finder {
     longest_step_ = std::max(distance, simulation_.duration / std::max(affordable, 1.0));
   }
 
+  std::optional<ChoiceReference> find_quickly() {
+    if (takes("taylor") || !takes("radau5")) return {};  // a series is quicker still, and exact
+    Witness first{{&find_method("dop853"), {kQuickTolerances[0], 0}, 0}, {}};
+    Witness second{{&find_method("radau5"), {kQuickTolerances[1], 0}, 0}, {}};
+    first.run = run(first.setting, kReferenceStep);
+    if (!is_complete(first.run.status)) return {};
+    second.run = run(second.setting, kOtherStep);
+    if (!is_complete(second.run.status)) return {};
+    ChoiceReference reference;
+    reference.is_quick = true;
+    reference.setting = first.setting;
+    reference.size = motion_size(simulation_, first.run);
+    deviation_.emplace(simulation_, accuracy_, reference.size);
+    compare(first, second, reference);
+    const auto& apart = reference.uncertainty;
+    if (!reference.is_whole || *std::max_element(apart.begin(), apart.end()) > kShareOfQuick * accuracy_.value) return {};
+    reference.attainable.reset();
+    reference.run = std::move(first.run);
+    reference.other = std::move(second.run);
+    return reference;
+  }
+
   ChoiceReference find() {
     const auto [first, second] = two_witnesses();
     if (runs_.is_stopped() || first.run.size() == 0) return {};
@@ -77,18 +102,22 @@ class Finder {
   }
 
  private:
+  bool takes(const char* name) {
+    simulation_.method = &find_method(name);
+    try {
+      check_method(simulation_);
+      return true;
+    } catch (const Error&) {
+      return false;
+    }
+  }
+
   // From the most exact on; the series first, since it shares no text with the others.
-  std::vector<MethodSetting> witnesses() const {
+  std::vector<MethodSetting> witnesses() {
     std::vector<MethodSetting> list;
     const auto add = [&](const char* name, std::initializer_list<double> tolerances, int order = 0) {
-      Simulation& simulation = simulation_;
-      simulation.method = &find_method(name);
-      try {
-        check_method(simulation);
-      } catch (const Error&) {
-        return;
-      }
-      for (const double tolerance : tolerances) list.push_back({simulation.method, {tolerance, order}, 0});
+      if (!takes(name)) return;
+      for (const double tolerance : tolerances) list.push_back({simulation_.method, {tolerance, order}, 0});
     };
     add("taylor", {1e-15}, 24);
     add("dop853", {1e-14, 1e-12, 1e-10});
@@ -175,14 +204,8 @@ class Finder {
 
   // Two runs of one kind may share a mistake.
   void ask_another_kind(const Witness& first, ChoiceReference& reference) {
-    Simulation& simulation = simulation_;
-    simulation.method = &find_method(first.setting.method->name == "radau5" ? "dop853" : "radau5");
-    try {
-      check_method(simulation);
-    } catch (const Error&) {
-      return;
-    }
-    const Method* const method = simulation.method;
+    if (!takes(first.setting.method->name == "radau5" ? "dop853" : "radau5")) return;
+    const Method* const method = simulation_.method;
     std::optional<Trajectory> coarser;
     for (const double tolerance : kOtherKind) {
       const MethodSetting setting{method, {tolerance, 0}, 0};
@@ -307,6 +330,10 @@ class Finder {
 };
 
 }  // namespace
+
+std::optional<ChoiceReference> find_quick_reference(CountedRuns& runs, const Accuracy& accuracy, std::span<const double> times) {
+  return Finder(runs, accuracy, times).find_quickly();
+}
 
 ChoiceReference find_reference(CountedRuns& runs, const Accuracy& accuracy, std::span<const double> times) {
   return Finder(runs, accuracy, times).find();

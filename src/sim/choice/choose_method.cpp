@@ -9,6 +9,7 @@
 #include "core/scalar.hpp"
 #include "sim/choice/choice_reference.hpp"
 #include "sim/choice/curve_deviation.hpp"
+#include "sim/choice/error_growth.hpp"
 
 namespace chainreel {
 namespace {
@@ -21,10 +22,11 @@ constexpr int kOrders[] = {12, 20};
 constexpr double kShareOfCandidate = 0.1;  // of the budget, where nothing is exact enough yet
 // Where a part of the run decides, what is cheapest there may be dear behind: candidates are looked at up to this many
 // times its cost, and then run to the end with equal bounds, from this share of the budget on.
-constexpr double kSpread = 10;
+constexpr double kSpread = 4;
 constexpr double kFirstBound = 1e-3;
 constexpr double kNextBound = 4;  // times the one before
 constexpr double kFarMiss = 10;   // times the accuracy
+constexpr double kSmallErrors = 100;  // times the accuracy: up to there errors of a chaotic motion grow with their own size
 // Where a method is exact enough with no setting, others are tried up to this many times the cost of the most exact one.
 constexpr double kBeyondMostExact = 3;
 
@@ -59,7 +61,8 @@ class Chooser {
         duration_(simulation.duration),
         whole_duration_(std::max(simulation.duration, simulation.whole_duration)),
         times_(with_halves(frames, duration_)),
-        runs_(simulation, budget, watch) {
+        runs_(simulation, budget, watch),
+        growth_(kSmallErrors * accuracy.value) {
     for (const Method& method : methods())
       if (takes_the_chain(simulation_, method)) methods_.push_back(&method);
     // Adaptive ones first: what they cost bounds the search of all others.
@@ -68,8 +71,17 @@ class Chooser {
 
   Choice choose() {
     check_accuracy(simulation_.chain, accuracy_);
-    reference_ = find_reference(runs_, accuracy_, times_);
-    if (!runs_.is_stopped()) look_through_methods();
+    if (auto quick = find_quick_reference(runs_, accuracy_, times_)) {
+      reference_ = std::move(*quick);
+      look_through_methods();
+    }
+    if (!choice_.is_met && !has_ended()) {  // by the most exact reference some may be that are not by a quick one
+      choice_ = {};
+      most_beyond_.reset();
+      growth_ = ErrorGrowth(kSmallErrors * accuracy_.value);
+      reference_ = find_reference(runs_, accuracy_, times_);
+      if (!runs_.is_stopped()) look_through_methods();
+    }
     stay_whole();
     if (!choice_.best.setting.method) choice_.best.setting = {&find_method("dop853"), {1e-12, 0}, 0};
     apply(choice_.best.setting, simulation_);
@@ -119,12 +131,12 @@ class Chooser {
 
   // The largest of the deviations known, with what the reference itself may be off.
   double error_of(const Trajectory& trajectory) {
+    errors_.clear();
     if (trajectory.size() < reference_.samples) return kInfinity;
-    double largest = 0;
     for (int k = 0; k < reference_.samples; ++k)
-      largest = std::max(largest,
-                         deviation_->at(trajectory, reference_.run, k) + reference_.uncertainty[std::size_t(k)]);
-    return largest;
+      errors_.push_back(deviation_->at(trajectory, reference_.run, k) + reference_.uncertainty[std::size_t(k)]);
+    growth_.learn(errors_);
+    return *std::max_element(errors_.begin(), errors_.end());
   }
 
   // It came to the end, or to that of the motion itself.
@@ -250,12 +262,14 @@ class Chooser {
 
   bool is_hopeless(double cost) const { return choice_.is_met && cost >= ceiling(); }
 
-  // Whether steps as short as may be would miss the accuracy, too, by far, though errors fell an order faster than the
-  // method's. Errors as large as the motion itself fall later than that.
-  bool is_out_of_reach(const Method& method, const Choice::Candidate& last) const {
+  // Whether steps as short as may be would miss the accuracy, too, by far, though errors fell an order faster than those of
+  // a method of that order. Errors as large as the motion itself fall later than that, and count, where the motion
+  // forgets where it came from, as what they would have grown to.
+  bool is_out_of_reach(int order, const Choice::Candidate& last) const {
     if ((!choice_.is_met && !most_beyond_) || !std::isfinite(last.error)) return false;
     const double finer = std::max(1.0, ceiling() / last.cost);
-    return last.error > kFarMiss * accuracy_.value * std::pow(finer, method.order + 1);
+    const double error = is_shortened() ? growth_.unbounded(errors_) : last.error;
+    return error > kFarMiss * accuracy_.value * std::pow(finer, order + 1);
   }
 
   void try_steps(const Method& method) {
@@ -270,7 +284,7 @@ class Chooser {
         return;
       }
       if (has_ended() || try_one(setting) != Verdict::not_met) return;
-      if (is_out_of_reach(method, choice_.tried.back())) return;
+      if (is_out_of_reach(method.order, choice_.tried.back())) return;
     }
   }
 
@@ -283,6 +297,7 @@ class Chooser {
     for (const double tolerance : kToleranceLadder) {
       if (has_ended() || try_one({&method, {tolerance, order}, 0}) != Verdict::not_met) return;
       if (is_hopeless(choice_.tried.back().cost)) return;
+      if (is_shortened() && is_out_of_reach(order > 0 ? order : method.order, choice_.tried.back())) return;
     }
   }
 
@@ -319,6 +334,8 @@ class Chooser {
   std::vector<double> times_;  // frames and what is between them
   std::vector<double> samples_;  // of candidates' runs
   CountedRuns runs_;
+  ErrorGrowth growth_;
+  std::vector<double> errors_;  // of the last candidate, at its samples; empty where it did not come so far
   std::vector<const Method*> methods_;
   ChoiceReference reference_;
   std::optional<Deviation> deviation_;
