@@ -89,25 +89,25 @@ struct Scaled {
     }
     if (bounded.empty()) return;
     motion = given.in_units_of(1 / fastest);
-    for (Rate& rate : bounded) rate /= fastest;
+    for (std::vector<Rate>* rates : {&bounded, &growing})
+      for (Rate& rate : *rates) rate /= fastest;
   }
 
-  // What grows in the motion itself may grow in the step: as many eigenvalues.
-  std::size_t growths() const {
-    std::size_t count = 0;
-    for (const Rate& rate : growing) count += rate.imag() > 0 ? 2 : 1;
-    return count;
-  }
-
+  // What grows in the motion itself may grow in the step: of the step's eigenvalues those nearest to what it grows by. Any
+  // other that grows is the method's, however many of the former the step keeps within bounds.
   bool step_holds(const Method& method, double y) const {
     const auto map = step_map(method, motion, y);
     if (!map) return false;
     const Eigen::VectorXcd eigenvalues = eigenvalues_of(*map);
-    std::vector<double> moduli;
-    for (const Rate& one : eigenvalues) moduli.push_back(std::abs(one));
-    const auto place = moduli.begin() + std::ptrdiff_t(growths());
-    std::nth_element(moduli.begin(), place, moduli.end(), std::greater<>());
-    return *place <= 1 + growth_of_a_step(y);
+    std::vector<Rate> others(eigenvalues.begin(), eigenvalues.end());
+    for (const Rate& rate : growing)
+      for (const double side : {1.0, -1.0}) {
+        if (side < 0 && rate.imag() == 0) continue;
+        const Rate grown = std::exp(y * Rate{rate.real(), side * rate.imag()});
+        const auto is_nearer = [&](const Rate& one, const Rate& other) { return std::abs(one - grown) < std::abs(other - grown); };
+        if (!others.empty()) others.erase(std::min_element(others.begin(), others.end(), is_nearer));
+      }
+    return std::all_of(others.begin(), others.end(), [&](const Rate& one) { return std::abs(one) <= 1 + growth_of_a_step(y); });
   }
 
   LinearMotion motion;

@@ -112,6 +112,19 @@ TEST(StabilityLimit, LetsGrowWhatGrowsInTheMotionItself) {
   EXPECT_NEAR(limit("rk4", {MatrixXd::Constant(1, 1, 4), MatrixXd::Zero(1, 1)}), 2.785293563 / 2, kTolerance);
 }
 
+// A slow swing that grows by a hair must not lend its growth to the fast one, which the step breaks first: the limit is that
+// of the same motion without it.
+TEST(StabilityLimit, LendsTheGrowthOfTheMotionToNothingElse) {
+  for (const double growth : {1e-6, 1e-3, 0.1}) {
+    const LinearMotion motion{Matrix2d{{-6, 0.5}, {0, -4900}}, Matrix2d{{2 * growth, 0}, {0, -5}}};
+    const LinearMotion fast{MatrixXd::Constant(1, 1, -4900), MatrixXd::Constant(1, 1, -5)};
+    for (const char* method : {"semi_implicit_euler", "symplectic_euler", "verlet"}) {
+      EXPECT_NEAR(limit(method, motion) / limit(method, fast), 1, 1e-3) << method << " " << growth;
+      EXPECT_FALSE(is_stable(find_method(method), motion, 3 * limit(method, fast)).value()) << method << " " << growth;
+    }
+  }
+}
+
 TEST(StabilityLimit, IsNotKnownForPointsAndRodsNorWhereNothingMovesByItself) {
   EXPECT_FALSE(stability_limit(find_method("rattle4"), oscillator(1, 0)));
   EXPECT_FALSE(stability_limit(find_method("rk4"), {MatrixXd::Zero(2, 2), MatrixXd::Zero(2, 2)}));
