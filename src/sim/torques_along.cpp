@@ -177,4 +177,14 @@ std::vector<std::vector<Reaction>> reactions_along(const Simulation& simulation,
   return reactions;
 }
 
+std::optional<double> rounding_of(const Chain& chain, const std::vector<std::vector<Reaction>>& reactions) {
+  constexpr double kRounding = 1e-6;
+  double mass = 0, largest = 0;
+  for (const Body& body : chain.bodies) mass += body.inertia.mass;
+  for (const std::vector<Reaction>& instant : reactions)
+    for (const Reaction& one : instant) largest = std::max(largest, one.force.norm());
+  if (reactions.empty() || !(largest < kRounding * mass * std::max(1.0, chain.gravity.norm()))) return {};
+  return largest;
+}
+
 }  // namespace chainreel

@@ -2,6 +2,7 @@
 // they must; outputs that show forces take them from here, at the instants that they show.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sim/simulate.hpp"
@@ -49,5 +50,9 @@ struct Reaction {
 // that tie two frames, at the first one. Empty where nothing is constrained.
 std::vector<std::vector<Reaction>> reactions_along(const Simulation& simulation,
                                                    const Trajectory& trajectory);
+
+// The largest of them, N, where all are so small beside the robot's weight that they are what cancelling leaves: less than a
+// millionth of it (of its mass at 1 m/s^2 where gravity is less). Else nothing.
+std::optional<double> rounding_of(const Chain& chain, const std::vector<std::vector<Reaction>>& reactions);
 
 }  // namespace chainreel

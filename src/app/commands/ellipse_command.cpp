@@ -268,6 +268,7 @@ void run_ellipse(const EllipseOptions& options) {
   };
   const std::string csv = options.joint_space ? "" : ellipse_csv(tip, poses, options.form(motion));
   std::optional<Picture> picture;
+  int numbers_left_out = 0;
   for (const std::string& output : outputs) {
     if (is_table_path(output)) {
       write_numbers(output, {csv, report}, options.common.force);
@@ -275,9 +276,12 @@ void run_ellipse(const EllipseOptions& options) {
     }
     if (!picture)
       picture = options.joint_space ? draw_joint_space_figure(chain, poses.q, joints, figure, fonts)
-                                    : draw_ellipse_figure(tip, poses.q, figure, fonts);
+                                    : draw_ellipse_figure(tip, poses.q, figure, fonts, &numbers_left_out);
     write_picture(*picture, figure.width, figure.height, fonts, output, options.common.force, memory);
   }
+  if (numbers_left_out > 0 && !options.common.quiet)
+    std::fprintf(stderr, "note: the numbers of %d semi-axes have no room here: all are in --json and .csv, and below the pictures of --layout grid\n",
+                 numbers_left_out);
   tell_files(options.common, outputs, report);
 }
 

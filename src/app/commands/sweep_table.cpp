@@ -158,9 +158,9 @@ class RowMaker {
  private:
   // The end, and instants before by which the energy at the end is judged.
   static std::vector<double> looks_at(double duration) {
-    constexpr int kLooks = 8;
+    constexpr int kInstants = 8;
     std::vector<double> times;
-    for (int k = 1; k <= kLooks; ++k) times.push_back(duration * k / kLooks);
+    for (int k = 1; k <= kInstants; ++k) times.push_back(duration * k / kInstants);
     return times;
   }
 

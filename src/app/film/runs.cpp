@@ -7,6 +7,7 @@
 #include "app/film/progress.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "scene/run/title.hpp"
 #include "scene/slow_motion.hpp"
 
 namespace chainreel {
@@ -171,8 +172,8 @@ Composition Runs::composition(const Scene& page, int frames, const Fonts& fonts)
   return compose(page, panels(), shown_times(list_, times_, frames), fonts, clock_);
 }
 
-std::string in_panel(const Scene& scene, std::size_t i, const std::string& message) {
-  return "panel " + std::to_string(i + 1) + " (" + scene.title + "): " + message;
+std::string in_panel(const Scene& scene, const Trajectory& trajectory, std::size_t i, const std::string& message) {
+  return "panel " + std::to_string(i + 1) + " (" + title_of(scene, trajectory) + "): " + message;
 }
 
 // What its author can do about a run that failed.
@@ -210,7 +211,7 @@ void Runs::require_expected_ends(std::optional<int> frame) const {
       if (error.code() != ExitCode::numerical) throw;  // a signal
       const Problem& problem = error.problems().front();
       problems.push_back(
-          {list_.size() == 1 ? problem.message : in_panel(scene, i, problem.message), problem.place});
+          {list_.size() == 1 ? problem.message : in_panel(scene, list_[i], i, problem.message), problem.place});
     }
   }
   if (!problems.empty()) throw Error(ExitCode::numerical, std::move(problems));

@@ -69,6 +69,6 @@ void require_expected_end(const Trajectory& trajectory, const Scene& scene);
 std::string simulating_text(const PreparedFilm& film, const PreparedScene& panel);
 
 // "panel 2 (rk4): message"
-std::string in_panel(const Scene& scene, std::size_t i, const std::string& message);
+std::string in_panel(const Scene& scene, const Trajectory& trajectory, std::size_t i, const std::string& message);
 
 }  // namespace chainreel

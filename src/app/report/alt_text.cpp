@@ -200,7 +200,7 @@ std::string sentence_of(const FilmReport& report) {
   text += ": " + std::to_string(film.panels.size()) +
           (ghost ? " variants in one place (filled: " : " panels at one scale (");
   for (std::size_t i = 0; i < film.panels.size(); ++i)
-    text += std::string(i == 0 ? "" : ghost && i == 1 ? "; in outline: " : "; ") + film.panels[i].scene.title;
+    text += std::string(i == 0 ? "" : ghost && i == 1 ? "; in outline: " : "; ") + title_of(report.panels[i]);
   return text + "); in the first, " + motion + ".";
 }
 

@@ -16,6 +16,7 @@
 #include "scene/run/fall.hpp"
 #include "scene/run/title.hpp"
 #include "sim/drive/recorded_motion.hpp"
+#include "sim/torques_along.hpp"
 
 namespace chainreel {
 
@@ -186,6 +187,10 @@ std::vector<std::string> notes_of(const PreparedScene& prepared, const Trajector
   }
   for (const int event : trajectory.events.from_start)
     notes.push_back("event '" + scene.events[std::size_t(event)].title() + "' holds at t = 0 already: instants are those at which it begins again");
+  const bool draws_reactions = std::find(scene.draw.begin(), scene.draw.end(), "constraint_force") != scene.draw.end();
+  if (draws_reactions)
+    if (const auto largest = rounding_of(prepared.simulation.chain, reactions_along(prepared.simulation, trajectory)))
+      notes.push_back("constraint_force: no arrow, as what the constraints bear is rounding beside the robot's weight, " + format_significant(*largest, 2) + " N at most");
   if (!trajectory.trouble.empty() && is_complete(trajectory.status)) notes.push_back("stopped: " + trajectory.trouble);
   return notes;
 }

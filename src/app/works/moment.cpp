@@ -55,6 +55,13 @@ struct Moments::State {
     if (moment.at > last_end() + kSameInstant)
       moment.warnings.push_back(film.scene.name + ": every run had ended by t = " + format_significant(last_end(), 4) +
                                 " s: the picture for t = " + format_significant(moment.at, 4) + " s shows how");
+    // The picture is of before, and right; a film of the run would fail.
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const Scene& scene = film.panels[i].scene;
+      if (is_complete(runs[i].status) || scene.expect != Outcome::finish) continue;
+      const std::string failed = runs[i].trouble + " with " + method_text(scene) + ": what is shown is from before";
+      moment.warnings.push_back(film.scene.name + ": " + (runs.size() == 1 ? failed : in_panel(scene, runs[i], i, failed)));
+    }
     moment.left_out = report.left_out;
     moment.numbers = numbers(frame);
     return moment;
@@ -71,7 +78,7 @@ struct Moments::State {
   Json numbers(int frame) const {
     Json panels = Json::array();
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      Json panel{{"title", film.panels[i].scene.title}, {"status", to_string(runs[i].status)}};
+      Json panel{{"title", title_of(film.panels[i].scene, runs[i])}, {"status", to_string(runs[i].status)}};
       if (runs[i].size() > 0) panel.update(sample_report(film.panels[i].simulation, runs[i], std::min(frame, runs[i].size() - 1)));
       panels.push_back(std::move(panel));
     }

@@ -44,7 +44,7 @@ void add_run_notes(const Runs& runs, std::vector<std::string>& notes) {
   const PreparedFilm& film = runs.film();
   for (std::size_t i = 0; i < runs.size(); ++i)
     for (const std::string& text : notes_of(film.panels[i], runs[i]))
-      notes.push_back(film.scene.name + ": " + (runs.size() == 1 ? text : in_panel(film.panels[i].scene, i, text)));
+      notes.push_back(film.scene.name + ": " + (runs.size() == 1 ? text : in_panel(film.panels[i].scene, runs[i], i, text)));
 }
 
 // Slow motion about an event that never comes is none, nor are its words, which their author may want to know.

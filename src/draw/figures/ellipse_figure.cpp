@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/figures/caption.hpp"
+#include "draw/figures/pose_labels.hpp"
 #include "draw/figures/pose_panels.hpp"
 #include "draw/layers/body_obstacles.hpp"
 #include "draw/layers/ellipse.hpp"
@@ -30,31 +31,6 @@ namespace {
 constexpr double kRoomForLengths = 10;  // of the em of their words: the side of a panel
 // How long the bounded semi-axes (their median) are drawn, as a share of the shorter side of a panel.
 constexpr double kSmallerAxis = 0.14, kLargerAxis = 0.24;
-
-// Words where they lie on nothing of what was drawn since item `first`, nor on `obstacles`.
-void draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, std::vector<Obstacle> obstacles, const Rect& scene,
-                   const Theme& theme, int clip) {
-  // An axis that fades out of the panel at both ends has its number at one of them.
-  std::vector<MarkWord> others;
-  const Rect room = widened(scene, -kLabelInset);
-  for (MarkWord word : words.words()) {
-    if (word.name == kLengthAtEdge) word.places = {moved_into(room, word.places.front())};
-    const bool is_other_end = word.name == kLengthAtEdge && !others.empty() && others.back().name == kLengthAtEdge && others.back().places.size() == 1;
-    if (is_other_end)
-      others.back().places.push_back(word.places.front());
-    else
-      others.push_back(word);
-  }
-  Picture drawn;
-  drawn.items.assign(picture.items.begin() + std::ptrdiff_t(first), picture.items.end());
-  for (const Obstacle& one : obstacles_of(drawn)) obstacles.push_back(one);
-  WordPlan plan(room, kLooksPerSecond);
-  plan.add(others, obstacles);
-  const std::vector<StandingWord> standing = plan.standing().front();
-  MarkLabels placed(standing);
-  for (MarkWord& word : others) placed.add(std::move(word));
-  placed.draw(picture, scene, theme.background, clip);
-}
 
 void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose& pose, Workspace& ws) {
   const Theme& theme = *panels.options.theme;
@@ -195,13 +171,13 @@ PoseFigureFit fit_of_poses(const TipMass& mass, const std::vector<std::vector<do
 }
 
 Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& configurations,
-                            const PoseFigureOptions& options, const Fonts& fonts) {
+                            const PoseFigureOptions& options, const Fonts& fonts, int* numbers_left_out) {
   const Chain& chain = mass.chain();
   if (configurations.empty()) throw Error(ExitCode::usage, "a figure needs at least one pose");
   Workspace ws(chain);
   const std::vector<Pose> poses = poses_of(mass, configurations, options, ws);
   if (options.cell > 0 || options.layout == "superposed")
-    return draw_superposed(chain, poses, options, fonts);
+    return draw_superposed(chain, poses, options, fonts, numbers_left_out);
   const PageInUnits page = in_units(options);
   std::optional<Panels> best = best_panels(chain, poses, page, fonts, ws);
   if (!best)

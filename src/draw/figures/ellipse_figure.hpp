@@ -31,8 +31,8 @@ EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReadi
 Sheet sheet_of(const Chain& chain, const PoseFigureOptions& options, const EllipseScale& scale, const Fonts& fonts, double height = 1,
                bool names_masses = false);
 
-// All poses in one place, or a field.
+// All poses in one place, or a field. `numbers_left_out`: see draw_ellipse_figure.
 Picture draw_superposed(const Chain& chain, const std::vector<Pose>& poses, const PoseFigureOptions& options,
-                        const Fonts& fonts);
+                        const Fonts& fonts, int* numbers_left_out);
 
 }  // namespace chainreel

@@ -7,6 +7,7 @@
 #include "draw/figures/caption.hpp"
 #include "draw/figures/ellipse_figure.hpp"
 #include "draw/figures/pose_labels.hpp"
+#include "draw/layers/body_obstacles.hpp"
 #include "draw/layers/ellipsoid.hpp"
 #include "draw/layers/fading.hpp"
 #include "draw/page/mark_labels.hpp"
@@ -71,6 +72,7 @@ struct Overlay {
   Skeleton skeleton;
   Camera camera;
   EllipseScale scale;
+  MarkLabels numbers;  // of semi-axes
 
   Overlay(const Chain& c, const std::vector<Pose>& p, const PoseFigureOptions& o, const Fonts& f)
       : chain(c), poses(p), options(o), fonts(f), ws(c), skeleton(skeleton_of(c)), camera(view_of(c, o.camera)) {
@@ -133,6 +135,7 @@ struct Overlay {
     const Point tip = camera.project(place);
     EllipseStyle style{options.theme, &fonts, options.text_scale, scale.per_unit(), scene, options.reading};
     style.part = part;
+    if (part == EllipsePart::above) style.labels = &numbers;
     if (!options.shapes && !is_field()) style.hole = link_end(look_of(skeleton, camera, *options.theme));
     if (options.shapes) style.hides = robot_hides(*options.shapes, ws, camera, place);
     int clip = kSceneClip;
@@ -157,10 +160,11 @@ struct Overlay {
       stand_in(poses[i]);
       const Eigen::Vector3d tip = tip_position(chain, ws);
       places.push_back({camera.project(tip), label_of(i), curve_of(poses[i], camera.seen_at(tip))});
-      for (const LinkSegment& link : skeleton.links)
+      for (const LinkSegment& link : options.shapes ? std::vector<LinkSegment>() : skeleton.links)
         bars.push_back({camera.project(pose_of(ws, link.body) * link.from), camera.project(pose_of(ws, link.body) * link.to),
                         size::kLinkWidth / 2});
     }
+    for (const Obstacle& body : bodies()) bars.push_back({body.a, body.b, body.radius});
     const std::vector<PlacedName> placed = place_names(places, bars, scene);
     std::vector<StandingWord> plan;
     for (const PlacedName& one : placed) plan.push_back(one.word);
@@ -183,6 +187,17 @@ struct Overlay {
     return spread.axes();
   }
 
+  // Robots in space of all poses.
+  std::vector<Obstacle> bodies() {
+    std::vector<Obstacle> found;
+    for (const Pose& pose : poses) {
+      if (!options.shapes || is_field()) break;
+      stand_in(pose);
+      add_bodies(found, skeleton, ws, camera);
+    }
+    return found;
+  }
+
   TextLine label_of(std::size_t i) const {
     const TextStyle style{Face::label, scaled(size::kAxis, options.text_scale), options.theme->ink, Align::left};
     if (i < options.labels.size()) return lay_out_text(fonts, options.labels[i], style);
@@ -193,7 +208,7 @@ struct Overlay {
 }  // namespace
 
 Picture draw_superposed(const Chain& chain, const std::vector<Pose>& poses, const PoseFigureOptions& options,
-                        const Fonts& fonts) {
+                        const Fonts& fonts, int* numbers_left_out) {
   Overlay overlay(chain, poses, options, fonts);
   const Rect room = sheet_of(chain, options, {0.005, kLongestBar, options.reading}, fonts).scene;
   const double share = std::max(kLeastRoom, std::min(1.0, std::sqrt(double(kFewPoses) / double(poses.size()))));
@@ -231,6 +246,8 @@ Picture draw_superposed(const Chain& chain, const std::vector<Pose>& poses, cons
                         look_of(overlay.skeleton, overlay.camera, *options.theme), kSceneClip);
     }
   if (!overlay.is_field() && poses.size() > 1) overlay.draw_labels(picture, room);
+  const int left_out = draw_clear_of(picture, 0, overlay.numbers, overlay.bodies(), room, *options.theme, kSceneClip);
+  if (numbers_left_out != nullptr) *numbers_left_out = left_out;
   Sheet inside = sheet;
   inside.scene = room;
   if (overlay.is_field()) draw_metre_bar(picture, overlay.camera, inside, fonts);

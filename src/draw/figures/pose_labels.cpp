@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "draw/layers/fading.hpp"
+
 namespace chainreel {
 namespace {
 
@@ -140,6 +142,31 @@ std::vector<PlacedName> place_names(std::span<const NamedPlace> places, std::spa
     placed.push_back({{at(i).box, stands ? 1.0 : 0.0}, norm(places[i].tip - at(i).foot) > kOwnByFar * next});
   }
   return placed;
+}
+
+int draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, std::vector<Obstacle> obstacles, const Rect& scene,
+                   const Theme& theme, int clip) {
+  // An axis that fades out of the panel at both ends has its number at one of them.
+  std::vector<MarkWord> others;
+  const Rect room = widened(scene, -kLabelInset);
+  for (MarkWord word : words.words()) {
+    if (word.name == kLengthAtEdge) word.places = {moved_into(room, word.places.front())};
+    const bool is_other_end = word.name == kLengthAtEdge && !others.empty() && others.back().name == kLengthAtEdge && others.back().places.size() == 1;
+    if (is_other_end)
+      others.back().places.push_back(word.places.front());
+    else
+      others.push_back(word);
+  }
+  Picture drawn;
+  drawn.items.assign(picture.items.begin() + std::ptrdiff_t(first), picture.items.end());
+  for (const Obstacle& one : obstacles_of(drawn)) obstacles.push_back(one);
+  WordPlan plan(room, kLooksPerSecond);
+  plan.add(others, obstacles);
+  const std::vector<StandingWord> standing = plan.standing().front();
+  MarkLabels placed(standing);
+  for (MarkWord& word : others) placed.add(std::move(word));
+  placed.draw(picture, scene, theme.background, clip);
+  return int(std::count_if(standing.begin(), standing.end(), [](const StandingWord& word) { return !(word.opacity > 0); }));
 }
 
 }  // namespace chainreel

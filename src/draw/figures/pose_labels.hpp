@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "draw/page/mark_labels.hpp"
-#include "picture/point.hpp"
+#include "draw/page/word_plan.hpp"
+#include "picture/picture.hpp"
+#include "picture/theme.hpp"
 
 namespace chainreel {
 
@@ -31,5 +33,9 @@ struct PlacedName {
 // For each its place within `area`: near to its own tip, off other names, tips, curves and bars, with leaders that cross no
 // other. The same for the same places, whatever was drawn before.
 std::vector<PlacedName> place_names(std::span<const NamedPlace> places, std::span<const Bar> bars, const Rect& area);
+
+// The words where they lie on nothing of what was drawn since item `first`, nor on `obstacles`; how many have no such place.
+int draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, std::vector<Obstacle> obstacles, const Rect& scene,
+                  const Theme& theme, int clip);
 
 }  // namespace chainreel

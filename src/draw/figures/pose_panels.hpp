@@ -39,9 +39,9 @@ struct Panels {
   Rect scene(std::size_t i) const { return above_caption(places[i], caption); }
   // Where the chain may be: below the words in its corner.
   Rect picture(std::size_t i) const {
-    Rect below = scene(i);
-    if (!options.labels.empty()) below.y1 -= kLabelInset + scaled(size::kAxis, options.text_scale);
-    return below;
+    Rect rest = scene(i);
+    if (!options.labels.empty()) rest.y1 -= kLabelInset + scaled(size::kAxis, options.text_scale);
+    return rest;
   }
   double side() const { return std::min(picture(0).width(), picture(0).height()); }
 };

@@ -348,7 +348,12 @@ std::unique_ptr<const Layer> make_layer_constraint_force(const Stage& stage) {
   return std::make_unique<VectorLayer>(
       stage, "constraint_force",
       [forces = along_runs<std::vector<std::vector<Reaction>>>(
-           stage, [](const StagedRun& motion) { return reactions_along(*motion.simulation(), motion.trajectory()); })](
+           stage,
+           [](const StagedRun& motion) {
+             std::vector<std::vector<Reaction>> reactions = reactions_along(*motion.simulation(), motion.trajectory());
+             if (rounding_of(motion.chain(), reactions)) reactions.clear();
+             return reactions;
+           })](
           const StagedRun& motion, const Workspace& ws, int k) {
         const auto own = forces.find(&motion);
         return own == forces.end() || own->second.empty()

@@ -19,7 +19,26 @@ namespace {
 constexpr double kAheadOfPause = 0.1;
 constexpr double kStay = 2;    // s of the film, of those that do not hold it
 constexpr double kSame = 1e-9;  // s
+constexpr double kWidest = 0.62;  // of the width of their panel: longer words are broken into lines
+constexpr double kNarrower = 0.96, kNarrowest = 0.3, kLeading = 1.3;  // em from line to line
 constexpr double kFarPlaces[] = {0.09, 0.14, 0.20, 0.28};  // of words from what they speak of, units of H
+
+// Adds a line's ink at a place.
+void append(TextLine& line, const TextLine& piece, Point at) {
+  Picture ink;
+  draw_text(ink, piece, at);
+  const bool is_first = line.runs.empty() && line.marks.empty();
+  for (Item& item : ink.items) {
+    if (auto* run = std::get_if<GlyphRun>(&item.shape))
+      line.runs.push_back(std::move(*run));
+    else
+      line.marks.push_back(std::move(item.shape));
+  }
+  const Rect box = moved(piece.box, at);
+  line.box = is_first ? box
+                      : Rect{std::min(line.box.x0, box.x0), std::min(line.box.y0, box.y0), std::max(line.box.x1, box.x1),
+                             std::max(line.box.y1, box.y1)};
+}
 
 // Running text, with formulas between dollar signs.
 TextLine lay_out_mixed(const Fonts& fonts, const std::string& text, TextStyle style) {
@@ -32,34 +51,72 @@ TextLine lay_out_mixed(const Fonts& fonts, const std::string& text, TextStyle st
     const std::string part = text.substr(from, until - from);
     from = until + 1;
     if (part.empty()) continue;
-    TextLine piece = is_math ? lay_out_math(fonts, part, style) : lay_out_text(fonts, part, style);
-    Picture moved;
-    draw_text(moved, piece, {x, 0});
-    for (Item& item : moved.items) {
-      if (auto* run = std::get_if<GlyphRun>(&item.shape))
-        line.runs.push_back(std::move(*run));
-      else
-        line.marks.push_back(std::move(item.shape));
-    }
-    const Rect box{piece.box.x0 + x, piece.box.y0, piece.box.x1 + x, piece.box.y1};
-    line.box = x == 0 ? box
-                      : Rect{std::min(line.box.x0, box.x0), std::min(line.box.y0, box.y0),
-                             std::max(line.box.x1, box.x1), std::max(line.box.y1, box.y1)};
+    const TextLine piece = is_math ? lay_out_math(fonts, part, style) : lay_out_text(fonts, part, style);
+    append(line, piece, {x, 0});
     x += piece.advance;
   }
   line.advance = x;
   return line;
 }
 
+// Its words; a formula is one.
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words(1);
+  bool is_math = false;
+  for (const char c : text) {
+    is_math ^= c == '$';
+    if (c == ' ' && !is_math) {
+      if (!words.back().empty()) words.emplace_back();
+    } else {
+      words.back() += c;
+    }
+  }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
+// Each as long as the width lets it be; one word at least.
+std::vector<TextLine> lines_within(const Fonts& fonts, const std::string& text, const TextStyle& style, double width) {
+  std::vector<TextLine> lines;
+  std::string line;
+  TextLine laid_out;
+  for (const std::string& word : words_of(text)) {
+    const std::string longer = line.empty() ? word : line + " " + word;
+    const TextLine wider = lay_out_mixed(fonts, longer, style);
+    if (!line.empty() && wider.box.width() > width) {
+      lines.push_back(laid_out);
+      line = word;
+      laid_out = lay_out_mixed(fonts, line, style);
+    } else {
+      line = longer;
+      laid_out = wider;
+    }
+  }
+  if (!line.empty()) lines.push_back(laid_out);
+  return lines;
+}
+
+// On as few lines as the width needs, about equally long.
+TextLine lay_out_within(const Fonts& fonts, const std::string& text, const TextStyle& style, double width) {
+  std::vector<TextLine> lines = lines_within(fonts, text, style, width);
+  for (double narrower = kNarrower * width; narrower > kNarrowest * width; narrower *= kNarrower) {
+    std::vector<TextLine> even = lines_within(fonts, text, style, narrower);
+    if (even.size() > lines.size()) break;
+    lines = std::move(even);
+  }
+  TextLine whole;
+  for (std::size_t i = 0; i < lines.size(); ++i) append(whole, lines[i], {0, -double(i) * kLeading * style.size});
+  return whole;
+}
+
 class Annotations : public Layer {
  public:
   explicit Annotations(const Stage& stage) : stage_(&stage) {
     const StagedRun& first = stage.motions.front();
-    const TextStyle style{Face::label, scaled(size::kSymbol, stage.page.text_scale), stage.theme.ink};
     for (std::size_t i = 0; i < stage.page.annotate.size(); ++i) {
       const AnnotationEntry& entry = stage.page.annotate[i];
       const std::optional<double> at = instant_of(entry, first.scene().events, first.trajectory().events);
-      if (at) notes_.push_back({&entry, int(i) + 1, *at, lay_out(entry, style)});
+      if (at) notes_.push_back({&entry, int(i) + 1, *at, lay_out(entry)});
     }
   }
 
@@ -80,9 +137,13 @@ class Annotations : public Layer {
     TextLine line;
   };
 
-  TextLine lay_out(const AnnotationEntry& entry, const TextStyle& style) const {
+  TextStyle style() const {
+    return {Face::label, scaled(size::kSymbol, stage_->page.text_scale), stage_->theme.ink};
+  }
+
+  TextLine lay_out(const AnnotationEntry& entry) const {
     try {
-      return lay_out_mixed(stage_->fonts, entry.text, style);
+      return lay_out_mixed(stage_->fonts, entry.text, style());
     } catch (const Error& error) {
       throw Error(error.code(), error.problems().front().message, entry.place);
     }
@@ -106,10 +167,14 @@ class Annotations : public Layer {
   void add_words(const Note& note, const Shot& shot) const {
     const Panel& panel = shot.panel;
     const Rect& area = panel.area();
-    if (note.line.box.width() > area.width())
+    const double widest = kWidest * area.width();
+    const TextLine line =
+        note.line.box.width() > widest ? lay_out_within(stage_->fonts, note.entry->text, style(), widest) : note.line;
+    if (line.box.width() > area.width() || line.box.height() > area.height())
       throw Error(ExitCode::bad_input,
-                  "'annotate." + std::to_string(note.number) +
-                      ".text' is wider than the picture: shorten it, or take a smaller text_scale",
+                  "'annotate." + std::to_string(note.number) + ".text' has no room in its panel" +
+                      (line.box.width() > area.width() ? ", one word of it being wider" : "") +
+                      ": shorten it, or take a smaller text_scale, or a layout that leaves more room beside plots",
                   note.entry->place);
     const Point now = panel.camera().project(point_of(*note.entry, panel, shot.ws));
     // Where the words stand is decided by the instant that they are about.
@@ -125,8 +190,8 @@ class Annotations : public Layer {
     const Point first = norm(inward) > 0.05 ? unit(inward) : unit({1, 1});
     std::vector<Rect> places;
     for (const double off : kFarPlaces)
-      for (const Rect& place : places_about(note.line, then, off, first)) places.push_back(moved_into(area, place));
-    shot.labels.add({"annotation " + std::to_string(note.number), note.line, std::move(places),
+      for (const Rect& place : places_about(line, then, off, first)) places.push_back(moved_into(area, place));
+    shot.labels.add({"annotation " + std::to_string(note.number), line, std::move(places),
                      Leader{now, stage_->theme.ink}});
   }
 

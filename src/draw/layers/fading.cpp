@@ -13,7 +13,7 @@ namespace chainreel {
 namespace {
 
 constexpr double kDash = 0.012, kGap = 0.008;
-constexpr double kNumberGap = 0.010;                    // units of H, beyond the end of a semi-axis
+constexpr double kNumberGaps[] = {0.010, 0.018};        // units of H, beyond the end of a semi-axis
 constexpr double kLeastAxis = 0.008;                    // ... seen from its end, a shorter one has no room for a number
 constexpr double kAside[] = {0, 0.8, -0.8, 1.5, -1.5};  // rad: where its number stands about that end
 
@@ -283,13 +283,14 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
   }
   if (style.labels == nullptr || !style.signs || norm(v) < kLeastAxis) return;
   MarkWord word{"semi-axis", text_of_length(length, 1, style), {}};
-  for (const double side : {1.0, -1.0}) {
-    const Point d = side * unit(v), end = center + side * v;
-    for (const double aside : kAside) {
-      const Rect place = place_beyond(word.line, end, kNumberGap, std::cos(aside) * d + std::sin(aside) * normal_to(d));
-      if (is_within(place, style.scene)) word.places.push_back(place);
+  for (const double gap : kNumberGaps)
+    for (const double side : {1.0, -1.0}) {
+      const Point d = side * unit(v), end = center + side * v;
+      for (const double aside : kAside) {
+        const Rect place = place_beyond(word.line, end, gap, std::cos(aside) * d + std::sin(aside) * normal_to(d));
+        if (is_within(place, style.scene)) word.places.push_back(place);
+      }
     }
-  }
   if (!word.places.empty()) style.labels->add(std::move(word));
 }
 

@@ -45,7 +45,6 @@ std::vector<std::string> doubts_of_pushes(const Scene& scene, const Chain& chain
     const int frame = find_point(chain, push);
     if (push.from >= scene.duration)
       doubts.push_back("push: it begins at " + format_significant(push.from, 6) + " s, where the run has ended: take a longer `duration`");
-    if (std::all_of(push.force.begin(), push.force.end(), [](double f) { return f == 0; })) doubts.push_back("push: its force is zero, so that nothing comes of it");
     if (frame >= 0 && !can_move(chain, chain.frames[std::size_t(frame)]) && !scene.foot)
       doubts.push_back("push: '" + chain.frames[std::size_t(frame)].name + "' stands still whatever the chain does, so that nothing comes of it: push a link whose origin moves, as its joint's other end does");
     if (chain.planar && push.force.size() == 3) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <set>
 
 #include "core/error.hpp"
 #include "draw/chains.hpp"
@@ -93,9 +94,25 @@ TEST_F(AnnotatedRr, WordsWiderThanThePictureAreAnErrorAtTheirEntry) {
     film().frame(15);
     FAIL() << "no error";
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("scenes/test.yaml:7:3: 'annotate.1.text' is wider than the picture"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("scenes/test.yaml:7:3: 'annotate.1.text' has no room in its panel, one word of it being wider"));
   }
 }
 
+// As many words as there is room for stand in a line; formulas stay whole.
+TEST_F(AnnotatedRr, LongWordsAreBrokenIntoLinesAboutEquallyLong) {
+  scene.draw = {"chain"};
+  const auto lines_of = [&](const std::string& text) {
+    scene.annotate[0].text = text;
+    std::set<double> lines;
+    for (const Item& item : film().frame(15).items)
+      if (const auto* run_of = std::get_if<GlyphRun>(&item.shape)) lines.insert(run_of->origin.y);
+    return lines.size();
+  };
+  EXPECT_EQ(lines_of("heaviest along the arm"), 1u);
+  std::string words;
+  for (int i = 0; i < 12; ++i) words += "heavier ";
+  EXPECT_EQ(lines_of(words), 2u);
+  EXPECT_EQ(lines_of(words + words), 4u);
+}
 }  // namespace
 }  // namespace chainreel
