@@ -140,6 +140,20 @@ TEST_F(Suites, StatesOfAnSrdfGoToTheRobotOfItsName) {
                     HasSubstr("is of the robot 'other', which no model of the suite is")));
 }
 
+TEST_F(Suites, EachModelMayHaveAnEndEffectorOfItsOwn) {
+  folder_.write("two.urdf", arm("arm"));
+  const std::string models = "model: [arm.urdf, two.urdf]\nposes: {home: [0, -1, 0]}\nend_effector: ";
+  const Suite suite = read(models + "{two.urdf: upper}\n");
+  EXPECT_TRUE(suite.overrides.empty());
+  EXPECT_THAT(suite.pictures[0].overrides, ElementsAre());
+  EXPECT_THAT(suite.pictures[1].overrides, ElementsAre("end_effector=\"upper\""));
+  EXPECT_THAT(error(models + "{three.urdf: upper}\n"), HasSubstr("is no model of this suite: it has arm.urdf, two.urdf"));
+  EXPECT_THAT(error(models + "{two.urdf: uper}\n"), AllOf(HasSubstr("has no link 'uper'"), HasSubstr("did you mean 'upper'?")));
+  EXPECT_THAT(error(models + "{two.urdf: [upper]}\n"), HasSubstr("must be the name of a link"));
+  EXPECT_THAT(error(models + "{}\n"), HasSubstr("must be a link, or name one of each model"));
+  EXPECT_THAT(error(models + "tool9\n"), HasSubstr("of several models write end_effector: {arm.urdf: LINK, ..}"));
+}
+
 TEST_F(Suites, PosesUnderAModelsNameAreItsOwn) {
   folder_.write("b/two.urdf", arm("arm"));
   folder_.write("three.urdf", arm("arm"));

@@ -14,6 +14,7 @@
 #include "scene/text/asked_instant.hpp"
 #include "scene/text/picture_names.hpp"
 #include "scene/text/read_scene.hpp"
+#include "scene/text/suite_models.hpp"
 #include "scene/text/suite_poses.hpp"
 #include "scene/text/suite_settings.hpp"
 #include "scene/text/suite_variants.hpp"
@@ -62,6 +63,10 @@ void name_sources(std::vector<Source>& sources, const std::string& suite) {
     }
 }
 
+bool has_link(const UrdfFile& file, const std::string& name) {
+  return std::any_of(file.links.begin(), file.links.end(), [&](const UrdfLink& link) { return link.name == name; });
+}
+
 class SuiteReader {
  public:
   explicit SuiteReader(const std::string& path)
@@ -77,10 +82,10 @@ class SuiteReader {
     read_sources("model", true);
     read_sources("scene", false);
     name_sources(sources_, suite_.file);
-    std::vector<std::pair<std::string, std::string>> models;
     for (const Source& source : sources_)
-      if (source.is_model) models.emplace_back(source.named, source.file);
-    poses_.read(root_, suite_.file, models);
+      if (source.is_model) models_.add(source.named, source.file);
+    poses_.read(root_, suite_.file, models_);
+    end_effectors_ = end_effectors_of(root_, models_);
     read_instants();
     variants_ = read_variants(root_, document_, problems_);
     for (const auto* list : {&variants_.own, &variants_.otherwise}) suite_.variants.insert(suite_.variants.end(), list->begin(), list->end());
@@ -154,7 +159,9 @@ class SuiteReader {
         continue;
       }
       Fields* fields = key.section().empty() ? &root_ : section ? &*section : nullptr;
-      if (fields == nullptr || !fields->has(key.leaf()) || (key.name == "theme" && lists_themes(document_))) continue;
+      if (fields == nullptr || !fields->has(key.leaf()) || (key.name == "theme" && lists_themes(document_)) ||
+          (key.name == "end_effector" && root_.find("end_effector").IsMap()))
+        continue;
       key.read(key, *fields, look_);
       std::vector<SceneEntry> entries;
       key.write(key, look_, entries);
@@ -247,12 +254,15 @@ class SuiteReader {
     options.floating_base = look_.base == RootLink::floating;
     options.massless = look_.massless;
     options.packages = look_.packages;
-    options.end_effector = look_.end_effector;
+    const auto own = end_effectors_.find(source.file);
+    options.end_effector = own == end_effectors_.end() ? look_.end_effector : own->second;
     const UrdfFile file = read_urdf_file(source.file);
+    if (!look_.end_effector.empty() && models_.size() > 1 && !has_link(file, look_.end_effector))
+      return root_.problem_at("end_effector", "'end_effector': " + source.named + " has no link '" + look_.end_effector +
+                                                  "': of several models write end_effector: {" + source.named + ": LINK, ..}");
     const Chain chain = chain_of(file, options);
     if (robots_.empty() || !robots_.back().starts_with(source.file + " is ")) robots_.push_back(source.file + " is '" + file.name + "'");
-    const auto models = std::count_if(sources_.begin(), sources_.end(), [](const Source& one) { return one.is_model; });
-    const std::vector<const WrittenPose*> poses = poses_.of(source.file, models == 1 ? std::nullopt : std::optional(file.name));
+    const std::vector<const WrittenPose*> poses = poses_.of(source.file, models_.size() == 1 ? std::nullopt : std::optional(file.name));
     // Poses may all be other models'.
     if (poses.empty() && !poses_.has_states()) add(source, "", source.place).q = resting_pose(chain);
     for (const WrittenPose* pose : poses)
@@ -286,6 +296,8 @@ class SuiteReader {
     picture.source = source.file;
     picture.variant = variant_->name;
     picture.overrides = with_variant({}, *variant_);
+    if (const auto own = end_effectors_.find(source.file); own != end_effectors_.end())
+      picture.overrides.insert(picture.overrides.begin(), "end_effector=" + Json(own->second).dump());
     picture.is_model = source.is_model;
     picture.pose = pose;
     picture.place = place;
@@ -308,6 +320,8 @@ class SuiteReader {
   std::vector<Source> sources_;
   SuiteVariants variants_;
   const SuiteVariant* variant_ = nullptr;  // of the pictures that are being made
+  SuiteModels models_;
+  std::map<std::string, std::string> end_effectors_;  // by files of models
   SuitePoses poses_;
   std::vector<std::string> robots_;
   std::vector<std::pair<AskedInstant, Place>> instants_;

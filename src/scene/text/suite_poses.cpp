@@ -198,68 +198,17 @@ std::vector<WrittenPose> poses_of(const SrdfFile& file) {
   return poses;
 }
 
-std::string nearest_file(const std::string& wanted) {
-  std::vector<std::string> names;
-  std::error_code ignored;
-  const fs::path folder = fs::path(wanted).parent_path();
-  for (const auto& entry : fs::directory_iterator(folder.empty() ? fs::path(".") : folder, ignored))
-    if (names.size() < 1000) names.push_back(entry.path().filename().string());
-  return did_you_mean(fs::path(wanted).filename().string(), names);
-}
-
 }  // namespace
-
-void add_problems(const Error& error, ProblemList& problems) {
-  if (error.code() != ExitCode::bad_input && error.code() != ExitCode::usage) throw error;
-  for (const Problem& problem : error.problems()) problems.add(problem.message, problem.place);
-}
-
-bool require_file_of_suite(const std::string& named, const std::string& path, const Place& place, ProblemList& problems) {
-  std::error_code ignored;
-  if (fs::is_regular_file(path, ignored)) return true;
-  problems.add("there is no file '" + named + "' (looked for " + path + "):" + nearest_file(path) +
-                   " Paths are relative to the suite's file.",
-               place);
-  return false;
-}
-
-std::vector<std::pair<std::string, Place>> texts_of(const YamlDocument& document, const YAML::Node& node, const std::string& key,
-                                                    const std::string& like, ProblemList& problems) {
-  std::vector<std::pair<std::string, Place>> texts;
-  const auto add = [&](const YAML::Node& one) {
-    if (one.IsScalar() && !one.Scalar().empty())
-      texts.emplace_back(one.Scalar(), document.place_of(one, key));
-    else
-      problems.add("'" + key + "' must be one or a list: " + like, document.place_of(one, key));
-  };
-  if (!node.IsSequence())
-    add(node);
-  else if (node.size() == 0)
-    problems.add("'" + key + "' is an empty list: " + like, document.place_of(node, key));
-  else
-    for (const YAML::Node& one : node) add(one);
-  return texts;
-}
 
 // Where poses are read from.
 struct SuitePoses::List {
   const YamlDocument& document;
   const std::string& suite;
-  const std::vector<std::pair<std::string, std::string>>& models;
+  const SuiteModels& models;
   ProblemList& problems;
-
-  // Whose poses stand under this name: as the suite names a model, else by the name of its file; none: it is a pose's.
-  std::vector<std::string> models_called(const std::string& name) const {
-    std::vector<std::string> files;
-    for (const auto& [named, file] : models)
-      if (name == named || fs::path(name).lexically_normal() == fs::path(named).lexically_normal()) return {file};
-    for (const auto& [named, file] : models)
-      if (name.ends_with(".urdf") && name == fs::path(named).filename()) files.push_back(file);
-    return files;
-  }
 };
 
-void SuitePoses::read(Fields& root, const std::string& suite, const std::vector<std::pair<std::string, std::string>>& models) {
+void SuitePoses::read(Fields& root, const std::string& suite, const SuiteModels& models) {
   if (root.has("poses")) read_list({root.document(), suite, models, root.problems()}, root.find("poses"), "poses", "");
 }
 
@@ -270,7 +219,7 @@ void SuitePoses::read_list(const List& list, const YAML::Node& node, const std::
   Fields fields(list.document, node, path, list.problems);
   for (const auto& pair : node) {
     const std::string& name = pair.first.Scalar();
-    const std::vector<std::string> own = model.empty() ? list.models_called(name) : std::vector<std::string>{};
+    const std::vector<std::string> own = model.empty() ? list.models.called(name) : std::vector<std::string>{};
     if (own.size() > 1)
       list.problems.add("'" + name + "' could be any of " + joined(own) + ": name it as `model:` does", list.document.place_of(pair.first, name));
     else if (own.size() == 1)

@@ -11,6 +11,7 @@
 #include "model/srdf.hpp"
 #include "model/urdf_file.hpp"
 #include "scene/keys/fields.hpp"
+#include "scene/text/suite_models.hpp"
 
 namespace chainreel {
 
@@ -33,8 +34,7 @@ struct WrittenPose {
 // `poses: {home: [0, 90deg], reach: {elbow: 1}, srdf: arm.srdf}`, and under a model's name those that are its own.
 class SuitePoses {
  public:
-  // `models`: as the suite names them, and their files.
-  void read(Fields& root, const std::string& suite, const std::vector<std::pair<std::string, std::string>>& models);
+  void read(Fields& root, const std::string& suite, const SuiteModels& models);
   // Those that are meant for the model. Of an SRDF that stands under no model's name they are by the name of the robot, where it matters.
   std::vector<const WrittenPose*> of(const std::string& model, const std::optional<std::string>& robot);
   bool has_states() const { return !srdfs_.empty(); }
@@ -56,14 +56,6 @@ class SuitePoses {
   std::vector<WrittenPose> poses_;
   std::vector<Srdf> srdfs_;
 };
-
-// One text or a list of texts, each with its place.
-std::vector<std::pair<std::string, Place>> texts_of(const YamlDocument& document, const YAML::Node& node, const std::string& key,
-                                                    const std::string& like, ProblemList& problems);
-// Whether the file at `path` is there; where not, adds a problem that names the nearest.
-bool require_file_of_suite(const std::string& named, const std::string& path, const Place& place, ProblemList& problems);
-// What is wrong with an input is one of its problems; a limit or a signal ends the reading.
-void add_problems(const Error& error, ProblemList& problems);
 
 // Where joints stand that a pose does not name: at zero, but where their limits exclude that in the middle
 // between them, as joint_state_publisher and MoveIt do.
