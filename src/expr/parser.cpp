@@ -10,7 +10,6 @@
 // Each function appends the instructions of what it has read, so that the program is in postfix order.
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cctype>
 #include <charconv>
 
@@ -22,12 +21,16 @@ namespace {
 constexpr std::size_t kMaxText = 10000;
 constexpr std::array<std::string_view, 13> kUnits = {"m", "mm", "cm", "km", "s", "ms", "us", "min", "h", "kg", "N", "J", "Hz"};  // of scenes
 
+// What is written as the angle of a place.
+enum class Inverse { none, of_sine, of_cosine, of_tangent };
+
 struct Function {
   std::string_view name;
   Operation operation;
   Name told;
   int arguments = 1;
   bool or_more = false;
+  Inverse inverse = Inverse::none;
 };
 
 constexpr std::array kFunctions = {
@@ -38,6 +41,9 @@ constexpr std::array kFunctions = {
     Function{"exp", Operation::exponential, {"exp(x)", "e to the power of x"}},
     Function{"log", Operation::logarithm, {"log(x)", "natural logarithm"}},
     Function{"abs", Operation::absolute, {"abs(x)", "without its sign"}},
+    Function{"asin", Operation::arc_tangent2, {"asin(x)", "the angle with this sine: atan2(x, sqrt((1 - x)*(1 + x)))"}, 1, false, Inverse::of_sine},
+    Function{"acos", Operation::arc_tangent2, {"acos(x)", "the angle with this cosine: atan2(sqrt((1 - x)*(1 + x)), x)"}, 1, false, Inverse::of_cosine},
+    Function{"atan", Operation::arc_tangent2, {"atan(x)", "the angle with this tangent: atan2(x, 1)"}, 1, false, Inverse::of_tangent},
     Function{"atan2", Operation::arc_tangent2, {"atan2(y, x)", "the angle of the place (x, y)"}, 2},
     Function{"min", Operation::minimum, {"min(a, b, ..)", "the least"}, 2, true},
     Function{"max", Operation::maximum, {"max(a, b, ..)", "the largest"}, 2, true},
@@ -108,7 +114,8 @@ class Parser {
     program_.instructions.push_back({operation, slot, number});
     depth_of_stack_ += stack_change_of(operation);
     program_.stack_size = std::max(program_.stack_size, depth_of_stack_);
-    assert(program_.stack_size <= kMaxStack);
+    if (program_.stack_size > kMaxStack || program_.instructions.size() > kMaxInstructions)
+      fail(offset_, "the expression is too long");
   }
 
   // Counts the levels of recursion that text can ask for.
@@ -285,7 +292,7 @@ class Parser {
   }
 
   void parse_call(const Function& function, std::size_t begin) {
-    const std::size_t opening = offset_;
+    const std::size_t opening = offset_, first = program_.instructions.size();
     take("(");
     int arguments = 0;
     if (next() != ')') {
@@ -298,7 +305,30 @@ class Parser {
     close(opening);
     const bool too_many = arguments > function.arguments && !function.or_more;
     if (too_many || arguments < function.arguments) fail_at_count(function, begin, arguments);
+    if (function.inverse != Inverse::none) emit_angle(function.inverse, first);
     if (!function.or_more) emit(function.operation);
+  }
+
+  // The place whose angle it is, of the argument x that the instructions from `first` on put on the stack.
+  void emit_angle(Inverse inverse, std::size_t first) {
+    if (inverse == Inverse::of_tangent) return emit(Operation::number, 0, 1);
+    const std::vector<Instruction> x(program_.instructions.begin() + std::ptrdiff_t(first), program_.instructions.end());
+    const auto again = [&] {
+      for (const Instruction& one : x) emit(one.operation, one.slot, one.number);
+    };
+    if (inverse == Inverse::of_cosine) {
+      program_.instructions.resize(first);
+      --depth_of_stack_;
+    }
+    emit(Operation::number, 0, 1);
+    again();
+    emit(Operation::subtract);
+    emit(Operation::number, 0, 1);
+    again();
+    emit(Operation::add);
+    emit(Operation::multiply);
+    emit(Operation::square_root);
+    if (inverse == Inverse::of_cosine) again();
   }
 
   [[noreturn]] void fail_at_count(const Function& function, std::size_t begin, int arguments) const {

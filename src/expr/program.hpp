@@ -1,6 +1,7 @@
 // What the parser writes and evaluation reads: instructions in postfix order for a stack machine.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -48,9 +49,11 @@ struct Instruction {
   double number = 0;
 };
 
-// Nesting costs at most one waiting value for each of the five levels of precedence; the unit of the innermost number one more.
+// Nesting costs at most one waiting value for each of the five levels of precedence; the unit of the innermost number one more, and
+// functions that are written as others two more each, of which programs as long as this have so many in one another.
 inline constexpr int kMaxNesting = 200;
-inline constexpr int kMaxStack = 5 * (kMaxNesting + 1) + 1;
+inline constexpr std::size_t kMaxInstructions = 50'000;
+inline constexpr int kMaxStack = 5 * (kMaxNesting + 1) + 1 + 2 * 16;
 
 struct Program {
   std::vector<Instruction> instructions;

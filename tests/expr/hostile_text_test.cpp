@@ -49,6 +49,14 @@ TEST(HostileTexts, TheDeepestStackIsLargeEnough) {
   EXPECT_EQ(powers.constant(), 1);
 }
 
+// Each acos is written with its argument three times.
+TEST(HostileTexts, FunctionsThatAreWrittenAsOthersDoNotGrowWithoutBound) {
+  EXPECT_EQ(problem_of(repeated("acos(", 8) + "t" + repeated(")", 8)), "");
+  for (const char* piece : {"acos(", "asin(", "2^acos("})
+    EXPECT_NE(problem_of(repeated(piece, 60) + "t" + repeated(")", 60)).find("the expression is too long"), std::string::npos) << piece;
+  EXPECT_EQ(problem_of(repeated("0<0+1*max(0,", 150) + repeated("asin(", 8) + "t" + repeated(")", 158)), "");
+}
+
 TEST(HostileTexts, LongFlatExpressionsAreFine) {
   const Expression sum = Expression::parse("0" + repeated("+1", 4999), kHostileTextNames, {});
   EXPECT_EQ(sum.constant(), 4999);

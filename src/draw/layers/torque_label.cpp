@@ -175,13 +175,20 @@ std::string function_notation(const OwnTorque& function) {
 std::string control_notation(const Control& control) {
   std::string sum;
   const auto add = [&](bool given, const std::string& term) {
-    if (given) sum += (sum.empty() ? "" : " + ") + term;
+    if (!given) return;
+    if (sum.empty())
+      sum = term;
+    else
+      sum += term.starts_with('-') ? " - " + term.substr(1) : " + " + term;
   };
   add(control.gravity_compensation, "tau_g(q)");
   add(!control.csv.empty() || !control.inverse_of.empty(), "tau(t)");
   add(control.pd.has_value(), "PD");
   add(control.computed_torque.has_value(), "computed torque");
   if (control.function) add(true, function_notation(*control.function));
+  std::vector<std::string> plus;
+  for (const Entry& entry : control.plus) plus.push_back(conditional_notation(entry.text).value_or(entry_notation(entry.text)));
+  if (!plus.empty()) add(true, plus.size() == 1 ? plus.front() : "(" + list_of(plus, plus.size()) + ")");
   return sum.empty() ? "0" : sum;
 }
 

@@ -23,7 +23,7 @@ std::vector<double> read_gains(Fields& fields, const std::string& key, const std
 }
 
 // One expression, or a list with one a freedom.
-std::vector<Entry> read_entries(Fields& fields, const std::string& key) {
+std::vector<Entry> read_entries(Fields& fields, const std::string& key, const std::string& what = "an expression in t") {
   const YAML::Node node = fields.find(key);
   if (!node.IsDefined()) return {};
   std::vector<Entry> entries;
@@ -35,7 +35,7 @@ std::vector<Entry> read_entries(Fields& fields, const std::string& key) {
     }
   if (entries.empty() || (node.IsSequence() && entries.size() != node.size()))
     fields.problems().add(
-        "'" + fields.path(key) + "' must be an expression in t, or a list with one a freedom",
+        "'" + fields.path(key) + "' must be " + what + ", or a list with one a freedom",
         fields.place_of(node, key));
   return entries;
 }
@@ -91,8 +91,11 @@ Control read_control(Fields& fields, const YAML::Node& node, const std::string& 
   control.pd = read_feedback(inner, "pd", "N m/rad or N/m", "N m s/rad or N s/m");
   control.computed_torque = read_feedback(inner, "computed_torque", "1/s^2", "1/s");
   inner.read("gravity_compensation", control.gravity_compensation);
+  control.plus = read_entries(inner, "plus", "an expression");
+  control.plus_is_list_of_one = control.plus.size() == 1 && inner.find("plus").IsSequence();
+  for (Entry& entry : control.plus) entry.text = in_one_line(entry.text);
   // Films of such a run remember what it was called.
-  if (const YAML::Node function = inner.find("function"); function.IsDefined())
+  if (const YAML::Node function = node["function"]; function.IsDefined() && inner.has("function"))
     fields.problems().add("the torque was " + (function.IsScalar() ? function.Scalar() : std::string("a function")) +
                               ", which no file holds: run the program that has it, or write an expression or a table (csv)",
                           fields.place_of(function, key));
@@ -100,26 +103,29 @@ Control read_control(Fields& fields, const YAML::Node& node, const std::string& 
   return control;
 }
 
+// One for all stands without brackets.
+void emit_entries(YAML::Emitter& out, const char* name, const std::vector<Entry>& list) {
+  if (list.empty()) return;
+  out << YAML::Key << name << YAML::Value;
+  if (list.size() == 1)
+    out << list.front().text;
+  else
+    emit_list(out, list, [](const Entry& entry) { return entry.text; });
+}
+
 void emit_feedback(YAML::Emitter& out, const std::string& key, const std::optional<Feedback>& feedback) {
   if (!feedback) return;
   out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginMap;
-  // One for all stands without brackets.
-  const auto write = [&](const char* name, const auto& list, auto text) {
-    if (list.empty()) return;
-    out << YAML::Key << name << YAML::Value;
-    if (list.size() == 1)
-      out << text(list.front());
-    else
-      emit_list(out, list, text);
+  const auto gains = [&](const char* name, const std::vector<double>& list) {
+    std::vector<Entry> entries;
+    for (const double gain : list) entries.push_back({format_shortest(gain), {}});
+    emit_entries(out, name, entries);
   };
-  write("kp", feedback->kp, format_shortest);
-  write("kd", feedback->kd, format_shortest);
-  const auto entries = [&](const char* name, const std::vector<Entry>& list) {
-    write(name, list, [](const Entry& entry) { return entry.text; });
-  };
-  entries("q", feedback->q);
-  entries("qd", feedback->qd);
-  entries("qdd", feedback->qdd);
+  gains("kp", feedback->kp);
+  gains("kd", feedback->kd);
+  emit_entries(out, "q", feedback->q);
+  emit_entries(out, "qd", feedback->qd);
+  emit_entries(out, "qdd", feedback->qdd);
   if (!feedback->trajectory.empty()) out << YAML::Key << "trajectory" << YAML::Value << feedback->trajectory;
   if (feedback->outside) out << YAML::Key << "outside" << YAML::Value << to_string(*feedback->outside);
   out << YAML::EndMap;
@@ -134,6 +140,7 @@ void emit_control(YAML::Emitter& out, const Control& control) {
   emit_feedback(out, "pd", control.pd);
   emit_feedback(out, "computed_torque", control.computed_torque);
   if (control.gravity_compensation) out << YAML::Key << "gravity_compensation" << YAML::Value << true;
+  emit_entries(out, "plus", control.plus);
   if (control.function) out << YAML::Key << "function" << YAML::Value << control.function->words;
   out << YAML::EndMap;
 }
@@ -166,7 +173,10 @@ KeyText told_control(const char* name) {
                       told_feedback("pd", "kp (q_ref - q) + kd (qd_ref - qd)"),
                       told_feedback("computed_torque", "M (qdd_ref + kd (qd_ref - qd) + kp (q_ref - q)) + nle + tau_f; as the entry of one joint "
                                                      "with one expression it asks for no acceleration of the others"),
-                      told("gravity_compensation", KeyForm::truth, "tau_g(q)")},
+                      told("gravity_compensation", KeyForm::truth, "tau_g(q)"),
+                      told_either("plus", {told("", KeyForm::expression, "of a joint, or for all alike"),
+                                           told_list("", told("", KeyForm::expression, ""), "one a freedom")},
+                                  "what is added, of the names that torques read")},
                      "what drives the whole chain, or one joint; its parts add up");
 }
 

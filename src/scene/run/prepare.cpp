@@ -45,13 +45,14 @@ void check_length(std::vector<double>& values, const std::vector<double>& absent
 // A control of the whole chain: a number in brackets is that of one freedom, and of several it would be a slip.
 void check_lists(const Scene& scene, const Chain& chain, ProblemList& problems) {
   if (!scene.control || chain.nv == 1) return;
+  const auto refuse = [&](const std::string& path) {
+    problems.add("'" + path + "' is a list of one entry, but the model " + scene.model.words() + " has " + std::to_string(chain.nv) +
+                     " freedoms: write one for each, or one for all without brackets",
+                 scene.place_of(path));
+  };
   for (const auto& [name, feedback] : {std::pair{"pd", &scene.control->pd}, {"computed_torque", &scene.control->computed_torque}})
-    for (const std::string& key : *feedback ? (*feedback)->lists_of_one : std::vector<std::string>{}) {
-      const std::string path = std::string("torque.") + name + "." + key;
-      problems.add("'" + path + "' is a list of one entry, but the model " + scene.model.words() + " has " + std::to_string(chain.nv) +
-                       " freedoms: write one for each, or one for all without brackets",
-                   scene.place_of(path));
-    }
+    for (const std::string& key : *feedback ? (*feedback)->lists_of_one : std::vector<std::string>{}) refuse(std::string("torque.") + name + "." + key);
+  if (scene.control->plus_is_list_of_one) refuse("torque.plus");
 }
 
 void check_torque(Scene& scene, const Chain& chain, ProblemList& problems) {
@@ -261,7 +262,7 @@ Simulation prepare(Scene& scene, bool meshes, LastChain& last) {
   simulation.q0 = scene.start.q;
   simulation.qd0 = scene.start.qd;
   if (!scene.motion)
-    simulation.torque = scene.control ? make_control(chain, *scene.control, scene.parameters)
+    simulation.torque = scene.control ? make_control(chain, *scene.control, scene.parameters, {}, frames)
                                       : make_torque_law(chain, scene.torque, scene.parameters, frames);
   if (!scene.motion) simulation.torque = make_pushed_law(std::move(simulation.torque), std::move(pushes));
   prepare_constraints(scene, simulation);

@@ -192,6 +192,12 @@ class SumOfTorques final : public TorqueLaw {
   void leave_pieces() override {
     for (const auto& part : parts_) part->leave_pieces();
   }
+  // Of expressions, of which there is one part at most.
+  StateCorners* corners() override {
+    for (const auto& part : parts_)
+      if (StateCorners* own = part->corners()) return own;
+    return nullptr;
+  }
   // Of the only part that has any: two springs at one joint have no rest that is one of theirs.
   std::vector<LinearDrive> linear_drives(const Chain& chain) const override {
     std::vector<LinearDrive> drives;
@@ -307,7 +313,7 @@ std::span<const Name> names_of(Outside) {
 }
 
 std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& control, const Parameters& parameters,
-                                        std::optional<std::size_t> joint) {
+                                        std::optional<std::size_t> joint, const NamedFrames& frames) {
   if (chain.has_floating && (!control.inverse_of.empty() || control.pd || control.computed_torque))
     throw Error(
         ExitCode::bad_input,
@@ -341,6 +347,11 @@ std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& contr
                ct->trajectory, ct->outside));
   }
   if (control.gravity_compensation) parts.push_back(std::make_unique<GravityCompensation>());
+  if (!control.plus.empty() && !joint) {
+    std::vector<TorqueEntry> entries;
+    for (const Entry& one : spread(control.plus, chain.nv, "plus", control.place)) entries.push_back({one.text, one.place, {}});
+    parts.push_back(make_torque_law(chain, entries, parameters, frames));
+  }
   if (control.function) parts.push_back(make_function_torque(*control.function));
   return std::make_unique<SumOfTorques>(std::move(parts), chain.nv);
 }

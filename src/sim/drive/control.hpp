@@ -8,6 +8,7 @@
 
 #include "core/csv.hpp"
 #include "core/names.hpp"
+#include "sim/drive/probe.hpp"
 #include "sim/drive/reference.hpp"
 #include "sim/drive/torque_function.hpp"
 
@@ -40,13 +41,15 @@ struct Control {
   std::optional<Feedback> pd;               // kp (q_ref - q) + kd (qd_ref - qd)
   std::optional<Feedback> computed_torque;  // M (qdd_ref + kd (qd_ref - qd) + kp (q_ref - q)) + nle + tau_f
   bool gravity_compensation = false;        // tau_g(q)
+  std::vector<Entry> plus{};                // expressions that are added: one a freedom, or one for all; of a joint one
+  bool plus_is_list_of_one = false;         // it stands in brackets, and is none for all
   std::optional<OwnTorque> function{};      // of the calling program, which no file can hold
   Place place;
 };
 
-// The law for the whole chain, or as the entry of one joint. Computed torque of one joint that says nothing of the others
+// The law for the whole chain, or as the entry of one joint, which does not hold its `plus`: make_torque_law adds that. Computed torque of one joint that says nothing of the others
 // asks for no acceleration of theirs. Throws Error with what does not fit.
 std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& control, const Parameters& parameters,
-                                        std::optional<std::size_t> joint = {});
+                                        std::optional<std::size_t> joint = {}, const NamedFrames& frames = {});
 
 }  // namespace chainreel

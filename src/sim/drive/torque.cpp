@@ -39,25 +39,26 @@ class ConstantTorque final : public TorqueLaw {
   std::vector<double> tau_;
 };
 
-// Expressions and constants for all joints, with single joints driven by controls instead.
+// Expressions and constants for all joints, to which controls of single joints are added.
 class MixedTorque final : public TorqueLaw {
  public:
   explicit MixedTorque(std::size_t n) : one_(n) {}
   void set_rest(std::unique_ptr<TorqueLaw> rest) { rest_ = std::move(rest); }
-  void add(std::size_t joint, std::unique_ptr<TorqueLaw> law) {
-    controls_.push_back({joint, std::move(law)});
+  // `has_more`: the rest has an expression of the joint, too.
+  void add(std::size_t joint, bool has_more, std::unique_ptr<TorqueLaw> law) {
+    controls_.push_back({joint, has_more, std::move(law)});
   }
 
   void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) override {
     rest_->evaluate(chain, ws, t, q, qd, tau);
-    for (const auto& [joint, law] : controls_) {
+    for (const auto& [joint, has_more, law] : controls_) {
       law->evaluate(chain, ws, t, q, qd, one_);
-      tau[joint] = one_[joint];
+      tau[joint] += one_[joint];
     }
   }
   std::vector<double> breaks(double end) const override {
     std::vector<double> all = rest_->breaks(end);
-    for (const auto& [joint, law] : controls_) {
+    for (const auto& [joint, has_more, law] : controls_) {
       const std::vector<double> some = law->breaks(end);
       all.insert(all.end(), some.begin(), some.end());
     }
@@ -65,44 +66,53 @@ class MixedTorque final : public TorqueLaw {
   }
   void enter_piece(double t) override {
     rest_->enter_piece(t);
-    for (const auto& [joint, law] : controls_) law->enter_piece(t);
+    for (const auto& [joint, has_more, law] : controls_) law->enter_piece(t);
   }
   void leave_pieces() override {
     rest_->leave_pieces();
-    for (const auto& [joint, law] : controls_) law->leave_pieces();
+    for (const auto& [joint, has_more, law] : controls_) law->leave_pieces();
   }
   StateCorners* corners() override { return rest_->corners(); }
   std::optional<AffineTorque> affine() const override {
     std::optional<AffineTorque> torque = rest_->affine();
     const std::size_t n = one_.size();
-    for (const auto& [joint, law] : controls_) {
+    for (const auto& [joint, has_more, law] : controls_) {
       const std::optional<AffineTorque> own = law->affine();
       if (!torque || !own) return {};
-      torque->powers[joint] = own->powers[joint];
-      for (std::size_t j = joint * n; j < (joint + 1) * n; ++j) torque->K[j] = own->K[j], torque->D[j] = own->D[j];
+      std::vector<Quad>& powers = torque->powers[joint];
+      powers.resize(std::max(powers.size(), own->powers[joint].size()));
+      for (std::size_t k = 0; k < own->powers[joint].size(); ++k) powers[k] += own->powers[joint][k];
+      for (std::size_t j = joint * n; j < (joint + 1) * n; ++j) torque->K[j] += own->K[j], torque->D[j] += own->D[j];
     }
     return torque;
   }
   bool evaluate_in_quad(Quad t, std::span<const Quad> q, std::span<const Quad> qd, std::span<Quad> tau) const override {
     if (!rest_->evaluate_in_quad(t, q, qd, tau)) return false;
     std::vector<Quad> own(tau.size());
-    for (const auto& [joint, law] : controls_) {
+    for (const auto& [joint, has_more, law] : controls_) {
       if (!law->evaluate_in_quad(t, q, qd, own)) return false;
-      tau[joint] = own[joint];
+      tau[joint] += own[joint];
     }
     return true;
   }
+  // Of a joint that has a control beside an expression those of the control alone, as a part: two springs at one joint have no
+  // rest that is one of theirs.
   std::vector<LinearDrive> linear_drives(const Chain& chain) const override {
-    std::vector<LinearDrive> all = rest_->linear_drives(chain);
-    for (const auto& [joint, law] : controls_)
-      for (const LinearDrive& one : law->linear_drives(chain))
-        if (one.freedom == int(joint)) all.push_back(one);
+    std::vector<LinearDrive> all;
+    for (const LinearDrive& one : rest_->linear_drives(chain))
+      if (std::none_of(controls_.begin(), controls_.end(), [&](const auto& control) { return int(control.joint) == one.freedom; })) all.push_back(one);
+    for (const auto& [joint, has_more, law] : controls_)
+      for (LinearDrive one : law->linear_drives(chain)) {
+        if (one.freedom != int(joint)) continue;
+        one.whole = one.whole && !has_more;
+        all.push_back(one);
+      }
     return all;
   }
   // That of the joints which follow one; the others' own place is left as it is.
   bool reference_at(double t, Vec q) override {
     bool any = false;
-    for (const auto& [joint, law] : controls_) {
+    for (const auto& [joint, has_more, law] : controls_) {
       if (!law->reference_at(t, one_)) continue;
       q[joint] = one_[joint];
       any = true;
@@ -112,7 +122,12 @@ class MixedTorque final : public TorqueLaw {
 
  private:
   std::unique_ptr<TorqueLaw> rest_;
-  std::vector<std::pair<std::size_t, std::unique_ptr<TorqueLaw>>> controls_;
+  struct JointControl {
+    std::size_t joint;
+    bool has_more;
+    std::unique_ptr<TorqueLaw> law;
+  };
+  std::vector<JointControl> controls_;
   std::vector<double> one_;
 };
 
@@ -135,6 +150,15 @@ void refuse_multipliers(const TorqueEntry& entry, const Parameters& parameters) 
   }
 }
 
+// What of an entry is an expression: of a control what is added to it.
+TorqueEntry expression_of(const TorqueEntry& entry) {
+  if (!entry.control) return entry;
+  const std::vector<Entry>& plus = entry.control->plus;
+  if (plus.size() > 1) throw Error(ExitCode::bad_input, "'plus' of one joint is one expression, not a list", entry.place);
+  if (plus.empty()) return {"0", entry.place, {}};
+  return {plus.front().text, plus.front().place, {}};
+}
+
 std::unique_ptr<TorqueLaw> make_plain_law(const Chain& chain, const std::vector<TorqueEntry>& entries,
                                           const Parameters& parameters, const NamedFrames& frames,
                                           ProblemList& problems) {
@@ -143,9 +167,10 @@ std::unique_ptr<TorqueLaw> make_plain_law(const Chain& chain, const std::vector<
   std::vector<double> constants;
   for (const TorqueEntry& entry : entries) {
     try {
-      if (!entry.control) refuse_multipliers(entry, parameters);
-      parsed.push_back(Expression::parse(entry.control ? "0" : entry.text, probe.names(), entry.place));
-      for (const int slot : parsed.back().used_variables()) require_frame_of(chain, probe, slot, entry.place);
+      const TorqueEntry plain = expression_of(entry);
+      refuse_multipliers(plain, parameters);
+      parsed.push_back(Expression::parse(plain.text, probe.names(), plain.place));
+      for (const int slot : parsed.back().used_variables()) require_frame_of(chain, probe, slot, plain.place);
       const std::optional<double> constant = parsed.back().constant();
       if (constant) constants.push_back(*constant);
     } catch (const Error& error) {
@@ -168,7 +193,7 @@ std::unique_ptr<TorqueLaw> make_torque_law(const Chain& chain, const std::vector
     if (!entries[i].control) continue;
     has_controls = true;
     try {
-      mixed->add(i, make_control(chain, *entries[i].control, parameters, i));
+      mixed->add(i, !entries[i].control->plus.empty(), make_control(chain, *entries[i].control, parameters, i));
     } catch (const Error& error) {
       for (const Problem& problem : error.problems()) problems.add(problem.message, problem.place);
     }

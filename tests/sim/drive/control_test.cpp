@@ -61,6 +61,59 @@ TEST(Pd, OfOneJointLeavesTheOthersAlone) {
   EXPECT_EQ(tau[1], 0);
 }
 
+// What is added to a control of the whole chain, to one of a joint, and the same written out: one motion.
+TEST(Control, AddsExpressionsToItsParts) {
+  const std::vector<std::string> plus{"5*sin(3*t) + y_G", "-2*(t > 0.5) - max(qd2, 0)"};
+  Control whole;
+  whole.gravity_compensation = true;
+  for (const std::string& text : plus) whole.plus.push_back(entry(text));
+  std::vector<TorqueEntry> joints(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    joints[i].control = Control{};
+    joints[i].control->gravity_compensation = true;
+    joints[i].control->plus = {entry(plus[i])};
+  }
+  // An RR of unit links and masses at their ends: tau_g = (g (2 cos q1 + cos q12), g cos q12).
+  const std::string beyond = "9.81*cos(q1 + q2) + ";
+  const Simulation written = run_of("rr", {"2*9.81*cos(q1) + " + beyond + plus[0], beyond + plus[1]}, 1, "rk4", 1e-4);
+  const Trajectory expected = simulate(written, instants(1, 0.1));
+  for (const bool by_joint : {false, true}) {
+    Simulation run = run_of("rr", {"0", "0"}, 1, "rk4", 1e-4);
+    run.torque = by_joint ? make_torque_law(run.chain, joints, {}) : make_control(run.chain, whole, {});
+    EXPECT_NE(run.torque->corners(), nullptr) << "max(qd2, 0)";
+    EXPECT_THAT(run.torque->breaks(1), testing::Contains(testing::DoubleNear(0.5, 1e-15)));
+    const Trajectory own = simulate(run, instants(1, 0.1));
+    ASSERT_EQ(own.size(), expected.size());
+    // The same method at 0.1 ms: what differs is the rounding of gravity, grown over a second.
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(last(own, i), last(expected, i), 1e-11) << by_joint;
+  }
+  joints[0].control->plus.push_back(entry("1"));
+  EXPECT_THROW(make_torque_law(written.chain, joints, {}), Error);
+  whole.plus.push_back(entry("1"));
+  EXPECT_THROW(make_control(written.chain, whole, {}), Error);
+}
+
+// Feedback beside what is added: a spring, but not all that acts, and the series of both is their sum's.
+TEST(Control, KeepsItsSpringsAndItsSeriesBesideWhatIsAdded) {
+  Control control;
+  control.pd = Feedback{{100}, {20}, {entry("0.5")}, {}, {}, ""};
+  std::vector<TorqueEntry> joints(2);
+  joints[0].control = control;
+  joints[0].control->plus = {entry("2*t - 3*q2 + 1")};
+  const Simulation run = run_of("rr", {"0", "0"}, 1);
+  const auto law = make_torque_law(run.chain, joints, {});
+  const std::vector<LinearDrive> drives = law->linear_drives(run.chain);
+  ASSERT_EQ(drives.size(), 1u);
+  EXPECT_FALSE(drives[0].whole);
+  const auto affine = law->affine();
+  ASSERT_TRUE(affine);
+  EXPECT_EQ(double(affine->powers[0][0]), 51);
+  EXPECT_EQ(double(affine->powers[0][1]), 2);
+  EXPECT_EQ(double(affine->K[0]), -100);
+  EXPECT_EQ(double(affine->K[1]), -3);
+  EXPECT_EQ(double(affine->D[0]), -20);
+}
+
 TEST(Reference, HasTheSameBitsWhereAccelerationsAreNotAskedFor) {
   const Parameters parameters{{"w", 1.7}};
   const std::vector<Entry> q{entry("sin(w * t) * exp(-t / 3)"), entry("t^3 / (1 + t^2)")};
