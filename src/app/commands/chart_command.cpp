@@ -24,6 +24,9 @@
 namespace chainreel {
 namespace {
 
+// A run that is off by so many times the size of the motion's end, at least 1 rad or m, is lost, however far it is off.
+constexpr double kLost = 100;
+
 struct ChartOptions {
   std::string scene;
   std::string methods;
@@ -111,6 +114,9 @@ WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOp
     data.reference_uncertainty = measured.reference.uncertainty;
   }
   data.machine = machine_line();
+  double farthest = 1;  // rad or m
+  for (const double q : measured.reference.state.q) farthest = std::max(farthest, std::abs(q));
+  const double lost = kLost * farthest;
   for (Ladder& ladder : measured.ladders) {
     if (ladder.rungs.empty()) continue;
     const bool chosen = ladder.method == measured.choice->best.setting.method;
@@ -121,9 +127,10 @@ WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOp
     curve.title = ladder.method->title;
     curve.order = ladder.method->adaptive ? 0 : ladder.method->order;
     curve.look = int(ladder.method - methods().data());
-    for (const Rung& rung : ladder.rungs)
-      curve.points.push_back({is_of_energy ? rung.energy_error : rung.error, rung.seconds, double(rung.evaluations), !std::isfinite(rung.error),
-                              to_string(rung.setting)});
+    for (const Rung& rung : ladder.rungs) {
+      const bool is_lost = !std::isfinite(rung.error) || (!is_of_energy && rung.error > lost);
+      curve.points.push_back({is_of_energy ? rung.energy_error : rung.error, rung.seconds, double(rung.evaluations), is_lost, to_string(rung.setting)});
+    }
     data.curves.push_back(curve);
   }
   return data;
@@ -174,11 +181,14 @@ void print_summary(const WorkPrecision& data, const Measured& measured, const Ch
     std::vector<std::string> row{curve.method};
     for (const double error : {1e-3, 1e-6, 1e-9}) {
       const ChartPoint* const point = cheapest(curve, error);
-      row.push_back(point ? format_significant(1000 * point->seconds, 3) + ", " + setting_of(point->label) : "-");
+      row.push_back(error < data.least_error() ? "unknown" : point ? format_significant(1000 * point->seconds, 3) + ", " + setting_of(point->label) : "-");
     }
     table.push_back(row);
   }
   std::fputs(table_text(table).c_str(), stdout);
+  if (data.least_error() > 1e-9)
+    std::printf("unknown: below %s, %s, errors say nothing of a method\n", format_significant(data.least_error(), 2).c_str(),
+                data.is_least_of_reference() ? "to which the reference is known" : "to which the motion magnifies one rounding");
   for (const Ladder& ladder : measured.ladders)
     if (!ladder.refusal.empty()) std::printf("left out: %s\n", ladder.refusal.c_str());
   if (options.judges_energy())

@@ -14,7 +14,9 @@ constexpr double kLeastPanel = 20;  // ems of a tick's text, on paper
 constexpr double kZonePad = 0.012;
 constexpr double kWidestZone = 0.34;  // of the panel
 constexpr double kZoneOpacity = 0.14;
-constexpr const char* kZoneWords = "under the growth of one rounding";
+// What lies to the left of the least error that says something.
+constexpr const char* kRoundingWords = "under the growth of one rounding";
+constexpr const char* kReferenceWords = "under what the reference is known to";
 
 // The longest form that fits.
 std::string cost_title(ChartCost cost, double width, const PlotStyle& style) {
@@ -72,10 +74,14 @@ TextStyle small_text(const ChartLook& look, Align align) {
   return {Face::label, look.plot_style().text(size::kTick), look.theme->muted, align};
 }
 
-double zone_width(const ChartLook& look) {
+const char* words_of_zone(const WorkPrecision& data) {
+  return data.is_least_of_reference() ? kReferenceWords : kRoundingWords;
+}
+
+double zone_width(const WorkPrecision& data, const ChartLook& look) {
   double widest = 0;
   const TextStyle style = small_text(look, Align::center);
-  for (const std::string& word : wrapped(*look.fonts, kZoneWords, style, 0))
+  for (const std::string& word : wrapped(*look.fonts, words_of_zone(data), style, 0))
     widest = std::max(widest, lay_out_text(*look.fonts, word, style).advance);
   return widest + 2 * kZonePad;
 }
@@ -92,29 +98,30 @@ bool any_failed(const WorkPrecision& data) {
 Axis error_axis(const WorkPrecision& data, double panel_width, const ChartLook& look) {
   Axis axis = log_axis(errors_of(data), data.error_title);
   if (any_failed(data)) axis.high *= 10;
-  if (!(data.floor > 0)) return axis;
-  axis.high = std::max(axis.high, rounded_out({Scale::log, data.floor, 10 * data.floor, ""}).high);
-  const double share = std::min(zone_width(look) / panel_width, kWidestZone);
-  const double floor = std::log10(data.floor), high = std::log10(axis.high);
+  if (!(data.least_error() > 0)) return axis;
+  axis.high = std::max(axis.high, rounded_out({Scale::log, data.least_error(), 10 * data.least_error(), ""}).high);
+  const double share = std::min(zone_width(data, look) / panel_width, kWidestZone);
+  const double floor = std::log10(data.least_error()), high = std::log10(axis.high);
   axis.low = std::min(axis.low, std::pow(10.0, (floor - share * high) / (1 - share)));
   return axis;
 }
 
 void draw_floor(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, const ChartLook& look) {
-  if (!(data.floor > frame.x.low)) return;
-  draw_zone(picture, frame, {frame.x.low, frame.y.low}, {data.floor, frame.y.high},
+  if (!(data.least_error() > frame.x.low)) return;
+  draw_zone(picture, frame, {frame.x.low, frame.y.low}, {data.least_error(), frame.y.high},
             look.theme->base.faded(kZoneOpacity));
 }
 
 void draw_floor_words(Picture& picture, const PlotFrame& frame, const WorkPrecision& data,
                       const ChartLook& look) {
-  if (!(data.floor > frame.x.low)) return;
+  if (!(data.least_error() > frame.x.low)) return;
+  const char* const words = words_of_zone(data);
   const TextStyle style = small_text(look, Align::center);
-  const double right = std::min(frame.at_x(data.floor), frame.box.x1), left = frame.box.x0;
+  const double right = std::min(frame.at_x(data.least_error()), frame.box.x1), left = frame.box.x0;
   const double width = right - left - 2 * kZonePad * 0.99;
-  const auto lines = double(wrapped(*look.fonts, kZoneWords, style, width).size());
+  const auto lines = double(wrapped(*look.fonts, words, style, width).size());
   if (lines * kLinePitch * style.size + 2 * kZonePad > frame.box.height()) return;
-  draw_paragraph(picture, *look.fonts, kZoneWords, style,
+  draw_paragraph(picture, *look.fonts, words, style,
                  {(left + right) / 2, frame.box.y0 + kZonePad + (lines - 0.7) * kLinePitch * style.size},
                  width);
 }
@@ -214,14 +221,17 @@ std::string footer_of(const WorkPrecision& data, bool triangles) {
     text += (text.empty() || part.empty() ? "" : "; ") + part;
   };
   add(data.error_meaning);
-  if (data.floor > 0)
+  const std::string of_reference = "reference known to " + power_text(data.reference_uncertainty);
+  if (data.is_least_of_reference())
+    add("shaded: " + of_reference);
+  else if (data.floor > 0)
     add("shaded: the problem's amplification times 2\u207B\u2075\u00B3 is " + power_text(data.floor));
-  if (data.reference_uncertainty > 0) add("reference known to " + power_text(data.reference_uncertainty));
+  if (data.reference_uncertainty > 0 && !data.is_least_of_reference()) add(of_reference);
   add("dotted: 1, 10 and 100 times the cheapest run");
   if (triangles) add("triangles: slope of an order");
   if (std::any_of(data.curves.begin(), data.curves.end(), [](const ChartCurve& curve) { return !curve.is_lit; }))
     add("grey: the other methods");
-  if (any_failed(data)) add("crosses at the right edge: failed runs");
+  if (any_failed(data)) add("crosses at the right edge: runs that failed or are lost");
   add(data.machine);
   return text;
 }

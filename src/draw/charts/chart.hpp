@@ -3,6 +3,7 @@
 // nothing is computed here but where it goes on the page.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,6 +45,10 @@ struct WorkPrecision {
   std::vector<ChartCurve> curves;
   std::optional<ChartChoice> choice;  // of `auto`
   std::string machine;                // processor, compiler, revision
+
+  // Below it errors say nothing: of the method or of the reference.
+  double least_error() const { return std::max(floor, reference_uncertainty); }
+  bool is_least_of_reference() const { return reference_uncertainty > floor; }
 };
 
 enum class ChartCost { seconds, evaluations };

@@ -95,7 +95,7 @@ Obstacles obstacles_of(const PlotFrame& frame, const WorkPrecision& data, ChartC
     }
   }
   // Nothing is written into the zone but its own words.
-  if (data.floor > 0) obstacles.inside.x0 = std::max(frame.box.x0, frame.at_x(data.floor));
+  if (data.least_error() > 0) obstacles.inside.x0 = std::max(frame.box.x0, frame.at_x(data.least_error()));
   return obstacles;
 }
 
@@ -374,7 +374,7 @@ void light_curves(WorkPrecision& data, std::span<const ChartCost> panels, const 
     if (data.choice && data.choice->method == curve.method) curve.is_lit = true;
     for (const ChartCost cost : panels)
       for (const LogPoint& point : good_points(curve, cost))
-        curve.is_lit |= !(std::pow(10, point.error) < data.floor) && point.cost <= least_log_cost(data, cost, point.error) + kSameCost;
+        curve.is_lit |= !(std::pow(10, point.error) < data.least_error()) && point.cost <= least_log_cost(data, cost, point.error) + kSameCost;
   }
   tell_colours_apart(data);
 }
