@@ -260,7 +260,7 @@ TEST(OnPaper, MoreMethodsThanHaveRoomAreRefused) {
   const ProgramResult result = run_program({"energy", "assets/scenes/rr_free.yaml", "--until", "0.2s", "--step", "0.01", "--width-mm",
                                             "84", "--height-mm", "40", "-o", folder.file("a.pdf")});
   EXPECT_EQ(result.status, 3) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("name fewer by --methods, or take a larger --height-mm"));
+  EXPECT_THAT(result.err, HasSubstr("name fewer by --methods, or take a higher page"));
 }
 
 // One reading, one picture, several files.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -14,6 +15,7 @@
 #include "core/hash.hpp"
 #include "core/machine.hpp"
 #include "core/output_file.hpp"
+#include "draw/film/compose.hpp"
 #include "draw/page/house_style.hpp"
 #include "scene/text/scene_paths.hpp"
 #include "table/data_table.hpp"
@@ -65,9 +67,20 @@ void check_figure_size(const FigureOptions& options) {
 }
 
 ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fonts& fonts) {
+  constexpr double kSlide = 4.0 / 3;  // width by height: words of narrower pages are as large as on one that is as wide
   const PixelSize size = size_of(options);
-  const double text_scale = options.paper.is_given() ? text_scale_on(on_paper(options), scene.text_scale) : scene.text_scale;
-  return {double(size.width) / size.height, text_scale, &page_theme(scene), &fonts, page_logo(scene, size.height), options.paper.is_given()};
+  ChartLook look{double(size.width) / size.height, scene.text_scale, &page_theme(scene), &fonts};
+  int unit = size.height;
+  if (options.paper.is_given()) {
+    look.text_scale = text_scale_on(on_paper(options), scene.text_scale);
+  } else {
+    unit = std::min(unit, int(std::lround(size.width / kSlide)));
+    look.text_scale = std::max(scene.text_scale, kLeastWordPixels / (size::kTick * std::max(unit, kLeastPagePixels)));
+  }
+  look.height = double(size.height) / unit;
+  look.logo = page_logo(scene, unit);
+  look.is_small = options.paper.is_given() || look.text_scale > scene.text_scale;
+  return look;
 }
 
 bool is_table_path(const std::string& path) {

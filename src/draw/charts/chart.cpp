@@ -165,7 +165,8 @@ std::vector<EndLabel> labels_of(const PlotFrame& frame, const WorkPrecision& dat
   return labels;
 }
 
-// Panels from left to right; each but the last is followed by room for its labels where they are not shared.
+// Panels from left to right; each but the last is followed by room for its labels where they are not shared. One below the other on
+// pages that are higher than wide.
 struct Columns {
   std::vector<Rect> panels;
   bool shared_labels = false;
@@ -174,6 +175,14 @@ struct Columns {
 Columns columns_of(const Rect& area, std::size_t count, double labels) {
   Columns columns;
   const double with_labels = labels + kLabelGap;
+  if (area.height() > area.width()) {
+    const double height = (area.height() - double(count - 1) * size::kGutter) / double(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double top = area.y1 - double(i) * (height + size::kGutter);
+      columns.panels.push_back({area.x0, top - height, area.x1 - with_labels, top});
+    }
+    return columns;
+  }
   columns.shared_labels = double(count) * with_labels > kMostForLabels * area.width();
   const double inner = columns.shared_labels ? size::kGutter : with_labels + size::kGutter;
   const double width = (area.width() - with_labels - double(count - 1) * inner) / double(count);
@@ -236,10 +245,10 @@ std::string footer_of(const WorkPrecision& data, bool triangles) {
   return text;
 }
 
-// On paper, a panel that is too narrow to be read has none beside it: evaluations, which every machine counts alike, stay.
+// On small pages, a panel that is too narrow to be read has none beside it: evaluations, which every machine counts alike, stay.
 std::span<const ChartCost> readable_panels(std::span<const ChartCost> panels, const std::vector<std::string>& methods, const ChartLook& look) {
-  if (!look.is_on_paper || panels.size() < 2) return panels;
-  const Rect area{size::kMargin, size::kMargin, look.aspect - size::kMargin, 1 - size::kMargin};
+  if (!look.is_small || panels.size() < 2) return panels;
+  const Rect area{size::kMargin, size::kMargin, look.width() - size::kMargin, look.height - size::kMargin};
   const PlotStyle style = look.plot_style();
   const Columns columns = columns_of(area, panels.size(), end_labels_width(methods, style));
   return columns.panels.front().width() < kLeastPanel * style.text(size::kTick) ? panels.last(1) : panels;
@@ -267,10 +276,10 @@ Picture work_precision_chart(const WorkPrecision& data, std::span<const ChartCos
   };
   // Whether they are explained decides on the room that they have.
   bool triangles = false;
-  Picture explained = draw(true, triangles);
-  if (triangles) return explained;
-  Picture plain = draw(false, triangles);
-  return triangles ? explained : plain;
+  const Picture explained = draw(true, triangles);
+  if (triangles) return as_page(explained, look);
+  const Picture plain = draw(false, triangles);
+  return as_page(triangles ? explained : plain, look);
 }
 
 }  // namespace chainreel

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "draw/page/house_style.hpp"
 #include "draw/page/sheet.hpp"
+#include "picture/place_picture.hpp"
 
 namespace chainreel {
 namespace {
@@ -18,10 +19,10 @@ constexpr double kLeastHeight = 0.25;
 namespace {
 
 Rect draw_words(Picture& picture, const ChartText& text, const ChartLook& look) {
-  picture.aspect = look.aspect;
+  picture.aspect = look.width();
   picture.background = look.theme->background;
   const PlotStyle style = look.plot_style();
-  const Rect inside{size::kMargin, size::kMargin, look.aspect - size::kMargin, 1 - size::kMargin};
+  const Rect inside{size::kMargin, size::kMargin, look.width() - size::kMargin, look.height - size::kMargin};
   double top = inside.y1, bottom = inside.y0;
   const std::optional<Rect> logo = look.logo ? std::optional(box_of(*look.logo, inside)) : std::nullopt;
   // From where to where words run at the top and at the bottom.
@@ -63,25 +64,29 @@ Rect draw_words(Picture& picture, const ChartText& text, const ChartLook& look) 
 
 }  // namespace
 
+Picture as_page(const Picture& picture, const ChartLook& look) {
+  return look.height == 1 ? picture : in_page_units(picture, look.height);
+}
+
 Rect draw_chart_page(Picture& picture, const ChartText& text, const ChartLook& look) {
   ChartText shown = text;
   const auto height = [&] {
     Picture measured;
-    return draw_words(measured, shown, look).height();
+    return draw_words(measured, shown, look).height() / look.height;
   };
-  if (look.is_on_paper && height() < kMostlyChart) shown.footer.clear();
-  if (look.is_on_paper && height() < kMostlyChart) shown.subtitle.clear();
+  if (look.is_small && height() < kMostlyChart) shown.footer.clear();
+  if (look.is_small && height() < kMostlyChart) shown.subtitle.clear();
   const Rect area = draw_words(picture, shown, look);
   if (area.height() < kLeastHeight)
-    throw Error(ExitCode::bad_input, look.is_on_paper ? "the title leaves no room for the chart: take a larger --height-mm"
+    throw Error(ExitCode::bad_input, look.is_small ? "the title leaves no room for the chart: take a higher page"
                                                       : "title and notes leave no room for the chart: lower text_scale");
   return area;
 }
 
 void require_room_for_names(std::size_t curves, const Rect& area, const ChartLook& look) {
-  if (!look.is_on_paper || double(curves) * kLinePitch * look.plot_style().text(size::kTick) <= area.height()) return;
+  if (!look.is_small || double(curves) * kLinePitch * look.plot_style().text(size::kTick) <= area.height()) return;
   throw Error(ExitCode::bad_input, "the names of " + std::to_string(curves) +
-                                       " methods have no room on this page: name fewer by --methods, or take a larger --height-mm");
+                                       " methods have no room on this page: name fewer by --methods, or take a higher page");
 }
 
 }  // namespace chainreel

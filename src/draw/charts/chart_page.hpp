@@ -23,17 +23,23 @@ struct ChartLook {
   const Theme* theme = nullptr;
   const Fonts* fonts = nullptr;
   std::optional<PageLogo> logo{};
-  bool is_on_paper = false;  // whose caption says what notes would, where they leave little room
+  bool is_small = false;  // paper, whose caption says what notes would, or few pixels: where they leave little room
 
+  double height = 1;  // of the page, in units in which it is laid out: those of a slide as wide, where it is higher than that
+
+  double width() const { return aspect * height; }
   PlotStyle plot_style() const { return {fonts, theme, text_scale}; }
 };
 
+// A picture that was laid out in units of the look, as the page that pictures are.
+Picture as_page(const Picture& picture, const ChartLook& look);
+
 // An empty page with the chart's words. The title shrinks to its row; subtitle and footer are broken into
-// lines, and end beside the logo; on paper footer and subtitle, in this order, are left to its caption where they would leave less
+// lines, and end beside the logo; on small ones footer and subtitle, in this order, are left out where they would leave less
 // than kMostlyChart of the page's height. Returns what is left for the axes. Throws Error (exit 3) where the words leave no room.
 Rect draw_chart_page(Picture& picture, const ChartText& text, const ChartLook& look);
 
-// On paper: throws Error (exit 3) where the names of so many curves would not stand below one another.
+// On small pages: throws Error (exit 3) where the names of so many curves would not stand below one another.
 void require_room_for_names(std::size_t curves, const Rect& area, const ChartLook& look);
 
 }  // namespace chainreel

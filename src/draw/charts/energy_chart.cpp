@@ -183,7 +183,7 @@ Picture energy_chart(const EnergyChart& data, const ChartLook& look) {
       draw_marker(picture, end_of(frame, curves[i]), Marker::cross, 1.25 * curve.marker_size, curve.color,
                   look.theme->background);
   }
-  return picture;
+  return as_page(picture, look);
 }
 
 }  // namespace chainreel

@@ -235,7 +235,7 @@ Picture stability_map(const StabilityMap& data, const ChartLook& look) {
   const bool any_failed =
       std::any_of(data.cells.begin(), data.cells.end(), [](const MapCell& cell) { return cell.failed; });
   draw_legend(picture, frame, errors, any_failed, look);
-  return picture;
+  return as_page(picture, look);
 }
 
 }  // namespace chainreel

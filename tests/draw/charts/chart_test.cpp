@@ -128,6 +128,36 @@ TEST(Chart, LightsNoneForWhatRoundingDecides) {
   EXPECT_TRUE(data.curves[1].is_lit) << "where no floor is known";
 }
 
+// Where the reference is known less well than rounding would let a method be, that decides what errors mean.
+TEST(Chart, ShadesWhatTheReferenceDoesNotTell) {
+  WorkPrecision data = sample_work_precision();
+  data.reference_uncertainty = 1e-9;
+  const std::string words = words_of(work_precision_chart(data, kBoth, look_of(light_theme())));
+  EXPECT_THAT(words, testing::AllOf(HasSubstr("reference"), HasSubstr("shaded: reference known to"), Not(HasSubstr("amplification"))));
+  EXPECT_EQ(data.least_error(), 1e-9);
+  data.curves = {{"usual", 4, {{1e-4, 1, 1, false, ""}, {1e-8, 2, 2, false, ""}}, 0}, {"below", 4, {{1e-4, 3, 3, false, ""}, {1e-10, 9, 9, false, ""}}, 1}};
+  data.choice.reset();
+  light_curves(data, kBoth, {});
+  EXPECT_TRUE(data.curves[0].is_lit && !data.curves[1].is_lit);
+}
+
+// On pages that are higher than wide panels stand one below the other, and words are those of a slide as wide.
+TEST(Chart, StacksItsPanelsOnPortraitPages) {
+  ChartLook look = look_of(light_theme());
+  look.aspect = 9.0 / 16;
+  look.height = 4.0 / 3 / look.aspect;
+  const Picture picture = work_precision_chart(sample_work_precision(), kBoth, look);
+  EXPECT_EQ(picture.aspect, look.aspect);
+  std::vector<double> title_lines;
+  for (const GlyphRun& run : all_of<GlyphRun>(picture)) {
+    EXPECT_GE(run.origin.x, 0) << run.text;
+    EXPECT_LE(run.origin.x + (run.glyphs.empty() ? 0 : run.glyphs.back().x), picture.aspect) << run.text;
+    if (run.text.find("time per run") != std::string::npos || run.text.find("evaluations of") != std::string::npos) title_lines.push_back(run.origin.y);
+  }
+  ASSERT_EQ(title_lines.size(), 2u);
+  EXPECT_GT(std::abs(title_lines[0] - title_lines[1]), 0.3);
+}
+
 TEST(Chart, LightsTheCheapestAndTheChoiceOrWhatIsAskedFor) {
   WorkPrecision data;
   const auto add = [&](const char* method, double cost) {
