@@ -79,6 +79,14 @@ inline Point center_of(const Rect& r) {
   return {(r.x0 + r.x1) / 2, (r.y0 + r.y1) / 2};
 }
 
+// Of p from the segment a-b.
+inline double distance_to(Point p, Point a, Point b) {
+  const Point way = b - a;
+  const double squared = dot(way, way);
+  const double share = squared > 0 ? std::clamp(dot(p - a, way) / squared, 0.0, 1.0) : 0;
+  return norm(p - (a + share * way));
+}
+
 inline bool is_within(const Rect& a, const Rect& b) {
   return a.x0 >= b.x0 && a.x1 <= b.x1 && a.y0 >= b.y0 && a.y1 <= b.y1;
 }

@@ -31,6 +31,7 @@ namespace {
 constexpr double kRoomForLengths = 10;  // of the em of their words: the side of a panel
 // How long the bounded semi-axes (their median) are drawn, as a share of the shorter side of a panel.
 constexpr double kSmallerAxis = 0.14, kLargerAxis = 0.24;
+constexpr double kNearlyInfinite = 32;  // times the median
 
 void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose& pose, Workspace& ws) {
   const Theme& theme = *panels.options.theme;
@@ -47,7 +48,7 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
   const std::vector<double> at_rest(std::size_t(panels.chain.nv), 0.0);
   compute_kinematics(panels.chain, ws, pose.q, at_rest);
   const ChainDrawing drawing{panels.chain, panels.skeleton, camera,
-                             look_of(panels.skeleton, camera, theme, 1, panels.marks),
+                             narrowed(look_of(panels.skeleton, camera, theme, 1, panels.marks), panels.widest_link),
                              panels.options.shapes.get()};
   const Point tip = camera.project(tip_position(panels.chain, ws));
   EllipseStyle style{&theme, &panels.fonts,         panels.options.text_scale, panels.scale.per_unit(),
@@ -136,6 +137,11 @@ EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReadi
     if (reading != EllipseReading::energy && !is_ordinary(pose.axes)) continue;
     for (const MassAxis& axis : pose.axes) longest = std::max(longest, semi_axis(axis, reading).value_or(0));
   }
+  // Of poses that are all singular what is finite of each, where it is not nearly infinite.
+  if (!any_finite && reading != EllipseReading::energy)
+    for (const Pose& pose : poses)
+      for (const MassAxis& axis : pose.axes)
+        if (axis.mass && *axis.mass <= kNearlyInfinite * median) longest = std::max(longest, *axis.mass);
   const double usual = reading == EllipseReading::energy ? kLargerAxis : kSmallerAxis;
   const double per_unit = room * std::min(usual / median, kLongestAxis / longest);
   const double bar = round_length(kLongestBar / per_unit);

@@ -16,14 +16,25 @@ struct Surroundings {
   double numbers = 0, below = 0;  // of x; with its title
 };
 
-Surroundings about(const Axis& x, const Axis& y, const PlotStyle& style) {
-  // What is beside a frame does not depend on its size where that is usual.
-  const Rect area{0, 0, 20 * style.text(size::kTick), 20 * style.text(size::kTick)};
+Surroundings about(const Axis& x, const Axis& y, const PlotStyle& style, double ems) {
+  const Rect area{0, 0, ems * style.text(size::kTick), ems * style.text(size::kTick)};
   const Rect named = lay_out_plot(area, x, y, style).box;
   Axis bare_x = x, bare_y = y;
   bare_x.title = bare_y.title = "";
   const Rect bare = lay_out_plot(area, bare_x, bare_y, style).box;
   return {named.x0 - area.x0, area.x1 - named.x1, area.y1 - named.y1, bare.y0 - area.y0, named.y0 - area.y0};
+}
+
+// Of frames of any usual size: larger ones have more numbers, with more digits.
+Surroundings about(const Axis& x, const Axis& y, const PlotStyle& style) {
+  constexpr double kSmall = 10, kUsual = 20, kLarge = 40;  // em of numbers
+  Surroundings most;
+  for (const double ems : {kSmall, kUsual, kLarge}) {
+    const Surroundings one = about(x, y, style, ems);
+    most = {std::max(most.left, one.left), std::max(most.right, one.right), std::max(most.title, one.title),
+            std::max(most.numbers, one.numbers), std::max(most.below, one.below)};
+  }
+  return most;
 }
 
 struct Measures {

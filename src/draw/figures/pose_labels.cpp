@@ -35,13 +35,6 @@ bool segments_cross(Point a, Point b, Point c, Point d) {
   return s * t < 0 && u * v < 0;
 }
 
-double distance_to(Point p, Point a, Point b) {
-  const Point way = b - a;
-  const double squared = dot(way, way);
-  const double share = squared > 0 ? std::clamp(dot(p - a, way) / squared, 0.0, 1.0) : 0;
-  return norm(p - (a + share * way));
-}
-
 // Any of some places in the box within the curve, or of the curve within the box.
 bool is_on_curve(const Rect& box, const NamedPlace& place) {
   const Point u = place.curve[0], v = place.curve[1];

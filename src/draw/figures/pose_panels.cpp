@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kManyPoses = 5;  // have one line of caption each
 constexpr double kLeastPicture = 0.7, kAboveLines = 0.55;  // of the cell of one of many, above a caption of one line, and of several
+constexpr double kOfSemiAxis = 0.55;  // half of a link's width at most, of the shortest semi-axis: ellipses are seen beside their links
 constexpr double kLeastSide = 0.08, kLeastEms = 5;  // of a panel that can be read: units of H, or of its words on tall pages
 
 // Between panels, by the page's shorter side.
@@ -201,6 +202,16 @@ CaptionLines words_of(const Panels& panels, const std::vector<Pose>& poses) {
   return words;
 }
 
+// The shortest semi-axis that is drawn, units of H.
+double shortest_drawn(const Panels& panels, const std::vector<Pose>& poses) {
+  double shortest = HUGE_VAL;
+  for (const Pose& pose : poses)
+    for (const MassAxis& axis : pose.axes)
+      if (const auto length = semi_axis(axis, panels.options.reading); length && *length > 0)
+        shortest = std::min(shortest, *length * panels.scale.per_unit());
+  return shortest;
+}
+
 // Panels so many across; false where they are too small.
 bool lay_out(Panels& panels, const Rect& area, int across, const std::vector<Pose>& poses, Workspace& ws) {
   const PoseFigureOptions& options = panels.options;
@@ -214,6 +225,7 @@ bool lay_out(Panels& panels, const Rect& area, int across, const std::vector<Pos
   panels.words = words_of(panels, poses);
   panels.marks = marks_in(panels.scene(0));
   panels.scale = scale_for(poses, panels.side(), options.reading);
+  panels.widest_link = std::max(kThinnestLink, 2 * kOfSemiAxis * shortest_drawn(panels, poses));
   const Point shown = fit_panels(panels, poses, ws);
   const Rect scene = panels.scene(0);
   panels.filled = std::min(1.0, shown.x / scene.width()) * std::min(1.0, kept_height(panels, shown) / scene.height());

@@ -33,6 +33,7 @@ struct Panels {
   double filled = 1;                            // the share of a scene that is kept when it is cut to content
   double marks = 1;
   EllipseScale scale{};
+  double widest_link = size::kLinkWidth;
   Skeleton skeleton{};
   Camera camera{};  // of the first panel
 

@@ -68,6 +68,12 @@ class Gatherer {
   const std::vector<Panel>& panels_;
 };
 
+// The ink of a word, as an obstacle to others.
+Obstacle obstacle_of(const Rect& box) {
+  const double radius = std::min(box.width(), box.height()) / 2, y = center_of(box).y;
+  return {{box.x0 + radius, y}, {box.x1 - radius, y}, radius + kBetweenWords};
+}
+
 }  // namespace
 
 FilmWords::FilmWords(const Stage& stage, const Layers& layers, const FilmSheet& sheet, const FilmView& view,
@@ -97,13 +103,19 @@ std::vector<StandingWord> FilmWords::still(const Stage& stage, const Layers& lay
   const Gatherer gatherer(layers, view, panels);
   std::vector<Obstacle> obstacles = gatherer.once(panel, view.shared_page(stage, sheet));
   std::vector<MarkWord> wishes = gatherer.gather(panel, frame, stage, obstacles).words();
-  for (std::size_t i = 0; i < words.size(); ++i)
-    if (words[i].opacity > 0) wishes[i].places = {words[i].box};
+  std::vector<MarkWord> missing;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (is_left_out(words[i]))
+      missing.push_back(std::move(wishes[i]));
+    else
+      obstacles.push_back(obstacle_of(words[i].box));
+  }
   WordPlan plan(panels[panel].area(), kLooksPerSecond);
-  plan.add(wishes, obstacles);
-  const std::vector<StandingWord> alone = plan.standing().front();
-  for (std::size_t i = 0; i < words.size(); ++i)
-    if (is_left_out(words[i])) words[i] = alone[i];
+  plan.add(missing, obstacles);
+  const std::vector<StandingWord> found = plan.standing().front();
+  auto next = found.begin();
+  for (StandingWord& word : words)
+    if (is_left_out(word)) word = *next++;
   return words;
 }
 

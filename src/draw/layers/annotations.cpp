@@ -35,9 +35,7 @@ void append(TextLine& line, const TextLine& piece, Point at) {
       line.marks.push_back(std::move(item.shape));
   }
   const Rect box = moved(piece.box, at);
-  line.box = is_first ? box
-                      : Rect{std::min(line.box.x0, box.x0), std::min(line.box.y0, box.y0), std::max(line.box.x1, box.x1),
-                             std::max(line.box.y1, box.y1)};
+  line.box = is_first ? box : around(line.box, box);
 }
 
 // Running text, with formulas between dollar signs.

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kDash = 0.012, kGap = 0.008;
 constexpr double kNumberGaps[] = {0.010, 0.018};        // units of H, beyond the end of a semi-axis
+constexpr double kFarNumberGaps[] = {0.05, 0.09, 0.13};  // ... where a robot is in the way
 constexpr double kLeastAxis = 0.008;                    // ... seen from its end, a shorter one has no room for a number
 constexpr double kAside[] = {0, 0.8, -0.8, 1.5, -1.5};  // rad: where its number stands about that end
 
@@ -291,6 +292,14 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
         if (is_within(place, style.scene)) word.places.push_back(place);
       }
     }
+  // In space the robot may lie around the ends of an axis.
+  if (style.hides) {
+    const Point end = center + v;
+    for (const double gap : kFarNumberGaps)
+      for (const Rect& place : places_about(word.line, end, gap, unit(v)))
+        if (is_within(place, style.scene)) word.places.push_back(place);
+    word.tie = Tie{end, kNumberGaps[0], style.theme->ellipse};
+  }
   if (!word.places.empty()) style.labels->add(std::move(word));
 }
 

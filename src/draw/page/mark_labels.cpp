@@ -134,7 +134,7 @@ std::vector<Rect> places_about(const TextLine& line, Point middle, double off, P
 namespace {
 
 constexpr double kLeaderWidth = 0.0025, kLeaderDot = 0.0055, kLeaderGap = 0.008;  // units of H
-constexpr double kTieWidth = 0.0018, kShortestTie = 0.018;
+constexpr double kTieWidth = 0.0018, kShortestTie = 0.018, kTieHalo = 0.0012;  // what it crosses stays
 
 // From the side of the box that is nearest.
 void draw_leader(Picture& picture, const Leader& leader, const Rect& box, Color background, double opacity, int clip) {
@@ -149,15 +149,21 @@ void draw_leader(Picture& picture, const Leader& leader, const Rect& box, Color 
 }
 
 void draw_tie(Picture& picture, const Tie& tie, const Rect& box, Color background, double opacity, int clip) {
-  const Rect air = widened(box, kLeaderGap);
-  const Point from{std::clamp(tie.to.x, air.x0, air.x1), std::clamp(tie.to.y, air.y0, air.y1)}, way = from - tie.to;
-  if (!(norm(way) > tie.near + kShortestTie)) return;
-  const Point to = tie.to + (tie.near / norm(way)) * way;
-  picture.add(Capsule{from, to, kTieWidth / 2 + kHalo, {background.faded(opacity), {}, 0}}, clip);
+  const std::optional<TieLine> line = line_of(tie, box);
+  if (!line) return;
+  const auto& [from, to] = *line;
+  picture.add(Capsule{from, to, kTieWidth / 2 + kTieHalo, {background.faded(opacity), {}, 0}}, clip);
   picture.add(Capsule{from, to, kTieWidth / 2, {tie.color.faded(opacity), {}, 0}}, clip);
 }
 
 }  // namespace
+
+std::optional<TieLine> line_of(const Tie& tie, const Rect& box) {
+  const Rect air = widened(box, kLeaderGap);
+  const Point from{std::clamp(tie.to.x, air.x0, air.x1), std::clamp(tie.to.y, air.y0, air.y1)}, way = from - tie.to;
+  if (!(norm(way) > tie.near + kShortestTie)) return {};
+  return TieLine{from, tie.to + (tie.near / norm(way)) * way};
+}
 
 void MarkLabels::add(MarkWord word) {
   words_.push_back(std::move(word));

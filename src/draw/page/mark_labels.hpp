@@ -26,6 +26,12 @@ struct Tie {
   Color color;
 };
 
+struct TieLine {
+  Point from, to;
+};
+// The line of a word that stands there; nothing where it is near enough.
+std::optional<TieLine> line_of(const Tie& tie, const Rect& box);
+
 struct MarkWord {
   std::string name;  // the same from frame to frame; words of one name are told apart by where they are
   TextLine line;

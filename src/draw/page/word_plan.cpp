@@ -15,7 +15,6 @@ constexpr double kPale = 0.3;           // opacity: fainter lines may lie below 
 constexpr double kPieceOfArc = 0.3;     // rad
 constexpr double kFadeSeconds = 0.12;
 constexpr double kLeavesWith = 0.03;    // units of H: a place that sticks out of the area by more is none
-constexpr double kBetweenWords = 0.006;
 constexpr std::size_t kCrowdOfWords = 60;      // words: of more each has its best place or none
 // What it costs: a second without the word, on what may yield, at a place for each one before it in the list; and a
 // change of places.
@@ -106,20 +105,30 @@ bool moves_on(const Rect& before, const Rect& now) {
   return norm(center_of(now) - center_of(before)) <= kWordStep;
 }
 
-// What a word's line crosses on its way, but at its end.
-double cost_of_leader(const Leader& leader, const Rect& box, const std::vector<Obstacle>& obstacles) {
-  const Point from{std::clamp(leader.to.x, box.x0, box.x1), std::clamp(leader.to.y, box.y0, box.y1)};
-  const double length = norm(leader.to - from);
-  if (!(length > kEndOfLeader)) return 0;
-  const Point to = leader.to - (kEndOfLeader / length) * (leader.to - from);
+// What a line from a word crosses, or runs along.
+double cost_of_line(Point from, Point to, const std::vector<Obstacle>& obstacles) {
   int crossed = 0;
   for (const Obstacle& obstacle : obstacles) {
     const Point line = to - from, piece = obstacle.b - obstacle.a;
     const double s = cross(line, obstacle.a - from), t = cross(line, obstacle.b - from);
     const double u = cross(piece, from - obstacle.a), v = cross(piece, to - obstacle.a);
-    if (s * t < 0 && u * v < 0 && ++crossed == kMostCrossed) break;
+    const bool is_on = (s * t < 0 && u * v < 0) || distance_to(0.5 * (from + to), obstacle.a, obstacle.b) < obstacle.radius;
+    if (is_on && ++crossed == kMostCrossed) break;
   }
   return crossed * kCrossedByLeader;
+}
+
+// On its way, but not at its end.
+double cost_of_leader(const Leader& leader, const Rect& box, const std::vector<Obstacle>& obstacles) {
+  const Point from{std::clamp(leader.to.x, box.x0, box.x1), std::clamp(leader.to.y, box.y0, box.y1)};
+  const double length = norm(leader.to - from);
+  if (!(length > kEndOfLeader)) return 0;
+  return cost_of_line(from, leader.to - (kEndOfLeader / length) * (leader.to - from), obstacles);
+}
+
+double cost_of_tie(const Tie& tie, const Rect& box, const std::vector<Obstacle>& obstacles) {
+  const std::optional<TieLine> line = line_of(tie, box);
+  return line ? cost_of_line(line->from, line->to, obstacles) : 0;
 }
 
 constexpr int kNowhere = -1;
@@ -164,7 +173,8 @@ void WordPlan::add(const std::vector<MarkWord>& words, const std::vector<Obstacl
         if (touches(box, obstacles[o])) ground = obstacles[o].may_yield || now.insists ? Ground::poor : Ground::taken;
       now.places.push_back(box);
       now.grounds.push_back(ground);
-      if (now.insists) now.leaders.push_back(cost_of_leader(*words[i].leader, box, obstacles));
+      if (words[i].leader) now.leaders.push_back(cost_of_leader(*words[i].leader, box, obstacles));
+      if (words[i].tie && !words[i].leader) now.leaders.push_back(cost_of_tie(*words[i].tie, box, obstacles));
     }
     track_of(words[i], frame).push_back(std::move(now));
   }
@@ -265,7 +275,8 @@ std::vector<std::vector<StandingWord>> WordPlan::standing() const {
                             [&](const StandingWord& other) { return other.opacity > 0 && overlap(box, other.box); });
         const double poor = ground == Ground::poor ? kPoorGround : 0;
         if (now.insists) return p * kWorseOfMany + now.leaders[std::size_t(p)] + poor + (meets ? kPoorGround : 0);
-        return meets ? never : p * kWorsePlace + poor;
+        const double line = now.leaders.empty() ? 0 : now.leaders[std::size_t(p)];
+        return meets ? never : p * kWorsePlace + line + poor;
       };
       const std::vector<int> way = best_way(track, fps_, cost_of);
       const std::vector<double> strength = opacities(track, way, fps_, frames);

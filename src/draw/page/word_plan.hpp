@@ -27,6 +27,7 @@ std::vector<Obstacle> obstacles_of(const Picture& picture, bool may_yield = fals
 inline constexpr double kWordStep = 0.02;
 // The rate of frames of a picture by itself, which is looked at for so long that any word is worth its place.
 inline constexpr double kLooksPerSecond = 0.1;
+inline constexpr double kBetweenWords = 0.006;
 // Between a word and what it keeps off.
 inline constexpr double kWordAir = 0.004;
 
@@ -46,7 +47,7 @@ class WordPlan {
     std::vector<Rect> places;      // moved into the area
     std::vector<Ground> grounds;  // what lies there
     bool insists = false;         // rather on anything than nowhere
-    std::vector<double> leaders;  // of those that insist: what the lines from the places cost
+    std::vector<double> leaders;  // of words with a line: what that from each place costs
   };
   // One word from frame to frame.
   using Track = std::vector<Moment>;

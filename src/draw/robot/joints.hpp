@@ -46,6 +46,14 @@ inline ChainLook look_of(const Skeleton& skeleton, const Camera& camera, const T
           theme.lines};
 }
 
+// With links no wider than that.
+inline ChainLook narrowed(ChainLook look, double widest) {
+  look.link_width = std::min(look.link_width, widest);
+  look.joint_disc = std::min(look.joint_disc, 1.1 * look.link_width);
+  look.rails = std::min(look.rails, look.marks * look.link_width / kWidthOfFullRails);
+  return look;
+}
+
 // An opaque colour between the background (0) and `color` (1): onion skins hide what lies behind them, so
 // that their inner outlines do not shine through.
 inline Color toned(Color color, const ChainLook& look) {
