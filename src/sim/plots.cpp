@@ -79,7 +79,26 @@ std::string title_of(PlotQuantity quantity, const Chain& chain) {
   return {};
 }
 
-void add_plot(PlotSet& plots, const PlotEntry& entry, const Chain& chain, int rows) {
+// Of an expression that is one name; "" where that has none, or is a parameter of the scene.
+std::string unit_of_name(const PlotSet& plots, const Chain& chain, const std::optional<Foot>& foot, const std::string& name) {
+  const Parameters of_foot = foot ? foot_parameters(*foot) : Parameters{};
+  if (std::any_of(of_foot.begin(), of_foot.end(), [&](const auto& one) { return one.first == name; })) return name == "grf" ? "N" : "m";
+  const std::vector<std::string>& names = plots.probe.names();
+  const int slot = int(std::find(names.begin(), names.end(), name) - names.begin());
+  if (slot == int(names.size())) return "";
+  if (slot == 0) return "s";
+  if (plots.probe.is_kinematic(slot)) return plots.probe.is_velocity(slot) ? "m/s" : "m";
+  for (const Body& body : chain.bodies) {
+    const Joint& joint = body.joint;
+    const bool turns = joint.kind == JointKind::revolute;
+    if (joint.kind != JointKind::revolute && joint.kind != JointKind::prismatic) continue;
+    if (slot == 1 + joint.q_index) return turns ? "rad" : "m";
+    if (slot == 1 + chain.nq + joint.v_index) return turns ? "rad/s" : "m/s";
+  }
+  return "";
+}
+
+void add_plot(PlotSet& plots, const PlotEntry& entry, const Chain& chain, const std::optional<Foot>& foot, int rows) {
   PlotSet::Plot plot;
   plot.quantity = value_named<PlotQuantity>(entry.value).value_or(PlotQuantity::expression);
   plot.title = entry.title.empty() ? title_of(plot.quantity, chain) : entry.title;
@@ -88,7 +107,10 @@ void add_plot(PlotSet& plots, const PlotEntry& entry, const Chain& chain, int ro
     throw Error(ExitCode::bad_input, "there is no " + to_string(plot.quantity) + " to plot: the scene has no constraints", entry.place);
   if (plot.quantity == PlotQuantity::expression) {
     plot.value = Expression::parse(entry.value, plots.probe.names(), entry.place);
-    if (plot.title.empty()) plot.title = entry.value;
+    if (plot.title.empty()) {
+      const std::string unit = unit_of_name(plots, chain, foot, entry.value);
+      plot.title = entry.value + (unit.empty() ? "" : " [" + unit + "]");
+    }
     for (const int slot : plot.value->used_variables()) {
       plots.needs_kinematics |= plots.probe.is_kinematic(slot);
       require_frame_of(chain, plots.probe, slot, entry.place);
@@ -205,7 +227,7 @@ std::shared_ptr<const PlotSet> make_plots(const Chain& chain, const std::vector<
   ProblemList problems;
   for (const PlotEntry& entry : entries) {
     try {
-      add_plot(*plots, entry, chain, rows);
+      add_plot(*plots, entry, chain, foot, rows);
     } catch (const Error& error) {
       for (const Problem& problem : error.problems()) problems.add(problem.message, problem.place);
     }

@@ -102,9 +102,7 @@ std::string latex_formulas_of(const SymbolicEquation& equation, const EquationFo
   const std::string& angle = form.angle;
   const Writer writer(Notation::latex, equation, angle);
   const bool dissipates = any(equation.damping) || any(equation.friction);
-  const std::string q = std::all_of(equation.turns.begin(), equation.turns.end(), [](bool b) { return b; }) && angle == "theta"
-                            ? "\\theta"
-                            : "q";
+  const std::string q = letter_of_all(equation, angle) == "theta" ? "\\theta" : "q";
   const std::string qd = "\\dot{" + q + "}";
   std::string text;
   if (form.has("equation"))

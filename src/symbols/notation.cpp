@@ -28,18 +28,18 @@ std::string list_in_text(const Writer& writer, const std::string& letter, const 
   return text;
 }
 
-std::string equation_in_text(const SymbolicEquation& equation) {
+std::string equation_in_text(const SymbolicEquation& equation, const std::string& q) {
   const bool dissipates = any(equation.damping) || any(equation.friction);
-  return std::string("tau = M(q) qdd + C(q, qd) qd + g(q)") + (dissipates ? " + tau_f(qd)" : "");
+  return "tau = M(" + q + ") " + q + "dd + C(" + q + ", " + q + "d) " + q + "d + g(" + q + ")" + (dissipates ? " + tau_f(" + q + "d)" : "");
 }
 
-std::string dissipation_in_text(const Writer& writer, const SymbolicEquation& equation) {
+std::string dissipation_in_text(const Writer& writer, const SymbolicEquation& equation, const std::string& q) {
   if (!any(equation.damping) && !any(equation.friction)) return "";
-  std::string text = "\ntau_f(qd):\n";
+  std::string text = "\ntau_f(" + q + "d):\n";
   for (std::size_t i = 0; i < equation.damping.size(); ++i) {
     const std::string sign = equation.friction[i].is_zero()
                                  ? ""
-                                 : writer.write(equation.friction[i]) + " tanh(qd_" + std::to_string(i + 1) + " / " +
+                                 : writer.write(equation.friction[i]) + " tanh(" + (equation.turns[i] ? q : std::string("q")) + "d_" + std::to_string(i + 1) + " / " +
                                        format_shortest(kFrictionSmoothing) + ")";
     const std::string linear = equation.damping[i].is_zero() ? "" : writer.write(equation.damping[i]);
     text += "  tau_f_" + std::to_string(i + 1) + " = " +
@@ -48,15 +48,15 @@ std::string dissipation_in_text(const Writer& writer, const SymbolicEquation& eq
   return text;
 }
 
-std::string task_in_text(const Writer& writer, const SymbolicEquation& equation, const EquationForm& form) {
+std::string task_in_text(const Writer& writer, const SymbolicEquation& equation, const EquationForm& form, const std::string& q) {
   if (equation.end_effector.empty()) return "";
   std::string text;
   if (form.has("J"))
-    text += "\nJ(q), of " + equation.end_effector + " along " + joined(equation.axes) + ":\n" + entries_in_text(writer, "J", equation.J);
+    text += "\nJ(" + q + "), of " + equation.end_effector + " along " + joined(equation.axes) + ":\n" + entries_in_text(writer, "J", equation.J);
   if (!form.has("Lambda")) return text;
   if (!equation.Lambda)
-    return text + "\nLambda(q) = (J M^-1 J^T)^-1, which has no short form: J is not square, nowhere regular, or its inverse is long\n";
-  return text + "\nLambda(q) = J^-T M J^-1 = N / D^2:\n  D = " + writer.write(equation.Lambda->root) + "\n" +
+    return text + "\nLambda(" + q + ") = (J M^-1 J^T)^-1, which has no short form: J is not square, nowhere regular, or its inverse is long\n";
+  return text + "\nLambda(" + q + ") = J^-T M J^-1 = N / D^2:\n  D = " + writer.write(equation.Lambda->root) + "\n" +
          entries_in_text(writer, "N", equation.Lambda->numerator);
 }
 
@@ -65,6 +65,10 @@ std::string padded(const std::string& text, std::size_t width) {
 }
 
 }  // namespace
+
+std::string letter_of_all(const SymbolicEquation& equation, const std::string& angle) {
+  return std::all_of(equation.turns.begin(), equation.turns.end(), [](bool turns) { return turns; }) ? angle : "q";
+}
 
 std::string symbol_in(Notation notation, const SymbolicEquation& equation, const Symbol& symbol, const std::string& angle) {
   return Writer(notation, equation, angle).name(symbol);
@@ -77,12 +81,13 @@ std::string formula_in(Notation notation, const SymbolicEquation& equation, cons
 
 std::string text_of(const SymbolicEquation& equation, const EquationForm& form) {
   const Writer writer(Notation::text, equation, form.angle);
-  std::string text = equation.model + ": " + equation_in_text(equation) + "\n";
-  if (form.has("M")) text += "\nM(q):\n" + entries_in_text(writer, "M", equation.M);
-  if (form.has("C")) text += "\nC(q, qd):\n" + entries_in_text(writer, "C", equation.C);
-  if (form.has("g")) text += "\ng(q):\n" + list_in_text(writer, "g", equation.g);
-  if (form.has("tau_f")) text += dissipation_in_text(writer, equation);
-  text += task_in_text(writer, equation, form) + "\nwith\n";
+  const std::string q = letter_of_all(equation, form.angle);
+  std::string text = equation.model + ": " + equation_in_text(equation, q) + "\n";
+  if (form.has("M")) text += "\nM(" + q + "):\n" + entries_in_text(writer, "M", equation.M);
+  if (form.has("C")) text += "\nC(" + q + ", " + q + "d):\n" + entries_in_text(writer, "C", equation.C);
+  if (form.has("g")) text += "\ng(" + q + "):\n" + list_in_text(writer, "g", equation.g);
+  if (form.has("tau_f")) text += dissipation_in_text(writer, equation, q);
+  text += task_in_text(writer, equation, form, q) + "\nwith\n";
   for (const Symbol& symbol : equation.symbols)
     text += "  " + padded(writer.name(symbol), 8) +
             (symbol.is_coordinate() ? padded("in " + symbol.unit, 24)

@@ -11,6 +11,9 @@ namespace chainreel {
 
 enum class Notation { text, latex, python };
 
+// The letter of all coordinates together: `angle` where all of them turn, else "q".
+std::string letter_of_all(const SymbolicEquation& equation, const std::string& angle);
+
 // `angle`: "q" or "theta", the letter of coordinates that turn; in Python q is an array of all.
 std::string formula_in(Notation notation, const SymbolicEquation& equation, const Formula& formula,
                           const std::string& angle = "q");

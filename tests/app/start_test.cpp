@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 #include <map>
 #include <sstream>
 
@@ -257,6 +258,20 @@ TEST(Installed, TreeMayBeMovedAndKnowsItsScenesByName) {
                            "share/zsh/vendor-completions/_chainreel", "share/fish/vendor_completions.d/chainreel.fish",
                            "share/doc/chainreel/copyright"})
     EXPECT_TRUE(fs::is_regular_file(folder.path() / "moved" / file)) << file;
+  // Pages call the program by its name, and what they link to is there.
+  static const std::regex link(R"(\]\(([^)#]+)\))");
+  std::vector<fs::path> pages{folder.path() / "moved/share/doc/chainreel/README.md"};
+  for (const auto& page : fs::directory_iterator(folder.path() / "moved/share/chainreel/assets/guide"))
+    if (page.path().extension() == ".md") pages.push_back(page.path());
+  EXPECT_GT(pages.size(), 10u);
+  for (const fs::path& page : pages) {
+    const std::string text = read_whole_file(page.string());
+    EXPECT_THAT(text, testing::Not(HasSubstr("build/chainreel"))) << page;
+    for (std::sregex_iterator at(text.begin(), text.end(), link), end; at != end; ++at) {
+      const std::string target = (*at)[1].str();
+      if (!target.starts_with("http")) EXPECT_TRUE(fs::exists(page.parent_path() / target)) << page << ": " << target;
+    }
+  }
   // What roff has to say of the pages.
   for (const auto& page : fs::directory_iterator(folder.path() / "moved/share/man/man1")) {
     const ProgramResult set = run_command({"groff", "-man", "-ww", "-z", "-Tutf8", "-Kutf8", page.path().string()});

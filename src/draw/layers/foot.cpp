@@ -17,6 +17,7 @@ namespace chainreel {
 namespace {
 
 constexpr double kWeightArrow = 0.15;  // units of H: as long is the force that bears the weight
+constexpr double kBesideOthers = 0.55;  // ... of that, where panels or plots share the page: the robot is what one looks at
 constexpr double kMostRoom = 1.5;      // weights: the camera holds arrows of so much, longer ones lead out of the scene
 constexpr double kPressure = 0.0075;   // units of H: radius of the centre of pressure
 constexpr double kFarthest = 3;        // lengths of the foot: beyond, the arrow tells nothing
@@ -80,7 +81,8 @@ PageLine across(const Rect& area, Point a, Point b) {
 
 class FootLayer : public Layer {
  public:
-  explicit FootLayer(const Stage& stage) : theme_(&stage.theme) {
+  explicit FootLayer(const Stage& stage)
+      : theme_(&stage.theme), arrow_(kWeightArrow * (stage.has_cells() || !stage.page.plot.empty() ? kBesideOthers : 1)) {
     for (const StagedRun& motion : stage.motions)
       if (is_of(motion) && motion.has_foot()) runs_.emplace(&motion, motion);
     const auto first = runs_.find(&stage.motions.front());
@@ -88,10 +90,10 @@ class FootLayer : public Layer {
   }
 
   void write(SheetText& text) const override {
-    constexpr double kShare = 0.3;  // of the weight, at most
+    constexpr double kLegend = 0.045;  // units of H, at most
     if (!weight_) return;
-    const double force = round_length(kShare * *weight_);
-    text.scales.push_back({ScaleEntry::Mark::arrow, kWeightArrow * force / *weight_, theme_->constraint,
+    const double force = round_length(kLegend / arrow_ * *weight_);
+    text.scales.push_back({ScaleEntry::Mark::arrow, arrow_ * force / *weight_, theme_->constraint,
                            "ground reaction " + format_shortest(force) + " N", kAfterVectors, true});
   }
 
@@ -111,7 +113,7 @@ class FootLayer : public Layer {
     const FootRun& run = known->second;
     const FootRun::Answer& answer = run.answers[std::size_t(std::clamp(sight.k, 0, int(run.answers.size()) - 1))];
     if (!run.is_shown(answer)) return;
-    box.add({0, 0, kWeightArrow * std::min(kMostRoom, answer.force.dot(run.ground.up)), 0}, sight.camera.flat(run.on_ground(answer.place)));
+    box.add({0, 0, arrow_ * std::min(kMostRoom, answer.force.dot(run.ground.up)), 0}, sight.camera.flat(run.on_ground(answer.place)));
   }
 
   void draw_once(Picture& picture, const Panel& panel) const override {
@@ -135,7 +137,7 @@ class FootLayer : public Layer {
     const FootRun::Answer& answer = run.answers[std::size_t(std::clamp(shot.k, 0, int(run.answers.size()) - 1))];
     if (!run.is_shown(answer)) return;
     const Camera& camera = panel.camera();
-    const Point force = (kWeightArrow / camera.scale) * camera.project_vector(answer.force, camera.focus);
+    const Point force = (arrow_ / camera.scale) * camera.project_vector(answer.force, camera.focus);
     const bool stands = answer.place >= run.foot.heel && answer.place <= run.foot.toe;
     const ChainLook& look = panel.look();
     const Point pressure = camera.project(run.on_ground(answer.place));
@@ -147,6 +149,7 @@ class FootLayer : public Layer {
 
  private:
   const Theme* theme_;
+  double arrow_;  // units of H: the weight's
   std::map<const StagedRun*, FootRun> runs_;
   std::optional<double> weight_;  // N, of the first run
 };
