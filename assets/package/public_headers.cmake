@@ -13,7 +13,7 @@ set(sim_headers
   dynamics/constraints/constraint_projection.hpp dynamics/constraints/constraint_set.hpp
   dynamics/kernels/constrained_kernel.hpp dynamics/kernels/kernel_planar.hpp dynamics/kernels/kernel_spatial.hpp
   dynamics/kernels/taylor_planar.hpp sim/audit.hpp sim/drive/control.hpp sim/drive/limits.hpp sim/drive/pushes.hpp
-  sim/drive/linear_drive.hpp sim/drive/probe.hpp sim/drive/reference.hpp sim/drive/state_corners.hpp
+  sim/drive/linear_drive.hpp sim/drive/probe.hpp sim/drive/reference.hpp sim/drive/state_corners.hpp sim/drive/task_torque.hpp
   sim/drive/torque.hpp sim/drive/torque_function.hpp sim/plots.hpp sim/simulate.hpp sim/system/chain_system.hpp
   sim/system/constrained_chain.hpp sim/system/constraint_plan.hpp sim/system/even_sides.hpp sim/system/trajectory.hpp
   sim/watch/events.hpp

@@ -177,6 +177,17 @@ std::vector<std::vector<Reaction>> reactions_along(const Simulation& simulation,
   return reactions;
 }
 
+std::vector<TaskTarget> task_targets_along(const Simulation& simulation, const Trajectory& trajectory) {
+  std::vector<TaskTarget> targets;
+  simulation.torque->leave_pieces();
+  for (int k = 0; k < trajectory.size(); ++k) {
+    std::optional<TaskTarget> own = simulation.torque->task_at(trajectory.t[std::size_t(k)]);
+    if (!own) return {};
+    targets.push_back(*own);
+  }
+  return targets;
+}
+
 std::optional<double> rounding_of(const Chain& chain, const std::vector<std::vector<Reaction>>& reactions) {
   constexpr double kRounding = 1e-6;
   double mass = 0, largest = 0;

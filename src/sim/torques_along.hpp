@@ -39,6 +39,9 @@ std::vector<LinearDrive> linear_drives(const Simulation& simulation);
 // none; empty where no joint does, and with floating joints.
 std::vector<double> references_along(const Simulation& simulation, const Trajectory& trajectory);
 
+// The places that feedback in the space of the task pulls to at each sample; empty where there is none.
+std::vector<TaskTarget> task_targets_along(const Simulation& simulation, const Trajectory& trajectory);
+
 // The force on the robot (N, W) at the place where a constraint holds it.
 struct Reaction {
   int frame = 0;  // index into chain.frames: its origin is the place

@@ -148,6 +148,19 @@ TEST_F(ReadScene, ReadsControlsForTheWholeChainAndForOneJoint) {
   EXPECT_EQ(one.torque[1].control->computed_torque->trajectory, folder_.file("q.csv"));
 }
 
+TEST_F(ReadScene, WritesFeedbackOfATaskAndWhatIsAddedAsItReadsThem) {
+  const std::string text =
+      "torque: {task: {frame: link2, kp: [400, 300], kd: 80, x: [0.8*cos(t), 0.5], xd: [0, 0]}, gravity_compensation: true, plus: [-qd1, 0]}";
+  const Scene scene = read(text + "\n");
+  ASSERT_TRUE(scene.control && scene.control->task);
+  EXPECT_EQ(scene.control->task->frame, "link2");
+  EXPECT_THAT(scene.control->task->kp, ElementsAre(400, 300));
+  EXPECT_EQ(scene.control->task->x[0].text, "0.8*cos(t)");
+  EXPECT_THAT(scene_text(scene), HasSubstr(text));
+  EXPECT_THAT(error("torque: {task: 5}\n"), HasSubstr("a place to go to and gains"));
+  EXPECT_THAT(error("torque: {task: {x: [0, 0], kq: 5}}\n"), HasSubstr("unknown key 'torque.task.kq'"));
+}
+
 TEST_F(ReadScene, SaysWhatIsWrongWithAControl) {
   EXPECT_THAT(error("torque: {pdd: {}}\n"), HasSubstr("unknown key 'torque.pdd': did you mean 'pd'?"));
   EXPECT_THAT(error("torque: {pd: {kp: 1, kq: 2}}\n"), HasSubstr("unknown key 'torque.pd.kq'"));

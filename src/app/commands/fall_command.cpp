@@ -112,6 +112,10 @@ void print_table(const FallTable& table, const std::string& set, bool searched) 
   }
   std::fputs(table_text(rows).c_str(), stdout);
   for (const FallEdge& edge : table.edges) std::printf("%s\n", to_words(table, edge).c_str());
+  if (table.bears && std::any_of(table.rows.begin(), table.rows.end(), [&](const FallRow& row) { return what_became_of(table, row) == FallEnd::tips; }))
+    std::printf("behind that the ankle goes on holding, which no ground bears: cut its torque at what a foot at rest does, %s N m over the heel and %s N m "
+                "over the toe, by max(.., min(.., ..)), to see the fall\n",
+                format_significant(table.bears->first, 3).c_str(), format_significant(table.bears->second, 3).c_str());
   if (searched && table.edges.empty()) std::printf("no edges: all rows end alike\n");
   if (!set.empty()) std::printf("with %s\n", set.c_str());
   // Of a setting that the table's rows have, each its own, nothing is said.

@@ -1,5 +1,6 @@
 // The layer `target`: the pose that feedback follows, in outline below the chain, and what proportional feedback pulls with:
-// a coil from each joint's target to where it is.
+// a coil from each joint's target to where it is; or the place that feedback in the space of the task pulls a frame to, with the coil
+// between both.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -20,13 +21,17 @@ using Eigen::Vector3d;
 constexpr double kTargetShown = 0.55;      // strength of the outline
 constexpr double kTargetStroke = 0.8;      // of an outline's width
 constexpr double kCoilAbout = 0.078;       // radius of coils about joints, units of H
+constexpr double kPlace = 0.013, kPlaceLine = 0.0025;  // of a place that a frame is pulled to: radius of its ring, width of its lines
 constexpr double kShortestCoil = 0.004;    // units of H
 
 class Target : public Layer {
  public:
   explicit Target(const Stage& stage) {
     for (const StagedRun& motion : stage.motions) {
-      if (motion.is_outlined() || motion.shapes() || motion.simulation() == nullptr) continue;
+      if (motion.is_outlined() || motion.simulation() == nullptr) continue;
+      if (std::vector<TaskTarget> places = task_targets_along(*motion.simulation(), motion.trajectory()); !places.empty())
+        places_.emplace(&motion, std::move(places));
+      if (motion.shapes()) continue;
       std::vector<double> q = references_along(*motion.simulation(), motion.trajectory());
       if (q.empty()) continue;
       Followed followed{std::move(q), {}, std::make_unique<Workspace>(motion.chain()),
@@ -40,6 +45,8 @@ class Target : public Layer {
   UnderWords under_words() const override { return UnderWords::never; }
 
   void measure(const Sight& sight, FitBox& box) const override {
+    if (const auto places = places_.find(&sight.motion); places != places_.end() && sight.k < int(places->second.size()))
+      box.add(room_around(kPlace), sight.camera.flat(places->second[std::size_t(sight.k)].place));
     const auto found = followed_.find(&sight.motion);
     if (found == followed_.end()) return;
     pose(found->second, sight.motion.chain(), sight.k);
@@ -50,6 +57,8 @@ class Target : public Layer {
 
   void draw(Picture& picture, const Shot& shot) const override {
     const Panel& panel = shot.panel;
+    if (const auto places = places_.find(&panel.motion()); places != places_.end() && shot.k < int(places->second.size()))
+      draw_place(picture, shot, places->second[std::size_t(shot.k)]);
     const auto found = followed_.find(&panel.motion());
     if (found == followed_.end()) return;
     const Followed& followed = found->second;
@@ -110,7 +119,24 @@ class Target : public Layer {
     draw_round_coil(picture, turn, radius, wanted, q, panel.marks(), color, panel.clip());
   }
 
+  // A ring with a cross at the place, and the coil from there to the frame.
+  static void draw_place(Picture& picture, const Shot& shot, const TaskTarget& target) {
+    const Panel& panel = shot.panel;
+    const Color color = toned(panel.look().theme->torque, panel.look());
+    const Vector3d tip = frame_position(panel.chain(), shot.ws, target.frame);
+    const Vector3d place = target.place + target.free.dot(tip) * target.free;
+    const Point at = panel.camera().project(place), from = panel.camera().project(tip);
+    if (!is_drawable(at) || !is_drawable(from)) return;
+    if (norm(from - at) > kPlace) draw_coil(picture, at, from, panel.look().rails, color, panel.clip());
+    const double radius = panel.marks() * kPlace;
+    const Paint line{{}, color, panel.marks() * kPlaceLine};
+    picture.add(Ellipse{at, {radius, 0}, {0, radius}, line}, panel.clip());
+    for (const Point way : {Point{1, 0}, Point{0, 1}})
+      picture.add(Capsule{at - 1.5 * radius * way, at + 1.5 * radius * way, panel.marks() * kPlaceLine / 2, {color, {}, 0}}, panel.clip());
+  }
+
   std::map<const StagedRun*, Followed> followed_;
+  std::map<const StagedRun*, std::vector<TaskTarget>> places_;  // a sample each
 };
 
 }  // namespace

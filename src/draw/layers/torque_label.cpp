@@ -185,10 +185,12 @@ std::string control_notation(const Control& control) {
   add(!control.csv.empty() || !control.inverse_of.empty(), "tau(t)");
   add(control.pd.has_value(), "PD");
   add(control.computed_torque.has_value(), "computed torque");
+  add(control.task.has_value(), "J^T F");
   if (control.function) add(true, function_notation(*control.function));
   std::vector<std::string> plus;
   for (const Entry& entry : control.plus) plus.push_back(conditional_notation(entry.text).value_or(entry_notation(entry.text)));
-  if (!plus.empty()) add(true, plus.size() == 1 ? plus.front() : "(" + list_of(plus, plus.size()) + ")");
+  const bool adds = std::any_of(plus.begin(), plus.end(), [](const std::string& one) { return one != "0"; });
+  if (adds) add(true, plus.size() == 1 ? plus.front() : "(" + list_of(plus, plus.size()) + ")");
   return sum.empty() ? "0" : sum;
 }
 

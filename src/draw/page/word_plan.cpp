@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <ranges>
@@ -105,10 +106,18 @@ bool moves_on(const Rect& before, const Rect& now) {
   return norm(center_of(now) - center_of(before)) <= kWordStep;
 }
 
+// Whether its outer rectangle does.
+bool reaches(const Obstacle& one, const Rect& room) {
+  return std::max(one.a.x, one.b.x) + one.radius >= room.x0 && std::min(one.a.x, one.b.x) - one.radius <= room.x1 &&
+         std::max(one.a.y, one.b.y) + one.radius >= room.y0 && std::min(one.a.y, one.b.y) - one.radius <= room.y1;
+}
+
 // What a line from a word crosses, or runs along.
 double cost_of_line(Point from, Point to, const std::vector<Obstacle>& obstacles) {
   int crossed = 0;
+  const Rect room{std::min(from.x, to.x), std::min(from.y, to.y), std::max(from.x, to.x), std::max(from.y, to.y)};
   for (const Obstacle& obstacle : obstacles) {
+    if (!reaches(obstacle, room)) continue;
     const Point line = to - from, piece = obstacle.b - obstacle.a;
     const double s = cross(line, obstacle.a - from), t = cross(line, obstacle.b - from);
     const double u = cross(piece, from - obstacle.a), v = cross(piece, to - obstacle.a);
@@ -129,6 +138,18 @@ double cost_of_leader(const Leader& leader, const Rect& box, const std::vector<O
 double cost_of_tie(const Tie& tie, const Rect& box, const std::vector<Obstacle>& obstacles) {
   const std::optional<TieLine> line = line_of(tie, box);
   return line ? cost_of_line(line->from, line->to, obstacles) : 0;
+}
+
+// Those that any place of a word, or its line from there, may meet.
+std::vector<Obstacle> obstacles_near(const MarkWord& word, const Rect& area, const std::vector<Obstacle>& obstacles) {
+  Rect room = moved_into(area, word.places.front());
+  for (const Rect& place : word.places) room = around(room, moved_into(area, place));
+  for (const Point to : {word.leader ? word.leader->to : center_of(room), word.tie ? word.tie->to : center_of(room)})
+    room = around(room, {to.x, to.y, to.x, to.y});
+  std::vector<Obstacle> near;
+  room = widened(room, kWordAir);
+  std::copy_if(obstacles.begin(), obstacles.end(), std::back_inserter(near), [&](const Obstacle& one) { return reaches(one, room); });
+  return near;
 }
 
 constexpr int kNowhere = -1;
@@ -165,16 +186,17 @@ void WordPlan::add(const std::vector<MarkWord>& words, const std::vector<Obstacl
   const std::size_t most = words.size() > kCrowdOfWords ? 1 : std::numeric_limits<std::size_t>::max();
   for (std::size_t i = 0; i < words.size(); ++i) {
     Moment now{frame, int(i), {}, {}, words[i].leader.has_value(), {}};
+    const std::vector<Obstacle> near = obstacles_near(words[i], area_, obstacles);
     for (const Rect& wish : words[i].places) {
       if (now.places.size() == most) break;
       const Rect box = moved_into(area_, wish);
       Ground ground = norm(center_of(box) - center_of(wish)) <= kLeavesWith ? Ground::free : Ground::taken;
-      for (std::size_t o = 0; ground != Ground::taken && o < obstacles.size(); ++o)
-        if (touches(box, obstacles[o])) ground = obstacles[o].may_yield || now.insists ? Ground::poor : Ground::taken;
+      for (std::size_t o = 0; ground != Ground::taken && o < near.size(); ++o)
+        if (touches(box, near[o])) ground = near[o].may_yield || now.insists ? Ground::poor : Ground::taken;
       now.places.push_back(box);
       now.grounds.push_back(ground);
-      if (words[i].leader) now.leaders.push_back(cost_of_leader(*words[i].leader, box, obstacles));
-      if (words[i].tie && !words[i].leader) now.leaders.push_back(cost_of_tie(*words[i].tie, box, obstacles));
+      if (words[i].leader) now.leaders.push_back(cost_of_leader(*words[i].leader, box, near));
+      if (words[i].tie && !words[i].leader) now.leaders.push_back(ground == Ground::taken ? 0 : cost_of_tie(*words[i].tie, box, near));
     }
     track_of(words[i], frame).push_back(std::move(now));
   }

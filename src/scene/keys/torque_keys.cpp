@@ -78,6 +78,24 @@ std::optional<Feedback> read_feedback(Fields& fields, const std::string& key, co
   return feedback;
 }
 
+std::optional<TaskFeedback> read_task(Fields& fields) {
+  const YAML::Node node = fields.find("task");
+  if (!node.IsDefined()) return std::nullopt;
+  std::optional<Fields> inner = fields.section("task", "a place to go to and gains: {kp: 100, kd: 20, x: [\"0.5*cos(t)\", 0.5]}");
+  if (!inner) return std::nullopt;
+  TaskFeedback task;
+  task.place = fields.place_of(node, "task");
+  inner->read("frame", task.frame);
+  task.kp = read_gains(*inner, "kp", "N/m");
+  task.kd = read_gains(*inner, "kd", "N s/m");
+  task.x = read_entries(*inner, "x");
+  task.xd = read_entries(*inner, "xd");
+  for (const char* one : {"kp", "kd"})
+    if (const YAML::Node list = inner->find(one); list.IsSequence() && list.size() == 1) task.lists_of_one.push_back(one);
+  inner->finish();
+  return task;
+}
+
 Control read_control(Fields& fields, const YAML::Node& node, const std::string& key) {
   Fields inner(fields.document(), node, fields.path(key), fields.problems());
   Control control;
@@ -90,6 +108,7 @@ Control read_control(Fields& fields, const YAML::Node& node, const std::string& 
   control.outside = read_outside(inner, !control.csv.empty() || !control.inverse_of.empty(), "csv or inverse_of");
   control.pd = read_feedback(inner, "pd", "N m/rad or N/m", "N m s/rad or N s/m");
   control.computed_torque = read_feedback(inner, "computed_torque", "1/s^2", "1/s");
+  control.task = read_task(inner);
   inner.read("gravity_compensation", control.gravity_compensation);
   control.plus = read_entries(inner, "plus", "an expression");
   control.plus_is_list_of_one = control.plus.size() == 1 && inner.find("plus").IsSequence();
@@ -113,21 +132,33 @@ void emit_entries(YAML::Emitter& out, const char* name, const std::vector<Entry>
     emit_list(out, list, [](const Entry& entry) { return entry.text; });
 }
 
+void emit_gains(YAML::Emitter& out, const char* name, const std::vector<double>& list) {
+  std::vector<Entry> entries;
+  for (const double gain : list) entries.push_back({format_shortest(gain), {}});
+  emit_entries(out, name, entries);
+}
+
 void emit_feedback(YAML::Emitter& out, const std::string& key, const std::optional<Feedback>& feedback) {
   if (!feedback) return;
   out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginMap;
-  const auto gains = [&](const char* name, const std::vector<double>& list) {
-    std::vector<Entry> entries;
-    for (const double gain : list) entries.push_back({format_shortest(gain), {}});
-    emit_entries(out, name, entries);
-  };
-  gains("kp", feedback->kp);
-  gains("kd", feedback->kd);
+  emit_gains(out, "kp", feedback->kp);
+  emit_gains(out, "kd", feedback->kd);
   emit_entries(out, "q", feedback->q);
   emit_entries(out, "qd", feedback->qd);
   emit_entries(out, "qdd", feedback->qdd);
   if (!feedback->trajectory.empty()) out << YAML::Key << "trajectory" << YAML::Value << feedback->trajectory;
   if (feedback->outside) out << YAML::Key << "outside" << YAML::Value << to_string(*feedback->outside);
+  out << YAML::EndMap;
+}
+
+void emit_task(YAML::Emitter& out, const std::optional<TaskFeedback>& task) {
+  if (!task) return;
+  out << YAML::Key << "task" << YAML::Value << YAML::Flow << YAML::BeginMap;
+  if (!task->frame.empty()) out << YAML::Key << "frame" << YAML::Value << task->frame;
+  emit_gains(out, "kp", task->kp);
+  emit_gains(out, "kd", task->kd);
+  emit_entries(out, "x", task->x);
+  emit_entries(out, "xd", task->xd);
   out << YAML::EndMap;
 }
 
@@ -139,6 +170,7 @@ void emit_control(YAML::Emitter& out, const Control& control) {
   if (control.outside) out << YAML::Key << "outside" << YAML::Value << to_string(*control.outside);
   emit_feedback(out, "pd", control.pd);
   emit_feedback(out, "computed_torque", control.computed_torque);
+  emit_task(out, control.task);
   if (control.gravity_compensation) out << YAML::Key << "gravity_compensation" << YAML::Value << true;
   emit_entries(out, "plus", control.plus);
   if (control.function) out << YAML::Key << "function" << YAML::Value << control.function->words;
@@ -164,6 +196,18 @@ KeyText told_feedback(const char* name, const char* help) {
                      help);
 }
 
+KeyText told_task() {
+  const auto gain = [](const char* key, const char* what) {
+    return told_either(key, {told("", KeyForm::number, "for all"), told_list("", told("", KeyForm::number, ""), "one an axis")}, what);
+  };
+  return told_record("task",
+                     {told("frame", KeyForm::text, "whose origin is pulled; left out: the end effector"),
+                      gain("kp", "of the spring, N/m"), gain("kd", "of the damper, N s/m"),
+                      told_list("x", told("", KeyForm::expression, ""), "the place to go to, m: expressions in t, two along the axes of the plane of motion, or x y z"),
+                      told_list("xd", told("", KeyForm::expression, ""), "its velocity, where it is not the derivative")},
+                     "J^T (kp (x_ref - x) + kd (xd_ref - xd)): a spring and a damper that pull a frame to a place that moves; of the whole chain");
+}
+
 KeyText told_control(const char* name) {
   return told_record(name,
                      {told("csv", KeyForm::path, "a table with t,tau1..; linear between its rows, where steps end"),
@@ -173,6 +217,7 @@ KeyText told_control(const char* name) {
                       told_feedback("pd", "kp (q_ref - q) + kd (qd_ref - qd)"),
                       told_feedback("computed_torque", "M (qdd_ref + kd (qd_ref - qd) + kp (q_ref - q)) + nle + tau_f; as the entry of one joint "
                                                      "with one expression it asks for no acceleration of the others"),
+                      told_task(),
                       told("gravity_compensation", KeyForm::truth, "tau_g(q)"),
                       told_either("plus", {told("", KeyForm::expression, "of a joint, or for all alike"),
                                            told_list("", told("", KeyForm::expression, ""), "one a freedom")},

@@ -223,6 +223,25 @@ std::string fall_time_text(const Scene& scene, const Trajectory& trajectory) {
               : "more than " + format_significant(trajectory.end_time, 3) + " s";
 }
 
+namespace {
+
+std::optional<std::pair<double, double>> borne_by_foot(const Simulation& simulation) {
+  if (!simulation.events || !simulation.events->foot) return {};
+  const Chain& chain = simulation.chain;
+  double mass = 0;
+  std::vector<double> ankles;  // m along the ground
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
+    mass += chain.bodies[b].inertia.mass;
+    if (chain.bodies[b].parent == 0) ankles.push_back(chain.bodies[b].joint.X_PJ.translation().dot(simulation.events->ground.along));
+  }
+  if (ankles.size() != 1) return {};
+  const double weight = mass * chain.gravity.norm();
+  const Foot& foot = *simulation.events->foot;
+  return std::pair{weight * (ankles[0] - foot.heel), weight * (foot.toe - ankles[0])};
+}
+
+}  // namespace
+
 FallTable run_fall_table(const std::string& scene, const std::vector<std::string>& overrides,
                          const Sweep& sweep, const FallSearch& search, const StopRequest& stop) {
   FallTable table;
@@ -243,7 +262,9 @@ FallTable run_fall_table(const std::string& scene, const std::vector<std::string
   table.has_foot = first.foot.has_value();
   table.method = method_text(first);
   Scene counted = first;
-  require_possible(prepare(counted, false), double(table.rows.size()));
+  const Simulation simulation = prepare(counted, false);
+  require_possible(simulation, double(table.rows.size()));
+  table.bears = borne_by_foot(simulation);
   for (const std::string& doubt : counted.doubts) table.doubts.push_back(first.name + ": " + doubt);
   DoneShare done(table.rows.size());
   for_each_index(table.rows.size(), search.threads, [&](std::size_t k) {

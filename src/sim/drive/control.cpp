@@ -214,6 +214,11 @@ class SumOfTorques final : public TorqueLaw {
       if (part->reference_at(t, q)) return true;
     return false;
   }
+  std::optional<TaskTarget> task_at(double t) override {
+    for (const auto& part : parts_)
+      if (std::optional<TaskTarget> own = part->task_at(t)) return own;
+    return {};
+  }
   std::optional<AffineTorque> affine() const override {
     std::optional<AffineTorque> sum;
     for (const auto& part : parts_) {
@@ -345,6 +350,10 @@ std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& contr
         within(std::make_unique<ComputedTorque>(chain, reference_of(chain, *ct, parameters, control.place), gains(ct->kp, "kp"),
                                                 gains(ct->kd, "kd"), speaks_of_all ? std::nullopt : joint),
                ct->trajectory, ct->outside));
+  }
+  if (control.task) {
+    if (joint) throw Error(ExitCode::bad_input, "'task' pulls the whole chain: write torque: {task: {..}} in the place of the list", control.place);
+    parts.push_back(make_task_torque(chain, *control.task, parameters));
   }
   if (control.gravity_compensation) parts.push_back(std::make_unique<GravityCompensation>());
   if (!control.plus.empty() && !joint) {

@@ -10,6 +10,7 @@
 #include "core/names.hpp"
 #include "sim/drive/probe.hpp"
 #include "sim/drive/reference.hpp"
+#include "sim/drive/task_torque.hpp"
 #include "sim/drive/torque_function.hpp"
 
 namespace chainreel {
@@ -40,6 +41,7 @@ struct Control {
   std::optional<Outside> outside{};         // of these two tables; absent: held, and said
   std::optional<Feedback> pd;               // kp (q_ref - q) + kd (qd_ref - qd)
   std::optional<Feedback> computed_torque;  // M (qdd_ref + kd (qd_ref - qd) + kp (q_ref - q)) + nle + tau_f
+  std::optional<TaskFeedback> task{};       // J^T (kp (x_ref - x) + kd (xd_ref - xd)); of the whole chain alone
   bool gravity_compensation = false;        // tau_g(q)
   std::vector<Entry> plus{};                // expressions that are added: one a freedom, or one for all; of a joint one
   bool plus_is_list_of_one = false;         // it stands in brackets, and is none for all

@@ -9,29 +9,6 @@
 namespace chainreel {
 namespace {
 
-// J^T F: what the force at p does along each joint that carries the body.
-void add_force(const Chain& chain, const Workspace& ws, int body, const Eigen::Vector3d& p, const Eigen::Vector3d& force, Vec tau) {
-  for (; body > 0; body = chain.bodies[std::size_t(body)].parent) {
-    const Joint& joint = chain.bodies[std::size_t(body)].joint;
-    const Eigen::Isometry3d& X_WB = ws.X_WB[std::size_t(body)];
-    const Eigen::Vector3d moment = (p - X_WB.translation()).cross(force);
-    const auto at = [&](int i) -> double& { return tau[std::size_t(joint.v_index + i)]; };
-    switch (joint.kind) {
-      case JointKind::revolute:
-        at(0) += joint.ratio * (X_WB.linear() * joint.axis).dot(moment);
-        break;
-      case JointKind::prismatic:
-        at(0) += joint.ratio * (X_WB.linear() * joint.axis).dot(force);
-        break;
-      case JointKind::floating: {  // the base's own axes: force, then moment
-        const Eigen::Vector3d f = X_WB.linear().transpose() * force, m = X_WB.linear().transpose() * moment;
-        for (int i = 0; i < 3; ++i) at(i) += f[i], at(3 + i) += m[i];
-        break;
-      }
-    }
-  }
-}
-
 // What it evaluates is the law's; what it pushes with is not.
 class PushedLaw final : public TorqueLaw {
  public:
@@ -60,6 +37,7 @@ class PushedLaw final : public TorqueLaw {
   StateCorners* corners() override { return law_->corners(); }
   std::vector<LinearDrive> linear_drives(const Chain& chain) const override { return law_->linear_drives(chain); }
   bool reference_at(double t, Vec q) override { return law_->reference_at(t, q); }
+  std::optional<TaskTarget> task_at(double t) override { return law_->task_at(t); }
 
  private:
   std::unique_ptr<TorqueLaw> law_;
@@ -67,6 +45,30 @@ class PushedLaw final : public TorqueLaw {
 };
 
 }  // namespace
+
+// What the force does along each joint that carries the frame.
+void add_force(const Chain& chain, const Workspace& ws, int frame, const Eigen::Vector3d& force, Vec tau) {
+  const Eigen::Vector3d p = frame_position(chain, ws, frame);
+  for (int body = chain.frames[std::size_t(frame)].body; body > 0; body = chain.bodies[std::size_t(body)].parent) {
+    const Joint& joint = chain.bodies[std::size_t(body)].joint;
+    const Eigen::Isometry3d& X_WB = ws.X_WB[std::size_t(body)];
+    const Eigen::Vector3d moment = (p - X_WB.translation()).cross(force);
+    const auto at = [&](int i) -> double& { return tau[std::size_t(joint.v_index + i)]; };
+    switch (joint.kind) {
+      case JointKind::revolute:
+        at(0) += joint.ratio * (X_WB.linear() * joint.axis).dot(moment);
+        break;
+      case JointKind::prismatic:
+        at(0) += joint.ratio * (X_WB.linear() * joint.axis).dot(force);
+        break;
+      case JointKind::floating: {  // the base's own axes: force, then moment
+        const Eigen::Vector3d f = X_WB.linear().transpose() * force, m = X_WB.linear().transpose() * moment;
+        for (int i = 0; i < 3; ++i) at(i) += f[i], at(3 + i) += m[i];
+        break;
+      }
+    }
+  }
+}
 
 Pushes::Pushes(std::vector<ActingPush> list) : list_(std::move(list)), acts_in_piece_(list_.size()) {}
 
@@ -80,8 +82,7 @@ void Pushes::add_to(const Chain& chain, Workspace& ws, double t, ConstVec q, Con
     if (!acts(i, t)) continue;
     if (!is_placed) compute_kinematics(chain, ws, q, qd);
     is_placed = true;
-    const int frame = list_[i].frame;
-    add_force(chain, ws, chain.frames[std::size_t(frame)].body, frame_position(chain, ws, frame), list_[i].force, tau);
+    add_force(chain, ws, list_[i].frame, list_[i].force, tau);
   }
 }
 

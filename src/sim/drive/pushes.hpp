@@ -31,6 +31,9 @@ struct ActingPush {
   bool acts_at(double t) const { return from <= t && t < until; }
 };
 
+// tau += J^T F of a force in W at the origin of a frame, where `ws` holds the chain.
+void add_force(const Chain& chain, const Workspace& ws, int frame, const Eigen::Vector3d& force, Vec tau);
+
 class Pushes {
  public:
   explicit Pushes(std::vector<ActingPush> list);

@@ -17,6 +17,13 @@ namespace chainreel {
 class Pushes;
 class StateCorners;
 
+// Where feedback in the space of the task pulls a frame to.
+struct TaskTarget {
+  int frame = 0;          // index into Chain::frames
+  Eigen::Vector3d place;  // in W; along `free`, of length 0 or 1, it may be anywhere
+  Eigen::Vector3d free;
+};
+
 class TorqueLaw {
  public:
   virtual ~TorqueLaw() = default;
@@ -44,6 +51,7 @@ class TorqueLaw {
   virtual const Pushes* pushes() const { return nullptr; }
   // The coordinates of the reference motion that feedback follows, nv numbers; false where there is none.
   virtual bool reference_at(double, Vec) { return false; }
+  virtual std::optional<TaskTarget> task_at(double) { return {}; }
   // The law with the digits of Quad; false where it has none.
   virtual bool evaluate_in_quad(Quad, std::span<const Quad>, std::span<const Quad>, std::span<Quad>) const {
     return false;
