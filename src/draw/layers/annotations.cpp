@@ -73,37 +73,42 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
-// Each as long as the width lets it be; one word at least.
-std::vector<TextLine> lines_within(const Fonts& fonts, const std::string& text, const TextStyle& style, double width) {
-  std::vector<TextLine> lines;
-  std::string line;
-  TextLine laid_out;
-  for (const std::string& word : words_of(text)) {
-    const std::string longer = line.empty() ? word : line + " " + word;
-    const TextLine wider = lay_out_mixed(fonts, longer, style);
-    if (!line.empty() && wider.box.width() > width) {
-      lines.push_back(laid_out);
-      line = word;
-      laid_out = lay_out_mixed(fonts, line, style);
+// Where lines end, each as long as the width lets it be, and one word at least: the words behind them.
+std::vector<std::size_t> ends_within(const std::vector<double>& words, double space, double width) {
+  std::vector<std::size_t> ends;
+  double line = 0;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool begins = ends.empty() ? i == 0 : ends.back() == i;
+    if (!begins && line + space + words[i] > width) {
+      ends.push_back(i);
+      line = words[i];
     } else {
-      line = longer;
-      laid_out = wider;
+      line += (begins ? 0 : space) + words[i];
     }
   }
-  if (!line.empty()) lines.push_back(laid_out);
-  return lines;
+  ends.push_back(words.size());
+  return ends;
 }
 
 // On as few lines as the width needs, about equally long.
 TextLine lay_out_within(const Fonts& fonts, const std::string& text, const TextStyle& style, double width) {
-  std::vector<TextLine> lines = lines_within(fonts, text, style, width);
+  const std::vector<std::string> words = words_of(text);
+  std::vector<double> widths;
+  for (const std::string& word : words) widths.push_back(lay_out_mixed(fonts, word, style).advance);
+  const double space = lay_out_mixed(fonts, "a b", style).advance - lay_out_mixed(fonts, "ab", style).advance;
+  std::vector<std::size_t> ends = ends_within(widths, space, width);
   for (double narrower = kNarrower * width; narrower > kNarrowest * width; narrower *= kNarrower) {
-    std::vector<TextLine> even = lines_within(fonts, text, style, narrower);
-    if (even.size() > lines.size()) break;
-    lines = std::move(even);
+    std::vector<std::size_t> even = ends_within(widths, space, narrower);
+    if (even.size() > ends.size()) break;
+    ends = std::move(even);
   }
   TextLine whole;
-  for (std::size_t i = 0; i < lines.size(); ++i) append(whole, lines[i], {0, -double(i) * kLeading * style.size});
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < ends.size(); first = ends[i++]) {
+    std::string line;
+    for (std::size_t k = first; k < ends[i]; ++k) line += (k > first ? " " : "") + words[k];
+    append(whole, lay_out_mixed(fonts, line, style), {0, -double(i) * kLeading * style.size});
+  }
   return whole;
 }
 
