@@ -155,16 +155,20 @@ YAML::Node child_of(YAML::Node node, const std::string& part, const Change& chan
   return node[std::size_t(*index) - 1];
 }
 
-// Puts the value where the rest of the dotted key leads; mappings that are not there yet are made.
-void apply(YAML::Node node, const std::string& key, const Change& change) {
+// Puts the value where the rest of the dotted key leads; mappings that are not there yet are made. `is_panel`: the node is one of
+// `compare`, whose keys are laid over the page's: there a way that it does not begin itself stays whole, as one writes it.
+void apply(YAML::Node node, const std::string& key, const Change& change, bool is_panel = false) {
   const std::size_t dot = key.find('.');
-  YAML::Node child = child_of(node, key.substr(0, dot), change);
-  if (dot == std::string::npos) {
+  const bool is_whole = dot != std::string::npos && node.IsMap() &&
+                        (node[key].IsDefined() || (is_panel && !node[key.substr(0, dot)].IsDefined()));
+  YAML::Node child = is_whole ? node[key] : child_of(node, key.substr(0, dot), change);
+  if (dot == std::string::npos || is_whole) {
     child = change.value;
     return;
   }
   if (!child.IsDefined() || child.IsNull()) child = YAML::Node(YAML::NodeType::Map);
-  apply(child, key.substr(dot + 1), change);
+  const bool is_of_panels = change.key.starts_with("compare.") && key.size() == change.key.size() - std::string("compare.").size();
+  apply(child, key.substr(dot + 1), change, is_of_panels);
 }
 
 // Takes the key away as if the file did not have it. Returns whether it was there.

@@ -293,6 +293,28 @@ TEST(StabilityCommand, PutsTheBorderWhereTheTheoryHasIt) {
   EXPECT_THAT(result.out, HasSubstr("That is no equilibrium")) << "the scene starts away from its spring's rest";
 }
 
+TEST(StabilityCommand, DrawsAMapOfEachMethodThatIsNamed) {
+  const TemporaryFolder folder;
+  const Words map{"stability", "assets/scenes/pp_spring.yaml", "--set", "torque=[0, -k * y_G]", "--set", "parameters.k=100", "--x",
+                  "step=0.05:0.3:3", "--y", "parameters.k=50:400:2", "--methods", "rk4,semi_implicit_euler"};
+  const auto with = [&](Words more) {
+    more.insert(more.begin(), map.begin(), map.end());
+    return run_program(more);
+  };
+  ASSERT_EQ(with({"-o", folder.file("map.csv")}).status, 0);
+  const std::string rk4 = read_whole_file(folder.file("map_rk4.csv")), euler = read_whole_file(folder.file("map_semi_implicit_euler.csv"));
+  EXPECT_NE(rk4, euler);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "map.csv"));
+  EXPECT_THAT(with({"--json", "-o", folder.file("b.csv")}).err, HasSubstr("--json tells of one map"));
+  EXPECT_EQ(with({"-o", folder.file("map.csv")}).status, 6) << "files that are there stay";
+  // Axes that would have no room are refused, as other figures are.
+  for (const char* width : {"30", "50"}) {
+    const ProgramResult narrow = with({"-o", folder.file("n.png"), "--width-mm", width, "--height-mm", "80"});
+    EXPECT_EQ(narrow.status, 3) << width;
+    EXPECT_THAT(narrow.err, HasSubstr("take a wider page")) << width;
+  }
+}
+
 TEST(StabilityCommand, ComparesTheMethodsWithoutAMap) {
   const ProgramResult result = run_program({"stability", "assets/scenes/pp_spring.yaml"});
   ASSERT_EQ(result.status, 0) << result.err;

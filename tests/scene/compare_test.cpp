@@ -59,6 +59,22 @@ TEST_F(CompareScene, GivesEachPanelTheSceneWithItsOwnChanges) {
   EXPECT_EQ(scene.layout, PageLayout::compare);
 }
 
+// What the page says is changed for one panel by the way that panels write it, too.
+TEST_F(CompareScene, TakesChangesOfOnePanelFromTheCommandLine) {
+  const std::string text = "torque: [1, 2]\npush: {force: [1, 0]}\ncompare: [{push.force.1: 5}, {}]\n";
+  const std::string path = folder_.write("one.yaml", "model: rr.urdf\n" + text);
+  const Scene scene = read_scene(path, {"compare.1.push.force.1=7", "compare.2.push.force.1=9", "compare.2.torque.2=4"});
+  EXPECT_EQ(scene.compare[0].push[0].force[0], 7);
+  EXPECT_EQ(scene.compare[1].push[0].force[0], 9);
+  EXPECT_EQ(scene.compare[1].torque[1].text, "4");
+  EXPECT_EQ(scene.compare[0].torque[1].text, "2");
+}
+
+TEST_F(CompareScene, NamesAPanelByWhatItDoesNotHaveAndByOneNumberForAll) {
+  const std::string links = "{model: {links: [0.5, 0.4], masses: [2, 1]";
+  EXPECT_THAT(titles(read("compare: [" + links + "}}, " + links + ", damping: 0.2}}]\n")), ElementsAre("no damping", "damping = 0.2"));
+}
+
 TEST_F(CompareScene, OfOnePanelIsAPlainScene) {
   EXPECT_TRUE(read("").compare.empty());
   EXPECT_EQ(read("").layout, PageLayout::automatic);

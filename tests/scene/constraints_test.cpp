@@ -117,6 +117,16 @@ TEST_F(SceneConstraints, AStartALittleBesideIsMovedWithANotice) {
   EXPECT_THAT(notices_[0], HasSubstr("rates left the constraints by 0.866"));
 }
 
+// Who wrote no start means none: any pose that holds them will do, and is told.
+TEST_F(SceneConstraints, AStartThatNobodyWroteMayBeFarFromTheOneThatIsTaken) {
+  const std::string line = "constraints: [{line: {frame: gripper, point: [0, 1.0], direction: [1, 0]}}]\n";
+  const Simulation found = ready(line);
+  ASSERT_EQ(notices_.size(), 1u);
+  EXPECT_THAT(notices_[0], AllOf(HasSubstr("1 off 'line gripper'"), HasSubstr("was moved to q = ")));
+  EXPECT_NEAR(std::sin(found.q0[0]) + std::sin(found.q0[0] + found.q0[1]) + std::sin(found.q0[0] + found.q0[1] + found.q0[2]), 1, 1e-13);
+  EXPECT_THAT(error("start: {q: [0, 0, 0]}\n" + line), HasSubstr("if it is meant"));
+}
+
 TEST_F(SceneConstraints, WhatCannotBeReachedIsRefusedWithTheDistance) {
   EXPECT_THAT(
       error(kPenStart + "constraints: [{line: {frame: gripper, point: [0, 3.5], direction: [1, 0]}}]\n"),

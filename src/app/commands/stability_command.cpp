@@ -363,6 +363,20 @@ void compare_methods(const StabilityOptions& options) {
   print_linearisation(start);
 }
 
+// The options of one method's map; of several their files bear its name.
+StabilityOptions map_by(const StabilityOptions& options, const Method& method, bool is_one_of_several) {
+  StabilityOptions one = options;
+  one.methods.clear();
+  one.common.set.push_back("method=" + method.name);
+  if (!is_one_of_several) return one;
+  if (one.figure.outputs.empty()) one.figure.outputs = {"out/" + std::filesystem::path(options.scene).stem().string() + "_stability.png"};
+  for (std::string& output : one.figure.outputs) {
+    const std::filesystem::path path(output);
+    output = (path.parent_path() / (path.stem().string() + "_" + method.name + path.extension().string())).string();
+  }
+  return one;
+}
+
 void run_stability(const StabilityOptions& options) {
   check_figure_size(options.figure);
   if (options.x.empty() != options.y.empty())
@@ -378,7 +392,15 @@ void run_stability(const StabilityOptions& options) {
   }
   if (options.panel > 0)
     throw Error(ExitCode::usage, "--panel goes with the table of methods; a map takes what all panels share: --set compare=");
-  draw_map(options);
+  if (options.methods.empty()) return draw_map(options);
+  const std::vector<const Method*> chosen = parse_methods(options.methods);
+  if (chosen.size() > 1 && options.common.json)
+    throw Error(ExitCode::usage, "--json tells of one map: name one of --methods, or write -o map.json, which becomes a file of each");
+  std::vector<StabilityOptions> maps;
+  for (const Method* method : chosen) maps.push_back(map_by(options, *method, chosen.size() > 1));
+  // Each file may be written before any map is computed.
+  for (const StabilityOptions& one : maps) FigureFiles(one.figure, "", one.common.force);
+  for (const StabilityOptions& one : maps) draw_map(one);
 }
 
 }  // namespace
@@ -390,7 +412,7 @@ void add_stability_command(CommandLine& app) {
   command->add_option("scene", options->scene, "a scene file").required().names_input();
   command->add_option("--x", options->x, "KEY=from:to:count, maybe with :log behind it");
   command->add_option("--y", options->y, "the same, upward");
-  command->add_option("--methods", options->methods, "of the table: rk4,taylor,.. (default all)");
+  command->add_option("--methods", options->methods, "rk4,taylor,..: of the table (default all); of maps one each, in files of their names (default the scene's)");
   add_panel_option(*command, options->panel);
   command->add_option("--jobs", options->threads, "threads (default: all cores)").range(1, 256);
   add_figure_options(*command, options->figure, options->common, "out/NAME_stability.png");

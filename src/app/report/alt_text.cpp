@@ -57,6 +57,12 @@ std::string push_words(const PreparedScene& panel) {
   return text;
 }
 
+// Formulas as they are written.
+std::string in_plain_words(std::string words) {
+  std::erase(words, '$');
+  return words;
+}
+
 // ", tied by a line": each constraint by the name that it goes by elsewhere.
 std::string tie_words(const PreparedScene& panel) {
   std::vector<std::string> names;
@@ -95,9 +101,7 @@ void add_words(std::vector<Moment>& moments, const FilmReport& report) {
   for (const AnnotationEntry& entry : report.film().scene.annotate) {
     const auto at = instant_of(entry, first.prepared.scene.events, first.trajectory.events);
     if (!at || *at > first.trajectory.end_time) continue;
-    std::string words = entry.text;
-    std::erase(words, '$');
-    moments.push_back({*at, words, std::max(entry.hold, kCaptionSeconds)});
+    moments.push_back({*at, in_plain_words(entry.text), std::max(entry.hold, kCaptionSeconds)});
   }
 }
 
@@ -118,7 +122,7 @@ void add_troubles(std::vector<Moment>& moments, const RunReport& run, const std:
 
 // "rk4: " of one panel of several.
 std::string where_of(const FilmReport& report, const RunReport& run) {
-  return report.panels.size() == 1 ? "" : title_of(run) + ": ";
+  return report.panels.size() == 1 ? "" : in_plain_words(title_of(run)) + ": ";
 }
 
 void sort_by_time(std::vector<Moment>& moments) {
@@ -192,7 +196,7 @@ ClipMemory memory_of(const FilmReport& report) {
 
 std::string sentence_of(const FilmReport& report) {
   const PreparedFilm& film = report.film();
-  std::string text = film.panels.size() == 1 ? title_of(report.panels.front()) : title_of_page(film.scene);
+  std::string text = in_plain_words(film.panels.size() == 1 ? title_of(report.panels.front()) : title_of_page(film.scene));
   if (text.empty()) text = film.scene.name;
   const std::string motion = motion_words(film.panels.front(), report.runs[0].end_time);
   if (film.panels.size() == 1) return text + ": " + motion + ".";
@@ -200,7 +204,7 @@ std::string sentence_of(const FilmReport& report) {
   text += ": " + std::to_string(film.panels.size()) +
           (ghost ? " variants in one place (filled: " : " panels at one scale (");
   for (std::size_t i = 0; i < film.panels.size(); ++i)
-    text += std::string(i == 0 ? "" : ghost && i == 1 ? "; in outline: " : "; ") + title_of(report.panels[i]);
+    text += std::string(i == 0 ? "" : ghost && i == 1 ? "; in outline: " : "; ") + in_plain_words(title_of(report.panels[i]));
   return text + "); in the first, " + motion + ".";
 }
 
@@ -209,7 +213,7 @@ std::string alt_text(const FilmReport& report, const ClipLength& clip) {
   const std::vector<PreparedScene>& panels = report.film().panels;
   std::string text = sentence_of(report) + "\n\n";
   for (std::size_t i = 1; i < panels.size(); ++i)
-    text += title_of(report.panels[i]) + ": " + motion_words(panels[i], report.runs[i].end_time) + ".\n";
+    text += in_plain_words(title_of(report.panels[i])) + ": " + motion_words(panels[i], report.runs[i].end_time) + ".\n";
   text += "Scene: " + scene.name + "\nDuration: " + format_significant(clip.seconds, 6) + " s, " + std::to_string(clip.frames) + " frames";
   const double first = scene.hold.first, last = scene.hold.last;
   if (first > 0) text += "; the first is held for " + format_quantity(first, "s");

@@ -201,6 +201,7 @@ bool draw_panel(Picture& picture, const Rect& area, const WorkPrecision& data, C
   const double width =
       lay_out_plot(area, log_axis(errors_of(data), data.error_title), costs, style).box.width();
   const PlotFrame frame = lay_out_plot(area, error_axis(data, width, look), costs, style);
+  require_room_for_axes(frame, look);
   draw_floor(picture, frame, data, look);
   draw_axes(picture, frame, style);
   draw_floor_words(picture, frame, data, look);

@@ -83,6 +83,14 @@ Rect draw_chart_page(Picture& picture, const ChartText& text, const ChartLook& l
   return area;
 }
 
+void require_room_for_axes(const PlotFrame& frame, const ChartLook& look) {
+  constexpr double kLeast = 4;  // of the em of numbers
+  const double least = kLeast * look.plot_style().text(size::kTick);
+  if (frame.box.width() >= least && frame.box.height() >= least) return;
+  throw Error(ExitCode::bad_input, std::string("what stands beside the axes leaves them no room: take a ") + (frame.box.width() < least ? "wider" : "higher") +
+                                       " page, or fewer curves");
+}
+
 void require_room_for_names(std::size_t curves, const Rect& area, const ChartLook& look) {
   if (!look.is_small || double(curves) * kLinePitch * look.plot_style().text(size::kTick) <= area.height()) return;
   throw Error(ExitCode::bad_input, "the names of " + std::to_string(curves) +

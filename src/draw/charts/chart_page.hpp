@@ -39,6 +39,9 @@ Picture as_page(const Picture& picture, const ChartLook& look);
 // than kMostlyChart of the page's height. Returns what is left for the axes. Throws Error (exit 3) where the words leave no room.
 Rect draw_chart_page(Picture& picture, const ChartText& text, const ChartLook& look);
 
+// Throws Error (exit 3) where what stands beside axes leaves them no room.
+void require_room_for_axes(const PlotFrame& frame, const ChartLook& look);
+
 // On small pages: throws Error (exit 3) where the names of so many curves would not stand below one another.
 void require_room_for_names(std::size_t curves, const Rect& area, const ChartLook& look);
 

@@ -164,6 +164,7 @@ Picture energy_chart(const EnergyChart& data, const ChartLook& look) {
   const double labels = end_labels_width(texts, style);
   const PlotFrame frame = lay_out_plot({area.x0, area.y0, area.x1 - labels - kLabelGap, area.y1}, time_axis(data, first, last),
                                        data.shows_energy ? energy_axis(data) : error_axis(curves, data), style);
+  require_room_for_axes(frame, look);
   draw_axes(picture, frame, style);
   std::vector<EndLabel> ends;
   for (std::size_t i = 0; i < curves.size(); ++i) {

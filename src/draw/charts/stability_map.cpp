@@ -224,6 +224,7 @@ Picture stability_map(const StabilityMap& data, const ChartLook& look) {
   const Axis errors = error_axis(data);
   const PlotFrame frame =
       lay_out_plot({area.x0, area.y0, area.x1 - legend_width(errors, look), area.y1}, data.x, data.y, style);
+  require_room_for_axes(frame, look);
   draw_axes(picture, frame, style);
   picture.add(cells_of(data, errors, frame.box, *look.theme));
   draw_failed_hatch(picture, data, frame.box, *look.theme);

@@ -156,10 +156,13 @@ int draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, 
   WordPlan plan(room, kLooksPerSecond);
   plan.add(others, obstacles);
   const std::vector<StandingWord> standing = plan.standing().front();
+  const auto left_out = std::count_if(standing.begin(), standing.end(), [](const StandingWord& word) { return !(word.opacity > 0); });
   MarkLabels placed(standing);
   for (MarkWord& word : others) placed.add(std::move(word));
+  // A few of many would be taken for those of their neighbours.
+  if (2 * left_out > std::ptrdiff_t(standing.size())) return int(standing.size());
   placed.draw(picture, scene, theme.background, clip);
-  return int(std::count_if(standing.begin(), standing.end(), [](const StandingWord& word) { return !(word.opacity > 0); }));
+  return int(left_out);
 }
 
 }  // namespace chainreel

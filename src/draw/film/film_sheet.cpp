@@ -64,7 +64,7 @@ double title_size(const Stage& stage, const std::vector<PanelCell>& cells) {
   double common = full;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const TextLine line =
-        lay_out_text(stage.fonts, stage.motions[i].title(), {Face::label_bold, full, stage.theme.ink});
+        lay_out_words(stage.fonts, stage.motions[i].title(), {Face::label_bold, full, stage.theme.ink});
     if (line.advance > 0) common = std::min(common, full * cells[i].title.width() / line.advance);
   }
   return std::max(common, std::min(full, scaled(kSmallestText, stage.page.text_scale)));
@@ -151,7 +151,7 @@ double FilmSheet::widest_title(const Stage& stage) const {
   if (!has_panel_titles) return widest;
   const TextStyle style{Face::label_bold, scaled(kSmallestText, stage.page.text_scale), stage.theme.ink};
   for (const StagedRun& motion : stage.motions)
-    widest = std::max(widest, lay_out_text(stage.fonts, motion.title(), style).advance);
+    widest = std::max(widest, lay_out_words(stage.fonts, motion.title(), style).advance);
   return widest;
 }
 
@@ -165,7 +165,7 @@ std::vector<PlacedText> FilmSheet::panel_titles(const Stage& stage, const std::v
     const Color color = variant ? variant->color : stage.theme.ink;
     const TextStyle style{Face::label_bold, text_size, color};
     const std::string title = stage.motions[i].title();
-    TextLine line = lay_out_text(stage.fonts, title, style);
+    TextLine line = lay_out_words(stage.fonts, title, style);
     if (line.advance > row.width() + kRoundOff && (stage.page.video.names_panels || is_made_up(stage.motions[i])))
       line = abbreviated(stage.fonts, title, style, row.width());
     if (line.runs.empty() && stage.page.video.names_panels) continue;  // a cell of a sheet too small for names

@@ -44,7 +44,7 @@ GhostKey::GhostKey(const Stage& stage, double width)
     const std::string title = (variant.letter.empty() ? "" : variant.letter + ": ") + motion.title();
     const double room = width - kMarkLength - size::kMarkToText;
     entry.line =
-        fit_text(stage.fonts, title, {Face::label_bold, text_size_, entry.color, Align::left}, room,
+        fit_words(stage.fonts, title, {Face::label_bold, text_size_, entry.color, Align::left}, room,
                  stage.page.text_scale);
     if (entry.line.advance > room + kRoundOff)
       throw Error(ExitCode::bad_input,

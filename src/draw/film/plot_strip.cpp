@@ -66,7 +66,7 @@ std::string label_of(const PlotCurves& plot, std::size_t curve, const StripRun& 
   const std::string& own = plot.curves[curve].name;
   const std::string name = symbol_of(plot.quantity).empty() ? own : "$" + own + "$";
   if (runs <= 2) return runs == 1 || plot.curves.size() > 1 ? name : "";
-  const std::string title = without_formulas(run.title);
+  const std::string& title = run.title;
   return plot.curves.size() > 1 ? name + ", " + title : title;
 }
 

@@ -46,7 +46,8 @@ struct Builder {
 std::optional<std::array<TextLine, 2>> two_rows(const Builder& b, const std::string& title, const TextStyle& style) {
   std::optional<std::array<TextLine, 2>> best;
   for (std::size_t at = title.find(' '); at != std::string::npos; at = title.find(' ', at + 1)) {
-    const auto row = [&](const std::string& words) { return fit_text(b.fonts, words, style, b.width(), b.sheet.text_scale); };
+    if (std::count(title.begin(), title.begin() + std::ptrdiff_t(at), '$') % 2 == 1) continue;  // within a formula
+    const auto row = [&](const std::string& words) { return fit_words(b.fonts, words, style, b.width(), b.sheet.text_scale); };
     std::array<TextLine, 2> rows{row(title.substr(0, at)), row(title.substr(at + 1))};
     const auto length = [](const std::array<TextLine, 2>& two) { return std::max(two[0].advance, two[1].advance); };
     if (length(rows) <= b.width() + kRoundOff && (!best || length(rows) < length(*best))) best = std::move(rows);
@@ -63,7 +64,7 @@ void build_title_band(Builder& b, const SheetText& text) {
   double title_end = b.left;
   if (!text.title.empty()) {
     const TextStyle style = b.style(Face::label_bold, size::kTitle, theme.ink);
-    TextLine line = fit_text(b.fonts, text.title, style, b.width(), b.sheet.text_scale);
+    TextLine line = fit_words(b.fonts, text.title, style, b.width(), b.sheet.text_scale);
     if (const auto rows = b.sheet.aspect < kNarrowPage && line.advance > b.width() + kRoundOff ? two_rows(b, text.title, style)
                                                                                               : std::nullopt) {
       b.place((*rows)[0], {b.left, baseline(row_bottom, b.top, title_size)});
@@ -228,6 +229,10 @@ void build_footer_band(Builder& b, const SheetText& text) {
 TextLine fit_text(const Fonts& fonts, const std::string& text, TextStyle style, double width,
                   double text_scale) {
   return fit_line([&](const TextStyle& s) { return lay_out_text(fonts, text, s); }, style, width, text_scale);
+}
+
+TextLine fit_words(const Fonts& fonts, const std::string& words, TextStyle style, double width, double text_scale) {
+  return fit_line([&](const TextStyle& s) { return lay_out_words(fonts, words, s); }, style, width, text_scale);
 }
 
 TextLine fit_math(const Fonts& fonts, const std::vector<std::string>& forms, TextStyle style, double width,

@@ -95,6 +95,8 @@ std::string time_text(double t, int decimals = 2);
 // text_scale. The caller looks whether it fits now.
 TextLine fit_text(const Fonts& fonts, const std::string& text, TextStyle style, double width,
                   double text_scale);
+// The same of words with formulas between dollar signs.
+TextLine fit_words(const Fonts& fonts, const std::string& words, TextStyle style, double width, double text_scale);
 // The same for the first of several math notations that can be read and fits.
 TextLine fit_math(const Fonts& fonts, const std::vector<std::string>& forms, TextStyle style, double width,
                   double text_scale, const std::vector<SymbolColor>& symbols = {});

@@ -41,7 +41,7 @@ std::vector<Chapter> chapters() {
   using Row = KeyRow;
   return {
       {"The mechanism",
-       {Row("title", &Scene::title, "above the picture; {fall} in it becomes the time of the fall, {F} the parameter F").of_page(),
+       {Row("title", &Scene::title, "above the picture, formulas between dollar signs ($theta_1$); {fall} in it becomes the time of the fall, {F} the parameter F").of_page(),
         Row(told_model(), read_model, model_text).example("model: {links: [0.5, 0.4, 0.3], masses: [2, 1.5, 1], joints: RRR}"),
         Row("gravity", &Scene::gravity, "world x y z; a chain in a plane: down in it")
             .in("m/s^2")

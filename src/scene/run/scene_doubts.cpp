@@ -57,6 +57,34 @@ std::vector<std::string> doubts_of_pushes(const Scene& scene, const Chain& chain
   return doubts;
 }
 
+bool are_zero(const std::vector<double>& gains) {
+  return std::all_of(gains.begin(), gains.end(), [](double gain) { return gain == 0; });
+}
+
+bool has_negative(const std::vector<double>& gains) {
+  return std::any_of(gains.begin(), gains.end(), [](double gain) { return gain < 0; });
+}
+
+// Feedback of which nothing comes, or that drives away from what it is told to follow.
+std::vector<std::string> doubts_of_feedback(const Scene& scene, const Chain& chain) {
+  std::vector<std::string> doubts;
+  if (!scene.control) return doubts;
+  const auto look_at_gains = [&](const std::string& name, const std::vector<double>& kp, const std::vector<double>& kd) {
+    if (are_zero(kp) && are_zero(kd)) doubts.push_back("torque." + name + ": kp and kd are zero, so that nothing comes of it");
+    if (has_negative(kp) || has_negative(kd)) doubts.push_back("torque." + name + ": a negative gain drives away from what is to be followed");
+  };
+  if (scene.control->pd) look_at_gains("pd", scene.control->pd->kp, scene.control->pd->kd);
+  if (!scene.control->task) return doubts;
+  const TaskFeedback& task = *scene.control->task;
+  look_at_gains("task", task.kp, task.kd);
+  const int frame = task.frame.empty() ? chain.end_effector : find_frame(chain, task.frame);
+  if (frame >= 0 && !can_move(chain, chain.frames[std::size_t(frame)]))
+    doubts.push_back("torque.task: '" + chain.frames[std::size_t(frame)].name + "' stands still whatever the chain does, so that nothing comes of it");
+  if (chain.planar && task.x.size() == 3)
+    doubts.push_back("torque.task: what of `x` is perpendicular to the plane in which the chain moves is not followed: two numbers are enough");
+  return doubts;
+}
+
 }  // namespace
 
 std::string doubt_of_gravity(const Chain& chain) {
@@ -76,6 +104,7 @@ std::vector<std::string> doubts_of_scene(const Scene& scene, const Chain& chain)
   for (std::string doubt : {doubt_of_gravity(chain), doubt_of_limit(scene.limit, chain)})
     if (!doubt.empty()) doubts.push_back(std::move(doubt));
   for (std::string& doubt : doubts_of_pushes(scene, chain)) doubts.push_back(std::move(doubt));
+  for (std::string& doubt : doubts_of_feedback(scene, chain)) doubts.push_back(std::move(doubt));
   return doubts;
 }
 

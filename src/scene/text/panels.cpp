@@ -70,10 +70,13 @@ std::string last_part(const std::string& way) {
   return way.substr(way.rfind('.') + 1);
 }
 
-// As in_words, but a list of one entry as that entry.
+// As in_words, but a list of equal entries, as one number for all becomes, as that entry.
 std::string leaf_in_words(const std::string& text) {
-  const bool is_of_one = text.starts_with('[') && text.ends_with(']') && text.find(',') == std::string::npos;
-  return is_of_one ? text.substr(1, text.size() - 2) : in_words(text);
+  if (!text.starts_with('[') || !text.ends_with(']')) return in_words(text);
+  const YAML::Node list = YAML::Load(text);
+  for (const YAML::Node& one : list)
+    if (!one.IsScalar() || one.Scalar() != list[0].Scalar()) return in_words(text);
+  return list.size() == 0 ? in_words(text) : list[0].Scalar();
 }
 
 // What a key says of each panel, where it says a mapping of all: only what differs in it, "kp = 10" rather than all of the
@@ -97,9 +100,11 @@ std::vector<std::string> words_within(const std::vector<const SceneEntry*>& entr
   std::vector<std::string> words;
   for (const Leaves& leaves : all) {
     std::string& own = words.emplace_back();
-    for (const std::string& way : ways)
-      if (const auto known = leaves.find(way); known != leaves.end())
-        own += (own.empty() ? "" : ", ") + (names[last_part(way)] > 1 ? way : last_part(way)) + " = " + leaf_in_words(known->second);
+    for (const std::string& way : ways) {
+      const std::string name = names[last_part(way)] > 1 ? way : last_part(way);
+      const auto known = leaves.find(way);
+      own += (own.empty() ? "" : ", ") + (known == leaves.end() ? "no " + name : name + " = " + leaf_in_words(known->second));
+    }
   }
   return words;
 }

@@ -52,9 +52,9 @@ double median(std::vector<double>& values) {
 // 1, 2, 5, 10, ... downwards from `longest`.
 std::vector<double> steps_from(double longest) {
   std::vector<double> steps;
-  for (double decade = 1; decade >= kLeastStep; decade /= 10)
+  for (double parts = 1; 1 / parts >= 0.99 * kLeastStep; parts *= 10)  // exact, as numbers that one writes are
     for (const double digit : {5.0, 2.0, 1.0})
-      if (digit * decade <= longest * (1 + 1e-12)) steps.push_back(digit * decade);
+      if (digit / parts <= longest * (1 + 1e-12)) steps.push_back(digit / parts);
   return steps;
 }
 

@@ -353,7 +353,7 @@ std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& contr
   }
   if (control.task) {
     if (joint) throw Error(ExitCode::bad_input, "'task' pulls the whole chain: write torque: {task: {..}} in the place of the list", control.place);
-    parts.push_back(make_task_torque(chain, *control.task, parameters));
+    parts.push_back(make_task_torque(chain, *control.task, parameters, frames));
   }
   if (control.gravity_compensation) parts.push_back(std::make_unique<GravityCompensation>());
   if (!control.plus.empty() && !joint) {

@@ -50,13 +50,14 @@ class TaskTorque final : public TorqueLaw {
 
 }  // namespace
 
-std::unique_ptr<TorqueLaw> make_task_torque(const Chain& chain, const TaskFeedback& task, const Parameters& parameters) {
+std::unique_ptr<TorqueLaw> make_task_torque(const Chain& chain, const TaskFeedback& task, const Parameters& parameters, const NamedFrames& frames) {
   const auto refuse = [&](const std::string& message) { throw Error(ExitCode::bad_input, message, task.place); };
-  const int frame = task.frame.empty() ? require_end_effector(chain) : find_frame(chain, task.frame);
+  const auto named = std::find_if(frames.begin(), frames.end(), [&](const NamedFrame& one) { return one.name == task.frame; });
+  const int frame = task.frame.empty() ? require_end_effector(chain) : named != frames.end() ? named->frame : find_frame(chain, task.frame);
   if (frame < 0) {
     std::vector<std::string> names;
     for (const Frame& one : chain.frames) names.push_back(one.name);
-    refuse("'task.frame' names no link: '" + task.frame + "';" + did_you_mean(task.frame, names) + " They are " + shortened(joined(names), 300));
+    refuse("'task.frame' names no link and none of `frames`: '" + task.frame + "';" + did_you_mean(task.frame, names) + " They are " + shortened(joined(names), 300));
   }
   const std::size_t count = task.x.size();
   if (count != 3 && !(count == 2 && chain.planar))

@@ -14,6 +14,7 @@ constexpr double kLeastSlack = 1e-12, kMostSlack = 1e-10;  // of a corner that s
 constexpr double kAhead = 1e-5;                            // s: a look ahead where a rate says nothing
 constexpr std::size_t kRush = 100;                         // changes of sides that are looked at together,
 constexpr double kRushTime = 0.01;    // s, and within how short a time they come to no end
+constexpr double kSameBend = 1e-6, kMostRest = 1e-6;  // accelerations that are the same; g that is as good as zero where they are
 constexpr double kLeaving = 1e-6;     // of 1: a side that a crossing found there is beyond it
 constexpr std::size_t kMostOpen = 5;  // corners at zero at once: 4^5 combinations
 // How far behind an instant what jumps there is looked at: more than steps may end beside it.
@@ -344,9 +345,9 @@ void CornerWatch::sort_corners(std::vector<int>& open, double t, ConstVec q, Con
     const double rate = std::isfinite(rates[i]) ? rates[i] : 0;
     const double g = last_g_[i];
     touch_[i] = std::max(kTouch * (1 + std::fabs(g)) + 4 * kInstantTolerance * std::fabs(rate),
-                         2 * watched_[i].slack);
+                         2 * std::max(watched_[i].slack, watched_[i].rest));
     if (is_in(held, k) || is_in(left_, k)) continue;
-    watched_[i].slack = 0;
+    watched_[i].slack = watched_[i].rest;
     // At a pole rates are large, and lead nowhere near where it is next.
     const double next = g + rate * behind;
     const double most = 0.5 * (std::fabs(g) + std::fabs(rate) * behind);
@@ -379,7 +380,7 @@ bool CornerWatch::settle(double t, ConstVec q, ConstVec qd) {
   }
   const auto give_slack = [&](int k) {
     watched_[std::size_t(k)].slack =
-        std::clamp(4 * std::fabs(last_g_[std::size_t(k)]), kLeastSlack, kMostSlack);
+        std::max(std::clamp(4 * std::fabs(last_g_[std::size_t(k)]), kLeastSlack, kMostSlack), watched_[std::size_t(k)].rest);
   };
   for (const int k : open) give_slack(k);
   for (const int k : left_) give_slack(k);
@@ -396,20 +397,51 @@ bool CornerWatch::settle(double t, ConstVec q, ConstVec qd) {
           std::count(system_.held().begin(), system_.held().end(), int(k))))
       changed.push_back(int(k));
   started_ = true;
-  return !jumps_without_end(t, changed);
+  return !jumps_without_end(t, q, qd, changed);
 }
 
 bool CornerWatch::changed_before(double t) const {
   return changes_ > 0 && t - change_times_[(changes_ - 1) % kRush] <= 1e-3 * rush_;
 }
 
-bool CornerWatch::jumps_without_end(double t, const std::vector<int>& changed) {
+// Whether the accelerations are the same on both sides here, but for what bends by so little as g is off zero.
+bool CornerWatch::bends_only(int k, double t, ConstVec q, ConstVec qd) {
+  const double side = corners_.side(k);
+  std::vector<double> both[2] = {std::vector<double>(qd.size()), std::vector<double>(qd.size())};
+  for (const int way : {0, 1}) {
+    corners_.set_side(k, way == 0 ? 1 : -1);
+    system_.acceleration(t, q, qd, both[way]);
+  }
+  corners_.set_side(k, side);
+  system_.forget_bad_torque();
+  for (std::size_t i = 0; i < qd.size(); ++i)
+    if (!(std::fabs(both[0][i] - both[1][i]) <= kSameBend * (1 + std::fabs(both[0][i])))) return false;
+  return true;
+}
+
+bool CornerWatch::rests_at_bends(double t, ConstVec q, ConstVec qd) {
+  bool any = false;
+  corners_.values(system_.chain(), ws_, t, q, qd, last_g_);
+  for (std::size_t k = 0; k < watched_.size(); ++k) {
+    Watched& one = watched_[k];
+    const double g = std::fabs(last_g_[k]);
+    if (!(g <= kMostRest) || one.rest >= kMostRest || !bends_only(int(k), t, q, qd)) continue;
+    one.rest = std::clamp(10 * std::max(one.rest, g), kMostSlack, kMostRest);
+    one.slack = std::max(one.slack, one.rest);
+    any = true;
+  }
+  return any;
+}
+
+bool CornerWatch::jumps_without_end(double t, ConstVec q, ConstVec qd, const std::vector<int>& changed) {
   for (const int k : changed) {
     const std::size_t slot = changes_++ % kRush;
     const double earlier = change_times_[slot];
     change_times_[slot] = t;
     culprit_ = k;
-    if (changes_ > kRush && t - earlier < rush_) return true;
+    if (!(changes_ > kRush && t - earlier < rush_)) continue;
+    if (!rests_at_bends(t, q, qd)) return true;
+    changes_ = 0;
   }
   return false;
 }

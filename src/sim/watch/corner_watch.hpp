@@ -36,6 +36,10 @@ class CornerWatch {
   // At the end of a step that was cut there: by how much the crossing is still later, to first order.
   double off_by(double t, ConstVec q, ConstVec qd);
 
+  // Where crossings come to no end: what stands still at a corner at which nothing jumps swings about it by what its method is off.
+  // From here on that counts as within the corner. False where there is no such corner, or none that has room for it.
+  bool rests_at_bends(double t, ConstVec q, ConstVec qd);
+
   const std::string& culprit() const { return corners_.text(culprit_); }
   // Whether a side has changed just before t, or here.
   bool changed_before(double t) const;
@@ -45,6 +49,7 @@ class CornerWatch {
   struct Watched {
     double before = 0;  // see margin_of
     double slack = 0;   // what a margin may be below zero before the corner has been left
+    double rest = 0;    // no less than this: of a corner where nothing jumps and the motion has come to rest
     bool as_written = false;
     bool is_free = false;  // it follows the text and is not watched: what it reads is held
   };
@@ -69,7 +74,8 @@ class CornerWatch {
                      ConstVec qd);
   void follow_text(const std::vector<int>& open, double t, ConstVec q, ConstVec qd);
   int direction(int k, double t, ConstVec q, ConstVec qd);
-  bool jumps_without_end(double t, const std::vector<int>& changed);
+  bool jumps_without_end(double t, ConstVec q, ConstVec qd, const std::vector<int>& changed);
+  bool bends_only(int k, double t, ConstVec q, ConstVec qd);
 
   ChainSystem& system_;
   StateCorners& corners_;

@@ -360,5 +360,16 @@ TEST(Corners, AThinObstacleIsNotSteppedOver) {
   }
 }
 
+// A bend where the motion comes to rest: the state swings about it by what the method is off, and no torque jumps.
+TEST(Corners, ThatOnlyBendDoNotStopWhatComesToRestAtThem) {
+  for (const auto& [method, step, tolerance] : {std::tuple{"radau5", 0.0, 1e-4}, {"radau5", 0.0, 1e-5}, {"rk4", 0.02, 0.0}}) {
+    Simulation run = run_of("rr", {"-40*(q1+1.2) - 20*qd1 - 0.5*max(qd1,0) + 19.62*cos(q1) + 9.81*cos(q1+q2)", "-40*(q2-0.5) - 8*qd2 + 9.81*cos(q1+q2)"},
+                            40, method, step > 0 ? step : 0.001);
+    if (tolerance > 0) apply({&find_method(method), {tolerance, 0}, 0}, run);
+    const Trajectory trajectory = simulate(run, instants(40, 10));
+    EXPECT_EQ(trajectory.status, RunStatus::finished) << method << " " << tolerance << ": " << trajectory.trouble;
+  }
+}
+
 }  // namespace
 }  // namespace chainreel

@@ -117,6 +117,9 @@ TEST(TaskTorque, SaysWhatDoesNotFit) {
   task.xd = {{"0", {}}};
   EXPECT_THAT(trouble("rr", task), HasSubstr("'task.xd' has 1 entries and 'task.x' 2"));
   EXPECT_EQ(trouble("rr", pulls({"1", "2", "0"}, 1, 1)), "");
+  task = pulls({"1", "2"}, 1, 1);
+  task.frame = "H";
+  EXPECT_NO_THROW(make_task_torque(run_of("rr", {}, 1).chain, task, {}, {{"H", 1}}));
   // An entry of one joint cannot pull the whole chain.
   std::vector<TorqueEntry> entries(2);
   entries[0].control = Control{};
