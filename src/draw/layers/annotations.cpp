@@ -38,25 +38,6 @@ void append(TextLine& line, const TextLine& piece, Point at) {
   line.box = is_first ? box : around(line.box, box);
 }
 
-// Running text, with formulas between dollar signs.
-TextLine lay_out_mixed(const Fonts& fonts, const std::string& text, TextStyle style) {
-  TextLine line;
-  style.align = Align::left;
-  double x = 0;
-  bool is_math = false;
-  for (std::size_t from = 0; from <= text.size(); is_math = !is_math) {
-    const std::size_t until = std::min(text.find('$', from), text.size());
-    const std::string part = text.substr(from, until - from);
-    from = until + 1;
-    if (part.empty()) continue;
-    const TextLine piece = is_math ? lay_out_math(fonts, part, style) : lay_out_text(fonts, part, style);
-    append(line, piece, {x, 0});
-    x += piece.advance;
-  }
-  line.advance = x;
-  return line;
-}
-
 // Its words; a formula is one.
 std::vector<std::string> words_of(const std::string& text) {
   std::vector<std::string> words(1);
@@ -94,8 +75,8 @@ std::vector<std::size_t> ends_within(const std::vector<double>& words, double sp
 TextLine lay_out_within(const Fonts& fonts, const std::string& text, const TextStyle& style, double width) {
   const std::vector<std::string> words = words_of(text);
   std::vector<double> widths;
-  for (const std::string& word : words) widths.push_back(lay_out_mixed(fonts, word, style).advance);
-  const double space = lay_out_mixed(fonts, "a b", style).advance - lay_out_mixed(fonts, "ab", style).advance;
+  for (const std::string& word : words) widths.push_back(lay_out_words(fonts, word, style).advance);
+  const double space = lay_out_words(fonts, "a b", style).advance - lay_out_words(fonts, "ab", style).advance;
   std::vector<std::size_t> ends = ends_within(widths, space, width);
   for (double narrower = kNarrower * width; narrower > kNarrowest * width; narrower *= kNarrower) {
     std::vector<std::size_t> even = ends_within(widths, space, narrower);
@@ -107,7 +88,7 @@ TextLine lay_out_within(const Fonts& fonts, const std::string& text, const TextS
   for (std::size_t i = 0; i < ends.size(); first = ends[i++]) {
     std::string line;
     for (std::size_t k = first; k < ends[i]; ++k) line += (k > first ? " " : "") + words[k];
-    append(whole, lay_out_mixed(fonts, line, style), {0, -double(i) * kLeading * style.size});
+    append(whole, lay_out_words(fonts, line, style), {0, -double(i) * kLeading * style.size});
   }
   return whole;
 }
@@ -141,12 +122,18 @@ class Annotations : public Layer {
   };
 
   TextStyle style() const {
-    return {Face::label, scaled(size::kSymbol, stage_->page.text_scale), stage_->theme.ink};
+    return {Face::label, scaled(size::kSymbol, stage_->page.text_scale), stage_->theme.ink, Align::left};
   }
 
   TextLine lay_out(const AnnotationEntry& entry) const {
     try {
-      return lay_out_mixed(stage_->fonts, entry.text, style());
+      // What is no notation is refused here, where words elsewhere show it as it is written.
+      for (std::size_t from = entry.text.find('$'), until; from != std::string::npos; from = entry.text.find('$', until + 1)) {
+        until = entry.text.find('$', from + 1);
+        if (until == std::string::npos) break;
+        lay_out_math(stage_->fonts, entry.text.substr(from + 1, until - from - 1), style());
+      }
+      return lay_out_words(stage_->fonts, entry.text, style());
     } catch (const Error& error) {
       throw Error(error.code(), error.problems().front().message, entry.place);
     }
