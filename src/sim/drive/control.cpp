@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/csv.hpp"
+#include "core/format.hpp"
 #include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
 #include "sim/drive/torque.hpp"
@@ -288,12 +289,14 @@ std::unique_ptr<TorqueLaw> within(std::unique_ptr<TorqueLaw> law, const std::str
 
 // One number for all freedoms, or one a freedom.
 template <class T>
-std::vector<T> spread(const std::vector<T>& given, int n, const std::string& key, const Place& place) {
-  if (given.size() == 1) return std::vector<T>(std::size_t(n), given.front());
-  if (given.size() == std::size_t(n)) return given;
+std::vector<T> spread(const std::vector<T>& given, const Chain& chain, const std::string& key, const Place& place) {
+  const auto n = std::size_t(chain.nv);
+  if (given.size() == 1) return std::vector<T>(n, given.front());
+  if (given.size() == n) return given;
   throw Error(ExitCode::bad_input,
               "'" + key + "' has " + std::to_string(given.size()) +
-                  " entries: give one for all, or one for each of the " + std::to_string(n) + " freedoms",
+                  " entries: give one for all, or one for each of the " + std::to_string(n) + " freedoms (" +
+                  shortened(joined(chain.coordinate_names), 200) + ")" + (chain.has_mimic ? "; joints that follow others have none of their own" : ""),
               place);
 }
 
@@ -301,7 +304,7 @@ std::unique_ptr<Reference> reference_of(const Chain& chain, const Feedback& feed
                                         const Parameters& parameters, const Place& place) {
   if (!feedback.trajectory.empty()) return make_table_reference(feedback.trajectory, chain.coordinate_names);
   const auto entries = [&](const std::vector<Entry>& given, const char* key) {
-    return given.empty() ? given : spread(given, chain.nv, key, place);
+    return given.empty() ? given : spread(given, chain, key, place);
   };
   const std::vector<Entry> q =
       feedback.q.empty() ? std::vector<Entry>(std::size_t(chain.nv)) : entries(feedback.q, "q");
@@ -338,7 +341,7 @@ std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& contr
         within(std::make_unique<InverseTorque>(chain, make_table_reference(control.inverse_of, chain.coordinate_names)),
                control.inverse_of, control.outside));
   const auto gains = [&](const std::vector<double>& given, const char* key) {
-    return spread(given, chain.nv, key, control.place);
+    return spread(given, chain, key, control.place);
   };
   if (const auto& pd = control.pd)
     parts.push_back(within(std::make_unique<PdTorque>(reference_of(chain, *pd, parameters, control.place),
@@ -358,7 +361,7 @@ std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& contr
   if (control.gravity_compensation) parts.push_back(std::make_unique<GravityCompensation>());
   if (!control.plus.empty() && !joint) {
     std::vector<TorqueEntry> entries;
-    for (const Entry& one : spread(control.plus, chain.nv, "plus", control.place)) entries.push_back({one.text, one.place, {}});
+    for (const Entry& one : spread(control.plus, chain, "plus", control.place)) entries.push_back({one.text, one.place, {}});
     parts.push_back(make_torque_law(chain, entries, parameters, frames));
   }
   if (control.function) parts.push_back(make_function_torque(*control.function));
