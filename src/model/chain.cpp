@@ -6,6 +6,12 @@
 
 namespace chainreel {
 
+double mass_of(const Chain& chain) {
+  double mass = 0;
+  for (const Body& body : chain.bodies) mass += body.inertia.mass;
+  return mass;
+}
+
 int find_frame(const Chain& chain, const std::string& name) {
   for (std::size_t i = 0; i < chain.frames.size(); ++i)
     if (chain.frames[i].name == name) return int(i);

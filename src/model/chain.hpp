@@ -119,6 +119,9 @@ struct Chain {
   std::string why_algebra;            // one sentence: why planar, or what made it spatial
 };
 
+// kg, of all bodies that move.
+double mass_of(const Chain& chain);
+
 // Index into chain.frames, or -1.
 int find_frame(const Chain& chain, const std::string& name);
 

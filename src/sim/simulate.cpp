@@ -239,7 +239,7 @@ class Run {
       }
       if (cut && arrived && cuts >= kMostCuts && now() - *cut <= kNearCut * (now() - begin)) cut.reset();
       if (!cut) return next;
-      if ((cuts + 1) % (2 * kMostCuts) == 0 && !corners_->rests_at_bends(begin, q_, qd_)) return blame_corner(begin), std::nullopt;
+      if (cuts > 0 && cuts % (2 * kMostCuts) == 0 && !corners_->rests_at_bends(begin, q_, qd_)) return blame_corner(begin), std::nullopt;
       system_.forget_bad_torque();
       if (*cut <= begin + std::max(grid_.same(), tolerance)) {  // it has no length: the corner is here
         grid_.cut_at(kNever);

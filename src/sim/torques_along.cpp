@@ -190,11 +190,10 @@ std::vector<TaskTarget> task_targets_along(const Simulation& simulation, const T
 
 std::optional<double> rounding_of(const Chain& chain, const std::vector<std::vector<Reaction>>& reactions) {
   constexpr double kRounding = 1e-6;
-  double mass = 0, largest = 0;
-  for (const Body& body : chain.bodies) mass += body.inertia.mass;
+  double largest = 0;
   for (const std::vector<Reaction>& instant : reactions)
     for (const Reaction& one : instant) largest = std::max(largest, one.force.norm());
-  if (reactions.empty() || !(largest < kRounding * mass * std::max(1.0, chain.gravity.norm()))) return {};
+  if (reactions.empty() || !(largest < kRounding * mass_of(chain) * std::max(1.0, chain.gravity.norm()))) return {};
   return largest;
 }
 

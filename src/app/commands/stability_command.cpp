@@ -207,12 +207,15 @@ Json json_of(const std::string& scene, const StabilityCells& cells) {
   return json;
 }
 
+std::string usual_map(const StabilityOptions& options) {
+  return "out/" + std::filesystem::path(options.scene).stem().string() + "_stability.png";
+}
+
 void draw_map(const StabilityOptions& options) {
   const Sweep x = parse_sweep(options.x, "--x"), y = parse_sweep(options.y, "--y");
   check_axis(x, "--x");
   check_axis(y, "--y");
-  const FigureFiles files(options.figure, "out/" + std::filesystem::path(options.scene).stem().string() + "_stability.png",
-                          options.common.force);
+  const FigureFiles files(options.figure, usual_map(options), options.common.force);
   const std::vector<std::string> overrides = overrides_of(options.common);
   const int threads = options.threads > 0 ? options.threads : usable_cores();
   StabilityCells cells;
@@ -369,7 +372,7 @@ StabilityOptions map_by(const StabilityOptions& options, const Method& method, b
   one.methods.clear();
   one.common.set.push_back("method=" + method.name);
   if (!is_one_of_several) return one;
-  if (one.figure.outputs.empty()) one.figure.outputs = {"out/" + std::filesystem::path(options.scene).stem().string() + "_stability.png"};
+  if (one.figure.outputs.empty()) one.figure.outputs = {usual_map(options)};
   for (std::string& output : one.figure.outputs) {
     const std::filesystem::path path(output);
     output = (path.parent_path() / (path.stem().string() + "_" + method.name + path.extension().string())).string();

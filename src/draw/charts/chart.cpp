@@ -231,12 +231,12 @@ std::string footer_of(const WorkPrecision& data, bool triangles) {
     text += (text.empty() || part.empty() ? "" : "; ") + part;
   };
   add(data.error_meaning);
-  const std::string of_reference = "reference known to " + power_text(data.reference_uncertainty);
+  const auto of_reference = [&] { return "reference known to " + power_text(data.reference_uncertainty); };
   if (data.is_least_of_reference())
-    add("shaded: " + of_reference);
+    add("shaded: " + of_reference());
   else if (data.floor > 0)
     add("shaded: the problem's amplification times 2\u207B\u2075\u00B3 is " + power_text(data.floor));
-  if (data.reference_uncertainty > 0 && !data.is_least_of_reference()) add(of_reference);
+  if (data.reference_uncertainty > 0 && !data.is_least_of_reference()) add(of_reference());
   add("dotted: 1, 10 and 100 times the cheapest run");
   if (triangles) add("triangles: slope of an order");
   if (std::any_of(data.curves.begin(), data.curves.end(), [](const ChartCurve& curve) { return !curve.is_lit; }))

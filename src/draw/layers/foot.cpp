@@ -22,12 +22,6 @@ constexpr double kMostRoom = 1.5;      // weights: the camera holds arrows of so
 constexpr double kPressure = 0.0075;   // units of H: radius of the centre of pressure
 constexpr double kFarthest = 3;        // lengths of the foot: beyond, the arrow tells nothing
 
-double weight_of(const Chain& chain) {
-  double mass = 0;
-  for (const Body& body : chain.bodies) mass += body.inertia.mass;
-  return mass * chain.gravity.norm();
-}
-
 // A run's foot, and what the ground answers at its samples.
 struct FootRun {
   struct Answer {
@@ -51,7 +45,7 @@ struct FootRun {
 };
 
 FootRun::FootRun(const StagedRun& motion)
-    : weight(weight_of(motion.chain())),
+    : weight(mass_of(motion.chain()) * motion.chain().gravity.norm()),
       foot(*motion.simulation()->events->foot),
       ground(motion.simulation()->events->ground) {
   const Chain& chain = motion.chain();

@@ -177,17 +177,17 @@ void emit_control(YAML::Emitter& out, const Control& control) {
   out << YAML::EndMap;
 }
 
+KeyText told_gain(const char* key, const char* each, const char* what) {
+  return told_either(key, {told("", KeyForm::number, "for all"), told_list("", told("", KeyForm::number, ""), each)}, what);
+}
+
 KeyText told_feedback(const char* name, const char* help) {
-  const auto gain = [](const char* key, const char* what) {
-    return told_either(key, {told("", KeyForm::number, "for all"), told_list("", told("", KeyForm::number, ""), "one a freedom")},
-                       what);
-  };
   const auto course = [](const char* key, const char* what) {
     return told_either(key, {told("", KeyForm::expression, ""), told_list("", told("", KeyForm::expression, ""), "one a freedom")},
                        what);
   };
   return told_record(name,
-                     {gain("kp", "gain of places; 0 where it is left out"), gain("kd", "gain of rates"),
+                     {told_gain("kp", "one a freedom", "gain of places; 0 where it is left out"), told_gain("kd", "one a freedom", "gain of rates"),
                       course("q", "the motion to follow, expressions in t; its derivatives are taken exactly"),
                       course("qd", "its rates, where they are not the derivatives"),
                       course("qdd", "its accelerations, likewise"),
@@ -197,12 +197,9 @@ KeyText told_feedback(const char* name, const char* help) {
 }
 
 KeyText told_task() {
-  const auto gain = [](const char* key, const char* what) {
-    return told_either(key, {told("", KeyForm::number, "for all"), told_list("", told("", KeyForm::number, ""), "one an axis")}, what);
-  };
   return told_record("task",
                      {told("frame", KeyForm::text, "whose origin is pulled; left out: the end effector"),
-                      gain("kp", "of the spring, N/m"), gain("kd", "of the damper, N s/m"),
+                      told_gain("kp", "one an axis", "of the spring, N/m"), told_gain("kd", "one an axis", "of the damper, N s/m"),
                       told_list("x", told("", KeyForm::expression, ""), "the place to go to, m: expressions in t, two along the axes of the plane of motion, or x y z"),
                       told_list("xd", told("", KeyForm::expression, ""), "its velocity, where it is not the derivative")},
                      "J^T (kp (x_ref - x) + kd (xd_ref - xd)): a spring and a damper that pull a frame to a place that moves; of the whole chain");

@@ -228,14 +228,11 @@ namespace {
 std::optional<std::pair<double, double>> borne_by_foot(const Simulation& simulation) {
   if (!simulation.events || !simulation.events->foot) return {};
   const Chain& chain = simulation.chain;
-  double mass = 0;
   std::vector<double> ankles;  // m along the ground
-  for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
-    mass += chain.bodies[b].inertia.mass;
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b)
     if (chain.bodies[b].parent == 0) ankles.push_back(chain.bodies[b].joint.X_PJ.translation().dot(simulation.events->ground.along));
-  }
   if (ankles.size() != 1) return {};
-  const double weight = mass * chain.gravity.norm();
+  const double weight = mass_of(chain) * chain.gravity.norm();
   const Foot& foot = *simulation.events->foot;
   return std::pair{weight * (ankles[0] - foot.heel), weight * (foot.toe - ankles[0])};
 }

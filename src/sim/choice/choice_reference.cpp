@@ -102,15 +102,7 @@ class Finder {
   }
 
  private:
-  bool takes(const char* name) {
-    simulation_.method = &find_method(name);
-    try {
-      check_method(simulation_);
-      return true;
-    } catch (const Error&) {
-      return false;
-    }
-  }
+  bool takes(const char* name) { return takes_the_chain(simulation_, find_method(name)); }
 
   // From the most exact on; the series first, since it shares no text with the others.
   std::vector<MethodSetting> witnesses() {

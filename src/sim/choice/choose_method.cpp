@@ -30,16 +30,6 @@ constexpr double kSmallErrors = 100;  // times the accuracy: up to there errors 
 // Where a method is exact enough with no setting, others are tried up to this many times the cost of the most exact one.
 constexpr double kBeyondMostExact = 3;
 
-bool takes_the_chain(Simulation& simulation, const Method& method) {
-  simulation.method = &method;
-  try {
-    check_method(simulation);
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
-}
-
 // Frames show them; what is between two frames is asked for by slow motion, captions and tables.
 std::vector<double> with_halves(std::span<const double> frames, double end) {
   std::vector<double> times;

@@ -27,6 +27,16 @@ std::string to_string(const MethodSetting& setting) {
   return text;
 }
 
+bool takes_the_chain(Simulation& simulation, const Method& method) {
+  simulation.method = &method;
+  try {
+    check_method(simulation);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 CountedRuns::CountedRuns(Simulation& simulation, double budget, const ChoiceWatch& watch)
     : simulation_(simulation),
       budget_(budget),

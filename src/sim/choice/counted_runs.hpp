@@ -13,6 +13,8 @@ namespace chainreel {
 
 // "taylor, order 16, tolerance 1e-6".
 std::string to_string(const MethodSetting& setting);
+// Whether the method takes the chain; it is the simulation's from here on.
+bool takes_the_chain(Simulation& simulation, const Method& method);
 
 // What a choice is doing, asked for now and then; true stops it.
 struct ChoiceProgress {

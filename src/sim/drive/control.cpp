@@ -40,11 +40,6 @@ void add_multiple(std::vector<Quad>& powers, const std::vector<Quad>& of, Quad f
   for (std::size_t k = 0; k < of.size(); ++k) powers[k] += factor * of[k];
 }
 
-void add(AffineTorque& sum, const AffineTorque& other) {
-  for (std::size_t i = 0; i < sum.powers.size(); ++i) add_multiple(sum.powers[i], other.powers[i], 1);
-  for (std::size_t k = 0; k < sum.K.size(); ++k) sum.K[k] += other.K[k], sum.D[k] += other.D[k];
-}
-
 void evaluate_affine(const AffineTorque& torque, Quad t, std::span<const Quad> q, std::span<const Quad> qd, std::span<Quad> tau) {
   const std::size_t n = tau.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -228,7 +223,7 @@ class SumOfTorques final : public TorqueLaw {
       if (!sum)
         sum = own;
       else
-        add(*sum, *own);
+        for (std::size_t i = 0; i < sum->powers.size(); ++i) add_row(*sum, *own, i);
     }
     return sum;
   }

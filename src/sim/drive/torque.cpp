@@ -75,14 +75,10 @@ class MixedTorque final : public TorqueLaw {
   StateCorners* corners() override { return rest_->corners(); }
   std::optional<AffineTorque> affine() const override {
     std::optional<AffineTorque> torque = rest_->affine();
-    const std::size_t n = one_.size();
     for (const auto& [joint, has_more, law] : controls_) {
       const std::optional<AffineTorque> own = law->affine();
       if (!torque || !own) return {};
-      std::vector<Quad>& powers = torque->powers[joint];
-      powers.resize(std::max(powers.size(), own->powers[joint].size()));
-      for (std::size_t k = 0; k < own->powers[joint].size(); ++k) powers[k] += own->powers[joint][k];
-      for (std::size_t j = joint * n; j < (joint + 1) * n; ++j) torque->K[j] += own->K[j], torque->D[j] += own->D[j];
+      add_row(*torque, *own, joint);
     }
     return torque;
   }
@@ -182,6 +178,15 @@ std::unique_ptr<TorqueLaw> make_plain_law(const Chain& chain, const std::vector<
 }
 
 }  // namespace
+
+void add_row(AffineTorque& sum, const AffineTorque& other, std::size_t freedom) {
+  std::vector<Quad>& powers = sum.powers[freedom];
+  const std::vector<Quad>& more = other.powers[freedom];
+  powers.resize(std::max(powers.size(), more.size()));
+  for (std::size_t k = 0; k < more.size(); ++k) powers[k] += more[k];
+  const std::size_t n = sum.powers.size();
+  for (std::size_t j = freedom * n; j < (freedom + 1) * n; ++j) sum.K[j] += other.K[j], sum.D[j] += other.D[j];
+}
 
 std::unique_ptr<TorqueLaw> make_torque_law(const Chain& chain, const std::vector<TorqueEntry>& entries,
                                            const Parameters& parameters, const NamedFrames& frames) {

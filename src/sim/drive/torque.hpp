@@ -58,6 +58,9 @@ class TorqueLaw {
   }
 };
 
+// Of one freedom, what both have of it together.
+void add_row(AffineTorque& sum, const AffineTorque& other, std::size_t freedom);
+
 // One joint's entry as the scene wrote it: a number, an expression, or a control of this joint alone.
 struct TorqueEntry {
   std::string text = "0";
