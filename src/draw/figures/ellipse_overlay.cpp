@@ -246,7 +246,7 @@ Picture draw_superposed(const Chain& chain, const std::vector<Pose>& poses, cons
                         look_of(overlay.skeleton, overlay.camera, *options.theme), kSceneClip);
     }
   if (!overlay.is_field() && poses.size() > 1) overlay.draw_labels(picture, room);
-  const int left_out = draw_clear_of(picture, 0, overlay.numbers, overlay.bodies(), room, *options.theme, kSceneClip);
+  const int left_out = draw_clear_of(picture, 0, overlay.numbers, overlay.bodies(), room, *options.theme, kSceneClip, poses.size() > 1);
   if (numbers_left_out != nullptr) *numbers_left_out = left_out;
   Sheet inside = sheet;
   inside.scene = room;

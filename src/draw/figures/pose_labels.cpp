@@ -138,7 +138,7 @@ std::vector<PlacedName> place_names(std::span<const NamedPlace> places, std::spa
 }
 
 int draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, std::vector<Obstacle> obstacles, const Rect& scene,
-                   const Theme& theme, int clip) {
+                   const Theme& theme, int clip, bool most_or_none) {
   // An axis that fades out of the panel at both ends has its number at one of them.
   std::vector<MarkWord> others;
   const Rect room = widened(scene, -kLabelInset);
@@ -159,8 +159,7 @@ int draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, 
   const auto left_out = std::count_if(standing.begin(), standing.end(), [](const StandingWord& word) { return !(word.opacity > 0); });
   MarkLabels placed(standing);
   for (MarkWord& word : others) placed.add(std::move(word));
-  // A few of many would be taken for those of their neighbours.
-  if (2 * left_out > std::ptrdiff_t(standing.size())) return int(standing.size());
+  if (most_or_none && 2 * left_out > std::ptrdiff_t(standing.size())) return int(standing.size());
   placed.draw(picture, scene, theme.background, clip);
   return int(left_out);
 }

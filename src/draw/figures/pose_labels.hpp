@@ -35,7 +35,8 @@ struct PlacedName {
 std::vector<PlacedName> place_names(std::span<const NamedPlace> places, std::span<const Bar> bars, const Rect& area);
 
 // The words where they lie on nothing of what was drawn since item `first`, nor on `obstacles`; how many have no such place.
+// `most_or_none`: where several things are named a few words would be taken for those of their neighbours.
 int draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, std::vector<Obstacle> obstacles, const Rect& scene,
-                  const Theme& theme, int clip);
+                  const Theme& theme, int clip, bool most_or_none = false);
 
 }  // namespace chainreel
