@@ -30,6 +30,13 @@ int require_end_effector(const Chain& chain) {
                   leaves);
 }
 
+std::vector<std::size_t> places_of_joint(std::span<const std::string> names, const std::string& joint) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] == joint || names[i].starts_with(joint + ".")) places.push_back(i);
+  return places;
+}
+
 std::vector<std::string> position_names(const Chain& chain) {
   std::vector<std::string> names(std::size_t(chain.nq));
   for (std::size_t i = 1; i < chain.bodies.size(); ++i) {

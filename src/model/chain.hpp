@@ -131,6 +131,9 @@ int require_end_effector(const Chain& chain);
 // nq names: as coordinate_names, but NAME.x y z qx qy qz qw for a floating joint.
 std::vector<std::string> position_names(const Chain& chain);
 
+// Where among such names those of a joint stand: its own, or NAME.x and its like; none for one that is not there.
+std::vector<std::size_t> places_of_joint(std::span<const std::string> names, const std::string& joint);
+
 // q with every joint at zero: zeros, and the unit quaternion for floating joints.
 std::vector<double> zero_configuration(const Chain& chain);
 

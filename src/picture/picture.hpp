@@ -152,6 +152,7 @@ struct Picture {
   Color background = color_of(0xFFFFFF);
   std::vector<Rect> clips;
   std::vector<Item> items;
+  std::size_t fixed = 0;  // so many of the items, the first ones, are alike in all pictures of a film
 
   template <class S>
   void add(S&& shape, int clip = -1) {
@@ -159,6 +160,11 @@ struct Picture {
     Item& item = items.emplace_back();
     item.shape = std::forward<S>(shape);
     item.clip = clip;
+  }
+
+  // Items `begin` to the one before `end` on the same page.
+  Picture part(std::size_t begin, std::size_t end) const {
+    return {aspect, background, clips, {items.begin() + std::ptrdiff_t(begin), items.begin() + std::ptrdiff_t(end)}};
   }
 
   // Everything of `over` on top of what is here; its page and background are left out.

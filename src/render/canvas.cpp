@@ -13,6 +13,7 @@
 #include "render/changes.hpp"
 #include "render/gl_painter.hpp"
 #include "render/glyph_atlas.hpp"
+#include "render/renderer_pins.hpp"
 #include "render/solid_layer.hpp"
 #include "render/window_painter.hpp"
 #include "render/windows.hpp"
@@ -44,7 +45,8 @@ std::uint32_t* pixels_of(Image& image) {
 
 struct Canvas::State {
   int width, height;
-  std::unique_ptr<GlPainter> gl;  // none where the static layer is another canvas's
+  std::optional<ComingRenderer> coming;  // none where the static layer is another canvas's
+  std::unique_ptr<GlPainter> gl;
   WindowPainter painter;
   SolidLayer solid_layer;
   std::shared_ptr<const StaticLayer> static_layer;
@@ -58,14 +60,14 @@ struct Canvas::State {
   Image translucent;  // the page where its background is, premultiplied; otherwise it is the frame's image
   CanvasFrame frame;
 
-  State(int w, int h, std::unique_ptr<GlPainter> with, std::shared_ptr<const StaticLayer> layer, int largest, const Fonts& fonts)
+  State(int w, int h, std::optional<ComingRenderer> with, std::shared_ptr<const StaticLayer> layer, const Fonts& fonts)
       : width(w),
         height(h),
-        gl(std::move(with)),
+        coming(std::move(with)),
         painter(w, h),
         solid_layer(w, h),
         static_layer(std::move(layer)),
-        atlas(fonts, largest),
+        atlas(fonts),
         batch(w, h, atlas),
         batch_before(w, h, atlas),
         changed(w, h) {
@@ -75,7 +77,7 @@ struct Canvas::State {
   PixelBox whole() const { return {0, 0, width, height}; }
 
   GlPainter& opengl() {
-    if (!gl) gl = std::make_unique<GlPainter>(width, height);
+    if (!gl) gl = coming ? coming->arrived() : ComingRenderer(width, height).arrived();
     return *gl;
   }
 
@@ -156,14 +158,33 @@ struct Canvas::State {
   }
 };
 
-Canvas::Canvas(int width, int height, const Fonts& fonts) {
-  auto gl = std::make_unique<GlPainter>(width, height);
-  const int largest = gl->largest_side();
-  state_ = std::make_unique<State>(width, height, std::move(gl), nullptr, largest, fonts);
+ComingRenderer::ComingRenderer(int width, int height, const std::function<void()>& before) : width_(width), height_(height) {
+  require_page(width, height);
+  settle_environment();
+  painter_ = std::async(std::launch::async | std::launch::deferred, [width, height, before] {
+    if (before) before();
+    auto painter = std::make_unique<GlPainter>(width, height);
+    painter->get_ready();
+    return painter;
+  });
+}
+
+ComingRenderer::ComingRenderer(ComingRenderer&&) noexcept = default;
+ComingRenderer::~ComingRenderer() = default;
+
+std::unique_ptr<GlPainter> ComingRenderer::arrived() {
+  return painter_.get();
+}
+
+Canvas::Canvas(int width, int height, const Fonts& fonts) : Canvas(ComingRenderer(width, height), fonts) {}
+
+Canvas::Canvas(ComingRenderer renderer, const Fonts& fonts) {
+  const int width = renderer.width_, height = renderer.height_;
+  state_ = std::make_unique<State>(width, height, std::move(renderer), nullptr, fonts);
 }
 
 Canvas::Canvas(std::shared_ptr<const StaticLayer> layer, const Fonts& fonts)
-    : state_(std::make_unique<State>(layer->pixels.width, layer->pixels.height, nullptr, layer, layer->largest_side, fonts)) {}
+    : state_(std::make_unique<State>(layer->pixels.width, layer->pixels.height, std::nullopt, layer, fonts)) {}
 
 Canvas::~Canvas() = default;
 
@@ -179,7 +200,6 @@ void Canvas::set_static_layer(const Picture& picture) {
   layer->pixels = Image(s.width, s.height);
   layer->alpha = picture.background.a;
   s.draw_whole(picture.background, layer->pixels);
-  layer->largest_side = s.opengl().largest_side();
   s.static_layer = std::move(layer);
 }
 
@@ -189,6 +209,12 @@ std::shared_ptr<const StaticLayer> Canvas::static_layer() const {
 
 const CanvasFrame& Canvas::draw(const Picture& picture) {
   State& s = *state_;
+  if (!s.static_layer && picture.fixed > 0) {
+    set_static_layer(picture.part(0, picture.fixed));
+    draw(picture.part(picture.fixed, picture.items.size()));
+    s.static_layer.reset();
+    return s.frame;
+  }
   s.set(picture);
   s.find_changes();
   s.shows_batch_before = false;  // should this fail
@@ -218,10 +244,6 @@ void give_renderer_back() {
   constexpr std::array<std::string_view, 3> kLibraries = {"libLLVM", "libOSMesa", "libgallium"};
   give_code_back(kLibraries);
   give_freed_memory_back();
-}
-
-RendererInfo probe_renderer() {
-  return info_of(*create_gl_context());
 }
 
 }  // namespace chainreel

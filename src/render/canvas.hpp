@@ -2,6 +2,8 @@
 // it in memory, with the same bytes. Not shared between threads.
 #pragma once
 
+#include <functional>
+#include <future>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,9 +21,6 @@ struct RendererInfo {
   std::string version;   // GL_VERSION
 };
 
-// Makes a context for a moment. Throws Error (exit 4) where there is none.
-RendererInfo probe_renderer();
-
 // While no canvas draws by OpenGL: its libraries' code, some 60 MB, need not lie in memory.
 void give_renderer_back();
 
@@ -35,14 +34,35 @@ struct CanvasFrame {
 struct StaticLayer {
   Image pixels;      // premultiplied by their opacity
   double alpha = 1;  // of the background
-  int largest_side = 0;  // of a picture that the renderer can draw
+};
+
+class GlPainter;
+
+// The renderer of pages of a size, which a thread of its own makes while other work goes on: its library takes as long to
+// open as a page to be planned. Where no thread is to be had it is made by who draws with it.
+class ComingRenderer {
+ public:
+  // Throws Error (exit 7) where no page is so large, or memory is too short for it.
+  // `before`: what the thread does first, since both together would take too much address space; what it throws is thrown later.
+  ComingRenderer(int width, int height, const std::function<void()>& before = {});
+  ComingRenderer(ComingRenderer&&) noexcept;
+  ~ComingRenderer();  // waits for it
+
+  // Once; throws what made it fail.
+  std::unique_ptr<GlPainter> arrived();
+
+ private:
+  friend class Canvas;
+  std::future<std::unique_ptr<GlPainter>> painter_;
+  int width_, height_;
 };
 
 class Canvas {
  public:
-  // Throws Error (exit 4) where there is no OpenGL 3.3 core context, exit 7 where the size is beyond its
+  // The first drawing throws Error (exit 4) where there is no OpenGL 3.3 core context, exit 7 where the size is beyond its
   // limits.
   Canvas(int width, int height, const Fonts& fonts);
+  Canvas(ComingRenderer renderer, const Fonts& fonts);
   // Of the layer's size, over it. Needs no OpenGL.
   Canvas(std::shared_ptr<const StaticLayer> layer, const Fonts& fonts);
   ~Canvas();
@@ -56,8 +76,8 @@ class Canvas {
   void set_static_layer(const Picture& picture);
   std::shared_ptr<const StaticLayer> static_layer() const;
   // Draws over the static layer. Only those tiles are drawn in which the picture's
-  // shapes differ from those of the picture before: the bytes are the same as if all were. The frame stays the canvas's,
-  // until the next call.
+  // shapes differ from those of the picture before: the bytes are the same as if all were. Without a static layer the
+  // picture's own fixed items are one, and all is drawn. The frame stays the canvas's, until the next call.
   const CanvasFrame& draw(const Picture& picture);
   // The same into an image of one's own.
   void draw(const Picture& picture, Image& image);

@@ -113,15 +113,19 @@ class EglContext : public GlContext {
                                              library.trouble("eglMakeCurrent"));
   }
 
+  void release() override {
+    const EglLibrary& library = egl();
+    if (library.current_context() == context_)
+      library.make_current(library.display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  }
+
   std::string backend() const override { return "EGL"; }
 
  private:
   // A context that is current anywhere lives on.
   void destroy() {
-    const EglLibrary& library = egl();
-    if (library.current_context() == context_)
-      library.make_current(library.display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    library.destroy_context(library.display, context_);
+    release();
+    egl().destroy_context(egl().display, context_);
   }
 
   EGLContext context_ = EGL_NO_CONTEXT;

@@ -14,7 +14,4 @@ std::span<const Name> names_of(GlBackend);
 // To be called before the first context of the process.
 void choose_gl_backend(GlBackend backend);
 
-// Opens the library of the chosen backend, which stays, so that a first context is there sooner.
-void open_renderer_library();
-
 }  // namespace chainreel

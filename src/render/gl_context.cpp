@@ -88,10 +88,6 @@ void choose_gl_backend(GlBackend backend) {
   chosen = backend;
 }
 
-void open_renderer_library() {
-  if (chosen != GlBackend::egl) osmesa_is_there();
-}
-
 std::unique_ptr<GlContext> create_gl_context() {
   static std::once_flag first;
   std::call_once(first, [] {

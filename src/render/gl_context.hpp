@@ -15,6 +15,8 @@ class GlContext {
   GlContext& operator=(const GlContext&) = delete;
 
   virtual void make_current() = 0;
+  // From the thread where it is current: another one may make it current then.
+  virtual void release() = 0;
   virtual std::string backend() const = 0;
 
   const GlFunctions& gl() const { return gl_; }

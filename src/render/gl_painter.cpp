@@ -43,24 +43,33 @@ int measured_side(const GlFunctions& gl) {
 // without a screen.
 constexpr double kBytesOfPixel = 20;
 
-// The longest side that can be drawn.
-int largest_side_for(const GlFunctions& gl, int width, int height) {
-  const int largest = measured_side(gl);
-  const std::string what = "a picture of " + std::to_string(width) + "x" + std::to_string(height) + " px";
+std::string words_of_page(int width, int height) {
+  return "a picture of " + std::to_string(width) + "x" + std::to_string(height) + " px";
+}
+
+void require_sides(int width, int height, int largest) {
   if (std::min(width, height) < 1 || std::max(width, height) > largest)
-    throw Error(ExitCode::limit, what + " cannot be drawn; each side must be 1 to " + std::to_string(largest) + " px");
-  require_memory(kBytesOfPixel * width * height, what);
-  return largest;
+    throw Error(ExitCode::limit, words_of_page(width, height) + " cannot be drawn; each side must be 1 to " + std::to_string(largest) + " px");
+}
+
+// The functions of a context that can draw such a page.
+const GlFunctions& functions_for(const GlContext& context, int width, int height) {
+  require_sides(width, height, measured_side(context.gl()));
+  return context.gl();
 }
 
 }  // namespace
+
+void require_page(int width, int height) {
+  require_sides(width, height, GlyphAtlas::kLargestSide);
+  require_memory(kBytesOfPixel * width * height, words_of_page(width, height));
+}
 
 GlPainter::GlPainter(int width, int height)
     : width_(width),
       height_(height),
       context_(create_gl_context()),
-      gl_(context_->gl()),
-      largest_(largest_side_for(gl_, width, height)),
+      gl_(functions_for(*context_, width, height)),
       page_(gl_, Target::Kind::color, width, height) {
   for (GLuint* texture : {&cell_texture_, &atlas_texture_}) {
     gl_.GenTextures(1, texture);
@@ -77,6 +86,22 @@ GlPainter::~GlPainter() {
   context_->make_current();
   gl_.DeleteTextures(1, &atlas_texture_);
   gl_.DeleteTextures(1, &cell_texture_);
+}
+
+void GlPainter::get_ready() {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, page_.framebuffer());
+  gl_.Enable(GL_BLEND);
+  const std::uint8_t nothing = 0;
+  gl_.BindTexture(GL_TEXTURE_2D, atlas_texture_);
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, 1, 1, 0, GL_RED, GL_UNSIGNED_BYTE, &nothing);
+  for (const Primitive primitive : {Primitive::capsule, Primitive::glyph}) {
+    const std::vector<float> empty(std::size_t(Windows::floats_of(primitive)));
+    program(primitive).upload(empty.data(), empty.size());
+    program(primitive).draw(0, 1);
+  }
+  gl_.Disable(GL_BLEND);
+  check_gl(gl_, "getting ready");
+  context_->release();
 }
 
 RendererInfo GlPainter::info() const {

@@ -20,6 +20,9 @@ namespace chainreel {
 
 RendererInfo info_of(const GlContext& context);
 
+// Throws Error (exit 7) where no page is so large, or memory is too short for it.
+void require_page(int width, int height);
+
 class GlPainter {
  public:
   // Throws Error (exit 4) where there is no OpenGL 3.3 core context, exit 7 where the size is beyond its
@@ -29,8 +32,10 @@ class GlPainter {
   GlPainter(const GlPainter&) = delete;
   GlPainter& operator=(const GlPainter&) = delete;
 
+  // Compiles what nearly every page needs, and leaves the thread: another one may draw then.
+  void get_ready();
+
   RendererInfo info() const;
-  int largest_side() const { return largest_; }
 
   // Draws the windows onto a page of this colour; `draw_solids` is called for runs of bodies, and may read
   // and write.
@@ -54,7 +59,6 @@ class GlPainter {
   int width_, height_;
   std::unique_ptr<GlContext> context_;
   const GlFunctions& gl_;
-  int largest_;
   Target page_;
   std::optional<Target> trail_layer_;  // made when first used
   std::array<std::optional<PrimitiveProgram>, kPrimitives.size()> programs_;

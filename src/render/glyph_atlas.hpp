@@ -20,7 +20,9 @@ struct AtlasGlyph {
 
 class GlyphAtlas {
  public:
-  explicit GlyphAtlas(const Fonts& fonts, int largest_side);
+  static constexpr int kLargestSide = 16384;  // of the sheet, px: Mesa's largest
+
+  explicit GlyphAtlas(const Fonts& fonts, int largest_side = kLargestSide);
   ~GlyphAtlas();
   GlyphAtlas(const GlyphAtlas&) = delete;
   GlyphAtlas& operator=(const GlyphAtlas&) = delete;

@@ -85,6 +85,8 @@ class OsmesaContext : public GlContext {
       throw Error(ExitCode::no_renderer, "no OpenGL renderer: OSMesa does not accept its own context");
   }
 
+  void release() override { osmesa().make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+
   std::string backend() const override { return "OSMesa"; }
 
  private:

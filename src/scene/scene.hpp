@@ -26,9 +26,18 @@
 
 namespace chainreel {
 
+// Numbers of a joint by its name, which only a model can place.
+struct JointNumbers {
+  std::string joint;  // or one of its coordinates: base.x
+  std::vector<double> values;
+  std::vector<std::string> written;
+  Place place;
+};
+
 struct StartState {
   std::vector<double> q;   // empty: every joint at zero
   std::vector<double> qd;  // empty: at rest
+  std::vector<JointNumbers> q_of_joints, qd_of_joints;  // until the model is known; not keys
   std::vector<std::string> written_q, written_qd;  // their numbers as they stand in the file; not keys
 };
 

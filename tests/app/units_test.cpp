@@ -110,6 +110,16 @@ TEST_F(Units, SingleEntriesOfAListThatWasLeftOutStartFromTheDefault) {
     EXPECT_EQ(run_program({"sweep", scene, "--over", over, "-o", folder_.file("s.csv"), "--force"}).status, 0) << over;
 }
 
+TEST_F(Units, StartsAreWrittenByJointOrByPlace) {
+  EXPECT_EQ(hash({"start.q.joint2=90deg", "start.qd.joint1=1"}), hash({"start.q=[0, 90deg]", "start.qd=[1, 0]"}));
+  EXPECT_EQ(hash({"start.q={joint2: 90deg, 1: 0.1}"}), hash({"start.q=[0.1, 90deg]"}));
+  EXPECT_NE(hash({"start.q.joint2=90deg"}), hash({"start.q.joint1=90deg"}));
+  expect_refused({"start.q={joint2: 1, 2: 1}"}, "joint2 twice");
+  expect_refused({"start.q.jont2=1"}, "did you mean 'joint2'");
+  expect_refused({"start.q.joint2=[1, 2]"}, "takes 1 number, not 2");
+  expect_refused({"start.q.joint1=4cm"}, "4cm of joint1");
+}
+
 TEST_F(Units, OfRangesReachTheirKey) {
   const std::string scene = folder_.write("s.yaml", "model: " + kModels + "rr.urdf\nduration: 0.02\nmethod: rk4\ntorque: {pd: {kp: 60, kd: 1, q: [0, 0]}}\n");
   const auto status = [&](const std::string& over) {

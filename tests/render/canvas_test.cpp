@@ -162,7 +162,7 @@ TEST(Canvas, ALineThatComesFromFarAwayIsStillStraight) {
 TEST(Canvas, SizesBeyondTheLimitsAreRefused) {
   for (const auto& [width, height] : {std::pair(0, 10), std::pair(10, -1), std::pair(1000000, 10)}) {
     try {
-      Canvas canvas(width, height, fonts());
+      Canvas(width, height, fonts()).draw(Picture{});
       ADD_FAILURE() << width << "x" << height;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::limit);
@@ -186,8 +186,32 @@ TEST(Canvas, AnySizeHasItsRowsInOrder) {
   }
 }
 
+// What lies under all that moves is drawn by one renderer, the rest by the other: together the bytes of one.
+TEST(Canvas, FixedItemsAreDrawnFirstAndLeaveTheBytesAsTheyAre) {
+  for (const double opacity : {1.0, 0.3}) {
+    Picture picture;
+    picture.background = color_of(0x204060, opacity);
+    picture.add(Polygon{{{{0.1, 0.1}, {1.6, 0.2}, {0.8, 0.9}, {0.2, 0.7}}}, 4, {color_of(0xFF8000, 0.7), kBlack, 0.02}});
+    picture.add(Ellipse{{0.9, 0.5}, {0.4, 0.1}, {-0.1, 0.3}, {color_of(0x00FF00, 0.4), {}, 0}});
+    picture.add(Capsule{{0.3, 0.3}, {1.2, 0.8}, 0.05, {color_of(0x0000FF, 0.6), kBlack, 0.01}});
+    const Image whole = drawn(picture, 160, 90);
+    Canvas canvas(160, 90, fonts());
+    for (picture.fixed = 0; picture.fixed <= picture.items.size(); ++picture.fixed)
+      EXPECT_EQ(canvas.draw(picture).image.bgra, whole.bgra) << picture.fixed;
+    picture.items.erase(picture.items.begin());
+    picture.fixed = 1;
+    EXPECT_NE(canvas.draw(picture).image.bgra, whole.bgra);  // nothing is kept of the picture before
+  }
+}
+
+TEST(Canvas, WhatFailsWhileItComesIsToldByWhoDraws) {
+  ComingRenderer coming(16, 16, [] { throw Error(ExitCode::no_renderer, "none is there"); });
+  Canvas canvas(std::move(coming), fonts());
+  EXPECT_THROW(canvas.draw(Picture{}), Error);
+}
+
 TEST(Canvas, RendererHasAName) {
-  const RendererInfo info = probe_renderer();
+  const RendererInfo info = Canvas(16, 16, fonts()).info();
   EXPECT_FALSE(info.backend.empty());
   EXPECT_FALSE(info.renderer.empty());
   EXPECT_GE(std::atof(info.version.c_str()), 3.3);

@@ -25,7 +25,7 @@ inline Point at_px(double x, double y) {
 }
 
 inline Image draw_items(std::initializer_list<Shape> shapes, Color background = color_of(0xFFFFFF)) {
-  static Canvas canvas(kSide, kSide, fonts());
+  static Canvas& canvas = *new Canvas(kSide, kSide, fonts());  // the renderer's library may end before statics do
   Picture picture;
   picture.background = background;
   for (const Shape& shape : shapes) picture.add(shape);

@@ -77,7 +77,7 @@ class Shapes {
 };
 
 Image by_opengl(const Picture& picture) {
-  static Canvas canvas(kPageWidth, kPageHeight, fonts());
+  static Canvas& canvas = *new Canvas(kPageWidth, kPageHeight, fonts());  // the renderer's library may end before statics do
   Image image;
   canvas.draw(picture, image);
   return image;
@@ -85,7 +85,7 @@ Image by_opengl(const Picture& picture) {
 
 // Over a page of the picture's background.
 Image in_memory(const Picture& picture) {
-  static Canvas canvas(kPageWidth, kPageHeight, fonts());
+  static Canvas& canvas = *new Canvas(kPageWidth, kPageHeight, fonts());  // the renderer's library may end before statics do
   Picture below;
   below.background = picture.background;
   canvas.set_static_layer(below);

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "app/cli/named_pose.hpp"
 #include "app/cli/command.hpp"
@@ -86,8 +87,8 @@ OutputPlace place_of(const SnapshotOptions& options, std::size_t pictures) {
 // Files that take their names together, when all are whole.
 class Pictures {
  public:
-  // `names` are those of files without ending; ignored where there is one picture.
-  Pictures(const SnapshotOptions& options, OutputPlace place, const std::vector<std::string>& names)
+  // `names` are those of files without ending; ignored where there is one picture. Begins to get a renderer ready.
+  Pictures(const SnapshotOptions& options, OutputPlace place, const std::vector<std::string>& names, int width, int height)
       : place_(std::move(place)) {
     if (names.size() > kMostPictures)
       throw Error(ExitCode::usage, "asks for " + std::to_string(names.size()) + " pictures; " +
@@ -98,14 +99,14 @@ class Pictures {
       for (const std::string& path : place_.paths) {
         const auto file = place_.is_folder ? std::filesystem::path(path) / (name + ".png") : std::filesystem::path(path);
         files_.back().push_back(std::make_unique<OutputFile>(file.string(), options.common.force));
+        if (picture_format_of(file.string()).has_pixels && !renderer_) renderer_.emplace(width, height);
       }
     }
   }
 
-  void write(std::size_t i, const Picture& picture, int width, int height, const Fonts& fonts,
-             const ClipMemory& memory) {
+  void write(std::size_t i, const Picture& picture, const Fonts& fonts, const ClipMemory& memory) {
     const auto image = [&] {
-      if (!canvas_) canvas_ = std::make_unique<Canvas>(width, height, fonts);
+      if (!canvas_) canvas_ = std::make_unique<Canvas>(std::move(*renderer_), fonts);
       Image pixels;
       canvas_->draw(picture, pixels);
       return pixels;
@@ -135,6 +136,7 @@ class Pictures {
  private:
   OutputPlace place_;
   std::vector<std::vector<std::unique_ptr<OutputFile>>> files_;  // of each picture
+  std::optional<ComingRenderer> renderer_;
   std::unique_ptr<Canvas> canvas_;
 };
 
@@ -222,9 +224,9 @@ void snapshot_scene(const SnapshotOptions& options) {
   if (options.width > 0) video.width = options.width;
   if (options.height > 0) video.height = options.height;
   const std::vector<double> instants = instants_asked(film, asked);
-  Pictures pictures(options, place, names);
   const Fonts fonts(families_of(film.scene));
   if (options.paper.is_given()) set_paper_page(film, options.paper, fonts, options.common.quiet);
+  Pictures pictures(options, place, names, video.width, video.height);
   Moments moments(film, fonts);
   std::vector<Json> numbers;
   for (std::size_t i = 0; i < instants.size(); ++i) {
@@ -232,7 +234,7 @@ void snapshot_scene(const SnapshotOptions& options) {
     if (options.paper.is_given()) shown.memory.width_mm = options.paper.width_mm;
     if (i == 0) tell_warnings(shown.warnings);
     if (i == 0) tell_left_out(shown.left_out, film.scene, options.common.quiet);
-    pictures.write(i, shown.picture, video.width, video.height, fonts, shown.memory);
+    pictures.write(i, shown.picture, fonts, shown.memory);
     numbers.push_back(shown.numbers);
   }
   pictures.commit(options, numbers);
@@ -307,7 +309,6 @@ void snapshot_model(const SnapshotOptions& options) {
   std::vector<std::string> names;
   for (const PosePicture& one : shown) names.push_back(one.name);
   require_own_names(names, "--pose");
-  Pictures pictures(options, place, names);
   const Fonts fonts(families_of(model.scene));
   PoseFigureOptions figure;
   set_look(figure, model, chain);
@@ -319,10 +320,10 @@ void snapshot_model(const SnapshotOptions& options) {
     figure.height = page.height;
     figure.text_scale = text_scale_on(page, figure.text_scale);
   }
+  Pictures pictures(options, place, names, figure.width, figure.height);
   std::vector<Json> numbers;
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    pictures.write(i, draw_pose_figure(chain, shown[i].poses, figure, fonts), figure.width, figure.height,
-                   fonts, memory_of_pose(options, chain, shown, i));
+    pictures.write(i, draw_pose_figure(chain, shown[i].poses, figure, fonts), fonts, memory_of_pose(options, chain, shown, i));
     Json poses = Json::array();
     for (const std::vector<double>& q : shown[i].poses) poses.push_back(pose_report(chain, q));
     numbers.push_back({{"poses", poses}});

@@ -32,6 +32,7 @@ struct OutputFormat {
   const char* told;    // half a sentence for people
   Shows shows = Shows::motion;
   bool is_sequence = false;           // a folder of pictures
+  bool has_pixels = true;             // of what is shown
   bool keeps_opacity = true;          // of a transparent page
   std::optional<VideoCodec> codec{};  // of films, whose size and quality it limits
   const char* browser_type = "";      // "video/mp4" where browsers play it

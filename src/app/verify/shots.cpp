@@ -196,8 +196,7 @@ class Studio::SceneSource : public Source {
     SuiteShot shot;
     shot.width = film_.scene.video.width;
     shot.height = film_.scene.video.height;
-    shot.picture = film.static_layer();
-    shot.picture.append(film.still(frame));
+    shot.picture = film.still(frame);
     shot.memory = memory_of(report);
     shot.memory.audit["at"] = at;
     shot.physics = {{"source", name_}, {"t", at}, {"run", record_}};

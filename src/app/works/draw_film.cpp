@@ -31,13 +31,6 @@ namespace {
 // 1920x1080, and the address space that it takes for its heap.
 constexpr double kBytesOfProcess = 300e6, kBytesOfThread = 100e6, kBytesOfPixel = 90;
 
-// The whole picture of a frame, for pages of shapes.
-Picture picture_of(const Film& film, int frame) {
-  Picture picture = film.static_layer();
-  picture.append(film.still(frame));
-  return picture;
-}
-
 // A chunk depends on the program, too.
 std::string chunk_key(const VideoSettings& s, const std::string& film_key) {
   static const std::string program = sha256_of_file("/proc/self/exe");
@@ -82,7 +75,8 @@ void write_pictures(const FilmChunk& chunk, const std::vector<std::string>& path
 std::shared_ptr<const StaticLayer> layer_under(const FilmWork& work) {
   std::shared_ptr<const StaticLayer> layer;
   {
-    Canvas canvas(work.scene.video.width, work.scene.video.height, work.fonts);
+    const Video& video = work.scene.video;
+    Canvas canvas(work.renderer != nullptr ? std::move(*work.renderer) : ComingRenderer(video.width, video.height), work.fonts);
     canvas.set_static_layer(work.film.static_layer());
     layer = canvas.static_layer();
   }
@@ -279,7 +273,7 @@ void Workshop::draw_clip(Output& output, Pen& pen) {
 }
 
 void Workshop::draw_stills(Pen& pen) {
-  const auto picture = [&] { return picture_of(work_.film, work_.still); };
+  const auto picture = [&] { return work_.film.still(work_.still); };
   const auto image = [&] { return pen.draw(work_.still); };
   ClipMemory memory = work_.memory;
   memory.audit["at"] = work_.still_at;
@@ -385,18 +379,14 @@ int affordable_jobs(int wanted, const Scene& scene, const std::vector<Output>& o
   return std::min(wanted > 0 ? wanted : usable_cores(), affordable);
 }
 
-std::future<void> open_libraries_ahead(const std::vector<Output>& outputs) {
-  const auto is_motion = [](const Output& output) { return output.shows(Shows::motion) && !output.folder; };
-  if (std::none_of(outputs.begin(), outputs.end(), is_motion)) return {};
-  settle_environment();
-  try {
-    return std::async(std::launch::async, [] {
-      libav();
-      open_renderer_library();
-    });
-  } catch (const std::system_error&) {  // no thread is to be had
-    return {};
-  }
+std::optional<ComingRenderer> renderer_ahead(const std::vector<Output>& outputs, const Scene& scene) {
+  const auto is_film = [](const Output& output) { return output.shows(Shows::motion) && !output.folder; };
+  const auto is_picture = [](const Output& output) { return !output.shows(Shows::table); };
+  if (std::none_of(outputs.begin(), outputs.end(), is_picture)) return {};
+  const bool has_films = std::any_of(outputs.begin(), outputs.end(), is_film);
+  return ComingRenderer(scene.video.width, scene.video.height, [has_films] {
+    if (has_films) libav();
+  });
 }
 
 void draw_film(const FilmWork& work, std::vector<Output>& outputs, StageTimes& times) {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <algorithm>
-#include <future>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +14,7 @@
 #include "app/works/part.hpp"
 #include "core/stage_clock.hpp"
 #include "draw/film/film.hpp"
+#include "render/canvas.hpp"
 
 namespace chainreel {
 
@@ -49,6 +50,7 @@ struct FilmWork {
   std::string film_key; // of what is shown, for chunks that were kept; "": none are
   int jobs = 1;         // threads, at most
   bool quiet = false;
+  ComingRenderer* renderer = nullptr;  // of the scene's size, that draws what lies under all frames; none: one is made
   std::vector<ChunkTape>* tapes = nullptr;  // takes the frames of films, a tape a chunk; then these are not made
 };
 
@@ -59,9 +61,9 @@ struct FilmCuts {
 };
 FilmCuts cuts_of(const std::vector<Output>& outputs, int frames, FrameRate fps);
 
-// Begins to open the libraries that films need, and the renderer's, beside what is worked out before: opened from cold they
-// take a tenth of a second. What fails is told by the first who needs it. The end of what is returned waits for the end of that.
-[[nodiscard]] std::future<void> open_libraries_ahead(const std::vector<Output>& outputs);
+// The libraries that films need and the renderer, made ready beside what is worked out before: from cold they take a tenth of a
+// second. None where no picture is asked for.
+std::optional<ComingRenderer> renderer_ahead(const std::vector<Output>& outputs, const Scene& scene);
 
 // How many threads are worth having where `wanted`, or all processors where it is 0, may be had: as many as there is memory
 // for; fewer than wanted is told on standard error.

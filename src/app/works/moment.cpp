@@ -46,8 +46,7 @@ struct Moments::State {
     runs.require_expected_ends(frame);
     Moment moment;
     moment.at = runs.times()[std::size_t(frame)];
-    moment.picture = pictures.static_layer();
-    moment.picture.append(pictures.still(frame));
+    moment.picture = pictures.still(frame);
     moment.title = runs.size() == 1 ? title_of(film.panels.front().scene, runs[0]) : title_of_page(film.scene);
     moment.memory = memory;
     moment.memory.audit["at"] = moment.at;

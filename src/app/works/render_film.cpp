@@ -344,7 +344,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   std::vector<Sidecar> sidecars;
   if (!is_part) sidecars = open_sidecars(job, film);
 
-  std::future<void> libraries = open_libraries_ahead(outputs);
+  std::optional<ComingRenderer> renderer = renderer_ahead(outputs, scene);
   StageClock total, clock;
   std::optional<Runs> own;
   const Runs& runs = done != nullptr ? *done : own.emplace(film);
@@ -395,8 +395,8 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   result.jobs = affordable_jobs(job.jobs, scene, outputs);
   const double still_at = runs.times()[std::size_t(still)];
   add_other_instant(outputs, still_at, job.at, scene, result.notes);
-  if (libraries.valid()) libraries.wait();
-  draw_film({pictures, scene, fonts, schedule, still, still_at, memory, range, part, key, result.jobs, job.quiet},
+  draw_film({pictures, scene, fonts, schedule, still, still_at, memory, range, part, key, result.jobs, job.quiet,
+             renderer ? &*renderer : nullptr},
             outputs, result.times);
   write_tables(runs, outputs);
   result.times.total = total.lap().wall;

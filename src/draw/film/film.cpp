@@ -105,7 +105,10 @@ Picture Film::frame(int k) const {
 }
 
 Picture Film::still(int k) const {
-  return drawn(k, true);
+  Picture picture = static_layer();
+  picture.fixed = picture.items.size();
+  picture.append(drawn(k, true));
+  return picture;
 }
 
 Picture Film::drawn(int k, bool is_still) const {

@@ -33,7 +33,7 @@ class Film {
   Picture static_layer() const;  // background, words, ground marks: what no frame changes
   Picture frame(int k) const;    // everything that moves, painter's order, drawn over the static layer
 
-  // The same for a picture that stands alone: words of marks that come or go then are there in full.
+  // All of both for a picture that stands alone: words of marks that come or go then are there in full.
   Picture still(int k) const;
 
   const FilmClock& clock() const { return stage_->clock; }

@@ -193,6 +193,14 @@ bool Fields::read(const std::string& key, std::vector<double>& value) {
 }
 
 bool Fields::read_some(const std::string& key, std::vector<double>& value) {
+  return read_entries(key, value, nullptr);
+}
+
+bool Fields::read_some(const std::string& key, std::vector<double>& value, std::vector<JointNumbers>& of_joints) {
+  return read_entries(key, value, &of_joints);
+}
+
+bool Fields::read_entries(const std::string& key, std::vector<double>& value, std::vector<JointNumbers>* of_joints) {
   const YAML::Node node = find(key);
   if (!node.IsMap() || node.size() == 0) return read(key, value);
   constexpr double kMostEntries = 1000;  // more than chains have
@@ -200,19 +208,46 @@ bool Fields::read_some(const std::string& key, std::vector<double>& value) {
   bool is_good = true;
   for (const auto& pair : node) {
     const std::string& index = pair.first.Scalar();
+    const std::string entry = key + "." + index;
     const std::optional<double> at = parse_number(index);
+    if (!at && of_joints != nullptr) {
+      is_good &= read_joint(index, pair.second, entry, *of_joints);
+      continue;
+    }
     if (!at || *at < 1 || *at > kMostEntries || *at != std::floor(*at)) {
-      problems_->add({"'" + path(key) + "' is a list, whose entries are counted from 1: '" + index + "' is none", place_of(pair.second, key + "." + index), true});
+      problems_->add({"'" + path(key) + "' is a list, whose entries are counted from 1: '" + index + "' is none", place_of(pair.second, entry), true});
       is_good = false;
       continue;
     }
     some.resize(std::max(some.size(), std::size_t(*at)), std::nan(""));
-    const std::optional<double> one = number(pair.second, key + "." + index);
+    const std::optional<double> one = number(pair.second, entry);
     if (one) some[std::size_t(*at) - 1] = *one;
     is_good &= one.has_value();
   }
   some.push_back(std::nan(""));
   if (is_good) value = std::move(some);
+  return is_good;
+}
+
+bool Fields::read_joint(const std::string& joint, const YAML::Node& node, const std::string& key, std::vector<JointNumbers>& of_joints) {
+  if (node.IsMap()) {
+    bool is_good = true;
+    for (const auto& pair : node)
+      is_good &= read_joint(joint + "." + pair.first.Scalar(), pair.second, key + "." + pair.first.Scalar(), of_joints);
+    return is_good;
+  }
+  JointNumbers read{joint, {}, {}, place_of(node, key)};
+  const bool is_list = node.IsSequence();
+  const std::size_t count = is_list ? node.size() : 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const YAML::Node entry = is_list ? node[i] : node;
+    if (const auto one = number(entry, is_list ? key + "." + std::to_string(i + 1) : key)) {
+      read.values.push_back(*one);
+      read.written.push_back(entry.Scalar());
+    }
+  }
+  const bool is_good = read.values.size() == count;
+  of_joints.push_back(std::move(read));
   return is_good;
 }
 

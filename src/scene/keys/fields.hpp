@@ -47,6 +47,8 @@ class Fields {
   // The same, or single ones by their indices from 1, {2: 90deg}, as `--set start.q.2=90deg` makes where there is no list: those
   // that are left out are NaN, which stand for the default.
   bool read_some(const std::string& key, std::vector<double>& value);  // behind them one more NaN, as their count is not known
+  // The same, or by the names of joints, {elbow: 90deg, base: [0, 0, 1]}, or {base: {z: 1}} as --set makes of base.z.
+  bool read_some(const std::string& key, std::vector<double>& value, std::vector<JointNumbers>& of_joints);
   bool read_some(const std::string& key, std::optional<Eigen::Vector3d>& value);
   bool read(const std::string& key, std::vector<std::string>& value);
   bool read_seconds(const std::string& key, double& value);       // `1.5`, `1.5s` or `1.5 s`
@@ -83,6 +85,8 @@ class Fields {
   std::optional<std::string> scalar(const YAML::Node& node, const std::string& key,
                                     const std::string& wanted);
   std::optional<double> number(const YAML::Node& node, const std::string& key);
+  bool read_entries(const std::string& key, std::vector<double>& value, std::vector<JointNumbers>* of_joints);
+  bool read_joint(const std::string& joint, const YAML::Node& node, const std::string& key, std::vector<JointNumbers>& of_joints);
 
   const YamlDocument* document_;
   YAML::Node map_;

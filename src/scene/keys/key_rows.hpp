@@ -117,6 +117,16 @@ class KeyRow {
   KeyRow&& of_page() && { return key_.of = KeyOf::page, std::move(*this); }
   KeyRow&& flag(FlagGroup group, const char* name) && { return key_.flags = group, key_.flag = name, std::move(*this); }
   KeyRow&& of_model(OfModel use) && { return key_.of_model = use, std::move(*this); }
+  // Of a list of the start: single numbers may be named by their joints.
+  KeyRow&& by_joint(std::vector<double> StartState::*list, std::vector<JointNumbers> StartState::*of_joints) && {
+    key_.read = [list, of_joints](const SceneKey& key, Fields& fields, Scene& scene) {
+      if (!fields.find(key.leaf()).IsDefined()) return;
+      fields.measure_in(key.unit);
+      fields.read_some(key.leaf(), scene.start.*list, scene.start.*of_joints);
+      fields.measure_in("");
+    };
+    return std::move(*this);
+  }
   KeyRow&& caption(const char* text) && { return key_.caption = text, std::move(*this); }
   KeyRow&& no_caption() && { return key_.is_captioned = false, std::move(*this); }
   // Written only where it means something.

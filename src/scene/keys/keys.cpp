@@ -61,12 +61,14 @@ std::vector<Chapter> chapters() {
             .of_model(OfModel::mechanism)}},
       {"Start and drive",
        {Row::section("start", "start: {q: [0, 90deg], qd: [0, 0]}", "the state in which the run begins"),
-        Row("start.q", &Scene::start, &StartState::q, "joint positions, a number a coordinate")
+        Row("start.q", &Scene::start, &StartState::q, "joint positions, a number a coordinate, or by joint, the others at zero: {elbow: 90deg}")
+            .by_joint(&StartState::q, &StartState::q_of_joints)
             .in("rad or m")
             .absent("all at zero")
             .where(is_computed)
             .caption("q(0) = @"),
-        Row("start.qd", &Scene::start, &StartState::qd, "joint rates, a number a freedom")
+        Row("start.qd", &Scene::start, &StartState::qd, "joint rates, a number a freedom, or by joint")
+            .by_joint(&StartState::qd, &StartState::qd_of_joints)
             .in("rad/s or m/s")
             .absent("at rest")
             .where(is_computed)

@@ -42,6 +42,37 @@ void check_length(std::vector<double>& values, const std::vector<double>& absent
     if (std::isnan(values[i])) values[i] = absent[i];
 }
 
+// Numbers of the start that are written by joint, at their places among those that are left out.
+void place_joints(StartState& start, StateNumbers numbers, const std::string& key, const Scene& scene, const Chain& chain, ProblemList& problems) {
+  const bool is_q = numbers == StateNumbers::q;
+  const std::vector<std::string> names = is_q ? position_names(chain) : chain.coordinate_names;
+  std::vector<double>& values = is_q ? start.q : start.qd;
+  std::vector<std::string>& written = is_q ? start.written_q : start.written_qd;
+  std::vector<JointNumbers>& of_joints = is_q ? start.q_of_joints : start.qd_of_joints;
+  for (const JointNumbers& one : of_joints) {
+    const std::vector<std::size_t> places = places_of_joint(names, one.joint);
+    const std::string followers = places.empty() ? followers_of(chain) : "";
+    if (places.empty())
+      problems.add("'" + key + "' names '" + one.joint + "', but the model " + scene.model.words() + " has no freedom of that name:" +
+                       did_you_mean(one.joint, names) + " It has " + joined(names) + (followers.empty() ? "" : "; " + followers),
+                   one.place);
+    else if (places.size() != one.values.size())
+      problems.add("'" + key + "." + one.joint + "' takes " + std::to_string(places.size()) + (places.size() == 1 ? " number" : " numbers") +
+                       ", not " + std::to_string(one.values.size()),
+                   one.place);
+    else
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        if (places[i] + 1 >= values.size()) values.resize(places[i] + 2, std::nan(""));  // the last one says that some are left out
+        if (places[i] >= written.size()) written.resize(places[i] + 1);
+        if (!std::isnan(values[places[i]]))
+          problems.add("'" + key + "' has " + names[places[i]] + " twice: write it once", one.place);
+        values[places[i]] = one.values[i];
+        written[places[i]] = one.written[i];
+      }
+  }
+  of_joints.clear();
+}
+
 // A control of the whole chain: a number in brackets is that of one freedom, and of several it would be a slip.
 void check_lists(const Scene& scene, const Chain& chain, ProblemList& problems) {
   if (!scene.control || chain.nv == 1) return;
@@ -243,6 +274,8 @@ Simulation prepare(Scene& scene, bool meshes, LastChain& last) {
   if (scene.motion) prepare_motion(scene, simulation);
   prepare_tables(scene, chain);
   ProblemList problems;
+  place_joints(scene.start, StateNumbers::q, "start.q", scene, chain, problems);
+  place_joints(scene.start, StateNumbers::qd, "start.qd", scene, chain, problems);
   check_length(scene.start.q, zero_configuration(chain), "start.q", scene, chain, problems);
   check_length(scene.start.qd, std::vector<double>(std::size_t(chain.nv)), "start.qd", scene, chain, problems);
   check_torque(scene, chain, problems);

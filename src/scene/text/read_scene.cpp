@@ -49,9 +49,10 @@ std::vector<std::string> numbers_of_start(const YamlDocument& document, const ch
   const YAML::Node list = start[key];
   if (list && list.IsMap())  // single entries by their indices
     for (const auto& pair : list) {
-      const auto at = std::size_t(parse_number(pair.first.Scalar()).value_or(1));
-      texts.resize(std::max(texts.size(), at));
-      if (pair.second.IsScalar()) texts[at - 1] = pair.second.Scalar();
+      const std::optional<double> at = parse_number(pair.first.Scalar());
+      if (!at) continue;  // a joint's, see JointNumbers
+      texts.resize(std::max(texts.size(), std::size_t(*at)));
+      if (pair.second.IsScalar()) texts[std::size_t(*at) - 1] = pair.second.Scalar();
     }
   if (list && list.IsSequence())
     for (const YAML::Node& one : list) texts.push_back(one.IsScalar() ? one.Scalar() : "");

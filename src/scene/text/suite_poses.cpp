@@ -84,9 +84,7 @@ class PoseSetter {
 
   // Whether the name is that of coordinates: of one, or of all of a joint with several (NAME.x, NAME.y, ..).
   bool set_coordinates(const WrittenValue& value) {
-    std::vector<std::size_t> indices;
-    for (std::size_t i = 0; i < names_.size(); ++i)
-      if (names_[i] == value.joint || names_[i].starts_with(value.joint + ".")) indices.push_back(i);
+    const std::vector<std::size_t> indices = places_of_joint(names_, value.joint);
     if (indices.empty()) return false;
     if (indices.size() != value.values.size()) {
       fail("joint '" + value.joint + "' takes " + std::to_string(indices.size()) +
