@@ -49,6 +49,42 @@ TEST_F(AuditCheckTest, AFilmAsItWasWrittenPasses) {
   EXPECT_EQ(json["contradicted"], Json::array());
 }
 
+// What a film shows is asked of its scene as it is now.
+TEST(FilmOfToday, IsWhatItsSceneShowsUntilSceneOrModelChange) {
+  const TemporaryFolder folder;
+  const std::string urdf = folder.write("rr.urdf", read_whole_file(std::string(CHAINREEL_SOURCE_FOLDER) + "/models/rr.urdf"));
+  const std::string scene = folder.write("s.yaml", "model: rr.urdf\nstart: {q: [1, 0]}\nduration: 0.2\nmethod: rk4\nvideo: {width: 160, height: 90}\n");
+  const std::string film = folder.file("s.mp4"), still = folder.file("s.png"), snapshot = folder.file("t.png");
+  ASSERT_EQ(run_program({"render", scene, "--quiet", "-o", film, "-o", still, "--at", "0.1"}).status, 0);
+  ASSERT_EQ(run_program({"snapshot", scene, "--quiet", "--at", "0.123", "-o", snapshot}).status, 0);
+  const auto asked = [&](const std::string& file, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"check", file, "--scene", scene, "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(words);
+  };
+  for (const std::string& file : {film, still, snapshot}) {
+    const ProgramResult same = asked(file);
+    EXPECT_EQ(same.status, 0) << file << same.out << same.err;
+    EXPECT_EQ(Json::parse(same.out)["is_same"], true);
+    for (const char* change : {"start.q.2=0.1", "step=0.0005", "theme=dark", "title=T", "end_effector=link1", "video.crf=20"})
+      EXPECT_EQ(asked(file, {"--set", change}).status, 1) << file << " " << change;
+  }
+  EXPECT_THAT(asked(film, {"--set", "gravity.2=-1.62"}).out, HasSubstr("gravity.2 -9.81 -> -1.62"));
+  const std::string before = read_whole_file(urdf), mass = "<mass value=\"";
+  std::string heavier = before;
+  heavier.replace(heavier.find(mass), mass.size(), mass + "1");
+  folder.write("rr.urdf", heavier);
+  const ProgramResult stale = asked(film);
+  EXPECT_EQ(stale.status, 1);
+  EXPECT_THAT(stale.out, HasSubstr("model file is another one"));
+  EXPECT_THAT(stale.err, HasSubstr("render it again"));
+  folder.write("rr.urdf", before);
+  EXPECT_EQ(asked(film).status, 0);
+  EXPECT_EQ(run_program({"check", scene, "--scene", scene}).status, 2);
+  ASSERT_EQ(run_program({"ellipse", urdf, "--pose", "0,1", "-o", folder.file("e.png"), "--quiet"}).status, 0);
+  EXPECT_THAT(asked(folder.file("e.png")).err, HasSubstr("is a figure"));
+}
+
 TEST_F(AuditCheckTest, OneByteMoreOrAnotherOneIsSeenInEachFile) {
   for (const char* name : {"a.mp4", "a.gif", "a.txt"}) {
     const std::string before = read_whole_file(folder_.file(name));

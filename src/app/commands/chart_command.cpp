@@ -213,6 +213,7 @@ Json json_of(const std::string& scene, const Measured& measured, const ChartOpti
             {"error", "the larger of error_q and error_qd x qd_scale"},
             {"judged", options.judges_energy() ? "energy_error" : "error"},
             {"qd_scale", measured.reference.state.qd_scale},
+            {"units", {{"error", "rad or m"}, {"error_q", "rad or m"}, {"error_qd", "rad/s or m/s"}, {"energy_error", "J"}, {"qd_scale", "s"}, {"step", "s"}}},
             {"choice", choice_report(*measured.choice, measured.accuracy, false)},
             {"methods", Json::array()},
             {"left_out", Json::array()}};

@@ -9,12 +9,11 @@
 #include "app/cli/command.hpp"
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
+#include "app/commands/check_film.hpp"
 #include "app/film/automatic.hpp"
-#include "app/film/formats.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
-#include "app/report/audit_check.hpp"
 #include "app/report/report.hpp"
 #include "app/report/run_report.hpp"
 #include "core/error.hpp"
@@ -31,7 +30,8 @@ namespace {
 
 struct CheckOptions {
   std::string file;
-  bool all = false;  // candidates of a method that is chosen
+  std::string scene;  // that a film is held against
+  bool all = false;   // candidates of a method that is chosen
   CommonOptions common;
 };
 
@@ -291,20 +291,14 @@ void check_model(const CheckOptions& options) {
   if (!errors.empty()) throw Error(ExitCode::bad_input, errors);
 }
 
-// Films, pictures and their audits: what scenes and models are not.
-bool is_output(const std::string& path) {
-  const std::string ending = lower_case_ending(path);
-  return find_output_format(path) != nullptr || ending == ".json" || ending == ".txt" || ending == ".srt";
-}
-
-void check_output(const CheckOptions& options) {
-  if (options.all || !overrides_of(options.common).empty())
-    throw Error(ExitCode::usage, "--all, --set and the like go with a scene: of a film it is asked whether its audit tells of these bytes");
-  const AuditCheck check = check_audit(options.file);
-  tell_result(options.common, [&] { return to_json(check); }, [&] {
-    for (const std::string& line : words_of(check)) std::printf("%s\n", line.c_str());
-  });
-  if (!check.passes()) throw Error(ExitCode::comparison_failed, "is not what its audit tells of", {options.file});
+void run_check(const CheckOptions& options) {
+  if (is_film_or_picture(options.file)) {
+    if (options.all) throw Error(ExitCode::usage, "--all goes with a scene, whose method is chosen");
+    return options.scene.empty() ? check_as_written(options.file, options.common) : check_against_scene(options.file, options.scene, options.common);
+  }
+  if (!options.scene.empty())
+    throw Error(ExitCode::usage, "--scene goes with a film or picture: `chainreel check FILM.mp4 --scene " + options.scene + "`");
+  is_model_file(options.file) ? check_model(options) : check_scene(options);
 }
 
 }  // namespace
@@ -315,14 +309,16 @@ void add_check_command(CommandLine& app) {
       app.add_subcommand("check", "the effective scene with all defaults, what a model holds, or whether a film is as it was written");
   command->add_option("file", options->file, "a scene (.yaml), a model (.urdf), or a film or picture with its audit, NAME.json, beside it").required().names_input();
   add_scene_options(*command, options->common);
+  command->add_option("--scene", options->scene, "of a film or picture: the scene that it shows, with what --set changed for it; is it what that shows today?").names_input();
   command->add_flag("--all", options->all, "of a method that is chosen, all candidates instead of the three next best");
   add_json_option(*command, options->common);
   command->footer("Of a film or picture all files that the audit tells of are held against their SHA-256, and the audit against what the film\n"
-                  "remembers: exit code 1 where one was changed since, or is gone.\n"
+                  "remembers: exit code 1 where one was changed since, or is gone. With --scene it is asked whether the scene, its model and meshes and\n"
+                  "the program of today would make the same film: exit code 1 and what has changed where they would not. It is simulated, not drawn.\n"
                   "Example: chainreel check rr_free --set method=rk4\n"
-                  "or, behind `chainreel render rr_free`: chainreel check out/rr_free.mp4");
-  command->callback(
-      [options] { is_model_file(options->file) ? check_model(*options) : is_output(options->file) ? check_output(*options) : check_scene(*options); });
+                  "or, behind `chainreel render rr_free`: chainreel check out/rr_free.mp4\n"
+                  "                                       chainreel check out/rr_free.mp4 --scene rr_free");
+  command->callback([options] { run_check(*options); });
 }
 
 }  // namespace chainreel

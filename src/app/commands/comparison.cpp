@@ -120,28 +120,32 @@ std::vector<std::string> explain_memories(const std::string& before, const std::
   if (!old || !now)
     return {"only " + (old ? before : after) +
             " remembers what it shows: there is nothing to explain the pixels by"};
-  if (old->figure.is_null() != now->figure.is_null()) return {"one shows a scene, the other is a figure"};
+  return explain_memories(*old, *now);
+}
+
+std::vector<std::string> explain_memories(const ClipMemory& old, const ClipMemory& now) {
+  if (old.figure.is_null() != now.figure.is_null()) return {"one shows a scene, the other is a figure"};
   std::vector<std::string> sentences;
-  if (!old->figure.is_null()) {
-    const std::string command = command_line(old->figure), other = command_line(now->figure);
+  if (!old.figure.is_null()) {
+    const std::string command = command_line(old.figure), other = command_line(now.figure);
     if (command != other) sentences.push_back("command: " + command + " -> " + other);
   } else {
     try {
-      sentences = explain_scene_texts(old->scene, now->scene);
+      sentences = explain_scene_texts(old.scene, now.scene);
     } catch (const Error& error) {
       sentences.push_back(std::string("what one of them remembers cannot be read as a scene: ") +
                           error.what());
     }
   }
-  const Json& facts = old->figure.is_null() ? old->audit : old->figure;
-  const Json& other_facts = now->figure.is_null() ? now->audit : now->figure;
+  const Json& facts = old.figure.is_null() ? old.audit : old.figure;
+  const Json& other_facts = now.figure.is_null() ? now.audit : now.figure;
   const auto differs = [&](const char* key) { return facts.value(key, Json()) != other_facts.value(key, Json()); };
   if (differs("model_sha256")) sentences.push_back(std::string("the model file is another one") + kByHash);
   // A film's motion and that up to one instant are hashed at other instants.
   if (differs("trajectory_sha256") && !differs("at") && !differs("frames") && !differs("fps"))
     sentences.push_back(std::string("the motion at the frames is another one") + kByHash);
   const bool says_slow_motion = std::any_of(sentences.begin(), sentences.end(), [](const std::string& one) { return one.starts_with("slow_motion"); });
-  if (old->figure.is_null() && differs("slow_motion") && !says_slow_motion)
+  if (old.figure.is_null() && differs("slow_motion") && !says_slow_motion)
     sentences.push_back("slow motion, which films have by themselves, is at other places, so that frames show other instants: `slow_motion: none` leaves it out");
   const bool says_camera = std::any_of(sentences.begin(), sentences.end(), [](const std::string& one) { return one.starts_with("camera") || one.starts_with("video"); });
   if (const auto words = words_of_view(facts.value("view", Json()), other_facts.value("view", Json())); words && !says_camera)

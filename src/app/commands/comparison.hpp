@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/cli/command.hpp"
+#include "app/film/clip_memory.hpp"
 #include "compare/compare_images.hpp"
 #include "core/json.hpp"
 #include "sim/trajectory_difference.hpp"
@@ -57,6 +58,7 @@ void write_difference(const CompareOptions& options, const Image& before, const 
 inline constexpr const char* kByHash = ", by its hash";
 // What the two files remember differently, of scenes key by key. Nothing where neither remembers anything.
 std::vector<std::string> explain_memories(const std::string& before, const std::string& after);
+std::vector<std::string> explain_memories(const ClipMemory& before, const ClipMemory& after);
 
 // Whether the file's ending is one of these, which are in lower case, whatever its own case.
 bool ends_in(const std::string& path, std::initializer_list<const char*> endings);

@@ -158,7 +158,8 @@ void add_simulate_command(CommandLine& app) {
   command->add_flag("--every-step", options->every_step, "a row a step instead of a row a frame");
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
-  command->footer("Example: chainreel simulate pp_free -o out/pp_free.csv -o out/pp_free.npz\n"
+  command->footer("Rows are as many a second as frames of the film: --set video.fps=1000 for a row a millisecond.\n"
+      "Example: chainreel simulate pp_free -o out/pp_free.csv -o out/pp_free.npz\n"
       "         chainreel simulate rr_free --columns t,q,qdd,tau -o -\n"
       "         chainreel simulate rr_torque --peaks qd,tau");
   command->callback([options] { run_simulate(*options); });

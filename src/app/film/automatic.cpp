@@ -186,7 +186,8 @@ void say_choice(std::span<const PreparedScene> panels, bool quiet) {
 Json choice_report(const Choice& choice, const Accuracy& accuracy, bool tried) {
   Json json = candidate_report(choice.best);
   json["accuracy"] = to_string(accuracy);
-  json["is_met"] = choice.is_met;
+  json["error_unit"] = to_string(accuracy.unit);
+  json["is_met"] = choice.is_met && !choice.holds_until;  // to the end
   json["holds_until"] = or_null(choice.holds_until);
   json["why_until"] = or_null(choice.why_until);
   json["counted_until"] = or_null(choice.counted_until);

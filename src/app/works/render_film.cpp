@@ -334,7 +334,22 @@ std::string part_text(const FilmReport& report, const ClipMemory& memory, FrameR
       .dump(-1, ' ', true);
 }
 
+// What every file of a film remembers.
+ClipMemory memory_of(const FilmReport& report, const Schedule& schedule, const Json& meshes) {
+  ClipMemory memory = memory_of(report);
+  if (schedule.first > 0 || schedule.last > 0) memory.audit["held_frames"] = {{"first", schedule.first}, {"last", schedule.last}};
+  if (!meshes.is_null()) memory.audit[kMeshesHash] = meshes;
+  return memory;
+}
+
 }  // namespace
+
+ClipMemory memory_of_film(const PreparedFilm& film) {
+  const Runs runs(film);
+  const Schedule schedule = schedule_of(runs);
+  const Film pictures = runs.pictures(schedule.frames, Fonts(families_of(film.scene)));
+  return memory_of(film_report(runs, pictures, schedule.total()), schedule, or_null(meshes_hash(film)));
+}
 
 RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const Runs* done) {
   const Scene& scene = film.scene;
@@ -360,10 +375,8 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   result.frames = total_frames;
   result.film_seconds = frame_time(result.frames, fps);
   const FilmReport report = film_report(runs, pictures, result.frames);
-  ClipMemory memory = memory_of(report);
   const Json held{{"first", schedule.first}, {"last", schedule.last}}, meshes = or_null(meshes_hash(film));
-  if (schedule.first > 0 || schedule.last > 0) memory.audit["held_frames"] = held;
-  if (!meshes.is_null()) memory.audit[kMeshesHash] = meshes;
+  const ClipMemory memory = memory_of(report, schedule, meshes);
   result.times.draw += clock.lap();
 
   result.audit = to_json(report);

@@ -38,6 +38,9 @@ struct RenderResult {
   Json audit;
 };
 
+// What the films of a scene remember, were they rendered now: without pixels.
+ClipMemory memory_of_film(const PreparedFilm& film);
+
 // `done`: the film's runs at its frames, where its caller has them. Nothing is begun before all files can be written; nothing bears its name before all are whole. A run that
 // failed leaves films and tables as far as they came under a .partial name, and throws. A part of a film bears what it is
 // in its name, and holds what stands beside the whole; a share that has no frames leaves no file.
