@@ -26,6 +26,18 @@ std::string format_shortest(double value) {
   return print(value);
 }
 
+std::string format_power(double value) {
+  static constexpr std::array<const char*, 10> kSuperscripts = {
+      "\u2070", "\u00B9", "\u00B2", "\u00B3", "\u2074", "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+  int exponent = int(std::floor(std::log10(value)));
+  long digit = std::lround(value / std::pow(10.0, exponent));
+  if (digit == 10) digit = 1, ++exponent;
+  std::string text = std::to_string(digit) + "\u00D710";
+  for (const char c : std::to_string(exponent))
+    text += c == '-' ? "\u207B" : kSuperscripts[std::size_t(c - '0')];
+  return text;
+}
+
 std::string format_fixed(double value, int decimals) {
   std::string text = print(value, std::chars_format::fixed, decimals);
   if (text[0] == '-' && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);

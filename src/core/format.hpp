@@ -11,6 +11,7 @@ namespace chainreel {
 
 std::string format_shortest(double value);             // fewest digits that read back as the same double
 std::string format_fixed(double value, int decimals);  // never "-0.00"
+std::string format_power(double value);               // "3\u00D710\u207B\u00B9\u2074": of what is above zero, one digit
 std::string format_significant(double value, int digits);  // below 1e5 without an exponent: 430 of 432.1, two digits
 
 // ".mp4" of "a/B.MP4", as cameras and editors write it; "" where there is none.

@@ -359,4 +359,27 @@ std::vector<MathAtom> parse_math(std::string_view notation) {
   return Reader(text).read_list(0);
 }
 
+std::string plain_formula(std::string_view notation) {
+  const std::u32string text = decode_utf8(notation);
+  const auto is_letter = [](char32_t c) { return (c >= U'a' && c <= U'z') || (c >= U'A' && c <= U'Z'); };
+  const auto is_digit = [](char32_t c) { return c >= U'0' && c <= U'9'; };
+  std::u32string plain;
+  for (std::size_t i = 0; i < text.size();) {
+    std::size_t end = i;
+    while (end < text.size() && is_letter(text[end])) ++end;
+    if (end > i) {
+      const std::u32string name = text.substr(i, end - i);
+      const std::optional<char32_t> letter = letter_of(name);
+      plain += letter ? std::u32string(1, *letter) : name;
+      i = end;
+      while (end + 1 < text.size() && text[end] == U'_' && is_digit(text[end + 1])) ++end;
+      if (end > i)
+        for (i = end; i < text.size() && is_digit(text[i]); ++i) plain += char32_t(0x2080 + (text[i] - U'0'));
+      continue;
+    }
+    plain += text[i++];
+  }
+  return encode_utf8(plain);
+}
+
 }  // namespace chainreel

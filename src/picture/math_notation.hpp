@@ -39,4 +39,7 @@ struct MathAtom {
 // Throws Error (exit 3) at an unfinished script or brace, or where the text is not UTF-8.
 std::vector<MathAtom> parse_math(std::string_view notation);
 
+// A formula where there are letters alone: "tau_1 = 5 sin(2 t)" with the Greek letter and a lowered digit. Else as it is written.
+std::string plain_formula(std::string_view notation);
+
 }  // namespace chainreel

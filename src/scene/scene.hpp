@@ -151,6 +151,7 @@ struct Scene {
   std::string name;                     // the file's name without its ending; not a key
   std::vector<std::string> notices;     // what was changed of it when it was made ready; not a key
   std::vector<std::string> doubts;      // what speaks against it, found at the same time: warnings; not a key
+  std::vector<std::string> set;         // key=value of the command line; not a key
   Parameters set_parameters;            // those that the command line gave a single run, told behind its title; not a key
   std::vector<std::string> absolute_paths;  // that the file itself has as such; not a key
   std::map<std::string, Place> places;  // where each key stood, by its dotted path; not a key

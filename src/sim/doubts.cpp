@@ -9,6 +9,7 @@
 #include "sim/between_samples.hpp"
 #include "sim/system/chain_system.hpp"
 #include "sim/system/forms.hpp"
+#include "sim/unstable_rest.hpp"
 
 namespace chainreel {
 namespace {
@@ -187,6 +188,7 @@ std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& tra
     if (doubt) doubts.push_back(std::move(*doubt));
   };
   if (simulation.motion) return doubts;  // no method erred: what a table does not tell truly, its remarks say
+  add(doubt_of_rest(simulation, trajectory));
   add(doubt_of_energy(simulation, trajectory, audit, chosen_by));
   if (trajectory.rows > 0) add(doubt_constraints(trajectory, chosen_by));
   if (simulation.step > 0 && !follows_a_curve(simulation)) add(StepsAgain(simulation, trajectory).doubt(chosen_by));

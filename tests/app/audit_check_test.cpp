@@ -76,13 +76,52 @@ TEST(FilmOfToday, IsWhatItsSceneShowsUntilSceneOrModelChange) {
   folder.write("rr.urdf", heavier);
   const ProgramResult stale = asked(film);
   EXPECT_EQ(stale.status, 1);
-  EXPECT_THAT(stale.out, HasSubstr("model file is another one"));
+  EXPECT_THAT(stale.out, HasSubstr("link link1: mass "));
   EXPECT_THAT(stale.err, HasSubstr("render it again"));
   folder.write("rr.urdf", before);
   EXPECT_EQ(asked(film).status, 0);
   EXPECT_EQ(run_program({"check", scene, "--scene", scene}).status, 2);
   ASSERT_EQ(run_program({"ellipse", urdf, "--pose", "0,1", "-o", folder.file("e.png"), "--quiet"}).status, 0);
   EXPECT_THAT(asked(folder.file("e.png")).err, HasSubstr("is a figure"));
+}
+
+// A folder of films is asked as a whole: each finds its own scene and the changes that it was made with.
+TEST(FilmOfToday, OfAFolderFindsItsScenesAndNamesWhatChanged) {
+  const TemporaryFolder folder;
+  for (const char* name : {"docs", "scenes"}) fs::create_directory(folder.file(name));
+  const std::string before = read_whole_file(std::string(CHAINREEL_SOURCE_FOLDER) + "/models/rr.urdf");
+  folder.write("scenes/rr.urdf", before);
+  const std::string page = "model: rr.urdf\nstart: {q: [1, 0]}\nduration: 0.1\nmethod: rk4\nvideo: {width: 160, height: 90}\n";
+  const std::string a = folder.write("scenes/a.yaml", page), b = folder.write("scenes/b.yaml", page + "compare: [{step: 0.01}, {step: 0.02}]\n");
+  ASSERT_EQ(run_program({"render", a, "--quiet", "-o", folder.file("docs/a.mp4")}).status, 0);
+  ASSERT_EQ(run_program({"render", b, "--quiet", "-o", folder.file("docs/b.webm"), "--set", "duration=0.08", "--theme", "dark"}).status, 0);
+  ASSERT_EQ(run_program({"ellipse", folder.file("scenes/rr.urdf"), "--pose", "0,1", "-o", folder.file("docs/e.png"), "--quiet"}).status, 0);
+  const auto asked = [&] { return run_program({"check", folder.file("docs"), "--today"}); };
+  const ProgramResult same = asked();
+  EXPECT_EQ(same.status, 0) << same.out << same.err;
+  EXPECT_THAT(same.out, AllOf(HasSubstr("a.mp4 is what "), HasSubstr("b.webm is what ")));
+  // A comment changes nothing; a mass is named where the audit beside the film knows it; one film may change alone.
+  std::string text = before;
+  text.insert(text.find("<robot"), "<!-- a line more -->\n");
+  folder.write("scenes/rr.urdf", text);
+  EXPECT_EQ(asked().status, 0) << asked().out;
+  const std::string mass = "<mass value=\"";
+  text.replace(text.find(mass), mass.size(), mass + "1");
+  folder.write("scenes/rr.urdf", text);
+  const ProgramResult stale = asked();
+  EXPECT_EQ(stale.status, 1);
+  EXPECT_THAT(stale.out, HasSubstr("link link1: mass "));
+  folder.write("scenes/rr.urdf", before);
+  folder.write("scenes/a.yaml", page + "title: T\n");
+  const ProgramResult one = asked();
+  EXPECT_EQ(one.status, 1);
+  EXPECT_THAT(one.out, AllOf(HasSubstr("a.mp4 is NOT what "), HasSubstr("b.webm is what ")));
+  // What cannot be told is no yes.
+  fs::remove(folder.file("scenes/a.yaml"));
+  EXPECT_EQ(asked().status, 3);
+  EXPECT_THAT(asked().err, HasSubstr("is not found from here: name it, --scene"));
+  EXPECT_EQ(run_program({"check", folder.file("docs")}).status, 2);
+  EXPECT_EQ(run_program({"check", folder.file("scenes"), "--today"}).status, 3);
 }
 
 TEST_F(AuditCheckTest, OneByteMoreOrAnotherOneIsSeenInEachFile) {

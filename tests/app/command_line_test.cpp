@@ -34,7 +34,7 @@ TEST(Usage, ErrorsAreExitTwo) {
 }
 
 TEST(Usage, NamesWhatItDidNotExpectInItsOrderAndCommandsThatThereAreNot) {
-  EXPECT_THAT(run_program({"check", "a", "b", "c", "--foo"}).err, HasSubstr("were not expected: b c --foo"));
+  EXPECT_THAT(run_program({"simulate", "a", "b", "c", "--foo"}).err, HasSubstr("were not expected: b c --foo"));
   EXPECT_THAT(run_program({"rendr", "a"}).err, HasSubstr("no command 'rendr'"));
   EXPECT_THAT(run_program({}).err, HasSubstr("A subcommand is required"));
   for (const char* command : {"fall", "stability"})

@@ -345,7 +345,7 @@ void add_keys(const Json& json, const std::string& above, std::vector<std::strin
   if (!json.is_object()) return;
   for (const auto& [key, value] : json.items()) {
     keys.push_back(above + key);
-    if (key != "versions" && key != "sidecars_sha256") add_keys(value, above + key + ".", keys);
+    if (key != "versions" && key != "sidecars_sha256" && key != "mechanisms") add_keys(value, above + key + ".", keys);
   }
 }
 
@@ -406,6 +406,7 @@ TEST(Audit, HasTheKeysThatOthersRead) {
                      "warnings"};
   const Words of_film{"held_frames",     "held_frames.first", "held_frames.last",
                       "layout",          "left_out",         "meshes_sha256",
+                      "mechanisms",      "set",
                       "panels",          "pauses",           "slow_motion",
                       "style",           "view",             "view.height", "view.origin",
                       "drawn",           "drawn.film_seconds", "drawn.fps",
@@ -439,6 +440,7 @@ TEST(Audit, HasTheKeysThatOthersRead) {
                                                                  "auto.curve",
                                                                  "auto.curve_error",
                                                                  "auto.error",
+                                                                 "auto.error_unit",
                                                                  "auto.evaluations",
                                                                  "auto.holds_until",
                                                                  "auto.is_met",

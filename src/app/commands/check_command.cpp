@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "app/cli/command.hpp"
@@ -30,7 +31,9 @@ namespace {
 
 struct CheckOptions {
   std::string file;
-  std::string scene;  // that a film is held against
+  std::vector<std::string> files;  // several where they are films
+  std::string scene;               // that films are held against
+  bool today = false;              // ... or each its own
   bool all = false;   // candidates of a method that is chosen
   CommonOptions common;
 };
@@ -291,13 +294,20 @@ void check_model(const CheckOptions& options) {
   if (!errors.empty()) throw Error(ExitCode::bad_input, errors);
 }
 
-void run_check(const CheckOptions& options) {
-  if (is_film_or_picture(options.file)) {
-    if (options.all) throw Error(ExitCode::usage, "--all goes with a scene, whose method is chosen");
-    return options.scene.empty() ? check_as_written(options.file, options.common) : check_against_scene(options.file, options.scene, options.common);
-  }
-  if (!options.scene.empty())
-    throw Error(ExitCode::usage, "--scene goes with a film or picture: `chainreel check FILM.mp4 --scene " + options.scene + "`");
+void run_check(CheckOptions options) {
+  std::error_code code;
+  options.file = options.files.front();
+  const bool are_films = std::all_of(options.files.begin(), options.files.end(), [&](const std::string& file) {
+    return is_film_or_picture(file) || std::filesystem::is_directory(file, code);
+  });
+  const bool is_of_today = options.today || !options.scene.empty();
+  if (is_of_today && !are_films)
+    throw Error(ExitCode::usage, "--today and --scene go with films and pictures, or a folder of them: `chainreel check FILM.mp4 --today`");
+  if (are_films && options.all) throw Error(ExitCode::usage, "--all goes with a scene, whose method is chosen");
+  if (is_of_today) return check_of_today(options.files, options.scene, options.common);
+  if (options.files.size() > 1 || (are_films && std::filesystem::is_directory(options.file, code)))
+    throw Error(ExitCode::usage, "takes one scene, model or film; several films, or a folder of them, go with --today");
+  if (are_films) return check_as_written(options.file, options.common);
   is_model_file(options.file) ? check_model(options) : check_scene(options);
 }
 
@@ -307,17 +317,19 @@ void add_check_command(CommandLine& app) {
   auto options = std::make_shared<CheckOptions>();
   Command* command =
       app.add_subcommand("check", "the effective scene with all defaults, what a model holds, or whether a film is as it was written");
-  command->add_option("file", options->file, "a scene (.yaml), a model (.urdf), or a film or picture with its audit, NAME.json, beside it").required().names_input();
+  command->add_option("files", options->files, "a scene (.yaml), a model (.urdf), or a film or picture with its audit, NAME.json, beside it; with --today also several, and folders").required().names_input();
   add_scene_options(*command, options->common);
-  command->add_option("--scene", options->scene, "of a film or picture: the scene that it shows, with what --set changed for it; is it what that shows today?").names_input();
+  command->add_flag("--today", options->today, "of films and pictures: would their scenes, found from where they lie, make the same today?");
+  command->add_option("--scene", options->scene, "the same of this scene").names_input();
   command->add_flag("--all", options->all, "of a method that is chosen, all candidates instead of the three next best");
   add_json_option(*command, options->common);
   command->footer("Of a film or picture all files that the audit tells of are held against their SHA-256, and the audit against what the film\n"
-                  "remembers: exit code 1 where one was changed since, or is gone. With --scene it is asked whether the scene, its model and meshes and\n"
-                  "the program of today would make the same film: exit code 1 and what has changed where they would not. It is simulated, not drawn.\n"
+                  "remembers: exit code 1 where one was changed since, or is gone. With --today it is asked whether the scene, its model and meshes and\n"
+                  "the program of today would make the same film, with the --set that its audit tells: exit code 1 and what has changed where they would\n"
+                  "not. It is simulated, not drawn.\n"
                   "Example: chainreel check rr_free --set method=rk4\n"
                   "or, behind `chainreel render rr_free`: chainreel check out/rr_free.mp4\n"
-                  "                                       chainreel check out/rr_free.mp4 --scene rr_free");
+                  "                                       chainreel check out/ --today");
   command->callback([options] { run_check(*options); });
 }
 

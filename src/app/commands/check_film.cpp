@@ -3,28 +3,50 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <vector>
+#include <filesystem>
+#include <optional>
 
 #include "app/cli/result.hpp"
+#include "app/cli/streams.hpp"
 #include "app/commands/comparison.hpp"
+#include "app/film/clip_origin.hpp"
 #include "app/film/formats.hpp"
 #include "app/film/prepared.hpp"
 #include "app/report/audit_check.hpp"
+#include "app/report/run_report.hpp"
+#include "app/report/sidecar.hpp"
+#include "app/verify/physics_record.hpp"
 #include "app/works/moment.hpp"
 #include "app/works/render_film.hpp"
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 #include "draw/page/house_style.hpp"
 
 namespace chainreel {
 namespace {
 
-// What the versions say is told, and changes no picture by itself.
-constexpr std::string_view kVersions = "versions";
+namespace fs = std::filesystem;
 
-std::string told(const Json& value) {
+// Keys of an audit that are no part of what is shown: versions and the model's file, which are told by themselves, and where the
+// scene lies.
+bool is_beside(const std::string& key) {
+  constexpr std::array<std::string_view, 3> kKeys = {"versions", "model_sha256", "scene"};
+  return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
+}
+
+std::string value_words(const Json& value) {
   constexpr std::size_t kLongest = 60;
   const std::string text = value.is_null() ? "none" : value.dump();
   return text.size() <= kLongest ? text : "";
+}
+
+Json without_beside(const Json& audit) {
+  Json rest = Json::object();
+  for (const auto& [key, value] : audit.items())
+    if (!is_beside(key)) rest[key] = value;
+  if (rest.contains("panels") && rest["panels"].is_array())
+    for (Json& panel : rest["panels"]) panel = without_beside(panel);
+  return rest;
 }
 
 // Keys of two audits that say something else: "energy_error: 0.02 -> 0.03".
@@ -34,28 +56,58 @@ std::vector<std::string> changed_facts(const Json& before, const Json& now) {
   std::vector<std::string> changes;
   for (const auto& [key, ignored] : keys.items()) {
     const Json old = before.value(key, Json()), other = now.value(key, Json());
-    if (key == kVersions || old == other) continue;
-    const std::string from = told(old), to = told(other);
+    if (old == other) continue;
+    const std::string from = value_words(old), to = value_words(other);
     changes.push_back(key + (from.empty() || to.empty() ? " is another one" : ": " + from + " -> " + to));
   }
   return changes;
 }
 
+std::vector<std::string> model_hashes(const Json& audit) {
+  std::vector<std::string> hashes;
+  if (audit.contains("panels") && audit["panels"].is_array())
+    for (const Json& panel : audit["panels"]) hashes.push_back(word_of(panel, "model_sha256"));
+  if (hashes.empty()) hashes.push_back(word_of(audit, "model_sha256"));
+  return hashes;
+}
+
+// What of the models has changed: by the records in the audit beside the film, which comments do not change; where there are none by the hash
+// of the file.
+std::vector<std::string> changed_models(const Json& beside, const ClipMemory& film, const ClipMemory& today, const PreparedFilm& prepared) {
+  const std::vector<std::string> before = model_hashes(film.audit), now = model_hashes(today.audit);
+  if (before == now || before.size() != prepared.panels.size()) return {};
+  const Json records = beside.is_object() ? beside.value(kMechanisms, Json::array()) : Json::array();
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (before[i] == now[i]) continue;
+    std::vector<std::string> own{std::string("the model file is another one") + kByHash};
+    if (i < records.size()) own = explain_models(records[i], mechanism_record(prepared.panels[i]));
+    for (const std::string& one : own)
+      if (std::find(words.begin(), words.end(), one) == words.end()) words.push_back(one);
+  }
+  return words;
+}
+
+// What has changed since.
 struct Today {
-  std::vector<std::string> words;  // what has changed, for people
+  std::string path, scene;
+  std::vector<std::string> words;  // for people
   std::vector<std::string> facts;  // of the audit
   bool has_other_versions = false;
+  std::optional<Error> trouble;  // it cannot be told
 
-  bool is_same() const { return words.empty() && facts.empty(); }
+  bool is_same() const { return words.empty() && facts.empty() && !trouble; }
 };
 
-Today difference_of(const ClipMemory& film, const ClipMemory& today) {
-  Today found;
-  found.has_other_versions = film.audit.value(kVersions, Json()) != today.audit.value(kVersions, Json());
-  ClipMemory same_versions = today;
-  same_versions.audit[kVersions] = film.audit.value(kVersions, Json());
-  found.words = explain_memories(film, same_versions);
-  found.facts = changed_facts(film.audit, today.audit);
+Today difference_of(const std::string& path, const Json& beside, const ClipMemory& film, const ClipMemory& today, const PreparedFilm& prepared) {
+  Today found{path, prepared.scene.file, {}, {}, false, {}};
+  found.has_other_versions = film.audit.value("versions", Json()) != today.audit.value("versions", Json());
+  ClipMemory old = film, now = today;
+  old.audit = without_beside(film.audit);
+  now.audit = without_beside(today.audit);
+  found.words = changed_models(beside, film, today, prepared);
+  for (std::string& one : explain_memories(old, now)) found.words.push_back(std::move(one));
+  found.facts = changed_facts(old.audit, now.audit);
   if (film.title != today.title) found.facts.push_back("title: " + film.title + " -> " + today.title);
   if (film.description != today.description) found.facts.emplace_back("what it says for those who do not see it is another text");
   return found;
@@ -64,12 +116,116 @@ Today difference_of(const ClipMemory& film, const ClipMemory& today) {
 // A picture is one of `snapshot`'s or a frame of `render`'s, which remember a little else.
 std::vector<ClipMemory> memories_today(const PreparedFilm& film, const std::string& path, const ClipMemory& remembered) {
   const Json at = remembered.audit.value("at", Json());
-  if (find_output_format(path, Shows::motion) != nullptr || !at.is_number()) return {memory_of_film(film)};
   std::vector<ClipMemory> memories{memory_of_film(film)};
+  if (find_output_format(path, Shows::motion) != nullptr || !at.is_number()) return memories;
   memories.back().audit["at"] = at;
   const Fonts fonts(families_of(film.scene));
   if (at.get<double>() >= 0 && at.get<double>() <= film.scene.duration) memories.push_back(moment_at(film, at.get<double>(), fonts).memory);
   return memories;
+}
+
+// Also in the folders beside that of the film, as people have scenes/ beside docs/.
+ClipOrigin origin_of(const std::string& path, const std::vector<WantedFile>& wanted) {
+  ClipOrigin origin = find_origin(path, wanted, "");
+  std::error_code code;
+  const fs::path above = fs::absolute(path, code).parent_path().parent_path();
+  std::vector<fs::path> beside;
+  for (fs::directory_iterator entry(above, code), end; !code && entry != end; entry.increment(code))
+    if (entry->is_directory(code)) beside.push_back(entry->path());
+  std::sort(beside.begin(), beside.end());
+  for (std::size_t i = 0; i < beside.size() && !origin.is_found; ++i)
+    if (const ClipOrigin other = find_origin(path, wanted, beside[i].string()); other.is_found) origin = other;
+  return origin;
+}
+
+// The scene file that it was made from, found from the folder that its paths start in.
+std::string scene_behind(const std::string& path, const ClipMemory& memory) {
+  const std::string name = word_of(memory.audit, "scene");
+  const auto refuse = [&](const std::string& why) { throw Error(ExitCode::bad_input, why + ": name it, --scene SCENE.yaml", {path}); };
+  if (name.empty()) refuse("does not say which scene it shows");
+  std::vector<WantedFile> wanted = files_wanted_by(memory);
+  wanted.push_back({name, ""});
+  const ClipOrigin origin = origin_of(path, wanted);
+  if (!origin.is_found) {
+    const bool lacks_scene = std::find(origin.missing.begin(), origin.missing.end(), name) != origin.missing.end();
+    refuse(lacks_scene ? "its scene " + name + " is not found from here" : "of what its scene " + name + " names, " + origin.missing.front() + " is not found");
+  }
+  const fs::path own = (fs::path(origin.folder) / name).lexically_normal();
+  return own.string();
+}
+
+// The audit beside a film that is the one it tells of; null where there is none.
+Json own_audit(const std::string& path) {
+  try {
+    return check_audit(path).passes() ? audit_beside(path) : Json();
+  } catch (const Error&) {
+    return Json();
+  }
+}
+
+// The changes of the command line that it was made with, as the audit beside it tells, unless others are given.
+std::vector<std::string> changes_of(const Json& beside, const CommonOptions& common) {
+  if (const std::vector<std::string> given = overrides_of(common); !given.empty()) return given;
+  std::vector<std::string> set;
+  const Json told = beside.is_object() ? beside.value(kSet, Json::array()) : Json::array();
+  for (const Json& one : told.is_array() ? told : Json::array())
+    if (one.is_string()) set.push_back(one);
+  return set;
+}
+
+Today today_of(const std::string& path, const std::string& scene, const CommonOptions& common) {
+  const ClipMemory remembered = recall(path);
+  if (!remembered.figure.is_null())
+    throw Error(ExitCode::bad_input, "is a figure, which shows no run of a scene: `chainreel extract` tells the command that makes it again", {path});
+  const Json beside = own_audit(path);
+  const PreparedFilm film = load_film(scene.empty() ? scene_behind(path, remembered) : scene, changes_of(beside, common), true, common.quiet);
+  std::vector<Today> found;
+  for (const ClipMemory& memory : memories_today(film, path, remembered)) found.push_back(difference_of(path, beside, remembered, memory, film));
+  const auto count = [](const Today& one) { return one.words.size() + one.facts.size(); };
+  return *std::min_element(found.begin(), found.end(), [&](const Today& a, const Today& b) { return count(a) < count(b); });
+}
+
+// Of a folder what remembers a scene; other films and pictures are passed over, which is said.
+std::vector<std::string> with_folders_opened(const std::vector<std::string>& paths, bool quiet) {
+  std::vector<std::string> all;
+  for (const std::string& path : paths) {
+    std::error_code code;
+    if (!fs::is_directory(path, code)) {
+      all.push_back(path);
+      continue;
+    }
+    std::vector<std::string> found;
+    for (fs::directory_iterator entry(path, code), end; !code && entry != end; entry.increment(code)) {
+      const std::string file = entry->path().string();
+      const OutputFormat* format = find_output_format(file);
+      if (!entry->is_regular_file(code) || format == nullptr || format->read_tags == nullptr) continue;
+      try {
+        if (recall(file).figure.is_null()) found.push_back(file);
+      } catch (const Error&) {
+        if (!quiet) std::fprintf(stderr, "note: %s remembers no scene, and is passed over\n", file.c_str());
+      }
+    }
+    if (found.empty()) throw Error(ExitCode::bad_input, "holds no film or picture that remembers a scene", {path});
+    std::sort(found.begin(), found.end());
+    all.insert(all.end(), found.begin(), found.end());
+  }
+  return all;
+}
+
+void print_today(const Today& one) {
+  if (one.trouble) return;
+  if (one.is_same())
+    std::printf("%s is what %s shows today%s\n", one.path.c_str(), one.scene.c_str(), one.has_other_versions ? ", made by other versions of the program or its libraries" : "");
+  else
+    std::printf("%s is NOT what %s shows today\n", one.path.c_str(), one.scene.c_str());
+  for (const std::string& line : one.words) std::printf("  %s\n", line.c_str());
+  if (one.words.empty())
+    for (const std::string& line : one.facts) std::printf("  %s\n", line.c_str());
+}
+
+Json report_of(const Today& one) {
+  return {{"file", one.path}, {"scene", one.scene}, {"is_same", one.is_same()}, {"changed", one.words}, {"audit_changed", one.facts},
+          {"has_other_versions", one.has_other_versions}, {"trouble", one.trouble ? Json(one.trouble->problems().front().message) : Json(nullptr)}};
 }
 
 }  // namespace
@@ -83,7 +239,7 @@ bool is_film_or_picture(const std::string& path) {
 void check_as_written(const std::string& path, const CommonOptions& common) {
   if (!overrides_of(common).empty())
     throw Error(ExitCode::usage, "--set and the like go with a scene: of a film it is asked whether its audit tells of these bytes; "
-                                 "`--scene SCENE --set ..` asks whether that scene would make it today");
+                                 "with --today, whether its scene would make it now");
   const AuditCheck check = check_audit(path);
   tell_result(common, [&] { return to_json(check); }, [&] {
     for (const std::string& line : words_of(check)) std::printf("%s\n", line.c_str());
@@ -91,26 +247,37 @@ void check_as_written(const std::string& path, const CommonOptions& common) {
   if (!check.passes()) throw Error(ExitCode::comparison_failed, "is not what its audit tells of", {path});
 }
 
-void check_against_scene(const std::string& path, const std::string& scene, const CommonOptions& common) {
-  const ClipMemory remembered = recall(path);
-  if (!remembered.figure.is_null())
-    throw Error(ExitCode::bad_input, "is a figure, which shows no run of a scene: `chainreel extract` tells the command that makes it again", {path});
-  const PreparedFilm film = load_film(scene, overrides_of(common), true, common.quiet);
-  std::vector<Today> found;
-  for (const ClipMemory& memory : memories_today(film, path, remembered)) found.push_back(difference_of(remembered, memory));
-  const auto count = [](const Today& one) { return one.words.size() + one.facts.size(); };
-  const Today& nearest = *std::min_element(found.begin(), found.end(), [&](const Today& a, const Today& b) { return count(a) < count(b); });
+void check_of_today(const std::vector<std::string>& paths, const std::string& scene, const CommonOptions& common) {
+  std::vector<Today> all;
+  for (const std::string& path : with_folders_opened(paths, common.quiet)) {
+    throw_if_interrupted();
+    try {
+      all.push_back(today_of(path, scene, common));
+    } catch (const Error& error) {
+      if (error.code() == ExitCode::interrupted || error.code() == ExitCode::terminated) throw;
+      all.push_back({path, scene, {}, {}, false, error});
+    }
+  }
   tell_result(common, [&] {
-    return Json{{"file", path}, {"scene", scene}, {"is_same", nearest.is_same()}, {"changed", nearest.words}, {"audit_changed", nearest.facts},
-                {"has_other_versions", nearest.has_other_versions}};
+    if (all.size() == 1) return report_of(all.front());
+    Json films = Json::array();
+    for (const Today& one : all) films.push_back(report_of(one));
+    return Json{{"films", films}};
   }, [&] {
-    for (const std::string& line : nearest.words) std::printf("%s\n", line.c_str());
-    if (nearest.words.empty())
-      for (const std::string& line : nearest.facts) std::printf("audit: %s\n", line.c_str());
-    if (nearest.is_same()) std::printf("%s is what %s shows today\n", path.c_str(), scene.c_str());
-    if (nearest.has_other_versions) std::printf("made by other versions of the program or its libraries\n");
+    for (const Today& one : all) print_today(one);
   });
-  if (!nearest.is_same()) throw Error(ExitCode::comparison_failed, "is not what " + scene + " shows today: render it again", {path});
+  std::vector<Problem> changed, troubles;
+  for (const Today& one : all) {
+    if (one.trouble)
+      for (Problem problem : one.trouble->problems()) {
+        if (problem.place.file.empty()) problem.place.file = one.path;
+        troubles.push_back(std::move(problem));
+      }
+    else if (!one.is_same())
+      changed.push_back({"is not what " + one.scene + " shows today: render it again", {one.path}});
+  }
+  if (!troubles.empty()) throw Error(ExitCode::bad_input, std::move(troubles));
+  if (!changed.empty()) throw Error(ExitCode::comparison_failed, std::move(changed));
 }
 
 }  // namespace chainreel

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/cli/command.hpp"
 
@@ -13,8 +14,9 @@ bool is_film_or_picture(const std::string& path);
 // Held against the audit beside it. Throws Error (exit 1) where it is not what that tells of.
 void check_as_written(const std::string& path, const CommonOptions& common);
 
-// What it remembers against what a film or picture of the scene, as `common` changes it, would remember now. Throws Error
-// (exit 1) where that is something else, (exit 3) of a file that shows no scene.
-void check_against_scene(const std::string& path, const std::string& scene, const CommonOptions& common);
+// What films and pictures, and those in folders, remember against what their scenes as the command line changed them would make
+// now. `scene`: of all; "": each has its own, which is found from where it lies. Throws Error (exit 1) naming those that are
+// something else now, (exit 3) where one shows no scene, or its scene is not found.
+void check_of_today(const std::vector<std::string>& paths, const std::string& scene, const CommonOptions& common);
 
 }  // namespace chainreel

@@ -111,6 +111,8 @@ void print_table(const FallTable& table, const std::string& set, bool searched) 
     rows.back().push_back(verdict(table, row));
   }
   std::fputs(table_text(rows).c_str(), stdout);
+  for (const EventEntry& event : table.events)
+    if (!event.when.empty()) std::printf("%s: when %s\n", event.title().c_str(), event.when.c_str());
   for (const FallEdge& edge : table.edges) std::printf("%s\n", to_words(table, edge).c_str());
   if (table.bears && std::any_of(table.rows.begin(), table.rows.end(), [&](const FallRow& row) { return what_became_of(table, row) == FallEnd::tips; }))
     std::printf("behind that the ankle goes on holding, which no ground bears: cut its torque at what a foot at rest does, %s N m over the heel and %s N m "

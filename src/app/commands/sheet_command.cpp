@@ -1,9 +1,10 @@
-// chainreel sheet SCENE... -o FILE: one picture a scene, all on one page; .png, .svg or .pdf
+// chainreel sheet SCENE... -o FILE: one picture a scene, or several instants, all on one page; .png, .svg or .pdf
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 
 #include "app/cli/command.hpp"
@@ -19,15 +20,17 @@
 #include "app/report/run_report.hpp"
 #include "core/error.hpp"
 #include "draw/figures/contact_sheet.hpp"
-#include "scene/quantity.hpp"
+#include "draw/page/sheet.hpp"
+#include "scene/run/title.hpp"
+#include "scene/text/asked_instant.hpp"
 
 namespace chainreel {
 namespace {
 
 struct SheetOptions {
   std::vector<std::string> scenes;
-  std::string at;
-  std::string output = "out/sheet.png";
+  std::vector<std::string> at;  // each one or several between commas; none: the telling one of each scene
+  std::vector<std::string> outputs;
   int columns = 0;
   int width = 1920, height = 1080;
   CommonOptions common;
@@ -54,33 +57,76 @@ void set_for_cell(Scene& scene, ThemeName theme, double text_scale) {
   std::erase(scene.draw, "mass_matrix");  // its numbers could not be read
 }
 
-// `told` gets what the cell shows in numbers.
-ContactCell cell_of(const std::string& file, const SheetOptions& options, ThemeName theme,
-                    double text_scale, const Fonts& fonts, Json& told) {
+std::vector<AskedInstant> instants_of(const SheetOptions& options) {
+  std::vector<AskedInstant> asked;
+  for (const std::string& text : options.at)
+    for (const std::string& part : parted_instants(text)) {
+      try {
+        asked.push_back(parse_asked_instant(part, {}));
+      } catch (const Error& error) {
+        throw Error(ExitCode::usage, "--at " + text + ": " + error.problems().front().message);
+      }
+    }
+  return asked;
+}
+
+// What all cells of a page share.
+struct Page {
+  ThemeName theme;
+  double text_scale;
+  const Fonts& fonts;
+  const std::vector<AskedInstant>& asked;
+  std::size_t scenes;
+};
+
+// Of several instants each says which it is; of several scenes whose.
+std::string title_of_cell(const Moment& moment, const Scene& scene, const Page& page) {
+  const std::string title = moment.title.empty() ? scene.name : moment.title;
+  if (page.asked.size() < 2) return title;
+  const std::string time = time_text(moment.at);
+  return page.scenes == 1 ? time : time + ": " + title;
+}
+
+struct ScenesCells {
+  std::vector<ContactCell> cells;
+  std::string title;  // of the scene
+};
+
+// A cell an instant that is asked for. `told` gets what they show in numbers. A run that is over by then shows its end.
+ScenesCells cells_of(const std::string& file, const SheetOptions& options, const Page& page, Json& told) {
   PreparedFilm film = load_film(file, overrides_of(options.common), true, options.common.quiet);
   say_notices(film.panels, options.common.quiet);
   leave_out_faces(film.scene, options.common.quiet);
-  set_for_cell(film.scene, theme, text_scale);
-  for (PreparedScene& panel : film.panels) set_for_cell(panel.scene, theme, text_scale);
-  Moment moment = options.at.empty()
-                      ? telling_moment(film, fonts)
-                      : moment_at(film, std::min(parse_seconds(options.at, "--at"), film.scene.duration), fonts);
-  tell_warnings(moment.warnings);
-  told.push_back({{"scene", file}});
-  told.back().update(moment.numbers);
-  return {std::move(moment.picture), moment.title.empty() ? film.scene.name : moment.title};
+  set_for_cell(film.scene, page.theme, page.text_scale);
+  for (PreparedScene& panel : film.panels) set_for_cell(panel.scene, page.theme, page.text_scale);
+  std::vector<AskedInstant> asked = page.asked;
+  for (AskedInstant& one : asked)
+    if (one.event.empty()) one.at = std::min(one.at, film.scene.duration);
+  Moments moments(film, page.fonts);
+  std::vector<Moment> shown;
+  if (asked.empty()) shown.push_back(moments.telling());
+  for (const double at : instants_asked(film, asked)) shown.push_back(moments.moment(at));
+  ScenesCells found{{}, title_of_page(film.scene)};
+  for (Moment& moment : shown) {
+    if (found.cells.empty()) tell_warnings(moment.warnings);
+    told.push_back({{"scene", file}});
+    told.back().update(moment.numbers);
+    found.cells.push_back({std::move(moment.picture), title_of_cell(moment, film.scene, page)});
+  }
+  return found;
 }
 
 // The problems of all scenes are told at once.
-std::vector<ContactCell> cells_of(const SheetOptions& options, ThemeName theme, double text_scale,
-                                  const Fonts& fonts, Json& told) {
-  std::vector<ContactCell> cells;
+ScenesCells cells_of(const SheetOptions& options, const Page& page, Json& told) {
+  ScenesCells all;
   std::vector<Problem> problems;
   ExitCode code = ExitCode::bad_input;
   for (const std::string& file : options.scenes) {
     throw_if_interrupted();
     try {
-      cells.push_back(cell_of(file, options, theme, text_scale, fonts, told));
+      ScenesCells own = cells_of(file, options, page, told);
+      std::ranges::move(own.cells, std::back_inserter(all.cells));
+      all.title = own.title;
     } catch (const Error& error) {
       if (error.code() == ExitCode::interrupted || error.code() == ExitCode::terminated) throw;
       code = error.code();
@@ -91,7 +137,7 @@ std::vector<ContactCell> cells_of(const SheetOptions& options, ThemeName theme, 
     }
   }
   if (!problems.empty()) throw Error(code, std::move(problems));
-  return cells;
+  return all;
 }
 
 // It shows no scene of its own but many: the command is remembered.
@@ -117,20 +163,26 @@ void refuse_own_keys(const std::vector<std::string>& set) {
 
 void run_sheet(const SheetOptions& options) {
   refuse_own_keys(options.common.set);
-  picture_format_of(options.output);
-  if (!options.at.empty() && parse_seconds(options.at, "--at") < 0)
-    throw Error(ExitCode::usage, "--at " + options.at + " lies before the start");
+  const std::vector<std::string> outputs = options.outputs.empty() ? std::vector<std::string>{"out/sheet.png"} : options.outputs;
+  for (const std::string& output : outputs) picture_format_of(output);
+  refuse_twice(outputs);
+  const std::vector<AskedInstant> asked = instants_of(options);
+  const std::size_t count = options.scenes.size() * std::max<std::size_t>(asked.size(), 1);
   const ThemeName theme = theme_of(options.common.flags);
   const Fonts fonts;
-  const ContactSheetLook look{double(options.width) / options.height, options.columns,
-                              text_scale_of(options.common.flags), &theme_named(to_string(theme)), &fonts};
-  const ContactGrid grid = contact_grid(int(options.scenes.size()), look);
+  ContactSheetLook look{double(options.width) / options.height, options.columns, "",
+                        text_scale_of(options.common.flags), &theme_named(to_string(theme)), &fonts};
+  // The title of the only scene stands above its instants.
+  const bool is_of_one = options.scenes.size() == 1 && asked.size() > 1;
+  if (is_of_one) look.title = std::filesystem::path(options.scenes.front()).stem().string();
+  const ContactGrid grid = contact_grid(int(std::min<std::size_t>(count, kMostCells + 1)), look);
   Json told = Json::array();
-  const std::vector<ContactCell> cells = cells_of(options, theme, text_scale_in(grid), fonts, told);
-  write_picture(draw_contact_sheet(grid, cells, look), options.width, options.height, fonts, options.output,
-                options.common.force, memory_of_sheet(*options.command, cells));
-  tell_files(options.common, {options.output},
-             [&] { return Json{{"columns", grid.columns}, {"lines", grid.lines}, {"cells", told}}; });
+  const ScenesCells shown = cells_of(options, {theme, text_scale_in(grid), fonts, asked, options.scenes.size()}, told);
+  if (is_of_one && !shown.title.empty()) look.title = shown.title;
+  const Picture sheet = draw_contact_sheet(grid, shown.cells, look);
+  for (const std::string& output : outputs)
+    write_picture(sheet, options.width, options.height, fonts, output, options.common.force, memory_of_sheet(*options.command, shown.cells));
+  tell_files(options.common, outputs, [&] { return Json{{"columns", grid.columns}, {"lines", grid.lines}, {"cells", told}}; });
 }
 
 }  // namespace
@@ -138,13 +190,12 @@ void run_sheet(const SheetOptions& options) {
 void add_sheet_command(CommandLine& app) {
   auto options = std::make_shared<SheetOptions>();
   Command* command =
-      app.add_subcommand("sheet", "a contact sheet: one picture of each scene, all on one page");
+      app.add_subcommand("sheet", "several pictures on one page: one of each scene, or one scene at several instants");
   command->add_option("scenes", options->scenes, "scene files, up to 48").required().names_input();
-  command->add_option(
-      "--at", options->at,
-      "instant of every scene in seconds, or its end where that is earlier (default: the last "
-      "event of a scene, else its middle)");
-  command->add_option("-o,--output", options->output, "a .png, .svg or .pdf file (default out/sheet.png)");
+  command->add_repeatable("--at", options->at,
+                   "instants, a picture each: --at 0.2s,1.5s,2.5s or --at \"event touch\"; of a scene that is over by then its end (repeatable; "
+                   "default: the last event of a scene, else its middle)");
+  command->add_repeatable("-o,--output", options->outputs, "a .png, .svg or .pdf file (repeatable; default out/sheet.png)");
   command->add_option("--columns", options->columns, "default: as many as make the pictures largest")
       .range(1, kMostCells);
   command->add_option("--width", options->width, "pixels").range(16, 16384);
@@ -152,7 +203,8 @@ void add_sheet_command(CommandLine& app) {
   add_scene_flags(*command, options->common.flags, FlagGroup::look);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
-  command->footer("Example: chainreel sheet rr_free rr_torque pen -o out/sheet.png");
+  command->footer("Example: chainreel sheet rr_free rr_torque pen -o out/sheet.png\n"
+                  "         chainreel sheet rr_torque --at 0,0.4,0.8,1.2,1.6,2 --width 2100 --height 2970 -o out/handout.pdf");
   options->command = command;
   command->callback([options] { run_sheet(*options); });
 }

@@ -171,20 +171,6 @@ void refuse_mistyped_joints(const Chain& chain, const std::vector<std::string>& 
   }
 }
 
-// Commas part instants, but not within brackets: max(1, 2).
-std::vector<std::string> parted(const std::string& text) {
-  std::vector<std::string> parts{""};
-  int depth = 0;
-  for (const char c : text) {
-    depth += c == '(' ? 1 : c == ')' ? -1 : 0;
-    if (c == ',' && depth == 0)
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  }
-  return parts;
-}
-
 // Two pictures of one name would be one file.
 void require_own_names(const std::vector<std::string>& names, const std::string& option) {
   ProblemList problems;
@@ -203,7 +189,7 @@ void snapshot_scene(const SnapshotOptions& options) {
   std::vector<std::string> names;
   const std::string stem = std::filesystem::path(options.file).stem().string();
   for (const std::string& text : options.at.empty() ? std::vector<std::string>{"0"} : options.at)
-    for (const std::string& part : parted(text)) {
+    for (const std::string& part : parted_instants(text)) {
       const Named named = named_of(part);
       try {
         asked.push_back(parse_asked_instant(named.text, {}));

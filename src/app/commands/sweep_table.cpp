@@ -28,6 +28,7 @@
 #include "scene/text/read_scene.hpp"
 #include "sim/audit.hpp"
 #include "sim/doubts.hpp"
+#include "sim/unstable_rest.hpp"
 #include "sim/workload.hpp"
 #include "table/data_table.hpp"
 
@@ -167,7 +168,8 @@ class RowMaker {
   // What speaks against a run that came to its end.
   static std::string doubt_of(const Simulation& simulation, const Trajectory& run) {
     if (!is_complete(run.status)) return "";
-    const auto doubt = doubt_of_energy(simulation, run, audit_of(simulation, run), {});
+    std::optional<Doubt> doubt = doubt_of_energy(simulation, run, audit_of(simulation, run), {});
+    if (!doubt) doubt = doubt_of_rest(simulation, run);
     return doubt ? kDoubtful + doubt->words : "";
   }
 

@@ -10,6 +10,7 @@
 #include "app/cli/streams.hpp"
 #include "app/film/clip_memory.hpp"
 #include "app/film/formats.hpp"
+#include "app/report/alt_text.hpp"
 #include "app/report/sidecar.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -81,11 +82,6 @@ std::string words_beside(const fs::path& film) {
   return text.substr(0, text.find('\n'));
 }
 
-Json audit_beside(const fs::path& film) {
-  Json audit = parse_json(read_text(audit_path_of(film.string())));
-  return audit.is_object() ? audit : Json();
-}
-
 // Title, words, scene and audit: of the film itself, else of the files beside it.
 void remember(GalleryClip& clip) {
   ClipMemory memory;
@@ -99,7 +95,7 @@ void remember(GalleryClip& clip) {
   // The audit's title says what the scene's leaves open: when it falls.
   if (clip.audit.is_object() && clip.audit.value("title", Json()).is_string())
     memory.title = clip.audit["title"];
-  clip.title = memory.title.empty() ? clip.name : memory.title;
+  clip.title = memory.title.empty() ? clip.name : in_plain_words(memory.title);
   clip.words = words_beside(clip.path);
   if (clip.words.empty()) clip.words = memory.description;
   if (clip.words.empty()) clip.words = "A film of which nothing is told.";

@@ -9,10 +9,29 @@
 #include "app/report/report.hpp"
 #include "core/format.hpp"
 #include "draw/layers/speed_box.hpp"
+#include "picture/math_notation.hpp"
 #include "scene/run/title.hpp"
 #include "scene/text/scene_paths.hpp"
 
 namespace chainreel {
+std::string in_plain_words(const std::string& words) {
+  std::string plain;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == '\\' && i + 1 < words.size() && words[i + 1] == '$') {
+      plain += words[++i];
+      continue;
+    }
+    const std::size_t end = words[i] == '$' ? words.find('$', i + 1) : std::string::npos;
+    if (end == std::string::npos) {
+      plain += words[i];
+      continue;
+    }
+    plain += plain_formula(std::string_view(words).substr(i + 1, end - i - 1));
+    i = end;
+  }
+  return plain;
+}
+
 namespace {
 
 constexpr double kCaptionSeconds = 2;  // at most; the next event ends it
@@ -55,12 +74,6 @@ std::string push_words(const PreparedScene& panel) {
             panel.simulation.chain.frames[std::size_t(push.frame)].name + " from " + format_significant(push.from, 4) + " s" +
             (std::isfinite(push.until) ? " to " + format_significant(push.until, 4) + " s" : " on");
   return text;
-}
-
-// Formulas as they are written.
-std::string in_plain_words(std::string words) {
-  std::erase(words, '$');
-  return words;
 }
 
 // ", tied by a line": each constraint by the name that it goes by elsewhere.

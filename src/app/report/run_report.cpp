@@ -11,9 +11,11 @@
 #include "core/format.hpp"
 #include "draw/film/compose.hpp"
 #include "draw/layers/speed_box.hpp"
+#include "model/model_description.hpp"
 #include "render/canvas.hpp"
 #include "scene/keys/keys.hpp"
 #include "scene/run/fall.hpp"
+#include "scene/run/prepare.hpp"
 #include "scene/run/title.hpp"
 #include "sim/drive/recorded_motion.hpp"
 #include "sim/torques_along.hpp"
@@ -74,6 +76,15 @@ Json motion_report(const RecordedMotion& motion) {
 }
 
 }  // namespace
+
+Json mechanism_record(const PreparedScene& prepared) {
+  ModelOptions options = model_options_of(prepared.scene);
+  options.meshes = false;
+  ModelDescription model = describe_model(prepared.scene.model, options);
+  if (!prepared.shapes)
+    for (DescribedLink& link : model.links) link.visuals.clear(), link.collisions.clear();
+  return to_json(model);
+}
 
 RunReport run_report(const PreparedScene& prepared, const Trajectory& trajectory) {
   RunReport report{prepared, trajectory, audit_of(prepared.simulation, trajectory), {}, {}};

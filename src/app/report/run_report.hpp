@@ -42,6 +42,10 @@ struct ViewReport {
   Point origin;       // of the world on the page, from its lower left, units of its height
 };
 
+// What of a run's model its motion and pictures come from, as `describe_model` has it, without shapes that are not drawn. Meshes
+// have a hash of their own.
+Json mechanism_record(const PreparedScene& prepared);
+
 struct FilmReport {
   const Runs& runs;
   std::vector<RunReport> panels;

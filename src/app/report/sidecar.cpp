@@ -70,6 +70,15 @@ std::string audit_path_of(const std::string& file) {
   return is_own_sidecar(own) ? own : fs::path(file).replace_extension(".json").string();
 }
 
+Json audit_beside(const std::string& file) {
+  try {
+    Json audit = parse_json(read_plain_file(audit_path_of(file), kLargestSidecar));
+    return audit.is_object() ? audit : Json();
+  } catch (const Error&) {
+    return Json();
+  }
+}
+
 OtherFiles others_audited(const std::string& path, const std::vector<std::string>& files, const Json& audit) {
   OtherFiles others;
   try {

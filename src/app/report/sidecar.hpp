@@ -11,6 +11,10 @@
 
 namespace chainreel {
 
+// In audits alone, and not in what films remember: a record of each panel's model, and what the command line changed.
+inline constexpr const char* kMechanisms = "mechanisms";
+inline constexpr const char* kSet = "set";
+
 inline constexpr std::uintmax_t kLargestSidecar = std::uintmax_t(64) << 20;  // bytes of a text or an audit that is read
 
 // NAME.json says of the texts beside it which they are, by their hashes, under this key: {".txt": .., ".srt": ..}.
@@ -26,6 +30,8 @@ Json clip_facts(int width, int height, FrameRate fps, int frames);
 inline constexpr const char* kDrawnFrames = "drawn";
 // Where the audit of a file lies: FILE.json, as x.gif.json, where that is one of ours, else NAME.json.
 std::string audit_path_of(const std::string& file);
+// What it says; null where there is none, or it is no JSON.
+Json audit_beside(const std::string& file);
 // What an audit at `path` tells of besides `files`, as far as it is still there.
 struct OtherFiles {
   Json entries = Json::array();         // of those that show the same as `audit` says, to be told of on

@@ -381,6 +381,9 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
 
   result.audit = to_json(report);
   result.audit[kMeshesHash] = meshes;
+  result.audit[kSet] = scene.set;
+  result.audit[kMechanisms] = Json::array();
+  for (const PreparedScene& panel : film.panels) result.audit[kMechanisms].push_back(mechanism_record(panel));
   result.audit["held_frames"] = held;
 
   FrameRange range{0, result.frames};

@@ -212,30 +212,17 @@ bool draw_panel(Picture& picture, const Rect& area, const WorkPrecision& data, C
   return triangles;
 }
 
-// "3\u00D710\u207B\u00B9\u2074"
-std::string power_text(double value) {
-  static constexpr std::array<const char*, 10> kSuperscripts = {
-      "\u2070", "\u00B9", "\u00B2", "\u00B3", "\u2074", "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
-  int exponent = int(std::floor(std::log10(value)));
-  long digit = std::lround(value / std::pow(10.0, exponent));
-  if (digit == 10) digit = 1, ++exponent;
-  std::string text = std::to_string(digit) + "\u00D710";
-  for (const char c : std::to_string(exponent))
-    text += c == '-' ? "\u207B" : kSuperscripts[std::size_t(c - '0')];
-  return text;
-}
-
 std::string footer_of(const WorkPrecision& data, bool triangles) {
   std::string text;
   const auto add = [&text](const std::string& part) {
     text += (text.empty() || part.empty() ? "" : "; ") + part;
   };
   add(data.error_meaning);
-  const auto of_reference = [&] { return "reference known to " + power_text(data.reference_uncertainty); };
+  const auto of_reference = [&] { return "reference known to " + format_power(data.reference_uncertainty); };
   if (data.is_least_of_reference())
     add("shaded: " + of_reference());
   else if (data.floor > 0)
-    add("shaded: the problem's amplification times 2\u207B\u2075\u00B3 is " + power_text(data.floor));
+    add("shaded: the problem's amplification times 2\u207B\u2075\u00B3 is " + format_power(data.floor));
   if (data.reference_uncertainty > 0 && !data.is_least_of_reference()) add(of_reference());
   add("dotted: 1, 10 and 100 times the cheapest run");
   if (triangles) add("triangles: slope of an order");

@@ -1,7 +1,6 @@
 #include "draw/figures/contact_sheet.hpp"
 
 #include <algorithm>
-#include <sstream>
 
 #include "core/error.hpp"
 #include "draw/page/sheet.hpp"
@@ -21,6 +20,12 @@ constexpr double kLargestWords = 2;  // text_scale; beyond it words would hide w
 constexpr double kNoWords = 1e-3;    // text_scale of words, and of the room for them, that nobody sees
 constexpr double kScript = 0.7;      // of the em: indices are that small by themselves
 const std::string kEllipsis = "\u2026";
+
+constexpr double kTitleRoom = 1.7;  // of its em: of the page's title with the air below it
+
+double title_room(const ContactSheetLook& look) {
+  return look.title.empty() ? 0 : kTitleRoom * scaled(size::kTitle, look.text_scale);
+}
 
 // Heights that a grid of that many lines gives its pictures.
 struct Cut {
@@ -61,7 +66,22 @@ int best_columns(int count, const Rect& inside, double text_scale) {
 }
 
 TextLine title_line(const std::string& text, double size, const ContactSheetLook& look) {
-  return lay_out_text(*look.fonts, text, {Face::label, size, look.theme->ink});
+  return lay_out_words(*look.fonts, text, {Face::label, size, look.theme->ink});
+}
+
+// Words, a formula between dollar signs with its spaces as one.
+std::vector<std::string> words_of(const std::string& title) {
+  std::vector<std::string> words{""};
+  bool in_formula = false;
+  for (const char c : title) {
+    in_formula ^= c == '$';
+    if (c == ' ' && !in_formula)
+      words.emplace_back();
+    else
+      words.back() += c;
+  }
+  std::erase(words, "");
+  return words;
 }
 
 // The longest beginning of a text, with an ellipsis behind it, that is no wider than `width`: whole words, or
@@ -71,6 +91,7 @@ std::string shortened(const std::string& text, double size, double width, const 
     for (std::size_t end = text.size() - 1; end > 0; --end) {
       const bool inside_character = (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80;
       if (inside_character || (whole_words && text[end] != ' ')) continue;
+      if (std::count(text.begin(), text.begin() + std::ptrdiff_t(end), '$') % 2 == 1) continue;  // within a formula
       const std::string cut = text.substr(0, end) + kEllipsis;
       if (title_line(cut, size, look).advance <= width) return cut;
     }
@@ -81,8 +102,7 @@ std::string shortened(const std::string& text, double size, double width, const 
 std::vector<std::string> broken_title(const std::string& title, double size, double width, int most,
                                       const ContactSheetLook& look) {
   std::vector<std::string> lines;
-  std::istringstream words(title);
-  for (std::string word; words >> word;) {
+  for (const std::string& word : words_of(title)) {
     const std::string longer = lines.empty() ? word : lines.back() + " " + word;
     const bool fits = title_line(longer, size, look).advance <= width;
     if (lines.empty() || (!fits && int(lines.size()) < most))
@@ -106,7 +126,7 @@ ContactGrid contact_grid(int count, const ContactSheetLook& look) {
   if (count > kMostCells)
     throw Error(ExitCode::usage, std::to_string(count) + " pictures are too many for a sheet: no more than " +
                                      std::to_string(kMostCells) + " fit");
-  const Rect inside{size::kMargin, size::kMargin, look.aspect - size::kMargin, 1 - size::kMargin};
+  const Rect inside{size::kMargin, size::kMargin, look.aspect - size::kMargin, 1 - size::kMargin - title_room(look)};
   ContactGrid grid;
   grid.columns =
       look.columns > 0 ? std::min(look.columns, count) : best_columns(count, inside, look.text_scale);
@@ -147,6 +167,11 @@ Picture draw_contact_sheet(const ContactGrid& grid, std::span<const ContactCell>
   Picture sheet;
   sheet.aspect = look.aspect;
   sheet.background = look.theme->background;
+  if (!look.title.empty()) {
+    const TextStyle style{Face::label_bold, scaled(size::kTitle, look.text_scale), look.theme->ink, Align::left};
+    draw_text(sheet, fit_words(*look.fonts, look.title, style, look.aspect - 2 * size::kMargin, look.text_scale),
+              {size::kMargin, 1 - size::kMargin - kAscent * style.size});
+  }
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Rect& title = grid.titles[i];
     place_picture(sheet, cells[i].picture,

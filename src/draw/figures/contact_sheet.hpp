@@ -19,6 +19,7 @@ inline constexpr double kCellPageAspect = kCellAspect * (1 - 2 * size::kMargin) 
 struct ContactSheetLook {
   double aspect = 16.0 / 9.0;
   int columns = 0;  // 0: as many as make the pictures largest
+  std::string title{};  // above all; "": none. It may have formulas between dollar signs, as those of cells
   double text_scale = 1;
   const Theme* theme = &light_theme();
   const Fonts* fonts = nullptr;

@@ -143,7 +143,10 @@ EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReadi
       for (const MassAxis& axis : pose.axes)
         if (axis.mass && *axis.mass <= kNearlyInfinite * median) longest = std::max(longest, *axis.mass);
   const double usual = reading == EllipseReading::energy ? kLargerAxis : kSmallerAxis;
-  const double per_unit = room * std::min(usual / median, kLongestAxis / longest);
+  return scale_of(room * std::min(usual / median, kLongestAxis / longest), reading);
+}
+
+EllipseScale scale_of(double per_unit, EllipseReading reading) {
   const double bar = round_length(kLongestBar / per_unit);
   return {bar, bar * per_unit, reading};
 }

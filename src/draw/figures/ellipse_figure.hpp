@@ -25,6 +25,8 @@ std::vector<std::vector<double>> configurations_of(const std::vector<Pose>& pose
 // kLongestAxis, so that all ellipses of ordinary poses can be seen whole. `room`: the shorter side of a panel, units
 // of H.
 EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReading reading);
+// The bar of a scale that draws a unit so long, units of H.
+EllipseScale scale_of(double per_unit, EllipseReading reading);
 
 // With legend, scale and title.
 // `height`: of the page, in units. `names_masses`: below the panels stand masses without a name.

@@ -212,6 +212,31 @@ double shortest_drawn(const Panels& panels, const std::vector<Pose>& poses) {
   return shortest;
 }
 
+// The longest axis that is drawn whole, units of H.
+double longest_drawn(const Panels& panels, const std::vector<Pose>& poses) {
+  double longest = 0;
+  for (const Pose& pose : poses)
+    for (const MassAxis& axis : pose.axes)
+      if (is_ordinary(pose.axes)) longest = std::max(longest, 2 * semi_axis(axis, panels.options.reading).value_or(0) * panels.scale.per_unit());
+  return longest;
+}
+
+// Returns the size of what the panels show. Beside ellipses much longer than the whole chain, as small panels would have them, it would
+// be a dwarf: they are drawn smaller.
+Point fit_ellipses(Panels& panels, const std::vector<Pose>& poses, Workspace& ws) {
+  constexpr double kOfReach = 1.1, kNearly = 1.02;
+  constexpr int kRounds = 8;
+  Point shown = fit_panels(panels, poses, ws);
+  for (int round = 0; round < kRounds; ++round) {
+    const double longest = longest_drawn(panels, poses), most = kOfReach * panels.camera.scale * panels.skeleton.reach;
+    if (longest <= kNearly * most) break;
+    panels.scale = scale_of(panels.scale.per_unit() * std::sqrt(most / longest), panels.options.reading);  // the chain grows meanwhile
+    shown = fit_panels(panels, poses, ws);
+  }
+  panels.widest_link = std::max(kThinnestLink, 2 * kOfSemiAxis * shortest_drawn(panels, poses));
+  return shown;
+}
+
 // Panels so many across; false where they are too small.
 bool lay_out(Panels& panels, const Rect& area, int across, const std::vector<Pose>& poses, Workspace& ws) {
   const PoseFigureOptions& options = panels.options;
@@ -225,8 +250,7 @@ bool lay_out(Panels& panels, const Rect& area, int across, const std::vector<Pos
   panels.words = words_of(panels, poses);
   panels.marks = marks_in(panels.scene(0));
   panels.scale = scale_for(poses, panels.side(), options.reading);
-  panels.widest_link = std::max(kThinnestLink, 2 * kOfSemiAxis * shortest_drawn(panels, poses));
-  const Point shown = fit_panels(panels, poses, ws);
+  const Point shown = fit_ellipses(panels, poses, ws);
   const Rect scene = panels.scene(0);
   panels.filled = std::min(1.0, shown.x / scene.width()) * std::min(1.0, kept_height(panels, shown) / scene.height());
   return true;

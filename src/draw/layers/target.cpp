@@ -46,7 +46,7 @@ class Target : public Layer {
 
   void measure(const Sight& sight, FitBox& box) const override {
     if (const auto places = places_.find(&sight.motion); places != places_.end() && sight.k < int(places->second.size()))
-      box.add(room_around(kPlace), sight.camera.flat(places->second[std::size_t(sight.k)].place));
+      add_place(sight, places->second[std::size_t(sight.k)], box);
     const auto found = followed_.find(&sight.motion);
     if (found == followed_.end()) return;
     pose(found->second, sight.motion.chain(), sight.k);
@@ -119,15 +119,28 @@ class Target : public Layer {
     draw_round_coil(picture, turn, radius, wanted, q, panel.marks(), color, panel.clip());
   }
 
-  // A ring with a cross at the place, and the coil from there to the frame.
+  static void add_place(const Sight& sight, const TaskTarget& target, FitBox& box) {
+    box.add(room_around(kPlace), sight.camera.flat(target.wished(frame_position(sight.motion.chain(), sight.ws, target.frame))));
+  }
+
+  // A ring with a cross at the place, and the coil from there to the frame; of springs that are not the same along all axes one along
+  // each, as they pull.
   static void draw_place(Picture& picture, const Shot& shot, const TaskTarget& target) {
     const Panel& panel = shot.panel;
     const Color color = toned(panel.look().theme->torque, panel.look());
     const Vector3d tip = frame_position(panel.chain(), shot.ws, target.frame);
-    const Vector3d place = target.place + target.free.dot(tip) * target.free;
+    const Vector3d place = target.wished(tip);
     const Point at = panel.camera().project(place), from = panel.camera().project(tip);
     if (!is_drawable(at) || !is_drawable(from)) return;
-    if (norm(from - at) > kPlace) draw_coil(picture, at, from, panel.look().rails, color, panel.clip());
+    const auto draw_pull_from = [&](const Vector3d& anchor) {
+      const Point held = panel.camera().project(anchor);
+      if (is_drawable(held) && norm(from - held) > kPlace) draw_coil(picture, held, from, panel.look().rails, color, panel.clip());
+    };
+    if (target.is_one_spring())
+      draw_pull_from(place);
+    else
+      for (const TaskTarget::Pull& pull : target.pulls)
+        if (pull.kp != 0) draw_pull_from(tip + pull.axis.dot(place - tip) * pull.axis);
     const double radius = panel.marks() * kPlace;
     const Paint line{{}, color, panel.marks() * kPlaceLine};
     picture.add(Ellipse{at, {radius, 0}, {0, radius}, line}, panel.clip());

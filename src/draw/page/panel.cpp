@@ -135,7 +135,18 @@ std::string Panel::note(int k, int events) const {
   const std::optional<double> left = left_at();
   if (!left || k <= last_) return event_note(k, events);
   const bool gone = left_ || motion_->trajectory().status == RunStatus::diverged;
-  return (gone ? "left the picture at " : "ended at ") + time_text(*left);
+  const std::string text = (gone ? "left the picture at " : "ended at ") + time_text(*left);
+  return gone && events > 0 ? text + away_note(k) : text;
+}
+
+// How far off it is meanwhile, where that is far beyond the picture: ", 3\u00D710\u2075 m away".
+std::string Panel::away_note(int k) const {
+  constexpr double kFar = 10;  // times the picture's height
+  const Workspace& ws = motion_->pose_at(std::min(k, motion_->samples() - 1));
+  double away = chain().end_effector < 0 ? 0 : tip_position(chain(), ws).norm();
+  for (int b = 1; b < int(chain().bodies.size()); ++b) away = std::max(away, pose_of(ws, b).translation().norm());
+  const double height = area().height() / camera().scale;
+  return std::isfinite(away) && away > kFar * height ? ", " + format_power(away) + " m away" : "";
 }
 
 }  // namespace chainreel

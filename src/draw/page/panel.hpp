@@ -68,7 +68,7 @@ class Panel {
   ChainDrawing drawing(const ChainLook& look) const;
   ChainDrawing drawing() const { return drawing(look_); }
 
-  // "left the picture at t = 1.24 s" from that frame on, or what happened last: "elbow straight at t = 1.24 s".
+  // "left the picture at t = 1.24 s, 3\u00D710\u2075 m away" from that frame on, or what happened last: "elbow straight at t = 1.24 s".
   std::string note(int k, int events = 2) const;  // of several kBetweenEvents
   std::string title() const { return motion_->title(); }
   // The instant at which the panel stood still.
@@ -79,6 +79,7 @@ class Panel {
   bool is_inside(const Workspace& ws) const;
   void follow_tip();
   std::string event_note(int k, int events) const;
+  std::string away_note(int k) const;
 
   const StagedRun* motion_;
   PanelView view_;

@@ -33,6 +33,19 @@ std::string AskedInstant::name() const {
   return event.empty() ? format_shortest(at) + "s" : event;
 }
 
+std::vector<std::string> parted_instants(const std::string& text) {
+  std::vector<std::string> parts{""};
+  int depth = 0;
+  for (const char c : text) {
+    depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+    if (c == ',' && depth == 0)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
 AskedInstant parse_asked_instant(const std::string& text, const Place& place) {
   AskedInstant asked;
   asked.text = trimmed(text);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "scene/scene.hpp"
 
@@ -14,6 +15,9 @@ struct AskedInstant {
   // "1.2s" or the event's name: one for an instant, however it was written.
   std::string name() const;
 };
+
+// Commas part instants, but not within brackets: max(1, 2).
+std::vector<std::string> parted_instants(const std::string& text);
 
 // Throws Error at `place`.
 AskedInstant parse_asked_instant(const std::string& text, const Place& place);

@@ -117,7 +117,9 @@ std::vector<Override> parse_overrides(const std::vector<std::string>& texts) {
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides, MethodsOf methods) {
   YamlDocument document = load_yaml(path, parse_overrides(overrides));
   document.is_for_methods = methods == MethodsOf::command;
-  return read_either(document);
+  Scene scene = read_either(document);
+  scene.set = overrides;
+  return scene;
 }
 
 Scene read_scene_text(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {

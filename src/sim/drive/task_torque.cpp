@@ -35,8 +35,10 @@ class TaskTorque final : public TorqueLaw {
   std::optional<TaskTarget> task_at(double t) override {
     reference_->evaluate(t, x_, xd_, {});
     TaskTarget target{frame_, Vector3d::Zero(), {}};
-    for (std::size_t i = 0; i < axes_.size(); ++i) target.place += x_[i] * axes_[i];
-    target.free = axes_.size() == 2 ? Vector3d(axes_[0].cross(axes_[1])) : Vector3d(Vector3d::Zero());
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      target.place += x_[i] * axes_[i];
+      target.pulls.push_back({axes_[i], kp_[i]});
+    }
     return target;
   }
 
@@ -49,6 +51,17 @@ class TaskTorque final : public TorqueLaw {
 };
 
 }  // namespace
+
+Vector3d TaskTarget::wished(const Vector3d& p) const {
+  Vector3d wished = p;
+  for (const Pull& pull : pulls)
+    if (pull.kp != 0) wished += pull.axis.dot(place - p) * pull.axis;
+  return wished;
+}
+
+bool TaskTarget::is_one_spring() const {
+  return std::all_of(pulls.begin(), pulls.end(), [&](const Pull& pull) { return pull.kp == pulls.front().kp; });
+}
 
 std::unique_ptr<TorqueLaw> make_task_torque(const Chain& chain, const TaskFeedback& task, const Parameters& parameters, const NamedFrames& frames) {
   const auto refuse = [&](const std::string& message) { throw Error(ExitCode::bad_input, message, task.place); };

@@ -20,8 +20,17 @@ class StateCorners;
 // Where feedback in the space of the task pulls a frame to.
 struct TaskTarget {
   int frame = 0;          // index into Chain::frames
-  Eigen::Vector3d place;  // in W; along `free`, of length 0 or 1, it may be anywhere
-  Eigen::Vector3d free;
+  Eigen::Vector3d place;  // in W, along the axes that have one
+  struct Pull {
+    Eigen::Vector3d axis;  // of length 1, in W
+    double kp = 0;         // N/m
+  };
+  std::vector<Pull> pulls;  // one an axis
+
+  // Where the springs would have a frame that is at `p`: at its own place along axes without one.
+  Eigen::Vector3d wished(const Eigen::Vector3d& p) const;
+  // Whether they pull like one spring between both, the same along all axes.
+  bool is_one_spring() const;
 };
 
 class TorqueLaw {
