@@ -25,13 +25,13 @@ struct PageOfPoses {
 
 // Of panels so many across, as high as lets chains be as large as the width allows, and ellipses all but so, with the words that there are
 // then.
-PageOfPoses page_of_poses(const std::function<PoseFigureFit(double)>& fit_at, double tallest, double width) {
+PageOfPoses page_of_poses(const std::function<PoseFigureFit(double)>& fit_at, double tallest, double width, bool wants_lengths) {
   constexpr double kAsLarge = 0.96, kEllipses = 0.7, kFlattest = 0.2, kStep = 1, kWithoutMatrix = 0.8;  // of the size, of the width, mm
-  constexpr double kHeight = 1.5;  // the smaller page is the better one, even where it shows things somewhat smaller
+  constexpr double kHeight = 1.5, kWithoutLengths = 0.3;  // the smaller page is the better one, even where it shows things somewhat smaller
   const auto page_at = [&](double height) {
     const PoseFigureFit fit = fit_at(height);
     PageOfPoses page{height, fit.metre > 0 ? 2 * int(fit.is_whole) + int(fit.has_masses) : -1, fit.metre, fit.kilogram, 0};
-    page.merit = (fit.has_matrices ? 1 : kWithoutMatrix) * std::sqrt(fit.metre * fit.kilogram) / std::pow(height, kHeight);
+    page.merit = (fit.has_matrices ? 1 : kWithoutMatrix) * (fit.has_lengths || !wants_lengths ? 1 : kWithoutLengths) * std::sqrt(fit.metre * fit.kilogram) / std::pow(height, kHeight);
     return page;
   };
   PageOfPoses page = page_at(tallest);
@@ -56,7 +56,7 @@ void set_page(PoseFigureOptions& figure, const PaperPage& page, double text_scal
 
 void put_on_paper(PoseFigureOptions& figure, const PaperOptions& paper, const TipMass& tip, const std::vector<std::vector<double>>& poses,
                   const Fonts& fonts) {
-  constexpr int kMostAcross = 6;
+  constexpr int kMostAcross = 6, kFew = 4;  // poses whose semi-axes are worth a higher page for their numbers
   constexpr double kTallestPanel = 1.25;  // of its width, with its caption
   const double width = paper.width_mm, text_scale = figure.text_scale;
   const int count = int(poses.size());
@@ -73,7 +73,8 @@ void put_on_paper(PoseFigureOptions& figure, const PaperOptions& paper, const Ti
     for (int across = is_row ? count : 1; across <= (is_row ? count : std::min(count, kMostAcross)); ++across) {
       const int rows = (count + across - 1) / across;
       const double tallest = std::min(tallest_page(paper), kTallestPanel * width * rows / across + usual_height(width, count, true));
-      const PageOfPoses tried = page_of_poses([&](double height) { return fit_of_poses(tip, poses, page(height, across), fonts); }, tallest, width);
+      const PageOfPoses tried = page_of_poses([&](double height) { return fit_of_poses(tip, poses, page(height, across), fonts); }, tallest, width,
+                                              count <= kFew);
       if (std::pair(tried.words, tried.merit) <= std::pair(best.words, best.merit)) continue;
       best = tried;
       best_across = across;

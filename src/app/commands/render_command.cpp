@@ -163,7 +163,7 @@ void run_render(const RenderOptions& options) {
     if (result.part) reports.back()["part"] = {{"first", result.part->first}, {"behind", result.part->behind}};
     reports.back()["sidecars"] = result.sidecars;
     reports.back()["small_clips"] = small_clips(jobs[i], films[i], result.frames);
-    table.push_back({films[i].scene.name, std::to_string(result.frames), format_fixed(result.film_seconds, 2),
+    table.push_back({films[i].scene.name, std::to_string(result.frames), format_fixed(result.part ? frame_time(result.frames, films[i].scene.video.fps) : result.film_seconds, 2),
                      format_fixed(result.times.total, 2), joined(result.files, " ")});
   }
   tell_result(options.common, [&] { return Json{{"films", reports}}; }, [&] { std::fputs(table_text(table).c_str(), stdout); });

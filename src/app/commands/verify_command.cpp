@@ -133,12 +133,13 @@ class Teller {
       return;
     std::printf("%-8s  %s\n", to_string(verdict.state).c_str(), verdict.name.c_str());
     if (verdict.state != PictureState::same && verdict.state != PictureState::accepted)
-      for (const std::string& words : verdict.words) std::printf("          %s\n", words.c_str());
+      for (const std::string& words : said_.words_of(verdict)) std::printf("          %s\n", words.c_str());
     std::fflush(stdout);
   }
 
   const std::vector<PictureVerdict>& verdicts_;
   std::vector<bool> is_there_;
+  SaidOnce said_;
   std::size_t next_ = 0;
   bool quiet_;
   Progress progress_;

@@ -211,4 +211,18 @@ PictureVerdict judge(const Suite& suite, const SuitePicture& picture, const Suit
   return verdict;
 }
 
+std::vector<std::string> SaidOnce::words_of(const PictureVerdict& verdict) {
+  std::vector<std::string> words;
+  std::string as;
+  for (const std::string& one : verdict.words) {
+    const auto [before, is_new] = first_.try_emplace(one, verdict.name);
+    if (is_new)
+      words.push_back(one);
+    else if (as.empty())
+      as = before->second;
+  }
+  if (!as.empty()) words.insert(words.begin(), "as " + as);
+  return words;
+}
+
 }  // namespace chainreel

@@ -1,6 +1,7 @@
 // What a picture of a suite has become since it was accepted: its physics first, then its pixels.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,6 +42,15 @@ struct PictureVerdict {
 
 inline constexpr const char* kLeavesCamera =
     "it is cut off at the edge of the camera that the baselines were accepted with: --accept --refit takes a camera that holds it";
+
+// What pictures have in common is said once: of each the words that none before had, behind "as reach_light" where there were some.
+class SaidOnce {
+ public:
+  std::vector<std::string> words_of(const PictureVerdict& verdict);
+
+ private:
+  std::map<std::string, std::string> first_;  // sentence, and the picture that had it first
+};
 
 // What is drawn now against its baseline.
 PictureVerdict judge(const Suite& suite, const SuitePicture& picture, const SuiteShot& shot,

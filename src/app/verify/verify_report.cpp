@@ -139,10 +139,11 @@ std::string markdown_text(const SuiteResult& result) {
   if (const std::string unused = unused_words(result); !unused.empty()) text += "\n" + markdown_words(unused) + "\n";
   if (result.failed() == 0) return text;
   text += "\n| picture | state | why |\n| --- | --- | --- |\n";
+  SaidOnce said;
   for (const PictureVerdict& one : result.pictures)
     if (!one.passes)
       text += "| " + markdown_words(one.name) + " | " + plain(one.state) + " | " +
-              markdown_words(joined(one.words, "; ")) + " |\n";
+              markdown_words(joined(said.words_of(one), "; ")) + " |\n";
   const std::string accept = accept_command(result);
   return accept.empty() ? text : text + "\nTo take what is drawn now:\n\n" + markdown_code(accept);
 }

@@ -28,7 +28,6 @@
 namespace chainreel {
 namespace {
 
-constexpr double kRoomForLengths = 10;  // of the em of their words: the side of a panel
 // How long the bounded semi-axes (their median) are drawn, as a share of the shorter side of a panel.
 constexpr double kSmallerAxis = 0.14, kLargerAxis = 0.24;
 constexpr double kNearlyInfinite = 32;  // times the median
@@ -55,8 +54,7 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
                      panels.picture(i),  panels.options.reading};
   MarkLabels labels;
   style.lines = panels.marks;
-  // Small panels have no room for the lengths of semi-axes.
-  if (panels.lines.empty() || panels.side() > kRoomForLengths * scaled(size::kTick, style.text_scale)) style.labels = &labels;
+  if (has_lengths(panels)) style.labels = &labels;
   if (!drawing.shapes) style.hole = link_end(drawing.look);
   if (drawing.shapes) style.hides = robot_hides(*drawing.shapes, ws, camera, tip_position(panels.chain, ws));
   const Camera seen = camera.seen_at(tip_position(panels.chain, ws));
@@ -176,7 +174,7 @@ PoseFigureFit fit_of_poses(const TipMass& mass, const std::vector<std::vector<do
   if (!best) return {};
   const double of_width = double(page.options.height) / options.width;
   return {best->camera.scale * of_width, best->scale.per_unit() * of_width, best->words.fit && !has_cut_captions(*best), best->has_masses,
-          best->lines.empty()};
+          best->lines.empty(), has_lengths(*best)};
 }
 
 Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& configurations,

@@ -258,6 +258,11 @@ bool lay_out(Panels& panels, const Rect& area, int across, const std::vector<Pos
 
 }  // namespace
 
+bool has_lengths(const Panels& panels) {
+  constexpr double kRoom = 10;  // of the em of their words: the side of a panel
+  return panels.lines.empty() || panels.side() > kRoom * scaled(size::kTick, panels.options.text_scale);
+}
+
 bool has_cut_captions(const Panels& panels) {
   return std::any_of(panels.words.notations.begin(), panels.words.notations.end(),
                      [](const std::string& words) { return words.find("\u2026") != std::string::npos; });
@@ -268,13 +273,13 @@ namespace {
 // How good an arrangement is: chains and ellipses are large and fill the panels, no cell is empty, captions are whole, those of few
 // poses have matrices, and of many panels each is mostly picture.
 double merit(const Panels& panels) {
-  constexpr double kEmptyCells = 1.4, kCutCaption = 0.5, kCollision = 0.01, kWithoutMatrix = 0.8;
+  constexpr double kEmptyCells = 1.4, kCutCaption = 0.5, kCollision = 0.01, kWithoutMatrix = 0.8, kWithoutLengths = 0.6;
   const auto in_top_row = std::count_if(panels.places.begin(), panels.places.end(), [&](const Rect& r) { return r.y1 == panels.places[0].y1; });
   const double count = double(panels.places.size()), across = double(in_top_row), cells = across * std::ceil(count / across);
   const bool is_picture =
       panels.lines.empty() || panels.scene(0).height() >= (panels.below.empty() ? kLeastPicture : kAboveLines) * panels.places[0].height();
   return (is_picture ? 1 : 0.1) * (1 - kEmptyCells * (cells - count) / cells) * (has_cut_captions(panels) ? kCutCaption : 1) *
-         (panels.words.fit ? 1 : kCollision) *
+         (panels.words.fit ? 1 : kCollision) * (has_lengths(panels) ? 1 : kWithoutLengths) *
          (panels.lines.empty() || panels.places.size() >= kManyPoses ? 1 : kWithoutMatrix) *
          std::sqrt(panels.filled * panels.camera.scale * panels.scale.per_unit());
 }
