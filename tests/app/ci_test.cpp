@@ -99,6 +99,22 @@ TEST_F(PastedIntoCi, StepsOfGithubEndWellOrWithAReport) {
   EXPECT_EQ(run(summary).status, 0);
 }
 
+TEST_F(PastedIntoCi, FilmsOfAFolderAreHeldAgainstTheirScenes) {
+  folder_.write("s.yaml", "model: arm.urdf\nduration: 0.1\nmethod: rk4\nvideo: {width: 64, height: 36}\n");
+  fs::create_directory(folder_.path() / "docs");
+  ASSERT_EQ(run_program({"render", "s.yaml", "-o", "docs/s.mp4", "--quiet"}, here()).status, 0);
+  const std::string github = step_of("assets/ci/github.yml", "name: Films");
+  ASSERT_THAT(github, HasSubstr("check \"$FILMS\" --today"));
+  const std::string gitlab = "export PATH=\"$PWD/.chainreel/build:$PATH\"\ntest -z \"$FILMS\" || chainreel check \"$FILMS\" --today";
+  EXPECT_THAT(read_whole_file("assets/ci/gitlab-ci.yml"), HasSubstr("test -z \"$FILMS\" || chainreel check \"$FILMS\" --today"));
+  EXPECT_EQ(run("FILMS=docs\n" + github).status, 0);
+  EXPECT_EQ(run("FILMS=docs\n" + gitlab).status, 0);
+  EXPECT_EQ(run("FILMS=\n" + gitlab).status, 0);
+  break_something();
+  EXPECT_EQ(run("FILMS=docs\n" + github).status, 1);
+  EXPECT_EQ(run("FILMS=docs\n" + gitlab).status, 1);
+}
+
 TEST_F(PastedIntoCi, ScriptOfGitlabEndsWellOrWithAReport) {
   const std::string file = "assets/ci/gitlab-ci.yml", verify = step_of(file, "  script:") + "\n" + step_of(file, "export PATH");
   ASSERT_THAT(verify, HasSubstr("verify \"$SUITE\""));
