@@ -31,6 +31,7 @@ TEST(FallCommand, PrintsATableAgainstTheParameter) {
   EXPECT_THAT(result.out, HasSubstr("falls at, s"));
   EXPECT_THAT(result.out, HasSubstr("centre of pressure leaves the foot, s"));
   EXPECT_THAT(result.out, testing::AnyOf(HasSubstr("stands for 5 s"), HasSubstr("not down within 5 s")));
+  EXPECT_THAT(result.out, HasSubstr("hip where the knee was: when y_H < 0.5"));
 }
 
 TEST(FallCommand, SaysThatHeStandsOnlyWhileThePressureIsWithinTheFoot) {

@@ -144,5 +144,32 @@ TEST(Sheet, TellsTheProblemsOfAllScenes) {
   EXPECT_EQ(run_program(many).status, 2);
 }
 
+// A handout: one scene at several instants, at one scale, each with its time; its title, with formulas, above all.
+TEST(Sheet, ShowsOneSceneAtSeveralInstants) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("s.yaml", "title: \"Driven by $tau_1 = 5$ N m\"\nmodel: {links: [0.5, 0.4]}\ntorque: [5, 0]\nduration: 2\nmethod: rk4\n"
+                                                   "events: [{name: down, when: \"q1 < -1.2\"}]\n");
+  const std::string svg = folder.file("a.svg"), png = folder.file("a.png");
+  const ProgramResult made = run_program({"sheet", scene, "--at", "0,0.5s,event down", "--at", "99", "-o", svg, "-o", png, "--json"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  const Json cells = Json::parse(made.out)["cells"];
+  ASSERT_EQ(cells.size(), 4u);
+  EXPECT_EQ(cells[1]["at"], 0.5);
+  EXPECT_GT(cells[2]["at"].get<double>(), 0.1);
+  EXPECT_EQ(cells[3]["at"], 2.0) << "over by then: its end";
+  const std::string words = read_whole_file(svg);
+  for (const char* time : {"t = 0.00 s", "t = 0.50 s", "t = 2.00 s"}) EXPECT_THAT(words, HasSubstr(time));
+  EXPECT_THAT(words, testing::Not(HasSubstr("$tau_1")));
+  // Several scenes have the instants one after the other, and each says whose it is.
+  const ProgramResult two = run_program({"sheet", scene, "assets/scenes/pp_free.yaml", "--at", "0,0.1", "-o", svg, "--force", "--json"});
+  ASSERT_EQ(two.status, 0) << two.err;
+  EXPECT_EQ(Json::parse(two.out)["cells"].size(), 4u);
+  EXPECT_THAT(read_whole_file(svg), HasSubstr("t = 0.10 s: "));
+  for (const char* wrong : {"-1", "0,x", "0,,1"})
+    EXPECT_EQ(run_program({"sheet", scene, "--at", wrong, "-o", folder.file("b.png")}).status, 2) << wrong;
+  EXPECT_EQ(run_program({"sheet", scene, "--at", "event nothing", "-o", folder.file("b.png")}).status, 2);
+  EXPECT_EQ(run_program({"sheet", scene, "-o", png, "-o", png, "--force"}).status, 2);
+}
+
 }  // namespace
 }  // namespace chainreel

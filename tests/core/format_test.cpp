@@ -86,5 +86,11 @@ TEST(Separated, HoldsEmptyPartsButForOneBehindTheLastSign) {
   EXPECT_EQ(separated("", ','), Words{});
 }
 
+TEST(Format, OfPowersHasOneDigit) {
+  EXPECT_EQ(format_power(3.2e-14), "3\u00D710\u207B\u00B9\u2074");
+  EXPECT_EQ(format_power(9.9e6), "1\u00D710\u2077") << "rounded up";
+  EXPECT_EQ(format_power(1), "1\u00D710\u2070");
+}
+
 }  // namespace
 }  // namespace chainreel

@@ -262,5 +262,12 @@ TEST(Math, EveryStringIsLaidOutOrRefused) {
   EXPECT_GT(refused, 100);
 }
 
+TEST(PlainFormula, HasGreekLettersAndLoweredDigits) {
+  EXPECT_EQ(plain_formula("tau_1 = 5 sin(2 t)"), "\u03C4\u2081 = 5 sin(2 t)");
+  EXPECT_EQ(plain_formula("theta_12 + Omega"), "\u03B8\u2081\u2082 + \u03A9");
+  EXPECT_EQ(plain_formula("x_G + taub + 3"), "x_G + taub + 3") << "no name of a letter, no digit";
+  EXPECT_EQ(plain_formula(""), "");
+}
+
 }  // namespace
 }  // namespace chainreel

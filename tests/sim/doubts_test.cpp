@@ -108,5 +108,33 @@ TEST(Doubts, AreNoneOfARunThatDidNotComeToItsEnd) {
   EXPECT_TRUE(doubts_of(run, trajectory, audit_of(run, trajectory), {}).empty());
 }
 
+// A pendulum on its head: nothing moves it but the rounding of cos(pi / 2).
+TEST(Doubts, FindAStartThatOnlyRoundingMoves) {
+  constexpr double kUp = 1.5707963267948966;
+  const auto rests = [](std::vector<double> q, std::vector<std::string> torque = {}, double duration = 6) {
+    Simulation run = run_of("rr", std::move(torque), duration, "rk4", 0.005);
+    run.q0 = std::move(q);
+    const std::vector<std::string> all = kinds(run);
+    return std::count(all.begin(), all.end(), "rest");
+  };
+  EXPECT_EQ(rests({kUp, 0}), 1);
+  EXPECT_EQ(rests({-kUp, 2 * kUp}, {}, 20), 1) << "the second link alone stands on its head";
+  // Negative controls: it hangs; it is held; it stands beside; it has no time to leave; it is moved later; nothing acts.
+  EXPECT_EQ(rests({-kUp, 0}), 0);
+  EXPECT_EQ(rests({kUp, 0}, {"-500 * (q1 - pi / 2) - 50 * qd1", "-500 * q2 - 50 * qd2"}), 0);
+  EXPECT_EQ(rests({kUp + 1e-6, 0}), 0);
+  EXPECT_EQ(rests({kUp, 0}, {}, 0.5), 0);
+  EXPECT_EQ(rests({kUp, 0}, {"max(0, t - 1)", "0"}, 2), 0);
+  Simulation weightless = run_of("rr", {}, 6, "rk4", 0.005);
+  weightless.chain.gravity.setZero();
+  EXPECT_THAT(kinds(weightless), ::testing::IsEmpty());
+  Simulation run = run_of("rr", {}, 6, "rk4", 0.005);
+  run.q0 = {kUp, 0};
+  const std::vector<Doubt> found = doubts(run);
+  ASSERT_FALSE(found.empty());
+  EXPECT_THAT(found.front().words, HasSubstr("rounding, which grows e-fold every 0."));
+  EXPECT_THAT(found.front().remedy, HasSubstr("--set start.q."));
+}
+
 }  // namespace
 }  // namespace chainreel

@@ -148,6 +148,27 @@ TEST(TargetLayer, ShowsThePoseThatFeedbackFollows) {
   EXPECT_TRUE(references_along(other.simulation, other.run).empty());
 }
 
+// A spring along x alone pulls along x alone, and one along each axis where they are not alike; one of equal kp goes straight to its place.
+TEST(TargetLayer, DrawsSpringsOfTheTaskAlongTheAxesThatTheyPullAlong) {
+  const auto coils_of = [](const std::string& kp) {
+    const Cause cause("rr_free", {"torque={task: {kp: " + kp + ", kd: 0, x: [0.2, 0.3]}}", "draw=[chain, target]", "start.q=[0.4, 0.9]"}, 0.2);
+    const Film pictures = cause.film();
+    std::vector<Point> ways;
+    for (const Trail& coil : wires(pictures.frame(0), light().torque)) ways.push_back(coil.points.back().p - coil.points.front().p);
+    return ways;
+  };
+  const std::vector<Point> along_x = coils_of("[100, 0]"), both = coils_of("[100, 50]"), one = coils_of("100");
+  ASSERT_EQ(along_x.size(), 1u);
+  EXPECT_NEAR(along_x[0].y, 0, kCauseRoundOff);
+  EXPECT_GT(std::abs(along_x[0].x), 0.05);
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_NEAR(both[0].y, 0, kCauseRoundOff);
+  EXPECT_NEAR(both[1].x, 0, kCauseRoundOff);
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_NEAR(one[0].y / one[0].x, both[1].y / both[0].x, kCauseRoundOff) << "the same way, on a page of its own scale";
+  EXPECT_TRUE(coils_of("0").empty());
+}
+
 TEST(ConstraintLayer, DrawsTheLineOfThePenOnceAndHatchedWhereItPresses) {
   for (const bool up : {false, true}) {
     const Cause cause("pen", {"contact_force={constraint: 1, force: [0, " + std::string(up ? "5" : "-5") + "]}"}, 1);
