@@ -129,6 +129,7 @@ struct Scene {
   std::optional<int> order;                    // of methods with several
   Accuracy accuracy;                           // of `method: auto`
   Outcome expect = Outcome::finish;
+  std::vector<std::string> acknowledge;        // kinds of doubts that are known, and not printed
   std::vector<std::string> draw = default_layers();  // what is drawn: see scene/layers
   LinkShapes links = LinkShapes::automatic;
   MeshUp mesh_up = MeshUp::rviz;

@@ -15,6 +15,7 @@ namespace chainreel {
 namespace {
 
 constexpr double kAuditRounding = 1e-10;     // of all energies at play: below it an audit error says nothing
+constexpr double kNoEnergy = 1e-20;     // J/kg: rates of 1e-10 m/s, of a chain that is held or at rest
 constexpr int kSteps = 32;              // that are taken again
 constexpr double kNotable = 1e-3;       // of the fastest freedom's rate: slower ones are measured by it
 constexpr double kStill = 1e-9;         // rad/s or m/s: no motion
@@ -169,7 +170,7 @@ std::optional<Doubt> doubt_of_energy(const Simulation& simulation, const Traject
   const auto& steps = trajectory.energy_at_steps;  // without what the frames between them miss
   const double error = steps ? steps->largest_error : audit.largest_error;
   const double time = steps ? steps->time : audit.largest_error_time;
-  if (!(error > kDoubtfulEnergy * audit.energy_moved && error > kAuditRounding * at_play)) return {};
+  if (!(error > kDoubtfulEnergy * audit.energy_moved && error > kAuditRounding * at_play && error > kNoEnergy * mass_of(simulation.chain))) return {};
   const double part = error / audit.energy_moved;
   const std::string cornered = cornered_curve(simulation);
   return Doubt{"energy", part,
@@ -180,6 +181,15 @@ std::optional<Doubt> doubt_of_energy(const Simulation& simulation, const Traject
                !cornered.empty() ? "a curve without corners, as sqrt(x^2 + 1e-4) in the place of abs(x)" : finer(simulation, chosen_by, kAim * kDoubtfulEnergy / part)};
 }
 
+std::span<const Name> doubt_names() {
+  static constexpr Name names[] = {{"energy", "the method makes or loses some"},
+                                   {"constraint", "they are missed"},
+                                   {"step", "it is too long for the motion"},
+                                   {"samples", "more happens between the frames than they show"},
+                                   {"rest", "nothing but rounding moves the start"}};
+  return names;
+}
+
 std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit,
                              const std::optional<Accuracy>& chosen_by) {
   std::vector<Doubt> doubts;
@@ -188,7 +198,7 @@ std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& tra
     if (doubt) doubts.push_back(std::move(*doubt));
   };
   if (simulation.motion) return doubts;  // no method erred: what a table does not tell truly, its remarks say
-  add(doubt_of_rest(simulation, trajectory));
+  add(doubt_of_rest(simulation));
   add(doubt_of_energy(simulation, trajectory, audit, chosen_by));
   if (trajectory.rows > 0) add(doubt_constraints(trajectory, chosen_by));
   if (simulation.step > 0 && !follows_a_curve(simulation)) add(StepsAgain(simulation, trajectory).doubt(chosen_by));

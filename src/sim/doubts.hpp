@@ -2,9 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/names.hpp"
 #include "sim/accuracy.hpp"
 #include "sim/audit.hpp"
 
@@ -17,8 +19,11 @@ inline constexpr double kDoubtfulConstraint = 1e-3;
 // A share of a freedom's largest rate in the run: what one step may differ by from two of half its length.
 inline constexpr double kDoubtfulStep = 0.1;
 
+// What doubts are about.
+std::span<const Name> doubt_names();
+
 struct Doubt {
-  std::string kind;    // "energy", "constraint", "step" or "samples" (between_samples.hpp)
+  std::string kind;    // one of those
   double amount = 0;   // of what the constants above measure, and those of between_samples
   std::string words;   // what, and how much
   std::string remedy;  // what to type instead

@@ -8,7 +8,8 @@
 
 namespace chainreel {
 
-// Of a run that left such a start all the same; nothing of one that stands still, or that a torque or push moves later.
-std::optional<Doubt> doubt_of_rest(const Simulation& simulation, const Trajectory& trajectory);
+// Where rounding would have grown to what can be seen by the time that something acts, or the run ends: whether a run left such a start
+// or stood on its head is chance. Its amount: the exponent by which deviations grow until then.
+std::optional<Doubt> doubt_of_rest(const Simulation& simulation);
 
 }  // namespace chainreel

@@ -54,15 +54,15 @@ TEST(FilmOfToday, IsWhatItsSceneShowsUntilSceneOrModelChange) {
   const TemporaryFolder folder;
   const std::string urdf = folder.write("rr.urdf", read_whole_file(std::string(CHAINREEL_SOURCE_FOLDER) + "/models/rr.urdf"));
   const std::string scene = folder.write("s.yaml", "model: rr.urdf\nstart: {q: [1, 0]}\nduration: 0.2\nmethod: rk4\nvideo: {width: 160, height: 90}\n");
-  const std::string film = folder.file("s.mp4"), still = folder.file("s.png"), snapshot = folder.file("t.png");
-  ASSERT_EQ(run_program({"render", scene, "--quiet", "-o", film, "-o", still, "--at", "0.1"}).status, 0);
+  const std::string film = folder.file("s.mp4"), still = folder.file("s.png"), drawing = folder.file("s.svg"), snapshot = folder.file("t.png");
+  ASSERT_EQ(run_program({"render", scene, "--quiet", "-o", film, "-o", still, "-o", drawing, "--at", "0.1"}).status, 0);
   ASSERT_EQ(run_program({"snapshot", scene, "--quiet", "--at", "0.123", "-o", snapshot}).status, 0);
   const auto asked = [&](const std::string& file, const std::vector<std::string>& more = {}) {
     std::vector<std::string> words{"check", file, "--scene", scene, "--json"};
     words.insert(words.end(), more.begin(), more.end());
     return run_program(words);
   };
-  for (const std::string& file : {film, still, snapshot}) {
+  for (const std::string& file : {film, still, drawing, snapshot}) {
     const ProgramResult same = asked(file);
     EXPECT_EQ(same.status, 0) << file << same.out << same.err;
     EXPECT_EQ(Json::parse(same.out)["is_same"], true);
@@ -116,10 +116,23 @@ TEST(FilmOfToday, OfAFolderFindsItsScenesAndNamesWhatChanged) {
   const ProgramResult one = asked();
   EXPECT_EQ(one.status, 1);
   EXPECT_THAT(one.out, AllOf(HasSubstr("a.mp4 is NOT what "), HasSubstr("b.webm is what ")));
-  // What cannot be told is no yes.
-  fs::remove(folder.file("scenes/a.yaml"));
+  // A film that is broken is none, whatever it remembers.
+  folder.write("scenes/a.yaml", page);
+  ASSERT_EQ(asked().status, 0);
+  const std::string bytes = read_whole_file(folder.file("docs/a.mp4"));
+  folder.write("docs/a.mp4", bytes.substr(0, bytes.size() / 2));
+  EXPECT_EQ(asked().status, 1);
+  EXPECT_THAT(asked().out, HasSubstr("is not as it was written"));
+  folder.write("docs/a.mp4", bytes);
+  // What cannot be told is no yes: another scene of that name is another one, and without an audit nothing tells where the scene lies.
+  fs::rename(folder.file("scenes/a.yaml"), folder.file("a.yaml"));
   EXPECT_EQ(asked().status, 3);
-  EXPECT_THAT(asked().err, HasSubstr("is not found from here: name it, --scene"));
+  EXPECT_THAT(asked().err, HasSubstr("is not there any more: name it, --scene"));
+  fs::rename(folder.file("a.yaml"), folder.file("scenes/a.yaml"));
+  fs::remove(folder.file("docs/a.json"));
+  EXPECT_THAT(asked().err, AllOf(HasSubstr("passed over"), HasSubstr("a.mp4"), HasSubstr("e.png")));
+  EXPECT_EQ(run_program({"check", folder.file("docs/a.mp4"), "--today"}).status, 3);
+  EXPECT_EQ(run_program({"check", folder.file("docs/a.mp4"), "--scene", a}).status, 0);
   EXPECT_EQ(run_program({"check", folder.file("docs")}).status, 2);
   EXPECT_EQ(run_program({"check", folder.file("scenes"), "--today"}).status, 3);
 }

@@ -104,7 +104,6 @@ TEST_F(Units, SingleEntriesOfAListThatWasLeftOutStartFromTheDefault) {
   expect_refused({"gravity.4=1"}, "three numbers");
   expect_refused({"torque.3=1"}, "'torque' has 3 entries");
   expect_refused({"start.q.1=4cm"}, "4cm of joint1");
-  expect_refused({"start.q={}"}, "must be a list of numbers");
   const std::string scene = folder_.write("s.yaml", "model: " + kModels + "rr.urdf\nduration: 0.02\n");
   for (const char* over : {"start.qd.1=0,-0.2", "gravity.2=-9.81,-1.62", "torque.1=0,5"})
     EXPECT_EQ(run_program({"sweep", scene, "--over", over, "-o", folder_.file("s.csv"), "--force"}).status, 0) << over;
@@ -118,6 +117,15 @@ TEST_F(Units, StartsAreWrittenByJointOrByPlace) {
   expect_refused({"start.q.jont2=1"}, "did you mean 'joint2'");
   expect_refused({"start.q.joint2=[1, 2]"}, "takes 1 number, not 2");
   expect_refused({"start.q.joint1=4cm"}, "4cm of joint1");
+  EXPECT_EQ(hash({"start.q={}"}), hash({}));
+  // A joint's name that is a number is no place in the list.
+  std::string urdf = read_whole_file(kModels + "rr.urdf");
+  for (std::size_t at = 0; (at = urdf.find("\"joint", at)) != std::string::npos; ++at) urdf.erase(at + 1, 5);
+  const std::string numbered = folder_.write("numbered.urdf", urdf);
+  const std::string scene = folder_.write("n.yaml", "model: " + numbered + "\nduration: 0.02\nmethod: rk4\nstart: {q: {1: 1}}\n");
+  const ProgramResult refused = run_program({"check", scene});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_THAT(refused.err, HasSubstr("write the whole list"));
 }
 
 TEST_F(Units, OfRangesReachTheirKey) {

@@ -187,5 +187,24 @@ TEST(Headway, OfARunThatMakesNoneIsAnErrorThatNamesThePose) {
             0);
 }
 
+// What a scene is about need not be said of it; the report keeps it, and all else is said.
+TEST(Warnings, ThatAreAcknowledgedStandInReportsAlone) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("s.yaml", "model: " CHAINREEL_SOURCE_FOLDER "/models/rr.urdf\nduration: 2\nmethod: explicit_euler\nstep: 0.02\n");
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"simulate", scene, "-o", folder.file("a.csv"), "--force", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(words);
+  };
+  const ProgramResult loud = run({}), known = run({"--set", "acknowledge=[energy]"}), other = run({"--set", "acknowledge=[rest]"});
+  EXPECT_THAT(loud.err, HasSubstr("the energy is off"));
+  EXPECT_EQ(known.err.find("the energy is off"), std::string::npos) << known.err;
+  EXPECT_THAT(other.err, HasSubstr("the energy is off"));
+  EXPECT_EQ(Json::parse(known.out)["warnings"], Json::parse(loud.out)["warnings"]);
+  const ProgramResult wrong = run({"--set", "acknowledge=[enrgy]"});
+  EXPECT_EQ(wrong.status, 3) << wrong.err;
+  EXPECT_THAT(wrong.err, HasSubstr("did you mean 'energy'"));
+}
+
 }  // namespace
 }  // namespace chainreel

@@ -118,6 +118,8 @@ TEST(Doubts, FindAStartThatOnlyRoundingMoves) {
     return std::count(all.begin(), all.end(), "rest");
   };
   EXPECT_EQ(rests({kUp, 0}), 1);
+  EXPECT_EQ(rests({-kUp, 2 * kUp}, {}, 10), 1) << "the second link alone, and rounding does not move this one";
+  EXPECT_EQ(rests({kUp, 0}, {"max(0, t - 7)", "0"}, 8), 1) << "what acts later comes too late";
   // Negative controls: it hangs; it is held; it stands beside; it has no time to leave; it is moved later; nothing acts.
   EXPECT_EQ(rests({-kUp, 0}), 0);
   EXPECT_EQ(rests({kUp, 0}, {"-500 * (q1 - pi / 2) - 50 * qd1", "-500 * q2 - 50 * qd2"}), 0);
@@ -131,7 +133,7 @@ TEST(Doubts, FindAStartThatOnlyRoundingMoves) {
   run.q0 = {kUp, 0};
   const std::vector<Doubt> found = doubts(run);
   ASSERT_FALSE(found.empty());
-  EXPECT_THAT(found.front().words, HasSubstr("rounding, which grows e-fold every 0."));
+  EXPECT_THAT(found.front().words, HasSubstr("only rounding can move it, which grows e-fold every 0.17 s"));
   EXPECT_THAT(found.front().remedy, HasSubstr("--set start.q."));
 }
 

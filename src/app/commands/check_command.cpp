@@ -319,13 +319,13 @@ void add_check_command(CommandLine& app) {
       app.add_subcommand("check", "the effective scene with all defaults, what a model holds, or whether a film is as it was written");
   command->add_option("files", options->files, "a scene (.yaml), a model (.urdf), or a film or picture with its audit, NAME.json, beside it; with --today also several, and folders").required().names_input();
   add_scene_options(*command, options->common);
-  command->add_flag("--today", options->today, "of films and pictures: would their scenes, found from where they lie, make the same today?");
+  command->add_flag("--today", options->today, "of films and pictures: would their scenes, which the audits beside them name, make the same today?");
   command->add_option("--scene", options->scene, "the same of this scene").names_input();
   command->add_flag("--all", options->all, "of a method that is chosen, all candidates instead of the three next best");
   add_json_option(*command, options->common);
   command->footer("Of a film or picture all files that the audit tells of are held against their SHA-256, and the audit against what the film\n"
                   "remembers: exit code 1 where one was changed since, or is gone. With --today it is asked whether the scene, its model and meshes and\n"
-                  "the program of today would make the same film, with the --set that its audit tells: exit code 1 and what has changed where they would\n"
+                  "the program of today would make the same film, with the --set that its audit tells and what is given besides: exit code 1 and what has changed where they would\n"
                   "not. It is simulated, not drawn.\n"
                   "Example: chainreel check rr_free --set method=rk4\n"
                   "or, behind `chainreel render rr_free`: chainreel check out/rr_free.mp4\n"

@@ -19,6 +19,7 @@
 #include "app/works/moment.hpp"
 #include "app/works/render_film.hpp"
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "core/input_file.hpp"
 #include "draw/page/house_style.hpp"
 
@@ -95,12 +96,13 @@ struct Today {
   std::vector<std::string> facts;  // of the audit
   bool has_other_versions = false;
   std::optional<Error> trouble;  // it cannot be told
+  bool knows_set = true;         // what the command line changed when it was made
 
   bool is_same() const { return words.empty() && facts.empty() && !trouble; }
 };
 
 Today difference_of(const std::string& path, const Json& beside, const ClipMemory& film, const ClipMemory& today, const PreparedFilm& prepared) {
-  Today found{path, prepared.scene.file, {}, {}, false, {}};
+  Today found{path, prepared.scene.file, {}, {}, false, {}, true};
   found.has_other_versions = film.audit.value("versions", Json()) != today.audit.value("versions", Json());
   ClipMemory old = film, now = today;
   old.audit = without_beside(film.audit);
@@ -108,6 +110,8 @@ Today difference_of(const std::string& path, const Json& beside, const ClipMemor
   found.words = changed_models(beside, film, today, prepared);
   for (std::string& one : explain_memories(old, now)) found.words.push_back(std::move(one));
   found.facts = changed_facts(old.audit, now.audit);
+  // Drawings keep neither.
+  if (film.title.empty() && film.description.empty()) return found;
   if (film.title != today.title) found.facts.push_back("title: " + film.title + " -> " + today.title);
   if (film.description != today.description) found.facts.emplace_back("what it says for those who do not see it is another text");
   return found;
@@ -124,52 +128,45 @@ std::vector<ClipMemory> memories_today(const PreparedFilm& film, const std::stri
   return memories;
 }
 
-// Also in the folders beside that of the film, as people have scenes/ beside docs/.
-ClipOrigin origin_of(const std::string& path, const std::vector<WantedFile>& wanted) {
-  ClipOrigin origin = find_origin(path, wanted, "");
-  std::error_code code;
-  const fs::path above = fs::absolute(path, code).parent_path().parent_path();
-  std::vector<fs::path> beside;
-  for (fs::directory_iterator entry(above, code), end; !code && entry != end; entry.increment(code))
-    if (entry->is_directory(code)) beside.push_back(entry->path());
-  std::sort(beside.begin(), beside.end());
-  for (std::size_t i = 0; i < beside.size() && !origin.is_found; ++i)
-    if (const ClipOrigin other = find_origin(path, wanted, beside[i].string()); other.is_found) origin = other;
-  return origin;
-}
+// What the audit beside a film tells of it.
+struct OwnAudit {
+  Json json;                 // null where there is none that tells of it
+  bool is_changed = false;   // the film has other bytes than it says
+  std::string folder;        // of the audit
+};
 
-// The scene file that it was made from, found from the folder that its paths start in.
-std::string scene_behind(const std::string& path, const ClipMemory& memory) {
-  const std::string name = word_of(memory.audit, "scene");
-  const auto refuse = [&](const std::string& why) { throw Error(ExitCode::bad_input, why + ": name it, --scene SCENE.yaml", {path}); };
-  if (name.empty()) refuse("does not say which scene it shows");
-  std::vector<WantedFile> wanted = files_wanted_by(memory);
-  wanted.push_back({name, ""});
-  const ClipOrigin origin = origin_of(path, wanted);
-  if (!origin.is_found) {
-    const bool lacks_scene = std::find(origin.missing.begin(), origin.missing.end(), name) != origin.missing.end();
-    refuse(lacks_scene ? "its scene " + name + " is not found from here" : "of what its scene " + name + " names, " + origin.missing.front() + " is not found");
-  }
-  const fs::path own = (fs::path(origin.folder) / name).lexically_normal();
-  return own.string();
-}
-
-// The audit beside a film that is the one it tells of; null where there is none.
-Json own_audit(const std::string& path) {
+OwnAudit own_audit(const std::string& path) {
   try {
-    return check_audit(path).passes() ? audit_beside(path) : Json();
+    const AuditCheck check = check_audit(path);
+    const auto own = std::find_if(check.files.begin(), check.files.end(), [&](const AuditCheck::File& file) {
+      return fs::path(file.path).filename() == fs::path(path).filename();
+    });
+    if (own == check.files.end()) return {};
+    return {audit_beside(path), own->state != AuditedState::as_written || !check.contradicted.empty(), fs::path(check.audit).parent_path().string()};
   } catch (const Error&) {
-    return Json();
+    return {};
   }
 }
 
-// The changes of the command line that it was made with, as the audit beside it tells, unless others are given.
-std::vector<std::string> changes_of(const Json& beside, const CommonOptions& common) {
-  if (const std::vector<std::string> given = overrides_of(common); !given.empty()) return given;
+// The scene file that it was made from, where the audit says that it lies: another one of its name may be anywhere.
+std::string scene_behind(const std::string& path, const OwnAudit& audit) {
+  const std::string told = word_of(audit.json, kScenePath);
+  const auto refuse = [&](const std::string& why) { throw Error(ExitCode::bad_input, why + ": name it, --scene SCENE.yaml", {path}); };
+  if (!audit.json.is_object()) refuse("has no audit beside it, NAME.json, which tells where its scene lies and what --set changed");
+  if (told.empty()) refuse("does not tell which file its scene is");
+  const std::string scene = (fs::path(audit.folder) / told).lexically_normal().string();
+  std::error_code code;
+  if (!fs::is_regular_file(scene, code)) refuse("its scene " + scene + " is not there any more");
+  return scene;
+}
+
+// What the command line changed when it was made, as its audit tells, and what is given now.
+std::vector<std::string> changes_of(const OwnAudit& audit, const CommonOptions& common) {
   std::vector<std::string> set;
-  const Json told = beside.is_object() ? beside.value(kSet, Json::array()) : Json::array();
+  const Json told = audit.json.is_object() ? audit.json.value(kSet, Json::array()) : Json::array();
   for (const Json& one : told.is_array() ? told : Json::array())
     if (one.is_string()) set.push_back(one);
+  for (const std::string& one : overrides_of(common)) set.push_back(one);
   return set;
 }
 
@@ -177,15 +174,26 @@ Today today_of(const std::string& path, const std::string& scene, const CommonOp
   const ClipMemory remembered = recall(path);
   if (!remembered.figure.is_null())
     throw Error(ExitCode::bad_input, "is a figure, which shows no run of a scene: `chainreel extract` tells the command that makes it again", {path});
-  const Json beside = own_audit(path);
-  const PreparedFilm film = load_film(scene.empty() ? scene_behind(path, remembered) : scene, changes_of(beside, common), true, common.quiet);
+  const OwnAudit audit = own_audit(path);
+  const PreparedFilm film = load_film(scene.empty() ? scene_behind(path, audit) : scene, changes_of(audit, common), true, common.quiet);
   std::vector<Today> found;
-  for (const ClipMemory& memory : memories_today(film, path, remembered)) found.push_back(difference_of(path, beside, remembered, memory, film));
+  for (const ClipMemory& memory : memories_today(film, path, remembered)) found.push_back(difference_of(path, audit.json, remembered, memory, film));
   const auto count = [](const Today& one) { return one.words.size() + one.facts.size(); };
-  return *std::min_element(found.begin(), found.end(), [&](const Today& a, const Today& b) { return count(a) < count(b); });
+  Today nearest = *std::min_element(found.begin(), found.end(), [&](const Today& a, const Today& b) { return count(a) < count(b); });
+  if (audit.is_changed) nearest.words.insert(nearest.words.begin(), "the file is not as it was written: `chainreel check " + path + "`");
+  nearest.knows_set = audit.json.is_object();
+  return nearest;
 }
 
-// Of a folder what remembers a scene; other films and pictures are passed over, which is said.
+bool remembers_scene(const std::string& path) {
+  try {
+    return recall(path).figure.is_null();
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+// Of a folder what an audit in it tells of and what remembers a scene; what is passed over is said.
 std::vector<std::string> with_folders_opened(const std::vector<std::string>& paths, bool quiet) {
   std::vector<std::string> all;
   for (const std::string& path : paths) {
@@ -194,19 +202,19 @@ std::vector<std::string> with_folders_opened(const std::vector<std::string>& pat
       all.push_back(path);
       continue;
     }
-    std::vector<std::string> found;
+    std::vector<std::string> found, others;
     for (fs::directory_iterator entry(path, code), end; !code && entry != end; entry.increment(code)) {
       const std::string file = entry->path().string();
       const OutputFormat* format = find_output_format(file);
+      if (entry->is_directory(code)) others.push_back(file + "/");
       if (!entry->is_regular_file(code) || format == nullptr || format->read_tags == nullptr) continue;
-      try {
-        if (recall(file).figure.is_null()) found.push_back(file);
-      } catch (const Error&) {
-        if (!quiet) std::fprintf(stderr, "note: %s remembers no scene, and is passed over\n", file.c_str());
-      }
+      (remembers_scene(file) && own_audit(file).json.is_object() ? found : others).push_back(file);
     }
-    if (found.empty()) throw Error(ExitCode::bad_input, "holds no film or picture that remembers a scene", {path});
     std::sort(found.begin(), found.end());
+    std::sort(others.begin(), others.end());
+    if (!others.empty() && !quiet)
+      std::fprintf(stderr, "note: passed over, as no audit beside them tells their scene, or they are folders: %s\n", joined(others).c_str());
+    if (found.empty()) throw Error(ExitCode::bad_input, "holds no film or picture with an audit that tells its scene", {path});
     all.insert(all.end(), found.begin(), found.end());
   }
   return all;
@@ -221,6 +229,7 @@ void print_today(const Today& one) {
   for (const std::string& line : one.words) std::printf("  %s\n", line.c_str());
   if (one.words.empty())
     for (const std::string& line : one.facts) std::printf("  %s\n", line.c_str());
+  if (!one.is_same() && !one.knows_set) std::printf("  what --set changed when it was made is not known, as no audit lies beside it: give it again\n");
 }
 
 Json report_of(const Today& one) {
@@ -255,7 +264,7 @@ void check_of_today(const std::vector<std::string>& paths, const std::string& sc
       all.push_back(today_of(path, scene, common));
     } catch (const Error& error) {
       if (error.code() == ExitCode::interrupted || error.code() == ExitCode::terminated) throw;
-      all.push_back({path, scene, {}, {}, false, error});
+      all.push_back({path, scene, {}, {}, false, error, true});
     }
   }
   tell_result(common, [&] {

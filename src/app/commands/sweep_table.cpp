@@ -169,7 +169,7 @@ class RowMaker {
   static std::string doubt_of(const Simulation& simulation, const Trajectory& run) {
     if (!is_complete(run.status)) return "";
     std::optional<Doubt> doubt = doubt_of_energy(simulation, run, audit_of(simulation, run), {});
-    if (!doubt) doubt = doubt_of_rest(simulation, run);
+    if (!doubt) doubt = doubt_of_rest(simulation);
     return doubt ? kDoubtful + doubt->words : "";
   }
 

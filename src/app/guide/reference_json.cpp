@@ -48,6 +48,7 @@ const Keys kFilm{
     {"pauses", "[{at, seconds, film_from}]"},
     {"versions", "of the program and of its libraries"},
     {"set", "what the command line changed of the scene: [\"duration=2\"]"},
+    {"scene_path", "of the scene's file, as found from the audit's folder; or null"},
     {"mechanisms", "of each panel its model's links and joints, by which `check --today` names what changed"},
     {"meshes_sha256", "of what the model is drawn as; or null"},
     {"held_frames", "{first, last}: how many stand still"},

@@ -163,7 +163,9 @@ void tell_warnings(const std::vector<std::string>& lines) {
 
 std::vector<std::string> warning_lines(const std::string& name, const RunReport& report) {
   std::vector<std::string> lines;
-  for (const Doubt& doubt : report.warnings) lines.push_back(name + ": " + doubt.words + "; take " + doubt.remedy);
+  const std::vector<std::string>& known = report.prepared.scene.acknowledge;
+  for (const Doubt& doubt : report.warnings)
+    if (std::find(known.begin(), known.end(), doubt.kind) == known.end()) lines.push_back(name + ": " + doubt.words + "; take " + doubt.remedy);
   return lines;
 }
 

@@ -14,6 +14,7 @@ namespace chainreel {
 // In audits alone, and not in what films remember: a record of each panel's model, and what the command line changed.
 inline constexpr const char* kMechanisms = "mechanisms";
 inline constexpr const char* kSet = "set";
+inline constexpr const char* kScenePath = "scene_path";  // from the audit's folder; null of a scene that is no file
 
 inline constexpr std::uintmax_t kLargestSidecar = std::uintmax_t(64) << 20;  // bytes of a text or an audit that is read
 

@@ -334,6 +334,15 @@ std::string part_text(const FilmReport& report, const ClipMemory& memory, FrameR
       .dump(-1, ' ', true);
 }
 
+// The scene as found from where the audit lies; "" of one that is no file.
+std::string scene_path_from(const RenderJob& job, const Scene& scene) {
+  namespace fs = std::filesystem;
+  std::error_code code;
+  if (job.targets.empty() || !fs::is_regular_file(scene.file, code)) return "";
+  const fs::path folder = fs::absolute(job.targets.front().path, code).parent_path();
+  return fs::absolute(scene.file, code).lexically_normal().lexically_relative(folder.lexically_normal()).generic_string();
+}
+
 // What every file of a film remembers.
 ClipMemory memory_of(const FilmReport& report, const Schedule& schedule, const Json& meshes) {
   ClipMemory memory = memory_of(report);
@@ -382,6 +391,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   result.audit = to_json(report);
   result.audit[kMeshesHash] = meshes;
   result.audit[kSet] = scene.set;
+  result.audit[kScenePath] = or_null(scene_path_from(job, scene));
   result.audit[kMechanisms] = Json::array();
   for (const PreparedScene& panel : film.panels) result.audit[kMechanisms].push_back(mechanism_record(panel));
   result.audit["held_frames"] = held;

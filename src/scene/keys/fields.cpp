@@ -202,6 +202,7 @@ bool Fields::read_some(const std::string& key, std::vector<double>& value, std::
 
 bool Fields::read_entries(const std::string& key, std::vector<double>& value, std::vector<JointNumbers>* of_joints) {
   const YAML::Node node = find(key);
+  if (of_joints != nullptr && node.IsMap() && node.size() == 0) return true;
   if (!node.IsMap() || node.size() == 0) return read(key, value);
   constexpr double kMostEntries = 1000;  // more than chains have
   std::vector<double> some;

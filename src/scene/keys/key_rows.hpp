@@ -125,6 +125,8 @@ class KeyRow {
       fields.read_some(key.leaf(), scene.start.*list, scene.start.*of_joints);
       fields.measure_in("");
     };
+    const KeyText number = told("", KeyForm::number, "");
+    static_cast<KeyText&>(key_) = told_either(key_.name, {told_list("", number, ""), told_mapping("", number, "")}, key_.help);
     return std::move(*this);
   }
   KeyRow&& caption(const char* text) && { return key_.caption = text, std::move(*this); }

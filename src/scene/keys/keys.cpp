@@ -61,13 +61,13 @@ std::vector<Chapter> chapters() {
             .of_model(OfModel::mechanism)}},
       {"Start and drive",
        {Row::section("start", "start: {q: [0, 90deg], qd: [0, 0]}", "the state in which the run begins"),
-        Row("start.q", &Scene::start, &StartState::q, "joint positions, a number a coordinate, or by joint, the others at zero: {elbow: 90deg}")
+        Row("start.q", &Scene::start, &StartState::q, "joint positions, or those of some joints: {elbow: 90deg}")
             .by_joint(&StartState::q, &StartState::q_of_joints)
             .in("rad or m")
             .absent("all at zero")
             .where(is_computed)
             .caption("q(0) = @"),
-        Row("start.qd", &Scene::start, &StartState::qd, "joint rates, a number a freedom, or by joint")
+        Row("start.qd", &Scene::start, &StartState::qd, "joint rates")
             .by_joint(&StartState::qd, &StartState::qd_of_joints)
             .in("rad/s or m/s")
             .absent("at rest")
@@ -138,7 +138,12 @@ std::vector<Chapter> chapters() {
         Row("accuracy", &Scene::accuracy, "what `method: auto` keeps in every frame: a number and px, m, rad or relative")
             .where(is_auto)
             .caption("accuracy @"),
-        Row("expect", &Scene::expect, "what the run is to do").no_caption()}},
+        Row("expect", &Scene::expect, "what the run is to do").no_caption(),
+        Row(told_acknowledge(), read_acknowledge, acknowledge_text)
+            .example("acknowledge: [energy]")
+            .absent("none")
+            .where(is_computed)
+            .no_caption()}},
       {"The robot's looks",
        {Row("links", &Scene::links, "bars, or the model's shapes")
             .example("links: plain")

@@ -62,6 +62,9 @@ bool names_event(Fields& fields, const Scene& scene, const std::string& event);
 std::string events_text(const Scene& scene);
 
 // --- the page: page_keys.cpp
+KeyText told_acknowledge();
+void read_acknowledge(Fields& fields, Scene& scene);
+std::string acknowledge_text(const Scene& scene);
 KeyText told_draw();
 void read_draw(Fields& fields, Scene& scene);
 std::string draw_text(const Scene& scene);

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "scene/keys/own_keys.hpp"
+#include "sim/doubts.hpp"
 
 namespace chainreel {
 namespace {
@@ -37,6 +38,23 @@ KeyText told_draw() {
   }();
   return told_list("draw", told_either("", {told_word("", layer_names(), ""), told_word("", edit_names, "")}, ""),
                    "the layers of the picture; entries +name and -name edit the default ones");
+}
+
+KeyText told_acknowledge() {
+  return told_list("acknowledge", told_word("", doubt_names(), ""),
+                   "warnings that the scene is about, not printed but in reports: " + joined(words_of(doubt_names())));
+}
+
+void read_acknowledge(Fields& fields, Scene& scene) {
+  if (!fields.read("acknowledge", scene.acknowledge)) return;
+  for (const std::string& kind : scene.acknowledge)
+    if (!index_of_name(doubt_names(), kind))
+      fields.problem_at("acknowledge", "'acknowledge': " + misnamed(doubt_names(), kind));
+}
+
+std::string acknowledge_text(const Scene& scene) {
+  if (scene.acknowledge.empty()) return "";
+  return flow_text([&](YAML::Emitter& out) { emit_list(out, scene.acknowledge, [](const std::string& kind) { return kind; }); });
 }
 
 // A plain list replaces the default layers; entries `+name` and `-name` edit them.

@@ -25,6 +25,12 @@ void check_length(std::vector<double>& values, const std::vector<double>& absent
                   const Scene& scene, const Chain& chain, ProblemList& problems) {
   const bool is_partial = !values.empty() && std::isnan(values.back());  // see Fields::read_some
   if (is_partial) {
+    const bool is_q = key == "start.q";
+    const std::vector<std::string> names = is_q ? position_names(chain) : chain.coordinate_names;
+    if (const auto number = std::find_if(names.begin(), names.end(), [](const std::string& name) { return parse_number(name).has_value(); }); number != names.end())
+      problems.add("'" + key + "' names single freedoms, and the model " + scene.model.words() + " has one that is called " + *number +
+                       ", like a place in the list: write the whole list",
+                   scene.place_of(key));
     values.pop_back();
     if (values.size() < absent.size()) values.resize(absent.size(), std::nan(""));
   }
