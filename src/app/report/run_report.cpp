@@ -80,7 +80,8 @@ Json motion_report(const RecordedMotion& motion) {
 Json mechanism_record(const PreparedScene& prepared) {
   ModelOptions options = model_options_of(prepared.scene);
   options.meshes = false;
-  ModelDescription model = describe_model(prepared.scene.model, options);
+  const bool shows_collisions = prepared.scene.links == LinkShapes::collision;
+  ModelDescription model = describe_model(prepared.scene.model, options, shows_collisions ? DescribeCollisions::all : DescribeCollisions::where_seen);
   if (!prepared.shapes)
     for (DescribedLink& link : model.links) link.visuals.clear(), link.collisions.clear();
   return to_json(model);

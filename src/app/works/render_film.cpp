@@ -355,8 +355,9 @@ ClipMemory memory_of(const FilmReport& report, const Schedule& schedule, const J
 
 ClipMemory memory_of_film(const PreparedFilm& film) {
   const Runs runs(film);
+  const Fonts fonts(families_of(film.scene));
   const Schedule schedule = schedule_of(runs);
-  const Film pictures = runs.pictures(schedule.frames, Fonts(families_of(film.scene)));
+  const Film pictures = runs.pictures(schedule.frames, fonts);
   return memory_of(film_report(runs, pictures, schedule.total()), schedule, or_null(meshes_hash(film)));
 }
 
