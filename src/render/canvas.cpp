@@ -77,7 +77,11 @@ struct Canvas::State {
   PixelBox whole() const { return {0, 0, width, height}; }
 
   GlPainter& opengl() {
-    if (!gl) gl = coming ? coming->arrived() : ComingRenderer(width, height).arrived();
+    if (gl) return *gl;
+    // What failed once is tried anew by who draws again.
+    std::optional<ComingRenderer> one;
+    std::swap(one, coming);
+    gl = one ? one->arrived() : ComingRenderer(width, height).arrived();
     return *gl;
   }
 
@@ -170,6 +174,7 @@ ComingRenderer::ComingRenderer(int width, int height, const std::function<void()
 }
 
 ComingRenderer::ComingRenderer(ComingRenderer&&) noexcept = default;
+ComingRenderer& ComingRenderer::operator=(ComingRenderer&&) noexcept = default;
 ComingRenderer::~ComingRenderer() = default;
 
 std::unique_ptr<GlPainter> ComingRenderer::arrived() {

@@ -46,6 +46,7 @@ class ComingRenderer {
   // `before`: what the thread does first, since both together would take too much address space; what it throws is thrown later.
   ComingRenderer(int width, int height, const std::function<void()>& before = {});
   ComingRenderer(ComingRenderer&&) noexcept;
+  ComingRenderer& operator=(ComingRenderer&&) noexcept;
   ~ComingRenderer();  // waits for it
 
   // Once; throws what made it fail.

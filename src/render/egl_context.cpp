@@ -107,6 +107,7 @@ class EglContext : public GlContext {
 
   void make_current() override {
     const EglLibrary& library = egl();
+    library.bind_api(EGL_OPENGL_API);  // of this thread, which need not be the one that made the context
     if (library.current_context() == context_) return;
     if (library.make_current(library.display, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE)
       throw Error(ExitCode::no_renderer, "no OpenGL renderer: EGL does not accept its own context, " +
