@@ -30,12 +30,13 @@ namespace chainreel {
 namespace {
 
 struct CheckOptions {
-  std::string file;
   std::vector<std::string> files;  // several where they are films
   std::string scene;               // that films are held against
   bool today = false;              // ... or each its own
-  bool all = false;   // candidates of a method that is chosen
+  bool all = false;                // candidates of a method that is chosen
   CommonOptions common;
+
+  const std::string& file() const { return files.front(); }
 };
 
 std::string kind_name(const Joint& joint) {
@@ -235,7 +236,7 @@ void print_run(const PreparedScene& prepared, const ExaminedRun& report, bool al
 }
 
 void check_scene(const CheckOptions& options) {
-  const PreparedFilm film = load_film(options.file, overrides_of(options.common), true, options.common.quiet);
+  const PreparedFilm film = load_film(options.file(), overrides_of(options.common), true, options.common.quiet);
   if (options.all && std::none_of(film.panels.begin(), film.panels.end(), [](const PreparedScene& panel) { return panel.choice.has_value(); }))
     throw Error(ExitCode::usage, "--all shows what `method: auto` tried, and the scene names its method or shows a recorded motion: take --set method=auto --set motion=");
   const FilmClock clock = clock_of(film);
@@ -255,7 +256,7 @@ void check_scene(const CheckOptions& options) {
     print_json(json);
     return;
   }
-  std::printf("# %s with all defaults; paths from this folder\n%s\n", options.file.c_str(), text.c_str());
+  std::printf("# %s with all defaults; paths from this folder\n%s\n", options.file().c_str(), text.c_str());
   for (std::size_t i = 0; i < reports.size(); ++i) {
     if (!alone)
       std::printf("%spanel %d: %s\n", i > 0 ? "\n" : "", int(i) + 1, film.panels[i].scene.title.c_str());
@@ -269,8 +270,8 @@ void check_model(const CheckOptions& options) {
   if (options.all) throw Error(ExitCode::usage, "--all goes with a scene, whose method is chosen");
   std::vector<std::string> honoured = keys_of_models(OfModel::mechanism);
   honoured.push_back("end_effector");
-  const ModelScene model = model_scene_of(options.file, overrides_of(options.common), "check", honoured);
-  const std::vector<Finding> findings = examine_model(options.file, model.options);
+  const ModelScene model = model_scene_of(options.file(), overrides_of(options.common), "check", honoured);
+  const std::vector<Finding> findings = examine_model(options.file(), model.options);
   Json list = Json::array();
   std::vector<Problem> errors;
   for (const Finding& finding : findings) {
@@ -286,7 +287,7 @@ void check_model(const CheckOptions& options) {
   }
   Json report{{"findings", list}, {"model", nullptr}};
   if (errors.empty())
-    report["model"] = model_report(read_chain(options.file, model.options));
+    report["model"] = model_report(read_chain(options.file(), model.options));
   if (options.common.json)
     print_json(report);
   else if (errors.empty())
@@ -294,9 +295,8 @@ void check_model(const CheckOptions& options) {
   if (!errors.empty()) throw Error(ExitCode::bad_input, errors);
 }
 
-void run_check(CheckOptions options) {
+void run_check(const CheckOptions& options) {
   std::error_code code;
-  options.file = options.files.front();
   const bool are_films = std::all_of(options.files.begin(), options.files.end(), [&](const std::string& file) {
     return is_film_or_picture(file) || std::filesystem::is_directory(file, code);
   });
@@ -305,10 +305,10 @@ void run_check(CheckOptions options) {
     throw Error(ExitCode::usage, "--today and --scene go with films and pictures, or a folder of them: `chainreel check FILM.mp4 --today`");
   if (are_films && options.all) throw Error(ExitCode::usage, "--all goes with a scene, whose method is chosen");
   if (is_of_today) return check_of_today(options.files, options.scene, options.common);
-  if (options.files.size() > 1 || (are_films && std::filesystem::is_directory(options.file, code)))
+  if (options.files.size() > 1 || (are_films && std::filesystem::is_directory(options.file(), code)))
     throw Error(ExitCode::usage, "takes one scene, model or film; several films, or a folder of them, go with --today");
-  if (are_films) return check_as_written(options.file, options.common);
-  is_model_file(options.file) ? check_model(options) : check_scene(options);
+  if (are_films) return check_as_written(options.file(), options.common);
+  is_model_file(options.file()) ? check_model(options) : check_scene(options);
 }
 
 }  // namespace

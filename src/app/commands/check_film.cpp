@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 
 #include "app/cli/result.hpp"
@@ -92,17 +93,17 @@ std::vector<std::string> changed_models(const Json& beside, const ClipMemory& fi
 // What has changed since.
 struct Today {
   std::string path, scene;
-  std::vector<std::string> words;  // for people
-  std::vector<std::string> facts;  // of the audit
+  std::vector<std::string> words{};  // for people
+  std::vector<std::string> facts{};  // of the audit
   bool has_other_versions = false;
-  std::optional<Error> trouble;  // it cannot be told
+  std::optional<Error> trouble{};  // it cannot be told
   bool knows_set = true;         // what the command line changed when it was made
 
   bool is_same() const { return words.empty() && facts.empty() && !trouble; }
 };
 
 Today difference_of(const std::string& path, const Json& beside, const ClipMemory& film, const ClipMemory& today, const PreparedFilm& prepared) {
-  Today found{path, prepared.scene.file, {}, {}, false, {}, true};
+  Today found{.path = path, .scene = prepared.scene.file};
   found.has_other_versions = film.audit.value("versions", Json()) != today.audit.value("versions", Json());
   ClipMemory old = film, now = today;
   old.audit = without_beside(film.audit);
@@ -170,11 +171,17 @@ std::vector<std::string> changes_of(const OwnAudit& audit, const CommonOptions& 
   return set;
 }
 
-Today today_of(const std::string& path, const std::string& scene, const CommonOptions& common) {
+// A film or picture that is asked about.
+struct AskedFilm {
+  std::string path;
+  OwnAudit audit;
+};
+
+Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
+  const auto& [path, audit] = asked;
   const ClipMemory remembered = recall(path);
   if (!remembered.figure.is_null())
     throw Error(ExitCode::bad_input, "is a figure, which shows no run of a scene: `chainreel extract` tells the command that makes it again", {path});
-  const OwnAudit audit = own_audit(path);
   const PreparedFilm film = load_film(scene.empty() ? scene_behind(path, audit) : scene, changes_of(audit, common), true, common.quiet);
   std::vector<Today> found;
   for (const ClipMemory& memory : memories_today(film, path, remembered)) found.push_back(difference_of(path, audit.json, remembered, memory, film));
@@ -194,28 +201,33 @@ bool remembers_scene(const std::string& path) {
 }
 
 // Of a folder what an audit in it tells of and what remembers a scene; what is passed over is said.
-std::vector<std::string> with_folders_opened(const std::vector<std::string>& paths, bool quiet) {
-  std::vector<std::string> all;
+std::vector<AskedFilm> with_folders_opened(const std::vector<std::string>& paths, bool quiet) {
+  std::vector<AskedFilm> all;
   for (const std::string& path : paths) {
     std::error_code code;
     if (!fs::is_directory(path, code)) {
-      all.push_back(path);
+      all.push_back({path, own_audit(path)});
       continue;
     }
-    std::vector<std::string> found, others;
+    std::vector<AskedFilm> found;
+    std::vector<std::string> others;
     for (fs::directory_iterator entry(path, code), end; !code && entry != end; entry.increment(code)) {
       const std::string file = entry->path().string();
       const OutputFormat* format = find_output_format(file);
       if (entry->is_directory(code)) others.push_back(file + "/");
       if (!entry->is_regular_file(code) || format == nullptr || format->read_tags == nullptr) continue;
-      (remembers_scene(file) && own_audit(file).json.is_object() ? found : others).push_back(file);
+      OwnAudit audit = remembers_scene(file) ? own_audit(file) : OwnAudit{};
+      if (audit.json.is_object())
+        found.push_back({file, std::move(audit)});
+      else
+        others.push_back(file);
     }
-    std::sort(found.begin(), found.end());
+    std::sort(found.begin(), found.end(), [](const AskedFilm& a, const AskedFilm& b) { return a.path < b.path; });
     std::sort(others.begin(), others.end());
     if (!others.empty() && !quiet)
       std::fprintf(stderr, "note: passed over, as no audit beside them tells their scene, or they are folders: %s\n", joined(others).c_str());
     if (found.empty()) throw Error(ExitCode::bad_input, "holds no film or picture with an audit that tells its scene", {path});
-    all.insert(all.end(), found.begin(), found.end());
+    std::ranges::move(found, std::back_inserter(all));
   }
   return all;
 }
@@ -258,13 +270,13 @@ void check_as_written(const std::string& path, const CommonOptions& common) {
 
 void check_of_today(const std::vector<std::string>& paths, const std::string& scene, const CommonOptions& common) {
   std::vector<Today> all;
-  for (const std::string& path : with_folders_opened(paths, common.quiet)) {
+  for (const AskedFilm& film : with_folders_opened(paths, common.quiet)) {
     throw_if_interrupted();
     try {
-      all.push_back(today_of(path, scene, common));
+      all.push_back(today_of(film, scene, common));
     } catch (const Error& error) {
       if (error.code() == ExitCode::interrupted || error.code() == ExitCode::terminated) throw;
-      all.push_back({path, scene, {}, {}, false, error, true});
+      all.push_back({.path = film.path, .scene = scene, .trouble = error});
     }
   }
   tell_result(common, [&] {

@@ -60,13 +60,7 @@ void set_for_cell(Scene& scene, ThemeName theme, double text_scale) {
 std::vector<AskedInstant> instants_of(const SheetOptions& options) {
   std::vector<AskedInstant> asked;
   for (const std::string& text : options.at)
-    for (const std::string& part : parted_instants(text)) {
-      try {
-        asked.push_back(parse_asked_instant(part, {}));
-      } catch (const Error& error) {
-        throw Error(ExitCode::usage, "--at " + text + ": " + error.problems().front().message);
-      }
-    }
+    for (const std::string& part : parted_instants(text)) asked.push_back(asked_at(part, text));
   return asked;
 }
 

@@ -191,11 +191,7 @@ void snapshot_scene(const SnapshotOptions& options) {
   for (const std::string& text : options.at.empty() ? std::vector<std::string>{"0"} : options.at)
     for (const std::string& part : parted_instants(text)) {
       const Named named = named_of(part);
-      try {
-        asked.push_back(parse_asked_instant(named.text, {}));
-      } catch (const Error& error) {
-        throw Error(ExitCode::usage, "--at " + text + ": " + error.problems().front().message);
-      }
+      asked.push_back(asked_at(named.text, text));
       names.push_back(file_name_of(named.name.empty() ? stem + "_" + asked.back().name() : named.name));
     }
   require_own_names(names, "--at");

@@ -72,7 +72,9 @@ std::string audit_path_of(const std::string& file) {
 
 Json audit_beside(const std::string& file) {
   try {
-    Json audit = parse_json(read_plain_file(audit_path_of(file), kLargestSidecar));
+    const std::string path = audit_path_of(file);
+    Json audit = parse_json(read_plain_file(path, kLargestSidecar));
+    note_input(path);
     return audit.is_object() ? audit : Json();
   } catch (const Error&) {
     return Json();

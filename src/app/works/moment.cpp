@@ -110,6 +110,14 @@ Moment telling_moment(const PreparedFilm& film, const Fonts& fonts) {
   return Moments(film, fonts).telling();
 }
 
+AskedInstant asked_at(const std::string& part, const std::string& text) {
+  try {
+    return parse_asked_instant(part, {});
+  } catch (const Error& error) {
+    throw Error(ExitCode::usage, "--at " + text + ": " + error.problems().front().message);
+  }
+}
+
 std::vector<double> instants_asked(const PreparedFilm& film, const std::vector<AskedInstant>& asked) {
   std::optional<Runs> runs;
   std::vector<double> instants;

@@ -50,6 +50,9 @@ Moment moment_at(const PreparedFilm& film, double at, const Fonts& fonts);
 
 Moment telling_moment(const PreparedFilm& film, const Fonts& fonts);
 
+// One of --at, of which `text` is the whole. Throws Error (usage) naming that.
+AskedInstant asked_at(const std::string& part, const std::string& text);
+
 // The instants in seconds: events by their first time in any panel. Throws Error where the scene has none
 // such (usage), or the event does not come (bad input).
 std::vector<double> instants_asked(const PreparedFilm& film, const std::vector<AskedInstant>& asked);

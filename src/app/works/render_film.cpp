@@ -25,6 +25,7 @@
 #include "draw/page/house_style.hpp"
 #include "encode/png.hpp"
 #include "encode/small_frames.hpp"
+#include "scene/text/scene_paths.hpp"
 
 namespace chainreel {
 namespace {
@@ -336,11 +337,9 @@ std::string part_text(const FilmReport& report, const ClipMemory& memory, FrameR
 
 // The scene as found from where the audit lies; "" of one that is no file.
 std::string scene_path_from(const RenderJob& job, const Scene& scene) {
-  namespace fs = std::filesystem;
   std::error_code code;
-  if (job.targets.empty() || !fs::is_regular_file(scene.file, code)) return "";
-  const fs::path folder = fs::absolute(job.targets.front().path, code).parent_path();
-  return fs::absolute(scene.file, code).lexically_normal().lexically_relative(folder.lexically_normal()).generic_string();
+  if (job.targets.empty() || !std::filesystem::is_regular_file(scene.file, code)) return "";
+  return path_from(std::filesystem::path(job.targets.front().path).parent_path().string(), scene.file);
 }
 
 // What every file of a film remembers.

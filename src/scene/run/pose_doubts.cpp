@@ -52,9 +52,13 @@ std::vector<std::string> units_of(const Chain& chain, StateNumbers numbers) {
 
 }  // namespace
 
+std::vector<std::string> names_of_state(const Chain& chain, StateNumbers numbers) {
+  return numbers == StateNumbers::q ? position_names(chain) : chain.coordinate_names;
+}
+
 std::string trouble_of_units(const Chain& chain, std::span<const std::string> written, StateNumbers numbers) {
   const std::vector<std::string> units = units_of(chain, numbers);
-  const std::vector<std::string> names = numbers == StateNumbers::q ? position_names(chain) : chain.coordinate_names;
+  const std::vector<std::string> names = names_of_state(chain, numbers);
   for (std::size_t i = 0; i < std::min(units.size(), written.size()); ++i) {
     const std::string kind = unit_kind(written[i]);
     if (kind.empty() || kind == units[i]) continue;

@@ -15,6 +15,8 @@ std::vector<std::string> doubts_of_pose(const Chain& chain, std::span<const doub
 
 // What a chain has a number of a coordinate or a freedom of.
 enum class StateNumbers { q, qd, tau };
+// How they are called: see position_names; those of freedoms else.
+std::vector<std::string> names_of_state(const Chain& chain, StateNumbers numbers);
 // "90deg of slider is in rad, but its place is in m": the first of the numbers whose unit is of another kind; "" where none is.
 // `written`: as above, one a coordinate (q) or a freedom.
 std::string trouble_of_units(const Chain& chain, std::span<const std::string> written, StateNumbers numbers);

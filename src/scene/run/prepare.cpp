@@ -21,12 +21,11 @@ constexpr double kDefaultStep = 0.001;  // s
 constexpr double kDefaultTolerance = 1e-9;
 
 // Fills what is absent and refuses what has the wrong length.
-void check_length(std::vector<double>& values, const std::vector<double>& absent, const std::string& key,
+void check_length(std::vector<double>& values, const std::vector<double>& absent, StateNumbers numbers, const std::string& key,
                   const Scene& scene, const Chain& chain, ProblemList& problems) {
   const bool is_partial = !values.empty() && std::isnan(values.back());  // see Fields::read_some
   if (is_partial) {
-    const bool is_q = key == "start.q";
-    const std::vector<std::string> names = is_q ? position_names(chain) : chain.coordinate_names;
+    const std::vector<std::string> names = names_of_state(chain, numbers);
     if (const auto number = std::find_if(names.begin(), names.end(), [](const std::string& name) { return parse_number(name).has_value(); }); number != names.end())
       problems.add("'" + key + "' names single freedoms, and the model " + scene.model.words() + " has one that is called " + *number +
                        ", like a place in the list: write the whole list",
@@ -34,7 +33,7 @@ void check_length(std::vector<double>& values, const std::vector<double>& absent
     values.pop_back();
     if (values.size() < absent.size()) values.resize(absent.size(), std::nan(""));
   }
-  const FollowerNumbers followers = is_partial ? FollowerNumbers{} : numbers_of_followers(chain, values, key == "start.qd");
+  const FollowerNumbers followers = is_partial ? FollowerNumbers{} : numbers_of_followers(chain, values, numbers == StateNumbers::qd);
   take_out(values, followers.places);
   if (values.empty()) {
     values = absent;
@@ -51,7 +50,7 @@ void check_length(std::vector<double>& values, const std::vector<double>& absent
 // Numbers of the start that are written by joint, at their places among those that are left out.
 void place_joints(StartState& start, StateNumbers numbers, const std::string& key, const Scene& scene, const Chain& chain, ProblemList& problems) {
   const bool is_q = numbers == StateNumbers::q;
-  const std::vector<std::string> names = is_q ? position_names(chain) : chain.coordinate_names;
+  const std::vector<std::string> names = names_of_state(chain, numbers);
   std::vector<double>& values = is_q ? start.q : start.qd;
   std::vector<std::string>& written = is_q ? start.written_q : start.written_qd;
   std::vector<JointNumbers>& of_joints = is_q ? start.q_of_joints : start.qd_of_joints;
@@ -282,8 +281,8 @@ Simulation prepare(Scene& scene, bool meshes, LastChain& last) {
   ProblemList problems;
   place_joints(scene.start, StateNumbers::q, "start.q", scene, chain, problems);
   place_joints(scene.start, StateNumbers::qd, "start.qd", scene, chain, problems);
-  check_length(scene.start.q, zero_configuration(chain), "start.q", scene, chain, problems);
-  check_length(scene.start.qd, std::vector<double>(std::size_t(chain.nv)), "start.qd", scene, chain, problems);
+  check_length(scene.start.q, zero_configuration(chain), StateNumbers::q, "start.q", scene, chain, problems);
+  check_length(scene.start.qd, std::vector<double>(std::size_t(chain.nv)), StateNumbers::qd, "start.qd", scene, chain, problems);
   check_torque(scene, chain, problems);
   check_lists(scene, chain, problems);
   const NamedFrames frames = find_frames(scene, chain, problems);
