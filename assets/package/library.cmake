@@ -20,8 +20,12 @@ foreach(part dynamics sim film)
       ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/chainreel COMPONENT dev)
   endforeach()
   install(EXPORT chainreel-${part} NAMESPACE chainreel:: DESTINATION ${config} COMPONENT dev)
-  # One header for all of a library's.
+  # One header for all of a library's, and of those that it stands on.
   set(text "// All public headers of chainreel::${part}.\n#pragma once\n\n")
+  foreach(below ${parts_below})
+    string(APPEND text "#include \"${below}.hpp\"\n")
+  endforeach()
+  list(APPEND parts_below ${part})
   foreach(header ${${part}_headers})
     string(APPEND text "#include \"${header}\"\n")
   endforeach()

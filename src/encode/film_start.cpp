@@ -9,7 +9,7 @@
 namespace chainreel {
 
 FilmStart read_film_start(const std::string& path, int widest, double at) {
-  FilmReader reader(path, false);
+  FilmReader reader(path);
   FilmStart start;
   if (!reader.find(at, start.frame, widest)) throw Error(ExitCode::bad_input, "holds no frame that can be decoded", {path});
   for (std::size_t i = 3; i < start.frame.bgra.size(); i += 4) start.frame.bgra[i] = 255;

@@ -14,7 +14,7 @@ struct FilmStart {
   Image frame;                // opaque, scaled down to at most the width that was asked for
 };
 
-// The frame that is shown `at` seconds from the start on, or the last one. Reads MP4, MOV or WebM. Throws Error (exit 3)
+// The frame that is shown `at` seconds from the start on, or the last one. Reads MP4, MOV, WebM, GIF or APNG. Throws Error (exit 3)
 // where the file is no such film or the frame cannot be decoded.
 FilmStart read_film_start(const std::string& path, int widest, double at = 0);
 

@@ -98,6 +98,14 @@ struct PlanarChain {
   std::vector<Eigen::Isometry3d> X_WB_zero;  // pose of each body when all joint values are 0
 };
 
+// A mass at a point of a body, for pictures: a payload, or all that a body has. The body's inertia holds it already.
+struct PointMass {
+  int body = 0;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  // in B, m
+  double mass = 0;                               // kg
+  bool is_payload = false;
+};
+
 struct Chain {
   std::string name;
   std::vector<Body> bodies = std::vector<Body>(1);  // [0] is the world
@@ -113,6 +121,7 @@ struct Chain {
   bool has_dissipation = false;          // some joint has damping or friction
   Eigen::Vector3d gravity{0, 0, -9.81};  // m/s^2, in W
   int end_effector = -1;  // index into frames; -1 where none was asked for and several leaves could be it
+  std::vector<PointMass> point_masses;
   std::vector<int> leaf_frames;  // frames of the links that carry no joint, in the order of `frames`
 
   std::optional<PlanarChain> planar;  // set when all motion stays in one plane

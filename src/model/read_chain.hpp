@@ -15,6 +15,14 @@ namespace chainreel {
 
 struct UrdfFile;
 
+// A load that a link carries: a mass at a point.
+struct Payload {
+  double mass = 0;   // kg; 0: none
+  std::string link;  // "": the end effector
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  // in the link's frame, m
+  friend bool operator==(const Payload&, const Payload&) = default;
+};
+
 struct ModelOptions {
   bool floating_base = false;      // the root link hangs on a floating joint instead of the world
   bool friction = true;            // honour <dynamics damping friction>
@@ -23,6 +31,7 @@ struct ModelOptions {
       gravity;  // absent: [0, -9.81, 0] for chains that move in the xy plane, else -z
   // "": link `gripper`, else the only leaf, else none (Chain::end_effector is -1; see require_end_effector).
   std::string end_effector;
+  Payload payload;
   bool meshes = true;                           // for pictures: mesh files must be found
   std::map<std::string, std::string> packages;  // package:// name -> folder
   friend bool operator==(const ModelOptions&, const ModelOptions&) = default;

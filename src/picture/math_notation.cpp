@@ -27,11 +27,14 @@ struct Construct {
   AtomKind kind;
   std::u32string_view ends;  // of its cells
 };
-constexpr std::array<Construct, 5> kConstructs = {{{U"frac", AtomKind::fraction, U"}"},
+constexpr std::array<Construct, 6> kConstructs = {{{U"frac", AtomKind::fraction, U"}"},
                                                    {U"col", AtomKind::matrix, U";}"},
                                                    {U"mat", AtomKind::matrix, U",;}"},
                                                    {U"hat", AtomKind::hat, U"}"},
-                                                   {U"bar", AtomKind::bar, U"}"}}};
+                                                   {U"bar", AtomKind::bar, U"}"},
+                                                   {U"sqrt", AtomKind::root, U"}"}}};
+// Words that change the letters in the braces behind them.
+constexpr std::array<std::u32string_view, 3> kChanges = {U"dot", U"ddot", U"bold"};
 constexpr int kDeepestScript = 8, kDeepestBraces = 8;
 
 template <std::size_t n>
@@ -75,11 +78,18 @@ char32_t italic(char32_t c) {
 
 constexpr char32_t kCapitalLambda = 0x39B;
 
+char32_t bold(char32_t c) {
+  if (c >= U'a' && c <= U'z') return 0x1D41A + (c - U'a');
+  if (c >= U'A' && c <= U'Z') return 0x1D400 + (c - U'A');
+  if (is_small_greek(c)) return 0x1D6C2 + (c - 0x3B1);
+  if (is_capital_greek(c)) return 0x1D6A8 + (c - 0x391);
+  return c;
+}
+
 // Bold upright for the matrices of the dynamics, italic for every other letter.
 char32_t variable(char32_t c, bool in_script) {
-  if (!in_script && (c == U'M' || c == U'J')) return 0x1D400 + (c - U'A');
-  if (!in_script && c == kCapitalLambda) return 0x1D6A8 + (c - 0x391);
-  return italic(c);
+  const bool is_matrix = c == U'M' || c == U'J' || c == kCapitalLambda;
+  return is_matrix && !in_script ? bold(c) : italic(c);
 }
 
 struct Sign {
@@ -87,7 +97,7 @@ struct Sign {
   AtomKind kind;
 };
 constexpr char32_t kMinus = 0x2212, kTimes = 0xD7, kDot = 0x22C5;
-constexpr std::array<Sign, 25> kSigns = {{
+constexpr std::array<Sign, 32> kSigns = {{
     {U'+', U'+', AtomKind::binary},       {U'-', kMinus, AtomKind::binary},
     {kMinus, kMinus, AtomKind::binary},   {0xB1, 0xB1, AtomKind::binary},
     {kTimes, kTimes, AtomKind::binary},   {kDot, kDot, AtomKind::product},
@@ -97,16 +107,30 @@ constexpr std::array<Sign, 25> kSigns = {{
     {0x2264, 0x2264, AtomKind::relation}, {0x2265, 0x2265, AtomKind::relation},
     {0x2248, 0x2248, AtomKind::relation}, {0x2260, 0x2260, AtomKind::relation},
     {0x2192, 0x2192, AtomKind::relation}, {U':', U':', AtomKind::relation},
+    {0x21D2, 0x21D2, AtomKind::relation}, {0x223C, 0x223C, AtomKind::relation},
+    {0x221D, 0x221D, AtomKind::relation}, {0x2208, 0x2208, AtomKind::relation},
+    {0x226A, 0x226A, AtomKind::relation}, {0x226B, 0x226B, AtomKind::relation},
+    {0x2213, 0x2213, AtomKind::binary},
     {U'(', U'(', AtomKind::open},         {U'[', U'[', AtomKind::open},
     {U')', U')', AtomKind::close},        {U']', U']', AtomKind::close},
     {U',', U',', AtomKind::comma},        {U';', U';', AtomKind::comma},
     {U'\'', 0x2032, AtomKind::operand},
 }};
 
+// What LaTeX calls otherwise, as far as lectures on mechanics need it.
 constexpr std::array<std::u32string_view, 5> kLatexSpaces = {U",", U";", U":", U"!", U" "};
-constexpr std::array<std::pair<std::u32string_view, char32_t>, 14> kLatexSigns = {{
-    {U"cdot", kDot}, {U"times", kTimes}, {U"pm", 0xB1}, {U"le", 0x2264}, {U"leq", 0x2264}, {U"ge", 0x2265}, {U"geq", 0x2265},
-    {U"approx", 0x2248}, {U"ne", 0x2260}, {U"neq", 0x2260}, {U"to", 0x2192}, {U"infty", 0x221E}, {U"partial", 0x2202}, {U"prime", U'\''},
+constexpr std::array<std::u32string_view, 8> kLatexLayout = {U"left", U"right", U"big", U"Big", U"quad", U"qquad", U"displaystyle", U"limits"};
+constexpr std::array<std::u32string_view, 4> kLatexTexts = {U"mathrm", U"text", U"textrm", U"operatorname"};
+constexpr std::array<std::pair<std::u32string_view, std::u32string_view>, 14> kLatexWords = {{
+    {U"dfrac", U"frac"}, {U"tfrac", U"frac"}, {U"widehat", U"hat"}, {U"overline", U"bar"}, {U"mathbf", U"bold"}, {U"boldsymbol", U"bold"},
+    {U"bm", U"bold"}, {U"arcsin", U"asin"}, {U"arccos", U"acos"}, {U"arctan", U"atan"}, {U"varphi", U"phi"}, {U"varepsilon", U"epsilon"},
+    {U"vartheta", U"theta"}, {U"varrho", U"rho"},
+}};
+constexpr std::array<std::pair<std::u32string_view, char32_t>, 28> kLatexSigns = {{
+    {U"cdot", kDot}, {U"times", kTimes}, {U"pm", 0xB1}, {U"mp", 0x2213}, {U"le", 0x2264}, {U"leq", 0x2264}, {U"ge", 0x2265}, {U"geq", 0x2265},
+    {U"approx", 0x2248}, {U"ne", 0x2260}, {U"neq", 0x2260}, {U"to", 0x2192}, {U"rightarrow", 0x2192}, {U"Rightarrow", 0x21D2}, {U"sim", 0x223C},
+    {U"propto", 0x221D}, {U"in", 0x2208}, {U"ll", 0x226A}, {U"gg", 0x226B}, {U"infty", 0x221E}, {U"partial", 0x2202}, {U"nabla", 0x2207},
+    {U"sum", 0x2211}, {U"int", 0x222B}, {U"dots", 0x2026}, {U"ldots", 0x2026}, {U"circ", 0x2218}, {U"prime", U'\''},
 }};
 
 bool ends_operand(const std::vector<MathAtom>& atoms) {
@@ -121,6 +145,7 @@ bool ends_operand(const std::vector<MathAtom>& atoms) {
     case AtomKind::matrix:
     case AtomKind::hat:
     case AtomKind::bar:
+    case AtomKind::root:
       return true;
     default:
       return false;
@@ -167,9 +192,10 @@ class Reader {
     if (is_digit(c) || (c == U'.' && is_digit(peek(1)))) return read_number(atoms);
     if (is_letter(c)) return read_word(atoms, depth);
     if (c == U'\\') return read_latex(atoms, depth);
-    if (c == U'"') return read_quoted(atoms);
+    if (c == U'"') return read_upright(atoms, c);
     if (c == U'_' || c == U'^') return read_script(atoms, depth);
-    if (c == U'{' || c == U'}') fail("a brace without _, ^, frac, col, mat, hat or bar before it");
+    if (c == U'{') return read_group(atoms, depth);
+    if (c == U'}') fail("a brace that nothing opened");
     if (is_small_greek(c) || is_capital_greek(c))
       atoms.push_back({AtomKind::operand, {variable(c, depth > 0)}, 0, {}, {}, false});
     else
@@ -177,24 +203,79 @@ class Reader {
     ++at_;
   }
 
+  // What stands in braces, which are there to hold it together.
+  void read_group(std::vector<MathAtom>& atoms, int depth) {
+    for (MathAtom& atom : read_braces(depth)) atoms.push_back(std::move(atom));
+  }
+
+  std::vector<MathAtom> read_braces(int depth) {
+    if (++braces_ > kDeepestBraces) fail("braces nested too deeply");
+    ++at_;
+    std::vector<MathAtom> inside = read_list(depth, U"}");
+    if (peek() != U'}') fail("a brace is not closed");
+    ++at_;
+    --braces_;
+    return inside;
+  }
+
   // \Lambda, \sin, \frac and \cdot, as those write them who know LaTeX; its spaces and sizes of brackets are ours.
   void read_latex(std::vector<MathAtom>& atoms, int depth) {
     std::size_t end = at_ + 1;
     while (end < text_.size() && is_letter(text_[end])) ++end;
-    const std::u32string word(text_.substr(at_ + 1, end - at_ - 1));
-    if (word.empty() && contains(kLatexSpaces, std::u32string(1, peek(1)))) return void(at_ += 2);
-    if (word == U"left" || word == U"right") return void(at_ = end);
+    const std::u32string written(text_.substr(at_ + 1, end - at_ - 1));
+    if (written.empty() && contains(kLatexSpaces, std::u32string(1, peek(1)))) return void(at_ += 2);
+    const auto known = std::find_if(kLatexWords.begin(), kLatexWords.end(), [&](const auto& one) { return one.first == written; });
+    const std::u32string word(known == kLatexWords.end() ? std::u32string_view(written) : known->second);
     const auto sign = std::find_if(kLatexSigns.begin(), kLatexSigns.end(), [&](const auto& one) { return one.first == word; });
-    if (sign != kLatexSigns.end()) {
-      at_ = end;
-      return add_sign(atoms, sign->second);
-    }
     const bool is_construct = std::any_of(kConstructs.begin(), kConstructs.end(), [&](const Construct& one) { return one.name == word; });
-    if (is_construct && (end >= text_.size() || text_[end] != U'{')) fail("\\" + encode_utf8(word) + " without braces behind it");
-    if (!is_construct && !(word.size() > 1 && letter_of(word)) && !contains(kFunctions, word))
-      fail("\\" + encode_utf8(word) + " is not known (a text in quotes stands as it is)");
-    ++at_;
-    read_word(atoms, depth);
+    const bool has_braces = end < text_.size() && text_[end] == U'{';
+    const auto needs_braces = [&] {
+      if (!has_braces) fail("\\" + encode_utf8(written) + " without braces behind it");
+    };
+    if (contains(kLatexLayout, word)) {
+      at_ = end;
+    } else if (sign != kLatexSigns.end()) {
+      at_ = end;
+      add_sign(atoms, sign->second);
+    } else if (word == U"top") {  // of transposes
+      at_ = end;
+      atoms.push_back({AtomKind::operand, U"T", 0, {}, {}, false});
+    } else if (contains(kLatexTexts, word)) {
+      needs_braces();
+      at_ = end;
+      read_upright(atoms, U'}');
+    } else if (contains(kChanges, word)) {
+      at_ = end;
+      read_change(atoms, word, depth);
+    } else if (is_construct) {
+      needs_braces();
+      at_ = end;
+      read_construct_of(atoms, word, depth);
+    } else if ((word.size() > 1 && letter_of(word)) || contains(kFunctions, word)) {
+      at_ = end;
+      add_name(atoms, word, false, depth);
+    } else {
+      fail("\\" + encode_utf8(written) + " is not known (a text in quotes stands as it is)");
+    }
+  }
+
+  // dot, ddot and bold, of what stands in the braces behind them or of the next letter.
+  void read_change(std::vector<MathAtom>& atoms, std::u32string_view change, int depth) {
+    std::vector<MathAtom> letters;
+    skip_blanks();
+    if (peek() == U'{')
+      letters = read_braces(depth);
+    else if (at_ < text_.size())
+      read_token(letters, depth);
+    const bool has_dots = change != U"bold";
+    if (letters.empty() || (has_dots && (letters.size() != 1 || letters[0].kind != AtomKind::operand)))
+      fail(encode_utf8(change) + " needs " + (has_dots ? "one letter" : "letters") + " behind it");
+    for (MathAtom& letter : letters) {
+      if (has_dots) letter.dots = change == U"dot" ? 1 : 2;
+      if (!has_dots && letter.kind == AtomKind::operand)
+        for (char32_t& c : letter.text) c = bold(plain_letter(c));
+      atoms.push_back(std::move(letter));
+    }
   }
 
   void read_sign(std::vector<MathAtom>& atoms) {
@@ -250,10 +331,10 @@ class Reader {
                      before == AtomKind::matrix || before == AtomKind::fraction);
   }
 
-  // "a_name": upright, as it stands.
-  void read_quoted(std::vector<MathAtom>& atoms) {
-    const std::size_t end = text_.find(U'"', at_ + 1);
-    if (end == text_.npos) fail("a quote that does not close");
+  // "a_name", or what a word of LaTeX has in braces: upright, as it stands.
+  void read_upright(std::vector<MathAtom>& atoms, char32_t close) {
+    const std::size_t end = text_.find(close, at_ + 1);
+    if (end == text_.npos) fail(close == U'"' ? "a quote that does not close" : "a brace is not closed");
     atoms.push_back({AtomKind::function, std::u32string(text_.substr(at_ + 1, end - at_ - 1)), 0, {}, {}, false});
     at_ = end + 1;
   }
@@ -262,17 +343,27 @@ class Reader {
     const bool blank = at_ > 0 && text_[at_ - 1] == U' ';
     std::u32string word;
     while (is_letter(peek()) || is_digit(peek())) word += text_[at_++];
-    const auto construct = std::find_if(kConstructs.begin(), kConstructs.end(),
-                                        [&](const Construct& c) { return c.name == word; });
-    if (peek() == U'{' && construct != kConstructs.end()) {
-      atoms.push_back(read_construct(*construct, depth));
-    } else if (is_unit_here(atoms, blank, word)) {
+    if (peek() == U'{' && contains(kChanges, word)) return read_change(atoms, word, depth);
+    if (peek() == U'{' && read_construct_of(atoms, word, depth)) return;
+    add_name(atoms, word, blank, depth);
+  }
+
+  void add_name(std::vector<MathAtom>& atoms, const std::u32string& word, bool blank, int depth) {
+    if (is_unit_here(atoms, blank, word)) {
       atoms.push_back({AtomKind::unit, word, 0, {}, {}, false});
     } else if (contains(kFunctions, word)) {
       atoms.push_back({AtomKind::function, word, 0, {}, {}, false});
     } else {
       atoms.push_back(read_name(word, depth));
     }
+  }
+
+  bool read_construct_of(std::vector<MathAtom>& atoms, std::u32string_view word, int depth) {
+    const auto construct = std::find_if(kConstructs.begin(), kConstructs.end(),
+                                        [&](const Construct& c) { return c.name == word; });
+    if (construct == kConstructs.end()) return false;
+    atoms.push_back(read_construct(*construct, depth));
+    return true;
   }
 
   // The cells in braces behind a word: frac{a}{b}, col{a; b}, mat{a, b; c, d}.
@@ -339,8 +430,9 @@ class Reader {
       if (script.size() == 1 && script[0].kind == AtomKind::sign && at_ < text_.size() && peek() != U' ')
         read_token(script, depth + 1);  // ^-1
     }
-    // The transpose is an operator, not a variable.
-    if (!below && script.size() == 1 && script[0].text == std::u32string{italic(U'T')}) script[0].text = U"T";
+    // The transpose is an operator, not a variable; so is its inverse.
+    const bool is_transpose = script.size() == 1 || (script.size() == 2 && script[0].kind == AtomKind::sign);
+    if (!below && is_transpose && script.back().text == std::u32string{italic(U'T')}) script.back().text = U"T";
     std::vector<MathAtom>& place = below ? atoms.back().sub : atoms.back().sup;
     if (!below && !place.empty()) fail("two powers of one symbol: put braces around one of them");
     place.insert(place.end(), script.begin(), script.end());
@@ -354,32 +446,21 @@ class Reader {
 
 }  // namespace
 
+char32_t plain_letter(char32_t c) {
+  struct Alphabet {
+    char32_t first, last, plain;
+  };
+  constexpr Alphabet kAlphabets[] = {{0x1D400, 0x1D419, U'A'}, {0x1D41A, 0x1D433, U'a'}, {0x1D434, 0x1D44D, U'A'}, {0x1D44E, 0x1D467, U'a'},
+                                     {0x1D6A8, 0x1D6C0, 0x391}, {0x1D6C2, 0x1D6DA, 0x3B1}, {0x1D6E2, 0x1D6FA, 0x391}, {0x1D6FC, 0x1D714, 0x3B1}};
+  if (c == 0x210E) return U'h';
+  for (const Alphabet& one : kAlphabets)
+    if (c >= one.first && c <= one.last) return one.plain + (c - one.first);
+  return c;
+}
+
 std::vector<MathAtom> parse_math(std::string_view notation) {
   const std::u32string text = decode_utf8(notation);
   return Reader(text).read_list(0);
-}
-
-std::string plain_formula(std::string_view notation) {
-  const std::u32string text = decode_utf8(notation);
-  const auto is_letter = [](char32_t c) { return (c >= U'a' && c <= U'z') || (c >= U'A' && c <= U'Z'); };
-  const auto is_digit = [](char32_t c) { return c >= U'0' && c <= U'9'; };
-  std::u32string plain;
-  for (std::size_t i = 0; i < text.size();) {
-    std::size_t end = i;
-    while (end < text.size() && is_letter(text[end])) ++end;
-    if (end > i) {
-      const std::u32string name = text.substr(i, end - i);
-      const std::optional<char32_t> letter = letter_of(name);
-      plain += letter ? std::u32string(1, *letter) : name;
-      i = end;
-      while (end + 1 < text.size() && text[end] == U'_' && is_digit(text[end + 1])) ++end;
-      if (end > i)
-        for (i = end; i < text.size() && is_digit(text[i]); ++i) plain += char32_t(0x2080 + (text[i] - U'0'));
-      continue;
-    }
-    plain += text[i++];
-  }
-  return encode_utf8(plain);
 }
 
 }  // namespace chainreel

@@ -25,6 +25,7 @@ enum class AtomKind {
   matrix,    // cells in square brackets, row by row
   hat,       // cells: what it stands above
   bar,
+  root,  // cells: what stands under it
 };
 
 struct MathAtom {
@@ -39,7 +40,11 @@ struct MathAtom {
 // Throws Error (exit 3) at an unfinished script or brace, or where the text is not UTF-8.
 std::vector<MathAtom> parse_math(std::string_view notation);
 
-// A formula where there are letters alone: "tau_1 = 5 sin(2 t)" with the Greek letter and a lowered digit. Else as it is written.
+// Of a letter of the math face's alphabets the one of the keyboard, or of Greek; any other sign as it is.
+char32_t plain_letter(char32_t c);
+
+// A formula where there are letters alone: "tau_1 = 5 sin(2 t)" with the Greek letter and a lowered digit, qdd with its dots,
+// fractions with a slash. What is no notation stands as it is written.
 std::string plain_formula(std::string_view notation);
 
 }  // namespace chainreel

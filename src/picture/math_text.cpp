@@ -20,6 +20,7 @@ constexpr double kFractionSide = 0.12, kFractionClear = 0.13, kFractionScripts =
 constexpr double kRowPitch = 1.30, kColumnGap = 0.9, kBracketGap = 0.30, kBracketSerif = 0.16;  // em
 constexpr double kSupBelowBracket = 0.35;                                       // em, of a superscript's base line
 constexpr double kAccentAboveInk = 0.10, kHatWidth = 0.36, kHatHeight = 0.12;  // em
+constexpr double kRootWidth = 0.6, kRootLeast = 0.45;  // em: of the sign itself, and over what is low
 
 // A product shows no dot between a number and what it multiplies.
 bool is_implicit_product(const MathAtom& before, const MathAtom& product, const MathAtom& after) {
@@ -94,6 +95,8 @@ class Layout {
       case AtomKind::hat:
       case AtomKind::bar:
         return add_scripts(atom, level, add_accent(atom, level, x, y), y, 0, kSupUp);
+      case AtomKind::root:
+        return add_scripts(atom, level, add_root(atom, level, x, y), y, 0, kSupUp);
       default:
         return add_glyphs(atom, level, x, y);
     }
@@ -172,6 +175,19 @@ class Layout {
     const double half = kHatWidth * em / 2, top = low + kHatHeight * em;
     line_.add_rule({middle - half, low}, {middle, top}, kRule * em);
     line_.add_rule({middle, top}, {middle + half, low}, kRule * em);
+    return end;
+  }
+
+  double add_root(const MathAtom& atom, int level, double x, double y) {
+    const double em = size_ * scale_at(level), left = x + kRootWidth * em;
+    const Rect ink = measured(atom.cells[0][0], level).box;
+    const double end = add_list(atom.cells[0][0], level, left, y) + kRule * em;
+    const double top = y + std::max(ink.y1, kRootLeast * em) + kAccentAboveInk * em, foot = y + std::min(ink.y0, 0.0);
+    const Point tick{x + 0.3 * kRootWidth * em, y + kMathAxis * em}, bottom{x + 0.6 * kRootWidth * em, foot};
+    line_.add_rule({x + 0.1 * kRootWidth * em, tick.y - kRule * em}, tick, kRule * em);
+    line_.add_rule(tick, bottom, 1.3 * kRule * em);
+    line_.add_rule(bottom, {left, top}, kRule * em);
+    line_.add_rule({left, top}, {end, top}, kRule * em);
     return end;
   }
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "picture/formula_words.hpp"
 #include "picture/shaping.hpp"
 
 namespace chainreel {
@@ -134,34 +135,22 @@ TextLine lay_out_text(const Fonts& fonts, const std::string& utf8, const TextSty
   return line.finish(style.size * shaped.advance);
 }
 
-std::string without_formulas(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) escaped += c == '$' ? std::string("\\$") : std::string(1, c);
-  return escaped;
-}
-
 TextLine lay_out_words(const Fonts& fonts, const std::string& words, const TextStyle& style) {
   std::string text;
   std::map<std::size_t, TextLine> formulas;  // by their bytes' place in the text, each kObject's there
   const std::string object = encode_utf8(std::u32string_view(&kObject, 1));
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words.compare(i, 2, "\\$") == 0) {
-      text += words[++i];
-      continue;
-    }
-    const std::size_t end = words[i] == '$' ? words.find('$', i + 1) : std::string::npos;
-    if (end == std::string::npos) {
-      text += words[i];
-      continue;
-    }
+  for (const FormulaPart& part : formula_parts(words)) {
     try {
-      formulas[text.size()] = lay_out_math(fonts, words.substr(i + 1, end - i - 1),
-                                           {Face::math, kFormulaSize * style.size, style.color, Align::left});
-      text += object;
+      if (part.is_formula) {
+        formulas[text.size()] =
+            lay_out_math(fonts, part.text, {Face::math, kFormulaSize * style.size, style.color, Align::left});
+        text += object;
+        continue;
+      }
     } catch (const Error&) {
-      text += words.substr(i + 1, end - i - 1);
+      // no notation: it stands as it is written
     }
-    i = end;
+    text += part.text;
   }
   const TextStyle plain{style.face, style.size, style.color, Align::left};
   TextLine line;

@@ -85,7 +85,8 @@ struct SymbolColor {
 
 // A small subset of math notation, in the math face whatever the style says: Greek names (tau, lambda,
 // Lambda, also \Lambda ...), `_x`, `_{..}`, `^x`, `^{..}`, an index by trailing digits (q1), dots by a trailing d or dd
-// (qd, thetadd), `^T`, `frac{a}{b}`, `col{a; b}` for column vectors, `mat{a, b; c, d}`, `hat{q}`, `bar{q}`.
+// (qd, thetadd) or as `ddot{q}`, `^T`, `frac{a}{b}`, `sqrt{a}`, `col{a; b}` for column vectors, `mat{a, b; c, d}`, `hat{q}`, `bar{q}`,
+// `bold{C}`; and the words of LaTeX for these, as far as lectures on mechanics need them (`chainreel help formulas`).
 // Variables are italic; the matrices M, J, Lambda bold; numbers, units behind a number or bracket ("N m"),
 // function names and other words upright. E.g. "tau = (0, -100 y_G) N m". Symbols take their colours also
 // inside of fractions and scripts. Throws Error (exit 3) at an unfinished script or brace.
@@ -95,8 +96,6 @@ TextLine lay_out_math(const Fonts& fonts, const std::string& notation, const Tex
 // Running text with formulas between dollar signs: "$tau$ [N m]". A dollar sign without a partner, or behind a backslash,
 // is one; what is no notation stands as it is written.
 TextLine lay_out_words(const Fonts& fonts, const std::string& words, const TextStyle& style);
-// So that every dollar sign of a text is shown.
-std::string without_formulas(const std::string& text);
 
 // Moves a laid-out line to the anchor and appends it to the picture.
 void draw_text(Picture& picture, const TextLine& line, Point anchor, int clip = -1);

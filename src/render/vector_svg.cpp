@@ -290,6 +290,9 @@ class SvgWriter {
       words.clear();
     };
     for (const GlyphCluster& cluster : clusters_of(run)) {
+      // Readers collapse blanks that others precede, whatever xml:space says, and each letter behind would take the place of the
+      // one before it.
+      if (cluster.text == U" " && (words.empty() || words.back() == ' ')) continue;
       for (const char32_t c : cluster.text) used_[run.face].insert(c);
       const bool is_simple = run.face != Face::math && cluster.count == 1 && cluster.text.size() == 1 &&
                              cluster.text[0] < 0x10000;

@@ -11,6 +11,7 @@
 #include "core/frame_rate.hpp"
 #include "mesh/read_mesh.hpp"
 #include "model/model_source.hpp"
+#include "model/read_chain.hpp"
 #include "scene/constraint_entry.hpp"
 #include "scene/layers.hpp"
 #include "scene/motion_entry.hpp"
@@ -106,6 +107,7 @@ struct Scene {
   RootLink base = RootLink::fixed;
   bool friction = true;                    // the model's joint damping and friction act
   std::optional<double> massless;  // kg given to moving links without inertia; absent: they are an error
+  Payload payload;
   LimitPolicy limit = LimitPolicy::report;
   std::map<std::string, std::string> packages;  // package:// name -> folder
   std::optional<MotionEntry> motion;  // absent: it is computed

@@ -149,7 +149,7 @@ YAML::Node child_of(YAML::Node node, const std::string& part, const Change& chan
   if (node.IsMap()) return node[part];
   if (!node.IsSequence())
     change.refuse_key("'" + part + "' is sought in a value that has no parts" +
-                      (change.key.starts_with("model.") ? ": a model's file is taken as it is; take copies, like model=light.urdf,heavy.urdf, or write it in numbers, "
+                      (change.key.starts_with("model.") ? ": a model's file is taken as it is; a load at its end is `payload.mass`; else take copies, like model=light.urdf,heavy.urdf, or write it in numbers, "
                                                           "model: {links: [0.5, 0.4], masses: [2, 1.5]}, whose masses are model.masses.2"
                                                         : ""));
   const std::optional<double> index = parse_number(part);

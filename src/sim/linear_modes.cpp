@@ -9,6 +9,12 @@
 #include "sim/system/chain_system.hpp"
 
 namespace chainreel {
+double largest_of(const std::vector<double>& x) {
+  double largest = 0;
+  for (const double one : x) largest = std::max(largest, std::abs(one));
+  return largest;
+}
+
 namespace {
 
 // Central differences of numbers of size 1: the best step is the cube root of the rounding error.
@@ -88,12 +94,6 @@ LinearMotion without_noise(LinearMotion motion) {
   motion.K = motion.K.unaryExpr(clean(kNoise * rate * rate)).eval();
   motion.D = motion.D.unaryExpr(clean(kNoise * rate)).eval();
   return motion;
-}
-
-double largest_of(const std::vector<double>& x) {
-  double largest = 0;
-  for (const double one : x) largest = std::max(largest, std::abs(one));
-  return largest;
 }
 
 bool is_rest(const std::vector<double>& qdd, const Slopes& slopes) {

@@ -29,6 +29,9 @@ struct Linearisation {
 
 Linearisation linearise(const Simulation& simulation);
 
+// The largest magnitude among its numbers; 0 of none.
+double largest_of(const std::vector<double>& x);
+
 // As stability_limit: nothing where it is not known.
 std::optional<double> longest_stable_step(const Method& method, const Linearisation& start);
 

@@ -109,6 +109,7 @@ void add_plot(PlotSet& plots, const PlotEntry& entry, const Chain& chain, const 
     plot.value = Expression::parse(entry.value, plots.probe.names(), entry.place);
     if (plot.title.empty()) {
       const std::string unit = unit_of_name(plots, chain, foot, entry.value);
+      plot.formula = entry.value;
       plot.title = entry.value + (unit.empty() ? "" : " [" + unit + "]");
     }
     for (const int slot : plot.value->used_variables()) {
@@ -247,6 +248,7 @@ std::vector<PlotCurves> plot_curves(const PlotSet& plots, const Simulation& simu
   for (const PlotSet::Plot& plot : plots.list) {
     all.push_back(curves_of(plot, plots, simulation, trajectory, samples));
     all.back().quantity = plot.quantity;
+    all.back().formula = plot.formula;
     all.back().title = plot.title == kMultipliers ? title_of_multipliers(simulation) : plot.title;
     all.back().angles = plot.quantity == PlotQuantity::q && units_of(simulation.chain) == JointUnits::turning;
   }

@@ -45,6 +45,7 @@ struct PlotSet {
   struct Plot {
     PlotQuantity quantity = PlotQuantity::expression;
     std::string title;
+    std::string formula;  // that a title made of an expression begins with; else ""
     std::optional<Expression> value;
   };
   std::vector<Plot> list;
@@ -75,6 +76,7 @@ struct PlotCurves {
   std::string title;
   bool angles = false;  // radians: ticks at multiples of pi/2
   std::vector<PlotCurve> curves;
+  std::string formula{};  // as PlotSet::Plot has it
 };
 
 // One entry a plot, over the first `samples` samples.

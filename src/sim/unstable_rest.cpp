@@ -18,12 +18,6 @@ constexpr double kVisible = 23;        // ln(1e-6 / 1e-16): by then it is as lar
 constexpr double kBeside = 0.01;       // rad or m: a start that is meant
 constexpr int kInstantsOfRest = 65;    // over the duration: at torques that may begin later
 
-double largest_number(const std::vector<double>& x) {
-  double largest = 0;
-  for (const double one : x) largest = std::max(largest, std::abs(one));
-  return largest;
-}
-
 // Until when nothing acts on the start, s.
 double end_of_rest(const Simulation& simulation) {
   ChainSystem system(simulation.chain, *simulation.torque, simulation.limit, simulation.constraints);
@@ -36,7 +30,7 @@ double end_of_rest(const Simulation& simulation) {
     const double t = simulation.duration * i / (kInstantsOfRest - 1);
     if (t > end) break;
     system.acceleration(t, simulation.q0, simulation.qd0, qdd);
-    if (!(largest_number(qdd) <= kBalanced)) return t;
+    if (!(largest_of(qdd) <= kBalanced)) return t;
   }
   return end;
 }
@@ -44,7 +38,7 @@ double end_of_rest(const Simulation& simulation) {
 }  // namespace
 
 std::optional<Doubt> doubt_of_rest(const Simulation& simulation) {
-  if (largest_number(simulation.qd0) > 0) return std::nullopt;
+  if (largest_of(simulation.qd0) > 0) return std::nullopt;
   const double end = end_of_rest(simulation);
   if (!(end > 0)) return std::nullopt;
   const Linearisation start = linearise(simulation);

@@ -130,11 +130,33 @@ TEST(FilmOfToday, OfAFolderFindsItsScenesAndNamesWhatChanged) {
   EXPECT_THAT(asked().err, HasSubstr("is not there any more: name it, --scene"));
   fs::rename(folder.file("a.yaml"), folder.file("scenes/a.yaml"));
   fs::remove(folder.file("docs/a.json"));
-  EXPECT_THAT(asked().err, AllOf(HasSubstr("passed over"), HasSubstr("a.mp4"), HasSubstr("e.png")));
+  EXPECT_THAT(asked().err, AllOf(HasSubstr("2 files are not asked about"), HasSubstr("a.mp4"), HasSubstr("e.png")));
   EXPECT_EQ(run_program({"check", folder.file("docs/a.mp4"), "--today"}).status, 3);
   EXPECT_EQ(run_program({"check", folder.file("docs/a.mp4"), "--scene", a}).status, 0);
   EXPECT_EQ(run_program({"check", folder.file("docs")}).status, 2);
   EXPECT_EQ(run_program({"check", folder.file("scenes"), "--today"}).status, 3);
+}
+
+// A film in a folder of the folder, whose torques stand in a table; and a scene that cannot be read any more.
+TEST(FilmOfToday, NamesTheTableAndTheFilmsOfABrokenScene) {
+  const TemporaryFolder folder;
+  const std::string page = "model: " CHAINREEL_SOURCE_FOLDER "/models/rr.urdf\nduration: 0.1\nmethod: rk4\nvideo: {width: 160, height: 90}\n";
+  const auto write_table = [&](const char* last) { folder.write("tau.csv", std::string("t,tau1,tau2\n0,1,0\n0.1,") + last + ",0\n"); };
+  write_table("2");
+  const std::string a = folder.write("a.yaml", page + "torque: {csv: tau.csv}\n"), b = folder.write("b.yaml", page);
+  ASSERT_EQ(run_program({"render", a, "--quiet", "-o", folder.file("docs/deep/a.mp4")}).status, 0);
+  ASSERT_EQ(run_program({"render", b, "--quiet", "-o", folder.file("docs/b.mp4")}).status, 0);
+  const auto asked = [&] { return run_program({"check", folder.file("docs"), "--today"}); };
+  EXPECT_EQ(asked().status, 0) << asked().out << asked().err;
+  EXPECT_THAT(asked().out, AllOf(HasSubstr("deep/a.mp4 is what "), HasSubstr("b.mp4 is what ")));
+  write_table("2.5");
+  EXPECT_EQ(asked().status, 1);
+  EXPECT_THAT(asked().out, AllOf(HasSubstr("torque: the numbers in table tau.csv differ"), HasSubstr("b.mp4 is what ")));
+  folder.write("b.yaml", page + "foo: 1\n");
+  const ProgramResult broken = asked();
+  EXPECT_EQ(broken.status, 3);
+  EXPECT_THAT(broken.out, HasSubstr("b.mp4: it cannot be told"));
+  EXPECT_THAT(broken.err, AllOf(HasSubstr("unknown key 'foo'"), HasSubstr("docs/b.mp4 shows it"), HasSubstr("deep/a.mp4: is not what ")));
 }
 
 TEST_F(AuditCheckTest, OneByteMoreOrAnotherOneIsSeenInEachFile) {

@@ -406,7 +406,7 @@ TEST(Audit, HasTheKeysThatOthersRead) {
                      "warnings"};
   const Words of_film{"held_frames",     "held_frames.first", "held_frames.last",
                       "layout",          "left_out",         "meshes_sha256",
-                      "mechanisms",      "scene_path",       "set",
+                      "mechanisms",      "scene_path",       "set",  "tables",
                       "panels",          "pauses",           "slow_motion",
                       "style",           "view",             "view.height", "view.origin",
                       "drawn",           "drawn.film_seconds", "drawn.fps",

@@ -269,5 +269,27 @@ TEST(EllipseSweep, GivesAnExampleThatTheModelTakes) {
   }
 }
 
+// A point at the end effector weighs the same in each direction: Lambda' = J^-T (M + m J^T J) J^-1 = Lambda + m.
+TEST(PayloadCommand, AddsItsMassToLambdaInEachDirection) {
+  const auto lambda = [](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"dynamics", "models/rr.urdf", "--q", "0.3,0.9", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult run = run_program(words);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return parse_json(run.out)["Lambda"];
+  };
+  const Json without = lambda({}), with = lambda({"--set", "payload.mass=2.5"});
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = 0; j < 2; ++j)
+      EXPECT_NEAR(with[i][j].get<double>(), without[i][j].get<double>() + (i == j ? 2.5 : 0), 1e-13) << "rounding of numbers up to 10";
+  // A sweep of a model in a file.
+  const TemporaryFolder folder;
+  const std::string csv = folder.file("s/table.csv");
+  const ProgramResult sweep = run_program({"sweep", "rr_free", "--set", "duration=0.2", "--over", "payload.mass=0:2:3", "-o", folder.file("s"), "--quiet"});
+  ASSERT_EQ(sweep.status, 0) << sweep.err;
+  EXPECT_THAT(run_program({"check", "rr_free", "--set", "payload.mass=-1"}).err, testing::HasSubstr("payload.mass"));
+  EXPECT_THAT(run_program({"check", "rr_free", "--set", "payload.mass=1", "--set", "payload.link=elbow"}).err, testing::HasSubstr("'payload.link' names no link"));
+}
+
 }  // namespace
 }  // namespace chainreel

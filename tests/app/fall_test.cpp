@@ -141,6 +141,22 @@ TEST(FallCommand, SaysWhatHoldsFromTheStart) {
   EXPECT_THAT(lying.out, HasSubstr("lies from the start"));
 }
 
+// Held still by its own torques, he leans until the ankle's is what the foot bears at rest: the sweep's edge against the torque
+// of inverse dynamics there.
+TEST(FallCommand, SaysWhatAFootBearsAtRest) {
+  const ProgramResult fall = run_program({"fall", kHuman, "--set", "torque={gravity_compensation: true}", "--set", "start.qd=[0, 0, 0]", "--set", "duration=0.2",
+                                          "--sweep", "start.q.1=-12.5deg:0:4", "--edges", "--json"});
+  ASSERT_EQ(fall.status, 0) << fall.err;
+  const Json found = parse_json(fall.out);
+  ASSERT_EQ(found["edges"].size(), 1u);
+  const std::string q = format_shortest(found["edges"][0]["before"].get<double>()) + ",0,0";
+  const ProgramResult dynamics = run_program({"dynamics", "models/humanoid.urdf", "--q", q, "--json"});
+  ASSERT_EQ(dynamics.status, 0) << dynamics.err;
+  const double tau = std::abs(parse_json(dynamics.out)["nle"][0].get<double>());
+  EXPECT_NEAR(found["foot_bears"]["over_toe"].get<double>(), tau, 0.01) << "the edge is as narrow as 5e-6 rad, the torque changes by 700 N m/rad";
+  EXPECT_NEAR(found["foot_bears"]["over_heel"].get<double>() + found["foot_bears"]["over_toe"].get<double>(), 195.8, 0.3) << "weight times the foot's length";
+}
+
 // 10 kg on a vertical slide above the middle of a foot: what drives it, F, is what the ground bears.
 TEST(FallCommand, SaysWhoTakesOffAndWhen) {
   const TemporaryFolder folder;

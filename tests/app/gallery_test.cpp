@@ -71,10 +71,26 @@ TEST(Gallery, TakesAWebmWhereThereIsNoMp4AndLeavesPartialFilms) {
 TEST(Gallery, SaysWhatBrowsersDoNotPlay) {
   const TemporaryFolder folder;
   render(folder, "a.mp4");
-  render(folder, "a.gif");
-  render(folder, "b.gif");
-  EXPECT_THAT(gallery(folder, {}).err, AllOf(HasSubstr("left out: " + folder.file("b.gif") + ";"), Not(HasSubstr("a.gif,"))));
+  render(folder, "a.mov");
+  render(folder, "b.mov");
+  EXPECT_THAT(gallery(folder, {}).err, AllOf(HasSubstr("left out: " + folder.file("b.mov") + ";"), Not(HasSubstr("a.mov,"))));
   EXPECT_EQ(gallery(folder, {"--quiet"}).err, "");
+}
+
+// What moves by itself needs no controls; who wants less motion sees its poster.
+TEST(Gallery, ShowsMovingPicturesWhereThereIsNoFilmOfTheSame) {
+  const TemporaryFolder folder;
+  render(folder, "a.mp4");
+  render(folder, "a.gif");
+  const std::string gif = render(folder, "b.gif"), apng = render(folder, "c.apng");
+  const ProgramResult result = gallery(folder, {"--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(Json::parse(result.out)["clips"], 3);
+  const std::string text = page(folder);
+  EXPECT_THAT(text, HasSubstr("src=\"data:image/gif;base64," + base64(read_whole_file(gif)) + "\""));
+  EXPECT_THAT(text, HasSubstr("src=\"data:image/apng;base64," + base64(read_whole_file(apng)) + "\""));
+  const std::string card = text.substr(text.find("id=\"clip-2\""));
+  EXPECT_THAT(card.substr(0, card.find("</article>")), AllOf(Not(HasSubstr("<video")), HasSubstr("prefers-reduced-motion"), HasSubstr("data-name=\"b.gif\"")));
 }
 
 // Two films of one name are two where each has its own audit.

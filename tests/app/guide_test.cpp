@@ -12,8 +12,10 @@
 #include <sstream>
 
 #include "app/guide/manual.hpp"
+#include "app/guide/reference.hpp"
 #include "core/json.hpp"
 #include "expr/expression.hpp"
+#include "picture/math_notation.hpp"
 #include "scene/keys/keys.hpp"
 #include "scene/text/read_scene.hpp"
 #include "support/run_program.hpp"
@@ -205,6 +207,14 @@ TEST(Help, EveryTopicThatIsNamedAnywhereIsThere) {
     }
   EXPECT_THAT(topics, testing::IsSupersetOf({"scene", "snapshots", "layers"})) << "negative control: some are found";
   for (const std::string& topic : topics) EXPECT_EQ(run_program({"help", topic}).status, 0) << "chainreel help " << topic;
+}
+
+TEST(Help, FormulasThatAreToldAreFormulas) {
+  const std::string page = guide_output({"formulas"});
+  for (const Name& one : formula_notation()) {
+    EXPECT_THAT(page, HasSubstr("`" + std::string(one.name) + "`"));
+    EXPECT_NO_THROW(parse_math(one.name)) << one.name;
+  }
 }
 
 TEST(Help, ToldNamesAreThoseThatExpressionsKnow) {

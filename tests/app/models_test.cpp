@@ -75,7 +75,7 @@ TEST(ModelKeys, ThatMeanNothingToACommandAreRefusedNamingWhatItTakes) {
     EXPECT_EQ(result.status, 2) << command[0];
     EXPECT_THAT(result.err, HasSubstr("--set duration=2: means nothing to `" + command[0] + "` of the model"));
     EXPECT_THAT(result.err, HasSubstr("--set start.q=[1, 1]: means nothing"));
-    EXPECT_THAT(result.err, HasSubstr("it takes gravity, base, friction, massless, packages"));
+    EXPECT_THAT(result.err, HasSubstr("it takes gravity, base, friction, massless, payload.mass"));
     const ProgramResult unknown = run_program(with(command, {"--set", "gravty=[0, 0, 0]"}));
     EXPECT_EQ(unknown.status, 3) << command[0];
     EXPECT_THAT(unknown.err, HasSubstr("did you mean 'gravity'?"));

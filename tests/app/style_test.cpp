@@ -115,6 +115,24 @@ TEST_F(HouseStyleFilm, LogoStandsOnFiguresAndChartsToo) {
   }
 }
 
+TEST_F(HouseStyleFilm, LogosThatNeedOtherFilesAreRefused) {
+  const auto snapshot_with = [&](const std::string& inside) {
+    write("logo.svg", "<svg xmlns='http://www.w3.org/2000/svg' xmlns:xlink='http://www.w3.org/1999/xlink' width='10' height='10'>"
+                      "<g id='g'><rect width='10' height='10'/></g>" + inside + "</svg>");
+    return run_program(with_style({"snapshot", kStyledScene, "--force", "-o", folder_.file("a.png")}, "logo: {file: logo.svg}\n"));
+  };
+  for (const char* inside : {"<image href='seal.png' width='9' height='9'/>", "<g><image xlink:href='https://a.org/seal.png'/></g>",
+                             "<use href='other.svg#g'/>"}) {
+    const ProgramResult run = snapshot_with(inside);
+    EXPECT_EQ(run.status, 3) << inside;
+    EXPECT_THAT(run.err, AllOf(HasSubstr("logo.svg"), HasSubstr("from outside of the file"))) << inside;
+  }
+  const std::string pixel = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==";
+  for (const std::string& inside : {"<image href='" + pixel + "' width='9' height='9'/>", std::string("<use href='#g'/>"),
+                                    std::string("<a href='https://a.org/'><rect width='3' height='3'/></a>")})
+    EXPECT_EQ(snapshot_with(inside).status, 0) << inside;
+}
+
 TEST_F(HouseStyleFilm, PartsDependOnTheLogosBytes) {
   const auto part = [&](const std::string& which) {
     return run_program(with_style({"render", kStyledScene, "--quiet", "-o", folder_.file("a.mp4"), "--shard", which}, "logo: {file: logo.svg}\n"));

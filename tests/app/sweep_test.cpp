@@ -426,7 +426,7 @@ TEST(SweepFolder, MakesAnewWhatHasOtherBytesThanItsAuditSays) {
   const std::string bytes = read_whole_file(film);
   for (int damages = 0; damages < 2; ++damages) {  // the second time, the audit is of files that were made at two times
     std::string damaged = bytes;
-    const std::size_t picture = damaged.find("mdat") + 100;  // in what it remembers it would be another's film
+    const std::size_t picture = damaged.rfind("mdat") + 100;  // in what it remembers it would be another's film
     damaged[picture] = char(damaged[picture] ^ 8);
     std::ofstream(film, std::ios::binary) << damaged;
     EXPECT_THAT(sweep(runs, words).out, HasSubstr("1 of them done before")) << damages;

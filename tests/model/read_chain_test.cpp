@@ -47,6 +47,41 @@ TEST(ReadChain, RrIsTwoPointMassesAtTheEndsOfTwoLinks) {
   }
 }
 
+// At the end of a rod: its closed form. At the end of a point mass: the sum of both, still a point.
+TEST(ReadChain, APayloadIsAPointOfTheBodyThatCarriesIt) {
+  ModelOptions options;
+  options.payload = {.mass = 3, .at = {0.25, 0, 0}};
+  const Chain rods = read_chain(CHAINREEL_SOURCE "/models/rrr.urdf", options);
+  const double c = (1 * 0.5 + 3 * 1.25) / 4, inertia = 1.0 / 12 + (c - 0.5) * (c - 0.5) + 3 * (1.25 - c) * (1.25 - c);
+  EXPECT_EQ(rods.bodies[3].inertia.mass, 4);
+  EXPECT_NEAR(rods.planar->bodies[3].com.x(), c, 1e-15);
+  EXPECT_NEAR(rods.planar->bodies[3].inertia, inertia, 1e-15) << "sums of numbers of size 1";
+  EXPECT_EQ(rods.bodies[2].inertia.mass, 1);
+  ASSERT_EQ(rods.point_masses.size(), 1u) << "rods are none";
+  EXPECT_EQ(rods.point_masses[0].body, 3);
+
+  options.payload = {.mass = 0.5, .link = "link1", .at = {1, 0, 0}};
+  const Chain points = read_chain(CHAINREEL_SOURCE "/models/rr.urdf", options);
+  EXPECT_EQ(points.bodies[1].inertia.mass, 1.5);
+  EXPECT_TRUE(points.bodies[1].inertia.about_com.isZero(1e-16));
+  EXPECT_EQ(points.point_masses.size(), 3u);
+  EXPECT_TRUE(read_chain(CHAINREEL_SOURCE "/models/pp.urdf").point_masses.empty()) << "sliders have carriages";
+
+  const auto trouble = [](const char* model, const Payload& payload) {
+    ModelOptions bad;
+    bad.payload = payload;
+    try {
+      read_chain(std::string(CHAINREEL_SOURCE "/models/") + model, bad);
+      return std::string();
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_THAT(trouble("rr.urdf", {.mass = 1, .link = "griper"}), testing::AllOf(HasSubstr("'payload.link' names no link"), HasSubstr("gripper")));
+  EXPECT_THAT(trouble("rr.urdf", {.mass = 1, .link = "base"}), HasSubstr("does not move"));
+  EXPECT_EQ(trouble("rr.urdf", {.mass = 0, .link = "base"}), "") << "no load";
+}
+
 TEST(ReadChain, RrrIsThreeUniformRods) {
   const Chain chain = read_chain(CHAINREEL_SOURCE "/models/rrr.urdf");
   ASSERT_EQ(chain.bodies.size(), 4u);

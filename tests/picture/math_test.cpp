@@ -4,6 +4,7 @@
 #include <random>
 
 #include "core/error.hpp"
+#include "picture/formula_words.hpp"
 #include "picture/math_notation.hpp"
 #include "picture/text.hpp"
 #include "support/fonts.hpp"
@@ -50,7 +51,15 @@ TEST(Math, MatricesAreBoldUprightExceptInScripts) {
   EXPECT_THAT(words("\\sin q"), ElementsAre("sin\U0001D45E"));
   EXPECT_THAT(words("a \\le b"), words("a <= b"));
   EXPECT_THAT(words("\\left( a \\cdot b \\, \\right)"), words("( a * b )"));
-  for (const char* unknown : {"\\nonsense", "\\frac12", "x^2^3", "\\"}) EXPECT_THROW(words(unknown), Error) << unknown;
+  EXPECT_THAT(words("\\ddot{q} + \\dot q"), words("qdd + qd"));
+  EXPECT_THAT(words("\\ddot\\theta_1"), words("thetadd_1"));
+  EXPECT_THAT(words("J^{-\\top}"), words("J^{-T}"));
+  EXPECT_THAT(words("\\mathbf{C}(q)"), ElementsAre("\U0001D402(\U0001D45E)"));
+  EXPECT_THAT(words("\\boldsymbol\\omega \\mathrm{max}"), ElementsAre("\U0001D6DAmax"));
+  EXPECT_THAT(words("{a + b}_1"), words("a + b_1"));
+  EXPECT_THAT(words("\\Rightarrow \\dfrac{1}{2} \\varphi"), words("\\Rightarrow frac{1}{2} phi"));
+  EXPECT_EQ(lay_out("\\sqrt{x}").marks.size(), 4u) << "the strokes of a root";
+  for (const char* unknown : {"\\nonsense", "\\frac12", "x^2^3", "\\", "\\ddot{a b}", "dot{}", "\\ddot", "}", "\\mathrm{a", "\\sqrt x"}) EXPECT_THROW(words(unknown), Error) << unknown;
 }
 
 TEST(Math, MinusIsASignOfItsOwnAndCloserInFrontThanBetween) {
@@ -210,7 +219,7 @@ TEST(Math, UnicodeMayBeGivenDirectly) {
 }
 
 TEST(Math, UnfinishedNotationIsAnErrorThatSaysWhere) {
-  for (const char* bad : {"q_", "q_{1", "^2", "{x}", "x}", "q_ 1", "x_{a}}", "_", "q_{}}", "x_{_}",
+  for (const char* bad : {"q_", "q_{1", "^2", "x}", "q_ 1", "x_{a}}", "_", "q_{}}", "x_{_}",
                           "frac{1}", "frac{1}{", "col{1; }", "mat{1, 2; 3}", "hat{", "col{1"}) {
     try {
       lay_out(bad);
@@ -266,7 +275,31 @@ TEST(PlainFormula, HasGreekLettersAndLoweredDigits) {
   EXPECT_EQ(plain_formula("tau_1 = 5 sin(2 t)"), "\u03C4\u2081 = 5 sin(2 t)");
   EXPECT_EQ(plain_formula("theta_12 + Omega"), "\u03B8\u2081\u2082 + \u03A9");
   EXPECT_EQ(plain_formula("x_G + taub + 3"), "x_G + taub + 3") << "no name of a letter, no digit";
+  EXPECT_EQ(plain_formula("M(q) qdd + g(q) = \\tau - D\\dot{q}"), "M(q) q\u0308 + g(q) = \u03C4 \u2212 Dq\u0307");
+  EXPECT_EQ(plain_formula("frac{1}{2} m v^2"), "1/2 m v\u00B2");
+  EXPECT_EQ(plain_formula("J^{-T} M J^-1"), "J^(\u2212T) M J\u207B\u00B9");
+  EXPECT_EQ(plain_formula("\\nonsense{x}"), "\\nonsense{x}") << "what is no notation stands as it is written";
   EXPECT_EQ(plain_formula(""), "");
+}
+
+TEST(FormulaWords, AreWholeFormulasAndTheWordsThatTheyTouch) {
+  EXPECT_THAT(formula_words("  torque $tau = 5 sin(2 t)$, damped  "),
+              ElementsAre("torque", "$tau = 5 sin(2 t)$,", "damped"));
+  EXPECT_THAT(formula_words("costs $5 a day"), ElementsAre("costs", "$5", "a", "day")) << "a sign without a partner is one";
+  EXPECT_THAT(formula_words("\\$5 or \\$6 a day"), ElementsAre("\\$5", "or", "\\$6", "a", "day")) << "no formula between";
+  EXPECT_TRUE(formula_words("").empty());
+  EXPECT_TRUE(formula_words("   ").empty());
+}
+
+TEST(FormulaWords, AreCutOutsideOfFormulasAlone) {
+  const std::string text = "a $x y$ \\$b";
+  for (std::size_t i = 0; i <= text.size(); ++i)
+    EXPECT_EQ(is_outside_formula(text, i), i <= 2 || (i >= 7 && i != 9)) << i;
+}
+
+TEST(FormulaWords, ArePlainWhereLettersAreAlone) {
+  EXPECT_EQ(in_plain_words("$tau_1$ costs \\$5"), "\u03C4\u2081 costs $5");
+  EXPECT_EQ(in_plain_words("$5 alone"), "$5 alone");
 }
 
 }  // namespace

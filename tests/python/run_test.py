@@ -136,8 +136,11 @@ class Runs(FolderTest):
         self.assertIn("the Python function push (run_test.py:", run.scene)
         with self.assertRaisesRegex(cr.Error, "which no file holds"):
             cr.Scene(self.write("again.yaml", run.scene)).run()
-        with self.assertRaisesRegex(cr.Error, "torque of its own"):
-            cr.Scene({**FALL, "torque": [1, 1]}, torque=push).run()
+        np.testing.assert_array_equal(run.q, cr.Scene({**FALL, "torque": [1, 1]}, torque=push).run().q)
+        with self.assertRaisesRegex(ValueError, "give one of them"):
+            cr.Scene(FALL, torque=push, set={"torque": [1, 1]})
+        with self.assertRaisesRegex(cr.Error, "torque of its own"):  # of panels each its own
+            cr.Scene({**FALL, "compare": [{"torque": [1, 1]}, {"torque": [2, 1]}]}, torque=push).run()
         log = self.write("log.csv", "t,q1,q2\n0,0,0\n0.5,0.1,0\n1,0.4,0\n")
         replay = cr.Scene({"model": RR, "motion": log}).run()
         self.assertEqual(replay.t[-1], 1)

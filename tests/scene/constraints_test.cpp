@@ -108,7 +108,7 @@ TEST_F(SceneConstraints, AStartALittleBesideIsMovedWithANotice) {
   const std::string line = "constraints: [{line: {frame: gripper, point: [0, 0.52], direction: [1, 0]}}]\n";
   const Simulation moved = ready(kPenStart + line);
   ASSERT_EQ(notices_.size(), 1u);
-  EXPECT_THAT(notices_[0], HasSubstr("0.02 off 'line gripper'"));
+  EXPECT_THAT(notices_[0], HasSubstr("0.02 m off 'line gripper'"));
   EXPECT_NE(moved.q0[0], 1.5707963267948966);
   ready(
       "start: {q: [90deg, -60deg, -120deg], qd: [1, 0, 0]}\n"
@@ -122,7 +122,7 @@ TEST_F(SceneConstraints, AStartThatNobodyWroteMayBeFarFromTheOneThatIsTaken) {
   const std::string line = "constraints: [{line: {frame: gripper, point: [0, 1.0], direction: [1, 0]}}]\n";
   const Simulation found = ready(line);
   ASSERT_EQ(notices_.size(), 1u);
-  EXPECT_THAT(notices_[0], AllOf(HasSubstr("1 off 'line gripper'"), HasSubstr("was moved to q = ")));
+  EXPECT_THAT(notices_[0], AllOf(HasSubstr("1 m off 'line gripper'"), HasSubstr("was moved to q = ")));
   EXPECT_NEAR(std::sin(found.q0[0]) + std::sin(found.q0[0] + found.q0[1]) + std::sin(found.q0[0] + found.q0[1] + found.q0[2]), 1, 1e-13);
   EXPECT_THAT(error("start: {q: [0, 0, 0]}\n" + line), HasSubstr("if it is meant"));
 }
@@ -154,7 +154,7 @@ TEST_F(SceneConstraints, AStretchedStartFindsThePosesThatThereAre) {
   const std::string up = "start: {q: [90deg, 0, 0]}\n", level = "start: {q: [0, 0, 0]}\n";
   const Simulation near = ready(up + line("2.9999"));
   ASSERT_EQ(notices_.size(), 1u);
-  EXPECT_THAT(notices_[0], HasSubstr("0.0001 off 'line gripper' and was moved"));
+  EXPECT_THAT(notices_[0], HasSubstr("0.0001 m off 'line gripper' and was moved"));
   const double y = std::sin(near.q0[0]) + std::sin(near.q0[0] + near.q0[1]) + std::sin(near.q0[0] + near.q0[1] + near.q0[2]);
   EXPECT_NEAR(y, 2.9999, 1e-13);  // places to 64 round-offs
   for (const char* height : {"2.9999", "2.99", "1.5", "0.2", "-2.9999"})

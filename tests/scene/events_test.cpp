@@ -105,7 +105,12 @@ TEST(Fall, TimeStandsInTheTitle) {
   scene.events = {{"q1 - 1", EventKind::fall, "", Crossing::either, {}}};
   Trajectory run;
   run.end_time = 5;
-  EXPECT_EQ(title_of(scene, run), "Falls in more than 5 s, a pity");
+  EXPECT_EQ(title_of(scene, run), "Does not fall within 5 s, a pity");
+  scene.title = "A human, who falls in {fall}";
+  EXPECT_EQ(title_of(scene, run), "A human, who does not fall within 5 s");
+  scene.title = "Time: {fall}";
+  EXPECT_EQ(title_of(scene, run), "Time: more than 5 s");
+  scene.title = "Falls in {fall}, a pity";
   run.ending_event = 0;
   run.end_time = 1.2345;
   EXPECT_EQ(title_of(scene, run), "Falls in 1.23 s, a pity");

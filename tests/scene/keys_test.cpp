@@ -113,9 +113,9 @@ TEST_F(Keys, WhoseValueIsAPathAreKnownByName) {
 
 TEST_F(Keys, OfModelsAreThoseOfTheMechanismAndOfItsPicture) {
   EXPECT_THAT(keys_of_models(OfModel::mechanism),
-              testing::ElementsAre("gravity", "base", "friction", "massless", "packages"));
+              testing::ElementsAre("gravity", "base", "friction", "massless", "payload.mass", "payload.link", "payload.at", "packages"));
   EXPECT_THAT(keys_of_models(OfModel::picture),
-              testing::ElementsAre("gravity", "base", "friction", "massless", "packages", "end_effector", "links",
+              testing::ElementsAre("gravity", "base", "friction", "massless", "payload.mass", "payload.link", "payload.at", "packages", "end_effector", "links",
                                    "mesh_up", "camera", "theme", "text_scale", "style", "video.width", "video.height"));
 }
 

@@ -14,6 +14,7 @@
 #include "app/film/formats.hpp"
 #include "app/film/prepared.hpp"
 #include "app/report/audit_check.hpp"
+#include "app/report/driving_tables.hpp"
 #include "app/report/run_report.hpp"
 #include "app/report/sidecar.hpp"
 #include "app/verify/physics_record.hpp"
@@ -82,10 +83,23 @@ std::vector<std::string> changed_models(const Json& beside, const ClipMemory& fi
   std::vector<std::string> words;
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (before[i] == now[i]) continue;
-    std::vector<std::string> own{std::string("the model file is another one") + kByHash};
+    std::vector<std::string> own{"the model file has other bytes; whether more than a comment changed, no audit beside the film tells"};
     if (i < records.size()) own = explain_models(records[i], mechanism_record(prepared.panels[i]));
     for (const std::string& one : own)
       if (std::find(words.begin(), words.end(), one) == words.end()) words.push_back(one);
+  }
+  return words;
+}
+
+// Likewise of the tables that drive it.
+std::vector<std::string> changed_tables(const Json& beside, const PreparedFilm& prepared) {
+  const Json records = beside.is_object() ? beside.value(kTables, Json::array()) : Json::array();
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < std::min(records.size(), prepared.panels.size()); ++i) {
+    Scene named = prepared.panels[i].scene;
+    const char* key = named.motion ? "motion" : "torque";
+    for (std::string& one : table_changes(records[i], take_driving_tables(named), key))
+      if (std::find(words.begin(), words.end(), one) == words.end()) words.push_back(std::move(one));
   }
   return words;
 }
@@ -109,6 +123,7 @@ Today difference_of(const std::string& path, const Json& beside, const ClipMemor
   old.audit = without_beside(film.audit);
   now.audit = without_beside(today.audit);
   found.words = changed_models(beside, film, today, prepared);
+  for (std::string& one : changed_tables(beside, prepared)) found.words.push_back(std::move(one));
   for (std::string& one : explain_memories(old, now)) found.words.push_back(std::move(one));
   found.facts = changed_facts(old.audit, now.audit);
   // Drawings keep neither.
@@ -200,41 +215,54 @@ bool remembers_scene(const std::string& path) {
   }
 }
 
-// Of a folder what an audit in it tells of and what remembers a scene; what is passed over is said.
-std::vector<AskedFilm> with_folders_opened(const std::vector<std::string>& paths, bool quiet) {
-  std::vector<AskedFilm> all;
+// What is asked about, and what lies in the folders besides that remembers a scene.
+struct AskedFilms {
+  std::vector<AskedFilm> list;
+  std::vector<std::string> passed_over;
+};
+
+// Of a folder, and of those in it, what an audit tells of; without one nobody knows where the scene lies.
+AskedFilms with_folders_opened(const std::vector<std::string>& paths) {
+  AskedFilms all;
   for (const std::string& path : paths) {
     std::error_code code;
     if (!fs::is_directory(path, code)) {
-      all.push_back({path, own_audit(path)});
+      all.list.push_back({path, own_audit(path)});
       continue;
     }
-    std::vector<AskedFilm> found;
-    std::vector<std::string> others;
-    for (fs::directory_iterator entry(path, code), end; !code && entry != end; entry.increment(code)) {
+    const std::size_t before = all.list.size();
+    for (fs::recursive_directory_iterator entry(path, fs::directory_options::skip_permission_denied, code), end; !code && entry != end; entry.increment(code)) {
+      throw_if_interrupted();
       const std::string file = entry->path().string();
       const OutputFormat* format = find_output_format(file);
-      if (entry->is_directory(code)) others.push_back(file + "/");
       if (!entry->is_regular_file(code) || format == nullptr || format->read_tags == nullptr) continue;
       OwnAudit audit = remembers_scene(file) ? own_audit(file) : OwnAudit{};
       if (audit.json.is_object())
-        found.push_back({file, std::move(audit)});
+        all.list.push_back({file, std::move(audit)});
       else
-        others.push_back(file);
+        all.passed_over.push_back(file);
     }
-    std::sort(found.begin(), found.end(), [](const AskedFilm& a, const AskedFilm& b) { return a.path < b.path; });
-    std::sort(others.begin(), others.end());
-    if (!others.empty() && !quiet)
-      std::fprintf(stderr, "note: passed over, as no audit beside them tells their scene, or they are folders: %s\n", joined(others).c_str());
-    if (found.empty()) throw Error(ExitCode::bad_input, "holds no film or picture with an audit that tells its scene", {path});
-    std::ranges::move(found, std::back_inserter(all));
+    if (code) throw Error(ExitCode::bad_input, "cannot be read as a folder: " + code.message(), {path});
+    if (all.list.size() == before) throw Error(ExitCode::bad_input, "holds no film or picture with an audit that tells its scene", {path});
+    std::sort(all.list.begin() + std::ptrdiff_t(before), all.list.end(), [](const AskedFilm& a, const AskedFilm& b) { return a.path < b.path; });
   }
+  std::sort(all.passed_over.begin(), all.passed_over.end());
   return all;
 }
 
+void tell_passed_over(const std::vector<std::string>& files) {
+  constexpr std::size_t kMostNames = 8;
+  if (files.empty()) return;
+  const std::vector<std::string> named(files.begin(), files.begin() + std::ptrdiff_t(std::min(files.size(), kMostNames)));
+  std::fprintf(stderr, "note: %s not asked about, as no audit beside %s the scene (--scene names it): %s%s\n",
+               counted(files.size(), "file is", "files are").c_str(), files.size() == 1 ? "it tells" : "them tells", joined(named).c_str(),
+               files.size() > kMostNames ? ", .." : "");
+}
+
 void print_today(const Today& one) {
-  if (one.trouble) return;
-  if (one.is_same())
+  if (one.trouble)
+    std::printf("%s: it cannot be told whether its scene shows the same today\n", one.path.c_str());
+  else if (one.is_same())
     std::printf("%s is what %s shows today%s\n", one.path.c_str(), one.scene.c_str(), one.has_other_versions ? ", made by other versions of the program or its libraries" : "");
   else
     std::printf("%s is NOT what %s shows today\n", one.path.c_str(), one.scene.c_str());
@@ -269,8 +297,10 @@ void check_as_written(const std::string& path, const CommonOptions& common) {
 }
 
 void check_of_today(const std::vector<std::string>& paths, const std::string& scene, const CommonOptions& common) {
+  const AskedFilms asked = with_folders_opened(paths);
+  if (!common.quiet) tell_passed_over(asked.passed_over);
   std::vector<Today> all;
-  for (const AskedFilm& film : with_folders_opened(paths, common.quiet)) {
+  for (const AskedFilm& film : asked.list) {
     throw_if_interrupted();
     try {
       all.push_back(today_of(film, scene, common));
@@ -280,25 +310,31 @@ void check_of_today(const std::vector<std::string>& paths, const std::string& sc
     }
   }
   tell_result(common, [&] {
-    if (all.size() == 1) return report_of(all.front());
     Json films = Json::array();
     for (const Today& one : all) films.push_back(report_of(one));
-    return Json{{"films", films}};
+    Json report = all.size() == 1 ? films.front() : Json{{"films", films}};
+    report["passed_over"] = asked.passed_over;
+    return report;
   }, [&] {
     for (const Today& one : all) print_today(one);
   });
-  std::vector<Problem> changed, troubles;
+  std::vector<Problem> troubles, changed;
   for (const Today& one : all) {
     if (one.trouble)
       for (Problem problem : one.trouble->problems()) {
-        if (problem.place.file.empty()) problem.place.file = one.path;
+        // A trouble of a scene concerns each of its films.
+        if (problem.place.file.empty())
+          problem.place.file = one.path;
+        else if (problem.place.file != one.path)
+          problem.message += "; " + one.path + " shows it";
         troubles.push_back(std::move(problem));
       }
     else if (!one.is_same())
       changed.push_back({"is not what " + one.scene + " shows today: render it again", {one.path}});
   }
-  if (!troubles.empty()) throw Error(ExitCode::bad_input, std::move(troubles));
-  if (!changed.empty()) throw Error(ExitCode::comparison_failed, std::move(changed));
+  const bool is_told = troubles.empty();
+  std::ranges::move(changed, std::back_inserter(troubles));
+  if (!troubles.empty()) throw Error(is_told ? ExitCode::comparison_failed : ExitCode::bad_input, std::move(troubles));
 }
 
 }  // namespace chainreel

@@ -13,16 +13,17 @@
 #include "scene/text/scene_difference.hpp"
 
 namespace chainreel {
+
+std::string counted(long count, const char* one, const char* more) {
+  return std::to_string(count) + " " + (count == 1 ? one : more);
+}
+
 namespace {
 
 constexpr int kGap = 8;  // pixels between pictures that stand side by side
 
 std::string size_of(const Image& image) {
   return std::to_string(image.width) + "x" + std::to_string(image.height);
-}
-
-std::string counted(long count, const char* one, const char* more) {
-  return std::to_string(count) + " " + (count == 1 ? one : more);
 }
 
 Image side_by_side(const std::vector<const Image*>& images) {

@@ -54,6 +54,9 @@ Json report_of(const ImageDifference& difference, const Image& before, const Ima
 void write_difference(const CompareOptions& options, const Image& before, const Image& after,
                       const std::string& path);
 
+// "1 pixel is", "3 pixels are".
+std::string counted(long count, const char* one, const char* more);
+
 // How sentences end that tell of a model or motion that is another one.
 inline constexpr const char* kByHash = ", by its hash";
 // What the two files remember differently, of scenes key by key. Nothing where neither remembers anything.

@@ -280,8 +280,9 @@ void run_ellipse(const EllipseOptions& options) {
     write_picture(*picture, figure.width, figure.height, fonts, output, options.common.force, memory);
   }
   if (numbers_left_out > 0 && !options.common.quiet)
-    std::fprintf(stderr, "note: the numbers of %d semi-axes have no room here: all are in --json and .csv, and below the pictures of --layout grid\n",
-                 numbers_left_out);
+    std::fprintf(stderr, "note: %s no room here: all are in --json and .csv, %s\n",
+                 numbers_left_out == 1 ? "the number of one semi-axis has" : ("the numbers of " + std::to_string(numbers_left_out) + " semi-axes have").c_str(),
+                 figure.layout == "superposed" || figure.cell > 0 ? "and below the pictures of --layout grid" : "and a larger page has it");
   tell_files(options.common, outputs, report);
 }
 

@@ -115,9 +115,9 @@ void print_table(const FallTable& table, const std::string& set, bool searched) 
     if (!event.when.empty()) std::printf("%s: when %s\n", event.title().c_str(), event.when.c_str());
   for (const FallEdge& edge : table.edges) std::printf("%s\n", to_words(table, edge).c_str());
   if (table.bears && std::any_of(table.rows.begin(), table.rows.end(), [&](const FallRow& row) { return what_became_of(table, row) == FallEnd::tips; }))
-    std::printf("behind that the ankle goes on holding, which no ground bears: cut its torque at what a foot at rest does, %s N m over the heel and %s N m "
-                "over the toe, by max(.., min(.., ..)), to see the fall\n",
-                format_significant(table.bears->first, 3).c_str(), format_significant(table.bears->second, 3).c_str());
+    std::printf("behind that this foot stays where a real one turns. At rest it bears %s N m of the ankle over the heel and %s N m over the toe: where the "
+                "ankle's torque goes beyond, cut it there by max(.., min(.., ..)) to see the fall\n",
+                format_significant(table.bears->first, 4).c_str(), format_significant(table.bears->second, 4).c_str());
   if (searched && table.edges.empty()) std::printf("no edges: all rows end alike\n");
   if (!set.empty()) std::printf("with %s\n", set.c_str());
   // Of a setting that the table's rows have, each its own, nothing is said.
@@ -133,6 +133,7 @@ Json report_of(const FallOptions& options, const FallTable& table) {
   for (const EventEntry& event : table.events)
     json["events"].push_back(
         {{"name", event.title()}, {"kind", to_string(event.kind)}, {"when", event.when}});
+  json["foot_bears"] = table.bears ? Json{{"over_heel", table.bears->first}, {"over_toe", table.bears->second}} : Json(nullptr);
   json["rows"] = Json::array();
   for (const FallRow& row : table.rows) {
     Json one{{"status", to_string(row.status)}, {"end_time", row.end_time}, {"value", nullptr}};

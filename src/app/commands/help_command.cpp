@@ -101,6 +101,7 @@ void run_help(const HelpOptions& options, const CommandLine& app) {
 std::vector<GuidePage> guide_pages(const CommandLine& app) {
   return {{"scene", "every key of a scene: its values, unit, range and default", scene_page},
           {"layers", "what a picture may show", layers_page},
+          {"formulas", "notation of formulas in titles and words", formulas_page},
           {"expressions", "names, operators and functions", expressions_page},
           {"constraints", "what ties a mechanism beyond its joints", constraints_page},
           {"methods", "the integrators, and how exact a run is", methods_page},

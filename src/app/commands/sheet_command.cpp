@@ -11,6 +11,7 @@
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
+#include "app/commands/paper.hpp"
 #include "app/works/moment.hpp"
 #include "app/film/automatic.hpp"
 #include "app/film/prepared.hpp"
@@ -32,7 +33,8 @@ struct SheetOptions {
   std::vector<std::string> at;  // each one or several between commas; none: the telling one of each scene
   std::vector<std::string> outputs;
   int columns = 0;
-  int width = 1920, height = 1080;
+  int width = 0, height = 0;  // 0: 1920 x 1080
+  PaperOptions paper;
   CommonOptions common;
   const Command* command = nullptr;
 };
@@ -52,7 +54,6 @@ void set_for_cell(Scene& scene, ThemeName theme, double text_scale) {
   scene.video.names_panels = text_scale >= 1;  // words can be read there
   scene.theme = theme;
   scene.text_scale = text_scale;
-  scene.plot.clear();
   if (scene.layout == PageLayout::automatic) scene.layout = PageLayout::scene;
   std::erase(scene.draw, "mass_matrix");  // its numbers could not be read
 }
@@ -62,6 +63,30 @@ std::vector<AskedInstant> instants_of(const SheetOptions& options) {
   for (const std::string& text : options.at)
     for (const std::string& part : parted_instants(text)) asked.push_back(asked_at(part, text));
   return asked;
+}
+
+constexpr double kSheetOfPaper = 1.41421356237309505;  // height over width of A4 upright
+
+struct SheetSize {
+  int width = 1920, height = 1080;  // px
+  double text_scale = 1;
+};
+SheetSize size_of(const SheetOptions& options) {
+  check_paper(options.paper, options.width > 0 || options.height > 0);
+  SheetSize size;
+  size.text_scale = text_scale_of(options.common.flags);
+  if (options.width > 0) size.width = options.width;
+  if (options.height > 0) size.height = options.height;
+  if (!options.paper.is_given()) return size;
+  const PaperPage page = paper_page(options.paper, std::round(kSheetOfPaper * options.paper.width_mm));
+  return {page.width, page.height, std::max(size.text_scale, text_scale_on(page, size.text_scale))};
+}
+
+// Plots that a scene asks for would have no room in a cell.
+void leave_out_plots(Scene& scene, bool quiet) {
+  if (scene.places.contains("plot") && !scene.plot.empty() && !quiet)
+    std::fprintf(stderr, "note: %s: the pictures of a sheet have no plots: `chainreel snapshot` shows one instant with them\n", scene.name.c_str());
+  scene.plot.clear();
 }
 
 // What all cells of a page share.
@@ -91,6 +116,8 @@ ScenesCells cells_of(const std::string& file, const SheetOptions& options, const
   PreparedFilm film = load_film(file, overrides_of(options.common), true, options.common.quiet);
   say_notices(film.panels, options.common.quiet);
   leave_out_faces(film.scene, options.common.quiet);
+  leave_out_plots(film.scene, options.common.quiet);
+  for (PreparedScene& panel : film.panels) panel.scene.plot.clear();
   set_for_cell(film.scene, page.theme, page.text_scale);
   for (PreparedScene& panel : film.panels) set_for_cell(panel.scene, page.theme, page.text_scale);
   std::vector<AskedInstant> asked = page.asked;
@@ -164,8 +191,8 @@ void run_sheet(const SheetOptions& options) {
   const std::size_t count = options.scenes.size() * std::max<std::size_t>(asked.size(), 1);
   const ThemeName theme = theme_of(options.common.flags);
   const Fonts fonts;
-  ContactSheetLook look{double(options.width) / options.height, options.columns, "",
-                        text_scale_of(options.common.flags), &theme_named(to_string(theme)), &fonts};
+  const SheetSize size = size_of(options);
+  ContactSheetLook look{double(size.width) / size.height, options.columns, "", size.text_scale, &theme_named(to_string(theme)), &fonts};
   // The title of the only scene stands above its instants.
   const bool is_of_one = options.scenes.size() == 1 && asked.size() > 1;
   if (is_of_one) look.title = std::filesystem::path(options.scenes.front()).stem().string();
@@ -174,8 +201,9 @@ void run_sheet(const SheetOptions& options) {
   const ScenesCells shown = cells_of(options, {theme, text_scale_in(grid), fonts, asked, options.scenes.size()}, told);
   if (is_of_one && !shown.title.empty()) look.title = shown.title;
   const Picture sheet = draw_contact_sheet(grid, shown.cells, look);
-  for (const std::string& output : outputs)
-    write_picture(sheet, options.width, options.height, fonts, output, options.common.force, memory_of_sheet(*options.command, shown.cells));
+  ClipMemory memory = memory_of_sheet(*options.command, shown.cells);
+  if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;
+  for (const std::string& output : outputs) write_picture(sheet, size.width, size.height, fonts, output, options.common.force, memory);
   tell_files(options.common, outputs, [&] { return Json{{"columns", grid.columns}, {"lines", grid.lines}, {"cells", told}}; });
 }
 
@@ -192,13 +220,14 @@ void add_sheet_command(CommandLine& app) {
   command->add_repeatable("-o,--output", options->outputs, "a .png, .svg or .pdf file (repeatable; default out/sheet.png)");
   command->add_option("--columns", options->columns, "default: as many as make the pictures largest")
       .range(1, kMostCells);
-  command->add_option("--width", options->width, "pixels").range(16, 16384);
-  command->add_option("--height", options->height, "pixels").range(16, 16384);
+  command->add_option("--width", options->width, "pixels (default 1920)").range(16, 16384);
+  command->add_option("--height", options->height, "pixels (default 1080)").range(16, 16384);
+  add_paper_options(*command, options->paper, "that of an upright sheet, 297 for a width of 210");
   add_scene_flags(*command, options->common.flags, FlagGroup::look);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
   command->footer("Example: chainreel sheet rr_free rr_torque pen -o out/sheet.png\n"
-                  "         chainreel sheet rr_torque --at 0,0.4,0.8,1.2,1.6,2 --width 2100 --height 2970 -o out/handout.pdf");
+                  "         chainreel sheet rr_torque --at 0,0.4,0.8,1.2,1.6,2 --width-mm 210 -o out/handout.pdf");
   options->command = command;
   command->callback([options] { run_sheet(*options); });
 }

@@ -1,10 +1,13 @@
 #include "app/film/house_logo.hpp"
 
+#include <tinyxml2.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/film/prepared.hpp"
@@ -32,6 +35,36 @@ std::string family_of(const StyleFonts& fonts, Face face) {
 
 bool has_letters_beyond_ascii(const std::string& words) {
   return std::any_of(words.begin(), words.end(), [](char c) { return static_cast<unsigned char>(c) > 0x7F; });
+}
+
+// librsvg opens no other file and says nothing of it: what a picture takes from outside would be missing in silence.
+// Where the text is no XML, librsvg says so.
+class OutsideReference : public tinyxml2::XMLVisitor {
+ public:
+  bool VisitEnter(const tinyxml2::XMLElement& element, const tinyxml2::XMLAttribute*) override {
+    if (std::string_view(element.Name()).ends_with("a")) return true;  // a link: where a click would lead
+    for (const char* attribute : {"href", "xlink:href"}) {
+      const char* value = element.Attribute(attribute);
+      if (value == nullptr || *value == '\0' || *value == '#' || std::string_view(value).starts_with("data:")) continue;
+      if (found_.empty()) found_ = std::string("<") + element.Name() + "> takes '" + value + "'";
+    }
+    return true;
+  }
+
+  const std::string& found() const { return found_; }
+
+ private:
+  std::string found_;
+};
+
+void require_whole(const std::string& bytes, const std::string& path) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS) return;
+  OutsideReference outside;
+  document.Accept(&outside);
+  if (!outside.found().empty())
+    throw Error(ExitCode::bad_input,
+                outside.found() + " from outside of the file, which is not opened: save it with its pictures inside (as data:)", {path});
 }
 
 // What a scene has to say in words of one's own.
@@ -67,7 +100,9 @@ Json fallback_report(const Scene& scene) {
 void read_logo(Logo& logo) {
   note_input(logo.file);
   const std::string bytes = read_plain_file(logo.file, kLargestLogoFile);
-  logo.image = std::make_shared<const Image>(lower_case_ending(logo.file) == ".svg"
+  const bool is_svg = lower_case_ending(logo.file) == ".svg";
+  if (is_svg) require_whole(bytes, logo.file);
+  logo.image = std::make_shared<const Image>(is_svg
                                                  ? svg_image(bytes, logo.file, kPixelsOfSvg)
                                                  : decode_png(bytes, logo.file));
   logo.sha256 = sha256_of(bytes);

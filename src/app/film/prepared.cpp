@@ -10,6 +10,7 @@
 #include "core/format.hpp"
 #include "draw/page/house_style.hpp"
 #include "draw/robot/view.hpp"
+#include "picture/formula_words.hpp"
 #include "scene/annotation.hpp"
 #include "scene/run/prepare.hpp"
 #include "scene/run/title.hpp"
@@ -83,7 +84,26 @@ void load_shapes(PreparedFilm& film) {
   }
 }
 
+// Formulas of titles, plots and annotations are notation; elsewhere in a page's words none is asked for.
+void check_formulas(const PreparedFilm& film) {
+  ProblemList problems;
+  const auto check = [&](const std::string& key, const std::string& text, const Place& place) {
+    try {
+      require_formulas(text);
+    } catch (const Error& error) {
+      problems.add("'" + key + "': " + error.problems().front().message, place);
+    }
+  };
+  check("title", film.scene.title, film.scene.place_of("title"));
+  if (film.panels.size() > 1)
+    for (const PreparedScene& panel : film.panels) check("title", panel.scene.title, panel.scene.place_of("title"));
+  for (const AnnotationEntry& entry : film.scene.annotate) check("annotate", entry.text, entry.place);
+  for (const PlotEntry& plot : film.scene.plot) check("plot", plot.title, plot.place);
+  problems.throw_if_any();
+}
+
 void check_words(const PreparedFilm& film) {
+  check_formulas(film);
   std::vector<const Scene*> scenes;
   std::vector<const Chain*> chains;
   for (const PreparedScene& panel : film.panels) {

@@ -10,11 +10,11 @@
 #include "app/cli/streams.hpp"
 #include "app/film/clip_memory.hpp"
 #include "app/film/formats.hpp"
-#include "app/report/alt_text.hpp"
 #include "app/report/sidecar.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/input_file.hpp"
+#include "picture/formula_words.hpp"
 #include "scene/film_clock.hpp"
 
 namespace chainreel {
@@ -32,6 +32,8 @@ struct ChartKind {
 constexpr std::array<ChartKind, 3> kChartKinds = {{{"_chart.png", "Speed against accuracy"},
                                                    {"_energy.png", "Energy error over a long time"},
                                                    {"_stability.png", "Where the step is too long"}}};
+
+constexpr std::array<std::string_view, 4> kBestFirst = {".mp4", ".webm", ".apng", ".gif"};
 
 // "video/mp4", or "" of what browsers do not play.
 std::string browser_type_of(const fs::path& path) {
@@ -59,8 +61,12 @@ void add_films_in(const fs::path& folder, FoundClips& found) {
       continue;
     }
     // The same film once, for which one audit speaks.
-    const std::string other = fs::path(path).replace_extension(".mp4").string();
-    if (path.extension() == ".webm" && fs::exists(other, code) && audit_path_of(path.string()) == audit_path_of(other)) continue;
+    const auto shows_the_same = [&](std::string_view ending) {
+      const std::string other = fs::path(path).replace_extension(ending).string();
+      return other != path.string() && fs::exists(other, code) && audit_path_of(path.string()) == audit_path_of(other);
+    };
+    const auto* const own = std::find(kBestFirst.begin(), kBestFirst.end(), lower_case_ending(path.string()));
+    if (std::any_of(kBestFirst.begin(), own, shows_the_same)) continue;
     in_folder.push_back(path.string());
   }
   std::sort(in_folder.begin(), in_folder.end());
@@ -182,7 +188,7 @@ FoundClips find_clips(const std::vector<std::string>& paths) {
     else if (!fs::is_regular_file(path, code))
       problems.add("there is no such file or folder", {path});
     else if (browser_type_of(path).empty())
-      problems.add("is no film for browsers: a gallery takes .mp4 and .webm", {path});
+      problems.add("is no film for browsers: a gallery takes .mp4, .webm, .gif and .apng", {path});
     else
       found.paths.push_back(path);
   }
@@ -192,7 +198,7 @@ FoundClips find_clips(const std::vector<std::string>& paths) {
   std::erase_if(found.paths, [&](const std::string& path) { return !seen.insert(path).second; });
   std::sort(found.left_out.begin(), found.left_out.end());
   if (!found.paths.empty()) return found;
-  throw Error(ExitCode::bad_input, "there is no film (.mp4, .webm) here: render some first", {joined(paths)});
+  throw Error(ExitCode::bad_input, "there is no film (.mp4, .webm, .gif, .apng) here: render some first", {joined(paths)});
 }
 
 std::vector<GalleryClip> read_clips(const std::vector<std::string>& paths) {

@@ -27,7 +27,7 @@ struct GalleryClip {
   std::vector<GalleryChart> charts;
 };
 
-// Films named, and those in folders named (NAME.webm alone where there is no NAME.mp4), in the order in which they are named, those of a folder by their names.
+// Films named, and those in folders named (of NAME.mp4, .webm, .apng and .gif that show the same the first), in the order in which they are named, those of a folder by their names.
 // Throws Error (exit 3) where a path is no film and no folder, and where there is no film at all.
 struct FoundClips {
   std::vector<std::string> paths;

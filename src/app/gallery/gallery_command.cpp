@@ -51,7 +51,7 @@ void run_gallery(const GalleryOptions& options) {
   output.commit();
   if (!options.common.quiet) tell_of_long_films(clips);
   if (!options.common.quiet && !found.left_out.empty())
-    std::fprintf(stderr, "note: left out: %s; browsers play .mp4 and .webm here: give such a -o beside, as in -o a.gif -o a.mp4\n", joined(found.left_out).c_str());
+    std::fprintf(stderr, "note: left out: %s; browsers play .mp4, .webm, .gif and .apng: give such a -o beside, as in -o a.mov -o a.mp4\n", joined(found.left_out).c_str());
   tell_files(options.common, {options.output}, [&] { return Json{{"clips", clips.size()}}; });
 }
 

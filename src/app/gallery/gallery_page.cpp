@@ -60,15 +60,25 @@ Filler scene_of(const GalleryClip& clip, const std::string& id) {
                   {{"id", plain(id)}, {"file", plain(clip.name + ".yaml")}, {"text", plain(clip.scene)}}));
 }
 
+// A film with its controls; of pictures that move by themselves the picture.
+Filler moving_of(const GalleryClip& clip, const std::string& id) {
+  return [&clip, id](std::ostream& stream) {
+    fill_page(stream, embedded_page(clip.type.starts_with("image/") ? "moving_picture.html" : "film.html"),
+              {{"id", plain(id)},
+               {"type", plain(clip.type)},
+               {"width", plain(std::to_string(clip.start.width))},
+               {"height", plain(std::to_string(clip.start.height))},
+               {"poster", markup(base64(png_bytes(clip.start.frame)))},
+               {"words", plain(clip.words)},
+               {"film", file_in_base64(clip.path)}});
+  };
+}
+
 void write_card(std::ostream& stream, const GalleryClip& clip, const std::string& id) {
   fill_page(stream, embedded_page("card.html"),
             {{"id", plain(id)},
              {"file", plain(std::filesystem::path(clip.path).filename().string())},
-             {"type", plain(clip.type)},
-             {"width", plain(std::to_string(clip.start.width))},
-             {"height", plain(std::to_string(clip.start.height))},
-             {"poster", markup(base64(png_bytes(clip.start.frame)))},
-             {"film", file_in_base64(clip.path)},
+             {"moving", moving_of(clip, id)},
              {"title", plain(clip.title)},
              {"words", plain(clip.words)},
              {"facts", plain(audit_facts(clip.audit, clip.start.seconds))},

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "app/cli/command_line.hpp"
+#include "core/names.hpp"
 #include "integrate/method.hpp"
 
 namespace chainreel {
@@ -24,6 +26,9 @@ std::vector<GuidePage> guide_pages(const CommandLine& app);
 std::string scene_page();
 std::string constraints_page();
 std::string layers_page();
+std::string formulas_page();
+// What a formula may hold: each name is one.
+std::span<const Name> formula_notation();
 // --- reference_runs.cpp
 std::string methods_page();
 std::string expressions_page();

@@ -10,8 +10,6 @@
 namespace chainreel {
 namespace {
 
-
-
 std::string words_text(std::span<const Name> words) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i)
@@ -209,6 +207,34 @@ std::string layers_page() {
          markdown_table(table) + "\n" + code_block("yaml", draw.example) +
          "\nHow `ellipse` reads the effective mass:\n\n" + meanings_of(*find_key("ellipse.reading")) +
          "\n" + code_block("yaml", find_key("ellipse")->example);
+}
+
+std::span<const Name> formula_notation() {
+  static constexpr Name rows[] = {
+      {"q1 x_G x_{rel, 2}", "letters, with an index: digits behind them, or what `_` lowers"},
+      {"tau theta Lambda", "Greek letters by their names"},
+      {"qd thetadd dot{x} ddot{x}", "time derivatives"},
+      {"J^T J^-1 e^{-2 t}", "what `^` raises; a single T is the transpose"},
+      {"M J Lambda bold{C}", "bold: the first three by themselves, what stands in `bold{..}`"},
+      {"frac{1}{2} m v^2", "a fraction"},
+      {"sqrt{k/m}", "a root"},
+      {"col{x; y} mat{a, b; c, d}", "a column, and a matrix row by row"},
+      {"hat{q} bar{q}", "a hat, a bar"},
+      {"2*a + b <= c", "signs; `*` is a dot between letters and nothing behind a number"},
+      {"sin(q1) log(x) 3.5 N m", "functions, numbers and units, upright"},
+      {"\"peak\" x", "words in quotes, as they stand"},
+      {"\\tau = M(q)\\ddot{q} + \\frac{1}{2}\\mathbf{C}", "the same as LaTeX has it"}};
+  return rows;
+}
+
+std::string formulas_page() {
+  std::vector<std::vector<std::string>> table{{"notation", "what it is"}};
+  for (const Name& one : formula_notation()) table.push_back({code(one.name), one.meaning});
+  return "# Formulas in words\n\n"
+         "Titles, the words of `annotate:` and titles of plots may hold formulas between dollar signs. A dollar sign without a partner is\n"
+         "one, as is `\\$`. What cannot be read as a formula is refused.\n\n" +
+         markdown_table(table) + "\n" +
+         code_block("yaml", "title: \"$M(q) qdd + nle(q, qd) = tau$, with $tau_1 = 5 sin(2 t)$\"");
 }
 
 }  // namespace chainreel

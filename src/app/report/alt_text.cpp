@@ -9,29 +9,11 @@
 #include "app/report/report.hpp"
 #include "core/format.hpp"
 #include "draw/layers/speed_box.hpp"
-#include "picture/math_notation.hpp"
+#include "picture/formula_words.hpp"
 #include "scene/run/title.hpp"
 #include "scene/text/scene_paths.hpp"
 
 namespace chainreel {
-std::string in_plain_words(const std::string& words) {
-  std::string plain;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == '\\' && i + 1 < words.size() && words[i + 1] == '$') {
-      plain += words[++i];
-      continue;
-    }
-    const std::size_t end = words[i] == '$' ? words.find('$', i + 1) : std::string::npos;
-    if (end == std::string::npos) {
-      plain += words[i];
-      continue;
-    }
-    plain += plain_formula(std::string_view(words).substr(i + 1, end - i - 1));
-    i = end;
-  }
-  return plain;
-}
-
 namespace {
 
 constexpr double kCaptionSeconds = 2;  // at most; the next event ends it
@@ -51,10 +33,23 @@ std::string vector_text(const std::vector<double>& values) {
   return text + ")";
 }
 
+// What it is made of, in the order in which it is added.
+std::string control_words(const Control& control, const std::string& end_effector) {
+  std::vector<std::string> parts;
+  if (!control.csv.empty()) parts.emplace_back("torques of a table");
+  if (!control.inverse_of.empty()) parts.emplace_back("the torques that a recorded motion takes");
+  if (control.pd) parts.emplace_back("springs and dampers of the joints (pd)");
+  if (control.computed_torque) parts.emplace_back("computed torque");
+  if (control.task) parts.push_back("a spring and a damper at " + (control.task->frame.empty() ? end_effector : control.task->frame));
+  if (control.gravity_compensation) parts.emplace_back("gravity compensation");
+  if (!control.plus.empty()) parts.emplace_back("torques of its own");
+  return joined(parts, " and ");
+}
+
 std::string torque_words(const Scene& scene) {
   if (scene.motion) return "the torques that a recorded motion takes (inverse dynamics)";
   if (scene.control && scene.control->function) return "torques of " + scene.control->function->words;
-  if (scene.control) return "a control of all joints";
+  if (scene.control) return control_words(*scene.control, scene.end_effector);
   std::string text;
   bool acts = false;
   for (const TorqueEntry& entry : scene.torque) {

@@ -26,7 +26,4 @@ std::string alt_text(const FilmReport& report, const ClipLength& clip);
 // Captions in SRT, one an event of the runs, at the times of the film, none behind its end; "" where there is no event.
 std::string captions(const FilmReport& report);
 
-// Words with formulas between dollar signs for where there are letters alone: see plain_formula.
-std::string in_plain_words(const std::string& words);
-
 }  // namespace chainreel

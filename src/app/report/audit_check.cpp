@@ -68,7 +68,7 @@ bool holds_no_frame(const Json& held) {
 // Keys of the audit that a film or picture remembers otherwise. Throws Error where it remembers nothing.
 std::vector<std::string> contradictions(const std::string& path, const Json& written) {
   // What is known behind the last frame alone; of the rest an audit has besides what says nothing.
-  static const std::set<std::string> later{"seconds", kMechanisms, kSet, kScenePath, kAuditedFiles, kSidecarHashes, kDrawnFrames};
+  static const std::set<std::string> later{"seconds", kMechanisms, kTables, kSet, kScenePath, kAuditedFiles, kSidecarHashes, kDrawnFrames};
   const Json audit = comparable(written), remembered = comparable(recall(path).audit);
   std::vector<std::string> keys;
   for (const auto& [key, value] : remembered.items())

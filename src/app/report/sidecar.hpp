@@ -13,6 +13,7 @@ namespace chainreel {
 
 // In audits alone, and not in what films remember: a record of each panel's model, and what the command line changed.
 inline constexpr const char* kMechanisms = "mechanisms";
+inline constexpr const char* kTables = "tables";  // likewise, of what drives it
 inline constexpr const char* kSet = "set";
 inline constexpr const char* kScenePath = "scene_path";  // from the audit's folder; null of a scene that is no file
 

@@ -2,21 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <span>
 
-#include "core/csv.hpp"
-#include "core/hash.hpp"
+#include "app/report/driving_tables.hpp"
 #include "scene/keys/keys.hpp"
 #include "scene/run/prepare.hpp"
 #include "sim/trajectory_difference.hpp"
 
 namespace chainreel {
 namespace {
-
-std::string file_name(const std::string& path) {
-  return std::filesystem::path(path).filename().string();
-}
 
 // Where files lie and what the model's is called is of no matter, what they say is told of themselves; how
 // films are packed no picture shows.
@@ -25,37 +19,8 @@ bool is_recorded(const SceneKey& key) {
          key.flags != FlagGroup::output && key.section() != "hold";
 }
 
-// Of the tables that drive a scene: their names as they stand in its keys, and a hash of their numbers.
-class Tables {
- public:
-  void take(MotionEntry& motion) { add(motion.csv, sha256_of(*motion.table)); }
-  void take(Control& control) {
-    take(control.csv);
-    take(control.inverse_of);
-    if (control.pd) take(control.pd->trajectory);
-    if (control.computed_torque) take(control.computed_torque->trajectory);
-  }
-  Json hashes() { return std::move(hashes_); }
-
- private:
-  // Names alone stay in the key.
-  void take(std::string& path) {
-    if (!path.empty()) add(path, sha256_of(read_csv(path)));
-  }
-  void add(std::string& path, const std::string& hash) {
-    path = file_name(path);
-    const std::string others = hashes_.value(path, "");  // of another folder
-    hashes_[path] = others + (others.empty() ? "" : " ") + hash;
-  }
-
-  Json hashes_ = Json::object();
-};
-
-Json keys_of(Scene scene, KeyOf of, Tables& tables) {
-  if (scene.motion) tables.take(*scene.motion);
-  if (scene.control) tables.take(*scene.control);
-  for (TorqueEntry& entry : scene.torque)
-    if (entry.control) tables.take(*entry.control);
+// Tables by their names alone.
+Json keys_of(const Scene& scene, KeyOf of) {
   std::vector<SceneEntry> entries;
   for (const SceneKey& key : scene_keys())
     if (key.of == of && is_recorded(key)) key.write(key, scene, entries);
@@ -127,8 +92,9 @@ Json model_record(const ModelSource& urdf, const ModelOptions& options, Describe
 
 Json run_record(const PreparedFilm& film, const Runs& runs) {
   Json models = Json::array(), panels = Json::array();
-  Tables page_tables;
-  Json page = keys_of(film.scene, KeyOf::page, page_tables);
+  Scene named = film.scene;
+  take_driving_tables(named);
+  Json page = keys_of(named, KeyOf::page);
   page["title"] = film.scene.title;
   std::vector<ModelReading> read;  // of `models`: panels that share one read its meshes once
   for (std::size_t i = 0; i < film.panels.size(); ++i) {
@@ -139,11 +105,12 @@ Json run_record(const PreparedFilm& film, const Runs& runs) {
       read.push_back(reading);
       models.push_back(model_record(reading.source, reading.options, reading.collisions));
     }
-    Tables tables;
-    Json keys = keys_of(panel.scene, KeyOf::panel, tables);
+    named = panel.scene;
+    Json tables = take_driving_tables(named);
+    Json keys = keys_of(named, KeyOf::panel);
     panels.push_back({{"title", panel.scene.title},
                       {"keys", std::move(keys)},
-                      {"tables", tables.hashes()},
+                      {"tables", std::move(tables)},
                       {"model", index},
                       {"method", method_record(panel)},
                       {"trajectory", trajectory_record(panel, runs[i])}});

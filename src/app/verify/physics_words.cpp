@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "app/report/driving_tables.hpp"
 #include "app/verify/physics_record.hpp"
 #include "core/change_words.hpp"
 #include "core/error.hpp"
@@ -128,14 +129,6 @@ void add_model_changes(const Json& before, const Json& after, const Json& keys, 
   }
 }
 
-// `keys`: of the scene. What is shown as it was recorded is driven by no other table.
-void add_table_changes(const Json& before, const Json& after, const Json& keys, Changes& changes) {
-  const std::string key = keys.contains("motion") ? "motion" : "torque";
-  for (const auto& [name, hash] : after.items())
-    if (before.contains(name) && before[name] != hash)
-      changes.causes.push_back(key + ": the numbers in table " + name + " differ");
-}
-
 // What happened otherwise, first in one sentence with its cause where there is but one.
 std::vector<std::string> told(const TrajectoryDifference& difference, const Json& before, const Json& after,
                               Changes changes) {
@@ -162,7 +155,9 @@ std::vector<std::string> explain_panels(const Json& before, const Json& after, c
                                         const Json& of_after) {
   Changes changes;
   add_key_changes(before.at("keys"), after.at("keys"), changes);
-  add_table_changes(before.at("tables"), after.at("tables"), after.at("keys"), changes);
+  // What is shown as it was recorded is driven by no other table.
+  for (std::string& one : table_changes(before.at("tables"), after.at("tables"), after.at("keys").contains("motion") ? "motion" : "torque"))
+    changes.causes.push_back(std::move(one));
   add_model_changes(of_before.at("models").at(before.at("model").get<std::size_t>()),
                     of_after.at("models").at(after.at("model").get<std::size_t>()), after.at("keys"),
                     changes);

@@ -13,6 +13,7 @@
 
 #include "app/film/automatic.hpp"
 #include "app/report/alt_text.hpp"
+#include "app/report/driving_tables.hpp"
 #include "app/report/report.hpp"
 #include "app/report/sidecar.hpp"
 #include "app/report/motion_table.hpp"
@@ -342,10 +343,12 @@ std::string scene_path_from(const RenderJob& job, const Scene& scene) {
   return path_from(std::filesystem::path(job.targets.front().path).parent_path().string(), scene.file);
 }
 
+Json held_frames_of(const Schedule& schedule) { return {{"first", schedule.first}, {"last", schedule.last}}; }
+
 // What every file of a film remembers.
 ClipMemory memory_of(const FilmReport& report, const Schedule& schedule, const Json& meshes) {
   ClipMemory memory = memory_of(report);
-  if (schedule.first > 0 || schedule.last > 0) memory.audit["held_frames"] = {{"first", schedule.first}, {"last", schedule.last}};
+  if (schedule.first > 0 || schedule.last > 0) memory.audit["held_frames"] = held_frames_of(schedule);
   if (!meshes.is_null()) memory.audit[kMeshesHash] = meshes;
   return memory;
 }
@@ -384,7 +387,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   result.frames = total_frames;
   result.film_seconds = frame_time(result.frames, fps);
   const FilmReport report = film_report(runs, pictures, result.frames);
-  const Json held{{"first", schedule.first}, {"last", schedule.last}}, meshes = or_null(meshes_hash(film));
+  const Json meshes = or_null(meshes_hash(film));
   const ClipMemory memory = memory_of(report, schedule, meshes);
   result.times.draw += clock.lap();
 
@@ -392,9 +395,13 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   result.audit[kMeshesHash] = meshes;
   result.audit[kSet] = scene.set;
   result.audit[kScenePath] = or_null(scene_path_from(job, scene));
-  result.audit[kMechanisms] = Json::array();
-  for (const PreparedScene& panel : film.panels) result.audit[kMechanisms].push_back(mechanism_record(panel));
-  result.audit["held_frames"] = held;
+  result.audit[kMechanisms] = result.audit[kTables] = Json::array();
+  for (const PreparedScene& panel : film.panels) {
+    result.audit[kMechanisms].push_back(mechanism_record(panel));
+    Scene named = panel.scene;
+    result.audit[kTables].push_back(take_driving_tables(named));
+  }
+  result.audit["held_frames"] = held_frames_of(schedule);
 
   FrameRange range{0, result.frames};
   std::string part;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "picture/formula_words.hpp"
+
 namespace chainreel {
 namespace {
 

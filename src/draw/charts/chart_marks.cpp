@@ -7,6 +7,7 @@
 #include <set>
 
 #include "draw/charts/chart.hpp"
+#include "picture/formula_words.hpp"
 #include "picture/point.hpp"
 
 namespace chainreel {

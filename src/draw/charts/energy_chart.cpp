@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "picture/formula_words.hpp"
+
 namespace chainreel {
 namespace {
 

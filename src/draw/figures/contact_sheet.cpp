@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "draw/page/sheet.hpp"
+#include "picture/formula_words.hpp"
 #include "picture/place_picture.hpp"
 
 namespace chainreel {
@@ -69,21 +70,6 @@ TextLine title_line(const std::string& text, double size, const ContactSheetLook
   return lay_out_words(*look.fonts, text, {Face::label, size, look.theme->ink});
 }
 
-// Words, a formula between dollar signs with its spaces as one.
-std::vector<std::string> words_of(const std::string& title) {
-  std::vector<std::string> words{""};
-  bool in_formula = false;
-  for (const char c : title) {
-    in_formula ^= c == '$';
-    if (c == ' ' && !in_formula)
-      words.emplace_back();
-    else
-      words.back() += c;
-  }
-  std::erase(words, "");
-  return words;
-}
-
 // The longest beginning of a text, with an ellipsis behind it, that is no wider than `width`: whole words, or
 // a part of the only one.
 std::string shortened(const std::string& text, double size, double width, const ContactSheetLook& look) {
@@ -91,7 +77,7 @@ std::string shortened(const std::string& text, double size, double width, const 
     for (std::size_t end = text.size() - 1; end > 0; --end) {
       const bool inside_character = (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80;
       if (inside_character || (whole_words && text[end] != ' ')) continue;
-      if (std::count(text.begin(), text.begin() + std::ptrdiff_t(end), '$') % 2 == 1) continue;  // within a formula
+      if (!is_outside_formula(text, end)) continue;
       const std::string cut = text.substr(0, end) + kEllipsis;
       if (title_line(cut, size, look).advance <= width) return cut;
     }
@@ -102,7 +88,7 @@ std::string shortened(const std::string& text, double size, double width, const 
 std::vector<std::string> broken_title(const std::string& title, double size, double width, int most,
                                       const ContactSheetLook& look) {
   std::vector<std::string> lines;
-  for (const std::string& word : words_of(title)) {
+  for (const std::string& word : formula_words(title)) {
     const std::string longer = lines.empty() ? word : lines.back() + " " + word;
     const bool fits = title_line(longer, size, look).advance <= width;
     if (lines.empty() || (!fits && int(lines.size()) < most))

@@ -32,7 +32,8 @@ namespace {
 constexpr double kSmallerAxis = 0.14, kLargerAxis = 0.24;
 constexpr double kNearlyInfinite = 32;  // times the median
 
-void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose& pose, Workspace& ws) {
+// How many semi-axes have no number, for want of room.
+int draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose& pose, Workspace& ws) {
   const Theme& theme = *panels.options.theme;
   const Rect scene = panels.scene(i), first = panels.scene(0);
   const int clip = int(picture.clips.size());
@@ -68,7 +69,7 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
   if (!drawing.shapes) draw_end_effector(picture, tip, drawing.look, clip);
   std::vector<Obstacle> bodies;
   if (drawing.shapes) add_bodies(bodies, panels.skeleton, ws, camera);
-  draw_clear_of(picture, framed, labels, bodies, panels.picture(i), theme, clip);
+  const int left_out = draw_clear_of(picture, framed, labels, bodies, panels.picture(i), theme, clip);
   if (i < panels.options.labels.size()) {
     const TextStyle text{Face::label, scaled(size::kAxis, panels.options.text_scale), theme.ink, Align::left};
     draw_text(picture,
@@ -85,6 +86,7 @@ void draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pos
                         theme, panels.fonts, int(line));
   else
     draw_caption(picture, panels.words.notations[i], pose.effective, panels.words.size, caption, text_scale, theme, panels.fonts);
+  return left_out;
 }
 
 }  // namespace
@@ -199,7 +201,9 @@ Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<d
   Picture picture;
   picture.aspect = double(options.width) / page.options.height;
   picture.background = options.theme->background;
-  for (std::size_t i = 0; i < poses.size(); ++i) draw_panel(picture, panels, i, poses[i], ws);
+  int left_out = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) left_out += draw_panel(picture, panels, i, poses[i], ws);
+  if (numbers_left_out != nullptr) *numbers_left_out = left_out;
   draw_sheet(picture, sheet_of(chain, page.options, panels.scale, fonts, page.height, panels.has_bare_masses));
   return in_page_units(picture, page.height);
 }

@@ -54,11 +54,11 @@ std::string symbol_of(PlotQuantity quantity) {
   }
 }
 
-// "q [rad]" with its symbol as a formula.
+// "q [rad]" with its symbol, or its expression, as a formula. Titles of a scene's own have what formulas they have.
 std::string title_with_symbol(const PlotCurves& plot) {
-  const std::string symbol = symbol_of(plot.quantity), text = without_formulas(plot.title);
-  const bool leads = !symbol.empty() && (text == symbol || text.starts_with(symbol + " "));
-  return leads ? "$" + symbol + "$" + text.substr(symbol.size()) : text;
+  const std::string symbol = plot.formula.empty() ? symbol_of(plot.quantity) : plot.formula;
+  const bool leads = !symbol.empty() && (plot.title == symbol || plot.title.starts_with(symbol + " "));
+  return leads ? "$" + symbol + "$" + plot.title.substr(symbol.size()) : plot.title;
 }
 
 // In comparisons of two the titles bear the colours of their curves.

@@ -8,6 +8,7 @@
 #include "draw/layers/layer.hpp"
 #include "draw/robot/view.hpp"
 #include "dynamics/kinematics.hpp"
+#include "picture/formula_words.hpp"
 #include "picture/point.hpp"
 #include "scene/annotation.hpp"
 
@@ -38,22 +39,6 @@ void append(TextLine& line, const TextLine& piece, Point at) {
   line.box = is_first ? box : around(line.box, box);
 }
 
-// Its words; a formula is one.
-std::vector<std::string> words_of(const std::string& text) {
-  std::vector<std::string> words(1);
-  bool is_math = false;
-  for (const char c : text) {
-    is_math ^= c == '$';
-    if (c == ' ' && !is_math) {
-      if (!words.back().empty()) words.emplace_back();
-    } else {
-      words.back() += c;
-    }
-  }
-  if (words.back().empty()) words.pop_back();
-  return words;
-}
-
 // Where lines end, each as long as the width lets it be, and one word at least: the words behind them.
 std::vector<std::size_t> ends_within(const std::vector<double>& words, double space, double width) {
   std::vector<std::size_t> ends;
@@ -73,7 +58,7 @@ std::vector<std::size_t> ends_within(const std::vector<double>& words, double sp
 
 // On as few lines as the width needs, about equally long.
 TextLine lay_out_within(const Fonts& fonts, const std::string& text, const TextStyle& style, double width) {
-  const std::vector<std::string> words = words_of(text);
+  const std::vector<std::string> words = formula_words(text);
   std::vector<double> widths;
   for (const std::string& word : words) widths.push_back(lay_out_words(fonts, word, style).advance);
   const double space = lay_out_words(fonts, "a b", style).advance - lay_out_words(fonts, "ab", style).advance;
@@ -127,12 +112,6 @@ class Annotations : public Layer {
 
   TextLine lay_out(const AnnotationEntry& entry) const {
     try {
-      // What is no notation is refused here, where words elsewhere show it as it is written.
-      for (std::size_t from = entry.text.find('$'), until; from != std::string::npos; from = entry.text.find('$', until + 1)) {
-        until = entry.text.find('$', from + 1);
-        if (until == std::string::npos) break;
-        lay_out_math(stage_->fonts, entry.text.substr(from + 1, until - from - 1), style());
-      }
       return lay_out_words(stage_->fonts, entry.text, style());
     } catch (const Error& error) {
       throw Error(error.code(), error.problems().front().message, entry.place);

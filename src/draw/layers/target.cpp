@@ -142,10 +142,12 @@ class Target : public Layer {
       for (const TaskTarget::Pull& pull : target.pulls)
         if (pull.kp != 0) draw_pull_from(tip + pull.axis.dot(place - tip) * pull.axis);
     const double radius = panel.marks() * kPlace;
-    const Paint line{{}, color, panel.marks() * kPlaceLine};
+    // Of a place that is reached the link would leave the ends of the cross.
+    const Color mark = color.faded(std::clamp(norm(from - at) / link_end(panel.look()) - 0.5, 0.0, 1.0));
+    const Paint line{{}, mark, panel.marks() * kPlaceLine};
     picture.add(Ellipse{at, {radius, 0}, {0, radius}, line}, panel.clip());
     for (const Point way : {Point{1, 0}, Point{0, 1}})
-      picture.add(Capsule{at - 1.5 * radius * way, at + 1.5 * radius * way, panel.marks() * kPlaceLine / 2, {color, {}, 0}}, panel.clip());
+      picture.add(Capsule{at - 1.5 * radius * way, at + 1.5 * radius * way, panel.marks() * kPlaceLine / 2, {mark, {}, 0}}, panel.clip());
   }
 
   std::map<const StagedRun*, Followed> followed_;

@@ -25,6 +25,7 @@ constexpr double kRestBeforeRing = 0.3, kRingFade = 0.15;  // s
 constexpr double kRingRadius = 0.026;     // units of H: close about a joint's disc
 constexpr double kLeastLabelled = 0.026;  // units of H: words of torques stand off their joints by more, and arrows that have words are longer
 constexpr double kWholeRadius = 60;       // degrees: an arc that turns by less has a smaller radius, down to a dot
+constexpr double kClearOfJoint = 0.020;   // units of H: arcs of twice that have an edge, those within it none
 constexpr double kTorqueDot = 0.0062;     // radius, units of H
 constexpr double kBreakOpens = 0.1;       // a break is open where this much of the length is cut
 constexpr double kRoomStep = 0.01;   // units of H: rooms are rounded up to multiples, to have few kinds
@@ -247,6 +248,8 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   const double wished = scale.on_page(std::abs(value)), turn = std::min(wished, widest);
   style.broken = broken(wished, widest);
   const double grown = std::min(1.0, turn / whole);
+  // What sets an arc off from links would bite into the disc of its joint.
+  style.casing = theme_->background.faded(std::clamp(grown * radius / (marks * kClearOfJoint) - 1, 0.0, 1.0));
   draw_turn(picture, center, grown * u, grown * w, value > 0 ? turn : -turn, style, clip);
   if (vector.ring > 0) {
     const double ring = kRingRadius / (size::kTorqueArc * std::sqrt(vector.size));

@@ -19,6 +19,7 @@ struct Part {
   Picture shapes;
 };
 
+constexpr double kPointMass = 0.034, kPointOfLink = 0.95;  // radius at most, units of H and widths of its link
 constexpr double kBodyOutline = 0.0015;  // of body shapes, units of H: their light shows their form
 // Opacity of the black of a shadow, on a white page and on a dark one.
 constexpr double kShadow = 0.17, kShadowOnDark = 0.5;
@@ -115,6 +116,16 @@ void draw_foot(Picture& picture, const ChainDrawing& drawing, const Body& body, 
   draw_ground(picture, {foot - half, foot + half}, {0, -1}, look, clip);
 }
 
+// Of a body without extent, or a payload. Its size says nothing: a mass that changes a little leaves pictures as they are.
+void draw_point_mass(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, const PointMass& point, int clip) {
+  const Point center = drawing.camera.project(pose_of(ws, point.body) * point.at);
+  const ChainLook& look = drawing.look;
+  if (!is_drawable(center) || !look.filled) return;  // outlines have joints alone
+  const double r = std::min(look.marks * kPointMass, kPointOfLink * look.link_width);
+  const Color fill = toned(point.is_payload ? look.theme->muted : link_color(drawing, point.body), look);
+  picture.add(Ellipse{center, {r, 0}, {0, r}, {fill, toned(look.theme->ink, look), look.stroke * size::kLinkOutline}}, clip);
+}
+
 void draw_bodies(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip) {
   Solids solids = solids_seen_by(drawing.camera);
   add_bodies(solids, *drawing.shapes, ws, drawing.camera);
@@ -184,6 +195,9 @@ void draw_rails(Picture& picture, const ChainDrawing& drawing, const Workspace& 
 void draw_links(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip) {
   if (drawing.shapes) {
     draw_bodies(picture, drawing, ws, clip);
+    // Those of bodies are among the shapes.
+    for (const PointMass& point : drawing.chain.point_masses)
+      if (point.is_payload) draw_point_mass(picture, drawing, ws, point, clip);
     return;
   }
   const std::vector<LinkSegment>& links = drawing.skeleton.links;
@@ -202,6 +216,8 @@ void draw_links(Picture& picture, const ChainDrawing& drawing, const Workspace& 
                                     drawing.camera.depth(X_WB * links[link].to));
       draw_link(part_at(depth), drawing, ws, links[link], clip);
     }
+    for (const PointMass& point : drawing.chain.point_masses)
+      if (point.body == b) draw_point_mass(part_at(drawing.camera.depth(pose_of(ws, b) * point.at)), drawing, ws, point, clip);
     const Vector3d origin = pose_of(ws, b).translation();
     const Point center = drawing.camera.project(origin);
     if (drawing.chain.bodies[std::size_t(b)].joint.kind == JointKind::revolute && is_drawable(center)) {

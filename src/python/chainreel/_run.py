@@ -28,8 +28,8 @@ class Scene:
 
     keys, set: change keys of it, as `--set` does; None takes a key away. A dict's paths start in the working folder;
     its model may also be the name of one that comes with chainreel.
-    torque: a function of t (s), q (nq,) and qd (nv,) that gives nv numbers, N m or N, for a scene without a torque of its
-    own; a dict may hold it, too. It must depend on its arguments alone: it is asked several times of each instant, not in the order of time. It is slow: each
+    torque: a function of t (s), q (nq,) and qd (nv,) that gives nv numbers, N m or N, in the place of the scene's own
+    torque; a dict may hold it, too. It must depend on its arguments alone: it is asked several times of each instant, not in the order of time. It is slow: each
     question takes some microseconds, where an expression in the scene takes some 10 ns, and `method: auto` asks a hundred
     thousand of them; give a method, or write the torque as text where it is one. Films show and remember what it is called, and
     cannot be made again from that.
@@ -50,7 +50,10 @@ class Scene:
         twice = [key for key in keys if key in (set or {})]
         if twice:
             raise TypeError(f"{', '.join(twice)}: given as an argument and in set")
-        self._overrides = overrides_of({**keys, **(set or {})})
+        if torque is not None and "torque" in (set or {}):
+            raise ValueError("a torque is set, and a function given: give one of them")
+        replaced = {} if torque is None else {"torque": None}  # a function stands for what the scene has, as a text would
+        self._overrides = overrides_of({**replaced, **keys, **(set or {})})
         self._torque = torque
 
     def __repr__(self) -> str:

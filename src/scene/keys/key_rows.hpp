@@ -120,7 +120,7 @@ class KeyRow {
   // Of a list of the start: single numbers may be named by their joints.
   KeyRow&& by_joint(std::vector<double> StartState::*list, std::vector<JointNumbers> StartState::*of_joints) && {
     key_.read = [list, of_joints](const SceneKey& key, Fields& fields, Scene& scene) {
-      if (!fields.find(key.leaf()).IsDefined()) return;
+      if (!fields.has(key.leaf())) return;
       fields.measure_in(key.unit);
       fields.read_some(key.leaf(), scene.start.*list, scene.start.*of_joints);
       fields.measure_in("");

@@ -23,6 +23,7 @@ bool holds_by_baumgarte(const Scene& scene) {
   return has_constraints(scene) && scene.stabilize == Stabilization::baumgarte;
 }
 
+bool has_payload(const Scene& scene) { return scene.payload.mass > 0; }
 bool is_computed(const Scene& scene) {
   return !scene.motion;
 }
@@ -41,7 +42,7 @@ std::vector<Chapter> chapters() {
   using Row = KeyRow;
   return {
       {"The mechanism",
-       {Row("title", &Scene::title, "above the picture, formulas between dollar signs ($theta_1$); {fall} in it becomes the time of the fall, {F} the parameter F").of_page(),
+       {Row("title", &Scene::title, "above the picture, formulas between dollar signs ($theta_1$, `help formulas`); {fall} in it becomes the time of the fall (and falls in {fall} does not fall within 5 s, where it does not), {F} the parameter F").of_page(),
         Row(told_model(), read_model, model_text).example("model: {links: [0.5, 0.4, 0.3], masses: [2, 1.5, 1], joints: RRR}"),
         Row("gravity", &Scene::gravity, "world x y z; a chain in a plane: down in it")
             .in("m/s^2")
@@ -55,6 +56,10 @@ std::vector<Chapter> chapters() {
             .hint(", like 1e-6")
             .absent("such links are an error")
             .of_model(OfModel::mechanism),
+        Row::section("payload", "payload: {mass: 2, at: [0.1, 0, 0]}", "a load that the robot carries, as a mass at a point: `--over payload.mass=0:4:5` sweeps it"),
+        Row("payload.mass", &Scene::payload, &Payload::mass, "of the load").in("kg").at_least(0).of_model(OfModel::mechanism).where(has_payload).caption("payload @"),
+        Row("payload.link", &Scene::payload, &Payload::link, "that carries it").absent("the end effector").of_model(OfModel::mechanism).where(has_payload),
+        Row("payload.at", &Scene::payload, &Payload::at, "where, in that link's frame").in("m").of_model(OfModel::mechanism).where(has_payload),
         Row("limit", &Scene::limit, "what comes of a joint that passes a limit"),
         Row(told_packages(), read_packages, write_packages)
             .example("packages: {my_robot: ../robot}")

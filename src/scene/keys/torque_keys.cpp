@@ -260,7 +260,7 @@ bool read_single_torques(Fields& fields, const YAML::Node& node, Scene& scene) {
 
 void read_torque(Fields& fields, Scene& scene) {
   const YAML::Node node = fields.find("torque");
-  if (!node.IsDefined()) return;
+  if (!node.IsDefined() || node.IsNull()) return;
   if (read_single_torques(fields, node, scene)) return;
   if (node.IsMap()) {
     scene.control = read_control(fields, node, "torque");

@@ -232,9 +232,12 @@ std::optional<std::pair<double, double>> borne_by_foot(const Simulation& simulat
   for (std::size_t b = 1; b < chain.bodies.size(); ++b)
     if (chain.bodies[b].parent == 0) ankles.push_back(chain.bodies[b].joint.X_PJ.translation().dot(simulation.events->ground.along));
   if (ankles.size() != 1) return {};
-  const double weight = mass_of(chain) * chain.gravity.norm();
+  const double g = chain.gravity.norm(), weight = mass_of(chain) * g;
   const Foot& foot = *simulation.events->foot;
-  return std::pair{weight * (ankles[0] - foot.heel), weight * (foot.toe - ankles[0])};
+  // About the ankle: the ground's force at heel or toe, and the foot's own weight, which the ankle does not feel.
+  const Inertia& own = chain.bodies[0].inertia;
+  const double of_foot = own.mass * g * (own.com.dot(simulation.events->ground.along) - ankles[0]);
+  return std::pair{weight * (ankles[0] - foot.heel) + of_foot, weight * (foot.toe - ankles[0]) - of_foot};
 }
 
 }  // namespace

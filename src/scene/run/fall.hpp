@@ -55,7 +55,8 @@ struct FallTable {
   std::vector<EventEntry> events;  // of the scene
   double duration = 0;             // s
   bool has_foot = false;
-  // N m: what torque at the ankle a foot bears that rests under the weight, before it tips over its heel and over its toe. Nothing
+  // N m: what torque at the ankle a foot bears that rests under the weight, before it tips over its heel and over its toe; the foot's own weight
+  // counts. Nothing
   // without a foot, or where several joints stand on the ground.
   std::optional<std::pair<double, double>> bears;
   std::string method;

@@ -249,6 +249,8 @@ ModelOptions model_options_of(const Scene& scene) {
   options.friction = scene.friction;
   options.massless = scene.massless;
   options.packages = scene.packages;
+  options.payload = scene.payload;
+  if (options.payload.link.empty()) options.payload.link = scene.end_effector;
   return options;
 }
 

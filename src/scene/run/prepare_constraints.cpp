@@ -123,13 +123,14 @@ void prepare_constraints(Scene& scene, Simulation& simulation) {
                 "the start holds '" + set.row_names()[std::size_t(row)] +
                     "' the wrong way round, half a turn off: start nearer to the pose that is meant",
                 start);
+  const std::string unit = multiplier_units(chain, simulation.constraints.list)[std::size_t(way.worst_row)] == "N" ? " m" : " rad";
   double moved = 0;
   for (std::size_t i = 0; i < q.size(); ++i) moved = std::max(moved, std::fabs(q[i] - simulation.q0[i]));
   // One that nobody wrote may be anywhere.
   const bool is_written = std::any_of(scene.places.begin(), scene.places.end(), [](const auto& one) { return one.first.starts_with("start.q"); });
   if (moved > kFarthestMove && is_written)
     throw Error(ExitCode::bad_input,
-                "the start is " + format_significant(way.before, 3) + " off '" +
+                "the start is " + format_significant(way.before, 3) + unit + " off '" +
                     set.row_names()[std::size_t(way.worst_row)] +
                     "'; the pose found on the constraints is far from it, by " +
                     format_significant(moved, 3) + " in a coordinate: write `start: {q: " + bracketed(q) +
@@ -137,7 +138,7 @@ void prepare_constraints(Scene& scene, Simulation& simulation) {
                 start);
   const double rate = project_velocities(chain, ws, set, cws, q, qd);
   if (way.before > kNoteworthy)
-    scene.notices.push_back("the start was " + format_significant(way.before, 3) + " off '" +
+    scene.notices.push_back("the start was " + format_significant(way.before, 3) + unit + " off '" +
                             set.row_names()[std::size_t(way.worst_row)] +
                             "' and was moved to q = " + bracketed(q));
   if (rate > kNoteworthy)

@@ -119,7 +119,9 @@ void prepare_motion(Scene& scene, Simulation& simulation) {
   }
   scene.duration = std::min(scene.duration, end);
   replay(simulation, motion);
-  scene.start = {simulation.q0, simulation.qd0, {}, {}};
+  scene.start = StartState();
+  scene.start.q = simulation.q0;
+  scene.start.qd = simulation.qd0;
   scene.doubts.insert(scene.doubts.end(), motion->doubts().begin(), motion->doubts().end());
   if (const double first = entry.table->first; first != 0)
     scene.notices.push_back("t = 0 is the first row of " + entry.csv + ", whose '" + entry.columns.time.name + "' is " + format_shortest(first));

@@ -40,12 +40,24 @@ std::optional<std::string> parameter_of(const Scene& scene, const std::string& n
   return {};
 }
 
+// The title; of a run that does not fall "falls in {fall}" says that, as nobody knows whether it would.
+std::string told_of_none(const Scene& scene, const Trajectory& trajectory) {
+  if (!has_fall(scene) || fall_time_of(scene, trajectory)) return scene.title;
+  std::string title = scene.title;
+  const std::string within = " not fall within " + format_significant(trajectory.end_time, 3) + " s";
+  static const std::array<std::pair<const char*, const char*>, 3> kSaid{{{"falls in {fall}", "does"}, {"Falls in {fall}", "Does"}, {"fall in {fall}", "do"}}};
+  for (const auto& [words, verb] : kSaid)
+    for (std::size_t at = title.find(words); at != title.npos; at = title.find(words)) title.replace(at, std::string_view(words).size(), verb + within);
+  return title;
+}
+
 }  // namespace
 
 std::string title_of(const Scene& scene, const Trajectory& trajectory) {
   std::set<std::string> told;
-  bool tells_fall = false;
-  std::string title = filled(scene.title, [&](const std::string& name) -> std::optional<std::string> {
+  const std::string own = told_of_none(scene, trajectory);
+  bool tells_fall = own != scene.title;
+  std::string title = filled(own, [&](const std::string& name) -> std::optional<std::string> {
     if (name == kFall && has_fall(scene)) {
       tells_fall = true;
       return fall_time_text(scene, trajectory);

@@ -71,10 +71,15 @@ TEST(Chain, LinksRunFromJointToJointToGripper) {
   EXPECT_EQ(links[0].paint.fill, light_theme().link[0]);
   EXPECT_EQ(links[1].paint.fill, light_theme().link[1]);
 
-  const auto joints = rr.discs();
-  ASSERT_EQ(joints.size(), 2u);
-  EXPECT_LT(test::distance(joints[0].center, base), kRoundOff);
-  EXPECT_LT(test::distance(joints[1].center, elbow), kRoundOff);
+  // Its masses are points at the ends of the links: that of the first lies below the second joint.
+  const auto discs = rr.discs();
+  ASSERT_EQ(discs.size(), 4u);
+  EXPECT_LT(test::distance(discs[0].center, elbow), kRoundOff);
+  EXPECT_LT(test::distance(discs[1].center, base), kRoundOff);
+  EXPECT_LT(test::distance(discs[2].center, tip), kRoundOff);
+  EXPECT_LT(test::distance(discs[3].center, elbow), kRoundOff);
+  EXPECT_EQ(discs[0].paint.fill, light_theme().link[0]);
+  EXPECT_EQ(discs[2].paint.fill, light_theme().link[1]);
 }
 
 // Negative control of the test above: at another pose its claims do not hold.

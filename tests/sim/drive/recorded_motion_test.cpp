@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <sstream>
 
@@ -212,6 +213,29 @@ TEST_F(Recorded, RatesThatAreOffByAFactorAreRemarked) {
     EXPECT_THAT(remarks(200, noise, 1.03), IsEmpty()) << "below what is told; " << noise;
   }
   EXPECT_THAT(remarks(6, 0, 1), IsEmpty()) << "honest, and few rows";
+}
+
+// q1 = sin(2 pi t) at 100 Hz: what its second differences make of the last digit, or of noise.
+TEST_F(Recorded, RowsThatAreRoundedOrNoisyAreDoubted) {
+  const double w = 2 * std::numbers::pi;
+  const auto doubts = [&](int rate, double grid, double noise, const std::function<double(double)>& q1) {
+    std::string text = "t,q1,q2\n";
+    for (int k = 0; k <= 2 * rate; ++k) {
+      const double t = double(k) / rate, q = q1(t) + noise * std::sin(1e4 * k * k);
+      text += format_shortest(t) + "," + format_shortest(grid > 0 ? grid * std::round(q / grid) : q) + ",0\n";
+    }
+    return motion(text)->doubts();
+  };
+  const auto sine = [&](double t) { return std::sin(w * t); };
+  EXPECT_THAT(doubts(100, 0, 0, sine), IsEmpty());
+  EXPECT_THAT(doubts(10, 0, 0, sine), IsEmpty()) << "few rows, but honest";
+  EXPECT_THAT(doubts(100, 1e-6, 0, sine), IsEmpty()) << "6e-7 of 1e-4 s^2 is 0.02 of 28 rad/s^2";
+  EXPECT_THAT(doubts(100, 1e-3, 0, sine), ElementsAre(AllOf(HasSubstr("'q1'"), HasSubstr("noisy or rounded"))));
+  EXPECT_THAT(doubts(100, 0, 1e-3, sine), ElementsAre(HasSubstr("noisy or rounded")));
+  EXPECT_THAT(doubts(100, 0, 0, [](double t) { return t < 1 ? t * t / 2 : 1 - (2 - t) * (2 - t) / 2; }), IsEmpty()) << "an acceleration that jumps";
+  EXPECT_THAT(doubts(100, 0, 0, [](double t) { return 0.5 * t; }), IsEmpty()) << "rounding of a rate that is constant";
+  EXPECT_THAT(doubts(20000, 0, 0, [](double t) { return 3 + 0.5 * t; }), IsEmpty()) << "likewise, of rows that are very near";
+  EXPECT_THAT(doubts(100, 0, 0, [](double) { return 0.5; }), IsEmpty());
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 const textOf = (button) => document.getElementById(button.dataset.text).textContent;
 
 function filmOf(button) {
-  const video = document.getElementById(button.dataset.film).querySelector('video');
-  const [head, letters] = video.getAttribute('src').split(',');
+  const moving = document.getElementById(button.dataset.film).querySelector('video, img.moving');
+  const [head, letters] = moving.getAttribute('src').split(',');
   const bytes = Uint8Array.from(atob(letters), (letter) => letter.charCodeAt(0));
   return new Blob([bytes], {type: head.slice('data:'.length, head.indexOf(';'))});
 }

@@ -1,0 +1,83 @@
+#include "picture/formula_words.hpp"
+
+#include "core/error.hpp"
+#include "picture/math_notation.hpp"
+
+namespace chainreel {
+
+std::vector<FormulaPart> formula_parts(std::string_view text) {
+  std::vector<FormulaPart> parts;
+  FormulaPart words;
+  std::size_t begin = 0;  // of `words`
+  const auto end_words = [&](std::size_t end) {
+    words.source = text.substr(begin, end - begin);
+    if (!words.source.empty()) parts.push_back(std::move(words));
+    words = {};
+  };
+  std::size_t i = 0;
+  while (i < text.size()) {
+    if (text.substr(i, 2) == "\\$") {
+      words.text += '$';
+      i += 2;
+      continue;
+    }
+    const std::size_t close = text[i] == '$' ? text.find('$', i + 1) : std::string_view::npos;
+    if (close == std::string_view::npos) {
+      words.text += text[i++];
+      continue;
+    }
+    end_words(i);
+    parts.push_back({text.substr(i, close + 1 - i), std::string(text.substr(i + 1, close - i - 1)), true});
+    begin = i = close + 1;
+  }
+  end_words(text.size());
+  return parts;
+}
+
+std::vector<std::string> formula_words(std::string_view text) {
+  std::vector<std::string> words{""};
+  for (const FormulaPart& part : formula_parts(text)) {
+    for (const char c : part.source) {
+      if (c != ' ' || part.is_formula)
+        words.back() += c;
+      else if (!words.back().empty())
+        words.emplace_back();
+    }
+  }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
+bool is_outside_formula(std::string_view text, std::size_t byte) {
+  for (const FormulaPart& part : formula_parts(text)) {
+    const std::size_t begin = std::size_t(part.source.data() - text.data());
+    if (byte <= begin || byte >= begin + part.source.size()) continue;
+    return !part.is_formula && text.substr(byte - 1, 2) != "\\$";
+  }
+  return true;
+}
+
+void require_formulas(std::string_view text) {
+  for (const FormulaPart& part : formula_parts(text)) {
+    if (!part.is_formula) continue;
+    try {
+      parse_math(part.text);
+    } catch (const Error& error) {
+      throw Error(error.code(), error.problems().front().message + "; see `chainreel help formulas`. A dollar sign is written \\$");
+    }
+  }
+}
+
+std::string without_formulas(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '$' ? std::string("\\$") : std::string(1, c);
+  return escaped;
+}
+
+std::string in_plain_words(std::string_view text) {
+  std::string plain;
+  for (const FormulaPart& part : formula_parts(text)) plain += part.is_formula ? plain_formula(part.text) : part.text;
+  return plain;
+}
+
+}  // namespace chainreel
