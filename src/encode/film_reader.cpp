@@ -57,7 +57,6 @@ Image image_of(const AVFrame& frame, int width, int height) {
 
 struct FilmReader::State {
   std::string path;
-  bool small_clips = true;
   FilmInputPtr input;
   int stream = 0;
   CodecContextPtr decoder;
@@ -113,11 +112,10 @@ Image FilmReader::State::image(int widest) const {
   return image_of(*frame, width, std::max(1, int(std::lround(frame->height * scale))));
 }
 
-FilmReader::FilmReader(const std::string& path, bool small_clips) : state_(std::make_unique<State>()) {
+FilmReader::FilmReader(const std::string& path) : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.path = path;
-  s.small_clips = small_clips;
-  s.input = open_film(path, small_clips ? FilmKinds::films_and_small_clips : FilmKinds::films);
+  s.input = open_film(path, FilmKinds::films_and_small_clips);
   check_libav(libav().avformat_find_stream_info(s.input.get(), nullptr), ExitCode::bad_input,
               "holds no readable film", path);
   s.stream = check_libav(libav().av_find_best_stream(s.input.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0),
@@ -161,7 +159,7 @@ bool FilmReader::find(double seconds, Image& image, int widest) {
   if (!state_->decode()) return false;
   // Within the first second nothing is saved; a film that cannot be searched is read from its start.
   if (seconds > 2 * kDecodedBefore && !state_->go_to_key_before(seconds - kDecodedBefore)) {
-    *this = FilmReader(state_->path, state_->small_clips);
+    *this = FilmReader(state_->path);
     state_->decode();
   }
   State& s = *state_;

@@ -10,9 +10,8 @@ namespace chainreel {
 
 class FilmReader {
  public:
-  // Throws Error (exit 3) where the file is no such film or cannot be decoded here; without `small_clips` GIF
-  // and APNG are no films.
-  explicit FilmReader(const std::string& path, bool small_clips = true);
+  // Throws Error (exit 3) where the file is no such film or cannot be decoded here.
+  explicit FilmReader(const std::string& path);
   ~FilmReader();
   FilmReader(FilmReader&&) noexcept;
   FilmReader& operator=(FilmReader&&) noexcept;

@@ -73,18 +73,21 @@ void HermiteSpan::find_rates(SecondOrder& system) {
 }
 
 void HermiteSpan::interpolate(SecondOrder& system, double t, std::span<double> q, std::span<double> v) {
+  if (q.size() != v.size()) return interpolate_apart(system, t, q, v);
   if (!has_rates_) find_rates(system);
   const double h = t1_ - t0_;
   const double s = (t - t0_) / h;
-  if (q.size() == v.size()) {
-    for (std::size_t i = 0; i < q.size(); ++i) {
-      const Quintic y(h, q0_[i], v0_[i], v0_dot_[i], q1_[i], v1_[i], v1_dot_[i]);
-      q[i] = y.value(s);
-      v[i] = y.slope(s) / h;
-    }
-    return;
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    const Quintic y(h, q0_[i], v0_[i], v0_dot_[i], q1_[i], v1_[i], v1_dot_[i]);
+    q[i] = y.value(s);
+    v[i] = y.slope(s) / h;
   }
-  const Cubic w(s);
+}
+
+void HermiteSpan::interpolate_apart(SecondOrder& system, double t, std::span<double> q, std::span<double> v) {
+  if (!has_rates_) find_rates(system);
+  const double h = t1_ - t0_;
+  const Cubic w((t - t0_) / h);
   for (std::size_t i = 0; i < q.size(); ++i)
     q[i] = w.y0 * q0_[i] + h * w.m0 * q0_dot_[i] + w.y1 * q1_[i] + h * w.m1 * q1_dot_[i];
   system.normalize(q);

@@ -1,6 +1,7 @@
 // The motion within one step from what is known at its ends. Where q' = v: the quintic polynomial in q, q',
-// q'' (error h^6 / 46080 of the sixth derivative), v its derivative. Else, with quaternions: cubic Hermite
-// interpolation of q from (q, q') and of v from (v, v').
+// q'' (error h^6 / 46080 of the sixth derivative), v its derivative. Else, with quaternions, or apart, where a crude step moves q
+// by another v than those at its ends, which the quintic's derivative would have to make up for: cubic Hermite interpolation of q
+// from (q, q') and of v from (v, v').
 #pragma once
 
 #include <vector>
@@ -17,9 +18,10 @@ class HermiteSpan {
   void begin(double t, std::span<const double> q, std::span<const double> v);
   void end(double t, std::span<const double> q, std::span<const double> v);
 
-  // The state at time t within the step. Asks the system for the accelerations at the step's ends when it is
-  // first called.
+  // The state at time t within the step. Both ask the system for the accelerations at the step's ends when they are first
+  // called.
   void interpolate(SecondOrder& system, double t, std::span<double> q, std::span<double> v);
+  void interpolate_apart(SecondOrder& system, double t, std::span<double> q, std::span<double> v);
 
   // The state at its beginning.
   const std::vector<double>& first_q() const { return q0_; }

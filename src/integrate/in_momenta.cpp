@@ -53,7 +53,10 @@ StepResult MomentaIntegrator::step(double end, double h) {
 }
 
 void MomentaIntegrator::interpolate(double t, std::span<double> q, std::span<double> v) {
-  span_.interpolate(second_order_, t, q, v);
+  if (is_crude())
+    span_.interpolate_apart(second_order_, t, q, v);
+  else
+    span_.interpolate(second_order_, t, q, v);
 }
 
 // The largest momentum so far; before the first step, what the forces give in it. One that is a thousand

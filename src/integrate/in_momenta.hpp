@@ -18,10 +18,14 @@ class MomentaIntegrator : public Integrator {
   void correct(std::span<const double> q, std::span<const double> v) final;
   StepResult step(double end, double h) final;
   void interpolate(double t, std::span<double> q, std::span<double> v) final;
-  int dense_order() const final { return span_.order(); }
+  int dense_order() const final { return is_crude() ? 3 : span_.order(); }
+  void path(double t, std::span<double> q, std::span<double> v) final { span_.interpolate(second_order_, t, q, v); }
+  int path_order() const final { return span_.order(); }
 
  protected:
   virtual void forget() = 0;  // the steps before
+  // Whether it moves q by a velocity that is none of its ends'.
+  virtual bool is_crude() const { return false; }
   // Moves q_ and p_; v_ is the velocity at their beginning.
   virtual bool move(double t, double h) = 0;
 

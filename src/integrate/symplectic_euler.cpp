@@ -25,6 +25,7 @@ class SymplecticEuler final : public MomentaIntegrator {
         equation_(n_) {}
 
  private:
+  bool is_crude() const override { return true; }
   void forget() override {
     kick_.forget();
     equation_.forget();

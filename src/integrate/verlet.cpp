@@ -32,6 +32,7 @@ class Verlet final : public MomentaIntegrator {
         drift_equation_(n_) {}
 
  private:
+  bool is_crude() const override { return true; }
   void forget() override {
     has_force_ = false;
     kick_.forget();

@@ -1,5 +1,7 @@
 #include "picture/formula_words.hpp"
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "picture/math_notation.hpp"
 
@@ -57,11 +59,26 @@ bool is_outside_formula(std::string_view text, std::size_t byte) {
   return true;
 }
 
-void require_formulas(std::string_view text) {
+namespace {
+
+bool holds_rows(const std::vector<MathAtom>& atoms) {
+  return std::any_of(atoms.begin(), atoms.end(), [](const MathAtom& atom) {
+    if (atom.kind == AtomKind::matrix && atom.cells.size() > 1) return true;
+    if (holds_rows(atom.sub) || holds_rows(atom.sup)) return true;
+    for (const auto& row : atom.cells)
+      if (std::any_of(row.begin(), row.end(), holds_rows)) return true;
+    return false;
+  });
+}
+
+}  // namespace
+
+void require_formulas(std::string_view text, bool in_line) {
   for (const FormulaPart& part : formula_parts(text)) {
     if (!part.is_formula) continue;
     try {
-      parse_math(part.text);
+      if (holds_rows(parse_math(part.text)) && in_line)
+        throw Error(ExitCode::bad_input, "a column or matrix of several rows has no room in a line; it has in the words of `annotate:`");
     } catch (const Error& error) {
       throw Error(error.code(), error.problems().front().message + "; see `chainreel help formulas`. A dollar sign is written \\$");
     }

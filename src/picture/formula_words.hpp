@@ -25,7 +25,8 @@ std::vector<std::string> formula_words(std::string_view text);
 bool is_outside_formula(std::string_view text, std::size_t byte);
 
 // Throws Error, as parse_math does, at the first formula that is none; its message says how a dollar sign is written.
-void require_formulas(std::string_view text);
+// `in_line`: where there is room for one line, and none for columns and matrices.
+void require_formulas(std::string_view text, bool in_line = false);
 
 // So that every dollar sign of a text is shown.
 std::string without_formulas(std::string_view text);

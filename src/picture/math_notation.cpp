@@ -183,8 +183,10 @@ class Reader {
   }
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(ExitCode::bad_input,
-                what + " at character " + std::to_string(at_ + 1) + " of '" + encode_utf8(text_) + "'");
+    constexpr std::size_t kLongestQuote = 80;
+    const bool is_long = text_.size() > kLongestQuote;
+    throw Error(ExitCode::bad_input, what + " at character " + std::to_string(at_ + 1) + " of '" +
+                                         encode_utf8(text_.substr(0, kLongestQuote)) + (is_long ? ".." : "") + "'");
   }
 
   void read_token(std::vector<MathAtom>& atoms, int depth) {
@@ -458,9 +460,24 @@ char32_t plain_letter(char32_t c) {
   return c;
 }
 
+namespace {
+
+// Beside M the other matrices of the equation of motion: C, D and K.
+void set_matrices(std::vector<MathAtom>& atoms) {
+  const auto has_letter = [](const MathAtom& atom, char32_t letter) { return atom.kind == AtomKind::operand && atom.text.size() == 1 && atom.text[0] == letter; };
+  if (std::none_of(atoms.begin(), atoms.end(), [&](const MathAtom& atom) { return has_letter(atom, bold(U'M')); })) return;
+  for (MathAtom& atom : atoms)
+    for (const char32_t matrix : {U'C', U'D', U'K'})
+      if (has_letter(atom, italic(matrix))) atom.text[0] = bold(matrix);
+}
+
+}  // namespace
+
 std::vector<MathAtom> parse_math(std::string_view notation) {
   const std::u32string text = decode_utf8(notation);
-  return Reader(text).read_list(0);
+  std::vector<MathAtom> atoms = Reader(text).read_list(0);
+  set_matrices(atoms);
+  return atoms;
 }
 
 }  // namespace chainreel

@@ -25,7 +25,7 @@ constexpr double kRootWidth = 0.6, kRootLeast = 0.45;  // em: of the sign itself
 // A product shows no dot between a number and what it multiplies.
 bool is_implicit_product(const MathAtom& before, const MathAtom& product, const MathAtom& after) {
   return product.kind == AtomKind::product && before.kind == AtomKind::number && before.sup.empty() &&
-         after.kind != AtomKind::number;
+         after.kind != AtomKind::number && after.kind != AtomKind::sign;
 }
 
 double gap_between(const MathAtom& before, const MathAtom& after, bool in_script) {
@@ -79,7 +79,8 @@ class Layout {
     for (std::size_t i = 0; i < atoms.size(); ++i) {
       if (i > 0) x += em * gap_between(atoms[i - 1], atoms[i], level > 0);
       const bool is_inner = i > 0 && i + 1 < atoms.size();
-      if (is_inner && is_implicit_product(atoms[i - 1], atoms[i], atoms[i + 1])) continue;
+      const bool is_divisor = i > 1 && atoms[i - 2].kind == AtomKind::slash;  // what follows it is not divided by
+      if (is_inner && !is_divisor && is_implicit_product(atoms[i - 1], atoms[i], atoms[i + 1])) continue;
       x = add_atom(atoms[i], level, x, y);
     }
     return x;

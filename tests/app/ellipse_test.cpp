@@ -282,6 +282,7 @@ TEST(PayloadCommand, AddsItsMassToLambdaInEachDirection) {
   for (std::size_t i = 0; i < 2; ++i)
     for (std::size_t j = 0; j < 2; ++j)
       EXPECT_NEAR(with[i][j].get<double>(), without[i][j].get<double>() + (i == j ? 2.5 : 0), 1e-13) << "rounding of numbers up to 10";
+  EXPECT_EQ(lambda({"--set", "payload={mass: 2.5}"}), with);
   // A sweep of a model in a file.
   const TemporaryFolder folder;
   const std::string csv = folder.file("s/table.csv");

@@ -153,8 +153,11 @@ TEST(FallCommand, SaysWhatAFootBearsAtRest) {
   const ProgramResult dynamics = run_program({"dynamics", "models/humanoid.urdf", "--q", q, "--json"});
   ASSERT_EQ(dynamics.status, 0) << dynamics.err;
   const double tau = std::abs(parse_json(dynamics.out)["nle"][0].get<double>());
-  EXPECT_NEAR(found["foot_bears"]["over_toe"].get<double>(), tau, 0.01) << "the edge is as narrow as 5e-6 rad, the torque changes by 700 N m/rad";
-  EXPECT_NEAR(found["foot_bears"]["over_heel"].get<double>() + found["foot_bears"]["over_toe"].get<double>(), 195.8, 0.3) << "weight times the foot's length";
+  EXPECT_NEAR(found["rows"][0]["foot_bears"]["over_toe"].get<double>(), tau, 0.01) << "the edge is as narrow as 5e-6 rad, the torque changes by 700 N m/rad";
+  EXPECT_NEAR(found["rows"][0]["foot_bears"]["over_heel"].get<double>() + found["rows"][0]["foot_bears"]["over_toe"].get<double>(), 195.8, 0.3) << "weight times the foot's length";
+  // Of rows with other weights each has its own.
+  const Json loaded = parse_json(run_program({"fall", kHuman, "--set", "duration=0.1", "--sweep", "payload.mass=0,40", "--json"}).out)["rows"];
+  EXPECT_NEAR(loaded[1]["foot_bears"]["over_toe"].get<double>() - loaded[0]["foot_bears"]["over_toe"].get<double>(), 40 * 9.81 * 0.1995, 1e-9);
 }
 
 // 10 kg on a vertical slide above the middle of a foot: what drives it, F, is what the ground bears.

@@ -122,7 +122,8 @@ TEST_F(HouseStyleFilm, LogosThatNeedOtherFilesAreRefused) {
     return run_program(with_style({"snapshot", kStyledScene, "--force", "-o", folder_.file("a.png")}, "logo: {file: logo.svg}\n"));
   };
   for (const char* inside : {"<image href='seal.png' width='9' height='9'/>", "<g><image xlink:href='https://a.org/seal.png'/></g>",
-                             "<use href='other.svg#g'/>"}) {
+                             "<use href='other.svg#g'/>", "<style>@import url(o.css);</style>", "<rect style=\"fill: url( 'o.svg#g')\" width='1' height='1'/>",
+                             "<rect filter='url(o.svg#f)' width='1' height='1'/>"}) {
     const ProgramResult run = snapshot_with(inside);
     EXPECT_EQ(run.status, 3) << inside;
     EXPECT_THAT(run.err, AllOf(HasSubstr("logo.svg"), HasSubstr("from outside of the file"))) << inside;
@@ -131,6 +132,8 @@ TEST_F(HouseStyleFilm, LogosThatNeedOtherFilesAreRefused) {
   for (const std::string& inside : {"<image href='" + pixel + "' width='9' height='9'/>", std::string("<use href='#g'/>"),
                                     std::string("<a href='https://a.org/'><rect width='3' height='3'/></a>")})
     EXPECT_EQ(snapshot_with(inside).status, 0) << inside;
+  EXPECT_THAT(snapshot_with("<foreignObject width='9' height='9'><p/></foreignObject>").err, HasSubstr("<foreignObject> is not drawn"));
+  EXPECT_EQ(snapshot_with("<rect fill='url(#none)' style='fill:url(\"#g\")' width='1' height='1'/>").status, 0);
 }
 
 TEST_F(HouseStyleFilm, PartsDependOnTheLogosBytes) {

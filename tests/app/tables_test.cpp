@@ -380,5 +380,32 @@ TEST(SnapshotNumbers, AreThoseOfDynamicsAtThatInstant) {
   EXPECT_EQ(shown["end_effector"]["xd"], state["xd"]);
 }
 
+// Between steps of symplectic Euler the energy is what it is at them: its velocities are no rates of its places, and one path
+// through both would swing by as much as the method errs.
+TEST(Tables, BetweenCrudeStepsTheEnergyIsThatOfTheSteps) {
+  const TemporaryFolder folder;
+  const auto energies = [&](const char* fps) {
+    const std::string file = folder.file("e.csv");
+    EXPECT_EQ(run_program({"simulate", "rr_free", "--set", "method=symplectic_euler", "--set", "step=0.01", "--set", "duration=2", "--set",
+                           std::string("video.fps=") + fps, "--columns", "t,energy", "-o", file, "--force", "--quiet"}).status, 0);
+    std::istringstream lines(read_whole_file(file));
+    std::vector<double> all;
+    for (std::string line; std::getline(lines, line);)
+      if (std::isdigit(static_cast<unsigned char>(line[0]))) all.push_back(std::stod(line.substr(line.rfind(',') + 1)));
+    return all;
+  };
+  const std::vector<double> on_steps = energies("100"), between = energies("300");
+  ASSERT_EQ(between.size(), 3 * (on_steps.size() - 1) + 1);
+  double range = 0;
+  for (const double one : on_steps) range = std::max(range, std::fabs(one - on_steps[0]));
+  ASSERT_GT(range, 0.1) << "negative control: a crude method errs";
+  for (std::size_t k = 0; k + 1 < on_steps.size(); ++k)
+    for (std::size_t i = 0; i <= 3; ++i) {
+      // The cubics are off by O(h^2), a tenth of the method's O(h).
+      EXPECT_GT(between[3 * k + i], std::min(on_steps[k], on_steps[k + 1]) - 0.1 * range) << k;
+      EXPECT_LT(between[3 * k + i], std::max(on_steps[k], on_steps[k + 1]) + 0.1 * range) << k;
+    }
+}
+
 }  // namespace
 }  // namespace chainreel

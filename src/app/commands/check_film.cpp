@@ -30,10 +30,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Keys of an audit that are no part of what is shown: versions and the model's file, which are told by themselves, and where the
-// scene lies.
+// Keys of an audit that are no part of what is shown: versions and the model's file, which are told by themselves, where the
+// scene lies, and how the method was chosen that both have.
 bool is_beside(const std::string& key) {
-  constexpr std::array<std::string_view, 3> kKeys = {"versions", "model_sha256", "scene"};
+  constexpr std::array<std::string_view, 4> kKeys = {"versions", "model_sha256", "scene", "auto"};
   return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
 }
 

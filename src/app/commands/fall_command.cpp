@@ -133,7 +133,6 @@ Json report_of(const FallOptions& options, const FallTable& table) {
   for (const EventEntry& event : table.events)
     json["events"].push_back(
         {{"name", event.title()}, {"kind", to_string(event.kind)}, {"when", event.when}});
-  json["foot_bears"] = table.bears ? Json{{"over_heel", table.bears->first}, {"over_toe", table.bears->second}} : Json(nullptr);
   json["rows"] = Json::array();
   for (const FallRow& row : table.rows) {
     Json one{{"status", to_string(row.status)}, {"end_time", row.end_time}, {"value", nullptr}};
@@ -151,6 +150,7 @@ Json report_of(const FallOptions& options, const FallTable& table) {
     one["tips_over"] = row.tips ? Json(tips_over(row)) : Json(nullptr);
     one["falls"] = row.lies_before ? Json(falls_to(row)) : Json(nullptr);
     one["takes_off_at"] = or_null(row.takes_off);
+    one["foot_bears"] = row.bears ? Json{{"over_heel", row.bears->first}, {"over_toe", row.bears->second}} : Json(nullptr);
     one["trouble"] = or_null(row.trouble);
     json["rows"].push_back(one);
   }

@@ -56,6 +56,7 @@ void set_for_cell(Scene& scene, ThemeName theme, double text_scale) {
   scene.text_scale = text_scale;
   if (scene.layout == PageLayout::automatic) scene.layout = PageLayout::scene;
   std::erase(scene.draw, "mass_matrix");  // its numbers could not be read
+  scene.annotate.clear();                 // likewise its words, and lines without them lead nowhere
 }
 
 std::vector<AskedInstant> instants_of(const SheetOptions& options) {
@@ -200,7 +201,7 @@ void run_sheet(const SheetOptions& options) {
   Json told = Json::array();
   const ScenesCells shown = cells_of(options, {theme, text_scale_in(grid), fonts, asked, options.scenes.size()}, told);
   if (is_of_one && !shown.title.empty()) look.title = shown.title;
-  const Picture sheet = draw_contact_sheet(grid, shown.cells, look);
+  const Picture sheet = draw_contact_sheet(contact_grid(int(count), look), shown.cells, look);
   ClipMemory memory = memory_of_sheet(*options.command, shown.cells);
   if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;
   for (const std::string& output : outputs) write_picture(sheet, size.width, size.height, fonts, output, options.common.force, memory);

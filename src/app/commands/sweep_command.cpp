@@ -379,6 +379,9 @@ void run_sweep(SweepOptions options) {
       std::printf("%s: %d runs, %zu of them done before, %zu failed\n", path.c_str(), runs.behind - runs.first, outcome.skipped,
                   outcome.failed);
     if (outcome.failed > worst.failed) worst = outcome;
+    if (outcome.beyond_limits > 0 && written.size() == 1 && !options.common.quiet)
+      std::fprintf(stderr, "note: %s: %zu of %zu rows pass limits of joints: their column `trouble` names them\n", path.c_str(), outcome.beyond_limits,
+                   std::size_t(runs.behind - runs.first));
     if (outcome.doubtful > 0 && written.size() == 1)
       tell_warnings({path + ": " + std::to_string(outcome.doubtful) + (outcome.doubtful == 1 ? " row is" : " rows are") +
                      " doubtful: its column `trouble` says by how much the energy is off"});

@@ -37,7 +37,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kRunsOfPiece = 16;  // that a thread takes at a time
-const std::string kDoubtful = "doubtful: ";
+const std::string kDoubtful = "doubtful: ", kLimits = "limits: ";
 
 std::vector<std::string> settings_of(const std::vector<std::string>& overrides, const Grid& grid, std::size_t run) {
   std::vector<std::string> all = overrides;
@@ -173,11 +173,24 @@ class RowMaker {
     return doubt ? kDoubtful + doubt->words : "";
   }
 
+  // Which limits of joints it passes, the first ones.
+  static std::string limits_of(const Scene& scene, const Trajectory& run) {
+    constexpr std::size_t kMostNamed = 3;
+    std::string words;
+    for (std::size_t i = 0; i < std::min(run.limits.size(), kMostNamed); ++i) {
+      const bool is_cut = scene.limit == LimitPolicy::clamp && run.limits[i].quantity == "effort";
+      words += (words.empty() ? kLimits : "; ") + to_string(run.limits[i]) + (is_cut ? ", and is cut there" : "");
+    }
+    if (run.limits.size() > kMostNamed) words += "; and " + std::to_string(run.limits.size() - kMostNamed) + " more";
+    return words;
+  }
+
   std::string row_of(const Scene& scene, const Simulation& simulation, const Trajectory& run, const std::vector<Peak>& peaks) const {
     const Chain& chain = simulation.chain;
     const bool as_expected =
         scene.expect == Outcome::diverge ? run.status == RunStatus::diverged : is_complete(run.status);
-    const std::string trouble = run.trouble.empty() ? doubt_of(simulation, run) : run.trouble;
+    std::string trouble = run.trouble.empty() ? doubt_of(simulation, run) : run.trouble;
+    if (const std::string limits = limits_of(scene, run); !limits.empty() && is_complete(run.status)) trouble += (trouble.empty() ? "" : "; ") + limits;
     std::string row = as_expected ? ",1," : ",0,";
     row += to_string(run.status) + "," + format_shortest(run.end_time) + "," +
            (run.ending_event < 0 ? "" : csv_words(scene.events[std::size_t(run.ending_event)].title()));
@@ -281,6 +294,7 @@ class Failures {
     if (comma >= row.size()) return;
     const std::lock_guard guard(lock_);
     if (row.find("," + csv_words(kDoubtful).substr(0, kDoubtful.size())) != std::string::npos) ++outcome_.doubtful;
+    if (row.find(kLimits, row.rfind(",\"")) != std::string::npos) ++outcome_.beyond_limits;
     if (row.compare(comma, 3, ",0,") != 0) return;
     ++outcome_.failed;
     const std::size_t run = std::strtoull(row.c_str(), nullptr, 10);
@@ -388,6 +402,7 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
   const SweepOutcome seen = failures.outcome();
   outcome.failed = seen.failed;
   outcome.doubtful = seen.doubtful;
+  outcome.beyond_limits = seen.beyond_limits;
   outcome.first_failure = seen.first_failure;
   return outcome;
 }

@@ -27,6 +27,7 @@ struct SweepOutcome {
   std::size_t done = 0, skipped = 0;  // skipped: a former run of the program has done them
   std::size_t failed = 0;
   std::size_t doubtful = 0;  // rows of a table that say so
+  std::size_t beyond_limits = 0;  // rows whose runs pass limits of joints
   std::string first_failure;  // "torque.1=5: diverged at .."
 };
 

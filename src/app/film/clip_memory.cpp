@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/input_file.hpp"
 #include "encode/pdf_streams.hpp"
+#include "picture/formula_words.hpp"
 #include "picture/text.hpp"
 
 namespace chainreel {
@@ -147,7 +148,9 @@ Tags ClipMemory::tags() const {
 
 VectorPage ClipMemory::page() const {
   VectorPage page;
-  page.title = title;
+  // Browsers show it, in letters alone; the audit's says when it falls.
+  const bool is_told = audit.is_object() && audit.value("title", Json()).is_string();
+  page.title = in_plain_words(is_told ? audit["title"].get<std::string>() : title);
   page.description = description;
   page.width_mm = width_mm;
   const Json json = figure.is_null() ? Json{{kScene, scene}, {kAudit, audit}} : Json{{kFigure, figure}};

@@ -37,34 +37,62 @@ bool has_letters_beyond_ascii(const std::string& words) {
   return std::any_of(words.begin(), words.end(), [](char c) { return static_cast<unsigned char>(c) > 0x7F; });
 }
 
-// librsvg opens no other file and says nothing of it: what a picture takes from outside would be missing in silence.
-// Where the text is no XML, librsvg says so.
-class OutsideReference : public tinyxml2::XMLVisitor {
+// librsvg opens no other file and says nothing of it: what a picture takes from outside would be missing in silence, as would what
+// it does not draw at all. Where the text is no XML, librsvg says so.
+class Missing : public tinyxml2::XMLVisitor {
  public:
-  bool VisitEnter(const tinyxml2::XMLElement& element, const tinyxml2::XMLAttribute*) override {
-    if (std::string_view(element.Name()).ends_with("a")) return true;  // a link: where a click would lead
-    for (const char* attribute : {"href", "xlink:href"}) {
-      const char* value = element.Attribute(attribute);
-      if (value == nullptr || *value == '\0' || *value == '#' || std::string_view(value).starts_with("data:")) continue;
-      if (found_.empty()) found_ = std::string("<") + element.Name() + "> takes '" + value + "'";
+  bool VisitEnter(const tinyxml2::XMLElement& element, const tinyxml2::XMLAttribute* attribute) override {
+    const std::string_view name = element.Name();
+    if (name.ends_with("foreignObject")) say(std::string("<") + element.Name() + "> is not drawn");
+    const bool is_link = name == "a" || name.ends_with(":a");  // where a click would lead
+    for (; attribute != nullptr && !is_link; attribute = attribute->Next()) {
+      const std::string_view value = attribute->Value();
+      if (std::string_view(attribute->Name()).ends_with("href") && !is_inside(value)) say_outside(value);
+      look_at_style(value);
     }
+    return true;
+  }
+  bool Visit(const tinyxml2::XMLText& text) override {
+    if (text.Parent() != nullptr && text.Parent()->ToElement() != nullptr && std::string_view(text.Parent()->ToElement()->Name()).ends_with("style"))
+      look_at_style(text.Value());
+    return true;
+  }
+  bool Visit(const tinyxml2::XMLUnknown&) override { return true; }
+  bool Visit(const tinyxml2::XMLDeclaration& declaration) override {
+    if (std::string_view(declaration.Value()).starts_with("xml-stylesheet")) say_outside("a style sheet");
     return true;
   }
 
   const std::string& found() const { return found_; }
 
  private:
+  static bool is_inside(std::string_view place) { return place.empty() || place.front() == '#' || place.starts_with("data:"); }
+  void say(const std::string& what) {
+    if (found_.empty()) found_ = what;
+  }
+  void say_outside(std::string_view place) {
+    constexpr std::size_t kLongest = 60;
+    say("takes '" + std::string(place.substr(0, kLongest)) + "' from outside of the file, which is not opened");
+  }
+  void look_at_style(std::string_view text) {
+    if (text.find("@import") != text.npos) say_outside("@import");
+    for (std::size_t at = text.find("url("); at != text.npos; at = text.find("url(", at + 1)) {
+      std::string_view place = text.substr(at + 4);
+      place.remove_prefix(std::min(place.find_first_not_of(" \t\r\n'\""), place.size()));
+      if (!is_inside(place)) say_outside(place.substr(0, place.find_first_of("'\")")));
+    }
+  }
+
   std::string found_;
 };
 
 void require_whole(const std::string& bytes, const std::string& path) {
   tinyxml2::XMLDocument document;
   if (document.Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS) return;
-  OutsideReference outside;
-  document.Accept(&outside);
-  if (!outside.found().empty())
-    throw Error(ExitCode::bad_input,
-                outside.found() + " from outside of the file, which is not opened: save it with its pictures inside (as data:)", {path});
+  Missing missing;
+  document.Accept(&missing);
+  if (!missing.found().empty())
+    throw Error(ExitCode::bad_input, missing.found() + ": save the logo as plain shapes, with its pictures inside (as data:)", {path});
 }
 
 // What a scene has to say in words of one's own.

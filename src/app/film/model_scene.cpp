@@ -7,16 +7,22 @@
 #include "core/format.hpp"
 #include "draw/page/house_style.hpp"
 #include "draw/robot/view.hpp"
+#include "scene/keys/keys.hpp"
 #include "scene/run/prepare.hpp"
 #include "scene/text/read_scene.hpp"
 
 namespace chainreel {
 namespace {
 
+// Itself, or above it a key that is; or a section, all of whose keys are.
 bool is_honoured(const std::string& key, const std::vector<std::string>& honoured) {
-  return std::any_of(honoured.begin(), honoured.end(), [&](const std::string& known) {
-    return key == known || key.starts_with(known + ".");
-  });
+  const auto is_known = [&](const std::string& name) {
+    return std::any_of(honoured.begin(), honoured.end(), [&](const std::string& known) { return name == known || name.starts_with(known + "."); });
+  };
+  bool has_keys = false, all_known = true;
+  for (const SceneKey& one : scene_keys())
+    if (!one.is_section && one.section() == key) has_keys = true, all_known = all_known && is_known(one.name);
+  return is_known(key) || (has_keys && all_known);
 }
 
 }  // namespace

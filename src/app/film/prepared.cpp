@@ -89,7 +89,7 @@ void check_formulas(const PreparedFilm& film) {
   ProblemList problems;
   const auto check = [&](const std::string& key, const std::string& text, const Place& place) {
     try {
-      require_formulas(text);
+      require_formulas(text, key != "annotate");
     } catch (const Error& error) {
       problems.add("'" + key + "': " + error.problems().front().message, place);
     }

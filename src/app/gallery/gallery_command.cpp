@@ -61,7 +61,7 @@ void add_gallery_command(CommandLine& app) {
   auto options = std::make_shared<GalleryOptions>();
   Command* command = app.add_subcommand(
       "gallery", "one page for browsers with films, their audits, charts and scenes, without a server");
-  command->add_option("paths", options->paths, "folders with films, or films: .mp4, .webm (default out)");
+  command->add_option("paths", options->paths, "folders with films, or films: .mp4, .webm, .gif, .apng (default out)");
   command->add_option("-o,--output", options->output, "a .html file (default out/index.html)");
   command->add_option("--title", options->title, "of the page");
   add_result_options(*command, options->common);

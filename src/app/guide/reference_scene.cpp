@@ -215,7 +215,7 @@ std::span<const Name> formula_notation() {
       {"tau theta Lambda", "Greek letters by their names"},
       {"qd thetadd dot{x} ddot{x}", "time derivatives"},
       {"J^T J^-1 e^{-2 t}", "what `^` raises; a single T is the transpose"},
-      {"M J Lambda bold{C}", "bold: the first three by themselves, what stands in `bold{..}`"},
+      {"M J Lambda bold{C}", "bold: the first three by themselves, beside M also C, D and K, and what stands in `bold{..}`"},
       {"frac{1}{2} m v^2", "a fraction"},
       {"sqrt{k/m}", "a root"},
       {"col{x; y} mat{a, b; c, d}", "a column, and a matrix row by row"},
@@ -231,7 +231,7 @@ std::string formulas_page() {
   std::vector<std::vector<std::string>> table{{"notation", "what it is"}};
   for (const Name& one : formula_notation()) table.push_back({code(one.name), one.meaning});
   return "# Formulas in words\n\n"
-         "Titles, the words of `annotate:` and titles of plots may hold formulas between dollar signs. A dollar sign without a partner is\n"
+         "Titles, the words of `annotate:` and titles of plots may hold formulas between dollar signs, in titles of one line. A dollar sign without a partner is\n"
          "one, as is `\\$`. What cannot be read as a formula is refused.\n\n" +
          markdown_table(table) + "\n" +
          code_block("yaml", "title: \"$M(q) qdd + nle(q, qd) = tau$, with $tau_1 = 5 sin(2 t)$\"");

@@ -71,6 +71,12 @@ std::string push_words(const PreparedScene& panel) {
   return text;
 }
 
+std::string payload_words(const Scene& scene) {
+  if (!(scene.payload.mass > 0)) return "";
+  const std::string& link = scene.payload.link.empty() ? scene.end_effector : scene.payload.link;
+  return ", with a load of " + format_significant(scene.payload.mass, 4) + " kg at " + link;
+}
+
 // ", tied by a line": each constraint by the name that it goes by elsewhere.
 std::string tie_words(const PreparedScene& panel) {
   std::vector<std::string> names;
@@ -90,7 +96,7 @@ std::string motion_words(const PreparedScene& panel, double seconds) {
          (chain.gravity.norm() > 0
               ? "gravity of " + format_significant(chain.gravity.norm(), 4) + " m/s^2 and "
               : "no gravity and ") +
-         torque_words(scene) + push_words(panel) +
+         torque_words(scene) + push_words(panel) + payload_words(scene) +
          (chain.has_dissipation ? ", with friction in its joints" : "") + ", starting " + (starts_at_rest ? "at rest" : "in motion") +
          " from q = " + vector_text(scene.start.q);
 }

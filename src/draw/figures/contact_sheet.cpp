@@ -22,10 +22,41 @@ constexpr double kNoWords = 1e-3;    // text_scale of words, and of the room for
 constexpr double kScript = 0.7;      // of the em: indices are that small by themselves
 const std::string kEllipsis = "\u2026";
 
-constexpr double kTitleRoom = 1.7;  // of its em: of the page's title with the air below it
+constexpr double kTitleRoom = 1.7;   // of its em: of the page's title with the air below it
+constexpr double kTitleLinePitch = 1.25;  // of its em
+constexpr double kTitleAspect = 1.2;  // narrower pages have smaller titles
+constexpr int kMostTitleLines = 2;
+constexpr double kSmallerTitle = 0.95;
 
-double title_room(const ContactSheetLook& look) {
-  return look.title.empty() ? 0 : kTitleRoom * scaled(size::kTitle, look.text_scale);
+// The page's title, whole on as many lines as it takes, smaller where these would be too many.
+struct PageTitle {
+  std::vector<TextLine> lines;
+  double size = 0;
+
+  double room() const { return lines.empty() ? 0 : (kTitleRoom + double(lines.size() - 1) * kTitleLinePitch) * size; }
+};
+
+PageTitle page_title(const ContactSheetLook& look) {
+  PageTitle title;
+  const double width = look.aspect - 2 * size::kMargin;
+  const auto line_of = [&](const std::string& words) {
+    return lay_out_words(*look.fonts, words, {Face::label_bold, title.size, look.theme->ink, Align::left});
+  };
+  if (look.title.empty()) return title;
+  for (title.size = scaled(size::kTitle, look.text_scale) * std::min(1.0, look.aspect / kTitleAspect);; title.size *= kSmallerTitle) {
+    title.lines.clear();
+    std::string words;
+    bool is_narrow = true;
+    for (const std::string& word : formula_words(look.title)) {
+      const std::string longer = words.empty() ? word : words + " " + word;
+      const bool fits = line_of(longer).advance <= width;
+      if (!fits && !words.empty()) title.lines.push_back(line_of(words));
+      words = fits || words.empty() ? longer : word;
+      is_narrow = is_narrow && line_of(word).advance <= width;
+    }
+    title.lines.push_back(line_of(words));
+    if (is_narrow && int(title.lines.size()) <= kMostTitleLines) return title;
+  }
 }
 
 // Heights that a grid of that many lines gives its pictures.
@@ -112,7 +143,7 @@ ContactGrid contact_grid(int count, const ContactSheetLook& look) {
   if (count > kMostCells)
     throw Error(ExitCode::usage, std::to_string(count) + " pictures are too many for a sheet: no more than " +
                                      std::to_string(kMostCells) + " fit");
-  const Rect inside{size::kMargin, size::kMargin, look.aspect - size::kMargin, 1 - size::kMargin - title_room(look)};
+  const Rect inside{size::kMargin, size::kMargin, look.aspect - size::kMargin, 1 - size::kMargin - page_title(look).room()};
   ContactGrid grid;
   grid.columns =
       look.columns > 0 ? std::min(look.columns, count) : best_columns(count, inside, look.text_scale);
@@ -153,11 +184,9 @@ Picture draw_contact_sheet(const ContactGrid& grid, std::span<const ContactCell>
   Picture sheet;
   sheet.aspect = look.aspect;
   sheet.background = look.theme->background;
-  if (!look.title.empty()) {
-    const TextStyle style{Face::label_bold, scaled(size::kTitle, look.text_scale), look.theme->ink, Align::left};
-    draw_text(sheet, fit_words(*look.fonts, look.title, style, look.aspect - 2 * size::kMargin, look.text_scale),
-              {size::kMargin, 1 - size::kMargin - kAscent * style.size});
-  }
+  const PageTitle page = page_title(look);
+  for (std::size_t i = 0; i < page.lines.size(); ++i)
+    draw_text(sheet, page.lines[i], {size::kMargin, 1 - size::kMargin - (kAscent + double(i) * kTitleLinePitch) * page.size});
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Rect& title = grid.titles[i];
     place_picture(sheet, cells[i].picture,

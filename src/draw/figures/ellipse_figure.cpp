@@ -55,7 +55,8 @@ int draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose
                      panels.picture(i),  panels.options.reading};
   MarkLabels labels;
   style.lines = panels.marks;
-  if (has_lengths(panels)) style.labels = &labels;
+  int unnamed = 0;
+  if (has_lengths(panels)) style.labels = &labels, style.unnamed = &unnamed;
   if (!drawing.shapes) style.hole = link_end(drawing.look);
   if (drawing.shapes) style.hides = robot_hides(*drawing.shapes, ws, camera, tip_position(panels.chain, ws));
   const Camera seen = camera.seen_at(tip_position(panels.chain, ws));
@@ -86,7 +87,7 @@ int draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose
                         theme, panels.fonts, int(line));
   else
     draw_caption(picture, panels.words.notations[i], pose.effective, panels.words.size, caption, text_scale, theme, panels.fonts);
-  return left_out;
+  return left_out + unnamed;
 }
 
 }  // namespace

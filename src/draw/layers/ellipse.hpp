@@ -97,6 +97,7 @@ struct EllipseStyle {
   bool signs = true;                 // infinity signs and lengths at ends that are not seen
   double lines = 1;                  // times the widths of the style guide
   MarkLabels* labels = nullptr;      // takes the lengths, to be drawn with other words; absent: they are drawn
+  int* unnamed = nullptr;  // of figures, which have room around: counts semi-axes that have no place for their number
   EllipsePart part = EllipsePart::whole;
   Hides hides = nullptr;  // of a robot in space
   double hole = 0;        // units of H: axes begin at the end of the link about the middle, whose outline they would cut

@@ -282,7 +282,11 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
     draw_along(picture, text, center, unit(v), half_width, style, clip, style.labels);
     draw_along(picture, text, center, -1 * unit(v), half_width, style, clip, style.labels);
   }
-  if (style.labels == nullptr || !style.signs || norm(v) < kLeastAxis) return;
+  if (style.labels == nullptr || !style.signs) return;
+  if (norm(v) < kLeastAxis) {
+    if (style.unnamed != nullptr) ++*style.unnamed;
+    return;
+  }
   MarkWord word{"semi-axis", text_of_length(length, 1, style), {}};
   for (const double gap : kNumberGaps)
     for (const double side : {1.0, -1.0}) {
@@ -300,7 +304,19 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
         if (is_within(place, style.scene)) word.places.push_back(place);
     word.tie = Tie{end, kNumberGaps[0], style.theme->ellipse};
   }
-  if (!word.places.empty()) style.labels->add(std::move(word));
+  // In a figure beside the axis, too.
+  if (style.unnamed != nullptr && !style.hides) {
+    for (const double share : {0.7, -0.7, 0.4, -0.4})
+      for (const double side : {1.0, -1.0})
+        for (const double gap : kNumberGaps) {
+          const Rect place = place_beyond(word.line, center + share * v, gap + style.hole, side * normal_to(unit(v)));
+          if (is_within(place, style.scene)) word.places.push_back(place);
+        }
+  }
+  if (!word.places.empty())
+    style.labels->add(std::move(word));
+  else if (style.unnamed != nullptr)
+    ++*style.unnamed;
 }
 
 Fade fade_before_length(Point center, Point v, double length, const Fade& whole, const EllipseStyle& style) {

@@ -19,7 +19,6 @@ struct Part {
   Picture shapes;
 };
 
-constexpr double kPointMass = 0.034, kPointOfLink = 0.95;  // radius at most, units of H and widths of its link
 constexpr double kBodyOutline = 0.0015;  // of body shapes, units of H: their light shows their form
 // Opacity of the black of a shadow, on a white page and on a dark one.
 constexpr double kShadow = 0.17, kShadowOnDark = 0.5;

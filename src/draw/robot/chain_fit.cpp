@@ -20,6 +20,9 @@ ChainFit::ChainFit(const Chain& chain, const Skeleton& skeleton, const Camera& c
   link_ = room_around(size::kLinkWidth / 2 + outline);
   link_.metres = kLinkWidthOfShortest * skeleton.shortest_link / 2;
   link_.beyond = outline;
+  point_ = room_around(std::min(marks * kPointMass, kPointOfLink * size::kLinkWidth) + outline);
+  point_.metres = kPointOfLink * kLinkWidthOfShortest * skeleton.shortest_link;
+  point_.beyond = outline;
   joint_ = room_around((marks * size::kJointDisc + size::kJointOutline) / 2);
   tip_ = room_around(marks * size::kEndEffector / 2);
   for (const Rail& rail : skeleton.rails) {
@@ -57,6 +60,8 @@ bool ChainFit::add_pose(const Workspace& ws, double limit) {
     if (chain_.bodies[std::size_t(b)].joint.kind == JointKind::revolute)
       add(pose_of(ws, b).translation(), joint_);
   }
+  for (const PointMass& point : chain_.point_masses)
+    if (point.is_payload || !shapes_) add(pose_of(ws, point.body) * point.at, point_);
   for (std::size_t i = 0; i < skeleton_.rails.size(); ++i) {
     const Rail& rail = skeleton_.rails[i];
     add(rail_point(chain_, ws, rail.body, rail.lower), rail_[i]);

@@ -30,7 +30,7 @@ class ChainFit {
   double marks_;
   const BodyShapes* shapes_;
   FitBox box_;
-  Room link_, joint_, tip_, corner_;
+  Room link_, point_, joint_, tip_, corner_;
   std::vector<Room> rail_;  // one a rail
 };
 

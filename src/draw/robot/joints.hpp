@@ -16,6 +16,8 @@ namespace chainreel {
 inline constexpr double kLinkWidthOfShortest = 0.09;
 // Links of this width go with rails of full size.
 inline constexpr double kWidthOfFullRails = 0.030;
+// The radius of a point mass at most, units of H and widths of its link.
+inline constexpr double kPointMass = 0.034, kPointOfLink = 0.95;
 // Chains of very short links keep links that can be seen.
 inline constexpr double kThinnestLink = 0.010;
 

@@ -29,8 +29,6 @@ bool read_annotation(Fields& inner, const Scene& scene, AnnotationEntry& entry) 
   good &= names_event(inner, scene, entry.event);
   if (!inner.has("text") || (inner.read("text", entry.text) && entry.text.empty()))
     problem("text", std::string("is missing: what is to be said, like ") + kAnnotation);
-  if (std::count(entry.text.begin(), entry.text.end(), '$') % 2 != 0)
-    problem("text", "has a formula that does not end: formulas stand between two dollar signs, like $Lambda$");
   const YAML::Node point = inner.find("point");
   if (point.IsDefined() && point.IsSequence()) {
     if (inner.read("point", entry.spot) && entry.spot.size() != 2 && entry.spot.size() != 3)

@@ -270,7 +270,7 @@ bool Fields::read(const std::string& key, Eigen::Vector3d& value) {
   const YAML::Node node = find(key);
   if (!node.IsDefined()) return false;
   if (!node.IsSequence() || node.size() != 3) {
-    problems_->add("'" + path(key) + "' must be three numbers, world x y z: [0, -9.81, 0]", place_of(node, key));
+    problems_->add("'" + path(key) + "' must be three numbers, x y z: [0, -9.81, 0]", place_of(node, key));
     return false;
   }
   std::vector<double> numbers;

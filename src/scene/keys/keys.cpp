@@ -23,7 +23,8 @@ bool holds_by_baumgarte(const Scene& scene) {
   return has_constraints(scene) && scene.stabilize == Stabilization::baumgarte;
 }
 
-bool has_payload(const Scene& scene) { return scene.payload.mass > 0; }
+// A mass of zero is one of a sweep, whose titles tell it.
+bool has_payload(const Scene& scene) { return scene.payload.mass > 0 || scene.places.contains("payload.mass"); }
 bool is_computed(const Scene& scene) {
   return !scene.motion;
 }
@@ -57,7 +58,7 @@ std::vector<Chapter> chapters() {
             .absent("such links are an error")
             .of_model(OfModel::mechanism),
         Row::section("payload", "payload: {mass: 2, at: [0.1, 0, 0]}", "a load that the robot carries, as a mass at a point: `--over payload.mass=0:4:5` sweeps it"),
-        Row("payload.mass", &Scene::payload, &Payload::mass, "of the load").in("kg").at_least(0).of_model(OfModel::mechanism).where(has_payload).caption("payload @"),
+        Row("payload.mass", &Scene::payload, &Payload::mass, "of the load").in("kg").at_least(0).of_model(OfModel::mechanism).where(has_payload).caption("payload @ kg"),
         Row("payload.link", &Scene::payload, &Payload::link, "that carries it").absent("the end effector").of_model(OfModel::mechanism).where(has_payload),
         Row("payload.at", &Scene::payload, &Payload::at, "where, in that link's frame").in("m").of_model(OfModel::mechanism).where(has_payload),
         Row("limit", &Scene::limit, "what comes of a joint that passes a limit"),

@@ -69,6 +69,21 @@ bool lies_on_the_toes_side(const Chain& chain, const Foot& foot, ConstVec q) {
 }
 
 // `stop` is asked with the part of the run that is done.
+std::optional<std::pair<double, double>> borne_by_foot(const Simulation& simulation) {
+  if (!simulation.events || !simulation.events->foot) return {};
+  const Chain& chain = simulation.chain;
+  std::vector<double> ankles;  // m along the ground
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b)
+    if (chain.bodies[b].parent == 0) ankles.push_back(chain.bodies[b].joint.X_PJ.translation().dot(simulation.events->ground.along));
+  if (ankles.size() != 1) return {};
+  const double g = chain.gravity.norm(), weight = mass_of(chain) * g;
+  const Foot& foot = *simulation.events->foot;
+  // About the ankle: the ground's force at heel or toe, and the foot's own weight, which the ankle does not feel.
+  const Inertia& own = chain.bodies[0].inertia;
+  const double of_foot = own.mass * g * (own.com.dot(simulation.events->ground.along) - ankles[0]);
+  return std::pair{weight * (ankles[0] - foot.heel) + of_foot, weight * (foot.toe - ankles[0]) - of_foot};
+}
+
 FallRow run_row(Scene scene, const StopRequest& stop) {
   const std::size_t events = scene.events.size();
   if (scene.foot)
@@ -82,6 +97,7 @@ FallRow run_row(Scene scene, const StopRequest& stop) {
   row.fall_time = fall_time_of(scene, run);
   row.ending_event = run.ending_event;
   row.trouble = run.trouble;
+  row.bears = borne_by_foot(simulation);
   row.first.resize(scene.events.size());
   if (scene.foot) find_tipping(row, simulation, *scene.foot, run, int(events));
   if (scene.foot && row.fall_time) row.lies_before = lies_on_the_toes_side(simulation.chain, *scene.foot, run.q_at(run.size() - 1));
@@ -223,25 +239,6 @@ std::string fall_time_text(const Scene& scene, const Trajectory& trajectory) {
               : "more than " + format_significant(trajectory.end_time, 3) + " s";
 }
 
-namespace {
-
-std::optional<std::pair<double, double>> borne_by_foot(const Simulation& simulation) {
-  if (!simulation.events || !simulation.events->foot) return {};
-  const Chain& chain = simulation.chain;
-  std::vector<double> ankles;  // m along the ground
-  for (std::size_t b = 1; b < chain.bodies.size(); ++b)
-    if (chain.bodies[b].parent == 0) ankles.push_back(chain.bodies[b].joint.X_PJ.translation().dot(simulation.events->ground.along));
-  if (ankles.size() != 1) return {};
-  const double g = chain.gravity.norm(), weight = mass_of(chain) * g;
-  const Foot& foot = *simulation.events->foot;
-  // About the ankle: the ground's force at heel or toe, and the foot's own weight, which the ankle does not feel.
-  const Inertia& own = chain.bodies[0].inertia;
-  const double of_foot = own.mass * g * (own.com.dot(simulation.events->ground.along) - ankles[0]);
-  return std::pair{weight * (ankles[0] - foot.heel) + of_foot, weight * (foot.toe - ankles[0]) - of_foot};
-}
-
-}  // namespace
-
 FallTable run_fall_table(const std::string& scene, const std::vector<std::string>& overrides,
                          const Sweep& sweep, const FallSearch& search, const StopRequest& stop) {
   FallTable table;
@@ -264,7 +261,6 @@ FallTable run_fall_table(const std::string& scene, const std::vector<std::string
   Scene counted = first;
   const Simulation simulation = prepare(counted, false);
   require_possible(simulation, double(table.rows.size()));
-  table.bears = borne_by_foot(simulation);
   for (const std::string& doubt : counted.doubts) table.doubts.push_back(first.name + ": " + doubt);
   DoneShare done(table.rows.size());
   for_each_index(table.rows.size(), search.threads, [&](std::size_t k) {
@@ -273,6 +269,9 @@ FallTable run_fall_table(const std::string& scene, const std::vector<std::string
     table.rows[k].value = sweep.values[k];
     done.add();
   });
+  table.bears = table.rows.front().bears;
+  for (const FallRow& row : table.rows)
+    if (row.bears != table.bears) table.bears = std::nullopt;
   const auto is_stopped = [&] { return stop && stop(1); };
   if (!(search.edges_to > 0) || is_stopped()) return table;
   const auto run_at = [&](const std::string& setting) {

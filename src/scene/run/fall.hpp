@@ -37,6 +37,10 @@ struct FallRow {
   // Whether it lies on the toe's side of the foot when it has fallen, by its centre of mass; nothing where there is no foot or no fall.
   std::optional<bool> lies_before;
 
+  // N m: what torque at the ankle a foot bears that rests under the weight, before it tips over its heel and over its toe; the
+  // foot's own weight counts. Nothing without a foot, or where several joints stand on the ground.
+  std::optional<std::pair<double, double>> bears;
+
   // When the ground would first have to pull at the robot, s: there it takes off, which the model's foot does not.
   std::optional<double> takes_off;
 };
@@ -55,10 +59,7 @@ struct FallTable {
   std::vector<EventEntry> events;  // of the scene
   double duration = 0;             // s
   bool has_foot = false;
-  // N m: what torque at the ankle a foot bears that rests under the weight, before it tips over its heel and over its toe; the foot's own weight
-  // counts. Nothing
-  // without a foot, or where several joints stand on the ground.
-  std::optional<std::pair<double, double>> bears;
+  std::optional<std::pair<double, double>> bears;  // as all rows have it; nothing where they differ
   std::string method;
   int threads = 1;
   std::vector<std::string> doubts;  // "NAME: what speaks against the scene", of its first row

@@ -1,8 +1,11 @@
 #include "scene/run/title.hpp"
 
+#include <array>
+#include <cctype>
 #include <functional>
 #include <optional>
 #include <set>
+#include <string_view>
 
 #include "core/format.hpp"
 #include "scene/run/fall.hpp"
@@ -45,9 +48,10 @@ std::string told_of_none(const Scene& scene, const Trajectory& trajectory) {
   if (!has_fall(scene) || fall_time_of(scene, trajectory)) return scene.title;
   std::string title = scene.title;
   const std::string within = " not fall within " + format_significant(trajectory.end_time, 3) + " s";
-  static const std::array<std::pair<const char*, const char*>, 3> kSaid{{{"falls in {fall}", "does"}, {"Falls in {fall}", "Does"}, {"fall in {fall}", "do"}}};
+  constexpr std::array<std::pair<std::string_view, const char*>, 3> kSaid{{{"falls in {fall}", "does"}, {"Falls in {fall}", "Does"}, {"fall in {fall}", "do"}}};
   for (const auto& [words, verb] : kSaid)
-    for (std::size_t at = title.find(words); at != title.npos; at = title.find(words)) title.replace(at, std::string_view(words).size(), verb + within);
+    for (std::size_t at = title.find(words); at != title.npos; at = title.find(words, at + 1))
+      if (at == 0 || !std::isalpha(static_cast<unsigned char>(title[at - 1]))) title.replace(at, words.size(), verb + within);
   return title;
 }
 

@@ -20,7 +20,7 @@ constexpr double kDoubtfulFactor = 0.05;
 constexpr double kStill = 1e-9;        // rad/s, m/s: no motion, whose rate is rounding
 constexpr double kRounding = 1e-10;    // of the largest nle: a torque that is less is none
 constexpr double kGap = 5;             // of the usual distance of rows
-constexpr double kDoubtfulNoise = 0.05;  // of the root of the mean square of accelerations
+constexpr double kDoubtfulNoise = 0.06;  // of the root of the mean square of accelerations
 constexpr double kDigits = 64 * std::numeric_limits<double>::epsilon();
 constexpr std::size_t kFewestForNoise = 12;  // rows
 constexpr std::size_t kFewWords = 6;   // that are named
@@ -105,52 +105,78 @@ void doubt_units(const Chain& chain, const Table& table, const TimeTable& motion
   }
 }
 
-// How much of an acceleration's size changes from row to row as noise does, and no motion: its divided differences less the mean
-// of their neighbours, whose signs alternate. 0 where they do not. White noise of q leaves 0.87 of the median of these in the
-// accelerations, of qd 0.94. `least`: an acceleration that is none.
-double noise_of(const std::vector<double>& qdd, double least) {
-  constexpr double kOfMedian = 0.9;
-  if (qdd.size() < kFewestForNoise) return 0;
-  std::vector<double> off, magnitude;
-  double size = 0, along = 0;
-  for (std::size_t k = 1; k + 1 < qdd.size(); ++k) {
-    off.push_back(qdd[k] - 0.5 * (qdd[k - 1] + qdd[k + 1]));
-    size += qdd[k] * qdd[k] / double(qdd.size() - 2);
-    if (off.size() > 1) along += off[off.size() - 1] * off[off.size() - 2];
+// Divided differences of numbers at instants: their rates, between them.
+struct Samples {
+  std::vector<double> t, x;
+  Samples rates() const {
+    Samples of;
+    for (std::size_t k = 0; k + 1 < x.size(); ++k) {
+      of.t.push_back(0.5 * (t[k] + t[k + 1]));
+      of.x.push_back((x[k + 1] - x[k]) / (t[k + 1] - t[k]));
+    }
+    return of;
   }
-  if (!(along < 0) || !(size > least * least)) return 0;
-  for (const double one : off) magnitude.push_back(std::fabs(one));
-  std::nth_element(magnitude.begin(), magnitude.begin() + std::ptrdiff_t(magnitude.size() / 2), magnitude.end());
-  return kOfMedian * magnitude[magnitude.size() / 2] / std::sqrt(size);
+};
+
+// How much of an acceleration's size changes from row to row as noise does, and no motion: by how much it is off the line through its
+// neighbours, where the signs of that alternate; of the worst of windows, by the median, in which jumps of an honest acceleration go
+// under, or of a single row that is farther off than it is large. White noise of q leaves 0.87 of that median in the
+// accelerations, of qd 0.94. `least`: an acceleration that is none.
+double noise_of(const Samples& qdd, double least) {
+  constexpr double kOfMedian = 0.9, kLarge = 0.5, kOutlier = 1.2;
+  constexpr std::size_t kWindow = 16;
+  const std::size_t n = qdd.x.size();
+  if (n < kFewestForNoise) return 0;
+  std::vector<double> off;
+  double size = 0, outlier = 0;
+  for (std::size_t k = 1; k + 1 < n; ++k) {
+    const double share = (qdd.t[k] - qdd.t[k - 1]) / (qdd.t[k + 1] - qdd.t[k - 1]);
+    off.push_back(qdd.x[k] - (qdd.x[k - 1] + share * (qdd.x[k + 1] - qdd.x[k - 1])));
+    size += qdd.x[k] * qdd.x[k] / double(n - 2);
+    const double own = std::fabs(qdd.x[k]);
+    const bool is_peak = own >= std::fabs(qdd.x[k - 1]) && own >= std::fabs(qdd.x[k + 1]);  // beside a jump it is none
+    if (is_peak && std::fabs(off.back()) > kOutlier * own) outlier = std::max(outlier, std::fabs(off.back()));
+  }
+  if (!(size > least * least)) return 0;
+  size = std::sqrt(size);
+  double worst = outlier > kLarge * size ? outlier / size : 0;
+  for (std::size_t first = 0; first < off.size(); first += kWindow / 2) {
+    const std::size_t behind = std::min(first + kWindow, off.size());
+    if (behind - first < kWindow / 2) break;
+    double along = 0;
+    std::vector<double> magnitude;
+    for (std::size_t k = first; k < behind; ++k) {
+      magnitude.push_back(std::fabs(off[k]));
+      if (k > first) along += off[k] * off[k - 1];
+    }
+    if (!(along < 0)) continue;
+    std::nth_element(magnitude.begin(), magnitude.begin() + std::ptrdiff_t(magnitude.size() / 2), magnitude.end());
+    worst = std::max(worst, kOfMedian * magnitude[magnitude.size() / 2] / size);
+  }
+  return worst;
 }
 
 // Of what splines differentiate the noise of rows, or their last digit, may be most of the acceleration.
 void doubt_noise(const Table& table, const TimeTable& motion, std::vector<std::string>& doubts) {
   if (!motion.groups[2].empty()) return;
   const std::size_t group = motion.groups[1].empty() ? 0 : 1;
+  const double rows_a_second = double(motion.t.size() - 1) / (motion.t.back() - motion.t.front());
   std::string names;
   double worst = 0;
   for (std::size_t i = 0; i < motion.groups[group].size(); ++i) {
-    std::vector<double> rate = motion.groups[group][i], t = motion.t;
+    const Samples told{motion.t, motion.groups[group][i]};
     double least = 0;  // what rounding of doubles leaves
-    for (const double one : rate) least = std::max(least, kDigits * std::fabs(one));
-    for (std::size_t order = group; order < 2; ++order) {
-      least *= double(t.size() - 1) / (t.back() - t.front());
-      for (std::size_t k = 0; k + 1 < rate.size(); ++k) {
-        rate[k] = (rate[k + 1] - rate[k]) / (t[k + 1] - t[k]);
-        t[k] = 0.5 * (t[k] + t[k + 1]);
-      }
-      rate.pop_back(), t.pop_back();
-    }
-    const double noise = noise_of(rate, std::max(kStill, least));
+    for (const double one : told.x) least = std::max(least, kDigits * std::fabs(one));
+    least *= group == 0 ? rows_a_second * rows_a_second : rows_a_second;
+    const double noise = noise_of(group == 0 ? told.rates().rates() : told.rates(), std::max(kStill, least));
     if (!(noise > kDoubtfulNoise)) continue;
     names += (names.empty() ? "'" : ", '") + table.names[motion.columns[group][i]] + "'";
     worst = std::max(worst, noise);
   }
   if (!names.empty())
-    doubts.push_back("the rows of " + names + " in " + table.file + " are noisy or rounded: of the accelerations that follow from them " +
-                     format_significant(100 * worst, 2) + " % change from row to row without a motion, and the torques with them; smooth the rows before, or give " +
-                     (group == 0 ? "qd and qdd" : "qdd"));
+    doubts.push_back("the rows of " + names + " in " + table.file + " are noisy, rounded (they or their times) or too far apart: of the accelerations that follow, " +
+                     (worst < 1 ? "as much as " + format_significant(100 * worst, 2) + " % change" : "all or more changes") +
+                     " from row to row as in no motion, and the torques with them; smooth the rows before, or give " + (group == 0 ? "qd and qdd" : "qdd"));
 }
 
 // By which factor told rates differ from those of the splines: of what both add up to, in which noise of single rows goes

@@ -230,8 +230,11 @@ TEST_F(Recorded, RowsThatAreRoundedOrNoisyAreDoubted) {
   EXPECT_THAT(doubts(100, 0, 0, sine), IsEmpty());
   EXPECT_THAT(doubts(10, 0, 0, sine), IsEmpty()) << "few rows, but honest";
   EXPECT_THAT(doubts(100, 1e-6, 0, sine), IsEmpty()) << "6e-7 of 1e-4 s^2 is 0.02 of 28 rad/s^2";
-  EXPECT_THAT(doubts(100, 1e-3, 0, sine), ElementsAre(AllOf(HasSubstr("'q1'"), HasSubstr("noisy or rounded"))));
-  EXPECT_THAT(doubts(100, 0, 1e-3, sine), ElementsAre(HasSubstr("noisy or rounded")));
+  EXPECT_THAT(doubts(100, 1e-3, 0, sine), ElementsAre(AllOf(HasSubstr("'q1'"), HasSubstr("noisy, rounded"))));
+  EXPECT_THAT(doubts(100, 0, 1e-3, sine), ElementsAre(HasSubstr("noisy, rounded")));
+  EXPECT_THAT(doubts(100, 0, 0, [&](double t) { return sine(t) + (std::fabs(t - 1.2) < 1e-6 ? 0.05 : 0); }), ElementsAre(HasSubstr("noisy"))) << "one row";
+  EXPECT_THAT(doubts(100, 0, 0, [&](double t) { return sine(t) + (t > 1.7 ? 1e-2 * std::sin(1e8 * t * t) : 0); }), ElementsAre(HasSubstr("noisy"))) << "the last rows";
+  EXPECT_THAT(doubts(100, 0, 0, [&](double t) { return std::fmod(std::floor(100 * t + 0.5), 7) == 0 ? 1e-3 : 0; }), ElementsAre(HasSubstr("noisy"))) << "a digit that flickers";
   EXPECT_THAT(doubts(100, 0, 0, [](double t) { return t < 1 ? t * t / 2 : 1 - (2 - t) * (2 - t) / 2; }), IsEmpty()) << "an acceleration that jumps";
   EXPECT_THAT(doubts(100, 0, 0, [](double t) { return 0.5 * t; }), IsEmpty()) << "rounding of a rate that is constant";
   EXPECT_THAT(doubts(20000, 0, 0, [](double t) { return 3 + 0.5 * t; }), IsEmpty()) << "likewise, of rows that are very near";
